@@ -1,0 +1,8 @@
+# Examples use the library as any program does; `make check` compares what they
+# print with NAME.expected.
+EXAMPLES = examples/tour
+check_PROGRAMS += $(EXAMPLES)
+examples_tour_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_tour_LDADD = libhr2d.la
+
+EXTRA_DIST += examples/scenes examples/tour.expected

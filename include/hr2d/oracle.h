@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file oracle.h
+ * @brief Oracles estimate the error across a link (paper, section 2).
+ *
+ * An oracle is a constant table and a context of its own.  The built-in ones are
+ * ordinary instances of the same table.  Oracles answer for batches of pairs, so
+ * that the price of a call is shared.
+ */
+#ifndef HR2D_ORACLE_H
+#define HR2D_ORACLE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <hr2d/hierarchy.h>
+#include <hr2d/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Two elements between which a link is proposed. */
+typedef struct hr2d_pair {
+  uint32_t first;  /**< the receiver where links are directed */
+  uint32_t second; /**< the source where links are directed */
+} hr2d_pair;
+
+/**
+ * A batch of pairs, as callbacks get it.  It can gain members; nothing in it
+ * may be kept beyond the call.
+ */
+typedef struct hr2d_batch {
+  size_t struct_size;              /**< sizeof (hr2d_batch) of the library */
+  const hr2d_hierarchy *hierarchy; /**< may be read, not refined */
+  const hr2d_element *elements;    /**< indexed by the numbers in `pairs` */
+  const hr2d_pair *pairs;          /**< `count` pairs */
+  size_t count;                    /**< at least 1 */
+  double unit;                     /**< scene lengths per unit of the elements' coordinates */
+  double epsilon;                  /**< the ε of this refinement */
+  const double *brightness;        /**< average B of each element relative to the brightest,
+                                        the largest over the bands; NULL unless the oracle
+                                        has HR2D_ORACLE_NEEDS_BRIGHTNESS */
+} hr2d_batch;
+
+/** What the library may assume of an oracle. */
+enum {
+  HR2D_ORACLE_SYMMETRIC = 1,       /**< (i,j) and (j,i) get the same estimate: each
+                                        unordered pair of patches is projected once */
+  HR2D_ORACLE_THREAD_SAFE = 2,     /**< may be called from several threads at once */
+  HR2D_ORACLE_NEEDS_BRIGHTNESS = 4 /**< reads hr2d_batch::brightness */
+};
+
+/** An oracle: set struct_size to sizeof (hr2d_oracle), and what is not used to NULL. */
+typedef struct hr2d_oracle {
+  size_t struct_size; /**< so that the table can grow */
+  const char *name;   /**< required; for messages */
+  unsigned flags;     /**< HR2D_ORACLE_… */
+
+  /**
+   * Required.  Writes the estimated error of each pair, ≥ 0.  NaN is an error of
+   * the callback (HR2D_ECALLBACK), infinity refuses for every ε.
+   * Returns HR2D_OK, HR2D_STOPPED to end the refinement, or any other status.
+   */
+  hr2d_status (*estimate)(void *ctx, const hr2d_batch *batch, double *error);
+
+  /**
+   * Optional, for speed.  Writes 1 where the estimate is ≤ epsilon, else 0: the
+   * same decision as from `estimate`, which bounds may reach more cheaply.
+   * Used where the policy does not bring its own `acceptable`.
+   */
+  hr2d_status (*accept)(void *ctx, const hr2d_batch *batch, double epsilon,
+                        unsigned char *accepted);
+
+  /** Optional.  Called once when the owner of ctx, a link set, is destroyed. */
+  void (*destroy)(void *ctx);
+} hr2d_oracle;
+
+/**
+ * max(A_x, A_y)/r, the oracle of the paper's analysis (section 3.1); r is the
+ * distance of the centres.  Dimensionless, symmetric.
+ */
+HR2D_API const hr2d_oracle *hr2d_oracle_size(void);
+
+/** (max(A_x, A_y)/r)², the stronger bound of the paper's footnote 3. */
+HR2D_API const hr2d_oracle *hr2d_oracle_size2(void);
+
+/**
+ * Hanrahan's form factor × brightness: G(x_c,y_c)·max(A_x,A_y)·B_y, with B
+ * relative to the brightest element and the cosines of G by absolute value.
+ * Dimensionless, directed: (i,j) asks for light from j to i.
+ */
+HR2D_API const hr2d_oracle *hr2d_oracle_bf(void);
+
+/**
+ * A built-in oracle by name: "size", "size2", "bf".
+ * @return NULL if there is none of that name
+ */
+HR2D_API const hr2d_oracle *hr2d_oracle_find(const char *name);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file refine.h
+ * @brief ProjectKernel (paper, section 2): from root pairs to links.
+ *
+ * Each pair of patches that see each other is proposed to the oracle.  A pair is
+ * linked if its error is acceptable or a limit holds; otherwise the policy says
+ * which element to subdivide and the new pairs are proposed.  The order is depth
+ * first, the result the same for every run, and nothing recurs on the C stack.
+ * A pair that cannot see each other is dropped, a pair that sees each other in
+ * part is linked with its clipped exchange area.
+ */
+#ifndef HR2D_REFINE_H
+#define HR2D_REFINE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <hr2d/linkset.h>
+#include <hr2d/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct hr2d_solution;
+
+/** How far a long call has come. */
+typedef struct hr2d_progress {
+  size_t struct_size; /**< sizeof (hr2d_progress) of the library */
+  const char *phase;  /**< "refine" or "solve" */
+  uint64_t elements;  /**< N so far */
+  uint64_t links;     /**< L so far */
+  double fraction;    /**< of the root pairs done, or of the digits gained; in [0,1] */
+  double residual;    /**< relative residual while solving, else 0 */
+} hr2d_progress;
+
+/**
+ * Called every few thousand links and at every iteration.
+ * @return HR2D_OK to go on; anything else ends the call with that status
+ */
+typedef hr2d_status (*hr2d_progress_fn)(void *ctx, const hr2d_progress *progress);
+
+/** Where a refinement stops.  Start from #HR2D_REFINE_OPTIONS_INIT. */
+typedef struct hr2d_refine_options {
+  size_t struct_size;    /**< so that the options can grow */
+  double epsilon;        /**< ε ≥ 0, in the oracle's unit */
+  unsigned max_level;    /**< elements on this level are not subdivided; see below */
+  int ordered;           /**< 1: project every ordered pair of patches, as the paper's wording
+                              has it; each link then carries one direction */
+  uint64_t max_elements; /**< budget for N; 0 for none */
+  uint64_t max_links;    /**< budget for L; 0 for none */
+  uint64_t max_bytes;    /**< budget for elements, links and work space; 0 for none */
+  const struct hr2d_solution *brightness; /**< for an oracle that needs brightness: the B to
+                                               weight with; NULL: emission alone */
+  hr2d_progress_fn progress;              /**< optional */
+  void *progress_ctx;                     /**< given to `progress` */
+} hr2d_refine_options;
+
+/**
+ * The default of `max_level`.  Elements of touching patches never satisfy
+ * max(A)/r ≤ ε for ε < √2, so a limit must end that recursion.  A pair at a
+ * corner that is still refused at level 24 carries at most 2⁻²⁴ of a patch's
+ * exchange, exactly integrated.  hr2d_refine_counts::limited_links says how many
+ * links exist because of a limit.
+ */
+#define HR2D_DEFAULT_MAX_LEVEL 24
+
+/** ε = 0.1, the default limit, no budgets, no callback. */
+#define HR2D_REFINE_OPTIONS_INIT \
+  {sizeof(hr2d_refine_options), 0.1, HR2D_DEFAULT_MAX_LEVEL, 0, 0, 0, 0, NULL, NULL, NULL}
+
+/**
+ * Fills a link set, or refines it further.
+ *
+ * An empty set is filled by projecting all root pairs.  A set that has links is
+ * refined from these (multigridding): a link stays where it is still acceptable
+ * and is subdivided elsewhere, so that falling ε give in the end what the last ε
+ * alone would give.
+ *
+ * @param links    on failure it and its hierarchy are as before
+ * @param options  NULL for the defaults
+ * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL (ε negative or NaN; `ordered` changed
+ *         between refinements), HR2D_EUNSUPPORTED for a scene in which a patch can stand
+ *         between two others, HR2D_EMAX_ELEMENTS, HR2D_EMAX_LINKS, HR2D_EMAX_BYTES,
+ *         HR2D_ECALLBACK for an estimate that is NaN or negative or a subdivision
+ *         without meaning, or the status of a callback
+ *
+ * One hierarchy is refined by one thread at a time.  Cost O(n² + L); memory 64
+ * bytes per element and 16 per link, twice that for the links while a set that
+ * has links is refined further.
+ */
+HR2D_API hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options);
+
+/**
+ * Counts what hr2d_refine() would make of an empty set, without storing or
+ * integrating a link.  The hierarchy grows as with hr2d_refine().
+ *
+ * @param links   an empty set; it stays empty
+ * @param counts  receives N, L and the rest
+ * @return as hr2d_refine(), and HR2D_ESTATE if the set has links
+ * Memory O(N).
+ */
+HR2D_API hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *options,
+                                       hr2d_refine_counts *counts);
+
+/**
+ * Gets links as they are made, in batches, in the order hr2d_refine() would store
+ * them.
+ * @param links  valid during the call only
+ * @return HR2D_OK to go on; anything else ends the refinement with that status
+ */
+typedef hr2d_status (*hr2d_visitor)(void *ctx, const hr2d_link *links, size_t count);
+
+/**
+ * Streams the links to a visitor instead of storing them; otherwise as
+ * hr2d_refine_count().
+ */
+HR2D_API hr2d_status hr2d_refine_visit(hr2d_linkset *links, const hr2d_refine_options *options,
+                                       hr2d_visitor visit, void *visit_ctx,
+                                       hr2d_refine_counts *counts);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

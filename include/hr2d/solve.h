@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file solve.h
+ * @brief From links to radiosity: B = E + ρ ∫ G V B (paper, equations 1 and 2).
+ *
+ * Light is gathered over the links of all levels, pushed down to the leaves and
+ * pulled up as averages.  With one link for both directions the operator is
+ * symmetric and conjugate gradients solve it for every ρ; directed links take
+ * BiCGSTAB.  All bands are solved at once.  Where every ρ is 0 nothing is iterated.
+ *
+ * Closure adds d·B on each leaf, d being what its row of the discrete kernel misses
+ * of the exact ∫ G.  A closed room of E = 1−ρ then has B = 1 exactly, no light is
+ * lost or made, and the discrete equation has one solution wherever ρ < 1; without
+ * it rows may exceed 1 and a coarse solve with ρ near 1 need not converge.
+ */
+#ifndef HR2D_SOLVE_H
+#define HR2D_SOLVE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <hr2d/linkset.h>
+#include <hr2d/refine.h>
+#include <hr2d/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Radiosity on every element of a hierarchy; opaque. */
+typedef struct hr2d_solution hr2d_solution;
+
+/** How to solve.  Start from #HR2D_SOLVE_OPTIONS_INIT. */
+typedef struct hr2d_solve_options {
+  size_t struct_size;         /**< so that the options can grow */
+  double tolerance;           /**< stop when ‖residual‖ ≤ tolerance·‖B‖, in each band, in
+                                   the norm ∫B²; at least 1e-15 */
+  unsigned max_iterations;    /**< give up with HR2D_ENOT_CONVERGED after so many */
+  unsigned threads;           /**< 0 for all; the result does not depend on it, bit for bit */
+  int closure;                /**< 1: the exchange of every leaf with all others is exact; 0:
+                                   the paper's algorithm as it stands, whose coarse links
+                                   spread their exchange evenly over the leaves below */
+  const hr2d_solution *start; /**< warm start: a solution on the same hierarchy, perhaps
+                                   before it was refined further; NULL: none */
+  hr2d_progress_fn progress;  /**< optional */
+  void *progress_ctx;         /**< given to `progress` */
+} hr2d_solve_options;
+
+/** Tolerance 1e-15, at most 10000 iterations, one thread, with closure. */
+#define HR2D_SOLVE_OPTIONS_INIT {sizeof(hr2d_solve_options), 1e-15, 10000, 1, 1, NULL, NULL, NULL}
+
+/** Where the power of one band goes; power per length across the plane. */
+typedef struct hr2d_power {
+  double emitted;  /**< ∫ E */
+  double absorbed; /**< ∫ (1−ρ) H, with H the irradiance */
+  double escaped;  /**< what leaves through the openings of the scene: B·(A − Σ AF) */
+} hr2d_power;
+
+/**
+ * Solves for B.
+ *
+ * @param links     filled by hr2d_refine()
+ * @param options   NULL for the defaults
+ * @param solution  receives the solution; the caller destroys it
+ * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL, HR2D_ESTATE for an empty set of a scene whose
+ *         patches do see each other, HR2D_ENO_SOLUTION where light is emitted in a
+ *         closed part of the scene in which nothing absorbs (the message names the
+ *         patch), HR2D_ENOT_CONVERGED, or the status of the progress callback
+ *
+ * Cost O((N + L)·bands) per iteration.  Different link sets may be solved from
+ * different threads.
+ */
+HR2D_API hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *options,
+                                hr2d_solution **solution);
+
+/** Destroys a solution; NULL is allowed. */
+HR2D_API void hr2d_solution_destroy(hr2d_solution *solution);
+
+/** The average of B over patch `patch` in band `band`, in the unit of E. */
+HR2D_API double hr2d_solution_average(const hr2d_solution *solution, size_t patch, size_t band);
+
+/**
+ * B at fraction t of a patch, counted from its start: the constant of the leaf
+ * that holds the point, and on the border of two leaves their mean.
+ * @param t  in [0,1]
+ */
+HR2D_API double hr2d_solution_at(const hr2d_solution *solution, size_t patch, double t,
+                                 size_t band);
+
+/** The average of B over an element. */
+HR2D_API double hr2d_solution_element(const hr2d_solution *solution, uint32_t element,
+                                      size_t band);
+
+/** Emitted, absorbed and escaped power of a band; emitted = absorbed + escaped. */
+HR2D_API hr2d_power hr2d_solution_power(const hr2d_solution *solution, size_t band);
+
+/** Gathers over all links that the solve took (one serves all bands). */
+HR2D_API uint64_t hr2d_solution_sweeps(const hr2d_solution *solution);
+
+/** The largest relative residual over the bands, computed from B itself. */
+HR2D_API double hr2d_solution_residual(const hr2d_solution *solution);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Closure: the part of each leaf's exchange that coarse links spread wrongly. */
+#ifndef HR2D_SRC_CLOSURE_H
+#define HR2D_SRC_CLOSURE_H
+
+#include "transport.h"
+
+/* Sets t->closure from the links; HR2D_OK or HR2D_ENOMEM. */
+hr2d_status hr2di_close(hr2di_transport *t);
+
+#endif

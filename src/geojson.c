@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scenes from GeoJSON (RFC 7946 structure): the file and its collection. */
+#include <errno.h>
+#include <float.h>
+#include <hr2d/scene.h>
+#include <jansson.h>
+#include <string.h>
+
+#include "alloc.h"
+#include "file.h"
+#include "geojson-impl.h"
+#include "scene-impl.h"
+
+static const char *const kinds[] = {
+    [JSON_OBJECT] = "an object", [JSON_ARRAY] = "an array", [JSON_STRING] = "a string",
+    [JSON_INTEGER] = "a number", [JSON_REAL] = "a number",  [JSON_TRUE] = "true",
+    [JSON_FALSE] = "false",      [JSON_NULL] = "null",
+};
+
+const char *hr2di_geojson_kind(const json_t *json) {
+  return json ? kinds[json_typeof(json)] : "missing";
+}
+
+const json_t *hr2di_geojson_member(const json_t *object, const char *key) {
+  const json_t *member = json_object_get(object, key);
+  return json_is_null(member) ? NULL : member;
+}
+
+/* Effects of the whole scene.  They are checked although this version has none of
+   them: a zero is then a statement that the scene does without. */
+static hr2d_status read_scene_effect(hr2di_geojson *reader, const json_t *members,
+                                     const char *key, const char *what, int bands) {
+  const json_t *json = hr2di_geojson_member(members, key);
+  size_t count;
+  if (json && !bands && !json_is_number(json))
+    return hr2di_fail(reader->message, HR2D_ESYNTAX, "hr2d: %s: must be a number, not %s", key,
+                      hr2di_geojson_kind(json));
+  hr2d_status status =
+      hr2di_geojson_values(reader, "hr2d", key, json, DBL_MAX, &reader->emission, &count);
+  if (status) return status;
+  for (size_t k = 0; k < count; k++)
+    if (reader->emission.value[k] > 0)
+      return hr2di_fail(reader->message, HR2D_EUNSUPPORTED,
+                        "hr2d: %s: %s is not supported by this version", key, what);
+  return HR2D_OK;
+}
+
+static hr2d_status read_scene_effects(hr2di_geojson *reader, const json_t *root) {
+  const json_t *members = hr2di_geojson_member(root, "hr2d");
+  if (!members) return HR2D_OK;
+  if (!json_is_object(members))
+    return hr2di_fail(reader->message, HR2D_ESYNTAX, "hr2d: must be an object, not %s",
+                      hr2di_geojson_kind(members));
+  hr2d_status status = read_scene_effect(reader, members, "background", "background light", 1);
+  return status ? status
+                : read_scene_effect(reader, members, "medium", "an absorbing medium", 0);
+}
+
+static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
+  const char *type = json_string_value(json_object_get(root, "type"));
+  if (!type)
+    return hr2di_fail(reader->message, HR2D_ESYNTAX, "not a GeoJSON FeatureCollection: %s",
+                      json_is_object(root) ? "\"type\" must be a string"
+                                           : "the outermost value is an array");
+  if (strcmp(type, "FeatureCollection") != 0)
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "not a GeoJSON FeatureCollection: \"type\" is %s",
+                      hr2di_quote_name(type).text);
+  const json_t *features = json_object_get(root, "features");
+  if (!json_is_array(features))
+    return hr2di_fail(reader->message, HR2D_ESYNTAX, "features: must be an array, not %s",
+                      hr2di_geojson_kind(features));
+  hr2d_status status = read_scene_effects(reader, root);
+  for (size_t k = 0; !status && k < json_array_size(features); k++)
+    status = hr2di_geojson_feature(reader, json_array_get(features, k), k + 1);
+  return status;
+}
+
+/* Text on its way to jansson, byte by byte: its lexer drops a byte in silence when its
+   buffer cannot grow, and a digit would be lost.  The lexer asks for the next byte
+   before it makes anything of a token, and by then errno still tells. */
+typedef struct source {
+  const char *next, *end;
+  int starved;
+} source;
+
+static size_t feed(void *buffer, size_t size, void *data) {
+  source *s = data;
+  s->starved |= errno == ENOMEM;
+  if (s->next == s->end || size == 0) return 0;
+  *(char *)buffer = *s->next++;
+  return 1;
+}
+
+static hr2d_status load(const char *text, size_t size, json_t **root, hr2di_message *message) {
+  source s = {text, text + size, 0};
+  json_error_t error = {0};
+  const int errno_before = errno;
+  errno = 0;
+  *root =
+      json_load_callback(feed, &s, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &error);
+  const int starved = s.starved || errno == ENOMEM;
+  errno = errno_before;
+  if (*root && !starved) return HR2D_OK;
+  json_decref(*root);
+  /* There is no text either for some of the allocations that can fail. */
+  if (starved || !error.text[0] || json_error_code(&error) == json_error_out_of_memory)
+    return hr2di_fail(message, HR2D_ENOMEM, "out of memory while parsing");
+  /* jansson's own text names a flag of its interface. */
+  const int nul = json_error_code(&error) == json_error_null_character;
+  return hr2di_fail(message, HR2D_ESYNTAX, "line %d, column %d: %s", error.line, error.column,
+                    nul ? "a string must not contain \\u0000" : error.text);
+}
+
+static hr2d_status add_text(hr2d_scene *scene, const char *text, size_t size) {
+  /* A byte order mark may be ignored (RFC 8259, section 8.1), and some editors write it. */
+  if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) {
+    text += 3;
+    size -= 3;
+  }
+  hr2di_geojson reader = {.scene = scene,
+                          .alloc = hr2di_scene_allocator(scene),
+                          .message = hr2di_scene_message(scene)};
+  json_t *root;
+  hr2d_status status = load(text, size, &root, reader.message);
+  if (status) return status;
+
+  const size_t before = hr2d_scene_patches(scene);
+  status = read_collection(&reader, root);
+  if (status) hr2di_scene_truncate(scene, before);
+
+  json_decref(root);
+  hr2di_free(reader.alloc, reader.emission.value);
+  hr2di_free(reader.alloc, reader.reflectance.value);
+  hr2di_free(reader.alloc, reader.point);
+  hr2di_free(reader.alloc, reader.name);
+  return status;
+}
+
+/* What both entries refuse before they look at their source. */
+static hr2d_status check_call(hr2d_scene *scene, int source_given) {
+  if (!scene) return HR2D_EINVAL;
+  hr2di_message *message = hr2di_scene_message(scene);
+  if (!source_given) return hr2di_fail(message, HR2D_EINVAL, "there is nothing to read from");
+  if (hr2di_scene_committed(scene))
+    return hr2di_fail(message, HR2D_ESTATE, "the scene is committed: nothing can be added");
+  return HR2D_OK;
+}
+
+hr2d_status hr2d_scene_parse(hr2d_scene *scene, const char *text, size_t size) {
+  hr2d_status status = check_call(scene, text || !size);
+  return status ? status : add_text(scene, size ? text : "", size);
+}
+
+hr2d_status hr2d_scene_read(hr2d_scene *scene, const char *path) {
+  hr2d_status status = check_call(scene, path != NULL);
+  if (status) return status;
+  const hr2d_allocator *alloc = hr2di_scene_allocator(scene);
+  char *text;
+  size_t size;
+  status = hr2di_file_read(alloc, path, &text, &size, hr2di_scene_message(scene));
+  if (status) return status;
+  status = add_text(scene, text, size);
+  hr2di_free(alloc, text);
+  return status;
+}

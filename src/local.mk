@@ -1,0 +1,58 @@
+# The library.  libhr2d-core.la holds it once for the shared library and once for
+# the unit tests, which reach the internals that the shared library hides.
+noinst_LTLIBRARIES += libhr2d-core.la
+libhr2d_core_la_CPPFLAGS = -DHR2D_BUILDING -D_POSIX_C_SOURCE=200809L $(PUBLIC_CPPFLAGS) \
+	$(GSL_CFLAGS) $(JANSSON_CFLAGS)
+libhr2d_core_la_CFLAGS = $(AM_CFLAGS) $(OPENMP_CFLAGS)
+libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
+libhr2d_core_la_SOURCES = \
+	src/alloc.c src/alloc.h \
+	src/closure.c src/closure.h \
+	src/determinant.c src/determinant.h \
+	src/effects.c \
+	src/exchange-area.c src/exchange-area.h \
+	src/exchange-wide.c src/exchange-wide.h \
+	src/existence.c src/existence.h \
+	src/file.c src/file.h \
+	src/geojson.c \
+	src/geojson-feature.c \
+	src/geojson-geometry.c \
+	src/geojson-impl.h \
+	src/hierarchy.c \
+	src/hierarchy-impl.h \
+	src/kernel.c \
+	src/krylov.c src/krylov.h \
+	src/linkset.c \
+	src/linkset-impl.h \
+	src/message.c src/message.h \
+	src/occluder.c src/occluder.h \
+	src/options.h \
+	src/oracle.c \
+	src/policy.c \
+	src/predicates.c src/predicates.h \
+	src/project.c src/project.h \
+	src/refine.c \
+	src/scene.c \
+	src/scene-impl.h \
+	src/solution.c \
+	src/solution-impl.h \
+	src/solve.c \
+	src/status.c \
+	src/study.c \
+	src/sum.h \
+	src/transport.c src/transport.h \
+	src/validate.c \
+	src/version.c \
+	src/wide.h
+
+lib_LTLIBRARIES += libhr2d.la
+libhr2d_la_SOURCES =
+libhr2d_la_LIBADD = libhr2d-core.la
+libhr2d_la_LDFLAGS = -no-undefined -version-info $(HR2D_VERSION_INFO) $(OPENMP_CFLAGS)
+if HAVE_VERSION_SCRIPT
+libhr2d_la_LDFLAGS += -Wl,--version-script=$(srcdir)/src/libhr2d.map
+EXTRA_libhr2d_la_DEPENDENCIES = src/libhr2d.map
+else
+libhr2d_la_LDFLAGS += -export-symbols-regex '^hr2d_'
+endif
+EXTRA_DIST += src/libhr2d.map

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Determinants with full relative accuracy, and what follows from their signs. */
+#ifndef HR2D_SRC_PREDICATES_H
+#define HR2D_SRC_PREDICATES_H
+
+#include <hr2d/geometry.h>
+
+/* (b−a)×(c−a), twice the signed area of the triangle, to a few units in the last
+   place.  It may underflow: where only the sign matters, hr2d_orientation() has it. */
+double hr2di_orient(hr2d_point a, hr2d_point b, hr2d_point c);
+
+/* How two segments see each other's fronts, exactly. */
+typedef enum hr2di_facing {
+  HR2DI_FACING_NONE, /* exchange area 0 */
+  HR2DI_FACING_PART, /* one crosses the horizon of the other */
+  HR2DI_FACING_FULL
+} hr2di_facing;
+
+hr2di_facing hr2di_face(const hr2d_segment *i, const hr2d_segment *j);
+
+#endif

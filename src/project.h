@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The engine of ProjectKernel: pairs go in, links come out of a sink. */
+#ifndef HR2D_SRC_PROJECT_H
+#define HR2D_SRC_PROJECT_H
+
+#include <hr2d/refine.h>
+
+#include "hierarchy-impl.h"
+#include "linkset-impl.h"
+
+enum {
+  HR2DI_BATCH = 256,                 /* pairs subdivided at a time */
+  HR2DI_CANDIDATES = 4 * HR2DI_BATCH /* pairs proposed at a time: both elements split */
+};
+
+/* Where accepted pairs go.  Pairs see each other at least in part. */
+typedef hr2d_status (*hr2di_sink)(void *ctx, const hr2d_pair *pairs, size_t count);
+
+typedef struct hr2di_stack {
+  hr2d_pair *pair;
+  size_t count, capacity;
+} hr2di_stack;
+
+typedef struct hr2di_projector {
+  hr2d_linkset *links;
+  hr2d_hierarchy *hierarchy;
+  hr2d_refine_options options;
+  hr2di_sink sink;
+  void *sink_ctx;
+  hr2d_refine_counts counts; /* of this refinement alone; elements and levels unused */
+  int directed;              /* links carry light from second to first only */
+  int check_levels;          /* elements below max_level exist already */
+  double *brightness;        /* per element, or NULL; as long as brightness_capacity */
+  size_t brightness_capacity;
+  uint64_t bytes;           /* held by others than the hierarchy and the stacks */
+  double roots, roots_done; /* pairs of patches, for progress */
+  unsigned ticks;           /* rounds since progress was told */
+
+  hr2di_stack open;    /* refused pairs that face each other fully */
+  hr2di_stack guarded; /* refused pairs that one horizon still cuts */
+
+  /* the round under way */
+  hr2d_pair candidate[HR2DI_CANDIDATES];
+  hr2d_pair sorted[2][HR2DI_CANDIDATES]; /* facing fully, in part */
+  hr2d_pair accepted[HR2DI_CANDIDATES];
+  double error[HR2DI_CANDIDATES];
+  unsigned char flag[HR2DI_CANDIDATES];
+  unsigned char split[HR2DI_BATCH];
+} hr2di_projector;
+
+/* Proposes up to HR2DI_CANDIDATES pairs of patches and all that comes of them. */
+hr2d_status hr2di_project_roots(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
+
+/* Asks the oracle about pairs; sets p->flag to 1 where they are acceptable. */
+hr2d_status hr2di_judge(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
+
+/* Takes a refused pair to be subdivided by the next hr2di_drain(). */
+hr2d_status hr2di_refuse(hr2di_projector *p, hr2di_stack *stack, hr2d_pair pair);
+
+/* Subdivides until no refused pair is left. */
+hr2d_status hr2di_drain(hr2di_projector *p);
+
+/* Counts links, HR2D_EMAX_LINKS if that breaks the budget. */
+hr2d_status hr2di_count_links(hr2di_projector *p, size_t more);
+
+/* HR2D_EMAX_BYTES if `more` bytes would break the budget. */
+hr2d_status hr2di_afford(hr2di_projector *p, uint64_t more);
+
+/* Tells progress; the status of the callback. */
+hr2d_status hr2di_tell(hr2di_projector *p);
+
+#endif

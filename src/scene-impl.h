@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a scene is made of, for the modules that build, check and read it. */
+#ifndef HR2D_SRC_SCENE_IMPL_H
+#define HR2D_SRC_SCENE_IMPL_H
+
+#include <hr2d/scene.h>
+
+#include "message.h"
+
+typedef struct hr2di_patch {
+  hr2d_segment given;  /* as added, in scene lengths */
+  hr2d_segment scaled; /* divided by the unit; set by commit */
+  double length;       /* of the scaled segment; set by commit */
+  char *name;
+  double *value;         /* emission, then reflectance */
+  size_t emission_bands; /* 0, 1 or as many as the scene has */
+  size_t reflectance_bands;
+} hr2di_patch;
+
+struct hr2d_scene {
+  hr2d_allocator alloc;
+  hr2di_message message;
+  int committed;
+  hr2di_patch *patch;
+  size_t patches, capacity;
+  size_t bands;
+  int exponent; /* the unit is 2^exponent */
+  struct {
+    int on;
+    char reason[400];
+  } effect[HR2D_EFFECT_COUNT];
+};
+
+/* For readers of scene files. */
+const hr2d_allocator *hr2di_scene_allocator(const hr2d_scene *scene);
+hr2di_message *hr2di_scene_message(hr2d_scene *scene);
+int hr2di_scene_committed(const hr2d_scene *scene);
+
+/* Takes back all but the first `patches` patches. */
+void hr2di_scene_truncate(hr2d_scene *scene, size_t patches);
+
+/* How messages name a patch: patch 3 ("wall"). */
+typedef struct hr2di_label {
+  char text[112];
+} hr2di_label;
+
+hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch);
+
+/* The parts of commit, in their order: each leaves a message if it fails. */
+hr2d_status hr2di_check_bands(hr2d_scene *scene);
+hr2d_status hr2di_scale(hr2d_scene *scene);
+hr2d_status hr2di_check_overlaps(hr2d_scene *scene);
+hr2d_status hr2di_analyse_effects(hr2d_scene *scene);
+
+#endif

@@ -1,0 +1,7 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The version of the library linked, which may differ from that of the header. */
+#include <hr2d/version.h>
+
+const char *hr2d_version(void) {
+  return HR2D_VERSION;
+}

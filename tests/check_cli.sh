@@ -1,0 +1,353 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The program as a user meets it: exit status, messages, files, pictures.
+#
+# Environment: HR2D_PROGRAM, the program; HR2D_SCENES, the example scenes;
+# HR2D_SRCDIR, the top of the sources.
+: "${HR2D_PROGRAM:?names the program}" "${HR2D_SRCDIR:?names the source directory}"
+scenes=${HR2D_SCENES:-$HR2D_SRCDIR/examples/scenes}
+data=$HR2D_SRCDIR/tests/cli
+reference=$HR2D_SRCDIR/tests/reference
+work=$(mktemp -d) || exit 99
+trap 'rm -rf "$work"' EXIT
+passed=0
+failed=0
+
+# check WHAT COMMAND...: counts whether the command succeeds
+check() {
+  what=$1
+  shift
+  if "$@"; then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    echo "FAILED: $what"
+  fi
+}
+
+hr2d() {
+  "$HR2D_PROGRAM" "$@"
+}
+
+# run ARGUMENTS...: runs the program; its status and streams are kept
+run() {
+  hr2d "$@" >"$work/out" 2>"$work/err" </dev/null
+  status=$?
+}
+
+# expect STATUS REGEX ARGUMENTS...: status, and one line on stderr that matches
+matches() {
+  [ "$status" -eq "$1" ] && [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q -e "$2" "$work/err"
+}
+expect() {
+  wanted=$1
+  message=$2
+  shift 2
+  run "$@"
+  check "hr2d $* -> $wanted, $message; was $status, $(head -n 1 "$work/err")" \
+    matches "$wanted" "$message"
+}
+usage() {
+  message=$1
+  shift
+  expect 2 "^hr2d: $message.*; try 'hr2d --help'\$" "$@"
+}
+succeeds() {
+  run "$@"
+  check "hr2d $* -> 0; was $status, $(head -n 1 "$work/err")" [ "$status" -eq 0 ]
+}
+
+near() { # near VALUE REFERENCE RELATIVE
+  awk -v x="$1" -v y="$2" -v e="$3" \
+    'BEGIN { d = x - y; if (d < 0) d = -d; if (y < 0) y = -y; exit !(d <= e * y) }'
+}
+is_absent() {
+  ! [ -e "$1" ]
+}
+no_leftovers() {
+  [ -z "$(find "$work" -name '.hr2d-*')" ]
+}
+lacks() {
+  ! grep -q -e "$1" "$2"
+}
+
+far=$scenes/par-far.geojson
+narrow=$scenes/par-near.geojson
+
+# ---- bad usage: exit 2, one line
+usage "no command given"
+usage "unknown command 'cost'" cost "$far"
+usage "unknown command 'factors'" factors "$far"
+usage "unknown command ''" ""
+usage "expected a command before '--eps'" --eps 1
+usage "'x' is one argument too many" --help x
+usage "'solve' needs a SCENE file" solve
+usage "'info' needs a SCENE file" info
+usage "'b' is one argument too many" solve a b
+usage "'x' is one argument too many" pair x
+usage "unknown option '--frobnicate'" solve "$far" --frobnicate
+usage "unknown option '-x'" solve -x "$far"
+usage "unknown option '--max-l'" solve "$far" --max-l 3
+usage "'--eps' lacks its argument" solve "$far" --eps
+usage "'--quiet=3' takes no argument" solve "$far" --quiet=3
+usage "'info' has no option --eps" info "$far" --eps 1
+usage "'solve' has no option --plot" solve "$far" --plot x.svg
+usage "'study' has no option --at" study "$far" --at 0:0
+usage "--eps: 'x' is not a number greater than 0" solve "$far" --eps x
+usage "--eps: '0.1x' is not" solve "$far" --eps 0.1x
+usage "--eps: '' is not" solve "$far" --eps ''
+usage "--eps: ' 1' is not" solve "$far" --eps ' 1'
+usage "--eps: 'nan' is not" solve "$far" --eps nan
+usage "--eps: 'inf' is not" solve "$far" --eps inf
+usage "--eps: '1e999' is not" solve "$far" --eps 1e999
+usage "--eps: '-1' is not" solve "$far" --eps -1
+usage "--eps: '0' is not" solve "$far" --eps 0
+usage "--oracle: 'l1' is none of size, size2, bf" solve "$far" --oracle l1
+usage "--variant: 'x' is neither original nor modified" solve "$far" --variant x
+usage "--max-level: '1001' is not a whole number from 0 to 1000" solve "$far" --max-level 1001
+usage "--max-level: '2.5' is not" solve "$far" --max-level 2.5
+usage "--max-links: '0' is not" solve "$far" --max-links 0
+usage "--max-links: '-3' is not" solve "$far" --max-links -3
+usage "--max-elements: '99999999999999999999' is not" solve "$far" \
+  --max-elements 99999999999999999999
+usage "--threads: '1025' is not" solve "$far" --threads 1025
+usage "--multigrid: '1' is not FROM:RATIO" solve "$far" --multigrid 1
+usage "--multigrid: the ratio '2' is not" solve "$far" --multigrid 1:2
+usage "--multigrid: 0.01 is not greater than --eps 0.1" solve "$far" --multigrid 0.01:0.5
+usage "--at: '1' is not PATCH:T" solve "$far" --at 1
+usage "--at: '1:1.5' does not end in a number from 0 to 1" solve "$far" --at 1:1.5
+usage "--at: '1:' does not end" solve "$far" --at 1:
+usage "--at: the scene has no patch 2, only 0 to 1" solve "$far" --at 2:0
+usage "--at: the scene has no patch called 'foo'" solve "$far" --at foo:0
+usage "--links-of needs --draw" solve "$far" --links-of 0:0
+usage "--draw: 'a.jpg' does not end in .svg, .png or .pdf" solve "$far" --draw a.jpg
+usage "--draw: '.png' does not end" solve "$far" --draw .png
+usage "--json: the file name is empty" solve "$far" --json ''
+usage "two outputs go to '-'" solve "$far" --json - --csv -
+usage "two outputs go to 'a'" study "$far" --json a --csv a
+usage "--from 1 is not greater than --to 2" study "$far" --from 1 --to 2
+usage "--steps: '1' is not" study "$far" --steps 1
+
+# ---- help and version
+fits_screen() {
+  awk 'length($0) > 80 { bad = 1 } END { exit bad || NR < 5 || NR > 40 }' "$work/out"
+}
+for command in "" info solve study pair; do
+  # shellcheck disable=SC2086
+  succeeds $command --help
+  check "help of '$command' fits a screen" fits_screen
+done
+succeeds --version
+check "version is printed" grep -q '^hr2d [0-9][0-9]*\.[0-9][0-9]*\.[0-9]' "$work/out"
+
+# ---- bad input: exit 1, the file is named
+expect 1 "^hr2d: $work/none: ." solve "$work/none"
+expect 1 "^hr2d: $data/occluded.geojson: .*\"blocker\"" solve "$data/occluded.geojson"
+expect 1 "^hr2d: $data/occluded.geojson: .*\"blocker\"" study "$data/occluded.geojson"
+expect 1 "^hr2d: $far: .*10 links" solve "$far" --max-links 10
+expect 1 "^hr2d: $far: .*3 elements" solve "$far" --max-elements 3
+for file in "$HR2D_SRCDIR"/tests/malformed/*.geojson; do
+  expect 1 "^hr2d: $file: ." solve "$file"
+done
+
+# ---- info
+succeeds info "$data/occluded.geojson" --json "$work/info.json"
+check "info prints the effects" grep -q '^  occlusion  *on  .*"blocker"' "$work/out"
+check "info prints the length" grep -q '^total length  2.8$' "$work/out"
+for key in scene patches length bands bounding_box reflectance effects reasons status; do
+  check "info has the key $key" grep -q "^  \"$key\": " "$work/info.json"
+done
+check "info says occlusion" grep -q '"occlusion": true' "$work/info.json"
+
+# ---- solve
+succeeds solve "$narrow" --eps 0.015625 --at bottom:0.25 --at 1:0.5 --json "$work/solve.json" \
+  --csv "$work/solve.csv"
+for key in scene patches at elements leaves links limited_links levels order epsilon oracle \
+  variant effects work seconds peak_bytes error power status; do
+  check "solve has the key $key" grep -q "^  \"$key\": " "$work/solve.json"
+done
+for key in index name length average patch t value oracle_calls visibility_tests \
+  exchange_areas sweeps refine coefficients solve total estimate bound occlusion; do
+  check "solve has the inner key $key" grep -q "^   *\"$key\": " "$work/solve.json"
+done
+number() { # the first number of an array, by key and the which-th time it occurs
+  awk -v key="\"$1\": [" -v which="$2" 'index($0, key) { n++; if (n == which) { getline; print; exit } }' \
+    "$work/solve.json" | tr -d ' ,'
+}
+# tests/reference/radiosity_reference.csv
+check "average of bottom" near "$(number average 1)" 1.26523096533323 1e-5
+check "average of top" near "$(number average 2)" 0.575479501950071 1e-5
+check "B at a quarter of bottom" near "$(number value 1)" 1.28925868287759 1e-3
+check "B at half of top" near "$(number value 2)" 0.639919968806328 1e-3
+check "N of par0.1" grep -q '^  "elements": 4094,$' "$work/solve.json"
+check "L of par0.1" grep -q '^  "links": 246082,$' "$work/solve.json"
+check "CSV has a row for each leaf" [ "$(wc -l <"$work/solve.csv")" -eq 2049 ]
+check "CSV has its header" grep -qx 'patch,name,t0,t1,ax,ay,bx,by,B0' "$work/solve.csv"
+if command -v python3 >/dev/null 2>&1; then
+  check "JSON is JSON" python3 -m json.tool "$work/solve.json" /dev/null
+fi
+succeeds solve "$narrow" --quiet
+check "quiet prints nothing" [ ! -s "$work/out" -a ! -s "$work/err" ]
+succeeds solve "$narrow" --json -
+check "JSON alone on standard output" [ "$(head -c 1 "$work/out")" = "{" ]
+check "no table beside it" lacks '^scene' "$work/out"
+succeeds solve "$scenes/lit-room.geojson" --csv -
+check "three bands" [ "$(head -n 1 "$work/out")" = "patch,name,t0,t1,ax,ay,bx,by,B0,B1,B2" ]
+succeeds solve "$scenes/corner.geojson"
+check "the recursion limit is told" \
+  grep -q 'recursion limit acted on [0-9]* links at level 24 (touching patches)' "$work/out"
+succeeds solve "$data/names.geojson" --at 'a:b, "c":0.5' --at 'größer:1' --csv -
+check "CSV quotes names" grep -q '^0,"a:b, ""c""",0,' "$work/out"
+succeeds solve "$far" --oracle bf --variant modified --multigrid 1:0.5 --eps 0.01 --threads 2 \
+  --json "$work/bf.json"
+check "bf is directed and named" grep -q '"oracle": "bf"' "$work/bf.json"
+succeeds solve "$narrow" --quiet --multigrid 1:0.5 --eps 0.0625 --json "$work/many.json"
+check "multigridding ends with the links of the last step" \
+  grep -q '^  "links": 15244,$' "$work/many.json"
+hr2d solve "$scenes/square-room.geojson" --threads 1 --csv "$work/one.csv" --quiet
+hr2d solve "$scenes/square-room.geojson" --threads 3 --csv "$work/three.csv" --quiet
+check "threads leave no trace" cmp -s "$work/one.csv" "$work/three.csv"
+
+# ---- study
+succeeds study "$narrow" --from 1 --to 0.015625 --steps 4 --json "$work/study.json" \
+  --csv "$work/study.csv"
+check "the fit is printed" grep -q '^R² = .*slope of log L on log N = ' "$work/out"
+for key in a b c r2 slope; do
+  check "the fit has the key $key" grep -q "^    \"$key\": [-0-9]" "$work/study.json"
+done
+for key in epsilon elements leaves links oracle_calls seconds; do
+  check "rows have the key $key" grep -q "^      \"$key\": [0-9]" "$work/study.json"
+done
+awk -F, '$1 == "par0.1" && $2 == "original" { print $4 "," $6 "," $7 "," $10 "," $11 }' \
+  "$reference/counts_maxAr_pow2.csv" | head -n 4 >"$work/expected"
+sed 1d "$work/study.csv" | cut -d, -f1-5 >"$work/counted"
+check "N, leaves, L and calls are the reference's" cmp "$work/expected" "$work/counted"
+succeeds study "$narrow" --steps 2 --json "$work/two.json"
+check "two rows have no fit" grep -q '^  "fit": null' "$work/two.json"
+
+# ---- pair
+echo '0 0 1 0 1 1 0 1' | hr2d pair >"$work/out"
+# shellcheck disable=SC2046
+set -- $(cat "$work/out")
+check "four numbers for a pair" [ $# -eq 4 ]
+check "unit square" near "$1" 0.41421356237309504880 2.5e-16
+check "size oracle of the unit square" [ "$4" = 1 ]
+awk -F, 'NR > 1 { print $2, $3, $4, $5, $6, $7, $8, $9 }' "$reference/formfactors.csv" |
+  hr2d pair >"$work/out" 2>"$work/err"
+check "the reference pairs are read" [ $? -eq 0 ]
+# A denormal AF has no 17 digits to compare, but its view factors do.
+sed 1d "$reference/formfactors.csv" | cut -d, -f10-12 | tr , ' ' | paste -d ' ' - "$work/out" |
+  awk 'function off(x, y) { d = x - y; if (d < 0) d = -d; return d > 4e-15 * y }
+       { if ($1 + 0 > 2.3e-308 && off($4, $1)) bad = 1
+         if (off($5, $2) || off($6, $3)) { bad = 1; print "  line " NR ": " $0 } }
+       END { exit bad || NR < 10 }'
+check "pair agrees with the reference" [ $? -eq 0 ]
+pair() { # pair STATUS REGEX INPUT
+  # shellcheck disable=SC2059
+  printf "$3" | hr2d pair >"$work/out" 2>"$work/err"
+  status=$?
+  check "pair '$3' -> $1, $2; was $status, $(head -n 1 "$work/err")" matches "$1" "$2"
+}
+pair 1 '^hr2d: standard input: line 3: expected 8 numbers, found 7$' \
+  '# seven\n\n1 2 3 4 5 6 7\n'
+pair 1 'line 1: expected 8 numbers, found 9$' '1 2 3 4 5 6 7 8 9\n'
+pair 1 "line 1: 'x' is not a finite number" '1 2 3 4 x 6 7 8\n'
+pair 1 "line 1: 'nan' is not" '1 2 3 4 nan 6 7 8\n'
+pair 1 "line 1: 'inf' is not" '1 2 3 4 5 6 inf 8\n'
+pair 1 'line 2: the first segment has length 0' '0 0 1 0 1 1 0 1\n1 1 1 1 0 0 1 0\n'
+check "the lines before a bad one are answered" [ "$(wc -l <"$work/out")" -eq 1 ]
+pair 1 'line 1: the second segment has length 0' '0 0 1 0 1 1 1 1'
+pair 1 'line 1: contains a NUL byte' '0 0 1 0\0000 1 1 0 1\n'
+printf '  \n# nothing\n0 0 1 0 0.5 -1 0.5 1\n' | hr2d pair --oracle size2 >"$work/out"
+check "crossing segments have AF and no estimate" \
+  grep -q '^0\.[0-9]* 0\.[0-9]* 0\.[0-9]* nan$' "$work/out"
+
+# ---- files are whole or not there
+echo old >"$work/old.csv"
+echo old >"$work/old.png"
+(
+  trap '' XFSZ
+  ulimit -f 1
+  hr2d solve "$narrow" --eps 0.1 --quiet --csv "$work/old.csv" 2>"$work/err"
+)
+check "a write that fails is told" [ $? -eq 1 ]
+check "by name" grep -q "^hr2d: $work/old.csv: cannot be written" "$work/err"
+check "and leaves the old file" grep -qx old "$work/old.csv"
+check "and nothing else" no_leftovers
+succeeds solve "$narrow" --quiet --csv "$work/old.csv"
+check "a write that succeeds replaces the old file" lacks '^old$' "$work/old.csv"
+ln -s old.csv "$work/link.csv"
+succeeds solve "$far" --quiet --csv "$work/link.csv"
+check "a link stays a link" [ -L "$work/link.csv" ]
+expect 1 "^hr2d: $work/no/x.json: cannot be written" solve "$far" --json "$work/no/x.json"
+expect 1 "^hr2d: $work: cannot be written: is a directory" solve "$far" --json "$work"
+if [ -c /dev/full ]; then
+  expect 1 '^hr2d: /dev/full: cannot be written' solve "$far" --quiet --json /dev/full
+  expect 1 '^hr2d: /dev/full: cannot be written' study "$far" --quiet --csv /dev/full
+  check "a device stays a device" [ -c /dev/full ]
+  hr2d solve "$far" >/dev/full 2>"$work/err"
+  check "a full standard output is told" [ $? -eq 1 ]
+  hr2d --help >/dev/full 2>"$work/err"
+  check "also by --help" [ $? -eq 1 ]
+fi
+hr2d solve "$far" >&- 2>"$work/err"
+check "a closed standard output is told" [ $? -eq 1 ]
+
+# ---- interrupted: counts for minutes otherwise
+"$HR2D_PROGRAM" study "$scenes/square-room.geojson" --from 1e-4 --to 1e-5 --json "$work/late.json" \
+  >/dev/null 2>"$work/err" &
+child=$!
+sleep 1
+kill -TERM "$child"
+wait "$child"
+check "an interrupt ends with 130" [ $? -eq 130 ]
+check "and says so" grep -q 'interrupted$' "$work/err"
+check "and leaves no file" is_absent "$work/late.json"
+
+# ---- pictures
+magic() { # magic FILE HEX
+  [ "$(od -An -tx1 -N4 "$1" | tr -d ' \n')" = "$2" ]
+}
+run solve "$far" --quiet --draw "$work/probe.svg"
+if grep -q 'without cairo' "$work/err"; then
+  check "no cairo is told" [ "$status" -eq 1 ]
+else
+  for scene in "$scenes"/*.geojson "$data/names.geojson"; do
+    succeeds solve "$scene" --quiet --draw "$work/picture.svg"
+    check "SVG of $scene" magic "$work/picture.svg" 3c3f786d
+    check "SVG of $scene is whole" grep -q '</svg>' "$work/picture.svg"
+  done
+  succeeds solve "$narrow" --quiet --draw "$work/old.png" --links-of top:0.3
+  check "PNG" magic "$work/old.png" 89504e47
+  succeeds solve "$far" --quiet --draw "$work/picture.pdf" --links-of 0:0
+  expect 1 "^hr2d: $work/no/x.svg: cannot be written" solve "$far" --draw "$work/no/x.svg"
+  check "PDF" magic "$work/picture.pdf" 25504446
+  [ ! -c /dev/full ] || ln -s /dev/full "$work/full.png"
+  [ ! -c /dev/full ] || expect 1 "^hr2d: $work/full.png: cannot be written" \
+    solve "$far" --quiet --draw "$work/full.png"
+fi
+if command -v gnuplot >/dev/null 2>&1; then
+  for end in svg:3c3f786d png:89504e47 pdf:25504446; do
+    succeeds study "$narrow" --quiet --plot "$work/it's \"a\" plot.${end%:*}"
+    check "plot as ${end%:*}" magic "$work/it's \"a\" plot.${end%:*}" "${end#*:}"
+  done
+fi
+# A gnuplot that fails, and a PATH that has everything but gnuplot.
+mkdir "$work/bad" "$work/bin"
+printf '#!/bin/sh\necho no luck >&2\nexit 3\n' >"$work/bad/gnuplot"
+chmod +x "$work/bad/gnuplot"
+ln -s /usr/bin/* /bin/* "$work/bin" 2>/dev/null
+rm -f "$work"/bin/gnuplot*
+usual=$PATH
+PATH=$work/bad:$usual
+expect 1 "^hr2d: $work/none.svg: gnuplot failed: no luck" study "$far" --quiet \
+  --plot "$work/none.svg"
+PATH=$work/bin
+expect 1 "^hr2d: $work/none.svg: cannot be plotted: gnuplot is not installed" study "$far" \
+  --quiet --plot "$work/none.svg"
+PATH=$usual
+check "a plot that fails leaves no file" is_absent "$work/none.svg"
+check "no temporary file is left" no_leftovers
+
+echo "check_cli: $passed passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,69 @@
+# The tests: Check programs, and scripts for what is seen from outside.  A program
+# without a list of sources is made from the one file that is called as it is.
+AM_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/src $(GSL_CFLAGS) $(JANSSON_CFLAGS) \
+	$(CHECK_CFLAGS) $(MPFR_CFLAGS)
+LDADD = tests/libsupport.la libhr2d-core.la $(CHECK_LIBS) $(MPFR_LIBS) $(OPENMP_CFLAGS)
+
+SUITES = \
+	tests/check_status \
+	tests/check_geometry \
+	tests/check_exchange_area \
+	tests/check_scene \
+	tests/check_geojson \
+	tests/check_hierarchy \
+	tests/check_refine \
+	tests/check_linkset \
+	tests/check_solve \
+	tests/check_study \
+	tests/check_faults
+
+OUTSIDE = \
+	tests/check_cli.sh \
+	tests/check-exports.sh \
+	tests/check-headers.sh \
+	tests/check-examples.sh
+
+TEST_EXTENSIONS = .sh
+SH_LOG_COMPILER = $(SHELL)
+
+if HAVE_TESTS
+check_LTLIBRARIES = tests/libsupport.la
+tests_libsupport_la_SOURCES = \
+	tests/mpfr_exchange.c tests/mpfr_exchange.h \
+	tests/pair_classes.c tests/pair_classes.h \
+	tests/support.c tests/support.h
+check_PROGRAMS += $(SUITES)
+TESTS += $(SUITES) $(OUTSIDE)
+else
+check-local:
+	@echo "make check needs Check and MPFR; configure did not find them" >&2; exit 1
+endif
+
+# A test may take 120 s before Check ends it, on a busy machine too.
+AM_TESTS_ENVIRONMENT = \
+	CK_DEFAULT_TIMEOUT="$${CK_DEFAULT_TIMEOUT-120}"; export CK_DEFAULT_TIMEOUT; \
+	HR2D_SRCDIR='$(abs_top_srcdir)'; export HR2D_SRCDIR; \
+	HR2D_BUILDDIR='$(abs_top_builddir)'; export HR2D_BUILDDIR; \
+	HR2D_TEST_DATA='$(abs_top_srcdir)/tests/reference'; export HR2D_TEST_DATA; \
+	HR2D_SCENES='$(abs_top_srcdir)/examples/scenes'; export HR2D_SCENES; \
+	HR2D_PROGRAM='$(abs_top_builddir)/tools/hr2d$(EXEEXT)'; export HR2D_PROGRAM; \
+	HR2D_EXAMPLES='$(EXAMPLES)'; export HR2D_EXAMPLES; \
+	CC='$(CC)'; export CC; CXX='$(CXX)'; export CXX; NM='$(NM)'; export NM;
+
+# Check programs alone, unforked and in one thread: libgomp's threads show as leaks.
+MEMCHECK = $(VALGRIND) --quiet --error-exitcode=9 --leak-check=full \
+	--errors-for-leak-kinds=definite,indirect
+check-valgrind:
+	CK_FORK=no CK_DEFAULT_TIMEOUT=0 OMP_NUM_THREADS=1 \
+	HR2D_TEST_MULTIPLIER="$${HR2D_TEST_MULTIPLIER-0.01}" \
+	$(MAKE) check TESTS='$(SUITES)' LOG_COMPILER='$(MEMCHECK)'
+.PHONY: check-valgrind
+
+# An outside program, in C and in C++, against what `make install` left behind.
+installcheck-local:
+	DESTDIR='$(DESTDIR)' libdir='$(libdir)' pkgconfigdir='$(pkgconfigdir)' \
+	bindir='$(bindir)' PKG_CONFIG='$(PKG_CONFIG)' CC='$(CC)' CXX='$(CXX)' \
+	$(SHELL) $(srcdir)/tests/consumer/run.sh $(srcdir)/tests/consumer
+
+EXTRA_DIST += $(OUTSIDE) tests/summary.sh tests/cli tests/malformed tests/reference \
+	tests/consumer/main.c tests/consumer/main.cpp tests/consumer/run.sh

@@ -1,0 +1,22 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# summary.sh BUILD: a line for each test that the last `make check` in BUILD ran, then
+# how many checks passed and failed.  A script counts as one check, and so does a
+# program that ended without Check's summary.
+set -eu
+cd "$1/tests"
+results=$(find . -name '*.trs' | sed 's|^\./||; s|\.trs$||' | sort)
+[ -n "$results" ] || { echo "0 passed, 1 failed"; exit 1; }
+
+for test in $results; do
+  result=$(sed -n 's/^:test-result: //p' "$test.trs")
+  line=$(grep -E '^[0-9]+%: Checks: ' "$test.log" | tail -n 1)
+  echo "$test|$result|$line"
+done | awk -F '|' '
+  { printf "%-20s %s\n", $1, $3 ? $3 : $2
+    split($3, count, /[^0-9]+/)          # percent, checks, failures, errors
+    bad = count[3] + count[4]
+    if ($2 !~ /^(PASS|SKIP)/ && !bad) bad = 1
+    passed += $3 ? count[2] - count[3] - count[4] : $2 ~ /^PASS/
+    failed += bad }
+  END { printf "%d passed, %d failed\n", passed, failed; exit failed > 0 }'

@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "support.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+double test_multiplier(void) {
+  const char *set = getenv("HR2D_TEST_MULTIPLIER");
+  return set ? strtod(set, NULL) : 1;
+}
+
+unsigned long test_seed(void) {
+  const char *set = getenv("HR2D_TEST_SEED");
+  return set ? strtoul(set, NULL, 0) : 20240229;
+}
+
+double test_random(unsigned long *state) {
+  uint64_t z = *state += 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+hr2d_scene *test_scene(const double (*patch)[6], size_t count) {
+  hr2d_scene *scene = NULL;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  for (size_t k = 0; k < count; k++) {
+    const double *p = patch[k];
+    const hr2d_patch added = {.a = {p[0], p[1]},
+                              .b = {p[2], p[3]},
+                              .emission = &p[4],
+                              .emission_bands = 1,
+                              .reflectance = &p[5],
+                              .reflectance_bands = 1};
+    ck_assert_msg(hr2d_scene_add(scene, &added, NULL) == HR2D_OK, "%s",
+                  hr2d_scene_message(scene));
+  }
+  ck_assert_msg(hr2d_scene_commit(scene) == HR2D_OK, "%s", hr2d_scene_message(scene));
+  return scene;
+}
+
+hr2d_scene *test_named_scene(const char *name) {
+  double d, rho;
+  if (sscanf(name, "par_d%lf_rho%lf", &d, &rho) == 2)
+    return test_scene((const double[][6]){{0, 0, 1, 0, 1, rho}, {1, d, 0, d, 0, rho}}, 2);
+  if (sscanf(name, "par%lf", &d) == 1)
+    return test_scene((const double[][6]){{0, 0, 1, 0, 1, .5}, {1, d, 0, d, 0, .5}}, 2);
+  if (sscanf(name, "orth_touch_rho%lf", &rho) == 1)
+    return test_scene((const double[][6]){{0, 0, 1, 0, 1, rho}, {0, 1, 0, 0, 0, rho}}, 2);
+  if (sscanf(name, "orth%lf", &d) == 1)
+    return test_scene((const double[][6]){{d, 0, 1 + d, 0, 1, .5}, {0, 1 + d, 0, d, 0, .5}}, 2);
+  if (sscanf(name, "square_rho%lf", &rho) == 1)
+    return test_scene((const double[][6]){{0, 0, 1, 0, 1, rho},
+                                          {1, 0, 1, 1, 0, rho},
+                                          {1, 1, 0, 1, 0, rho},
+                                          {0, 1, 0, 0, 0, rho}},
+                      4);
+  if (sscanf(name, "square_furnace_rho%lf", &rho) == 1) {
+    const double e = 1 - rho;
+    return test_scene((const double[][6]){{0, 0, 1, 0, e, rho},
+                                          {1, 0, 1, 1, e, rho},
+                                          {1, 1, 0, 1, e, rho},
+                                          {0, 1, 0, 0, e, rho}},
+                      4);
+  }
+  ck_abort_msg("no scene is called %s", name);
+  return NULL;
+}
+
+static char *read_reference(const char *file) {
+  const char *folder = getenv("HR2D_TEST_DATA");
+  char path[4096];
+  snprintf(path, sizeof path, "%s/%s", folder ? folder : "tests/reference", file);
+  FILE *in = fopen(path, "rb");
+  ck_assert_msg(in != NULL, "cannot open %s", path);
+  fseek(in, 0, SEEK_END);
+  const long size = ftell(in);
+  rewind(in);
+  char *text = calloc((size_t)size + 1, 1);
+  ck_assert_uint_eq(fread(text, 1, (size_t)size, in), (size_t)size);
+  fclose(in);
+  return text;
+}
+
+static char **split_line(char *line) {
+  size_t cells = 1;
+  for (const char *c = line; *c; c++) cells += *c == ',';
+  char **cell = calloc(cells + 1, sizeof *cell);
+  for (size_t k = 0; k < cells; k++) {
+    cell[k] = line;
+    line += strcspn(line, ",");
+    if (*line) *line++ = '\0';
+  }
+  return cell;
+}
+
+test_table test_read_table(const char *file) {
+  test_table table = {.text = read_reference(file)};
+  size_t lines = 1;
+  for (const char *c = table.text; *c; c++) lines += *c == '\n';
+  table.cell = calloc(lines, sizeof *table.cell);
+  for (char *line = strtok(table.text, "\r\n"); line; line = strtok(NULL, "\r\n"))
+    table.cell[table.rows++] = split_line(line);
+  ck_assert_msg(table.rows > 1, "%s has no rows", file);
+  return table;
+}
+
+void test_free_table(test_table *table) {
+  for (size_t k = 0; k < table->rows; k++) free(table->cell[k]);
+  free(table->cell);
+  free(table->text);
+}
+
+const char *test_cell(const test_table *table, size_t row, const char *column) {
+  for (size_t k = 0; table->cell[0][k]; k++)
+    if (strcmp(table->cell[0][k], column) == 0) return table->cell[row][k];
+  ck_abort_msg("no column is called %s", column);
+  return NULL;
+}
+
+double test_number(const test_table *table, size_t row, const char *column) {
+  return strtod(test_cell(table, row, column), NULL);
+}
+
+test_links test_make_links(hr2d_scene *scene, const hr2d_oracle *oracle, void *oracle_ctx,
+                           const hr2d_policy *policy, void *policy_ctx) {
+  test_links t = {.scene = scene};
+  ck_assert_int_eq(hr2d_hierarchy_create(scene, &t.hierarchy), HR2D_OK);
+  ck_assert_int_eq(
+      hr2d_linkset_create(t.hierarchy, oracle, oracle_ctx, policy, policy_ctx, &t.links),
+      HR2D_OK);
+  return t;
+}
+
+void test_free_links(test_links *t) {
+  hr2d_linkset_destroy(t->links);
+  hr2d_hierarchy_destroy(t->hierarchy);
+  hr2d_scene_destroy(t->scene);
+}
+
+int test_run(Suite *suite) {
+  SRunner *runner = srunner_create(suite);
+  srunner_run_all(runner, CK_NORMAL);
+  const int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One screen of help per command; the manual page has the rest. */
+#include "help.h"
+
+#ifdef HAVE_CONFIG_H
+#include "config.h"
+#endif
+
+#include <stdio.h>
+
+static const char general[] =
+    "Usage: hr2d COMMAND [options]\n"
+    "Hierarchical radiosity in the plane.\n"
+    "\n"
+    "  hr2d info  SCENE      patches, lengths, which effects the scene calls for\n"
+    "  hr2d solve SCENE      radiosity of every patch, tables and pictures\n"
+    "  hr2d study SCENE      links L against elements N over a sequence of epsilon\n"
+    "  hr2d pair  < PAIRS    exchange areas of pairs of segments\n"
+    "\n"
+    "SCENE is a GeoJSON file.  'hr2d COMMAND --help' lists the options of a command,\n"
+    "'hr2d --version' prints the version, 'man hr2d' says more.\n"
+    "\n"
+    "Exit status: 0; 1 for bad input or a failed solve; 2 for bad usage;\n"
+    "130 when interrupted.\n";
+
+static const char info[] =
+    "Usage: hr2d info SCENE [options]\n"
+    "Patches, total length, bands, bounding box and the effects the scene calls for.\n"
+    "\n"
+    "  --json FILE|-         write the same as JSON\n"
+    "  --quiet               print no table\n";
+
+static const char solve[] =
+    "Usage: hr2d solve SCENE [options]\n"
+    "Refines, solves and reports the average radiosity of every patch.\n"
+    "\n"
+    "  --oracle NAME         size (default), size2 or bf\n"
+    "  --eps E               accept links whose estimated error is <= E (0.1)\n"
+    "  --variant NAME        original (default) or modified: what a refusal splits\n"
+    "  --multigrid FROM:R    solve for FROM, FROM*R, ... --eps, each from the last\n"
+    "  --max-level K         elements on level K are not subdivided (24)\n"
+    "  --max-links M         give up beyond M links\n"
+    "  --max-elements M      give up beyond M elements\n"
+    "  --threads T           threads for the solve; 0 (default) for all processors\n"
+    "\n"
+    "  --at PATCH:T          B at fraction T of a patch (index or name); repeatable\n"
+    "  --json FILE|-         the result as JSON; - is standard output\n"
+    "  --csv FILE|-          one row per leaf element\n"
+    "  --draw FILE           the scene coloured by B, as .svg, .png or .pdf\n"
+    "  --links-of PATCH:T    draw the links that serve this point, too\n"
+    "  --quiet               no table, no progress\n";
+
+static const char study[] =
+    "Usage: hr2d study SCENE [options]\n"
+    "Counts elements N and links L over a geometric sequence of epsilon and fits\n"
+    "L = a + b N + c N^2 by least squares.\n"
+    "\n"
+    "  --from E              first epsilon (1; for bf 0.25)\n"
+    "  --to E                last epsilon (--from/64; for size2 /4096, for bf /256)\n"
+    "  --steps K             how many of them (13)\n"
+    "  --oracle NAME         size (default), size2 or bf\n"
+    "  --variant NAME        original (default) or modified: what a refusal splits\n"
+    "  --max-level K         elements on level K are not subdivided (24)\n"
+    "  --max-links M         give up beyond M links\n"
+    "  --max-elements M      give up beyond M elements\n"
+    "\n"
+    "  --json FILE|-         rows and fit as JSON; - is standard output\n"
+    "  --csv FILE|-          one row per epsilon\n"
+    "  --plot FILE           dots and fitted curve by gnuplot, as .svg, .png or .pdf\n"
+    "  --quiet               no table, no progress\n";
+
+static const char pair[] =
+    "Usage: hr2d pair [--oracle NAME] < PAIRS\n"
+    "Each line of standard input holds 8 numbers, decimal or hexadecimal,\n"
+    "  ax ay bx by cx cy dx dy\n"
+    "for the segments i = a->b and j = c->d, whose fronts are on their left.\n"
+    "Prints AF F_ij F_ji ERROR with 17 significant digits: the exchange area\n"
+    "AF = A_i F_ij = A_j F_ji, the two view factors, and the oracle's estimate,\n"
+    "nan where the segments cross or overlap.  Blank lines and\n"
+    "lines that start with # are skipped.\n"
+    "\n"
+    "  --oracle NAME         size (default), size2 or bf\n";
+
+void print_help(int command) {
+  switch (command) {
+  case INFO:
+    fputs(info, stdout);
+    break;
+  case SOLVE:
+    fputs(solve, stdout);
+    break;
+  case STUDY:
+    fputs(study, stdout);
+    break;
+  case PAIR:
+    fputs(pair, stdout);
+    break;
+  default:
+    fputs(general, stdout);
+  }
+}
+
+void print_version(void) {
+#ifdef PACKAGE_VERSION
+  const char *program = PACKAGE_VERSION;
+#else
+  const char *program = HR2D_VERSION;
+#endif
+  printf("hr2d %s (library %s)\n"
+         "License GPL-3.0-or-later; there is no warranty, to the extent permitted by law.\n",
+         program, hr2d_version());
+}

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* `hr2d info`: what is in a scene and which effects it calls for. */
+#include <math.h>
+#include <stdio.h>
+
+#include "commands.h"
+#include "complain.h"
+#include "load.h"
+#include "output.h"
+#include "report.h"
+
+typedef struct summary {
+  double length;                      /* of all patches */
+  double low[2], high[2];             /* corners of the bounding box */
+  double reflectance[2], emission[2]; /* smallest and largest */
+} summary;
+
+static void widen(double range[2], double x) {
+  range[0] = fmin(range[0], x);
+  range[1] = fmax(range[1], x);
+}
+
+static void enclose(summary *s, hr2d_point p) {
+  s->low[0] = fmin(s->low[0], p.x);
+  s->low[1] = fmin(s->low[1], p.y);
+  s->high[0] = fmax(s->high[0], p.x);
+  s->high[1] = fmax(s->high[1], p.y);
+}
+
+static summary summarise(const hr2d_scene *scene) {
+  summary s = {0,
+               {INFINITY, INFINITY},
+               {-INFINITY, -INFINITY},
+               {INFINITY, -INFINITY},
+               {INFINITY, -INFINITY}};
+  for (size_t k = 0; k < hr2d_scene_patches(scene); k++) {
+    const hr2d_segment segment = hr2d_scene_segment(scene, k);
+    s.length += hr2d_scene_length(scene, k);
+    enclose(&s, segment.a);
+    enclose(&s, segment.b);
+    for (size_t b = 0; b < hr2d_scene_bands(scene); b++) {
+      widen(s.reflectance, hr2d_scene_reflectance(scene, k, b));
+      widen(s.emission, hr2d_scene_emission(scene, k, b));
+    }
+  }
+  return s;
+}
+
+static void print_range(const char *title, const double range[2]) {
+  if (range[0] < range[1])
+    printf("%-14s%.6g to %.6g\n", title, range[0], range[1]);
+  else
+    printf("%-14s%.6g\n", title, range[0]);
+}
+
+static void print_summary(const hr2d_scene *scene, const char *path, const summary *s) {
+  printf("scene         %s\n", path);
+  printf("patches       %zu\n", hr2d_scene_patches(scene));
+  printf("total length  %.6g\n", s->length);
+  printf("bands         %zu\n", hr2d_scene_bands(scene));
+  printf("bounding box  (%.6g, %.6g) to (%.6g, %.6g)\n", s->low[0], s->low[1], s->high[0],
+         s->high[1]);
+  print_range("reflectance", s->reflectance);
+  print_range("emission", s->emission);
+  printf("effects\n");
+  for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
+    const char *why = "";
+    const int on = hr2d_scene_effect(scene, (hr2d_effect)e, &why);
+    printf("  %-16s %-3s  %s\n", hr2d_effect_name((hr2d_effect)e), on ? "on" : "off", why);
+  }
+}
+
+static json_t *numbers(const double *x, size_t count) {
+  json_t *array = json_array();
+  for (size_t k = 0; k < count; k++) json_push(&array, json_number(x[k]));
+  return array;
+}
+
+static json_t *bands(const hr2d_scene *scene, size_t patch,
+                     double (*get)(const hr2d_scene *, size_t, size_t)) {
+  json_t *array = json_array();
+  for (size_t b = 0; b < hr2d_scene_bands(scene); b++)
+    json_push(&array, json_number(get(scene, patch, b)));
+  return array;
+}
+
+static json_t *patch_entry(const hr2d_scene *scene, size_t k) {
+  const hr2d_segment s = hr2d_scene_segment(scene, k);
+  json_t *patch = json_object();
+  json_put(&patch, "index", json_count(k));
+  json_put(&patch, "name", json_text(hr2d_scene_name(scene, k)));
+  json_put(&patch, "length", json_number(hr2d_scene_length(scene, k)));
+  json_put(&patch, "a", numbers((double[]){s.a.x, s.a.y}, 2));
+  json_put(&patch, "b", numbers((double[]){s.b.x, s.b.y}, 2));
+  json_put(&patch, "emission", bands(scene, k, hr2d_scene_emission));
+  json_put(&patch, "reflectance", bands(scene, k, hr2d_scene_reflectance));
+  return patch;
+}
+
+static json_t *document(const hr2d_scene *scene, const char *path, const summary *s) {
+  json_t *patches = json_array(), *reasons = json_object(), *root = json_object();
+  for (size_t k = 0; k < hr2d_scene_patches(scene); k++)
+    json_push(&patches, patch_entry(scene, k));
+  for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
+    const char *why = "";
+    hr2d_scene_effect(scene, (hr2d_effect)e, &why);
+    json_put(&reasons, hr2d_effect_name((hr2d_effect)e), json_text(why));
+  }
+  json_put(&root, "scene", json_text(path));
+  json_put(&root, "patches", patches);
+  json_put(&root, "length", json_number(s->length));
+  json_put(&root, "bands", json_count(hr2d_scene_bands(scene)));
+  json_put(&root, "bounding_box",
+           numbers((double[]){s->low[0], s->low[1], s->high[0], s->high[1]}, 4));
+  json_put(&root, "reflectance", numbers(s->reflectance, 2));
+  json_put(&root, "emission", numbers(s->emission, 2));
+  json_put(&root, "effects", json_effects(scene));
+  json_put(&root, "reasons", reasons);
+  json_put(&root, "status", json_text("ok"));
+  return root;
+}
+
+int info_command(const options *o) {
+  hr2d_scene *scene = NULL;
+  int status = load_scene(o->scene, &scene);
+  if (status) return status;
+  const summary s = summarise(scene);
+  if (!o->quiet && !to_stdout(o->json)) print_summary(scene, o->scene, &s);
+  if (o->json) status = json_write(document(scene, o->scene, &s), o->json);
+  hr2d_scene_destroy(scene);
+  return status;
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A depth-first walk; of each level only the right sibling waits. */
+#include "leaves.h"
+
+#include <stdlib.h>
+
+#include "complain.h"
+
+int walk_leaves(const hr2d_hierarchy *hierarchy, size_t patch, double finest, piece_fn visit,
+                void *ctx) {
+  const hr2d_element *elements = hr2d_hierarchy_elements(hierarchy);
+  piece *waiting = malloc((hr2d_hierarchy_count(hierarchy).levels + 2) * sizeof *waiting);
+  if (!waiting) return fail_memory();
+  size_t count = 1;
+  int status = 0;
+  waiting[0] = (piece){(uint32_t)patch, 0, 0, 1};
+  while (count && !status) {
+    const piece p = waiting[--count];
+    const hr2d_element *e = &elements[p.element];
+    if (!e->child || e->length <= finest) {
+      status = visit(ctx, &p);
+      continue;
+    }
+    const double middle = 0.5 * (p.t0 + p.t1);
+    waiting[count++] = (piece){e->child + 1, p.level + 1, middle, p.t1};
+    waiting[count++] = (piece){e->child, p.level + 1, p.t0, middle};
+  }
+  free(waiting);
+  return status;
+}

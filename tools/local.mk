@@ -1,0 +1,38 @@
+# The program hr2d, which sees only what any program linked with the library sees.
+bin_PROGRAMS += tools/hr2d
+tools_hr2d_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(PUBLIC_CPPFLAGS) $(JANSSON_CFLAGS) $(CAIRO_CFLAGS)
+tools_hr2d_LDADD = libhr2d.la $(JANSSON_LIBS) $(CAIRO_LIBS) -lm
+tools_hr2d_SOURCES = \
+	tools/bands.c \
+	tools/chart.c tools/chart.h \
+	tools/commands.h \
+	tools/complain.c tools/complain.h \
+	tools/draw.c tools/draw.h \
+	tools/draw-links.c \
+	tools/help.c tools/help.h \
+	tools/info.c \
+	tools/joints.c \
+	tools/labels.c \
+	tools/layout.c \
+	tools/leaves.c tools/leaves.h \
+	tools/legend.c \
+	tools/load.c tools/load.h \
+	tools/main.c \
+	tools/numbers.c tools/numbers.h \
+	tools/options.c tools/options.h \
+	tools/output.c tools/output.h \
+	tools/pair.c \
+	tools/palette.c tools/palette.h \
+	tools/picture.h \
+	tools/progress.c tools/progress.h \
+	tools/report.c tools/report.h \
+	tools/run.c tools/run.h \
+	tools/solve.c \
+	tools/solve-csv.c \
+	tools/solve-json.c \
+	tools/solve-table.c \
+	tools/study.c \
+	tools/suffix.c tools/suffix.h \
+	tools/ticks.c tools/ticks.h
+
+dist_man_MANS = tools/hr2d.1

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* hr2d: one command per run, its outcome as the exit status. */
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "complain.h"
+#include "help.h"
+#include "output.h"
+
+/* A closed standard stream would lend its number to the next file opened.  The wrong
+   mode makes every use of it fail, as it should. */
+static void occupy_standard_streams(void) {
+  for (int fd = 0; fd < 3; fd++)
+    if (fcntl(fd, F_GETFD) < 0) open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
+}
+
+static int run(const options *o) {
+  if (o->version) {
+    print_version();
+    return EXIT_DONE;
+  }
+  if (o->help) {
+    print_help(o->command);
+    return EXIT_DONE;
+  }
+  switch (o->command) {
+  case INFO:
+    return info_command(o);
+  case SOLVE:
+    return solve_command(o);
+  case STUDY:
+    return study_command(o);
+  default:
+    return pair_command(o);
+  }
+}
+
+int main(int argc, char **argv) {
+  occupy_standard_streams();
+  signal(SIGPIPE, SIG_IGN); /* a closed pipe is a failed write */
+  options o;
+  int status = options_read(argc, argv, &o);
+  if (!status) status = run(&o);
+  options_release(&o);
+  return output_finish(status);
+}

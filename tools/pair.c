@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* `hr2d pair`: exchange areas of segments, line by line from standard input. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+
+#include "commands.h"
+#include "complain.h"
+#include "load.h"
+#include "numbers.h"
+
+#define INPUT "standard input"
+
+static const char blanks[] = " \t\r\n\v\f";
+
+/* The oracle's estimate for element 0 of a hierarchy as receiver and 1 as source, both
+   as bright as can be. */
+static hr2d_status ask(const hr2d_oracle *oracle, const hr2d_hierarchy *hierarchy,
+                       double *error) {
+  const hr2d_pair pair = {0, 1};
+  const double brightness[2] = {1, 1};
+  const hr2d_batch batch = {.struct_size = sizeof batch,
+                            .hierarchy = hierarchy,
+                            .elements = hr2d_hierarchy_elements(hierarchy),
+                            .pairs = &pair,
+                            .count = 1,
+                            .unit = hr2d_scene_unit(hr2d_hierarchy_scene(hierarchy)),
+                            .brightness = brightness};
+  return oracle->estimate(NULL, &batch, error);
+}
+
+/* NaN where the two segments make no valid scene. */
+static hr2d_status estimate(const hr2d_oracle *oracle, const hr2d_segment *i,
+                            const hr2d_segment *j, double *error) {
+  hr2d_scene *scene = NULL;
+  hr2d_hierarchy *hierarchy = NULL;
+  const hr2d_patch first = {.a = i->a, .b = i->b}, second = {.a = j->a, .b = j->b};
+  *error = NAN;
+  hr2d_status status = hr2d_scene_create(NULL, &scene);
+  if (!status) status = hr2d_scene_add(scene, &first, NULL);
+  if (!status) status = hr2d_scene_add(scene, &second, NULL);
+  if (!status) status = hr2d_scene_commit(scene);
+  if (!status) status = hr2d_hierarchy_create(scene, &hierarchy);
+  if (!status) status = ask(oracle, hierarchy, error);
+  hr2d_hierarchy_destroy(hierarchy);
+  hr2d_scene_destroy(scene);
+  return status == HR2D_ESCENE || status == HR2D_ERANGE ? HR2D_OK : status;
+}
+
+/* The numbers of a line, or -1 after complaining. */
+static int read_numbers(char *line, const char *where, double x[8]) {
+  int found = 0;
+  char *rest = NULL;
+  for (char *word = strtok_r(line, blanks, &rest); word; word = strtok_r(NULL, blanks, &rest)) {
+    double value = 0;
+    if (read_real(word, &value)) {
+      fail(INPUT, "%s: '%s' is not a finite number", where, word);
+      return -1;
+    }
+    if (found < 8) x[found] = value;
+    found++;
+  }
+  if (found == 8) return 0;
+  fail(INPUT, "%s: expected 8 numbers, found %d", where, found);
+  return -1;
+}
+
+static double length(const hr2d_segment *s) {
+  return hypot(s->b.x - s->a.x, s->b.y - s->a.y);
+}
+
+/* The power of two that makes tiny segments ordinary ones, because a view factor has
+   more digits than an exchange area that is denormal; exact.  Others are left alone. */
+static int grow(double x[8]) {
+  double largest = 0;
+  int exponent = 0;
+  for (int k = 0; k < 8; k++) largest = fmax(largest, fabs(x[k]));
+  frexp(largest, &exponent);
+  if (exponent > -500) return 0;
+  for (int k = 0; k < 8; k++) x[k] = ldexp(x[k], -exponent);
+  return exponent;
+}
+
+static int print_pair(const options *o, char *line, const char *where) {
+  double x[8], error = NAN;
+  if (read_numbers(line, where, x)) return EXIT_FAILED;
+  const int exponent = grow(x);
+  const hr2d_segment i = {{x[0], x[1]}, {x[2], x[3]}}, j = {{x[4], x[5]}, {x[6], x[7]}};
+  const double li = length(&i), lj = length(&j);
+  if (!(li > 0)) return fail(INPUT, "%s: the first segment has length 0", where);
+  if (!(lj > 0)) return fail(INPUT, "%s: the second segment has length 0", where);
+  const double area = hr2d_exchange_area(&i, &j);
+  if (!isfinite(li + lj) || isnan(area))
+    return fail(INPUT, "%s: the coordinates are too large", where);
+  const hr2d_status status = estimate(o->oracle, &i, &j, &error);
+  if (status) return fail(INPUT, "%s: %s", where, hr2d_strerror(status));
+  printf("%.17g %.17g %.17g ", ldexp(area, exponent), area / li, area / lj);
+  if (isnan(error))
+    puts("nan");
+  else
+    printf("%.17g\n", error);
+  return EXIT_DONE;
+}
+
+/* Blank lines and comments hold no pair. */
+static int is_empty(const char *line) {
+  line += strspn(line, blanks);
+  return *line == '\0' || *line == '#';
+}
+
+int pair_command(const options *o) {
+  char *line = NULL;
+  size_t capacity = 0;
+  int status = EXIT_DONE;
+  errno = 0;
+  for (unsigned long long number = 1; !status; number++) {
+    char where[32];
+    const ssize_t size = getline(&line, &capacity, stdin);
+    if (size < 0) break;
+    snprintf(where, sizeof where, "line %llu", number);
+    if (memchr(line, '\0', (size_t)size))
+      status = fail(INPUT, "%s: contains a NUL byte", where);
+    else if (!is_empty(line))
+      status = print_pair(o, line, where);
+  }
+  if (!status && !feof(stdin)) status = fail(INPUT, "%s", strerror(errno));
+  free(line);
+  return status;
+}

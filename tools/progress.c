@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The terminal is touched ten times a second at most, and never before a second is over. */
+#include "progress.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "complain.h"
+#include "output.h"
+
+static volatile sig_atomic_t stopped;
+
+double seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void on_interrupt(int number) {
+  (void)number;
+  if (stopped) {
+    output_abandon();
+    _exit(EXIT_INTERRUPTED);
+  }
+  stopped = 1;
+}
+
+static void catch_interrupts(void) {
+  struct sigaction action = {.sa_handler = on_interrupt};
+  sigemptyset(&action.sa_mask);
+  struct sigaction before;
+  if (!sigaction(SIGINT, NULL, &before) && before.sa_handler != SIG_IGN)
+    sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+}
+
+void progress_start(progress *p, int quiet) {
+  *p = (progress){.wanted = !quiet && isatty(STDERR_FILENO), .start = seconds()};
+  p->last = p->start;
+  catch_interrupts();
+}
+
+static void show(progress *p, const hr2d_progress *now) {
+  char line[80], step[32] = "";
+  if (p->steps > 1) snprintf(step, sizeof step, "%u/%u ", p->step + 1, p->steps);
+  if (!strcmp(now->phase, "refine"))
+    snprintf(line, sizeof line, "%s%s %3.0f %%  N %llu  L %llu", step, now->phase,
+             100 * now->fraction, (unsigned long long)now->elements,
+             (unsigned long long)now->links);
+  else
+    snprintf(line, sizeof line, "%s%s %3.0f %%  residual %.1e", step, now->phase,
+             100 * now->fraction, now->residual);
+  const int width = (int)strlen(line);
+  fprintf(stderr, "\r%-*s", p->width > width ? p->width : width, line);
+  fflush(stderr);
+  p->width = width;
+}
+
+hr2d_status progress_show(void *ctx, const hr2d_progress *now) {
+  progress *p = ctx;
+  if (stopped) return HR2D_STOPPED;
+  if (!p->wanted) return HR2D_OK;
+  const double time = seconds();
+  if (time - p->start > 1 && time - p->last > 0.1) {
+    p->last = time;
+    show(p, now);
+  }
+  return HR2D_OK;
+}
+
+void progress_clear(progress *p) {
+  if (p->width) fprintf(stderr, "\r%*s\r", p->width, "");
+  p->width = 0;
+}

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Refine and solve once, or for falling ε, each stage starting from the last. */
+#include "run.h"
+
+#include <math.h>
+#include <sys/resource.h>
+
+#include "complain.h"
+#include "load.h"
+#include "progress.h"
+
+hr2d_refine_options refine_options(const options *o) {
+  hr2d_refine_options refine = HR2D_REFINE_OPTIONS_INIT;
+  refine.epsilon = o->epsilon;
+  refine.max_level = o->max_level;
+  refine.max_links = o->max_links;
+  refine.max_elements = o->max_elements;
+  return refine;
+}
+
+/* The ε of a stage, FROM·RATIO^stage; the last one is --eps itself. */
+static double stage_epsilon(const options *o, unsigned stage) {
+  if (!(o->multigrid_ratio > 0)) return o->epsilon;
+  const double epsilon = o->multigrid_from * pow(o->multigrid_ratio, stage);
+  return epsilon > o->epsilon * (1 + 1e-12) ? epsilon : o->epsilon;
+}
+
+static unsigned count_stages(const options *o) {
+  unsigned stages = 1;
+  while (stage_epsilon(o, stages - 1) > o->epsilon) stages++;
+  return stages;
+}
+
+static hr2d_status refine_stage(run *r, double epsilon, progress *p) {
+  hr2d_refine_options refine = refine_options(r->options);
+  refine.epsilon = epsilon;
+  refine.brightness = r->solution;
+  refine.progress = progress_show;
+  refine.progress_ctx = p;
+  const double start = seconds();
+  const hr2d_status status = hr2d_refine(r->links, &refine);
+  r->refine_seconds += seconds() - start;
+  return status;
+}
+
+static hr2d_status solve_stage(run *r, progress *p) {
+  hr2d_solve_options solve = HR2D_SOLVE_OPTIONS_INIT;
+  solve.threads = r->options->threads;
+  solve.start = r->solution;
+  solve.progress = progress_show;
+  solve.progress_ctx = p;
+  hr2d_solution *next = NULL;
+  const double start = seconds();
+  const hr2d_status status = hr2d_solve(r->links, &solve, &next);
+  r->solve_seconds += seconds() - start;
+  if (status) return status;
+  hr2d_solution_destroy(r->solution);
+  r->solution = next;
+  r->sweeps += hr2d_solution_sweeps(next);
+  return HR2D_OK;
+}
+
+int run_solve(run *r, const options *o, const hr2d_scene *scene, const size_t *places) {
+  progress p;
+  *r = (run){.options = o, .scene = scene, .places = places};
+  hr2d_status status = hr2d_hierarchy_create(scene, &r->hierarchy);
+  if (!status)
+    status = hr2d_linkset_create(r->hierarchy, o->oracle, NULL, o->policy, NULL, &r->links);
+  if (status) return fail_call(o->scene, "", status);
+  progress_start(&p, o->quiet);
+  p.steps = count_stages(o);
+  for (; !status && p.step < p.steps; p.step++) {
+    status = refine_stage(r, stage_epsilon(o, p.step), &p);
+    if (!status) status = solve_stage(r, &p);
+  }
+  progress_clear(&p);
+  return status ? fail_call(o->scene, hr2d_linkset_message(r->links), status) : EXIT_DONE;
+}
+
+void run_release(run *r) {
+  hr2d_solution_destroy(r->solution);
+  hr2d_linkset_destroy(r->links);
+  hr2d_hierarchy_destroy(r->hierarchy);
+  *r = (run){0};
+}
+
+double run_mean(const run *r, uint32_t element) {
+  const size_t bands = hr2d_scene_bands(r->scene);
+  double sum = 0;
+  for (size_t b = 0; b < bands; b++) sum += hr2d_solution_element(r->solution, element, b);
+  return sum / (double)bands;
+}
+
+uint64_t peak_bytes(void) {
+  struct rusage usage;
+  return getrusage(RUSAGE_SELF, &usage) ? 0 : 1024 * (uint64_t)usage.ru_maxrss;
+}

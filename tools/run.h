@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A whole run of `hr2d solve`, from links to radiosity, with what it took. */
+#ifndef HR2D_TOOLS_RUN_H
+#define HR2D_TOOLS_RUN_H
+
+#include <hr2d/hr2d.h>
+#include <stdint.h>
+
+#include "options.h"
+
+typedef struct run {
+  const options *options;
+  const hr2d_scene *scene;
+  const size_t *places; /* the patches of --at, then that of --links-of */
+  hr2d_hierarchy *hierarchy;
+  hr2d_linkset *links;
+  hr2d_solution *solution;
+  uint64_t sweeps;       /* over all stages of multigridding */
+  double refine_seconds; /* includes the exchange areas */
+  double solve_seconds;
+} run;
+
+/* Refines and solves.  Returns 0 or the exit status after complaining; either way the
+   run is to be released. */
+int run_solve(run *r, const options *o, const hr2d_scene *scene, const size_t *places);
+
+void run_release(run *r);
+
+/* The limits of refinement that the options ask for. */
+hr2d_refine_options refine_options(const options *o);
+
+/* B averaged over an element and over the bands. */
+double run_mean(const run *r, uint32_t element);
+
+/* The leaves, one row each: patch,name,t0,t1,ax,ay,bx,by,B0,… */
+int write_leaves(const run *r, const char *path);
+
+/* The summary on standard output. */
+void print_run(const run *r, double total_seconds);
+
+/* The result as JSON. */
+int write_run(const run *r, double total_seconds, const char *path);
+
+/* Peak memory of the process. */
+uint64_t peak_bytes(void);
+
+#endif

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The result of a run for programs. */
+#include "report.h"
+#include "run.h"
+
+static json_t *patches(const run *r) {
+  json_t *list = json_array();
+  for (size_t k = 0; k < hr2d_scene_patches(r->scene); k++) {
+    json_t *patch = json_object(), *average = json_array();
+    for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++)
+      json_push(&average, json_number(hr2d_solution_average(r->solution, k, b)));
+    json_put(&patch, "index", json_count(k));
+    json_put(&patch, "name", json_text(hr2d_scene_name(r->scene, k)));
+    json_put(&patch, "length", json_number(hr2d_scene_length(r->scene, k)));
+    json_put(&patch, "average", average);
+    json_push(&list, patch);
+  }
+  return list;
+}
+
+static json_t *places(const run *r) {
+  const options *o = r->options;
+  json_t *list = json_array();
+  for (size_t k = 0; k < o->at_count; k++) {
+    json_t *entry = json_object(), *value = json_array();
+    for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++)
+      json_push(&value,
+                json_number(hr2d_solution_at(r->solution, r->places[k], o->at[k].t, b)));
+    json_put(&entry, "patch", json_count(r->places[k]));
+    json_put(&entry, "t", json_number(o->at[k].t));
+    json_put(&entry, "value", value);
+    json_push(&list, entry);
+  }
+  return list;
+}
+
+static json_t *work(const run *r, const hr2d_refine_counts *n) {
+  json_t *object = json_object();
+  json_put(&object, "oracle_calls", json_count(n->oracle_calls));
+  json_put(&object, "visibility_tests", json_count(n->visibility_tests));
+  json_put(&object, "exchange_areas", json_count(n->exchange_areas));
+  json_put(&object, "sweeps", json_count(r->sweeps));
+  return object;
+}
+
+/* Exchange areas are computed while refining, so that they have no time of their own. */
+static json_t *times(const run *r, double total_seconds) {
+  json_t *object = json_object();
+  json_put(&object, "refine", json_number(r->refine_seconds));
+  json_put(&object, "coefficients", json_null());
+  json_put(&object, "solve", json_number(r->solve_seconds));
+  json_put(&object, "total", json_number(total_seconds));
+  return object;
+}
+
+static json_t *power(const run *r) {
+  json_t *list = json_array();
+  for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++) {
+    const hr2d_power p = hr2d_solution_power(r->solution, b);
+    json_t *band = json_object();
+    json_put(&band, "emitted", json_number(p.emitted));
+    json_put(&band, "absorbed", json_number(p.absorbed));
+    json_put(&band, "escaped", json_number(p.escaped));
+    json_push(&list, band);
+  }
+  return list;
+}
+
+static json_t *unknown_error(void) {
+  json_t *object = json_object();
+  json_put(&object, "estimate", json_null());
+  json_put(&object, "bound", json_null());
+  return object;
+}
+
+static void put_counts(json_t **root, const hr2d_refine_counts *n) {
+  json_put(root, "elements", json_count(n->elements));
+  json_put(root, "leaves", json_count(n->leaves));
+  json_put(root, "links", json_count(n->links));
+  json_put(root, "limited_links", json_count(n->limited_links));
+  json_put(root, "levels", json_count(n->levels));
+}
+
+int write_run(const run *r, double total_seconds, const char *path) {
+  const options *o = r->options;
+  const hr2d_refine_counts counts = hr2d_linkset_counts(r->links);
+  json_t *root = json_object();
+  json_put(&root, "scene", json_text(o->scene));
+  json_put(&root, "patches", patches(r));
+  json_put(&root, "at", places(r));
+  put_counts(&root, &counts);
+  json_put(&root, "order", json_count(1));
+  json_put(&root, "epsilon", json_number(o->epsilon));
+  json_put(&root, "oracle", json_text(o->oracle->name));
+  json_put(&root, "variant", json_text(o->policy->name));
+  json_put(&root, "effects", json_effects(r->scene));
+  json_put(&root, "work", work(r, &counts));
+  json_put(&root, "seconds", times(r, total_seconds));
+  json_put(&root, "peak_bytes", json_count(peak_bytes()));
+  json_put(&root, "power", power(r));
+  json_put(&root, "residual", json_number(hr2d_solution_residual(r->solution)));
+  json_put(&root, "error", unknown_error());
+  json_put(&root, "status", json_text("ok"));
+  return json_write(root, path);
+}
