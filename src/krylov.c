@@ -66,7 +66,7 @@ static hr2d_status look(state *s, const double *r, double *active) {
   for (size_t b = 0; b < s->system->bands; b++) {
     const double size = sqrt(square[b]);
     active[b] = !(size <= s->system->tolerance * norm[b]);
-    if (active[b]) s->done = 0;
+    if (active[b] != 0) s->done = 0;
     if (size > 0) s->residual = fmax(s->residual, size / norm[b]);
   }
   return s->system->tell(s->system->ctx, s->residual);

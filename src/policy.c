@@ -5,11 +5,12 @@
 
 static hr2d_status split_longer(void *ctx, const hr2d_batch *batch, unsigned char *split) {
   (void)ctx;
-  for (size_t k = 0; k < batch->count; k++)
-    split[k] = batch->elements[batch->pairs[k].first].length >=
-                       batch->elements[batch->pairs[k].second].length
-                   ? HR2D_SPLIT_FIRST
-                   : HR2D_SPLIT_SECOND;
+  const hr2d_element *element = batch->elements;
+  for (size_t k = 0; k < batch->count; k++) {
+    const hr2d_pair pair = batch->pairs[k];
+    const int second = element[pair.first].length < element[pair.second].length;
+    split[k] = (unsigned char)(second ? HR2D_SPLIT_SECOND : HR2D_SPLIT_FIRST);
+  }
   return HR2D_OK;
 }
 
