@@ -42,6 +42,7 @@ static const char solve[] =
     "  --max-links M         give up beyond M links\n"
     "  --max-elements M      give up beyond M elements\n"
     "  --threads T           threads for the solve; 0 (default) for all processors\n"
+    "  --no-closure          leave rows of the kernel as coarse links make them\n"
     "\n"
     "  --at PATCH:T          B at fraction T of a patch (index or name); repeatable\n"
     "  --json FILE|-         the result as JSON; - is standard output\n"

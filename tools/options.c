@@ -24,6 +24,7 @@ enum {
   LINKS,
   ELEMENTS,
   THREADS,
+  NO_CLOSURE,
   AT,
   JSON,
   CSV,
@@ -46,6 +47,7 @@ static const struct option names[] = {{"help", no_argument, NULL, HELP},
                                       {"max-links", required_argument, NULL, LINKS},
                                       {"max-elements", required_argument, NULL, ELEMENTS},
                                       {"threads", required_argument, NULL, THREADS},
+                                      {"no-closure", no_argument, NULL, NO_CLOSURE},
                                       {"at", required_argument, NULL, AT},
                                       {"json", required_argument, NULL, JSON},
                                       {"csv", required_argument, NULL, CSV},
@@ -180,6 +182,9 @@ static int read_option(int id, char *text, options *o) {
     return read_unsigned("max-level", text, 0, MAX_LEVEL, &o->max_level);
   case THREADS:
     return read_unsigned("threads", text, 0, MAX_THREADS, &o->threads);
+  case NO_CLOSURE:
+    o->closure = 0;
+    return 0;
   case LINKS:
     return read_range("max-links", text, 1, UINT64_MAX, &o->max_links);
   case ELEMENTS:
@@ -285,6 +290,7 @@ int options_read(int argc, char **argv, options *o) {
                  .policy = hr2d_policy_original(),
                  .epsilon = defaults.epsilon,
                  .max_level = defaults.max_level,
+                 .closure = 1,
                  .steps = 13};
   int status = read_bare(argc, argv, o);
   if (status || o->help || o->version) return status;

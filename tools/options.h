@@ -19,6 +19,7 @@ typedef struct place {
 typedef struct options {
   int command;
   int help, version, quiet;
+  int closure; /* 0: the paper's algorithm as it stands */
   const char *scene; /* file name; NULL for `pair` */
   const hr2d_oracle *oracle;
   const hr2d_policy *policy;

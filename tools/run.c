@@ -46,6 +46,7 @@ static hr2d_status refine_stage(run *r, double epsilon, progress *p) {
 static hr2d_status solve_stage(run *r, progress *p) {
   hr2d_solve_options solve = HR2D_SOLVE_OPTIONS_INIT;
   solve.threads = r->options->threads;
+  solve.closure = r->options->closure;
   solve.start = r->solution;
   solve.progress = progress_show;
   solve.progress_ctx = p;
