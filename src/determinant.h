@@ -12,6 +12,10 @@
 
 #include "wide.h"
 
+#ifdef __FAST_MATH__
+#error exact arithmetic needs IEEE 754 rounding: compile without -ffast-math or -Ofast
+#endif
+
 #if defined FLT_EVAL_METHOD && FLT_EVAL_METHOD != 0
 #error "exact differences and products need arithmetic that rounds to double"
 #endif

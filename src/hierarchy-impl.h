@@ -29,6 +29,15 @@ hr2d_status hr2di_hierarchy_reserve(hr2d_hierarchy *hierarchy);
 /* Halves a divisible leaf, with room reserved; returns the left child. */
 uint32_t hr2di_halve(hr2d_hierarchy *hierarchy, uint32_t element);
 
+/* A copy on the same scene; HR2D_OK or HR2D_ENOMEM. */
+hr2d_status hr2di_hierarchy_clone(const hr2d_hierarchy *from, hr2d_hierarchy **clone);
+
+/* Grows by every element that one of `count` clones has, numbered patch by patch, a
+   parent's children before its right neighbour's.  HR2D_OK, or HR2D_ENOMEM or
+   HR2D_EMAX_ELEMENTS with the hierarchy as it was. */
+hr2d_status hr2di_hierarchy_unite(hr2d_hierarchy *hierarchy, hr2d_hierarchy *const *clone,
+                                  size_t count);
+
 /* Takes back all but the first `elements` elements. */
 void hr2di_hierarchy_truncate(hr2d_hierarchy *hierarchy, size_t elements);
 

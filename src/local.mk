@@ -8,6 +8,7 @@ libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
 libhr2d_core_la_SOURCES = \
 	src/alloc.c src/alloc.h \
 	src/closure.c src/closure.h \
+	src/count.c \
 	src/determinant.c src/determinant.h \
 	src/effects.c \
 	src/exchange-area.c src/exchange-area.h \
@@ -20,6 +21,7 @@ libhr2d_core_la_SOURCES = \
 	src/geojson-impl.h \
 	src/hierarchy.c \
 	src/hierarchy-impl.h \
+	src/hierarchy-unite.c \
 	src/kernel.c \
 	src/krylov.c src/krylov.h \
 	src/linkset.c \
@@ -31,6 +33,7 @@ libhr2d_core_la_SOURCES = \
 	src/policy.c \
 	src/predicates.c src/predicates.h \
 	src/project.c src/project.h \
+	src/projector.c \
 	src/refine.c \
 	src/scene.c \
 	src/scene-impl.h \

@@ -23,12 +23,14 @@ static hr2d_status split_both(void *ctx, const hr2d_batch *batch, unsigned char 
 static const hr2d_policy policy_original = {
     .struct_size = sizeof(hr2d_policy),
     .name = "original",
+    .flags = HR2D_POLICY_THREAD_SAFE,
     .preferred_subdivision = split_longer,
 };
 
 static const hr2d_policy policy_modified = {
     .struct_size = sizeof(hr2d_policy),
     .name = "modified",
+    .flags = HR2D_POLICY_THREAD_SAFE,
     .preferred_subdivision = split_both,
 };
 

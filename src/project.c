@@ -288,18 +288,27 @@ static hr2d_status play(hr2di_projector *p, hr2di_stack *stack) {
   return propose_guarded(p, p->candidate, candidates);
 }
 
-hr2d_status hr2di_drain(hr2di_projector *p) {
+hr2d_status hr2di_drain(hr2di_projector *p, size_t enough) {
   hr2d_status status = HR2D_OK;
-  while (!status && p->open.count + p->guarded.count > 0) {
+  for (;;) {
+    const size_t left = p->open.count + p->guarded.count;
+    if (status || left == 0 || left >= enough) return status;
     status = play(p, p->open.count > 0 ? &p->open : &p->guarded);
-    if (!status && ++p->ticks == TICKS) status = hr2di_tell(p);
+    if (status || ++p->ticks < TICKS) continue;
+    p->ticks = 0;
+    status = p->tell ? p->tell(p) : hr2di_tell(p);
   }
-  return status;
 }
 
-hr2d_status hr2di_project_roots(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
-  const hr2d_status status = propose_guarded(p, pairs, count);
-  return status ? status : hr2di_drain(p);
+hr2d_status hr2di_propose_roots(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
+  return propose_guarded(p, pairs, count);
+}
+
+void hr2di_count_elements(const hr2d_hierarchy *hierarchy, hr2d_refine_counts *counts) {
+  const hr2d_hierarchy_counts h = hr2d_hierarchy_count(hierarchy);
+  counts->elements = h.elements;
+  counts->leaves = h.leaves;
+  counts->levels = h.levels;
 }
 
 /* The part of its root pair that a pair on a stack stands for, summed up. */
@@ -314,7 +323,6 @@ static double unfinished(const hr2di_projector *p, const hr2di_stack *stack) {
 }
 
 hr2d_status hr2di_tell(hr2di_projector *p) {
-  p->ticks = 0;
   if (!p->options.progress) return HR2D_OK;
   const double done = p->roots_done - unfinished(p, &p->open) - unfinished(p, &p->guarded);
   const hr2d_progress progress = {.struct_size = sizeof progress,

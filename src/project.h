@@ -21,7 +21,9 @@ typedef struct hr2di_stack {
   size_t count, capacity;
 } hr2di_stack;
 
-typedef struct hr2di_projector {
+typedef struct hr2di_projector hr2di_projector;
+
+struct hr2di_projector {
   hr2d_linkset *links;
   hr2d_hierarchy *hierarchy;
   hr2d_refine_options options;
@@ -35,6 +37,8 @@ typedef struct hr2di_projector {
   uint64_t bytes;           /* held by others than the hierarchy and the stacks */
   double roots, roots_done; /* pairs of patches, for progress */
   unsigned ticks;           /* rounds since progress was told */
+  hr2d_status (*tell)(hr2di_projector *p); /* tells progress; NULL: hr2di_tell() */
+  void *tell_ctx;
 
   hr2di_stack open;    /* refused pairs that face each other fully */
   hr2di_stack guarded; /* refused pairs that one horizon still cuts */
@@ -46,10 +50,26 @@ typedef struct hr2di_projector {
   double error[HR2DI_CANDIDATES];
   unsigned char flag[HR2DI_CANDIDATES];
   unsigned char split[HR2DI_BATCH];
-} hr2di_projector;
+};
 
-/* Proposes up to HR2DI_CANDIDATES pairs of patches and all that comes of them. */
-hr2d_status hr2di_project_roots(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
+/* Completes the options and checks them against the set. */
+hr2d_status hr2di_check_options(hr2d_linkset *links, const hr2d_refine_options *given,
+                                hr2d_refine_options *options);
+
+/* Makes a projector for checked options; to be ended by hr2di_projector_end(). */
+hr2d_status hr2di_projector_start(hr2d_linkset *links, const hr2d_refine_options *options,
+                                  hr2di_projector **made);
+void hr2di_projector_end(hr2di_projector *p);
+
+/* Proposes a patch with those behind it, or with all where links are directed, and
+   leaves what is refused on the stacks. */
+hr2d_status hr2di_project_row(hr2di_projector *p, size_t patch);
+
+/* Proposes all pairs of patches, and all that comes of them. */
+hr2d_status hr2di_project_all(hr2di_projector *p);
+
+/* Proposes up to HR2DI_CANDIDATES pairs of patches. */
+hr2d_status hr2di_propose_roots(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
 
 /* Asks the oracle about pairs; sets p->flag to 1 where they are acceptable. */
 hr2d_status hr2di_judge(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
@@ -57,14 +77,17 @@ hr2d_status hr2di_judge(hr2di_projector *p, const hr2d_pair *pairs, size_t count
 /* Takes a refused pair to be subdivided by the next hr2di_drain(). */
 hr2d_status hr2di_refuse(hr2di_projector *p, hr2di_stack *stack, hr2d_pair pair);
 
-/* Subdivides until no refused pair is left. */
-hr2d_status hr2di_drain(hr2di_projector *p);
+/* Subdivides until no refused pair is left, or `enough` of them are. */
+hr2d_status hr2di_drain(hr2di_projector *p, size_t enough);
 
 /* Counts links, HR2D_EMAX_LINKS if that breaks the budget. */
 hr2d_status hr2di_count_links(hr2di_projector *p, size_t more);
 
 /* HR2D_EMAX_BYTES if `more` bytes would break the budget. */
 hr2d_status hr2di_afford(hr2di_projector *p, uint64_t more);
+
+/* Sets the counts of elements. */
+void hr2di_count_elements(const hr2d_hierarchy *hierarchy, hr2d_refine_counts *counts);
 
 /* Tells progress; the status of the callback. */
 hr2d_status hr2di_tell(hr2di_projector *p);

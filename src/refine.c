@@ -1,116 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Refinement: what is projected, and where the links go: into the set, to a
-   visitor, or nowhere but into a count. */
+/* Refinement with links: into the set, or to a visitor. */
 #include <hr2d/refine.h>
-#include <math.h>
 
 #include "alloc.h"
 #include "exchange-area.h"
-#include "options.h"
 #include "project.h"
 #include "scene-impl.h"
-#include "solution-impl.h"
 
-static hr2d_status check_options(hr2d_linkset *links, const hr2d_refine_options *options,
-                                 int directed) {
-  hr2di_message *message = &links->message;
-  if (!(options->epsilon >= 0))
-    return hr2di_fail(message, HR2D_EINVAL, "epsilon %g is not a number ≥ 0", options->epsilon);
-  if (links->store.count > 0 && links->directed != directed)
-    return hr2di_fail(message, HR2D_EINVAL,
-                      "the links are %s, and a further refinement cannot change that",
-                      links->directed ? "directed" : "not directed");
-  if (options->brightness && options->brightness->hierarchy != links->hierarchy)
-    return hr2di_fail(message, HR2D_EINVAL, "the brightness is from another hierarchy");
-  const char *reason;
-  if (hr2d_scene_effect(links->hierarchy->scene, HR2D_EFFECT_OCCLUSION, &reason))
-    return hr2di_fail(message, HR2D_EUNSUPPORTED,
-                      "occlusion is not supported by this version: %s", reason);
-  return HR2D_OK;
-}
-
-/* B of each element relative to the brightest, or E where nothing is solved yet.
-   Elements younger than the solution take their parent's. */
-static hr2d_status set_brightness(hr2di_projector *p) {
-  if (!(p->links->oracle.flags & HR2D_ORACLE_NEEDS_BRIGHTNESS)) return HR2D_OK;
-  const hr2d_hierarchy *h = p->hierarchy;
-  const hr2d_solution *solution = p->options.brightness;
-  hr2d_status status = hr2di_afford(p, h->elements * sizeof *p->brightness);
-  if (status) return status;
-  if (hr2di_reserve(&h->alloc, &p->brightness, &p->brightness_capacity, h->elements,
-                    sizeof *p->brightness))
-    return hr2di_fail(&p->links->message, HR2D_ENOMEM, "out of memory for brightness");
-  double most = 0;
-  for (size_t e = 0; e < h->elements; e++) {
-    const int root = h->parent[e] == e;
-    const int solved = solution && e < solution->elements;
-    double value = root || solved ? 0 : p->brightness[h->parent[e]];
-    for (size_t band = 0; (root || solved) && band < h->scene->bands; band++)
-      value = fmax(value, solved ? hr2d_solution_element(solution, (uint32_t)e, band)
-                                 : hr2d_scene_emission(h->scene, e, band));
-    p->brightness[e] = value;
-    most = fmax(most, value);
-  }
-  for (size_t e = 0; e < h->elements && most > 0; e++) p->brightness[e] /= most;
-  return HR2D_OK;
-}
-
-static hr2d_status start(hr2d_linkset *links, const hr2d_refine_options *options,
-                         hr2di_projector **made) {
-  hr2di_projector *p = hr2di_calloc(&links->alloc, 1, sizeof *p);
-  if (!p) return hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
-  *made = p;
-  p->links = links;
-  p->hierarchy = links->hierarchy;
-  p->options = (hr2d_refine_options)HR2D_REFINE_OPTIONS_INIT;
-  if (options) hr2di_copy_sized(&p->options, sizeof p->options, options);
-  if (p->hierarchy->refining)
-    return hr2di_fail(&links->message, HR2D_ESTATE, "the hierarchy is being refined already");
-  const int directed = p->options.ordered || !(links->oracle.flags & HR2D_ORACLE_SYMMETRIC);
-  const hr2d_status status = check_options(links, &p->options, directed);
-  if (status) return status;
-  p->directed = directed;
-  p->check_levels = p->hierarchy->levels > p->options.max_level;
-  p->bytes = sizeof *p + hr2di_store_bytes(&links->store);
-  return set_brightness(p);
-}
-
-/* Ends a refinement; on failure the hierarchy gets its former size back. */
-static hr2d_status finish(hr2d_linkset *links, hr2di_projector *p, hr2d_status status,
-                          size_t elements) {
-  if (p) {
-    hr2di_free(&links->alloc, p->open.pair);
-    hr2di_free(&links->alloc, p->guarded.pair);
-    hr2di_free(&links->alloc, p->brightness);
-    hr2di_free(&links->alloc, p);
-  }
-  if (status) hr2di_hierarchy_truncate(links->hierarchy, elements);
+/* Runs a projector that is set up.  On failure the hierarchy gets its former size. */
+static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
+                       hr2d_status (*project)(hr2di_projector *)) {
+  hr2d_hierarchy *h = p->hierarchy;
+  const size_t elements = h->elements;
+  p->sink = sink;
+  p->sink_ctx = sink_ctx;
+  h->refining = 1;
+  const hr2d_status status = project(p);
+  h->refining = 0;
+  if (status) hr2di_hierarchy_truncate(h, elements);
   return status;
-}
-
-/* Proposes the pairs of patches gathered so far. */
-static hr2d_status project_some(hr2di_projector *p, const hr2d_pair *pairs, size_t *count) {
-  p->roots_done += (double)*count;
-  const hr2d_status status = hr2di_project_roots(p, pairs, *count);
-  *count = 0;
-  return status;
-}
-
-/* Projects all pairs of patches: each once, or in both orders where links are
-   directed. */
-static hr2d_status project_all(hr2di_projector *p) {
-  const size_t n = p->hierarchy->scene->patches;
-  p->roots = (double)n * (double)(n - 1) / (p->directed ? 1 : 2);
-  hr2d_pair pairs[HR2DI_CANDIDATES];
-  size_t count = 0;
-  hr2d_status status = HR2D_OK;
-  for (size_t i = 0; i < n; i++)
-    for (size_t j = p->directed ? 0 : i + 1; j < n && !status; j++) {
-      if (i == j) continue;
-      pairs[count++] = (hr2d_pair){(uint32_t)i, (uint32_t)j};
-      if (count == HR2DI_CANDIDATES) status = project_some(p, pairs, &count);
-    }
-  return status ? status : project_some(p, pairs, &count);
 }
 
 typedef struct storing {
@@ -149,7 +57,9 @@ static hr2d_status store_links(void *ctx, const hr2d_pair *pairs, size_t count) 
 
 /* Proposes the links of a set again: acceptable ones are kept with their exchange
    areas, the others refused.  What a horizon cuts is found anew below them. */
-static hr2d_status project_links(hr2di_projector *p, storing *s, const hr2di_store *old) {
+static hr2d_status project_links(hr2di_projector *p) {
+  storing *s = p->sink_ctx;
+  const hr2di_store *old = &p->links->store;
   hr2di_stack *refused =
       p->hierarchy->scene->effect[HR2D_EFFECT_FACING].on ? &p->guarded : &p->open;
   hr2d_pair pairs[HR2DI_BATCH];
@@ -173,18 +83,15 @@ static hr2d_status project_links(hr2di_projector *p, storing *s, const hr2di_sto
     if (!status) status = hr2di_count_links(p, kept);
     if (!status) status = add_links(s, pairs, area, kept);
     p->roots_done += (double)count;
-    if (!status) status = hr2di_drain(p);
+    if (!status) status = hr2di_drain(p, SIZE_MAX);
   }
   return status;
 }
 
 /* What the set holds now, and what all its refinements took. */
 static void sum_counts(hr2d_linkset *links, const hr2di_projector *p) {
-  const hr2d_hierarchy_counts h = hr2d_hierarchy_count(p->hierarchy);
   hr2d_refine_counts *counts = &links->counts;
-  counts->elements = h.elements;
-  counts->leaves = h.leaves;
-  counts->levels = h.levels;
+  hr2di_count_elements(p->hierarchy, counts);
   counts->links = p->counts.links;
   counts->limited_links = p->counts.limited_links;
   counts->oracle_calls += p->counts.oracle_calls;
@@ -193,23 +100,20 @@ static void sum_counts(hr2d_linkset *links, const hr2di_projector *p) {
 }
 
 hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options) {
-  const size_t elements = links->hierarchy->elements;
+  hr2d_refine_options used;
   hr2di_projector *p = NULL;
   hr2di_store made = {0};
-  hr2d_status status = start(links, options, &p);
-  if (status) return finish(links, p, status, elements);
+  hr2d_status status = hr2di_check_options(links, options, &used);
+  if (!status) status = hr2di_projector_start(links, &used, &p);
+  if (status) return status;
   storing *s = hr2di_calloc(&links->alloc, 1, sizeof *s);
-  if (!s)
-    return finish(links, p, hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory"),
-                  elements);
-  s->projector = p;
-  s->store = &made;
-  p->sink = store_links;
-  p->sink_ctx = s;
-  p->hierarchy->refining = 1;
-  status = links->store.count > 0 ? project_links(p, s, &links->store) : project_all(p);
-  p->hierarchy->refining = 0;
-  hr2di_free(&links->alloc, s);
+  if (s) {
+    s->projector = p;
+    s->store = &made;
+    status = run(p, store_links, s, links->store.count > 0 ? project_links : hr2di_project_all);
+  } else {
+    status = hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
+  }
   if (status) {
     hr2di_store_clear(&made, &links->alloc);
   } else {
@@ -218,7 +122,9 @@ hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options)
     links->directed = p->directed;
     sum_counts(links, p);
   }
-  return finish(links, p, status, elements);
+  hr2di_free(&links->alloc, s);
+  hr2di_projector_end(p);
+  return status;
 }
 
 typedef struct visiting {
@@ -242,45 +148,29 @@ static hr2d_status visit_links(void *ctx, const hr2d_pair *pairs, size_t count) 
                 : HR2D_OK;
 }
 
-/* Refines without storing: links go to the sink, if there is one. */
-static hr2d_status pass(hr2d_linkset *links, const hr2d_refine_options *options,
-                        visiting *visitor, hr2d_refine_counts *counts) {
-  const size_t elements = links->hierarchy->elements;
+hr2d_status hr2d_refine_visit(hr2d_linkset *links, const hr2d_refine_options *options,
+                              hr2d_visitor visit, void *visit_ctx, hr2d_refine_counts *counts) {
+  hr2d_refine_options used;
   hr2di_projector *p = NULL;
   if (links->store.count > 0)
     return hr2di_fail(&links->message, HR2D_ESTATE, "the set has links already");
-  hr2d_status status = start(links, options, &p);
-  if (status) return finish(links, p, status, elements);
-  if (visitor) {
-    visitor->projector = p;
-    p->sink = visit_links;
-    p->sink_ctx = visitor;
+  hr2d_status status = hr2di_check_options(links, options, &used);
+  if (!status) status = hr2di_projector_start(links, &used, &p);
+  if (status) return status;
+  visiting *v = hr2di_calloc(&links->alloc, 1, sizeof *v);
+  if (v) {
+    v->projector = p;
+    v->visit = visit;
+    v->visit_ctx = visit_ctx;
+    status = run(p, visit_links, v, hr2di_project_all);
+  } else {
+    status = hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
   }
-  p->hierarchy->refining = 1;
-  status = project_all(p);
-  p->hierarchy->refining = 0;
   if (!status) {
-    const hr2d_hierarchy_counts h = hr2d_hierarchy_count(p->hierarchy);
     *counts = p->counts;
-    counts->elements = h.elements;
-    counts->leaves = h.leaves;
-    counts->levels = h.levels;
+    hr2di_count_elements(p->hierarchy, counts);
   }
-  return finish(links, p, status, elements);
-}
-
-hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *options,
-                              hr2d_refine_counts *counts) {
-  return pass(links, options, NULL, counts);
-}
-
-hr2d_status hr2d_refine_visit(hr2d_linkset *links, const hr2d_refine_options *options,
-                              hr2d_visitor visit, void *visit_ctx, hr2d_refine_counts *counts) {
-  visiting *visitor = hr2di_calloc(&links->alloc, 1, sizeof *visitor);
-  if (!visitor) return hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory");
-  visitor->visit = visit;
-  visitor->visit_ctx = visit_ctx;
-  const hr2d_status status = pass(links, options, visitor, counts);
-  hr2di_free(&links->alloc, visitor);
+  hr2di_free(&links->alloc, v);
+  hr2di_projector_end(p);
   return status;
 }

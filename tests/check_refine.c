@@ -2,9 +2,11 @@
 /* ProjectKernel: N and L of the reference tables, what must hold of every set of
    links, and how refinements end early. */
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "sum.h"
 #include "support.h"
 
 static hr2d_refine_options with_epsilon(double epsilon) {
@@ -77,20 +79,20 @@ static void check_transport(const test_links *t) {
   const hr2d_element *element = hr2d_hierarchy_elements(t->hierarchy);
   const size_t n = hr2d_scene_patches(t->scene);
   const int directed = hr2d_linkset_directed(t->links);
-  long double *sum = calloc(n * n, sizeof *sum);
+  hr2di_sum *sum = calloc(n * n, sizeof *sum);
   for (uint64_t k = 0; k < hr2d_linkset_size(t->links); k++) {
     const hr2d_link link = hr2d_linkset_get(t->links, k);
     ck_assert_double_ge(link.exchange_area, 0);
     const size_t i = element[link.pair.first].patch, j = element[link.pair.second].patch;
-    sum[i * n + j] += link.exchange_area;
-    if (!directed) sum[j * n + i] += link.exchange_area;
+    hr2di_add(&sum[i * n + j], link.exchange_area);
+    if (!directed) hr2di_add(&sum[j * n + i], link.exchange_area);
   }
   for (size_t i = 0; i < n; i++)
     for (size_t j = 0; j < n; j++) {
       const hr2d_segment s = hr2d_scene_segment(t->scene, i),
                          u = hr2d_scene_segment(t->scene, j);
-      ck_assert_double_eq_tol((double)sum[i * n + j], i == j ? 0 : hr2d_exchange_area(&s, &u),
-                              1e-14);
+      ck_assert_double_eq_tol(hr2di_total(&sum[i * n + j]),
+                              i == j ? 0 : hr2d_exchange_area(&s, &u), 1e-14);
     }
   free(sum);
 }
@@ -126,6 +128,67 @@ START_TEST(clipped_links_exchange_what_patches_do) {
   for (uint64_t k = 0; k < hr2d_linkset_size(t.links); k++)
     ck_assert_double_gt(hr2d_linkset_get(t.links, k).exchange_area, 0);
   test_free_links(&t);
+}
+END_TEST
+
+/* A room of many walls with a horizon here and there. */
+static hr2d_scene *many_walls(void) {
+  double wall[64][6];
+  for (size_t k = 0; k < 64; k++) {
+    const double from = 0.09 * (double)k, to = 0.09 * (double)(k + 1);
+    const double w[6] = {cos(from), sin(from), cos(to), sin(to), k == 3, 0.5};
+    memcpy(wall[k], w, sizeof w);
+  }
+  return test_scene((const double(*)[6])wall, 64);
+}
+
+/* Any number of threads counts the same, and leaves the same hierarchy behind. */
+static void check_threads(hr2d_scene *(*make)(void), const hr2d_oracle *oracle,
+                          const hr2d_policy *policy, double epsilon) {
+  test_links t[3];
+  hr2d_refine_counts counts[3];
+  const unsigned threads[] = {1, 2, 5};
+  for (size_t k = 0; k < 3; k++) {
+    t[k] = test_make_links(make(), oracle, NULL, policy, NULL);
+    hr2d_refine_options options = with_epsilon(epsilon);
+    options.threads = threads[k];
+    options.max_level = 12;
+    ck_assert_int_eq(hr2d_refine_count(t[k].links, &options, &counts[k]), HR2D_OK);
+    test_same_counts(&counts[0], &counts[k]);
+    ck_assert_mem_eq(hr2d_hierarchy_elements(t[0].hierarchy),
+                     hr2d_hierarchy_elements(t[k].hierarchy),
+                     (size_t)counts[0].elements * sizeof(hr2d_element));
+    options.max_links = counts[0].links - 1;
+    ck_assert_int_eq(hr2d_refine_count(t[k].links, &options, &counts[k]), HR2D_EMAX_LINKS);
+    options.max_links++;
+    ck_assert_int_eq(hr2d_refine_count(t[k].links, &options, &counts[k]), HR2D_OK);
+  }
+  /* The plain refinement is the measure. */
+  test_links stored = test_make_links(make(), oracle, NULL, policy, NULL);
+  hr2d_refine_options options = with_epsilon(epsilon);
+  options.max_level = 12;
+  ck_assert_int_eq(hr2d_refine(stored.links, &options), HR2D_OK);
+  counts[0].exchange_areas = hr2d_linkset_size(stored.links);
+  const hr2d_refine_counts measure = hr2d_linkset_counts(stored.links);
+  test_same_counts(&counts[0], &measure);
+  test_free_links(&stored);
+  for (size_t k = 0; k < 3; k++) test_free_links(&t[k]);
+}
+
+static hr2d_scene *par_near(void) {
+  return test_named_scene("par0.1");
+}
+
+static hr2d_scene *clipped(void) {
+  return test_scene(clipped_pair, 2);
+}
+
+START_TEST(threads_count_the_same) {
+  check_threads(par_near, NULL, NULL, 0.01);
+  check_threads(par_near, hr2d_oracle_size2(), hr2d_policy_modified(), 1e-3);
+  check_threads(many_walls, NULL, NULL, 0.1);
+  check_threads(many_walls, hr2d_oracle_bf(), NULL, 1e-3);
+  check_threads(clipped, NULL, NULL, 2e-3);
 }
 END_TEST
 
@@ -180,10 +243,10 @@ START_TEST(stored_streamed_and_counted_agree) {
     const hr2d_link link = hr2d_linkset_get(stored.links, k);
     ck_assert_mem_eq(&link, &c.link[k], sizeof link);
   }
-  ck_assert_mem_eq(&streamed, &of_set, sizeof streamed);
+  test_same_counts(&streamed, &of_set);
   ck_assert_uint_eq(counted.exchange_areas, 0);
   counted.exchange_areas = of_set.exchange_areas;
-  ck_assert_mem_eq(&counted, &of_set, sizeof counted);
+  test_same_counts(&counted, &of_set);
   ck_assert_uint_gt(counted.limited_links, 0); /* touching walls */
   ck_assert_uint_eq(counted.levels, HR2D_DEFAULT_MAX_LEVEL);
   free(c.link);
@@ -467,6 +530,33 @@ START_TEST(policies_decide) {
 }
 END_TEST
 
+/* Fails after a while, for whichever thread asks then. */
+static hr2d_status fails_later(void *ctx, const hr2d_batch *batch, double *error) {
+  atomic_uint *left = ctx;
+  if (atomic_fetch_sub(left, 1) == 0) return HR2D_ERANGE;
+  return hr2d_oracle_size()->estimate(NULL, batch, error);
+}
+
+START_TEST(a_team_ends_as_one) {
+  const hr2d_oracle oracle = {.struct_size = sizeof oracle,
+                              .name = "late",
+                              .flags = HR2D_ORACLE_SYMMETRIC | HR2D_ORACLE_THREAD_SAFE,
+                              .estimate = fails_later};
+  for (unsigned threads = 1; threads < 4; threads++)
+    for (unsigned batches = 0; batches < 500; batches += 99) {
+      atomic_uint left = batches;
+      test_links t = test_make_links(test_named_scene("par0.1"), &oracle, &left, NULL, NULL);
+      hr2d_refine_options options = with_epsilon(1. / 64);
+      hr2d_refine_counts counts;
+      options.threads = threads;
+      ck_assert_int_eq(hr2d_refine_count(t.links, &options, &counts), HR2D_ERANGE);
+      ck_assert_ptr_nonnull(strstr(hr2d_linkset_message(t.links), "oracle \"late\""));
+      ck_assert_uint_eq(hr2d_hierarchy_count(t.hierarchy).elements, 2);
+      test_free_links(&t);
+    }
+}
+END_TEST
+
 START_TEST(callbacks_cannot_refine_what_is_being_refined) {
   script s = {.value = 0};
   test_links t = test_make_links(test_named_scene("par1"), &scripted_oracle, &s, NULL, NULL);
@@ -515,6 +605,14 @@ START_TEST(progress_rises) {
   t = test_make_links(test_named_scene("par0.1"), NULL, NULL, NULL, NULL);
   w = (watch){.stop_after = 2};
   check_refused(&t, &options, HR2D_STOPPED, "progress");
+  hr2d_refine_counts counts;
+  for (options.threads = 1; options.threads < 4; options.threads++) {
+    w = (watch){0};
+    ck_assert_int_eq(hr2d_refine_count(t.links, &options, &counts), HR2D_OK);
+    ck_assert_int_gt(w.calls, 2);
+    w = (watch){.stop_after = 2};
+    ck_assert_int_eq(hr2d_refine_count(t.links, &options, &counts), HR2D_STOPPED);
+  }
   test_free_links(&t);
 }
 END_TEST
@@ -595,6 +693,8 @@ int main(void) {
   tcase_add_test(links, facing_pairs_are_never_tested_again);
   tcase_add_test(links, patches_that_see_nothing_have_no_links);
   tcase_add_test(links, stored_streamed_and_counted_agree);
+  tcase_set_timeout(links, 300);
+  tcase_add_test(links, threads_count_the_same);
   tcase_add_test(links, multigrid_ends_where_one_step_does);
   suite_add_tcase(suite, links);
   TCase *limits = tcase_create("limits");
@@ -608,6 +708,7 @@ int main(void) {
   tcase_add_test(callbacks, estimates_without_meaning_end_the_refinement);
   tcase_add_test(callbacks, callbacks_end_the_refinement);
   tcase_add_test(callbacks, policies_decide);
+  tcase_add_test(callbacks, a_team_ends_as_one);
   tcase_add_test(callbacks, callbacks_cannot_refine_what_is_being_refined);
   tcase_add_test(callbacks, visitors_and_progress_can_stop);
   tcase_add_test(callbacks, progress_rises);

@@ -41,6 +41,8 @@ endif
 
 # A test may take 120 s before Check ends it, on a busy machine too.
 AM_TESTS_ENVIRONMENT = \
+	LSAN_OPTIONS='suppressions=$(abs_top_srcdir)/tests/lsan.supp:print_suppressions=0'; \
+	export LSAN_OPTIONS; \
 	CK_DEFAULT_TIMEOUT="$${CK_DEFAULT_TIMEOUT-120}"; export CK_DEFAULT_TIMEOUT; \
 	HR2D_SRCDIR='$(abs_top_srcdir)'; export HR2D_SRCDIR; \
 	HR2D_BUILDDIR='$(abs_top_builddir)'; export HR2D_BUILDDIR; \
@@ -65,5 +67,5 @@ installcheck-local:
 	bindir='$(bindir)' PKG_CONFIG='$(PKG_CONFIG)' CC='$(CC)' CXX='$(CXX)' \
 	$(SHELL) $(srcdir)/tests/consumer/run.sh $(srcdir)/tests/consumer
 
-EXTRA_DIST += $(OUTSIDE) tests/summary.sh tests/cli tests/malformed tests/reference \
+EXTRA_DIST += $(OUTSIDE) tests/summary.sh tests/lsan.supp tests/cli tests/malformed tests/reference \
 	tests/consumer/main.c tests/consumer/main.cpp tests/consumer/run.sh

@@ -139,6 +139,17 @@ void test_free_links(test_links *t) {
   hr2d_scene_destroy(t->scene);
 }
 
+void test_same_counts(const hr2d_refine_counts *one, const hr2d_refine_counts *other) {
+  ck_assert_uint_eq(one->elements, other->elements);
+  ck_assert_uint_eq(one->leaves, other->leaves);
+  ck_assert_uint_eq(one->links, other->links);
+  ck_assert_uint_eq(one->limited_links, other->limited_links);
+  ck_assert_uint_eq(one->oracle_calls, other->oracle_calls);
+  ck_assert_uint_eq(one->visibility_tests, other->visibility_tests);
+  ck_assert_uint_eq(one->exchange_areas, other->exchange_areas);
+  ck_assert_uint_eq(one->levels, other->levels);
+}
+
 int test_run(Suite *suite) {
   SRunner *runner = srunner_create(suite);
   srunner_run_all(runner, CK_NORMAL);

@@ -49,6 +49,9 @@ test_links test_make_links(hr2d_scene *scene, const hr2d_oracle *oracle, void *o
                            const hr2d_policy *policy, void *policy_ctx);
 void test_free_links(test_links *t);
 
+/* Asserts that two counts are equal in every member. */
+void test_same_counts(const hr2d_refine_counts *one, const hr2d_refine_counts *other);
+
 /* Runs the suite; the exit status of the program. */
 int test_run(Suite *suite);
 

@@ -23,6 +23,11 @@ enum {
   HR2D_SPLIT_BOTH = 2    /**< both: four new pairs */
 };
 
+/** What the library may assume of a policy. */
+enum {
+  HR2D_POLICY_THREAD_SAFE = 2 /**< may be called from several threads at once */
+};
+
 /**
  * A policy: set struct_size to sizeof (hr2d_policy).  Every function may be
  * NULL, which means the default named with it.  Functions return HR2D_OK,
@@ -31,7 +36,7 @@ enum {
 typedef struct hr2d_policy {
   size_t struct_size; /**< so that the table can grow */
   const char *name;   /**< required; for messages */
-  unsigned flags;     /**< 0 */
+  unsigned flags;     /**< HR2D_POLICY_… */
 
   /** Writes 1 for each pair whose error is acceptable.  Default: error ≤ ε. */
   hr2d_status (*acceptable)(void *ctx, const hr2d_batch *batch, const double *error,

@@ -51,6 +51,9 @@ typedef struct hr2d_refine_options {
   uint64_t max_elements; /**< budget for N; 0 for none */
   uint64_t max_links;    /**< budget for L; 0 for none */
   uint64_t max_bytes;    /**< budget for elements, links and work space; 0 for none */
+  unsigned threads;      /**< for hr2d_refine_count(): 0 for all; the counts do not depend
+                              on it.  An oracle or a policy that is not flagged thread-safe
+                              is asked from one thread only */
   const struct hr2d_solution *brightness; /**< for an oracle that needs brightness: the B to
                                                weight with; NULL: emission alone */
   hr2d_progress_fn progress;              /**< optional */
@@ -66,9 +69,9 @@ typedef struct hr2d_refine_options {
  */
 #define HR2D_DEFAULT_MAX_LEVEL 24
 
-/** ε = 0.1, the default limit, no budgets, no callback. */
+/** ε = 0.1, the default limit, no budgets, one thread, no callback. */
 #define HR2D_REFINE_OPTIONS_INIT \
-  {sizeof(hr2d_refine_options), 0.1, HR2D_DEFAULT_MAX_LEVEL, 0, 0, 0, 0, NULL, NULL, NULL}
+  {sizeof(hr2d_refine_options), 0.1, HR2D_DEFAULT_MAX_LEVEL, 0, 0, 0, 0, 1, NULL, NULL, NULL}
 
 /**
  * Fills a link set, or refines it further.
@@ -94,12 +97,14 @@ HR2D_API hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options 
 
 /**
  * Counts what hr2d_refine() would make of an empty set, without storing or
- * integrating a link.  The hierarchy grows as with hr2d_refine().
+ * integrating a link, and on several threads if wanted.  The hierarchy grows by the
+ * elements it would grow by, numbered patch by patch.
  *
  * @param links   an empty set; it stays empty
  * @param counts  receives N, L and the rest
  * @return as hr2d_refine(), and HR2D_ESTATE if the set has links
- * Memory O(N).
+ * Memory O(N) per thread, of which each has its part of `max_bytes`.  Progress is told
+ * from the calling thread.
  */
 HR2D_API hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *options,
                                        hr2d_refine_counts *counts);

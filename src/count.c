@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Counting N and L without links, on several threads.
+
+   Each worker has a copy of the hierarchy that it grows alone.  The first refines
+   until there is work for all: refused pairs on its stacks, and patches not yet
+   projected.  What a pair leads to does not depend on who works on it or when, so
+   that sums and the union of the trees are those of one thread. */
+#include <hr2d/refine.h>
+#include <stdatomic.h>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include "alloc.h"
+#include "project.h"
+#include "scene-impl.h"
+
+enum {
+  ENOUGH = 2048, /* refused pairs to share out */
+  SHARE = 8,     /* pairs to a task */
+  MOST_WORKERS = 256
+};
+
+typedef struct worker {
+  hr2d_linkset links; /* a view: its own hierarchy, message, and no links */
+  hr2di_projector *projector;
+  hr2d_status status;
+} worker;
+
+typedef struct team {
+  hr2d_linkset *links;
+  hr2d_refine_options options;
+  size_t count;
+  worker *worker;
+  hr2d_hierarchy **clone; /* of each worker */
+
+  hr2di_stack open, guarded; /* the pairs to share out */
+  size_t next_patch;         /* the first not yet projected */
+
+  atomic_ullong links_told; /* by all workers */
+  atomic_ullong tasks_done;
+  atomic_int stop;
+} team;
+
+static unsigned long long task_count(const team *t) {
+  return (t->open.count + SHARE - 1) / SHARE + (t->guarded.count + SHARE - 1) / SHARE +
+         (t->links->hierarchy->scene->patches - t->next_patch);
+}
+
+/* Every worker looks whether another has failed; the calling thread tells progress. */
+static hr2d_status tell(hr2di_projector *p) {
+  team *t = p->tell_ctx;
+  if (atomic_load(&t->stop)) return HR2D_STOPPED;
+  if (p != t->worker[0].projector || !p->options.progress) return HR2D_OK;
+  const unsigned long long tasks = task_count(t);
+  const hr2d_progress progress = {
+      .struct_size = sizeof progress,
+      .phase = "refine",
+      .elements = p->hierarchy->elements,
+      .links = atomic_load(&t->links_told) + p->counts.links,
+      .fraction = tasks ? (double)atomic_load(&t->tasks_done) / (double)tasks : 0};
+  const hr2d_status status = p->options.progress(p->options.progress_ctx, &progress);
+  return status ? hr2di_fail(&p->links->message, status, "callback \"progress\": %s",
+                             hr2d_strerror(status))
+                : HR2D_OK;
+}
+
+static size_t wanted_workers(const hr2d_linkset *links, const hr2d_refine_options *options) {
+#ifdef _OPENMP
+  size_t wanted = options->threads ? options->threads : (size_t)omp_get_max_threads();
+  if (!(links->oracle.flags & HR2D_ORACLE_THREAD_SAFE) ||
+      !(links->policy.flags & HR2D_POLICY_THREAD_SAFE))
+    wanted = 1;
+  return wanted < MOST_WORKERS ? wanted : MOST_WORKERS;
+#else
+  (void)links;
+  (void)options;
+  return 1;
+#endif
+}
+
+/* A worker begins with a copy of what `from` has become by then. */
+static hr2d_status hire(team *t, size_t k, const hr2d_hierarchy *from) {
+  worker *w = &t->worker[k];
+  w->links = *t->links;
+  w->links.store = (hr2di_store){0};
+  w->links.message.text[0] = '\0';
+  hr2d_status status = hr2di_hierarchy_clone(from, &t->clone[k]);
+  if (status) return hr2di_fail(&w->links.message, status, "out of memory for the count");
+  w->links.hierarchy = t->clone[k];
+  t->clone[k]->refining = 1;
+  hr2d_refine_options options = t->options;
+  options.max_bytes /= t->count + 1; /* one part is for their union */
+  if (t->options.max_bytes && !options.max_bytes) options.max_bytes = 1;
+  status = hr2di_projector_start(&w->links, &options, &w->projector);
+  if (status) return status;
+  w->projector->tell = tell;
+  w->projector->tell_ctx = t;
+  return HR2D_OK;
+}
+
+/* The first worker alone, until there are pairs enough for all; alone to the end if
+   there is no other. */
+static hr2d_status begin(team *t) {
+  hr2di_projector *p = t->worker[0].projector;
+  const size_t n = t->links->hierarchy->scene->patches;
+  hr2d_status status = HR2D_OK;
+  while (t->next_patch < n && !status && p->open.count + p->guarded.count < ENOUGH) {
+    status = hr2di_project_row(p, t->next_patch++);
+    if (!status) status = hr2di_drain(p, t->count > 1 ? ENOUGH : SIZE_MAX);
+  }
+  return status;
+}
+
+static hr2d_status take_share(hr2di_projector *p, hr2di_stack *to, const hr2di_stack *from,
+                              size_t share) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = share * SHARE; k < from->count && k < (share + 1) * SHARE && !status; k++)
+    status = hr2di_refuse(p, to, from->pair[k]);
+  return status;
+}
+
+static hr2d_status do_task(team *t, hr2di_projector *p, size_t task) {
+  const size_t open = (t->open.count + SHARE - 1) / SHARE;
+  const size_t guarded = (t->guarded.count + SHARE - 1) / SHARE;
+  const uint64_t before = p->counts.links;
+  hr2d_status status = tell(p);
+  if (status) return status;
+  if (task < open)
+    status = take_share(p, &p->open, &t->open, task);
+  else if (task < open + guarded)
+    status = take_share(p, &p->guarded, &t->guarded, task - open);
+  else
+    status = hr2di_project_row(p, t->next_patch + (task - open - guarded));
+  if (!status) status = hr2di_drain(p, SIZE_MAX);
+  if (p != t->worker[0].projector) atomic_fetch_add(&t->links_told, p->counts.links - before);
+  atomic_fetch_add(&t->tasks_done, 1);
+  return status;
+}
+
+static void work(team *t) {
+  const long long tasks = (long long)task_count(t);
+#ifdef _OPENMP
+#pragma omp parallel for num_threads((int)t->count) schedule(dynamic)
+#endif
+  for (long long task = 0; task < tasks; task++) {
+#ifdef _OPENMP
+    worker *w = &t->worker[omp_get_thread_num()];
+#else
+    worker *w = &t->worker[0];
+#endif
+    if (atomic_load(&t->stop)) continue;
+    w->status = do_task(t, w->projector, (size_t)task);
+    if (w->status) atomic_store(&t->stop, 1);
+  }
+}
+
+/* The pairs on the first worker's stacks become everybody's. */
+static void share_out(team *t) {
+  hr2di_projector *p = t->worker[0].projector;
+  t->open = p->open;
+  t->guarded = p->guarded;
+  p->open = p->guarded = (hr2di_stack){0};
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 1; k < t->count && !status; k++) {
+    status = hire(t, k, t->clone[0]);
+    t->worker[k].status = status;
+  }
+  if (!status) work(t);
+}
+
+/* The first worker that failed, and was not merely told to stop, gives the reason. */
+static hr2d_status gather_status(team *t) {
+  const worker *reason = NULL;
+  for (size_t k = 0; k < t->count; k++) {
+    const worker *w = &t->worker[k];
+    if (w->status && (!reason || (!reason->links.message.text[0]))) reason = w;
+  }
+  if (!reason) return HR2D_OK;
+  return hr2di_fail(&t->links->message, reason->status, "%s", reason->links.message.text);
+}
+
+static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
+  hr2d_linkset *links = t->links;
+  hr2d_refine_counts sum = {0};
+  for (size_t k = 0; k < t->count; k++) {
+    if (!t->clone[k]) continue; /* the first was done before the others began */
+    const hr2d_refine_counts *part = &t->worker[k].projector->counts;
+    sum.links += part->links;
+    sum.limited_links += part->limited_links;
+    sum.oracle_calls += part->oracle_calls;
+    sum.visibility_tests += part->visibility_tests;
+  }
+  if (t->options.max_links && sum.links > t->options.max_links)
+    return hr2di_fail(&links->message, HR2D_EMAX_LINKS, "more than %llu links are needed",
+                      (unsigned long long)t->options.max_links);
+  const size_t elements = links->hierarchy->elements;
+  const size_t hired = t->count > 1 && t->clone[1] ? t->count : 1;
+  const hr2d_status status = hr2di_hierarchy_unite(links->hierarchy, t->clone, hired);
+  if (status) return hr2di_fail(&links->message, status, "no room for the elements");
+  if (t->options.max_elements && links->hierarchy->elements > t->options.max_elements) {
+    hr2di_hierarchy_truncate(links->hierarchy, elements);
+    return hr2di_fail(&links->message, HR2D_EMAX_ELEMENTS,
+                      "more than %llu elements are needed, for %llu links",
+                      (unsigned long long)t->options.max_elements,
+                      (unsigned long long)sum.links);
+  }
+  *counts = sum;
+  hr2di_count_elements(links->hierarchy, counts);
+  return HR2D_OK;
+}
+
+static int finished(const team *t) {
+  const hr2di_projector *p = t->worker[0].projector;
+  return p->open.count + p->guarded.count == 0 &&
+         t->next_patch == t->links->hierarchy->scene->patches;
+}
+
+static hr2d_status count_as_team(team *t, hr2d_refine_counts *counts) {
+  worker *first = &t->worker[0];
+  t->links->hierarchy->refining = 1;
+  first->status = hire(t, 0, t->links->hierarchy);
+  if (!first->status) first->status = begin(t);
+  if (!first->status && t->count > 1 && !finished(t)) share_out(t);
+  t->links->hierarchy->refining = 0;
+  const hr2d_status status = gather_status(t);
+  return status ? status : sum_up(t, counts);
+}
+
+hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *options,
+                              hr2d_refine_counts *counts) {
+  team t = {.links = links};
+  if (links->store.count > 0)
+    return hr2di_fail(&links->message, HR2D_ESTATE, "the set has links already");
+  hr2d_status status = hr2di_check_options(links, options, &t.options);
+  if (status) return status;
+  t.count = wanted_workers(links, &t.options);
+  t.worker = hr2di_calloc(&links->alloc, t.count, sizeof *t.worker);
+  t.clone = hr2di_calloc(&links->alloc, t.count, sizeof *t.clone);
+  if (t.worker && t.clone)
+    status = count_as_team(&t, counts);
+  else
+    status = hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the count");
+  for (size_t k = 0; k < t.count && t.worker && t.clone; k++) {
+    if (t.worker[k].projector) hr2di_projector_end(t.worker[k].projector);
+    hr2d_hierarchy_destroy(t.clone[k]);
+  }
+  hr2di_free(&links->alloc, t.open.pair);
+  hr2di_free(&links->alloc, t.guarded.pair);
+  hr2di_free(&links->alloc, t.worker);
+  hr2di_free(&links->alloc, t.clone);
+  return status;
+}

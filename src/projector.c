@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Setting a projector up, and the pairs of patches it begins with. */
+#include <math.h>
+
+#include "alloc.h"
+#include "options.h"
+#include "project.h"
+#include "scene-impl.h"
+#include "solution-impl.h"
+
+static int directed_by(const hr2d_linkset *links, const hr2d_refine_options *options) {
+  return options->ordered || !(links->oracle.flags & HR2D_ORACLE_SYMMETRIC);
+}
+
+hr2d_status hr2di_check_options(hr2d_linkset *links, const hr2d_refine_options *given,
+                                hr2d_refine_options *options) {
+  hr2di_message *message = &links->message;
+  *options = (hr2d_refine_options)HR2D_REFINE_OPTIONS_INIT;
+  if (given) hr2di_copy_sized(options, sizeof *options, given);
+  options->struct_size = sizeof *options;
+  if (links->hierarchy->refining)
+    return hr2di_fail(message, HR2D_ESTATE, "the hierarchy is being refined already");
+  if (!(options->epsilon >= 0))
+    return hr2di_fail(message, HR2D_EINVAL, "epsilon %g is not a number ≥ 0", options->epsilon);
+  if (links->store.count > 0 && links->directed != directed_by(links, options))
+    return hr2di_fail(message, HR2D_EINVAL,
+                      "the links are %s, and a further refinement cannot change that",
+                      links->directed ? "directed" : "not directed");
+  if (options->brightness && options->brightness->hierarchy != links->hierarchy)
+    return hr2di_fail(message, HR2D_EINVAL, "the brightness is from another hierarchy");
+  const char *reason;
+  if (hr2d_scene_effect(links->hierarchy->scene, HR2D_EFFECT_OCCLUSION, &reason))
+    return hr2di_fail(message, HR2D_EUNSUPPORTED,
+                      "occlusion is not supported by this version: %s", reason);
+  return HR2D_OK;
+}
+
+/* B of each element relative to the brightest, or E where nothing is solved yet.
+   Elements younger than the solution take their parent's. */
+static hr2d_status set_brightness(hr2di_projector *p) {
+  if (!(p->links->oracle.flags & HR2D_ORACLE_NEEDS_BRIGHTNESS)) return HR2D_OK;
+  const hr2d_hierarchy *h = p->hierarchy;
+  const hr2d_solution *solution = p->options.brightness;
+  hr2d_status status = hr2di_afford(p, h->elements * sizeof *p->brightness);
+  if (status) return status;
+  if (hr2di_reserve(&h->alloc, &p->brightness, &p->brightness_capacity, h->elements,
+                    sizeof *p->brightness))
+    return hr2di_fail(&p->links->message, HR2D_ENOMEM, "out of memory for brightness");
+  double most = 0;
+  for (size_t e = 0; e < h->elements; e++) {
+    const int root = h->parent[e] == e;
+    const int solved = solution && e < solution->elements;
+    double value = root || solved ? 0 : p->brightness[h->parent[e]];
+    for (size_t band = 0; (root || solved) && band < h->scene->bands; band++)
+      value = fmax(value, solved ? hr2d_solution_element(solution, (uint32_t)e, band)
+                                 : hr2d_scene_emission(h->scene, e, band));
+    p->brightness[e] = value;
+    most = fmax(most, value);
+  }
+  for (size_t e = 0; e < h->elements && most > 0; e++) p->brightness[e] /= most;
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_projector_start(hr2d_linkset *links, const hr2d_refine_options *options,
+                                  hr2di_projector **made) {
+  hr2di_projector *p = hr2di_calloc(&links->alloc, 1, sizeof *p);
+  if (!p) return hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
+  p->links = links;
+  p->hierarchy = links->hierarchy;
+  p->options = *options;
+  p->directed = directed_by(links, options);
+  p->check_levels = p->hierarchy->levels > options->max_level;
+  p->bytes = sizeof *p + hr2di_store_bytes(&links->store);
+  p->roots = (double)p->hierarchy->scene->patches * (double)(p->hierarchy->scene->patches - 1) /
+             (p->directed ? 1 : 2);
+  const hr2d_status status = set_brightness(p);
+  if (status)
+    hr2di_projector_end(p);
+  else
+    *made = p;
+  return status;
+}
+
+void hr2di_projector_end(hr2di_projector *p) {
+  const hr2d_allocator *alloc = &p->links->alloc;
+  hr2di_free(alloc, p->open.pair);
+  hr2di_free(alloc, p->guarded.pair);
+  hr2di_free(alloc, p->brightness);
+  hr2di_free(alloc, p);
+}
+
+hr2d_status hr2di_project_row(hr2di_projector *p, size_t patch) {
+  const size_t n = p->hierarchy->scene->patches;
+  hr2d_pair pairs[HR2DI_CANDIDATES];
+  size_t count = 0;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = p->directed ? 0 : patch + 1; k < n && !status; k++) {
+    if (k == patch) continue;
+    pairs[count++] = (hr2d_pair){(uint32_t)patch, (uint32_t)k};
+    p->roots_done++;
+    if (count < HR2DI_CANDIDATES) continue;
+    status = hr2di_propose_roots(p, pairs, count);
+    count = 0;
+  }
+  return status ? status : hr2di_propose_roots(p, pairs, count);
+}
+
+hr2d_status hr2di_project_all(hr2di_projector *p) {
+  hr2d_status status = HR2D_OK;
+  for (size_t patch = 0; patch < p->hierarchy->scene->patches && !status; patch++) {
+    status = hr2di_project_row(p, patch);
+    if (!status) status = hr2di_drain(p, SIZE_MAX);
+  }
+  return status;
+}
