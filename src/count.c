@@ -95,7 +95,7 @@ static hr2d_status hire(team *t, size_t k, const hr2d_hierarchy *from) {
   if (t->options.max_bytes && !options.max_bytes) options.max_bytes = 1;
   status = hr2di_projector_start(&w->links, &options, &w->projector);
   if (status) return status;
-  w->projector->tell = tell;
+  if (t->count > 1) w->projector->tell = tell;
   w->projector->tell_ctx = t;
   return HR2D_OK;
 }
@@ -139,8 +139,13 @@ static hr2d_status do_task(team *t, hr2di_projector *p, size_t task) {
   return status;
 }
 
+/* The calling thread tells progress before and after, lest it find nothing to do
+   between. */
 static void work(team *t) {
   const long long tasks = (long long)task_count(t);
+  worker *first = &t->worker[0];
+  first->status = tell(first->projector);
+  if (first->status) return;
 #ifdef _OPENMP
 #pragma omp parallel for num_threads((int)t->count) schedule(dynamic)
 #endif
@@ -148,12 +153,13 @@ static void work(team *t) {
 #ifdef _OPENMP
     worker *w = &t->worker[omp_get_thread_num()];
 #else
-    worker *w = &t->worker[0];
+    worker *w = first;
 #endif
     if (atomic_load(&t->stop)) continue;
     w->status = do_task(t, w->projector, (size_t)task);
     if (w->status) atomic_store(&t->stop, 1);
   }
+  if (!atomic_load(&t->stop)) first->status = tell(first->projector);
 }
 
 /* The pairs on the first worker's stacks become everybody's. */
