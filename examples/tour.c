@@ -4,10 +4,14 @@
 
 int main(void) {
   const double lit = 1, grey = 0.5;
-  hr2d_patch floor = {.a = {0, 0}, .b = {1, 0}, .emission = &lit, .emission_bands = 1,
-                      .reflectance = &grey, .reflectance_bands = 1};
-  hr2d_patch ceiling = {.a = {1, 0.1}, .b = {0, 0.1}, .reflectance = &grey,
-                        .reflectance_bands = 1};
+  hr2d_patch floor = {.a = {0, 0},
+                      .b = {1, 0},
+                      .emission = &lit,
+                      .emission_bands = 1,
+                      .reflectance = &grey,
+                      .reflectance_bands = 1};
+  hr2d_patch ceiling = {
+      .a = {1, 0.1}, .b = {0, 0.1}, .reflectance = &grey, .reflectance_bands = 1};
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
   options.epsilon = 1. / 64;
 
