@@ -18,12 +18,14 @@ extern "C" {
 
 /** A point of the plane, in scene lengths. */
 typedef struct hr2d_point {
-  double x, y;
+  double x; /**< abscissa */
+  double y; /**< ordinate */
 } hr2d_point;
 
 /** An oriented segment; its front is on its left. */
 typedef struct hr2d_segment {
-  hr2d_point a, b;
+  hr2d_point a; /**< where it starts */
+  hr2d_point b; /**< where it ends */
 } hr2d_segment;
 
 /**

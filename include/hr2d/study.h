@@ -26,7 +26,9 @@ typedef struct hr2d_study_row {
 
 /** A least-squares fit L ≈ a + bN + cN², and the slope of log L on log N. */
 typedef struct hr2d_study_fit {
-  double a, b, c; /**< the polynomial */
+  double a;     /**< the constant */
+  double b;     /**< of N */
+  double c;     /**< of N² */
   double r2;      /**< 1 − (sum of squared residuals)/(sum of squares about the mean) */
   double slope;   /**< of the least-squares line through (log N, log L) */
 } hr2d_study_fit;
