@@ -131,8 +131,7 @@ static hr2d_status propose(hr2di_projector *p, const hr2d_pair *pairs, size_t co
   return emit(p, (size_t)(accepted - p->accepted));
 }
 
-/* Proposes the candidates that see each other, sorted by whether a horizon cuts them. */
-static hr2d_status propose_guarded(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
+hr2d_status hr2di_propose_guarded(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
   const hr2d_element *element = p->hierarchy->element;
   size_t full = 0, part = 0;
   for (size_t k = 0; k < count; k++) {
@@ -285,7 +284,7 @@ static hr2d_status play(hr2di_projector *p, hr2di_stack *stack) {
   }
   if (stack == &p->open) return propose(p, p->candidate, candidates, &p->open);
   p->counts.visibility_tests += candidates;
-  return propose_guarded(p, p->candidate, candidates);
+  return hr2di_propose_guarded(p, p->candidate, candidates);
 }
 
 hr2d_status hr2di_drain(hr2di_projector *p, size_t enough) {
@@ -298,10 +297,6 @@ hr2d_status hr2di_drain(hr2di_projector *p, size_t enough) {
     p->ticks = 0;
     status = p->tell ? p->tell(p) : hr2di_tell(p);
   }
-}
-
-hr2d_status hr2di_propose_roots(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
-  return propose_guarded(p, pairs, count);
 }
 
 void hr2di_count_elements(const hr2d_hierarchy *hierarchy, hr2d_refine_counts *counts) {

@@ -68,8 +68,9 @@ hr2d_status hr2di_project_row(hr2di_projector *p, size_t patch);
 /* Proposes all pairs of patches, and all that comes of them. */
 hr2d_status hr2di_project_all(hr2di_projector *p);
 
-/* Proposes up to HR2DI_CANDIDATES pairs of patches. */
-hr2d_status hr2di_propose_roots(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
+/* Proposes up to HR2DI_CANDIDATES pairs of which some may not see each other, or only
+   in part: these are dropped, and guarded. */
+hr2d_status hr2di_propose_guarded(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
 
 /* Asks the oracle about pairs; sets p->flag to 1 where they are acceptable. */
 hr2d_status hr2di_judge(hr2di_projector *p, const hr2d_pair *pairs, size_t count);

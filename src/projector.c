@@ -99,10 +99,10 @@ hr2d_status hr2di_project_row(hr2di_projector *p, size_t patch) {
     pairs[count++] = (hr2d_pair){(uint32_t)patch, (uint32_t)k};
     p->roots_done++;
     if (count < HR2DI_CANDIDATES) continue;
-    status = hr2di_propose_roots(p, pairs, count);
+    status = hr2di_propose_guarded(p, pairs, count);
     count = 0;
   }
-  return status ? status : hr2di_propose_roots(p, pairs, count);
+  return status ? status : hr2di_propose_guarded(p, pairs, count);
 }
 
 hr2d_status hr2di_project_all(hr2di_projector *p) {
