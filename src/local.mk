@@ -24,12 +24,19 @@ libhr2d_core_la_SOURCES = \
 	src/hierarchy-unite.c \
 	src/kernel.c \
 	src/krylov.c src/krylov.h \
+	src/l1.c src/l1.h \
+	src/l1-bounds.c \
+	src/l1-breaks.c \
+	src/l1-frame.c src/l1-frame.h \
+	src/l1-grid.c src/l1-grid.h \
 	src/linkset.c \
 	src/linkset-impl.h \
+	src/linkset-validate.c \
 	src/message.c src/message.h \
 	src/occluder.c src/occluder.h \
 	src/options.h \
 	src/oracle.c \
+	src/oracle-l1.c \
 	src/policy.c \
 	src/predicates.c src/predicates.h \
 	src/project.c src/project.h \

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The oracles that come with the library: size, size2, bf. */
+/* The oracles size, size2 and bf, and all by name. */
 #include <float.h>
 #include <hr2d/oracle.h>
 #include <math.h>
@@ -160,7 +160,8 @@ const hr2d_oracle *hr2d_oracle_bf(void) {
 }
 
 const hr2d_oracle *hr2d_oracle_find(const char *name) {
-  const hr2d_oracle *const known[] = {&oracle_size, &oracle_size2, &oracle_bf};
+  const hr2d_oracle *const known[] = {&oracle_size, &oracle_size2, &oracle_bf, hr2d_oracle_l1(),
+                                      hr2d_oracle_l1_grid()};
   for (size_t k = 0; k < sizeof known / sizeof *known; k++)
     if (strcmp(known[k]->name, name) == 0) return known[k];
   return NULL;

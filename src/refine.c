@@ -4,6 +4,7 @@
 
 #include "alloc.h"
 #include "exchange-area.h"
+#include "predicates.h"
 #include "project.h"
 #include "scene-impl.h"
 
@@ -55,13 +56,29 @@ static hr2d_status store_links(void *ctx, const hr2d_pair *pairs, size_t count) 
   return add_links(s, pairs, s->area, count);
 }
 
+/* Whether a pair, or one that it is part of, faces fully.  Then all below it does,
+   whatever rounding makes of the elements, and nothing there is tested again. */
+static int faces_fully(const hr2d_hierarchy *h, hr2d_pair pair) {
+  for (uint32_t i = pair.first, above_i;; i = above_i) {
+    above_i = h->parent[i];
+    for (uint32_t j = pair.second, above_j;; j = above_j) {
+      above_j = h->parent[j];
+      const hr2d_element *e = &h->element[i], *f = &h->element[j];
+      if (hr2di_face(&(hr2d_segment){e->a, e->b}, &(hr2d_segment){f->a, f->b}) ==
+          HR2DI_FACING_FULL)
+        return 1;
+      if (above_j == j) break;
+    }
+    if (above_i == i) return 0;
+  }
+}
+
 /* Proposes the links of a set again: acceptable ones are kept with their exchange
-   areas, the others refused.  What a horizon cuts is found anew below them. */
+   areas, the others refused. */
 static hr2d_status project_links(hr2di_projector *p) {
   storing *s = p->sink_ctx;
   const hr2di_store *old = &p->links->store;
-  hr2di_stack *refused =
-      p->hierarchy->scene->effect[HR2D_EFFECT_FACING].on ? &p->guarded : &p->open;
+  const int clipped = p->hierarchy->scene->effect[HR2D_EFFECT_FACING].on;
   hr2d_pair pairs[HR2DI_BATCH];
   double area[HR2DI_BATCH];
   hr2d_status status = HR2D_OK;
@@ -74,7 +91,8 @@ static hr2d_status project_links(hr2di_projector *p) {
     size_t kept = 0;
     for (size_t k = 0; k < count && !status; k++) {
       if (!p->flag[k]) {
-        status = hr2di_refuse(p, refused, pairs[k]);
+        const int open = !clipped || faces_fully(p->hierarchy, pairs[k]);
+        status = hr2di_refuse(p, open ? &p->open : &p->guarded, pairs[k]);
         continue;
       }
       area[kept] = hr2di_store_at(old, first + k)->exchange_area;

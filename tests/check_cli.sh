@@ -102,7 +102,7 @@ usage "--eps: 'inf' is not" solve "$far" --eps inf
 usage "--eps: '1e999' is not" solve "$far" --eps 1e999
 usage "--eps: '-1' is not" solve "$far" --eps -1
 usage "--eps: '0' is not" solve "$far" --eps 0
-usage "--oracle: 'l1' is none of size, size2, bf" solve "$far" --oracle l1
+usage "--oracle: 'l2' is none of size, size2, bf" solve "$far" --oracle l2
 usage "--variant: 'x' is neither original nor modified" solve "$far" --variant x
 usage "--max-level: '1001' is not a whole number from 0 to 1000" solve "$far" --max-level 1001
 usage "--max-level: '2.5' is not" solve "$far" --max-level 2.5
@@ -126,7 +126,17 @@ usage "--json: the file name is empty" solve "$far" --json ''
 usage "two outputs go to '-'" solve "$far" --json - --csv -
 usage "two outputs go to 'a'" study "$far" --json a --csv a
 usage "--from 1 is not greater than --to 2" study "$far" --from 1 --to 2
+usage "--from 1 is not greater than --to 1" study "$far" --to 1
 usage "--steps: '1' is not" study "$far" --steps 1
+usage "--resume needs --csv with a file" study "$far" --resume
+usage "--resume needs --csv with a file" study "$far" --resume --csv -
+usage "--plot-log needs --plot" study "$far" --plot-log
+usage "--link-level needs --links-of" solve "$far" --link-level 1
+usage "--link-parents needs --link-level" solve "$far" --draw a.svg --links-of 0:0 --link-parents
+usage "--link-parents needs --link-level with at least 1" solve "$far" --draw a.svg \
+  --links-of 0:0 --link-level 0 --link-parents --variant modified
+usage "--link-parents needs --variant modified" solve "$far" --draw a.svg --links-of 0:0 \
+  --link-level 1 --link-parents
 
 # ---- help and version
 fits_screen() {
@@ -225,6 +235,77 @@ check "N, leaves, L and calls are the reference's" cmp "$work/expected" "$work/c
 succeeds study "$narrow" --steps 2 --json "$work/two.json"
 check "two rows have no fit" grep -q '^  "fit": null' "$work/two.json"
 
+# ---- study, resumed: as in one go, seconds apart
+sweep() { # sweep CSV ARGUMENTS...
+  csv=$1
+  shift
+  run study "$narrow" --to 0.015625 --steps 25 --quiet --csv "$csv" "$@"
+}
+same_counts() {
+  cut -d, -f1-5 "$1" >"$work/counts"
+  cut -d, -f1-5 "$2" | cmp -s "$work/counts"
+}
+sweep "$work/whole.csv"
+check "the sweep has its rows" [ "$(wc -l <"$work/whole.csv")" -eq 26 ]
+sweep "$work/none.csv" --resume
+check "a file that does not exist is begun" same_counts "$work/whole.csv" "$work/none.csv"
+awk -F, -v OFS=, 'NR > 1 { $6 = 12345 } NR < 4 || NR > 8 && NR < 20' "$work/whole.csv" \
+  >"$work/part.csv"
+sweep "$work/part.csv" --resume --json "$work/part.json"
+check "a resumed sweep is that of one go" same_counts "$work/whole.csv" "$work/part.csv"
+check "and counts no row again" [ "$(grep -c ',12345$' "$work/part.csv")" -eq 13 ]
+check "and is complete" grep -q '^  "status": "ok"$' "$work/part.json"
+sort "$work/part.csv" | grep -v epsilon | sed '1i epsilon,elements,leaves,links,oracle_calls,seconds' |
+  sed 's/$/\r/' >"$work/sorted.csv"
+sweep "$work/sorted.csv" --resume
+check "the order of rows and the kind of line ends do not matter" \
+  cmp -s "$work/part.csv" "$work/sorted.csv"
+sweep "$work/part.csv" --resume --steps 4 --from 2
+check "rows for other ε stay" [ "$(wc -l <"$work/part.csv")" -eq 29 ]
+check "sorted by ε" sh -c "sed 1d '$work/part.csv' | sort -c -t, -k1,1gr"
+sweep "$work/limit.csv" --max-links 20000 --json "$work/limit.json"
+check "a limit ends a sweep with 1; was $status" matches 1 '20000 links'
+check "its rows are kept" [ "$(wc -l <"$work/limit.csv")" -gt 10 ]
+check "and called incomplete" grep -q '^  "status": "incomplete"$' "$work/limit.json"
+sweep "$work/limit.csv" --resume
+check "and taken up again" same_counts "$work/whole.csv" "$work/limit.csv"
+
+refuses() { # refuses REGEX SCRIPT: what a sed script makes of the CSV is not resumed
+  sed "$2" "$work/whole.csv" >"$work/bad.csv"
+  cp "$work/bad.csv" "$work/kept.csv"
+  sweep "$work/bad.csv" --resume
+  check "a CSV after sed '$2' -> $1; was $(head -n 1 "$work/err")" \
+    matches 1 "^hr2d: $work/bad.csv: cannot be resumed: .*$1"
+  check "and is left alone" cmp -s "$work/bad.csv" "$work/kept.csv"
+}
+refuses 'it is empty' d
+refuses 'line 1 is not the header' 1d
+refuses 'line 1 is not the header' '1s/links/knots/'
+refuses 'line 3 has fewer fields' '3s/,[^,]*$//'
+refuses 'line 3 has more fields' '3s/$/,1/'
+refuses 'line 3 has fewer fields' '3s/.*//'
+refuses 'line 4 does not begin with an epsilon' '4s/^/x/'
+refuses 'line 4 does not begin with an epsilon' '4s/^/-/'
+refuses "line 5: '9x' is no number of leaves" '5s/,[^,]*/,9x/2'
+refuses "line 5: '0' is no number of links" '5s/,[^,]*/,0/3'
+refuses "line 5: '-1' is no number of oracle calls" '5s/,[^,]*/,-1/4'
+refuses 'line 5 does not end with seconds' '5s/[^,]*$/soon/'
+refuses 'line 6 contains a NUL byte' '6s/,/\x00/'
+refuses 'is there twice' '7p'
+refuses 'do not belong to a scene of 2 patches' '8s/,[^,]*/,999999/1'
+refuses 'where this study counts' '2s/,[^,]*/,7777777/3'
+head -c -3 "$work/whole.csv" >"$work/bad.csv"
+sweep "$work/bad.csv" --resume
+check "a CSV that is cut off" matches 1 'line 26 is cut off$'
+for foreign in "$scenes/orth-near.geojson" "$narrow --oracle bf" "$narrow --variant modified"; do
+  # shellcheck disable=SC2086
+  run study $foreign --quiet --resume --csv "$work/whole.csv"
+  check "the CSV of another study is refused: $foreign" matches 1 'where this study counts'
+done
+mkdir "$work/folder.csv"
+sweep "$work/folder.csv" --resume
+check "a folder is refused" [ "$status" -eq 1 ]
+
 # ---- pair
 echo '0 0 1 0 1 1 0 1' | hr2d pair >"$work/out"
 # shellcheck disable=SC2046
@@ -267,7 +348,7 @@ echo old >"$work/old.csv"
 echo old >"$work/old.png"
 (
   trap '' XFSZ
-  ulimit -f 1
+  ulimit -f 8
   hr2d solve "$narrow" --eps 0.1 --quiet --csv "$work/old.csv" 2>"$work/err"
 )
 check "a write that fails is told" [ $? -eq 1 ]
@@ -303,6 +384,30 @@ wait "$child"
 check "an interrupt ends with 130" [ $? -eq 130 ]
 check "and says so" grep -q 'interrupted$' "$work/err"
 check "and leaves no file" is_absent "$work/late.json"
+begin() { # begin SIGNAL: a sweep that takes minutes, ended once its CSV is there
+  mkdir "$work/$1"
+  "$HR2D_PROGRAM" study "$scenes/square-room.geojson" --to 1e-5 --steps 100 --threads 1 \
+    --json "$work/$1/late.json" --csv "$work/$1/late.csv" >"$work/out" 2>"$work/err" &
+  child=$!
+  for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do
+    sleep 1
+    [ ! -s "$work/$1/late.csv" ] || break
+  done
+  kill -"$1" "$child"
+  wait "$child"
+  status=$?
+}
+whole_rows() {
+  awk -F, 'NF != 6 { bad = 1 } END { exit bad || NR < 3 || NR > 90 }' "$1"
+}
+begin TERM
+check "an interrupted sweep ends with 130 and says how far it came" \
+  matches 130 '[0-9]* of 100 steps done when interrupted$'
+check "its rows are written" whole_rows "$work/TERM/late.csv"
+check "as JSON, too" grep -q '^  "status": "incomplete"$' "$work/TERM/late.json"
+check "and fitted" grep -q '^R² = ' "$work/out"
+begin KILL 2>/dev/null
+check "a killed sweep leaves its rows, whole" whole_rows "$work/KILL/late.csv"
 
 # ---- pictures
 magic() { # magic FILE HEX
@@ -320,6 +425,13 @@ else
   succeeds solve "$narrow" --quiet --draw "$work/old.png" --links-of top:0.3
   check "PNG" magic "$work/old.png" 89504e47
   succeeds solve "$far" --quiet --draw "$work/picture.pdf" --links-of 0:0
+  succeeds solve "$narrow" --quiet --eps 0.25 --variant modified --draw "$work/picture.svg" \
+    --links-of bottom:0.49 --link-level 5
+  succeeds solve "$far" --quiet --eps 0.5 --variant modified --draw "$work/picture.svg" \
+    --links-of bottom:0.3 --link-level 1 --link-parents
+  succeeds solve "$far" --quiet --eps 0.5 --draw "$work/picture.svg" --links-of 1:1 --link-level 0
+  usage "--link-level: the elements at this point have levels 0 to 1" solve "$far" --quiet \
+    --eps 0.5 --draw "$work/picture.svg" --links-of 1:1 --link-level 2
   expect 1 "^hr2d: $work/no/x.svg: cannot be written" solve "$far" --draw "$work/no/x.svg"
   check "PDF" magic "$work/picture.pdf" 25504446
   [ ! -c /dev/full ] || ln -s /dev/full "$work/full.png"
@@ -331,6 +443,8 @@ if command -v gnuplot >/dev/null 2>&1; then
     succeeds study "$narrow" --quiet --plot "$work/it's \"a\" plot.${end%:*}"
     check "plot as ${end%:*}" magic "$work/it's \"a\" plot.${end%:*}" "${end#*:}"
   done
+  succeeds study "$narrow" --quiet --plot "$work/plot.svg" --plot-log
+  check "the slope is on logarithmic axes" grep -q 'L ∝ N' "$work/plot.svg"
 fi
 # A gnuplot that fails, and a PATH that has everything but gnuplot.
 mkdir "$work/bad" "$work/bin"

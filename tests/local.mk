@@ -13,6 +13,9 @@ SUITES = \
 	tests/check_hierarchy \
 	tests/check_refine \
 	tests/check_linkset \
+	tests/check_validate \
+	tests/check_theorem \
+	tests/check_l1 \
 	tests/check_solve \
 	tests/check_study \
 	tests/check_faults
@@ -39,11 +42,11 @@ check-local:
 	@echo "make check needs Check and MPFR; configure did not find them" >&2; exit 1
 endif
 
-# A test may take 120 s before Check ends it, on a busy machine too.
+# A test may take 600 s before Check ends it, on a busy machine too.
 AM_TESTS_ENVIRONMENT = \
 	LSAN_OPTIONS='suppressions=$(abs_top_srcdir)/tests/lsan.supp:print_suppressions=0'; \
 	export LSAN_OPTIONS; \
-	CK_DEFAULT_TIMEOUT="$${CK_DEFAULT_TIMEOUT-120}"; export CK_DEFAULT_TIMEOUT; \
+	CK_DEFAULT_TIMEOUT="$${CK_DEFAULT_TIMEOUT-600}"; export CK_DEFAULT_TIMEOUT; \
 	HR2D_SRCDIR='$(abs_top_srcdir)'; export HR2D_SRCDIR; \
 	HR2D_BUILDDIR='$(abs_top_builddir)'; export HR2D_BUILDDIR; \
 	HR2D_TEST_DATA='$(abs_top_srcdir)/tests/reference'; export HR2D_TEST_DATA; \

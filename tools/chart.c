@@ -4,6 +4,7 @@
 #include "chart.h"
 
 #include <errno.h>
+#include <math.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
@@ -48,41 +49,104 @@ static void write_title(FILE *script, const options *o) {
   fputs(" noenhanced\n", script);
 }
 
-static void write_fit(FILE *script, const hr2d_study_fit *fit) {
-  char key[128];
-  snprintf(key, sizeof key, "%.4g %c %.4g N %c %.4g N²,  R² = %.6f", fit->a,
-           fit->b < 0 ? '-' : '+', fit->b < 0 ? -fit->b : fit->b, fit->c < 0 ? '-' : '+',
-           fit->c < 0 ? -fit->c : fit->c, fit->r2);
-  fprintf(script, "f(x) = %.17g + x*(%.17g + x*(%.17g))\n", fit->a, fit->b, fit->c);
+/* An axis that counts thousands or millions rather than write their zeros. */
+typedef struct axis {
+  const char *quantity, *unit;
+  double divisor;
+} axis;
+
+static axis choose_axis(const char *quantity, double most, int logarithmic) {
+  if (logarithmic || most < 1e5) return (axis){quantity, "", 1};
+  if (most < 1e6) return (axis){quantity, " (thousands)", 1e3};
+  if (most < 1e9) return (axis){quantity, " (millions)", 1e6};
+  return (axis){quantity, " (billions)", 1e9};
+}
+
+/* A number in gnuplot's enhanced text. */
+static const char *enhanced(double x, char *text, size_t size) {
+  const double magnitude = fabs(x);
+  const int exponent = magnitude > 0 ? (int)floor(log10(magnitude)) : 0;
+  if (exponent >= -3 && exponent < 4)
+    snprintf(text, size, "%.4g", magnitude);
+  else
+    snprintf(text, size, "%.3f·10^{%d}", magnitude * pow(10, -exponent), exponent);
+  return text;
+}
+
+static void write_curve(FILE *script, const char *key) {
   fputs("plot f(x) with lines linewidth 2 linecolor rgb '#21918c' title ", script);
   write_quoted(script, key);
-  fputs(" noenhanced, ", script);
+  fputs(", ", script);
+}
+
+static void write_quadratic(FILE *script, const hr2d_study_fit *fit, const axis *n,
+                            const axis *l) {
+  char key[192], a[32], b[32], c[32];
+  snprintf(key, sizeof key, "L = %s%s %s %s N %s %s N^2,  R^2 = %.6f", fit->a < 0 ? "−" : "",
+           enhanced(fit->a, a, sizeof a), fit->b < 0 ? "−" : "+", enhanced(fit->b, b, sizeof b),
+           fit->c < 0 ? "−" : "+", enhanced(fit->c, c, sizeof c), fit->r2);
+  fprintf(script, "f(x) = (%.17g + x*%g*(%.17g + x*%g*(%.17g)))/%g\n", fit->a, n->divisor,
+          fit->b, n->divisor, fit->c, l->divisor);
+  write_curve(script, key);
+}
+
+/* The least-squares line through (log N, log L) goes through their means. */
+static void write_power(FILE *script, const hr2d_study_row *rows, size_t count,
+                        const hr2d_study_fit *fit) {
+  char key[64];
+  double x = 0, y = 0;
+  for (size_t k = 0; k < count; k++) {
+    x += log((double)rows[k].counts.elements) / (double)count;
+    y += log((double)rows[k].counts.links) / (double)count;
+  }
+  fprintf(script, "f(x) = exp(%.17g + %.17g*log(x))\n", y - fit->slope * x, fit->slope);
+  snprintf(key, sizeof key, "L ∝ N^{%.3f}", fit->slope);
+  write_curve(script, key);
+}
+
+static void write_axes(FILE *script, const axis *n, const axis *l, double most,
+                       int logarithmic) {
+  fprintf(script, "set xlabel '%s N%s'\nset ylabel '%s L%s'\n", n->quantity, n->unit,
+          l->quantity, l->unit);
+  if (logarithmic)
+    fputs("set logscale xy\nset format '10^{%T}'\nset mxtics 10\nset mytics 10\n"
+          "set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03\n"
+          "set autoscale fix\n",
+          script);
+  else
+    fprintf(script, "set xrange [0:%.17g]\nset yrange [0:*]\nset format '%%.7g'\n",
+            1.04 * most / n->divisor);
+  fputs("set key top left reverse Left spacing 1.3\n"
+        "set border 3 linecolor rgb '#404040'\nset tics nomirror\n"
+        "set grid linecolor rgb '#c8c8c8'\nset samples 500\n",
+        script);
 }
 
 static void write_script(FILE *script, const options *o, const hr2d_study_row *rows,
                          size_t count, const hr2d_study_fit *fit) {
-  double most = 0;
+  double most_n = 0, most_l = 0;
   fputs("set encoding utf8\n$rows << END\n", script);
   for (size_t k = 0; k < count; k++) {
-    const double n = (double)rows[k].counts.elements;
-    most = n > most ? n : most;
-    fprintf(script, "%.17g %.17g\n", n, (double)rows[k].counts.links);
+    const hr2d_refine_counts *c = &rows[k].counts;
+    most_n = fmax(most_n, (double)c->elements);
+    most_l = fmax(most_l, (double)c->links);
+    fprintf(script, "%.17g %.17g\n", (double)c->elements, (double)c->links);
   }
+  const axis n = choose_axis("elements", most_n, o->plot_log);
+  const axis l = choose_axis("links", most_l, o->plot_log);
   fprintf(script, "END\nset terminal %s\n", terminal(o->plot));
   write_title(script, o);
-  fprintf(script, "set xrange [0:%.17g]\nset yrange [0:*]\n", 1.04 * most);
-  fputs("set xlabel 'elements N'\nset ylabel 'links L'\n"
-        "set format '%.7g'\nset key top left reverse Left spacing 1.3\n"
-        "set border 3 linecolor rgb '#404040'\nset tics nomirror\n"
-        "set grid linecolor rgb '#c8c8c8'\nset samples 500\n",
-        script);
-  if (fit)
-    write_fit(script, fit);
-  else
+  write_axes(script, &n, &l, most_n, o->plot_log);
+  if (!fit)
     fputs("plot ", script);
-  fputs("$rows with points pointtype 7 pointsize 1.1 linecolor rgb '#440154'"
-        " title 'measured'\n",
-        script);
+  else if (o->plot_log)
+    write_power(script, rows, count, fit);
+  else
+    write_quadratic(script, fit, &n, &l);
+  fprintf(script,
+          "$rows using ($1/%g):($2/%g) with points pointtype 7 pointsize %g"
+          " linecolor rgb '#440154' title '%zu values of ε'\n",
+          n.divisor, l.divisor, count > 60 ? 0.6 : 1.1, count);
 }
 
 static int start(pid_t *child, int script, int picture, int complaints) {

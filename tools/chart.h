@@ -8,7 +8,8 @@
 
 #include "options.h"
 
-/* Dots of L against N, with the fitted curve unless fit is NULL. */
+/* Dots of L against N, with the fitted curve unless fit is NULL; on logarithmic axes the
+   curve is the power law of the fitted slope. */
 int chart_study(const options *o, const hr2d_study_row *rows, size_t count,
                 const hr2d_study_fit *fit);
 

@@ -12,6 +12,18 @@
 
 enum { MOST_OBSTACLES = 400 };
 
+/* Of the path only the element on the level of --link-level. */
+static int choose_level(picture *p) {
+  const unsigned level = p->run->options->link_level;
+  const size_t deepest = p->path_count - 1;
+  if (level > deepest)
+    return usage_error("--link-level: the elements at this point have levels 0 to %zu",
+                       deepest);
+  p->path[0] = p->path[deepest - level];
+  p->path_count = 1;
+  return EXIT_DONE;
+}
+
 /* Each element on the way from the root to the point's leaf holds the point. */
 static int find_path(picture *p) {
   const hr2d_hierarchy *h = p->run->hierarchy;
@@ -24,7 +36,7 @@ static int find_path(picture *p) {
     p->path[k] = element;
     element = hr2d_element_parent(h, element);
   }
-  return EXIT_DONE;
+  return p->run->options->one_level ? choose_level(p) : EXIT_DONE;
 }
 
 static int on_path(const picture *p, uint32_t element) {
@@ -56,7 +68,7 @@ static int measure_link(picture *p, uint32_t near, uint32_t far) {
   p->level_hi = level > p->level_hi ? level : p->level_hi;
   p->tree_levels = own > p->tree_levels ? own : p->tree_levels;
   p->tree_levels = level > p->tree_levels ? level : p->tree_levels;
-  return 0;
+  return p->run->options->one_level ? note_neighbour(p, far) : 0;
 }
 
 int find_links(picture *p) {
@@ -65,6 +77,7 @@ int find_links(picture *p) {
   p->level_lo = (unsigned)-1;
   p->level_hi = 0;
   if (!status) status = each_link(p, measure_link);
+  if (!status) measure_region(p);
   p->tree_step = fmin(5, TREE_ROOM / (p->tree_levels + 1));
   return status;
 }
@@ -130,6 +143,9 @@ void draw_point(const picture *p) {
 int draw_links(picture *p) {
   if (!p->path_count) return EXIT_DONE;
   cairo_set_line_cap(p->cr, CAIRO_LINE_CAP_BUTT);
-  return each_link(p, draw_link);
+  int status = each_link(p, draw_link);
+  if (!status) status = draw_region(p);
+  if (!status && p->run->options->link_parents) status = draw_parents(p);
+  return status;
 }
 #endif

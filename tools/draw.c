@@ -124,6 +124,7 @@ int draw_run(const run *r, const char *path) {
   if (!status) status = draw_file(&p, path);
   free(p.strokes);
   free(p.path);
+  free(p.region.far);
   free(p.obstacles.lines);
   return status;
 }

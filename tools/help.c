@@ -34,7 +34,7 @@ static const char solve[] =
     "Usage: hr2d solve SCENE [options]\n"
     "Refines, solves and reports the average radiosity of every patch.\n"
     "\n"
-    "  --oracle NAME         size (default), size2 or bf\n"
+    "  --oracle NAME         size (default), size2, bf, l1 or l1-grid\n"
     "  --eps E               accept links whose estimated error is <= E (0.1)\n"
     "  --variant NAME        original (default) or modified: what a refusal splits\n"
     "  --multigrid FROM:R    solve for FROM, FROM*R, ... --eps, each from the last\n"
@@ -49,6 +49,8 @@ static const char solve[] =
     "  --csv FILE|-          one row per leaf element\n"
     "  --draw FILE           the scene coloured by B, as .svg, .png or .pdf\n"
     "  --links-of PATCH:T    draw the links that serve this point, too\n"
+    "  --link-level K        of these only those of the element on level K\n"
+    "  --link-parents        with the refused pairs that these come from\n"
     "  --quiet               no table, no progress\n";
 
 static const char study[] =
@@ -56,18 +58,22 @@ static const char study[] =
     "Counts elements N and links L over a geometric sequence of epsilon and fits\n"
     "L = a + b N + c N^2 by least squares.\n"
     "\n"
-    "  --from E              first epsilon (1; for bf 0.25)\n"
-    "  --to E                last epsilon (--from/64; for size2 /4096, for bf /256)\n"
+    "  --from E              first epsilon (1; bf: 0.25; l1: longest patch/64)\n"
+    "  --to E                last epsilon (--from/64; size2: /4096; bf: /256;\n"
+    "                        l1: /262144)\n"
     "  --steps K             how many of them (13)\n"
-    "  --oracle NAME         size (default), size2 or bf\n"
+    "  --oracle NAME         size (default), size2, bf, l1 or l1-grid\n"
     "  --variant NAME        original (default) or modified: what a refusal splits\n"
     "  --max-level K         elements on level K are not subdivided (24)\n"
     "  --max-links M         give up beyond M links\n"
     "  --max-elements M      give up beyond M elements\n"
+    "  --threads T           threads for a count; 0 (default) for all processors\n"
     "\n"
     "  --json FILE|-         rows and fit as JSON; - is standard output\n"
-    "  --csv FILE|-          one row per epsilon\n"
+    "  --csv FILE|-          one row per epsilon, kept up to date during the sweep\n"
+    "  --resume              count only what the file of --csv does not have yet\n"
     "  --plot FILE           dots and fitted curve by gnuplot, as .svg, .png or .pdf\n"
+    "  --plot-log            on logarithmic axes, with the slope of log L on log N\n"
     "  --quiet               no table, no progress\n";
 
 static const char pair[] =
@@ -80,7 +86,7 @@ static const char pair[] =
     "nan where the segments cross or overlap.  Blank lines and\n"
     "lines that start with # are skipped.\n"
     "\n"
-    "  --oracle NAME         size (default), size2 or bf\n";
+    "  --oracle NAME         size (default), size2, bf, l1 or l1-grid\n";
 
 void print_help(int command) {
   switch (command) {

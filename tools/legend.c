@@ -149,6 +149,9 @@ static void draw_level_key(const picture *p) {
 void draw_legend(const picture *p) {
   draw_colour_scale(p);
   draw_length_scale(p);
-  if (p->path_count && p->level_lo <= p->level_hi) draw_level_key(p);
+  if (p->run->options->one_level)
+    draw_region_key(p);
+  else if (p->path_count && p->level_lo <= p->level_hi)
+    draw_level_key(p);
 }
 #endif

@@ -9,6 +9,7 @@ tools_hr2d_SOURCES = \
 	tools/complain.c tools/complain.h \
 	tools/draw.c tools/draw.h \
 	tools/draw-links.c \
+	tools/draw-neighbours.c \
 	tools/help.c tools/help.h \
 	tools/info.c \
 	tools/joints.c \
@@ -31,7 +32,11 @@ tools_hr2d_SOURCES = \
 	tools/solve-csv.c \
 	tools/solve-json.c \
 	tools/solve-table.c \
-	tools/study.c \
+	tools/study.c tools/study.h \
+	tools/study-csv.c \
+	tools/study-json.c \
+	tools/study-plan.c \
+	tools/study-sweep.c \
 	tools/suffix.c tools/suffix.h \
 	tools/ticks.c tools/ticks.h
 

@@ -3,6 +3,7 @@
 #include "options.h"
 
 #include <getopt.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,7 +31,11 @@ enum {
   CSV,
   DRAW,
   LINKS_OF,
+  LINK_LEVEL,
+  LINK_PARENTS,
   PLOT,
+  PLOT_LOG,
+  RESUME,
   FROM,
   TO,
   STEPS
@@ -53,7 +58,11 @@ static const struct option names[] = {{"help", no_argument, NULL, HELP},
                                       {"csv", required_argument, NULL, CSV},
                                       {"draw", required_argument, NULL, DRAW},
                                       {"links-of", required_argument, NULL, LINKS_OF},
+                                      {"link-level", required_argument, NULL, LINK_LEVEL},
+                                      {"link-parents", no_argument, NULL, LINK_PARENTS},
                                       {"plot", required_argument, NULL, PLOT},
+                                      {"plot-log", no_argument, NULL, PLOT_LOG},
+                                      {"resume", no_argument, NULL, RESUME},
                                       {"from", required_argument, NULL, FROM},
                                       {"to", required_argument, NULL, TO},
                                       {"steps", required_argument, NULL, STEPS},
@@ -74,9 +83,12 @@ static int belongs(int id) {
   case LEVEL:
   case LINKS:
   case ELEMENTS:
+  case THREADS:
   case CSV:
     return SOLVE | STUDY;
   case PLOT:
+  case PLOT_LOG:
+  case RESUME:
   case FROM:
   case TO:
   case STEPS:
@@ -131,9 +143,17 @@ static int read_multigrid(char *text, options *o) {
   return 0;
 }
 
+/* Names those oracles that the library has. */
 static int read_oracle(const char *text, options *o) {
+  static const char *const known[] = {"size", "size2", "bf", "l1", "l1-grid"};
+  char list[64] = "";
   o->oracle = hr2d_oracle_find(text);
-  return o->oracle ? 0 : usage_error("--oracle: '%s' is none of size, size2, bf", text);
+  if (o->oracle) return 0;
+  for (size_t k = 0, used = 0; k < sizeof known / sizeof *known; k++)
+    if (hr2d_oracle_find(known[k]))
+      used +=
+          (size_t)snprintf(list + used, sizeof list - used, "%s%s", k ? ", " : "", known[k]);
+  return usage_error("--oracle: '%s' is none of %s", text, list);
 }
 
 static int read_variant(const char *text, options *o) {
@@ -193,6 +213,18 @@ static int read_option(int id, char *text, options *o) {
     return read_place("at", text, &o->at[o->at_count++]);
   case LINKS_OF:
     return read_place("links-of", text, &o->links_of);
+  case LINK_LEVEL:
+    o->one_level = 1;
+    return read_unsigned("link-level", text, 0, MAX_LEVEL, &o->link_level);
+  case LINK_PARENTS:
+    o->link_parents = 1;
+    return 0;
+  case PLOT_LOG:
+    o->plot_log = 1;
+    return 0;
+  case RESUME:
+    o->resume = 1;
+    return 0;
   case JSON:
     return read_path("json", text, &o->json);
   case CSV:
@@ -217,21 +249,20 @@ static int check(options *o) {
       if (outputs[i] && outputs[j] && !strcmp(outputs[i], outputs[j]))
         return usage_error("two outputs go to '%s'", outputs[i]);
   if (o->links_of.patch && !o->draw) return usage_error("--links-of needs --draw");
+  if (o->one_level && !o->links_of.patch) return usage_error("--link-level needs --links-of");
+  if (o->link_parents && !o->link_level)
+    return usage_error("--link-parents needs --link-level with at least 1");
+  if (o->link_parents && o->policy != hr2d_policy_modified())
+    return usage_error("--link-parents needs --variant modified");
+  if (o->plot_log && !o->plot) return usage_error("--plot-log needs --plot");
+  if (o->resume && (!o->csv || to_stdout(o->csv)))
+    return usage_error("--resume needs --csv with a file");
   if (o->multigrid_ratio > 0 && o->multigrid_from <= o->epsilon)
     return usage_error("--multigrid: %g is not greater than --eps %g", o->multigrid_from,
                        o->epsilon);
-  if (o->command == STUDY && o->to >= o->from)
+  if (o->from > 0 && o->to >= o->from)
     return usage_error("--from %g is not greater than --to %g", o->from, o->to);
   return 0;
-}
-
-/* Sequences that take N through about six doublings.  Where max(A)/r reaches ε, its
-   square reaches ε²; estimates of bf are smaller. */
-static void study_defaults(options *o) {
-  const int square = o->oracle == hr2d_oracle_size2();
-  const int power = o->oracle == hr2d_oracle_bf();
-  if (!(o->from > 0)) o->from = power ? 0.25 : 1;
-  if (!(o->to > 0)) o->to = o->from / (square ? 4096 : power ? 256 : 64);
 }
 
 static int read_command(const char *word, int *command) {
@@ -298,7 +329,6 @@ int options_read(int argc, char **argv, options *o) {
   if (!o->at) return fail_memory();
   status = read_options(argc - 1, argv + 1, o);
   if (status || o->help || o->version) return status;
-  study_defaults(o);
   status = read_arguments(argc - 1, argv + 1, o);
   return status ? status : check(o);
 }

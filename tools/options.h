@@ -19,7 +19,7 @@ typedef struct place {
 typedef struct options {
   int command;
   int help, version, quiet;
-  int closure; /* 0: the paper's algorithm as it stands */
+  int closure;       /* 0: the paper's algorithm as it stands */
   const char *scene; /* file name; NULL for `pair` */
   const hr2d_oracle *oracle;
   const hr2d_policy *policy;
@@ -31,6 +31,9 @@ typedef struct options {
   place *at; /* at_count of them, in the order given */
   size_t at_count;
   place links_of;
+  int one_level; /* link_level was given */
+  unsigned link_level;
+  int link_parents, plot_log, resume;
   const char *json, *csv, *draw, *plot; /* file names; NULL: not wanted */
 } options;
 

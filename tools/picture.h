@@ -36,6 +36,20 @@ typedef struct obstacles {
   size_t count, capacity;
 } obstacles;
 
+/* A linked element, and where it starts on its patch, in element units. */
+typedef struct neighbour {
+  uint32_t element, patch;
+  double start;
+} neighbour;
+
+/* The elements linked to one element; lengths in element units. */
+typedef struct region {
+  neighbour *far;
+  size_t count;
+  double least, most; /* distances of centres */
+  double extent;      /* total length */
+} region;
+
 typedef struct picture {
   cairo_t *cr;
   const run *run;
@@ -48,7 +62,8 @@ typedef struct picture {
   int logarithmic, named;
   stroke *strokes;             /* one per patch */
   uint32_t *path;              /* the elements that hold the point of --links-of, leaf first */
-  size_t path_count;           /* 0: no links are drawn */
+  size_t path_count;           /* 0: no links are drawn; 1 with --link-level */
+  region region;               /* filled with --link-level */
   unsigned level_lo, level_hi; /* of the linked elements of other patches */
   double tree_step;            /* distance of two levels in the trees behind patches */
   unsigned tree_levels;
@@ -78,6 +93,13 @@ void draw_point(const picture *p);
 int draw_names(picture *p);
 void draw_title(const picture *p);
 void draw_legend(const picture *p);
+
+/* draw-neighbours.c: with --link-level. */
+int note_neighbour(picture *p, uint32_t far);
+void measure_region(picture *p);
+int draw_region(picture *p);
+int draw_parents(picture *p);
+void draw_region_key(const picture *p);
 
 /* The place of a value on the colour scale, in [0,1]. */
 double on_scale(const picture *p, double value);

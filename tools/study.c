@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* `hr2d study`: the paper's Figures 7 and 8 as a table, a fit and a chart. */
+#include "study.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,25 +11,13 @@
 #include "complain.h"
 #include "load.h"
 #include "output.h"
-#include "progress.h"
-#include "report.h"
 #include "run.h"
 
-typedef struct study {
-  const options *options;
-  hr2d_study_row *rows; /* options->steps of them */
-  hr2d_study_fit fit;
-  int fitted;
-  int quiet; /* no table */
-} study;
+/* Links that are counted again in a moment. */
+enum { FEW_LINKS = 10000 };
 
-/* A geometric sequence; through logarithms to base 2, so that powers of two are exact. */
-static double step_epsilon(const options *o, unsigned step) {
-  if (step == 0) return o->from;
-  if (step + 1 == o->steps) return o->to;
-  const double fraction = (double)step / (o->steps - 1);
-  return exp2(log2(o->from) + fraction * (log2(o->to) - log2(o->from)));
-}
+/* A CSV on disk lags behind the sweep by no more than this, in seconds, and a row. */
+#define CSV_EVERY 1.0
 
 static void print_row(const hr2d_study_row *row) {
   const hr2d_refine_counts *n = &row->counts;
@@ -37,37 +27,97 @@ static void print_row(const hr2d_study_row *row) {
   fflush(stdout);
 }
 
-static hr2d_status measure(study *s, hr2d_linkset *links, progress *p) {
-  const options *o = s->options;
-  hr2d_refine_options refine = refine_options(o);
-  refine.progress = progress_show;
-  refine.progress_ctx = p;
-  hr2d_status status = HR2D_OK;
+static hr2d_status count(const study *s, hr2d_linkset *links, sweep *w, size_t step,
+                         hr2d_study_row *row) {
+  hr2d_refine_options refine = refine_options(s->options);
+  refine.threads = s->options->threads;
+  refine.progress = sweep_show;
+  refine.progress_ctx = w;
+  hr2d_status status = sweep_next(w, s, step);
+  if (!status) status = hr2d_study_run(links, &refine, &w->epsilon, 1, row, NULL);
+  progress_clear(&w->line);
+  return status;
+}
+
+/* Complains about a failed count. */
+static int fail_count(const study *s, const hr2d_linkset *links, hr2d_status status) {
+  size_t done = 0;
+  for (size_t k = 0; k < s->count; k++) done += s->rows[k].counts.elements > 0;
+  if (status != HR2D_STOPPED || !done)
+    return fail_call(s->options->scene, hr2d_linkset_message(links), status);
+  fail(s->options->scene, "%zu of %zu steps done when interrupted", done, s->count);
+  return EXIT_INTERRUPTED;
+}
+
+/* Whether a row of the CSV is what this study counts.  Rows that are cheap are all
+   tried, and the cheapest in any case. */
+static int verify_row(const study *s, hr2d_linkset *links, sweep *w, size_t step, int first) {
+  const hr2d_study_row *known = &s->rows[step];
+  const hr2d_refine_counts *was = &known->counts;
+  hr2d_study_row row;
+  if (!was->elements || (!first && was->links > FEW_LINKS)) return 0;
+  const hr2d_status status = count(s, links, w, step, &row);
+  if (status) return fail_call(s->options->scene, hr2d_linkset_message(links), status);
+  const hr2d_refine_counts *is = &row.counts;
+  if (is->elements == was->elements && is->leaves == was->leaves && is->links == was->links)
+    return 0;
+  return fail(s->options->csv,
+              "cannot be resumed: it has N = %llu and L = %llu at epsilon %.17g, where this "
+              "study counts %llu and %llu",
+              (unsigned long long)was->elements, (unsigned long long)was->links, known->epsilon,
+              (unsigned long long)is->elements, (unsigned long long)is->links);
+}
+
+static int verify(study *s, hr2d_linkset *links, sweep *w) {
+  int status = 0, first = 1;
+  for (size_t k = 0; !status && s->known && k < s->count; k++) {
+    status = verify_row(s, links, w, k, first);
+    first = first && !s->rows[k].counts.elements;
+  }
+  if (status) s->count = 0; /* nothing to report */
+  return status;
+}
+
+static int measure(study *s, hr2d_linkset *links, sweep *w) {
+  const int rewrites = study_can_rewrite_csv(s);
+  double written = seconds();
+  int code = 0;
   if (!s->quiet)
     printf("%12s %12s %12s %14s %14s %10s\n", "epsilon", "N", "leaves", "L", "oracle calls",
            "seconds");
-  for (p->steps = o->steps; !status && p->step < p->steps; p->step++) {
-    const double epsilon = step_epsilon(o, p->step);
-    status = hr2d_study_run(links, &refine, &epsilon, 1, &s->rows[p->step], NULL);
-    progress_clear(p);
-    if (!status && !s->quiet) print_row(&s->rows[p->step]);
+  for (size_t k = 0; !code && k < s->count; k++) {
+    hr2d_study_row *row = &s->rows[k];
+    if (!row->counts.elements) {
+      const double epsilon = row->epsilon;
+      const hr2d_status status = count(s, links, w, k, row);
+      if (status) {
+        *row = (hr2d_study_row){.epsilon = epsilon};
+        return fail_count(s, links, status);
+      }
+      if (rewrites && seconds() - written > CSV_EVERY) {
+        code = study_write_csv(s);
+        if (code) s->count = 0; /* what failed once would fail again */
+        written = seconds();
+      }
+    }
+    if (!s->quiet) print_row(row);
   }
-  return status;
+  s->complete = !code;
+  return code;
 }
 
 static int run_study(study *s, const hr2d_scene *scene) {
   const options *o = s->options;
   hr2d_hierarchy *hierarchy = NULL;
   hr2d_linkset *links = NULL;
-  progress p;
+  sweep w;
   hr2d_status status = hr2d_hierarchy_create(scene, &hierarchy);
   if (!status)
     status = hr2d_linkset_create(hierarchy, o->oracle, NULL, o->policy, NULL, &links);
-  progress_start(&p, o->quiet);
-  if (!status) status = measure(s, links, &p);
-  const int code = status
-                       ? fail_call(o->scene, links ? hr2d_linkset_message(links) : "", status)
-                       : EXIT_DONE;
+  int code = status ? fail_call(o->scene, "", status) : 0;
+  sweep_start(&w, s);
+  if (!code) code = verify(s, links, &w);
+  if (!code) code = measure(s, links, &w);
   hr2d_linkset_destroy(links);
   hr2d_hierarchy_destroy(hierarchy);
   return code;
@@ -84,65 +134,18 @@ static void print_fit(const study *s) {
   printf("R² = %.9f, slope of log L on log N = %.4f\n", f->r2, f->slope);
 }
 
-static json_t *row_entry(const hr2d_study_row *row) {
-  json_t *entry = json_object();
-  json_put(&entry, "epsilon", json_number(row->epsilon));
-  json_put(&entry, "elements", json_count(row->counts.elements));
-  json_put(&entry, "leaves", json_count(row->counts.leaves));
-  json_put(&entry, "links", json_count(row->counts.links));
-  json_put(&entry, "oracle_calls", json_count(row->counts.oracle_calls));
-  json_put(&entry, "seconds", json_number(row->seconds));
-  return entry;
-}
-
-static json_t *fit_entry(const hr2d_study_fit *fit) {
-  json_t *entry = json_object();
-  json_put(&entry, "a", json_number(fit->a));
-  json_put(&entry, "b", json_number(fit->b));
-  json_put(&entry, "c", json_number(fit->c));
-  json_put(&entry, "r2", json_number(fit->r2));
-  json_put(&entry, "slope", json_number(fit->slope));
-  return entry;
-}
-
-static int write_json(const study *s) {
-  const options *o = s->options;
-  json_t *root = json_object(), *rows = json_array();
-  for (unsigned k = 0; k < o->steps; k++) json_push(&rows, row_entry(&s->rows[k]));
-  json_put(&root, "scene", json_text(o->scene));
-  json_put(&root, "oracle", json_text(o->oracle->name));
-  json_put(&root, "variant", json_text(o->policy->name));
-  json_put(&root, "rows", rows);
-  json_put(&root, "fit", s->fitted ? fit_entry(&s->fit) : json_null());
-  return json_write(root, o->json);
-}
-
-static int write_csv(const study *s) {
-  output out;
-  const int status = output_open(&out, s->options->csv);
-  if (status) return status;
-  fputs("epsilon,elements,leaves,links,oracle_calls,seconds\n", out.stream);
-  for (unsigned k = 0; k < s->options->steps; k++) {
-    const hr2d_refine_counts *n = &s->rows[k].counts;
-    fprintf(out.stream, "%.17g,%llu,%llu,%llu,%llu,%.17g\n", s->rows[k].epsilon,
-            (unsigned long long)n->elements, (unsigned long long)n->leaves,
-            (unsigned long long)n->links, (unsigned long long)n->oracle_calls,
-            s->rows[k].seconds);
-  }
-  return output_close(&out, 0);
-}
-
+/* Everything that was asked for, of the rows that are there. */
 static int report(study *s) {
   const options *o = s->options;
   int status = 0;
-  const hr2d_status fitting = hr2d_study_fit_rows(s->rows, o->steps, &s->fit);
+  const hr2d_status fitting = hr2d_study_fit_rows(s->rows, s->count, &s->fit);
   if (fitting && fitting != HR2D_EINVAL) return fail_call(o->scene, "", fitting);
   s->fitted = !fitting;
   if (!s->quiet) print_fit(s);
-  if (o->csv) status = write_csv(s);
-  if (o->json && !status) status = write_json(s);
+  if (o->csv) status = study_write_csv(s);
+  if (o->json && !status) status = study_write_json(s);
   if (o->plot && !status)
-    status = chart_study(o, s->rows, o->steps, s->fitted ? &s->fit : NULL);
+    status = chart_study(o, s->rows, s->count, s->fitted ? &s->fit : NULL);
   return status;
 }
 
@@ -154,9 +157,15 @@ int study_command(const options *o) {
   if (!status) status = load_scene(o->scene, &scene);
   if (status) return status;
   study s = {.options = o, .quiet = o->quiet || to_stdout(o->json) || to_stdout(o->csv)};
-  s.rows = calloc(o->steps, sizeof *s.rows);
-  status = s.rows ? run_study(&s, scene) : fail_memory();
-  if (!status) status = report(&s);
+  status = study_plan(&s, scene);
+  if (!status) {
+    status = run_study(&s, scene);
+    study_drop_uncounted(&s);
+    if (s.count) {
+      const int reporting = report(&s);
+      if (!status) status = reporting;
+    }
+  }
   free(s.rows);
   hr2d_scene_destroy(scene);
   return status;

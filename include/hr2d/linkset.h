@@ -87,6 +87,17 @@ HR2D_API hr2d_refine_counts hr2d_linkset_counts(const hr2d_linkset *links);
 /** Bytes held by the links: 16 each, in blocks of 4096. */
 HR2D_API uint64_t hr2d_linkset_bytes(const hr2d_linkset *links);
 
+/**
+ * Checks that every transport is accounted for exactly once (paper, section 2): each
+ * pair of leaves that see each other lies below exactly one link, per direction if
+ * the set is directed; no link joins what cannot see each other; and every exchange
+ * area is that of its elements.
+ *
+ * @return HR2D_OK, HR2D_ENOMEM, or HR2D_EINVAL with a message that names the elements
+ * Exact: nothing is sampled.  Cost O(n² + L·levels²), memory O(N + L).
+ */
+HR2D_API hr2d_status hr2d_linkset_validate(hr2d_linkset *links);
+
 #ifdef __cplusplus
 }
 #endif

@@ -93,7 +93,24 @@ HR2D_API const hr2d_oracle *hr2d_oracle_size2(void);
 HR2D_API const hr2d_oracle *hr2d_oracle_bf(void);
 
 /**
- * A built-in oracle by name: "size", "size2", "bf".
+ * The exact L¹ error of the geometry term (section 4),
+ *   ∫_{A_x} ∫_{A_y} |G(x_c,y_c) − G(x,y)| dy dx,
+ * a length, with G = 0 where one point lies behind the other element.  Symmetric.
+ * The value is good to a relative 1e-10; decisions are those of the value, mostly from
+ * bounds.  Infinite where the centres coincide.
+ */
+HR2D_API const hr2d_oracle *hr2d_oracle_l1(void);
+
+/**
+ * The same on the paper's 1024×1024 grid: G is sampled at 1024 midpoints of each patch,
+ * and a pair's error is the sum over its samples.  An element of one cell or less has its
+ * centre as sample, so that patches of one length are never subdivided below level 10.
+ * A length, symmetric.
+ */
+HR2D_API const hr2d_oracle *hr2d_oracle_l1_grid(void);
+
+/**
+ * A built-in oracle by name: "size", "size2", "bf", "l1", "l1-grid".
  * @return NULL if there is none of that name
  */
 HR2D_API const hr2d_oracle *hr2d_oracle_find(const char *name);
