@@ -75,7 +75,7 @@ static int is_right(const validator *v, uint32_t element) {
 
 static hr2d_status check_areas(validator *v, const hr2d_link *link, size_t count) {
   const hr2d_element *element = v->h->element;
-  hr2d_pair pair[AREAS];
+  hr2d_pair pair[AREAS] = {{0}};
   double area[AREAS];
   for (size_t k = 0; k < count; k++) {
     pair[k] = link[k].pair;
