@@ -150,7 +150,7 @@ static double run_sweeps(hr2d_scene *scene, double epsilon, uint64_t *links) {
   const double start = seconds_now();
   if (hr2d_solve(set, NULL, &solution)) exit(EXIT_FAILURE);
   const double seconds = seconds_now() - start;
-  *links = hr2d_linkset_size(set) * hr2d_solution_sweeps(solution);
+  *links = hr2d_linkset_size(set) * hr2d_solution_work(solution).gathers;
   hr2d_solution_destroy(solution);
   hr2d_linkset_destroy(set);
   hr2d_hierarchy_destroy(hierarchy);

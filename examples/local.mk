@@ -1,10 +1,17 @@
 # Examples use the library as any program does; `make check` compares what they
 # print with NAME.expected.
-EXAMPLES = examples/own-oracle examples/tour
+EXAMPLES = examples/furnace-section examples/own-oracle examples/solar-panels \
+	examples/street-canyon examples/tour
 check_PROGRAMS += $(EXAMPLES)
+examples_furnace_section_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_furnace_section_LDADD = libhr2d.la -lm
 examples_own_oracle_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_own_oracle_LDADD = libhr2d.la -lm
+examples_solar_panels_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_solar_panels_LDADD = libhr2d.la -lm
+examples_street_canyon_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_street_canyon_LDADD = libhr2d.la -lm
 examples_tour_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_tour_LDADD = libhr2d.la
 
-EXTRA_DIST += examples/scenes examples/own-oracle.expected examples/tour.expected
+EXTRA_DIST += examples/scenes $(EXAMPLES:=.expected)

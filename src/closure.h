@@ -3,9 +3,10 @@
 #ifndef HR2D_SRC_CLOSURE_H
 #define HR2D_SRC_CLOSURE_H
 
+#include "rows.h"
 #include "transport.h"
 
-/* Sets t->closure from the links; HR2D_OK or HR2D_ENOMEM. */
-hr2d_status hr2di_close(hr2di_transport *t);
+/* Sets t->closure from the links and the exact row sums; HR2D_OK or HR2D_ENOMEM. */
+hr2d_status hr2di_close(hr2di_transport *t, const hr2di_rows *rows);
 
 #endif

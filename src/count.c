@@ -15,11 +15,13 @@
 #include "alloc.h"
 #include "project.h"
 #include "scene-impl.h"
+#include "shaded.h"
 
 enum {
   ENOUGH = 2048, /* refused pairs to share out */
   SHARE = 8,     /* pairs to a task */
-  MOST_WORKERS = 256
+  MOST_WORKERS = 256,
+  STACKS = 4
 };
 
 typedef struct worker {
@@ -35,17 +37,29 @@ typedef struct team {
   worker *worker;
   hr2d_hierarchy **clone; /* of each worker */
 
-  hr2di_stack open, guarded; /* the pairs to share out */
-  size_t next_patch;         /* the first not yet projected */
+  hr2di_stack stack[STACKS]; /* the pairs to share out */
+  hr2di_shaded shaded;
+  size_t next_patch; /* the first not yet projected */
 
   atomic_ullong links_told; /* by all workers */
   atomic_ullong tasks_done;
   atomic_int stop;
 } team;
 
+static size_t shares(size_t pairs) {
+  return (pairs + SHARE - 1) / SHARE;
+}
+
 static unsigned long long task_count(const team *t) {
-  return (t->open.count + SHARE - 1) / SHARE + (t->guarded.count + SHARE - 1) / SHARE +
-         (t->links->hierarchy->scene->patches - t->next_patch);
+  unsigned long long tasks = t->links->hierarchy->scene->patches - t->next_patch;
+  for (int k = 0; k < STACKS; k++) tasks += shares(t->stack[k].count);
+  return tasks + shares(t->shaded.stack.count);
+}
+
+/* The stacks of a projector but the one in the shade. */
+static hr2di_stack *stack_of(hr2di_projector *p, int k) {
+  hr2di_stack *const stack[STACKS] = {&p->open, &p->guarded, &p->fresh[0], &p->fresh[1]};
+  return stack[k];
 }
 
 /* Every worker looks whether another has failed; the calling thread tells progress. */
@@ -106,7 +120,7 @@ static hr2d_status begin(team *t) {
   hr2di_projector *p = t->worker[0].projector;
   const size_t n = t->links->hierarchy->scene->patches;
   hr2d_status status = HR2D_OK;
-  while (t->next_patch < n && !status && p->open.count + p->guarded.count < ENOUGH) {
+  while (t->next_patch < n && !status && hr2di_waiting(p) < ENOUGH) {
     status = hr2di_project_row(p, t->next_patch++);
     if (!status) status = hr2di_drain(p, t->count > 1 ? ENOUGH : SIZE_MAX);
   }
@@ -121,18 +135,30 @@ static hr2d_status take_share(hr2di_projector *p, hr2di_stack *to, const hr2di_s
   return status;
 }
 
+static hr2d_status take_shaded(hr2di_projector *p, const hr2di_shaded *from, size_t share) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = share * SHARE; k < from->stack.count && k < (share + 1) * SHARE && !status;
+       k++)
+    status = hr2di_share_shaded(p, from, k);
+  return status;
+}
+
+/* Pairs of some stack, or a patch not yet projected. */
+static hr2d_status take(team *t, hr2di_projector *p, size_t task) {
+  for (int k = 0; k < STACKS; k++) {
+    const size_t some = shares(t->stack[k].count);
+    if (task < some) return take_share(p, stack_of(p, k), &t->stack[k], task);
+    task -= some;
+  }
+  const size_t shaded = shares(t->shaded.stack.count);
+  if (task < shaded) return take_shaded(p, &t->shaded, task);
+  return hr2di_project_row(p, t->next_patch + (task - shaded));
+}
+
 static hr2d_status do_task(team *t, hr2di_projector *p, size_t task) {
-  const size_t open = (t->open.count + SHARE - 1) / SHARE;
-  const size_t guarded = (t->guarded.count + SHARE - 1) / SHARE;
   const uint64_t before = p->counts.links;
   hr2d_status status = tell(p);
-  if (status) return status;
-  if (task < open)
-    status = take_share(p, &p->open, &t->open, task);
-  else if (task < open + guarded)
-    status = take_share(p, &p->guarded, &t->guarded, task - open);
-  else
-    status = hr2di_project_row(p, t->next_patch + (task - open - guarded));
+  if (!status) status = take(t, p, task);
   if (!status) status = hr2di_drain(p, SIZE_MAX);
   if (p != t->worker[0].projector) atomic_fetch_add(&t->links_told, p->counts.links - before);
   atomic_fetch_add(&t->tasks_done, 1);
@@ -165,9 +191,12 @@ static void work(team *t) {
 /* The pairs on the first worker's stacks become everybody's. */
 static void share_out(team *t) {
   hr2di_projector *p = t->worker[0].projector;
-  t->open = p->open;
-  t->guarded = p->guarded;
-  p->open = p->guarded = (hr2di_stack){0};
+  for (int k = 0; k < STACKS; k++) {
+    t->stack[k] = *stack_of(p, k);
+    *stack_of(p, k) = (hr2di_stack){0};
+  }
+  t->shaded = p->shaded;
+  p->shaded = (hr2di_shaded){0};
   hr2d_status status = HR2D_OK;
   for (size_t k = 1; k < t->count && !status; k++) {
     status = hire(t, k, t->clone[0]);
@@ -196,7 +225,11 @@ static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
     sum.links += part->links;
     sum.limited_links += part->limited_links;
     sum.oracle_calls += part->oracle_calls;
+    sum.facing_tests += part->facing_tests;
     sum.visibility_tests += part->visibility_tests;
+    sum.blocked_pairs += part->blocked_pairs;
+    sum.partial_links += part->partial_links;
+    sum.dark_pairs += part->dark_pairs;
   }
   if (t->options.max_links && sum.links > t->options.max_links)
     return hr2di_fail(&links->message, HR2D_EMAX_LINKS, "more than %llu links are needed",
@@ -219,8 +252,7 @@ static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
 
 static int finished(const team *t) {
   const hr2di_projector *p = t->worker[0].projector;
-  return p->open.count + p->guarded.count == 0 &&
-         t->next_patch == t->links->hierarchy->scene->patches;
+  return hr2di_waiting(p) == 0 && t->next_patch == t->links->hierarchy->scene->patches;
 }
 
 static hr2d_status count_as_team(team *t, hr2d_refine_counts *counts) {
@@ -252,8 +284,10 @@ hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *op
     if (t.worker[k].projector) hr2di_projector_end(t.worker[k].projector);
     hr2d_hierarchy_destroy(t.clone[k]);
   }
-  hr2di_free(&links->alloc, t.open.pair);
-  hr2di_free(&links->alloc, t.guarded.pair);
+  for (int k = 0; k < STACKS; k++) hr2di_free(&links->alloc, t.stack[k].pair);
+  hr2di_free(&links->alloc, t.shaded.stack.pair);
+  hr2di_free(&links->alloc, t.shaded.first);
+  hr2di_free(&links->alloc, t.shaded.list.wall);
   hr2di_free(&links->alloc, t.worker);
   hr2di_free(&links->alloc, t.clone);
   return status;

@@ -11,7 +11,7 @@ static const char *const effect_name[HR2D_EFFECT_COUNT] = {
     [HR2D_EFFECT_OCCLUSION] = "occlusion", [HR2D_EFFECT_INTERREFLECTION] = "interreflection",
     [HR2D_EFFECT_EMISSION] = "emission",   [HR2D_EFFECT_BANDS] = "bands",
     [HR2D_EFFECT_TWO_SIDED] = "two-sided", [HR2D_EFFECT_FACING] = "facing",
-    [HR2D_EFFECT_CORNER] = "corner",
+    [HR2D_EFFECT_CORNER] = "corner",       [HR2D_EFFECT_BACKGROUND] = "background",
 };
 
 const char *hr2d_effect_name(hr2d_effect effect) {
@@ -70,6 +70,17 @@ static void analyse_materials(hr2d_scene *scene) {
     }
 }
 
+static void analyse_background(hr2d_scene *scene) {
+  set(scene, HR2D_EFFECT_BACKGROUND, 0, "no light comes in from the surroundings");
+  for (size_t band = scene->bands; band-- > 0;) {
+    const double background = hr2d_scene_background(scene, band);
+    if (!(background > 0)) continue;
+    set(scene, HR2D_EFFECT_BACKGROUND, 1, "the surroundings send %g", background);
+    if (!scene->effect[HR2D_EFFECT_EMISSION].on)
+      set(scene, HR2D_EFFECT_EMISSION, 1, "the surroundings send light in");
+  }
+}
+
 static void set_pair(hr2d_scene *scene, hr2d_effect effect, const char *what, size_t i,
                      size_t j) {
   if (scene->effect[effect].on) return;
@@ -99,8 +110,20 @@ static size_t analyse_pairs(hr2d_scene *scene) {
   return seen;
 }
 
+/* A forced effect is on for that reason alone where the scene does not call for it. */
+static void force(hr2d_scene *scene) {
+  for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
+    scene->effect[e].called_for = scene->effect[e].on;
+    if (!scene->effect[e].forced || scene->effect[e].on) continue;
+    char reason[sizeof scene->effect[e].reason];
+    snprintf(reason, sizeof reason, "%s", scene->effect[e].reason);
+    set(scene, (hr2d_effect)e, 1, "forced, though %.350s", reason);
+  }
+}
+
 hr2d_status hr2di_analyse_effects(hr2d_scene *scene) {
   analyse_materials(scene);
+  analyse_background(scene);
   const size_t seen = analyse_pairs(scene);
   hr2di_occlusion found;
   const hr2d_status status = hr2di_find_occluder(scene, &found);
@@ -112,5 +135,6 @@ hr2d_status hr2di_analyse_effects(hr2d_scene *scene) {
   else
     set(scene, HR2D_EFFECT_OCCLUSION, 0,
         "nothing can stand between patches that see each other (pairs: %zu)", seen);
+  force(scene);
   return HR2D_OK;
 }

@@ -30,7 +30,7 @@ typedef struct hr2di_geojson {
   size_t segments, added;
 
   /* Room that is kept from feature to feature. */
-  hr2di_values emission, reflectance;
+  hr2di_values background, emission, reflectance;
   hr2d_point *point;
   size_t point_capacity;
   char *name;

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "alloc.h"
-#include "file.h"
 #include "geojson-impl.h"
+#include "scene-file.h"
 #include "scene-impl.h"
 
 static const char *const kinds[] = {
@@ -26,34 +26,34 @@ const json_t *hr2di_geojson_member(const json_t *object, const char *key) {
   return json_is_null(member) ? NULL : member;
 }
 
-/* Effects of the whole scene.  They are checked although this version has none of
-   them: a zero is then a statement that the scene does without. */
-static hr2d_status read_scene_effect(hr2di_geojson *reader, const json_t *members,
-                                     const char *key, const char *what, int bands) {
-  const json_t *json = hr2di_geojson_member(members, key);
+/* Checked although this version has none: a zero is then a statement that the scene does
+   without. */
+static hr2d_status read_medium(hr2di_geojson *reader, const json_t *members) {
+  const json_t *json = hr2di_geojson_member(members, "medium");
   size_t count;
-  if (json && !bands && !json_is_number(json))
-    return hr2di_fail(reader->message, HR2D_ESYNTAX, "hr2d: %s: must be a number, not %s", key,
+  if (json && !json_is_number(json))
+    return hr2di_fail(reader->message, HR2D_ESYNTAX, "hr2d: medium: must be a number, not %s",
                       hr2di_geojson_kind(json));
   hr2d_status status =
-      hr2di_geojson_values(reader, "hr2d", key, json, DBL_MAX, &reader->emission, &count);
-  if (status) return status;
-  for (size_t k = 0; k < count; k++)
-    if (reader->emission.value[k] > 0)
-      return hr2di_fail(reader->message, HR2D_EUNSUPPORTED,
-                        "hr2d: %s: %s is not supported by this version", key, what);
-  return HR2D_OK;
+      hr2di_geojson_values(reader, "hr2d", "medium", json, DBL_MAX, &reader->emission, &count);
+  if (!status && count && reader->emission.value[0] > 0)
+    return hr2di_fail(reader->message, HR2D_EUNSUPPORTED,
+                      "hr2d: medium: an absorbing medium is not supported by this version");
+  return status;
 }
 
-static hr2d_status read_scene_effects(hr2di_geojson *reader, const json_t *root) {
+static hr2d_status read_scene_effects(hr2di_geojson *reader, const json_t *root,
+                                      size_t *background_bands) {
   const json_t *members = hr2di_geojson_member(root, "hr2d");
+  *background_bands = 0;
   if (!members) return HR2D_OK;
   if (!json_is_object(members))
     return hr2di_fail(reader->message, HR2D_ESYNTAX, "hr2d: must be an object, not %s",
                       hr2di_geojson_kind(members));
-  hr2d_status status = read_scene_effect(reader, members, "background", "background light", 1);
-  return status ? status
-                : read_scene_effect(reader, members, "medium", "an absorbing medium", 0);
+  hr2d_status status = hr2di_geojson_values(reader, "hr2d", "background",
+                                            hr2di_geojson_member(members, "background"),
+                                            DBL_MAX, &reader->background, background_bands);
+  return status ? status : read_medium(reader, members);
 }
 
 static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
@@ -70,10 +70,13 @@ static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
   if (!json_is_array(features))
     return hr2di_fail(reader->message, HR2D_ESYNTAX, "features: must be an array, not %s",
                       hr2di_geojson_kind(features));
-  hr2d_status status = read_scene_effects(reader, root);
+  size_t background_bands;
+  hr2d_status status = read_scene_effects(reader, root, &background_bands);
   for (size_t k = 0; !status && k < json_array_size(features); k++)
     status = hr2di_geojson_feature(reader, json_array_get(features, k), k + 1);
-  return status;
+  /* Last, so that there is nothing to take back; a file that says nothing changes nothing. */
+  if (status || !background_bands) return status;
+  return hr2d_scene_set_background(reader->scene, reader->background.value, background_bands);
 }
 
 /* Text on its way to jansson, byte by byte: its lexer drops a byte in silence when its
@@ -112,55 +115,20 @@ static hr2d_status load(const char *text, size_t size, json_t **root, hr2di_mess
                     nul ? "a string must not contain \\u0000" : error.text);
 }
 
-static hr2d_status add_text(hr2d_scene *scene, const char *text, size_t size) {
-  /* A byte order mark may be ignored (RFC 8259, section 8.1), and some editors write it. */
-  if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) {
-    text += 3;
-    size -= 3;
-  }
+hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size) {
   hr2di_geojson reader = {.scene = scene,
                           .alloc = hr2di_scene_allocator(scene),
                           .message = hr2di_scene_message(scene)};
   json_t *root;
   hr2d_status status = load(text, size, &root, reader.message);
   if (status) return status;
-
-  const size_t before = hr2d_scene_patches(scene);
   status = read_collection(&reader, root);
-  if (status) hr2di_scene_truncate(scene, before);
 
   json_decref(root);
+  hr2di_free(reader.alloc, reader.background.value);
   hr2di_free(reader.alloc, reader.emission.value);
   hr2di_free(reader.alloc, reader.reflectance.value);
   hr2di_free(reader.alloc, reader.point);
   hr2di_free(reader.alloc, reader.name);
-  return status;
-}
-
-/* What both entries refuse before they look at their source. */
-static hr2d_status check_call(hr2d_scene *scene, int source_given) {
-  if (!scene) return HR2D_EINVAL;
-  hr2di_message *message = hr2di_scene_message(scene);
-  if (!source_given) return hr2di_fail(message, HR2D_EINVAL, "there is nothing to read from");
-  if (hr2di_scene_committed(scene))
-    return hr2di_fail(message, HR2D_ESTATE, "the scene is committed: nothing can be added");
-  return HR2D_OK;
-}
-
-hr2d_status hr2d_scene_parse(hr2d_scene *scene, const char *text, size_t size) {
-  hr2d_status status = check_call(scene, text || !size);
-  return status ? status : add_text(scene, size ? text : "", size);
-}
-
-hr2d_status hr2d_scene_read(hr2d_scene *scene, const char *path) {
-  hr2d_status status = check_call(scene, path != NULL);
-  if (status) return status;
-  const hr2d_allocator *alloc = hr2di_scene_allocator(scene);
-  char *text;
-  size_t size;
-  status = hr2di_file_read(alloc, path, &text, &size, hr2di_scene_message(scene));
-  if (status) return status;
-  status = add_text(scene, text, size);
-  hr2di_free(alloc, text);
   return status;
 }

@@ -15,6 +15,7 @@
 #include "linkset-impl.h"
 #include "predicates.h"
 #include "scene-impl.h"
+#include "shaded.h"
 
 enum { AREAS = 256 };
 
@@ -39,6 +40,7 @@ typedef struct validator {
   node *node;
   hr2d_pair *stack;
   size_t capacity;
+  hr2di_sight *sight; /* NULL where nothing can be in the way */
 } validator;
 
 static hr2d_status fail(validator *v, hr2d_pair pair, const char *what) {
@@ -73,6 +75,23 @@ static int is_right(const validator *v, uint32_t element) {
   return element == v->h->element[v->h->parent[element]].child + 1;
 }
 
+static hr2d_status out_of_memory(validator *v) {
+  return hr2di_fail(&v->links->message, HR2D_ENOMEM, "out of memory");
+}
+
+/* The exchange areas that links should have. */
+static hr2d_status integrate(validator *v, const hr2d_pair *pair, size_t count, double *area) {
+  hr2d_status status = HR2D_OK;
+  if (!v->sight) hr2di_exchange_areas(v->h->element, pair, count, area);
+  for (size_t k = 0; k < count && v->sight && !status; k++) {
+    hr2di_view view;
+    if (hr2di_shaded_area(v->sight, v->h, pair[k], &area[k], &view)) return out_of_memory(v);
+    if (view == HR2DI_BLOCKED)
+      status = fail(v, pair[k], "are linked, but are hidden from each other");
+  }
+  return status;
+}
+
 static hr2d_status check_areas(validator *v, const hr2d_link *link, size_t count) {
   const hr2d_element *element = v->h->element;
   hr2d_pair pair[AREAS] = {{0}};
@@ -86,7 +105,8 @@ static hr2d_status check_areas(validator *v, const hr2d_link *link, size_t count
     if (element[pair[k].first].patch == element[pair[k].second].patch)
       return fail(v, pair[k], "are linked, but belong to the same patch");
   }
-  hr2di_exchange_areas(element, pair, count, area);
+  const hr2d_status status = integrate(v, pair, count, area);
+  if (status) return status;
   for (size_t k = 0; k < count; k++)
     if (!(link[k].exchange_area == area[k])) {
       const double unit = hr2d_scene_unit(v->h->scene);
@@ -196,17 +216,30 @@ static int inherits(const validator *v, hr2d_pair pair, uint32_t top, hr2di_faci
   }
 }
 
+/* Whether walls hide a pair; *hidden is 0 where there are none. */
+static hr2d_status look(validator *v, hr2d_pair pair, int *hidden) {
+  hr2di_view view = HR2DI_CLEAR;
+  double area;
+  if (v->sight && hr2di_shaded_area(v->sight, v->h, pair, &area, &view))
+    return out_of_memory(v);
+  *hidden = view == HR2DI_BLOCKED;
+  return HR2D_OK;
+}
+
 /* Checks that no leaves below e and f, which no link joins, see each other. */
 static hr2d_status check_unseen(validator *v, uint32_t e, uint32_t f) {
   const hr2d_element *element = v->h->element;
   size_t count = 0;
   for (hr2d_pair p = {e, f};;) {
-    if (!inherits(v, p, f, HR2DI_FACING_NONE)) {
+    int hidden = 0;
+    const hr2d_status status = look(v, p, &hidden);
+    if (status) return status;
+    if (!hidden && !inherits(v, p, f, HR2DI_FACING_NONE)) {
       const uint32_t left = element[p.first].child, right = element[p.second].child;
       if (!left && !right)
         return fail(v, (hr2d_pair){e, f}, "see each other, but no link joins them");
       if (hr2di_reserve(&v->links->alloc, &v->stack, &v->capacity, count + 2, sizeof p))
-        return hr2di_fail(&v->links->message, HR2D_ENOMEM, "out of memory");
+        return out_of_memory(v);
       for (uint32_t k = 0; k < 2; k++)
         v->stack[count++] =
             left ? (hr2d_pair){left + k, p.second} : (hr2d_pair){p.first, right + k};
@@ -226,7 +259,7 @@ static hr2d_status check_filled(validator *v, uint32_t e, uint32_t q, hr2di_faci
     }
     if (!v->node[f].whole) {
       const hr2d_status status =
-          facing == HR2DI_FACING_FULL
+          facing == HR2DI_FACING_FULL && !v->sight
               ? fail(v, (hr2d_pair){e, f}, "see each other, but no link joins them")
               : check_unseen(v, e, f);
       if (status) return status;
@@ -285,7 +318,8 @@ static hr2d_status check_patches(validator *v, uint32_t p, uint32_t q) {
                                         !inherits(v, pair, q, HR2DI_FACING_FULL)))
       return fail(v, pair, "are linked, but cannot see each other");
   }
-  if (facing == HR2DI_FACING_NONE) return HR2D_OK;
+  if (facing == HR2DI_FACING_NONE || !hr2di_lit(v->h->scene, p) || !hr2di_lit(v->h->scene, q))
+    return HR2D_OK;
   mark(v, 0);
   const hr2d_status status = walk(v, p, q, facing);
   mark(v, 1);
@@ -316,10 +350,14 @@ hr2d_status hr2d_linkset_validate(hr2d_linkset *links) {
   v.node = hr2di_alloc(alloc, h->elements, sizeof *v.node);
   hr2d_status status;
   if (!v.pair || !v.spare || !v.bucket || !v.node) {
-    status = hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory");
+    status = out_of_memory(&v);
   } else {
     for (size_t e = 0; e < h->elements; e++) v.node[e] = (node){.links = NO_LINK, .by = NOBODY};
+    hr2di_sight sight;
+    hr2di_sight_start(&sight, &h->scene->walls, alloc);
+    if (h->scene->effect[HR2D_EFFECT_OCCLUSION].on) v.sight = &sight;
     status = check_all(&v);
+    hr2di_sight_end(&sight);
   }
   hr2di_free(alloc, v.pair);
   hr2di_free(alloc, v.spare);

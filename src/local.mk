@@ -7,8 +7,14 @@ libhr2d_core_la_CFLAGS = $(AM_CFLAGS) $(OPENMP_CFLAGS)
 libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
 libhr2d_core_la_SOURCES = \
 	src/alloc.c src/alloc.h \
+	src/boxes.c src/boxes.h \
+	src/classes.c src/classes.h \
 	src/closure.c src/closure.h \
+	src/commit.c \
+	src/corridor.c src/corridor.h \
 	src/count.c \
+	src/crossings.c src/crossings.h \
+	src/cuts.c src/cuts.h \
 	src/determinant.c src/determinant.h \
 	src/effects.c \
 	src/exchange-area.c src/exchange-area.h \
@@ -29,7 +35,9 @@ libhr2d_core_la_SOURCES = \
 	src/l1-breaks.c \
 	src/l1-frame.c src/l1-frame.h \
 	src/l1-grid.c src/l1-grid.h \
+	src/light.c \
 	src/linkset.c \
+	src/matrix.c \
 	src/linkset-impl.h \
 	src/linkset-validate.c \
 	src/message.c src/message.h \
@@ -42,17 +50,30 @@ libhr2d_core_la_SOURCES = \
 	src/project.c src/project.h \
 	src/projector.c \
 	src/refine.c \
+	src/rows.c src/rows.h \
+	src/runs.c src/runs.h \
 	src/scene.c \
+	src/scene-file.c src/scene-file.h \
 	src/scene-impl.h \
+	src/shaded.c src/shaded.h \
+	src/shaft.c src/shaft.h \
+	src/side.h \
+	src/sight.c src/sight.h \
 	src/solution.c \
 	src/solution-impl.h \
 	src/solve.c \
+	src/split.c \
 	src/status.c \
 	src/study.c \
 	src/sum.h \
 	src/transport.c src/transport.h \
 	src/validate.c \
 	src/version.c \
+	src/visible.c \
+	src/vs2.c \
+	src/vs2-impl.h \
+	src/vs2-words.c \
+	src/walls.c src/walls.h \
 	src/wide.h
 
 lib_LTLIBRARIES += libhr2d.la

@@ -38,18 +38,25 @@ static double size2_of_pair(const hr2d_element *i, const hr2d_element *j) {
   return size * size;
 }
 
+/* In a pair that is only partly visible the kernel jumps at the shadow's border instead
+   of changing smoothly: its elements must be half as long. */
+static double weight(const hr2d_batch *batch, size_t k) {
+  return batch->partial && batch->partial[k] ? 2 : 1;
+}
+
 static hr2d_status estimate_size(void *ctx, const hr2d_batch *batch, double *error) {
   (void)ctx;
   for (size_t k = 0; k < batch->count; k++)
-    error[k] = size_of_pair(&batch->elements[batch->pairs[k].first],
-                            &batch->elements[batch->pairs[k].second]);
+    error[k] = weight(batch, k) * size_of_pair(&batch->elements[batch->pairs[k].first],
+                                               &batch->elements[batch->pairs[k].second]);
   return HR2D_OK;
 }
 
 static hr2d_status estimate_size2(void *ctx, const hr2d_batch *batch, double *error) {
   (void)ctx;
   for (size_t k = 0; k < batch->count; k++)
-    error[k] = size2_of_pair(&batch->elements[batch->pairs[k].first],
+    error[k] = weight(batch, k) * weight(batch, k) *
+               size2_of_pair(&batch->elements[batch->pairs[k].first],
                              &batch->elements[batch->pairs[k].second]);
   return HR2D_OK;
 }
@@ -90,15 +97,29 @@ static hr2d_status accept_squares(const hr2d_batch *batch, double epsilon2, doub
   return HR2D_OK;
 }
 
+static hr2d_status accept_partial(const hr2d_batch *batch, double epsilon, double factor,
+                                  double (*estimate)(const hr2d_element *,
+                                                     const hr2d_element *),
+                                  unsigned char *accepted) {
+  for (size_t k = 0; k < batch->count; k++)
+    accepted[k] =
+        (batch->partial[k] ? factor : 1) * estimate(&batch->elements[batch->pairs[k].first],
+                                                    &batch->elements[batch->pairs[k].second]) <=
+        epsilon;
+  return HR2D_OK;
+}
+
 static hr2d_status accept_size(void *ctx, const hr2d_batch *batch, double epsilon,
                                unsigned char *accepted) {
   (void)ctx;
+  if (batch->partial) return accept_partial(batch, epsilon, 2, size_of_pair, accepted);
   return accept_squares(batch, epsilon * epsilon, epsilon, size_of_pair, accepted);
 }
 
 static hr2d_status accept_size2(void *ctx, const hr2d_batch *batch, double epsilon,
                                 unsigned char *accepted) {
   (void)ctx;
+  if (batch->partial) return accept_partial(batch, epsilon, 4, size2_of_pair, accepted);
   return accept_squares(batch, epsilon, epsilon, size2_of_pair, accepted);
 }
 
@@ -118,7 +139,8 @@ static hr2d_status estimate_bf(void *ctx, const hr2d_batch *batch, double *error
   (void)ctx;
   for (size_t k = 0; k < batch->count; k++) {
     const hr2d_pair pair = batch->pairs[k];
-    error[k] = bf_of_pair(&batch->elements[pair.first], &batch->elements[pair.second],
+    error[k] = weight(batch, k) *
+               bf_of_pair(&batch->elements[pair.first], &batch->elements[pair.second],
                           batch->brightness ? batch->brightness[pair.second] : 1);
   }
   return HR2D_OK;

@@ -3,6 +3,7 @@
 #include "predicates.h"
 
 #include "determinant.h"
+#include "side.h"
 
 static hr2di_wide orient(hr2d_point a, hr2d_point b, hr2d_point c) {
   hr2di_vector u, w;
@@ -21,15 +22,25 @@ double hr2di_orient(hr2d_point a, hr2d_point b, hr2d_point c) {
   return det.e == 0 ? det.m : ldexp(det.m, det.e);
 }
 
+double hr2di_crossing(hr2d_point a, hr2d_point b, hr2d_point p, hr2d_point q) {
+  const hr2di_wide at_p = orient(a, b, p), at_q = orient(a, b, q);
+  if (at_p.m == 0) return at_q.m == 0 ? NAN : 0;
+  if (at_q.m == 0) return 1;
+  const int e_p = at_p.e + ilogb(at_p.m), e_q = at_q.e + ilogb(at_q.m);
+  const int e = e_p > e_q ? e_p : e_q;
+  const double u = ldexp(at_p.m, at_p.e - e), v = ldexp(at_q.m, at_q.e - e);
+  return u / (u - v);
+}
+
 int hr2d_orientation(hr2d_point a, hr2d_point b, hr2d_point c) {
   const double det = orient(a, b, c).m;
   return (det > 0) - (det < 0);
 }
 
 hr2di_facing hr2di_face(const hr2d_segment *i, const hr2d_segment *j) {
-  const double c_of_i = orient(i->a, i->b, j->a).m, d_of_i = orient(i->a, i->b, j->b).m;
+  const int c_of_i = hr2di_side(i->a, i->b, j->a), d_of_i = hr2di_side(i->a, i->b, j->b);
   if (c_of_i <= 0 && d_of_i <= 0) return HR2DI_FACING_NONE;
-  const double a_of_j = orient(j->a, j->b, i->a).m, b_of_j = orient(j->a, j->b, i->b).m;
+  const int a_of_j = hr2di_side(j->a, j->b, i->a), b_of_j = hr2di_side(j->a, j->b, i->b);
   if (a_of_j <= 0 && b_of_j <= 0) return HR2DI_FACING_NONE;
   const int full = c_of_i >= 0 && d_of_i >= 0 && a_of_j >= 0 && b_of_j >= 0;
   return full ? HR2DI_FACING_FULL : HR2DI_FACING_PART;

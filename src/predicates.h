@@ -9,6 +9,10 @@
    place.  It may underflow: where only the sign matters, hr2d_orientation() has it. */
 double hr2di_orient(hr2d_point a, hr2d_point b, hr2d_point c);
 
+/* Where p→q meets the line through a and b, as a fraction of p→q, to a few units in the
+   last place; nothing under- or overflows.  NaN if it runs along the line. */
+double hr2di_crossing(hr2d_point a, hr2d_point b, hr2d_point p, hr2d_point q);
+
 /* How two segments see each other's fronts, exactly. */
 typedef enum hr2di_facing {
   HR2DI_FACING_NONE, /* exchange area 0 */

@@ -14,6 +14,7 @@
 
 #include "alloc.h"
 #include "predicates.h"
+#include "shaded.h"
 
 enum { TICKS = 64 }; /* rounds between two reports of progress */
 
@@ -21,11 +22,18 @@ static hr2d_status fail(hr2di_projector *p, hr2d_status status, const char *what
   return hr2di_fail(&p->links->message, status, "%s", what);
 }
 
+static uint64_t stack_bytes(const hr2di_projector *p) {
+  const uint64_t pairs = p->open.capacity + p->guarded.capacity + p->fresh[0].capacity +
+                         p->fresh[1].capacity + p->shaded.stack.capacity;
+  return pairs * sizeof(hr2d_pair) + p->shaded.first_capacity * sizeof *p->shaded.first +
+         (p->shaded.list.capacity + p->found.capacity) * sizeof *p->found.wall;
+}
+
 hr2d_status hr2di_afford(hr2di_projector *p, uint64_t more) {
   const uint64_t budget = p->options.max_bytes;
   if (budget == 0) return HR2D_OK;
-  const uint64_t held = p->bytes + (uint64_t)p->hierarchy->capacity * HR2DI_ELEMENT_BYTES +
-                        (p->open.capacity + p->guarded.capacity) * sizeof(hr2d_pair);
+  const uint64_t held =
+      p->bytes + (uint64_t)p->hierarchy->capacity * HR2DI_ELEMENT_BYTES + stack_bytes(p);
   if (held <= budget && more <= budget - held) return HR2D_OK;
   return hr2di_fail(&p->links->message, HR2D_EMAX_BYTES,
                     "more than %llu bytes are needed, after %llu links",
@@ -57,6 +65,7 @@ static hr2d_batch make_batch(const hr2di_projector *p, const hr2d_pair *pairs, s
                       .count = count,
                       .unit = hr2d_scene_unit(p->hierarchy->scene),
                       .epsilon = p->options.epsilon,
+                      .partial = p->partial,
                       .brightness = p->brightness};
 }
 
@@ -103,11 +112,10 @@ hr2d_status hr2di_count_links(hr2di_projector *p, size_t more) {
                     (unsigned long long)budget);
 }
 
-/* Hands accepted pairs to the sink. */
-static hr2d_status emit(hr2di_projector *p, size_t count) {
+hr2d_status hr2di_emit(hr2di_projector *p, const double *area, size_t count) {
   if (count == 0) return HR2D_OK;
   const hr2d_status status = hr2di_count_links(p, count);
-  return status || !p->sink ? status : p->sink(p->sink_ctx, p->accepted, count);
+  return status || !p->sink ? status : p->sink(p->sink_ctx, p->accepted, area, count);
 }
 
 /* Proposes pairs: accepted ones are emitted, refused ones pushed. */
@@ -128,7 +136,7 @@ static hr2d_status propose(hr2di_projector *p, const hr2d_pair *pairs, size_t co
     stack += 1 - yes;
   }
   refused->count = (size_t)(stack - refused->pair);
-  return emit(p, (size_t)(accepted - p->accepted));
+  return hr2di_emit(p, NULL, (size_t)(accepted - p->accepted));
 }
 
 hr2d_status hr2di_propose_guarded(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
@@ -138,8 +146,11 @@ hr2d_status hr2di_propose_guarded(hr2di_projector *p, const hr2d_pair *pairs, si
     const hr2d_element *i = &element[pairs[k].first], *j = &element[pairs[k].second];
     const hr2di_facing facing =
         hr2di_face(&(hr2d_segment){i->a, i->b}, &(hr2d_segment){j->a, j->b});
-    if (facing == HR2DI_FACING_FULL) p->sorted[0][full++] = pairs[k];
-    if (facing == HR2DI_FACING_PART) p->sorted[1][part++] = pairs[k];
+    if (facing == HR2DI_FACING_NONE) continue;
+    if (facing == HR2DI_FACING_PART || p->test_all)
+      p->sorted[1][part++] = pairs[k];
+    else
+      p->sorted[0][full++] = pairs[k];
   }
   const hr2d_status status = propose(p, p->sorted[0], full, &p->open);
   return status ? status : propose(p, p->sorted[1], part, &p->guarded);
@@ -278,21 +289,56 @@ static hr2d_status play(hr2di_projector *p, hr2di_stack *stack) {
   if (candidates == 0) {
     status = prepare(p, pairs, &count, &limited);
     p->counts.limited_links += limited;
-    if (!status) status = emit(p, limited);
+    if (!status) status = hr2di_emit(p, NULL, limited);
     if (status) return status;
     candidates = subdivide(p, pairs, count);
   }
   if (stack == &p->open) return propose(p, p->candidate, candidates, &p->open);
-  p->counts.visibility_tests += candidates;
+  p->counts.facing_tests += candidates;
   return hr2di_propose_guarded(p, p->candidate, candidates);
+}
+
+hr2d_status hr2di_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidates,
+                            int *limited) {
+  size_t count = 1, held = 0;
+  hr2d_status status = consult(p, &pair, 1);
+  if (!status) status = prepare(p, &pair, &count, &held);
+  *limited = held > 0;
+  p->counts.limited_links += held;
+  *candidates = status || held ? 0 : subdivide(p, &pair, 1);
+  return status;
+}
+
+size_t hr2di_waiting(const hr2di_projector *p) {
+  return p->open.count + p->guarded.count + p->shaded.stack.count + p->fresh[0].count +
+         p->fresh[1].count;
+}
+
+/* Proposes the topmost pairs that have come out of the shade. */
+static hr2d_status propose_fresh(hr2di_projector *p) {
+  hr2di_stack *fresh = &p->fresh[p->fresh[0].count == 0];
+  const size_t count = fresh->count < HR2DI_BATCH ? fresh->count : HR2DI_BATCH;
+  fresh->count -= count;
+  return propose(p, fresh->pair + fresh->count, count,
+                 fresh == &p->fresh[0] ? &p->open : &p->guarded);
+}
+
+/* Full rounds first; pairs in the shade while there are none. */
+static hr2d_status play_next(hr2di_projector *p) {
+  if (p->open.count >= HR2DI_BATCH) return play(p, &p->open);
+  if (p->guarded.count >= HR2DI_BATCH) return play(p, &p->guarded);
+  const size_t fresh = p->fresh[0].count + p->fresh[1].count;
+  if (p->shaded.stack.count > 0 && fresh < HR2DI_BATCH) return hr2di_play_shaded(p);
+  if (fresh > 0) return propose_fresh(p);
+  return play(p, p->open.count > 0 ? &p->open : &p->guarded);
 }
 
 hr2d_status hr2di_drain(hr2di_projector *p, size_t enough) {
   hr2d_status status = HR2D_OK;
   for (;;) {
-    const size_t left = p->open.count + p->guarded.count;
+    const size_t left = hr2di_waiting(p);
     if (status || left == 0 || left >= enough) return status;
-    status = play(p, p->open.count > 0 ? &p->open : &p->guarded);
+    status = play_next(p);
     if (status || ++p->ticks < TICKS) continue;
     p->ticks = 0;
     status = p->tell ? p->tell(p) : hr2di_tell(p);
@@ -319,7 +365,9 @@ static double unfinished(const hr2di_projector *p, const hr2di_stack *stack) {
 
 hr2d_status hr2di_tell(hr2di_projector *p) {
   if (!p->options.progress) return HR2D_OK;
-  const double done = p->roots_done - unfinished(p, &p->open) - unfinished(p, &p->guarded);
+  const double done = p->roots_done - unfinished(p, &p->open) - unfinished(p, &p->guarded) -
+                      unfinished(p, &p->fresh[0]) - unfinished(p, &p->fresh[1]) -
+                      unfinished(p, &p->shaded.stack);
   const hr2d_progress progress = {.struct_size = sizeof progress,
                                   .phase = "refine",
                                   .elements = p->hierarchy->elements,

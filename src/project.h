@@ -7,19 +7,30 @@
 
 #include "hierarchy-impl.h"
 #include "linkset-impl.h"
+#include "sight.h"
 
 enum {
   HR2DI_BATCH = 256,                 /* pairs subdivided at a time */
   HR2DI_CANDIDATES = 4 * HR2DI_BATCH /* pairs proposed at a time: both elements split */
 };
 
-/* Where accepted pairs go.  Pairs see each other at least in part. */
-typedef hr2d_status (*hr2di_sink)(void *ctx, const hr2d_pair *pairs, size_t count);
+/* Where accepted pairs go.  Pairs see each other at least in part; `area` is NULL unless
+   their exchange areas were integrated already, around what is in the way. */
+typedef hr2d_status (*hr2di_sink)(void *ctx, const hr2d_pair *pairs, const double *area,
+                                  size_t count);
 
 typedef struct hr2di_stack {
   hr2d_pair *pair;
   size_t count, capacity;
 } hr2di_stack;
+
+/* Pairs with walls in the way: each with its own, behind those of the pair below. */
+typedef struct hr2di_shaded {
+  hr2di_stack stack;
+  size_t *first; /* where a pair's walls begin in `list` */
+  size_t first_capacity;
+  hr2di_wall_list list;
+} hr2di_shaded;
 
 typedef struct hr2di_projector hr2di_projector;
 
@@ -27,11 +38,12 @@ struct hr2di_projector {
   hr2d_linkset *links;
   hr2d_hierarchy *hierarchy;
   hr2d_refine_options options;
-  hr2di_sink sink;
+  hr2di_sink sink; /* NULL: only counted */
   void *sink_ctx;
   hr2d_refine_counts counts; /* of this refinement alone; elements and levels unused */
   int directed;              /* links carry light from second to first only */
   int check_levels;          /* elements below max_level exist already */
+  int test_all;              /* facing is tested although no horizon cuts a pair */
   double *brightness;        /* per element, or NULL; as long as brightness_capacity */
   size_t brightness_capacity;
   uint64_t bytes;           /* held by others than the hierarchy and the stacks */
@@ -42,6 +54,14 @@ struct hr2di_projector {
 
   hr2di_stack open;    /* refused pairs that face each other fully */
   hr2di_stack guarded; /* refused pairs that one horizon still cuts */
+
+  /* Where the scene calls for occlusion, else all empty. */
+  hr2di_sight *sight;
+  hr2di_shaded shaded;          /* refused pairs with walls in the way */
+  hr2di_stack fresh[2];         /* pairs that have come out of them, facing fully and in
+                                   part, not yet proposed */
+  hr2di_wall_list found;        /* of pairs not yet judged */
+  const unsigned char *partial; /* of the pairs to be judged; NULL: nothing in the way */
 
   /* the round under way */
   hr2d_pair candidate[HR2DI_CANDIDATES];
@@ -72,11 +92,22 @@ hr2d_status hr2di_project_all(hr2di_projector *p);
    in part: these are dropped, and guarded. */
 hr2d_status hr2di_propose_guarded(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
 
-/* Asks the oracle about pairs; sets p->flag to 1 where they are acceptable. */
+/* Asks the oracle about pairs, with p->partial; sets p->flag to 1 where they are
+   acceptable. */
 hr2d_status hr2di_judge(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
 
-/* Takes a refused pair to be subdivided by the next hr2di_drain(). */
+/* Puts a pair on a stack, for the next hr2di_drain(). */
 hr2d_status hr2di_refuse(hr2di_projector *p, hr2di_stack *stack, hr2d_pair pair);
+
+/* Hands the first `count` of p->accepted to the sink. */
+hr2d_status hr2di_emit(hr2di_projector *p, const double *area, size_t count);
+
+/* Subdivides one pair, into p->candidate; none if a limit holds, and then *limited. */
+hr2d_status hr2di_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidates,
+                            int *limited);
+
+/* How many pairs wait on the stacks. */
+size_t hr2di_waiting(const hr2di_projector *p);
 
 /* Subdivides until no refused pair is left, or `enough` of them are. */
 hr2d_status hr2di_drain(hr2di_projector *p, size_t enough);

@@ -6,6 +6,7 @@
 #include "options.h"
 #include "project.h"
 #include "scene-impl.h"
+#include "shaded.h"
 #include "solution-impl.h"
 
 static int directed_by(const hr2d_linkset *links, const hr2d_refine_options *options) {
@@ -28,10 +29,6 @@ hr2d_status hr2di_check_options(hr2d_linkset *links, const hr2d_refine_options *
                       links->directed ? "directed" : "not directed");
   if (options->brightness && options->brightness->hierarchy != links->hierarchy)
     return hr2di_fail(message, HR2D_EINVAL, "the brightness is from another hierarchy");
-  const char *reason;
-  if (hr2d_scene_effect(links->hierarchy->scene, HR2D_EFFECT_OCCLUSION, &reason))
-    return hr2di_fail(message, HR2D_EUNSUPPORTED,
-                      "occlusion is not supported by this version: %s", reason);
   return HR2D_OK;
 }
 
@@ -61,6 +58,17 @@ static hr2d_status set_brightness(hr2di_projector *p) {
   return HR2D_OK;
 }
 
+static hr2d_status set_sight(hr2di_projector *p) {
+  const hr2d_scene *scene = p->hierarchy->scene;
+  p->test_all = scene->effect[HR2D_EFFECT_FACING].forced;
+  if (!scene->effect[HR2D_EFFECT_OCCLUSION].on) return HR2D_OK;
+  p->sight = hr2di_alloc(&p->links->alloc, 1, sizeof *p->sight);
+  if (!p->sight)
+    return hr2di_fail(&p->links->message, HR2D_ENOMEM, "out of memory for the refinement");
+  hr2di_sight_start(p->sight, &scene->walls, &p->links->alloc);
+  return HR2D_OK;
+}
+
 hr2d_status hr2di_projector_start(hr2d_linkset *links, const hr2d_refine_options *options,
                                   hr2di_projector **made) {
   hr2di_projector *p = hr2di_calloc(&links->alloc, 1, sizeof *p);
@@ -73,7 +81,8 @@ hr2d_status hr2di_projector_start(hr2d_linkset *links, const hr2d_refine_options
   p->bytes = sizeof *p + hr2di_store_bytes(&links->store);
   p->roots = (double)p->hierarchy->scene->patches * (double)(p->hierarchy->scene->patches - 1) /
              (p->directed ? 1 : 2);
-  const hr2d_status status = set_brightness(p);
+  hr2d_status status = set_brightness(p);
+  if (!status) status = set_sight(p);
   if (status)
     hr2di_projector_end(p);
   else
@@ -85,24 +94,36 @@ void hr2di_projector_end(hr2di_projector *p) {
   const hr2d_allocator *alloc = &p->links->alloc;
   hr2di_free(alloc, p->open.pair);
   hr2di_free(alloc, p->guarded.pair);
+  for (int k = 0; k < 2; k++) hr2di_free(alloc, p->fresh[k].pair);
+  hr2di_free(alloc, p->shaded.stack.pair);
+  hr2di_free(alloc, p->shaded.first);
+  hr2di_free(alloc, p->shaded.list.wall);
+  hr2di_free(alloc, p->found.wall);
+  if (p->sight) hr2di_sight_end(p->sight);
+  hr2di_free(alloc, p->sight);
   hr2di_free(alloc, p->brightness);
   hr2di_free(alloc, p);
 }
 
 hr2d_status hr2di_project_row(hr2di_projector *p, size_t patch) {
-  const size_t n = p->hierarchy->scene->patches;
+  const hr2d_scene *scene = p->hierarchy->scene;
+  const size_t n = scene->patches;
   hr2d_pair pairs[HR2DI_CANDIDATES];
   size_t count = 0;
   hr2d_status status = HR2D_OK;
   for (size_t k = p->directed ? 0 : patch + 1; k < n && !status; k++) {
     if (k == patch) continue;
-    pairs[count++] = (hr2d_pair){(uint32_t)patch, (uint32_t)k};
     p->roots_done++;
+    if (!hr2di_lit(scene, patch) || !hr2di_lit(scene, k)) {
+      p->counts.dark_pairs++;
+      continue;
+    }
+    pairs[count++] = (hr2d_pair){(uint32_t)patch, (uint32_t)k};
     if (count < HR2DI_CANDIDATES) continue;
-    status = hr2di_propose_guarded(p, pairs, count);
+    status = hr2di_propose_roots(p, pairs, count);
     count = 0;
   }
-  return status ? status : hr2di_propose_guarded(p, pairs, count);
+  return status ? status : hr2di_propose_roots(p, pairs, count);
 }
 
 hr2d_status hr2di_project_all(hr2di_projector *p) {

@@ -7,6 +7,7 @@
 #include "predicates.h"
 #include "project.h"
 #include "scene-impl.h"
+#include "shaded.h"
 
 /* Runs a projector that is set up.  On failure the hierarchy gets its former size. */
 static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
@@ -49,8 +50,10 @@ static hr2d_status add_links(storing *s, const hr2d_pair *pairs, const double *a
                 : HR2D_OK;
 }
 
-static hr2d_status store_links(void *ctx, const hr2d_pair *pairs, size_t count) {
+static hr2d_status store_links(void *ctx, const hr2d_pair *pairs, const double *area,
+                               size_t count) {
   storing *s = ctx;
+  if (area) return add_links(s, pairs, area, count);
   s->projector->counts.exchange_areas += count;
   hr2di_exchange_areas(s->projector->hierarchy->element, pairs, count, s->area);
   return add_links(s, pairs, s->area, count);
@@ -73,13 +76,34 @@ static int faces_fully(const hr2d_hierarchy *h, hr2d_pair pair) {
   }
 }
 
+/* Which links have walls in the way, into p->partial. */
+static hr2d_status look_again(hr2di_projector *p, const hr2d_pair *pairs, size_t count,
+                              unsigned char *partial) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < count && !status; k++) {
+    hr2di_view view;
+    p->found.count = 0;
+    status = hr2di_look(p, pairs[k], &view);
+    partial[k] = view != HR2DI_CLEAR;
+  }
+  p->partial = partial;
+  return status;
+}
+
+static hr2d_status refuse_link(hr2di_projector *p, hr2d_pair pair, int partial) {
+  if (partial) return hr2di_refuse_shaded(p, pair);
+  const int clipped = p->hierarchy->scene->effect[HR2D_EFFECT_FACING].on;
+  const int open = !p->test_all && (!clipped || faces_fully(p->hierarchy, pair));
+  return hr2di_refuse(p, open ? &p->open : &p->guarded, pair);
+}
+
 /* Proposes the links of a set again: acceptable ones are kept with their exchange
    areas, the others refused. */
 static hr2d_status project_links(hr2di_projector *p) {
   storing *s = p->sink_ctx;
   const hr2di_store *old = &p->links->store;
-  const int clipped = p->hierarchy->scene->effect[HR2D_EFFECT_FACING].on;
   hr2d_pair pairs[HR2DI_BATCH];
+  unsigned char partial[HR2DI_BATCH] = {0};
   double area[HR2DI_BATCH];
   hr2d_status status = HR2D_OK;
   p->roots = (double)old->count;
@@ -87,14 +111,16 @@ static hr2d_status project_links(hr2di_projector *p) {
     const uint64_t rest = old->count - first;
     const size_t count = rest < HR2DI_BATCH ? (size_t)rest : HR2DI_BATCH;
     for (size_t k = 0; k < count; k++) pairs[k] = hr2di_store_at(old, first + k)->pair;
-    status = hr2di_judge(p, pairs, count);
+    if (p->sight) status = look_again(p, pairs, count, partial);
+    if (!status) status = hr2di_judge(p, pairs, count);
+    p->partial = NULL;
     size_t kept = 0;
     for (size_t k = 0; k < count && !status; k++) {
       if (!p->flag[k]) {
-        const int open = !clipped || faces_fully(p->hierarchy, pairs[k]);
-        status = hr2di_refuse(p, open ? &p->open : &p->guarded, pairs[k]);
+        status = refuse_link(p, pairs[k], partial[k]);
         continue;
       }
+      p->counts.partial_links += partial[k];
       area[kept] = hr2di_store_at(old, first + k)->exchange_area;
       pairs[kept++] = pairs[k];
     }
@@ -113,8 +139,12 @@ static void sum_counts(hr2d_linkset *links, const hr2di_projector *p) {
   counts->links = p->counts.links;
   counts->limited_links = p->counts.limited_links;
   counts->oracle_calls += p->counts.oracle_calls;
+  counts->facing_tests += p->counts.facing_tests;
   counts->visibility_tests += p->counts.visibility_tests;
   counts->exchange_areas += p->counts.exchange_areas;
+  counts->partial_links = p->counts.partial_links;
+  counts->blocked_pairs += p->counts.blocked_pairs;
+  counts->dark_pairs += p->counts.dark_pairs;
 }
 
 hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options) {
@@ -153,13 +183,17 @@ typedef struct visiting {
   hr2d_link link[HR2DI_CANDIDATES];
 } visiting;
 
-static hr2d_status visit_links(void *ctx, const hr2d_pair *pairs, size_t count) {
+static hr2d_status visit_links(void *ctx, const hr2d_pair *pairs, const double *area,
+                               size_t count) {
   visiting *v = ctx;
   const hr2d_hierarchy *h = v->projector->hierarchy;
-  v->projector->counts.exchange_areas += count;
-  hr2di_exchange_areas(h->element, pairs, count, v->area);
+  if (!area) {
+    v->projector->counts.exchange_areas += count;
+    hr2di_exchange_areas(h->element, pairs, count, v->area);
+    area = v->area;
+  }
   const double unit = hr2d_scene_unit(h->scene);
-  for (size_t k = 0; k < count; k++) v->link[k] = (hr2d_link){pairs[k], v->area[k] * unit};
+  for (size_t k = 0; k < count; k++) v->link[k] = (hr2d_link){pairs[k], area[k] * unit};
   const hr2d_status status = v->visit(v->visit_ctx, v->link, count);
   return status ? hr2di_fail(&v->projector->links->message, status, "visitor: %s",
                              hr2d_strerror(status))

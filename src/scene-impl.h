@@ -6,6 +6,7 @@
 #include <hr2d/scene.h>
 
 #include "message.h"
+#include "walls.h"
 
 typedef struct hr2di_patch {
   hr2d_segment given;  /* as added, in scene lengths */
@@ -24,9 +25,15 @@ struct hr2d_scene {
   hr2di_patch *patch;
   size_t patches, capacity;
   size_t bands;
-  int exponent; /* the unit is 2^exponent */
+  double *background; /* background_bands values; NULL for none */
+  size_t background_bands;
+  int exponent;        /* the unit is 2^exponent */
+  hr2di_walls walls;   /* what can be in the way; made by commit */
+  unsigned char *dark; /* per patch: no light reaches it; NULL where none is */
   struct {
     int on;
+    int called_for; /* on although not forced */
+    int forced;
     char reason[400];
   } effect[HR2D_EFFECT_COUNT];
 };
@@ -46,10 +53,18 @@ typedef struct hr2di_label {
 
 hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch);
 
+/* Takes back what commit has made. */
+void hr2di_scene_clear_commit(hr2d_scene *scene);
+
 /* The parts of commit, in their order: each leaves a message if it fails. */
 hr2d_status hr2di_check_bands(hr2d_scene *scene);
 hr2d_status hr2di_scale(hr2d_scene *scene);
 hr2d_status hr2di_check_overlaps(hr2d_scene *scene);
 hr2d_status hr2di_analyse_effects(hr2d_scene *scene);
+hr2d_status hr2di_find_light(hr2d_scene *scene);
+
+static inline int hr2di_lit(const hr2d_scene *scene, size_t patch) {
+  return !scene->dark || !scene->dark[patch];
+}
 
 #endif

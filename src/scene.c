@@ -12,7 +12,7 @@ hr2d_status hr2d_scene_create(const hr2d_allocator *allocator, hr2d_scene **scen
   if (!alloc.allocate || !alloc.reallocate || !alloc.release) return HR2D_EINVAL;
   hr2d_scene *made = hr2di_calloc(&alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
-  made->alloc = alloc;
+  made->alloc = made->walls.alloc = alloc;
   made->bands = 1;
   *scene = made;
   return HR2D_OK;
@@ -22,6 +22,8 @@ void hr2d_scene_destroy(hr2d_scene *scene) {
   if (!scene) return;
   hr2di_scene_truncate(scene, 0);
   hr2di_free(&scene->alloc, scene->patch);
+  hr2di_free(&scene->alloc, scene->background);
+  hr2di_scene_clear_commit(scene);
   const hr2d_allocator alloc = scene->alloc;
   hr2di_free(&alloc, scene);
 }
@@ -148,22 +150,29 @@ hr2d_status hr2d_scene_add(hr2d_scene *scene, const hr2d_patch *patch, size_t *i
   return HR2D_OK;
 }
 
-hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
+hr2d_status hr2d_scene_set_background(hr2d_scene *scene, const double *background,
+                                      size_t bands) {
+  if (scene->committed)
+    return hr2di_fail(&scene->message, HR2D_ESTATE, "a committed scene takes no background");
+  hr2d_status status =
+      check_values(scene, "background", "radiosity", background, bands, HUGE_VAL);
+  if (status) return status;
+  double *copy = hr2di_alloc(&scene->alloc, bands, sizeof *copy);
+  if (!copy)
+    return hr2di_fail(&scene->message, HR2D_ENOMEM, "out of memory for the background");
+  for (size_t k = 0; k < bands; k++) copy[k] = background[k];
+  hr2di_free(&scene->alloc, scene->background);
+  scene->background = copy;
+  scene->background_bands = bands;
+  return HR2D_OK;
+}
+
+hr2d_status hr2d_scene_force(hr2d_scene *scene, hr2d_effect effect) {
+  if ((unsigned)effect >= HR2D_EFFECT_COUNT)
+    return hr2di_fail(&scene->message, HR2D_EINVAL, "there is no effect %d", (int)effect);
   if (scene->committed)
     return hr2di_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");
-  if (scene->patches == 0)
-    return hr2di_fail(&scene->message, HR2D_ESCENE, "the scene has no patches");
-  hr2d_status (*const part[])(hr2d_scene *) = {hr2di_check_bands, hr2di_scale,
-                                               hr2di_check_overlaps, hr2di_analyse_effects};
-  for (size_t k = 0; k < sizeof part / sizeof *part; k++) {
-    const hr2d_status status = part[k](scene);
-    if (!status) continue;
-    scene->bands = 1;
-    scene->exponent = 0;
-    memset(scene->effect, 0, sizeof scene->effect);
-    return status;
-  }
-  scene->committed = 1;
+  scene->effect[effect].forced = 1;
   return HR2D_OK;
 }
 
@@ -215,6 +224,10 @@ double hr2d_scene_emission(const hr2d_scene *scene, size_t patch, size_t band) {
 double hr2d_scene_reflectance(const hr2d_scene *scene, size_t patch, size_t band) {
   const hr2di_patch *p = &scene->patch[patch];
   return band_value(p->value + p->emission_bands, p->reflectance_bands, band);
+}
+
+double hr2d_scene_background(const hr2d_scene *scene, size_t band) {
+  return band_value(scene->background, scene->background_bands, band);
 }
 
 double hr2d_scene_unit(const hr2d_scene *scene) {

@@ -10,9 +10,10 @@ struct hr2d_solution {
   const hr2d_hierarchy *hierarchy;
   size_t elements; /* of the hierarchy when this was solved */
   size_t bands;
-  double *value;     /* elements × bands, averages of B */
-  hr2d_power *power; /* per band */
-  uint64_t sweeps;
+  double *value;      /* elements × bands, averages of B */
+  double *irradiance; /* likewise of H */
+  hr2d_power *power;  /* per band */
+  hr2d_solve_work work;
   double residual;
 };
 

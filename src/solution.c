@@ -8,6 +8,7 @@ void hr2d_solution_destroy(hr2d_solution *solution) {
   if (!solution) return;
   const hr2d_allocator alloc = solution->alloc;
   hr2di_free(&alloc, solution->value);
+  hr2di_free(&alloc, solution->irradiance);
   hr2di_free(&alloc, solution->power);
   hr2di_free(&alloc, solution);
 }
@@ -33,19 +34,43 @@ static uint32_t leaf_at(const hr2d_solution *solution, size_t patch, double t, i
   return at;
 }
 
-double hr2d_solution_at(const hr2d_solution *solution, size_t patch, double t, size_t band) {
+/* On a border the straight line between the values at the leaves' centres. */
+static double value_at(const hr2d_solution *solution, const double *value, size_t patch,
+                       double t, size_t band) {
   const uint32_t before = leaf_at(solution, patch, t, 1);
   const uint32_t behind = leaf_at(solution, patch, t, 0);
-  return 0.5 * (hr2d_solution_element(solution, before, band) +
-                hr2d_solution_element(solution, behind, band));
+  const double here = value[before * solution->bands + band];
+  if (before == behind) return here;
+  const hr2d_element *element = solution->hierarchy->element;
+  const double part =
+      element[before].length / (element[before].length + element[behind].length);
+  return here + part * (value[behind * solution->bands + band] - here);
+}
+
+double hr2d_solution_at(const hr2d_solution *solution, size_t patch, double t, size_t band) {
+  return value_at(solution, solution->value, patch, t, band);
+}
+
+double hr2d_solution_irradiance(const hr2d_solution *solution, size_t patch, size_t band) {
+  return solution->irradiance[patch * solution->bands + band];
+}
+
+double hr2d_solution_irradiance_at(const hr2d_solution *solution, size_t patch, double t,
+                                   size_t band) {
+  return value_at(solution, solution->irradiance, patch, t, band);
+}
+
+double hr2d_solution_net_flux(const hr2d_solution *solution, size_t patch, size_t band) {
+  return hr2d_solution_average(solution, patch, band) -
+         hr2d_solution_irradiance(solution, patch, band);
 }
 
 hr2d_power hr2d_solution_power(const hr2d_solution *solution, size_t band) {
   return solution->power[band];
 }
 
-uint64_t hr2d_solution_sweeps(const hr2d_solution *solution) {
-  return solution->sweeps;
+hr2d_solve_work hr2d_solution_work(const hr2d_solution *solution) {
+  return solution->work;
 }
 
 double hr2d_solution_residual(const hr2d_solution *solution) {

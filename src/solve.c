@@ -14,6 +14,7 @@
 #include "hierarchy-impl.h"
 #include "krylov.h"
 #include "options.h"
+#include "rows.h"
 #include "scene-impl.h"
 #include "solution-impl.h"
 #include "sum.h"
@@ -32,6 +33,8 @@ typedef struct solver {
   double *irradiance;
   double *y, *b, *work;
   double *norm[2]; /* per band */
+  uint64_t row_sums;
+  uint64_t looks; /* at the residual: one before the first iteration, one after each */
 } solver;
 
 static hr2d_status check_options(solver *s) {
@@ -46,15 +49,48 @@ static hr2d_status check_options(solver *s) {
   return HR2D_OK;
 }
 
-/* Where nothing reflects there is nothing to iterate, and nothing to close. */
-static int reflects(const solver *s) {
+/* Where nothing reflects there is nothing to iterate. */
+static int iterates(const solver *s) {
   return s->links->hierarchy->scene->effect[HR2D_EFFECT_INTERREFLECTION].on;
+}
+
+/* Where nothing reflects there is nothing to close. */
+static int reflects(const hr2d_scene *scene) {
+  for (size_t k = 0; k < scene->patches; k++)
+    for (size_t band = 0; band < scene->bands; band++)
+      if (hr2d_scene_reflectance(scene, k, band) > 0) return 1;
+  return 0;
+}
+
+/* What each leaf sees besides patches and their backs. */
+static hr2d_status set_sky(hr2di_transport *t, const hr2di_rows *rows) {
+  t->sky = hr2di_alloc(&t->alloc, t->leaves, sizeof *t->sky);
+  if (!t->sky) return HR2D_ENOMEM;
+  for (size_t k = 0; k < t->leaves; k++) {
+    const uint32_t leaf = t->leaf[k];
+    t->sky[k] = fmax(0, 1 - rows->front[leaf] - rows->back[leaf]);
+  }
+  return HR2D_OK;
+}
+
+/* Closure, and the view of the background, need what leaves see of all patches. */
+static hr2d_status integrate_rows(solver *s) {
+  const int closure = s->options.closure && reflects(s->links->hierarchy->scene);
+  const int background = s->links->hierarchy->scene->effect[HR2D_EFFECT_BACKGROUND].on;
+  if (!closure && !background) return HR2D_OK;
+  hr2di_rows rows;
+  hr2d_status status = hr2di_rows_make(&rows, &s->transport, background);
+  if (!status && background) status = set_sky(&s->transport, &rows);
+  if (!status && closure) status = hr2di_close(&s->transport, &rows);
+  s->row_sums = rows.leaves;
+  hr2di_rows_clear(&rows);
+  return status;
 }
 
 static hr2d_status set_up(solver *s) {
   hr2di_transport *t = &s->transport;
   if (hr2di_transport_init(t, s->links, s->options.threads)) return HR2D_ENOMEM;
-  if (s->options.closure && reflects(s) && hr2di_close(t)) return HR2D_ENOMEM;
+  if (integrate_rows(s)) return HR2D_ENOMEM;
   const size_t leaves = t->leaves, bands = t->bands;
   s->field = leaves * bands;
   s->space =
@@ -103,7 +139,8 @@ static void scale(void *ctx, const double *y, double *norm) {
 }
 
 static hr2d_status tell(void *ctx, double residual) {
-  const solver *s = ctx;
+  solver *s = ctx;
+  s->looks++;
   if (!s->options.progress) return HR2D_OK;
   const double digits = residual > 0 ? log(residual) / log(s->options.tolerance) : 1;
   const hr2d_progress progress = {.struct_size = sizeof progress,
@@ -145,8 +182,14 @@ static void warm_start(solver *s) {
   }
 }
 
+/* H = K B, and what comes from the background. */
+static void gather_all(solver *s, const double *radiosity) {
+  hr2di_gather(&s->transport, radiosity, s->irradiance);
+  hr2di_add_background(&s->transport, s->irradiance);
+}
+
 static hr2d_status iterate(solver *s) {
-  hr2di_gather(&s->transport, s->emission, s->irradiance);
+  gather_all(s, s->emission);
   for (size_t k = 0; k < s->field; k++) s->b[k] = s->root_rho[k] * s->irradiance[k];
   if (s->options.start) warm_start(s);
   const hr2di_system system = make_system(s);
@@ -159,17 +202,17 @@ static hr2d_status iterate(solver *s) {
                       residual, s->options.tolerance, (unsigned long long)s->transport.sweeps);
   if (status) return hr2di_fail(&s->links->message, status, "solve: %s", hr2d_strerror(status));
   set_radiosity(s, s->y);
-  hr2di_gather(&s->transport, s->radiosity, s->irradiance);
+  gather_all(s, s->radiosity);
   return HR2D_OK;
 }
 
 /* Where every ρ is 0 nothing is solved: B = E, and one gather gives the irradiance. */
 static void gather_once(solver *s) {
   set_radiosity(s, s->y);
-  hr2di_gather(&s->transport, s->radiosity, s->irradiance);
+  gather_all(s, s->radiosity);
 }
 
-/* ‖E + ρH − B‖/‖B‖ with H = K B, the largest over the bands. */
+/* ‖E + ρH − B‖/‖B‖, the largest over the bands. */
 static double true_residual(solver *s) {
   const hr2di_system system = make_system(s);
   for (size_t k = 0; k < s->field; k++)
@@ -188,7 +231,8 @@ static double true_residual(solver *s) {
 static hr2d_power sum_power(const solver *s, size_t band) {
   const hr2di_transport *t = &s->transport;
   const hr2d_scene *scene = t->hierarchy->scene;
-  hr2di_sum emitted = {0, 0}, absorbed = {0, 0}, escaped = {0, 0};
+  hr2di_sum emitted = {0, 0}, received = {0, 0}, absorbed = {0, 0}, escaped = {0, 0};
+  const double background = hr2d_scene_background(scene, band);
   for (size_t k = 0; k < t->leaves; k++) {
     const size_t at = k * t->bands + band, patch = t->hierarchy->element[t->leaf[k]].patch;
     const double absorbance = 1 - hr2d_scene_reflectance(scene, patch, band);
@@ -196,10 +240,13 @@ static hr2d_power sum_power(const solver *s, size_t band) {
     hr2di_add(&absorbed, s->weight[k] * (absorbance * s->irradiance[at]));
     hr2di_add(&escaped, s->weight[k] * s->radiosity[at]);
     hr2di_add(&escaped, -s->weight[k] * s->irradiance[at]);
+    if (!t->sky) continue;
+    hr2di_add(&received, s->weight[k] * (t->sky[k] * background));
+    hr2di_add(&escaped, s->weight[k] * (t->sky[k] * background));
   }
   const double unit = hr2d_scene_unit(scene);
-  return (hr2d_power){unit * hr2di_total(&emitted), unit * hr2di_total(&absorbed),
-                      unit * hr2di_total(&escaped)};
+  return (hr2d_power){unit * hr2di_total(&emitted), unit * hr2di_total(&received),
+                      unit * hr2di_total(&absorbed), unit * hr2di_total(&escaped)};
 }
 
 static hr2d_status make_solution(solver *s, hr2d_solution **solution) {
@@ -210,16 +257,22 @@ static hr2d_status make_solution(solver *s, hr2d_solution **solution) {
                           .hierarchy = t->hierarchy,
                           .elements = t->elements,
                           .bands = t->bands,
-                          .sweeps = t->sweeps,
+                          .work = {.gathers = t->sweeps,
+                                   .iterations = s->looks ? s->looks - 1 : 0,
+                                   .row_sums = s->row_sums,
+                                   .background_rows = t->sky ? s->row_sums : 0},
                           .residual = true_residual(s)};
   made->power = hr2di_alloc(&made->alloc, t->bands, sizeof *made->power);
-  if (!made->power) {
+  made->value = hr2di_alloc(&made->alloc, t->elements * t->bands, sizeof *made->value);
+  if (!made->power || !made->value) {
     hr2d_solution_destroy(made);
     return HR2D_ENOMEM;
   }
   for (size_t band = 0; band < t->bands; band++) made->power[band] = sum_power(s, band);
   hr2di_pull(t, s->radiosity);
-  made->value = t->up;
+  for (size_t k = 0; k < t->elements * t->bands; k++) made->value[k] = t->up[k];
+  hr2di_pull(t, s->irradiance);
+  made->irradiance = t->up;
   t->up = NULL;
   *solution = made;
   return HR2D_OK;
@@ -235,7 +288,7 @@ hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *options,
   s.transport.alloc = links->alloc;
   status = set_up(&s);
   if (!status) {
-    if (reflects(&s))
+    if (iterates(&s))
       status = iterate(&s);
     else
       gather_once(&s);

@@ -45,6 +45,7 @@ void hr2di_transport_clear(hr2di_transport *t) {
   hr2di_free(&t->alloc, t->up);
   hr2di_free(&t->alloc, t->down);
   hr2di_free(&t->alloc, t->closure);
+  hr2di_free(&t->alloc, t->sky);
 }
 
 /* Children come after their parents, so that one falling loop meets them first. */
@@ -61,9 +62,9 @@ void hr2di_pull(hr2di_transport *t, const double *leaf_field) {
 }
 
 /* Power received over the links of one block, both ways unless directed. */
-static void gather_block(const hr2d_link *link, size_t count, size_t bands, int directed,
-                         const double *up, double *down) {
-  if (bands == 1 && !directed) {
+static void gather_block(const hr2d_link *link, size_t count, size_t bands, int plain,
+                         int directed, const double *up, double *down) {
+  if (plain && !directed) {
     for (size_t k = 0; k < count; k++) {
       const hr2d_pair p = link[k].pair;
       const double area = link[k].exchange_area;
@@ -86,8 +87,9 @@ static void gather_slice(hr2di_transport *t, size_t slice) {
   const size_t to = (slice + 1) * store->blocks / t->slices;
   double *down = t->down + slice * t->elements * t->bands;
   memset(down, 0, t->elements * t->bands * sizeof *down);
+  const int plain = !t->hierarchy->scene->effect[HR2D_EFFECT_BANDS].on;
   for (size_t k = from; k < to; k++)
-    gather_block(store->block[k], hr2di_store_block_size(store, k), t->bands,
+    gather_block(store->block[k], hr2di_store_block_size(store, k), t->bands, plain,
                  t->links->directed, t->up, down);
 }
 
@@ -128,4 +130,11 @@ void hr2di_gather(hr2di_transport *t, const double *radiosity, double *irradianc
     for (size_t b = 0; b < t->bands; b++)
       irradiance[k * t->bands + b] += t->closure[k] * radiosity[k * t->bands + b];
   t->sweeps++;
+}
+
+void hr2di_add_background(const hr2di_transport *t, double *irradiance) {
+  const hr2d_scene *scene = t->hierarchy->scene;
+  for (size_t k = 0; k < t->leaves && t->sky; k++)
+    for (size_t b = 0; b < t->bands; b++)
+      irradiance[k * t->bands + b] += t->sky[k] * hr2d_scene_background(scene, b);
 }

@@ -17,6 +17,8 @@ typedef struct hr2di_transport {
   double *up;       /* elements × bands: averages */
   double *down;     /* slices × elements × bands: power received, then irradiance */
   double *closure;  /* added to the diagonal, per leaf; NULL for none */
+  double *sky;      /* how much of all directions each leaf sees the background in; NULL:
+                       none does */
   size_t slices;    /* the links are cut into so many parts, whatever the threads */
   unsigned threads; /* 0 for all */
   uint64_t sweeps;  /* gathers so far */
@@ -33,5 +35,8 @@ void hr2di_pull(hr2di_transport *t, const double *leaf_field);
 
 /* irradiance = K radiosity: H_i = Σ_j AF_ij B_j / A_i on leaves. */
 void hr2di_gather(hr2di_transport *t, const double *radiosity, double *irradiance);
+
+/* Adds what arrives from the background. */
+void hr2di_add_background(const hr2di_transport *t, double *irradiance);
 
 #endif

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Commit's checks of the patches against each other, and their common scale. */
-#include <float.h>
 #include <math.h>
-#include <stdlib.h>
+#include <stdio.h>
 
-#include "alloc.h"
+#include "crossings.h"
 #include "scene-impl.h"
 
 hr2d_status hr2di_check_bands(hr2d_scene *scene) {
@@ -62,64 +61,73 @@ hr2d_status hr2di_scale(hr2d_scene *scene) {
   return HR2D_OK;
 }
 
-/* The segments meet in one point that is inside both. */
-static int cross(const hr2d_segment *i, const hr2d_segment *j) {
-  return hr2d_orientation(i->a, i->b, j->a) * hr2d_orientation(i->a, i->b, j->b) < 0 &&
-         hr2d_orientation(j->a, j->b, i->a) * hr2d_orientation(j->a, j->b, i->b) < 0;
+static hr2d_point in_scene_lengths(const hr2d_scene *scene, hr2d_point p) {
+  return (hr2d_point){ldexp(p.x, scene->exponent), ldexp(p.y, scene->exponent)};
 }
 
-/* The segments lie on one line, point the same way and share more than a point.
-   Opposite ones stand back to back, which is no harm. */
-static int overlap(const hr2d_segment *i, const hr2d_segment *j) {
-  if (hr2d_orientation(i->a, i->b, j->a) != 0 || hr2d_orientation(i->a, i->b, j->b) != 0)
-    return 0;
-  const int by_x = fabs(i->b.x - i->a.x) >= fabs(i->b.y - i->a.y);
-  double ia = by_x ? i->a.x : i->a.y, ib = by_x ? i->b.x : i->b.y;
-  double ja = by_x ? j->a.x : j->a.y, jb = by_x ? j->b.x : j->b.y;
-  if ((ib > ia) != (jb > ja)) return 0;
-  return fmax(fmin(ia, ib), fmin(ja, jb)) < fmin(fmax(ia, ib), fmax(ja, jb));
+static int same(hr2d_point p, hr2d_point q) {
+  return p.x == q.x && p.y == q.y;
 }
 
-static int boxes_meet_in_y(const hr2d_segment *i, const hr2d_segment *j) {
-  return fmin(i->a.y, i->b.y) <= fmax(j->a.y, j->b.y) &&
-         fmin(j->a.y, j->b.y) <= fmax(i->a.y, i->b.y);
+static int is_between(const hr2d_segment *s, hr2d_point p, hr2d_point q) {
+  return (same(s->a, p) && same(s->b, q)) || (same(s->a, q) && same(s->b, p));
 }
 
-typedef struct span {
-  double from, to; /* in x */
-  size_t patch;
-} span;
-
-static int by_start(const void *left, const void *right) {
-  const span *l = left, *r = right;
-  if (l->from != r->from) return l->from < r->from ? -1 : 1;
-  return (l->patch > r->patch) - (l->patch < r->patch);
+static hr2d_status fail_crossing(hr2d_scene *scene, size_t i, size_t j, hr2d_point x) {
+  const hr2d_point at = in_scene_lengths(scene, x);
+  return hr2di_fail(&scene->message, HR2D_ESCENE,
+                    "%s and %s cross at (%.9g, %.9g): hr2d_scene_split_crossings() or "
+                    "--split-crossings cuts them there",
+                    hr2di_patch_label(scene, i).text, hr2di_patch_label(scene, j).text, at.x,
+                    at.y);
 }
 
-static hr2d_status check_pair(hr2d_scene *scene, size_t i, size_t j) {
+/* Where, and along which length, two patches lie on one another. */
+static hr2di_label describe_stretch(const hr2d_scene *scene, const hr2di_meeting *m) {
+  const hr2d_point p = in_scene_lengths(scene, m->from), q = in_scene_lengths(scene, m->to);
+  hr2di_label label;
+  snprintf(label.text, sizeof label.text, "from (%.9g, %.9g) to (%.9g, %.9g), %.3g long", p.x,
+           p.y, q.x, q.y, hypot(q.x - p.x, q.y - p.y));
+  return label;
+}
+
+static hr2d_status fail_overlap(hr2d_scene *scene, size_t i, size_t j, const hr2di_meeting *m) {
   const hr2d_segment *s = &scene->patch[i].scaled, *t = &scene->patch[j].scaled;
-  if (!boxes_meet_in_y(s, t)) return HR2D_OK;
-  const char *what = cross(s, t) ? "cross" : overlap(s, t) ? "overlap" : NULL;
-  if (!what) return HR2D_OK;
-  if (i > j) return check_pair(scene, j, i);
-  return hr2di_fail(&scene->message, HR2D_ESCENE, "%s and %s %s",
-                    hr2di_patch_label(scene, i).text, hr2di_patch_label(scene, j).text, what);
+  const hr2di_label first = hr2di_patch_label(scene, i), second = hr2di_patch_label(scene, j);
+  const hr2di_label where = describe_stretch(scene, m);
+  const char *within = m->collinear ? "" : " within rounding";
+  if (m->kind == HR2DI_MEET_FACE)
+    return hr2di_fail(&scene->message, HR2D_ESCENE,
+                      "%s and %s face each other with no more than a rounding between them, "
+                      "%s: hr2d_scene_split_crossings() or --split-crossings puts them back to "
+                      "back; or use \"sides\": \"both\"",
+                      first.text, second.text, where.text);
+  if (same(s->a, t->a) && same(s->b, t->b))
+    return hr2di_fail(&scene->message, HR2D_ESCENE, "%s is a copy of %s, %s", second.text,
+                      first.text, where.text);
+  const int first_inside = is_between(s, m->from, m->to);
+  if (first_inside || is_between(t, m->from, m->to))
+    return hr2di_fail(&scene->message, HR2D_ESCENE,
+                      "%s lies on %s%s with its front on the same side, %s",
+                      first_inside ? first.text : second.text,
+                      first_inside ? second.text : first.text, within, where.text);
+  return hr2di_fail(&scene->message, HR2D_ESCENE,
+                    "%s and %s lie on one another%s with their fronts on the same side, %s",
+                    first.text, second.text, within, where.text);
 }
 
-/* Only patches whose spans in x meet are compared. */
+static hr2d_status check_pair(void *ctx, size_t i, size_t j) {
+  hr2d_scene *scene = ctx;
+  const hr2di_meeting m = hr2di_meet(&scene->patch[i].scaled, &scene->patch[j].scaled);
+  if (m.kind == HR2DI_MEET_FREE) return HR2D_OK;
+  if (m.kind == HR2DI_MEET_CROSS) return fail_crossing(scene, i, j, m.from);
+  return fail_overlap(scene, i, j, &m);
+}
+
 hr2d_status hr2di_check_overlaps(hr2d_scene *scene) {
-  const size_t n = scene->patches;
-  span *spans = hr2di_alloc(&scene->alloc, n, sizeof *spans);
-  if (!spans) return hr2di_fail(&scene->message, HR2D_ENOMEM, "out of memory for the checks");
-  for (size_t k = 0; k < n; k++) {
-    const hr2d_segment s = scene->patch[k].scaled;
-    spans[k] = (span){fmin(s.a.x, s.b.x), fmax(s.a.x, s.b.x), k};
-  }
-  qsort(spans, n, sizeof *spans, by_start);
-  hr2d_status status = HR2D_OK;
-  for (size_t k = 0; k < n && !status; k++)
-    for (size_t m = k + 1; m < n && spans[m].from <= spans[k].to && !status; m++)
-      status = check_pair(scene, spans[k].patch, spans[m].patch);
-  hr2di_free(&scene->alloc, spans);
+  const hr2d_status status = hr2di_sweep(&scene->alloc, &scene->patch[0].scaled, scene->patches,
+                                         sizeof *scene->patch, check_pair, scene);
+  if (status == HR2D_ENOMEM)
+    hr2di_fail(&scene->message, status, "out of memory for the checks");
   return status;
 }

@@ -77,12 +77,12 @@ narrow=$scenes/par-near.geojson
 # ---- bad usage: exit 2, one line
 usage "no command given"
 usage "unknown command 'cost'" cost "$far"
-usage "unknown command 'factors'" factors "$far"
 usage "unknown command ''" ""
 usage "expected a command before '--eps'" --eps 1
 usage "'x' is one argument too many" --help x
 usage "'solve' needs a SCENE file" solve
 usage "'info' needs a SCENE file" info
+usage "'factors' needs a SCENE file" factors
 usage "'b' is one argument too many" solve a b
 usage "'x' is one argument too many" pair x
 usage "unknown option '--frobnicate'" solve "$far" --frobnicate
@@ -93,6 +93,14 @@ usage "'--quiet=3' takes no argument" solve "$far" --quiet=3
 usage "'info' has no option --eps" info "$far" --eps 1
 usage "'solve' has no option --plot" solve "$far" --plot x.svg
 usage "'study' has no option --at" study "$far" --at 0:0
+usage "'factors' has no option --eps" factors "$far" --eps 1
+usage "'info' has no option --csv" info "$far" --csv a
+usage "'pair' has no option --force" pair --force occlusion
+usage "'pair' has no option --split-crossings" pair --split-crossings
+usage "'--split-crossings=1' takes no argument" factors "$far" --split-crossings=1
+usage "--force: 'fog' is none of occlusion, .*background.*, corner" solve "$far" --force fog
+usage "--force: 'occlusio' is none of" factors "$far" --force occlusio
+usage "two outputs go to '-'" factors "$far" --json - --csv -
 usage "--eps: 'x' is not a number greater than 0" solve "$far" --eps x
 usage "--eps: '0.1x' is not" solve "$far" --eps 0.1x
 usage "--eps: '' is not" solve "$far" --eps ''
@@ -142,7 +150,7 @@ usage "--link-parents needs --variant modified" solve "$far" --draw a.svg --link
 fits_screen() {
   awk 'length($0) > 80 { bad = 1 } END { exit bad || NR < 5 || NR > 40 }' "$work/out"
 }
-for command in "" info solve study pair; do
+for command in "" info solve study factors pair; do
   # shellcheck disable=SC2086
   succeeds $command --help
   check "help of '$command' fits a screen" fits_screen
@@ -152,8 +160,8 @@ check "version is printed" grep -q '^hr2d [0-9][0-9]*\.[0-9][0-9]*\.[0-9]' "$wor
 
 # ---- bad input: exit 1, the file is named
 expect 1 "^hr2d: $work/none: ." solve "$work/none"
-expect 1 "^hr2d: $data/occluded.geojson: .*\"blocker\"" solve "$data/occluded.geojson"
-expect 1 "^hr2d: $data/occluded.geojson: .*\"blocker\"" study "$data/occluded.geojson"
+expect 1 "^hr2d: $data/crossing.geojson: .*cross/1.* cross at (0.5, 0.5)" solve "$data/crossing.geojson"
+expect 1 "^hr2d: $data/crossing.geojson: .*cross/1.* cross at (0.5, 0.5)" factors "$data/crossing.geojson"
 expect 1 "^hr2d: $far: .*10 links" solve "$far" --max-links 10
 expect 1 "^hr2d: $far: .*3 elements" solve "$far" --max-elements 3
 for file in "$HR2D_SRCDIR"/tests/malformed/*.geojson; do
@@ -164,10 +172,19 @@ done
 succeeds info "$data/occluded.geojson" --json "$work/info.json"
 check "info prints the effects" grep -q '^  occlusion  *on  .*"blocker"' "$work/out"
 check "info prints the length" grep -q '^total length  2.8$' "$work/out"
-for key in scene patches length bands bounding_box reflectance effects reasons status; do
+for key in scene cuts patches length bands bounding_box reflectance background effects \
+  reasons status; do
   check "info has the key $key" grep -q "^  \"$key\": " "$work/info.json"
 done
 check "info says occlusion" grep -q '"occlusion": true' "$work/info.json"
+check "and no background" grep -q '"background": false' "$work/info.json"
+check "nor its light" lacks '^background ' "$work/out"
+succeeds info "$data/sky.geojson" --json "$work/info.json"
+check "info prints the background" grep -q '^background    0.5 1$' "$work/out"
+check "and its effect" grep -q '^  background  *on ' "$work/out"
+check "also as JSON" grep -q '"background": true' "$work/info.json"
+succeeds info "$far" --force occlusion --force bands
+check "info says what is forced" [ "$(grep -c -e '^  occlusion  *on' -e '^  bands  *on' "$work/out")" -eq 2 ]
 
 # ---- solve
 succeeds solve "$narrow" --eps 0.015625 --at bottom:0.25 --at 1:0.5 --json "$work/solve.json" \
@@ -176,23 +193,35 @@ for key in scene patches at elements leaves links limited_links levels order eps
   variant effects work seconds peak_bytes error power status; do
   check "solve has the key $key" grep -q "^  \"$key\": " "$work/solve.json"
 done
-for key in index name length average patch t value oracle_calls visibility_tests \
-  exchange_areas sweeps refine coefficients solve total estimate bound occlusion; do
+for key in index name length average irradiance net_flux patch t value oracle_calls \
+  facing_tests visibility_tests exchange_areas partial_links blocked_pairs dark_pairs sweeps \
+  iterations row_sums background_rows emitted received absorbed escaped relative_error refine \
+  coefficients solve total estimate bound occlusion background; do
   check "solve has the inner key $key" grep -q "^   *\"$key\": " "$work/solve.json"
 done
 number() { # the first number of an array, by key and the which-th time it occurs
   awk -v key="\"$1\": [" -v which="$2" 'index($0, key) { n++; if (n == which) { getline; print; exit } }' \
     "$work/solve.json" | tr -d ' ,'
 }
+small() { # small VALUE BOUND
+  awk -v x="$1" -v e="$2" 'BEGIN { if (x < 0) x = -x; exit !(x == x + 0 && x <= e) }'
+}
+value() { # the first value of a key
+  grep -o "\"$1\": [^,]*" "$work/solve.json" | head -n 1 | cut -d' ' -f2
+}
 # tests/reference/radiosity_reference.csv
 check "average of bottom" near "$(number average 1)" 1.26523096533323 1e-5
 check "average of top" near "$(number average 2)" 0.575479501950071 1e-5
 check "B at a quarter of bottom" near "$(number value 1)" 1.28925868287759 1e-3
 check "B at half of top" near "$(number value 2)" 0.639919968806328 1e-3
+# B = E + ρH with ρ = 1/2
+check "H of bottom" near "$(number irradiance 1)" 0.53046193066646 3e-5
+check "H of top" near "$(number irradiance 2)" 1.150959003900142 1e-5
+check "B - H of top" near "$(number net_flux 2)" -0.575479501950071 1e-5
 check "N of par0.1" grep -q '^  "elements": 4094,$' "$work/solve.json"
 check "L of par0.1" grep -q '^  "links": 246082,$' "$work/solve.json"
 check "CSV has a row for each leaf" [ "$(wc -l <"$work/solve.csv")" -eq 2049 ]
-check "CSV has its header" grep -qx 'patch,name,t0,t1,ax,ay,bx,by,B0' "$work/solve.csv"
+check "CSV has its header" grep -qx 'patch,name,t0,t1,ax,ay,bx,by,B0,H0' "$work/solve.csv"
 if command -v python3 >/dev/null 2>&1; then
   check "JSON is JSON" python3 -m json.tool "$work/solve.json" /dev/null
 fi
@@ -202,7 +231,7 @@ succeeds solve "$narrow" --json -
 check "JSON alone on standard output" [ "$(head -c 1 "$work/out")" = "{" ]
 check "no table beside it" lacks '^scene' "$work/out"
 succeeds solve "$scenes/lit-room.geojson" --csv -
-check "three bands" [ "$(head -n 1 "$work/out")" = "patch,name,t0,t1,ax,ay,bx,by,B0,B1,B2" ]
+check "three bands" [ "$(head -n 1 "$work/out")" = "patch,name,t0,t1,ax,ay,bx,by,B0,B1,B2,H0,H1,H2" ]
 succeeds solve "$scenes/corner.geojson"
 check "the recursion limit is told" \
   grep -q 'recursion limit acted on [0-9]* links at level 24 (touching patches)' "$work/out"
@@ -217,6 +246,125 @@ check "multigridding ends with the links of the last step" \
 hr2d solve "$scenes/square-room.geojson" --threads 1 --csv "$work/one.csv" --quiet
 hr2d solve "$scenes/square-room.geojson" --threads 3 --csv "$work/three.csv" --quiet
 check "threads leave no trace" cmp -s "$work/one.csv" "$work/three.csv"
+
+# A closed room of E = 1 − ρ: B = H = 1, whatever the links.
+succeeds solve "$scenes/furnace-enclosure.geojson" --at 0:0.3 --json "$work/solve.json"
+check "H of an enclosure" near "$(number irradiance 1)" 1 1e-12
+check "H at a point of it" near "$(number irradiance 5)" 1 1e-12
+check "its net flux is 0" small "$(number net_flux 1)" 1e-12
+check "its power balance" grep -q '^power  *emitted 0.4 = absorbed 0.4 + escaped 0 (' "$work/out"
+check "closes" small "$(value relative_error)" 1e-12
+succeeds solve "$data/sky.geojson" --json "$work/solve.json"
+check "light that comes in is told" grep -q '^power 1 .* + received [0-9.]* = ' "$work/out"
+check "and balanced" small "$(value relative_error)" 1e-12
+succeeds solve "$scenes/occluders-200.geojson" --eps 1 --csv "$work/solve.csv"
+check "long tables are cut short" grep -q '^  \.\.\.  366 more patches' "$work/out"
+check "CSV is not" [ "$(cut -d, -f1 "$work/solve.csv" | sort -u | wc -l)" -eq 407 ]
+
+# ---- factors
+cells() { # cells FILE: rows of numbers, without the header
+  sed 1d "$1" | tr , ' '
+}
+rows_sum_to_1() { # rows_sum_to_1 CSV N
+  cells "$1" | awk -v n="$2" '{ s = 0; for (k = 1; k <= NF; k++) s += $k
+                               if (NF != n || s < 1 - 2e-14 || s > 1 + 2e-14) bad = 1 }
+                             END { exit bad || NR != n }'
+}
+reciprocal() { # reciprocal CSV JSON N: A_i F_ij = A_j F_ji
+  { grep -o '"length": [^,]*' "$2" | cut -d' ' -f2; cells "$1"; } |
+    awk -v n="$3" 'NR <= n { a[NR] = $1; next }
+      { for (k = 1; k <= n; k++) f[NR - n, k] = a[NR - n] * $k }
+      END { for (i = 1; i <= n; i++) for (j = 1; j < i; j++) {
+              d = f[i, j] - f[j, i]; if (d > 1e-15 || d < -1e-15) bad = 1 }
+            exit bad || NR != 2 * n }'
+}
+succeeds factors "$far" --csv -
+check "CSV has a line of names" [ "$(head -n 1 "$work/out")" = "bottom,top" ]
+# √2 − 1
+check "F of two opposite sides of a square" \
+  near "$(sed -n 2p "$work/out" | cut -d, -f2)" 0.41421356237309504880 1e-15
+check "nothing sees itself" [ "$(sed -n 3p "$work/out" | cut -d, -f2)" = 0 ]
+succeeds factors "$data/names.geojson" --csv -
+check "CSV quotes names of columns" [ "$(head -n 1 "$work/out")" = '"a:b, ""c""",größer' ]
+for scene in square-room:4 furnace:11 lit-room:9 castel-del-monte:14 partition:30 \
+  occluders-200:406; do
+  n=${scene#*:}
+  succeeds factors "$scenes/${scene%:*}.geojson" --csv "$work/f.csv" --json "$work/f.json"
+  check "rows of $scene sum to 1" rows_sum_to_1 "$work/f.csv" "$n"
+  check "$scene is reciprocal" reciprocal "$work/f.csv" "$work/f.json" "$n"
+  check "number of patches of $scene" grep -q "^patches   $n\$" "$work/out"
+done
+check "the table of many patches is cut short" grep -q '^  \.\.\.  366 more patches' "$work/out"
+for key in scene cuts patches factors work seconds status; do
+  check "factors has the key $key" grep -q "^  \"$key\": " "$work/f.json"
+done
+for key in index name length row_sum exchange_areas partial_pairs blocked_pairs \
+  visibility_tests; do
+  check "factors has the inner key $key" grep -q "\"$key\": " "$work/f.json"
+done
+if command -v python3 >/dev/null 2>&1; then
+  check "factors are JSON" python3 -c 'import json, sys
+d = json.load(open(sys.argv[1]))
+n = len(d["patches"])
+assert len(d["factors"]) == n and all(len(row) == n for row in d["factors"])
+assert all(abs(sum(row) - p["row_sum"]) < 1e-14 for row, p in zip(d["factors"], d["patches"]))
+assert isinstance(d["seconds"], float)' "$work/f.json"
+fi
+# Lines pass an obstacle from (0.3, 0.5) to (0.7, 0.5) in a unit square on either side, by
+# crossed strings √0.34 − ½ on each.
+for scene in "$data/occluded.geojson" "$scenes/blk1.vs2"; do
+  succeeds factors "$scene" --csv "$work/f.csv"
+  check "F around the obstacle of $scene" \
+    near "$(sed -n 2p "$work/f.csv" | cut -d, -f2)" 0.16619037896906 1e-13
+  check "the pair is seen in part: $scene" grep -q '^pairs .* 1 partly visible, 0 blocked$' "$work/out"
+done
+succeeds factors "$far"
+check "what escapes is told" grep -q '^worst .* = 5.858e-01, of patch 0 (bottom)$' "$work/out"
+succeeds factors "$far" --quiet
+check "quiet factors print nothing" [ ! -s "$work/out" -a ! -s "$work/err" ]
+succeeds factors "$far" --json -
+check "JSON of factors alone" [ "$(head -c 1 "$work/out")" = "{" ]
+expect 1 "^hr2d: $work/no/x.csv: cannot be written" factors "$far" --csv "$work/no/x.csv"
+[ ! -c /dev/full ] || expect 1 '^hr2d: /dev/full: cannot be written' factors "$far" --csv /dev/full
+[ ! -c /dev/full ] || expect 1 '^hr2d: /dev/full: cannot be written' factors "$far" --json /dev/full
+# Patches in one line: read at once, but with a matrix of half a gigabyte.
+awk 'BEGIN { printf "{\"type\": \"FeatureCollection\", \"features\": [{\"type\": \"Feature\","
+             printf "\"properties\": {}, \"geometry\": {\"type\": \"LineString\", \"coordinates\": ["
+             for (k = 0; k < 8000; k++) printf "[%d, 0], ", k
+             print "[8000, 0]]}}]}" }' >"$work/line.geojson"
+limited() { # limited ARGUMENTS...: with 300 MB of address space
+  # shellcheck disable=SC3045
+  (ulimit -v 300000 && exec "$HR2D_PROGRAM" "$@") >"$work/out" 2>"$work/err" </dev/null
+  status=$?
+}
+limited info "$work/line.geojson"
+if [ "$status" -eq 0 ]; then # a program with a sanitizer takes more
+  limited factors "$work/line.geojson"
+  check "a matrix that does not fit is told" \
+    matches 1 "^hr2d: $work/line.geojson: out of memory: the factors of 8000 patches take 512 MB\$"
+fi
+
+# ---- crossings that are cut, effects that are forced
+succeeds factors "$data/crossing.geojson" --split-crossings --csv "$work/f.csv"
+check "the crossing is told" grep -q '^crossings 1 cut$' "$work/out"
+check "pieces have names" grep -q 'cross/1 \[1\],' "$work/f.csv"
+check "rows around the crossing sum to 1" rows_sum_to_1 "$work/f.csv" 12
+for command in info solve study; do
+  succeeds $command "$data/crossing.geojson" --split-crossings --json "$work/cut.json"
+  check "$command tells the crossing" grep -q '^crossings  *1 cut$' "$work/out"
+  check "$command writes it" grep -q '^  "cuts": 1,$' "$work/cut.json"
+done
+for effect in occlusion interreflection emission bands two-sided facing background corner; do
+  hr2d solve "$far" --quiet --csv "$work/one.csv"
+  hr2d solve "$far" --quiet --csv "$work/forced.csv" --force "$effect"
+  check "forced $effect changes no bit" cmp -s "$work/one.csv" "$work/forced.csv"
+done
+sed 's/"emission": 1,//' "$narrow" >"$work/dark.geojson"
+hr2d study "$narrow" --quiet --csv "$work/one.csv"
+hr2d study "$work/dark.geojson" --quiet --csv "$work/dark.csv"
+check "the scene is dark" lacks emission "$work/dark.geojson"
+check "a study counts links in the dark" sh -c "cut -d, -f1-5 '$work/dark.csv' >'$work/a' &&
+  cut -d, -f1-5 '$work/one.csv' | cmp -s - '$work/a'"
 
 # ---- study
 succeeds study "$narrow" --from 1 --to 0.015625 --steps 4 --json "$work/study.json" \

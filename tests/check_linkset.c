@@ -87,7 +87,7 @@ START_TEST(a_new_set_is_empty) {
   test_links t = test_make_links(test_named_scene("par1"), hr2d_oracle_bf(), NULL, NULL, NULL);
   const hr2d_refine_counts c = hr2d_linkset_counts(t.links);
   ck_assert_uint_eq(c.elements + c.leaves + c.links + c.limited_links + c.oracle_calls +
-                        c.visibility_tests + c.exchange_areas + c.levels,
+                        c.facing_tests + c.visibility_tests + c.exchange_areas + c.levels,
                     0);
   ck_assert_uint_eq(hr2d_linkset_size(t.links), 0);
   ck_assert_uint_eq(hr2d_linkset_bytes(t.links), 0);

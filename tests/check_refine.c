@@ -123,7 +123,7 @@ START_TEST(clipped_links_exchange_what_patches_do) {
   ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
   check_transport(&t);
   const hr2d_refine_counts counts = hr2d_linkset_counts(t.links);
-  ck_assert_uint_gt(counts.visibility_tests, 0);
+  ck_assert_uint_gt(counts.facing_tests, 0);
   /* The part below the horizon is not linked at all. */
   for (uint64_t k = 0; k < hr2d_linkset_size(t.links); k++)
     ck_assert_double_gt(hr2d_linkset_get(t.links, k).exchange_area, 0);
@@ -196,7 +196,7 @@ START_TEST(facing_pairs_are_never_tested_again) {
   test_links t = test_make_links(test_named_scene("par0.1"), NULL, NULL, NULL, NULL);
   const hr2d_refine_options options = with_epsilon(0.05);
   ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
-  ck_assert_uint_eq(hr2d_linkset_counts(t.links).visibility_tests, 0);
+  ck_assert_uint_eq(hr2d_linkset_counts(t.links).facing_tests, 0);
   ck_assert_uint_eq(hr2d_linkset_counts(t.links).exchange_areas, hr2d_linkset_size(t.links));
   test_free_links(&t);
 }
@@ -401,14 +401,6 @@ START_TEST(options_without_meaning_are_refused) {
   check_refused(&t, &options, HR2D_EINVAL, "directed");
   hr2d_refine_counts counts;
   ck_assert_int_eq(hr2d_refine_count(t.links, NULL, &counts), HR2D_ESTATE);
-  test_free_links(&t);
-}
-END_TEST
-
-START_TEST(occluded_scenes_are_refused) {
-  const double scene[][6] = {{0, 0, 1, 0, 1, .5}, {1, 1, 0, 1, 0, .5}, {.3, .5, .7, .5, 0, .5}};
-  test_links t = test_make_links(test_scene(scene, 3), NULL, NULL, NULL, NULL);
-  check_refused(&t, NULL, HR2D_EUNSUPPORTED, "patch 2 can stand between patch 0 and patch 1");
   test_free_links(&t);
 }
 END_TEST
@@ -703,7 +695,6 @@ int main(void) {
   tcase_add_test(limits, elements_end_where_doubles_do);
   tcase_add_test(limits, budgets_are_kept);
   tcase_add_test(limits, options_without_meaning_are_refused);
-  tcase_add_test(limits, occluded_scenes_are_refused);
   suite_add_tcase(suite, limits);
   TCase *callbacks = tcase_create("callbacks");
   tcase_add_test(callbacks, estimates_without_meaning_end_the_refinement);

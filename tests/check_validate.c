@@ -13,9 +13,9 @@
 /* Dyadic scenes: all midpoints lie on their patch, to the last bit. */
 static const double clipped[][6] = {{0, 0, 1, 0, 1, .5}, {1.5, -.75, 2, 1, 0, .5}};
 static const double tee[][6] = {{0, 0, 1, 0, 1, .5}, {.5, 1, .5, 0, 0, .5}};
-static const double spokes[][6] = {{0, 0, 1, 0, 1, .5},   {1, 0, 0, 0, 0, .5},
-                                   {0, 0, -1, 1, 0, .5},  {-1, 1, 0, 0, 0, .5},
-                                   {0, 0, -1, -1, 0, .5}, {-1, -1, 0, 0, 0, .5}};
+static const double spokes[][6] = {{0, 0, 1, 0, 1, .5},   {1, 0, 0, 0, 1, .5},
+                                   {0, 0, -1, 1, 1, .5},  {-1, 1, 0, 0, 1, .5},
+                                   {0, 0, -1, -1, 1, .5}, {-1, -1, 0, 0, 1, .5}};
 static const double unequal[][6] = {{0, 0, 4, 0, 1, .5}, {1.25, .5, 1, .5, 0, .5}};
 static const double apart[][6] = {{0, 0, 1, 0, 1, .5}, {1, 0, 0, 0, 0, .5}};
 

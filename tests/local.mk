@@ -9,7 +9,9 @@ SUITES = \
 	tests/check_geometry \
 	tests/check_exchange_area \
 	tests/check_scene \
+	tests/check_crossings \
 	tests/check_geojson \
+	tests/check_vs2 \
 	tests/check_hierarchy \
 	tests/check_refine \
 	tests/check_linkset \
@@ -17,6 +19,8 @@ SUITES = \
 	tests/check_theorem \
 	tests/check_l1 \
 	tests/check_solve \
+	tests/check_visibility \
+	tests/check_exchange_matrix \
 	tests/check_study \
 	tests/check_faults
 
@@ -34,7 +38,10 @@ check_LTLIBRARIES = tests/libsupport.la
 tests_libsupport_la_SOURCES = \
 	tests/mpfr_exchange.c tests/mpfr_exchange.h \
 	tests/pair_classes.c tests/pair_classes.h \
-	tests/support.c tests/support.h
+	tests/brute_visibility.c tests/brute_visibility.h \
+	tests/room_plans.c tests/room_plans.h \
+	tests/support.c tests/support.h \
+	tests/visibility_cases.c tests/visibility_cases.h
 check_PROGRAMS += $(SUITES)
 TESTS += $(SUITES) $(OUTSIDE)
 else

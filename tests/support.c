@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "room_plans.h"
+
 double test_multiplier(void) {
   const char *set = getenv("HR2D_TEST_MULTIPLIER");
   return set ? strtod(set, NULL) : 1;
@@ -50,6 +52,15 @@ hr2d_scene *test_named_scene(const char *name) {
     return test_scene((const double[][6]){{0, 0, 1, 0, 1, rho}, {0, 1, 0, 0, 0, rho}}, 2);
   if (sscanf(name, "orth%lf", &d) == 1)
     return test_scene((const double[][6]){{d, 0, 1 + d, 0, 1, .5}, {0, 1 + d, 0, d, 0, .5}}, 2);
+  double inner;
+  if (sscanf(name, "occ_square_walls%lf_occ%lf", &rho, &inner) == 2)
+    return test_scene((const double[][6]){{0, 0, 1, 0, 1, rho},
+                                          {1, 0, 1, 1, 0, rho},
+                                          {1, 1, 0, 1, 0, rho},
+                                          {0, 1, 0, 0, 0, rho},
+                                          {.3, .5, .7, .5, 0, inner},
+                                          {.7, .5, .3, .5, 0, inner}},
+                      6);
   if (sscanf(name, "square_rho%lf", &rho) == 1)
     return test_scene((const double[][6]){{0, 0, 1, 0, 1, rho},
                                           {1, 0, 1, 1, 0, rho},
@@ -66,6 +77,35 @@ hr2d_scene *test_named_scene(const char *name) {
   }
   ck_abort_msg("no scene is called %s", name);
   return NULL;
+}
+
+static hr2d_status add_painted(hr2d_scene *scene, hr2d_segment at, hr2d_sides sides,
+                               const test_paint *paint) {
+  const double rho = paint->reflectance * (paint->r ? random_unit(paint->r) : 1);
+  const double e = paint->emission * (paint->r ? random_unit(paint->r) : 1);
+  const double emission = paint->isothermal ? 1 - rho : e;
+  const hr2d_patch patch = {.a = at.a,
+                            .b = at.b,
+                            .emission = &emission,
+                            .emission_bands = 1,
+                            .reflectance = &rho,
+                            .reflectance_bands = 1,
+                            .sides = sides};
+  return hr2d_scene_add(scene, &patch, NULL);
+}
+
+hr2d_scene *test_painted_scene(const struct plan *plan, const test_paint *paint) {
+  hr2d_scene *scene = NULL;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  for (size_t k = 0; k < plan->walls; k++)
+    ck_assert_int_eq(add_painted(scene, plan->wall[k], plan->sides[k], paint), HR2D_OK);
+  if (plan->crossing) ck_assert_int_eq(hr2d_scene_split_crossings(scene, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_set_background(scene, &paint->background, 1), HR2D_OK);
+  for (int e = 0; e < HR2D_EFFECT_COUNT; e++)
+    if (paint->forced & (1u << e))
+      ck_assert_int_eq(hr2d_scene_force(scene, (hr2d_effect)e), HR2D_OK);
+  ck_assert_msg(hr2d_scene_commit(scene) == HR2D_OK, "%s", hr2d_scene_message(scene));
+  return scene;
 }
 
 static char *read_reference(const char *file) {
@@ -139,13 +179,99 @@ void test_free_links(test_links *t) {
   hr2d_scene_destroy(t->scene);
 }
 
+void test_refine(test_links *t, double epsilon, unsigned max_level) {
+  hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
+  options.epsilon = epsilon;
+  options.max_level = max_level;
+  ck_assert_msg(hr2d_refine(t->links, &options) == HR2D_OK, "%s",
+                hr2d_linkset_message(t->links));
+}
+
+hr2d_solution *test_solve(const test_links *t, int closure) {
+  hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+  hr2d_solution *solution = NULL;
+  options.closure = closure;
+  ck_assert_msg(hr2d_solve(t->links, &options, &solution) == HR2D_OK, "%s",
+                hr2d_linkset_message(t->links));
+  return solution;
+}
+
+enum { ROW = 5 };
+
+static int by_bits(const void *left, const void *right) {
+  return memcmp(left, right, ROW * sizeof(double));
+}
+
+double *test_sorted_links(const test_links *t, size_t *count) {
+  const hr2d_element *e = hr2d_hierarchy_elements(t->hierarchy);
+  *count = (size_t)hr2d_linkset_size(t->links);
+  double *row = malloc((*count + 1) * ROW * sizeof *row);
+  ck_assert_ptr_nonnull(row);
+  for (size_t k = 0; k < *count; k++) {
+    const hr2d_link link = hr2d_linkset_get(t->links, k);
+    const double all[ROW] = {e[link.pair.first].centre.x, e[link.pair.first].centre.y,
+                             e[link.pair.second].centre.x, e[link.pair.second].centre.y,
+                             link.exchange_area};
+    memcpy(row + ROW * k, all, sizeof all);
+  }
+  qsort(row, *count, ROW * sizeof *row, by_bits);
+  return row;
+}
+
+void test_same_links(const test_links *one, const test_links *other) {
+  size_t n, m;
+  double *first = test_sorted_links(one, &n), *second = test_sorted_links(other, &m);
+  ck_assert_uint_eq(n, m);
+  ck_assert_mem_eq(first, second, n * ROW * sizeof *first);
+  free(first);
+  free(second);
+}
+
+static int runs_out(test_memory *m) {
+  if (m->until_failure < 0) return 0;
+  if (m->until_failure > 0) {
+    m->until_failure--;
+    return 0;
+  }
+  if (!m->for_good) m->until_failure = -1;
+  m->failures++;
+  return 1;
+}
+
+static void *memory_allocate(void *ctx, size_t bytes) {
+  test_memory *m = ctx;
+  if (runs_out(m)) return NULL;
+  m->live++;
+  return malloc(bytes ? bytes : 1);
+}
+
+static void *memory_reallocate(void *ctx, void *block, size_t bytes) {
+  test_memory *m = ctx;
+  if (runs_out(m)) return NULL;
+  if (!block) m->live++;
+  return realloc(block, bytes ? bytes : 1);
+}
+
+static void memory_release(void *ctx, void *block) {
+  if (block) ((test_memory *)ctx)->live--;
+  free(block);
+}
+
+hr2d_allocator test_hooks(test_memory *memory) {
+  return (hr2d_allocator){memory_allocate, memory_reallocate, memory_release, memory};
+}
+
 void test_same_counts(const hr2d_refine_counts *one, const hr2d_refine_counts *other) {
   ck_assert_uint_eq(one->elements, other->elements);
   ck_assert_uint_eq(one->leaves, other->leaves);
   ck_assert_uint_eq(one->links, other->links);
   ck_assert_uint_eq(one->limited_links, other->limited_links);
   ck_assert_uint_eq(one->oracle_calls, other->oracle_calls);
+  ck_assert_uint_eq(one->facing_tests, other->facing_tests);
   ck_assert_uint_eq(one->visibility_tests, other->visibility_tests);
+  ck_assert_uint_eq(one->partial_links, other->partial_links);
+  ck_assert_uint_eq(one->blocked_pairs, other->blocked_pairs);
+  ck_assert_uint_eq(one->dark_pairs, other->dark_pairs);
   ck_assert_uint_eq(one->exchange_areas, other->exchange_areas);
   ck_assert_uint_eq(one->levels, other->levels);
 }

@@ -11,6 +11,11 @@
 #define CROWDED 3.0 /* points; elements shorter than this get no tick */
 #define OVERLAP 0.3 /* points; hides the seams of antialiasing */
 
+/* Thin bands have thin lines, or these would be all one sees. */
+static double fine(const picture *p, double width) {
+  return width * fmin(1, fmax(0.2, p->band / 5));
+}
+
 typedef struct band {
   picture *picture;
   const stroke *stroke;
@@ -65,7 +70,7 @@ static int tick_piece(void *ctx, const piece *e) {
   int exponent = 0;
   double t = e->t0;
   for (; exponent < 24 && t != floor(t); t *= 2) exponent++;
-  const double reach = p->band + 1.5 + 5 * pow(0.75, exponent);
+  const double reach = p->band + fine(p, 1.5 + 5 * pow(0.75, exponent));
   const hr2d_point from = beside(b->stroke, e->t0, 0.55 * p->band);
   const hr2d_point to = beside(b->stroke, e->t0, reach);
   cairo_move_to(p->cr, from.x, from.y);
@@ -80,7 +85,7 @@ static int draw_band(picture *p, size_t patch) {
   const int status = walk_leaves(p->run->hierarchy, patch, FINEST / p->scale, fill_piece, &b);
   outline(p, s, 0, 1);
   set_grey(p->cr, 0.25);
-  cairo_set_line_width(p->cr, 0.5);
+  cairo_set_line_width(p->cr, fine(p, 0.5));
   cairo_stroke(p->cr);
   return status;
 }
@@ -88,7 +93,7 @@ static int draw_band(picture *p, size_t patch) {
 static int draw_ticks(picture *p, size_t patch) {
   band b = {p, &p->strokes[patch]};
   set_grey(p->cr, 0.3);
-  cairo_set_line_width(p->cr, 0.45);
+  cairo_set_line_width(p->cr, fine(p, 0.45));
   const int status = walk_leaves(p->run->hierarchy, patch, FINEST / p->scale, tick_piece, &b);
   cairo_stroke(p->cr);
   return status;
@@ -98,7 +103,7 @@ static int draw_wall(picture *p, const stroke *s) {
   cairo_move_to(p->cr, s->a.x, s->a.y);
   cairo_line_to(p->cr, s->b.x, s->b.y);
   set_grey(p->cr, 0.1);
-  cairo_set_line_width(p->cr, 1.2);
+  cairo_set_line_width(p->cr, fine(p, 1.2));
   cairo_stroke(p->cr);
   const hr2d_point a = beside(s, 0, p->band + 4), b = beside(s, 1, p->band + 4);
   const int status = add_obstacle(p, s->a, s->b);

@@ -55,8 +55,8 @@ static void choose_scale(picture *p) {
   p->logarithmic =
       p->hi > 3 * p->lo && p->lo > 0 && (overall(p) - p->lo) / (p->hi - p->lo) < TOO_LOW;
   if (p->hi - p->lo > 1e-9 * fabs(p->hi)) return;
-  const double margin = p->hi != 0 ? 0.5 * fabs(p->hi) : 1;
-  p->lo -= margin;
+  const double margin = p->hi > 0 ? 0.5 * p->hi : 1;
+  p->lo = fmax(0, p->lo - margin);
   p->hi += margin;
 }
 
@@ -117,11 +117,13 @@ static int measure(picture *p) {
 }
 
 int draw_run(const run *r, const char *path) {
-  picture p = {.run = r, .named = hr2d_scene_patches(r->scene) <= MAX_NAMES};
+  picture p = {.run = r};
   choose_scale(&p);
   int status = find_links(&p);
+  if (!status) status = choose_names(&p);
   if (!status) status = measure(&p);
   if (!status) status = draw_file(&p, path);
+  for (size_t k = 0; k < p.name_count; k++) free(p.name[k].text);
   free(p.strokes);
   free(p.path);
   free(p.region.far);

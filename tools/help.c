@@ -15,24 +15,39 @@ static const char general[] =
     "  hr2d info  SCENE      patches, lengths, which effects the scene calls for\n"
     "  hr2d solve SCENE      radiosity of every patch, tables and pictures\n"
     "  hr2d study SCENE      links L against elements N over a sequence of epsilon\n"
+    "  hr2d factors SCENE    view factors between all patches\n"
     "  hr2d pair  < PAIRS    exchange areas of pairs of segments\n"
     "\n"
-    "SCENE is a GeoJSON file.  'hr2d COMMAND --help' lists the options of a command,\n"
-    "'hr2d --version' prints the version, 'man hr2d' says more.\n"
+    "SCENE is a GeoJSON file or a .vs2 file of the program View2D.\n"
+    "'hr2d COMMAND --help' lists the options of a command, 'hr2d --version' prints\n"
+    "the version, 'man hr2d' says more.\n"
     "\n"
     "Exit status: 0; 1 for bad input or a failed solve; 2 for bad usage;\n"
     "130 when interrupted.\n";
 
+#define SCENE_OPTIONS                                                                          \
+  "  --split-crossings     cut patches where they cross each other\n"                          \
+  "  --force EFFECT        turn an effect on that the scene does not call for\n"
+
 static const char info[] =
     "Usage: hr2d info SCENE [options]\n"
     "Patches, total length, bands, bounding box and the effects the scene calls for.\n"
-    "\n"
-    "  --json FILE|-         write the same as JSON\n"
+    "\n" SCENE_OPTIONS "  --json FILE|-         write the same as JSON\n"
     "  --quiet               print no table\n";
+
+static const char factors[] =
+    "Usage: hr2d factors SCENE [options]\n"
+    "View factors F_ij between all patches: the part of the light of patch i that\n"
+    "arrives at patch j, around what stands between them.  Prints for each i their\n"
+    "sum over j; in a closed scene it is 1.\n"
+    "\n" SCENE_OPTIONS
+    "  --json FILE|-         factors and sums as JSON; - is standard output\n"
+    "  --csv FILE|-          a line of patch names, then a row of F_ij for each i\n"
+    "  --quiet               no table, no progress\n";
 
 static const char solve[] =
     "Usage: hr2d solve SCENE [options]\n"
-    "Refines, solves and reports the average radiosity of every patch.\n"
+    "Refines, solves and reports radiosity and irradiance of every patch.\n"
     "\n"
     "  --oracle NAME         size (default), size2, bf, l1 or l1-grid\n"
     "  --eps E               accept links whose estimated error is <= E (0.1)\n"
@@ -42,9 +57,9 @@ static const char solve[] =
     "  --max-links M         give up beyond M links\n"
     "  --max-elements M      give up beyond M elements\n"
     "  --threads T           threads for the solve; 0 (default) for all processors\n"
-    "  --no-closure          leave rows of the kernel as coarse links make them\n"
+    "  --no-closure          leave rows of the kernel as coarse links make them\n" SCENE_OPTIONS
     "\n"
-    "  --at PATCH:T          B at fraction T of a patch (index or name); repeatable\n"
+    "  --at PATCH:T          B and H at fraction T of a patch (index or name)\n"
     "  --json FILE|-         the result as JSON; - is standard output\n"
     "  --csv FILE|-          one row per leaf element\n"
     "  --draw FILE           the scene coloured by B, as .svg, .png or .pdf\n"
@@ -67,8 +82,8 @@ static const char study[] =
     "  --max-level K         elements on level K are not subdivided (24)\n"
     "  --max-links M         give up beyond M links\n"
     "  --max-elements M      give up beyond M elements\n"
-    "  --threads T           threads for a count; 0 (default) for all processors\n"
-    "\n"
+    "  --threads T           threads for a count; 0 (default) for all "
+    "processors\n" SCENE_OPTIONS "\n"
     "  --json FILE|-         rows and fit as JSON; - is standard output\n"
     "  --csv FILE|-          one row per epsilon, kept up to date during the sweep\n"
     "  --resume              count only what the file of --csv does not have yet\n"
@@ -98,6 +113,9 @@ void print_help(int command) {
     break;
   case STUDY:
     fputs(study, stdout);
+    break;
+  case FACTORS:
+    fputs(factors, stdout);
     break;
   case PAIR:
     fputs(pair, stdout);

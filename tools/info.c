@@ -53,8 +53,18 @@ static void print_range(const char *title, const double range[2]) {
     printf("%-14s%.6g\n", title, range[0]);
 }
 
-static void print_summary(const hr2d_scene *scene, const char *path, const summary *s) {
-  printf("scene         %s\n", path);
+static void print_background(const hr2d_scene *scene) {
+  double most = 0;
+  for (size_t b = 0; b < hr2d_scene_bands(scene); b++)
+    most = fmax(most, hr2d_scene_background(scene, b));
+  if (!(most > 0)) return;
+  printf("background   ");
+  for (size_t b = 0; b < hr2d_scene_bands(scene); b++)
+    printf(" %.6g", hr2d_scene_background(scene, b));
+  puts("");
+}
+
+static void print_summary(const hr2d_scene *scene, const summary *s) {
   printf("patches       %zu\n", hr2d_scene_patches(scene));
   printf("total length  %.6g\n", s->length);
   printf("bands         %zu\n", hr2d_scene_bands(scene));
@@ -62,6 +72,7 @@ static void print_summary(const hr2d_scene *scene, const char *path, const summa
          s->high[1]);
   print_range("reflectance", s->reflectance);
   print_range("emission", s->emission);
+  print_background(scene);
   printf("effects\n");
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
     const char *why = "";
@@ -97,8 +108,10 @@ static json_t *patch_entry(const hr2d_scene *scene, size_t k) {
   return patch;
 }
 
-static json_t *document(const hr2d_scene *scene, const char *path, const summary *s) {
-  json_t *patches = json_array(), *reasons = json_object(), *root = json_object();
+static json_t *document(const options *o, const hr2d_scene *scene, size_t cuts,
+                        const summary *s) {
+  json_t *patches = json_array(), *background = json_array(), *reasons = json_object(),
+         *root = json_object();
   for (size_t k = 0; k < hr2d_scene_patches(scene); k++)
     json_push(&patches, patch_entry(scene, k));
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
@@ -106,7 +119,8 @@ static json_t *document(const hr2d_scene *scene, const char *path, const summary
     hr2d_scene_effect(scene, (hr2d_effect)e, &why);
     json_put(&reasons, hr2d_effect_name((hr2d_effect)e), json_text(why));
   }
-  json_put(&root, "scene", json_text(path));
+  json_put(&root, "scene", json_text(o->scene));
+  json_put(&root, "cuts", json_count(cuts));
   json_put(&root, "patches", patches);
   json_put(&root, "length", json_number(s->length));
   json_put(&root, "bands", json_count(hr2d_scene_bands(scene)));
@@ -114,6 +128,9 @@ static json_t *document(const hr2d_scene *scene, const char *path, const summary
            numbers((double[]){s->low[0], s->low[1], s->high[0], s->high[1]}, 4));
   json_put(&root, "reflectance", numbers(s->reflectance, 2));
   json_put(&root, "emission", numbers(s->emission, 2));
+  for (size_t b = 0; b < hr2d_scene_bands(scene); b++)
+    json_push(&background, json_number(hr2d_scene_background(scene, b)));
+  json_put(&root, "background", background);
   json_put(&root, "effects", json_effects(scene));
   json_put(&root, "reasons", reasons);
   json_put(&root, "status", json_text("ok"));
@@ -122,11 +139,15 @@ static json_t *document(const hr2d_scene *scene, const char *path, const summary
 
 int info_command(const options *o) {
   hr2d_scene *scene = NULL;
-  int status = load_scene(o->scene, &scene);
+  size_t cuts = 0;
+  int status = load_scene(o, o->force, &scene, &cuts);
   if (status) return status;
   const summary s = summarise(scene);
-  if (!o->quiet && !to_stdout(o->json)) print_summary(scene, o->scene, &s);
-  if (o->json) status = json_write(document(scene, o->scene, &s), o->json);
+  if (!o->quiet && !to_stdout(o->json)) {
+    print_scene(o, 14, cuts);
+    print_summary(scene, &s);
+  }
+  if (o->json) status = json_write(document(o, scene, cuts, &s), o->json);
   hr2d_scene_destroy(scene);
   return status;
 }

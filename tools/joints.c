@@ -75,7 +75,7 @@ static double narrowest(const picture *p) {
 static double choose_band(const picture *p) {
   const size_t count = hr2d_scene_patches(p->run->scene);
   if (count > MOST_COMPARED) return THINNEST;
-  return fmax(THINNEST, fmin(THICKEST, 0.3 * narrowest(p)));
+  return fmax(THINNEST, fmin(THICKEST, 0.4 * narrowest(p)));
 }
 
 static int is_twin(const stroke *s, const stroke *o) {

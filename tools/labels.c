@@ -16,6 +16,62 @@ typedef struct box {
   double x0, y0, x1, y1;
 } box;
 
+/* The length of a name without the marks of the parts of a feature: "/2" for the second
+   patch, " (back)" for its back, " [3]" for its third piece. */
+static size_t feature_length(const char *name) {
+  static const char back[] = " (back)";
+  size_t size = strlen(name);
+  for (size_t before = 0; size != before;) {
+    before = size;
+    size_t digits = size - (size && name[size - 1] == ']');
+    while (digits && strchr("0123456789", name[digits - 1])) digits--;
+    if (digits && digits < size && name[digits - 1] == '/' && name[size - 1] != ']')
+      size = digits - 1;
+    else if (digits > 1 && name[size - 1] == ']' && !strncmp(name + digits - 2, " [", 2))
+      size = digits - 2;
+    else if (size > strlen(back) && !strncmp(name + size - strlen(back), back, strlen(back)))
+      size -= strlen(back);
+  }
+  return size;
+}
+
+/* The name that starts with the same `size` bytes and ends there; name_count if none. */
+static size_t find_name(const picture *p, const char *text, size_t size) {
+  size_t k = 0;
+  while (k < p->name_count && (strncmp(p->name[k].text, text, size) || p->name[k].text[size]))
+    k++;
+  return k;
+}
+
+static void forget_names(picture *p) {
+  while (p->name_count) free(p->name[--p->name_count].text);
+}
+
+/* Every patch has its own name written beside it, or if there are many, every feature the
+   one it has in common beside its longest patch, or if these are still many, none. */
+int choose_names(picture *p) {
+  const hr2d_scene *scene = p->run->scene;
+  const size_t count = hr2d_scene_patches(scene);
+  for (size_t k = 0; k < count; k++) {
+    const char *text = hr2d_scene_name(scene, k);
+    const size_t size = count > MAX_NAMES ? feature_length(text) : strlen(text);
+    const size_t at = count > MAX_NAMES ? find_name(p, text, size) : p->name_count;
+    if (at == MAX_NAMES) {
+      forget_names(p);
+      return EXIT_DONE;
+    }
+    if (at < p->name_count) {
+      if (hr2d_scene_length(scene, k) > hr2d_scene_length(scene, p->name[at].patch))
+        p->name[at].patch = k;
+      continue;
+    }
+    p->name[at] = (caption){k, strndup(text, size)};
+    if (!p->name[at].text) return fail_memory();
+    p->name_count++;
+  }
+  return EXIT_DONE;
+}
+
 int add_obstacle(picture *p, hr2d_point a, hr2d_point b) {
   obstacles *o = &p->obstacles;
   if (o->count == o->capacity) {
@@ -128,13 +184,12 @@ static char *shorten(cairo_t *cr, const char *name, double most) {
 
 int draw_names(picture *p) {
   int status = 0;
-  if (!p->named) return status;
   set_font(p->cr, FONT, 0);
-  for (size_t k = 0; !status && k < hr2d_scene_patches(p->run->scene); k++) {
-    char *name = shorten(p->cr, hr2d_scene_name(p->run->scene, k), 116);
+  for (size_t k = 0; !status && k < p->name_count; k++) {
+    char *name = shorten(p->cr, p->name[k].text, 116);
     if (!name) return fail_memory();
     box b;
-    if (find_box(p, &p->strokes[k], text_width(p->cr, name), &b)) {
+    if (find_box(p, &p->strokes[p->name[k].patch], text_width(p->cr, name), &b)) {
       write_name(p, name, &b);
       status = occupy(p, &b);
     }

@@ -50,12 +50,12 @@ static hr2d_point bounds(picture *p) {
 /* Room for names beside patches that stand upright, on the side of their backs. */
 static margins choose_margins(const picture *p) {
   margins m = {MARGIN, MARGIN, 12, 12};
-  if (p->named) m.top = m.bottom = 24;
+  if (p->name_count) m.top = m.bottom = 24;
   set_font(p->cr, 10, 0);
-  for (size_t k = 0; p->named && k < hr2d_scene_patches(p->run->scene); k++) {
-    const hr2d_element *e = root(p, k);
+  for (size_t k = 0; k < p->name_count; k++) {
+    const hr2d_element *e = root(p, p->name[k].patch);
     const double back = (e->b.y - e->a.y) / hypot(e->b.x - e->a.x, e->b.y - e->a.y);
-    const double width = fmin(140, text_width(p->cr, hr2d_scene_name(p->run->scene, k)) + 22);
+    const double width = fmin(140, text_width(p->cr, p->name[k].text) + 22);
     if (back < -0.5) m.left = fmax(m.left, width);
     if (back > 0.5) m.right = fmax(m.right, width);
   }

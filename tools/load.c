@@ -16,13 +16,17 @@ int fail_call(const char *path, const char *message, hr2d_status status) {
   return fail(path, "%s", *message ? message : hr2d_strerror(status));
 }
 
-int load_scene(const char *path, hr2d_scene **scene) {
+int load_scene(const options *o, unsigned force, hr2d_scene **scene, size_t *cuts) {
   *scene = NULL;
+  *cuts = 0;
   hr2d_status status = hr2d_scene_create(NULL, scene);
-  if (!status) status = hr2d_scene_read(*scene, path);
+  if (!status) status = hr2d_scene_read(*scene, o->scene);
+  if (!status && o->split_crossings) status = hr2d_scene_split_crossings(*scene, cuts);
+  for (int e = 0; !status && e < HR2D_EFFECT_COUNT; e++)
+    if (force >> e & 1) status = hr2d_scene_force(*scene, (hr2d_effect)e);
   if (!status) status = hr2d_scene_commit(*scene);
   if (!status) return 0;
-  const int code = fail_call(path, *scene ? hr2d_scene_message(*scene) : "", status);
+  const int code = fail_call(o->scene, *scene ? hr2d_scene_message(*scene) : "", status);
   hr2d_scene_destroy(*scene);
   *scene = NULL;
   return code;

@@ -7,8 +7,10 @@
 
 #include "options.h"
 
-/* Reads and commits a scene, which the caller destroys.  Returns 0 or EXIT_FAILED. */
-int load_scene(const char *path, hr2d_scene **scene);
+/* Reads the scene of the options, cuts its crossings if that is asked for, turns the
+   effects of the mask `force` on and commits it; the caller destroys it.  `cuts` receives
+   the number of crossings that were cut.  Returns 0 or EXIT_FAILED. */
+int load_scene(const options *o, unsigned force, hr2d_scene **scene, size_t *cuts);
 
 /* The index of the patch a place names: digits are an index, all else a name.
    Returns 0, or EXIT_USAGE after complaining. */

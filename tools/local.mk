@@ -7,9 +7,13 @@ tools_hr2d_SOURCES = \
 	tools/chart.c tools/chart.h \
 	tools/commands.h \
 	tools/complain.c tools/complain.h \
+	tools/csv.c tools/csv.h \
 	tools/draw.c tools/draw.h \
 	tools/draw-links.c \
 	tools/draw-neighbours.c \
+	tools/factors.c tools/factors.h \
+	tools/factors-csv.c \
+	tools/factors-json.c \
 	tools/help.c tools/help.h \
 	tools/info.c \
 	tools/joints.c \
@@ -38,6 +42,7 @@ tools_hr2d_SOURCES = \
 	tools/study-plan.c \
 	tools/study-sweep.c \
 	tools/suffix.c tools/suffix.h \
-	tools/ticks.c tools/ticks.h
+	tools/ticks.c tools/ticks.h \
+	tools/values.c tools/values.h
 
 dist_man_MANS = tools/hr2d.1

@@ -32,6 +32,8 @@ static int run(const options *o) {
     return solve_command(o);
   case STUDY:
     return study_command(o);
+  case FACTORS:
+    return factors_command(o);
   default:
     return pair_command(o);
   }

@@ -3,13 +3,11 @@
 #include "options.h"
 
 #include <getopt.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "complain.h"
-#include "numbers.h"
-#include "suffix.h"
+#include "values.h"
 
 enum { MAX_LEVEL = 1000, MAX_THREADS = 1024, MAX_STEPS = 10000 };
 
@@ -38,7 +36,9 @@ enum {
   RESUME,
   FROM,
   TO,
-  STEPS
+  STEPS,
+  SPLIT_CROSSINGS,
+  FORCE
 };
 
 static const struct option names[] = {{"help", no_argument, NULL, HELP},
@@ -66,6 +66,8 @@ static const struct option names[] = {{"help", no_argument, NULL, HELP},
                                       {"from", required_argument, NULL, FROM},
                                       {"to", required_argument, NULL, TO},
                                       {"steps", required_argument, NULL, STEPS},
+                                      {"split-crossings", no_argument, NULL, SPLIT_CROSSINGS},
+                                      {"force", required_argument, NULL, FORCE},
                                       {NULL, 0, NULL, 0}};
 
 /* The commands an option belongs to. */
@@ -73,18 +75,21 @@ static int belongs(int id) {
   switch (id) {
   case HELP:
   case VERSION:
-    return INFO | SOLVE | STUDY | PAIR;
+    return INFO | SOLVE | STUDY | FACTORS | PAIR;
   case ORACLE:
     return SOLVE | STUDY | PAIR;
   case QUIET:
   case JSON:
-    return INFO | SOLVE | STUDY;
+  case SPLIT_CROSSINGS:
+  case FORCE:
+    return INFO | SOLVE | STUDY | FACTORS;
+  case CSV:
+    return SOLVE | STUDY | FACTORS;
   case VARIANT:
   case LEVEL:
   case LINKS:
   case ELEMENTS:
   case THREADS:
-  case CSV:
     return SOLVE | STUDY;
   case PLOT:
   case PLOT_LOG:
@@ -96,81 +101,6 @@ static int belongs(int id) {
   default:
     return SOLVE;
   }
-}
-
-static int read_positive(const char *option, const char *text, double *value) {
-  if (read_real(text, value) || *value <= 0)
-    return usage_error("--%s: '%s' is not a number greater than 0", option, text);
-  return 0;
-}
-
-static int read_range(const char *option, const char *text, uint64_t least, uint64_t most,
-                      uint64_t *value) {
-  if (read_count(text, most, value) || *value < least)
-    return usage_error("--%s: '%s' is not a whole number from %llu to %llu", option, text,
-                       (unsigned long long)least, (unsigned long long)most);
-  return 0;
-}
-
-static int read_unsigned(const char *option, const char *text, unsigned least, unsigned most,
-                         unsigned *value) {
-  uint64_t n = 0;
-  if (read_range(option, text, least, most, &n)) return EXIT_USAGE;
-  *value = (unsigned)n;
-  return 0;
-}
-
-/* The last colon separates, because names may contain others. */
-static int read_place(const char *option, char *text, place *p) {
-  char *colon = strrchr(text, ':');
-  if (!colon || colon == text) return usage_error("--%s: '%s' is not PATCH:T", option, text);
-  if (read_real(colon + 1, &p->t) || p->t < 0 || p->t > 1)
-    return usage_error("--%s: '%s' does not end in a number from 0 to 1", option, text);
-  *colon = '\0';
-  p->patch = text;
-  return 0;
-}
-
-static int read_multigrid(char *text, options *o) {
-  char *colon = strchr(text, ':');
-  if (!colon) return usage_error("--multigrid: '%s' is not FROM:RATIO", text);
-  *colon = '\0';
-  if (read_positive("multigrid", text, &o->multigrid_from)) return EXIT_USAGE;
-  if (read_real(colon + 1, &o->multigrid_ratio) || o->multigrid_ratio < 0.01 ||
-      o->multigrid_ratio > 0.99)
-    return usage_error("--multigrid: the ratio '%s' is not a number from 0.01 to 0.99",
-                       colon + 1);
-  return 0;
-}
-
-/* Names those oracles that the library has. */
-static int read_oracle(const char *text, options *o) {
-  static const char *const known[] = {"size", "size2", "bf", "l1", "l1-grid"};
-  char list[64] = "";
-  o->oracle = hr2d_oracle_find(text);
-  if (o->oracle) return 0;
-  for (size_t k = 0, used = 0; k < sizeof known / sizeof *known; k++)
-    if (hr2d_oracle_find(known[k]))
-      used +=
-          (size_t)snprintf(list + used, sizeof list - used, "%s%s", k ? ", " : "", known[k]);
-  return usage_error("--oracle: '%s' is none of %s", text, list);
-}
-
-static int read_variant(const char *text, options *o) {
-  o->policy = hr2d_policy_find(text);
-  return o->policy ? 0 : usage_error("--variant: '%s' is neither original nor modified", text);
-}
-
-static int read_picture(const char *option, const char *text, const char **path) {
-  *path = text;
-  if (suffix_of(text) == SUFFIX_OTHER)
-    return usage_error("--%s: '%s' does not end in .svg, .png or .pdf", option, text);
-  return 0;
-}
-
-static int read_path(const char *option, const char *text, const char **path) {
-  *path = text;
-  return *text ? 0 : usage_error("--%s: the file name is empty", option);
 }
 
 static int read_option(int id, char *text, options *o) {
@@ -185,11 +115,16 @@ static int read_option(int id, char *text, options *o) {
     o->quiet = 1;
     return 0;
   case ORACLE:
-    return read_oracle(text, o);
+    return read_oracle("oracle", text, &o->oracle);
   case VARIANT:
-    return read_variant(text, o);
+    return read_variant("variant", text, &o->policy);
   case MULTIGRID:
-    return read_multigrid(text, o);
+    return read_multigrid("multigrid", text, &o->multigrid_from, &o->multigrid_ratio);
+  case SPLIT_CROSSINGS:
+    o->split_crossings = 1;
+    return 0;
+  case FORCE:
+    return read_effect("force", text, &o->force);
   case EPS:
     return read_positive("eps", text, &o->epsilon);
   case FROM:
@@ -269,7 +204,8 @@ static int read_command(const char *word, int *command) {
   static const struct {
     const char *name;
     int bit;
-  } commands[] = {{"info", INFO}, {"solve", SOLVE}, {"study", STUDY}, {"pair", PAIR}};
+  } commands[] = {
+      {"info", INFO}, {"solve", SOLVE}, {"study", STUDY}, {"factors", FACTORS}, {"pair", PAIR}};
   for (size_t k = 0; k < sizeof commands / sizeof *commands; k++)
     if (!strcmp(word, commands[k].name)) {
       *command = commands[k].bit;

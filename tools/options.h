@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 /* One bit each, so that an option can name the commands it belongs to. */
-enum { INFO = 1, SOLVE = 2, STUDY = 4, PAIR = 8 };
+enum { INFO = 1, SOLVE = 2, STUDY = 4, FACTORS = 8, PAIR = 16 };
 
 /* PATCH:T, a point at fraction t of the patch with this index or name. */
 typedef struct place {
@@ -21,6 +21,8 @@ typedef struct options {
   int help, version, quiet;
   int closure;       /* 0: the paper's algorithm as it stands */
   const char *scene; /* file name; NULL for `pair` */
+  int split_crossings;
+  unsigned force; /* bit 1 << e for each effect e */
   const hr2d_oracle *oracle;
   const hr2d_policy *policy;
   double epsilon;

@@ -50,6 +50,14 @@ typedef struct region {
   double extent;      /* total length */
 } region;
 
+enum { MAX_NAMES = 24 };
+
+/* A name, and the patch it is written beside. */
+typedef struct caption {
+  size_t patch;
+  char *text;
+} caption;
+
 typedef struct picture {
   cairo_t *cr;
   const run *run;
@@ -59,7 +67,9 @@ typedef struct picture {
   hr2d_point origin; /* where `low` is on the page */
   double band;       /* thickness of the coloured bands */
   double lo, hi;     /* of the colour scale */
-  int logarithmic, named;
+  int logarithmic;
+  caption name[MAX_NAMES];
+  size_t name_count;
   stroke *strokes;             /* one per patch */
   uint32_t *path;              /* the elements that hold the point of --links-of, leaf first */
   size_t path_count;           /* 0: no links are drawn; 1 with --link-level */
@@ -69,8 +79,6 @@ typedef struct picture {
   unsigned tree_levels;
   obstacles obstacles;
 } picture;
-
-enum { MAX_NAMES = 24 };
 
 #define TREE_GAP 5.0 /* between a patch and the tree behind it */
 
@@ -84,6 +92,9 @@ void join_strokes(picture *p);
 
 /* The distance of a point from a stroke. */
 double to_stroke(hr2d_point q, const stroke *s);
+
+/* labels.c: which names are written; the texts are to be freed. */
+int choose_names(picture *p);
 
 /* bands.c, draw-links.c, labels.c, legend.c: onto the page. */
 int draw_bands(picture *p);

@@ -50,9 +50,11 @@ static void show(progress *p, const hr2d_progress *now) {
     snprintf(line, sizeof line, "%s%s %3.0f %%  N %llu  L %llu", step, now->phase,
              100 * now->fraction, (unsigned long long)now->elements,
              (unsigned long long)now->links);
-  else
+  else if (!strcmp(now->phase, "solve"))
     snprintf(line, sizeof line, "%s%s %3.0f %%  residual %.1e", step, now->phase,
              100 * now->fraction, now->residual);
+  else
+    snprintf(line, sizeof line, "%s%s %3.0f %%", step, now->phase, 100 * now->fraction);
   const int width = (int)strlen(line);
   fprintf(stderr, "\r%-*s", p->width > width ? p->width : width, line);
   fflush(stderr);

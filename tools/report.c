@@ -9,6 +9,8 @@
 #include "complain.h"
 #include "output.h"
 
+enum { MOST_ROWS = 60, END_ROWS = 20 };
+
 json_t *json_number(double x) {
   return isfinite(x) ? json_real(x) : json_null();
 }
@@ -85,6 +87,35 @@ int json_write(json_t *document, const char *path) {
   }
   json_decref(document);
   return status;
+}
+
+void print_scene(const options *o, int width, size_t cuts) {
+  printf("%-*s%s\n", width, "scene", o->scene);
+  if (o->split_crossings) printf("%-*s%zu cut\n", width, "crossings", cuts);
+}
+
+void print_work(const effort *list, size_t count) {
+  int column = 0;
+  for (size_t k = 0; k < count; k++) {
+    char text[64];
+    if (!list[k].count) continue;
+    const int width = snprintf(text, sizeof text, " %s %llu", list[k].what,
+                               (unsigned long long)list[k].count);
+    if (!column || column + 1 + width > 79)
+      column = printf(column ? ",\n%-9s" : "%-9s", column ? "" : "work");
+    else
+      column += printf(",");
+    column += printf("%s", text);
+  }
+  if (column) puts("");
+}
+
+int is_skipped(size_t k, size_t count) {
+  const size_t skipped = count > MOST_ROWS ? count - 2 * END_ROWS : 0;
+  if (!skipped || k < END_ROWS || k >= count - END_ROWS) return 0;
+  if (k == END_ROWS)
+    printf("  ...  %zu more patches; --json and --csv have all of them\n", skipped);
+  return 1;
 }
 
 int columns(const char *text) {

@@ -8,6 +8,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "options.h"
+
 /* A JSON number, or null where it would not be finite. */
 json_t *json_number(double x);
 
@@ -27,6 +29,24 @@ json_t *json_effects(const hr2d_scene *scene);
 /* Writes a document with 17 significant digits and takes it over; NULL is a failed
    allocation.  Returns 0 or EXIT_FAILED. */
 int json_write(json_t *document, const char *path);
+
+/* The head of a summary: the scene, and what --split-crossings did; titles are `width`
+   columns wide. */
+void print_scene(const options *o, int width, size_t cuts);
+
+/* A counter and what it counts. */
+typedef struct effort {
+  const char *what;
+  uint64_t count;
+} effort;
+
+/* Prints the counters that are not 0, as many in a line as fit: what a scene does without
+   was not worked at. */
+void print_work(const effort *list, size_t count);
+
+/* Tables of many patches show the first and the last ones.  Whether patch k has no row of
+   its own; for the first of these, a row that says how many there are is printed. */
+int is_skipped(size_t k, size_t count);
 
 /* How many columns a UTF-8 text takes, one per character. */
 int columns(const char *text);

@@ -43,6 +43,13 @@ static hr2d_status refine_stage(run *r, double epsilon, progress *p) {
   return status;
 }
 
+static void add_work(hr2d_solve_work *sum, hr2d_solve_work stage) {
+  sum->gathers += stage.gathers;
+  sum->iterations += stage.iterations;
+  sum->row_sums += stage.row_sums;
+  sum->background_rows += stage.background_rows;
+}
+
 static hr2d_status solve_stage(run *r, progress *p) {
   hr2d_solve_options solve = HR2D_SOLVE_OPTIONS_INIT;
   solve.threads = r->options->threads;
@@ -57,14 +64,14 @@ static hr2d_status solve_stage(run *r, progress *p) {
   if (status) return status;
   hr2d_solution_destroy(r->solution);
   r->solution = next;
-  r->sweeps += hr2d_solution_sweeps(next);
+  add_work(&r->work, hr2d_solution_work(next));
   return HR2D_OK;
 }
 
-int run_solve(run *r, const options *o, const hr2d_scene *scene, const size_t *places) {
+int run_solve(run *r) {
   progress p;
-  *r = (run){.options = o, .scene = scene, .places = places};
-  hr2d_status status = hr2d_hierarchy_create(scene, &r->hierarchy);
+  const options *o = r->options;
+  hr2d_status status = hr2d_hierarchy_create(r->scene, &r->hierarchy);
   if (!status)
     status = hr2d_linkset_create(r->hierarchy, o->oracle, NULL, o->policy, NULL, &r->links);
   if (status) return fail_call(o->scene, "", status);
@@ -90,6 +97,11 @@ double run_mean(const run *r, uint32_t element) {
   double sum = 0;
   for (size_t b = 0; b < bands; b++) sum += hr2d_solution_element(r->solution, element, b);
   return sum / (double)bands;
+}
+
+double power_error(const hr2d_power *p) {
+  const double in = p->emitted + p->received;
+  return in > 0 ? fabs(in - p->absorbed - p->escaped) / in : 0;
 }
 
 uint64_t peak_bytes(void) {

@@ -3,16 +3,33 @@
 #include "report.h"
 #include "run.h"
 
+static json_t *per_band(const run *r, size_t patch,
+                        double (*get)(const hr2d_solution *, size_t, size_t)) {
+  json_t *array = json_array();
+  for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++)
+    json_push(&array, json_number(get(r->solution, patch, b)));
+  return array;
+}
+
+static json_t *per_band_at(const run *r, size_t k,
+                           double (*get)(const hr2d_solution *, size_t, double, size_t)) {
+  json_t *array = json_array();
+  const double t = r->options->at[k].t;
+  for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++)
+    json_push(&array, json_number(get(r->solution, r->places[k], t, b)));
+  return array;
+}
+
 static json_t *patches(const run *r) {
   json_t *list = json_array();
   for (size_t k = 0; k < hr2d_scene_patches(r->scene); k++) {
-    json_t *patch = json_object(), *average = json_array();
-    for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++)
-      json_push(&average, json_number(hr2d_solution_average(r->solution, k, b)));
+    json_t *patch = json_object();
     json_put(&patch, "index", json_count(k));
     json_put(&patch, "name", json_text(hr2d_scene_name(r->scene, k)));
     json_put(&patch, "length", json_number(hr2d_scene_length(r->scene, k)));
-    json_put(&patch, "average", average);
+    json_put(&patch, "average", per_band(r, k, hr2d_solution_average));
+    json_put(&patch, "irradiance", per_band(r, k, hr2d_solution_irradiance));
+    json_put(&patch, "net_flux", per_band(r, k, hr2d_solution_net_flux));
     json_push(&list, patch);
   }
   return list;
@@ -22,13 +39,11 @@ static json_t *places(const run *r) {
   const options *o = r->options;
   json_t *list = json_array();
   for (size_t k = 0; k < o->at_count; k++) {
-    json_t *entry = json_object(), *value = json_array();
-    for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++)
-      json_push(&value,
-                json_number(hr2d_solution_at(r->solution, r->places[k], o->at[k].t, b)));
+    json_t *entry = json_object();
     json_put(&entry, "patch", json_count(r->places[k]));
     json_put(&entry, "t", json_number(o->at[k].t));
-    json_put(&entry, "value", value);
+    json_put(&entry, "value", per_band_at(r, k, hr2d_solution_at));
+    json_put(&entry, "irradiance", per_band_at(r, k, hr2d_solution_irradiance_at));
     json_push(&list, entry);
   }
   return list;
@@ -37,9 +52,16 @@ static json_t *places(const run *r) {
 static json_t *work(const run *r, const hr2d_refine_counts *n) {
   json_t *object = json_object();
   json_put(&object, "oracle_calls", json_count(n->oracle_calls));
+  json_put(&object, "facing_tests", json_count(n->facing_tests));
   json_put(&object, "visibility_tests", json_count(n->visibility_tests));
   json_put(&object, "exchange_areas", json_count(n->exchange_areas));
-  json_put(&object, "sweeps", json_count(r->sweeps));
+  json_put(&object, "partial_links", json_count(n->partial_links));
+  json_put(&object, "blocked_pairs", json_count(n->blocked_pairs));
+  json_put(&object, "dark_pairs", json_count(n->dark_pairs));
+  json_put(&object, "sweeps", json_count(r->work.gathers));
+  json_put(&object, "iterations", json_count(r->work.iterations));
+  json_put(&object, "row_sums", json_count(r->work.row_sums));
+  json_put(&object, "background_rows", json_count(r->work.background_rows));
   return object;
 }
 
@@ -59,8 +81,10 @@ static json_t *power(const run *r) {
     const hr2d_power p = hr2d_solution_power(r->solution, b);
     json_t *band = json_object();
     json_put(&band, "emitted", json_number(p.emitted));
+    json_put(&band, "received", json_number(p.received));
     json_put(&band, "absorbed", json_number(p.absorbed));
     json_put(&band, "escaped", json_number(p.escaped));
+    json_put(&band, "relative_error", json_number(power_error(&p)));
     json_push(&list, band);
   }
   return list;
@@ -86,6 +110,7 @@ int write_run(const run *r, double total_seconds, const char *path) {
   const hr2d_refine_counts counts = hr2d_linkset_counts(r->links);
   json_t *root = json_object();
   json_put(&root, "scene", json_text(o->scene));
+  json_put(&root, "cuts", json_count(r->cuts));
   json_put(&root, "patches", patches(r));
   json_put(&root, "at", places(r));
   put_counts(&root, &counts);

@@ -38,12 +38,12 @@ static int report(const run *r, double start) {
   return status;
 }
 
-static int solve_scene(const options *o, const hr2d_scene *scene, double start,
+static int solve_scene(const options *o, const hr2d_scene *scene, size_t cuts, double start,
                        size_t *patches) {
   int status = find_places(o, scene, patches);
   if (status) return status;
-  run r;
-  status = run_solve(&r, o, scene, patches);
+  run r = {.options = o, .scene = scene, .cuts = cuts, .places = patches};
+  status = run_solve(&r);
   if (!status) status = report(&r, start);
   run_release(&r);
   return status;
@@ -52,11 +52,12 @@ static int solve_scene(const options *o, const hr2d_scene *scene, double start,
 int solve_command(const options *o) {
   const double start = seconds();
   hr2d_scene *scene = NULL;
+  size_t cuts = 0;
   int status = check_outputs(o);
-  if (!status) status = load_scene(o->scene, &scene);
+  if (!status) status = load_scene(o, o->force, &scene, &cuts);
   if (status) return status;
   size_t *patches = calloc(o->at_count + 1, sizeof *patches);
-  status = patches ? solve_scene(o, scene, start, patches) : fail_memory();
+  status = patches ? solve_scene(o, scene, cuts, start, patches) : fail_memory();
   free(patches);
   hr2d_scene_destroy(scene);
   return status;

@@ -82,6 +82,7 @@ static int measure(study *s, hr2d_linkset *links, sweep *w) {
   const int rewrites = study_can_rewrite_csv(s);
   double written = seconds();
   int code = 0;
+  if (!s->quiet && s->options->split_crossings) printf("crossings %zu cut\n", s->cuts);
   if (!s->quiet)
     printf("%12s %12s %12s %14s %14s %10s\n", "epsilon", "N", "leaves", "L", "oracle calls",
            "seconds");
@@ -150,13 +151,17 @@ static int report(study *s) {
 }
 
 int study_command(const options *o) {
+  /* Links are counted whether or not a patch emits; dark ones would have none. */
+  const unsigned force = o->force | 1U << HR2D_EFFECT_EMISSION;
   hr2d_scene *scene = NULL;
+  size_t cuts = 0;
   int status = output_check(o->json);
   if (!status) status = output_check(o->csv);
   if (!status) status = output_check(o->plot);
-  if (!status) status = load_scene(o->scene, &scene);
+  if (!status) status = load_scene(o, force, &scene, &cuts);
   if (status) return status;
-  study s = {.options = o, .quiet = o->quiet || to_stdout(o->json) || to_stdout(o->csv)};
+  study s = {
+      .options = o, .cuts = cuts, .quiet = o->quiet || to_stdout(o->json) || to_stdout(o->csv)};
   status = study_plan(&s, scene);
   if (!status) {
     status = run_study(&s, scene);

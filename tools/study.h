@@ -11,6 +11,7 @@
 
 typedef struct study {
   const options *options;
+  size_t cuts;          /* of --split-crossings */
   hr2d_study_row *rows; /* ε falls; N is 0 in rows that are not counted yet */
   size_t count;
   size_t known; /* rows that --resume found */

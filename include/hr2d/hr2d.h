@@ -12,8 +12,8 @@
  *                   a policy (oracle.h, policy.h)
  *   hr2d_solution   radiosity on every element               solve.h
  *
- * and beside them exchange areas of segments (geometry.h) and the study of L
- * against N (study.h).  Objects are destroyed in the opposite order.
+ * and beside them exchange areas of segments (geometry.h), those with occluders and of
+ * all patches (visibility.h), and the study of L against N (study.h).  Objects are destroyed in the opposite order.
  *
  * @include tour.c
  */
@@ -32,5 +32,6 @@
 #include <hr2d/status.h>
 #include <hr2d/study.h>
 #include <hr2d/version.h>
+#include <hr2d/visibility.h>
 
 #endif

@@ -37,8 +37,12 @@ typedef struct hr2d_refine_counts {
   uint64_t links;            /**< L: accepted pairs */
   uint64_t limited_links;    /**< of these, how many only a recursion limit accepted */
   uint64_t oracle_calls;     /**< pairs the oracle was asked about */
-  uint64_t visibility_tests; /**< pairs tested for facing each other below the roots */
+  uint64_t facing_tests;     /**< pairs tested for facing each other below the roots */
+  uint64_t visibility_tests; /**< walls, and boxes of walls, tested against a shaft */
   uint64_t exchange_areas;   /**< exchange areas computed */
+  uint64_t partial_links;    /**< links whose exchange area was integrated around occluders */
+  uint64_t blocked_pairs;    /**< pairs dropped because occluders hide them from each other */
+  uint64_t dark_pairs;       /**< pairs of patches dropped because no light reaches them */
   unsigned levels;           /**< the deepest level */
 } hr2d_refine_counts;
 

@@ -7,8 +7,9 @@
  * linked if its error is acceptable or a limit holds; otherwise the policy says
  * which element to subdivide and the new pairs are proposed.  The order is depth
  * first, the result the same for every run, and nothing recurs on the C stack.
- * A pair that cannot see each other is dropped, a pair that sees each other in
- * part is linked with its clipped exchange area.
+ * A pair that cannot see each other is dropped; so is one that occluders hide, and what
+ * no light can reach.  A pair that sees each other in part is linked with what is left of
+ * its exchange area.
  */
 #ifndef HR2D_REFINE_H
 #define HR2D_REFINE_H
@@ -84,12 +85,12 @@ typedef struct hr2d_refine_options {
  * @param links    on failure it and its hierarchy are as before
  * @param options  NULL for the defaults
  * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL (ε negative or NaN; `ordered` changed
- *         between refinements), HR2D_EUNSUPPORTED for a scene in which a patch can stand
- *         between two others, HR2D_EMAX_ELEMENTS, HR2D_EMAX_LINKS, HR2D_EMAX_BYTES,
+ *         between refinements), HR2D_EMAX_ELEMENTS, HR2D_EMAX_LINKS, HR2D_EMAX_BYTES,
  *         HR2D_ECALLBACK for an estimate that is NaN or negative or a subdivision
  *         without meaning, or the status of a callback
  *
- * One hierarchy is refined by one thread at a time.  Cost O(n² + L); memory 64
+ * One hierarchy is refined by one thread at a time.  Cost O(n² + L), and where the scene
+ * calls for occlusion a test per wall in the shaft of each pair that has any; memory 64
  * bytes per element and 16 per link, twice that for the links while a set that
  * has links is refined further.
  */

@@ -51,10 +51,12 @@ typedef struct hr2d_patch {
 typedef enum hr2d_effect {
   HR2D_EFFECT_OCCLUSION = 0,   /**< a patch can stand between two others */
   HR2D_EFFECT_INTERREFLECTION, /**< light is reflected at all */
-  HR2D_EFFECT_EMISSION,        /**< something emits */
+  HR2D_EFFECT_EMISSION,        /**< something emits, or light comes in; patches that no
+                                    light can reach get no links */
   HR2D_EFFECT_BANDS,           /**< more than one band */
   HR2D_EFFECT_TWO_SIDED,       /**< patches back to back */
   HR2D_EFFECT_FACING,          /**< some patches see each other only in part: clipping */
+  HR2D_EFFECT_BACKGROUND,      /**< light comes in through the openings of the scene */
   HR2D_EFFECT_CORNER,          /**< patches touch: the kernel is singular there */
   HR2D_EFFECT_COUNT            /**< how many there are */
 } hr2d_effect;
@@ -86,32 +88,79 @@ HR2D_API void hr2d_scene_destroy(hr2d_scene *scene);
 HR2D_API hr2d_status hr2d_scene_add(hr2d_scene *scene, const hr2d_patch *patch, size_t *index);
 
 /**
- * Adds the patches of a GeoJSON file (RFC 7946 structure, planar coordinates in
- * scene lengths); see doc/scene-files.md.
+ * Adds the patches of a scene file: GeoJSON (RFC 7946 structure, planar coordinates in
+ * scene lengths) or View2D's .vs2, which the text itself tells; see doc/scene-files.md.
+ * A background in a GeoJSON file takes the place of the scene's; a file without one leaves
+ * it alone.  A .vs2 file has no emission; its obs, bas and cmb are checked to be integers
+ * and not used.  Numbers have a decimal point in any locale.
  *
- * @param scene  not yet committed; unchanged on failure
+ * @param scene  not yet committed; unchanged on failure, its background too
  * @param path   a file name
- * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE, HR2D_EIO, HR2D_ESYNTAX for what is not
- *         such a file, HR2D_ESCENE for a patch that hr2d_scene_add() refuses, and
- *         HR2D_EUNSUPPORTED for an effect this version lacks; the message names
- *         the line or the feature
+ * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL without a path, HR2D_ESTATE after commit,
+ *         HR2D_EIO, HR2D_ESYNTAX for what is not such a file, HR2D_ESCENE for a value or
+ *         patch that makes no sense, and HR2D_EUNSUPPORTED for an effect this version
+ *         lacks; the message names the line or the feature
+ * Cost linear in the size of the file, in time and memory.
  */
 HR2D_API hr2d_status hr2d_scene_read(hr2d_scene *scene, const char *path);
 
-/** As hr2d_scene_read(), from `size` bytes of memory. */
+/** As hr2d_scene_read(), from `size` bytes of memory, which need not be terminated. */
 HR2D_API hr2d_status hr2d_scene_parse(hr2d_scene *scene, const char *text, size_t size);
+
+/**
+ * Sets the light that comes in from the surroundings: what a point sees between the
+ * patches, to infinity, has this radiosity.  The back of a patch that has a front only
+ * is black and lets nothing through.
+ *
+ * @param scene       not yet committed
+ * @param background  ≥ 0, one value per band or one for all, in the unit of emission;
+ *                    copied
+ * @param bands       how many values; 0 for no light, as before the first call
+ * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE after commit, HR2D_ESCENE for a value that is
+ *         negative or not finite, HR2D_EINVAL for bands without values
+ */
+HR2D_API hr2d_status hr2d_scene_set_background(hr2d_scene *scene, const double *background,
+                                               size_t bands);
+
+/**
+ * Turns an effect on whether or not the scene calls for it.  That costs time and changes
+ * no bit of the answer where the effect is not called for: a means to test just this.
+ * Forcing HR2D_EFFECT_EMISSION also gives links to patches that no light can reach.
+ *
+ * @param scene  not yet committed
+ * @return HR2D_OK, HR2D_ESTATE after commit, HR2D_EINVAL outside the enumeration
+ */
+HR2D_API hr2d_status hr2d_scene_force(hr2d_scene *scene, hr2d_effect effect);
+
+/**
+ * Cuts patches that cross each other properly at their crossings, so that commit does
+ * not refuse them.  The pieces of a patch take its place, in the order of its direction,
+ * named with " [1]", " [2]", … behind, and share the crossing bit for bit with those of
+ * the other; indices behind them move up.  Where patches meet again in a rounded piece
+ * they are cut there, too; two that lie on one another within rounding are cut at each
+ * other's ends, and of copies no longer than 1e-9 of the scene, which such cuts can leave,
+ * one is dropped.
+ *
+ * @param scene  not yet committed; unchanged on failure
+ * @param cuts   receives the number of places where patches were cut; may be NULL
+ * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE after commit, HR2D_ERANGE as
+ *         hr2d_scene_commit(), HR2D_ESCENE if crossings are left after 32 rounds
+ * Cost O(n log n + pairs whose extents in x meet).
+ */
+HR2D_API hr2d_status hr2d_scene_split_crossings(hr2d_scene *scene, size_t *cuts);
 
 /**
  * Checks the patches against each other, scales their coordinates by a power of
  * two and analyses which effects the scene calls for.
  *
  * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE if committed before, HR2D_ESCENE for
- *         an empty scene, differing band counts, patches that cross, and patches
- *         that overlap with their fronts on the same side, HR2D_ERANGE for coordinates whose scales lie
- *         so far apart that scaling would lose digits, or a length beyond a double; the
- *         message names the patches
- * Cost O(n²) comparisons at worst, and O(n³) while looking for an occluder in a
- * scene that is not convex.
+ *         an empty scene, differing band counts, patches that cross, patches
+ *         that overlap with their fronts on the same side, and patches that face each
+ *         other with no more than a rounding between them; HR2D_ERANGE for coordinates
+ *         whose scales lie so far apart that scaling would lose digits, or a length beyond
+ *         a double; the message names the patches
+ * Cost O(n²) comparisons; in a scene with dark patches and occluders a search for the
+ * patches that light can reach, O(n²) looks between two patches at worst.
  */
 HR2D_API hr2d_status hr2d_scene_commit(hr2d_scene *scene);
 
@@ -145,6 +194,9 @@ HR2D_API double hr2d_scene_emission(const hr2d_scene *scene, size_t patch, size_
 
 /** ρ of patch `patch` in band `band` < hr2d_scene_bands(). */
 HR2D_API double hr2d_scene_reflectance(const hr2d_scene *scene, size_t patch, size_t band);
+
+/** The light from the surroundings in band `band` < hr2d_scene_bands(). */
+HR2D_API double hr2d_scene_background(const hr2d_scene *scene, size_t band);
 
 /**
  * The power of two by which committed coordinates are divided, so that the

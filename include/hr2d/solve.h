@@ -52,9 +52,20 @@ typedef struct hr2d_solve_options {
 /** Where the power of one band goes; power per length across the plane. */
 typedef struct hr2d_power {
   double emitted;  /**< ∫ E */
+  double received; /**< what comes in from the background */
   double absorbed; /**< ∫ (1−ρ) H, with H the irradiance */
-  double escaped;  /**< what leaves through the openings of the scene: B·(A − Σ AF) */
+  double escaped;  /**< what leaves through the openings of the scene, or meets the back of
+                        a patch that has a front only: B·(A − Σ AF) */
 } hr2d_power;
+
+/** What a solve took. */
+typedef struct hr2d_solve_work {
+  uint64_t gathers;         /**< gathers over all links; one serves all bands */
+  uint64_t iterations;      /**< of the Krylov method; 0 where nothing reflects */
+  uint64_t row_sums;        /**< leaves whose exchange with all patches was summed: for
+                                 closure in open scenes, and for the background */
+  uint64_t background_rows; /**< of these, leaves whose view of the background was needed */
+} hr2d_solve_work;
 
 /**
  * Solves for B.
@@ -81,7 +92,8 @@ HR2D_API double hr2d_solution_average(const hr2d_solution *solution, size_t patc
 
 /**
  * B at fraction t of a patch, counted from its start: the constant of the leaf
- * that holds the point, and on the border of two leaves their mean.
+ * that holds the point, and on the border of two leaves the straight line between the
+ * values at their centres.  The back of a two-sided patch starts where its front ends.
  * @param t  in [0,1]
  */
 HR2D_API double hr2d_solution_at(const hr2d_solution *solution, size_t patch, double t,
@@ -91,11 +103,26 @@ HR2D_API double hr2d_solution_at(const hr2d_solution *solution, size_t patch, do
 HR2D_API double hr2d_solution_element(const hr2d_solution *solution, uint32_t element,
                                       size_t band);
 
-/** Emitted, absorbed and escaped power of a band; emitted = absorbed + escaped. */
+/**
+ * The average irradiance H over patch `patch`: what arrives per length, from other
+ * patches and from the background, in the unit of E.
+ */
+HR2D_API double hr2d_solution_irradiance(const hr2d_solution *solution, size_t patch,
+                                         size_t band);
+
+/** H at fraction t of a patch, as hr2d_solution_at(). */
+HR2D_API double hr2d_solution_irradiance_at(const hr2d_solution *solution, size_t patch,
+                                            double t, size_t band);
+
+/** The net flux B − H that leaves patch `patch`, per length; negative where it gains. */
+HR2D_API double hr2d_solution_net_flux(const hr2d_solution *solution, size_t patch,
+                                       size_t band);
+
+/** Where the power of a band goes; emitted + received = absorbed + escaped. */
 HR2D_API hr2d_power hr2d_solution_power(const hr2d_solution *solution, size_t band);
 
-/** Gathers over all links that the solve took (one serves all bands). */
-HR2D_API uint64_t hr2d_solution_sweeps(const hr2d_solution *solution);
+/** What the solve took. */
+HR2D_API hr2d_solve_work hr2d_solution_work(const hr2d_solution *solution);
 
 /** The largest relative residual over the bands, computed from B itself. */
 HR2D_API double hr2d_solution_residual(const hr2d_solution *solution);

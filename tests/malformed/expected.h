@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What each file beside this one must be answered with: a status, and a phrase of
-   the message.  For syntax errors that is the line alone, as the rest is jansson's wording. */
+   the message.  Of bad JSON that is the line alone: the rest is jansson's wording. */
 #ifndef HR2D_TESTS_MALFORMED_EXPECTED_H
 #define HR2D_TESTS_MALFORMED_EXPECTED_H
 
@@ -11,16 +11,14 @@ static const struct malformed {
   hr2d_status status;
   const char *phrase;
 } malformed[] = {
-    {"background-bands.geojson", HR2D_EUNSUPPORTED,
-     "hr2d: background: background light is not supported by this version"},
     {"background-negative.geojson", HR2D_ESCENE,
      "hr2d: background: must not be negative, not -1"},
     {"background-string.geojson", HR2D_ESYNTAX,
      "hr2d: background: must be a number or an array of numbers, not a string"},
-    {"background.geojson", HR2D_EUNSUPPORTED,
-     "hr2d: background: background light is not supported by this version"},
     {"bands-differ.geojson", HR2D_ESCENE,
      "feature 2 (\"wall\"): emission has 2 bands, reflectance has 3"},
+    {"bas-word.vs2", HR2D_ESYNTAX, "line 10: bas must be an integer, not \"none\""},
+    {"cmb-missing.vs2", HR2D_ESYNTAX, "line 10: cmb is missing"},
     {"comment.geojson", HR2D_ESYNTAX, "line 1, column "},
     {"control-characters.geojson", HR2D_ESYNTAX,
      "feature 2 (\"?[2Jwall?\"): sides: must be \"front\" or \"both\""},
@@ -41,6 +39,11 @@ static const struct malformed {
      "feature 2 (\"wall\"): emission: must be a number or an array of numbers, not an object"},
     {"emission-string.geojson", HR2D_ESYNTAX,
      "feature 2 (\"wall\"): emission: must be a number or an array of numbers, not a string"},
+    {"emittance-above-one.vs2", HR2D_ESCENE,
+     "line 11: emit must be between 0 and 1, not \"1.01\""},
+    {"emittance-negative.vs2", HR2D_ESCENE,
+     "line 11: emit must be between 0 and 1, not \"-.1\""},
+    {"emittance-word.vs2", HR2D_ESYNTAX, "line 11: emit must be a number, not \"east\""},
     {"empty-file.geojson", HR2D_ESYNTAX, "line 1, column "},
     {"empty-line.geojson", HR2D_ESYNTAX,
      "feature 2 (\"wall\"): needs 2 positions or more, has 0"},
@@ -69,6 +72,7 @@ static const struct malformed {
      "feature 2 (\"wall\"): geometry: must be an object with a \"type\""},
     {"geometry-string.geojson", HR2D_ESYNTAX,
      "feature 2 (\"wall\"): geometry: must be an object with a \"type\""},
+    {"geometry-three.vs2", HR2D_ESYNTAX, "line 3: geometry must be 2, not \"3\""},
     {"hexadecimal.geojson", HR2D_ESYNTAX, "line 5, column "},
     {"hole-open.geojson", HR2D_ESYNTAX,
      "feature 2 (\"wall\"): ring 2: a ring must be closed: its last position must repeat the "
@@ -79,6 +83,8 @@ static const struct malformed {
     {"infinity.geojson", HR2D_ESYNTAX, "line 5, column "},
     {"invalid-utf8.geojson", HR2D_ESYNTAX, "line 4, column "},
     {"leading-zero.geojson", HR2D_ESYNTAX, "line 5, column "},
+    {"lines-of-dos.vs2", HR2D_ESYNTAX, "line 11: name is missing"},
+    {"lines-of-old.vs2", HR2D_ESYNTAX, "line 11: name is missing"},
     {"lone-surrogate.geojson", HR2D_ESYNTAX, "line 4, column "},
     {"long-name.geojson", HR2D_ESYNTAX,
      "feature 2 (\"xäääääääääääääääääääääääääääää...\"): sides: must be \"front\" or \"both\""},
@@ -99,13 +105,19 @@ static const struct malformed {
      "numbers"},
     {"multi-polygon-too-flat.geojson", HR2D_ESYNTAX,
      "feature 2 (\"wall\"): polygon 1, ring 1: needs 4 positions or more, has 2"},
+    {"name-latin-1.vs2", HR2D_ESYNTAX, "line 12: name must be UTF-8, not \"d?cke\""},
+    {"name-missing.vs2", HR2D_ESYNTAX, "line 12: name is missing"},
     {"name-number.geojson", HR2D_ESYNTAX, "feature 2: name: must be a string, not a number"},
     {"no-coordinates.geojson", HR2D_ESYNTAX,
      "feature 2 (\"wall\"): coordinates: must be an array of positions, not missing"},
     {"no-features.geojson", HR2D_ESYNTAX, "features: must be an array, not missing"},
+    {"no-surface.vs2", HR2D_ESCENE, "line 11: the data end without a surface"},
     {"no-type.geojson", HR2D_ESYNTAX,
      "not a GeoJSON FeatureCollection: \"type\" must be a string"},
     {"not-a-number.geojson", HR2D_ESYNTAX, "line 5, column "},
+    {"obs-fraction.vs2", HR2D_ESYNTAX, "line 10: obs must be an integer, not \"0.5\""},
+    {"obstruction.vs2", HR2D_EUNSUPPORTED,
+     "line 14: an obstruction (O) is not supported by this version"},
     {"one-position.geojson", HR2D_ESYNTAX,
      "feature 2 (\"wall\"): needs 2 positions or more, has 1"},
     {"only-space.geojson", HR2D_ESYNTAX, "line 3, column "},
@@ -122,6 +134,7 @@ static const struct malformed {
      "feature 2 (\"wall\"): position 2: must be an array of two or more numbers"},
     {"properties-array.geojson", HR2D_ESYNTAX,
      "feature 2: properties: must be an object, not an array"},
+    {"record-unknown.vs2", HR2D_ESYNTAX, "line 1: unknown record \"F\""},
     {"reflectance-above-one.geojson", HR2D_ESCENE,
      "feature 2 (\"wall\"): reflectance: must be between 0 and 1, not 1.0000000000000002"},
     {"reflectance-negative.geojson", HR2D_ESCENE,
@@ -149,6 +162,12 @@ static const struct malformed {
      "feature 2 (\"wall\"): sides: must be \"front\" or \"both\""},
     {"sides-number.geojson", HR2D_ESYNTAX,
      "feature 2 (\"wall\"): sides: must be \"front\" or \"both\""},
+    {"surface-behind.vs2", HR2D_ESYNTAX, "line 11: text behind the last field: \"wall\""},
+    {"surface-duplicate.vs2", HR2D_ESYNTAX, "line 11: surface 1 is there already"},
+    {"surface-no-length.vs2", HR2D_ESCENE,
+     "line 11: patch 2 (\"east\"): its length is zero, at (4, 3)"},
+    {"surface-skipped.vs2", HR2D_ESYNTAX, "line 11: surface \"3\" where 2 comes next"},
+    {"text-behind-end.vs2", HR2D_ESYNTAX, "line 16: text behind the end of the data"},
     {"top-array.geojson", HR2D_ESYNTAX,
      "not a GeoJSON FeatureCollection: the outermost value is an array"},
     {"top-feature.geojson", HR2D_ESYNTAX,
@@ -164,7 +183,20 @@ static const struct malformed {
     {"unknown-geometry.geojson", HR2D_ESYNTAX,
      "feature 2 (\"wall\"): geometry: \"Circle\" has no patches"},
     {"utf16.geojson", HR2D_ESYNTAX, "line 1, column "},
-    {"view2d.vs2", HR2D_ESYNTAX, "line 1, column "},
+    {"vertex-behind.vs2", HR2D_ESYNTAX, "line 6: text behind the last field: \"0.\""},
+    {"vertex-below.vs2", HR2D_ESCENE, "line 11: v2: there is no vertex \"4\" above this line"},
+    {"vertex-decimal-comma.vs2", HR2D_ESYNTAX, "line 6: text behind the last field: \"0\""},
+    {"vertex-duplicate.vs2", HR2D_ESYNTAX, "line 6: vertex 1 is there already"},
+    {"vertex-hexadecimal.vs2", HR2D_ESYNTAX, "line 6: x must be a number, not \"0x4\""},
+    {"vertex-huge-number.vs2", HR2D_ESYNTAX,
+     "line 8: vertex \"99999999999999999999\" where 4 comes next"},
+    {"vertex-infinite.vs2", HR2D_ESYNTAX, "line 6: x must be a number, not \"inf\""},
+    {"vertex-too-large.vs2", HR2D_ESYNTAX, "line 7: y is beyond a double: \"3e309\""},
+    {"vertex-unknown.vs2", HR2D_ESCENE,
+     "line 13: v2: there is no vertex \"5\" above this line"},
+    {"vertex-y-missing.vs2", HR2D_ESYNTAX, "line 6: y is missing"},
+    {"vertex-zero.vs2", HR2D_ESCENE, "line 13: v1: there is no vertex \"0\" above this line"},
+    {"zero-byte.vs2", HR2D_ESYNTAX, "line 6: x contains a zero byte"},
 };
 
 #endif

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file visibility.h
+ * @brief What is exchanged when there are things in the way.
+ *
+ * In the plane the lines from a segment i to a segment j that miss every occluder fall
+ * into finitely many classes, by which occluders they leave on their right and which on
+ * their left.  The lines of one class are those that separate two convex chains, and
+ * their measure is a sum of unoccluded exchange areas, none negative.  The sum over the
+ * classes is exact: nothing is sampled and there is no tolerance to choose.
+ */
+#ifndef HR2D_VISIBILITY_H
+#define HR2D_VISIBILITY_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <hr2d/geometry.h>
+#include <hr2d/memory.h>
+#include <hr2d/refine.h>
+#include <hr2d/scene.h>
+#include <hr2d/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/**
+ * The exchange area AF = ∫i∫j G V of two segments with occluders between them.
+ *
+ * @param i,j       two segments
+ * @param occluder  `count` segments that block light from either side, in any position:
+ *                  what is behind i or j, or outside of the pair's shaft, does nothing; nor
+ *                  does what lies along i or j; occluders may touch, overlap and cross
+ * @param alloc     hooks for work space; NULL for malloc
+ * @param area      receives AF in scene lengths
+ * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL for a coordinate that is not finite,
+ *         HR2D_ERANGE for coordinates whose scales lie too far apart to be scaled alike
+ *
+ * Swapping i and j changes no bit.  Without an occluder in the way the value is
+ * hr2d_exchange_area(i, j).  Whether AF is 0 is decided exactly.  The error is a few
+ * roundings of the coordinates, relative to the lengths, where several occluders bound
+ * the view, and relative to AF itself where it is bounded by two points alone.
+ * Cost O(count) and what the classes of lines cost that are not blocked.
+ */
+HR2D_API hr2d_status hr2d_exchange_area_occluded(const hr2d_segment *i, const hr2d_segment *j,
+                                                 const hr2d_segment *occluder, size_t count,
+                                                 const hr2d_allocator *alloc, double *area);
+
+/** How to integrate all exchange areas.  Start from #HR2D_MATRIX_OPTIONS_INIT. */
+typedef struct hr2d_matrix_options {
+  size_t struct_size;        /**< so that the options can grow */
+  hr2d_progress_fn progress; /**< optional; with the phase "factors" */
+  void *progress_ctx;        /**< given to `progress` */
+} hr2d_matrix_options;
+
+/** No callback. */
+#define HR2D_MATRIX_OPTIONS_INIT {sizeof(hr2d_matrix_options), NULL, NULL}
+
+/** What hr2d_exchange_matrix() took. */
+typedef struct hr2d_matrix_counts {
+  uint64_t exchange_areas;   /**< pairs of patches whose exchange area was computed */
+  uint64_t partial_pairs;    /**< of these, pairs integrated around occluders */
+  uint64_t blocked_pairs;    /**< pairs that occluders hide from each other */
+  uint64_t visibility_tests; /**< walls, and boxes of walls, tested against a shaft */
+} hr2d_matrix_counts;
+
+/**
+ * The exchange areas of all pairs of patches: row i, divided by hr2d_scene_length(i), has
+ * the view factors F_ij.
+ *
+ * @param scene    committed
+ * @param options  NULL for the defaults
+ * @param area     receives n × n exchange areas in scene lengths, row by row, n being
+ *                 hr2d_scene_patches(); symmetric bit for bit
+ * @param counts   receives what it took; may be NULL
+ * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE if the scene is not committed, or the status of
+ *         the progress callback
+ *
+ * Runs of patches on one line are treated as one wall as long as what they see is wholly
+ * clear or wholly blocked.  Several calls may run on one scene at once.
+ */
+HR2D_API hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene,
+                                          const hr2d_matrix_options *options, double *area,
+                                          hr2d_matrix_counts *counts);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

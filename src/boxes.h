@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A binary tree of boxes over walls. */
+#ifndef HR2D_SRC_BOXES_H
+#define HR2D_SRC_BOXES_H
+
+#include "walls.h"
+
+/* The tree halves the number of walls from level to level, and a walk with a stack
+   leaves one box behind per level. */
+enum { HR2DI_BOX_DEPTH = 40 };
+
+/* Fills walls->box, which has room; HR2D_OK or HR2D_ENOMEM. */
+hr2d_status hr2di_boxes_make(hr2di_walls *walls);
+
+#endif

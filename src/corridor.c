@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lines that separate two convex chains: whether there are any, and their measure.
+
+   As a point x runs along i from a to b, its view through the corridor lies between two
+   vertices, one of each chain, at which the chains are seen.  They change where the
+   line of an edge meets i.  Between two changes, at x0 and x1, the lines are those from
+   x0→x1 to the segment between the two vertices, so that the measure is a sum of
+   unoccluded exchange areas.  At such a change the view is the same by either vertex:
+   an error of δ in its place changes the sum by O(δ²). */
+#include "corridor.h"
+
+#include <string.h>
+
+#include "alloc.h"
+#include "predicates.h"
+#include "side.h"
+
+hr2d_status hr2di_chain_begin(hr2di_chain *chain, const hr2d_allocator *alloc, hr2di_mark from,
+                              hr2di_mark to) {
+  if (hr2di_reserve(alloc, &chain->point, &chain->capacity, 2, sizeof from)) return HR2D_ENOMEM;
+  chain->point[0] = from;
+  chain->point[1] = to;
+  chain->count = 2;
+  return HR2D_OK;
+}
+
+/* Puts p in place of the points [first, last). */
+static hr2d_status splice(hr2di_chain *chain, const hr2d_allocator *alloc, size_t first,
+                          size_t last, hr2di_mark p) {
+  if (first == last && hr2di_reserve(alloc, &chain->point, &chain->capacity, chain->count + 1,
+                                     sizeof *chain->point))
+    return HR2D_ENOMEM;
+  hr2di_mark *point = chain->point;
+  memmove(point + first + 1, point + last, (chain->count - last) * sizeof *point);
+  point[first] = p;
+  chain->count -= last - first;
+  chain->count++;
+  return HR2D_OK;
+}
+
+/* Whether p lengthens a chain that is a segment, there and back, or a point: no edge of it
+   sees a point on its own line.  That is so where i and j touch, or one ends on the line
+   of the other. */
+static int lengthens(const hr2di_frame *frame, const hr2di_chain *chain, hr2di_mark p) {
+  const hr2di_mark *at = chain->point;
+  if (hr2di_same_mark(frame, at[0], p) || hr2di_same_mark(frame, at[1], p)) return 0;
+  if (chain->count == 2 && hr2di_same_mark(frame, at[0], at[1])) return 1;
+  const int flat =
+      chain->count == 2 || (chain->count == 3 && hr2di_turn(frame, at[0], at[1], at[2]) == 0);
+  if (!flat || hr2di_turn(frame, at[0], at[1], p) != 0) return 0;
+  /* beyond the tip, or before the start of a segment that has none yet */
+  return hr2di_ahead(frame, at[1], at[0], p) < 0 ||
+         (chain->count == 2 && hr2di_ahead(frame, at[0], at[1], p) < 0);
+}
+
+/* The edges that see p are contiguous; p replaces what is between their outer ends. */
+static hr2d_status add_point(hr2di_chain *chain, const hr2d_allocator *alloc,
+                             const hr2di_frame *frame, hr2di_mark p, int *grown) {
+  const hr2di_mark *point = chain->point;
+  const size_t edges = chain->count - 1;
+  size_t first = 0, last;
+  while (first < edges &&
+         chain->hand * hr2di_turn(frame, point[first], point[first + 1], p) <= 0)
+    first++;
+  if (first == edges) {
+    if (!lengthens(frame, chain, p)) return HR2D_OK;
+    *grown = 1;
+    return splice(chain, alloc, 1, edges, p);
+  }
+  last = first + 1;
+  while (last < edges && chain->hand * hr2di_turn(frame, point[last], point[last + 1], p) > 0)
+    last++;
+  *grown = 1;
+  return splice(chain, alloc, first + 1, last, p);
+}
+
+hr2d_status hr2di_chain_add(hr2di_chain *chain, const hr2d_allocator *alloc,
+                            const hr2di_frame *frame, const hr2di_mark *point, size_t count,
+                            int *grown) {
+  hr2d_status status = HR2D_OK;
+  *grown = 0;
+  for (size_t k = 0; k < count && !status; k++)
+    status = add_point(chain, alloc, frame, point[k], grown);
+  return status;
+}
+
+/* The line that has `low` and `high` on their sides and touches each, from vertex *from
+   of `low` to vertex *to of `high`, the nearest to each other.  Starting with the given
+   vertices each chain in turn moves the line, and always turns it the same way, so that
+   it is found after at most as many turns as there are vertices, or there is none. */
+static int bridge(const hr2di_frame *frame, const hr2di_chain *low, const hr2di_chain *high,
+                  size_t *from, size_t *to) {
+  const int hand = high->hand;
+  hr2di_mark f = low->point[*from], t = high->point[*to];
+  for (size_t turns = low->count + high->count + 2; turns > 0; turns--) {
+    int moved = 0;
+    if (hr2di_same_mark(frame, f, t)) return 0;
+    for (size_t k = 0; k < high->count; k++) {
+      const hr2di_mark p = high->point[k];
+      const int side = hand * hr2di_turn(frame, f, t, p);
+      if (side < 0 || (side == 0 && hr2di_ahead(frame, t, f, p) <= 0)) continue;
+      if (side == 0 && hr2di_ahead(frame, f, t, p) <= 0) return 0;
+      moved |= side;
+      t = p;
+      *to = k;
+    }
+    for (size_t k = 0; k < low->count; k++) {
+      const hr2di_mark p = low->point[k];
+      const int side = -hand * hr2di_turn(frame, f, t, p);
+      if (side < 0 || (side == 0 && hr2di_ahead(frame, f, t, p) <= 0)) continue;
+      if (side == 0 && hr2di_ahead(frame, t, f, p) <= 0) return 0;
+      moved |= side;
+      f = p;
+      *from = k;
+    }
+    if (!moved) return 1;
+  }
+  return 0;
+}
+
+int hr2di_corridor_open(const hr2di_frame *frame, const hr2di_chain *right,
+                        const hr2di_chain *left) {
+  size_t l = 0, r = right->count - 1;
+  return bridge(frame, left, right, &l, &r);
+}
+
+/* orient(p,q,r), rounded; 0 where that leaves few digits. */
+static double cross(hr2d_point p, hr2d_point q, hr2d_point r) {
+  const double u = (q.x - p.x) * (r.y - p.y), v = (q.y - p.y) * (r.x - p.x);
+  const double det = u - v;
+  return fabs(det) > 0x1p-30 * (fabs(u) + fabs(v)) + 0x1p-900 ? det : 0;
+}
+
+/* Where the line of an edge meets i, as a fraction of i and not before `least`. */
+static double crossing(hr2di_mark from, hr2di_mark to, hr2d_segment i, double least) {
+  const hr2d_point p = from.at, q = to.at;
+  if (from.on & to.on & HR2DI_ON_I || hr2di_same(p, i.a) || hr2di_same(q, i.a)) return least;
+  if (hr2di_same(p, i.b) || hr2di_same(q, i.b)) return 1;
+  const double a = cross(p, q, i.a), b = cross(p, q, i.b);
+  const double t = a != 0 && b != 0 ? a / (a - b) : hr2di_crossing(p, q, i.a, i.b);
+  return t > least ? fmin(t, 1) : least;
+}
+
+static hr2d_point point_at(hr2d_segment i, double t) {
+  const double u = t > 0.5 ? t - 1 : t;
+  const hr2d_point from = t > 0.5 ? i.b : i.a;
+  return (hr2d_point){from.x + u * (i.b.x - i.a.x), from.y + u * (i.b.y - i.a.y)};
+}
+
+int hr2di_corridor_area(const hr2di_frame *frame, const hr2di_chain *right,
+                        const hr2di_chain *left, hr2d_segment i, double *area) {
+  size_t r = right->count - 1, l = 0, r_last = 0, l_last = left->count - 1;
+  double sum = 0, t = 0;
+  *area = 0;
+  if (!bridge(frame, left, right, &l, &r) || !bridge(frame, right, left, &r_last, &l_last))
+    return 0;
+  hr2d_point x = i.a;
+  for (;;) {
+    const hr2di_mark *at = &right->point[r], *to = &left->point[l];
+    const double t_right = r > r_last ? crossing(at[-1], at[0], i, t) : 1;
+    const double t_left = l < l_last ? crossing(to[0], to[1], i, t) : 1;
+    const double next = fmin(t_right, t_left);
+    if (next > t) {
+      const hr2d_segment part = {x, point_at(i, next)}, view = {at->at, to->at};
+      sum += hr2d_exchange_area(&part, &view);
+      t = next;
+      x = part.b;
+    }
+    if (r > r_last && t_right <= next)
+      r--;
+    else if (l < l_last && t_left <= next)
+      l++;
+    else
+      break;
+  }
+  *area = sum;
+  return 1;
+}

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Points about a pair of segments, and the turns they make.
+
+   Feet of walls, clipped ends, midpoints and rounded T-junctions lie on the line of i or
+   of j but for rounding, and among points on one line rounding would decide.  So each
+   point knows on which of the two lines it lies; two on a line and a third in front of it
+   turn as their order on the line says, and three on a line do not turn. */
+#ifndef HR2D_SRC_FRAME_H
+#define HR2D_SRC_FRAME_H
+
+#include <hr2d/geometry.h>
+
+#include "side.h"
+
+enum { HR2DI_ON_I = 1, HR2DI_ON_J = 2 };
+
+typedef struct hr2di_mark {
+  hr2d_point at;
+  unsigned on; /* lines on which it lies; it is in front of the other */
+} hr2di_mark;
+
+/* A line, with its front on the left, and the coordinate that grows along it. */
+typedef struct hr2di_axis {
+  hr2d_point a, b;
+  int by_x;
+  double way;
+} hr2di_axis;
+
+typedef struct hr2di_frame {
+  hr2di_axis i, j;
+} hr2di_frame;
+
+static inline hr2di_axis hr2di_axis_of(hr2d_segment s) {
+  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
+  const int by_x = fabs(dx) >= fabs(dy);
+  return (hr2di_axis){s.a, s.b, by_x, (by_x ? dx : dy) > 0 ? 1 : -1};
+}
+
+/* How q lies to p along a line: 1 ahead, −1 behind. */
+static inline int hr2di_order(const hr2di_axis *axis, hr2d_point p, hr2d_point q) {
+  return hr2di_sign(axis->way * (axis->by_x ? q.x - p.x : q.y - p.y));
+}
+
+/* Two of the three lie on one line. */
+static inline int hr2di_turn_on_line(const hr2di_axis *axis, unsigned bit, hr2di_mark p,
+                                     hr2di_mark q, hr2di_mark r) {
+  if (!(p.on & bit)) return hr2di_order(axis, q.at, r.at);
+  if (!(q.on & bit)) return hr2di_order(axis, r.at, p.at);
+  return hr2di_order(axis, p.at, q.at);
+}
+
+/* Both lie where the two lines meet. */
+static inline int hr2di_corners(hr2di_mark p, hr2di_mark q) {
+  return (p.on & q.on) == (HR2DI_ON_I | HR2DI_ON_J);
+}
+
+/* 1 if p, q, r turn left, −1 right, 0 if they lie on one line. */
+static inline int hr2di_turn(const hr2di_frame *frame, hr2di_mark p, hr2di_mark q,
+                             hr2di_mark r) {
+  const unsigned pairs = (p.on & q.on) | (q.on & r.on) | (r.on & p.on);
+  if (!pairs) return hr2di_side(p.at, q.at, r.at);
+  if (p.on & q.on & r.on || hr2di_corners(p, q) || hr2di_corners(q, r) || hr2di_corners(r, p))
+    return 0;
+  return pairs & HR2DI_ON_I ? hr2di_turn_on_line(&frame->i, HR2DI_ON_I, p, q, r)
+                            : hr2di_turn_on_line(&frame->j, HR2DI_ON_J, p, q, r);
+}
+
+/* One place, but for rounding across a line. */
+static inline int hr2di_same_mark(const hr2di_frame *frame, hr2di_mark p, hr2di_mark q) {
+  if (hr2di_same(p.at, q.at) || hr2di_corners(p, q)) return 1;
+  const unsigned both = p.on & q.on;
+  if (both & HR2DI_ON_I) return hr2di_order(&frame->i, p.at, q.at) == 0;
+  return both & HR2DI_ON_J ? hr2di_order(&frame->j, p.at, q.at) == 0 : 0;
+}
+
+/* For three points on one line: whether p lies ahead of `from` on the way to `to` (1), at
+   it (0), or behind it (−1). */
+static inline int hr2di_ahead(const hr2di_frame *frame, hr2di_mark from, hr2di_mark to,
+                              hr2di_mark p) {
+  const unsigned all = from.on & to.on & p.on;
+  const hr2di_axis axis = all & HR2DI_ON_I   ? frame->i
+                          : all & HR2DI_ON_J ? frame->j
+                                             : hr2di_axis_of((hr2d_segment){from.at, to.at});
+  return hr2di_order(&axis, from.at, to.at) * hr2di_order(&axis, from.at, p.at);
+}
+
+#endif

@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The exchange areas of all pairs of patches.
+
+   Pairs of runs are halved until nothing is in the way of a part, or nothing passes, or
+   it is one pair of patches.  Where nothing is in the way all pairs below get the
+   unoccluded exchange area without a further test. */
+#include <hr2d/visibility.h>
+#include <string.h>
+
+#include "alloc.h"
+#include "exchange-area.h"
+#include "options.h"
+#include "predicates.h"
+#include "runs.h"
+#include "scene-impl.h"
+#include "sight.h"
+
+enum { BATCH = 1024, DEPTH = 80, TILE = 8 };
+
+/* A pair of parts of two runs, with its walls in filler::list from `first` on. */
+typedef struct node {
+  hr2di_run i, j;
+  size_t first, count;
+  hr2di_facing facing;
+} node;
+
+typedef struct filler {
+  const hr2d_scene *scene;
+  size_t n;
+  double *area;
+  double unit; /* of the scene's coordinates */
+  hr2d_matrix_counts counts;
+  hr2di_runs runs;
+  hr2di_sight sight;
+  hr2di_wall_list list;
+  hr2d_element *element; /* of which only a and b are used */
+  hr2d_pair pair[BATCH];
+  double value[BATCH];
+  size_t pairs;
+} filler;
+
+/* The upper triangle is filled first. */
+static void put(filler *f, uint32_t i, uint32_t j, double area) {
+  const size_t row = i < j ? i : j, column = i < j ? j : i;
+  f->area[row * f->n + column] = area * f->unit;
+}
+
+static void flush(filler *f) {
+  hr2di_exchange_areas(f->element, f->pair, f->pairs, f->value);
+  for (size_t k = 0; k < f->pairs; k++)
+    put(f, f->pair[k].first, f->pair[k].second, f->value[k]);
+  f->counts.exchange_areas += f->pairs;
+  f->pairs = 0;
+}
+
+static void fill_clear(filler *f, hr2di_run i, hr2di_run j) {
+  for (uint32_t k = i.first; k < i.last; k++)
+    for (uint32_t m = j.first; m < j.last; m++) {
+      f->pair[f->pairs++] = (hr2d_pair){f->runs.patch[k], f->runs.patch[m]};
+      if (f->pairs == BATCH) flush(f);
+    }
+}
+
+/* From the start of the first patch of a part to the end of its last. */
+static hr2d_segment span(const filler *f, hr2di_run r) {
+  const hr2di_patch *patch = f->scene->patch;
+  return (hr2d_segment){patch[f->runs.patch[r.first]].scaled.a,
+                        patch[f->runs.patch[r.last - 1]].scaled.b};
+}
+
+/* Parts of runs that face each other fully do so, too. */
+static int shaft_of(const filler *f, hr2di_run i, hr2di_run j, hr2di_facing *facing,
+                    hr2di_shaft *shaft) {
+  const hr2d_segment s = span(f, i), t = span(f, j);
+  if (*facing != HR2DI_FACING_FULL) *facing = hr2di_face(&s, &t);
+  return hr2di_shaft_make(shaft, *facing, s, t, s, t);
+}
+
+static hr2d_status fill_partial(filler *f, const node *at) {
+  const uint32_t i = f->runs.patch[at->i.first], j = f->runs.patch[at->j.first];
+  hr2di_shaft shaft;
+  /* The first of two patches is the one with the lower index, as in links. */
+  hr2di_facing facing = at->facing;
+  if (!(i < j ? shaft_of(f, at->i, at->j, &facing, &shaft)
+              : shaft_of(f, at->j, at->i, &facing, &shaft)))
+    return HR2D_OK;
+  double area;
+  int open;
+  const hr2d_status status =
+      hr2di_sight_area(&f->sight, &shaft, f->list.wall + at->first, at->count, &area, &open);
+  if (status) return status;
+  put(f, i, j, area);
+  f->counts.exchange_areas += (unsigned)open;
+  f->counts.partial_pairs += (unsigned)open;
+  f->counts.blocked_pairs += !open;
+  return HR2D_OK;
+}
+
+static double extent(const filler *f, hr2di_run r) {
+  const hr2d_segment s = span(f, r);
+  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
+  return r.last - r.first == 1 ? 0 : dx * dx + dy * dy;
+}
+
+/* The longer of the parts is halved, unless it is a single patch. */
+static void halve(const filler *f, const node *at, node half[2]) {
+  half[0] = half[1] = *at;
+  const int first = extent(f, at->i) >= extent(f, at->j);
+  const hr2di_run r = first ? at->i : at->j;
+  const uint32_t middle = r.first + (r.last - r.first) / 2;
+  (first ? &half[0].i : &half[0].j)->last = middle;
+  (first ? &half[1].i : &half[1].j)->first = middle;
+}
+
+static uint64_t pairs_of(const node *at) {
+  return (uint64_t)(at->i.last - at->i.first) * (at->j.last - at->j.first);
+}
+
+/* Fills what needs no further look; *keep if the part is to be halved. */
+static hr2d_status look(filler *f, node *at, const node *parent, int *keep) {
+  hr2di_shaft shaft;
+  hr2di_view view = HR2DI_CLEAR;
+  *keep = 0;
+  const int shaded = shaft_of(f, at->i, at->j, &at->facing, &shaft);
+  if (at->facing == HR2DI_FACING_NONE) return HR2D_OK;
+  at->first = f->list.count;
+  if (!shaded || !f->scene->effect[HR2D_EFFECT_OCCLUSION].on) {
+    fill_clear(f, at->i, at->j);
+    return HR2D_OK;
+  }
+  const hr2d_status status =
+      parent ? hr2di_sight_shrink(&f->sight, &shaft, &f->list, parent->first, parent->count,
+                                  &f->list, &view)
+             : hr2di_sight_collect(&f->sight, &shaft, &f->list, &view);
+  at->count = f->list.count - at->first;
+  if (status) return status;
+  if (view == HR2DI_CLEAR) fill_clear(f, at->i, at->j);
+  if (view == HR2DI_BLOCKED) f->counts.blocked_pairs += pairs_of(at);
+  *keep = view == HR2DI_PARTIAL;
+  return HR2D_OK;
+}
+
+static hr2d_status fill_runs(filler *f, hr2di_run i, hr2di_run j) {
+  node stack[DEPTH];
+  size_t count = 0;
+  int keep;
+  f->list.count = 0;
+  stack[0] = (node){.i = i, .j = j, .facing = HR2DI_FACING_NONE};
+  hr2d_status status = look(f, &stack[0], NULL, &keep);
+  count += (size_t)keep;
+  while (count > 0 && !status) {
+    const node at = stack[--count];
+    node half[2];
+    f->list.count = at.first + at.count;
+    if (pairs_of(&at) == 1) {
+      status = fill_partial(f, &at);
+      continue;
+    }
+    halve(f, &at, half);
+    for (int k = 0; k < 2 && !status; k++) {
+      status = look(f, &half[k], &at, &keep);
+      if (keep) stack[count++] = half[k];
+    }
+  }
+  return status;
+}
+
+static hr2d_status tell(const hr2d_matrix_options *options, double fraction) {
+  if (!options->progress) return HR2D_OK;
+  const hr2d_progress progress = {
+      .struct_size = sizeof progress, .phase = "factors", .fraction = fraction};
+  return options->progress(options->progress_ctx, &progress);
+}
+
+static hr2d_status fill(filler *f, const hr2d_matrix_options *options) {
+  const size_t runs = f->runs.runs;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < runs && !status; k++) {
+    status = tell(options,
+                  (double)k * (2. * (double)runs - (double)k) / ((double)runs * (double)runs));
+    for (size_t m = k + 1; m < runs && !status; m++)
+      status = fill_runs(f, f->runs.run[k], f->runs.run[m]);
+  }
+  if (!status) flush(f);
+  return status ? status : tell(options, 1);
+}
+
+/* Tile by tile, lest each value take a cache line of its own. */
+static void mirror(double *area, size_t n) {
+  for (size_t i0 = 0; i0 < n; i0 += TILE)
+    for (size_t j0 = i0; j0 < n; j0 += TILE)
+      for (size_t i = i0; i < n && i < i0 + TILE; i++)
+        for (size_t j = j0 > i ? j0 : i + 1; j < n && j < j0 + TILE; j++)
+          area[j * n + i] = area[i * n + j];
+}
+
+static hr2d_status start(filler *f) {
+  hr2di_sight_start(&f->sight, &f->scene->walls, &f->scene->alloc);
+  const hr2d_status status = hr2di_runs_make(&f->runs, f->scene);
+  if (status) return status;
+  f->element = hr2di_calloc(&f->scene->alloc, f->n, sizeof *f->element);
+  if (!f->element) return HR2D_ENOMEM;
+  for (size_t k = 0; k < f->n; k++) {
+    f->element[k].a = f->scene->patch[k].scaled.a;
+    f->element[k].b = f->scene->patch[k].scaled.b;
+  }
+  memset(f->area, 0, f->n * f->n * sizeof *f->area);
+  return HR2D_OK;
+}
+
+hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_options *options,
+                                 double *area, hr2d_matrix_counts *counts) {
+  hr2d_matrix_options used = HR2D_MATRIX_OPTIONS_INIT;
+  if (options) hr2di_copy_sized(&used, sizeof used, options);
+  if (!scene->committed) return HR2D_ESTATE;
+  filler *f = hr2di_calloc(&scene->alloc, 1, sizeof *f);
+  if (!f) return HR2D_ENOMEM;
+  f->scene = scene;
+  f->n = scene->patches;
+  f->area = area;
+  f->unit = hr2d_scene_unit(scene);
+  hr2d_status status = start(f);
+  if (!status) status = fill(f, &used);
+  if (!status) mirror(area, f->n);
+  f->counts.visibility_tests = f->sight.tests;
+  if (!status && counts) *counts = f->counts;
+  hr2di_runs_clear(&f->runs);
+  hr2di_sight_end(&f->sight);
+  hr2di_free(&scene->alloc, f->list.wall);
+  hr2di_free(&scene->alloc, f->element);
+  hr2di_free(&scene->alloc, f);
+  return status;
+}

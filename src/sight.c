@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Exchange areas past walls: the walls in the way of a pair, and the pair cut up where
+   they are many. */
+#include "sight.h"
+
+#include <stdlib.h>
+
+#include "alloc.h"
+#include "boxes.h"
+
+/* The classes of many islands cost more than those of both halves of a segment, which
+   each see fewer islands; but no cut helps where they all are seen from everywhere. */
+enum { MOST_ISLANDS = 8, MOST_CUTS = 24 };
+
+void hr2di_sight_start(hr2di_sight *sight, const hr2di_walls *walls,
+                       const hr2d_allocator *alloc) {
+  *sight = (hr2di_sight){.walls = walls, .alloc = *alloc};
+  hr2di_classes_start(&sight->classes, walls, alloc);
+}
+
+void hr2di_sight_end(hr2di_sight *sight) {
+  hr2di_classes_end(&sight->classes);
+  hr2di_free(&sight->alloc, sight->list.wall);
+}
+
+/* Tests a wall and appends it if it is in the way.  *view is what it was, or worse. */
+static hr2d_status test(hr2di_sight *s, const hr2di_shaft *shaft, uint32_t wall,
+                        hr2di_wall_list *found, hr2di_view *view) {
+  hr2di_obstacle obstacle;
+  const hr2di_in_way way = hr2di_shaft_test(shaft, s->walls->wall[wall].at, &obstacle);
+  s->tests++;
+  if (way == HR2DI_ASIDE) return HR2D_OK;
+  *view = way == HR2DI_ACROSS ? HR2DI_BLOCKED : HR2DI_PARTIAL;
+  s->last = wall;
+  if (way == HR2DI_ACROSS) return HR2D_OK;
+  if (hr2di_reserve(&s->alloc, &found->wall, &found->capacity, found->count + 1,
+                    sizeof *found->wall))
+    return HR2D_ENOMEM;
+  found->wall[found->count++] = wall;
+  return HR2D_OK;
+}
+
+static int by_number(const void *left, const void *right) {
+  const uint32_t l = *(const uint32_t *)left, r = *(const uint32_t *)right;
+  return (l > r) - (l < r);
+}
+
+hr2d_status hr2di_sight_collect(hr2di_sight *s, const hr2di_shaft *shaft,
+                                hr2di_wall_list *found, hr2di_view *view) {
+  const size_t before = found->count;
+  uint32_t stack[HR2DI_BOX_DEPTH], count = 0;
+  hr2d_status status = HR2D_OK;
+  *view = HR2DI_CLEAR;
+  stack[count++] = 0;
+  while (count > 0 && !status && *view != HR2DI_BLOCKED) {
+    const hr2di_box *box = &s->walls->box[stack[--count]];
+    if (box->wall != HR2DI_NO_WALL) {
+      status = test(s, shaft, box->wall, found, view);
+      continue;
+    }
+    s->tests++;
+    if (!hr2di_shaft_meets_box(shaft, box->x0, box->x1, box->y0, box->y1)) continue;
+    stack[count++] = box->below;
+    stack[count++] = box->below + 1;
+  }
+  if (*view == HR2DI_BLOCKED) found->count = before;
+  if (found->count > before + 1)
+    qsort(found->wall + before, found->count - before, sizeof *found->wall, by_number);
+  return status;
+}
+
+hr2d_status hr2di_sight_shrink(hr2di_sight *s, const hr2di_shaft *shaft,
+                               const hr2di_wall_list *from, size_t first, size_t count,
+                               hr2di_wall_list *found, hr2di_view *view) {
+  const size_t before = found->count;
+  hr2d_status status = HR2D_OK;
+  *view = HR2DI_CLEAR;
+  for (size_t k = first; k < first + count && !status && *view != HR2DI_BLOCKED; k++)
+    status = test(s, shaft, from->wall[k], found, view);
+  if (*view == HR2DI_BLOCKED) found->count = before;
+  return status;
+}
+
+/* A part of a pair, with its walls in s->list; those of the parts behind it come later. */
+typedef struct part {
+  hr2di_shaft shaft;
+  size_t first, count;
+  unsigned cuts;
+} part;
+
+static double square(hr2d_segment s) {
+  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
+  return dx * dx + dy * dy;
+}
+
+/* Halves the longer segment; 0 if that leaves no two. */
+static int cut(const hr2di_shaft *shaft, hr2d_segment i[2], hr2d_segment j[2]) {
+  i[0] = i[1] = (hr2d_segment){shaft->a.at, shaft->b.at};
+  j[0] = j[1] = (hr2d_segment){shaft->c.at, shaft->d.at};
+  hr2d_segment *half = square(i[0]) >= square(j[0]) ? i : j;
+  const hr2d_segment whole = half[0];
+  const hr2d_point middle = {0.5 * (whole.a.x + whole.b.x), 0.5 * (whole.a.y + whole.b.y)};
+  half[0].b = half[1].a = middle;
+  return square(half[0]) > 0 && square(half[1]) > 0;
+}
+
+/* Both halves of a part, onto the stack in its place. */
+static hr2d_status cut_up(hr2di_sight *s, part *stack, size_t *parts, int *done) {
+  const part whole = stack[*parts - 1];
+  hr2d_segment i[2], j[2];
+  *done = 0;
+  if (whole.cuts == MOST_CUTS || !cut(&whole.shaft, i, j)) return HR2D_OK;
+  *done = 1;
+  --*parts;
+  hr2d_status status = HR2D_OK;
+  for (int k = 0; k < 2 && !status; k++) {
+    part *half = &stack[*parts];
+    hr2di_view view;
+    half->cuts = whole.cuts + 1;
+    half->first = s->list.count;
+    if (!hr2di_shaft_part(&half->shaft, &whole.shaft, i[k], j[k])) continue;
+    status = hr2di_sight_shrink(s, &half->shaft, &s->list, whole.first, whole.count, &s->list,
+                                &view);
+    half->count = s->list.count - half->first;
+    if (view != HR2DI_BLOCKED) ++*parts;
+  }
+  return status;
+}
+
+/* One part: its area and whether it is open, or its halves. */
+static hr2d_status settle(hr2di_sight *s, part *stack, size_t *parts, double *area, int *open) {
+  const part *top = &stack[*parts - 1];
+  int passable, cut_done;
+  if (top->count == 0) {
+    *open = 1;
+    const hr2d_segment i = {top->shaft.a.at, top->shaft.b.at};
+    const hr2d_segment j = {top->shaft.c.at, top->shaft.d.at};
+    if (area) *area = hr2d_exchange_area(&i, &j);
+    --*parts;
+    return HR2D_OK;
+  }
+  hr2d_status status = hr2di_classes_sort(&s->classes, &top->shaft, s->list.wall + top->first,
+                                          top->count, &passable);
+  if (!status && passable && s->classes.islands > MOST_ISLANDS) {
+    status = cut_up(s, stack, parts, &cut_done);
+    if (status || cut_done) return status;
+  }
+  if (!status && passable) status = hr2di_classes_sum(&s->classes, &top->shaft, area, open);
+  --*parts;
+  return status;
+}
+
+static hr2d_status sum_parts(hr2di_sight *s, const hr2di_shaft *shaft, const uint32_t *wall,
+                             size_t count, double *area, int *open) {
+  part stack[MOST_CUTS + 2];
+  size_t parts = 1;
+  hr2d_status status = HR2D_OK;
+  *open = 0;
+  if (area) *area = 0;
+  s->list.count = 0;
+  if (hr2di_reserve(&s->alloc, &s->list.wall, &s->list.capacity, count, sizeof *wall))
+    return HR2D_ENOMEM;
+  for (size_t k = 0; k < count; k++) s->list.wall[k] = wall[k];
+  s->list.count = count;
+  stack[0] = (part){*shaft, 0, count, 0};
+  while (parts > 0 && !status && (area || !*open)) {
+    double some = 0;
+    int some_open = 0;
+    const part *top = &stack[parts - 1];
+    s->list.count = top->first + top->count;
+    status = settle(s, stack, &parts, area ? &some : NULL, &some_open);
+    if (area) *area += some;
+    *open |= some_open;
+  }
+  return status;
+}
+
+hr2d_status hr2di_sight_open(hr2di_sight *sight, const hr2di_shaft *shaft, const uint32_t *wall,
+                             size_t count, int *open) {
+  return sum_parts(sight, shaft, wall, count, NULL, open);
+}
+
+hr2d_status hr2di_sight_area(hr2di_sight *sight, const hr2di_shaft *shaft, const uint32_t *wall,
+                             size_t count, double *area, int *open) {
+  return sum_parts(sight, shaft, wall, count, area, open);
+}

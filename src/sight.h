@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What two segments exchange with walls in the way, and whether anything at all. */
+#ifndef HR2D_SRC_SIGHT_H
+#define HR2D_SRC_SIGHT_H
+
+#include "classes.h"
+#include "shaft.h"
+#include "walls.h"
+
+/* The numbers of walls, of which each has a capacity of its own. */
+typedef struct hr2di_wall_list {
+  uint32_t *wall;
+  size_t count, capacity;
+} hr2di_wall_list;
+
+/* Work space of one thread. */
+typedef struct hr2di_sight {
+  const hr2di_walls *walls;
+  hr2d_allocator alloc;
+  uint64_t tests; /* of walls and boxes against a shaft, so far */
+  uint32_t last;  /* the wall found last to be in the way */
+  hr2di_classes classes;
+  hr2di_wall_list list; /* of the parts of a pair under way */
+} hr2di_sight;
+
+void hr2di_sight_start(hr2di_sight *sight, const hr2di_walls *walls,
+                       const hr2d_allocator *alloc);
+void hr2di_sight_end(hr2di_sight *sight);
+
+typedef enum hr2di_view {
+  HR2DI_CLEAR,   /* nothing in the way */
+  HR2DI_PARTIAL, /* something, but maybe not everywhere */
+  HR2DI_BLOCKED  /* nothing passes */
+} hr2di_view;
+
+/* Appends to `found` the walls in the way, of those in the scene, by their numbers; HR2D_OK or
+   HR2D_ENOMEM. Nothing is appended unless the view is partial.  One wall across is noticed
+   here, what several block together by hr2di_sight_open(). */
+hr2d_status hr2di_sight_collect(hr2di_sight *sight, const hr2di_shaft *shaft,
+                                hr2di_wall_list *found, hr2di_view *view);
+
+/* The same of the `count` walls from number `first` on in `from`, which may be `found`. */
+hr2d_status hr2di_sight_shrink(hr2di_sight *sight, const hr2di_shaft *shaft,
+                               const hr2di_wall_list *from, size_t first, size_t count,
+                               hr2di_wall_list *found, hr2di_view *view);
+
+/* Whether some light passes between the walls in the way; exact. */
+hr2d_status hr2di_sight_open(hr2di_sight *sight, const hr2di_shaft *shaft, const uint32_t *wall,
+                             size_t count, int *open);
+
+/* The exchange area past the walls in the way, and whether some light passes. */
+hr2d_status hr2di_sight_area(hr2di_sight *sight, const hr2di_shaft *shaft, const uint32_t *wall,
+                             size_t count, double *area, int *open);
+
+#endif
