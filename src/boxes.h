@@ -5,9 +5,9 @@
 
 #include "walls.h"
 
-/* The tree halves the number of walls from level to level, and a walk with a stack
-   leaves one box behind per level. */
-enum { HR2DI_BOX_DEPTH = 40 };
+/* A walk with a stack leaves one box behind per level.  The number of walls is halved at
+   least every third level, see boxes.c. */
+enum { HR2DI_BOX_DEPTH = 100 };
 
 /* Fills walls->box, which has room; HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_boxes_make(hr2di_walls *walls);

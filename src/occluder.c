@@ -26,15 +26,16 @@ static int all_on_hull(const hr2d_scene *scene) {
   return 1;
 }
 
-/* The first patch of a wall that is in the way itself. */
+/* The first patch of a wall's body that is in the way itself. */
 static size_t patch_in_way(const hr2d_scene *scene, const hr2di_shaft *shaft, uint32_t wall) {
-  hr2di_obstacle obstacle;
-  size_t k = 0;
-  while (k + 1 < scene->patches &&
-         (scene->walls.of_segment[k] != wall ||
-          !hr2di_shaft_test(shaft, scene->patch[k].scaled, &obstacle)))
-    k++;
-  return k;
+  const hr2di_walls *walls = &scene->walls;
+  for (size_t k = 0; k < scene->patches; k++) {
+    hr2di_obstacle obstacle;
+    if (walls->body_of[walls->of_segment[k]] == walls->body_of[wall] &&
+        hr2di_shaft_test(shaft, scene->patch[k].scaled, &obstacle))
+      return k;
+  }
+  return 0;
 }
 
 static hr2d_status look_between(const hr2d_scene *scene, hr2di_sight *sight, size_t i, size_t j,

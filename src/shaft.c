@@ -124,6 +124,16 @@ int hr2di_shaft_meets_box(const hr2di_shaft *shaft, double x0, double x1, double
   return 1;
 }
 
+int hr2di_shaft_has_in_front(const hr2di_shaft *shaft, double x0, double x1, double y0,
+                             double y1) {
+  for (int k = 0; k < 2; k++) {
+    const hr2di_half_plane *s = &shaft->side[k];
+    const double least = s->nx * (s->nx > 0 ? x0 : x1) + s->ny * (s->ny > 0 ? y0 : y1);
+    if (least + s->offset <= s->margin) return 0;
+  }
+  return 1;
+}
+
 static inline double value_at(const hr2di_half_plane *h, hr2d_point p) {
   return (h->nx * p.x + h->ny * p.y) + h->offset;
 }

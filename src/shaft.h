@@ -34,6 +34,10 @@ int hr2di_shaft_part(hr2di_shaft *part, const hr2di_shaft *whole, hr2d_segment i
 /* Whether the shaft may meet a box; never 0 if it does. */
 int hr2di_shaft_meets_box(const hr2di_shaft *shaft, double x0, double x1, double y0, double y1);
 
+/* Whether a box is in front of both i and j. */
+int hr2di_shaft_has_in_front(const hr2di_shaft *shaft, double x0, double x1, double y0,
+                             double y1);
+
 typedef enum hr2di_in_way {
   HR2DI_ASIDE = 0, /* outside of the shaft, or touching it */
   HR2DI_INSIDE,    /* reaches into it */

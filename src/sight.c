@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "alloc.h"
+#include "bodies.h"
 #include "boxes.h"
 
 /* The classes of many islands cost more than those of both halves of a segment, which
@@ -40,6 +41,24 @@ static hr2d_status test(hr2di_sight *s, const hr2di_shaft *shaft, uint32_t wall,
   return HR2D_OK;
 }
 
+static uint32_t first_wall(const hr2di_walls *walls, const hr2di_box *box) {
+  while (box->wall == HR2DI_NO_WALL) box = &walls->box[box->below];
+  return box->wall;
+}
+
+/* Whether a body whose walls a box holds cuts the shaft in two. */
+static int body_across(hr2di_sight *s, const hr2di_shaft *shaft, const hr2di_box *box) {
+  if (box->body == HR2DI_NO_BODY ||
+      !hr2di_shaft_has_in_front(shaft, box->x0, box->x1, box->y0, box->y1))
+    return 0;
+  const double dx = (shaft->c.at.x + shaft->d.at.x) - (shaft->a.at.x + shaft->b.at.x);
+  const double dy = (shaft->c.at.y + shaft->d.at.y) - (shaft->a.at.y + shaft->b.at.y);
+  const hr2d_segment chord = hr2di_chord_across(&s->walls->body[box->body], dx, dy);
+  hr2di_obstacle obstacle;
+  s->tests++;
+  return hr2di_shaft_test(shaft, chord, &obstacle) == HR2DI_ACROSS;
+}
+
 static int by_number(const void *left, const void *right) {
   const uint32_t l = *(const uint32_t *)left, r = *(const uint32_t *)right;
   return (l > r) - (l < r);
@@ -60,6 +79,10 @@ hr2d_status hr2di_sight_collect(hr2di_sight *s, const hr2di_shaft *shaft,
     }
     s->tests++;
     if (!hr2di_shaft_meets_box(shaft, box->x0, box->x1, box->y0, box->y1)) continue;
+    if (body_across(s, shaft, box)) {
+      *view = HR2DI_BLOCKED;
+      s->last = first_wall(s->walls, box);
+    }
     stack[count++] = box->below;
     stack[count++] = box->below + 1;
   }

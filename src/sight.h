@@ -18,7 +18,7 @@ typedef struct hr2di_sight {
   const hr2di_walls *walls;
   hr2d_allocator alloc;
   uint64_t tests; /* of walls and boxes against a shaft, so far */
-  uint32_t last;  /* the wall found last to be in the way */
+  uint32_t last;  /* the wall found last to be in the way, or one of its body */
   hr2di_classes classes;
   hr2di_wall_list list; /* of the parts of a pair under way */
 } hr2di_sight;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "alloc.h"
+#include "bodies.h"
 #include "boxes.h"
 #include "predicates.h"
 #include "side.h"
@@ -161,12 +162,14 @@ static hr2d_status reserve(hr2di_walls *w, runs *r, size_t count) {
   w->of_segment = hr2di_alloc(alloc, count, sizeof *w->of_segment);
   w->host = hr2di_alloc(alloc, 2 * count, sizeof *w->host);
   w->box = hr2di_alloc(alloc, 2 * count, sizeof *w->box);
+  w->body = hr2di_alloc(alloc, count, sizeof *w->body);
+  w->body_of = hr2di_alloc(alloc, count, sizeof *w->body_of);
   r->above = hr2di_alloc(alloc, count, sizeof *r->above);
   r->span = hr2di_alloc(alloc, count, sizeof *r->span);
   r->tip = hr2di_alloc(alloc, 2 * count, sizeof *r->tip);
   r->vertex = hr2di_alloc(alloc, 2 * count, sizeof *r->vertex);
-  const int room = w->wall && w->of_segment && w->host && w->box && r->above && r->span &&
-                   r->tip && r->vertex;
+  const int room = w->wall && w->of_segment && w->host && w->box && w->body && w->body_of &&
+                   r->above && r->span && r->tip && r->vertex;
   return room ? HR2D_OK : HR2D_ENOMEM;
 }
 
@@ -178,7 +181,8 @@ hr2d_status hr2di_walls_make(hr2di_walls *walls, const hr2d_allocator *alloc,
   if (!status) {
     walls->vertices = find_runs(&r);
     make_walls(walls, &r);
-    status = hr2di_boxes_make(walls);
+    status = hr2di_bodies_make(walls);
+    if (!status) status = hr2di_boxes_make(walls);
   }
   for (size_t k = 0; k < 2 * count && !status; k++) {
     uint32_t *host = &walls->host[r.vertex[2 * r.tip[k].segment + r.tip[k].which]];
@@ -196,4 +200,6 @@ void hr2di_walls_clear(hr2di_walls *walls) {
   hr2di_free(&walls->alloc, walls->of_segment);
   hr2di_free(&walls->alloc, walls->host);
   hr2di_free(&walls->alloc, walls->box);
+  hr2di_free(&walls->alloc, walls->body);
+  hr2di_free(&walls->alloc, walls->body_of);
 }

@@ -13,6 +13,7 @@
 #include <stdint.h>
 
 #define HR2DI_NO_WALL UINT32_MAX
+#define HR2DI_NO_BODY UINT32_MAX
 
 typedef struct hr2di_wall {
   hr2d_segment at;
@@ -22,10 +23,12 @@ typedef struct hr2di_wall {
 /* A leaf has one wall, other nodes have two children, `below` and the one behind it. */
 typedef struct hr2di_box {
   double x0, x1, y0, y1;
-  double size; /* the longer edge */
   uint32_t below;
   uint32_t wall; /* HR2DI_NO_WALL above the leaves */
+  uint32_t body; /* of whose walls it holds all, more than one, and no others; else none */
 } hr2di_box;
+
+typedef struct hr2di_body hr2di_body;
 
 typedef struct hr2di_walls {
   hr2d_allocator alloc;
@@ -34,6 +37,9 @@ typedef struct hr2di_walls {
   uint32_t *of_segment; /* the wall of each segment they were made from */
   uint32_t *host;       /* per vertex: a wall on whose inside it lies, or HR2DI_NO_WALL */
   size_t vertices;
+  hr2di_body *body;  /* joined walls */
+  uint32_t *body_of; /* the body of each wall */
+  size_t bodies;
   hr2di_box *box; /* box 0 is around all; 2·walls − 1 of them */
 } hr2di_walls;
 
