@@ -124,8 +124,8 @@ static double refine(const hr2d_oracle *oracle, double epsilon, hr2d_refine_coun
   top.a = (hr2d_point){1, 0.1};
   top.b = (hr2d_point){0, 0.1};
   if (hr2d_scene_create(NULL, &scene) || hr2d_scene_add(scene, &bottom, NULL) ||
-      hr2d_scene_add(scene, &top, NULL) || hr2d_scene_commit(scene) ||
-      hr2d_hierarchy_create(scene, &hierarchy) ||
+      hr2d_scene_add(scene, &top, NULL) || hr2d_scene_force(scene, HR2D_EFFECT_EMISSION) ||
+      hr2d_scene_commit(scene) || hr2d_hierarchy_create(scene, &hierarchy) ||
       hr2d_linkset_create(hierarchy, oracle, NULL, NULL, NULL, &links))
     exit(EXIT_FAILURE);
   const double start = seconds_now();

@@ -8,8 +8,8 @@
  * which element to subdivide and the new pairs are proposed.  The order is depth
  * first, the result the same for every run, and nothing recurs on the C stack.
  * A pair that cannot see each other is dropped; so is one that occluders hide, and what
- * no light can reach.  A pair that sees each other in part is linked with what is left of
- * its exchange area.
+ * no light can reach (HR2D_EFFECT_EMISSION, which can be forced).  A pair that sees each
+ * other in part is linked with what is left of its exchange area.
  */
 #ifndef HR2D_REFINE_H
 #define HR2D_REFINE_H
@@ -29,7 +29,7 @@ struct hr2d_solution;
 /** How far a long call has come. */
 typedef struct hr2d_progress {
   size_t struct_size; /**< sizeof (hr2d_progress) of the library */
-  const char *phase;  /**< "refine" or "solve" */
+  const char *phase;  /**< "refine", "solve" or "factors" */
   uint64_t elements;  /**< N so far */
   uint64_t links;     /**< L so far */
   double fraction;    /**< of the root pairs done, or of the digits gained; in [0,1] */
