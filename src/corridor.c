@@ -84,19 +84,19 @@ hr2d_status hr2di_chain_add(hr2di_chain *chain, const hr2d_allocator *alloc,
   return status;
 }
 
-/* The line that has `low` and `high` on their sides and touches each, from vertex *from
-   of `low` to vertex *to of `high`, the nearest to each other.  Starting with the given
-   vertices each chain in turn moves the line, and always turns it the same way, so that
-   it is found after at most as many turns as there are vertices, or there is none. */
-static int bridge(const hr2di_frame *frame, const hr2di_chain *low, const hr2di_chain *high,
-                  size_t *from, size_t *to) {
+/* The search of bridge() with what points know of the lines they lie on, or, `known` = 0,
+   without.  −1 where it does not end. */
+static int search(const hr2di_frame *frame, const hr2di_chain *low, const hr2di_chain *high,
+                  unsigned known, size_t *from, size_t *to) {
   const int hand = high->hand;
   hr2di_mark f = low->point[*from], t = high->point[*to];
+  f.on &= known;
+  t.on &= known;
   for (size_t turns = low->count + high->count + 2; turns > 0; turns--) {
     int moved = 0;
     if (hr2di_same_mark(frame, f, t)) return 0;
     for (size_t k = 0; k < high->count; k++) {
-      const hr2di_mark p = high->point[k];
+      const hr2di_mark p = {high->point[k].at, high->point[k].on & known};
       const int side = hand * hr2di_turn(frame, f, t, p);
       if (side < 0 || (side == 0 && hr2di_ahead(frame, t, f, p) <= 0)) continue;
       if (side == 0 && hr2di_ahead(frame, f, t, p) <= 0) return 0;
@@ -105,7 +105,7 @@ static int bridge(const hr2di_frame *frame, const hr2di_chain *low, const hr2di_
       *to = k;
     }
     for (size_t k = 0; k < low->count; k++) {
-      const hr2di_mark p = low->point[k];
+      const hr2di_mark p = {low->point[k].at, low->point[k].on & known};
       const int side = -hand * hr2di_turn(frame, f, t, p);
       if (side < 0 || (side == 0 && hr2di_ahead(frame, f, t, p) <= 0)) continue;
       if (side == 0 && hr2di_ahead(frame, t, f, p) <= 0) return 0;
@@ -115,7 +115,25 @@ static int bridge(const hr2di_frame *frame, const hr2di_chain *low, const hr2di_
     }
     if (!moved) return 1;
   }
-  return 0;
+  return -1;
+}
+
+/* The line that has `low` and `high` on their sides and touches each, from vertex *from
+   of `low` to vertex *to of `high`, the nearest to each other.  Starting with the given
+   vertices each chain in turn moves the line, and always turns it the same way, so that
+   it is found after at most as many turns as there are vertices, or there is none.
+
+   Unless two points on the line of i or j are a rounding apart and a third is in line with
+   them: what they know of that line and where they are may then make the search go round
+   in a circle.  Where they are never does. */
+static int bridge(const hr2di_frame *frame, const hr2di_chain *low, const hr2di_chain *high,
+                  size_t *from, size_t *to) {
+  const size_t start[] = {*from, *to};
+  int found = search(frame, low, high, HR2DI_ON_I | HR2DI_ON_J, from, to);
+  if (found >= 0) return found;
+  *from = start[0];
+  *to = start[1];
+  return search(frame, low, high, 0, from, to) > 0;
 }
 
 int hr2di_corridor_open(const hr2di_frame *frame, const hr2di_chain *right,

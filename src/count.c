@@ -226,7 +226,8 @@ static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
     sum.limited_links += part->limited_links;
     sum.oracle_calls += part->oracle_calls;
     sum.facing_tests += part->facing_tests;
-    sum.visibility_tests += part->visibility_tests;
+    const hr2di_sight *sight = t->worker[k].projector->sight;
+    sum.visibility_tests += sight ? sight->tests : 0;
     sum.blocked_pairs += part->blocked_pairs;
     sum.partial_links += part->partial_links;
     sum.dark_pairs += part->dark_pairs;

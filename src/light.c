@@ -55,7 +55,8 @@ static hr2d_status spread(search *s) {
 
 /* Light from the background may come to any patch. */
 static int all_lit(const hr2d_scene *scene) {
-  if (scene->effect[HR2D_EFFECT_EMISSION].forced || scene->effect[HR2D_EFFECT_BACKGROUND].on)
+  if (scene->effect[HR2D_EFFECT_EMISSION].forced ||
+      scene->effect[HR2D_EFFECT_BACKGROUND].called_for)
     return 1;
   size_t k = 0;
   while (k < scene->patches && emits(scene, k)) k++;

@@ -6,6 +6,7 @@
    spread over Q's tree.  All that e exchanges with Q is accounted for exactly once if
    none of them lies below another and they fill Q, but for what e cannot see.  A link
    is spread and taken away once, a step per level each; nothing is rounded. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -216,20 +217,38 @@ static int inherits(const validator *v, hr2d_pair pair, uint32_t top, hr2di_faci
   }
 }
 
+/* What is exchanged through gaps that rounding leaves between walls, relative to the
+   shorter element. */
+#define NEGLIGIBLE 0x1p-90
+
 /* Whether walls hide a pair; *hidden is 0 where there are none. */
 static hr2d_status look(validator *v, hr2d_pair pair, int *hidden) {
   hr2di_view view = HR2DI_CLEAR;
-  double area;
+  double area = 0;
   if (v->sight && hr2di_shaded_area(v->sight, v->h, pair, &area, &view))
     return out_of_memory(v);
-  *hidden = view == HR2DI_BLOCKED;
+  const hr2d_element *e = v->h->element;
+  const double length = fmin(e[pair.first].length, e[pair.second].length);
+  *hidden = view == HR2DI_BLOCKED || (v->sight && area <= NEGLIGIBLE * length);
   return HR2D_OK;
+}
+
+/* Whether walls hide e, or something that it is part of, from f: that may be clearer of
+   them than its part, for midpoints are rounded. */
+static hr2d_status look_above(validator *v, uint32_t e, uint32_t f, int *hidden) {
+  for (;; e = v->h->parent[e]) {
+    const hr2d_status status = look(v, (hr2d_pair){e, f}, hidden);
+    if (status || *hidden || is_root(v, e)) return status;
+  }
 }
 
 /* Checks that no leaves below e and f, which no link joins, see each other. */
 static hr2d_status check_unseen(validator *v, uint32_t e, uint32_t f) {
   const hr2d_element *element = v->h->element;
   size_t count = 0;
+  int above = 0;
+  const hr2d_status looked = look_above(v, e, f, &above);
+  if (looked || above) return looked;
   for (hr2d_pair p = {e, f};;) {
     int hidden = 0;
     const hr2d_status status = look(v, p, &hidden);

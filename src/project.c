@@ -304,7 +304,6 @@ hr2d_status hr2di_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidat
   hr2d_status status = consult(p, &pair, 1);
   if (!status) status = prepare(p, &pair, &count, &held);
   *limited = held > 0;
-  p->counts.limited_links += held;
   *candidates = status || held ? 0 : subdivide(p, &pair, 1);
   return status;
 }

@@ -60,7 +60,8 @@ static hr2d_status set_brightness(hr2di_projector *p) {
 
 static hr2d_status set_sight(hr2di_projector *p) {
   const hr2d_scene *scene = p->hierarchy->scene;
-  p->test_all = scene->effect[HR2D_EFFECT_FACING].forced;
+  p->test_all =
+      !scene->effect[HR2D_EFFECT_FACING].called_for && scene->effect[HR2D_EFFECT_FACING].forced;
   if (!scene->effect[HR2D_EFFECT_OCCLUSION].on) return HR2D_OK;
   p->sight = hr2di_alloc(&p->links->alloc, 1, sizeof *p->sight);
   if (!p->sight)

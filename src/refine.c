@@ -19,6 +19,7 @@ static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
   h->refining = 1;
   const hr2d_status status = project(p);
   h->refining = 0;
+  if (p->sight) p->counts.visibility_tests = p->sight->tests;
   if (status) hr2di_hierarchy_truncate(h, elements);
   return status;
 }
@@ -85,8 +86,8 @@ static hr2d_status look_again(hr2di_projector *p, const hr2d_pair *pairs, size_t
     p->found.count = 0;
     status = hr2di_look(p, pairs[k], &view);
     partial[k] = view != HR2DI_CLEAR;
+    if (partial[k]) p->partial = partial;
   }
-  p->partial = partial;
   return status;
 }
 

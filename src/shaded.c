@@ -34,12 +34,6 @@ static int make_shaft(const hr2d_hierarchy *h, hr2d_pair pair, hr2di_facing *fac
                           h->scene->patch[j->patch].scaled);
 }
 
-/* The view where there is no shaft: one segment is behind the other, or as good as that,
-   so that nothing fits between. */
-static hr2di_view view_of_none(hr2di_facing facing) {
-  return facing == HR2DI_FACING_NONE ? HR2DI_BLOCKED : HR2DI_CLEAR;
-}
-
 /* Looks once more where a few walls might block a pair together. */
 static hr2d_status look_closer(hr2di_sight *sight, const hr2di_shaft *shaft,
                                hr2di_wall_list *found, size_t first, hr2di_view *view) {
@@ -59,10 +53,8 @@ hr2d_status hr2di_look(hr2di_projector *p, hr2d_pair pair, hr2di_view *view) {
   hr2di_shaft shaft;
   hr2di_facing facing;
   const size_t first = p->found.count;
-  if (!make_shaft(p->hierarchy, pair, &facing, &shaft)) {
-    *view = view_of_none(facing);
-    return HR2D_OK;
-  }
+  *view = HR2DI_CLEAR;
+  if (!make_shaft(p->hierarchy, pair, &facing, &shaft)) return HR2D_OK;
   hr2d_status status = hr2di_sight_collect(p->sight, &shaft, &p->found, view);
   if (!status) status = look_closer(p->sight, &shaft, &p->found, first, view);
   return status ? out_of_memory(p) : HR2D_OK;
@@ -162,7 +154,6 @@ hr2d_status hr2di_propose_roots(hr2di_projector *p, const hr2d_pair *pairs, size
     if (view == HR2DI_CLEAR) clear[kept++] = pairs[k];
     if (view == HR2DI_PARTIAL && !status) status = propose(p, &c, 1);
   }
-  p->counts.visibility_tests = p->sight->tests;
   return status ? status : hr2di_propose_guarded(p, clear, kept);
 }
 
@@ -186,7 +177,9 @@ hr2d_status hr2di_play_shaded(hr2di_projector *p) {
   size_t candidates, count = 0;
   int limited;
   hr2d_status status = hr2di_subdivide(p, pair, &candidates, &limited);
+  const uint64_t links = p->counts.links;
   if (!status && limited) status = link_pair(p, pair, s->list.wall + from, walls);
+  p->counts.limited_links += p->counts.links - links;
   p->found.count = 0;
   for (size_t k = 0; k < candidates && !status; k++) {
     hr2di_shaft shaft;
@@ -202,7 +195,6 @@ hr2d_status hr2di_play_shaded(hr2di_projector *p) {
     status = sort_out(p, p->candidate[k], view, facing, first, c, &count);
   }
   s->list.count = from;
-  p->counts.visibility_tests = p->sight->tests;
   return status ? status : propose(p, c, count);
 }
 
@@ -214,10 +206,9 @@ hr2d_status hr2di_shaded_area(hr2di_sight *sight, const hr2d_hierarchy *hierarch
   int open = 0;
   *area = 0;
   hr2d_status status = HR2D_OK;
+  *view = HR2DI_CLEAR;
   if (make_shaft(hierarchy, pair, &facing, &shaft))
     status = hr2di_sight_collect(sight, &shaft, &found, view);
-  else
-    *view = view_of_none(facing);
   if (!status && *view == HR2DI_CLEAR) hr2di_exchange_areas(hierarchy->element, &pair, 1, area);
   if (!status && *view == HR2DI_PARTIAL) {
     status = hr2di_sight_area(sight, &shaft, found.wall, found.count, area, &open);

@@ -45,6 +45,15 @@ static hr2d_point foot(hr2d_point p, hr2d_point q, hr2d_point on_a, hr2d_point o
   return (hr2d_point){p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
 }
 
+/* Points on one line that are a rounding apart are one. */
+static void snap(hr2di_mark *p, hr2di_mark to) {
+  const double near = TOUCH * largest(to.at);
+  if (!(p->on & to.on) || fabs(p->at.x - to.at.x) > near || fabs(p->at.y - to.at.y) > near)
+    return;
+  p->at = to.at;
+  p->on |= to.on;
+}
+
 /* What is in front of a line of the obstacle, whose ends lie as `at` says; 0 if nothing. */
 static int clip(hr2di_obstacle *o, const hr2di_axis *line, unsigned bit, const int at[2]) {
   if (at[0] <= 0 && at[1] <= 0) return 0;
@@ -171,7 +180,14 @@ static inline int clip_wall(const hr2di_shaft *s, double value[4][2], hr2di_obst
     }
     if ((at[0] <= 0 || at[1] <= 0) && !clip(o, line, 1u << k, at)) return 0;
   }
-  return 1;
+  for (int e = 0; e < 2; e++) {
+    if (!o->end[e].on) continue;
+    snap(&o->end[e], s->a);
+    snap(&o->end[e], s->b);
+    snap(&o->end[e], s->c);
+    snap(&o->end[e], s->d);
+  }
+  return !hr2di_same(o->end[0].at, o->end[1].at);
 }
 
 /* Which ends of the obstacle are beyond the side k, p→q, of the shaft, or on it.  Where i

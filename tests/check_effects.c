@@ -314,7 +314,7 @@ static void check_dark_room(double epsilon) {
 
 START_TEST(dark_rooms_do_not_disturb) {
   check_dark_room(.1);
-  check_dark_room(1. / 64); /* links enough for several threads */
+  check_dark_room(1. / 32);
 }
 END_TEST
 

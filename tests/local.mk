@@ -19,6 +19,8 @@ SUITES = \
 	tests/check_theorem \
 	tests/check_l1 \
 	tests/check_solve \
+	tests/check_occlusion \
+	tests/check_effects \
 	tests/check_visibility \
 	tests/check_exchange_matrix \
 	tests/check_study \

@@ -94,12 +94,12 @@ static hr2d_status add_painted(hr2d_scene *scene, hr2d_segment at, hr2d_sides si
   return hr2d_scene_add(scene, &patch, NULL);
 }
 
-hr2d_scene *test_painted_scene(const struct plan *plan, const test_paint *paint) {
+hr2d_scene *test_painted_scene(const struct plan *room, const test_paint *paint) {
   hr2d_scene *scene = NULL;
   ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
-  for (size_t k = 0; k < plan->walls; k++)
-    ck_assert_int_eq(add_painted(scene, plan->wall[k], plan->sides[k], paint), HR2D_OK);
-  if (plan->crossing) ck_assert_int_eq(hr2d_scene_split_crossings(scene, NULL), HR2D_OK);
+  for (size_t k = 0; k < room->walls; k++)
+    ck_assert_int_eq(add_painted(scene, room->wall[k], room->sides[k], paint), HR2D_OK);
+  if (room->crossing) ck_assert_int_eq(hr2d_scene_split_crossings(scene, NULL), HR2D_OK);
   ck_assert_int_eq(hr2d_scene_set_background(scene, &paint->background, 1), HR2D_OK);
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++)
     if (paint->forced & (1u << e))
@@ -204,15 +204,18 @@ static int by_bits(const void *left, const void *right) {
 
 double *test_sorted_links(const test_links *t, size_t *count) {
   const hr2d_element *e = hr2d_hierarchy_elements(t->hierarchy);
-  *count = (size_t)hr2d_linkset_size(t->links);
-  double *row = malloc((*count + 1) * ROW * sizeof *row);
+  const size_t links = (size_t)hr2d_linkset_size(t->links);
+  double *row = malloc((links + 1) * ROW * sizeof *row);
   ck_assert_ptr_nonnull(row);
-  for (size_t k = 0; k < *count; k++) {
+  *count = 0;
+  for (size_t k = 0; k < links; k++) {
     const hr2d_link link = hr2d_linkset_get(t->links, k);
+    const double length = hr2d_scene_unit(t->scene) * e[link.pair.first].length;
+    if (link.exchange_area <= 1e-25 * length) continue;
     const double all[ROW] = {e[link.pair.first].centre.x, e[link.pair.first].centre.y,
                              e[link.pair.second].centre.x, e[link.pair.second].centre.y,
                              link.exchange_area};
-    memcpy(row + ROW * k, all, sizeof all);
+    memcpy(row + ROW * (*count)++, all, sizeof all);
   }
   qsort(row, *count, ROW * sizeof *row, by_bits);
   return row;

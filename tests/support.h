@@ -39,7 +39,7 @@ typedef struct test_paint {
 } test_paint;
 
 /* A committed scene of a plan whose crossings, if it has any, are cut. */
-hr2d_scene *test_painted_scene(const struct plan *plan, const test_paint *paint);
+hr2d_scene *test_painted_scene(const struct plan *room, const test_paint *paint);
 
 /* A table of comma-separated values with a header line. */
 typedef struct test_table {
@@ -74,7 +74,8 @@ void test_refine(test_links *t, double epsilon, unsigned max_level);
 hr2d_solution *test_solve(const test_links *t, int closure);
 
 /* All links by the geometry of their elements, which does not depend on their numbers:
-   centre, centre and exchange area of each, sorted; to be freed. */
+   centre, centre and exchange area of each, sorted; to be freed.  Without those that only
+   rounding leaves, of 1e-25 of their elements' length and less. */
 double *test_sorted_links(const test_links *t, size_t *count);
 
 /* Asserts that two sets have the same links. */

@@ -125,7 +125,8 @@ HR2D_API hr2d_status hr2d_scene_set_background(hr2d_scene *scene, const double *
 /**
  * Turns an effect on whether or not the scene calls for it.  That costs time and changes
  * no bit of the answer where the effect is not called for: a means to test just this.
- * Forcing HR2D_EFFECT_EMISSION also gives links to patches that no light can reach.
+ * Forcing HR2D_EFFECT_EMISSION also gives links to patches that no light can reach; from
+ * 262,144 links on that may change in which order the others are summed up.
  *
  * @param scene  not yet committed
  * @return HR2D_OK, HR2D_ESTATE after commit, HR2D_EINVAL outside the enumeration
