@@ -19,16 +19,18 @@ static int emits(const hr2d_scene *scene, size_t patch) {
   return 0;
 }
 
-static hr2d_status sees(search *s, size_t i, size_t j, int *seen) {
+/* Whether j surely sees i; or, `exactly`, whether it does. */
+static hr2d_status sees(search *s, size_t i, size_t j, int exactly, int *seen) {
   const hr2d_segment p = s->scene->patch[i].scaled, q = s->scene->patch[j].scaled;
   hr2di_shaft shaft;
-  hr2di_view view;
   const hr2di_facing facing = hr2di_face(&p, &q);
   *seen = facing != HR2DI_FACING_NONE;
   if (!s->scene->effect[HR2D_EFFECT_OCCLUSION].on ||
       !hr2di_shaft_make(&shaft, facing, p, q, p, q))
     return HR2D_OK;
+  if (!exactly) return hr2di_sight_surely(&s->sight, &shaft, seen);
   hr2di_wall_list found = {0};
+  hr2di_view view;
   hr2d_status status = hr2di_sight_collect(&s->sight, &shaft, &found, &view);
   if (!status && view == HR2DI_BLOCKED) *seen = 0;
   if (!status && view == HR2DI_PARTIAL)
@@ -37,20 +39,38 @@ static hr2d_status sees(search *s, size_t i, size_t j, int *seen) {
   return status;
 }
 
-/* Light goes on from each patch that it has reached to all that are still dark. */
-static hr2d_status spread(search *s) {
+/* Light goes on from one patch that it has reached to all that are still dark. */
+static hr2d_status spread_from(search *s, size_t from, int exactly) {
   unsigned char *dark = s->scene->dark;
-  hr2d_status status = HR2D_OK;
-  for (size_t next = 0; next < s->count && s->count < s->scene->patches; next++)
-    for (size_t k = 0; k < s->scene->patches; k++) {
-      int seen = 0;
-      if (dark[k]) status = sees(s, s->reached[next], k, &seen);
-      if (status) return status;
-      if (!seen) continue;
-      dark[k] = 0;
-      s->reached[s->count++] = (uint32_t)k;
-    }
+  for (size_t k = 0; k < s->scene->patches; k++) {
+    int seen = 0;
+    const hr2d_status status = dark[k] ? sees(s, s->reached[from], k, exactly, &seen) : HR2D_OK;
+    if (status) return status;
+    if (!seen) continue;
+    dark[k] = 0;
+    s->reached[s->count++] = (uint32_t)k;
+  }
   return HR2D_OK;
+}
+
+/* From number `from` on to all that surely see one that it has reached. */
+static hr2d_status spread_surely(search *s, size_t from) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = from; k < s->count && s->count < s->scene->patches && !status; k++)
+    status = spread_from(s, k, 0);
+  return status;
+}
+
+/* Most patches see some lit one without much in the way.  For the others each lit one is
+   looked at exactly. */
+static hr2d_status spread(search *s) {
+  hr2d_status status = spread_surely(s, 0);
+  for (size_t k = 0; k < s->count && s->count < s->scene->patches && !status; k++) {
+    const size_t before = s->count;
+    status = spread_from(s, k, 1);
+    if (!status) status = spread_surely(s, before);
+  }
+  return status;
 }
 
 /* Light from the background may come to any patch. */

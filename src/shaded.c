@@ -4,15 +4,12 @@
 
    Where none is left a pair comes out of the shade, and nothing below it is tested again.
    Where nothing passes it is dropped: one wall that cuts the shaft is noticed at once,
-   several together where they are few, or else when the pair would be linked. */
+   several together by the widest of them, or else when the pair would be linked. */
 #include "shaded.h"
 
 #include "alloc.h"
 #include "exchange-area.h"
 #include "scene-impl.h"
-
-/* Up to so many walls are asked at once whether they block a pair together. */
-enum { FEW_WALLS = 16 };
 
 static hr2d_status out_of_memory(hr2di_projector *p) {
   return hr2di_fail(&p->links->message, HR2D_ENOMEM, "out of memory for walls in the way");
@@ -34,15 +31,15 @@ static int make_shaft(const hr2d_hierarchy *h, hr2d_pair pair, hr2di_facing *fac
                           h->scene->patch[j->patch].scaled);
 }
 
-/* Looks once more where a few walls might block a pair together. */
+/* Looks once more where several walls might block a pair together. */
 static hr2d_status look_closer(hr2di_sight *sight, const hr2di_shaft *shaft,
                                hr2di_wall_list *found, size_t first, hr2di_view *view) {
-  int open = 1;
+  int blocked = 0;
   hr2d_status status = HR2D_OK;
-  const size_t count = found->count - first;
-  if (*view == HR2DI_PARTIAL && count <= FEW_WALLS)
-    status = hr2di_sight_open(sight, shaft, found->wall + first, count, &open);
-  if (!open) {
+  if (*view == HR2DI_PARTIAL)
+    status =
+        hr2di_sight_blocked(sight, shaft, found->wall + first, found->count - first, &blocked);
+  if (blocked) {
     *view = HR2DI_BLOCKED;
     found->count = first;
   }

@@ -3,6 +3,7 @@
    they are many. */
 #include "sight.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "alloc.h"
@@ -12,6 +13,10 @@
 /* The classes of many islands cost more than those of both halves of a segment, which
    each see fewer islands; but no cut helps where they all are seen from everywhere. */
 enum { MOST_ISLANDS = 8, MOST_CUTS = 24 };
+
+/* So few walls are asked at once whether they leave a gap, or so many of the widest whether
+   they leave none. */
+enum { FEW = 4, WIDEST = 16 };
 
 void hr2di_sight_start(hr2di_sight *sight, const hr2di_walls *walls,
                        const hr2d_allocator *alloc) {
@@ -64,14 +69,15 @@ static int by_number(const void *left, const void *right) {
   return (l > r) - (l < r);
 }
 
-hr2d_status hr2di_sight_collect(hr2di_sight *s, const hr2di_shaft *shaft,
-                                hr2di_wall_list *found, hr2di_view *view) {
+/* hr2di_sight_collect(), until there are more than `most`. */
+static hr2d_status collect(hr2di_sight *s, const hr2di_shaft *shaft, size_t most,
+                           hr2di_wall_list *found, hr2di_view *view) {
   const size_t before = found->count;
   uint32_t stack[HR2DI_BOX_DEPTH], count = 0;
   hr2d_status status = HR2D_OK;
   *view = HR2DI_CLEAR;
   stack[count++] = 0;
-  while (count > 0 && !status && *view != HR2DI_BLOCKED) {
+  while (count > 0 && !status && *view != HR2DI_BLOCKED && found->count - before <= most) {
     const hr2di_box *box = &s->walls->box[stack[--count]];
     if (box->wall != HR2DI_NO_WALL) {
       status = test(s, shaft, box->wall, found, view);
@@ -89,6 +95,22 @@ hr2d_status hr2di_sight_collect(hr2di_sight *s, const hr2di_shaft *shaft,
   if (*view == HR2DI_BLOCKED) found->count = before;
   if (found->count > before + 1)
     qsort(found->wall + before, found->count - before, sizeof *found->wall, by_number);
+  return status;
+}
+
+hr2d_status hr2di_sight_collect(hr2di_sight *s, const hr2di_shaft *shaft,
+                                hr2di_wall_list *found, hr2di_view *view) {
+  return collect(s, shaft, SIZE_MAX, found, view);
+}
+
+hr2d_status hr2di_sight_surely(hr2di_sight *s, const hr2di_shaft *shaft, int *surely) {
+  hr2di_wall_list found = {0};
+  hr2di_view view;
+  hr2d_status status = collect(s, shaft, FEW, &found, &view);
+  *surely = view == HR2DI_CLEAR;
+  if (!status && view == HR2DI_PARTIAL && found.count <= FEW)
+    status = hr2di_sight_open(s, shaft, found.wall, found.count, surely);
+  hr2di_free(&s->alloc, found.wall);
   return status;
 }
 
@@ -201,6 +223,35 @@ static hr2d_status sum_parts(hr2di_sight *s, const hr2di_shaft *shaft, const uin
 hr2d_status hr2di_sight_open(hr2di_sight *sight, const hr2di_shaft *shaft, const uint32_t *wall,
                              size_t count, int *open) {
   return sum_parts(sight, shaft, wall, count, NULL, open);
+}
+
+/* The width of a wall across the shaft. */
+static double width_of(const hr2di_shaft *s, hr2d_segment wall) {
+  const double ux = (s->b.at.x - s->a.at.x) + (s->c.at.x - s->d.at.x);
+  const double uy = (s->b.at.y - s->a.at.y) + (s->c.at.y - s->d.at.y);
+  return fabs(ux * (wall.b.x - wall.a.x) + uy * (wall.b.y - wall.a.y));
+}
+
+hr2d_status hr2di_sight_blocked(hr2di_sight *s, const hr2di_shaft *shaft, const uint32_t *wall,
+                                size_t count, int *blocked) {
+  uint32_t widest[WIDEST];
+  double width[WIDEST];
+  size_t kept = 0;
+  for (size_t k = 0; k < count; k++) {
+    const double w = width_of(shaft, s->walls->wall[wall[k]].at);
+    if (kept == WIDEST && w <= width[kept - 1]) continue;
+    size_t at = kept < WIDEST ? kept++ : kept - 1;
+    for (; at > 0 && width[at - 1] < w; at--) {
+      width[at] = width[at - 1];
+      widest[at] = widest[at - 1];
+    }
+    width[at] = w;
+    widest[at] = wall[k];
+  }
+  int open;
+  const hr2d_status status = hr2di_sight_open(s, shaft, widest, kept, &open);
+  *blocked = !open;
+  return status;
 }
 
 hr2d_status hr2di_sight_area(hr2di_sight *sight, const hr2di_shaft *shaft, const uint32_t *wall,

@@ -44,9 +44,17 @@ hr2d_status hr2di_sight_shrink(hr2di_sight *sight, const hr2di_shaft *shaft,
                                const hr2di_wall_list *from, size_t first, size_t count,
                                hr2di_wall_list *found, hr2di_view *view);
 
+/* Whether two segments surely see each other, for little: nothing is in the way, or so few
+   walls that it is known at once.  What this does not notice hr2di_sight_open() does. */
+hr2d_status hr2di_sight_surely(hr2di_sight *sight, const hr2di_shaft *shaft, int *surely);
+
 /* Whether some light passes between the walls in the way; exact. */
 hr2d_status hr2di_sight_open(hr2di_sight *sight, const hr2di_shaft *shaft, const uint32_t *wall,
                              size_t count, int *open);
+
+/* Whether the widest of many walls block the pair together; never 1 if they do not. */
+hr2d_status hr2di_sight_blocked(hr2di_sight *sight, const hr2di_shaft *shaft,
+                                const uint32_t *wall, size_t count, int *blocked);
 
 /* The exchange area past the walls in the way, and whether some light passes. */
 hr2d_status hr2di_sight_area(hr2di_sight *sight, const hr2di_shaft *shaft, const uint32_t *wall,

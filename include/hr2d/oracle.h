@@ -11,9 +11,8 @@
  * in part a link spreads over its elements what falls on parts of them.  An oracle learns
  * of that from hr2d_batch::partial, and the built-in ones do not accept such a pair as if
  * it were clear: `size` and `bf` count it twice and `size2`, the square, four times, so
- * that elements are half as long there.  For 0.2 % more links that makes the error of
- * averages 2.5 to 3.7 times smaller (a square room with a screen; doc/occlusion.md).  `l1`
- * and `l1-grid` add the most that an occluder can change, the unoccluded exchange area.
+ * that elements are half as long there.  `l1` and `l1-grid` add the most that an occluder
+ * can change, the unoccluded exchange area.
  */
 #ifndef HR2D_ORACLE_H
 #define HR2D_ORACLE_H
