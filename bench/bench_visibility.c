@@ -1,0 +1,419 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What exact occlusion costs: all exchange areas of a scene beside the textbook's crossed
+   strings, which see no occluder, and a link of a refinement as occluders grow in number.
+
+   Usage: bench_visibility [matrix|links]; without a word, matrix and links.  Times are
+   medians of rounds in which both sides of a ratio alternate.  Fails where a bar is missed. */
+#include <hr2d/hr2d.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "timing.h"
+
+enum { MOST_ROUNDS = 15, BLOCKERS = 16, SIZES = 5 };
+
+#define PI   3.14159265358979323846
+#define SIDE 0.1 /* of a blocker */
+
+static int failures;
+
+static void bar(const char *what, double value, double most) {
+  if (value <= most) return;
+  printf("missed: %s is %.3g, at most %.3g is allowed\n", what, value, most);
+  failures++;
+}
+
+static void fail(const char *what) {
+  fprintf(stderr, "bench_visibility: %s\n", what);
+  exit(EXIT_FAILURE);
+}
+
+/* Segments to make a scene of. */
+typedef struct plan {
+  hr2d_segment *segment;
+  size_t count, capacity;
+} plan;
+
+static void add(plan *p, hr2d_point a, hr2d_point b) {
+  if (p->count == p->capacity) {
+    p->capacity = 2 * p->capacity + 64;
+    p->segment = realloc(p->segment, p->capacity * sizeof *p->segment);
+    if (!p->segment) fail("out of memory");
+  }
+  p->segment[p->count++] = (hr2d_segment){a, b};
+}
+
+/* Scene files have nine decimals. */
+static double decimal(double x) {
+  return nearbyint(x * 1e9) / 1e9;
+}
+
+static hr2d_point along(hr2d_point a, hr2d_point b, int k, int pieces) {
+  if (k == 0 || k == pieces) return k == 0 ? a : b;
+  return (hr2d_point){decimal(a.x + (b.x - a.x) * k / pieces),
+                      decimal(a.y + (b.y - a.y) * k / pieces)};
+}
+
+/* A closed polygon with its edges in equal pieces. */
+static void add_polygon(plan *p, const hr2d_point *corner, int corners, int pieces) {
+  for (int k = 0; k < corners; k++)
+    for (int m = 0; m < pieces; m++) {
+      const hr2d_point a = corner[k], b = corner[(k + 1) % corners];
+      add(p, along(a, b, m, pieces), along(a, b, m + 1, pieces));
+    }
+}
+
+/* The unit square, seen from inside. */
+static void add_room(plan *p, int pieces) {
+  const hr2d_point corner[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  add_polygon(p, corner, 4, pieces);
+}
+
+/* The lower left corners of the blockers in examples/scenes/occ128.vs2. */
+static const hr2d_point blocker[BLOCKERS] = {
+    {0.075, 0.085},
+    {0.0764112, 0.320838532},
+    {0.072205845, 0.568463564},
+    {0.079121185, 0.834601703},
+    {0.331569866, 0.077836622},
+    {0.319559789, 0.315100075},
+    {0.32920167, 0.580403023},
+    {0.322120967, 0.830403023},
+    {0.584906074, 0.066609285},
+    {0.565386025, 0.323545},
+    {0.584129453, 0.584601703},
+    {0.566537796, 0.818463564},
+    {0.833366556, 0.067403121},
+    {0.815944216, 0.334074468},
+    {0.834563759, 0.575044257},
+    {0.815119684, 0.815888697},
+};
+
+/* Half of the patches on the room, half on the blockers: occN. */
+static void draw_occ(plan *p, int n) {
+  add_room(p, n / 8);
+  for (int k = 0; k < BLOCKERS; k++) {
+    const hr2d_point c = blocker[k];
+    const double x = decimal(c.x + SIDE), y = decimal(c.y + SIDE);
+    const hr2d_point corner[] = {c, {c.x, y}, {x, y}, {x, c.y}};
+    add_polygon(p, corner, 4, n / (8 * BLOCKERS));
+  }
+}
+
+/* A regular polygon; counter-clockwise its front is inside, else outside. */
+static void add_round(plan *p, hr2d_point centre, double radius, int corners, int hand) {
+  hr2d_point last = {centre.x + radius, centre.y};
+  for (int k = 1; k <= corners; k++) {
+    const double angle = hand * 2 * PI * (k % corners) / corners;
+    const hr2d_point next = {centre.x + radius * cos(angle), centre.y + radius * sin(angle)};
+    add(p, last, next);
+    last = next;
+  }
+}
+
+/* The same arrangement with everything round, so that no two patches lie on one line. */
+static void draw_round(plan *p, int n) {
+  add_round(p, (hr2d_point){0.5, 0.5}, 0.75, n / 2, 1);
+  for (int k = 0; k < BLOCKERS; k++)
+    add_round(p, (hr2d_point){blocker[k].x + SIDE / 2, blocker[k].y + SIDE / 2}, SIDE / 2,
+              n / (2 * BLOCKERS), -1);
+}
+
+static uint64_t state;
+
+static double uniform(double least, double most) {
+  state = state * 6364136223846793005u + 1442695040888963407u;
+  return least + (most - least) * ((double)(state >> 11) * 0x1p-53);
+}
+
+/* `count` discs in the unit square that do not meet. */
+static void draw_discs(int count, double least, double most, hr2d_point *centre,
+                       double *radius) {
+  for (int k = 0; k < count;) {
+    const double r = radius[k] = uniform(least, most);
+    const hr2d_point c = centre[k] = (hr2d_point){uniform(r, 1 - r), uniform(r, 1 - r)};
+    int m = 0;
+    while (m < k) {
+      const double dx = c.x - centre[m].x, dy = c.y - centre[m].y, apart = r + radius[m];
+      if (dx * dx + dy * dy <= 1.01 * apart * apart) break;
+      m++;
+    }
+    k += m == k;
+  }
+}
+
+/* Calls `put` for each of `count` discs. */
+static void scatter(plan *p, int count, double least, double most,
+                    void (*put)(plan *, hr2d_point, double)) {
+  hr2d_point *centre = malloc(((size_t)count + 1) * sizeof *centre);
+  double *radius = malloc(((size_t)count + 1) * sizeof *radius);
+  if (!centre || !radius) fail("out of memory");
+  state = 20250101;
+  draw_discs(count, least / sqrt(count), most / sqrt(count), centre, radius);
+  for (int k = 0; k < count; k++) put(p, centre[k], radius[k]);
+  free(centre);
+  free(radius);
+}
+
+static void put_square(plan *p, hr2d_point c, double radius) {
+  const double angle = uniform(0, 2 * PI), u = radius * cos(angle), v = radius * sin(angle);
+  const hr2d_point corner[] = {
+      {c.x + u, c.y + v}, {c.x + v, c.y - u}, {c.x - u, c.y - v}, {c.x - v, c.y + u}};
+  add_polygon(p, corner, 4, 1);
+}
+
+/* n/8 squares with diagonals of 0.35/√(n/8) to 0.7/√(n/8), any way round. */
+static void draw_squares(plan *p, int n) {
+  add_room(p, n / 8);
+  scatter(p, n / 8, 0.175, 0.35, put_square);
+}
+
+static void put_segment(plan *p, hr2d_point c, double radius) {
+  const double angle = uniform(0, 2 * PI), u = radius * cos(angle), v = radius * sin(angle);
+  add(p, (hr2d_point){c.x - u, c.y - v}, (hr2d_point){c.x + u, c.y + v});
+}
+
+/* n segments of length 0.3/√n, each with one front and any way round. */
+static void draw_segments(plan *p, int n) {
+  add_room(p, 1);
+  if (n > 0) scatter(p, n, 0.15, 0.15, put_segment);
+}
+
+static hr2d_scene *scene_of(void (*draw)(plan *, int), int n, int forced) {
+  plan p = {0};
+  hr2d_scene *scene = NULL;
+  draw(&p, n);
+  if (hr2d_scene_create(NULL, &scene)) fail("no scene");
+  for (size_t k = 0; k < p.count; k++) {
+    hr2d_patch patch = HR2D_PATCH_INIT;
+    const double one = 1;
+    patch.a = p.segment[k].a;
+    patch.b = p.segment[k].b;
+    patch.emission = &one;
+    patch.emission_bands = 1;
+    if (hr2d_scene_add(scene, &patch, NULL)) fail(hr2d_scene_message(scene));
+  }
+  if (forced && hr2d_scene_force(scene, HR2D_EFFECT_OCCLUSION)) fail("not forced");
+  if (hr2d_scene_commit(scene)) fail(hr2d_scene_message(scene));
+  free(p.segment);
+  return scene;
+}
+
+static double distance(hr2d_point a, hr2d_point b) {
+  const double x = a.x - b.x, y = a.y - b.y;
+  return sqrt(x * x + y * y);
+}
+
+/* Half of the matrix is enough for a comparison. */
+static void fill_strings(const hr2d_segment *s, size_t n, double *area) {
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = i + 1; j < n; j++)
+      area[i * n + j] = 0.5 * ((distance(s[i].a, s[j].a) + distance(s[i].b, s[j].b)) -
+                               (distance(s[i].a, s[j].b) + distance(s[i].b, s[j].a)));
+}
+
+static double worst_row(const hr2d_scene *scene, const double *area) {
+  const size_t n = hr2d_scene_patches(scene);
+  double worst = 0;
+  for (size_t i = 0; i < n; i++) {
+    const double length = hr2d_scene_length(scene, i);
+    long double sum = -length;
+    for (size_t j = 0; j < n; j++) sum += area[i * n + j];
+    worst = fmax(worst, fabs((double)sum) / length);
+  }
+  return worst;
+}
+
+typedef struct measured {
+  double seconds, strings, row;
+  hr2d_matrix_counts counts;
+} measured;
+
+static measured measure_matrix(void (*draw)(plan *, int), int n) {
+  hr2d_scene *scene = scene_of(draw, n, 0);
+  const size_t patches = hr2d_scene_patches(scene);
+  const int rounds = n > 2048 ? 3 : MOST_ROUNDS;
+  double *area = calloc(patches * patches, sizeof *area);
+  hr2d_segment *segment = malloc(patches * sizeof *segment);
+  if (!area || !segment) fail("out of memory");
+  for (size_t k = 0; k < patches; k++) segment[k] = hr2d_scene_segment(scene, k);
+  double strings[MOST_ROUNDS], exact[MOST_ROUNDS];
+  measured m = {0};
+  for (int k = -1; k < rounds; k++) {
+    double start = seconds_now();
+    fill_strings(segment, patches, area);
+    if (k >= 0) strings[k] = seconds_now() - start;
+    start = seconds_now();
+    if (hr2d_exchange_matrix(scene, NULL, area, &m.counts)) fail("no matrix");
+    if (k >= 0) exact[k] = seconds_now() - start;
+  }
+  m.row = worst_row(scene, area);
+  m.seconds = median_of(exact, rounds);
+  m.strings = median_of(strings, rounds);
+  free(segment);
+  free(area);
+  hr2d_scene_destroy(scene);
+  return m;
+}
+
+typedef struct family {
+  const char *name;
+  void (*draw)(plan *, int);
+  double growth;  /* exponent allowed from 1024 to 5120 */
+  double at_1024; /* times the strings allowed there; 0 for any */
+} family;
+
+static double exponent(double first, double second, int n, int m) {
+  return log(second / first) / log((double)m / n);
+}
+
+static void measure_family(const family *f) {
+  static const int size[SIZES] = {128, 512, 1024, 2048, 5120};
+  measured m[SIZES];
+  for (int k = 0; k < SIZES; k++) {
+    m[k] = measure_matrix(f->draw, size[k]);
+    printf("%-8s%6d%10.2f%10.2f%8.2f%10.1e%12llu%10llu%12llu%12llu\n", f->name, size[k],
+           1e3 * m[k].seconds, 1e3 * m[k].strings, m[k].seconds / m[k].strings, m[k].row,
+           (unsigned long long)m[k].counts.exchange_areas,
+           (unsigned long long)m[k].counts.partial_pairs,
+           (unsigned long long)m[k].counts.blocked_pairs,
+           (unsigned long long)m[k].counts.visibility_tests);
+    bar("worst row", m[k].row, 1e-13);
+    if (size[k] == 1024 && f->at_1024 > 0)
+      bar("ratio at 1024", m[k].seconds / m[k].strings, f->at_1024);
+  }
+  const double p = exponent(m[2].seconds, m[4].seconds, size[2], size[4]);
+  printf("%-8stime grows like N^%.2f from 1024 to 5120, strings like N^%.2f\n", f->name, p,
+         exponent(m[2].strings, m[4].strings, size[2], size[4]));
+  bar("exponent", p, f->growth);
+}
+
+static void measure_matrices(void) {
+  static const family families[] = {{"occ", draw_occ, 1.8, 4},
+                                    {"squares", draw_squares, 2.1, 0},
+                                    {"round", draw_round, 2.1, 0}};
+  printf("%-8s%6s%10s%10s%8s%10s%12s%10s%12s%12s\n", "matrix", "N", "ms", "strings", "ratio",
+         "row", "areas", "partial", "blocked", "tests");
+  for (size_t k = 0; k < sizeof families / sizeof *families; k++) measure_family(&families[k]);
+}
+
+/* Root links first, then small elements. */
+typedef struct refined {
+  double roots, links;       /* seconds */
+  double pairs;              /* of patches */
+  uint64_t root_links, made; /* by the first step, by the second */
+  uint64_t partial, blocked;
+} refined;
+
+static void refine(hr2d_scene *scene, double epsilon, refined *r) {
+  hr2d_hierarchy *hierarchy = NULL;
+  hr2d_linkset *set = NULL;
+  hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
+  const double n = (double)hr2d_scene_patches(scene);
+  if (hr2d_hierarchy_create(scene, &hierarchy) ||
+      hr2d_linkset_create(hierarchy, NULL, NULL, NULL, NULL, &set))
+    fail("no link set");
+  double start = seconds_now();
+  options.epsilon = 1e9;
+  options.max_level = 12;
+  if (hr2d_refine(set, &options)) fail(hr2d_linkset_message(set));
+  r->roots = seconds_now() - start;
+  r->pairs = n * (n - 1) / 2;
+  const hr2d_refine_counts roots = hr2d_linkset_counts(set);
+  start = seconds_now();
+  options.epsilon = epsilon;
+  if (hr2d_refine(set, &options)) fail(hr2d_linkset_message(set));
+  r->links = seconds_now() - start;
+  const hr2d_refine_counts all = hr2d_linkset_counts(set);
+  r->root_links = roots.links;
+  r->made = all.exchange_areas - roots.exchange_areas;
+  r->partial = all.partial_links;
+  r->blocked = all.blocked_pairs - roots.blocked_pairs;
+  hr2d_linkset_destroy(set);
+  hr2d_hierarchy_destroy(hierarchy);
+}
+
+static double per_link(const refined *r) {
+  return 1e9 * r->links / (double)r->made;
+}
+
+/* What the links cost beyond those of a convex room, by pair that has something in the way:
+   linked in part or blocked. */
+static double per_shaded(const refined *r, double cost, double convex) {
+  const double shaded = (double)(r->partial + r->blocked);
+  return shaded > 0 ? (cost - convex) * (double)r->made / shaded : 0;
+}
+
+typedef struct link_cost {
+  double link, shaded; /* ns */
+} link_cost;
+
+static link_cost measure_links(int n, double epsilon, double convex) {
+  hr2d_scene *scene = scene_of(draw_segments, n, 0);
+  const int rounds = n < 100 ? 5 : n < 1000 ? 3 : 1;
+  double roots[MOST_ROUNDS], links[MOST_ROUNDS];
+  refined r = {0};
+  for (int k = 0; k < rounds; k++) {
+    refine(scene, epsilon, &r);
+    roots[k] = 1e9 * r.roots / r.pairs;
+    links[k] = per_link(&r);
+  }
+  hr2d_scene_destroy(scene);
+  link_cost cost = {.link = median_of(links, rounds)};
+  cost.shaded = per_shaded(&r, cost.link, convex);
+  printf("%-8s%6d%10.0f%12llu%12llu%10llu%12llu%10.1f%8.2f%10.0f\n", "links", n,
+         median_of(roots, rounds), (unsigned long long)r.root_links, (unsigned long long)r.made,
+         (unsigned long long)r.partial, (unsigned long long)r.blocked, cost.link,
+         convex > 0 ? cost.link / convex : 1, cost.shaded);
+  return cost;
+}
+
+/* The convex room, with occlusion forced and not. */
+static void measure_forced(double epsilon) {
+  hr2d_scene *scene[2];
+  double cost[2][MOST_ROUNDS];
+  refined r = {0};
+  for (int k = 0; k < 2; k++) scene[k] = scene_of(draw_segments, 0, k);
+  for (int k = 0; k < MOST_ROUNDS; k++)
+    for (int m = 0; m < 2; m++) {
+      refine(scene[m], epsilon, &r);
+      cost[m][k] = per_link(&r);
+    }
+  for (int k = 0; k < 2; k++) hr2d_scene_destroy(scene[k]);
+  const double without = median_of(cost[0], MOST_ROUNDS),
+               with = median_of(cost[1], MOST_ROUNDS);
+  printf("convex room, 1/epsilon %g: %.1f ns a link, %.1f with occlusion forced: %.3f times\n",
+         1 / epsilon, without, with, with / without);
+  bar("forced occlusion", with / without, 1.1);
+}
+
+static void measure_refinements(int most, double epsilon) {
+  printf("1/epsilon = %g\n%-8s%6s%10s%12s%12s%10s%12s%10s%8s%10s\n", 1 / epsilon, "", "n",
+         "ns/root", "root links", "made", "partial", "blocked", "ns/link", "ratio",
+         "ns/shaded");
+  const double convex = measure_links(0, epsilon, 0).link;
+  double last = 0;
+  for (int n = 10; n <= most; n *= 10) {
+    const link_cost cost = measure_links(n, epsilon, convex);
+    if (last > 0)
+      bar("growth of the cost of a shaded pair", cost.shaded / last, log(n) / log(n / 10.));
+    last = cost.shaded;
+  }
+}
+
+int main(int argc, char **argv) {
+  const char *what = argc > 1 ? argv[1] : "";
+  if (*what && strcmp(what, "matrix") != 0 && strcmp(what, "links") != 0) {
+    fprintf(stderr, "usage: %s [matrix|links]\n", argv[0]);
+    return 2;
+  }
+  if (!*what || strcmp(what, "matrix") == 0) measure_matrices();
+  if (!*what || strcmp(what, "links") == 0) {
+    measure_refinements(1000, 1. / 256);
+    measure_forced(1. / 256);
+  }
+  return failures ? EXIT_FAILURE : EXIT_SUCCESS;
+}
