@@ -5,7 +5,12 @@
    it is one pair of patches.  Where nothing is in the way all pairs below get the
    unoccluded exchange area without a further test. */
 #include <hr2d/visibility.h>
+#include <stdatomic.h>
 #include <string.h>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 #include "alloc.h"
 #include "exchange-area.h"
@@ -15,7 +20,7 @@
 #include "scene-impl.h"
 #include "sight.h"
 
-enum { BATCH = 1024, DEPTH = 80, TILE = 8 };
+enum { BATCH = 1024, DEPTH = 80, TILE = 8, MOST_THREADS = 256 };
 
 /* A pair of parts of two runs, with its walls in filler::list from `first` on. */
 typedef struct node {
@@ -24,16 +29,26 @@ typedef struct node {
   hr2di_facing facing;
 } node;
 
-typedef struct filler {
+/* What all threads share; each fills entries of its own. */
+typedef struct matrix {
   const hr2d_scene *scene;
   size_t n;
   double *area;
   double unit; /* of the scene's coordinates */
-  hr2d_matrix_counts counts;
   hr2di_runs runs;
+  hr2d_element *element; /* of which only a and b are used */
+  hr2d_matrix_options options;
+  atomic_size_t rows_done;
+  atomic_int stop;
+} matrix;
+
+/* The work of one thread. */
+typedef struct filler {
+  matrix *m;
+  hr2d_status status;
+  hr2d_matrix_counts counts;
   hr2di_sight sight;
   hr2di_wall_list list;
-  hr2d_element *element; /* of which only a and b are used */
   hr2d_pair pair[BATCH];
   double value[BATCH];
   size_t pairs;
@@ -42,11 +57,11 @@ typedef struct filler {
 /* The upper triangle is filled first. */
 static void put(filler *f, uint32_t i, uint32_t j, double area) {
   const size_t row = i < j ? i : j, column = i < j ? j : i;
-  f->area[row * f->n + column] = area * f->unit;
+  f->m->area[row * f->m->n + column] = area * f->m->unit;
 }
 
 static void flush(filler *f) {
-  hr2di_exchange_areas(f->element, f->pair, f->pairs, f->value);
+  hr2di_exchange_areas(f->m->element, f->pair, f->pairs, f->value);
   for (size_t k = 0; k < f->pairs; k++)
     put(f, f->pair[k].first, f->pair[k].second, f->value[k]);
   f->counts.exchange_areas += f->pairs;
@@ -56,16 +71,16 @@ static void flush(filler *f) {
 static void fill_clear(filler *f, hr2di_run i, hr2di_run j) {
   for (uint32_t k = i.first; k < i.last; k++)
     for (uint32_t m = j.first; m < j.last; m++) {
-      f->pair[f->pairs++] = (hr2d_pair){f->runs.patch[k], f->runs.patch[m]};
+      f->pair[f->pairs++] = (hr2d_pair){f->m->runs.patch[k], f->m->runs.patch[m]};
       if (f->pairs == BATCH) flush(f);
     }
 }
 
 /* From the start of the first patch of a part to the end of its last. */
 static hr2d_segment span(const filler *f, hr2di_run r) {
-  const hr2di_patch *patch = f->scene->patch;
-  return (hr2d_segment){patch[f->runs.patch[r.first]].scaled.a,
-                        patch[f->runs.patch[r.last - 1]].scaled.b};
+  const hr2di_patch *patch = f->m->scene->patch;
+  return (hr2d_segment){patch[f->m->runs.patch[r.first]].scaled.a,
+                        patch[f->m->runs.patch[r.last - 1]].scaled.b};
 }
 
 /* Parts of runs that face each other fully do so, too. */
@@ -77,7 +92,7 @@ static int shaft_of(const filler *f, hr2di_run i, hr2di_run j, hr2di_facing *fac
 }
 
 static hr2d_status fill_partial(filler *f, const node *at) {
-  const uint32_t i = f->runs.patch[at->i.first], j = f->runs.patch[at->j.first];
+  const uint32_t i = f->m->runs.patch[at->i.first], j = f->m->runs.patch[at->j.first];
   hr2di_shaft shaft;
   /* The first of two patches is the one with the lower index, as in links. */
   hr2di_facing facing = at->facing;
@@ -124,7 +139,7 @@ static hr2d_status look(filler *f, node *at, const node *parent, int *keep) {
   const int shaded = shaft_of(f, at->i, at->j, &at->facing, &shaft);
   if (at->facing == HR2DI_FACING_NONE) return HR2D_OK;
   at->first = f->list.count;
-  if (!shaded || !f->scene->effect[HR2D_EFFECT_OCCLUSION].on) {
+  if (!shaded || !f->m->scene->effect[HR2D_EFFECT_OCCLUSION].on) {
     fill_clear(f, at->i, at->j);
     return HR2D_OK;
   }
@@ -165,24 +180,43 @@ static hr2d_status fill_runs(filler *f, hr2di_run i, hr2di_run j) {
   return status;
 }
 
-static hr2d_status tell(const hr2d_matrix_options *options, double fraction) {
-  if (!options->progress) return HR2D_OK;
+/* The calling thread tells progress; every thread looks whether another has failed. */
+static hr2d_status tell(const filler *f, int calling) {
+  const matrix *m = f->m;
+  if (atomic_load(&m->stop)) return HR2D_STOPPED;
+  if (!calling || !m->options.progress) return HR2D_OK;
+  const double rest = 1 - (double)atomic_load(&m->rows_done) / (double)m->runs.runs;
   const hr2d_progress progress = {
-      .struct_size = sizeof progress, .phase = "factors", .fraction = fraction};
-  return options->progress(options->progress_ctx, &progress);
+      .struct_size = sizeof progress, .phase = "factors", .fraction = 1 - rest * rest};
+  return m->options.progress(m->options.progress_ctx, &progress);
 }
 
-static hr2d_status fill(filler *f, const hr2d_matrix_options *options) {
-  const size_t runs = f->runs.runs;
-  hr2d_status status = HR2D_OK;
-  for (size_t k = 0; k < runs && !status; k++) {
-    status = tell(options,
-                  (double)k * (2. * (double)runs - (double)k) / ((double)runs * (double)runs));
-    for (size_t m = k + 1; m < runs && !status; m++)
-      status = fill_runs(f, f->runs.run[k], f->runs.run[m]);
+/* A run with all those behind it. */
+static void fill_row(filler *f, size_t row, int calling) {
+  matrix *m = f->m;
+  hr2d_status status = tell(f, calling);
+  for (size_t k = row + 1; k < m->runs.runs && !status; k++)
+    status = fill_runs(f, m->runs.run[row], m->runs.run[k]);
+  atomic_fetch_add(&m->rows_done, 1);
+  if (!status || f->status) return;
+  f->status = status;
+  atomic_store(&m->stop, 1);
+}
+
+static void fill(filler *const *team, size_t count) {
+  const long long rows = (long long)team[0]->m->runs.runs;
+#ifdef _OPENMP
+#pragma omp parallel for num_threads((int)count) schedule(dynamic)
+#endif
+  for (long long row = 0; row < rows; row++) {
+#ifdef _OPENMP
+    const int worker = omp_get_thread_num();
+#else
+    const int worker = 0;
+#endif
+    fill_row(team[worker], (size_t)row, worker == 0);
   }
-  if (!status) flush(f);
-  return status ? status : tell(options, 1);
+  for (size_t k = 0; k < count; k++) flush(team[k]);
 }
 
 /* Tile by tile, lest each value take a cache line of its own. */
@@ -194,40 +228,91 @@ static void mirror(double *area, size_t n) {
           area[j * n + i] = area[i * n + j];
 }
 
-static hr2d_status start(filler *f) {
-  hr2di_sight_start(&f->sight, &f->scene->walls, &f->scene->alloc);
-  const hr2d_status status = hr2di_runs_make(&f->runs, f->scene);
+static size_t count_threads(const matrix *m) {
+#ifdef _OPENMP
+  const size_t wanted = m->options.threads ? m->options.threads : (size_t)omp_get_max_threads();
+  const size_t most = wanted < MOST_THREADS ? wanted : MOST_THREADS;
+  return most < m->runs.runs ? most : m->runs.runs;
+#else
+  (void)m;
+  return 1;
+#endif
+}
+
+static hr2d_status start(matrix *m) {
+  const hr2d_status status = hr2di_runs_make(&m->runs, m->scene);
   if (status) return status;
-  f->element = hr2di_calloc(&f->scene->alloc, f->n, sizeof *f->element);
-  if (!f->element) return HR2D_ENOMEM;
-  for (size_t k = 0; k < f->n; k++) {
-    f->element[k].a = f->scene->patch[k].scaled.a;
-    f->element[k].b = f->scene->patch[k].scaled.b;
+  m->element = hr2di_calloc(&m->scene->alloc, m->n, sizeof *m->element);
+  if (!m->element) return HR2D_ENOMEM;
+  for (size_t k = 0; k < m->n; k++) {
+    m->element[k].a = m->scene->patch[k].scaled.a;
+    m->element[k].b = m->scene->patch[k].scaled.b;
   }
-  memset(f->area, 0, f->n * f->n * sizeof *f->area);
+  memset(m->area, 0, m->n * m->n * sizeof *m->area);
   return HR2D_OK;
+}
+
+static hr2d_status hire(matrix *m, filler **team, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    team[k] = hr2di_calloc(&m->scene->alloc, 1, sizeof **team);
+    if (!team[k]) return HR2D_ENOMEM;
+    team[k]->m = m;
+    hr2di_sight_start(&team[k]->sight, &m->scene->walls, &m->scene->alloc);
+  }
+  return HR2D_OK;
+}
+
+/* Adds up the counts; the status of the first that failed and was not told to stop. */
+static hr2d_status dismiss(matrix *m, filler **team, size_t count, hr2d_matrix_counts *sum) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < count && team[k]; k++) {
+    filler *f = team[k];
+    sum->exchange_areas += f->counts.exchange_areas;
+    sum->partial_pairs += f->counts.partial_pairs;
+    sum->blocked_pairs += f->counts.blocked_pairs;
+    sum->visibility_tests += f->sight.tests;
+    if (f->status && (!status || status == HR2D_STOPPED)) status = f->status;
+    hr2di_sight_end(&f->sight);
+    hr2di_free(&m->scene->alloc, f->list.wall);
+    hr2di_free(&m->scene->alloc, f);
+  }
+  return status;
+}
+
+static hr2d_status fill_matrix(matrix *m, hr2d_matrix_counts *counts) {
+  filler *team[MOST_THREADS] = {0};
+  const size_t count = count_threads(m);
+  hr2d_status status = hire(m, team, count);
+  if (!status) fill(team, count);
+  const hr2d_status failed = dismiss(m, team, count, counts);
+  if (!status) status = failed;
+  if (!status) mirror(m->area, m->n);
+  return status;
+}
+
+/* Progress is told once more at the end. */
+static hr2d_status tell_end(const matrix *m) {
+  const hr2d_progress progress = {
+      .struct_size = sizeof progress, .phase = "factors", .fraction = 1};
+  return m->options.progress ? m->options.progress(m->options.progress_ctx, &progress)
+                             : HR2D_OK;
 }
 
 hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_options *options,
                                  double *area, hr2d_matrix_counts *counts) {
-  hr2d_matrix_options used = HR2D_MATRIX_OPTIONS_INIT;
-  if (options) hr2di_copy_sized(&used, sizeof used, options);
   if (!scene->committed) return HR2D_ESTATE;
-  filler *f = hr2di_calloc(&scene->alloc, 1, sizeof *f);
-  if (!f) return HR2D_ENOMEM;
-  f->scene = scene;
-  f->n = scene->patches;
-  f->area = area;
-  f->unit = hr2d_scene_unit(scene);
-  hr2d_status status = start(f);
-  if (!status) status = fill(f, &used);
-  if (!status) mirror(area, f->n);
-  f->counts.visibility_tests = f->sight.tests;
-  if (!status && counts) *counts = f->counts;
-  hr2di_runs_clear(&f->runs);
-  hr2di_sight_end(&f->sight);
-  hr2di_free(&scene->alloc, f->list.wall);
-  hr2di_free(&scene->alloc, f->element);
-  hr2di_free(&scene->alloc, f);
+  matrix m = {.scene = scene,
+              .n = scene->patches,
+              .area = area,
+              .unit = hr2d_scene_unit(scene),
+              .options = HR2D_MATRIX_OPTIONS_INIT};
+  if (options) hr2di_copy_sized(&m.options, sizeof m.options, options);
+  hr2d_matrix_counts sum = {0};
+  hr2d_status status = start(&m);
+  if (!status) status = fill_matrix(&m, &sum);
+  if (!status) status = tell_end(&m);
+  if (!status && counts) *counts = sum;
+  hr2di_runs_clear(&m.runs);
+  hr2di_free(&scene->alloc, m.element);
   return status;
 }

@@ -341,6 +341,29 @@ static plan some_room(void) {
   return p;
 }
 
+START_TEST(threads_change_no_bit) {
+  plan p = some_room();
+  hr2d_scene *scene = scene_of(&p, NULL);
+  const size_t n = hr2d_scene_patches(scene);
+  hr2d_matrix_counts counts, others;
+  double *one = matrix_of(scene, &counts), *many = malloc(n * n * sizeof *many);
+  hr2d_matrix_options options = HR2D_MATRIX_OPTIONS_INIT;
+  for (options.threads = 0; options.threads <= 5; options.threads++) {
+    memset(many, 0xff, n * n * sizeof *many);
+    ck_assert_int_eq(hr2d_exchange_matrix(scene, &options, many, &others), HR2D_OK);
+    ck_assert_mem_eq(one, many, n * n * sizeof *one);
+    ck_assert_uint_eq(counts.exchange_areas, others.exchange_areas);
+    ck_assert_uint_eq(counts.partial_pairs, others.partial_pairs);
+    ck_assert_uint_eq(counts.blocked_pairs, others.blocked_pairs);
+    ck_assert_uint_eq(counts.visibility_tests, others.visibility_tests);
+  }
+  free(one);
+  free(many);
+  hr2d_scene_destroy(scene);
+  plan_free(&p);
+}
+END_TEST
+
 typedef struct report {
   int calls, until_stop;
   double fraction;
@@ -473,6 +496,7 @@ int main(void) {
   suite_add_tcase(suite, tc);
   tc = tcase_create("calls");
   tcase_add_test(tc, counts_tell_the_work);
+  tcase_add_test(tc, threads_change_no_bit);
   tcase_add_test(tc, progress_is_told_and_may_stop);
   tcase_add_test(tc, only_committed_scenes);
   tcase_add_loop_test(tc, allocations_fail_one_by_one, 0, 2);

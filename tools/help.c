@@ -43,6 +43,7 @@ static const char factors[] =
     "\n" SCENE_OPTIONS
     "  --json FILE|-         factors and sums as JSON; - is standard output\n"
     "  --csv FILE|-          a line of patch names, then a row of F_ij for each i\n"
+    "  --threads T           threads; 0 (default) for all processors\n"
     "  --quiet               no table, no progress\n";
 
 static const char solve[] =

@@ -89,8 +89,9 @@ static int belongs(int id) {
   case LEVEL:
   case LINKS:
   case ELEMENTS:
-  case THREADS:
     return SOLVE | STUDY;
+  case THREADS:
+    return SOLVE | STUDY | FACTORS;
   case PLOT:
   case PLOT_LOG:
   case RESUME:

@@ -50,12 +50,14 @@ HR2D_API hr2d_status hr2d_exchange_area_occluded(const hr2d_segment *i, const hr
 /** How to integrate all exchange areas.  Start from #HR2D_MATRIX_OPTIONS_INIT. */
 typedef struct hr2d_matrix_options {
   size_t struct_size;        /**< so that the options can grow */
-  hr2d_progress_fn progress; /**< optional; with the phase "factors" */
+  unsigned threads;          /**< 0 for all; no bit depends on it */
+  hr2d_progress_fn progress; /**< optional; with the phase "factors", from the calling
+                                  thread */
   void *progress_ctx;        /**< given to `progress` */
 } hr2d_matrix_options;
 
-/** No callback. */
-#define HR2D_MATRIX_OPTIONS_INIT {sizeof(hr2d_matrix_options), NULL, NULL}
+/** One thread, no callback. */
+#define HR2D_MATRIX_OPTIONS_INIT {sizeof(hr2d_matrix_options), 1, NULL, NULL}
 
 /** What hr2d_exchange_matrix() took. */
 typedef struct hr2d_matrix_counts {
