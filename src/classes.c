@@ -175,8 +175,8 @@ hr2d_status hr2di_classes_sort(hr2di_classes *c, const hr2di_shaft *shaft, const
   for (size_t k = 0; k < count; k++) {
     hr2di_barrier b = {.wall = wall[k], .above = (uint32_t)c->barriers};
     if (!hr2di_shaft_test(shaft, c->walls->wall[wall[k]].at, &b.at)) continue;
-    if (meets_side(&shaft->frame, &b.at, shaft->b, shaft->c)) b.hand |= TO_RIGHT;
-    if (meets_side(&shaft->frame, &b.at, shaft->a, shaft->d)) b.hand |= TO_LEFT;
+    if (b.at.right && meets_side(&shaft->frame, &b.at, shaft->b, shaft->c)) b.hand |= TO_RIGHT;
+    if (b.at.left && meets_side(&shaft->frame, &b.at, shaft->a, shaft->d)) b.hand |= TO_LEFT;
     if (b.hand == NEITHER) return HR2D_OK;
     c->joint_of[wall[k]] = (uint32_t)c->barriers;
     c->barrier[c->barriers++] = b;

@@ -41,28 +41,21 @@ static inline int hr2di_order(const hr2di_axis *axis, hr2d_point p, hr2d_point q
   return hr2di_sign(axis->way * (axis->by_x ? q.x - p.x : q.y - p.y));
 }
 
-/* Two of the three lie on one line. */
-static inline int hr2di_turn_on_line(const hr2di_axis *axis, unsigned bit, hr2di_mark p,
-                                     hr2di_mark q, hr2di_mark r) {
-  if (!(p.on & bit)) return hr2di_order(axis, q.at, r.at);
-  if (!(q.on & bit)) return hr2di_order(axis, r.at, p.at);
-  return hr2di_order(axis, p.at, q.at);
-}
-
 /* Both lie where the two lines meet. */
 static inline int hr2di_corners(hr2di_mark p, hr2di_mark q) {
   return (p.on & q.on) == (HR2DI_ON_I | HR2DI_ON_J);
 }
 
+/* The turn of points of which two lie on one line. */
+int hr2di_turn_marked(const hr2di_frame *frame, const hr2di_mark *p, const hr2di_mark *q,
+                      const hr2di_mark *r);
+
 /* 1 if p, q, r turn left, −1 right, 0 if they lie on one line. */
 static inline int hr2di_turn(const hr2di_frame *frame, hr2di_mark p, hr2di_mark q,
                              hr2di_mark r) {
-  const unsigned pairs = (p.on & q.on) | (q.on & r.on) | (r.on & p.on);
-  if (!pairs) return hr2di_side(p.at, q.at, r.at);
-  if (p.on & q.on & r.on || hr2di_corners(p, q) || hr2di_corners(q, r) || hr2di_corners(r, p))
-    return 0;
-  return pairs & HR2DI_ON_I ? hr2di_turn_on_line(&frame->i, HR2DI_ON_I, p, q, r)
-                            : hr2di_turn_on_line(&frame->j, HR2DI_ON_J, p, q, r);
+  if ((p.on & q.on) | (q.on & r.on) | (r.on & p.on))
+    return hr2di_turn_marked(frame, &p, &q, &r);
+  return hr2di_side(p.at, q.at, r.at);
 }
 
 /* One place, but for rounding across a line. */

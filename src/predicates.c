@@ -37,6 +37,16 @@ int hr2d_orientation(hr2d_point a, hr2d_point b, hr2d_point c) {
   return (det > 0) - (det < 0);
 }
 
+/* A difference has the sign of the exact one, and so has a product of which the other is
+   0: that is how it is with lines along an axis, and where c is a or b. */
+int hr2di_side_close(hr2d_point a, hr2d_point b, hr2d_point c) {
+  const double ux = b.x - a.x, uy = b.y - a.y, wx = c.x - a.x, wy = c.y - a.y;
+  if (ux == 0 || wy == 0) return -hr2di_sign(uy) * hr2di_sign(wx);
+  if (uy == 0 || wx == 0) return hr2di_sign(ux) * hr2di_sign(wy);
+  if (hr2di_same(c, b)) return 0;
+  return hr2d_orientation(a, b, c);
+}
+
 hr2di_facing hr2di_face(const hr2d_segment *i, const hr2d_segment *j) {
   const int c_of_i = hr2di_side(i->a, i->b, j->a), d_of_i = hr2di_side(i->a, i->b, j->b);
   if (c_of_i <= 0 && d_of_i <= 0) return HR2DI_FACING_NONE;

@@ -73,7 +73,7 @@ static int clip(hr2di_obstacle *o, const hr2di_axis *line, unsigned bit, const i
 static int clip_segment(hr2di_mark *p, hr2di_mark *q, const hr2di_axis *line, unsigned bit) {
   const int at[2] = {front(line, p->at), front(line, q->at)};
   if (at[0] > 0 && at[1] > 0) return 1;
-  hr2di_obstacle o = {{*p, *q}, 3};
+  hr2di_obstacle o = {.end = {*p, *q}, .whole = 3};
   const unsigned own = p->on & q->on;
   if (!clip(&o, line, bit, at)) return 0;
   *p = o.end[0];
@@ -90,6 +90,15 @@ static hr2di_half_plane left_of(hr2d_point a, hr2d_point b) {
   return (hr2di_half_plane){nx, ny, -(nx * a.x + ny * a.y), 0x1p-47 * (fabs(nx) + fabs(ny))};
 }
 
+/* fmin() and fmax() would be calls. */
+static inline double lesser(double p, double q) {
+  return p < q ? p : q;
+}
+
+static inline double greater(double p, double q) {
+  return p > q ? p : q;
+}
+
 int hr2di_shaft_make(hr2di_shaft *s, hr2di_facing facing, hr2d_segment i, hr2d_segment j,
                      hr2d_segment line_i, hr2d_segment line_j) {
   if (facing == HR2DI_FACING_NONE) return 0;
@@ -102,10 +111,10 @@ int hr2di_shaft_make(hr2di_shaft *s, hr2di_facing facing, hr2d_segment i, hr2d_s
       !clip_segment(&s->c, &s->d, &s->frame.i, HR2DI_ON_I))
     return 0;
   const hr2d_point a = s->a.at, b = s->b.at, c = s->c.at, d = s->d.at;
-  s->x0 = fmin(fmin(a.x, b.x), fmin(c.x, d.x));
-  s->x1 = fmax(fmax(a.x, b.x), fmax(c.x, d.x));
-  s->y0 = fmin(fmin(a.y, b.y), fmin(c.y, d.y));
-  s->y1 = fmax(fmax(a.y, b.y), fmax(c.y, d.y));
+  s->x0 = lesser(lesser(a.x, b.x), lesser(c.x, d.x));
+  s->x1 = greater(greater(a.x, b.x), greater(c.x, d.x));
+  s->y0 = lesser(lesser(a.y, b.y), lesser(c.y, d.y));
+  s->y1 = greater(greater(a.y, b.y), greater(c.y, d.y));
   s->side[0] = left_of(line_i.a, line_i.b);
   s->side[1] = left_of(line_j.a, line_j.b);
   /* Where i and j touch, there is no side to be beyond of. */
@@ -125,7 +134,8 @@ int hr2di_shaft_part(hr2di_shaft *part, const hr2di_shaft *whole, hr2d_segment i
 int hr2di_shaft_meets_box(const hr2di_shaft *shaft, double x0, double x1, double y0,
                           double y1) {
   if (x0 > shaft->x1 || x1 < shaft->x0 || y0 > shaft->y1 || y1 < shaft->y0) return 0;
-  for (int k = 0; k < 4; k++) {
+  /* The sides between i and j keep out the most. */
+  for (int k = 3; k >= 0; k--) {
     const hr2di_half_plane *s = &shaft->side[k];
     const double most = s->nx * (s->nx > 0 ? x1 : x0) + s->ny * (s->ny > 0 ? y1 : y0);
     if (most + s->offset < -s->margin) return 0;
@@ -155,14 +165,13 @@ static inline int beyond_box(const hr2di_shaft *s, hr2d_segment w) {
 
 /* Where the ends of a wall lie to the half planes; 0 if both are beyond one for sure. */
 static inline int evaluate(const hr2di_shaft *s, hr2d_segment w, double value[4][2]) {
-  int aside = 0;
-  for (int k = 0; k < 4; k++) {
+  for (int k = 3; k >= 0; k--) {
     const hr2di_half_plane *h = &s->side[k];
     value[k][0] = value_at(h, w.a);
     value[k][1] = value_at(h, w.b);
-    aside |= (value[k][0] < -h->margin) & (value[k][1] < -h->margin);
+    if ((value[k][0] < -h->margin) & (value[k][1] < -h->margin)) return 0;
   }
-  return !aside;
+  return 1;
 }
 
 /* 1 and −1 where a value is certain, else 0. */
@@ -171,6 +180,8 @@ static inline int certain(double value, double margin) {
 }
 
 static inline int clip_wall(const hr2di_shaft *s, double value[4][2], hr2di_obstacle *o) {
+  const double at_i = lesser(value[0][0], value[0][1]), at_j = lesser(value[1][0], value[1][1]);
+  if (at_i > s->side[0].margin && at_j > s->side[1].margin) return 1;
   for (int k = 0; k < 2; k++) {
     const hr2di_axis *line = k ? &s->frame.j : &s->frame.i;
     int at[2];
@@ -211,12 +222,17 @@ static inline unsigned beyond_side(const hr2di_shaft *s, const hr2di_obstacle *o
 hr2di_in_way hr2di_shaft_test(const hr2di_shaft *s, hr2d_segment w, hr2di_obstacle *o) {
   double value[4][2];
   if (beyond_box(s, w) || !evaluate(s, w, value)) return HR2DI_ASIDE;
-  *o = (hr2di_obstacle){{{w.a, 0}, {w.b, 0}}, 3};
+  *o = (hr2di_obstacle){.end = {{w.a, 0}, {w.b, 0}}, .whole = 3};
   if (!clip_wall(s, value, o)) return HR2DI_ASIDE;
   const unsigned right = beyond_side(s, o, 2, value, s->b, s->c);
   if (right == 3 && s->side[2].margin > 0) return HR2DI_ASIDE;
   const unsigned left = beyond_side(s, o, 3, value, s->d, s->a);
   if (left == 3 && s->side[3].margin > 0) return HR2DI_ASIDE;
+  o->right = right;
+  o->left = left;
+  /* An end within the shaft is in the way, and does not span it. */
+  for (unsigned e = 0; e < 2; e++)
+    if (!o->end[e].on && !((right | left) & (1u << e))) return HR2DI_INSIDE;
   const hr2di_mark p = o->end[0], q = o->end[1];
   const int a = hr2di_turn(&s->frame, p, q, s->a), b = hr2di_turn(&s->frame, p, q, s->b);
   const int c = hr2di_turn(&s->frame, p, q, s->c), d = hr2di_turn(&s->frame, p, q, s->d);

@@ -47,7 +47,8 @@ typedef enum hr2di_in_way {
 /* What of a wall is in front of i and j. */
 typedef struct hr2di_obstacle {
   hr2di_mark end[2];
-  unsigned whole; /* 1 and 2: this end is the wall's own */
+  unsigned whole;       /* 1 and 2: this end is the wall's own */
+  unsigned right, left; /* 1 and 2: this end reaches that side of the shaft, or is beyond */
 } hr2di_obstacle;
 
 /* How a wall lies to the shaft; what of it is in front if it is in the way. */

@@ -14,20 +14,18 @@ static inline int hr2di_sign(double x) {
   return (x > 0) - (x < 0);
 }
 
+/* The same where rounding leaves a doubt. */
+int hr2di_side_close(hr2d_point a, hr2d_point b, hr2d_point c);
+
 /* hr2d_orientation().  The rounding error of det is below 3·2^-53·size, and that of an
-   underflow below 2^-1000 for coordinates below 2^500.  A difference has the sign of the
-   exact one, and so has a product of which the other is 0: that is how it is with lines
-   along an axis, and where c is a or b. */
+   underflow below 2^-1000 for coordinates below 2^500. */
 static inline int hr2di_side(hr2d_point a, hr2d_point b, hr2d_point c) {
   const double ux = b.x - a.x, uy = b.y - a.y, wx = c.x - a.x, wy = c.y - a.y;
   const double p = ux * wy, q = uy * wx;
   const double det = p - q, doubt = 0x1p-50 * (fabs(p) + fabs(q)) + 0x1p-900;
   if (det > doubt) return 1;
   if (det < -doubt) return -1;
-  if (ux == 0 || wy == 0) return -hr2di_sign(uy) * hr2di_sign(wx);
-  if (uy == 0 || wx == 0) return hr2di_sign(ux) * hr2di_sign(wy);
-  if (hr2di_same(c, b)) return 0;
-  return hr2d_orientation(a, b, c);
+  return hr2di_side_close(a, b, c);
 }
 
 #endif

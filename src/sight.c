@@ -29,13 +29,32 @@ void hr2di_sight_end(hr2di_sight *sight) {
   hr2di_free(&sight->alloc, sight->list.wall);
 }
 
+/* Whether the body of a wall in the way cuts the shaft in two: it is in front of i and j
+   and reaches either side.  Bodies share slots; one that is forgotten is noticed later,
+   when the pair is integrated. */
+static int body_cuts(hr2di_sight *s, const hr2di_shaft *shaft, uint32_t wall,
+                     const hr2di_obstacle *o) {
+  const uint32_t number = s->walls->body_of[wall];
+  hr2di_reach *reach = &s->reach[number % HR2DI_REACHES];
+  if (reach->look != s->looks || reach->body != number)
+    *reach = (hr2di_reach){s->looks, number, 0};
+  reach->beyond |= (o->right ? 1U : 0U) | (o->left ? 2U : 0U);
+  if (reach->beyond != 3) return 0;
+  const hr2d_segment *chord = s->walls->body[number].chord;
+  return hr2di_shaft_has_in_front(shaft, chord[0].a.x, chord[0].b.x, chord[1].a.y,
+                                  chord[1].b.y);
+}
+
 /* Tests a wall and appends it if it is in the way.  *view is what it was, or worse. */
 static hr2d_status test(hr2di_sight *s, const hr2di_shaft *shaft, uint32_t wall,
                         hr2di_wall_list *found, hr2di_view *view) {
   hr2di_obstacle obstacle;
-  const hr2di_in_way way = hr2di_shaft_test(shaft, s->walls->wall[wall].at, &obstacle);
+  hr2di_in_way way = hr2di_shaft_test(shaft, s->walls->wall[wall].at, &obstacle);
   s->tests++;
   if (way == HR2DI_ASIDE) return HR2D_OK;
+  if (way == HR2DI_INSIDE && (obstacle.right || obstacle.left) &&
+      body_cuts(s, shaft, wall, &obstacle))
+    way = HR2DI_ACROSS;
   *view = way == HR2DI_ACROSS ? HR2DI_BLOCKED : HR2DI_PARTIAL;
   s->last = wall;
   if (way == HR2DI_ACROSS) return HR2D_OK;
@@ -69,6 +88,20 @@ static int by_number(const void *left, const void *right) {
   return (l > r) - (l < r);
 }
 
+static void sort(uint32_t *wall, size_t count) {
+  enum { SHORT = 24 };
+  if (count > SHORT) {
+    qsort(wall, count, sizeof *wall, by_number);
+    return;
+  }
+  for (size_t k = 1; k < count; k++) {
+    const uint32_t moved = wall[k];
+    size_t m = k;
+    for (; m > 0 && wall[m - 1] > moved; m--) wall[m] = wall[m - 1];
+    wall[m] = moved;
+  }
+}
+
 /* hr2di_sight_collect(), until there are more than `most`. */
 static hr2d_status collect(hr2di_sight *s, const hr2di_shaft *shaft, size_t most,
                            hr2di_wall_list *found, hr2di_view *view) {
@@ -76,6 +109,7 @@ static hr2d_status collect(hr2di_sight *s, const hr2di_shaft *shaft, size_t most
   uint32_t stack[HR2DI_BOX_DEPTH], count = 0;
   hr2d_status status = HR2D_OK;
   *view = HR2DI_CLEAR;
+  s->looks++;
   stack[count++] = 0;
   while (count > 0 && !status && *view != HR2DI_BLOCKED && found->count - before <= most) {
     const hr2di_box *box = &s->walls->box[stack[--count]];
@@ -93,8 +127,7 @@ static hr2d_status collect(hr2di_sight *s, const hr2di_shaft *shaft, size_t most
     stack[count++] = box->below + 1;
   }
   if (*view == HR2DI_BLOCKED) found->count = before;
-  if (found->count > before + 1)
-    qsort(found->wall + before, found->count - before, sizeof *found->wall, by_number);
+  if (found->count > before + 1) sort(found->wall + before, found->count - before);
   return status;
 }
 
@@ -120,6 +153,7 @@ hr2d_status hr2di_sight_shrink(hr2di_sight *s, const hr2di_shaft *shaft,
   const size_t before = found->count;
   hr2d_status status = HR2D_OK;
   *view = HR2DI_CLEAR;
+  s->looks++;
   for (size_t k = first; k < first + count && !status && *view != HR2DI_BLOCKED; k++)
     status = test(s, shaft, from->wall[k], found, view);
   if (*view == HR2DI_BLOCKED) found->count = before;
@@ -220,8 +254,29 @@ static hr2d_status sum_parts(hr2di_sight *s, const hr2di_shaft *shaft, const uin
   return status;
 }
 
+static hr2d_point between(hr2di_mark p, hr2di_mark q) {
+  return (hr2d_point){0.5 * (p.at.x + q.at.x), 0.5 * (p.at.y + q.at.y)};
+}
+
+/* Whether the line from centre to centre passes all walls.  Coordinates lie in [-2,2], so
+   that all rounding, that of the centres included, is below 2^-48. */
+static int centres_see(const hr2di_sight *s, const hr2di_shaft *shaft, const uint32_t *wall,
+                       size_t count) {
+  const hr2d_point p = between(shaft->a, shaft->b), q = between(shaft->c, shaft->d);
+  const double ux = q.x - p.x, uy = q.y - p.y;
+  for (size_t k = 0; k < count; k++) {
+    const hr2d_segment w = s->walls->wall[wall[k]].at;
+    const double a = ux * (w.a.y - p.y) - uy * (w.a.x - p.x);
+    const double b = ux * (w.b.y - p.y) - uy * (w.b.x - p.x);
+    if (!((a > 0x1p-46 && b > 0x1p-46) || (a < -0x1p-46 && b < -0x1p-46))) return 0;
+  }
+  return 1;
+}
+
 hr2d_status hr2di_sight_open(hr2di_sight *sight, const hr2di_shaft *shaft, const uint32_t *wall,
                              size_t count, int *open) {
+  *open = centres_see(sight, shaft, wall, count);
+  if (*open) return HR2D_OK;
   return sum_parts(sight, shaft, wall, count, NULL, open);
 }
 

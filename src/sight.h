@@ -13,12 +13,23 @@ typedef struct hr2di_wall_list {
   size_t count, capacity;
 } hr2di_wall_list;
 
+/* Which sides of a shaft a body was seen to reach: 1 right, 2 left. */
+enum { HR2DI_REACHES = 16 };
+
+typedef struct hr2di_reach {
+  uint64_t look; /* hr2di_sight::looks, of when it was seen */
+  uint32_t body;
+  unsigned beyond;
+} hr2di_reach;
+
 /* Work space of one thread. */
 typedef struct hr2di_sight {
   const hr2di_walls *walls;
   hr2d_allocator alloc;
   uint64_t tests; /* of walls and boxes against a shaft, so far */
   uint32_t last;  /* the wall found last to be in the way, or one of its body */
+  uint64_t looks;
+  hr2di_reach reach[HR2DI_REACHES];
   hr2di_classes classes;
   hr2di_wall_list list; /* of the parts of a pair under way */
 } hr2di_sight;
