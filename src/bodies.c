@@ -5,16 +5,9 @@
 #include <math.h>
 
 #include "alloc.h"
+#include "find.h"
 
 static const double direction[HR2DI_CHORDS][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
-
-static uint32_t find(uint32_t *above, uint32_t k) {
-  while (above[k] != k) {
-    above[k] = above[above[k]];
-    k = above[k];
-  }
-  return k;
-}
 
 /* Walls that share a vertex get one root, the least of them. */
 static void unite(const hr2di_walls *w, uint32_t *above, uint32_t *first) {
@@ -24,7 +17,7 @@ static void unite(const hr2di_walls *w, uint32_t *above, uint32_t *first) {
     for (int e = 0; e < 2; e++) {
       uint32_t *at = &first[w->wall[k].vertex[e]];
       if (*at == HR2DI_NO_WALL) *at = k;
-      const uint32_t i = find(above, *at), j = find(above, k);
+      const uint32_t i = hr2di_find(above, *at), j = hr2di_find(above, k);
       above[i < j ? j : i] = i < j ? i : j;
     }
 }
@@ -46,7 +39,7 @@ hr2d_status hr2di_bodies_make(hr2di_walls *w) {
   const hr2d_status status = above && first ? HR2D_OK : HR2D_ENOMEM;
   if (!status) unite(w, above, first);
   for (uint32_t k = 0; k < w->walls && !status; k++) {
-    const uint32_t root = find(above, k);
+    const uint32_t root = hr2di_find(above, k);
     const hr2d_segment s = w->wall[k].at;
     if (root == k) {
       w->body_of[k] = (uint32_t)w->bodies++;

@@ -22,6 +22,7 @@ libhr2d_core_la_SOURCES = \
 	src/exchange-wide.c src/exchange-wide.h \
 	src/existence.c src/existence.h \
 	src/file.c src/file.h \
+	src/find.h \
 	src/frame.c src/frame.h \
 	src/geojson.c \
 	src/geojson-feature.c \

@@ -7,6 +7,7 @@
 #include "alloc.h"
 #include "bodies.h"
 #include "boxes.h"
+#include "find.h"
 #include "predicates.h"
 #include "side.h"
 
@@ -43,17 +44,9 @@ static int by_point(const void *left, const void *right) {
   return (p > q) - (p < q);
 }
 
-static uint32_t find(uint32_t *above, uint32_t k) {
-  while (above[k] != k) {
-    above[k] = above[above[k]];
-    k = above[k];
-  }
-  return k;
-}
-
 static void unite(runs *r, uint32_t i, uint32_t j) {
-  i = find(r->above, i);
-  j = find(r->above, j);
+  i = hr2di_find(r->above, i);
+  j = hr2di_find(r->above, j);
   if (i == j) return;
   if (i > j) {
     const uint32_t swap = i;
@@ -103,13 +96,13 @@ static size_t find_runs(runs *r) {
 /* One wall per run; vertices within a run have it as their host. */
 static void make_walls(hr2di_walls *w, runs *r) {
   for (uint32_t k = 0; k < r->count; k++)
-    if (find(r->above, k) == k) {
+    if (hr2di_find(r->above, k) == k) {
       w->of_segment[k] = (uint32_t)w->walls;
       w->wall[w->walls++].at = r->span[k];
     }
   for (size_t v = 0; v < w->vertices; v++) w->host[v] = HR2DI_NO_WALL;
   for (uint32_t k = 0; k < r->count; k++) {
-    const uint32_t wall = w->of_segment[find(r->above, k)];
+    const uint32_t wall = w->of_segment[hr2di_find(r->above, k)];
     const hr2d_point end[] = {r->segment[k].a, r->segment[k].b};
     w->of_segment[k] = wall;
     for (int e = 0; e < 2; e++) {

@@ -416,46 +416,9 @@ START_TEST(only_committed_scenes) {
 }
 END_TEST
 
-typedef struct faulty {
-  long until_failure; /* allocations that still succeed; negative: no failure */
-  int for_good;
-  long failures, live;
-} faulty;
-
-static int fails(faulty *f) {
-  if (f->until_failure < 0) return 0;
-  if (f->until_failure > 0) {
-    f->until_failure--;
-    return 0;
-  }
-  if (!f->for_good) f->until_failure = -1;
-  f->failures++;
-  return 1;
-}
-
-static void *faulty_allocate(void *ctx, size_t bytes) {
-  faulty *f = ctx;
-  if (fails(f)) return NULL;
-  f->live++;
-  return malloc(bytes ? bytes : 1);
-}
-
-static void *faulty_reallocate(void *ctx, void *block, size_t bytes) {
-  faulty *f = ctx;
-  if (fails(f)) return NULL;
-  f->live += !block;
-  return realloc(block, bytes ? bytes : 1);
-}
-
-static void faulty_release(void *ctx, void *block) {
-  faulty *f = ctx;
-  f->live -= block != NULL;
-  free(block);
-}
-
 START_TEST(allocations_fail_one_by_one) {
-  faulty f = {.until_failure = -1};
-  const hr2d_allocator hooks = {faulty_allocate, faulty_reallocate, faulty_release, &f};
+  test_memory f = {.until_failure = -1};
+  const hr2d_allocator hooks = test_hooks(&f);
   plan p = some_room();
   hr2d_scene *scene = scene_of(&p, &hooks);
   const size_t n = hr2d_scene_patches(scene);
@@ -464,7 +427,7 @@ START_TEST(allocations_fail_one_by_one) {
   const long live = f.live;
   long k = 0;
   for (int failed = 1; failed; k++) {
-    f = (faulty){.until_failure = k, .for_good = _i, .live = live};
+    f = (test_memory){.until_failure = k, .for_good = _i, .live = live};
     const hr2d_status status = hr2d_exchange_matrix(scene, NULL, area, NULL);
     failed = f.failures > 0;
     ck_assert_int_eq(status, failed ? HR2D_ENOMEM : HR2D_OK);

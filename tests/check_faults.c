@@ -7,47 +7,9 @@
 
 #include "support.h"
 
-typedef struct faulty {
-  long until_failure; /* allocations that still succeed; negative: no failure */
-  int for_good;       /* once it has failed it fails for ever */
-  long failures;
-  long live; /* blocks not yet released */
-} faulty;
-
-static int fails(faulty *f) {
-  if (f->until_failure < 0) return 0;
-  if (f->until_failure > 0) {
-    f->until_failure--;
-    return 0;
-  }
-  if (!f->for_good) f->until_failure = -1;
-  f->failures++;
-  return 1;
-}
-
-static void *faulty_allocate(void *ctx, size_t bytes) {
-  faulty *f = ctx;
-  if (fails(f)) return NULL;
-  f->live++;
-  return malloc(bytes ? bytes : 1);
-}
-
-static void *faulty_reallocate(void *ctx, void *block, size_t bytes) {
-  faulty *f = ctx;
-  if (fails(f)) return NULL;
-  if (!block) f->live++;
-  return realloc(block, bytes ? bytes : 1);
-}
-
-static void faulty_release(void *ctx, void *block) {
-  faulty *f = ctx;
-  if (block) f->live--;
-  free(block);
-}
-
 /* A whole story: each step may fail for lack of memory and is then tried again. */
 typedef struct story {
-  faulty fault;
+  test_memory fault;
   hr2d_scene *scene;
   hr2d_hierarchy *hierarchy;
   hr2d_linkset *links, *counted;
@@ -91,7 +53,7 @@ static hr2d_status visit(story *s, const hr2d_refine_options *options) {
 }
 
 static void tell(story *s, const hr2d_oracle *kind) {
-  const hr2d_allocator hooks = {faulty_allocate, faulty_reallocate, faulty_release, &s->fault};
+  const hr2d_allocator hooks = test_hooks(&s->fault);
   const double one = 1;
   const hr2d_patch lamp = {.a = {.9, .5},
                            .b = {1.1, .5},
@@ -188,13 +150,14 @@ END_TEST
 START_TEST(failures_are_seen) {
   /* Negative control: the hooks are really used, and a leak would be counted. */
   story s = {.fault = {.until_failure = 0, .for_good = 1}};
-  const hr2d_allocator hooks = {faulty_allocate, faulty_reallocate, faulty_release, &s.fault};
+  const hr2d_allocator hooks = test_hooks(&s.fault);
   ck_assert_int_eq(hr2d_scene_create(&hooks, &s.scene), HR2D_ENOMEM);
   s.fault.until_failure = -1;
   ck_assert_int_eq(hr2d_scene_create(&hooks, &s.scene), HR2D_OK);
   ck_assert_int_eq(s.fault.live, 1);
   hr2d_scene_destroy(s.scene);
-  const hr2d_allocator missing = {faulty_allocate, NULL, faulty_release, &s.fault};
+  hr2d_allocator missing = test_hooks(&s.fault);
+  missing.reallocate = NULL;
   ck_assert_int_eq(hr2d_scene_create(&missing, &s.scene), HR2D_EINVAL);
 }
 END_TEST

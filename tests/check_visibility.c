@@ -541,39 +541,6 @@ START_TEST(what_is_not_finite_is_refused) {
 }
 END_TEST
 
-typedef struct faulty {
-  long until_failure; /* allocations that still succeed */
-  int for_good;
-  long failures, live;
-} faulty;
-
-static int fails(faulty *f) {
-  if (f->until_failure-- > 0) return 0;
-  f->until_failure = f->for_good ? 0 : 1000000;
-  f->failures++;
-  return 1;
-}
-
-static void *faulty_allocate(void *ctx, size_t bytes) {
-  faulty *f = ctx;
-  if (fails(f)) return NULL;
-  f->live++;
-  return malloc(bytes ? bytes : 1);
-}
-
-static void *faulty_reallocate(void *ctx, void *block, size_t bytes) {
-  faulty *f = ctx;
-  if (fails(f)) return NULL;
-  f->live += !block;
-  return realloc(block, bytes ? bytes : 1);
-}
-
-static void faulty_release(void *ctx, void *block) {
-  faulty *f = ctx;
-  f->live -= block != NULL;
-  free(block);
-}
-
 START_TEST(allocations_fail_one_by_one) {
   enum { COUNT = 200 };
   hr2d_segment w[COUNT];
@@ -585,8 +552,8 @@ START_TEST(allocations_fail_one_by_one) {
   const double expected = area_among(ground, roof, w, COUNT);
   long k = 0;
   for (int failed = 1; failed; k++) {
-    faulty f = {.until_failure = k, .for_good = _i};
-    const hr2d_allocator hooks = {faulty_allocate, faulty_reallocate, faulty_release, &f};
+    test_memory f = {.until_failure = k, .for_good = _i};
+    const hr2d_allocator hooks = test_hooks(&f);
     double area = -7;
     const hr2d_status status =
         hr2d_exchange_area_occluded(&ground, &roof, w, COUNT, &hooks, &area);
