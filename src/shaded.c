@@ -106,8 +106,8 @@ enum { MOST = 4 };
 
 static hr2d_status propose(hr2di_projector *p, const candidate *c, size_t count) {
   static const unsigned char partial[MOST] = {1, 1, 1, 1};
-  hr2d_pair pairs[MOST];
-  unsigned char accepted[MOST];
+  hr2d_pair pairs[MOST] = {{0}};
+  unsigned char accepted[MOST] = {0};
   if (count == 0) return HR2D_OK;
   for (size_t k = 0; k < count; k++) pairs[k] = c[k].pair;
   p->partial = partial;
