@@ -38,8 +38,10 @@ extern "C" {
  *         HR2D_ERANGE for coordinates whose scales lie too far apart to be scaled alike
  *
  * Swapping i and j changes no bit.  Without an occluder in the way the value is
- * hr2d_exchange_area(i, j).  Whether AF is 0 is decided exactly.  The error is a few
- * roundings of the coordinates, relative to the lengths, where several occluders bound
+ * hr2d_exchange_area(i, j).  Whether AF is 0 is decided by exact signs; an end of an
+ * occluder that lies within four units in the last place of the line of i or of j counts as
+ * lying on it, as one does that was computed to.  The error is a few roundings of the
+ * coordinates, relative to the lengths, where several occluders bound
  * the view, and relative to AF itself where it is bounded by two points alone.
  * Cost O(count) and what the classes of lines cost that are not blocked.
  */
@@ -80,7 +82,9 @@ typedef struct hr2d_matrix_counts {
  *         the progress callback
  *
  * Runs of patches on one line are treated as one wall as long as what they see is wholly
- * clear or wholly blocked.  Several calls may run on one scene at once.
+ * clear or wholly blocked.  Several calls may run on one scene at once; with several
+ * threads the scene's hooks are called from all of them.  Cost O(n²), and a test per wall in
+ * the shaft of each two runs of which one is in the other's way.
  */
 HR2D_API hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene,
                                           const hr2d_matrix_options *options, double *area,
