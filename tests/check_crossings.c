@@ -176,7 +176,7 @@ static chain check_chain(const hr2d_scene *scene, const drawing *d, size_t patch
     c.end++;
   }
   for (size_t k = first; k < c.end; k++) {
-    sprintf(number, "%s [%zu]", name, k - first + 1);
+    snprintf(number, sizeof number, "%s [%zu]", name, k - first + 1);
     check_piece(scene, patch, k, c.end == first + 1 ? name : number, &whole, scale);
   }
   DEMAND(fabsl(total - length(&whole)) <= (real)(c.end - first) * 4 * ROUNDING * scale,
