@@ -164,7 +164,7 @@ static chain check_chain(const hr2d_scene *scene, const drawing *d, size_t patch
   if (back) whole = (hr2d_segment){whole.b, whole.a};
   hr2d_point from = whole.a;
   chain c = {first, first};
-  char name[64], number[80];
+  char name[64], number[128];
   sprintf(name, "w%zu%s", patch, back ? " (back)" : "");
   real total = 0;
   while (!same(from, whole.b)) {
