@@ -107,12 +107,12 @@ static void make_walls(hr2di_walls *w, runs *r) {
     w->of_segment[k] = wall;
     for (int e = 0; e < 2; e++) {
       const uint32_t vertex = r->vertex[2 * k + (uint32_t)e];
-      if (hr2di_same(end[e], w->wall[wall].at.a))
-        w->wall[wall].vertex[0] = vertex;
-      else if (hr2di_same(end[e], w->wall[wall].at.b))
-        w->wall[wall].vertex[1] = vertex;
-      else
-        w->host[vertex] = wall;
+      /* Both ends of an occluder that is a point are one vertex. */
+      const int at_a = hr2di_same(end[e], w->wall[wall].at.a);
+      const int at_b = hr2di_same(end[e], w->wall[wall].at.b);
+      if (at_a) w->wall[wall].vertex[0] = vertex;
+      if (at_b) w->wall[wall].vertex[1] = vertex;
+      if (!at_a && !at_b) w->host[vertex] = wall;
     }
   }
 }
