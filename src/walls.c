@@ -58,9 +58,10 @@ static void unite(runs *r, uint32_t i, uint32_t j) {
   if (less(r->span[i].b, r->span[j].b)) r->span[i].b = r->span[j].b;
 }
 
-/* Both ends of t lie on the line of s; exact, and so transitive. */
+/* Both ends of t lie on the line of s; exact, and so transitive.  A point has no line. */
 static int on_line(hr2d_segment s, hr2d_segment t) {
-  return hr2di_side(s.a, s.b, t.a) == 0 && hr2di_side(s.a, s.b, t.b) == 0;
+  return !hr2di_same(s.a, s.b) && !hr2di_same(t.a, t.b) && hr2di_side(s.a, s.b, t.a) == 0 &&
+         hr2di_side(s.a, s.b, t.b) == 0;
 }
 
 /* Unites segments on one line that meet in a vertex. */

@@ -318,6 +318,11 @@ START_TEST(points_and_nothing_hide_nothing) {
   const double clear = hr2d_exchange_area(&ground, &roof);
   ck_assert_double_eq(area_among(ground, roof, NULL, 0), clear);
   ck_assert_double_eq_tol(area_among(ground, roof, &point, 1), clear, 1e-15);
+  /* Nor does one join two walls to a straight one. */
+  const hr2d_segment bent[] = {{{.25, .5}, {.5, .5}}, point, {{.5, .5}, {.5, .75}}};
+  const hr2d_segment plain[] = {bent[0], bent[2]};
+  ck_assert_double_eq_tol(area_among(ground, roof, bent, 3), area_among(ground, roof, plain, 2),
+                          1e-15);
 }
 END_TEST
 
