@@ -408,6 +408,7 @@ static double slit_area(hr2d_segment i, hr2d_segment j, hr2d_point at, hr2d_poin
 }
 
 START_TEST(slits_have_their_width) {
+  if (!test_has_long_double()) return;
   randoms r = randoms_stream(test_seed(), 5000);
   double worst = 0;
   for (int k = scaled_count(3000), seen = 0; k > 0 || !seen; k--) {

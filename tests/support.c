@@ -279,6 +279,12 @@ void test_same_counts(const hr2d_refine_counts *one, const hr2d_refine_counts *o
   ck_assert_uint_eq(one->levels, other->levels);
 }
 
+int test_has_long_double(void) {
+  volatile long double sum = 1;
+  sum += 0x1p-60L;
+  return sum > 1;
+}
+
 int test_run(Suite *suite) {
   SRunner *runner = srunner_create(suite);
   srunner_run_all(runner, CK_NORMAL);

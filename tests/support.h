@@ -94,6 +94,9 @@ hr2d_allocator test_hooks(test_memory *memory);
 /* Asserts that two counts are equal in every member. */
 void test_same_counts(const hr2d_refine_counts *one, const hr2d_refine_counts *other);
 
+/* Whether a long double has more digits than a double: under valgrind it has not. */
+int test_has_long_double(void);
+
 /* Runs the suite; the exit status of the program. */
 int test_run(Suite *suite);
 
