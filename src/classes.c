@@ -119,11 +119,10 @@ static hr2d_status reserve(hr2di_classes *c, size_t count) {
 
 /* The width of points across the shaft. */
 static double width_of(const hr2di_shaft *s, const hr2di_mark *point, size_t count) {
-  const double ux = (s->b.at.x - s->a.at.x) + (s->c.at.x - s->d.at.x);
-  const double uy = (s->b.at.y - s->a.at.y) + (s->c.at.y - s->d.at.y);
+  const hr2d_point across = hr2di_shaft_across(s);
   double least = HUGE_VAL, most = -HUGE_VAL;
   for (size_t k = 0; k < count; k++) {
-    const double at = ux * point[k].at.x + uy * point[k].at.y;
+    const double at = across.x * point[k].at.x + across.y * point[k].at.y;
     least = fmin(least, at);
     most = fmax(most, at);
   }

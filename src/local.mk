@@ -7,6 +7,7 @@ libhr2d_core_la_CFLAGS = $(AM_CFLAGS) $(OPENMP_CFLAGS)
 libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
 libhr2d_core_la_SOURCES = \
 	src/alloc.c src/alloc.h \
+	src/backs.c src/backs.h \
 	src/bodies.c src/bodies.h \
 	src/boxes.c src/boxes.h \
 	src/classes.c src/classes.h \

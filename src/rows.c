@@ -11,11 +11,10 @@
 #include <math.h>
 
 #include "alloc.h"
-#include "exchange-area.h"
+#include "backs.h"
 #include "hierarchy-impl.h"
 #include "predicates.h"
 #include "scene-impl.h"
-#include "side.h"
 #include "sight.h"
 #include "sum.h"
 
@@ -24,24 +23,17 @@
 #define CLOSED 1e-14
 
 /* Elements wait on a stack: one per level and their walls. */
-enum { BATCH = 256, DEPTH = 1100 };
+enum { DEPTH = 1100 };
 
 typedef struct waiting {
   uint32_t element;
   size_t first, count; /* of its walls */
 } waiting;
 
-/* A part of the back of a patch. */
-typedef struct bare_back {
-  hr2d_segment at;
-  uint32_t patch;
-} bare_back;
-
 /* The row of one patch. */
 typedef struct walker {
-  bare_back *back;
-  size_t backs, back_capacity;
   const hr2d_hierarchy *h;
+  hr2di_backs backs;        /* empty if not asked for */
   hr2d_segment line;        /* of the patch */
   hr2d_segment source;      /* what its leaves see: a patch, the back of one, or an element */
   hr2d_segment source_line; /* of which that is a part */
@@ -138,56 +130,6 @@ static hr2d_status walk(walker *w, uint32_t patch) {
   return status;
 }
 
-/* Position along a line in the direction of s, exact to compare. */
-static double along(hr2d_segment s, hr2d_point p) {
-  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
-  return fabs(dx) >= fabs(dy) ? (dx > 0 ? p.x : -p.x) : (dy > 0 ? p.y : -p.y);
-}
-
-/* Whether t lies along s, on its line and in its direction. */
-static int lies_along(hr2d_segment s, hr2d_segment t) {
-  return hr2di_side(s.a, s.b, t.a) == 0 && hr2di_side(s.a, s.b, t.b) == 0 &&
-         along(s, t.a) < along(s, t.b) && along(s, t.a) < along(s, s.b) &&
-         along(s, t.b) > along(s, s.a);
-}
-
-static hr2d_status add_back(walker *w, uint32_t patch, hr2d_segment at) {
-  if (hr2di_reserve(&w->sight->alloc, &w->back, &w->back_capacity, w->backs + 1,
-                    sizeof *w->back))
-    return HR2D_ENOMEM;
-  w->back[w->backs++] = (bare_back){at, patch};
-  return HR2D_OK;
-}
-
-/* Takes t away from the parts of a back that begin at `first`. */
-static hr2d_status cover(walker *w, size_t first, hr2d_segment t) {
-  hr2d_status status = HR2D_OK;
-  for (size_t k = w->backs; k-- > first && !status;) {
-    const bare_back b = w->back[k];
-    if (!lies_along(b.at, t)) continue;
-    w->back[k] = w->back[--w->backs];
-    if (along(b.at, b.at.a) < along(b.at, t.a))
-      status = add_back(w, b.patch, (hr2d_segment){b.at.a, t.a});
-    if (!status && along(b.at, t.b) < along(b.at, b.at.b))
-      status = add_back(w, b.patch, (hr2d_segment){t.b, b.at.b});
-  }
-  return status;
-}
-
-/* The parts of backs that no other patch covers with its front. */
-static hr2d_status find_backs(walker *w) {
-  const hr2d_scene *scene = w->h->scene;
-  hr2d_status status = HR2D_OK;
-  for (uint32_t k = 0; k < scene->patches && !status; k++) {
-    const hr2d_segment s = scene->patch[k].scaled;
-    const size_t first = w->backs;
-    status = add_back(w, k, (hr2d_segment){s.b, s.a});
-    for (size_t m = 0; m < scene->patches && !status && w->backs > first; m++)
-      status = cover(w, first, scene->patch[m].scaled);
-  }
-  return status;
-}
-
 /* All that the leaves of a patch see of patches, and of their backs if asked for. */
 static hr2d_status walk_row(walker *w, uint32_t patch, hr2di_sum *front, hr2di_sum *back) {
   const hr2d_scene *scene = w->h->scene;
@@ -200,9 +142,9 @@ static hr2d_status walk_row(walker *w, uint32_t patch, hr2di_sum *front, hr2di_s
     status = walk(w, patch);
   }
   w->sum = back;
-  for (size_t k = 0; k < w->backs && !status && back; k++) {
-    const hr2d_segment s = scene->patch[w->back[k].patch].scaled;
-    w->source = w->back[k].at;
+  for (size_t k = 0; k < w->backs.count && !status; k++) {
+    const hr2d_segment s = scene->patch[w->backs.back[k].patch].scaled;
+    w->source = w->backs.back[k].at;
     w->source_line = (hr2d_segment){s.b, s.a};
     status = walk(w, patch);
   }
@@ -285,14 +227,11 @@ hr2d_status hr2di_rows_make(hr2di_rows *rows, const hr2di_transport *t, int back
     w->h = t->hierarchy;
     w->sight = scene->effect[HR2D_EFFECT_OCCLUSION].on || backs ? &sight : NULL;
     sum_links(t, rest);
-    if (backs)
-      status = find_backs(w);
-    else
-      status = HR2D_OK;
+    status = backs ? hr2di_find_backs(scene, &w->backs) : HR2D_OK;
     if (!status) status = walk_rows(rows, t, w, rest, front, back);
     hr2di_sight_end(&sight);
     hr2di_free(&t->alloc, w->list.wall);
-    hr2di_free(&t->alloc, w->back);
+    hr2di_free(&t->alloc, w->backs.back);
   }
   hr2di_free(&t->alloc, w);
   hr2di_free(&t->alloc, rest);

@@ -31,6 +31,12 @@ int hr2di_shaft_make(hr2di_shaft *shaft, hr2di_facing facing, hr2d_segment i, hr
 int hr2di_shaft_part(hr2di_shaft *part, const hr2di_shaft *whole, hr2d_segment i,
                      hr2d_segment j);
 
+/* The direction across the shaft, as long as i and j together. */
+static inline hr2d_point hr2di_shaft_across(const hr2di_shaft *s) {
+  return (hr2d_point){(s->b.at.x - s->a.at.x) + (s->c.at.x - s->d.at.x),
+                      (s->b.at.y - s->a.at.y) + (s->c.at.y - s->d.at.y)};
+}
+
 /* Whether the shaft may meet a box; never 0 if it does. */
 int hr2di_shaft_meets_box(const hr2di_shaft *shaft, double x0, double x1, double y0, double y1);
 

@@ -282,9 +282,8 @@ hr2d_status hr2di_sight_open(hr2di_sight *sight, const hr2di_shaft *shaft, const
 
 /* The width of a wall across the shaft. */
 static double width_of(const hr2di_shaft *s, hr2d_segment wall) {
-  const double ux = (s->b.at.x - s->a.at.x) + (s->c.at.x - s->d.at.x);
-  const double uy = (s->b.at.y - s->a.at.y) + (s->c.at.y - s->d.at.y);
-  return fabs(ux * (wall.b.x - wall.a.x) + uy * (wall.b.y - wall.a.y));
+  const hr2d_point across = hr2di_shaft_across(s);
+  return fabs(across.x * (wall.b.x - wall.a.x) + across.y * (wall.b.y - wall.a.y));
 }
 
 hr2d_status hr2di_sight_blocked(hr2di_sight *s, const hr2di_shaft *shaft, const uint32_t *wall,
