@@ -13,6 +13,7 @@ struct hr2d_hierarchy {
   uint16_t *level;
   size_t elements, capacity;
   unsigned levels; /* the deepest level */
+  unsigned order;  /* coefficients per element */
   int refining;    /* a refinement is under way: callbacks may only read */
 };
 
@@ -28,6 +29,35 @@ hr2d_status hr2di_hierarchy_reserve(hr2d_hierarchy *hierarchy);
 
 /* Halves a divisible leaf, with room reserved; returns the left child. */
 uint32_t hr2di_halve(hr2d_hierarchy *hierarchy, uint32_t element);
+
+/* Divides a leaf at a point inside, `part` of its length from its start, with room reserved;
+   returns the left child. */
+uint32_t hr2di_divide(hr2d_hierarchy *hierarchy, uint32_t element, double part, hr2d_point at);
+
+/* How much of an element its left child is; ½ where it was halved. */
+static inline double hr2di_left_part(const hr2d_element *element, uint32_t at) {
+  const double left = element[element[at].child].length;
+  const double right = element[element[at].child + 1].length;
+  return left == right ? 0.5 : left / (left + right);
+}
+
+/* The child that holds fraction *t of an element, and the fraction that this is of the
+   child, exact for halves.  On the border it is the child before, or the one behind. */
+static inline uint32_t hr2di_child_at(const hr2d_element *element, uint32_t at, double *t,
+                                      int before) {
+  const double left = hr2di_left_part(element, at);
+  const int right = before ? *t > left : *t >= left;
+  *t = right ? (*t - left) / (1 - left) : *t / left;
+  return element[at].child + (uint32_t)right;
+}
+
+/* Where an element begins, a fraction of its patch, exact for halves of halves. */
+double hr2di_start(const hr2d_hierarchy *hierarchy, uint32_t element);
+
+/* The leaves below an element, as the tree is walked: the first, and the one behind a leaf, or 0
+   behind the last. */
+uint32_t hr2di_first_leaf(const hr2d_hierarchy *hierarchy, uint32_t top);
+uint32_t hr2di_next_leaf(const hr2d_hierarchy *hierarchy, uint32_t leaf, uint32_t top);
 
 /* A copy on the same scene; HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_hierarchy_clone(const hr2d_hierarchy *from, hr2d_hierarchy **clone);

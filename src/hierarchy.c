@@ -44,6 +44,7 @@ hr2d_status hr2d_hierarchy_create(const hr2d_scene *scene, hr2d_hierarchy **hier
   if (!made) return HR2D_ENOMEM;
   made->alloc = scene->alloc;
   made->scene = scene;
+  made->order = 1;
   const size_t n = scene->patches;
   if (n > MOST_ELEMENTS / 2 || set_capacity(made, n + n / 2 + 16)) {
     hr2d_hierarchy_destroy(made);
@@ -83,10 +84,14 @@ hr2d_status hr2di_hierarchy_reserve(hr2d_hierarchy *h) {
 }
 
 uint32_t hr2di_halve(hr2d_hierarchy *h, uint32_t element) {
+  return hr2di_divide(h, element, 0.5, h->element[element].centre);
+}
+
+uint32_t hr2di_divide(hr2d_hierarchy *h, uint32_t element, double part, hr2d_point at) {
   const hr2d_element e = h->element[element];
   const uint32_t left = (uint32_t)h->elements, right = left + 1;
-  h->element[left] = make_element(e.a, e.centre, 0.5 * e.length, e.patch);
-  h->element[right] = make_element(e.centre, e.b, 0.5 * e.length, e.patch);
+  h->element[left] = make_element(e.a, at, part * e.length, e.patch);
+  h->element[right] = make_element(at, e.b, (1 - part) * e.length, e.patch);
   h->parent[left] = h->parent[right] = element;
   const uint16_t level = (uint16_t)(h->level[element] + 1);
   h->level[left] = h->level[right] = level;
@@ -130,13 +135,37 @@ uint32_t hr2d_element_parent(const hr2d_hierarchy *hierarchy, uint32_t element) 
 
 uint32_t hr2d_hierarchy_leaf(const hr2d_hierarchy *hierarchy, size_t patch, double t) {
   uint32_t element = (uint32_t)patch;
-  while (hierarchy->element[element].child) {
-    element = hierarchy->element[element].child;
-    t *= 2; /* exact, as is the subtraction */
-    if (t >= 1) {
-      element++;
-      t -= 1;
-    }
-  }
+  while (hierarchy->element[element].child)
+    element = hr2di_child_at(hierarchy->element, element, &t, 0);
   return element;
+}
+
+double hr2di_start(const hr2d_hierarchy *h, uint32_t element) {
+  double start = 0;
+  for (uint32_t above = h->parent[element]; above != element; above = h->parent[element]) {
+    const double left = hr2di_left_part(h->element, above);
+    start = element == h->element[above].child ? left * start : left + (1 - left) * start;
+    element = above;
+  }
+  return start;
+}
+
+uint32_t hr2di_first_leaf(const hr2d_hierarchy *h, uint32_t top) {
+  while (h->element[top].child) top = h->element[top].child;
+  return top;
+}
+
+uint32_t hr2di_next_leaf(const hr2d_hierarchy *h, uint32_t leaf, uint32_t top) {
+  while (leaf != top && leaf == h->element[h->parent[leaf]].child + 1) leaf = h->parent[leaf];
+  return leaf == top ? 0 : hr2di_first_leaf(h, leaf + 1);
+}
+
+hr2d_status hr2d_hierarchy_set_order(hr2d_hierarchy *hierarchy, unsigned order) {
+  if (order < 1 || order > HR2D_MAX_ORDER) return HR2D_EINVAL;
+  hierarchy->order = order;
+  return HR2D_OK;
+}
+
+unsigned hr2d_hierarchy_order(const hr2d_hierarchy *hierarchy) {
+  return hierarchy->order;
 }

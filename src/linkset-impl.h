@@ -5,6 +5,7 @@
 
 #include <hr2d/linkset.h>
 
+#include "blocks.h"
 #include "message.h"
 
 /* Links are kept in blocks, so that a growing store never copies them. */
@@ -26,6 +27,7 @@ struct hr2d_linkset {
   void *policy_ctx;
   hr2di_message message;
   hr2di_store store;
+  hr2di_blocks blocks; /* of links that were solved at an order above 1 */
   int directed;
   hr2d_refine_counts counts;
 };

@@ -40,6 +40,7 @@ void hr2d_linkset_destroy(hr2d_linkset *links) {
   if (links->policy.destroy) links->policy.destroy(links->policy_ctx);
   const hr2d_allocator alloc = links->alloc;
   hr2di_store_clear(&links->store, &alloc);
+  hr2di_blocks_clear(&links->blocks, &alloc);
   hr2di_free(&alloc, links);
 }
 
@@ -107,5 +108,7 @@ hr2d_refine_counts hr2d_linkset_counts(const hr2d_linkset *links) {
 }
 
 uint64_t hr2d_linkset_bytes(const hr2d_linkset *links) {
-  return hr2di_store_bytes(&links->store);
+  const hr2di_blocks *b = &links->blocks;
+  return hr2di_store_bytes(&links->store) +
+         b->links * (b->order * b->order * sizeof *b->value + sizeof *b->distant);
 }

@@ -167,6 +167,7 @@ hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options)
     hr2di_store_clear(&made, &links->alloc);
   } else {
     hr2di_store_clear(&links->store, &links->alloc);
+    hr2di_blocks_clear(&links->blocks, &links->alloc);
     links->store = made;
     links->directed = p->directed;
     sum_counts(links, p);

@@ -58,27 +58,14 @@ static void sum_links(const hr2di_transport *t, hr2di_sum *rest) {
     }
 }
 
-/* The leaf behind `leaf` below `top`, as the tree is walked; 0 behind the last. */
-static uint32_t next_leaf(const hr2d_hierarchy *h, uint32_t leaf, uint32_t top) {
-  while (leaf != top && leaf == h->element[h->parent[leaf]].child + 1) leaf = h->parent[leaf];
-  if (leaf == top) return 0;
-  for (leaf++; h->element[leaf].child;) leaf = h->element[leaf].child;
-  return leaf;
-}
-
-static uint32_t first_leaf(const hr2d_hierarchy *h, uint32_t top) {
-  while (h->element[top].child) top = h->element[top].child;
-  return top;
-}
-
 /* All leaves below an element see the source without anything in the way. */
 static void add_clear(walker *w, uint32_t top) {
   const hr2d_element *element = w->h->element;
-  uint32_t leaf = first_leaf(w->h, top);
+  uint32_t leaf = hr2di_first_leaf(w->h, top);
   do {
     const hr2d_segment s = {element[leaf].a, element[leaf].b};
     hr2di_add(&w->sum[leaf], hr2d_exchange_area(&s, &w->source));
-    leaf = next_leaf(w->h, leaf, top);
+    leaf = hr2di_next_leaf(w->h, leaf, top);
   } while (leaf);
 }
 
@@ -183,13 +170,13 @@ static hr2d_status walk_links(walker *w, const hr2di_transport *t,
 static void finish(hr2di_rows *rows, uint32_t patch, const hr2di_sum *front,
                    const hr2di_sum *back) {
   const hr2d_hierarchy *h = rows->hierarchy;
-  uint32_t leaf = first_leaf(h, patch);
+  uint32_t leaf = hr2di_first_leaf(h, patch);
   do {
     const double length = h->element[leaf].length;
     rows->leaves += !rows->closed[patch];
     rows->front[leaf] = rows->closed[patch] ? 1 : hr2di_total(&front[leaf]) / length;
     if (rows->back) rows->back[leaf] = hr2di_total(&back[leaf]) / length;
-    leaf = next_leaf(h, leaf, patch);
+    leaf = hr2di_next_leaf(h, leaf, patch);
   } while (leaf);
 }
 

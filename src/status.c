@@ -20,6 +20,7 @@ static const char *const phrases[] = {
     [HR2D_EMAX_BYTES] = "limit on memory reached",
     [HR2D_ENO_SOLUTION] = "radiosity equation has no solution",
     [HR2D_ENOT_CONVERGED] = "no convergence within the iteration limit",
+    [HR2D_EACCURACY] = "the accuracy asked for was not reached",
 };
 
 const char *hr2d_strerror(hr2d_status status) {

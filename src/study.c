@@ -5,18 +5,12 @@
 #include <gsl/gsl_linalg.h>
 #include <hr2d/study.h>
 #include <math.h>
-#include <time.h>
 
 #include "alloc.h"
+#include "clock.h"
 #include "hierarchy-impl.h"
 #include "linkset-impl.h"
 #include "options.h"
-
-static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* Counts once on a hierarchy of its own, with the oracle and policy of `links`, which
    keeps owning their contexts. */
@@ -37,9 +31,9 @@ static hr2d_status count_once(hr2d_linkset *links, const hr2d_refine_options *op
   if (status) {
     hr2di_fail(&links->message, status, "out of memory for the study");
   } else {
-    const double start = now();
+    const double start = hr2di_now();
     status = hr2d_refine_count(fresh, options, &row->counts);
-    row->seconds = now() - start;
+    row->seconds = hr2di_now() - start;
     row->epsilon = options->epsilon;
     if (status)
       hr2di_fail(&links->message, status, "at epsilon %g: %s", options->epsilon,

@@ -26,11 +26,14 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
   *t = (hr2di_transport){.links = links,
                          .hierarchy = h,
                          .alloc = links->alloc,
+                         .order = h->order,
                          .bands = h->scene->bands,
+                         .width = h->order * h->scene->bands,
                          .elements = h->elements,
                          .slices = count_slices(links),
                          .threads = threads};
-  const size_t field = t->bands * sizeof(double);
+  const size_t field = t->width * sizeof(double);
+  if (hr2di_push_pull_init(&t->trees, h, &t->alloc, t->order, t->bands)) return HR2D_ENOMEM;
   t->leaf = hr2di_alloc(&t->alloc, (size_t)hr2d_hierarchy_count(h).leaves, sizeof *t->leaf);
   t->up = hr2di_alloc(&t->alloc, t->elements, field);
   t->down = hr2di_alloc(&t->alloc, t->elements * t->slices, field);
@@ -41,6 +44,7 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
 }
 
 void hr2di_transport_clear(hr2di_transport *t) {
+  hr2di_push_pull_clear(&t->trees);
   hr2di_free(&t->alloc, t->leaf);
   hr2di_free(&t->alloc, t->up);
   hr2di_free(&t->alloc, t->down);
@@ -48,17 +52,10 @@ void hr2di_transport_clear(hr2di_transport *t) {
   hr2di_free(&t->alloc, t->sky);
 }
 
-/* Children come after their parents, so that one falling loop meets them first. */
-void hr2di_pull(hr2di_transport *t, const double *leaf_field) {
-  const size_t bands = t->bands;
-  const hr2d_element *element = t->hierarchy->element;
+void hr2di_raise(hr2di_transport *t, const double *leaf_field) {
   for (size_t k = 0; k < t->leaves; k++)
-    memcpy(t->up + t->leaf[k] * bands, leaf_field + k * bands, bands * sizeof(double));
-  for (size_t e = t->elements; e-- > 0;) {
-    if (!element[e].child) continue;
-    const double *left = t->up + element[e].child * bands, *right = left + bands;
-    for (size_t b = 0; b < bands; b++) t->up[e * bands + b] = 0.5 * (left[b] + right[b]);
-  }
+    memcpy(t->up + t->leaf[k] * t->width, leaf_field + k * t->width, t->width * sizeof(double));
+  hr2di_pull(&t->trees, t->up);
 }
 
 /* Power received over the links of one block, both ways unless directed. */
@@ -81,21 +78,85 @@ static void gather_block(const hr2d_link *link, size_t count, size_t bands, int 
   }
 }
 
-static void gather_slice(hr2di_transport *t, size_t slice) {
+/* to_l += Σ_m C_lm from_m */
+static void add_block(const double *c, size_t order, size_t bands, const double *from,
+                      double *to) {
+  for (size_t l = 0; l < order; l++)
+    for (size_t b = 0; b < bands; b++) {
+      double sum = 0;
+#ifdef _OPENMP
+#pragma omp simd reduction(+ : sum)
+#endif
+      for (size_t m = 0; m < order; m++) sum += c[l * order + m] * from[m * bands + b];
+      to[l * bands + b] += sum;
+    }
+}
+
+/* to_m += Σ_l C_lm from_l */
+static void add_transposed(const double *c, size_t order, size_t bands, const double *from,
+                           double *to) {
+  for (size_t l = 0; l < order; l++)
+    for (size_t b = 0; b < bands; b++)
+      for (size_t m = 0; m < order; m++)
+        to[m * bands + b] += c[l * order + m] * from[l * bands + b];
+}
+
+/* Both, in one pass over the block of a grey scene. */
+void hr2di_multiply_block(const double *restrict c, size_t order, const double *restrict up_i,
+                          const double *restrict up_j, double *restrict down_i,
+                          double *restrict down_j) {
+  for (size_t l = 0; l < order; l++) {
+    const double *row = c + l * order, here = up_i[l];
+    double sum = 0;
+#ifdef _OPENMP
+#pragma omp simd reduction(+ : sum)
+#endif
+    for (size_t m = 0; m < order; m++) {
+      sum += row[m] * up_j[m];
+      down_j[m] += row[m] * here;
+    }
+    down_i[l] += sum;
+  }
+}
+
+/* The same with blocks, for links from number `first` on. */
+static void gather_orders(const hr2di_transport *t, hr2di_part part, uint64_t first,
+                          size_t count, double *down) {
+  const hr2di_blocks *blocks = &t->links->blocks;
+  const size_t order = t->order, bands = t->bands, width = t->width;
+  for (uint64_t k = first; k < first + count; k++) {
+    if (part == HR2DI_DISTANT_LINKS && !blocks->distant[k]) continue;
+    const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
+    const double *c = blocks->value + k * order * order;
+    const size_t i = pair.first * width, j = pair.second * width;
+    if (bands == 1 && !t->links->directed) {
+      hr2di_multiply_block(c, order, t->up + i, t->up + j, down + i, down + j);
+      continue;
+    }
+    add_block(c, order, bands, t->up + j, down + i);
+    if (!t->links->directed) add_transposed(c, order, bands, t->up + i, down + j);
+  }
+}
+
+static void gather_slice(hr2di_transport *t, hr2di_part part, size_t slice) {
   const hr2di_store *store = &t->links->store;
   const size_t from = slice * store->blocks / t->slices;
   const size_t to = (slice + 1) * store->blocks / t->slices;
-  double *down = t->down + slice * t->elements * t->bands;
-  memset(down, 0, t->elements * t->bands * sizeof *down);
+  double *down = t->down + slice * t->elements * t->width;
+  memset(down, 0, t->elements * t->width * sizeof *down);
   const int plain = !t->hierarchy->scene->effect[HR2D_EFFECT_BANDS].on;
-  for (size_t k = from; k < to; k++)
-    gather_block(store->block[k], hr2di_store_block_size(store, k), t->bands, plain,
-                 t->links->directed, t->up, down);
+  for (size_t k = from; k < to; k++) {
+    const size_t count = hr2di_store_block_size(store, k);
+    if (t->order > 1)
+      gather_orders(t, part, (uint64_t)k * HR2DI_BLOCK_LINKS, count, down);
+    else
+      gather_block(store->block[k], count, t->bands, plain, t->links->directed, t->up, down);
+  }
 }
 
 /* Sums the slices in their order, so that the threads leave no trace. */
 static void sum_slices(hr2di_transport *t) {
-  const size_t field = t->elements * t->bands;
+  const size_t field = t->elements * t->width;
   for (size_t s = 1; s < t->slices; s++) {
     const double *part = t->down + s * field;
     for (size_t k = 0; k < field; k++) t->down[k] += part[k];
@@ -103,38 +164,40 @@ static void sum_slices(hr2di_transport *t) {
 }
 
 /* Power to irradiance, and every element's to its children. */
-static void push(hr2di_transport *t, double *irradiance) {
-  const size_t bands = t->bands;
+static void lower(hr2di_transport *t, double *irradiance) {
+  const size_t width = t->width;
   const hr2d_element *element = t->hierarchy->element;
-  for (size_t e = 0; e < t->elements; e++) {
-    const uint32_t parent = t->hierarchy->parent[e];
-    for (size_t b = 0; b < bands; b++) {
-      t->down[e * bands + b] /= element[e].length;
-      if (parent != e) t->down[e * bands + b] += t->down[parent * bands + b];
-    }
-  }
+  for (size_t e = 0; e < t->elements; e++)
+    for (size_t k = 0; k < width; k++) t->down[e * width + k] /= element[e].length;
+  hr2di_push(&t->trees, t->down);
   for (size_t k = 0; k < t->leaves; k++)
-    memcpy(irradiance + k * bands, t->down + t->leaf[k] * bands, bands * sizeof(double));
+    memcpy(irradiance + k * width, t->down + t->leaf[k] * width, width * sizeof(double));
 }
 
-void hr2di_gather(hr2di_transport *t, const double *radiosity, double *irradiance) {
-  hr2di_pull(t, radiosity);
+void hr2di_gather_part(hr2di_transport *t, hr2di_part part, const double *radiosity,
+                       double *irradiance) {
+  hr2di_raise(t, radiosity);
 #ifdef _OPENMP
   const int threads = t->threads ? (int)t->threads : omp_get_max_threads();
 #pragma omp parallel for num_threads(threads) schedule(dynamic) if (t->slices > 1)
 #endif
-  for (size_t slice = 0; slice < t->slices; slice++) gather_slice(t, slice);
+  for (size_t slice = 0; slice < t->slices; slice++) gather_slice(t, part, slice);
   sum_slices(t);
-  push(t, irradiance);
-  for (size_t k = 0; k < t->leaves && t->closure; k++)
-    for (size_t b = 0; b < t->bands; b++)
-      irradiance[k * t->bands + b] += t->closure[k] * radiosity[k * t->bands + b];
+  lower(t, irradiance);
   t->sweeps++;
+}
+
+void hr2di_gather(hr2di_transport *t, const double *radiosity, double *irradiance) {
+  hr2di_gather_part(t, HR2DI_ALL_LINKS, radiosity, irradiance);
+  const size_t square = t->order * t->order;
+  for (size_t k = 0; k < t->leaves && t->closure; k++)
+    add_block(t->closure + k * square, t->order, t->bands, radiosity + k * t->width,
+              irradiance + k * t->width);
 }
 
 void hr2di_add_background(const hr2di_transport *t, double *irradiance) {
   const hr2d_scene *scene = t->hierarchy->scene;
-  for (size_t k = 0; k < t->leaves && t->sky; k++)
+  for (size_t k = 0; k < t->leaves * t->order && t->sky; k++)
     for (size_t b = 0; b < t->bands; b++)
       irradiance[k * t->bands + b] += t->sky[k] * hr2d_scene_background(scene, b);
 }

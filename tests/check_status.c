@@ -12,7 +12,7 @@
 #include "message.h"
 
 START_TEST(every_status_has_its_own_phrase) {
-  for (int i = HR2D_OK; i <= HR2D_ENOT_CONVERGED; i++) {
+  for (int i = HR2D_OK; i <= HR2D_EACCURACY; i++) {
     const char *phrase = hr2d_strerror((hr2d_status)i);
     ck_assert_ptr_nonnull(phrase);
     ck_assert_uint_gt(strlen(phrase), 0);
@@ -24,7 +24,7 @@ START_TEST(every_status_has_its_own_phrase) {
 END_TEST
 
 START_TEST(a_value_outside_the_enumeration_has_a_phrase) {
-  const int values[] = {-1, HR2D_ENOT_CONVERGED + 1, INT_MAX, INT_MIN};
+  const int values[] = {-1, HR2D_EACCURACY + 1, INT_MAX, INT_MIN};
   for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
     /* Through memory, since a conversion may assume the enumeration's range. */
     hr2d_status status;

@@ -23,6 +23,8 @@ SUITES = \
 	tests/check_effects \
 	tests/check_visibility \
 	tests/check_exchange_matrix \
+	tests/check_corner \
+	tests/check_events \
 	tests/check_study \
 	tests/check_faults
 

@@ -53,6 +53,24 @@ typedef struct hr2d_hierarchy_counts {
  */
 HR2D_API hr2d_status hr2d_hierarchy_create(const hr2d_scene *scene, hr2d_hierarchy **hierarchy);
 
+/** The highest order of an element. */
+#define HR2D_MAX_ORDER 32
+
+/**
+ * Lets each element carry `order` Legendre coefficients of radiosity in place of one
+ * constant; a link then transports order × order of them.  Order 1, as at first, is the
+ * paper's algorithm.  Refinement does not depend on it: elements as large as B is smooth
+ * and links as large as G is smooth are what a high order wants, as max(A)/r ≤ 1/2.
+ * Solutions made before keep the order they were made with.
+ *
+ * @param order  1 to #HR2D_MAX_ORDER
+ * @return HR2D_OK, or HR2D_EINVAL
+ */
+HR2D_API hr2d_status hr2d_hierarchy_set_order(hr2d_hierarchy *hierarchy, unsigned order);
+
+/** How many coefficients each element carries. */
+HR2D_API unsigned hr2d_hierarchy_order(const hr2d_hierarchy *hierarchy);
+
 /** Destroys a hierarchy; NULL is allowed.  Link sets on it must be gone. */
 HR2D_API void hr2d_hierarchy_destroy(hr2d_hierarchy *hierarchy);
 

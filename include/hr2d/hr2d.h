@@ -20,6 +20,7 @@
 #ifndef HR2D_H
 #define HR2D_H
 
+#include <hr2d/accuracy.h>
 #include <hr2d/geometry.h>
 #include <hr2d/hierarchy.h>
 #include <hr2d/linkset.h>

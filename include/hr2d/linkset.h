@@ -88,7 +88,10 @@ HR2D_API int hr2d_linkset_directed(const hr2d_linkset *links);
 /** What the refinements that filled the set made and took, summed up. */
 HR2D_API hr2d_refine_counts hr2d_linkset_counts(const hr2d_linkset *links);
 
-/** Bytes held by the links: 16 each, in blocks of 4096. */
+/**
+ * Bytes held by the links: 16 each, in chunks of 4096; and once they were solved at an order p
+ * above 1, 8p² + 1 each besides.
+ */
 HR2D_API uint64_t hr2d_linkset_bytes(const hr2d_linkset *links);
 
 /**

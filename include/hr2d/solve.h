@@ -65,6 +65,8 @@ typedef struct hr2d_solve_work {
   uint64_t row_sums;        /**< leaves whose exchange with all patches was summed: for
                                  closure in open scenes, and for the background */
   uint64_t background_rows; /**< of these, leaves whose view of the background was needed */
+  uint64_t kernels;         /**< values of G it took to integrate blocks, at an order above 1 */
+  double coefficients_seconds; /**< wall time of that */
 } hr2d_solve_work;
 
 /**
@@ -93,11 +95,27 @@ HR2D_API double hr2d_solution_average(const hr2d_solution *solution, size_t patc
 /**
  * B at fraction t of a patch, counted from its start: the constant of the leaf
  * that holds the point, and on the border of two leaves the straight line between the
- * values at their centres.  The back of a two-sided patch starts where its front ends.
+ * values at their centres; at an order above 1 the leaf's polynomial.  The back of a two-sided patch starts where its front ends.
  * @param t  in [0,1]
  */
 HR2D_API double hr2d_solution_at(const hr2d_solution *solution, size_t patch, double t,
                                  size_t band);
+
+/**
+ * B at points of a patch after one more gather, B' = E + ρ ∫ G V B_h, with G and V exact: far
+ * better than hr2d_solution_at(), in which B jumps from leaf to leaf, and dearer.
+ *
+ * @param t       `count` fractions of the patch in [0,1], counted from its start
+ * @param value   receives count × bands values
+ * @return HR2D_OK or HR2D_ENOMEM
+ * Several threads may ask one solution at once.  Cost O(N) per point, and where the scene calls
+ * for occlusion O(n log n).
+ */
+HR2D_API hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t patch,
+                                          const double *t, size_t count, double *value);
+
+/** The links a solution was made from, and through them its elements. */
+HR2D_API const hr2d_linkset *hr2d_solution_links(const hr2d_solution *solution);
 
 /** The average of B over an element. */
 HR2D_API double hr2d_solution_element(const hr2d_solution *solution, uint32_t element,

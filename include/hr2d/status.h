@@ -38,7 +38,8 @@ typedef enum hr2d_status {
   HR2D_EMAX_LINKS,       /**< the budget `max_links` is spent */
   HR2D_EMAX_BYTES,       /**< the budget `max_bytes` is spent */
   HR2D_ENO_SOLUTION,     /**< the radiosity equation of this scene has no solution */
-  HR2D_ENOT_CONVERGED    /**< the iteration limit came before the tolerance */
+  HR2D_ENOT_CONVERGED,   /**< the iteration limit came before the tolerance */
+  HR2D_EACCURACY         /**< the accuracy asked for was not reached; what was is returned */
 } hr2d_status;
 
 /**

@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* B = Q + ρ K B on the leaves, for a source Q.
+
+   With B = Q + √ρ y the equation becomes (I − √ρ K √ρ) y = √ρ K Q.  Its operator is
+   self-adjoint in Σ A x y, because A_i K_ij = AF_ij = A_j K_ji, and positive definite
+   where light is lost; patches with ρ = 0 drop out by themselves. */
+#include "equation.h"
+
+#include <math.h>
+
+#include "alloc.h"
+#include "clock.h"
+#include "closure.h"
+#include "hierarchy-impl.h"
+#include "rows.h"
+#include "scene-impl.h"
+#include "sky.h"
+
+/* Where nothing reflects there is nothing to close. */
+static int reflects(const hr2d_scene *scene) {
+  for (size_t k = 0; k < scene->patches; k++)
+    for (size_t band = 0; band < scene->bands; band++)
+      if (hr2d_scene_reflectance(scene, k, band) > 0) return 1;
+  return 0;
+}
+
+/* Closure, and the view of the background, need what leaves see of all patches. */
+static hr2d_status integrate_rows(hr2di_equation *s) {
+  const int closure = s->options.closure && reflects(s->links->hierarchy->scene);
+  const int background = s->links->hierarchy->scene->effect[HR2D_EFFECT_BACKGROUND].on;
+  if (!closure && !background) return HR2D_OK;
+  if (s->transport.order > 1) {
+    hr2d_status status = background ? hr2di_look_at_sky(&s->transport) : HR2D_OK;
+    if (background) s->row_sums = s->transport.leaves;
+    return !status && closure ? hr2di_close_distant(&s->transport) : status;
+  }
+  hr2di_rows rows;
+  hr2d_status status = hr2di_rows_make(&rows, &s->transport, background);
+  if (!status && background) status = hr2di_set_sky(&s->transport, &rows);
+  if (!status && closure) status = hr2di_close(&s->transport, &rows);
+  s->row_sums = rows.leaves;
+  hr2di_rows_clear(&rows);
+  return status;
+}
+
+/* An order above 1 needs blocks, unless a former solve has made them. */
+static hr2d_status integrate_blocks(hr2di_equation *s) {
+  hr2d_linkset *links = s->links;
+  const unsigned order = links->hierarchy->order;
+  if (order == 1 || (links->blocks.order == order && links->blocks.links == links->store.count))
+    return HR2D_OK;
+  const hr2di_blocks_plan plan = {s->options.threads, s->options.progress,
+                                  s->options.progress_ctx};
+  const double start = hr2di_now();
+  const hr2d_status status = hr2di_blocks_make(links, order, &plan);
+  s->kernels = links->blocks.kernels;
+  s->coefficients_seconds = hr2di_now() - start;
+  return status && status != HR2D_ENOMEM
+             ? hr2di_fail(&links->message, status, "coefficients: %s", hr2d_strerror(status))
+             : status;
+}
+
+/* Coefficients of leaves are numbered as the items of the system. */
+static void set_surfaces(hr2di_equation *s) {
+  const hr2di_transport *t = &s->transport;
+  const hr2d_scene *scene = t->hierarchy->scene;
+  for (size_t k = 0; k < s->items; k++) {
+    const hr2d_element *e = &t->hierarchy->element[t->leaf[k / t->order]];
+    s->weight[k] = e->length;
+    for (size_t b = 0; b < t->bands; b++) {
+      const int constant = k % t->order == 0;
+      s->source[k * t->bands + b] = constant ? hr2d_scene_emission(scene, e->patch, b) : 0;
+      s->root_rho[k * t->bands + b] = sqrt(hr2d_scene_reflectance(scene, e->patch, b));
+    }
+  }
+}
+
+hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
+                                const hr2d_solve_options *options) {
+  *s = (hr2di_equation){.links = links, .options = *options, .background = 1};
+  s->transport.alloc = links->alloc;
+  hr2di_transport *t = &s->transport;
+  hr2d_status status = integrate_blocks(s);
+  if (!status) status = hr2di_transport_init(t, s->links, s->options.threads);
+  if (!status) status = integrate_rows(s);
+  if (status) return status;
+  s->items = t->leaves * t->order;
+  s->field = t->leaves * t->width;
+  s->space =
+      hr2di_calloc(&s->links->alloc, s->items + 7 * s->field + 2 * t->bands, sizeof *s->space);
+  if (!s->space) return HR2D_ENOMEM;
+  double **const field[] = {&s->source, &s->root_rho, &s->radiosity, &s->irradiance,
+                            &s->y,      &s->b,        &s->work};
+  s->weight = s->space;
+  for (size_t k = 0; k < 7; k++) *field[k] = s->space + s->items + k * s->field;
+  s->norm[0] = s->space + s->items + 7 * s->field;
+  s->norm[1] = s->norm[0] + t->bands;
+  set_surfaces(s);
+  return HR2D_OK;
+}
+
+/* out = √ρ K √ρ in */
+static void apply(void *ctx, const double *in, double *out) {
+  hr2di_equation *s = ctx;
+  for (size_t k = 0; k < s->field; k++) s->work[k] = s->root_rho[k] * in[k];
+  hr2di_gather(&s->transport, s->work, out);
+  for (size_t k = 0; k < s->field; k++) out[k] *= s->root_rho[k];
+}
+
+/* B = E + √ρ y */
+static void set_radiosity(hr2di_equation *s, const double *y) {
+  for (size_t k = 0; k < s->field; k++) s->radiosity[k] = s->source[k] + s->root_rho[k] * y[k];
+}
+
+static hr2di_system make_system(hr2di_equation *s);
+
+static void scale(void *ctx, const double *y, double *norm) {
+  hr2di_equation *s = ctx;
+  const hr2di_system system = make_system(s);
+  set_radiosity(s, y);
+  hr2di_dot(&system, s->radiosity, s->radiosity, norm);
+  for (size_t b = 0; b < system.bands; b++) norm[b] = sqrt(norm[b]);
+}
+
+static hr2d_status tell(void *ctx, double residual) {
+  hr2di_equation *s = ctx;
+  s->looks++;
+  if (!s->options.progress) return HR2D_OK;
+  const double digits = residual > 0 ? log(residual) / log(s->options.tolerance) : 1;
+  const hr2d_progress progress = {.struct_size = sizeof progress,
+                                  .phase = "solve",
+                                  .elements = s->transport.elements,
+                                  .links = s->links->store.count,
+                                  .fraction = fmin(fmax(digits, 0), 1),
+                                  .residual = residual};
+  return s->options.progress(s->options.progress_ctx, &progress);
+}
+
+static hr2di_system make_system(hr2di_equation *s) {
+  return (hr2di_system){.alloc = &s->links->alloc,
+                        .size = s->items,
+                        .bands = s->transport.bands,
+                        .weight = s->weight,
+                        .symmetric = !s->links->directed,
+                        .apply = apply,
+                        .scale = scale,
+                        .tell = tell,
+                        .ctx = s,
+                        .tolerance = s->options.tolerance,
+                        .max_iterations = s->options.max_iterations};
+}
+
+/* H = K B, and what comes from the background. */
+void hr2di_equation_gather(hr2di_equation *s, const double *radiosity) {
+  hr2di_gather(&s->transport, radiosity, s->irradiance);
+  if (s->background) hr2di_add_background(&s->transport, s->irradiance);
+}
+
+hr2d_status hr2di_equation_solve(hr2di_equation *s) {
+  hr2di_equation_gather(s, s->source);
+  for (size_t k = 0; k < s->field; k++) s->b[k] = s->root_rho[k] * s->irradiance[k];
+  const hr2di_system system = make_system(s);
+  double residual = 0;
+  const hr2d_status status = hr2di_krylov(&system, s->b, s->y, &residual);
+  if (status == HR2D_ENOT_CONVERGED)
+    return hr2di_fail(&s->links->message, status,
+                      "the relative residual is %.1e where %.1e was asked for, after %llu "
+                      "gathers",
+                      residual, s->options.tolerance, (unsigned long long)s->transport.sweeps);
+  if (status) return hr2di_fail(&s->links->message, status, "solve: %s", hr2d_strerror(status));
+  set_radiosity(s, s->y);
+  hr2di_equation_gather(s, s->radiosity);
+  return HR2D_OK;
+}
+
+void hr2di_equation_take_once(hr2di_equation *s) {
+  set_radiosity(s, s->y);
+  hr2di_equation_gather(s, s->radiosity);
+}
+
+/* ‖Q + ρH − B‖/‖B‖, the largest over the bands. */
+double hr2di_equation_residual(hr2di_equation *s) {
+  const hr2di_system system = make_system(s);
+  for (size_t k = 0; k < s->field; k++)
+    s->work[k] =
+        s->source[k] + s->root_rho[k] * s->root_rho[k] * s->irradiance[k] - s->radiosity[k];
+  hr2di_dot(&system, s->work, s->work, s->norm[0]);
+  hr2di_dot(&system, s->radiosity, s->radiosity, s->norm[1]);
+  double most = 0;
+  for (size_t b = 0; b < system.bands; b++)
+    if (s->norm[0][b] > 0) most = fmax(most, sqrt(s->norm[0][b] / s->norm[1][b]));
+  return most;
+}
+
+void hr2di_equation_clear(hr2di_equation *s) {
+  hr2di_transport_clear(&s->transport);
+  hr2di_free(&s->links->alloc, s->space);
+}

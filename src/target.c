@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solving to a target: guess how fine, solve, measure the error, and go finer where it is above
+   the target. */
+#include <hr2d/accuracy.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "alloc.h"
+#include "clock.h"
+#include "estimate.h"
+#include "fineness.h"
+#include "importance.h"
+#include "options.h"
+#include "scene-impl.h"
+#include "solution-impl.h"
+
+/* An estimate is within 10 % of the error, so that this part of the target will do. */
+#define MARGIN 0.8
+
+enum { ATTEMPTS = 8 };
+
+/* What is best so far, and all that was spent. */
+typedef struct search {
+  const hr2d_scene *scene;
+  hr2d_target target;     /* its progress is watch() */
+  hr2d_target given;      /* the caller's */
+  double start, deadline; /* 0 for none */
+  hr2di_survey survey;
+  hr2di_answer best;
+  double *weight;       /* per patch, where importance is asked for */
+  hr2d_account account; /* of the best, with all times */
+  hr2di_message message;
+} search;
+
+static double left(const search *s) {
+  return s->deadline > 0 ? s->deadline - hr2di_now() : HUGE_VAL;
+}
+
+/* Ends a call when the time is up. */
+static hr2d_status watch(void *ctx, const hr2d_progress *progress) {
+  search *s = ctx;
+  if (left(s) <= 0) return HR2D_STOPPED;
+  return s->given.progress ? s->given.progress(s->given.progress_ctx, progress) : HR2D_OK;
+}
+
+static double error_of(const search *s) {
+  return s->target.norm == HR2D_NORM_SUP ? s->account.sup.estimate
+                                         : s->account.average.estimate;
+}
+
+static void add_times(hr2d_account *sum, const hr2di_answer *answer) {
+  sum->refine_seconds += answer->refine_seconds;
+  sum->coefficients_seconds += answer->coefficients_seconds;
+  sum->solve_seconds += answer->solve_seconds;
+  sum->kernels += answer->kernels;
+  sum->solves += answer->solution != NULL;
+}
+
+/* Takes an answer with its errors as the best one. */
+static void keep(search *s, hr2di_answer *answer, const hr2di_errors *errors) {
+  hr2di_answer_clear(&s->best);
+  s->best = *answer;
+  *answer = (hr2di_answer){0};
+  const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(s->best.hierarchy);
+  hr2d_account *a = &s->account;
+  a->average = errors->average;
+  a->sup = errors->sup;
+  a->order = s->best.hierarchy->order;
+  a->elements = counts.elements;
+  a->leaves = counts.leaves;
+  a->links = hr2d_linkset_size(s->best.links);
+  a->events = s->best.events;
+  a->bytes = hr2di_answer_bytes(&s->best);
+}
+
+/* Solves once, measures the error, and keeps the better one of this and the best. */
+static hr2d_status attempt(search *s, const hr2di_fineness *fineness) {
+  hr2di_answer answer;
+  hr2di_errors errors;
+  hr2d_status status =
+      hr2di_graded_refine(&answer, s->scene, NULL, fineness, &s->target, &s->message);
+  if (!status) status = hr2di_graded_solve(&answer, &s->target, &s->message);
+  add_times(&s->account, &answer);
+  const double start = hr2di_now();
+  if (!status) status = hr2di_estimate(&answer, fineness, &s->target, &errors, &s->message);
+  s->account.error_seconds += hr2di_now() - start;
+  if (!status) {
+    const double error =
+        s->target.norm == HR2D_NORM_SUP ? errors.sup.estimate : errors.average.estimate;
+    s->account.kernels += errors.kernels;
+    if (!s->best.solution || error < error_of(s)) keep(s, &answer, &errors);
+  }
+  hr2di_answer_clear(&answer);
+  return status;
+}
+
+static void give_reason(search *s, const char *reason) {
+  snprintf(s->account.reason, sizeof s->account.reason, "%.150s", reason);
+}
+
+/* Goes finer until the error is below `error`; HR2D_EACCURACY if it does not come down. */
+static hr2d_status reach(search *s, double error) {
+  hr2di_fineness fineness = hr2di_fineness_for(s->scene, &s->survey, error, s->target.norm);
+  double before = HUGE_VAL;
+  int stuck = 0;
+  fineness.weight = s->weight;
+  for (int k = 0; k < ATTEMPTS && stuck < 2; k++) {
+    const hr2d_status status = attempt(s, &fineness);
+    if (status || error_of(s) <= MARGIN * error) return status;
+    stuck = error_of(s) > 0.5 * before ? stuck + 1 : 0;
+    before = error_of(s);
+    if (hr2di_fineness_raise(&fineness, &s->best.survey, before / (0.5 * error))) break;
+  }
+  if (error_of(s) <= error) return HR2D_OK;
+  give_reason(s, "the error does not come down any more: this is what double precision gives");
+  return HR2D_EACCURACY;
+}
+
+/* Falling targets, each as long as there seems to be time for it. */
+static hr2d_status reach_in_time(search *s) {
+  double spent = 0;
+  hr2d_status status = HR2D_OK;
+  for (double error = 1e-1; !status; error *= 1e-2) {
+    const double aim = fmax(error, s->given.error), start = hr2di_now();
+    status = reach(s, aim);
+    if (status || aim <= s->given.error) break;
+    const double took = hr2di_now() - start, growth = spent > 0 ? took / spent : 4;
+    spent = took;
+    if (took * fmin(fmax(growth, 1.2), 4) > left(s)) status = HR2D_STOPPED;
+  }
+  if (status != HR2D_STOPPED || left(s) > 0.5 * s->given.seconds) return status;
+  give_reason(s, "the time is used up");
+  return s->given.error > 0 ? HR2D_EACCURACY : HR2D_OK;
+}
+
+static hr2d_status check(const hr2d_scene *scene, const hr2d_target *t) {
+  if (!scene->committed) return HR2D_ESTATE;
+  if (!(t->error >= 0) || !(t->seconds >= 0)) return HR2D_EINVAL;
+  if (t->importance != HR2D_ALL_PATCHES && t->importance >= scene->patches) return HR2D_EINVAL;
+  return t->norm == HR2D_NORM_AVERAGE || t->norm == HR2D_NORM_SUP ? HR2D_OK : HR2D_EINVAL;
+}
+
+static hr2d_status weigh_patches(search *s) {
+  if (s->given.importance == HR2D_ALL_PATCHES) return HR2D_OK;
+  s->weight = hr2di_alloc(&s->scene->alloc, s->scene->patches, sizeof *s->weight);
+  if (!s->weight) return HR2D_ENOMEM;
+  return hr2di_importance(s->scene, s->given.importance, &s->target, s->weight, &s->message);
+}
+
+/* Makes the solution own what it stands on. */
+static void hand_over(search *s, hr2d_solution **solution) {
+  *solution = s->best.solution;
+  if (!*solution) return;
+  (*solution)->own_hierarchy = s->best.hierarchy;
+  (*solution)->own_links = s->best.links;
+  s->best = (hr2di_answer){0};
+}
+
+hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
+                          hr2d_solution **solution, hr2d_account *account) {
+  search s = {.scene = scene, .given = HR2D_TARGET_INIT, .start = hr2di_now()};
+  *solution = NULL;
+  if (account) *account = (hr2d_account){0};
+  if (target) hr2di_copy_sized(&s.given, sizeof s.given, target);
+  hr2d_status status = check(scene, &s.given);
+  if (status) return status;
+  s.target = s.given;
+  s.target.progress = watch;
+  s.target.progress_ctx = &s;
+  if (s.given.seconds > 0) s.deadline = s.start + s.given.seconds;
+  status = hr2di_survey_scene(scene, &s.survey);
+  if (!status) status = weigh_patches(&s);
+  if (!status)
+    status = s.given.seconds > 0 ? reach_in_time(&s)
+                                 : reach(&s, s.given.error > 0 ? s.given.error : 1e-15);
+  if (!(s.given.error > 0) && status == HR2D_EACCURACY) status = HR2D_OK;
+  if (status && status != HR2D_EACCURACY) give_reason(&s, s.message.text);
+  if (!status || status == HR2D_EACCURACY) hand_over(&s, solution);
+  s.account.seconds = hr2di_now() - s.start;
+  if (account) *account = s.account;
+  hr2di_answer_clear(&s.best);
+  hr2di_free(&scene->alloc, s.weight);
+  return status;
+}
