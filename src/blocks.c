@@ -11,7 +11,7 @@
 #include "linkset-impl.h"
 
 /* Links are done in rounds, and progress is told between them. */
-enum { CHUNK = 16, ROUND = 1024 };
+enum { CHUNK = 16, ROUND = 256 };
 
 typedef struct maker {
   const hr2d_linkset *links;

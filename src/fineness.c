@@ -25,6 +25,15 @@ hr2d_status hr2di_survey_scene(const hr2d_scene *scene, hr2di_survey *survey) {
   return status;
 }
 
+/* Many patches have so many events that to halve all elements is cheaper, as long as not much
+   is asked for: what a kink inside an element does falls like the square of its length. */
+enum { CROWD = 64, MOST_HALVINGS = 3 };
+#define CROWDED_AIM 1e-3
+
+static int is_crowded(const hr2d_scene *scene, int hidden) {
+  return hidden && scene->patches > CROWD;
+}
+
 /* In narrow corners with much reflection light goes to and fro often, and errors with it: γ² is
    what that asks for in excess, from measurements at 10° to 150° and ρ up to 0.999. */
 hr2di_fineness hr2di_fineness_for(const hr2d_scene *scene, const hr2di_survey *survey,
@@ -34,11 +43,17 @@ hr2di_fineness hr2di_fineness_for(const hr2d_scene *scene, const hr2di_survey *s
   const double kink = norm == HR2D_NORM_SUP ? aim * aim : aim;
   const int hidden = scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
                      scene->effect[HR2D_EFFECT_FACING].called_for;
-  return (hr2di_fineness){.order = (unsigned)fmin(fmax(order, 2), HR2D_MAX_ORDER - 2),
-                          .target = fmin(error, 1),
-                          .norm = norm,
-                          .hidden = hidden,
-                          .generations = hidden ? hr2di_generations_for(kink) : 0};
+  hr2di_fineness f = {.order = (unsigned)fmin(fmax(order, 2), HR2D_MAX_ORDER - 2),
+                      .target = fmin(error, 1),
+                      .norm = norm,
+                      .hidden = hidden,
+                      .generations = hidden ? hr2di_generations_for(kink) : 0};
+  if (is_crowded(scene, hidden) && kink >= CROWDED_AIM) {
+    f.generations = 0;
+    f.halvings = kink >= 3e-2 ? 0 : kink >= 3e-3 ? 1 : 2;
+  }
+  f.crowded = is_crowded(scene, hidden);
+  return f;
 }
 
 int hr2di_fineness_raise(hr2di_fineness *f, const hr2di_survey *survey, double factor) {
@@ -48,6 +63,9 @@ int hr2di_fineness_raise(hr2di_fineness *f, const hr2di_survey *survey, double f
   const double more = fmax(ceil(log(factor) / digits_per_order(survey, f->norm)), 1);
   f->order = (unsigned)fmin(f->order + more, HR2D_MAX_ORDER - 2);
   f->deeper += (unsigned)fmax(ceil(log2(factor) / slope), 1);
-  if (f->generations < 2 && f->hidden) f->generations++;
+  if (f->crowded && f->generations == 0 && f->halvings < MOST_HALVINGS)
+    f->halvings++;
+  else if (f->hidden && f->generations < 2)
+    f->generations++;
   return 0;
 }

@@ -229,6 +229,7 @@ static void sort_marks(grader *g) {
 typedef struct part {
   uint32_t element;
   double from, to;
+  unsigned halvings; /* done besides */
 } part;
 
 /* The mark inside that is nearest to the middle, or NULL. */
@@ -266,10 +267,14 @@ static void survey_leaf(grader *g, const part *e) {
     g->survey.ellipse = fmin(g->survey.ellipse, hr2di_ellipse(s, g->vertex[g->near[k]].at));
 }
 
-static hr2d_status divide(grader *g, const part *e, int *divided) {
+static hr2d_status divide(grader *g, part *e, int *divided) {
   hr2d_hierarchy *h = g->h;
   const mark *inside = mark_inside(g, e);
   *divided = h->element[e->element].child || inside || wants_halves(g, e);
+  if (!*divided && e->halvings < g->grading->halvings) {
+    *divided = hr2di_divisible(h, e->element);
+    e->halvings++;
+  }
   if (!*divided || h->element[e->element].child) return HR2D_OK;
   if (g->grading->max_elements && h->elements + 2 > g->grading->max_elements)
     return HR2D_EMAX_ELEMENTS;
@@ -293,17 +298,17 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
   if (!status) status = add_events(g, patch);
   if (status) return status;
   sort_marks(g);
-  stack[count++] = (part){patch, 0, 1};
+  stack[count++] = (part){patch, 0, 1, 0};
   while (count > 0 && !status) {
-    const part e = stack[--count];
+    part e = stack[--count];
     int divided;
     status = divide(g, &e, &divided);
     if (!divided) survey_leaf(g, &e);
     if (status || !divided || count + 2 > STACK) continue;
     const uint32_t child = g->h->element[e.element].child;
     const double middle = e.from + hr2di_left_part(g->h->element, e.element) * (e.to - e.from);
-    stack[count++] = (part){child + 1, middle, e.to};
-    stack[count++] = (part){child, e.from, middle};
+    stack[count++] = (part){child + 1, middle, e.to, e.halvings};
+    stack[count++] = (part){child, e.from, middle, e.halvings};
   }
   return status;
 }

@@ -13,6 +13,7 @@ typedef struct hr2di_grading {
   hr2d_norm norm;             /* of that error */
   unsigned order;             /* of the elements */
   unsigned deeper;            /* levels at corners beyond what the target asks for */
+  unsigned halvings;          /* of every element besides */
   const double *weight;       /* see graded.h; NULL: 1 */
   const hr2di_events *events; /* where elements end; NULL for none */
   size_t max_elements;        /* 0 for no limit */

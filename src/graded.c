@@ -24,8 +24,9 @@ static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
   return status;
 }
 
-static hr2d_status grade(hr2di_answer *a, const hr2di_fineness *fineness,
-                         const hr2d_target *target) {
+/* Trees that have grown before have been halved. */
+static hr2d_status grade(hr2di_answer *a, const hr2d_hierarchy *from,
+                         const hr2di_fineness *fineness, const hr2d_target *target) {
   hr2d_hierarchy *h = a->hierarchy;
   hr2di_events events = {.alloc = h->alloc};
   hr2d_status status = find_events(&events, h, fineness->generations);
@@ -33,6 +34,7 @@ static hr2d_status grade(hr2di_answer *a, const hr2di_fineness *fineness,
                                  .norm = fineness->norm,
                                  .order = fineness->order,
                                  .deeper = fineness->deeper,
+                                 .halvings = from ? 0 : fineness->halvings,
                                  .weight = fineness->weight,
                                  .events = &events,
                                  .max_elements = target->max_elements};
@@ -74,7 +76,7 @@ hr2d_status hr2di_graded_refine(hr2di_answer *a, const hr2d_scene *scene,
   hr2d_status status = from ? hr2di_hierarchy_clone(from, &a->hierarchy)
                             : hr2d_hierarchy_create(scene, &a->hierarchy);
   if (!status) a->hierarchy->order = fineness->order;
-  if (!status) status = grade(a, fineness, target);
+  if (!status) status = grade(a, from, fineness, target);
   if (!status) status = link_elements(a, fineness, target);
   a->refine_seconds = hr2di_now() - start;
   return explain(a, status, message);

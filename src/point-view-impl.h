@@ -47,7 +47,6 @@ struct hr2di_viewer {
   /* The point. */
   size_t patch;
   double t;
-  hr2di_vector axis; /* along its patch, its larger part in [2^400, 2^401) */
   hr2di_bearing *bearing;
   hr2di_arc *arc;
   size_t arcs;

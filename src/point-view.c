@@ -15,10 +15,10 @@
 #include "scene-impl.h"
 #include "side.h"
 
-/* An end of a patch, or a patch by its vertices: what is sorted to find equal ones. */
+/* An end of a patch, or a patch by its two vertices: sorted, equal ones are neighbours. */
 typedef struct tip {
   hr2d_point at;
-  uint32_t index; /* 2·patch + end */
+  uint32_t index; /* 2·patch + end, or the patch */
 } tip;
 
 static int by_point(const void *left, const void *right) {
@@ -151,6 +151,7 @@ static void take_bearings(hr2di_viewer *w, size_t patch, double t) {
   const hr2d_point base = t <= .5 ? a : b;
   const double from_base = t <= .5 ? t : t - 1;
   const hr2di_vector ab = hr2di_difference(b, a);
+  /* Not so short that squares of its length underflow. */
   const int e = 400 - ilogb(fmax(fabs(ab.x), fabs(ab.y)));
   const hr2di_vector axis = {ldexp(ab.x, e), ldexp(ab.y, e), ldexp(ab.tx, e), ldexp(ab.ty, e),
                              0};
@@ -169,7 +170,6 @@ static void take_bearings(hr2di_viewer *w, size_t patch, double t) {
   }
   w->patch = patch;
   w->t = t;
-  w->axis = axis;
 }
 
 static double extent(const hr2di_vector *v) {
@@ -262,7 +262,7 @@ static double fraction_at(const hr2di_viewer *w, const hr2di_arc *arc, uint32_t 
 }
 
 void hr2di_view_note(hr2di_viewer *w, const hr2di_arc *arc, uint32_t right, uint32_t left) {
-  const double sine = fmin(half_sine(w, right, left), 1);
+  const double sine = half_sine(w, right, left);
   if (!(sine > 0)) return;
   if (!arc->front) {
     hr2di_add(&w->back, sine);
@@ -277,7 +277,7 @@ void hr2di_view_note(hr2di_viewer *w, const hr2di_arc *arc, uint32_t right, uint
       from = 1 - DBL_EPSILON;
     }
   }
-  w->glimpse[w->glimpses++] = (hr2di_glimpse){arc->patch, from, to, sine};
+  w->glimpse[w->glimpses++] = (hr2di_glimpse){arc->patch, from, to, fmin(sine, 1)};
 }
 
 /* By patches, keeping the order of those of one patch. */

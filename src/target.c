@@ -26,6 +26,7 @@ typedef struct search {
   hr2d_target target;     /* its progress is watch() */
   hr2d_target given;      /* the caller's */
   double start, deadline; /* 0 for none */
+  int late;               /* a call was ended because the time was up */
   hr2di_survey survey;
   hr2di_answer best;
   double *weight;       /* per patch, where importance is asked for */
@@ -40,7 +41,8 @@ static double left(const search *s) {
 /* Ends a call when the time is up. */
 static hr2d_status watch(void *ctx, const hr2d_progress *progress) {
   search *s = ctx;
-  if (left(s) <= 0) return HR2D_STOPPED;
+  s->late = left(s) <= 0;
+  if (s->late) return HR2D_STOPPED;
   return s->given.progress ? s->given.progress(s->given.progress_ctx, progress) : HR2D_OK;
 }
 
@@ -90,6 +92,9 @@ static hr2d_status attempt(search *s, const hr2di_fineness *fineness) {
         s->target.norm == HR2D_NORM_SUP ? errors.sup.estimate : errors.average.estimate;
     s->account.kernels += errors.kernels;
     if (!s->best.solution || error < error_of(s)) keep(s, &answer, &errors);
+  } else if (s->late && answer.solution && !s->best.solution) {
+    const hr2d_error unknown = {HUGE_VAL, HUGE_VAL};
+    keep(s, &answer, &(hr2di_errors){.average = unknown, .sup = unknown});
   }
   hr2di_answer_clear(&answer);
   return status;
@@ -119,19 +124,18 @@ static hr2d_status reach(search *s, double error) {
 
 /* Falling targets, each as long as there seems to be time for it. */
 static hr2d_status reach_in_time(search *s) {
-  double spent = 0;
   hr2d_status status = HR2D_OK;
   for (double error = 1e-1; !status; error *= 1e-2) {
     const double aim = fmax(error, s->given.error), start = hr2di_now();
     status = reach(s, aim);
     if (status || aim <= s->given.error) break;
-    const double took = hr2di_now() - start, growth = spent > 0 ? took / spent : 4;
-    spent = took;
-    if (took * fmin(fmax(growth, 1.2), 4) > left(s)) status = HR2D_STOPPED;
+    s->late = 1.2 * (hr2di_now() - start) > left(s); /* a finer one takes longer still */
+    if (s->late) break;
   }
-  if (status != HR2D_STOPPED || left(s) > 0.5 * s->given.seconds) return status;
-  give_reason(s, "the time is used up");
-  return s->given.error > 0 ? HR2D_EACCURACY : HR2D_OK;
+  if (!s->late || (status && status != HR2D_STOPPED)) return status;
+  give_reason(s, s->best.solution ? "the time is used up"
+                                  : "the time does not suffice for the coarsest solution");
+  return s->given.error > 0 || !s->best.solution ? HR2D_EACCURACY : HR2D_OK;
 }
 
 static hr2d_status check(const hr2d_scene *scene, const hr2d_target *t) {
@@ -174,7 +178,7 @@ hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
   if (!status)
     status = s.given.seconds > 0 ? reach_in_time(&s)
                                  : reach(&s, s.given.error > 0 ? s.given.error : 1e-15);
-  if (!(s.given.error > 0) && status == HR2D_EACCURACY) status = HR2D_OK;
+  if (!(s.given.error > 0) && s.best.solution && status == HR2D_EACCURACY) status = HR2D_OK;
   if (status && status != HR2D_EACCURACY) give_reason(&s, s.message.text);
   if (!status || status == HR2D_EACCURACY) hand_over(&s, solution);
   s.account.seconds = hr2di_now() - s.start;

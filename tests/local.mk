@@ -25,6 +25,7 @@ SUITES = \
 	tests/check_exchange_matrix \
 	tests/check_corner \
 	tests/check_events \
+	tests/check_point_view \
 	tests/check_study \
 	tests/check_faults
 

@@ -112,7 +112,8 @@ typedef struct hr2d_account {
  * @param account   receives the errors and what it took; may be NULL
  * @return HR2D_OK; HR2D_EACCURACY where the target was not reached, be it for a budget or for
  *         the precision of doubles (account->reason says): the best solution is returned with
- *         its errors; HR2D_ENOMEM, HR2D_EINVAL, HR2D_ESTATE for a scene that is not committed,
+ *         its errors, which are infinite if there was no time to measure them, and NULL if
+ *         there was none for the coarsest; HR2D_ENOMEM, HR2D_EINVAL, HR2D_ESTATE for a scene that is not committed,
  *         HR2D_ENO_SOLUTION, HR2D_ENOT_CONVERGED, or the status of the progress callback.
  *         With `error` 0 it is HR2D_OK when the budget is used up
  *
