@@ -1,8 +1,10 @@
 # Examples use the library as any program does; `make check` compares what they
 # print with NAME.expected.
-EXAMPLES = examples/furnace-section examples/own-oracle examples/solar-panels \
+EXAMPLES = examples/digits examples/furnace-section examples/own-oracle examples/solar-panels \
 	examples/street-canyon examples/tour
 check_PROGRAMS += $(EXAMPLES)
+examples_digits_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_digits_LDADD = libhr2d.la
 examples_furnace_section_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_furnace_section_LDADD = libhr2d.la -lm
 examples_own_oracle_CPPFLAGS = $(PUBLIC_CPPFLAGS)

@@ -21,8 +21,10 @@ enum { SAMPLES = 48, PRODUCTS = 64 };
 #define ERROR_GATHERS    8
 #define ERROR_ITERATIONS 0.7
 
-#define CLOSURE     0.5 /* of the time for blocks, on one thread */
-#define PER_ELEMENT 4.0 /* products of a block */
+#define CLOSURE     0.5  /* of the time for blocks, on one thread */
+#define PER_ELEMENT 4.0  /* products of a block */
+#define CALLS       2.5  /* of the coarse solve: what is done whatever the order */
+#define REST        1.75 /* what is not counted: fields set up, sampled, and copied */
 
 /* Seconds of an operator: its links and blocks, and one gather. */
 typedef struct cost {
@@ -122,8 +124,9 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
     p->leaves = solve.leaves;
     p->links = solve.links;
     p->bytes = solve.bytes + error.bytes;
-    p->seconds = coarse + solve.make + iterations * solve.gather + error.make +
-                 (ERROR_GATHERS + ERROR_ITERATIONS * iterations) * error.gather;
+    p->seconds = CALLS * coarse +
+                 REST * (solve.make + iterations * solve.gather + error.make +
+                         (ERROR_GATHERS + ERROR_ITERATIONS * iterations) * error.gather);
   }
   hr2di_answer_clear(&first);
   hr2di_answer_clear(&second);

@@ -12,8 +12,10 @@
  *                   a policy (oracle.h, policy.h)
  *   hr2d_solution   radiosity on every element               solve.h
  *
- * and beside them exchange areas of segments (geometry.h), those with occluders and of
- * all patches (visibility.h), and the study of L against N (study.h).  Objects are destroyed in the opposite order.
+ * Objects are destroyed in the opposite order.  Who wants digits rather than links asks
+ * hr2d_solve_to(), which makes the lot (accuracy.h).  Beside them are exchange areas of
+ * segments (geometry.h), those with occluders and of all patches (visibility.h), and the
+ * study of L against N (study.h).
  *
  * @include tour.c
  */
