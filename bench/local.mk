@@ -1,16 +1,23 @@
 # Measurements, built and run by `make bench` alone.
-BENCHES = bench/bench_exchange_area bench/bench_refine bench/bench_l1 bench/bench_visibility
+BENCHES = bench/bench_exchange_area bench/bench_refine bench/bench_l1 bench/bench_visibility \
+	bench/bench_accuracy
 EXTRA_PROGRAMS += $(BENCHES)
 CLEANFILES += $(BENCHES)
 bench_bench_exchange_area_SOURCES = bench/bench_exchange_area.c bench/timing.h
 bench_bench_exchange_area_LDADD = libhr2d-core.la $(OPENMP_CFLAGS)
-bench_bench_refine_SOURCES = bench/bench_refine.c bench/timing.h
-bench_bench_refine_LDADD = libhr2d-core.la $(OPENMP_CFLAGS)
+bench_bench_refine_SOURCES = bench/bench_refine.c bench/plain.c bench/plain.h bench/timing.h
+bench_bench_refine_LDADD = libhr2d-core.la $(OPENMP_CFLAGS) -lm
 bench_bench_visibility_SOURCES = bench/bench_visibility.c bench/timing.h
 bench_bench_visibility_LDADD = libhr2d-core.la $(OPENMP_CFLAGS) -lm
 bench_bench_l1_SOURCES = bench/bench_l1.c bench/timing.h
 bench_bench_l1_CPPFLAGS = $(AM_CPPFLAGS)
 bench_bench_l1_LDADD = libhr2d-core.la $(GSL_LIBS) $(OPENMP_CFLAGS) -lm
+bench_bench_accuracy_SOURCES = bench/bench_accuracy.c bench/dense.c bench/dense.h bench/many.c \
+	bench/many.h bench/plain.c bench/plain.h bench/timing.h tests/radiosity_scenes.c \
+	tests/radiosity_scenes.h
+bench_bench_accuracy_CPPFLAGS = $(AM_CPPFLAGS) -I$(srcdir)/tests $(LAPACK_CFLAGS) \
+	-DBENCH_DATA='"$(abs_top_srcdir)/tests/reference"'
+bench_bench_accuracy_LDADD = libhr2d-core.la $(LAPACK_LIBS) $(GSL_LIBS) $(OPENMP_CFLAGS) -lm
 
 bench: $(BENCHES)
 	@for program in $(BENCHES); do echo "== $$program"; ./$$program || exit 1; done

@@ -9,8 +9,7 @@
 /* Sets t->closure from the links and the exact row sums; HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_close(hr2di_transport *t, const hr2di_rows *rows);
 
-/* The same at an order above 1, where only the links between distant pairs are inexact and
-   the row sums of these are known. */
-hr2d_status hr2di_close_distant(hr2di_transport *t);
+/* The same at an order above 1; no row sums need be integrated. */
+hr2d_status hr2di_close_orders(hr2di_transport *t);
 
 #endif

@@ -30,9 +30,9 @@ static hr2d_status integrate_rows(hr2di_equation *s) {
   const int background = s->links->hierarchy->scene->effect[HR2D_EFFECT_BACKGROUND].on;
   if (!closure && !background) return HR2D_OK;
   if (s->transport.order > 1) {
-    hr2d_status status = background ? hr2di_look_at_sky(&s->transport) : HR2D_OK;
+    hr2d_status status = closure ? hr2di_close_orders(&s->transport) : HR2D_OK;
     if (background) s->row_sums = s->transport.leaves;
-    return !status && closure ? hr2di_close_distant(&s->transport) : status;
+    return !status && background ? hr2di_set_sky_orders(&s->transport) : status;
   }
   hr2di_rows rows;
   hr2d_status status = hr2di_rows_make(&rows, &s->transport, background);

@@ -52,10 +52,9 @@ static const double *relation_of(const hr2di_push_pull *p, uint32_t element) {
   return p->relation + 2 * pair * p->order * p->order;
 }
 
-/* parent_l += part Σ_k relation_lk child_k */
-static void add_up(const hr2di_push_pull *p, const double *relation, double part,
-                   const double *child, double *parent) {
-  const size_t order = p->order, bands = p->bands;
+/* parent_l += part Σ_k relation_lk child_k.  A stride that is known makes a loop of vectors. */
+static inline void add_up_bands(const double *relation, size_t order, size_t bands, double part,
+                                const double *child, double *parent) {
   for (size_t l = 0; l < order; l++)
     for (size_t b = 0; b < bands; b++) {
       double sum = 0;
@@ -65,6 +64,14 @@ static void add_up(const hr2di_push_pull *p, const double *relation, double part
       for (size_t k = 0; k <= l; k++) sum += relation[l * order + k] * child[k * bands + b];
       parent[l * bands + b] += part * sum;
     }
+}
+
+static void add_up(const hr2di_push_pull *p, const double *relation, double part,
+                   const double *child, double *parent) {
+  if (p->bands == 1)
+    add_up_bands(relation, p->order, 1, part, child, parent);
+  else
+    add_up_bands(relation, p->order, p->bands, part, child, parent);
 }
 
 void hr2di_pull(const hr2di_push_pull *p, double *field) {
@@ -89,13 +96,20 @@ void hr2di_pull(const hr2di_push_pull *p, double *field) {
 }
 
 /* child_k += Σ_l relation_lk parent_l */
-static void add_down(const hr2di_push_pull *p, const double *relation, const double *parent,
-                     double *child) {
-  const size_t order = p->order, bands = p->bands;
+static inline void add_down_bands(const double *relation, size_t order, size_t bands,
+                                  const double *restrict parent, double *restrict child) {
   for (size_t l = 0; l < order; l++)
     for (size_t b = 0; b < bands; b++)
       for (size_t k = 0; k <= l; k++)
         child[k * bands + b] += relation[l * order + k] * parent[l * bands + b];
+}
+
+static void add_down(const hr2di_push_pull *p, const double *relation, const double *parent,
+                     double *child) {
+  if (p->bands == 1)
+    add_down_bands(relation, p->order, 1, parent, child);
+  else
+    add_down_bands(relation, p->order, p->bands, parent, child);
 }
 
 void hr2di_push(const hr2di_push_pull *p, double *field) {

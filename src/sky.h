@@ -10,7 +10,8 @@
    backs.  HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_set_sky(hr2di_transport *t, const hr2di_rows *rows);
 
-/* The same at an order above 1, looking from points of each leaf. */
-hr2d_status hr2di_look_at_sky(hr2di_transport *t);
+/* The same at an order above 1, from the rows of the operator; from points of each leaf it is
+   looked for backs. */
+hr2d_status hr2di_set_sky_orders(hr2di_transport *t);
 
 #endif

@@ -128,7 +128,7 @@ static hr2d_status reach_in_time(search *s) {
   for (double error = 1e-1; !status; error *= 1e-2) {
     const double aim = fmax(error, s->given.error), start = hr2di_now();
     status = reach(s, aim);
-    if (status || aim <= s->given.error) break;
+    if (status || error_of(s) <= s->given.error || aim <= s->given.error) break;
     s->late = 1.2 * (hr2di_now() - start) > left(s); /* a finer one takes longer still */
     if (s->late) break;
   }

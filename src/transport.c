@@ -79,8 +79,8 @@ static void gather_block(const hr2d_link *link, size_t count, size_t bands, int 
 }
 
 /* to_l += Σ_m C_lm from_m */
-static void add_block(const double *c, size_t order, size_t bands, const double *from,
-                      double *to) {
+static inline void add_bands(const double *c, size_t order, size_t bands, const double *from,
+                             double *to) {
   for (size_t l = 0; l < order; l++)
     for (size_t b = 0; b < bands; b++) {
       double sum = 0;
@@ -90,6 +90,14 @@ static void add_block(const double *c, size_t order, size_t bands, const double 
       for (size_t m = 0; m < order; m++) sum += c[l * order + m] * from[m * bands + b];
       to[l * bands + b] += sum;
     }
+}
+
+static void add_block(const double *c, size_t order, size_t bands, const double *from,
+                      double *to) {
+  if (bands == 1)
+    add_bands(c, order, 1, from, to);
+  else
+    add_bands(c, order, bands, from, to);
 }
 
 /* to_m += Σ_l C_lm from_l */

@@ -23,6 +23,8 @@ SUITES = \
 	tests/check_effects \
 	tests/check_visibility \
 	tests/check_exchange_matrix \
+	tests/check_blocks \
+	tests/check_order \
 	tests/check_corner \
 	tests/check_events \
 	tests/check_point_view \
@@ -41,9 +43,11 @@ SH_LOG_COMPILER = $(SHELL)
 if HAVE_TESTS
 check_LTLIBRARIES = tests/libsupport.la
 tests_libsupport_la_SOURCES = \
+	tests/brute_block.c tests/brute_block.h \
 	tests/mpfr_exchange.c tests/mpfr_exchange.h \
 	tests/pair_classes.c tests/pair_classes.h \
 	tests/brute_visibility.c tests/brute_visibility.h \
+	tests/radiosity_scenes.c tests/radiosity_scenes.h \
 	tests/room_plans.c tests/room_plans.h \
 	tests/support.c tests/support.h \
 	tests/visibility_cases.c tests/visibility_cases.h
