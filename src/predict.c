@@ -14,7 +14,8 @@
 #include "scene-impl.h"
 #include "transport.h"
 
-enum { SAMPLES = 48, PRODUCTS = 64 };
+enum { SAMPLES = 48, PRODUCTS = 64, RUNS = 5 };
+#define SHORT 0.02
 
 /* Gathers of an account of the error: terms of the series, and two solves that are not to full
    precision (see estimate.c). */
@@ -140,5 +141,13 @@ hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *target,
   if (target) hr2di_copy_sized(&used, sizeof used, target);
   if (!scene->committed) return HR2D_ESTATE;
   if (!(used.error >= 0)) return HR2D_EINVAL;
-  return predict(scene, &used, prediction);
+  const double start = hr2di_now();
+  hr2d_status status = predict(scene, &used, prediction);
+  /* Short times are disturbed by what else the machine does: the least of several. */
+  for (int run = 1; run < RUNS && !status && hr2di_now() - start < SHORT; run++) {
+    const double least = prediction->seconds;
+    status = predict(scene, &used, prediction);
+    prediction->seconds = fmin(prediction->seconds, least);
+  }
+  return status;
 }
