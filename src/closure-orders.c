@@ -30,6 +30,7 @@ typedef struct rows {
   hr2di_rule rule;                               /* for form factors */
   hr2di_rule product;                            /* for d φ_l φ_m, of degree 3p − 3 */
   unsigned char *closed;                         /* per patch */
+  hr2di_sum *rest;                               /* per patch: what its links leave of A */
   uint32_t *number;                              /* of each leaf among the leaves */
   double *one;                                   /* leaves × width: B = 1 */
   double *row;                                   /* what distant links make of it */
@@ -77,12 +78,11 @@ static void add_links(rows *r) {
 }
 
 /* Which patches see patches wherever they look: A − Σ AF over their links is 0. */
-static hr2d_status find_closed(rows *r) {
+static void find_closed(rows *r) {
   const hr2d_linkset *links = r->t->links;
   const hr2d_element *element = r->t->hierarchy->element;
   const size_t patches = r->t->hierarchy->scene->patches;
-  hr2di_sum *rest = hr2di_alloc(&r->t->alloc, patches, sizeof *rest);
-  if (!rest) return HR2D_ENOMEM;
+  hr2di_sum *rest = r->rest;
   for (size_t k = 0; k < patches; k++) rest[k] = (hr2di_sum){element[k].length, 0};
   for (uint64_t k = 0; k < links->store.count; k++) {
     const hr2d_link *link = hr2di_store_at(&links->store, k);
@@ -92,8 +92,15 @@ static hr2d_status find_closed(rows *r) {
   }
   for (size_t k = 0; k < patches; k++)
     r->closed[k] = fabs(hr2di_total(&rest[k])) <= CLOSED * element[k].length;
-  hr2di_free(&r->t->alloc, rest);
-  return HR2D_OK;
+}
+
+/* The same where clusters have part of the rows, to a known accuracy: smaller openings are
+   none. */
+static void find_closed_by_rows(rows *r, hr2di_transport *t) {
+  const double none = 10 * t->links->roots.digits;
+  hr2di_raise(t, r->all);
+  for (size_t k = 0; k < t->hierarchy->scene->patches; k++)
+    r->closed[k] = fabs(1 - t->up[k * t->width]) <= none;
 }
 
 /* (1/A)∫ d φ_l φ_m of d = Σ missing_k φ_k, symmetric. */
@@ -122,6 +129,11 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
   }
   hr2di_gather_part(t, HR2DI_ALL_LINKS, r->one, r->all);
   hr2di_gather_part(t, HR2DI_DISTANT_LINKS, r->one, r->row);
+  const hr2di_clusters *clusters = t->links->roots.clusters;
+  if (clusters && hr2di_clusters_links(clusters) > 0)
+    find_closed_by_rows(r, t);
+  else
+    find_closed(r);
   add_links(r);
   for (size_t k = 0; k < t->leaves; k++) {
     const int closed = r->closed[t->hierarchy->element[t->leaf[k]].patch];
@@ -144,10 +156,11 @@ hr2d_status hr2di_close_orders(hr2di_transport *t) {
   r.row = hr2di_alloc(alloc, t->leaves * t->width, sizeof *r.row);
   r.all = hr2di_alloc(alloc, t->leaves * t->width, sizeof *r.all);
   r.closed = hr2di_alloc(alloc, t->hierarchy->scene->patches, 1);
+  r.rest = hr2di_alloc(alloc, t->hierarchy->scene->patches, sizeof *r.rest);
   r.exact = hr2di_calloc(alloc, t->leaves * t->order, sizeof *r.exact);
   double *closure = hr2di_alloc(alloc, t->leaves, t->order * t->order * sizeof *closure);
   const int room =
-      r.number && r.one && r.row && r.all && r.closed && r.exact && closure && !find_closed(&r);
+      r.number && r.one && r.row && r.all && r.closed && r.rest && r.exact && closure;
   if (room) {
     close_rows(&r, t, closure);
     t->closure = closure;
@@ -159,6 +172,7 @@ hr2d_status hr2di_close_orders(hr2di_transport *t) {
   hr2di_free(alloc, r.row);
   hr2di_free(alloc, r.all);
   hr2di_free(alloc, r.closed);
+  hr2di_free(alloc, r.rest);
   hr2di_free(alloc, r.exact);
   return room ? HR2D_OK : HR2D_ENOMEM;
 }

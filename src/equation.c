@@ -161,21 +161,21 @@ hr2d_status hr2di_equation_solve(hr2di_equation *s) {
   for (size_t k = 0; k < s->field; k++) s->b[k] = s->root_rho[k] * s->irradiance[k];
   const hr2di_system system = make_system(s);
   double residual = 0;
-  const hr2d_status status = hr2di_krylov(&system, s->b, s->y, &residual);
+  hr2d_status status = hr2di_krylov(&system, s->b, s->y, &residual);
+  if (s->transport.failed) status = HR2D_ENOMEM;
   if (status == HR2D_ENOT_CONVERGED)
     return hr2di_fail(&s->links->message, status,
                       "the relative residual is %.1e where %.1e was asked for, after %llu "
                       "gathers",
                       residual, s->options.tolerance, (unsigned long long)s->transport.sweeps);
   if (status) return hr2di_fail(&s->links->message, status, "solve: %s", hr2d_strerror(status));
-  set_radiosity(s, s->y);
-  hr2di_equation_gather(s, s->radiosity);
-  return HR2D_OK;
+  return hr2di_equation_take(s);
 }
 
-void hr2di_equation_take_once(hr2di_equation *s) {
+hr2d_status hr2di_equation_take(hr2di_equation *s) {
   set_radiosity(s, s->y);
   hr2di_equation_gather(s, s->radiosity);
+  return s->transport.failed ? HR2D_ENOMEM : HR2D_OK;
 }
 
 /* ‖Q + ρH − B‖/‖B‖, the largest over the bands. */

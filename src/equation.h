@@ -41,8 +41,9 @@ void hr2di_equation_gather(hr2di_equation *eq, const double *radiosity);
 /* Solves for radiosity and irradiance, from y as it is; leaves a message if it fails. */
 hr2d_status hr2di_equation_solve(hr2di_equation *eq);
 
-/* The same where nothing reflects: B = Q, and one gather. */
-void hr2di_equation_take_once(hr2di_equation *eq);
+/* B = Q + √ρ y and its irradiance; all there is to do where nothing reflects.  HR2D_OK or
+   HR2D_ENOMEM. */
+hr2d_status hr2di_equation_take(hr2di_equation *eq);
 
 /* ‖Q + ρH − B‖/‖B‖, the largest over the bands. */
 double hr2di_equation_residual(hr2di_equation *eq);

@@ -40,6 +40,7 @@ hr2di_fineness hr2di_finer(const hr2di_fineness *f) {
   hr2di_fineness finer = *f;
   finer.order = f->order + 2 < HR2D_MAX_ORDER ? f->order + 2 : HR2D_MAX_ORDER;
   finer.deeper += 4;
+  finer.digits = fmax(0.1 * f->digits, 1e-14);
   if (f->weight) finer.target *= 0.01;
   if (f->target < 1e-5 && f->hidden) finer.generations++;
   return finer;

@@ -4,11 +4,13 @@
 
 #include "clock.h"
 #include "linkset-impl.h"
+#include "scene-impl.h"
 #include "separation.h"
 #include "solution-impl.h"
 
-/* Beyond so many events they cost more than they bring. */
-enum { MOST_EVENTS = 30000 };
+/* Beyond so many events they cost more than they bring; from so many patches on clusters spare
+   more pairs than they cost. */
+enum { MOST_EVENTS = 30000, MANY = 256 };
 
 /* As many generations as there is room for. */
 static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
@@ -57,7 +59,10 @@ static hr2d_status link_elements(hr2di_answer *a, const hr2di_fineness *fineness
   hr2d_status status = hr2d_linkset_create(a->hierarchy, hr2di_oracle_separation(), &separation,
                                            hr2di_policy_graded(), NULL, &a->links);
   if (status) return status;
-  status = hr2d_refine(a->links, &options);
+  if (a->hierarchy->scene->patches >= MANY)
+    status = hr2di_roots_make(&a->links->roots, a->hierarchy->scene, &a->links->alloc,
+                              fineness->digits);
+  if (!status) status = hr2d_refine(a->links, &options);
   a->links->oracle_ctx = NULL; /* which is not asked again */
   return status;
 }

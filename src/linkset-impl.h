@@ -7,6 +7,7 @@
 
 #include "blocks.h"
 #include "message.h"
+#include "roots.h"
 
 /* Links are kept in blocks, so that a growing store never copies them. */
 enum { HR2DI_BLOCK_LINKS = 4096 };
@@ -28,6 +29,7 @@ struct hr2d_linkset {
   hr2di_message message;
   hr2di_store store;
   hr2di_blocks blocks; /* of links that were solved at an order above 1 */
+  hr2di_roots roots;   /* where a refinement begins; empty: with all pairs of patches */
   int directed;
   hr2d_refine_counts counts;
 };

@@ -41,6 +41,7 @@ void hr2d_linkset_destroy(hr2d_linkset *links) {
   const hr2d_allocator alloc = links->alloc;
   hr2di_store_clear(&links->store, &alloc);
   hr2di_blocks_clear(&links->blocks, &alloc);
+  hr2di_roots_clear(&links->roots, &alloc);
   hr2di_free(&alloc, links);
 }
 
@@ -109,6 +110,8 @@ hr2d_refine_counts hr2d_linkset_counts(const hr2d_linkset *links) {
 
 uint64_t hr2d_linkset_bytes(const hr2d_linkset *links) {
   const hr2di_blocks *b = &links->blocks;
+  const hr2di_roots *r = &links->roots;
   return hr2di_store_bytes(&links->store) +
+         (r->clusters ? hr2di_clusters_bytes(r->clusters) + r->capacity * sizeof *r->pair : 0) +
          b->links * (b->order * b->order * sizeof *b->value + sizeof *b->distant);
 }

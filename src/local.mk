@@ -19,6 +19,14 @@ libhr2d_core_la_SOURCES = \
 	src/clock.h \
 	src/closure.c src/closure.h \
 	src/closure-orders.c \
+	src/cluster-beams.c src/cluster-beams.h \
+	src/cluster-far.c src/cluster-far.h \
+	src/cluster-gather.c \
+	src/cluster-shade.c src/cluster-shade.h \
+	src/cluster-sides.c src/cluster-sides.h \
+	src/cluster-tree.c src/cluster-tree.h \
+	src/clusters.c src/clusters.h \
+	src/clusters-impl.h \
 	src/commit.c \
 	src/corner.c src/corner.h \
 	src/corridor.c src/corridor.h \
@@ -80,6 +88,7 @@ libhr2d_core_la_SOURCES = \
 	src/projector.c \
 	src/push-pull.c src/push-pull.h \
 	src/refine.c \
+	src/roots.c src/roots.h \
 	src/rows.c src/rows.h \
 	src/runs.c src/runs.h \
 	src/scene.c \

@@ -82,6 +82,7 @@ hr2d_status hr2di_projector_start(hr2d_linkset *links, const hr2d_refine_options
   p->bytes = sizeof *p + hr2di_store_bytes(&links->store);
   p->roots = (double)p->hierarchy->scene->patches * (double)(p->hierarchy->scene->patches - 1) /
              (p->directed ? 1 : 2);
+  if (links->roots.clusters) p->roots = (double)links->roots.count;
   hr2d_status status = set_brightness(p);
   if (!status) status = set_sight(p);
   if (status)
@@ -106,25 +107,38 @@ void hr2di_projector_end(hr2di_projector *p) {
   hr2di_free(alloc, p);
 }
 
-hr2d_status hr2di_project_row(hr2di_projector *p, size_t patch) {
+/* Collects pairs to be proposed. */
+typedef struct proposals {
+  hr2d_pair pair[HR2DI_CANDIDATES];
+  size_t count;
+} proposals;
+
+static hr2d_status add_root(hr2di_projector *p, proposals *roots, size_t patch, size_t k) {
   const hr2d_scene *scene = p->hierarchy->scene;
-  const size_t n = scene->patches;
-  hr2d_pair pairs[HR2DI_CANDIDATES];
-  size_t count = 0;
-  hr2d_status status = HR2D_OK;
-  for (size_t k = p->directed ? 0 : patch + 1; k < n && !status; k++) {
-    if (k == patch) continue;
-    p->roots_done++;
-    if (!hr2di_lit(scene, patch) || !hr2di_lit(scene, k)) {
-      p->counts.dark_pairs++;
-      continue;
-    }
-    pairs[count++] = (hr2d_pair){(uint32_t)patch, (uint32_t)k};
-    if (count < HR2DI_CANDIDATES) continue;
-    status = hr2di_propose_roots(p, pairs, count);
-    count = 0;
+  p->roots_done++;
+  if (!hr2di_lit(scene, patch) || !hr2di_lit(scene, k)) {
+    p->counts.dark_pairs++;
+    return HR2D_OK;
   }
-  return status ? status : hr2di_propose_roots(p, pairs, count);
+  roots->pair[roots->count++] = (hr2d_pair){(uint32_t)patch, (uint32_t)k};
+  if (roots->count < HR2DI_CANDIDATES) return HR2D_OK;
+  roots->count = 0;
+  return hr2di_propose_roots(p, roots->pair, HR2DI_CANDIDATES);
+}
+
+hr2d_status hr2di_project_row(hr2di_projector *p, size_t patch) {
+  const size_t n = p->hierarchy->scene->patches;
+  const hr2di_roots *known = &p->links->roots;
+  proposals roots;
+  roots.count = 0;
+  hr2d_status status = HR2D_OK;
+  if (known->clusters)
+    for (size_t k = known->row[patch]; k < known->row[patch + 1] && !status; k++)
+      status = add_root(p, &roots, patch, known->pair[k].second);
+  else
+    for (size_t k = p->directed ? 0 : patch + 1; k < n && !status; k++)
+      if (k != patch) status = add_root(p, &roots, patch, k);
+  return status ? status : hr2di_propose_roots(p, roots.pair, roots.count);
 }
 
 hr2d_status hr2di_project_all(hr2di_projector *p) {

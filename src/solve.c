@@ -101,7 +101,7 @@ hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *given,
     if (options.start) warm_start(&eq);
     status = hr2di_equation_solve(&eq);
   } else if (!status) {
-    hr2di_equation_take_once(&eq);
+    status = hr2di_equation_take(&eq);
   }
   if (!status) status = make_solution(&eq, solution);
   if (status == HR2D_ENOMEM) hr2di_fail(&links->message, status, "out of memory for the solve");

@@ -11,6 +11,7 @@
 #include "estimate.h"
 #include "fineness.h"
 #include "importance.h"
+#include "linkset-impl.h"
 #include "options.h"
 #include "scene-impl.h"
 #include "solution-impl.h"
@@ -72,6 +73,8 @@ static void keep(search *s, hr2di_answer *answer, const hr2di_errors *errors) {
   a->elements = counts.elements;
   a->leaves = counts.leaves;
   a->links = hr2d_linkset_size(s->best.links);
+  if (s->best.links->roots.clusters)
+    a->links += hr2di_clusters_links(s->best.links->roots.clusters);
   a->events = s->best.events;
   a->bytes = hr2di_answer_bytes(&s->best);
 }
@@ -118,7 +121,7 @@ static hr2d_status reach(search *s, double error) {
     if (hr2di_fineness_raise(&fineness, &s->best.survey, before / (0.5 * error))) break;
   }
   if (error_of(s) <= error) return HR2D_OK;
-  give_reason(s, "the error does not come down any more: this is what double precision gives");
+  give_reason(s, "finer elements bring the error down no further");
   return HR2D_EACCURACY;
 }
 

@@ -171,6 +171,12 @@ static void sum_slices(hr2di_transport *t) {
   }
 }
 
+/* Roots are the first elements, so that their fields are those of the patches. */
+static void gather_clusters(hr2di_transport *t) {
+  if (hr2di_clusters_gather(t->links->roots.clusters, t->order, t->bands, t->up, t->down))
+    t->failed = 1;
+}
+
 /* Power to irradiance, and every element's to its children. */
 static void lower(hr2di_transport *t, double *irradiance) {
   const size_t width = t->width;
@@ -191,6 +197,7 @@ void hr2di_gather_part(hr2di_transport *t, hr2di_part part, const double *radios
 #endif
   for (size_t slice = 0; slice < t->slices; slice++) gather_slice(t, part, slice);
   sum_slices(t);
+  if (t->links->roots.clusters && part == HR2DI_ALL_LINKS) gather_clusters(t);
   lower(t, irradiance);
   t->sweeps++;
 }

@@ -25,6 +25,7 @@ typedef struct hr2di_transport {
   size_t slices;    /* the links are cut into so many parts, whatever the threads */
   unsigned threads; /* 0 for all */
   uint64_t sweeps;  /* gathers so far */
+  int failed;       /* a gather lacked memory; what it made is not to be used */
 } hr2di_transport;
 
 /* For the order of the hierarchy, and links that have blocks if that is above 1; HR2D_OK or

@@ -90,7 +90,7 @@ typedef struct hr2d_account {
   unsigned solves;     /**< solutions made on the way, this one included */
   uint64_t elements;   /**< N */
   uint64_t leaves;     /**< elements without children */
-  uint64_t links;      /**< L */
+  uint64_t links;      /**< L, links between clusters of patches included */
   uint64_t events;     /**< visibility events at which elements end */
   uint64_t bytes;      /**< of elements, links and blocks */
   uint64_t kernels;    /**< values of G integrated, over all solves */
