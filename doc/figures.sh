@@ -1,12 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The paper's figures again: figures.sh OUT DATA draws them into OUT and keeps the
-# sweeps in DATA, from which a second run resumes.
+# The paper's figures again, and what accuracy costs: figures.sh OUT DATA draws them into
+# OUT and keeps the sweeps in DATA, from which a second run resumes.
 #
-# Environment: HR2D_PROGRAM, the program; HR2D_SCENES, the example scenes.
+# Environment: HR2D_PROGRAM, the program; HR2D_SCENES, the example scenes; HR2D_SRCDIR,
+# the top of the sources; HR2D_COST_SECONDS, how long each scene of cost.md may take (60).
 set -eu
 hr2d=${HR2D_PROGRAM:?names the program}
 scenes=${HR2D_SCENES:?names the folder of scenes}
+screened=${HR2D_SRCDIR:?names the source directory}/examples/scenes/screened-room.geojson
+cost_seconds=${HR2D_COST_SECONDS:-60}
 out=${1:?names the folder for the figures}
 data=${2:?names the folder for the sweeps}
 steps=200
@@ -205,3 +208,37 @@ $(comparison par-far)
 $(comparison orth-near)
 $(comparison orth-far)
 END
+
+# cost NAME SCENE: seconds and links against error, with the rows; for each method a row of
+# cost-table.md: of the runs that come to an error the quickest, its seconds and links
+cost() {
+  [ -s "$data/cost-$1.json" ] ||
+    "$hr2d" cost "$2" --max-seconds "$cost_seconds" --quiet --against seconds,links \
+      --plot "$out/cost-$1.svg" --csv "$out/cost-$1.csv" --json "$data/cost-$1.json"
+  awk -F, -v scene="$1" -v wanted="1e-2 1e-3 1e-4 1e-6 1e-9 1e-12" '
+    function say(s) {
+      if (s >= 1) return sprintf("%.2g s", s)
+      return s < 0.01 ? sprintf("%.2g ms", 1e3 * s) : sprintf("%.0f ms", 1e3 * s) }
+    BEGIN { n = split(wanted, target, " ") }
+    NR > 1 { if (!($1 in known)) { known[$1] = 1; method[++methods] = $1 }
+             for (k = 1; k <= n; k++)
+               if ($8 <= target[k] && (!(($1, k) in links) || $7 < time[$1, k])) {
+                 links[$1, k] = $5; time[$1, k] = $7 } }
+    END { for (m = 1; m <= methods; m++) {
+            printf "| %s | %s |", scene, method[m]
+            for (k = 1; k <= n; k++)
+              if ((method[m], k) in links)
+                printf " %s, %d |", say(time[method[m], k]), links[method[m], k]
+              else printf " |"
+            print "" } }' "$out/cost-$1.csv" >>"$out/cost-table.md"
+}
+{
+  echo "| scene | method | 1e-2 | 1e-3 | 1e-4 | 1e-6 | 1e-9 | 1e-12 |"
+  echo "|---|---|---|---|---|---|---|---|"
+} >"$out/cost-table.md"
+cost par-near "$scenes/par-near.geojson"
+cost par-far "$scenes/par-far.geojson"
+cost orth-near "$scenes/orth-near.geojson"
+cost corner "$scenes/corner.geojson"
+cost square-room "$scenes/square-room.geojson"
+cost screened-room "$screened"

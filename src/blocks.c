@@ -76,11 +76,11 @@ static hr2d_status make_all(const maker *m, const hr2di_blocks_plan *plan) {
   return status;
 }
 
-/* No more threads than rounds can feed. */
+/* Few links are done before a thread has woken up. */
 static size_t count_threads(unsigned asked, uint64_t links) {
 #ifdef _OPENMP
   const size_t threads = asked ? asked : (size_t)omp_get_max_threads();
-  const size_t most = (size_t)(1 + links / CHUNK);
+  const size_t most = (size_t)(1 + links / ROUND);
   return threads < most ? threads : most;
 #else
   (void)asked;

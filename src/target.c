@@ -125,8 +125,12 @@ static hr2d_status reach(search *s, double error) {
   return HR2D_EACCURACY;
 }
 
-/* Falling targets, each as long as there seems to be time for it. */
-static hr2d_status reach_in_time(search *s) {
+static int is_budget(hr2d_status status) {
+  return status == HR2D_EMAX_ELEMENTS || status == HR2D_EMAX_LINKS || status == HR2D_EMAX_BYTES;
+}
+
+/* Falling targets, as long as there seems to be time for the next and no budget is spent. */
+static hr2d_status reach_step_by_step(search *s) {
   hr2d_status status = HR2D_OK;
   for (double error = 1e-1; !status; error *= 1e-2) {
     const double aim = fmax(error, s->given.error), start = hr2di_now();
@@ -134,6 +138,10 @@ static hr2d_status reach_in_time(search *s) {
     if (status || error_of(s) <= s->given.error || aim <= s->given.error) break;
     s->late = 1.2 * (hr2di_now() - start) > left(s); /* a finer one takes longer still */
     if (s->late) break;
+  }
+  if (is_budget(status) && s->best.solution) {
+    give_reason(s, s->message.text);
+    return HR2D_EACCURACY;
   }
   if (!s->late || (status && status != HR2D_STOPPED)) return status;
   give_reason(s, s->best.solution ? "the time is used up"
@@ -178,9 +186,12 @@ hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
   if (s.given.seconds > 0) s.deadline = s.start + s.given.seconds;
   status = hr2di_survey_scene(scene, &s.survey);
   if (!status) status = weigh_patches(&s);
-  if (!status)
-    status = s.given.seconds > 0 ? reach_in_time(&s)
-                                 : reach(&s, s.given.error > 0 ? s.given.error : 1e-15);
+  if (!status && !(s.given.seconds > 0)) {
+    status = reach(&s, s.given.error > 0 ? s.given.error : 1e-15);
+    if (is_budget(status)) status = reach_step_by_step(&s);
+  } else if (!status) {
+    status = reach_step_by_step(&s);
+  }
   if (!(s.given.error > 0) && s.best.solution && status == HR2D_EACCURACY) status = HR2D_OK;
   if (status && status != HR2D_EACCURACY) give_reason(&s, s.message.text);
   if (!status || status == HR2D_EACCURACY) hand_over(&s, solution);

@@ -4,71 +4,17 @@
 #
 # Environment: HR2D_PROGRAM, the program; HR2D_SCENES, the example scenes;
 # HR2D_SRCDIR, the top of the sources.
-: "${HR2D_PROGRAM:?names the program}" "${HR2D_SRCDIR:?names the source directory}"
+: "${HR2D_SRCDIR:?names the source directory}"
 scenes=${HR2D_SCENES:-$HR2D_SRCDIR/examples/scenes}
 data=$HR2D_SRCDIR/tests/cli
 reference=$HR2D_SRCDIR/tests/reference
-work=$(mktemp -d) || exit 99
-trap 'rm -rf "$work"' EXIT
-passed=0
-failed=0
+. "$data/expect.sh"
 
-# check WHAT COMMAND...: counts whether the command succeeds
-check() {
-  what=$1
-  shift
-  if "$@"; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    echo "FAILED: $what"
-  fi
-}
-
-hr2d() {
-  "$HR2D_PROGRAM" "$@"
-}
-
-# run ARGUMENTS...: runs the program; its status and streams are kept
-run() {
-  hr2d "$@" >"$work/out" 2>"$work/err" </dev/null
-  status=$?
-}
-
-# expect STATUS REGEX ARGUMENTS...: status, and one line on stderr that matches
-matches() {
-  [ "$status" -eq "$1" ] && [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q -e "$2" "$work/err"
-}
-expect() {
-  wanted=$1
-  message=$2
-  shift 2
-  run "$@"
-  check "hr2d $* -> $wanted, $message; was $status, $(head -n 1 "$work/err")" \
-    matches "$wanted" "$message"
-}
-usage() {
-  message=$1
-  shift
-  expect 2 "^hr2d: $message.*; try 'hr2d --help'\$" "$@"
-}
-succeeds() {
-  run "$@"
-  check "hr2d $* -> 0; was $status, $(head -n 1 "$work/err")" [ "$status" -eq 0 ]
-}
-
-near() { # near VALUE REFERENCE RELATIVE
-  awk -v x="$1" -v y="$2" -v e="$3" \
-    'BEGIN { d = x - y; if (d < 0) d = -d; if (y < 0) y = -y; exit !(d <= e * y) }'
-}
 is_absent() {
   ! [ -e "$1" ]
 }
 no_leftovers() {
   [ -z "$(find "$work" -name '.hr2d-*')" ]
-}
-lacks() {
-  ! grep -q -e "$1" "$2"
 }
 
 far=$scenes/par-far.geojson
@@ -76,7 +22,7 @@ narrow=$scenes/par-near.geojson
 
 # ---- bad usage: exit 2, one line
 usage "no command given"
-usage "unknown command 'cost'" cost "$far"
+usage "unknown command 'price'" price "$far"
 usage "unknown command ''" ""
 usage "expected a command before '--eps'" --eps 1
 usage "'x' is one argument too many" --help x
@@ -150,7 +96,7 @@ usage "--link-parents needs --variant modified" solve "$far" --draw a.svg --link
 fits_screen() {
   awk 'length($0) > 80 { bad = 1 } END { exit bad || NR < 5 || NR > 40 }' "$work/out"
 }
-for command in "" info solve study factors pair; do
+for command in "" info solve study cost factors pair; do
   # shellcheck disable=SC2086
   succeeds $command --help
   check "help of '$command' fits a screen" fits_screen
@@ -202,9 +148,6 @@ done
 number() { # the first number of an array, by key and the which-th time it occurs
   awk -v key="\"$1\": [" -v which="$2" 'index($0, key) { n++; if (n == which) { getline; print; exit } }' \
     "$work/solve.json" | tr -d ' ,'
-}
-small() { # small VALUE BOUND
-  awk -v x="$1" -v e="$2" 'BEGIN { if (x < 0) x = -x; exit !(x == x + 0 && x <= e) }'
 }
 value() { # the first value of a key
   grep -o "\"$1\": [^,]*" "$work/solve.json" | head -n 1 | cut -d' ' -f2
@@ -558,9 +501,6 @@ begin KILL 2>/dev/null
 check "a killed sweep leaves its rows, whole" whole_rows "$work/KILL/late.csv"
 
 # ---- pictures
-magic() { # magic FILE HEX
-  [ "$(od -An -tx1 -N4 "$1" | tr -d ' \n')" = "$2" ]
-}
 run solve "$far" --quiet --draw "$work/probe.svg"
 if grep -q 'without cairo' "$work/err"; then
   check "no cairo is told" [ "$status" -eq 1 ]
@@ -611,5 +551,4 @@ PATH=$usual
 check "a plot that fails leaves no file" is_absent "$work/none.svg"
 check "no temporary file is left" no_leftovers
 
-echo "check_cli: $passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+summary check_cli

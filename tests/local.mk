@@ -33,6 +33,7 @@ SUITES = \
 
 OUTSIDE = \
 	tests/check_cli.sh \
+	tests/check_digits.sh \
 	tests/check-exports.sh \
 	tests/check-headers.sh \
 	tests/check-examples.sh

@@ -10,6 +10,9 @@
 #define FINEST  0.4 /* points; shorter elements are drawn as their parent */
 #define CROWDED 3.0 /* points; elements shorter than this get no tick */
 #define OVERLAP 0.3 /* points; hides the seams of antialiasing */
+#define STOP    2.0 /* points between the stops of a gradient */
+
+enum { MOST_STOPS = 200 };
 
 /* Thin bands have thin lines, or these would be all one sees. */
 static double fine(const picture *p, double width) {
@@ -52,25 +55,54 @@ static void outline(const picture *p, const stroke *s, double t0, double t1) {
   cairo_close_path(p->cr);
 }
 
+/* Along a leaf of a high order B is a polynomial: the colour follows it from stop to stop. */
+static void set_gradient(const picture *p, const stroke *s, const piece *e) {
+  const uint32_t patch = hr2d_hierarchy_elements(p->run->hierarchy)[e->element].patch;
+  const hr2d_point a = beside(s, e->t0, 0), b = beside(s, e->t1, 0);
+  const double length = (e->t1 - e->t0) * s->length;
+  const int stops = (int)fmin(MOST_STOPS, 2 + length / STOP);
+  cairo_pattern_t *pattern = cairo_pattern_create_linear(a.x, a.y, b.x, b.y);
+  for (int k = 0; k <= stops; k++) {
+    const double at = (double)k / stops;
+    const colour c = viridis(on_scale(p, run_mean_at(p->run, patch, inside(e, at))));
+    cairo_pattern_add_color_stop_rgb(pattern, at, c.r, c.g, c.b);
+  }
+  cairo_set_source(p->cr, pattern);
+  cairo_pattern_destroy(pattern);
+}
+
 static int fill_piece(void *ctx, const piece *e) {
   const band *b = ctx;
   const picture *p = b->picture;
-  set_colour(p->cr, viridis(on_scale(p, run_mean(p->run, e->element))));
+  const int leaf = !hr2d_hierarchy_elements(p->run->hierarchy)[e->element].child;
+  if (p->run->account.order > 1 && leaf)
+    set_gradient(p, b->stroke, e);
+  else
+    set_colour(p->cr, viridis(on_scale(p, run_mean(p->run, e->element))));
   outline(p, b->stroke, e->t0, fmin(1, e->t1 + OVERLAP / b->stroke->length));
   cairo_fill(p->cr);
   return 0;
 }
 
-/* The tick at the start of an element, where fraction t is an odd multiple of the
-   length of a level: the coarser that level, the longer, as on a ruler. */
+/* The level on which the point was made at which an element starts. */
+static unsigned level_of_start(const hr2d_hierarchy *h, uint32_t element) {
+  const hr2d_element *elements = hr2d_hierarchy_elements(h);
+  unsigned level = hr2d_element_level(h, element);
+  for (uint32_t parent; level > 0; element = parent, level--) {
+    parent = hr2d_element_parent(h, element);
+    if (elements[parent].child != element) break;
+  }
+  return level;
+}
+
+/* The tick at the start of an element: the coarser the level it divides, the longer, as on a
+   ruler. */
 static int tick_piece(void *ctx, const piece *e) {
   const band *b = ctx;
   const picture *p = b->picture;
   if ((e->t1 - e->t0) * b->stroke->length < CROWDED || !(e->t0 > 0)) return 0;
-  int exponent = 0;
-  double t = e->t0;
-  for (; exponent < 24 && t != floor(t); t *= 2) exponent++;
-  const double reach = p->band + fine(p, 1.5 + 5 * pow(0.75, exponent));
+  const unsigned level = level_of_start(p->run->hierarchy, e->element);
+  const double reach = p->band + fine(p, 1.5 + 5 * pow(0.75, level));
   const hr2d_point from = beside(b->stroke, e->t0, 0.55 * p->band);
   const hr2d_point to = beside(b->stroke, e->t0, reach);
   cairo_move_to(p->cr, from.x, from.y);

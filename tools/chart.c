@@ -1,43 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* gnuplot reads the script from its standard input and draws to its standard output,
-   so that no file name has to pass through its syntax. */
+/* The script for the chart of a study. */
 #include "chart.h"
 
-#include <errno.h>
 #include <math.h>
-#include <signal.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "complain.h"
-#include "output.h"
-#include "suffix.h"
-
-extern char **environ;
-
-/* A string of gnuplot in single quotes, in which only the quote itself is special. */
-static void write_quoted(FILE *script, const char *text) {
-  fputc('\'', script);
-  for (; *text; text++) {
-    if (*text == '\'') fputc('\'', script);
-    fputc((unsigned char)*text < ' ' ? ' ' : *text, script);
-  }
-  fputc('\'', script);
-}
-
-static const char *terminal(const char *path) {
-  switch (suffix_of(path)) {
-  case SUFFIX_SVG:
-    return "svg size 800,560 dynamic font 'sans-serif,14' background 'white'";
-  case SUFFIX_PDF:
-    return "pdfcairo size 8,5.6 font 'sans-serif,14'";
-  default:
-    return "pngcairo size 1600,1120 font 'sans-serif,14' fontscale 1.6 linewidth 2";
-  }
-}
+#include "gnuplot.h"
 
 static void write_title(FILE *script, const options *o) {
   const char *slash = strrchr(o->scene, '/');
@@ -45,7 +14,7 @@ static void write_title(FILE *script, const options *o) {
   snprintf(title, sizeof title, "%s: oracle %s, variant %s", slash ? slash + 1 : o->scene,
            o->oracle->name, o->policy->name);
   fputs("set title ", script);
-  write_quoted(script, title);
+  gnuplot_quote(script, title);
   fputs(" noenhanced\n", script);
 }
 
@@ -75,7 +44,7 @@ static const char *enhanced(double x, char *text, size_t size) {
 
 static void write_curve(FILE *script, const char *key) {
   fputs("plot f(x) with lines linewidth 2 linecolor rgb '#21918c' title ", script);
-  write_quoted(script, key);
+  gnuplot_quote(script, key);
   fputs(", ", script);
 }
 
@@ -122,8 +91,19 @@ static void write_axes(FILE *script, const axis *n, const axis *l, double most,
         script);
 }
 
-static void write_script(FILE *script, const options *o, const hr2d_study_row *rows,
-                         size_t count, const hr2d_study_fit *fit) {
+typedef struct chart {
+  const options *options;
+  const hr2d_study_row *rows;
+  size_t count;
+  const hr2d_study_fit *fit;
+} chart;
+
+static void write_script(FILE *script, const void *ctx) {
+  const chart *drawn = ctx;
+  const options *o = drawn->options;
+  const hr2d_study_row *rows = drawn->rows;
+  const hr2d_study_fit *fit = drawn->fit;
+  const size_t count = drawn->count;
   double most_n = 0, most_l = 0;
   fputs("set encoding utf8\n$rows << END\n", script);
   for (size_t k = 0; k < count; k++) {
@@ -134,7 +114,8 @@ static void write_script(FILE *script, const options *o, const hr2d_study_row *r
   }
   const axis n = choose_axis("elements", most_n, o->plot_log);
   const axis l = choose_axis("links", most_l, o->plot_log);
-  fprintf(script, "END\nset terminal %s\n", terminal(o->plot));
+  fputs("END\n", script);
+  gnuplot_terminal(script, o->plot, 800, 560);
   write_title(script, o);
   write_axes(script, &n, &l, most_n, o->plot_log);
   if (!fit)
@@ -149,70 +130,8 @@ static void write_script(FILE *script, const options *o, const hr2d_study_row *r
           n.divisor, l.divisor, count > 60 ? 0.6 : 1.1, count);
 }
 
-static int start(pid_t *child, int script, int picture, int complaints) {
-  static char *arguments[] = {"gnuplot", "--default-settings", NULL};
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-  sigset_t standard;
-  sigemptyset(&standard);
-  sigaddset(&standard, SIGPIPE);
-  int error = posix_spawn_file_actions_init(&actions);
-  if (error) return error;
-  error = posix_spawnattr_init(&attributes);
-  if (!error) {
-    posix_spawnattr_setsigdefault(&attributes, &standard);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-    error = posix_spawn_file_actions_adddup2(&actions, script, STDIN_FILENO);
-    if (!error) error = posix_spawn_file_actions_adddup2(&actions, picture, STDOUT_FILENO);
-    if (!error) error = posix_spawn_file_actions_adddup2(&actions, complaints, STDERR_FILENO);
-    if (!error)
-      error = posix_spawnp(child, "gnuplot", &actions, &attributes, arguments, environ);
-    posix_spawnattr_destroy(&attributes);
-  }
-  posix_spawn_file_actions_destroy(&actions);
-  return error;
-}
-
-/* The first line that says something. */
-static int fail_gnuplot(const char *path, FILE *complaints) {
-  char line[256] = "";
-  rewind(complaints);
-  while (fgets(line, sizeof line, complaints))
-    if (line[strspn(line, " \t\r\n^")]) break;
-  line[strcspn(line, "\n")] = '\0';
-  return fail(path, "gnuplot failed: %s", *line ? line : "no reason given");
-}
-
-static int run_gnuplot(const char *path, FILE *script, FILE *picture, FILE *complaints) {
-  pid_t child = 0;
-  int status = 0;
-  rewind(script);
-  const int error = start(&child, fileno(script), fileno(picture), fileno(complaints));
-  if (error == ENOENT) return fail(path, "cannot be plotted: gnuplot is not installed");
-  if (error) return fail(path, "cannot run gnuplot: %s", strerror(error));
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return fail(path, "cannot wait for gnuplot: %s", strerror(errno));
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
-    return fail(path, "cannot be plotted: gnuplot is not installed");
-  if (status || lseek(fileno(picture), 0, SEEK_END) == 0) return fail_gnuplot(path, complaints);
-  return EXIT_DONE;
-}
-
 int chart_study(const options *o, const hr2d_study_row *rows, size_t count,
                 const hr2d_study_fit *fit) {
-  output out;
-  int status = output_open(&out, o->plot);
-  if (status) return status;
-  FILE *script = tmpfile(), *complaints = tmpfile();
-  if (script && complaints) {
-    write_script(script, o, rows, count, fit);
-    if (fflush(script) || ferror(script))
-      status = fail(o->plot, "cannot write the script for gnuplot");
-    else
-      status = run_gnuplot(o->plot, script, out.stream, complaints);
-  } else
-    status = fail(o->plot, "cannot make a temporary file: %s", strerror(errno));
-  if (script) fclose(script);
-  if (complaints) fclose(complaints);
-  return output_close(&out, status);
+  const chart drawn = {o, rows, count, fit};
+  return gnuplot_draw(o->plot, write_script, &drawn);
 }

@@ -8,6 +8,7 @@
 int info_command(const options *o);
 int solve_command(const options *o);
 int study_command(const options *o);
+int cost_command(const options *o);
 int factors_command(const options *o);
 int pair_command(const options *o);
 

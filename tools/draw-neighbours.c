@@ -102,7 +102,8 @@ static void draw_arc(const picture *p, double radius) {
 /* The paper's bounds hold for its oracle and its modification only. */
 static int has_bounds(const picture *p) {
   const options *o = p->run->options;
-  return o->oracle == hr2d_oracle_size() && o->policy == hr2d_policy_modified();
+  return !is_targeted(o) && o->oracle == hr2d_oracle_size() &&
+         o->policy == hr2d_policy_modified();
 }
 
 /* A dimension line behind neighbours that adjoin, with its length. */

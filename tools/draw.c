@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "leaves.h"
 #include "output.h"
 #include "suffix.h"
 
@@ -40,24 +41,37 @@ static double overall(const picture *p) {
   return sum / length;
 }
 
+static void widen_scale(picture *p, double value) {
+  p->lo = fmin(p->lo, value);
+  p->hi = fmax(p->hi, value);
+}
+
+/* A polynomial may have its extremes anywhere. */
+static int widen_by_leaf(void *ctx, const piece *e) {
+  picture *p = ctx;
+  const unsigned order = p->run->account.order;
+  const uint32_t patch = hr2d_hierarchy_elements(p->run->hierarchy)[e->element].patch;
+  if (order == 1) widen_scale(p, run_mean(p->run, e->element));
+  for (unsigned k = 0; order > 1 && k <= 4 * order; k++)
+    widen_scale(p, run_mean_at(p->run, patch, inside(e, k / (4. * order))));
+  return 0;
+}
+
 /* The range of B over the leaves. */
-static void choose_scale(picture *p) {
-  const hr2d_element *elements = hr2d_hierarchy_elements(p->run->hierarchy);
-  const uint64_t count = hr2d_hierarchy_count(p->run->hierarchy).elements;
+static int choose_scale(picture *p) {
+  int status = 0;
   p->lo = INFINITY;
   p->hi = -INFINITY;
-  for (uint32_t e = 0; e < count; e++)
-    if (!elements[e].child) {
-      const double value = run_mean(p->run, e);
-      p->lo = fmin(p->lo, value);
-      p->hi = fmax(p->hi, value);
-    }
+  for (size_t k = 0; !status && k < hr2d_scene_patches(p->run->scene); k++)
+    status = walk_leaves(p->run->hierarchy, k, 0, widen_by_leaf, p);
+  if (status) return status;
   p->logarithmic =
       p->hi > 3 * p->lo && p->lo > 0 && (overall(p) - p->lo) / (p->hi - p->lo) < TOO_LOW;
-  if (p->hi - p->lo > 1e-9 * fabs(p->hi)) return;
+  if (p->hi - p->lo > 1e-9 * fabs(p->hi)) return EXIT_DONE;
   const double margin = p->hi > 0 ? 0.5 * p->hi : 1;
   p->lo = fmax(0, p->lo - margin);
   p->hi += margin;
+  return EXIT_DONE;
 }
 
 static int draw_page(picture *p) {
@@ -118,8 +132,8 @@ static int measure(picture *p) {
 
 int draw_run(const run *r, const char *path) {
   picture p = {.run = r};
-  choose_scale(&p);
-  int status = find_links(&p);
+  int status = choose_scale(&p);
+  if (!status) status = find_links(&p);
   if (!status) status = choose_names(&p);
   if (!status) status = measure(&p);
   if (!status) status = draw_file(&p, path);

@@ -15,6 +15,7 @@ static const char general[] =
     "  hr2d info  SCENE      patches, lengths, which effects the scene calls for\n"
     "  hr2d solve SCENE      radiosity of every patch, tables and pictures\n"
     "  hr2d study SCENE      links L against elements N over a sequence of epsilon\n"
+    "  hr2d cost  SCENE      error against time and links, for several methods\n"
     "  hr2d factors SCENE    view factors between all patches\n"
     "  hr2d pair  < PAIRS    exchange areas of pairs of segments\n"
     "\n"
@@ -50,16 +51,24 @@ static const char solve[] =
     "Usage: hr2d solve SCENE [options]\n"
     "Refines, solves and reports radiosity and irradiance of every patch.\n"
     "\n"
+    "  --target-error R      solve until averages of B are known to R, relative\n"
+    "  --norm NAME           to R in averages (default) or, with sup, at all points\n"
+    "  --time-budget S       the best that S seconds allow\n"
+    "  --importance PATCH    only the average of this patch matters\n"
+    "\n"
+    "or, instead of a target or a budget:\n"
     "  --oracle NAME         size (default), size2, bf, l1 or l1-grid\n"
     "  --eps E               accept links whose estimated error is <= E (0.1)\n"
+    "  --order P             Legendre coefficients of each element, 1 (default) to 32\n"
     "  --variant NAME        original (default) or modified: what a refusal splits\n"
     "  --multigrid FROM:R    solve for FROM, FROM*R, ... --eps, each from the last\n"
     "  --max-level K         elements on level K are not subdivided (24)\n"
+    "  --no-closure          leave rows of the kernel as coarse links make them\n"
+    "  --error, --no-error   whether to measure the error (up to 200 patches)\n"
+    "\n"
     "  --max-links M         give up beyond M links\n"
     "  --max-elements M      give up beyond M elements\n"
-    "  --threads T           threads for the solve; 0 (default) for all processors\n"
-    "  --no-closure          leave rows of the kernel as coarse links make them\n" SCENE_OPTIONS
-    "\n"
+    "  --threads T           threads; 0 (default) for all processors\n" SCENE_OPTIONS "\n"
     "  --at PATCH:T          B and H at fraction T of a patch (index or name)\n"
     "  --json FILE|-         the result as JSON; - is standard output\n"
     "  --csv FILE|-          one row per leaf element\n"
@@ -92,6 +101,33 @@ static const char study[] =
     "  --plot-log            on logarithmic axes, with the slope of log L on log N\n"
     "  --quiet               no table, no progress\n";
 
+static const char cost[] =
+    "Usage: hr2d cost SCENE [options]\n"
+    "What each digit of average B costs: error against elements N, links L, bytes and\n"
+    "seconds for several methods.  Errors are distances from a solution of a target\n"
+    "error of 1e-14, whose own bound is printed.\n"
+    "\n"
+    "  size, size2, bf, l1, l1-grid    the paper's algorithm with these oracles\n"
+    "  multigrid                       with size, each epsilon from the last one\n"
+    "  order-2, order-4, order-8, order-16\n"
+    "                                  with size and so many coefficients\n"
+    "  auto, auto-solve                solve --target-error for 0.1 ... 1e-13, with\n"
+    "                                  and without its account of the error\n"
+    "  dense                           the full matrix of equal pieces, solved by LU\n"
+    "\n"
+    "  --methods LIST        some of these, separated by commas\n"
+    "  --max-seconds S       for all together (10), in equal shares\n"
+    "  --predict             print what a target error will cost, and no more\n"
+    "  --max-level K         elements on level K are not subdivided (24)\n"
+    "  --no-closure          leave rows of the kernel as coarse links make them\n"
+    "  --threads T           threads; 1 by default, 0 for all "
+    "processors\n" SCENE_OPTIONS "\n"
+    "  --json FILE|-         rows and fits as JSON; - is standard output\n"
+    "  --csv FILE|-          one row per method and parameter\n"
+    "  --plot FILE           a curve per method by gnuplot, as .svg, .png or .pdf\n"
+    "  --against LIST        of seconds (default), links, bytes; a panel for each\n"
+    "  --quiet               no table, no progress\n";
+
 static const char pair[] =
     "Usage: hr2d pair [--oracle NAME] < PAIRS\n"
     "Each line of standard input holds 8 numbers, decimal or hexadecimal,\n"
@@ -114,6 +150,9 @@ void print_help(int command) {
     break;
   case STUDY:
     fputs(study, stdout);
+    break;
+  case COST:
+    fputs(cost, stdout);
     break;
   case FACTORS:
     fputs(factors, stdout);

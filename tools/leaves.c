@@ -6,6 +6,13 @@
 
 #include "complain.h"
 
+/* How much of an element its left child is: a half, unless it was divided where light
+   changes. */
+static double left_part(const hr2d_element *elements, const hr2d_element *e) {
+  const double left = elements[e->child].length, right = elements[e->child + 1].length;
+  return left == right ? 0.5 : left / (left + right);
+}
+
 int walk_leaves(const hr2d_hierarchy *hierarchy, size_t patch, double finest, piece_fn visit,
                 void *ctx) {
   const hr2d_element *elements = hr2d_hierarchy_elements(hierarchy);
@@ -21,7 +28,7 @@ int walk_leaves(const hr2d_hierarchy *hierarchy, size_t patch, double finest, pi
       status = visit(ctx, &p);
       continue;
     }
-    const double middle = 0.5 * (p.t0 + p.t1);
+    const double middle = p.t0 + left_part(elements, e) * (p.t1 - p.t0);
     waiting[count++] = (piece){e->child + 1, p.level + 1, middle, p.t1};
     waiting[count++] = (piece){e->child, p.level + 1, p.t0, middle};
   }

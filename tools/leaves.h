@@ -12,6 +12,12 @@ typedef struct piece {
   double t0, t1;
 } piece;
 
+/* The fraction of the patch at a fraction of the piece.  Its ends stay inside, where a value
+   belongs to this element alone. */
+static inline double inside(const piece *p, double at) {
+  return p->t0 + (1e-9 + (1 - 2e-9) * at) * (p->t1 - p->t0);
+}
+
 /* Is called for each piece; anything but 0 ends the walk. */
 typedef int (*piece_fn)(void *ctx, const piece *p);
 

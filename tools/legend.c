@@ -43,17 +43,37 @@ double on_scale(const picture *p, double value) {
   return (value - p->lo) / (p->hi - p->lo);
 }
 
+/* What was asked for, and what it came to. */
+static void describe_target(const run *r, char *text, size_t size) {
+  const options *o = r->options;
+  const int sup = o->norm == HR2D_NORM_SUP;
+  char wanted[48];
+  if (o->target_error > 0)
+    snprintf(wanted, sizeof wanted, "target error %g", o->target_error);
+  else
+    snprintf(wanted, sizeof wanted, "%g seconds", o->time_budget);
+  snprintf(text, size, "%s, at most %.1e reached", wanted,
+           sup ? r->account.sup.bound : r->account.average.bound);
+}
+
 void draw_title(const picture *p) {
-  const options *o = p->run->options;
-  const hr2d_refine_counts n = hr2d_linkset_counts(p->run->links);
+  const run *r = p->run;
+  const options *o = r->options;
+  const hr2d_refine_counts n = hr2d_linkset_counts(r->links);
   const char *slash = strrchr(o->scene, '/');
-  char text[256];
+  char first[32] = "", order[32] = "", last[128], text[256];
   set_grey(p->cr, 0.1);
   set_font(p->cr, 15, 1);
   write_at(p->cr, SIDE, 28, slash ? slash + 1 : o->scene);
-  snprintf(text, sizeof text, "ε = %g    N = %llu    L = %llu    oracle %s, variant %s",
-           o->epsilon, (unsigned long long)n.elements, (unsigned long long)n.links,
-           o->oracle->name, o->policy->name);
+  if (is_targeted(o)) {
+    describe_target(r, last, sizeof last);
+  } else {
+    snprintf(first, sizeof first, "ε = %g    ", o->epsilon);
+    snprintf(last, sizeof last, "oracle %s, variant %s", o->oracle->name, o->policy->name);
+  }
+  if (r->account.order > 1) snprintf(order, sizeof order, "p = %u    ", r->account.order);
+  snprintf(text, sizeof text, "%s%sN = %llu    L = %llu    %s", first, order,
+           (unsigned long long)n.elements, (unsigned long long)r->account.links, last);
   set_grey(p->cr, 0.3);
   set_font(p->cr, 10.5, 0);
   write_at(p->cr, SIDE, 46, text);

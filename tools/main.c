@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* hr2d: one command per run, its outcome as the exit status. */
 #include <fcntl.h>
+#include <gsl/gsl_errno.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -32,6 +33,8 @@ static int run(const options *o) {
     return solve_command(o);
   case STUDY:
     return study_command(o);
+  case COST:
+    return cost_command(o);
   case FACTORS:
     return factors_command(o);
   default:
@@ -41,7 +44,8 @@ static int run(const options *o) {
 
 int main(int argc, char **argv) {
   occupy_standard_streams();
-  signal(SIGPIPE, SIG_IGN); /* a closed pipe is a failed write */
+  signal(SIGPIPE, SIG_IGN);    /* a closed pipe is a failed write */
+  gsl_set_error_handler_off(); /* the default one aborts */
   options o;
   int status = options_read(argc, argv, &o);
   if (!status) status = run(&o);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Words of the command line to options; what contradicts itself is refused. */
+/* Words of the command line to options. */
 #include "options.h"
 
 #include <getopt.h>
@@ -11,43 +11,20 @@
 
 enum { MAX_LEVEL = 1000, MAX_THREADS = 1024, MAX_STEPS = 10000 };
 
-enum {
-  HELP = 256,
-  VERSION,
-  QUIET,
-  ORACLE,
-  EPS,
-  VARIANT,
-  MULTIGRID,
-  LEVEL,
-  LINKS,
-  ELEMENTS,
-  THREADS,
-  NO_CLOSURE,
-  AT,
-  JSON,
-  CSV,
-  DRAW,
-  LINKS_OF,
-  LINK_LEVEL,
-  LINK_PARENTS,
-  PLOT,
-  PLOT_LOG,
-  RESUME,
-  FROM,
-  TO,
-  STEPS,
-  SPLIT_CROSSINGS,
-  FORCE
-};
-
 static const struct option names[] = {{"help", no_argument, NULL, HELP},
-                                      {"version", no_argument, NULL, VERSION},
+                                      {"version", no_argument, NULL, SHOW_VERSION},
                                       {"quiet", no_argument, NULL, QUIET},
                                       {"oracle", required_argument, NULL, ORACLE},
                                       {"eps", required_argument, NULL, EPS},
                                       {"variant", required_argument, NULL, VARIANT},
                                       {"multigrid", required_argument, NULL, MULTIGRID},
+                                      {"order", required_argument, NULL, ORDER},
+                                      {"target-error", required_argument, NULL, TARGET_ERROR},
+                                      {"time-budget", required_argument, NULL, TIME_BUDGET},
+                                      {"norm", required_argument, NULL, NORM},
+                                      {"importance", required_argument, NULL, IMPORTANCE},
+                                      {"error", no_argument, NULL, MEASURE_ERROR},
+                                      {"no-error", no_argument, NULL, NO_ERROR},
                                       {"max-level", required_argument, NULL, LEVEL},
                                       {"max-links", required_argument, NULL, LINKS},
                                       {"max-elements", required_argument, NULL, ELEMENTS},
@@ -66,6 +43,10 @@ static const struct option names[] = {{"help", no_argument, NULL, HELP},
                                       {"from", required_argument, NULL, FROM},
                                       {"to", required_argument, NULL, TO},
                                       {"steps", required_argument, NULL, STEPS},
+                                      {"methods", required_argument, NULL, METHODS},
+                                      {"max-seconds", required_argument, NULL, MAX_SECONDS},
+                                      {"against", required_argument, NULL, AGAINST},
+                                      {"predict", no_argument, NULL, PREDICT},
                                       {"split-crossings", no_argument, NULL, SPLIT_CROSSINGS},
                                       {"force", required_argument, NULL, FORCE},
                                       {NULL, 0, NULL, 0}};
@@ -74,84 +55,67 @@ static const struct option names[] = {{"help", no_argument, NULL, HELP},
 static int belongs(int id) {
   switch (id) {
   case HELP:
-  case VERSION:
-    return INFO | SOLVE | STUDY | FACTORS | PAIR;
+  case SHOW_VERSION:
+    return INFO | SOLVE | STUDY | COST | FACTORS | PAIR;
   case ORACLE:
     return SOLVE | STUDY | PAIR;
   case QUIET:
   case JSON:
   case SPLIT_CROSSINGS:
   case FORCE:
-    return INFO | SOLVE | STUDY | FACTORS;
+    return INFO | SOLVE | STUDY | COST | FACTORS;
   case CSV:
-    return SOLVE | STUDY | FACTORS;
-  case VARIANT:
+  case THREADS:
+    return SOLVE | STUDY | COST | FACTORS;
   case LEVEL:
+    return SOLVE | STUDY | COST;
+  case NO_CLOSURE:
+    return SOLVE | COST;
+  case VARIANT:
   case LINKS:
   case ELEMENTS:
     return SOLVE | STUDY;
-  case THREADS:
-    return SOLVE | STUDY | FACTORS;
   case PLOT:
+    return STUDY | COST;
   case PLOT_LOG:
   case RESUME:
   case FROM:
   case TO:
   case STEPS:
     return STUDY;
+  case METHODS:
+  case MAX_SECONDS:
+  case AGAINST:
+  case PREDICT:
+    return COST;
   default:
     return SOLVE;
   }
 }
 
-static int read_option(int id, char *text, options *o) {
+static int set_flag(int id, options *o) {
   switch (id) {
   case HELP:
     o->help = 1;
     return 0;
-  case VERSION:
+  case SHOW_VERSION:
     o->version = 1;
     return 0;
   case QUIET:
     o->quiet = 1;
     return 0;
-  case ORACLE:
-    return read_oracle("oracle", text, &o->oracle);
-  case VARIANT:
-    return read_variant("variant", text, &o->policy);
-  case MULTIGRID:
-    return read_multigrid("multigrid", text, &o->multigrid_from, &o->multigrid_ratio);
   case SPLIT_CROSSINGS:
     o->split_crossings = 1;
     return 0;
-  case FORCE:
-    return read_effect("force", text, &o->force);
-  case EPS:
-    return read_positive("eps", text, &o->epsilon);
-  case FROM:
-    return read_positive("from", text, &o->from);
-  case TO:
-    return read_positive("to", text, &o->to);
-  case STEPS:
-    return read_unsigned("steps", text, 2, MAX_STEPS, &o->steps);
-  case LEVEL:
-    return read_unsigned("max-level", text, 0, MAX_LEVEL, &o->max_level);
-  case THREADS:
-    return read_unsigned("threads", text, 0, MAX_THREADS, &o->threads);
   case NO_CLOSURE:
     o->closure = 0;
     return 0;
-  case LINKS:
-    return read_range("max-links", text, 1, UINT64_MAX, &o->max_links);
-  case ELEMENTS:
-    return read_range("max-elements", text, 1, UINT64_MAX, &o->max_elements);
-  case AT:
-    return read_place("at", text, &o->at[o->at_count++]);
-  case LINKS_OF:
-    return read_place("links-of", text, &o->links_of);
-  case LINK_LEVEL:
-    o->one_level = 1;
-    return read_unsigned("link-level", text, 0, MAX_LEVEL, &o->link_level);
+  case MEASURE_ERROR:
+    o->error = 1;
+    return 0;
+  case NO_ERROR:
+    o->no_error = 1;
+    return 0;
   case LINK_PARENTS:
     o->link_parents = 1;
     return 0;
@@ -161,6 +125,71 @@ static int read_option(int id, char *text, options *o) {
   case RESUME:
     o->resume = 1;
     return 0;
+  case PREDICT:
+    o->predict = 1;
+    return 0;
+  default:
+    return EXIT_USAGE;
+  }
+}
+
+static int read_number(int id, const char *text, options *o) {
+  switch (id) {
+  case EPS:
+    return read_positive("eps", text, &o->epsilon);
+  case FROM:
+    return read_positive("from", text, &o->from);
+  case TO:
+    return read_positive("to", text, &o->to);
+  case TARGET_ERROR:
+    return read_positive("target-error", text, &o->target_error);
+  case TIME_BUDGET:
+    return read_positive("time-budget", text, &o->time_budget);
+  case MAX_SECONDS:
+    return read_positive("max-seconds", text, &o->max_seconds);
+  case ORDER:
+    return read_unsigned("order", text, 1, HR2D_MAX_ORDER, &o->order);
+  case STEPS:
+    return read_unsigned("steps", text, 2, MAX_STEPS, &o->steps);
+  case LEVEL:
+    return read_unsigned("max-level", text, 0, MAX_LEVEL, &o->max_level);
+  case THREADS:
+    return read_unsigned("threads", text, 0, MAX_THREADS, &o->threads);
+  case LINK_LEVEL:
+    o->one_level = 1;
+    return read_unsigned("link-level", text, 0, MAX_LEVEL, &o->link_level);
+  case LINKS:
+    return read_range("max-links", text, 1, UINT64_MAX, &o->max_links);
+  case ELEMENTS:
+    return read_range("max-elements", text, 1, UINT64_MAX, &o->max_elements);
+  default:
+    return set_flag(id, o);
+  }
+}
+
+static int read_option(int id, char *text, options *o) {
+  switch (id) {
+  case ORACLE:
+    return read_oracle("oracle", text, &o->oracle);
+  case VARIANT:
+    return read_variant("variant", text, &o->policy);
+  case MULTIGRID:
+    return read_multigrid("multigrid", text, &o->multigrid_from, &o->multigrid_ratio);
+  case NORM:
+    return read_norm("norm", text, &o->norm);
+  case IMPORTANCE:
+    o->importance = (place){text, 0};
+    return *text ? 0 : usage_error("--importance: the name is empty");
+  case METHODS:
+    return read_methods("methods", text, &o->methods);
+  case AGAINST:
+    return read_against("against", text, o->against, &o->panels);
+  case FORCE:
+    return read_effect("force", text, &o->force);
+  case AT:
+    return read_place("at", text, &o->at[o->at_count++]);
+  case LINKS_OF:
+    return read_place("links-of", text, &o->links_of);
   case JSON:
     return read_path("json", text, &o->json);
   case CSV:
@@ -170,7 +199,7 @@ static int read_option(int id, char *text, options *o) {
   case PLOT:
     return read_picture("plot", text, &o->plot);
   default:
-    return EXIT_USAGE;
+    return read_number(id, text, o);
   }
 }
 
@@ -178,35 +207,16 @@ int to_stdout(const char *path) {
   return path && !strcmp(path, "-");
 }
 
-static int check(options *o) {
-  const char *outputs[] = {o->json, o->csv, o->draw, o->plot};
-  for (int i = 0; i < 4; i++)
-    for (int j = 0; j < i; j++)
-      if (outputs[i] && outputs[j] && !strcmp(outputs[i], outputs[j]))
-        return usage_error("two outputs go to '%s'", outputs[i]);
-  if (o->links_of.patch && !o->draw) return usage_error("--links-of needs --draw");
-  if (o->one_level && !o->links_of.patch) return usage_error("--link-level needs --links-of");
-  if (o->link_parents && !o->link_level)
-    return usage_error("--link-parents needs --link-level with at least 1");
-  if (o->link_parents && o->policy != hr2d_policy_modified())
-    return usage_error("--link-parents needs --variant modified");
-  if (o->plot_log && !o->plot) return usage_error("--plot-log needs --plot");
-  if (o->resume && (!o->csv || to_stdout(o->csv)))
-    return usage_error("--resume needs --csv with a file");
-  if (o->multigrid_ratio > 0 && o->multigrid_from <= o->epsilon)
-    return usage_error("--multigrid: %g is not greater than --eps %g", o->multigrid_from,
-                       o->epsilon);
-  if (o->from > 0 && o->to >= o->from)
-    return usage_error("--from %g is not greater than --to %g", o->from, o->to);
-  return 0;
+int is_targeted(const options *o) {
+  return o->target_error > 0 || o->time_budget > 0;
 }
 
 static int read_command(const char *word, int *command) {
   static const struct {
     const char *name;
     int bit;
-  } commands[] = {
-      {"info", INFO}, {"solve", SOLVE}, {"study", STUDY}, {"factors", FACTORS}, {"pair", PAIR}};
+  } commands[] = {{"info", INFO}, {"solve", SOLVE},     {"study", STUDY},
+                  {"cost", COST}, {"factors", FACTORS}, {"pair", PAIR}};
   for (size_t k = 0; k < sizeof commands / sizeof *commands; k++)
     if (!strcmp(word, commands[k].name)) {
       *command = commands[k].bit;
@@ -215,7 +225,7 @@ static int read_command(const char *word, int *command) {
   return usage_error("unknown command '%s'", word);
 }
 
-static int read_options(int argc, char **argv, options *o) {
+static int read_options(int argc, char **argv, options *o, uint64_t *given) {
   opterr = 0;
   for (int id; (id = getopt_long(argc, argv, ":", names, NULL)) != -1;) {
     const char *word = argv[optind - 1];
@@ -229,6 +239,7 @@ static int read_options(int argc, char **argv, options *o) {
       return usage_error("'%s' has no option --%s", argv[0], option->name);
     }
     if (read_option(id, optarg, o)) return EXIT_USAGE;
+    *given |= GIVEN(id);
   }
   return 0;
 }
@@ -258,16 +269,22 @@ int options_read(int argc, char **argv, options *o) {
                  .policy = hr2d_policy_original(),
                  .epsilon = defaults.epsilon,
                  .max_level = defaults.max_level,
+                 .order = 1,
+                 .against = {AGAINST_SECONDS},
+                 .panels = 1,
+                 .max_seconds = 10,
                  .closure = 1,
                  .steps = 13};
+  uint64_t given = 0;
   int status = read_bare(argc, argv, o);
   if (status || o->help || o->version) return status;
   o->at = calloc((size_t)argc, sizeof *o->at);
   if (!o->at) return fail_memory();
-  status = read_options(argc - 1, argv + 1, o);
+  status = read_options(argc - 1, argv + 1, o, &given);
   if (status || o->help || o->version) return status;
   status = read_arguments(argc - 1, argv + 1, o);
-  return status ? status : check(o);
+  if (o->command == COST && !(given & GIVEN(THREADS))) o->threads = 1;
+  return status ? status : options_check(o, given);
 }
 
 void options_release(options *o) {

@@ -8,13 +8,16 @@
 #include <stdint.h>
 
 /* One bit each, so that an option can name the commands it belongs to. */
-enum { INFO = 1, SOLVE = 2, STUDY = 4, FACTORS = 8, PAIR = 16 };
+enum { INFO = 1, SOLVE = 2, STUDY = 4, FACTORS = 8, PAIR = 16, COST = 32 };
 
 /* PATCH:T, a point at fraction t of the patch with this index or name. */
 typedef struct place {
   const char *patch; /* NULL: not given */
   double t;
 } place;
+
+/* The quantity a chart of errors has upwards. */
+typedef enum against { AGAINST_SECONDS, AGAINST_LINKS, AGAINST_BYTES, AGAINST_COUNT } against;
 
 typedef struct options {
   int command;
@@ -27,7 +30,17 @@ typedef struct options {
   const hr2d_policy *policy;
   double epsilon;
   double multigrid_from, multigrid_ratio; /* 0: not given */
-  double from, to;                        /* of a study; 0: not given */
+  unsigned order;
+  double target_error, time_budget; /* 0: not given */
+  hr2d_norm norm;
+  place importance;    /* its t means nothing */
+  int error, no_error; /* whether the error is to be measured at any price, or not at all */
+  double max_seconds;  /* of `cost` */
+  const char *methods; /* of `cost`, separated by commas; NULL: all */
+  against against[AGAINST_COUNT]; /* upwards in each panel of a chart */
+  size_t panels;
+  int predict;
+  double from, to; /* of a study; 0: not given */
   unsigned steps, max_level, threads;
   uint64_t max_links, max_elements;
   place *at; /* at_count of them, in the order given */
@@ -44,6 +57,57 @@ typedef struct options {
 int options_read(int argc, char **argv, options *o);
 
 void options_release(options *o);
+
+/* options-check.c: refuses what contradicts itself, as options_read(). */
+int options_check(const options *o, uint64_t given);
+
+/* The bit of `given` for an option's number. */
+#define GIVEN(id) ((uint64_t)1 << ((id)-HELP))
+
+/* Numbers of options, beyond those of characters. */
+enum {
+  HELP = 256,
+  SHOW_VERSION,
+  QUIET,
+  ORACLE,
+  EPS,
+  VARIANT,
+  MULTIGRID,
+  ORDER,
+  TARGET_ERROR,
+  TIME_BUDGET,
+  NORM,
+  IMPORTANCE,
+  MEASURE_ERROR,
+  NO_ERROR,
+  LEVEL,
+  LINKS,
+  ELEMENTS,
+  THREADS,
+  NO_CLOSURE,
+  AT,
+  JSON,
+  CSV,
+  DRAW,
+  LINKS_OF,
+  LINK_LEVEL,
+  LINK_PARENTS,
+  PLOT,
+  PLOT_LOG,
+  RESUME,
+  FROM,
+  TO,
+  STEPS,
+  METHODS,
+  MAX_SECONDS,
+  AGAINST,
+  PREDICT,
+  SPLIT_CROSSINGS,
+  FORCE
+};
+
+/* Whether a target or a budget decides how to solve. */
+int is_targeted(const options *o);
 
 /* Whether an output goes to standard output. */
 int to_stdout(const char *path);

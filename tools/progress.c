@@ -63,6 +63,7 @@ static void show(progress *p, const hr2d_progress *now) {
 
 hr2d_status progress_show(void *ctx, const hr2d_progress *now) {
   progress *p = ctx;
+  if (!strcmp(now->phase, "coefficients")) p->coefficients = seconds();
   if (stopped) return HR2D_STOPPED;
   if (!p->wanted) return HR2D_OK;
   const double time = seconds();

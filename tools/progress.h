@@ -10,6 +10,7 @@ typedef struct progress {
   double start, last;   /* seconds() at the beginning and at the last line */
   int width;            /* of the line that stands on the terminal */
   unsigned step, steps; /* of a sequence; steps ≤ 1 is not shown */
+  double coefficients;  /* seconds() when the library last told of this phase */
 } progress;
 
 /* Wall time in seconds from a fixed moment. */

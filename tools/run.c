@@ -7,7 +7,6 @@
 
 #include "complain.h"
 #include "load.h"
-#include "progress.h"
 
 hr2d_refine_options refine_options(const options *o) {
   hr2d_refine_options refine = HR2D_REFINE_OPTIONS_INIT;
@@ -38,16 +37,18 @@ static hr2d_status refine_stage(run *r, double epsilon, progress *p) {
   refine.progress = progress_show;
   refine.progress_ctx = p;
   const double start = seconds();
-  const hr2d_status status = hr2d_refine(r->links, &refine);
-  r->refine_seconds += seconds() - start;
+  const hr2d_status status = hr2d_refine(r->own_links, &refine);
+  r->account.refine_seconds += seconds() - start;
   return status;
 }
 
-static void add_work(hr2d_solve_work *sum, hr2d_solve_work stage) {
+static void add_work(run *r, hr2d_solve_work stage) {
+  hr2d_solve_work *sum = &r->work;
   sum->gathers += stage.gathers;
   sum->iterations += stage.iterations;
   sum->row_sums += stage.row_sums;
   sum->background_rows += stage.background_rows;
+  sum->kernels += stage.kernels;
 }
 
 static hr2d_status solve_stage(run *r, progress *p) {
@@ -59,36 +60,51 @@ static hr2d_status solve_stage(run *r, progress *p) {
   solve.progress_ctx = p;
   hr2d_solution *next = NULL;
   const double start = seconds();
-  const hr2d_status status = hr2d_solve(r->links, &solve, &next);
-  r->solve_seconds += seconds() - start;
+  p->coefficients = start;
+  const hr2d_status status = hr2d_solve(r->own_links, &solve, &next);
+  r->account.coefficients_seconds += p->coefficients - start;
+  r->account.solve_seconds += seconds() - p->coefficients;
   if (status) return status;
   hr2d_solution_destroy(r->solution);
   r->solution = next;
-  add_work(&r->work, hr2d_solution_work(next));
+  add_work(r, hr2d_solution_work(next));
   return HR2D_OK;
+}
+
+static int run_stages(run *r, progress *p) {
+  const options *o = r->options;
+  hr2d_status status = hr2d_hierarchy_create(r->scene, &r->own_hierarchy);
+  if (!status) status = hr2d_hierarchy_set_order(r->own_hierarchy, o->order);
+  if (!status)
+    status =
+        hr2d_linkset_create(r->own_hierarchy, o->oracle, NULL, o->policy, NULL, &r->own_links);
+  if (status) return fail_call(o->scene, "", status);
+  r->hierarchy = r->own_hierarchy;
+  r->links = r->own_links;
+  r->account.order = o->order;
+  p->steps = count_stages(o);
+  for (; !status && p->step < p->steps; p->step++) {
+    status = refine_stage(r, stage_epsilon(o, p->step), p);
+    if (!status) status = solve_stage(r, p);
+  }
+  p->steps = 0;
+  r->account.links = hr2d_linkset_size(r->links);
+  progress_clear(p);
+  return status ? fail_call(o->scene, hr2d_linkset_message(r->links), status) : EXIT_DONE;
 }
 
 int run_solve(run *r) {
   progress p;
-  const options *o = r->options;
-  hr2d_status status = hr2d_hierarchy_create(r->scene, &r->hierarchy);
-  if (!status)
-    status = hr2d_linkset_create(r->hierarchy, o->oracle, NULL, o->policy, NULL, &r->links);
-  if (status) return fail_call(o->scene, "", status);
-  progress_start(&p, o->quiet);
-  p.steps = count_stages(o);
-  for (; !status && p.step < p.steps; p.step++) {
-    status = refine_stage(r, stage_epsilon(o, p.step), &p);
-    if (!status) status = solve_stage(r, &p);
-  }
-  progress_clear(&p);
-  return status ? fail_call(o->scene, hr2d_linkset_message(r->links), status) : EXIT_DONE;
+  progress_start(&p, r->options->quiet);
+  if (is_targeted(r->options)) return run_target(r, &p);
+  const int status = run_stages(r, &p);
+  return status ? status : run_error(r, &p);
 }
 
 void run_release(run *r) {
   hr2d_solution_destroy(r->solution);
-  hr2d_linkset_destroy(r->links);
-  hr2d_hierarchy_destroy(r->hierarchy);
+  hr2d_linkset_destroy(r->own_links);
+  hr2d_hierarchy_destroy(r->own_hierarchy);
   *r = (run){0};
 }
 
@@ -96,6 +112,13 @@ double run_mean(const run *r, uint32_t element) {
   const size_t bands = hr2d_scene_bands(r->scene);
   double sum = 0;
   for (size_t b = 0; b < bands; b++) sum += hr2d_solution_element(r->solution, element, b);
+  return sum / (double)bands;
+}
+
+double run_mean_at(const run *r, size_t patch, double t) {
+  const size_t bands = hr2d_scene_bands(r->scene);
+  double sum = 0;
+  for (size_t b = 0; b < bands; b++) sum += hr2d_solution_at(r->solution, patch, t, b);
   return sum / (double)bands;
 }
 

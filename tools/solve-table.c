@@ -2,7 +2,9 @@
 /* The summary of a run for people. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
+#include "complain.h"
 #include "report.h"
 #include "run.h"
 
@@ -35,37 +37,86 @@ static void print_patches(const run *r) {
   puts("");
 }
 
-static void print_places(const run *r) {
+/* Points of a high order are good for more digits than those of constants. */
+static int print_places(const run *r) {
   const options *o = r->options;
-  for (size_t k = 0; k < o->at_count; k++) {
+  const size_t bands = hr2d_scene_bands(r->scene);
+  const int digits = r->account.order > 1 ? 12 : 9;
+  double *value = o->at_count ? malloc(2 * bands * sizeof *value) : NULL;
+  int status = o->at_count && !value ? fail_memory() : EXIT_DONE;
+  for (size_t k = 0; !status && k < o->at_count; k++) {
+    status = run_place(r, k, value, value + bands);
+    if (status) break;
     printf("at %s:%g ", o->at[k].patch, o->at[k].t);
-    for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++)
-      printf(" %.9g", hr2d_solution_at(r->solution, r->places[k], o->at[k].t, b));
+    for (size_t b = 0; b < bands; b++) printf(" %.*g", digits, value[b]);
     printf("  H");
-    for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++)
-      printf(" %.9g", hr2d_solution_irradiance_at(r->solution, r->places[k], o->at[k].t, b));
+    for (size_t b = 0; b < bands; b++) printf(" %.*g", digits, value[bands + b]);
     puts("");
   }
   if (o->at_count) puts("");
+  free(value);
+  return status;
+}
+
+static void print_method(const run *r) {
+  const options *o = r->options;
+  if (!is_targeted(o)) {
+    printf("method    oracle %s, variant %s, epsilon %g\n", o->oracle->name, o->policy->name,
+           o->epsilon);
+    return;
+  }
+  printf("target   ");
+  if (o->target_error > 0)
+    printf(" error %g %s", o->target_error,
+           o->norm == HR2D_NORM_SUP ? "at all points" : "in averages");
+  if (o->importance.patch) printf(" of %s", o->importance.patch);
+  if (o->time_budget > 0)
+    printf("%s %g seconds", o->target_error > 0 ? " within" : " best within", o->time_budget);
+  puts("");
+}
+
+/* Relative errors, of averages first. */
+static void print_error(const run *r) {
+  const hr2d_account *a = &r->account;
+  if (isnan(a->average.estimate)) return;
+  printf("error     of averages about %.1e, at most %.1e\n", a->average.estimate,
+         a->average.bound);
+  printf("          at points about %.1e, at most %.1e\n", a->sup.estimate, a->sup.bound);
+}
+
+static void print_seconds(const run *r, double total_seconds) {
+  const hr2d_account *a = &r->account;
+  if (a->order > 1)
+    printf("seconds   refine %.3f, coefficients %.3f", a->refine_seconds,
+           a->coefficients_seconds);
+  else
+    printf("seconds   refine (with coefficients) %.3f", a->refine_seconds);
+  printf(", solve %.3f", a->solve_seconds);
+  if (a->error_seconds > 0) printf(", error %.3f", a->error_seconds);
+  printf(", total %.3f\n", total_seconds);
 }
 
 static void print_counts(const run *r, const hr2d_refine_counts *n) {
   printf("elements  N = %llu, of which %llu leaves, on levels 0 to %u\n",
          (unsigned long long)n->elements, (unsigned long long)n->leaves, n->levels);
-  printf("links     L = %llu, each for %s\n", (unsigned long long)n->links,
+  printf("links     L = %llu, each for %s\n", (unsigned long long)r->account.links,
          hr2d_linkset_directed(r->links) ? "one direction" : "both directions");
+  if (r->account.links > n->links)
+    printf("          %llu of them between clusters of patches\n",
+           (unsigned long long)(r->account.links - n->links));
   if (n->partial_links)
     printf("          %llu of them around occluders\n", (unsigned long long)n->partial_links);
-  if (!n->limited_links) return;
+  /* To a target, elements are there before links. */
+  if (!n->limited_links || is_targeted(r->options)) return;
   const int corner = hr2d_scene_effect(r->scene, HR2D_EFFECT_CORNER, NULL);
   printf("          recursion limit acted on %llu links at level %u%s\n",
          (unsigned long long)n->limited_links, r->options->max_level,
          corner ? " (touching patches)" : "");
 }
 
-/* Nothing escapes from a closed scene but rounding. */
+/* Nothing escapes from a closed scene but rounding, of many coefficients at a high order. */
 static double beyond_rounding(double power, double in) {
-  return fabs(power) > 1e-15 * in ? power : 0;
+  return fabs(power) > 1e-13 * in ? power : 0;
 }
 
 static void print_power(const run *r) {
@@ -87,25 +138,25 @@ static void print_effort(const run *r, const hr2d_refine_counts *n) {
       {"oracle calls", n->oracle_calls},   {"exchange areas", n->exchange_areas},
       {"facing tests", n->facing_tests},   {"visibility tests", n->visibility_tests},
       {"blocked pairs", n->blocked_pairs}, {"dark pairs", n->dark_pairs},
-      {"row sums", r->work.row_sums}};
+      {"row sums", r->work.row_sums},      {"kernels", r->work.kernels}};
   print_work(list, sizeof list / sizeof *list);
 }
 
-void print_run(const run *r, double total_seconds) {
-  const options *o = r->options;
+int print_run(const run *r, double total_seconds) {
   const hr2d_refine_counts counts = hr2d_linkset_counts(r->links);
-  print_scene(o, 10, r->cuts);
-  printf("method    oracle %s, variant %s, epsilon %g\n", o->oracle->name, o->policy->name,
-         o->epsilon);
+  print_scene(r->options, 10, r->cuts);
+  print_method(r);
   print_patches(r);
-  print_places(r);
+  const int status = print_places(r);
   print_counts(r, &counts);
+  printf("order     p = %u\n", r->account.order);
   print_power(r);
+  print_error(r);
   print_effort(r, &counts);
   printf("solve     %llu gathers, %llu iterations, relative residual %.1e\n",
          (unsigned long long)r->work.gathers, (unsigned long long)r->work.iterations,
          hr2d_solution_residual(r->solution));
-  printf("seconds   refine (with coefficients) %.3f, solve %.3f, total %.3f\n",
-         r->refine_seconds, r->solve_seconds, total_seconds);
+  print_seconds(r, total_seconds);
   printf("memory    %.1f MB at the peak\n", (double)peak_bytes() / 1e6);
+  return status;
 }

@@ -10,13 +10,15 @@
 #include "progress.h"
 #include "run.h"
 
-/* The patches that --at and --links-of name, in this order. */
+/* The patches that --at, --links-of and --importance name, in this order. */
 static int find_places(const options *o, const hr2d_scene *scene, size_t *patches) {
   int status = 0;
   for (size_t k = 0; !status && k < o->at_count; k++)
     status = find_place(scene, "at", &o->at[k], &patches[k]);
   if (!status && o->links_of.patch)
     status = find_place(scene, "links-of", &o->links_of, &patches[o->at_count]);
+  if (!status && o->importance.patch)
+    status = find_place(scene, "importance", &o->importance, &patches[o->at_count + 1]);
   return status;
 }
 
@@ -27,12 +29,12 @@ static int check_outputs(const options *o) {
   return status ? status : output_check(o->draw);
 }
 
-static int report(const run *r, double start) {
+static int report(const run *r) {
   const options *o = r->options;
   int status = 0;
-  const double total = seconds() - start;
-  if (!o->quiet && !to_stdout(o->json) && !to_stdout(o->csv)) print_run(r, total);
-  if (o->csv) status = write_leaves(r, o->csv);
+  const double total = seconds() - r->start;
+  if (!o->quiet && !to_stdout(o->json) && !to_stdout(o->csv)) status = print_run(r, total);
+  if (o->csv && !status) status = write_leaves(r, o->csv);
   if (o->draw && !status) status = draw_run(r, o->draw);
   if (o->json && !status) status = write_run(r, total, o->json);
   return status;
@@ -42,9 +44,12 @@ static int solve_scene(const options *o, const hr2d_scene *scene, size_t cuts, d
                        size_t *patches) {
   int status = find_places(o, scene, patches);
   if (status) return status;
-  run r = {.options = o, .scene = scene, .cuts = cuts, .places = patches};
+  run r = {.options = o, .scene = scene, .cuts = cuts, .start = start, .places = patches};
   status = run_solve(&r);
-  if (!status) status = report(&r, start);
+  if (!status || r.inaccurate) {
+    const int reporting = report(&r);
+    if (!status) status = reporting;
+  }
   run_release(&r);
   return status;
 }
@@ -56,7 +61,7 @@ int solve_command(const options *o) {
   int status = check_outputs(o);
   if (!status) status = load_scene(o, o->force, &scene, &cuts);
   if (status) return status;
-  size_t *patches = calloc(o->at_count + 1, sizeof *patches);
+  size_t *patches = calloc(o->at_count + 2, sizeof *patches);
   status = patches ? solve_scene(o, scene, cuts, start, patches) : fail_memory();
   free(patches);
   hr2d_scene_destroy(scene);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "complain.h"
+#include "cost.h"
 #include "numbers.h"
 #include "suffix.h"
 
@@ -68,6 +69,47 @@ int read_oracle(const char *option, const char *text, const hr2d_oracle **oracle
 int read_variant(const char *option, const char *text, const hr2d_policy **policy) {
   *policy = hr2d_policy_find(text);
   return *policy ? 0 : usage_error("--%s: '%s' is neither original nor modified", option, text);
+}
+
+int read_norm(const char *option, const char *text, hr2d_norm *norm) {
+  const int average = !strcmp(text, "average");
+  if (!average && strcmp(text, "sup"))
+    return usage_error("--%s: '%s' is neither average nor sup", option, text);
+  *norm = average ? HR2D_NORM_AVERAGE : HR2D_NORM_SUP;
+  return 0;
+}
+
+/* Some of the quantities, each once, separated by commas. */
+int read_against(const char *option, const char *text, against *quantity, size_t *count) {
+  static const char *const known[AGAINST_COUNT] = {"seconds", "links", "bytes"};
+  unsigned seen = 0;
+  *count = 0;
+  for (const char *word = text;; word++) {
+    const size_t size = strcspn(word, ",");
+    unsigned k = 0;
+    while (k < AGAINST_COUNT && (strlen(known[k]) != size || strncmp(word, known[k], size)))
+      k++;
+    if (k == AGAINST_COUNT || seen >> k & 1)
+      return usage_error("--%s: '%s' does not list some of seconds, links, bytes", option,
+                         text);
+    seen |= 1U << k;
+    quantity[(*count)++] = (against)k;
+    word += size;
+    if (!*word) return 0;
+  }
+}
+
+/* Each word of a list that commas separate has to be a method. */
+int read_methods(const char *option, const char *text, const char **methods) {
+  *methods = text;
+  for (const char *word = text;;) {
+    const size_t size = strcspn(word, ",");
+    if (!cost_method_find(word, size))
+      return usage_error("--%s: '%.*s' is none of %s", option, (int)size, word,
+                         COST_METHOD_NAMES);
+    if (!word[size]) return 0;
+    word += size + 1;
+  }
 }
 
 int read_effect(const char *option, const char *text, unsigned *effects) {

@@ -19,6 +19,9 @@ int read_multigrid(const char *option, char *text, double *from, double *ratio);
 /* Names that the library knows. */
 int read_oracle(const char *option, const char *text, const hr2d_oracle **oracle);
 int read_variant(const char *option, const char *text, const hr2d_policy **policy);
+int read_norm(const char *option, const char *text, hr2d_norm *norm);
+int read_methods(const char *option, const char *text, const char **methods);
+int read_against(const char *option, const char *text, against *quantity, size_t *count);
 int read_effect(const char *option, const char *text, unsigned *effects);
 
 /* A file name, for pictures with a suffix that says the format. */
