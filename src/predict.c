@@ -112,7 +112,7 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
   const hr2di_fineness fineness = hr2di_fineness_for(scene, &survey, aim, target->norm);
   const hr2di_fineness finer = hr2di_finer(&fineness);
   hr2di_answer first = {0}, second = {0};
-  cost solve, error = {0};
+  cost solve = {0}, error = {0};
   double iterations = 0, coarse = 0;
   hr2d_status status = try_coarse(scene, target, &iterations, &coarse);
   if (!status) status = measure(scene, NULL, &fineness, target, &first, &solve);

@@ -4,6 +4,7 @@
 #
 # Environment: HR2D_PROGRAM, the program; HR2D_SCENES, the example scenes;
 # HR2D_SRCDIR, the top of the sources.
+# shellcheck disable=SC2154 # what expect.sh sets
 : "${HR2D_SRCDIR:?names the source directory}"
 scenes=${HR2D_SCENES:-$HR2D_SRCDIR/examples/scenes}
 data=$HR2D_SRCDIR/tests/cli
