@@ -60,8 +60,9 @@ static hr2d_segment part_of(hr2d_segment s, const double at[2]) {
                         at[1] < 1 ? point_of(s, at[1]) : s.b};
 }
 
+/* At least 0.7 of it. */
 static double length_of(hr2d_segment s) {
-  return hypot(s.b.x - s.a.x, s.b.y - s.a.y);
+  return fmax(fabs(s.b.x - s.a.x), fabs(s.b.y - s.a.y));
 }
 
 /* The middle of the nearer end of a shaft, and of the farther one. */

@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Enough points for the distance, and what is kept of the clusters that have links. */
 #include "cluster-far.h"
 
 #include <math.h>
 
+#include "alloc.h"
 #include "cluster-sides.h"
+#include "clusters-impl.h"
+#include "scene-impl.h"
 
 /* The m asked for along the longer direction: a cluster of the same length may stand
    between two that are linked, with some to spare.  And how many times the error of the
@@ -70,4 +74,83 @@ size_t hr2di_far_gauss(const hr2di_far *far, double length, size_t order, double
   const double degree = hr2di_far_degree(digits, hypot(2 * gap / length, 1));
   const double most = far->count[0] + far->count[1] - 2;
   return (size_t)ceil(0.5 * ((double)order + fmin(ceil(degree), most)));
+}
+
+static hr2d_status reserve(hr2di_clusters *made, size_t linked, size_t points) {
+  const hr2d_allocator *alloc = &made->alloc;
+  const size_t n = HR2DI_FAR_POINTS, cosines = n * (n + 1) * (2 * n + 1) / 6;
+  made->linked = hr2di_alloc(alloc, linked, sizeof *made->linked);
+  made->point = hr2di_alloc(alloc, points, sizeof *made->point);
+  made->home = hr2di_alloc(alloc, made->scene->patches, sizeof *made->home);
+  made->cosine = hr2di_alloc(alloc, cosines, sizeof *made->cosine);
+  return made->linked && made->point && made->home && made->cosine ? HR2D_OK : HR2D_ENOMEM;
+}
+
+/* A cluster's Chebyshev points, those along u next to each other. */
+static void put_points(const hr2di_clusters *made, const hr2di_linked *c) {
+  const hr2di_far *f = &c->far;
+  const double *tu = hr2di_cosines(made, f->count[0]), *tv = hr2di_cosines(made, f->count[1]);
+  hr2d_point *point = made->point + c->first;
+  for (unsigned b = 0; b < f->count[1]; b++)
+    for (unsigned a = 0; a < f->count[0]; a++) {
+      /* T_1(t) = t; one point is in the middle. */
+      const double u = f->at[0] + (f->count[0] > 1 ? f->half[0] * tu[f->count[0] + a] : 0);
+      const double v = f->at[1] + (f->count[1] > 1 ? f->half[1] * tv[f->count[1] + b] : 0);
+      *point++ = (hr2d_point){u * f->u.x - v * f->u.y, u * f->u.y + v * f->u.x};
+    }
+}
+
+static void put_cosines(hr2di_clusters *made) {
+  const double pi = 3.14159265358979323846;
+  double *cosine = made->cosine;
+  for (unsigned count = 1; count <= HR2DI_FAR_POINTS; count++)
+    for (unsigned n = 0; n < count; n++)
+      for (unsigned k = 0; k < count; k++) *cosine++ = cos(n * (2 * k + 1) * pi / (2 * count));
+}
+
+/* Numbers the clusters that have links; how many points they have. */
+static size_t number_linked(hr2di_clusters *made, const hr2di_cluster_tree *tree,
+                            const hr2di_far *far, uint32_t *number) {
+  size_t points = 0;
+  for (size_t k = 0; k < tree->clusters; k++) number[k] = HR2DI_NO_CLUSTER;
+  for (size_t k = 0; k < made->links; k++)
+    number[made->link[k].first] = number[made->link[k].second] = 0;
+  for (size_t k = 0; k < tree->clusters; k++) {
+    if (number[k] == HR2DI_NO_CLUSTER) continue;
+    number[k] = (uint32_t)made->linked_count++;
+    points += hr2di_far_points(&far[k]);
+  }
+  return points;
+}
+
+/* Parents come before children: the last one that claims a patch is the least. */
+static void put_linked(hr2di_clusters *made, const hr2di_cluster_tree *tree,
+                       const hr2di_far *far, const uint32_t *number) {
+  for (size_t k = 0; k < made->scene->patches; k++) made->home[k] = HR2DI_NO_CLUSTER;
+  put_cosines(made);
+  for (size_t k = 0; k < tree->clusters; k++) {
+    if (number[k] == HR2DI_NO_CLUSTER) continue;
+    const hr2di_cluster *c = &tree->cluster[k];
+    hr2di_linked *linked = &made->linked[number[k]];
+    *linked = (hr2di_linked){far[k], made->home[tree->patch[c->first]], made->points};
+    made->points += hr2di_far_points(&linked->far);
+    for (uint32_t p = c->first; p < c->last; p++) made->home[tree->patch[p]] = number[k];
+    put_points(made, linked);
+  }
+  for (size_t k = 0; k < made->links; k++) {
+    made->link[k].first = number[made->link[k].first];
+    made->link[k].second = number[made->link[k].second];
+  }
+}
+
+hr2d_status hr2di_clusters_keep(hr2di_clusters *made, const hr2di_cluster_tree *tree,
+                                const hr2di_far *far) {
+  if (made->links == 0) return HR2D_OK;
+  uint32_t *number = hr2di_alloc(&tree->alloc, tree->clusters, sizeof *number);
+  if (!number) return HR2D_ENOMEM;
+  const size_t points = number_linked(made, tree, far, number);
+  const hr2d_status status = reserve(made, made->linked_count, points);
+  if (!status) put_linked(made, tree, far, number);
+  hr2di_free(&tree->alloc, number);
+  return status;
 }

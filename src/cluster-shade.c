@@ -57,17 +57,16 @@ static int outside(const hull *h, const hr2di_cluster *c) {
    not meet what is behind p or behind y, nor a patch w of which both are on one side. */
 static int harmless(const hr2di_cluster_tree *tree, uint32_t w, uint32_t i, uint32_t j) {
   const hr2di_cluster *c = &tree->cluster[w], *p = &tree->cluster[i], *y = &tree->cluster[j];
-  if (hr2di_cluster_glance(tree, p, c) == HR2DI_SIDE_BEHIND ||
-      hr2di_cluster_glance(tree, y, c) == HR2DI_SIDE_BEHIND)
+  if ((hr2di_cluster_glance(tree, p, c) | hr2di_cluster_glance(tree, y, c)) & HR2DI_SIDE_BEHIND)
     return 1;
-  if (c->below) {
-    const hr2di_side_of side = hr2di_cluster_glance(tree, c, p);
-    return side && hr2di_cluster_glance(tree, c, y) == side;
-  }
-  const hr2di_side_of side = hr2di_cluster_side(tree, w, i);
-  if (side && hr2di_cluster_side(tree, w, j) == side) return 1;
-  return hr2di_cluster_side(tree, i, w) == HR2DI_SIDE_BEHIND ||
-         hr2di_cluster_side(tree, j, w) == HR2DI_SIDE_BEHIND;
+  if (hr2di_cluster_glance(tree, c, p) & hr2di_cluster_glance(tree, c, y)) return 1;
+  if (c->below) return 0;
+  static const hr2di_side_of side[] = {HR2DI_SIDE_FRONT, HR2DI_SIDE_BEHIND};
+  for (int k = 0; k < 2; k++)
+    if (hr2di_cluster_on(tree, w, i, side[k]) && hr2di_cluster_on(tree, w, j, side[k]))
+      return 1;
+  return hr2di_cluster_on(tree, i, w, HR2DI_SIDE_BEHIND) ||
+         hr2di_cluster_on(tree, j, w, HR2DI_SIDE_BEHIND);
 }
 
 int hr2di_clusters_clear(const hr2di_cluster_tree *tree, uint32_t i, uint32_t j,

@@ -40,14 +40,11 @@ static range range_to(const hr2di_cluster_tree *tree, const hr2di_cluster *c,
   return range_of(tree, c, &y);
 }
 
-static hr2di_side_of side_in(range r) {
-  if (r.low >= -r.touch) return HR2DI_SIDE_FRONT;
-  return r.high <= r.touch ? HR2DI_SIDE_BEHIND : HR2DI_SIDE_UNKNOWN;
-}
-
-hr2di_side_of hr2di_cluster_glance(const hr2di_cluster_tree *tree, const hr2di_cluster *c,
-                                   const hr2di_cluster *other) {
-  return side_in(range_to(tree, c, other));
+unsigned hr2di_cluster_glance(const hr2di_cluster_tree *tree, const hr2di_cluster *c,
+                              const hr2di_cluster *other) {
+  const range r = range_to(tree, c, other);
+  return (r.low >= -r.touch ? HR2DI_SIDE_FRONT : 0u) |
+         (r.high <= r.touch ? HR2DI_SIDE_BEHIND : 0u);
 }
 
 static double size_of(const hr2di_cluster *c) {
@@ -70,30 +67,21 @@ static int halve(const hr2di_cluster_tree *tree, two at, int keep, two *stack, s
   return 1;
 }
 
-/* Whether all patches of d are on one side of all patches of c. */
-static int all_on(const hr2di_cluster_tree *tree, two at, hr2di_side_of side) {
+int hr2di_cluster_on(const hr2di_cluster_tree *tree, uint32_t c, uint32_t other,
+                     hr2di_side_of side) {
+  const int front = side == HR2DI_SIDE_FRONT;
   two stack[STACK];
   size_t count = 0;
-  stack[count++] = at;
+  stack[count++] = (two){c, other};
   for (int turns = PATIENCE; count > 0 && turns > 0; turns--) {
-    const two top = stack[--count];
-    const hr2di_cluster *c = &tree->cluster[top.c];
-    const range r = range_to(tree, c, &tree->cluster[top.d]);
-    const int front = side == HR2DI_SIDE_FRONT;
+    const two at = stack[--count];
+    const hr2di_cluster *top = &tree->cluster[at.c];
+    const range r = range_to(tree, top, &tree->cluster[at.d]);
     if (front ? r.low >= -r.touch : r.high <= r.touch) continue;
     if (front ? r.high < -r.touch : r.low > r.touch) return 0;
-    if (!halve(tree, top, c->run != HR2DI_NO_RUN, stack, &count)) return 0;
+    if (!halve(tree, at, top->run != HR2DI_NO_RUN, stack, &count)) return 0;
   }
   return count == 0;
-}
-
-hr2di_side_of hr2di_cluster_side(const hr2di_cluster_tree *tree, uint32_t c, uint32_t other) {
-  const hr2di_side_of side =
-      hr2di_cluster_glance(tree, &tree->cluster[c], &tree->cluster[other]);
-  if (side) return side;
-  if (all_on(tree, (two){c, other}, HR2DI_SIDE_FRONT)) return HR2DI_SIDE_FRONT;
-  return all_on(tree, (two){c, other}, HR2DI_SIDE_BEHIND) ? HR2DI_SIDE_BEHIND
-                                                          : HR2DI_SIDE_UNKNOWN;
 }
 
 hr2di_clusters_facing hr2di_clusters_face(const hr2di_cluster_tree *tree, uint32_t i,

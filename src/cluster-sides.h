@@ -10,18 +10,19 @@
    line but for rounding do. */
 #define HR2DI_CLUSTER_TOUCH 0x1p-47
 
+/* Both where all lie on one line. */
 typedef enum hr2di_side_of {
-  HR2DI_SIDE_UNKNOWN = 0,
-  HR2DI_SIDE_FRONT, /* in front of every patch, or touching its line */
-  HR2DI_SIDE_BEHIND /* behind every patch, or touching its line */
+  HR2DI_SIDE_FRONT = 1, /* in front of every patch, or touching its line */
+  HR2DI_SIDE_BEHIND = 2 /* behind every patch, or touching its line */
 } hr2di_side_of;
 
-/* Where all of `other` lies to all patches of `c`, at a glance. */
-hr2di_side_of hr2di_cluster_glance(const hr2di_cluster_tree *tree, const hr2di_cluster *c,
-                                   const hr2di_cluster *other);
+/* The sides of all patches of `c` on which all of `other` surely lies, at a glance. */
+unsigned hr2di_cluster_glance(const hr2di_cluster_tree *tree, const hr2di_cluster *c,
+                              const hr2di_cluster *other);
 
-/* The same, by looking into both; unknown also where that takes long. */
-hr2di_side_of hr2di_cluster_side(const hr2di_cluster_tree *tree, uint32_t c, uint32_t other);
+/* Whether it lies on one of them, by looking into both; no also where that takes long. */
+int hr2di_cluster_on(const hr2di_cluster_tree *tree, uint32_t c, uint32_t other,
+                     hr2di_side_of side);
 
 /* How the patches of two clusters face each other: none does for sure, all do fully for
    sure and but for rounding, or neither is known. */

@@ -32,6 +32,11 @@ struct hr2di_clusters {
   double *cosine; /* T_n at the points, for each number of points; see hr2di_cosines() */
 };
 
+/* Keeps of all clusters those between which made->link are, and renumbers these; HR2D_OK or
+   HR2D_ENOMEM. */
+hr2d_status hr2di_clusters_keep(hr2di_clusters *made, const hr2di_cluster_tree *tree,
+                                const hr2di_far *far);
+
 /* T_n at point k of `count`, by n·count + k. */
 static inline const double *hr2di_cosines(const hr2di_clusters *c, unsigned count) {
   return c->cosine + (size_t)(count - 1) * count * (2 * count - 1) / 6;

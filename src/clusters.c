@@ -109,8 +109,8 @@ static int may_link(const walk *w, const two *at) {
 /* Completes what is known of a pair that may be linked, until it is known not to be. */
 static int is_clear(walk *w, two *at) {
   if (!at->facing)
-    at->facing = hr2di_cluster_side(&w->tree, at->i, at->j) == HR2DI_SIDE_FRONT &&
-                 hr2di_cluster_side(&w->tree, at->j, at->i) == HR2DI_SIDE_FRONT;
+    at->facing = hr2di_cluster_on(&w->tree, at->i, at->j, HR2DI_SIDE_FRONT) &&
+                 hr2di_cluster_on(&w->tree, at->j, at->i, HR2DI_SIDE_FRONT);
   if (at->facing && !at->clear)
     at->clear = (unsigned char)hr2di_clusters_clear(&w->tree, at->i, at->j, &at->suspect);
   return at->facing && at->clear;
@@ -213,84 +213,6 @@ static hr2d_status sort_pairs(walk *w, const hr2d_scene *scene) {
   return status ? status : flush(w);
 }
 
-static hr2d_status reserve(hr2di_clusters *made, size_t linked, size_t points) {
-  const hr2d_allocator *alloc = &made->alloc;
-  const size_t n = HR2DI_FAR_POINTS, cosines = n * (n + 1) * (2 * n + 1) / 6;
-  made->linked = hr2di_alloc(alloc, linked, sizeof *made->linked);
-  made->point = hr2di_alloc(alloc, points, sizeof *made->point);
-  made->home = hr2di_alloc(alloc, made->scene->patches, sizeof *made->home);
-  made->cosine = hr2di_alloc(alloc, cosines, sizeof *made->cosine);
-  return made->linked && made->point && made->home && made->cosine ? HR2D_OK : HR2D_ENOMEM;
-}
-
-/* A cluster's Chebyshev points, those along u next to each other. */
-static void put_points(const hr2di_clusters *made, const hr2di_linked *c) {
-  const hr2di_far *f = &c->far;
-  const double *tu = hr2di_cosines(made, f->count[0]), *tv = hr2di_cosines(made, f->count[1]);
-  hr2d_point *point = made->point + c->first;
-  for (unsigned b = 0; b < f->count[1]; b++)
-    for (unsigned a = 0; a < f->count[0]; a++) {
-      /* T_1(t) = t; one point is in the middle. */
-      const double u = f->at[0] + (f->count[0] > 1 ? f->half[0] * tu[f->count[0] + a] : 0);
-      const double v = f->at[1] + (f->count[1] > 1 ? f->half[1] * tv[f->count[1] + b] : 0);
-      *point++ = (hr2d_point){u * f->u.x - v * f->u.y, u * f->u.y + v * f->u.x};
-    }
-}
-
-static void put_cosines(hr2di_clusters *made) {
-  const double pi = 3.14159265358979323846;
-  double *cosine = made->cosine;
-  for (unsigned count = 1; count <= HR2DI_FAR_POINTS; count++)
-    for (unsigned n = 0; n < count; n++)
-      for (unsigned k = 0; k < count; k++) *cosine++ = cos(n * (2 * k + 1) * pi / (2 * count));
-}
-
-/* Numbers the clusters that have links; how many points they have. */
-static size_t number_linked(const walk *w, uint32_t *number) {
-  hr2di_clusters *made = w->made;
-  size_t points = 0;
-  for (size_t k = 0; k < w->tree.clusters; k++) number[k] = HR2DI_NO_CLUSTER;
-  for (size_t k = 0; k < made->links; k++)
-    number[made->link[k].first] = number[made->link[k].second] = 0;
-  for (size_t k = 0; k < w->tree.clusters; k++) {
-    if (number[k] == HR2DI_NO_CLUSTER) continue;
-    number[k] = (uint32_t)made->linked_count++;
-    points += hr2di_far_points(&w->far[k]);
-  }
-  return points;
-}
-
-/* Parents come before children: the last one that claims a patch is the least. */
-static void put_linked(const walk *w, const uint32_t *number) {
-  hr2di_clusters *made = w->made;
-  for (size_t k = 0; k < made->scene->patches; k++) made->home[k] = HR2DI_NO_CLUSTER;
-  put_cosines(made);
-  for (size_t k = 0; k < w->tree.clusters; k++) {
-    if (number[k] == HR2DI_NO_CLUSTER) continue;
-    const hr2di_cluster *c = &w->tree.cluster[k];
-    hr2di_linked *linked = &made->linked[number[k]];
-    *linked = (hr2di_linked){w->far[k], made->home[w->tree.patch[c->first]], made->points};
-    made->points += hr2di_far_points(&linked->far);
-    for (uint32_t p = c->first; p < c->last; p++) made->home[w->tree.patch[p]] = number[k];
-    put_points(made, linked);
-  }
-  for (size_t k = 0; k < made->links; k++) {
-    made->link[k].first = number[made->link[k].first];
-    made->link[k].second = number[made->link[k].second];
-  }
-}
-
-static hr2d_status keep_linked(walk *w) {
-  if (w->made->links == 0) return HR2D_OK;
-  uint32_t *number = hr2di_alloc(&w->tree.alloc, w->tree.clusters, sizeof *number);
-  if (!number) return HR2D_ENOMEM;
-  const size_t points = number_linked(w, number);
-  const hr2d_status status = reserve(w->made, w->made->linked_count, points);
-  if (!status) put_linked(w, number);
-  hr2di_free(&w->tree.alloc, number);
-  return status;
-}
-
 hr2d_status hr2di_clusters_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
                                   double digits, hr2di_near_fn near, void *ctx,
                                   hr2di_clusters **clusters) {
@@ -299,7 +221,7 @@ hr2d_status hr2di_clusters_create(const hr2d_scene *scene, const hr2d_allocator 
   *made = (hr2di_clusters){.alloc = *alloc, .scene = scene, .digits = digits};
   walk w = {.made = made, .near = near, .ctx = ctx};
   hr2d_status status = sort_pairs(&w, scene);
-  if (!status) status = keep_linked(&w);
+  if (!status) status = hr2di_clusters_keep(made, &w.tree, w.far);
   hr2di_cluster_tree_clear(&w.tree);
   hr2di_free(alloc, w.far);
   hr2di_free(alloc, w.stack);

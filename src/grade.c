@@ -13,6 +13,7 @@
 #include "alloc.h"
 #include "block.h"
 #include "corner.h"
+#include "images.h"
 #include "predicates.h"
 #include "scene-impl.h"
 
@@ -45,9 +46,9 @@ typedef struct grader {
   const hr2di_grading *grading;
   vertex *vertex; /* by x */
   size_t vertices;
-  uint32_t *near; /* vertices in front of the patch under way, and near to it */
-  size_t near_count, near_capacity;
-  mark *mark; /* of the patch under way, by place */
+  hr2di_points near; /* in front of the patch under way, and near to it: ends of others, and
+                        mirror images */
+  mark *mark;        /* of the patch under way, by place */
   size_t marks, mark_capacity;
   hr2di_survey survey;
   double target;   /* of the patch under way */
@@ -152,10 +153,10 @@ static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
   const double at = ((v->at.x - s.a.x) * ux + (v->at.y - s.a.y) * uy) / (p->length * p->length);
   if (above > ON_LINE) {
     if (hr2di_ellipse(s, v->at) >= FAR) return HR2D_OK;
-    if (hr2di_reserve(&g->h->alloc, &g->near, &g->near_capacity, g->near_count + 1,
-                      sizeof *g->near))
+    if (hr2di_reserve(&g->h->alloc, &g->near.point, &g->near.capacity, g->near.count + 1,
+                      sizeof *g->near.point))
       return HR2D_ENOMEM;
-    g->near[g->near_count++] = number;
+    g->near.point[g->near.count++] = v->at;
     return HR2D_OK;
   }
   if (above < -ON_LINE || at < -ON_LINE || at > 1 + ON_LINE) return HR2D_OK;
@@ -254,8 +255,8 @@ static int wants_halves(const grader *g, const part *e) {
     const int touches = fabs(at - e->from) <= margin || fabs(at - e->to) <= margin;
     if (touches && size > 1.001 * ldexp(1, -(int)g->mark[k].depth)) return 1;
   }
-  for (size_t k = 0; k < g->near_count; k++)
-    if (hr2di_ellipse(s, g->vertex[g->near[k]].at) < g->distance) return 1;
+  for (size_t k = 0; k < g->near.count; k++)
+    if (hr2di_ellipse(s, g->near.point[k]) < g->distance) return 1;
   return 0;
 }
 
@@ -263,8 +264,8 @@ static int wants_halves(const grader *g, const part *e) {
 static void survey_leaf(grader *g, const part *e) {
   const hr2d_element *element = &g->h->element[e->element];
   const hr2d_segment s = {element->a, element->b};
-  for (size_t k = 0; k < g->near_count; k++)
-    g->survey.ellipse = fmin(g->survey.ellipse, hr2di_ellipse(s, g->vertex[g->near[k]].at));
+  for (size_t k = 0; k < g->near.count; k++)
+    g->survey.ellipse = fmin(g->survey.ellipse, hr2di_ellipse(s, g->near.point[k]));
 }
 
 static hr2d_status divide(grader *g, part *e, int *divided) {
@@ -291,10 +292,11 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
   part stack[STACK];
   size_t count = 0;
   const double weight = g->grading->weight ? g->grading->weight[patch] : 1;
-  g->near_count = g->marks = 0;
+  g->near.count = g->marks = 0;
   g->target = fmin(g->grading->target / weight, 0.5);
   g->distance = weight < 1 ? hr2di_distance_for(g->target, g->grading->order) : HR2DI_DISTANT;
   hr2d_status status = look_around(g, patch);
+  if (!status) status = hr2di_add_images(g->h->scene, patch, FAR, &g->near, g->near.count);
   if (!status) status = add_events(g, patch);
   if (status) return status;
   sort_marks(g);
@@ -321,7 +323,7 @@ hr2d_status hr2di_grade(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
   for (uint32_t k = 0; k < scene->patches && !status; k++)
     if (hr2di_lit(scene, k) && reflectance(scene, k) > 0) status = grade_patch(&g, k);
   hr2di_free(&hierarchy->alloc, g.vertex);
-  hr2di_free(&hierarchy->alloc, g.near);
+  hr2di_free(&hierarchy->alloc, g.near.point);
   hr2di_free(&hierarchy->alloc, g.mark);
   *survey = g.survey;
   return status;

@@ -57,6 +57,7 @@ libhr2d_core_la_SOURCES = \
 	src/hierarchy.c \
 	src/hierarchy-impl.h \
 	src/hierarchy-unite.c \
+	src/images.c src/images.h \
 	src/importance.c src/importance.h \
 	src/kernel.c \
 	src/krylov.c src/krylov.h \

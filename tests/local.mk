@@ -25,6 +25,8 @@ SUITES = \
 	tests/check_exchange_matrix \
 	tests/check_blocks \
 	tests/check_order \
+	tests/check_accuracy \
+	tests/check_clusters \
 	tests/check_corner \
 	tests/check_events \
 	tests/check_point_view \
@@ -44,6 +46,8 @@ SH_LOG_COMPILER = $(SHELL)
 if HAVE_TESTS
 check_LTLIBRARIES = tests/libsupport.la
 tests_libsupport_la_SOURCES = \
+	tests/accuracy_nystrom.c tests/accuracy_nystrom.h \
+	tests/accuracy_scenes.c tests/accuracy_scenes.h \
 	tests/brute_block.c tests/brute_block.h \
 	tests/mpfr_exchange.c tests/mpfr_exchange.h \
 	tests/pair_classes.c tests/pair_classes.h \

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Walls near a patch are found by the tree of boxes. */
+#include "images.h"
+
+#include <math.h>
+
+#include "alloc.h"
+#include "block.h"
+#include "boxes.h"
+#include "predicates.h"
+#include "scene-impl.h"
+
+typedef struct mirror {
+  const hr2d_scene *scene;
+  const hr2di_patch *patch;
+  double most;
+  hr2di_points *points;
+  size_t count;
+} mirror;
+
+/* Whether a box comes nearer to the patch than its length. */
+static int is_near(const hr2di_patch *p, const hr2di_box *box) {
+  const hr2d_segment s = p->scaled;
+  const double reach = p->length;
+  return box->x0 <= fmax(s.a.x, s.b.x) + reach && box->x1 >= fmin(s.a.x, s.b.x) - reach &&
+         box->y0 <= fmax(s.a.y, s.b.y) + reach && box->y1 >= fmin(s.a.y, s.b.y) - reach;
+}
+
+/* An image counts if the foot is on the wall: else the wall's own end is what is near. */
+static hr2d_status add_image(mirror *m, hr2d_segment wall, hr2d_point v) {
+  const hr2d_segment s = m->patch->scaled;
+  const double ux = wall.b.x - wall.a.x, uy = wall.b.y - wall.a.y, square = ux * ux + uy * uy;
+  const double at = ((v.x - wall.a.x) * ux + (v.y - wall.a.y) * uy) / square;
+  const double off = hr2di_orient(wall.a, wall.b, v) / square;
+  const hr2d_point image = {v.x + 2 * off * uy, v.y - 2 * off * ux};
+  if (!(at > 0 && at < 1) || off == 0) return HR2D_OK;
+  if (!(hr2di_orient(s.a, s.b, image) > 1e-13 * m->patch->length * m->patch->length) ||
+      hr2di_ellipse(s, image) >= m->most)
+    return HR2D_OK;
+  hr2di_points *points = m->points;
+  if (hr2di_reserve(&m->scene->alloc, &points->point, &points->capacity, points->count + 1,
+                    sizeof *points->point))
+    return HR2D_ENOMEM;
+  points->point[points->count++] = image;
+  return HR2D_OK;
+}
+
+static hr2d_status add_wall(mirror *m, hr2d_segment wall) {
+  const hr2d_segment s = m->patch->scaled;
+  hr2d_status status = add_image(m, wall, s.a);
+  if (!status) status = add_image(m, wall, s.b);
+  for (size_t k = 0; k < m->count && !status; k++)
+    status = add_image(m, wall, m->points->point[k]);
+  return status;
+}
+
+hr2d_status hr2di_add_images(const hr2d_scene *scene, uint32_t patch, double most,
+                             hr2di_points *points, size_t count) {
+  mirror m = {scene, &scene->patch[patch], most, points, count};
+  uint32_t stack[2 * HR2DI_BOX_DEPTH];
+  size_t waiting = 0;
+  hr2d_status status = HR2D_OK;
+  stack[waiting++] = 0;
+  while (waiting > 0 && !status) {
+    const uint32_t number = stack[--waiting];
+    const hr2di_box *box = &scene->walls.box[number];
+    if (!is_near(m.patch, box)) continue;
+    if (box->wall == HR2DI_NO_WALL) {
+      stack[waiting++] = box->below;
+      stack[waiting++] = box->below + 1;
+    } else if (box->wall != scene->walls.of_segment[patch]) {
+      status = add_wall(&m, scene->walls.wall[box->wall].at);
+    }
+  }
+  return status;
+}
