@@ -10,13 +10,13 @@
 #include "scene-impl.h"
 
 /* The m asked for along the longer direction: a cluster of the same length may stand
-   between two that are linked, with some to spare.  And how many times the error of the
-   ellipse's bound is taken, for what grows towards r = 0. */
-#define APART  2.5
-#define GROWTH 1
+   between two that are linked, with some to spare. */
+#define APART 2.5
 
+/* The constant in front of the bound grows with 1/r³ towards the ellipse, but m is seldom as
+   small as it may be: the errors measured are a fifth of what is asked for, and less. */
 double hr2di_far_degree(double digits, double m) {
-  return log(GROWTH / digits) / log(m + sqrt(m * m - 1));
+  return log(1 / digits) / log(m + sqrt(m * m - 1));
 }
 
 /* What is APART along the longer direction of half h is (APART−1)·h away from the cluster,

@@ -27,7 +27,7 @@ hr2d_status hr2di_survey_scene(const hr2d_scene *scene, hr2di_survey *survey) {
 
 /* Many patches have so many events that to halve all elements is cheaper, as long as not much
    is asked for: what a kink inside an element does falls like the square of its length. */
-enum { CROWD = 64, MOST_HALVINGS = 3, MOST_GENERATIONS = 4 };
+enum { CROWD = 64, MOST_HALVINGS = 3 };
 #define CROWDED_AIM 1e-3
 
 static int is_crowded(const hr2d_scene *scene, int hidden) {
@@ -73,7 +73,7 @@ int hr2di_fineness_raise(hr2di_fineness *f, const hr2di_survey *survey, double f
   f->deeper += (unsigned)fmax(ceil(log2(factor) / slope), 1);
   if (f->crowded && f->generations == 0 && f->halvings < MOST_HALVINGS)
     f->halvings++;
-  else if (f->hidden && f->generations < MOST_GENERATIONS)
+  else if (f->hidden && f->generations < (f->norm == HR2D_NORM_SUP ? 4U : 2U))
     f->generations++;
   return 0;
 }

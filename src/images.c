@@ -26,14 +26,16 @@ static int is_near(const hr2di_patch *p, const hr2di_box *box) {
          box->y0 <= fmax(s.a.y, s.b.y) + reach && box->y1 >= fmin(s.a.y, s.b.y) - reach;
 }
 
-/* An image counts if the foot is on the wall: else the wall's own end is what is near. */
-static hr2d_status add_image(mirror *m, hr2d_segment wall, hr2d_point v) {
+/* An image counts if the foot is on the wall, else the wall's own end is what is near; and if
+   the patch is on the same side of the wall: `side` is how far it reaches to the left and
+   right. */
+static hr2d_status add_image(mirror *m, hr2d_segment wall, const double side[2], hr2d_point v) {
   const hr2d_segment s = m->patch->scaled;
   const double ux = wall.b.x - wall.a.x, uy = wall.b.y - wall.a.y, square = ux * ux + uy * uy;
   const double at = ((v.x - wall.a.x) * ux + (v.y - wall.a.y) * uy) / square;
   const double off = hr2di_orient(wall.a, wall.b, v) / square;
   const hr2d_point image = {v.x + 2 * off * uy, v.y - 2 * off * ux};
-  if (!(at > 0 && at < 1) || off == 0) return HR2D_OK;
+  if (!(at > 0 && at < 1) || !(off > 0 ? side[0] > 0 : off < 0 && side[1] < 0)) return HR2D_OK;
   if (!(hr2di_orient(s.a, s.b, image) > 1e-13 * m->patch->length * m->patch->length) ||
       hr2di_ellipse(s, image) >= m->most)
     return HR2D_OK;
@@ -47,10 +49,13 @@ static hr2d_status add_image(mirror *m, hr2d_segment wall, hr2d_point v) {
 
 static hr2d_status add_wall(mirror *m, hr2d_segment wall) {
   const hr2d_segment s = m->patch->scaled;
-  hr2d_status status = add_image(m, wall, s.a);
-  if (!status) status = add_image(m, wall, s.b);
+  const double of_a = hr2di_orient(wall.a, wall.b, s.a),
+               of_b = hr2di_orient(wall.a, wall.b, s.b);
+  const double side[] = {fmax(of_a, of_b), fmin(of_a, of_b)};
+  hr2d_status status = add_image(m, wall, side, s.a);
+  if (!status) status = add_image(m, wall, side, s.b);
   for (size_t k = 0; k < m->count && !status; k++)
-    status = add_image(m, wall, m->points->point[k]);
+    status = add_image(m, wall, side, m->points->point[k]);
   return status;
 }
 
