@@ -23,8 +23,7 @@ typedef struct hr2di_blocks_plan {
 
 /* Makes the blocks of a set's links anew; HR2D_OK, HR2D_ENOMEM, or the status of the progress
    callback.  On failure there are none. */
-hr2d_status hr2di_blocks_make(hr2d_linkset *links, size_t order,
-                              const hr2di_blocks_plan *plan);
+hr2d_status hr2di_blocks_make(hr2d_linkset *links, size_t order, const hr2di_blocks_plan *plan);
 
 void hr2di_blocks_clear(hr2di_blocks *blocks, const hr2d_allocator *alloc);
 

@@ -8,8 +8,8 @@
 typedef struct hr2di_errors {
   hr2d_error average; /* of the worst patch, or of the one asked for */
   hr2d_error sup;
-  uint64_t kernels;   /* values of G it took */
-  uint64_t bytes;     /* of the finer trees, links and blocks */
+  uint64_t kernels; /* values of G it took */
+  uint64_t bytes;   /* of the finer trees, links and blocks */
 } hr2di_errors;
 
 /* Estimates the error of an answer of this fineness; HR2D_OK, or a status with a reason in

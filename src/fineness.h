@@ -12,7 +12,8 @@ hr2d_status hr2di_survey_scene(const hr2d_scene *scene, hr2di_survey *survey);
 hr2di_fineness hr2di_fineness_for(const hr2d_scene *scene, const hr2di_survey *survey,
                                   double error, hr2d_norm norm);
 
-/* Makes it finer, so that the error may fall by a factor; 0, or -1 if it is as fine as can be. */
+/* Makes it finer, so that the error may fall by a factor; 0, or -1 if it is as fine as can be.
+ */
 int hr2di_fineness_raise(hr2di_fineness *fineness, const hr2di_survey *survey, double factor);
 
 #endif

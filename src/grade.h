@@ -19,21 +19,22 @@ typedef struct hr2di_grading {
   size_t max_elements;        /* 0 for no limit */
 } hr2di_grading;
 
-/* The generations of events that an error of averages asks for, from measurements: where no event
-   is an element's end, radiosity's kinks do some 1e-4 to averages, beyond one generation 1e-9. */
+/* The generations of events that an error of averages asks for, from measurements: where no
+   event is an element's end, radiosity's kinks do some 1e-4 to averages, beyond one generation
+   1e-9. */
 unsigned hr2di_generations_for(double error);
 
 /* What was found on the way. */
 typedef struct hr2di_survey {
   double exponent; /* the least γ of a corner, B ~ x^γ; 1 where light goes to and fro in none */
-  double ellipse;  /* the least m of an element that no end touches; at most 3 */
+  double ellipse; /* the least m of an element that no end touches; at most 3 */
 } hr2di_survey;
 
-/* Divides elements, also of trees that have grown before: at visibility events and where the end
-   of a patch stands on another; towards corners, geometrically; and until no end of a patch is
-   nearer to an element in front of it than an ellipse of HR2DI_DISTANT.  Patches that reflect
-   nothing have B = E and stay whole.  HR2D_OK, HR2D_ENOMEM or HR2D_EMAX_ELEMENTS, with part of
-   the divisions done. */
+/* Divides elements, also of trees that have grown before: at visibility events and where the
+   end of a patch stands on another; towards corners, geometrically; and until no end of a patch
+   is nearer to an element in front of it than an ellipse of HR2DI_DISTANT.  Patches that
+   reflect nothing have B = E and stay whole.  HR2D_OK, HR2D_ENOMEM or HR2D_EMAX_ELEMENTS, with
+   part of the divisions done. */
 hr2d_status hr2di_grade(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
                         hr2di_survey *survey);
 

@@ -11,8 +11,8 @@
 /* How fine. */
 typedef struct hr2di_fineness {
   unsigned order;
-  double target;        /* relative error that corners are graded for */
-  double digits;        /* relative accuracy of links between clusters of patches */
+  double target; /* relative error that corners are graded for */
+  double digits; /* relative accuracy of links between clusters of patches */
   hr2d_norm norm;
   unsigned deeper;      /* levels at corners beyond what the target asks for */
   int hidden;           /* the scene has visibility events, */

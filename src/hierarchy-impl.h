@@ -54,8 +54,8 @@ static inline uint32_t hr2di_child_at(const hr2d_element *element, uint32_t at, 
 /* Where an element begins, a fraction of its patch, exact for halves of halves. */
 double hr2di_start(const hr2d_hierarchy *hierarchy, uint32_t element);
 
-/* The leaves below an element, as the tree is walked: the first, and the one behind a leaf, or 0
-   behind the last. */
+/* The leaves below an element, as the tree is walked: the first, and the one behind a leaf, or
+   0 behind the last. */
 uint32_t hr2di_first_leaf(const hr2d_hierarchy *hierarchy, uint32_t top);
 uint32_t hr2di_next_leaf(const hr2d_hierarchy *hierarchy, uint32_t leaf, uint32_t top);
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mirror images: where radiosity is nearly singular on account of a wall close by.
 
-   At height δ above a wall an end of a patch makes the wall's radiosity singular at its foot ± iδ.
-   From there, another δ away, it comes back: to the patch it is as if the end's mirror image
-   behind the wall were an end, too. */
+   At height δ above a wall an end of a patch makes the wall's radiosity singular at its foot ±
+   iδ. From there, another δ away, it comes back: to the patch it is as if the end's mirror
+   image behind the wall were an end, too. */
 #ifndef HR2D_SRC_IMAGES_H
 #define HR2D_SRC_IMAGES_H
 

@@ -11,8 +11,8 @@ typedef struct hr2di_push_pull {
   hr2d_allocator alloc;
   size_t elements; /* of the hierarchy when this was made */
   size_t order, bands;
-  double *relation; /* pairs of order × order, for the left child and the right; pair 0 is
-                       that of halves */
+  double *relation;  /* pairs of order × order, for the left child and the right; pair 0 is
+                        that of halves */
   uint32_t *pair_of; /* per element; NULL where all children are halves */
 } hr2di_push_pull;
 

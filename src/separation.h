@@ -14,8 +14,8 @@ typedef struct hr2di_separation {
   const double *weight; /* per patch, see graded.h; NULL: 1 */
 } hr2di_separation;
 
-/* 0 for pairs that are distant, both ways, see each other's fronts wholly and have nothing in the
-   way; and for what is too unimportant to ask for that; else 1. */
+/* 0 for pairs that are distant, both ways, see each other's fronts wholly and have nothing in
+   the way; and for what is too unimportant to ask for that; else 1. */
 const hr2d_oracle *hr2di_oracle_separation(void);
 
 /* Never divides a leaf: leaves are linked as they are. */

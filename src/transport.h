@@ -16,12 +16,12 @@ typedef struct hr2di_transport {
   hr2di_push_pull trees;
   size_t order, bands, width; /* width is order × bands */
   size_t elements, leaves;
-  uint32_t *leaf;  /* the element of each leaf */
-  double *up;      /* elements × width: radiosity */
-  double *down;    /* slices × elements × width: power received, then irradiance */
-  double *closure; /* leaves × order × order, added to the diagonal; NULL for none */
-  double *sky;     /* leaves × order: how much of all directions the background is seen in;
-                      NULL: none */
+  uint32_t *leaf;   /* the element of each leaf */
+  double *up;       /* elements × width: radiosity */
+  double *down;     /* slices × elements × width: power received, then irradiance */
+  double *closure;  /* leaves × order × order, added to the diagonal; NULL for none */
+  double *sky;      /* leaves × order: how much of all directions the background is seen in;
+                       NULL: none */
   size_t slices;    /* the links are cut into so many parts, whatever the threads */
   unsigned threads; /* 0 for all */
   uint64_t sweeps;  /* gathers so far */

@@ -30,13 +30,12 @@
 #ifndef HR2D_ACCURACY_H
 #define HR2D_ACCURACY_H
 
-#include <stddef.h>
-#include <stdint.h>
-
 #include <hr2d/refine.h>
 #include <hr2d/scene.h>
 #include <hr2d/solve.h>
 #include <hr2d/status.h>
+#include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -61,45 +60,45 @@ typedef struct hr2d_error {
 
 /** What is asked for.  Start from #HR2D_TARGET_INIT. */
 typedef struct hr2d_target {
-  size_t struct_size;   /**< so that the struct can grow */
-  double error;         /**< relative error to be reached; 0: as small as can be had, which
-                             wants a budget of seconds or takes what doubles give */
-  hr2d_norm norm;       /**< the norm in which it is measured */
-  double seconds;       /**< budget of wall time; 0 for none.  The best solution that was ready
-                             by then is returned */
-  size_t importance;    /**< only the average of this patch has to reach the target;
-                             #HR2D_ALL_PATCHES for all */
-  unsigned threads;     /**< 0 for all; no bit depends on it but through `seconds` */
+  size_t struct_size;    /**< so that the struct can grow */
+  double error;          /**< relative error to be reached; 0: as small as can be had, which
+                              wants a budget of seconds or takes what doubles give */
+  hr2d_norm norm;        /**< the norm in which it is measured */
+  double seconds;        /**< budget of wall time; 0 for none.  The best solution that was ready
+                              by then is returned */
+  size_t importance;     /**< only the average of this patch has to reach the target;
+                              #HR2D_ALL_PATCHES for all */
+  unsigned threads;      /**< 0 for all; no bit depends on it but through `seconds` */
   uint64_t max_elements; /**< budget for N; 0 for none */
-  uint64_t max_links;   /**< budget for L; 0 for none */
-  uint64_t max_bytes;   /**< budget for elements, links and blocks; 0 for none */
+  uint64_t max_links;    /**< budget for L; 0 for none */
+  uint64_t max_bytes;    /**< budget for elements, links and blocks; 0 for none */
   hr2d_progress_fn progress; /**< optional */
-  void *progress_ctx;   /**< given to `progress` */
+  void *progress_ctx;        /**< given to `progress` */
 } hr2d_target;
 
 /** 1e-6 in averages, no budget, all patches, one thread, no callback. */
-#define HR2D_TARGET_INIT \
-  {sizeof(hr2d_target), 1e-6, HR2D_NORM_AVERAGE, 0, HR2D_ALL_PATCHES, 1, 0, 0, 0, NULL, NULL}
+#define HR2D_TARGET_INIT                                                                       \
+  { sizeof(hr2d_target), 1e-6, HR2D_NORM_AVERAGE, 0, HR2D_ALL_PATCHES, 1, 0, 0, 0, NULL, NULL }
 
 /** What was done and what it took. */
 typedef struct hr2d_account {
-  hr2d_error average;  /**< of the solution, in #HR2D_NORM_AVERAGE; of the one patch where
-                            importance was asked for */
-  hr2d_error sup;      /**< in #HR2D_NORM_SUP */
-  unsigned order;      /**< p of the solution */
-  unsigned solves;     /**< solutions made on the way, this one included */
-  uint64_t elements;   /**< N */
-  uint64_t leaves;     /**< elements without children */
-  uint64_t links;      /**< L, links between clusters of patches included */
-  uint64_t events;     /**< visibility events at which elements end */
-  uint64_t bytes;      /**< of elements, links and blocks */
-  uint64_t kernels;    /**< values of G integrated, over all solves */
-  double refine_seconds;       /**< for elements and links, over all solves */
+  hr2d_error average;    /**< of the solution, in #HR2D_NORM_AVERAGE; of the one patch where
+                              importance was asked for */
+  hr2d_error sup;        /**< in #HR2D_NORM_SUP */
+  unsigned order;        /**< p of the solution */
+  unsigned solves;       /**< solutions made on the way, this one included */
+  uint64_t elements;     /**< N */
+  uint64_t leaves;       /**< elements without children */
+  uint64_t links;        /**< L, links between clusters of patches included */
+  uint64_t events;       /**< visibility events at which elements end */
+  uint64_t bytes;        /**< of elements, links and blocks */
+  uint64_t kernels;      /**< values of G integrated, over all solves */
+  double refine_seconds; /**< for elements and links, over all solves */
   double coefficients_seconds; /**< for blocks */
   double solve_seconds;        /**< for the iterations */
   double error_seconds;        /**< for estimates and bounds, finer solves included */
   double seconds;              /**< in all */
-  char reason[160];    /**< why the target was not reached; "" if it was */
+  char reason[160];            /**< why the target was not reached; "" if it was */
 } hr2d_account;
 
 /**
@@ -115,9 +114,9 @@ typedef struct hr2d_account {
  * @return HR2D_OK; HR2D_EACCURACY where the target was not reached, be it for a budget or for
  *         the precision of doubles (account->reason says): the best solution is returned with
  *         its errors, which are infinite if there was no time to measure them, and NULL if
- *         there was none for the coarsest; HR2D_ENOMEM, HR2D_EINVAL, HR2D_ESTATE for a scene that is not committed,
- *         HR2D_ENO_SOLUTION, HR2D_ENOT_CONVERGED, or the status of the progress callback.
- *         With `error` 0 it is HR2D_OK when the budget is used up
+ *         there was none for the coarsest; HR2D_ENOMEM, HR2D_EINVAL, HR2D_ESTATE for a scene
+ * that is not committed, HR2D_ENO_SOLUTION, HR2D_ENOT_CONVERGED, or the status of the progress
+ * callback. With `error` 0 it is HR2D_OK when the budget is used up
  *
  * Different scenes, and one scene, may be solved from different threads.  Cost: L is O(N) at
  * fixed order, N grows like the number of patches times log(1/error).

@@ -29,7 +29,7 @@ struct hr2d_solution;
 /** How far a long call has come. */
 typedef struct hr2d_progress {
   size_t struct_size; /**< sizeof (hr2d_progress) of the library */
-  const char *phase;  /**< "refine", "solve" or "factors" */
+  const char *phase;  /**< "refine", "coefficients", "solve" or "factors" */
   uint64_t elements;  /**< N so far */
   uint64_t links;     /**< L so far */
   double fraction;    /**< of the root pairs done, or of the digits gained; in [0,1] */

@@ -7,6 +7,9 @@
  * pulled up as averages.  With one link for both directions the operator is
  * symmetric and conjugate gradients solve it for every ρ; directed links take
  * BiCGSTAB.  All bands are solved at once.  Where every ρ is 0 nothing is iterated.
+ * At an order p above 1 (hr2d_hierarchy_set_order()) each link first gets its p × p block
+ * ∫∫ G V φ_l φ_m, with Legendre polynomials φ: exact where elements are near, touch or see
+ * each other in part; blocks are kept for the next solve.
  *
  * Closure adds d·B on each leaf, d being what its row of the discrete kernel misses
  * of the exact ∫ G.  A closed room of E = 1−ρ then has B = 1 exactly, no light is
