@@ -18,6 +18,9 @@
 /* Parts of j narrower than this are none, and cuts of i closer than this one. */
 #define SLIVER 1e-14
 
+/* Sine of the angle below which a point is on the line of i. */
+#define FOOT 1e-15
+
 /* Points 0 and 1 are the ends of what of j is in front of i. */
 enum { START = 0, END = 1, FIRST = 2 };
 
@@ -58,6 +61,14 @@ static double height(const hr2di_pair_frame *f, hr2d_point p) {
   return cross(f->along_j, minus(p, f->j.a)) / f->length_j;
 }
 
+/* Whether a point is on the line of i but for rounding: then it is seen along i, on the side of
+   the start of j or on the other. */
+static int is_foot(const hr2di_pair_frame *f, hr2d_point p) {
+  const hr2d_point from = minus(p, f->i.a);
+  const double size = fabs(from.x) + fabs(from.y) + f->length_i;
+  return cross(f->along_i, from) <= FOOT * f->length_i * size;
+}
+
 /* Where x sees a point on the line of j; an end of what is in front if that is nearer. */
 static bound project(const view *v, double s, uint32_t point) {
   const hr2di_pair_frame *f = v->f;
@@ -65,6 +76,7 @@ static bound project(const view *v, double s, uint32_t point) {
   if (point < FIRST) return point == START ? start : end;
   const hr2d_point x = hr2di_along(f->i.a, f->along_i, s), p = v->work->point[point];
   const hr2d_point way = minus(p, x);
+  if (is_foot(f, p)) return f->along_i.x * way.x + f->along_i.y * way.y > 0 ? start : end;
   if (cross(minus(v->work->point[START], x), way) <= 0) return start;
   if (cross(minus(v->work->point[END], x), way) >= 0) return end;
   const double t = cross(minus(f->j.a, x), way) / cross(way, f->along_j);

@@ -32,6 +32,7 @@ typedef struct estimator {
   double *kept;     /* the field of B_h */
   double *head;     /* r + … + (ρK)^(n−1) r */
   double *residual; /* r */
+  int *exponent;    /* per band, see solve() */
 } estimator;
 
 /* A generation of events more where that may be told from rounding; where elements end at none,
@@ -95,9 +96,25 @@ static void set_majorant(estimator *e) {
   for (size_t k = 0; k < eq->field; k++) eq->y[k] = 0;
 }
 
+/* Squares of what is to be solved for would underflow where the error is tiny: bands are scaled
+   to a source of about 1, by powers of two. */
 static hr2d_status solve(estimator *e, double tolerance) {
-  e->eq.options.tolerance = tolerance;
-  return hr2di_equation_solve(&e->eq);
+  hr2di_equation *eq = &e->eq;
+  const size_t bands = eq->transport.bands;
+  for (size_t b = 0; b < bands; b++) {
+    double most = 0;
+    for (size_t k = b; k < eq->field; k += bands) most = fmax(most, fabs(eq->source[k]));
+    e->exponent[b] = most > 0 ? ilogb(most) : 0;
+    for (size_t k = b; k < eq->field; k += bands)
+      eq->source[k] = ldexp(eq->source[k], -e->exponent[b]);
+  }
+  eq->options.tolerance = tolerance;
+  const hr2d_status status = hr2di_equation_solve(eq);
+  for (size_t k = 0; k < eq->field; k++) {
+    eq->source[k] = ldexp(eq->source[k], e->exponent[k % bands]);
+    eq->radiosity[k] = ldexp(eq->radiosity[k], e->exponent[k % bands]);
+  }
+  return status;
 }
 
 /* The largest |average| of a field over a patch, or of that plus another's absolute value,
@@ -182,8 +199,9 @@ static hr2d_status run(const hr2di_answer *finer, const hr2d_solution *coarse,
     const hr2d_allocator *alloc = &finer->links->alloc;
     const size_t values = hr2d_scene_patches(finer->hierarchy->scene) * e.eq.transport.bands;
     double *space = hr2di_alloc(alloc, 3 * e.eq.field + 2 * values, sizeof *space);
+    e.exponent = hr2di_alloc(alloc, e.eq.transport.bands, sizeof *e.exponent);
     e.kept = space;
-    if (space) {
+    if (space && e.exponent) {
       e.head = e.kept + e.eq.field;
       e.residual = e.head + e.eq.field;
       status = measure(&e, target, e.residual + e.eq.field, errors);
@@ -191,6 +209,7 @@ static hr2d_status run(const hr2di_answer *finer, const hr2d_solution *coarse,
       status = HR2D_ENOMEM;
     }
     hr2di_free(alloc, space);
+    hr2di_free(alloc, e.exponent);
   }
   errors->kernels = e.eq.kernels;
   hr2di_equation_clear(&e.eq);

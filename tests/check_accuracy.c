@@ -321,7 +321,7 @@ START_TEST(averages_of_random_scenes) {
     double rounding;
     hr2d_solution *solution = solve_to(t.scene, target[k % 5], HR2D_NORM_AVERAGE, &a);
     hr2d_solution *truth =
-        solve_to(t.scene, fmax(1e-3 * a.average.estimate, 1e-14), HR2D_NORM_AVERAGE, &b);
+        solve_to(t.scene, fmax(1e-2 * a.average.estimate, 1e-14), HR2D_NORM_AVERAGE, &b);
     const double error = average_distance(&t, solution, truth, &rounding);
     const double known = 2 * b.average.estimate;
     if ((!a.reason[0] && error > target[k % 5] + known + rounding) ||
@@ -343,7 +343,7 @@ END_TEST
 START_TEST(points_of_random_scenes) {
   const double target[] = {1e-2, 1e-3, 1e-4};
   const uint64_t seed = test_seed();
-  for (int k = 0; k < trials(60); k++) {
+  for (int k = 0; k < trials(30); k++) {
     trial t = make_trial(seed, k + 1000, most_of(k));
     hr2d_account a, b;
     const double rounding = ROUNDING * t.kappa;
@@ -552,7 +552,7 @@ static hr2d_scene *enfilade(int rooms) {
 }
 
 START_TEST(importance_spares_links) {
-  hr2d_scene *scene = enfilade(10);
+  hr2d_scene *scene = enfilade(6);
   hr2d_account all, one;
   hr2d_solution *truth = solve_to(scene, 1e-11, HR2D_NORM_AVERAGE, &one);
   hr2d_solution *every = solve_to(scene, 1e-8, HR2D_NORM_AVERAGE, &all);
@@ -680,12 +680,16 @@ static hr2d_status do_all(const hr2d_scene *scene) {
 
 /* The scene itself is made while there is memory. */
 START_TEST(memory_may_run_out) {
-  const radiosity_scenes all = read_scenes();
-  const radiosity_scene *s = radiosity_scenes_find(&all, "occ_square_walls0.5_occ0.5");
+  const radiosity_scene s = {.patches = 4,
+                             .patch = {{0, 0, 1, 0, 1, .5},
+                                       {1, 0, 1, 1, 0, .5},
+                                       {.4, .3, .6, .3, 0, .5},
+                                       {.6, .3, .4, .3, 0, .5}},
+                             .label = {"floor", "wall", "upper", "lower"}};
   for (int for_good = 0; for_good < 2; for_good++) {
     test_memory memory = {.until_failure = -1, .for_good = for_good};
     const hr2d_allocator hooks = test_hooks(&memory);
-    hr2d_scene *scene = radiosity_scene_make(s, &hooks);
+    hr2d_scene *scene = radiosity_scene_make(&s, &hooks);
     const long before = memory.live;
     const long step = test_multiplier() < 1 ? 7 : 1;
     hr2d_status status = HR2D_ENOMEM;
