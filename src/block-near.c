@@ -39,6 +39,7 @@ void hr2di_add_moments(hr2di_integrator *w, const hr2di_pair_frame *f, double s,
       const double t = middle + 0.5 * size * w->near.at[q];
       const hr2d_point r = hr2di_along(x, f->along_j, t);
       const double square = r.x * r.x + r.y * r.y;
+      if (!(square > 0)) continue; /* rounded to one point, where the heights are 0, too */
       const double g = size * w->near.weight[q] * height * hr2di_mix(f->above_i, t) /
                        (square * sqrt(square));
       hr2di_basis_at(&w->basis, 2 * t - 1, phi);

@@ -16,8 +16,8 @@
 #include "scene-impl.h"
 #include "solution-impl.h"
 
-/* An estimate is within 10 % of the error, so that this part of the target will do. */
-#define MARGIN 0.8
+/* An estimate is within a factor of 2 of the error. */
+#define MARGIN 0.5
 
 enum { ATTEMPTS = 8 };
 

@@ -103,7 +103,7 @@ typedef struct hr2d_account {
 
 /**
  * Solves to a target error, or as well as a budget allows.  It is reached when the estimate,
- * which is within a factor of 2 of the error, is below four fifths of it; the bound may be
+ * which is within a factor of 2 of the error, is below half of it; the bound may be
  * above.
  *
  * @param scene     committed; must outlive the solution
