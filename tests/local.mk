@@ -77,13 +77,14 @@ AM_TESTS_ENVIRONMENT = \
 	CC='$(CC)'; export CC; CXX='$(CXX)'; export CXX; NM='$(NM)'; export NM;
 
 # Check programs alone, unforked and in one thread: libgomp's threads show as leaks.
-# Without check_occlusion and check_clusters, which take too long: the sanitizers run these.
+# Without the suites that take too long: the sanitizers run these.
+TOO_LONG = tests/check_accuracy tests/check_blocks tests/check_clusters tests/check_occlusion
 MEMCHECK = $(VALGRIND) --quiet --error-exitcode=9 --leak-check=full \
 	--errors-for-leak-kinds=definite,indirect
 check-valgrind:
 	CK_FORK=no CK_DEFAULT_TIMEOUT=0 OMP_NUM_THREADS=1 \
 	HR2D_TEST_MULTIPLIER="$${HR2D_TEST_MULTIPLIER-0.01}" \
-	$(MAKE) check TESTS='$(filter-out tests/check_occlusion tests/check_clusters,$(SUITES))' LOG_COMPILER='$(MEMCHECK)'
+	$(MAKE) check TESTS='$(filter-out $(TOO_LONG),$(SUITES))' LOG_COMPILER='$(MEMCHECK)'
 .PHONY: check-valgrind
 
 # An outside program, in C and in C++, against what `make install` left behind.
