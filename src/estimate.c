@@ -22,6 +22,9 @@
 #define BETWEEN  1.25
 #define ROUNDING (16 * DBL_EPSILON)
 
+/* Averages below this part of the largest are what rounding leaves of others' light. */
+#define DARK (256 * DBL_EPSILON)
+
 enum { TERMS = 4 };
 
 typedef struct estimator {
@@ -39,11 +42,12 @@ typedef struct estimator {
    the order has to tell. */
 hr2di_fineness hr2di_finer(const hr2di_fineness *f) {
   hr2di_fineness finer = *f;
-  finer.order = f->order + 2 < HR2D_MAX_ORDER ? f->order + 2 : HR2D_MAX_ORDER;
+  const unsigned order = f->order + (f->order < 4 ? 3 : 2);
+  finer.order = order < HR2D_MAX_ORDER ? order : HR2D_MAX_ORDER;
   finer.deeper += 4;
   finer.digits = fmax(0.1 * f->digits, 1e-14);
   if (f->weight) finer.target *= 0.01;
-  if (f->target < 1e-5 && f->hidden) finer.generations++;
+  if (f->hidden && (f->target < 1e-5 || f->generations == 0)) finer.generations++;
   return finer;
 }
 
@@ -117,8 +121,7 @@ static hr2d_status solve(estimator *e, double tolerance) {
   return status;
 }
 
-/* The largest |average| of a field over a patch, or of that plus another's absolute value,
-   relative to the average of B. */
+/* |average| of a field over each patch; 0 where only another one counts. */
 static void average_errors(estimator *e, const double *field, size_t only, double *error) {
   hr2di_transport *t = &e->eq.transport;
   hr2di_raise(t, field);
@@ -129,17 +132,28 @@ static void average_errors(estimator *e, const double *field, size_t only, doubl
     }
 }
 
+/* What is darker than this is dark, and has no relative error. */
+static double least_average(const estimator *e, size_t band) {
+  double most = 0;
+  for (size_t k = 0; k < e->eq.transport.hierarchy->scene->patches; k++)
+    most = fmax(most, fabs(hr2d_solution_average(e->coarse, k, band)));
+  return DARK * most;
+}
+
 /* The largest of Σ factor·error, relative to the averages of B. */
 static double worst_average(const estimator *e, double factor, const double *error,
                             const double *more) {
   const hr2di_transport *t = &e->eq.transport;
   double worst = 0;
-  for (size_t k = 0; k < t->hierarchy->scene->patches; k++)
-    for (size_t b = 0; b < t->bands; b++) {
+  for (size_t b = 0; b < t->bands; b++) {
+    const double least = least_average(e, b);
+    for (size_t k = 0; k < t->hierarchy->scene->patches; k++) {
       const size_t at = k * t->bands + b;
+      const double average = fabs(hr2d_solution_average(e->coarse, k, b));
       const double sum = factor * error[at] + (more ? more[at] : 0);
-      if (sum > 0) worst = fmax(worst, sum / fabs(hr2d_solution_average(e->coarse, k, b)));
+      if (sum > 0 && (average > least || sum > least)) worst = fmax(worst, sum / average);
     }
+  }
   return worst;
 }
 

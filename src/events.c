@@ -240,7 +240,8 @@ hr2d_status hr2di_events_find(hr2di_events *events, const hr2d_scene *scene,
                               const hr2d_allocator *alloc, unsigned generations, size_t most) {
   *events = (hr2di_events){.alloc = *alloc};
   if (generations == 0 || !(scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
-                            scene->effect[HR2D_EFFECT_FACING].called_for))
+                            scene->effect[HR2D_EFFECT_FACING].called_for ||
+                            scene->effect[HR2D_EFFECT_BACKGROUND].called_for))
     return HR2D_OK;
   finder f = {.scene = scene, .alloc = *alloc, .most = most};
   hr2d_status status = find(&f, generations);

@@ -29,9 +29,10 @@ typedef struct hr2di_events {
 
 /* All events up to `generations` of a committed scene, at most `most` of them: HR2D_OK,
    HR2D_ENOMEM, or HR2D_EMAX_ELEMENTS where there would be more.  None where the scene calls
-   neither for occlusion nor for facing; forcing does not count.  To be ended by
-   hr2di_events_clear() in either case.  Generation 1 takes O(n²) walks through the tree of
-   walls, 0.1 to 0.6 µs each; generation g+1 one for each event of generation g and each vertex.
+   neither for occlusion nor for facing nor for a background; forcing does not count.  To be
+   ended by hr2di_events_clear() in either case.  Generation 1 takes O(n²) walks through the
+   tree of walls, 0.1 to 0.6 µs each; generation g+1 one for each event of generation g and each
+   vertex.
  */
 hr2d_status hr2di_events_find(hr2di_events *events, const hr2d_scene *scene,
                               const hr2d_allocator *alloc, unsigned generations, size_t most);

@@ -47,7 +47,8 @@ hr2di_fineness hr2di_fineness_for(const hr2d_scene *scene, const hr2di_survey *s
   const double error = aim * fmax(survey->exponent * survey->exponent, 1e-3);
   const double order = ceil(log(EASY / error) / digits_per_order(survey, norm));
   const int hidden = scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
-                     scene->effect[HR2D_EFFECT_FACING].called_for;
+                     scene->effect[HR2D_EFFECT_FACING].called_for ||
+                     scene->effect[HR2D_EFFECT_BACKGROUND].called_for;
   hr2di_fineness f = {.order = (unsigned)fmin(fmax(order, 2), HR2D_MAX_ORDER - 2),
                       .target = fmin(0.25 * error, 1),
                       .digits = fmax(0.02 * error, 1e-14),

@@ -43,6 +43,7 @@ static void add_panel(gatherer *g, hr2d_point from, hr2d_point along, hr2di_span
     const double t = panel.from + size * (0.5 + 0.5 * g->rule.at[q]);
     const hr2d_point r = hr2di_along(from, along, t);
     const double square = r.x * r.x + r.y * r.y;
+    if (!(square > 0)) continue; /* x is a corner, and the panel as small as rounding */
     const double cos_x = g->normal.x * r.x + g->normal.y * r.y;
     const double turn = r.x * along.y - r.y * along.x;
     const double kernel =

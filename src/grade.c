@@ -46,6 +46,8 @@ typedef struct grader {
   const hr2di_grading *grading;
   vertex *vertex; /* by x */
   size_t vertices;
+  uint32_t *under;   /* of each patch's start and end: 1 + the patch within whose front it
+                        stands, or 0 */
   hr2di_points near; /* in front of the patch under way, and near to it: ends of others, and
                         mirror images */
   mark *mark;        /* of the patch under way, by place */
@@ -72,7 +74,8 @@ static int by_place(const void *a, const void *b) {
 static hr2d_status list_vertices(grader *g) {
   const hr2d_scene *scene = g->h->scene;
   g->vertex = hr2di_alloc(&g->h->alloc, 2 * scene->patches, sizeof *g->vertex);
-  if (!g->vertex) return HR2D_ENOMEM;
+  g->under = hr2di_calloc(&g->h->alloc, 2 * scene->patches, sizeof *g->under);
+  if (!g->vertex || !g->under) return HR2D_ENOMEM;
   for (uint32_t k = 0; k < scene->patches; k++) {
     const hr2d_segment s = scene->patch[k].scaled;
     g->vertex[g->vertices++] = (vertex){s.a, k, 0};
@@ -107,7 +110,7 @@ static unsigned corner_depth(grader *g, double cosine, double sine, double rho) 
   const double gamma = exponent_of(g, atan2(sine, cosine), rho);
   const double slope = g->grading->norm == HR2D_NORM_SUP ? fmax(gamma, 0.05) : 1 + 2 * gamma;
   const double digits = log2(strength / g->target) / slope;
-  if (!(strength > g->target)) return 0;
+  if (!(strength > g->target)) return g->grading->deeper;
   g->survey.exponent = fmin(g->survey.exponent, gamma);
   const double depth = ceil(digits - 2 * log2(p) + 1.5);
   return (unsigned)fmin(fmax(depth, 2), DEEPEST) + g->grading->deeper;
@@ -142,6 +145,12 @@ static hr2d_status add_mark(grader *g, double at, hr2d_point point, unsigned dep
   return HR2D_OK;
 }
 
+/* Whether the patch of an end that stands on another is in front of that. */
+static int rises(const hr2d_scene *scene, uint32_t patch, const vertex *v) {
+  const hr2d_segment s = scene->patch[patch].scaled, other = scene->patch[v->patch].scaled;
+  return hr2di_orient(s.a, s.b, v->last ? other.a : other.b) > 0;
+}
+
 /* Sorts a vertex into the marks if it is on the patch, into the near ones if in front. */
 static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
   const hr2di_patch *p = &g->h->scene->patch[patch];
@@ -163,6 +172,7 @@ static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
   const unsigned depth = depth_at(g, patch, v, at);
   if (at < ON_LINE) return add_mark(g, 0, s.a, depth);
   if (at > 1 - ON_LINE) return add_mark(g, 1, s.b, depth);
+  if (rises(g->h->scene, patch, v)) g->under[2 * v->patch + (uint32_t)v->last] = patch + 1;
   return add_mark(g, at, v->at, depth);
 }
 
@@ -183,6 +193,14 @@ static hr2d_status look_around(grader *g, uint32_t patch) {
   for (; low < g->vertices && g->vertex[low].at.x <= middle + reach && !status; low++)
     status = place(g, patch, (uint32_t)low);
   return status;
+}
+
+/* What an end stands on has no end there that would be found. */
+static hr2d_status add_foot(grader *g, uint32_t patch, int last) {
+  const hr2d_segment s = g->h->scene->patch[patch].scaled;
+  const vertex foot = {last ? s.b : s.a, patch, last};
+  const uint32_t under = g->under[2 * patch + (uint32_t)last];
+  return under ? add_mark(g, last, foot.at, depth_at(g, under - 1, &foot, 0.5)) : HR2D_OK;
 }
 
 unsigned hr2di_generations_for(double error) {
@@ -252,8 +270,11 @@ static int wants_halves(const grader *g, const part *e) {
   if (size < SHORTEST || !hr2di_divisible(g->h, e->element)) return 0;
   for (size_t k = 0; k < g->marks; k++) {
     const double at = g->mark[k].at;
-    const int touches = fabs(at - e->from) <= margin || fabs(at - e->to) <= margin;
-    if (touches && size > 1.001 * ldexp(1, -(int)g->mark[k].depth)) return 1;
+    const double from = fabs(at - e->from), to = fabs(at - e->to);
+    const int touches = from <= margin || to <= margin;
+    /* An event may keep an element from touching a corner that it is near to. */
+    const int near = g->mark[k].depth > 0 && from + to < g->distance * size;
+    if ((touches || near) && size > 1.001 * ldexp(1, -(int)g->mark[k].depth)) return 1;
   }
   for (size_t k = 0; k < g->near.count; k++)
     if (hr2di_ellipse(s, g->near.point[k]) < g->distance) return 1;
@@ -297,6 +318,7 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
   g->distance = weight < 1 ? hr2di_distance_for(g->target, g->grading->order) : HR2DI_DISTANT;
   hr2d_status status = look_around(g, patch);
   if (!status) status = hr2di_add_images(g->h->scene, patch, FAR, &g->near, g->near.count);
+  for (int last = 0; last < 2 && !status; last++) status = add_foot(g, patch, last);
   if (!status) status = add_events(g, patch);
   if (status) return status;
   sort_marks(g);
@@ -318,11 +340,16 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
 hr2d_status hr2di_grade(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
                         hr2di_survey *survey) {
   const hr2d_scene *scene = hierarchy->scene;
-  grader g = {.h = hierarchy, .grading = grading, .survey = {1, FAR}};
+  grader g = {.h = hierarchy, .grading = grading, .survey = {1, FAR}, .target = 1};
   hr2d_status status = list_vertices(&g);
+  for (uint32_t k = 0; k < scene->patches && !status; k++) {
+    status = look_around(&g, k); /* for what stands on it */
+    g.near.count = g.marks = 0;
+  }
   for (uint32_t k = 0; k < scene->patches && !status; k++)
     if (hr2di_lit(scene, k) && reflectance(scene, k) > 0) status = grade_patch(&g, k);
   hr2di_free(&hierarchy->alloc, g.vertex);
+  hr2di_free(&hierarchy->alloc, g.under);
   hr2di_free(&hierarchy->alloc, g.near.point);
   hr2di_free(&hierarchy->alloc, g.mark);
   *survey = g.survey;

@@ -26,9 +26,12 @@ static int is_near(const hr2di_patch *p, const hr2di_box *box) {
          box->y0 <= fmax(s.a.y, s.b.y) + reach && box->y1 >= fmin(s.a.y, s.b.y) - reach;
 }
 
-/* An image counts if the foot is on the wall, else the wall's own end is what is near; and if
-   the patch is on the same side of the wall: `side` is how far it reaches to the left and
-   right. */
+/* Images on the patch itself are behind a wall that stands on it. */
+#define ON_PATCH (1 + 1e-9)
+
+/* An image counts if the foot is on the wall, else the wall's own end is what is near; if the
+   patch is on the same side of the wall: `side` is how far it reaches to the left and right;
+   and if some of the wall is in front of the patch, though the image need not be. */
 static hr2d_status add_image(mirror *m, hr2d_segment wall, const double side[2], hr2d_point v) {
   const hr2d_segment s = m->patch->scaled;
   const double ux = wall.b.x - wall.a.x, uy = wall.b.y - wall.a.y, square = ux * ux + uy * uy;
@@ -36,9 +39,11 @@ static hr2d_status add_image(mirror *m, hr2d_segment wall, const double side[2],
   const double off = hr2di_orient(wall.a, wall.b, v) / square;
   const hr2d_point image = {v.x + 2 * off * uy, v.y - 2 * off * ux};
   if (!(at > 0 && at < 1) || !(off > 0 ? side[0] > 0 : off < 0 && side[1] < 0)) return HR2D_OK;
-  if (!(hr2di_orient(s.a, s.b, image) > 1e-13 * m->patch->length * m->patch->length) ||
-      hr2di_ellipse(s, image) >= m->most)
+  const double least = 1e-13 * m->patch->length * m->patch->length,
+               away = hr2di_ellipse(s, image);
+  if (hr2di_orient(s.a, s.b, wall.a) <= least && hr2di_orient(s.a, s.b, wall.b) <= least)
     return HR2D_OK;
+  if (away <= ON_PATCH || away >= m->most) return HR2D_OK;
   hr2di_points *points = m->points;
   if (hr2di_reserve(&m->scene->alloc, &points->point, &points->capacity, points->count + 1,
                     sizeof *points->point))

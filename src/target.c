@@ -19,7 +19,7 @@
 /* An estimate is within a factor of 2 of the error. */
 #define MARGIN 0.5
 
-enum { ATTEMPTS = 8 };
+enum { ATTEMPTS = 8, LEAST_SAFE = 6 };
 
 /* What is best so far, and all that was spent. */
 typedef struct search {
@@ -115,6 +115,11 @@ static hr2d_status reach(search *s, double error) {
   fineness.weight = s->weight;
   for (int k = 0; k < ATTEMPTS && stuck < 2; k++) {
     const hr2d_status status = attempt(s, &fineness);
+    /* Of a low order K may exceed 1 at narrow corners, closure or not. */
+    if (status == HR2D_ENOT_CONVERGED && k + 1 < ATTEMPTS && fineness.order < LEAST_SAFE) {
+      fineness.order++;
+      continue;
+    }
     if (status || error_of(s) <= MARGIN * error) return status;
     stuck = error_of(s) > 0.5 * before ? stuck + 1 : 0;
     before = error_of(s);

@@ -205,6 +205,111 @@ START_TEST(gaps_agree_with_another_method) {
 }
 END_TEST
 
+/* Walls on a floor of one patch, or of three that end where walls stand. */
+static hr2d_scene *make_flooring(int cut, double rho) {
+  const double foot[] = {0, 1, 2, 8};
+  double patch[8][6];
+  size_t count = 0;
+  for (int k = 0; k < (cut ? 3 : 1); k++) {
+    const double floor[6] = {foot[k], 0, cut ? foot[k + 1] : 8, 0, .6, rho};
+    memcpy(patch[count++], floor, sizeof floor);
+  }
+  const double wall[][6] = {{1, 0, 4.2, 2.6, 0, .9},
+                            {4.2, 2.6, 1, 0, 0, .8},
+                            {2, 0, 7.8, 5.3, .1, .9},
+                            {7.8, 5.3, 2, 0, 0, .7}};
+  for (int k = 0; k < 4; k++) memcpy(patch[count++], wall[k], sizeof wall[k]);
+  return test_scene((const double(*)[6])patch, count);
+}
+
+static void compare_floorings(double rho, double target) {
+  const double rounding = 10 * ROUNDING;
+  hr2d_scene *scene[] = {make_flooring(0, rho), make_flooring(1, rho)};
+  hr2d_solution *solution[2];
+  hr2d_account a[2];
+  for (int m = 0; m < 2; m++)
+    solution[m] = solve_to(scene[m], target, HR2D_NORM_AVERAGE, &a[m]);
+  ck_assert_str_eq(a[0].reason, "");
+  for (size_t w = 1; w < 5; w++) {
+    const double one = hr2d_solution_average(solution[0], w, 0);
+    const double error = fabs(one / hr2d_solution_average(solution[1], w + 2, 0) - 1);
+    ck_assert_double_le(error, 2 * target + rounding);
+    ck_assert_double_le(error, a[0].average.bound + a[1].average.bound + rounding);
+  }
+  for (int m = 0; m < 2; m++) {
+    hr2d_solution_destroy(solution[m]);
+    hr2d_scene_destroy(scene[m]);
+  }
+}
+
+START_TEST(feet_of_walls_are_as_corners) {
+  for (double target = 1e-2; target > 1e-13; target *= 1e-2) {
+    compare_floorings(0, target);
+    compare_floorings(.9, target);
+  }
+}
+END_TEST
+
+/* Where patches face no other but the surroundings, and hide these from each other: events of
+   the background alone. */
+static hr2d_scene *make_backs(void) {
+  const double light = .5, rho = .9, sky = 1;
+  const hr2d_segment at[] = {{{0, 0}, {1, 0}}, {{.1, .5}, {.5, .6}}, {{.4, .9}, {.9, .8}}};
+  hr2d_scene *scene = NULL;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  for (int k = 0; k < 3; k++) {
+    const hr2d_patch patch = {.a = at[k].a,
+                              .b = at[k].b,
+                              .emission = &light,
+                              .emission_bands = 1,
+                              .reflectance = &rho,
+                              .reflectance_bands = 1};
+    ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
+  }
+  /* The floor's light comes back from a wall. */
+  const hr2d_patch wall = {
+      .a = {-1, 1}, .b = {-1, 0}, .reflectance = &rho, .reflectance_bands = 1};
+  ck_assert_int_eq(hr2d_scene_add(scene, &wall, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_set_background(scene, &sky, 1), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  return scene;
+}
+
+/* A wall whose end hangs just above a floor; a narrow room with much reflection, in which few
+   coefficients make light. */
+static hr2d_scene *make_hard(int k) {
+  const double hanging[][6] = {
+      {0, 0, 1, 0, 1, .9}, {.45, .01, .45, 1, 0, .9}, {.45, 1, .45, .01, 0, .9}};
+  const double narrow[][6] = {{.94264477929416823, .33379757349245182, -.99903169207574294,
+                               .043996343351213753, .3615, .999},
+                              {-.99903169207574294, .043996343351213753, -.46774801041040093,
+                               -.88386186633269315, .65, .999},
+                              {-.46774801041040093, -.88386186633269315, .94264477929416823,
+                               .33379757349245182, 0, .999}};
+  return k == 2 ? make_backs() : test_scene(k ? narrow : hanging, 3);
+}
+
+START_TEST(hard_places_are_met) {
+  hr2d_scene *scene = make_hard(_i);
+  hr2d_account a;
+  hr2d_solution *truth = solve_to(scene, 1e-13, HR2D_NORM_AVERAGE, &a);
+  for (double target = 1e-2; target > 1e-9; target *= .1)
+    for (int norm = 0; norm < (target < 1e-4 ? 1 : 2); norm++) {
+      hr2d_solution *solution = solve_to(scene, target, (hr2d_norm)norm, &a);
+      ck_assert_str_eq(a.reason, "");
+      for (size_t p = 0; p < hr2d_scene_patches(scene); p++) {
+        const double right = hr2d_solution_average(truth, p, 0);
+        const double error = fabs(hr2d_solution_average(solution, p, 0) / right - 1);
+        ck_assert(norm == 1 || error <= target);
+        ck_assert_double_le(error, a.average.bound);
+      }
+      hr2d_solution_destroy(solution);
+    }
+  hr2d_solution_destroy(truth);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 /* A random scene and what is known of it. */
 typedef struct trial {
   accuracy_scene drawn;
@@ -774,6 +879,8 @@ int main(void) {
   tcase_add_loop_test(known, corners_agree_with_another_method, 0, 3);
   tcase_add_loop_test(known, a_narrow_corner_agrees_with_another_method, 0, 3);
   tcase_add_loop_test(known, gaps_agree_with_another_method, 0, 3);
+  tcase_add_test(known, feet_of_walls_are_as_corners);
+  tcase_add_loop_test(known, hard_places_are_met, 0, 3);
   tcase_add_test(known, an_error_of_nothing_takes_what_doubles_give);
   tcase_add_test(known, errors_of_other_solutions_are_known);
   tcase_add_test(known, a_wrong_truth_is_noticed);

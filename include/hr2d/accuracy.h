@@ -44,7 +44,8 @@ extern "C" {
 /** In which norm an error is measured. */
 typedef enum hr2d_norm {
   HR2D_NORM_AVERAGE = 0, /**< the largest |error| of a patch's average B, relative to that
-                              average, over patches and bands */
+                              average, over patches and bands; averages below 256 roundings of
+                            the band's largest count as dark */
   HR2D_NORM_SUP          /**< the largest |error| of B at a point, relative to the largest B
                               of the band, over points and bands */
 } hr2d_norm;

@@ -13,8 +13,9 @@
  *
  * Closure adds d·B on each leaf, d being what its row of the discrete kernel misses
  * of the exact ∫ G.  A closed room of E = 1−ρ then has B = 1 exactly, no light is
- * lost or made, and the discrete equation has one solution wherever ρ < 1; without
- * it rows may exceed 1 and a coarse solve with ρ near 1 need not converge.
+ * lost or made, and at order 1 the discrete equation has one solution wherever ρ < 1;
+ * without it rows may exceed 1 and a coarse solve with ρ near 1 need not converge.  At a
+ * low order above 1 that may happen in narrow corners in spite of it: HR2D_ENOT_CONVERGED.
  */
 #ifndef HR2D_SOLVE_H
 #define HR2D_SOLVE_H
@@ -108,7 +109,8 @@ HR2D_API double hr2d_solution_at(const hr2d_solution *solution, size_t patch, do
  * B at points of a patch after one more gather, B' = E + ρ ∫ G V B_h, with G and V exact: far
  * better than hr2d_solution_at(), in which B jumps from leaf to leaf, and dearer.
  *
- * @param t       `count` fractions of the patch in [0,1], counted from its start
+ * @param t       `count` fractions of the patch in [0,1], counted from its start; where the
+ *                end of another stands there B is that of one side of it
  * @param value   receives count × bands values
  * @return HR2D_OK or HR2D_ENOMEM
  * Several threads may ask one solution at once.  Cost O(N) per point, and where the scene calls
