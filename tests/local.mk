@@ -52,6 +52,7 @@ tests_libsupport_la_SOURCES = \
 	tests/mpfr_exchange.c tests/mpfr_exchange.h \
 	tests/pair_classes.c tests/pair_classes.h \
 	tests/brute_visibility.c tests/brute_visibility.h \
+	tests/hard.c tests/hard.h \
 	tests/radiosity_scenes.c tests/radiosity_scenes.h \
 	tests/room_plans.c tests/room_plans.h \
 	tests/support.c tests/support.h \
