@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The link set: a store of links, and the oracle and policy that choose them. */
+#include <math.h>
 #include <stddef.h>
 
 #include "alloc.h"
@@ -24,6 +25,7 @@ hr2d_status hr2d_linkset_create(hr2d_hierarchy *hierarchy, const hr2d_oracle *or
   if (!made) return HR2D_ENOMEM;
   made->alloc = hierarchy->alloc;
   made->hierarchy = hierarchy;
+  made->epsilon = HUGE_VAL;
   hr2di_copy_sized(&made->oracle, sizeof made->oracle, oracle);
   hr2di_copy_sized(&made->policy, sizeof made->policy, policy);
   made->oracle_ctx = oracle_ctx;
@@ -102,6 +104,10 @@ hr2d_link hr2d_linkset_get(const hr2d_linkset *links, uint64_t index) {
 
 int hr2d_linkset_directed(const hr2d_linkset *links) {
   return links->directed;
+}
+
+double hr2d_linkset_epsilon(const hr2d_linkset *links) {
+  return links->epsilon;
 }
 
 hr2d_refine_counts hr2d_linkset_counts(const hr2d_linkset *links) {

@@ -15,6 +15,7 @@ libhr2d_core_la_SOURCES = \
 	src/blocks.c src/blocks.h \
 	src/bodies.c src/bodies.h \
 	src/boxes.c src/boxes.h \
+	src/bytes.c src/bytes.h \
 	src/classes.c src/classes.h \
 	src/clock.h \
 	src/closure.c src/closure.h \
@@ -105,6 +106,9 @@ libhr2d_core_la_SOURCES = \
 	src/solution-impl.h \
 	src/solve.c \
 	src/split.c \
+	src/state.c \
+	src/state-impl.h \
+	src/state-read.c \
 	src/status.c \
 	src/study.c \
 	src/sum.h \

@@ -170,6 +170,7 @@ hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options)
     hr2di_blocks_clear(&links->blocks, &links->alloc);
     links->store = made;
     links->directed = p->directed;
+    links->epsilon = used.epsilon;
     sum_counts(links, p);
   }
   hr2di_free(&links->alloc, s);

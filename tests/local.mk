@@ -30,12 +30,14 @@ SUITES = \
 	tests/check_corner \
 	tests/check_events \
 	tests/check_point_view \
+	tests/check_state \
 	tests/check_study \
 	tests/check_faults
 
 OUTSIDE = \
 	tests/check_cli.sh \
 	tests/check_digits.sh \
+	tests/check_resume.sh \
 	tests/check-exports.sh \
 	tests/check-headers.sh \
 	tests/check-examples.sh

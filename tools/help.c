@@ -62,6 +62,7 @@ static const char solve[] =
     "  --order P             Legendre coefficients of each element, 1 (default) to 32\n"
     "  --variant NAME        original (default) or modified: what a refusal splits\n"
     "  --multigrid FROM:R    solve for FROM, FROM*R, ... --eps, each from the last\n"
+    "  --state FILE          keep each stage in FILE, or go on from there\n"
     "  --max-level K         elements on level K are not subdivided (24)\n"
     "  --no-closure          leave rows of the kernel as coarse links make them\n"
     "  --error, --no-error   whether to measure the error (up to 200 patches)\n"

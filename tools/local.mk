@@ -49,6 +49,7 @@ tools_hr2d_SOURCES = \
 	tools/solve-csv.c \
 	tools/solve-json.c \
 	tools/solve-table.c \
+	tools/state.c tools/state.h \
 	tools/study.c tools/study.h \
 	tools/study-csv.c \
 	tools/study-json.c \

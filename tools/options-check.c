@@ -6,8 +6,8 @@
 #include "options.h"
 
 static int check_outputs(const options *o) {
-  const char *outputs[] = {o->json, o->csv, o->draw, o->plot};
-  for (int i = 0; i < 4; i++)
+  const char *outputs[] = {o->json, o->csv, o->draw, o->plot, o->state};
+  for (int i = 0; i < 5; i++)
     for (int j = 0; j < i; j++)
       if (outputs[i] && outputs[j] && !strcmp(outputs[i], outputs[j]))
         return usage_error("two outputs go to '%s'", outputs[i]);
@@ -22,7 +22,8 @@ static int check_target(const options *o, uint64_t given) {
   } choice[] = {{GIVEN(ORACLE), "oracle"},         {GIVEN(EPS), "eps"},
                 {GIVEN(VARIANT), "variant"},       {GIVEN(MULTIGRID), "multigrid"},
                 {GIVEN(ORDER), "order"},           {GIVEN(LEVEL), "max-level"},
-                {GIVEN(NO_CLOSURE), "no-closure"}, {GIVEN(NO_ERROR), "no-error"}};
+                {GIVEN(NO_CLOSURE), "no-closure"}, {GIVEN(NO_ERROR), "no-error"},
+                {GIVEN(STATE), "state"}};
   const char *target = o->target_error > 0 ? "target-error" : "time-budget";
   for (size_t k = 0; is_targeted(o) && k < sizeof choice / sizeof *choice; k++)
     if (given & choice[k].bit)

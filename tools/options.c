@@ -18,6 +18,7 @@ static const struct option names[] = {{"help", no_argument, NULL, HELP},
                                       {"eps", required_argument, NULL, EPS},
                                       {"variant", required_argument, NULL, VARIANT},
                                       {"multigrid", required_argument, NULL, MULTIGRID},
+                                      {"state", required_argument, NULL, STATE},
                                       {"order", required_argument, NULL, ORDER},
                                       {"target-error", required_argument, NULL, TARGET_ERROR},
                                       {"time-budget", required_argument, NULL, TIME_BUDGET},
@@ -190,6 +191,9 @@ static int read_option(int id, char *text, options *o) {
     return read_place("at", text, &o->at[o->at_count++]);
   case LINKS_OF:
     return read_place("links-of", text, &o->links_of);
+  case STATE:
+    return to_stdout(text) ? usage_error("--state wants a file that can be read back")
+                           : read_path("state", text, &o->state);
   case JSON:
     return read_path("json", text, &o->json);
   case CSV:

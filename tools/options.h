@@ -43,6 +43,7 @@ typedef struct options {
   double from, to; /* of a study; 0: not given */
   unsigned steps, max_level, threads;
   uint64_t max_links, max_elements;
+  const char *state; /* file name; NULL: not given */
   place *at; /* at_count of them, in the order given */
   size_t at_count;
   place links_of;
@@ -73,6 +74,7 @@ enum {
   EPS,
   VARIANT,
   MULTIGRID,
+  STATE,
   ORDER,
   TARGET_ERROR,
   TIME_BUDGET,

@@ -7,6 +7,7 @@
 
 #include "complain.h"
 #include "load.h"
+#include "state.h"
 
 hr2d_refine_options refine_options(const options *o) {
   hr2d_refine_options refine = HR2D_REFINE_OPTIONS_INIT;
@@ -28,6 +29,15 @@ static unsigned count_stages(const options *o) {
   unsigned stages = 1;
   while (stage_epsilon(o, stages - 1) > o->epsilon) stages++;
   return stages;
+}
+
+/* The first one that is finer than the state at hand; the last is made again in any case, with
+   what the options now say. */
+static unsigned first_stage(const run *r, unsigned stages) {
+  unsigned stage = 0;
+  while (r->resumed > 0 && stage + 1 < stages && stage_epsilon(r->options, stage) >= r->resumed)
+    stage++;
+  return stage;
 }
 
 static hr2d_status refine_stage(run *r, double epsilon, progress *p) {
@@ -82,15 +92,21 @@ static int run_stages(run *r, progress *p) {
   r->hierarchy = r->own_hierarchy;
   r->links = r->own_links;
   r->account.order = o->order;
+  int code = state_load(r);
   p->steps = count_stages(o);
-  for (; !status && p->step < p->steps; p->step++) {
+  p->step = first_stage(r, p->steps);
+  for (; !status && !code && p->step < p->steps; p->step++) {
     status = refine_stage(r, stage_epsilon(o, p->step), p);
     if (!status) status = solve_stage(r, p);
+    if (!status) code = state_save(r);
   }
   p->steps = 0;
   r->account.links = hr2d_linkset_size(r->links);
   progress_clear(p);
-  return status ? fail_call(o->scene, hr2d_linkset_message(r->links), status) : EXIT_DONE;
+  if (!status) return code;
+  code = fail_call(o->scene, hr2d_linkset_message(r->links), status);
+  state_mention(r);
+  return code;
 }
 
 int run_solve(run *r) {

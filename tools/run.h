@@ -23,6 +23,8 @@ typedef struct run {
   hr2d_solve_work work; /* over all stages of multigridding */
   hr2d_account
       account;    /* of what it has: order, L, errors, which are NaN if not known, seconds */
+  double resumed; /* epsilon of the state gone on from; 0: none */
+  double kept;    /* epsilon of the state in the file of --state; 0: none */
   int inaccurate; /* there is a solution, but not what was asked for */
 } run;
 

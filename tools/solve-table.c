@@ -63,6 +63,7 @@ static void print_method(const run *r) {
   if (!is_targeted(o)) {
     printf("method    oracle %s, variant %s, epsilon %g\n", o->oracle->name, o->policy->name,
            o->epsilon);
+    if (r->resumed > 0) printf("          from epsilon %g in %s\n", r->resumed, o->state);
     return;
   }
   printf("target   ");

@@ -26,6 +26,7 @@ static int check_outputs(const options *o) {
   int status = o->draw ? draw_check(o->draw) : 0;
   if (!status) status = output_check(o->json);
   if (!status) status = output_check(o->csv);
+  if (!status) status = output_check(o->state);
   return status ? status : output_check(o->draw);
 }
 

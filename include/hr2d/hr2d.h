@@ -13,7 +13,8 @@
  *   hr2d_solution   radiosity on every element               solve.h
  *
  * Objects are destroyed in the opposite order.  Who wants digits rather than links asks
- * hr2d_solve_to(), which makes the lot (accuracy.h).  Beside them are exchange areas of
+ * hr2d_solve_to(), which makes the lot (accuracy.h).  What a long solve has reached
+ * is kept by hr2d_state_write() (state.h).  Beside them are exchange areas of
  * segments (geometry.h), those with occluders and of all patches (visibility.h), and the
  * study of L against N (study.h).
  *
@@ -32,6 +33,7 @@
 #include <hr2d/refine.h>
 #include <hr2d/scene.h>
 #include <hr2d/solve.h>
+#include <hr2d/state.h>
 #include <hr2d/status.h>
 #include <hr2d/study.h>
 #include <hr2d/version.h>

@@ -85,6 +85,9 @@ HR2D_API hr2d_link hr2d_linkset_get(const hr2d_linkset *links, uint64_t index);
  */
 HR2D_API int hr2d_linkset_directed(const hr2d_linkset *links);
 
+/** ε of the last refinement that filled the set; infinity before the first. */
+HR2D_API double hr2d_linkset_epsilon(const hr2d_linkset *links);
+
 /** What the refinements that filled the set made and took, summed up. */
 HR2D_API hr2d_refine_counts hr2d_linkset_counts(const hr2d_linkset *links);
 
