@@ -1,7 +1,7 @@
 # Examples use the library as any program does; `make check` compares what they
 # print with NAME.expected.
-EXAMPLES = examples/digits examples/furnace-section examples/own-oracle examples/solar-panels \
-	examples/street-canyon examples/tour
+EXAMPLES = examples/digits examples/furnace-section examples/own-oracle examples/resume \
+	examples/solar-panels examples/street-canyon examples/tour
 check_PROGRAMS += $(EXAMPLES)
 examples_digits_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_digits_LDADD = libhr2d.la
@@ -9,6 +9,8 @@ examples_furnace_section_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_furnace_section_LDADD = libhr2d.la -lm
 examples_own_oracle_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_own_oracle_LDADD = libhr2d.la -lm
+examples_resume_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_resume_LDADD = libhr2d.la
 examples_solar_panels_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_solar_panels_LDADD = libhr2d.la -lm
 examples_street_canyon_CPPFLAGS = $(PUBLIC_CPPFLAGS)
