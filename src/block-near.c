@@ -1,17 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blocks of near pairs: Gauss rules on panels that shrink towards what they are near to.
 
-   A panel is far enough from a point v at an ellipse of m = 1.75, ρ = 3.19 (see block.h): a
-   rule of q points is then good to 3.19^−2q, or 3.19^−(2q−p) with a factor φ_p. */
+   A rule of q points is good to 3.19^−2q on a panel that is far enough (panels.h), or
+   3.19^−(2q−p) with a factor φ_p. */
 #include <math.h>
 #include <string.h>
 
-#include "block.h"
-
-#define NEAR     1.75
-#define SMALLEST 0x1p-46 /* of an element; G integrates to at most 1, so that less is lost */
-
-enum { STACK = 128 };
+#include "panels.h"
 
 void hr2di_add_moments(hr2di_integrator *w, const hr2di_pair_frame *f, double s,
                        hr2di_span part, double *moment) {
@@ -19,21 +14,13 @@ void hr2di_add_moments(hr2di_integrator *w, const hr2di_pair_frame *f, double s,
   const hr2d_point x = {f->apart.x - s * f->along_i.x, f->apart.y - s * f->along_i.y};
   const double height = 0.5 * f->length_j * hr2di_mix(f->above_j, s);
   double phi[HR2D_MAX_ORDER];
-  hr2di_span stack[STACK];
-  size_t count = 0;
+  hr2di_panels panels = {.count = 1};
   if (!(part.to > part.from) || !(height > 0)) return;
-  stack[count++] = part;
-  while (count > 0) {
-    const hr2di_span panel = stack[--count];
+  panels.stack[0] = part;
+  while (panels.count > 0) {
+    const hr2di_span panel = panels.stack[--panels.count];
     const double size = panel.to - panel.from, middle = 0.5 * (panel.from + panel.to);
-    const hr2d_segment around = {hr2di_along(x, f->along_j, panel.from),
-                                 hr2di_along(x, f->along_j, panel.to)};
-    if (size > SMALLEST && count < STACK - 2 &&
-        hr2di_ellipse(around, (hr2d_point){0, 0}) < NEAR) {
-      stack[count++] = (hr2di_span){middle, panel.to};
-      stack[count++] = (hr2di_span){panel.from, middle};
-      continue;
-    }
+    if (hr2di_panel_near(x, f->along_j, panel) && hr2di_panel_halved(&panels, panel)) continue;
     w->kernels += w->near.points;
     for (size_t q = 0; q < w->near.points; q++) {
       const double t = middle + 0.5 * size * w->near.at[q];
@@ -70,24 +57,18 @@ static int is_near(const hr2di_pair_frame *f, hr2di_span panel, const hr2di_stri
   const hr2d_segment s = {hr2di_along(f->i.a, f->along_i, panel.from),
                           hr2di_along(f->i.a, f->along_i, panel.to)};
   for (size_t k = 0; k < strip->singulars; k++)
-    if (hr2di_ellipse(s, strip->singular[k]) < NEAR) return 1;
+    if (hr2di_ellipse(s, strip->singular[k]) < HR2DI_NEAR_ELLIPSE) return 1;
   return 0;
 }
 
 void hr2di_add_strip(hr2di_integrator *w, const hr2di_pair_frame *f, const hr2di_strip *strip,
                      double *block) {
-  hr2di_span stack[STACK];
-  size_t count = 0;
-  stack[count++] = strip->across;
-  while (count > 0) {
-    const hr2di_span panel = stack[--count];
-    const double middle = 0.5 * (panel.from + panel.to);
-    if (panel.to - panel.from > SMALLEST && count < STACK - 2 && is_near(f, panel, strip)) {
-      stack[count++] = (hr2di_span){middle, panel.to};
-      stack[count++] = (hr2di_span){panel.from, middle};
-    } else if (panel.to > panel.from) {
-      add_panel(w, f, strip, panel, block);
-    }
+  hr2di_panels panels = {.count = 1};
+  panels.stack[0] = strip->across;
+  while (panels.count > 0) {
+    const hr2di_span panel = panels.stack[--panels.count];
+    if (is_near(f, panel, strip) && hr2di_panel_halved(&panels, panel)) continue;
+    if (panel.to > panel.from) add_panel(w, f, strip, panel, block);
   }
 }
 

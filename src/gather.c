@@ -3,15 +3,12 @@
 
    A point of the patch sees parts of other patches; over what a leaf has of such a part B_h is
    a polynomial, and panels shrink towards the point as those of near blocks do. */
-#include "block.h"
 #include "hierarchy-impl.h"
+#include "panels.h"
 #include "point-factor.h"
 #include "point-view.h"
 #include "scene-impl.h"
 #include "solution-impl.h"
-
-#define NEAR     1.75
-#define SMALLEST 0x1p-46
 
 /* Points of a rule on a panel that far: good to 3.19^−(2·24 − order). */
 enum { POINTS = 32, STACK = 128 };
@@ -60,26 +57,17 @@ static void add_leaf(gatherer *g, uint32_t leaf, hr2di_span part) {
   const double *coefficient = s->value + leaf * s->order * s->bands;
   const hr2d_point along = {e->b.x - e->a.x, e->b.y - e->a.y};
   const hr2d_point from = {e->a.x - g->x.x, e->a.y - g->x.y};
-  hr2di_span stack[STACK];
-  size_t count = 0;
+  hr2di_panels panels = {.count = 1};
   if (!(part.to > part.from)) return;
   if (s->order == 1) {
     add_constant(g, e, coefficient, part);
     return;
   }
-  stack[count++] = part;
-  while (count > 0) {
-    const hr2di_span panel = stack[--count];
-    const double middle = 0.5 * (panel.from + panel.to);
-    const hr2d_segment around = {hr2di_along(from, along, panel.from),
-                                 hr2di_along(from, along, panel.to)};
-    if (panel.to - panel.from > SMALLEST && count < STACK - 2 &&
-        hr2di_ellipse(around, (hr2d_point){0, 0}) < NEAR) {
-      stack[count++] = (hr2di_span){middle, panel.to};
-      stack[count++] = (hr2di_span){panel.from, middle};
-    } else {
-      add_panel(g, from, along, panel, coefficient);
-    }
+  panels.stack[0] = part;
+  while (panels.count > 0) {
+    const hr2di_span panel = panels.stack[--panels.count];
+    if (hr2di_panel_near(from, along, panel) && hr2di_panel_halved(&panels, panel)) continue;
+    add_panel(g, from, along, panel, coefficient);
   }
 }
 

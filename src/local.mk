@@ -79,6 +79,7 @@ libhr2d_core_la_SOURCES = \
 	src/options.h \
 	src/oracle.c \
 	src/oracle-l1.c \
+	src/panels.h \
 	src/point-factor.h \
 	src/point-view.c src/point-view.h \
 	src/point-view-impl.h \
