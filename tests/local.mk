@@ -90,6 +90,18 @@ check-valgrind:
 	$(MAKE) check TESTS='$(filter-out $(TOO_LONG),$(SUITES))' LOG_COMPILER='$(MEMCHECK)'
 .PHONY: check-valgrind
 
+# The table of doc/hard-cases.md, as these suites measure it.
+HARD = $(filter tests/check_hard_%,$(SUITES))
+hard-cases: $(HARD)
+	@rm -f hard-cases.md
+	@for suite in $(HARD); do \
+	  $(AM_TESTS_ENVIRONMENT) \
+	  HR2D_HARD_CASES='$(abs_top_builddir)/hard-cases.md' CK_FORK=no ./$$suite >&2 || exit; \
+	done
+	@cat hard-cases.md
+.PHONY: hard-cases
+CLEANFILES += hard-cases.md
+
 # An outside program, in C and in C++, against what `make install` left behind.
 installcheck-local:
 	DESTDIR='$(DESTDIR)' libdir='$(libdir)' pkgconfigdir='$(pkgconfigdir)' \
