@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes from GeoJSON (RFC 7946 structure): the file and its collection. */
-#include <errno.h>
 #include <float.h>
 #include <hr2d/scene.h>
 #include <jansson.h>
@@ -8,6 +7,7 @@
 
 #include "alloc.h"
 #include "geojson-impl.h"
+#include "geojson-text.h"
 #include "scene-file.h"
 #include "scene-impl.h"
 
@@ -79,48 +79,12 @@ static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
   return hr2d_scene_set_background(reader->scene, reader->background.value, background_bands);
 }
 
-/* Text on its way to jansson, byte by byte: its lexer drops a byte in silence when its
-   buffer cannot grow, and a digit would be lost.  The lexer asks for the next byte
-   before it makes anything of a token, and by then errno still tells. */
-typedef struct source {
-  const char *next, *end;
-  int starved;
-} source;
-
-static size_t feed(void *buffer, size_t size, void *data) {
-  source *s = data;
-  s->starved |= errno == ENOMEM;
-  if (s->next == s->end || size == 0) return 0;
-  *(char *)buffer = *s->next++;
-  return 1;
-}
-
-static hr2d_status load(const char *text, size_t size, json_t **root, hr2di_message *message) {
-  source s = {text, text + size, 0};
-  json_error_t error = {0};
-  const int errno_before = errno;
-  errno = 0;
-  *root =
-      json_load_callback(feed, &s, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &error);
-  const int starved = s.starved || errno == ENOMEM;
-  errno = errno_before;
-  if (*root && !starved) return HR2D_OK;
-  json_decref(*root);
-  /* There is no text either for some of the allocations that can fail. */
-  if (starved || !error.text[0] || json_error_code(&error) == json_error_out_of_memory)
-    return hr2di_fail(message, HR2D_ENOMEM, "out of memory while parsing");
-  /* jansson's own text names a flag of its interface. */
-  const int nul = json_error_code(&error) == json_error_null_character;
-  return hr2di_fail(message, HR2D_ESYNTAX, "line %d, column %d: %s", error.line, error.column,
-                    nul ? "a string must not contain \\u0000" : error.text);
-}
-
 hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size) {
   hr2di_geojson reader = {.scene = scene,
                           .alloc = hr2di_scene_allocator(scene),
                           .message = hr2di_scene_message(scene)};
   json_t *root;
-  hr2d_status status = load(text, size, &root, reader.message);
+  hr2d_status status = hr2di_geojson_load(text, size, &root, reader.message);
   if (status) return status;
   status = read_collection(&reader, root);
 

@@ -53,6 +53,7 @@ libhr2d_core_la_SOURCES = \
 	src/geojson-feature.c \
 	src/geojson-geometry.c \
 	src/geojson-impl.h \
+	src/geojson-text.c src/geojson-text.h \
 	src/grade.c src/grade.h \
 	src/graded.c src/graded.h \
 	src/hierarchy.c \
