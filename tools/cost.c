@@ -151,6 +151,7 @@ static int run_methods(cost *c) {
 static int report(const cost *c) {
   const options *o = c->options;
   int status = 0;
+  progress_end();
   if (!c->quiet && !o->predict) cost_print_fits(c);
   if (o->csv) status = cost_write_csv(c);
   if (o->json && !status) status = cost_write_json(c);

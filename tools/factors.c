@@ -39,6 +39,7 @@ static int integrate(factors *f) {
   const hr2d_status status = hr2d_exchange_matrix(f->scene, &matrix, f->factor, &f->counts);
   f->seconds = seconds() - start;
   progress_clear(&p);
+  progress_end();
   return status ? fail_call(f->options->scene, "", status) : 0;
 }
 

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gnuplot reads the script from its standard input and draws to its standard output,
-   so that no file name has to pass through its syntax. */
+   so that no file name has to pass through its syntax.  That output is a pipe: gnuplot
+   itself does not notice when a disk is full. */
 #include "gnuplot.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <string.h>
@@ -50,6 +52,7 @@ static int start(pid_t *child, int script, int picture, int complaints) {
   sigset_t standard;
   sigemptyset(&standard);
   sigaddset(&standard, SIGPIPE);
+  sigaddset(&standard, SIGXFSZ);
   int error = posix_spawn_file_actions_init(&actions);
   if (error) return error;
   error = posix_spawnattr_init(&attributes);
@@ -77,19 +80,47 @@ static int fail_gnuplot(const char *path, FILE *complaints) {
   return fail(path, "gnuplot failed: %s", *line ? line : "no reason given");
 }
 
+/* Both ends are closed in the child, lest it keep the pipe open that it writes to. */
+static int open_pipe(int ends[2]) {
+  if (pipe(ends)) return -1;
+  if (fcntl(ends[0], F_SETFD, FD_CLOEXEC) >= 0 && fcntl(ends[1], F_SETFD, FD_CLOEXEC) >= 0)
+    return 0;
+  close(ends[0]);
+  close(ends[1]);
+  return -1;
+}
+
+/* Copies until the pipe ends or the picture takes no more; returns whether it was read to its
+   end and something was in it. */
+static int copy(int from, FILE *picture) {
+  char block[16384];
+  size_t total = 0;
+  for (;;) {
+    const ssize_t size = read(from, block, sizeof block);
+    if (size < 0 && errno == EINTR) continue;
+    if (size <= 0) return size == 0 && total > 0;
+    if (fwrite(block, 1, (size_t)size, picture) != (size_t)size) return 0;
+    total += (size_t)size;
+  }
+}
+
 static int run_gnuplot(const char *path, FILE *script, FILE *picture, FILE *complaints) {
   pid_t child = 0;
-  int status = 0;
+  int status = 0, ends[2];
   rewind(script);
-  const int error = start(&child, fileno(script), fileno(picture), fileno(complaints));
+  if (open_pipe(ends)) return fail(path, "cannot run gnuplot: %s", strerror(errno));
+  const int error = start(&child, fileno(script), ends[1], fileno(complaints));
+  close(ends[1]);
+  const int drawn = !error && copy(ends[0], picture);
+  close(ends[0]);
   if (error == ENOENT) return fail(path, "cannot be plotted: gnuplot is not installed");
   if (error) return fail(path, "cannot run gnuplot: %s", strerror(error));
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return fail(path, "cannot wait for gnuplot: %s", strerror(errno));
+  if (ferror(picture)) return EXIT_DONE; /* output_close() tells why */
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
     return fail(path, "cannot be plotted: gnuplot is not installed");
-  if (status || lseek(fileno(picture), 0, SEEK_END) == 0) return fail_gnuplot(path, complaints);
-  return EXIT_DONE;
+  return status || !drawn ? fail_gnuplot(path, complaints) : EXIT_DONE;
 }
 
 int gnuplot_draw(const char *path, void (*write_script)(FILE *script, const void *ctx),

@@ -45,6 +45,7 @@ static int run(const options *o) {
 int main(int argc, char **argv) {
   occupy_standard_streams();
   signal(SIGPIPE, SIG_IGN);    /* a closed pipe is a failed write */
+  signal(SIGXFSZ, SIG_IGN);    /* so is a file that may not grow */
   gsl_set_error_handler_off(); /* the default one aborts */
   options o;
   int status = options_read(argc, argv, &o);

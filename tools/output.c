@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A temporary file beside the target, renamed once every byte is known to be there. */
-#ifndef _XOPEN_SOURCE
-#define _XOPEN_SOURCE 700 /* realpath */
-#endif
-
 #include "output.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -14,6 +11,8 @@
 
 #include "complain.h"
 #include "options.h"
+
+enum { MOST_LINKS = 40, LINK_SIZE = 4096 };
 
 /* One output is open at a time; a signal handler must be able to find it. */
 static const char *volatile pending;
@@ -29,10 +28,29 @@ static char *directory_of(const char *path) {
   return strndup(path, slash == path ? 1 : (size_t)(slash - path));
 }
 
-/* Follows links, so that a rename replaces the file and not the link to it. */
+/* directory/name, for the caller to free. */
+static char *inside_directory_of(const char *path, const char *name) {
+  char *directory = directory_of(path);
+  const size_t size = directory ? strlen(directory) + strlen(name) + 2 : 0;
+  char *joined = directory ? malloc(size) : NULL;
+  if (joined) snprintf(joined, size, "%s/%s", directory, name);
+  free(directory);
+  return joined;
+}
+
+/* Follows links, also to what is not there yet, so that a rename replaces the file and not
+   the link to it; for the caller to free. */
 static char *target_of(const char *path) {
-  char *real = realpath(path, NULL);
-  return real || errno == ENOMEM ? real : strdup(path);
+  char link[LINK_SIZE], *at = strdup(path);
+  for (int k = 0; at && k < MOST_LINKS; k++) {
+    const ssize_t size = readlink(at, link, sizeof link);
+    if (size < 0 || (size_t)size == sizeof link) break;
+    link[size] = '\0';
+    char *next = *link == '/' ? strdup(link) : inside_directory_of(at, link);
+    free(at);
+    at = next;
+  }
+  return at;
 }
 
 /* As fopen() would give: what the umask leaves, or what the old file had. */
@@ -44,21 +62,19 @@ static mode_t permissions(const char *target) {
   return 0666 & ~mask;
 }
 
+/* The name is pending before there is such a file: an interrupt between would leave it. */
 static int open_temporary(output *out) {
-  char *directory = directory_of(out->target);
-  if (!directory) return fail_memory();
-  const size_t size = strlen(directory) + sizeof "/.hr2d-XXXXXX";
-  out->temporary = malloc(size);
-  if (out->temporary) snprintf(out->temporary, size, "%s/.hr2d-XXXXXX", directory);
-  free(directory);
+  out->temporary = inside_directory_of(out->target, ".hr2d-XXXXXX");
   if (!out->temporary) return fail_memory();
+  pending = out->temporary;
   const int fd = mkstemp(out->temporary);
   if (fd < 0) {
+    const int status = failed(out->path, "cannot be written");
+    pending = NULL;
     free(out->temporary);
     out->temporary = NULL;
-    return failed(out->path, "cannot be written");
+    return status;
   }
-  pending = out->temporary;
   if (fchmod(fd, permissions(out->target)) || !(out->stream = fdopen(fd, "wb"))) {
     const int status = failed(out->path, "cannot be written");
     close(fd);
@@ -68,13 +84,37 @@ static int open_temporary(output *out) {
 }
 
 static void release(output *out) {
-  if (out->temporary) {
-    unlink(out->temporary);
-    pending = NULL;
-  }
+  if (out->temporary) unlink(out->temporary);
+  pending = NULL;
   free(out->temporary);
   free(out->target);
   *out = (output){0};
+}
+
+/* A file that is there but protected is not replaced either. */
+static int check_place(const char *path, const char *target) {
+  struct stat old;
+  if (!stat(path, &old)) {
+    if (S_ISDIR(old.st_mode)) return fail(path, "cannot be written: is a directory");
+    if (!S_ISREG(old.st_mode)) return 0;
+    if (access(path, W_OK)) return failed(path, "cannot be written");
+  } else if (errno != ENOENT) {
+    return failed(path, "cannot be written");
+  }
+  char *directory = directory_of(target);
+  if (!directory) return fail_memory();
+  const int bad = access(directory, W_OK | X_OK);
+  const int status = bad ? failed(path, "cannot be written") : 0;
+  free(directory);
+  return status;
+}
+
+int output_check(const char *path) {
+  if (!path || to_stdout(path)) return 0;
+  char *target = target_of(path);
+  const int status = target ? check_place(path, target) : fail_memory();
+  free(target);
+  return status;
 }
 
 int output_open(output *out, const char *path) {
@@ -89,41 +129,49 @@ int output_open(output *out, const char *path) {
     return out->stream ? 0 : failed(path, "cannot be written");
   }
   out->target = target_of(path);
-  const int status = out->target ? open_temporary(out) : fail_memory();
+  int status = out->target ? check_place(path, out->target) : fail_memory();
+  if (!status) status = open_temporary(out);
   if (status) release(out);
   return status;
 }
 
-int output_close(output *out, int status) {
-  if (!out->stream) return status;
-  errno = 0;
-  int bad = fflush(out->stream) || ferror(out->stream);
-  if (out->stream != stdout && fclose(out->stream)) bad = 1;
-  if (!bad && !status && out->temporary) {
-    bad = rename(out->temporary, out->target) != 0;
-    if (!bad) {
-      free(out->temporary);
-      out->temporary = NULL;
-      pending = NULL;
-    }
-  }
-  if (bad && !status) status = failed(out->path, "cannot be written");
-  release(out);
-  return status;
+/* Bytes that are only in the cache when the name is there could be lost with the power; some
+   file systems cannot tell. */
+static int is_on_disk(FILE *stream) {
+  return !fsync(fileno(stream)) || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
 }
 
-int output_check(const char *path) {
-  if (!path || to_stdout(path)) return 0;
-  struct stat old;
-  if (!stat(path, &old)) {
-    if (S_ISDIR(old.st_mode)) return fail(path, "cannot be written: is a directory");
-    if (!S_ISREG(old.st_mode)) return 0;
+/* A write that failed has kept its reason to itself; another one tells. */
+static int is_complete(const output *out) {
+  const int lost = ferror(out->stream);
+  errno = 0;
+  if (lost && out->temporary) fputc('\n', out->stream);
+  return !fflush(out->stream) && !lost && (!out->temporary || is_on_disk(out->stream));
+}
+
+static int replace(output *out) {
+  if (rename(out->temporary, out->target)) return -1;
+  pending = NULL;
+  free(out->temporary);
+  out->temporary = NULL;
+  return 0;
+}
+
+int output_close(output *out, int status) {
+  if (!out->stream) return status;
+  int complete = is_complete(out), reason = errno;
+  if (out->stream != stdout && fclose(out->stream) && complete) {
+    complete = 0;
+    reason = errno;
   }
-  char *directory = directory_of(path);
-  if (!directory) return fail_memory();
-  const int bad = access(directory, W_OK | X_OK);
-  free(directory);
-  return bad ? failed(path, "cannot be written") : 0;
+  if (complete && !status && out->temporary && replace(out)) {
+    complete = 0;
+    reason = errno;
+  }
+  errno = reason;
+  if (!complete && !status) status = failed(out->path, "cannot be written");
+  release(out);
+  return status;
 }
 
 void output_abandon(void) {

@@ -12,6 +12,8 @@
 #include "output.h"
 
 static volatile sig_atomic_t stopped;
+static volatile sig_atomic_t heeded;   /* whether progress_show() is going to be called */
+static volatile sig_atomic_t terminal; /* whether a line may stand there */
 
 double seconds(void) {
   struct timespec now;
@@ -19,28 +21,45 @@ double seconds(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Said at once where nobody is going to look at `stopped`, or nobody did. */
 static void on_interrupt(int number) {
+  static const char line[] = "\nhr2d: interrupted\n";
   (void)number;
-  if (stopped) {
-    output_abandon();
-    _exit(EXIT_INTERRUPTED);
+  if (heeded && !stopped) {
+    stopped = 1;
+    return;
   }
-  stopped = 1;
+  const int skipped = !(heeded && terminal);
+  const ssize_t written =
+      write(STDERR_FILENO, line + skipped, sizeof line - 1 - (size_t)skipped);
+  (void)written;
+  output_abandon();
+  _exit(EXIT_INTERRUPTED);
 }
 
+/* What is ignored, as under nohup(1), stays so.  Without SA_RESTART a line on its way to a
+   slow pipe would be lost. */
 static void catch_interrupts(void) {
-  struct sigaction action = {.sa_handler = on_interrupt};
+  static const int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
+  struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = SA_RESTART};
   sigemptyset(&action.sa_mask);
-  struct sigaction before;
-  if (!sigaction(SIGINT, NULL, &before) && before.sa_handler != SIG_IGN)
-    sigaction(SIGINT, &action, NULL);
-  sigaction(SIGTERM, &action, NULL);
+  for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+    struct sigaction before;
+    if (!sigaction(numbers[k], NULL, &before) && before.sa_handler != SIG_IGN)
+      sigaction(numbers[k], &action, NULL);
+  }
 }
 
 void progress_start(progress *p, int quiet) {
   *p = (progress){.wanted = !quiet && isatty(STDERR_FILENO), .start = seconds()};
   p->last = p->start;
+  terminal = p->wanted;
+  heeded = 1;
   catch_interrupts();
+}
+
+void progress_end(void) {
+  heeded = 0;
 }
 
 static void show(progress *p, const hr2d_progress *now) {

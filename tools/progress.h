@@ -20,6 +20,9 @@ double seconds(void);
    one ends the program on the spot, without leaving a half-written file. */
 void progress_start(progress *p, int quiet);
 
+/* From here on, as results are written, the first interrupt does so. */
+void progress_end(void);
+
 /* A progress callback of the library; ctx is a progress. */
 hr2d_status progress_show(void *ctx, const hr2d_progress *now);
 

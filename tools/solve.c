@@ -34,6 +34,7 @@ static int report(const run *r) {
   const options *o = r->options;
   int status = 0;
   const double total = seconds() - r->start;
+  progress_end();
   if (!o->quiet && !to_stdout(o->json) && !to_stdout(o->csv)) status = print_run(r, total);
   if (o->csv && !status) status = write_leaves(r, o->csv);
   if (o->draw && !status) status = draw_run(r, o->draw);

@@ -139,6 +139,7 @@ static void print_fit(const study *s) {
 static int report(study *s) {
   const options *o = s->options;
   int status = 0;
+  progress_end();
   const hr2d_status fitting = hr2d_study_fit_rows(s->rows, s->count, &s->fit);
   if (fitting && fitting != HR2D_EINVAL) return fail_call(o->scene, "", fitting);
   s->fitted = !fitting;
