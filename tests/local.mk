@@ -36,6 +36,7 @@ SUITES = \
 
 OUTSIDE = \
 	tests/check_cli.sh \
+	tests/check-program-faults.sh \
 	tests/check_digits.sh \
 	tests/check_resume.sh \
 	tests/check-exports.sh \
