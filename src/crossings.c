@@ -7,6 +7,7 @@
 
 #include "alloc.h"
 #include "determinant.h"
+#include "predicates.h"
 
 /* Above every rounding, and above the error of a plain determinant of coordinates below
    2: 2^-50·|u||w| with |w| below 4. */
@@ -53,9 +54,9 @@ typedef struct pair {
 } pair;
 
 static end measure(hr2d_point p, const hr2d_segment *line) {
-  const hr2di_vector u = hr2di_scaled_difference(line->b, line->a),
-                     w = hr2di_scaled_difference(p, line->a);
-  end e = {.at = p, .side = hr2di_wide_det(&u, &w)};
+  const hr2di_vector u = hr2di_scaled_difference(line->b, line->a);
+  const hr2di_wide side = hr2di_wide_orient(line->a, line->b, p);
+  end e = {.at = p, .side = hr2di_wide_make(side.m, side.e)};
   e.distance = fabs(hr2di_wide_value(hr2di_wide_div(e.side, hr2di_wide_length(&u))));
   return e;
 }

@@ -43,6 +43,10 @@ static inline int hr2di_finite(hr2d_point a) {
   return isfinite(a.x) && isfinite(a.y);
 }
 
+/* Whether points, other than 0, lie within 2^800 of each other: then scaled differences lose
+   no bit, and their determinants are exact in sign. */
+int hr2di_near_in_scale(const hr2d_point *points, int count);
+
 /* The rounding error of s = x − y (Knuth). */
 static inline double hr2di_diff_tail(double x, double y, double s) {
   const double virtual_y = x - s, virtual_x = s + virtual_y;

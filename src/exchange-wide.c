@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "determinant.h"
+#include "exact-orient.h"
 
 #define ADD hr2di_wide_add
 #define SUB hr2di_wide_sub
@@ -66,6 +67,20 @@ static wide facing_area(const pair *s) {
   return MUL(t, e.m >= 0 ? DIV(k, ADD(pq, e)) : DIV(SUB(pq, e), k));
 }
 
+static void set_determinants(pair *s, const hr2d_segment *i, const hr2d_segment *j) {
+  if (hr2di_near_in_scale((const hr2d_point[]){i->a, i->b, j->a, j->b}, 4)) {
+    s->abc = hr2di_wide_det(&s->ab, &s->ac);
+    s->abd = hr2di_wide_det(&s->ab, &s->bd);
+    s->cda = NEG(hr2di_wide_det(&s->cd, &s->ac));
+    s->cdb = NEG(hr2di_wide_det(&s->cd, &s->bd));
+  } else {
+    s->abc = hr2di_exact_orient(i->a, i->b, j->a);
+    s->abd = hr2di_exact_orient(i->a, i->b, j->b);
+    s->cda = hr2di_exact_orient(j->a, j->b, i->a);
+    s->cdb = hr2di_exact_orient(j->a, j->b, i->b);
+  }
+}
+
 double hr2di_wide_exchange_area(const hr2d_segment *i, const hr2d_segment *j) {
   if (!hr2di_finite(i->a) || !hr2di_finite(i->b) || !hr2di_finite(j->a) || !hr2di_finite(j->b))
     return NAN;
@@ -76,10 +91,7 @@ double hr2di_wide_exchange_area(const hr2d_segment *i, const hr2d_segment *j) {
   s.bd = hr2di_scaled_difference(j->b, i->b);
   s.ad = hr2di_scaled_difference(j->b, i->a);
   s.bc = hr2di_scaled_difference(j->a, i->b);
-  s.abc = hr2di_wide_det(&s.ab, &s.ac);
-  s.abd = hr2di_wide_det(&s.ab, &s.bd);
-  s.cda = NEG(hr2di_wide_det(&s.cd, &s.ac));
-  s.cdb = NEG(hr2di_wide_det(&s.cd, &s.bd));
+  set_determinants(&s, i, j);
   if ((s.abc.m <= 0 && s.abd.m <= 0) || (s.cda.m <= 0 && s.cdb.m <= 0)) return 0;
   const int clipped = s.abc.m < 0 || s.abd.m < 0 || s.cda.m < 0 || s.cdb.m < 0;
   return hr2di_wide_value(clipped ? clipped_area(&s) : facing_area(&s));

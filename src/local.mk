@@ -42,6 +42,7 @@ libhr2d_core_la_SOURCES = \
 	src/events-impl.h \
 	src/events-rays.c \
 	src/exchange-area.c src/exchange-area.h \
+	src/exact-orient.c src/exact-orient.h \
 	src/exchange-wide.c src/exchange-wide.h \
 	src/existence.c src/existence.h \
 	src/file.c src/file.h \

@@ -3,27 +3,30 @@
 #include "predicates.h"
 
 #include "determinant.h"
+#include "exact-orient.h"
 #include "side.h"
 
-static hr2di_wide orient(hr2d_point a, hr2d_point b, hr2d_point c) {
+hr2di_wide hr2di_wide_orient(hr2d_point a, hr2d_point b, hr2d_point c) {
   hr2di_vector u, w;
   if (hr2di_plain(a) && hr2di_plain(b) && hr2di_plain(c)) {
     u = hr2di_difference(b, a);
     w = hr2di_difference(c, a);
-  } else {
+  } else if (hr2di_near_in_scale((const hr2d_point[]){a, b, c}, 3)) {
     u = hr2di_scaled_difference(b, a);
     w = hr2di_scaled_difference(c, a);
+  } else {
+    return hr2di_exact_orient(a, b, c);
   }
   return (hr2di_wide){hr2di_det(&u, &w), u.e + w.e};
 }
 
 double hr2di_orient(hr2d_point a, hr2d_point b, hr2d_point c) {
-  const hr2di_wide det = orient(a, b, c);
+  const hr2di_wide det = hr2di_wide_orient(a, b, c);
   return det.e == 0 ? det.m : ldexp(det.m, det.e);
 }
 
 double hr2di_crossing(hr2d_point a, hr2d_point b, hr2d_point p, hr2d_point q) {
-  const hr2di_wide at_p = orient(a, b, p), at_q = orient(a, b, q);
+  const hr2di_wide at_p = hr2di_wide_orient(a, b, p), at_q = hr2di_wide_orient(a, b, q);
   if (at_p.m == 0) return at_q.m == 0 ? NAN : 0;
   if (at_q.m == 0) return 1;
   const int e_p = at_p.e + ilogb(at_p.m), e_q = at_q.e + ilogb(at_q.m);
@@ -33,7 +36,7 @@ double hr2di_crossing(hr2d_point a, hr2d_point b, hr2d_point p, hr2d_point q) {
 }
 
 int hr2d_orientation(hr2d_point a, hr2d_point b, hr2d_point c) {
-  const double det = orient(a, b, c).m;
+  const double det = hr2di_wide_orient(a, b, c).m;
   return (det > 0) - (det < 0);
 }
 

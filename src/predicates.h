@@ -5,6 +5,12 @@
 
 #include <hr2d/geometry.h>
 
+#include "wide.h"
+
+/* (b−a)×(c−a) for any finite points, to 2·2^-53 of itself and with its exact sign; m is not
+   brought into [½,1). */
+hr2di_wide hr2di_wide_orient(hr2d_point a, hr2d_point b, hr2d_point c);
+
 /* (b−a)×(c−a), twice the signed area of the triangle, to a few units in the last
    place.  It may underflow: where only the sign matters, hr2d_orientation() has it. */
 double hr2di_orient(hr2d_point a, hr2d_point b, hr2d_point c);

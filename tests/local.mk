@@ -8,6 +8,7 @@ SUITES = \
 	tests/check_status \
 	tests/check_geometry \
 	tests/check_exchange_area \
+	tests/check_bounds_geometry \
 	tests/check_scene \
 	tests/check_crossings \
 	tests/check_geojson \
@@ -56,6 +57,7 @@ tests_libsupport_la_SOURCES = \
 	tests/pair_classes.c tests/pair_classes.h \
 	tests/brute_visibility.c tests/brute_visibility.h \
 	tests/hard.c tests/hard.h \
+	tests/hill_climb.c tests/hill_climb.h \
 	tests/radiosity_scenes.c tests/radiosity_scenes.h \
 	tests/room_plans.c tests/room_plans.h \
 	tests/support.c tests/support.h \

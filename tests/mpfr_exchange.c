@@ -3,6 +3,7 @@
    have make orientations exact and leave crossed strings more than they lose. */
 #include "mpfr_exchange.h"
 
+#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdint.h>
@@ -205,6 +206,48 @@ void mpfr_kernel(mpfr_t kernel, const hr2d_segment *i, hr2d_point x, const hr2d_
   vector_clear(&q);
 }
 
+void mpfr_distance(mpfr_t d, hr2d_point a, hr2d_point b) {
+  const hr2d_point points[2] = {a, b};
+  const mpfr_prec_t precision = digits_of(points, 2) + 128;
+  vector p, q;
+  vector_init(&p, precision);
+  vector_init(&q, precision);
+  mpfr_set_prec(d, precision);
+  vector_set(&p, a);
+  vector_set(&q, b);
+  distance(d, &p, &q);
+  vector_clear(&p);
+  vector_clear(&q);
+}
+
+/* kernel ← kernel · (distance of p from the line of s, 0 behind it) */
+static void times_height(mpfr_t kernel, const hr2d_segment *s, hr2d_point p) {
+  mpfr_t det, length;
+  mpfr_inits2(MPFR_PREC_MIN, det, length, (mpfr_ptr)0);
+  mpfr_orient(det, s->a, s->b, p);
+  mpfr_distance(length, s->a, s->b);
+  if (mpfr_sgn(det) <= 0)
+    mpfr_set_zero(kernel, 1);
+  else {
+    mpfr_mul(kernel, kernel, det, RN);
+    mpfr_div(kernel, kernel, length, RN);
+  }
+  mpfr_clears(det, length, (mpfr_ptr)0);
+}
+
+void mpfr_kernel_of_lines(mpfr_t kernel, const hr2d_segment *i, hr2d_point x,
+                          const hr2d_segment *j, hr2d_point y) {
+  mpfr_t r;
+  mpfr_init2(r, MPFR_PREC_MIN);
+  mpfr_distance(r, x, y);
+  mpfr_set_prec(kernel, 200);
+  mpfr_set_d(kernel, 0.5, RN);
+  for (int k = 0; k < 3; k++) mpfr_div(kernel, kernel, r, RN);
+  times_height(kernel, i, y);
+  times_height(kernel, j, x);
+  mpfr_clear(r);
+}
+
 double mpfr_relative_error(double value, const mpfr_t reference) {
   mpfr_t e;
   mpfr_init2(e, mpfr_get_prec(reference));
@@ -213,4 +256,12 @@ double mpfr_relative_error(double value, const mpfr_t reference) {
   const double error = fabs(mpfr_get_d(e, RN));
   mpfr_clear(e);
   return error;
+}
+
+double mpfr_double_error(double value, const mpfr_t reference) {
+  const double size = mpfr_get_d(reference, RN);
+  if (isnan(value)) return INFINITY;
+  if (mpfr_zero_p(reference) || isinf(size)) return value == size ? 0 : INFINITY;
+  if (fabs(size) < DBL_MIN) return fmax(fabs(value - size) - DBL_TRUE_MIN, 0) / DBL_MIN;
+  return isinf(value) ? INFINITY : mpfr_relative_error(value, reference);
 }

@@ -27,6 +27,12 @@ typedef struct hr2d_hierarchy hr2d_hierarchy;
  * A node of a patch's tree.  Coordinates and length are in units of
  * hr2d_scene_unit(), so that no callback needs to fear overflow.  One cache
  * line; the layout does not change within a library version number.
+ *
+ * Refinement halves: each midpoint is rounded once, and so on level k coordinates are off those
+ * of exact halving by at most k roundings, of 2^-53, of the patch's largest coordinate.  Where
+ * that is as much as the element, as in patches far from the origin, the centre, which is
+ * rounded, may lie off its line; an element whose midpoint is one of its ends is not halved.
+ * Lengths carry the error of the patch's, 3 roundings, and no other above 2^-1000.
  */
 typedef struct hr2d_element {
   hr2d_point a, b;   /**< end points, shared bit for bit with the neighbours */
