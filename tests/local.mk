@@ -9,6 +9,7 @@ SUITES = \
 	tests/check_geometry \
 	tests/check_exchange_area \
 	tests/check_bounds_geometry \
+	tests/check_bounds_oracles \
 	tests/check_scene \
 	tests/check_crossings \
 	tests/check_geojson \
