@@ -3,7 +3,8 @@
 
    With B = Q + √ρ y the equation becomes (I − √ρ K √ρ) y = √ρ K Q.  Its operator is
    self-adjoint in Σ A x y, because A_i K_ij = AF_ij = A_j K_ji, and positive definite
-   where light is lost; patches with ρ = 0 drop out by themselves. */
+   where light is lost; patches with ρ = 0 drop out by themselves.  In closed components Q' and
+   z stand for Q and B, see balance.h. */
 #include "equation.h"
 
 #include <math.h>
@@ -83,6 +84,7 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
   hr2d_status status = integrate_blocks(s);
   if (!status) status = hr2di_transport_init(t, s->links, s->options.threads);
   if (!status) status = integrate_rows(s);
+  if (!status && t->closure && !links->directed) status = hr2di_balance_make(&s->balance, t);
   if (status) return status;
   s->items = t->leaves * t->order;
   s->field = t->leaves * t->width;
@@ -107,9 +109,17 @@ static void apply(void *ctx, const double *in, double *out) {
   for (size_t k = 0; k < s->field; k++) out[k] *= s->root_rho[k];
 }
 
-/* B = E + √ρ y */
+/* out = Q' + √ρ y, which is z, with Q' = Q where nothing is closed. */
+static void set_fluctuation(hr2di_equation *s, const double *y, double *out) {
+  for (size_t k = 0; k < s->field; k++) out[k] = s->source[k];
+  hr2di_balance_add(&s->balance, &s->transport, -1, 1, out);
+  for (size_t k = 0; k < s->field && y; k++) out[k] += s->root_rho[k] * y[k];
+}
+
+/* B = c + z */
 static void set_radiosity(hr2di_equation *s, const double *y) {
-  for (size_t k = 0; k < s->field; k++) s->radiosity[k] = s->source[k] + s->root_rho[k] * y[k];
+  set_fluctuation(s, y, s->radiosity);
+  hr2di_balance_add(&s->balance, &s->transport, 1, 0, s->radiosity);
 }
 
 static hr2di_system make_system(hr2di_equation *s);
@@ -156,8 +166,14 @@ void hr2di_equation_gather(hr2di_equation *s, const double *radiosity) {
   if (s->background) hr2di_add_background(&s->transport, s->irradiance);
 }
 
+void hr2di_equation_balance(hr2di_equation *s) {
+  hr2di_balance_set(&s->balance, &s->transport, s->source);
+}
+
 hr2d_status hr2di_equation_solve(hr2di_equation *s) {
-  hr2di_equation_gather(s, s->source);
+  hr2di_equation_balance(s);
+  set_fluctuation(s, NULL, s->radiosity);
+  hr2di_equation_gather(s, s->radiosity);
   for (size_t k = 0; k < s->field; k++) s->b[k] = s->root_rho[k] * s->irradiance[k];
   const hr2di_system system = make_system(s);
   double residual = 0;
@@ -172,19 +188,45 @@ hr2d_status hr2di_equation_solve(hr2di_equation *s) {
   return hr2di_equation_take(s);
 }
 
+/* In closed components H = c + Kz, after which c is corrected, and B = Q + ρH. */
+static void balance(hr2di_equation *s) {
+  const hr2di_transport *t = &s->transport;
+  hr2di_balance_correct(&s->balance, t, s->irradiance);
+  hr2di_balance_add(&s->balance, t, 1, 0, s->irradiance);
+  for (size_t k = 0; k < s->field; k++)
+    if (s->balance.component[k / t->width] != HR2DI_OPEN)
+      s->radiosity[k] = s->source[k] + s->root_rho[k] * s->root_rho[k] * s->irradiance[k];
+}
+
 hr2d_status hr2di_equation_take(hr2di_equation *s) {
-  set_radiosity(s, s->y);
+  set_fluctuation(s, s->y, s->radiosity);
   hr2di_equation_gather(s, s->radiosity);
+  if (s->balance.count > 0) balance(s);
   return s->transport.failed ? HR2D_ENOMEM : HR2D_OK;
 }
 
-/* ‖Q + ρH − B‖/‖B‖, the largest over the bands. */
+/* With B = c + z it is Q − (1−ρ)c + ρKz − z. */
+void hr2di_equation_defect(hr2di_equation *s, const double *radiosity, double *out) {
+  const hr2di_transport *t = &s->transport;
+  for (size_t k = 0; k < s->field; k++) s->work[k] = radiosity[k];
+  hr2di_balance_add(&s->balance, t, -1, 0, s->work);
+  hr2di_gather(&s->transport, s->work, out);
+  if (s->background) hr2di_add_background(t, out);
+  for (size_t k = 0; k < s->field; k++)
+    out[k] = s->root_rho[k] * s->root_rho[k] * out[k] - s->work[k];
+  set_fluctuation(s, NULL, s->work);
+  for (size_t k = 0; k < s->field; k++) out[k] += s->work[k];
+}
+
 double hr2di_equation_residual(hr2di_equation *s) {
   const hr2di_system system = make_system(s);
-  for (size_t k = 0; k < s->field; k++)
-    s->work[k] =
-        s->source[k] + s->root_rho[k] * s->root_rho[k] * s->irradiance[k] - s->radiosity[k];
-  hr2di_dot(&system, s->work, s->work, s->norm[0]);
+  if (s->balance.count > 0)
+    hr2di_equation_defect(s, s->radiosity, s->y);
+  else
+    for (size_t k = 0; k < s->field; k++)
+      s->y[k] =
+          s->source[k] + s->root_rho[k] * s->root_rho[k] * s->irradiance[k] - s->radiosity[k];
+  hr2di_dot(&system, s->y, s->y, s->norm[0]);
   hr2di_dot(&system, s->radiosity, s->radiosity, s->norm[1]);
   double most = 0;
   for (size_t b = 0; b < system.bands; b++)
@@ -193,6 +235,7 @@ double hr2di_equation_residual(hr2di_equation *s) {
 }
 
 void hr2di_equation_clear(hr2di_equation *s) {
+  hr2di_balance_clear(&s->balance);
   hr2di_transport_clear(&s->transport);
   hr2di_free(&s->links->alloc, s->space);
 }

@@ -6,6 +6,7 @@
 
 #include <hr2d/solve.h>
 
+#include "balance.h"
 #include "krylov.h"
 #include "transport.h"
 
@@ -13,6 +14,7 @@ typedef struct hr2di_equation {
   hr2d_linkset *links;
   hr2d_solve_options options;
   hr2di_transport transport;
+  hr2di_balance balance;
   int background;   /* light comes in from the surroundings */
   size_t items;     /* leaves × order */
   size_t field;     /* items × bands */
@@ -45,7 +47,14 @@ hr2d_status hr2di_equation_solve(hr2di_equation *eq);
    HR2D_ENOMEM. */
 hr2d_status hr2di_equation_take(hr2di_equation *eq);
 
-/* ‖Q + ρH − B‖/‖B‖, the largest over the bands. */
+/* Balances the source, so that y is that of h from then on; hr2di_equation_solve() does. */
+void hr2di_equation_balance(hr2di_equation *eq);
+
+/* out = Q + ρKB − B, with the digits that balance leaves of it; changes eq->work.  `out` may
+   not be that, nor the irradiance, which it keeps. */
+void hr2di_equation_defect(hr2di_equation *eq, const double *radiosity, double *out);
+
+/* ‖Q + ρKB − B‖/‖B‖, the largest over the bands; changes y. */
 double hr2di_equation_residual(hr2di_equation *eq);
 
 #endif

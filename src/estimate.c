@@ -5,7 +5,8 @@
    (I − ρK)⁻¹ = Σ (ρK)^k is positive, so that its last term is at most (I − ρK)⁻¹ S for S ≥ |s|:
    the bound.  r is orthogonal to what elements carry, so that each term is much smaller than
    the one before, and the bound close.  To S is added what roundings of B may be, which (I −
-   ρK)⁻¹ carries on as it does light. */
+   ρK)⁻¹ carries on as it does light; of what is balanced in closed components they are no
+   more than that. */
 #include "estimate.h"
 
 #include <float.h>
@@ -33,6 +34,7 @@ typedef struct estimator {
   hr2di_basis basis;
   hr2di_rule rule;
   double *kept;     /* the field of B_h */
+  double *rest;     /* of B_h less what is balanced, see balance.h */
   double *head;     /* r + … + (ρK)^(n−1) r */
   double *residual; /* r */
   int *exponent;    /* per band, see solve() */
@@ -74,11 +76,11 @@ static void set_source(estimator *e) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
   hr2di_restrict(e->coarse, t->hierarchy, t->leaf, t->leaves, t->order, e->kept);
-  hr2di_equation_gather(eq, e->kept);
-  for (size_t k = 0; k < eq->field; k++)
-    e->residual[k] = e->head[k] =
-        eq->source[k] + eq->root_rho[k] * eq->root_rho[k] * eq->irradiance[k] - e->kept[k];
-  for (size_t k = 0; k < eq->field; k++) eq->source[k] = e->residual[k];
+  hr2di_equation_balance(eq);
+  hr2di_equation_defect(eq, e->kept, e->residual);
+  for (size_t k = 0; k < eq->field; k++) e->rest[k] = e->kept[k];
+  hr2di_balance_add(&eq->balance, t, -1, 0, e->rest);
+  for (size_t k = 0; k < eq->field; k++) eq->source[k] = e->head[k] = e->residual[k];
   eq->background = 0;
   for (int term = 1; term <= TERMS; term++) {
     reflect(eq, eq->source);
@@ -93,7 +95,7 @@ static void set_majorant(estimator *e) {
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t b = 0; b < t->bands; b++) {
       const double most =
-          BETWEEN * leaf_most(e, eq->source, k, b) + ROUNDING * leaf_most(e, e->kept, k, b);
+          BETWEEN * leaf_most(e, eq->source, k, b) + ROUNDING * leaf_most(e, e->rest, k, b);
       for (size_t l = 0; l < t->order; l++)
         eq->source[k * t->width + l * t->bands + b] = l == 0 ? most : 0;
     }
@@ -194,8 +196,9 @@ static hr2d_status measure(estimator *e, const hr2d_target *target, double *aver
   set_majorant(e);
   status = solve(e, 1e-3);
   average_errors(e, eq->radiosity, target->importance, average);
-  errors->average.bound = worst_average(e, BETWEEN, head, average);
-  errors->sup.bound = worst_point(e, BETWEEN, e->head, eq->radiosity);
+  const double rounding = eq->balance.count > 0 ? ROUNDING : 0;
+  errors->average.bound = worst_average(e, BETWEEN, head, average) + rounding;
+  errors->sup.bound = worst_point(e, BETWEEN, e->head, eq->radiosity) + rounding;
   return status;
 }
 
@@ -212,13 +215,14 @@ static hr2d_status run(const hr2di_answer *finer, const hr2d_solution *coarse,
     hr2di_rule_make(&e.rule, e.eq.transport.order + 2);
     const hr2d_allocator *alloc = &finer->links->alloc;
     const size_t values = hr2d_scene_patches(finer->hierarchy->scene) * e.eq.transport.bands;
-    double *space = hr2di_alloc(alloc, 3 * e.eq.field + 2 * values, sizeof *space);
+    double *space = hr2di_alloc(alloc, 4 * e.eq.field + 2 * values, sizeof *space);
     e.exponent = hr2di_alloc(alloc, e.eq.transport.bands, sizeof *e.exponent);
     e.kept = space;
     if (space && e.exponent) {
       e.head = e.kept + e.eq.field;
       e.residual = e.head + e.eq.field;
-      status = measure(&e, target, e.residual + e.eq.field, errors);
+      e.rest = e.residual + e.eq.field;
+      status = measure(&e, target, e.rest + e.eq.field, errors);
     } else {
       status = HR2D_ENOMEM;
     }

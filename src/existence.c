@@ -4,60 +4,68 @@
    forces ∫E = 0. */
 #include "existence.h"
 
+#include <math.h>
+
 #include "alloc.h"
+#include "components.h"
 #include "hierarchy-impl.h"
 #include "scene-impl.h"
 
-/* A component is taken as closed if less than this part of its light escapes:
-   below it, an opening cannot be told from rounding. */
+/* A component is taken as closed if less than this part of its light escapes: below it, an
+   opening cannot be told from rounding; or below what clusters may be off by. */
 #define CLOSED 1e-13
 
-typedef struct components {
-  size_t *above;  /* union-find over patches */
+typedef struct exchange {
+  hr2di_components components;
   double *escape; /* per patch, then per component: A − Σ AF, summed up */
   double *length;
-} components;
+} exchange;
 
-static size_t find(size_t *above, size_t k) {
-  while (above[k] != k) {
-    above[k] = above[above[k]];
-    k = above[k];
-  }
-  return k;
-}
-
-static void join_links(const hr2d_linkset *links, components *c) {
+static void add_links(const hr2d_linkset *links, exchange *e) {
   const hr2d_element *element = links->hierarchy->element;
   const hr2di_store *store = &links->store;
   for (size_t block = 0; block < store->blocks; block++)
     for (size_t k = 0; k < hr2di_store_block_size(store, block); k++) {
       const hr2d_link link = store->block[block][k];
-      const size_t i = element[link.pair.first].patch, j = element[link.pair.second].patch;
-      c->escape[i] -= link.exchange_area;
-      if (!links->directed) c->escape[j] -= link.exchange_area;
-      c->above[find(c->above, i)] = find(c->above, j);
+      e->escape[element[link.pair.first].patch] -= link.exchange_area;
+      if (!links->directed) e->escape[element[link.pair.second].patch] -= link.exchange_area;
     }
 }
 
-static void sum_up(const hr2d_scene *scene, components *c) {
+/* What clusters exchange for the patches in them. */
+static hr2d_status add_clusters(const hr2d_linkset *links, exchange *e) {
+  const size_t n = links->hierarchy->scene->patches;
+  if (!links->roots.clusters) return HR2D_OK;
+  double *one = hr2di_calloc(&links->alloc, 2 * n, sizeof *one), *power = one + n;
+  if (!one) return HR2D_ENOMEM;
+  for (size_t k = 0; k < n; k++) one[k] = 1;
+  const hr2d_status status = hr2di_clusters_gather(links->roots.clusters, 1, 1, one, power);
+  for (size_t k = 0; k < n; k++) e->escape[k] -= power[k];
+  hr2di_free(&links->alloc, one);
+  return status;
+}
+
+static void sum_up(const hr2d_scene *scene, exchange *e) {
   for (size_t k = 0; k < scene->patches; k++) {
-    const size_t root = find(c->above, k);
+    const size_t root = hr2di_component(&e->components, k);
     if (root == k) continue;
-    c->escape[root] += c->escape[k];
-    c->length[root] += c->length[k];
+    e->escape[root] += e->escape[k];
+    e->length[root] += e->length[k];
   }
 }
 
 /* Judges one band: a component is in doubt if it is closed and nothing absorbs. */
-static hr2d_status check_band(hr2d_linkset *links, components *c, size_t band,
+static hr2d_status check_band(hr2d_linkset *links, exchange *e, size_t band,
                               unsigned char *absorbs) {
   const hr2d_scene *scene = links->hierarchy->scene;
+  const double closed = links->roots.clusters ? fmax(CLOSED, 10 * links->roots.digits) : CLOSED;
   for (size_t k = 0; k < scene->patches; k++) absorbs[k] = 0;
   for (size_t k = 0; k < scene->patches; k++)
-    if (hr2d_scene_reflectance(scene, k, band) < 1) absorbs[find(c->above, k)] = 1;
+    if (hr2d_scene_reflectance(scene, k, band) < 1)
+      absorbs[hr2di_component(&e->components, k)] = 1;
   for (size_t k = 0; k < scene->patches; k++) {
-    const size_t root = find(c->above, k);
-    if (absorbs[root] || c->escape[root] > CLOSED * c->length[root] ||
+    const size_t root = hr2di_component(&e->components, k);
+    if (absorbs[root] || e->escape[root] > closed * e->length[root] ||
         !(hr2d_scene_emission(scene, k, band) > 0))
       continue;
     return hr2di_fail(&links->message, HR2D_ENO_SOLUTION,
@@ -75,31 +83,34 @@ static int some_patch_absorbs_nothing(const hr2d_scene *scene) {
   return 0;
 }
 
+static hr2d_status sum_exchange(const hr2d_linkset *links, exchange *e) {
+  const hr2d_scene *scene = links->hierarchy->scene;
+  hr2d_status status = hr2di_components_make(&e->components, links);
+  for (size_t k = 0; k < scene->patches; k++)
+    e->escape[k] = e->length[k] = scene->patch[k].length;
+  if (!status) status = add_clusters(links, e);
+  if (status) return status;
+  add_links(links, e);
+  sum_up(scene, e);
+  return HR2D_OK;
+}
+
 hr2d_status hr2di_check_existence(hr2d_linkset *links) {
   const hr2d_scene *scene = links->hierarchy->scene;
   if (!some_patch_absorbs_nothing(scene)) return HR2D_OK;
   const hr2d_allocator *alloc = &links->alloc;
-  const size_t n = scene->patches;
-  components c = {.above = hr2di_alloc(alloc, n, sizeof *c.above),
-                  .escape = hr2di_alloc(alloc, n, sizeof *c.escape),
-                  .length = hr2di_alloc(alloc, n, sizeof *c.length)};
-  unsigned char *absorbs = hr2di_alloc(alloc, n, 1);
-  hr2d_status status = HR2D_OK;
-  if (!c.above || !c.escape || !c.length || !absorbs) {
-    status = hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the solve");
-  } else {
-    for (size_t k = 0; k < n; k++) {
-      c.above[k] = k;
-      c.escape[k] = c.length[k] = scene->patch[k].length;
-    }
-    join_links(links, &c);
-    sum_up(scene, &c);
-    for (size_t band = 0; band < scene->bands && !status; band++)
-      status = check_band(links, &c, band, absorbs);
-  }
-  hr2di_free(alloc, c.above);
-  hr2di_free(alloc, c.escape);
-  hr2di_free(alloc, c.length);
+  exchange e = {.escape = hr2di_alloc(alloc, scene->patches, sizeof *e.escape),
+                .length = hr2di_alloc(alloc, scene->patches, sizeof *e.length)};
+  e.components.alloc = *alloc;
+  unsigned char *absorbs = hr2di_alloc(alloc, scene->patches, 1);
+  hr2d_status status = HR2D_ENOMEM;
+  if (e.escape && e.length && absorbs) status = sum_exchange(links, &e);
+  if (status) hr2di_fail(&links->message, status, "out of memory for the solve");
+  for (size_t band = 0; band < scene->bands && !status; band++)
+    status = check_band(links, &e, band, absorbs);
+  hr2di_components_clear(&e.components);
+  hr2di_free(alloc, e.escape);
+  hr2di_free(alloc, e.length);
   hr2di_free(alloc, absorbs);
   return status;
 }

@@ -8,6 +8,7 @@ libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
 libhr2d_core_la_SOURCES = \
 	src/alloc.c src/alloc.h \
 	src/backs.c src/backs.h \
+	src/balance.c src/balance.h \
 	src/block.c src/block.h \
 	src/block-near.c \
 	src/block-shaded.c \
@@ -29,6 +30,7 @@ libhr2d_core_la_SOURCES = \
 	src/clusters.c src/clusters.h \
 	src/clusters-impl.h \
 	src/commit.c \
+	src/components.c src/components.h \
 	src/corner.c src/corner.h \
 	src/corridor.c src/corridor.h \
 	src/count.c \

@@ -23,16 +23,23 @@ static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *
   return HR2D_OK;
 }
 
-/* y = (B − E)/√ρ of a former solution, perhaps of another order and on younger leaves. */
+/* y = (B − E)/√ρ of a former solution, perhaps of another order and on younger leaves; with c
+   for closed components taken off. */
 static void warm_start(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   hr2di_restrict(s->options.start, t->hierarchy, t->leaf, t->leaves, t->order, s->radiosity);
   for (size_t k = 0; k < s->field; k++)
     if (s->root_rho[k] > 0) s->y[k] = (s->radiosity[k] - s->source[k]) / s->root_rho[k];
+  hr2di_equation_balance(s);
+  for (size_t k = 0; k < t->leaves && s->balance.count > 0; k++)
+    for (size_t b = 0; b < t->bands; b++) {
+      const size_t at = k * t->width + b;
+      s->y[at] -= s->root_rho[at] * hr2di_balance_at(&s->balance, t, k, b);
+    }
 }
 
 /* Powers in scene lengths: everything that arrives was sent, so that what is sent
-   and does not arrive has escaped. */
+   and does not arrive has escaped; from closed components nothing. */
 static hr2d_power sum_power(const hr2di_equation *s, size_t band) {
   const hr2di_transport *t = &s->transport;
   const hr2d_scene *scene = t->hierarchy->scene;
@@ -44,8 +51,10 @@ static hr2d_power sum_power(const hr2di_equation *s, size_t band) {
     const double area = s->weight[k * t->order];
     hr2di_add(&emitted, area * s->source[at]);
     hr2di_add(&absorbed, area * (absorbance * s->irradiance[at]));
-    hr2di_add(&escaped, area * s->radiosity[at]);
-    hr2di_add(&escaped, -area * s->irradiance[at]);
+    if (!hr2di_balance_holds(&s->balance, k)) {
+      hr2di_add(&escaped, area * s->radiosity[at]);
+      hr2di_add(&escaped, -area * s->irradiance[at]);
+    }
     if (!t->sky) continue;
     hr2di_add(&received, area * (t->sky[k * t->order] * background));
     hr2di_add(&escaped, area * (t->sky[k * t->order] * background));
