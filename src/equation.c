@@ -61,6 +61,19 @@ static hr2d_status integrate_blocks(hr2di_equation *s) {
              : status;
 }
 
+/* The powers of two that bring the light of each band near 1: neither squares nor what comes of
+   B after many reflections then leave the range of a double, and denormals have all digits. */
+static void set_exponents(hr2di_equation *s) {
+  const hr2d_scene *scene = s->links->hierarchy->scene;
+  for (size_t b = 0; b < scene->bands; b++) {
+    double most = hr2d_scene_background(scene, b);
+    for (size_t k = 0; k < scene->patches; k++)
+      most = fmax(most, hr2d_scene_emission(scene, k, b));
+    s->exponent[b] = most > 0 ? ilogb(most) : 0;
+    s->light[b] = ldexp(hr2d_scene_background(scene, b), -s->exponent[b]);
+  }
+}
+
 /* Coefficients of leaves are numbered as the items of the system. */
 static void set_surfaces(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
@@ -70,7 +83,8 @@ static void set_surfaces(hr2di_equation *s) {
     s->weight[k] = e->length;
     for (size_t b = 0; b < t->bands; b++) {
       const int constant = k % t->order == 0;
-      s->source[k * t->bands + b] = constant ? hr2d_scene_emission(scene, e->patch, b) : 0;
+      s->source[k * t->bands + b] =
+          constant ? ldexp(hr2d_scene_emission(scene, e->patch, b), -s->exponent[b]) : 0;
       s->root_rho[k * t->bands + b] = sqrt(hr2d_scene_reflectance(scene, e->patch, b));
     }
   }
@@ -89,14 +103,17 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
   s->items = t->leaves * t->order;
   s->field = t->leaves * t->width;
   s->space =
-      hr2di_calloc(&s->links->alloc, s->items + 7 * s->field + 2 * t->bands, sizeof *s->space);
-  if (!s->space) return HR2D_ENOMEM;
+      hr2di_calloc(&s->links->alloc, s->items + 7 * s->field + 3 * t->bands, sizeof *s->space);
+  s->exponent = hr2di_alloc(&s->links->alloc, t->bands, sizeof *s->exponent);
+  if (!s->space || !s->exponent) return HR2D_ENOMEM;
   double **const field[] = {&s->source, &s->root_rho, &s->radiosity, &s->irradiance,
                             &s->y,      &s->b,        &s->work};
   s->weight = s->space;
   for (size_t k = 0; k < 7; k++) *field[k] = s->space + s->items + k * s->field;
   s->norm[0] = s->space + s->items + 7 * s->field;
   s->norm[1] = s->norm[0] + t->bands;
+  s->light = s->norm[1] + t->bands;
+  set_exponents(s);
   set_surfaces(s);
   return HR2D_OK;
 }
@@ -112,14 +129,14 @@ static void apply(void *ctx, const double *in, double *out) {
 /* out = Q' + √ρ y, which is z, with Q' = Q where nothing is closed. */
 static void set_fluctuation(hr2di_equation *s, const double *y, double *out) {
   for (size_t k = 0; k < s->field; k++) out[k] = s->source[k];
-  hr2di_balance_add(&s->balance, &s->transport, -1, 1, out);
+  hr2di_balance_absorb(&s->balance, &s->transport, out);
   for (size_t k = 0; k < s->field && y; k++) out[k] += s->root_rho[k] * y[k];
 }
 
 /* B = c + z */
 static void set_radiosity(hr2di_equation *s, const double *y) {
   set_fluctuation(s, y, s->radiosity);
-  hr2di_balance_add(&s->balance, &s->transport, 1, 0, s->radiosity);
+  hr2di_balance_add(&s->balance, &s->transport, s->radiosity);
 }
 
 static hr2di_system make_system(hr2di_equation *s);
@@ -163,22 +180,35 @@ static hr2di_system make_system(hr2di_equation *s) {
 /* H = K B, and what comes from the background. */
 void hr2di_equation_gather(hr2di_equation *s, const double *radiosity) {
   hr2di_gather(&s->transport, radiosity, s->irradiance);
-  if (s->background) hr2di_add_background(&s->transport, s->irradiance);
+  if (s->background) hr2di_add_background(&s->transport, s->light, s->irradiance);
+}
+
+/* h = Kz, what comes from the background, and what balance takes off. */
+static void gather_rest(hr2di_equation *s, const double *z, double *out) {
+  hr2di_gather(&s->transport, z, out);
+  if (s->background) hr2di_add_background(&s->transport, s->light, out);
+  hr2di_balance_release(&s->balance, &s->transport, out);
 }
 
 void hr2di_equation_balance(hr2di_equation *s) {
-  hr2di_balance_set(&s->balance, &s->transport, s->source);
+  if (s->balance.count > 0)
+    hr2di_balance_set(&s->balance, &s->transport, s->source, s->background ? s->light : NULL);
 }
 
 hr2d_status hr2di_equation_solve(hr2di_equation *s) {
   hr2di_equation_balance(s);
   set_fluctuation(s, NULL, s->radiosity);
-  hr2di_equation_gather(s, s->radiosity);
+  gather_rest(s, s->radiosity, s->irradiance);
   for (size_t k = 0; k < s->field; k++) s->b[k] = s->root_rho[k] * s->irradiance[k];
   const hr2di_system system = make_system(s);
   double residual = 0;
   hr2d_status status = hr2di_krylov(&system, s->b, s->y, &residual);
   if (s->transport.failed) status = HR2D_ENOMEM;
+  if (status == HR2D_ENOT_CONVERGED && s->looks <= s->options.max_iterations)
+    return hr2di_fail(&s->links->message, status,
+                      "after %llu iterations I − ρK is found not to be positive definite: rows "
+                      "of the links exceed 1, and closure or finer links are needed",
+                      (unsigned long long)s->looks);
   if (status == HR2D_ENOT_CONVERGED)
     return hr2di_fail(&s->links->message, status,
                       "the relative residual is %.1e where %.1e was asked for, after %llu "
@@ -188,30 +218,34 @@ hr2d_status hr2di_equation_solve(hr2di_equation *s) {
   return hr2di_equation_take(s);
 }
 
-/* In closed components H = c + Kz, after which c is corrected, and B = Q + ρH. */
+/* H = c + h with c corrected, and B = Q + ρH. */
 static void balance(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
-  hr2di_balance_correct(&s->balance, t, s->irradiance);
-  hr2di_balance_add(&s->balance, t, 1, 0, s->irradiance);
+  hr2di_balance_correct(&s->balance, t, s->source, s->irradiance);
+  hr2di_balance_add(&s->balance, t, s->irradiance);
   for (size_t k = 0; k < s->field; k++)
-    if (s->balance.component[k / t->width] != HR2DI_OPEN)
+    if (hr2di_balance_holds(&s->balance, k / t->width))
       s->radiosity[k] = s->source[k] + s->root_rho[k] * s->root_rho[k] * s->irradiance[k];
 }
 
 hr2d_status hr2di_equation_take(hr2di_equation *s) {
   set_fluctuation(s, s->y, s->radiosity);
-  hr2di_equation_gather(s, s->radiosity);
+  gather_rest(s, s->radiosity, s->irradiance);
   if (s->balance.count > 0) balance(s);
   return s->transport.failed ? HR2D_ENOMEM : HR2D_OK;
 }
 
-/* With B = c + z it is Q − (1−ρ)c + ρKz − z. */
-void hr2di_equation_defect(hr2di_equation *s, const double *radiosity, double *out) {
+/* c where item k is the constant of a leaf. */
+static double constant_of(const hr2di_equation *s, size_t k) {
   const hr2di_transport *t = &s->transport;
-  for (size_t k = 0; k < s->field; k++) s->work[k] = radiosity[k];
-  hr2di_balance_add(&s->balance, t, -1, 0, s->work);
-  hr2di_gather(&s->transport, s->work, out);
-  if (s->background) hr2di_add_background(t, out);
+  const size_t m = k % t->width;
+  return m < t->bands ? hr2di_balance_at(&s->balance, t, k / t->width, m) : 0;
+}
+
+/* With B = c + z it is Q − (1−ρ)c + ρ(Kz + S − mc) − z. */
+void hr2di_equation_defect(hr2di_equation *s, const double *radiosity, double *out) {
+  for (size_t k = 0; k < s->field; k++) s->work[k] = radiosity[k] - constant_of(s, k);
+  gather_rest(s, s->work, out);
   for (size_t k = 0; k < s->field; k++)
     out[k] = s->root_rho[k] * s->root_rho[k] * out[k] - s->work[k];
   set_fluctuation(s, NULL, s->work);
@@ -238,4 +272,5 @@ void hr2di_equation_clear(hr2di_equation *s) {
   hr2di_balance_clear(&s->balance);
   hr2di_transport_clear(&s->transport);
   hr2di_free(&s->links->alloc, s->space);
+  hr2di_free(&s->links->alloc, s->exponent);
 }

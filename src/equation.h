@@ -16,11 +16,13 @@ typedef struct hr2di_equation {
   hr2di_transport transport;
   hr2di_balance balance;
   int background;   /* light comes in from the surroundings */
+  int *exponent;    /* per band: E, B and H are 2^exponent times what is held here */
   size_t items;     /* leaves × order */
   size_t field;     /* items × bands */
   double *space;    /* holds what follows */
   double *weight;   /* A of each item's leaf */
   double *source;   /* E at first */
+  double *light;    /* per band: of the background */
   double *root_rho; /* √ρ */
   double *radiosity;
   double *irradiance; /* of `radiosity` */

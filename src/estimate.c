@@ -5,8 +5,8 @@
    (I − ρK)⁻¹ = Σ (ρK)^k is positive, so that its last term is at most (I − ρK)⁻¹ S for S ≥ |s|:
    the bound.  r is orthogonal to what elements carry, so that each term is much smaller than
    the one before, and the bound close.  To S is added what roundings of B may be, which (I −
-   ρK)⁻¹ carries on as it does light; of what is balanced in closed components they are no
-   more than that. */
+   ρK)⁻¹ carries on as it does light; of the level of a closed component they are no more than
+   that. */
 #include "estimate.h"
 
 #include <float.h>
@@ -34,7 +34,8 @@ typedef struct estimator {
   hr2di_basis basis;
   hr2di_rule rule;
   double *kept;     /* the field of B_h */
-  double *rest;     /* of B_h less what is balanced, see balance.h */
+  double *rest;     /* of B_h less the level of closed components, see balance.h */
+  double doubt;     /* of the levels of others */
   double *head;     /* r + … + (ρK)^(n−1) r */
   double *residual; /* r */
   int *exponent;    /* per band, see solve() */
@@ -76,10 +77,16 @@ static void set_source(estimator *e) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
   hr2di_restrict(e->coarse, t->hierarchy, t->leaf, t->leaves, t->order, e->kept);
+  for (size_t k = 0; k < eq->field; k++)
+    e->kept[k] = ldexp(e->kept[k], -eq->exponent[k % t->bands]);
   hr2di_equation_balance(eq);
   hr2di_equation_defect(eq, e->kept, e->residual);
-  for (size_t k = 0; k < eq->field; k++) e->rest[k] = e->kept[k];
-  hr2di_balance_add(&eq->balance, t, -1, 0, e->rest);
+  e->doubt = hr2di_balance_doubt(&eq->balance, t->bands);
+  for (size_t k = 0; k < eq->field; k++) {
+    const size_t leaf = k / t->width, m = k % t->width;
+    const int exact = m < t->bands && hr2di_balance_closed(&eq->balance, leaf);
+    e->rest[k] = e->kept[k] - (exact ? hr2di_balance_at(&eq->balance, t, leaf, m) : 0);
+  }
   for (size_t k = 0; k < eq->field; k++) eq->source[k] = e->head[k] = e->residual[k];
   eq->background = 0;
   for (int term = 1; term <= TERMS; term++) {
@@ -134,11 +141,16 @@ static void average_errors(estimator *e, const double *field, size_t only, doubl
     }
 }
 
+/* In the unit of the equation, where nothing is denormal. */
+static double average_of(const estimator *e, size_t patch, size_t band) {
+  return fabs(ldexp(hr2d_solution_average(e->coarse, patch, band), -e->eq.exponent[band]));
+}
+
 /* What is darker than this is dark, and has no relative error. */
 static double least_average(const estimator *e, size_t band) {
   double most = 0;
   for (size_t k = 0; k < e->eq.transport.hierarchy->scene->patches; k++)
-    most = fmax(most, fabs(hr2d_solution_average(e->coarse, k, band)));
+    most = fmax(most, average_of(e, k, band));
   return DARK * most;
 }
 
@@ -151,7 +163,7 @@ static double worst_average(const estimator *e, double factor, const double *err
     const double least = least_average(e, b);
     for (size_t k = 0; k < t->hierarchy->scene->patches; k++) {
       const size_t at = k * t->bands + b;
-      const double average = fabs(hr2d_solution_average(e->coarse, k, b));
+      const double average = average_of(e, k, b);
       const double sum = factor * error[at] + (more ? more[at] : 0);
       if (sum > 0 && (average > least || sum > least)) worst = fmax(worst, sum / average);
     }
@@ -191,8 +203,8 @@ static hr2d_status measure(estimator *e, const hr2d_target *target, double *aver
     eq->radiosity[k] -= e->residual[k];
     e->head[k] -= e->residual[k];
   }
-  errors->average.estimate = worst_average(e, 1, average, NULL);
-  errors->sup.estimate = worst_point(e, 1, eq->radiosity, NULL);
+  errors->average.estimate = fmax(worst_average(e, 1, average, NULL), e->doubt);
+  errors->sup.estimate = fmax(worst_point(e, 1, eq->radiosity, NULL), e->doubt);
   set_majorant(e);
   status = solve(e, 1e-3);
   average_errors(e, eq->radiosity, target->importance, average);

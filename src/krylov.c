@@ -3,6 +3,7 @@
    Scalars are kept per band; a band that has converged gets step 0 from then on. */
 #include "krylov.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -67,6 +68,7 @@ static hr2d_status look(state *s, const double *r, double *active) {
     const double size = sqrt(square[b]);
     active[b] = !(size <= s->system->tolerance * norm[b]);
     if (active[b] != 0) s->done = 0;
+    if (!(size <= DBL_MAX)) return HR2D_ENOT_CONVERGED;
     if (size > 0) s->residual = fmax(s->residual, size / norm[b]);
   }
   return s->system->tell(s->system->ctx, s->residual);

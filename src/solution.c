@@ -120,8 +120,11 @@ double hr2d_solution_irradiance_at(const hr2d_solution *solution, size_t patch, 
 }
 
 double hr2d_solution_net_flux(const hr2d_solution *solution, size_t patch, size_t band) {
-  return hr2d_solution_average(solution, patch, band) -
-         hr2d_solution_irradiance(solution, patch, band);
+  /* B − H of B = E + ρH, without the digits they have in common. */
+  const hr2d_scene *scene = solution->hierarchy->scene;
+  return hr2d_scene_emission(scene, patch, band) -
+         (1 - hr2d_scene_reflectance(scene, patch, band)) *
+             hr2d_solution_irradiance(solution, patch, band);
 }
 
 hr2d_power hr2d_solution_power(const hr2d_solution *solution, size_t band) {

@@ -14,8 +14,9 @@
 
 static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *o) {
   hr2di_message *message = &links->message;
-  if (!(o->tolerance >= 1e-15))
-    return hr2di_fail(message, HR2D_EINVAL, "tolerance %g is below 1e-15", o->tolerance);
+  if (!(o->tolerance >= 1e-15) || !isfinite(o->tolerance))
+    return hr2di_fail(message, HR2D_EINVAL, "tolerance %g is not a number ≥ 1e-15",
+                      o->tolerance);
   if (o->start && o->start->hierarchy != links->hierarchy)
     return hr2di_fail(message, HR2D_EINVAL, "the warm start is from another hierarchy");
   if (links->counts.elements == 0)
@@ -29,7 +30,9 @@ static void warm_start(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   hr2di_restrict(s->options.start, t->hierarchy, t->leaf, t->leaves, t->order, s->radiosity);
   for (size_t k = 0; k < s->field; k++)
-    if (s->root_rho[k] > 0) s->y[k] = (s->radiosity[k] - s->source[k]) / s->root_rho[k];
+    if (s->root_rho[k] > 0)
+      s->y[k] =
+          (ldexp(s->radiosity[k], -s->exponent[k % t->bands]) - s->source[k]) / s->root_rho[k];
   hr2di_equation_balance(s);
   for (size_t k = 0; k < t->leaves && s->balance.count > 0; k++)
     for (size_t b = 0; b < t->bands; b++) {
@@ -38,30 +41,55 @@ static void warm_start(hr2di_equation *s) {
     }
 }
 
-/* Powers in scene lengths: everything that arrives was sent, so that what is sent
-   and does not arrive has escaped; from closed components nothing. */
+/* What escapes of B = c + … in balanced components is ∫mB; elsewhere everything that arrives
+   was sent, so that what is sent and does not arrive has escaped. */
+static void add_escape(const hr2di_equation *s, size_t leaf, size_t band, hr2di_sum *escaped) {
+  const hr2di_transport *t = &s->transport;
+  const size_t at = leaf * t->width + band;
+  const double area = s->weight[leaf * t->order];
+  if (!hr2di_balance_holds(&s->balance, leaf)) {
+    hr2di_add(escaped, area * s->radiosity[at]);
+    hr2di_add(escaped, -area * s->irradiance[at]);
+    if (t->sky) hr2di_add(escaped, area * (t->sky[leaf * t->order] * s->light[band]));
+    return;
+  }
+  for (size_t l = 0; l < t->order; l++)
+    hr2di_add(escaped, area * (s->balance.missing[leaf * t->order + l] *
+                               s->radiosity[at + l * t->bands]));
+}
+
+/* Powers in scene lengths. */
 static hr2d_power sum_power(const hr2di_equation *s, size_t band) {
   const hr2di_transport *t = &s->transport;
   const hr2d_scene *scene = t->hierarchy->scene;
   hr2di_sum emitted = {0, 0}, received = {0, 0}, absorbed = {0, 0}, escaped = {0, 0};
-  const double background = hr2d_scene_background(scene, band);
   for (size_t k = 0; k < t->leaves; k++) {
     const size_t at = k * t->width + band, patch = t->hierarchy->element[t->leaf[k]].patch;
     const double absorbance = 1 - hr2d_scene_reflectance(scene, patch, band);
     const double area = s->weight[k * t->order];
     hr2di_add(&emitted, area * s->source[at]);
     hr2di_add(&absorbed, area * (absorbance * s->irradiance[at]));
-    if (!hr2di_balance_holds(&s->balance, k)) {
-      hr2di_add(&escaped, area * s->radiosity[at]);
-      hr2di_add(&escaped, -area * s->irradiance[at]);
-    }
-    if (!t->sky) continue;
-    hr2di_add(&received, area * (t->sky[k * t->order] * background));
-    hr2di_add(&escaped, area * (t->sky[k * t->order] * background));
+    if (t->sky) hr2di_add(&received, area * (t->sky[k * t->order] * s->light[band]));
+    add_escape(s, k, band, &escaped);
   }
   const double unit = hr2d_scene_unit(scene);
-  return (hr2d_power){unit * hr2di_total(&emitted), unit * hr2di_total(&received),
-                      unit * hr2di_total(&absorbed), unit * hr2di_total(&escaped)};
+  const int e = s->exponent[band];
+  return (hr2d_power){
+      ldexp(unit * hr2di_total(&emitted), e), ldexp(unit * hr2di_total(&received), e),
+      ldexp(unit * hr2di_total(&absorbed), e), ldexp(unit * hr2di_total(&escaped), e)};
+}
+
+/* A field of the leaves on every element, in the unit of E; whether no double is too small for
+   it. */
+static int take_raised(hr2di_equation *s, const double *leaf_field, double *field) {
+  hr2di_transport *t = &s->transport;
+  int finite = 1;
+  hr2di_raise(t, leaf_field);
+  for (size_t k = 0; k < t->elements * t->width; k++) {
+    field[k] = ldexp(t->up[k], s->exponent[k % t->bands]);
+    finite &= isfinite(field[k]) != 0;
+  }
+  return finite;
 }
 
 static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
@@ -88,12 +116,38 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
     return HR2D_ENOMEM;
   }
   for (size_t band = 0; band < t->bands; band++) made->power[band] = sum_power(s, band);
-  hr2di_raise(t, s->radiosity);
-  for (size_t k = 0; k < t->elements * t->width; k++) made->value[k] = t->up[k];
-  hr2di_raise(t, s->irradiance);
+  int finite = take_raised(s, s->radiosity, made->value);
+  finite &= take_raised(s, s->irradiance, t->up);
   made->irradiance = t->up;
   t->up = NULL;
-  *solution = made;
+  if (finite && !t->failed) {
+    *solution = made;
+    return HR2D_OK;
+  }
+  hr2d_solution_destroy(made);
+  return t->failed ? HR2D_ENOMEM
+                   : hr2di_fail(&s->links->message, HR2D_ERANGE,
+                                "a radiosity is beyond what a double can represent");
+}
+
+/* If B = Q + ρKB and neither K nor Q is negative, then B is negative somewhere if and only if
+   ΣK^kρ^kQ diverges: with the positive left eigenvector v of the radius λ, (1−λ)vB = vQ.  At an
+   order above 1 a little of it may come of other things. */
+static hr2d_status check_sign(hr2di_equation *s) {
+  const hr2di_transport *t = &s->transport;
+  const double least = t->order > 1 ? 1e-2 : 1e-6;
+  for (size_t b = 0; b < t->bands; b++) {
+    double low = 0, high = 0;
+    for (size_t k = 0; k < t->leaves; k++) {
+      low = fmin(low, s->radiosity[k * t->width + b]);
+      high = fmax(high, s->radiosity[k * t->width + b]);
+    }
+    if (low < -least * high || (low < 0 && high == 0))
+      return hr2di_fail(&s->links->message, HR2D_ENOT_CONVERGED,
+                        "in band %zu the links reflect more light than falls on them, so that "
+                        "it grows for ever: closure or finer links are needed",
+                        b);
+  }
   return HR2D_OK;
 }
 
@@ -109,6 +163,7 @@ hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *given,
   if (!status && links->hierarchy->scene->effect[HR2D_EFFECT_INTERREFLECTION].on) {
     if (options.start) warm_start(&eq);
     status = hr2di_equation_solve(&eq);
+    if (!status) status = check_sign(&eq);
   } else if (!status) {
     status = hr2di_equation_take(&eq);
   }

@@ -210,9 +210,7 @@ void hr2di_gather(hr2di_transport *t, const double *radiosity, double *irradianc
               irradiance + k * t->width);
 }
 
-void hr2di_add_background(const hr2di_transport *t, double *irradiance) {
-  const hr2d_scene *scene = t->hierarchy->scene;
+void hr2di_add_background(const hr2di_transport *t, const double *light, double *irradiance) {
   for (size_t k = 0; k < t->leaves * t->order && t->sky; k++)
-    for (size_t b = 0; b < t->bands; b++)
-      irradiance[k * t->bands + b] += t->sky[k] * hr2d_scene_background(scene, b);
+    for (size_t b = 0; b < t->bands; b++) irradiance[k * t->bands + b] += t->sky[k] * light[b];
 }

@@ -50,7 +50,7 @@ void hr2di_gather_part(hr2di_transport *t, hr2di_part part, const double *radios
 void hr2di_multiply_block(const double *block, size_t order, const double *up_i,
                           const double *up_j, double *down_i, double *down_j);
 
-/* Adds what arrives from the background. */
-void hr2di_add_background(const hr2di_transport *t, double *irradiance);
+/* Adds what arrives from a background of so much light per band. */
+void hr2di_add_background(const hr2di_transport *t, const double *light, double *irradiance);
 
 #endif

@@ -16,6 +16,17 @@
  * lost or made, and at order 1 the discrete equation has one solution wherever ρ < 1;
  * without it rows may exceed 1 and a coarse solve with ρ near 1 need not converge.  At a
  * low order above 1 that may happen in narrow corners in spite of it: HR2D_ENOT_CONVERGED.
+ *
+ * How many digits: let λ be the part of its light that a component of patches that exchange
+ * light loses at each reflection, (∫(1−ρ) + what escapes)/∫1.  What roundings do to B grows
+ * like 1/λ, unless they are balanced: with closure and one link for both directions,
+ *  - where nothing escapes, ∫(1−ρ)H = ∫E to 1e-14 and B is good to 1e-13, however small λ is:
+ *    1−ρ is exact in a double, from ρ = ½ to 1 − 2⁻⁵³;
+ *  - where something escapes, to 1e-13 + 2⁻⁵²/λ, since that is how well exchange areas tell
+ *    what does.  Less than 1e-13 of all light is told to be none.
+ * Without closure or with directed links it is 1e-13/λ.  All this is rounding; the error of
+ * finite elements and links comes besides, see accuracy.h.  E may be as small or as large as a
+ * double can be, also in one band beside another.
  */
 #ifndef HR2D_SOLVE_H
 #define HR2D_SOLVE_H
@@ -38,7 +49,7 @@ typedef struct hr2d_solution hr2d_solution;
 typedef struct hr2d_solve_options {
   size_t struct_size;         /**< so that the options can grow */
   double tolerance;           /**< stop when ‖residual‖ ≤ tolerance·‖B‖, in each band, in
-                                   the norm ∫B²; at least 1e-15 */
+                                   the norm ∫B²; at least 1e-15, and finite */
   unsigned max_iterations;    /**< give up with HR2D_ENOT_CONVERGED after so many */
   unsigned threads;           /**< 0 for all; the result does not depend on it, bit for bit */
   int closure;                /**< 1: the exchange of every leaf with all others is exact; 0:
@@ -53,7 +64,8 @@ typedef struct hr2d_solve_options {
 /** Tolerance 1e-15, at most 10000 iterations, one thread, with closure. */
 #define HR2D_SOLVE_OPTIONS_INIT {sizeof(hr2d_solve_options), 1e-15, 10000, 1, 1, NULL, NULL, NULL}
 
-/** Where the power of one band goes; power per length across the plane. */
+/** Where the power of one band goes; power per length across the plane; infinite where that is
+    beyond a double. */
 typedef struct hr2d_power {
   double emitted;  /**< ∫ E */
   double received; /**< what comes in from the background */
@@ -82,7 +94,9 @@ typedef struct hr2d_solve_work {
  * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL, HR2D_ESTATE for an empty set of a scene whose
  *         patches do see each other, HR2D_ENO_SOLUTION where light is emitted in a
  *         closed part of the scene in which nothing absorbs (the message names the
- *         patch), HR2D_ENOT_CONVERGED, or the status of the progress callback
+ *         patch; without light B is 0 there), HR2D_ENOT_CONVERGED after max_iterations or
+ *         where rows of links exceed 1 so far that light would grow for ever, HR2D_ERANGE
+ *         where B is beyond a double, or the status of the progress callback
  *
  * Cost O((N + L)·bands) per iteration.  Different link sets may be solved from
  * different threads.
