@@ -129,6 +129,16 @@ static hr2d_status read_doubles(loading *l, double *value, size_t count) {
   return HR2D_OK;
 }
 
+/* Sums, which may be beyond a double. */
+static hr2d_status read_power(loading *l, hr2d_power *power) {
+  double *part[] = {&power->emitted, &power->received, &power->absorbed, &power->escaped};
+  for (int k = 0; k < 4; k++) {
+    *part[k] = hr2di_get_double(&l->reader);
+    if (isnan(*part[k])) return damaged(l, "a power that is no number");
+  }
+  return l->reader.status;
+}
+
 static hr2d_status read_solution(loading *l, const hr2d_solve_work *work) {
   const hr2d_allocator *alloc = &l->links->alloc;
   const hr2di_state_head *head = &l->head;
@@ -151,11 +161,8 @@ static hr2d_status read_solution(loading *l, const hr2d_solve_work *work) {
   if (!s || !s->power || !s->value || !s->irradiance)
     return hr2di_fail(&l->links->message, HR2D_ENOMEM, "out of memory for the solution");
   hr2d_status status = HR2D_OK;
-  for (size_t band = 0; band < bands && !status; band++) {
-    double power[4];
-    status = read_doubles(l, power, 4);
-    s->power[band] = (hr2d_power){power[0], power[1], power[2], power[3]};
-  }
+  for (size_t band = 0; band < bands && !status; band++)
+    status = read_power(l, &s->power[band]);
   if (!status) status = read_doubles(l, s->value, count);
   return status ? status : read_doubles(l, s->irradiance, count);
 }
