@@ -144,14 +144,19 @@ static hr2d_status reach_step_by_step(search *s) {
     s->late = 1.2 * (hr2di_now() - start) > left(s); /* a finer one takes longer still */
     if (s->late) break;
   }
-  if (is_budget(status) && s->best.solution) {
+  return !status && s->late ? HR2D_STOPPED : status;
+}
+
+/* A budget that is spent is not a failure, with a solution or without one. */
+static hr2d_status settle(search *s, hr2d_status status) {
+  if (status == HR2D_STOPPED && s->late)
+    give_reason(s, s->best.solution ? "the time is used up"
+                                    : "the time does not suffice for the coarsest solution");
+  else if (status && status != HR2D_EACCURACY)
     give_reason(s, s->message.text);
-    return HR2D_EACCURACY;
-  }
-  if (!s->late || (status && status != HR2D_STOPPED)) return status;
-  give_reason(s, s->best.solution ? "the time is used up"
-                                  : "the time does not suffice for the coarsest solution");
-  return s->given.error > 0 || !s->best.solution ? HR2D_EACCURACY : HR2D_OK;
+  if (is_budget(status) || (status == HR2D_STOPPED && s->late)) status = HR2D_EACCURACY;
+  const int all_there_is = !(s->given.error > 0) && s->best.solution;
+  return status == HR2D_EACCURACY && all_there_is ? HR2D_OK : status;
 }
 
 static hr2d_status check(const hr2d_scene *scene, const hr2d_target *t) {
@@ -197,8 +202,7 @@ hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
   } else if (!status) {
     status = reach_step_by_step(&s);
   }
-  if (!(s.given.error > 0) && s.best.solution && status == HR2D_EACCURACY) status = HR2D_OK;
-  if (status && status != HR2D_EACCURACY) give_reason(&s, s.message.text);
+  status = settle(&s, status);
   if (!status || status == HR2D_EACCURACY) hand_over(&s, solution);
   s.account.seconds = hr2di_now() - s.start;
   if (account) *account = s.account;

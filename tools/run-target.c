@@ -43,7 +43,7 @@ int run_target(run *r, progress *p) {
   r->inaccurate = status == HR2D_EACCURACY && r->solution;
   if (status && status != HR2D_EACCURACY)
     return fail_call(r->options->scene, r->account.reason, status);
-  if (!r->solution) return fail(r->options->scene, "the time was too short for any solution");
+  if (!r->solution) return fail(r->options->scene, "%s", r->account.reason);
   r->links = hr2d_solution_links(r->solution);
   r->hierarchy = hr2d_linkset_hierarchy(r->links);
   r->work = hr2d_solution_work(r->solution);
