@@ -25,8 +25,9 @@ static double rho_of(const hr2di_transport *t, size_t leaf, size_t band) {
 
 static hr2d_status set_missing(hr2di_balance *b, hr2di_transport *t) {
   const size_t field = t->leaves * t->width;
-  double *one = hr2di_calloc(&t->alloc, 2 * field, sizeof *one), *row = one + field;
+  double *one = hr2di_calloc(&t->alloc, 2 * field, sizeof *one);
   if (!one) return HR2D_ENOMEM;
+  double *const row = one + field;
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t band = 0; band < t->bands; band++) one[k * t->width + band] = 1;
   hr2di_gather(t, one, row);
