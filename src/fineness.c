@@ -64,10 +64,14 @@ hr2di_fineness hr2di_fineness_for(const hr2d_scene *scene, const hr2di_survey *s
   return f;
 }
 
+/* There are no more digits than that; an error that overflowed asks for more. */
+#define MOST_FACTOR 1e16
+
 int hr2di_fineness_raise(hr2di_fineness *f, const hr2di_survey *survey, double factor) {
   const double gamma = survey->exponent;
   const double slope = f->norm == HR2D_NORM_SUP ? fmax(gamma, 0.05) : 1 + 2 * gamma;
   if (f->order + 2 >= HR2D_MAX_ORDER) return -1;
+  factor = fmin(factor, MOST_FACTOR);
   const double more = fmax(ceil(log(factor) / digits_per_order(survey, f->norm)), 1);
   f->digits = fmax(f->digits / factor, 1e-14);
   f->order = (unsigned)fmin(f->order + more, HR2D_MAX_ORDER - 2);
