@@ -34,6 +34,7 @@ SUITES = \
 	tests/check_point_view \
 	tests/check_state \
 	tests/check_study \
+	tests/check_hard_solve \
 	tests/check_faults
 
 OUTSIDE = \
@@ -59,6 +60,7 @@ tests_libsupport_la_SOURCES = \
 	tests/brute_visibility.c tests/brute_visibility.h \
 	tests/hard.c tests/hard.h \
 	tests/hill_climb.c tests/hill_climb.h \
+	tests/hard_rooms.c tests/hard_rooms.h \
 	tests/radiosity_scenes.c tests/radiosity_scenes.h \
 	tests/room_plans.c tests/room_plans.h \
 	tests/support.c tests/support.h \
