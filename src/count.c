@@ -94,21 +94,30 @@ static size_t wanted_workers(const hr2d_linkset *links, const hr2d_refine_option
 #endif
 }
 
+/* Each worker has a part of the budget, and one is for their union; 0 stays 0. */
+static uint64_t part_of_budget(const team *t) {
+  const uint64_t budget = t->options.max_bytes, part = budget / (t->count + 1);
+  return budget && !part ? 1 : part;
+}
+
 /* A worker begins with a copy of what `from` has become by then. */
 static hr2d_status hire(team *t, size_t k, const hr2d_hierarchy *from) {
   worker *w = &t->worker[k];
   w->links = *t->links;
   w->links.store = (hr2di_store){0};
   w->links.message.text[0] = '\0';
+  hr2d_refine_options options = t->options;
+  options.max_bytes = part_of_budget(t);
+  if (options.max_bytes && hr2di_clone_bytes(from) > options.max_bytes)
+    return hr2di_overspent(&w->links, t->options.max_bytes, 0);
   hr2d_status status = hr2di_hierarchy_clone(from, &t->clone[k]);
   if (status) return hr2di_fail(&w->links.message, status, "out of memory for the count");
   w->links.hierarchy = t->clone[k];
   t->clone[k]->refining = 1;
-  hr2d_refine_options options = t->options;
-  options.max_bytes /= t->count + 1; /* one part is for their union */
-  if (t->options.max_bytes && !options.max_bytes) options.max_bytes = 1;
   status = hr2di_projector_start(&w->links, &options, &w->projector);
+  if (status == HR2D_EMAX_BYTES) return hr2di_overspent(&w->links, t->options.max_bytes, 0);
   if (status) return status;
+  w->projector->budget = t->options.max_bytes;
   if (t->count > 1) w->projector->tell = tell;
   w->projector->tell_ctx = t;
   return HR2D_OK;
@@ -188,7 +197,14 @@ static void work(team *t) {
   if (!atomic_load(&t->stop)) first->status = tell(first->projector);
 }
 
-/* The pairs on the first worker's stacks become everybody's. */
+static uint64_t shared_bytes(const team *t) {
+  uint64_t pairs = t->shaded.stack.capacity;
+  for (int k = 0; k < STACKS; k++) pairs += t->stack[k].capacity;
+  return pairs * sizeof(hr2d_pair) + t->shaded.first_capacity * sizeof *t->shaded.first +
+         t->shaded.list.capacity * sizeof *t->shaded.list.wall;
+}
+
+/* The pairs on the first worker's stacks become everybody's, at the first one's cost. */
 static void share_out(team *t) {
   hr2di_projector *p = t->worker[0].projector;
   for (int k = 0; k < STACKS; k++) {
@@ -197,6 +213,7 @@ static void share_out(team *t) {
   }
   t->shaded = p->shaded;
   p->shaded = (hr2di_shaded){0};
+  p->bytes += shared_bytes(t);
   hr2d_status status = HR2D_OK;
   for (size_t k = 1; k < t->count && !status; k++) {
     status = hire(t, k, t->clone[0]);
@@ -214,6 +231,13 @@ static hr2d_status gather_status(team *t) {
   }
   if (!reason) return HR2D_OK;
   return hr2di_fail(&t->links->message, reason->status, "%s", reason->links.message.text);
+}
+
+/* How many elements the union may have room for. */
+static size_t union_room(const team *t, size_t hired) {
+  if (!t->options.max_bytes) return SIZE_MAX;
+  const uint64_t rest = t->options.max_bytes - hired * part_of_budget(t);
+  return (size_t)(rest / HR2DI_ELEMENT_BYTES);
 }
 
 static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
@@ -237,7 +261,9 @@ static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
                       (unsigned long long)t->options.max_links);
   const size_t elements = links->hierarchy->elements;
   const size_t hired = t->count > 1 && t->clone[1] ? t->count : 1;
-  const hr2d_status status = hr2di_hierarchy_unite(links->hierarchy, t->clone, hired);
+  const hr2d_status status =
+      hr2di_hierarchy_unite(links->hierarchy, t->clone, hired, union_room(t, hired));
+  if (status == HR2D_EMAX_BYTES) return hr2di_overspent(links, t->options.max_bytes, sum.links);
   if (status) return hr2di_fail(&links->message, status, "no room for the elements");
   if (t->options.max_elements && links->hierarchy->elements > t->options.max_elements) {
     hr2di_hierarchy_truncate(links->hierarchy, elements);
@@ -275,6 +301,9 @@ hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *op
   hr2d_status status = hr2di_check_options(links, options, &t.options);
   if (status) return status;
   t.count = wanted_workers(links, &t.options);
+  if (t.options.max_bytes &&
+      t.count * (sizeof *t.worker + sizeof *t.clone) > t.options.max_bytes)
+    return hr2di_overspent(links, t.options.max_bytes, 0);
   t.worker = hr2di_calloc(&links->alloc, t.count, sizeof *t.worker);
   t.clone = hr2di_calloc(&links->alloc, t.count, sizeof *t.clone);
   if (t.worker && t.clone)

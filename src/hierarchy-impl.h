@@ -62,11 +62,15 @@ uint32_t hr2di_next_leaf(const hr2d_hierarchy *hierarchy, uint32_t leaf, uint32_
 /* A copy on the same scene; HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_hierarchy_clone(const hr2d_hierarchy *from, hr2d_hierarchy **clone);
 
+/* The bytes of a clone. */
+uint64_t hr2di_clone_bytes(const hr2d_hierarchy *from);
+
 /* Grows by every element that one of `count` clones has, numbered patch by patch, a
    parent's children before its right neighbour's.  HR2D_OK, or HR2D_ENOMEM or
-   HR2D_EMAX_ELEMENTS with the hierarchy as it was. */
+   HR2D_EMAX_ELEMENTS, or HR2D_EMAX_BYTES for more room than for `most` elements, with the
+   hierarchy as it was. */
 hr2d_status hr2di_hierarchy_unite(hr2d_hierarchy *hierarchy, hr2d_hierarchy *const *clone,
-                                  size_t count);
+                                  size_t count, size_t most);
 
 /* Takes back all but the first `elements` elements. */
 void hr2di_hierarchy_truncate(hr2d_hierarchy *hierarchy, size_t elements);

@@ -9,11 +9,19 @@
 /* Stands for an element that a clone does not have. */
 #define ABSENT UINT32_MAX
 
+static size_t clone_capacity(const hr2d_hierarchy *from) {
+  return from->elements + from->elements / 2 + 16;
+}
+
+uint64_t hr2di_clone_bytes(const hr2d_hierarchy *from) {
+  return (uint64_t)clone_capacity(from) * HR2DI_ELEMENT_BYTES;
+}
+
 hr2d_status hr2di_hierarchy_clone(const hr2d_hierarchy *from, hr2d_hierarchy **clone) {
   hr2d_hierarchy *made = hr2di_calloc(&from->alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
   *made = *from;
-  made->capacity = from->elements + from->elements / 2 + 16;
+  made->capacity = clone_capacity(from);
   made->element = hr2di_alloc(&from->alloc, made->capacity, sizeof *made->element);
   made->parent = hr2di_alloc(&from->alloc, made->capacity, sizeof *made->parent);
   made->level = hr2di_alloc(&from->alloc, made->capacity, sizeof *made->level);
@@ -33,6 +41,7 @@ hr2d_status hr2di_hierarchy_clone(const hr2d_hierarchy *from, hr2d_hierarchy **c
 typedef struct walk {
   uint32_t *column;
   size_t width, columns;
+  size_t most; /* elements there may be room for */
 } walk;
 
 /* Pushes the columns of the children, the right one first. */
@@ -65,7 +74,9 @@ static hr2d_status unite_patch(hr2d_hierarchy *h, hr2d_hierarchy *const *clone, 
     memcpy(top, w->column + w->columns * w->width, w->width * sizeof *top);
     if (!some_clone_halved(top, w->width, clone)) continue;
     if (!h->element[top[0]].child) {
-      const hr2d_status status = hr2di_hierarchy_reserve(h);
+      const int full = h->elements + 2 > h->capacity;
+      const hr2d_status status =
+          full && h->capacity > w->most / 2 ? HR2D_EMAX_BYTES : hr2di_hierarchy_reserve(h);
       if (status) return status;
       hr2di_halve(h, top[0]);
     }
@@ -74,12 +85,12 @@ static hr2d_status unite_patch(hr2d_hierarchy *h, hr2d_hierarchy *const *clone, 
   return HR2D_OK;
 }
 
-hr2d_status hr2di_hierarchy_unite(hr2d_hierarchy *h, hr2d_hierarchy *const *clone,
-                                  size_t count) {
+hr2d_status hr2di_hierarchy_unite(hr2d_hierarchy *h, hr2d_hierarchy *const *clone, size_t count,
+                                  size_t most) {
   unsigned levels = h->levels;
   for (size_t k = 0; k < count; k++)
     levels = clone[k]->levels > levels ? clone[k]->levels : levels;
-  walk w = {.width = count + 1};
+  walk w = {.width = count + 1, .most = most};
   /* A level leaves at most a sibling behind, and the last holds two. */
   w.column = hr2di_alloc(&h->alloc, (size_t)levels + 3, w.width * sizeof *w.column);
   uint32_t *top = hr2di_alloc(&h->alloc, w.width, sizeof *top);

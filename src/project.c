@@ -25,8 +25,16 @@ static hr2d_status fail(hr2di_projector *p, hr2d_status status, const char *what
 static uint64_t stack_bytes(const hr2di_projector *p) {
   const uint64_t pairs = p->open.capacity + p->guarded.capacity + p->fresh[0].capacity +
                          p->fresh[1].capacity + p->shaded.stack.capacity;
+  const uint64_t walls =
+      p->shaded.list.capacity + p->found.capacity + (p->sight ? p->sight->list.capacity : 0);
   return pairs * sizeof(hr2d_pair) + p->shaded.first_capacity * sizeof *p->shaded.first +
-         (p->shaded.list.capacity + p->found.capacity) * sizeof *p->found.wall;
+         walls * sizeof *p->found.wall + p->brightness_capacity * sizeof *p->brightness;
+}
+
+hr2d_status hr2di_overspent(hr2d_linkset *links, uint64_t budget, uint64_t made) {
+  return hr2di_fail(&links->message, HR2D_EMAX_BYTES,
+                    "more than %llu bytes are needed, after %llu links",
+                    (unsigned long long)budget, (unsigned long long)made);
 }
 
 hr2d_status hr2di_afford(hr2di_projector *p, uint64_t more) {
@@ -35,9 +43,7 @@ hr2d_status hr2di_afford(hr2di_projector *p, uint64_t more) {
   const uint64_t held =
       p->bytes + (uint64_t)p->hierarchy->capacity * HR2DI_ELEMENT_BYTES + stack_bytes(p);
   if (held <= budget && more <= budget - held) return HR2D_OK;
-  return hr2di_fail(&p->links->message, HR2D_EMAX_BYTES,
-                    "more than %llu bytes are needed, after %llu links",
-                    (unsigned long long)budget, (unsigned long long)p->counts.links);
+  return hr2di_overspent(p->links, p->budget, p->counts.links);
 }
 
 static hr2d_status reserve(hr2di_projector *p, hr2di_stack *stack, size_t more) {
@@ -167,6 +173,8 @@ static hr2d_status halve(hr2di_projector *p, uint32_t element) {
   hr2d_status status = HR2D_OK;
   if (h->elements + 2 > h->capacity)
     status = hr2di_afford(p, (uint64_t)h->capacity * HR2DI_ELEMENT_BYTES);
+  if (!status && p->brightness && h->elements + 2 > p->brightness_capacity)
+    status = hr2di_afford(p, 2 * (h->elements + 2) * sizeof *p->brightness);
   if (status) return status;
   status = hr2di_hierarchy_reserve(h);
   if (!status && p->brightness &&

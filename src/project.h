@@ -47,6 +47,7 @@ struct hr2di_projector {
   double *brightness;        /* per element, or NULL; as long as brightness_capacity */
   size_t brightness_capacity;
   uint64_t bytes;           /* held by others than the hierarchy and the stacks */
+  uint64_t budget;          /* of bytes, of which options.max_bytes may be a part */
   double roots, roots_done; /* pairs of patches, for progress */
   unsigned ticks;           /* rounds since progress was told */
   hr2d_status (*tell)(hr2di_projector *p); /* tells progress; NULL: hr2di_tell() */
@@ -117,6 +118,9 @@ hr2d_status hr2di_count_links(hr2di_projector *p, size_t more);
 
 /* HR2D_EMAX_BYTES if `more` bytes would break the budget. */
 hr2d_status hr2di_afford(hr2di_projector *p, uint64_t more);
+
+/* HR2D_EMAX_BYTES, with a message. */
+hr2d_status hr2di_overspent(hr2d_linkset *links, uint64_t budget, uint64_t made);
 
 /* Sets the counts of elements. */
 void hr2di_count_elements(const hr2d_hierarchy *hierarchy, hr2d_refine_counts *counts);

@@ -38,7 +38,7 @@ static hr2d_status set_brightness(hr2di_projector *p) {
   if (!(p->links->oracle.flags & HR2D_ORACLE_NEEDS_BRIGHTNESS)) return HR2D_OK;
   const hr2d_hierarchy *h = p->hierarchy;
   const hr2d_solution *solution = p->options.brightness;
-  hr2d_status status = hr2di_afford(p, h->elements * sizeof *p->brightness);
+  hr2d_status status = hr2di_afford(p, 2 * h->elements * sizeof *p->brightness);
   if (status) return status;
   if (hr2di_reserve(&h->alloc, &p->brightness, &p->brightness_capacity, h->elements,
                     sizeof *p->brightness))
@@ -72,11 +72,16 @@ static hr2d_status set_sight(hr2di_projector *p) {
 
 hr2d_status hr2di_projector_start(hr2d_linkset *links, const hr2d_refine_options *options,
                                   hr2di_projector **made) {
+  const uint64_t held = sizeof(hr2di_projector) + hr2di_store_bytes(&links->store) +
+                        (uint64_t)links->hierarchy->capacity * HR2DI_ELEMENT_BYTES;
+  if (options->max_bytes && held > options->max_bytes)
+    return hr2di_overspent(links, options->max_bytes, 0);
   hr2di_projector *p = hr2di_calloc(&links->alloc, 1, sizeof *p);
   if (!p) return hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
   p->links = links;
   p->hierarchy = links->hierarchy;
   p->options = *options;
+  p->budget = options->max_bytes;
   p->directed = directed_by(links, options);
   p->check_levels = p->hierarchy->levels > options->max_level;
   p->bytes = sizeof *p + hr2di_store_bytes(&links->store);

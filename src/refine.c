@@ -155,12 +155,14 @@ hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options)
   hr2d_status status = hr2di_check_options(links, options, &used);
   if (!status) status = hr2di_projector_start(links, &used, &p);
   if (status) return status;
-  storing *s = hr2di_calloc(&links->alloc, 1, sizeof *s);
+  p->bytes += sizeof(storing);
+  status = hr2di_afford(p, 0);
+  storing *s = status ? NULL : hr2di_calloc(&links->alloc, 1, sizeof *s);
   if (s) {
     s->projector = p;
     s->store = &made;
     status = run(p, store_links, s, links->store.count > 0 ? project_links : hr2di_project_all);
-  } else {
+  } else if (!status) {
     status = hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
   }
   if (status) {
@@ -212,13 +214,15 @@ hr2d_status hr2d_refine_visit(hr2d_linkset *links, const hr2d_refine_options *op
   hr2d_status status = hr2di_check_options(links, options, &used);
   if (!status) status = hr2di_projector_start(links, &used, &p);
   if (status) return status;
-  visiting *v = hr2di_calloc(&links->alloc, 1, sizeof *v);
+  p->bytes += sizeof(visiting);
+  status = hr2di_afford(p, 0);
+  visiting *v = status ? NULL : hr2di_calloc(&links->alloc, 1, sizeof *v);
   if (v) {
     v->projector = p;
     v->visit = visit;
     v->visit_ctx = visit_ctx;
     status = run(p, visit_links, v, hr2di_project_all);
-  } else {
+  } else if (!status) {
     status = hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
   }
   if (!status) {

@@ -62,7 +62,10 @@ static hr2d_status push(hr2di_projector *p, hr2d_pair pair, const uint32_t *wall
                         size_t count) {
   hr2di_shaded *s = &p->shaded;
   const hr2d_allocator *alloc = &p->links->alloc;
-  hr2d_status status = hr2di_afford(p, 0);
+  const size_t pairs = s->stack.count + 1, walls = s->list.count + count;
+  hr2d_status status =
+      hr2di_afford(p, (pairs > s->first_capacity ? 2 * pairs * sizeof *s->first : 0) +
+                          (walls > s->list.capacity ? 2 * walls * sizeof *wall : 0));
   if (!status) status = hr2di_refuse(p, &s->stack, pair);
   if (status) return status;
   if (hr2di_reserve(alloc, &s->first, &s->first_capacity, s->stack.count, sizeof *s->first) ||

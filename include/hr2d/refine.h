@@ -7,6 +7,12 @@
  * linked if its error is acceptable or a limit holds; otherwise the policy says
  * which element to subdivide and the new pairs are proposed.  The order is depth
  * first, the result the same for every run, and nothing recurs on the C stack.
+ * It ends on any input.  With an ε that no pair meets, be it 0, and with any policy, elements end
+ * at `max_level` or where their midpoint is no longer a double between their ends: 53 levels
+ * below the size of their coordinates, 1075 at a corner on the origin.  Pairs of such elements
+ * may be more than anyone can wait for, unless a budget ends it, or a callback.  Elements are
+ * numbered with 32 bits; beyond 2³² − 2 it is HR2D_EMAX_ELEMENTS.
+ *
  * A pair that cannot see each other is dropped; so is one that occluders hide, and what
  * no light can reach (HR2D_EFFECT_EMISSION, which can be forced).  A pair that sees each
  * other in part is linked with what is left of its exchange area.
@@ -51,7 +57,9 @@ typedef struct hr2d_refine_options {
                               has it; each link then carries one direction */
   uint64_t max_elements; /**< budget for N; 0 for none */
   uint64_t max_links;    /**< budget for L; 0 for none */
-  uint64_t max_bytes;    /**< budget for elements, links and work space; 0 for none */
+  uint64_t max_bytes;    /**< budget for elements, links and work space, these of about 60 KiB
+                              at least; 0 for none.  Kept at every moment, but for what realloc
+                              holds twice while it moves an array */
   unsigned threads;      /**< for hr2d_refine_count(): 0 for all; the counts do not depend
                               on it.  An oracle or a policy that is not flagged thread-safe
                               is asked from one thread only */
@@ -104,8 +112,8 @@ HR2D_API hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options 
  * @param links   an empty set; it stays empty
  * @param counts  receives N, L and the rest
  * @return as hr2d_refine(), and HR2D_ESTATE if the set has links
- * Memory O(N) per thread, of which each has its part of `max_bytes`.  Progress is told
- * from the calling thread.
+ * Memory O(N) per thread, of which each has its part of `max_bytes`, so that only this budget
+ * may be spent sooner on more threads.  Progress is told from the calling thread.
  */
 HR2D_API hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *options,
                                        hr2d_refine_counts *counts);
