@@ -102,10 +102,24 @@ static void sort(uint32_t *wall, size_t count) {
   }
 }
 
-/* hr2di_sight_collect(), until there are more than `most`. */
+/* How far the middle of a box is from that of a shaft, squared and four times. */
+static double away(const hr2di_box *box, hr2d_point middle) {
+  const double dx = box->x0 + box->x1 - 2 * middle.x, dy = box->y0 + box->y1 - 2 * middle.y;
+  return dx * dx + dy * dy;
+}
+
+static hr2d_point middle_of(const hr2di_shaft *s) {
+  return (hr2d_point){0.25 * ((s->a.at.x + s->b.at.x) + (s->c.at.x + s->d.at.x)),
+                      0.25 * ((s->a.at.y + s->b.at.y) + (s->c.at.y + s->d.at.y))};
+}
+
+/* hr2di_sight_collect(), until there are more than `most`.  What is across is most likely in
+   the middle: looked for there first it is found soon even where every box meets the shaft,
+   as do those around a fan of walls that meet in a point. */
 static hr2d_status collect(hr2di_sight *s, const hr2di_shaft *shaft, size_t most,
                            hr2di_wall_list *found, hr2di_view *view) {
   const size_t before = found->count;
+  const hr2d_point middle = middle_of(shaft);
   uint32_t stack[HR2DI_BOX_DEPTH], count = 0;
   hr2d_status status = HR2D_OK;
   *view = HR2DI_CLEAR;
@@ -123,8 +137,10 @@ static hr2d_status collect(hr2di_sight *s, const hr2di_shaft *shaft, size_t most
       *view = HR2DI_BLOCKED;
       s->last = first_wall(s->walls, box);
     }
-    stack[count++] = box->below;
-    stack[count++] = box->below + 1;
+    const hr2di_box *below = &s->walls->box[box->below];
+    const uint32_t nearer = away(&below[1], middle) <= away(&below[0], middle);
+    stack[count++] = box->below + !nearer;
+    stack[count++] = box->below + nearer;
   }
   if (*view == HR2DI_BLOCKED) found->count = before;
   if (found->count > before + 1) sort(found->wall + before, found->count - before);

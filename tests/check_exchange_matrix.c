@@ -268,11 +268,16 @@ START_TEST(a_fan) {
              HR2D_SIDES_BOTH);
   }
   hr2d_scene *scene = scene_of(&p, NULL);
-  double *area = matrix_of(scene, NULL);
+  hr2d_matrix_counts counts;
+  double *area = matrix_of(scene, &counts);
   size_t row;
   const double error = worst_row(scene, area, 0, &row);
-  printf("a fan of %d: worst row %.2e\n", spokes, error);
+  const double pairs = (double)(counts.exchange_areas + counts.blocked_pairs);
+  const double tests = (double)counts.visibility_tests / pairs;
+  printf("a fan of %d: worst row %.2e, %.3g tests a pair\n", spokes, error, tests);
   check_entries(area, hr2d_scene_patches(scene));
+  /* Every box meets every shaft in the hub: one of the spokes between must be found soon. */
+  ck_assert_double_lt(tests, 64);
   ck_assert_double_le(error, ROW_BAR);
   free(area);
   hr2d_scene_destroy(scene);
