@@ -146,7 +146,7 @@ static void put_points(hr2di_classes *c, uint32_t k) {
 }
 
 /* The chains with all that has its side by itself, and the islands. */
-static hr2d_status begin(hr2di_classes *c, const hr2di_shaft *s) {
+static hr2d_status gather(hr2di_classes *c, const hr2di_shaft *s, unsigned known) {
   hr2d_status status = hr2di_chain_begin(&c->right, &c->alloc, s->b, s->c);
   if (!status) status = hr2di_chain_begin(&c->left, &c->alloc, s->a, s->d);
   c->points = c->islands = 0;
@@ -161,9 +161,17 @@ static hr2d_status begin(hr2di_classes *c, const hr2di_shaft *s) {
           (hr2di_island){first, count, width_of(s, c->point + first, count)};
     else
       status = hr2di_chain_add(c->barrier[k].hand == TO_RIGHT ? &c->right : &c->left, &c->alloc,
-                               &s->frame, c->point + first, count, &grown);
+                               &s->frame, known, c->point + first, count, &grown);
   }
   return status;
+}
+
+static hr2d_status begin(hr2di_classes *c, const hr2di_shaft *s) {
+  const hr2d_status status = gather(c, s, HR2DI_ON_BOTH);
+  if (status ||
+      (hr2di_chain_sound(&s->frame, &c->right) && hr2di_chain_sound(&s->frame, &c->left)))
+    return status;
+  return gather(c, s, 0);
 }
 
 hr2d_status hr2di_classes_sort(hr2di_classes *c, const hr2di_shaft *shaft, const uint32_t *wall,
@@ -230,14 +238,22 @@ static void swap(hr2di_chain *p, hr2di_chain *q) {
   *q = kept;
 }
 
+static hr2d_status widen_knowing(hr2di_classes *c, const hr2di_shaft *shaft, unsigned known,
+                                 hr2di_chain *wider, const hr2di_chain *chain, hr2di_island o,
+                                 int *grown) {
+  const hr2d_status status = copy(wider, &c->alloc, chain->point, chain->count);
+  return status ? status
+                : hr2di_chain_add(wider, &c->alloc, &shaft->frame, known, c->point + o.first,
+                                  o.count, grown);
+}
+
 /* A chain with an island more; *inside if that is no more. */
 static hr2d_status widen(hr2di_classes *c, const hr2di_shaft *shaft, hr2di_chain *wider,
                          const hr2di_chain *chain, hr2di_island o, int *inside) {
   int grown = 0;
-  hr2d_status status = copy(wider, &c->alloc, chain->point, chain->count);
-  if (!status)
-    status =
-        hr2di_chain_add(wider, &c->alloc, &shaft->frame, c->point + o.first, o.count, &grown);
+  hr2d_status status = widen_knowing(c, shaft, HR2DI_ON_BOTH, wider, chain, o, &grown);
+  if (!status && grown && !hr2di_chain_sound(&shaft->frame, wider))
+    status = widen_knowing(c, shaft, 0, wider, chain, o, &grown);
   *inside = !grown;
   return status;
 }

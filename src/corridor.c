@@ -38,6 +38,11 @@ static hr2d_status splice(hr2di_chain *chain, const hr2d_allocator *alloc, size_
   return HR2D_OK;
 }
 
+static hr2di_mark knowing(hr2di_mark p, unsigned known) {
+  p.on &= known;
+  return p;
+}
+
 /* Whether p lengthens a chain that is a segment, there and back, or a point: no edge of it
    sees a point on its own line.  That is so where i and j touch, or one ends on the line
    of the other. */
@@ -53,35 +58,51 @@ static int lengthens(const hr2di_frame *frame, const hr2di_chain *chain, hr2di_m
          (chain->count == 2 && hr2di_ahead(frame, at[0], at[1], p) < 0);
 }
 
+/* Whether an edge has p on its outer side. */
+static int sees(const hr2di_frame *frame, const hr2di_chain *chain, size_t edge, hr2di_mark p,
+                unsigned known) {
+  const hr2di_mark *at = chain->point + edge;
+  return chain->hand * hr2di_turn(frame, knowing(at[0], known), knowing(at[1], known),
+                                  knowing(p, known)) >
+         0;
+}
+
 /* The edges that see p are contiguous; p replaces what is between their outer ends. */
 static hr2d_status add_point(hr2di_chain *chain, const hr2d_allocator *alloc,
-                             const hr2di_frame *frame, hr2di_mark p, int *grown) {
-  const hr2di_mark *point = chain->point;
+                             const hr2di_frame *frame, unsigned known, hr2di_mark p,
+                             int *grown) {
   const size_t edges = chain->count - 1;
   size_t first = 0, last;
-  while (first < edges &&
-         chain->hand * hr2di_turn(frame, point[first], point[first + 1], p) <= 0)
-    first++;
+  while (first < edges && !sees(frame, chain, first, p, known)) first++;
   if (first == edges) {
     if (!lengthens(frame, chain, p)) return HR2D_OK;
     *grown = 1;
     return splice(chain, alloc, 1, edges, p);
   }
   last = first + 1;
-  while (last < edges && chain->hand * hr2di_turn(frame, point[last], point[last + 1], p) > 0)
-    last++;
+  while (last < edges && sees(frame, chain, last, p, known)) last++;
   *grown = 1;
   return splice(chain, alloc, first + 1, last, p);
 }
 
 hr2d_status hr2di_chain_add(hr2di_chain *chain, const hr2d_allocator *alloc,
-                            const hr2di_frame *frame, const hr2di_mark *point, size_t count,
-                            int *grown) {
+                            const hr2di_frame *frame, unsigned known, const hr2di_mark *point,
+                            size_t count, int *grown) {
   hr2d_status status = HR2D_OK;
   *grown = 0;
   for (size_t k = 0; k < count && !status; k++)
-    status = add_point(chain, alloc, frame, point[k], grown);
+    status = add_point(chain, alloc, frame, known, point[k], grown);
   return status;
+}
+
+int hr2di_chain_sound(const hr2di_frame *frame, const hr2di_chain *chain) {
+  size_t marked = 0;
+  for (size_t k = 1; k + 1 < chain->count; k++) marked += chain->point[k].on != 0;
+  if (marked == 0 || chain->count < 4) return 1;
+  for (size_t edge = 0; edge + 1 < chain->count; edge++)
+    for (size_t k = 0; k < chain->count; k++)
+      if (sees(frame, chain, edge, chain->point[k], HR2DI_ON_BOTH)) return 0;
+  return 1;
 }
 
 /* The search of bridge() with what points know of the lines they lie on, or, `known` = 0,
@@ -129,7 +150,7 @@ static int search(const hr2di_frame *frame, const hr2di_chain *low, const hr2di_
 static int bridge(const hr2di_frame *frame, const hr2di_chain *low, const hr2di_chain *high,
                   size_t *from, size_t *to) {
   const size_t start[] = {*from, *to};
-  int found = search(frame, low, high, HR2DI_ON_I | HR2DI_ON_J, from, to);
+  int found = search(frame, low, high, HR2DI_ON_BOTH, from, to);
   if (found >= 0) return found;
   *from = start[0];
   *to = start[1];

@@ -28,11 +28,16 @@ typedef struct hr2di_chain {
 hr2d_status hr2di_chain_begin(hr2di_chain *chain, const hr2d_allocator *alloc, hr2di_mark from,
                               hr2di_mark to);
 
-/* Adds points to the hull; *grown tells whether one of them lay outside of it.
-   HR2D_OK or HR2D_ENOMEM. */
+/* Adds points to the hull; *grown tells whether one of them lay outside of it.  `known` is
+   HR2DI_ON_BOTH, or 0 for turns by what coordinates alone say.  HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_chain_add(hr2di_chain *chain, const hr2d_allocator *alloc,
-                            const hr2di_frame *frame, const hr2di_mark *point, size_t count,
-                            int *grown);
+                            const hr2di_frame *frame, unsigned known, const hr2di_mark *point,
+                            size_t count, int *grown);
+
+/* Whether a chain is a hull.  Where walls hug the line of i or j within roundings, what points
+   know of that line may contradict what their coordinates say to others, and points are lost;
+   by coordinates alone they are not. */
+int hr2di_chain_sound(const hr2di_frame *frame, const hr2di_chain *chain);
 
 /* Whether some line from i to j has one chain on its right and the other on its left,
    touching neither.  Exact. */

@@ -12,7 +12,7 @@
 
 #include "side.h"
 
-enum { HR2DI_ON_I = 1, HR2DI_ON_J = 2 };
+enum { HR2DI_ON_I = 1, HR2DI_ON_J = 2, HR2DI_ON_BOTH = 3 };
 
 typedef struct hr2di_mark {
   hr2d_point at;
@@ -43,7 +43,7 @@ static inline int hr2di_order(const hr2di_axis *axis, hr2d_point p, hr2d_point q
 
 /* Both lie where the two lines meet. */
 static inline int hr2di_corners(hr2di_mark p, hr2di_mark q) {
-  return (p.on & q.on) == (HR2DI_ON_I | HR2DI_ON_J);
+  return (p.on & q.on) == HR2DI_ON_BOTH;
 }
 
 /* The turn of points of which two lie on one line. */

@@ -6,6 +6,8 @@
 
 #include <math.h>
 
+#include "crossings.h"
+
 /* A few units in the last place of the coordinates involved: what is so near to a line
    lies on it, as ends of walls that were computed to lie there do. */
 #define TOUCH 0x1p-50
@@ -18,11 +20,9 @@ static double largest(hr2d_point p) {
 static int front_of_near(const hr2di_axis *line, hr2d_point p) {
   const int side = hr2di_side(line->a, line->b, p);
   if (side == 0) return 0;
-  const double dx = line->b.x - line->a.x, dy = line->b.y - line->a.y, length = hypot(dx, dy);
   const double size = fmax(largest(p), fmax(largest(line->a), largest(line->b)));
-  const double distance =
-      fabs(dx / length * (p.y - line->a.y) - dy / length * (p.x - line->a.x));
-  return distance <= TOUCH * size ? 0 : side;
+  const hr2d_segment s = {line->a, line->b};
+  return hr2di_line_distance(p, &s) <= TOUCH * size ? 0 : side;
 }
 
 /* 1 if p is in front of a line, −1 if behind, 0 if on it.  Coordinates lie in [-2,2], so
@@ -90,6 +90,16 @@ static hr2di_half_plane left_of(hr2d_point a, hr2d_point b) {
   return (hr2di_half_plane){nx, ny, -(nx * a.x + ny * a.y), 0x1p-47 * (fabs(nx) + fabs(ny))};
 }
 
+/* From p on one of i and j to q on the other.  Where they touch there is no side to be beyond
+   of.  Where p and q are on one line, one of them is a foot and off by 2^-49 at most, and that
+   line is off by 2^-49·(|pr| + |qr|)/|pq| at r. */
+static hr2di_half_plane side_between(const hr2di_frame *frame, hr2di_mark p, hr2di_mark q) {
+  if (hr2di_same_mark(frame, p, q)) return (hr2di_half_plane){0, 0, 0, 0};
+  hr2di_half_plane side = left_of(p.at, q.at);
+  if (p.on & q.on) side.margin += 0x1p-45;
+  return side;
+}
+
 /* fmin() and fmax() would be calls. */
 static inline double lesser(double p, double q) {
   return p < q ? p : q;
@@ -117,10 +127,8 @@ int hr2di_shaft_make(hr2di_shaft *s, hr2di_facing facing, hr2d_segment i, hr2d_s
   s->y1 = greater(greater(a.y, b.y), greater(c.y, d.y));
   s->side[0] = left_of(line_i.a, line_i.b);
   s->side[1] = left_of(line_j.a, line_j.b);
-  /* Where i and j touch, there is no side to be beyond of. */
-  const hr2di_half_plane all = {0, 0, 0, 0};
-  s->side[2] = hr2di_same_mark(&s->frame, s->b, s->c) ? all : left_of(b, c);
-  s->side[3] = hr2di_same_mark(&s->frame, s->d, s->a) ? all : left_of(d, a);
+  s->side[2] = side_between(&s->frame, s->b, s->c);
+  s->side[3] = side_between(&s->frame, s->d, s->a);
   return 1;
 }
 

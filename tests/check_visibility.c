@@ -463,6 +463,36 @@ START_TEST(zero_is_decided_exactly) {
 }
 END_TEST
 
+/* Walls that hug the line of a patch within roundings, in front of it. */
+static const occluded_pair hugging[] = {
+    /* An end that counts as lying on the line of j between two that do not. */
+    {.i = {{-1.3070735955848993, -0.22558128325631216}, {0, 0}},
+     .j = {{-0.71899143097594298, 1.2219184102378393},
+           {-0.70502692282329849, 1.1560689303904306}},
+     .occluder = {{{-0.44362619811234333, -0.076563222908285863},
+                   {-0.53425798439071059, 0.35080993759516338}},
+                  {{-0.53425798439071082, 0.35080993759516327},
+                   {-0.60571463927719005, 0.68776298345086617}},
+                  {{-0.60571463927718994, 0.68776298345086617},
+                   {-0.70502692282324875, 1.1560689303901979}}},
+     .count = 3},
+    /* The end of i and that of j are close by on the line of j, which they point along. */
+    {.i = {{-1.6275421507764232, -0.32473335847810003},
+           {-0.65140439614916157, -0.9761377546272616}},
+     .j = {{-0.65071482578911999, -0.97510442469135628},
+           {-0.11574022284117826, -0.17343819279101627}},
+     .occluder = {{{-0.18401433086024954, -0.27574781012686317},
+                   {-0.40048672283871245, -0.6001344367658753}}},
+     .count = 1}};
+
+START_TEST(walls_that_hug_a_line_are_seen) {
+  const occluded_pair *p = &hugging[_i];
+  const double area = area_of(p), expected = strings_of(p);
+  printf("hugging: %.17g, strings %.17g\n", area, expected);
+  ck_assert_double_eq_tol(area, expected, 1e-14);
+}
+END_TEST
+
 /* A thousand occluders side by side: what passes is what passes each slit. */
 START_TEST(a_thousand_slits_add_up) {
   enum { COUNT = 1000 };
@@ -596,6 +626,7 @@ int main(void) {
   tcase_add_loop_test(tc, touching_occluders_do_not_leak, 0, BARRIERS);
   tcase_add_test(tc, slits_have_their_width);
   tcase_add_test(tc, zero_is_decided_exactly);
+  tcase_add_loop_test(tc, walls_that_hug_a_line_are_seen, 0, 2);
   tcase_add_test(tc, a_thousand_slits_add_up);
   tcase_add_test(tc, a_fan_of_a_thousand_hides_its_hull);
   tcase_add_test(tc, crowds);
