@@ -17,6 +17,11 @@
    longer than this many roundings; what is shorter is a touch at a flat angle. */
 #define LONG_STRETCH 16
 
+/* What is through a segment by a rounding, and longer than this many or than this part of
+   the shorter one, crosses it: visibility takes its end for a foot, and is off by as much. */
+#define LONG_TAIL 0x1p+20
+#define LONG_PART 0x1p-20
+
 static double largest(const hr2d_segment *s) {
   return fmax(fmax(fabs(s->a.x), fabs(s->a.y)), fmax(fabs(s->b.x), fabs(s->b.y)));
 }
@@ -102,7 +107,9 @@ static int lie_together(const pair *p, hr2di_meeting *m) {
   const int collinear = p->ja.side.m == 0 && p->jb.side.m == 0;
   const double least = collinear ? fmin(p->rounding, fmin(length(p->i), length(p->j)) / 2)
                                  : LONG_STRETCH * p->rounding;
-  if (stretch <= least || from.distance > p->rounding || to.distance > p->rounding) return 0;
+  /* Visibility takes what is so near for lying on a wall's line, or on that of its run. */
+  const double near = 2 * p->rounding;
+  if (stretch <= least || from.distance >= near || to.distance >= near) return 0;
   const hr2d_segment *i = p->i, *j = p->j;
   const double dot = (i->b.x - i->a.x) * ((j->b.x - j->a.x) / length(j)) +
                      (i->b.y - i->a.y) * ((j->b.y - j->a.y) / length(j));
@@ -138,10 +145,19 @@ static hr2d_point crossing(const pair *p) {
   return into_box(into_box(x, p->i), p->j);
 }
 
+/* Whether an end of s was meant to lie on the other segment: it is through by no more than
+   a rounding, and what is through is not so long, at an angle so flat, that it matters. */
+static int pokes(const pair *p, const hr2d_segment *s, const end *near, const end *far) {
+  const double through = length(s) * (near->distance / (near->distance + far->distance));
+  const double part = LONG_PART * fmin(length(p->i), length(p->j));
+  return near->distance <= p->rounding &&
+         through <= fmax(LONG_STRETCH * p->rounding, fmin(LONG_TAIL * p->rounding, part));
+}
+
 static int cross(const pair *p, hr2di_meeting *m) {
   if (p->ia.side.m * p->ib.side.m >= 0 || p->ja.side.m * p->jb.side.m >= 0) return 0;
-  if (fmin(fmin(p->ia.distance, p->ib.distance), fmin(p->ja.distance, p->jb.distance)) <=
-      p->rounding)
+  if (pokes(p, p->i, &p->ia, &p->ib) || pokes(p, p->i, &p->ib, &p->ia) ||
+      pokes(p, p->j, &p->ja, &p->jb) || pokes(p, p->j, &p->jb, &p->ja))
     return 0;
   const hr2d_point x = crossing(p);
   *m = (hr2di_meeting){.kind = HR2DI_MEET_CROSS,

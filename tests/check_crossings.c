@@ -539,6 +539,8 @@ static const refusal refusals[] = {
     {{{0, 0, 2, 0}, {3, ULP, 1, -ULP / 2}}, "\"sides\": \"both\""},
     {{{0, 0, 2, 0}, {2, ULP, 0, ULP}}, "face each other"},
     {{{0, 0, 2, 0}, {2, 16 * ULP, 0, 16 * ULP}}, NULL},
+    {{{0, 0, 1, 0}, {1, 7 * ULP, 0, 7 * ULP}}, "face each other"},
+    {{{0, 0, 1, 0}, {1, 8 * ULP, 0, 8 * ULP}}, NULL},
 };
 
 static hr2d_scene *scene_of_two(const refusal *r, int swapped) {
@@ -665,6 +667,38 @@ START_TEST(blurred_stars_are_cut) {
 }
 END_TEST
 
+/* Through by an ulp: for a length that matters, and for less. */
+START_TEST(flat_crossings_are_refused) {
+  const double down[] = {1e-6, 40 * ULP};
+  for (int k = 0; k < 2; k++) {
+    drawing d = {.count = 0};
+    draw(&d, 0, 0, 1, 0);
+    draw(&d, 0, ULP, 1.5, -down[k]);
+    hr2d_scene *scene = scene_of(&d, NULL);
+    ck_assert_int_eq(hr2d_scene_commit(scene), k ? HR2D_ESCENE : HR2D_OK);
+    ck_assert(k == 0 || strstr(hr2d_scene_message(scene), " cross at (0.03658") != NULL);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
+/* Far from the origin a rounding is much of a patch, and no reason to leave it out. */
+START_TEST(copies_far_off_are_refused) {
+  const double x = 0x1p+30, y = 0x1p+29, ulp = 0x1p-23;
+  drawing d = {.count = 0};
+  draw(&d, x, y, x + 1, y);
+  draw(&d, x + .5, y + ulp, x + 1.5, y + ulp);
+  hr2d_scene *scene = scene_of(&d, NULL);
+  ck_assert_int_eq(hr2d_scene_split_crossings(scene, NULL), HR2D_OK);
+  double length = 0;
+  for (size_t k = 0; k < hr2d_scene_patches(scene); k++) length += hr2d_scene_length(scene, k);
+  ck_assert_double_eq_tol(length, 2, 1e-9);
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_ESCENE);
+  ck_assert_ptr_nonnull(strstr(hr2d_scene_message(scene), "is a copy of patch"));
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 /* Triangles as thin as 1e-14, and patches far shorter than others. */
 START_TEST(slivers_are_legal) {
   unsigned long state = test_seed();
@@ -786,6 +820,8 @@ int main(void) {
   tcase_add_test(refused, rounded_junctions_are_allowed);
   tcase_add_test(refused, patches_on_one_another_are_refused);
   tcase_add_test(refused, slanted_walls_back_to_back_are_never_wrong);
+  tcase_add_test(refused, flat_crossings_are_refused);
+  tcase_add_test(refused, copies_far_off_are_refused);
   tcase_add_test(refused, slivers_are_legal);
   suite_add_tcase(suite, refused);
   TCase *cuts = tcase_create("cuts");

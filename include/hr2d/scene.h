@@ -139,8 +139,8 @@ HR2D_API hr2d_status hr2d_scene_force(hr2d_scene *scene, hr2d_effect effect);
  * named with " [1]", " [2]", … behind, and share the crossing bit for bit with those of
  * the other; indices behind them move up.  Where patches meet again in a rounded piece
  * they are cut there, too; two that lie on one another within rounding are cut at each
- * other's ends, and of copies no longer than 1e-9 of the scene, which such cuts can leave,
- * one is dropped.
+ * other's ends, and of copies no longer than 1e-9 of the largest coordinate and 1e-6 of the
+ * patch, which such cuts can leave, one is dropped.
  *
  * @param scene  not yet committed; unchanged on failure
  * @param cuts   receives the number of places where patches were cut; may be NULL
@@ -153,6 +153,14 @@ HR2D_API hr2d_status hr2d_scene_split_crossings(hr2d_scene *scene, size_t *cuts)
 /**
  * Checks the patches against each other, scales their coordinates by a power of
  * two and analyses which effects the scene calls for.
+ *
+ * A rounding is four units in the last place of 1, in units of hr2d_scene_unit(): ends that
+ * were computed to lie on a patch are within that, so that one that goes through by no more
+ * ends there, and patches closer than two roundings along a stretch lie on one another.  An
+ * end that is through by a rounding at so flat an angle that 2⁻³⁰ of the scene or 2⁻²⁰ of the
+ * patch is beyond crosses: what stays allowed can change the answer by as much, and no more.
+ * Far from the origin roundings are those of the coordinates: 1e8 patch lengths away eight
+ * digits of what is between patches are not there any more.
  *
  * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE if committed before, HR2D_ESCENE for
  *         an empty scene, differing band counts, patches that cross, patches
