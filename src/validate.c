@@ -42,6 +42,28 @@ static double largest_coordinate(const hr2d_scene *scene) {
   return most;
 }
 
+/* So many roundings across a scene leaves nothing to decide what touches. */
+#define FEWEST_ROUNDINGS 0x1p+10
+
+static double extent(const hr2d_scene *scene) {
+  hr2d_point low = {HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL};
+  for (size_t k = 0; k < scene->patches; k++) {
+    const hr2d_segment s = scene->patch[k].scaled;
+    low = (hr2d_point){fmin(low.x, fmin(s.a.x, s.b.x)), fmin(low.y, fmin(s.a.y, s.b.y))};
+    high = (hr2d_point){fmax(high.x, fmax(s.a.x, s.b.x)), fmax(high.y, fmax(s.a.y, s.b.y))};
+  }
+  return fmax(high.x - low.x, high.y - low.y);
+}
+
+static hr2d_status check_offset(hr2d_scene *scene) {
+  const double across = extent(scene);
+  if (across >= FEWEST_ROUNDINGS * 0x1p-50) return HR2D_OK;
+  return hr2di_fail(&scene->message, HR2D_ERANGE,
+                    "the scene is so far from the origin, %.3g for %.3g across, that rounding "
+                    "leaves too few digits: move it to the origin",
+                    ldexp(1, scene->exponent), ldexp(across, scene->exponent));
+}
+
 /* Scaling by a power of two is exact unless a coordinate becomes subnormal. */
 hr2d_status hr2di_scale(hr2d_scene *scene) {
   scene->exponent = ilogb(largest_coordinate(scene));
@@ -58,7 +80,7 @@ hr2d_status hr2di_scale(hr2d_scene *scene) {
       return hr2di_fail(&scene->message, HR2D_ERANGE, "%s: its length is beyond a double",
                         hr2di_patch_label(scene, k).text);
   }
-  return HR2D_OK;
+  return check_offset(scene);
 }
 
 static hr2d_point in_scene_lengths(const hr2d_scene *scene, hr2d_point p) {

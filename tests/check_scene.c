@@ -587,6 +587,19 @@ START_TEST(lengths_beyond_a_double_are_refused) {
 }
 END_TEST
 
+/* Between 2^40 times what a scene is across, and twice that. */
+START_TEST(scenes_too_far_off_are_refused) {
+  for (int e = 36; e < 46; e++) {
+    double far[4][4];
+    for (int k = 0; k < 16; k++) far[k / 4][k % 4] = ldexp(1, e) + room[k / 4][k % 4];
+    hr2d_scene *scene = scene_of((const double(*)[4])far, 4);
+    ck_assert_int_eq(hr2d_scene_commit(scene), e > 40 ? HR2D_ERANGE : HR2D_OK);
+    if (e > 40) check_message(scene, "the scene is so far from the origin");
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
 /* Beside a patch of length 1 there may be patches so small that their determinants
    are no doubles.  They are judged like any others. */
 START_TEST(tiny_parts_are_judged_like_others) {
@@ -956,6 +969,7 @@ int main(void) {
   tcase_add_test(positions, lengths_are_those_of_hypot);
   tcase_add_test(positions, scales_too_far_apart_are_refused);
   tcase_add_test(positions, lengths_beyond_a_double_are_refused);
+  tcase_add_test(positions, scenes_too_far_off_are_refused);
   tcase_add_test(positions, tiny_parts_are_judged_like_others);
   suite_add_tcase(suite, positions);
   TCase *effects = tcase_create("effects");

@@ -160,14 +160,15 @@ HR2D_API hr2d_status hr2d_scene_split_crossings(hr2d_scene *scene, size_t *cuts)
  * end that is through by a rounding at so flat an angle that 2⁻³⁰ of the scene or 2⁻²⁰ of the
  * patch is beyond crosses: what stays allowed can change the answer by as much, and no more.
  * Far from the origin roundings are those of the coordinates: 1e8 patch lengths away eight
- * digits of what is between patches are not there any more.
+ * digits of what is between patches are not there any more, and from 1e12 on (2⁴⁰ times what
+ * the scene is across) the scene is refused.
  *
  * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE if committed before, HR2D_ESCENE for
  *         an empty scene, differing band counts, patches that cross, patches
  *         that overlap with their fronts on the same side, and patches that face each
  *         other with no more than a rounding between them; HR2D_ERANGE for coordinates
- *         whose scales lie so far apart that scaling would lose digits, or a length beyond
- *         a double; the message names the patches
+ *         whose scales lie so far apart that scaling would lose digits, a scene too far from
+ *         the origin, or a length beyond a double; the message names the patches
  * Cost O(n²) comparisons; in a scene with dark patches and occluders a search for the
  * patches that light can reach, O(n²) looks between two patches at worst.
  */
