@@ -35,6 +35,7 @@ SUITES = \
 	tests/check_state \
 	tests/check_study \
 	tests/check_hard_solve \
+	tests/check_threads \
 	tests/check_faults
 
 OUTSIDE = \
@@ -51,6 +52,7 @@ SH_LOG_COMPILER = $(SHELL)
 
 if HAVE_TESTS
 check_LTLIBRARIES = tests/libsupport.la
+tests_check_threads_LDFLAGS = -pthread
 tests_libsupport_la_SOURCES = \
 	tests/accuracy_nystrom.c tests/accuracy_nystrom.h \
 	tests/accuracy_scenes.c tests/accuracy_scenes.h \
@@ -94,7 +96,11 @@ check-valgrind:
 	CK_FORK=no CK_DEFAULT_TIMEOUT=0 OMP_NUM_THREADS=1 \
 	HR2D_TEST_MULTIPLIER="$${HR2D_TEST_MULTIPLIER-0.01}" \
 	$(MAKE) check TESTS='$(filter-out $(TOO_LONG),$(SUITES))' LOG_COMPILER='$(MEMCHECK)'
-.PHONY: check-valgrind
+
+# With all compilers, levels of optimisation and sanitizers: takes an hour.
+check-matrix:
+	$(SHELL) $(srcdir)/tests/matrix.sh
+.PHONY: check-valgrind check-matrix
 
 # The table of doc/hard-cases.md, as these suites measure it.
 HARD = $(filter tests/check_hard_%,$(SUITES))
@@ -115,4 +121,5 @@ installcheck-local:
 	$(SHELL) $(srcdir)/tests/consumer/run.sh $(srcdir)/tests/consumer
 
 EXTRA_DIST += $(OUTSIDE) tests/summary.sh tests/lsan.supp tests/cli tests/malformed tests/reference \
+	tests/matrix.sh tests/digits.sh tests/race.c \
 	tests/consumer/main.c tests/consumer/main.cpp tests/consumer/run.sh
