@@ -36,7 +36,7 @@ libhr2d_core_la_SOURCES = \
 	src/count.c \
 	src/crossings.c src/crossings.h \
 	src/cuts.c src/cuts.h \
-	src/determinant.c src/determinant.h \
+	src/determinant.c src/determinant.h src/dot.h \
 	src/effects.c \
 	src/equation.c src/equation.h \
 	src/estimate.c src/estimate.h \

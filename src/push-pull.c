@@ -4,6 +4,7 @@
 #include "push-pull.h"
 
 #include "alloc.h"
+#include "dot.h"
 #include "legendre.h"
 
 static int is_halved(const hr2d_element *element, uint32_t at) {
@@ -56,14 +57,8 @@ static const double *relation_of(const hr2di_push_pull *p, uint32_t element) {
 static inline void add_up_bands(const double *relation, size_t order, size_t bands, double part,
                                 const double *child, double *parent) {
   for (size_t l = 0; l < order; l++)
-    for (size_t b = 0; b < bands; b++) {
-      double sum = 0;
-#ifdef _OPENMP
-#pragma omp simd reduction(+ : sum)
-#endif
-      for (size_t k = 0; k <= l; k++) sum += relation[l * order + k] * child[k * bands + b];
-      parent[l * bands + b] += part * sum;
-    }
+    for (size_t b = 0; b < bands; b++)
+      parent[l * bands + b] += part * hr2di_dot(relation + l * order, child + b, bands, l + 1);
 }
 
 static void add_up(const hr2di_push_pull *p, const double *relation, double part,

@@ -9,6 +9,7 @@
 #endif
 
 #include "alloc.h"
+#include "dot.h"
 #include "hierarchy-impl.h"
 #include "scene-impl.h"
 
@@ -82,14 +83,8 @@ static void gather_block(const hr2d_link *link, size_t count, size_t bands, int 
 static inline void add_bands(const double *c, size_t order, size_t bands, const double *from,
                              double *to) {
   for (size_t l = 0; l < order; l++)
-    for (size_t b = 0; b < bands; b++) {
-      double sum = 0;
-#ifdef _OPENMP
-#pragma omp simd reduction(+ : sum)
-#endif
-      for (size_t m = 0; m < order; m++) sum += c[l * order + m] * from[m * bands + b];
-      to[l * bands + b] += sum;
-    }
+    for (size_t b = 0; b < bands; b++)
+      to[l * bands + b] += hr2di_dot(c + l * order, from + b, bands, order);
 }
 
 static void add_block(const double *c, size_t order, size_t bands, const double *from,
@@ -109,21 +104,26 @@ static void add_transposed(const double *c, size_t order, size_t bands, const do
         to[m * bands + b] += c[l * order + m] * from[l * bands + b];
 }
 
-/* Both, in one pass over the block of a grey scene. */
+/* Both, in one pass over the block of a grey scene; sums as those of hr2di_dot(). */
 void hr2di_multiply_block(const double *restrict c, size_t order, const double *restrict up_i,
                           const double *restrict up_j, double *restrict down_i,
                           double *restrict down_j) {
   for (size_t l = 0; l < order; l++) {
     const double *row = c + l * order, here = up_i[l];
-    double sum = 0;
-#ifdef _OPENMP
-#pragma omp simd reduction(+ : sum)
-#endif
-    for (size_t m = 0; m < order; m++) {
-      sum += row[m] * up_j[m];
+    double s0 = 0, s1 = 0, s2 = 0, s3 = 0, rest = 0;
+    size_t m = 0;
+    for (; m + 4 <= order; m += 4) {
+      s0 += row[m] * up_j[m];
+      s1 += row[m + 1] * up_j[m + 1];
+      s2 += row[m + 2] * up_j[m + 2];
+      s3 += row[m + 3] * up_j[m + 3];
+      for (size_t k = m; k < m + 4; k++) down_j[k] += row[k] * here;
+    }
+    for (; m < order; m++) {
+      rest += row[m] * up_j[m];
       down_j[m] += row[m] * here;
     }
-    down_i[l] += sum;
+    down_i[l] += hr2di_four(s0, s1, s2, s3) + rest;
   }
 }
 

@@ -36,6 +36,7 @@ for program; do
     else
       here=$((here + 1))
       echo "$program: other digits: ${file##*/}"
+      diff "$file" "$work/$k/${file##*/}" | head -n 5
     fi
   done
   other=$((other + here))

@@ -84,7 +84,8 @@ digits() {
 
 setting() {
   case $1 in
-  gcc-lto) tested "$1" CC=gcc CFLAGS='-g -O3 -flto' --disable-shared ;;
+  # At link time gcc sees less of what is initialised when than it does in a file.
+  gcc-lto) tested "$1" CC=gcc CFLAGS='-g -O3 -flto' --disable-shared --disable-werror ;;
   gcc-fortify)
     tested "$1" CC=gcc CFLAGS='-g -O2' CPPFLAGS='-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3'
     ;;
