@@ -245,8 +245,8 @@ hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, size_t order, size_t
   if (clusters->links == 0) return HR2D_OK;
   const hr2d_allocator *alloc = &clusters->alloc;
   gather g = {.c = clusters, .order = order, .bands = bands, .planes = 2 * bands};
-  g.sent = hr2di_calloc(alloc, clusters->points * g.planes, sizeof *g.sent);
-  g.received = hr2di_calloc(alloc, clusters->points * g.planes, sizeof *g.received);
+  g.sent = hr2di_calloc(alloc, clusters->points, g.planes * sizeof *g.sent);
+  g.received = hr2di_calloc(alloc, clusters->points, g.planes * sizeof *g.received);
   g.vector = hr2di_alloc(alloc, g.planes, sizeof *g.vector);
   g.rule = hr2di_calloc(alloc, HR2DI_MOST_POINTS + 1, sizeof *g.rule);
   const int room = g.sent && g.received && g.vector && g.rule;

@@ -16,7 +16,7 @@ typedef struct hr2di_grading {
   unsigned halvings;          /* of every element besides */
   const double *weight;       /* see graded.h; NULL: 1 */
   const hr2di_events *events; /* where elements end; NULL for none */
-  size_t max_elements;        /* 0 for no limit */
+  uint64_t max_elements;      /* 0 for no limit */
 } hr2di_grading;
 
 /* The generations of events that an error of averages asks for, from measurements: where no

@@ -2,6 +2,7 @@
 /* Pull, gather over links, push. */
 #include "transport.h"
 
+#include <stdint.h>
 #include <string.h>
 
 #ifdef _OPENMP
@@ -33,6 +34,9 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
                          .elements = h->elements,
                          .slices = count_slices(links),
                          .threads = threads};
+  /* With 32 bits the width of a field can be too much for a size_t; all fields are smaller than
+     those below. */
+  if (t->bands > PTRDIFF_MAX / sizeof(double) / t->order) return HR2D_ENOMEM;
   const size_t field = t->width * sizeof(double);
   if (hr2di_push_pull_init(&t->trees, h, &t->alloc, t->order, t->bands)) return HR2D_ENOMEM;
   t->leaf = hr2di_alloc(&t->alloc, (size_t)hr2d_hierarchy_count(h).leaves, sizeof *t->leaf);

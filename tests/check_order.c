@@ -559,6 +559,29 @@ START_TEST(isothermal_under_a_sky) {
 }
 END_TEST
 
+#if SIZE_MAX == UINT32_MAX
+/* With 32 bits 2^24 bands of 32 coefficients of 8 bytes are 0 bytes. */
+START_TEST(bands_may_be_too_many) {
+  const size_t bands = 1u << 24;
+  double *emission = calloc(bands, sizeof *emission);
+  hr2d_patch patch = {.a = {0, 0}, .b = {1, 0}, .emission = emission, .emission_bands = bands};
+  hr2d_scene *scene = NULL;
+  hr2d_solution *solution = NULL;
+  ck_assert_ptr_nonnull(emission);
+  emission[0] = 1;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
+  patch = (hr2d_patch){.a = {1, 1}, .b = {0, 1}, .emission = emission, .emission_bands = 1};
+  ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  test_links t = refined(scene, 32, 2, 1);
+  ck_assert_int_eq(hr2d_solve(t.links, NULL, &solution), HR2D_ENOMEM);
+  test_free_links(&t);
+  free(emission);
+}
+END_TEST
+#endif
+
 /* A story of which each step may fail for lack of memory and must then succeed. */
 typedef struct story {
   test_memory fault;
@@ -642,6 +665,9 @@ static Suite *make_suite(void) {
   tcase_add_test(same, background_at_any_order);
   tcase_add_test(same, isothermal_under_a_sky);
   tcase_add_test(same, every_allocation_may_fail);
+#if SIZE_MAX == UINT32_MAX
+  tcase_add_test(same, bands_may_be_too_many);
+#endif
   suite_add_tcase(suite, same);
   TCase *furnaces = tcase_create("furnaces");
   tcase_add_test(furnaces, rows_before_closure);

@@ -74,9 +74,9 @@ static hr2d_status make_scene(dense *d) {
 
 static hr2d_status make_room(dense *d) {
   const size_t n = d->pieces;
-  d->area = malloc(n * n * sizeof *d->area);
-  d->matrix = malloc(n * n * sizeof *d->matrix);
-  d->b = malloc(n * d->bands * sizeof *d->b);
+  d->area = calloc(n, n * sizeof *d->area);
+  d->matrix = calloc(n, n * sizeof *d->matrix);
+  d->b = calloc(n, d->bands * sizeof *d->b);
   d->column = malloc(n * sizeof *d->column);
   d->order = gsl_permutation_alloc(n);
   return d->area && d->matrix && d->b && d->column && d->order ? HR2D_OK : HR2D_ENOMEM;

@@ -87,7 +87,7 @@ static int make_reference(cost *c) {
   progress_clear(&c->line);
   if (status && status != HR2D_EACCURACY) return fail_call(c->options->scene, "", status);
   if (!solution) return fail(c->options->scene, "the time was too short for a reference");
-  c->average = malloc(patches * bands * sizeof *c->average);
+  c->average = calloc(patches, bands * sizeof *c->average);
   for (size_t k = 0; c->average && k < patches * bands; k++)
     c->average[k] = hr2d_solution_average(solution, k / bands, k % bands);
   hr2d_solution_destroy(solution);
