@@ -114,6 +114,24 @@ hard-cases: $(HARD)
 .PHONY: hard-cases
 CLEANFILES += hard-cases.md
 
+# Lines and branches of src/ and tools/ that the tests reach, by file.
+if HAVE_COVERAGE
+REPORT = $(GCOVR) --root '$(srcdir)' --exclude-unreachable-branches \
+	--filter '$(srcdir)/src/' --filter '$(srcdir)/tools/'
+coverage:
+	find . -name '*.gcda' -exec rm -f {} +
+	-$(MAKE) check
+	$(MKDIR_P) coverage
+	$(REPORT) --json coverage/counts.json --txt coverage/lines.txt \
+		--html-details coverage/index.html .
+	$(REPORT) --add-tracefile coverage/counts.json --branches --txt coverage/branches.txt
+	tail -n 3 coverage/lines.txt coverage/branches.txt
+else
+coverage:
+	@echo "make coverage needs gcovr, gcc and configure --enable-coverage" >&2; exit 1
+endif
+.PHONY: coverage
+
 # An outside program, in C and in C++, against what `make install` left behind.
 installcheck-local:
 	DESTDIR='$(DESTDIR)' libdir='$(libdir)' pkgconfigdir='$(pkgconfigdir)' \
