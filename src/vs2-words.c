@@ -81,28 +81,10 @@ hr2d_status hr2di_vs2_integer(hr2di_vs2 *reader, hr2di_span *line, const char *w
   return HR2D_OK;
 }
 
-static int within(unsigned char byte, int least, int most) {
-  return byte >= least && byte <= most;
-}
-
-/* The length of the character at a terminated `s`, or 0: the Unicode Standard, table 3-7. */
-static size_t utf8_character(const unsigned char *s) {
-  if (s[0] < 0x80) return 1;
-  if (within(s[0], 0xC2, 0xDF)) return within(s[1], 0x80, 0xBF) ? 2 : 0;
-  const int three = within(s[0], 0xE0, 0xEF);
-  if (!three && !within(s[0], 0xF0, 0xF4)) return 0;
-  /* No overlong forms, no surrogates, nothing beyond U+10FFFF. */
-  const int least = s[0] == 0xE0 ? 0xA0 : s[0] == 0xF0 ? 0x90 : 0x80;
-  const int most = s[0] == 0xED ? 0x9F : s[0] == 0xF4 ? 0x8F : 0xBF;
-  if (!within(s[1], least, most) || !within(s[2], 0x80, 0xBF)) return 0;
-  if (three) return 3;
-  return within(s[3], 0x80, 0xBF) ? 4 : 0;
-}
-
 static int is_utf8(const char *text) {
   const unsigned char *s = (const unsigned char *)text;
   size_t length = 1;
-  for (; *s && length; s += length) length = utf8_character(s);
+  for (; *s && length; s += length) length = hr2di_utf8_character(s);
   return length != 0;
 }
 

@@ -506,6 +506,33 @@ static void expect_unchanged(hr2d_scene *scene) {
   expect_name(scene, 0, "before");
 }
 
+/* A terminal obeys control characters, be they of ASCII or, as C2 80 to C2 9F, of Latin-1; and
+   a text that is cut within a character is not UTF-8. */
+START_TEST(messages_have_nothing_that_a_terminal_obeys) {
+  static const char *const texts[] = {
+      "{\"type\":\"FeatureCollection\",\"features\":[]\x1B[2J}",
+      "{\"type\":\"FeatureCollection\",\"features\":[]\x0E}",
+      "{\"type\":\"FeatureCollection\",\"features\":[]\x7F}",
+      "{\"type\":\"FeatureCollection\",\"features\":[]\xC2\x9B}",
+      "{\"typ\\\xC3\xA9\":\"FeatureCollection\"}",
+      COLLECTION(FEATURE("\"name\":\"a\xC2\x9B"
+                         "31m\",\"sides\":7",
+                         "LineString", "[[0,0],[1,0]]")),
+  };
+  for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+    hr2d_scene *scene = new_scene();
+    ck_assert_int_eq(parse(scene, texts[k]), HR2D_ESYNTAX);
+    const char *message = hr2d_scene_message(scene);
+    for (const char *c = message; *c; c++) {
+      ck_assert_msg((unsigned char)*c >= 0x20 && *c != 0x7F, "text %zu: %s", k, message);
+      ck_assert_msg(memcmp(c, "\xC2\x9B", 2) != 0, "text %zu: %s", k, message);
+      if (((unsigned char)*c & 0xC0) == 0xC0) ck_assert_int_eq(c[1] & 0xC0, 0x80);
+    }
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
 START_TEST(every_malformed_file_is_refused_with_its_reason) {
   hr2d_scene *scene = occupied_scene();
   for (size_t k = 0; k < sizeof malformed / sizeof *malformed; k++) {
@@ -799,6 +826,7 @@ int main(void) {
   const TTest *const rings[] = {ring_order_does_not_matter, extreme_rings_have_an_inside,
                                 holes_face_the_inside_of_their_polygon};
   const TTest *const refusals[] = {every_malformed_file_is_refused_with_its_reason,
+                                   messages_have_nothing_that_a_terminal_obeys,
                                    every_malformed_file_is_in_the_table,
                                    what_is_no_file_is_an_io_error,
                                    a_long_file_is_read_whole,
