@@ -93,6 +93,8 @@ hr2d_status hr2d_exchange_area_occluded(const hr2d_segment *i, const hr2d_segmen
     status = hr2di_walls_make(&walls, &used, segment + 2, count);
     hr2di_sight_start(&sight, &walls, &used);
     if (!status) status = integrate(&sight, segment[0], segment[1], &scaled);
+    /* Roundings of far coordinates may exceed all there is of a small pair. */
+    scaled = fmin(scaled, hr2d_exchange_area(&segment[0], &segment[1]));
     if (!status) *area = ldexp(scaled, exponent);
     hr2di_sight_end(&sight);
     hr2di_walls_clear(&walls);

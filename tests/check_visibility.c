@@ -563,6 +563,30 @@ START_TEST(crowds) {
 }
 END_TEST
 
+/* A segment of one unit in the last place, beside which all that is in the way is large: what
+   is rounded there is more than all that is exchanged. */
+START_TEST(occluders_only_take) {
+  static const hr2d_segment i = {{-0x1p+11, 0x1.bp+14}, {-0x1.0000000000001p+11, 0x1.bp+14}};
+  static const hr2d_segment other[][4] = {
+      {{{-0x1.8p+21, 0x1.bp+20}, {-0x1.d8p-7, -0x1.cp-11}},
+       {{-0x1.ap+6, -0x1.ap+6}, {-0x1.a000000000001p+6, 0x1.ae6p+13}},
+       {{-0x1.d800000000001p-7, 0x1.afffff2p+13}, {0, 0}},
+       {{-0x1.dfd325bfdfdfdp+992, 0x1.373737373fdfdp+824}, {-0x1.ap+6, -0x1.ap+6}}},
+      {{{-0x1.8p+21, 0x1.bp+20}, {-0x1p-6, -0x1p-6}},
+       {{-0x1.ap+6, -0x1.ap+6}, {-0x1.ap+6, 0x1.f4p+9}},
+       {{-0x1.a000000000001p+6, 0x1.ae6p+13}, {-0x1.0000000000001p-6, 0x1.affffp+13}},
+       {{-0x1.ap+6, -0x1.ap+6}, {-0x1.8p+21, 0x1.bp+20}}},
+  };
+  for (size_t k = 0; k < sizeof other / sizeof *other; k++)
+    for (size_t count = 1; count < 4; count++) {
+      const hr2d_segment j = other[k][0];
+      const double all = hr2d_exchange_area(&i, &j);
+      ck_assert_double_gt(all, 0);
+      ck_assert_double_le(area_among(i, j, other[k] + 1, count), all);
+    }
+}
+END_TEST
+
 START_TEST(what_is_not_finite_is_refused) {
   const double bad[] = {NAN, INFINITY, -INFINITY};
   for (int k = 0; k < 3 * 12; k++) {
@@ -632,6 +656,7 @@ int main(void) {
   tcase_add_test(tc, crowds);
   suite_add_tcase(suite, tc);
   tc = tcase_create("refusals");
+  tcase_add_test(tc, occluders_only_take);
   tcase_add_test(tc, what_is_not_finite_is_refused);
   tcase_add_loop_test(tc, allocations_fail_one_by_one, 0, 2);
   suite_add_tcase(suite, tc);
