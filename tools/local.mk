@@ -39,6 +39,7 @@ tools_hr2d_SOURCES = \
 	tools/options-check.c \
 	tools/output.c tools/output.h \
 	tools/pair.c \
+	tools/pair-line.c tools/pair-line.h \
 	tools/palette.c tools/palette.h \
 	tools/picture.h \
 	tools/progress.c tools/progress.h \

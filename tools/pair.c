@@ -10,11 +10,9 @@
 #include "commands.h"
 #include "complain.h"
 #include "load.h"
-#include "numbers.h"
+#include "pair-line.h"
 
 #define INPUT "standard input"
-
-static const char blanks[] = " \t\r\n\v\f";
 
 /* The oracle's estimate for element 0 of a hierarchy as receiver and 1 as source, both
    as bright as can be. */
@@ -50,44 +48,18 @@ static hr2d_status estimate(const hr2d_oracle *oracle, const hr2d_segment *i,
   return status == HR2D_ESCENE || status == HR2D_ERANGE ? HR2D_OK : status;
 }
 
-/* The numbers of a line, or -1 after complaining. */
-static int read_numbers(char *line, const char *where, double x[8]) {
-  int found = 0;
-  char *rest = NULL;
-  for (char *word = strtok_r(line, blanks, &rest); word; word = strtok_r(NULL, blanks, &rest)) {
-    double value = 0;
-    if (read_real(word, &value)) {
-      fail(INPUT, "%s: '%s' is not a finite number", where, word);
-      return -1;
-    }
-    if (found < 8) x[found] = value;
-    found++;
-  }
-  if (found == 8) return 0;
-  fail(INPUT, "%s: expected 8 numbers, found %d", where, found);
-  return -1;
-}
-
 static double length(const hr2d_segment *s) {
   return hypot(s->b.x - s->a.x, s->b.y - s->a.y);
 }
 
-/* The power of two that makes tiny segments ordinary ones, because a view factor has
-   more digits than an exchange area that is denormal; exact.  Others are left alone. */
-static int grow(double x[8]) {
-  double largest = 0;
-  int exponent = 0;
-  for (int k = 0; k < 8; k++) largest = fmax(largest, fabs(x[k]));
-  frexp(largest, &exponent);
-  if (exponent > -500) return 0;
-  for (int k = 0; k < 8; k++) x[k] = ldexp(x[k], -exponent);
-  return exponent;
+static int complain_of_line(const pair_line *line, const char *where) {
+  return line->word ? fail(INPUT, "%s: '%s' is not a finite number", where, line->word)
+                    : fail(INPUT, "%s: expected 8 numbers, found %d", where, line->found);
 }
 
-static int print_pair(const options *o, char *line, const char *where) {
-  double x[8], error = NAN;
-  if (read_numbers(line, where, x)) return EXIT_FAILED;
-  const int exponent = grow(x);
+static int print_pair(const options *o, pair_line *line, const char *where) {
+  double error = NAN, *const x = line->x;
+  const int exponent = pair_grow(x);
   const hr2d_segment i = {{x[0], x[1]}, {x[2], x[3]}}, j = {{x[4], x[5]}, {x[6], x[7]}};
   const double li = length(&i), lj = length(&j);
   if (!(li > 0)) return fail(INPUT, "%s: the first segment has length 0", where);
@@ -105,12 +77,6 @@ static int print_pair(const options *o, char *line, const char *where) {
   return EXIT_DONE;
 }
 
-/* Blank lines and comments hold no pair. */
-static int is_empty(const char *line) {
-  line += strspn(line, blanks);
-  return *line == '\0' || *line == '#';
-}
-
 int pair_command(const options *o) {
   char *line = NULL;
   size_t capacity = 0;
@@ -118,13 +84,15 @@ int pair_command(const options *o) {
   errno = 0;
   for (unsigned long long number = 1; !status; number++) {
     char where[32];
+    pair_line numbers;
     const ssize_t size = getline(&line, &capacity, stdin);
     if (size < 0) break;
     snprintf(where, sizeof where, "line %llu", number);
     if (memchr(line, '\0', (size_t)size))
       status = fail(INPUT, "%s: contains a NUL byte", where);
-    else if (!is_empty(line))
-      status = print_pair(o, line, where);
+    else if (!pair_is_empty(line))
+      status = pair_read(line, &numbers) ? complain_of_line(&numbers, where)
+                                         : print_pair(o, &numbers, where);
   }
   if (!status && !feof(stdin)) status = fail(INPUT, "%s", strerror(errno));
   free(line);
