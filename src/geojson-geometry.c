@@ -10,6 +10,11 @@
 #include "alloc.h"
 #include "geojson-impl.h"
 #include "predicates.h"
+#include "scene-impl.h"
+
+/* Of a name that each segment gets, lest a file take the product of its names' length and
+   their number. */
+enum { MOST_NAME = 255 };
 
 /* A line keeps its direction; rings get theirs from what they enclose. */
 typedef enum role { LINE, OUTER, HOLE } role;
@@ -108,8 +113,8 @@ static hr2d_status add_segment(hr2di_geojson *reader, hr2d_point a, hr2d_point b
   if (status) return status;
   patch.a = a;
   patch.b = b;
-  reader->added++;
-  status = hr2d_scene_add(reader->scene, &patch, NULL);
+  status = reader->added++ ? hr2di_scene_add_alike(reader->scene, &patch)
+                           : hr2d_scene_add(reader->scene, &patch, NULL);
   if (!status || status == HR2D_ENOMEM) return status;
   return hr2di_fail(reader->message, status, "%s: %s", reader->label, reader->message->text);
 }
@@ -207,6 +212,11 @@ hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry
   const json_t *coordinates = json_object_get(geometry, "coordinates");
   reader->segments = count_segments(coordinates, &shapes[k]);
   reader->added = 0;
+  if (reader->segments > 1 && reader->patch.name && strlen(reader->patch.name) > MOST_NAME)
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "%s: name: must not have more than %d bytes where it is for several "
+                      "segments",
+                      reader->label, MOST_NAME);
   if (shapes[k].multi) return add_parts(reader, coordinates, &shapes[k]);
   return (shapes[k].polygon ? add_polygon : add_line)(reader, coordinates, "");
 }

@@ -8,12 +8,20 @@
 #include "message.h"
 #include "walls.h"
 
+/* What a patch emits and reflects: shared by the segments of a feature, by both sides of a
+   patch and by the pieces of one, lest a file of many values and many segments take their
+   product. */
+typedef struct hr2di_light {
+  size_t users;
+  double value[]; /* emission, then reflectance */
+} hr2di_light;
+
 typedef struct hr2di_patch {
   hr2d_segment given;  /* as added, in scene lengths */
   hr2d_segment scaled; /* divided by the unit; set by commit */
   double length;       /* of the scaled segment; set by commit */
   char *name;
-  double *value;         /* emission, then reflectance */
+  hr2di_light *light;
   size_t emission_bands; /* 0, 1 or as many as the scene has */
   size_t reflectance_bands;
 } hr2di_patch;
@@ -42,6 +50,12 @@ struct hr2d_scene {
 const hr2d_allocator *hr2di_scene_allocator(const hr2d_scene *scene);
 hr2di_message *hr2di_scene_message(hr2d_scene *scene);
 int hr2di_scene_committed(const hr2d_scene *scene);
+
+/* As hr2d_scene_add(), with the E and ρ of the patch added last. */
+hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch);
+
+/* One user less. */
+void hr2di_light_release(const hr2d_allocator *alloc, hr2di_light *light);
 
 /* Takes back all but the first `patches` patches. */
 void hr2di_scene_truncate(hr2d_scene *scene, size_t patches);

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scene object: adding patches, committing, reading back. */
+#include <assert.h>
 #include <math.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -28,11 +31,15 @@ void hr2d_scene_destroy(hr2d_scene *scene) {
   hr2di_free(&alloc, scene);
 }
 
+void hr2di_light_release(const hr2d_allocator *alloc, hr2di_light *light) {
+  if (light && --light->users == 0) hr2di_free(alloc, light);
+}
+
 void hr2di_scene_truncate(hr2d_scene *scene, size_t patches) {
   while (scene->patches > patches) {
     const hr2di_patch *last = &scene->patch[--scene->patches];
     hr2di_free(&scene->alloc, last->name);
-    hr2di_free(&scene->alloc, last->value);
+    hr2di_light_release(&scene->alloc, last->light);
   }
 }
 
@@ -60,28 +67,46 @@ static char *make_name(hr2d_scene *scene, const char *name, size_t index, int ba
   return made;
 }
 
-static hr2d_status add_side(hr2d_scene *scene, const hr2d_patch *patch, size_t index,
-                            int back) {
+/* One user, and room for its value besides: a light begins with no more than a double. */
+static hr2di_light *make_light(const hr2d_scene *scene, const hr2d_patch *patch) {
+  static_assert(offsetof(hr2di_light, value) <= sizeof(double), "counts of users are small");
+  const size_t e = patch->emission_bands, r = patch->reflectance_bands;
+  if (e > SIZE_MAX - 1 - r) return NULL;
+  hr2di_light *light = hr2di_alloc(&scene->alloc, e + r + 1, sizeof(double));
+  if (!light) return NULL;
+  light->users = 1;
+  for (size_t k = 0; k < e; k++) light->value[k] = patch->emission[k];
+  for (size_t k = 0; k < r; k++) light->value[e + k] = patch->reflectance[k];
+  return light;
+}
+
+static hr2d_status add_side(hr2d_scene *scene, const hr2d_patch *patch, size_t index, int back,
+                            hr2di_light *light) {
   if (hr2di_reserve(&scene->alloc, &scene->patch, &scene->capacity, scene->patches + 1,
                     sizeof *scene->patch))
     return HR2D_ENOMEM;
   hr2di_patch made = {.given = {patch->a, patch->b},
                       .emission_bands = patch->emission_bands,
-                      .reflectance_bands = patch->reflectance_bands};
+                      .reflectance_bands = patch->reflectance_bands,
+                      .light = light};
   if (back) made.given = (hr2d_segment){patch->b, patch->a};
   made.name = make_name(scene, patch->name, index, back);
-  made.value = hr2di_alloc(&scene->alloc, patch->emission_bands + patch->reflectance_bands,
-                           sizeof *made.value);
-  if (!made.name || !made.value) {
-    hr2di_free(&scene->alloc, made.name);
-    hr2di_free(&scene->alloc, made.value);
-    return HR2D_ENOMEM;
-  }
-  for (size_t k = 0; k < patch->emission_bands; k++) made.value[k] = patch->emission[k];
-  for (size_t k = 0; k < patch->reflectance_bands; k++)
-    made.value[patch->emission_bands + k] = patch->reflectance[k];
+  if (!made.name) return HR2D_ENOMEM;
+  light->users++;
   scene->patch[scene->patches++] = made;
   return HR2D_OK;
+}
+
+/* Takes the caller's share of the light; NULL where it could not be made. */
+static hr2d_status add_sides(hr2d_scene *scene, const hr2d_patch *patch, hr2di_light *light) {
+  const size_t front = scene->patches;
+  hr2d_status status = light ? add_side(scene, patch, front, 0, light) : HR2D_ENOMEM;
+  if (!status && patch->sides == HR2D_SIDES_BOTH)
+    status = add_side(scene, patch, front, 1, light);
+  hr2di_light_release(&scene->alloc, light);
+  if (!status) return HR2D_OK;
+  hr2di_scene_truncate(scene, front);
+  return hr2di_fail(&scene->message, status, "out of memory for patch %zu", front);
 }
 
 static hr2di_label make_label(size_t index, const char *name) {
@@ -117,7 +142,8 @@ static hr2d_status check_values(hr2d_scene *scene, const char *label, const char
   return HR2D_OK;
 }
 
-static hr2d_status check_patch(hr2d_scene *scene, const hr2d_patch *patch, const char *label) {
+static hr2d_status check_segment(hr2d_scene *scene, const hr2d_patch *patch,
+                                 const char *label) {
   const double coordinate[] = {patch->a.x, patch->a.y, patch->b.x, patch->b.y};
   for (int k = 0; k < 4; k++)
     if (!isfinite(coordinate[k]))
@@ -127,6 +153,10 @@ static hr2d_status check_patch(hr2d_scene *scene, const hr2d_patch *patch, const
                       label, patch->a.x, patch->a.y);
   if (patch->sides != HR2D_SIDES_FRONT && patch->sides != HR2D_SIDES_BOTH)
     return hr2di_fail(&scene->message, HR2D_EINVAL, "%s: sides has no meaning", label);
+  return HR2D_OK;
+}
+
+static hr2d_status check_light(hr2d_scene *scene, const hr2d_patch *patch, const char *label) {
   hr2d_status status =
       check_values(scene, label, "emission", patch->emission, patch->emission_bands, HUGE_VAL);
   return status ? status
@@ -138,16 +168,24 @@ hr2d_status hr2d_scene_add(hr2d_scene *scene, const hr2d_patch *patch, size_t *i
   if (scene->committed)
     return hr2di_fail(&scene->message, HR2D_ESTATE, "a committed scene takes no more patches");
   const size_t front = scene->patches;
-  hr2d_status status = check_patch(scene, patch, make_label(front, patch->name).text);
+  const hr2di_label label = make_label(front, patch->name);
+  hr2d_status status = check_segment(scene, patch, label.text);
+  if (!status) status = check_light(scene, patch, label.text);
+  if (!status) status = add_sides(scene, patch, make_light(scene, patch));
+  if (!status && index) *index = front;
+  return status;
+}
+
+hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch) {
+  hr2d_status status =
+      check_segment(scene, patch, make_label(scene->patches, patch->name).text);
   if (status) return status;
-  status = add_side(scene, patch, front, 0);
-  if (!status && patch->sides == HR2D_SIDES_BOTH) status = add_side(scene, patch, front, 1);
-  if (status) {
-    hr2di_scene_truncate(scene, front);
-    return hr2di_fail(&scene->message, status, "out of memory for patch %zu", front);
-  }
-  if (index) *index = front;
-  return HR2D_OK;
+  const hr2di_patch *last = &scene->patch[scene->patches - 1];
+  hr2d_patch alike = *patch;
+  alike.emission_bands = last->emission_bands;
+  alike.reflectance_bands = last->reflectance_bands;
+  last->light->users++;
+  return add_sides(scene, &alike, last->light);
 }
 
 hr2d_status hr2d_scene_set_background(hr2d_scene *scene, const double *background,
@@ -218,12 +256,12 @@ static double band_value(const double *value, size_t bands, size_t band) {
 
 double hr2d_scene_emission(const hr2d_scene *scene, size_t patch, size_t band) {
   const hr2di_patch *p = &scene->patch[patch];
-  return band_value(p->value, p->emission_bands, band);
+  return band_value(p->light->value, p->emission_bands, band);
 }
 
 double hr2d_scene_reflectance(const hr2d_scene *scene, size_t patch, size_t band) {
   const hr2di_patch *p = &scene->patch[patch];
-  return band_value(p->value + p->emission_bands, p->reflectance_bands, band);
+  return band_value(p->light->value + p->emission_bands, p->reflectance_bands, band);
 }
 
 double hr2d_scene_background(const hr2d_scene *scene, size_t band) {

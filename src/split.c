@@ -172,26 +172,20 @@ static hr2d_status leave_copies_out(splitter *p) {
 static hr2d_status make_piece(splitter *p, const hr2di_patch *whole, const piece *part,
                               size_t number, hr2di_patch *made) {
   const int e = p->scene->exponent;
-  const size_t size = strlen(whole->name) + 32,
-               values = whole->emission_bands + whole->reflectance_bands;
+  const size_t size = strlen(whole->name) + 32;
   *made = *whole;
   made->given.a = (hr2d_point){ldexp(part->s.a.x, e), ldexp(part->s.a.y, e)};
   made->given.b = (hr2d_point){ldexp(part->s.b.x, e), ldexp(part->s.b.y, e)};
   made->name = hr2di_alloc(p->alloc, size, 1);
-  made->value = hr2di_alloc(p->alloc, values, sizeof *made->value);
-  if (!made->name || !made->value) {
-    hr2di_free(p->alloc, made->name);
-    hr2di_free(p->alloc, made->value);
-    return HR2D_ENOMEM;
-  }
+  if (!made->name) return HR2D_ENOMEM;
+  made->light->users++;
   snprintf(made->name, size, "%s [%zu]", whole->name, number);
-  if (values > 0) memcpy(made->value, whole->value, values * sizeof *made->value);
   return HR2D_OK;
 }
 
 static void free_patch(const hr2d_allocator *alloc, const hr2di_patch *patch) {
   hr2di_free(alloc, patch->name);
-  hr2di_free(alloc, patch->value);
+  hr2di_light_release(alloc, patch->light);
 }
 
 /* Frees those of the first `count` patches made that are pieces. */

@@ -13,6 +13,7 @@ SUITES = \
 	tests/check_scene \
 	tests/check_crossings \
 	tests/check_geojson \
+	tests/check_memory \
 	tests/check_vs2 \
 	tests/check_hierarchy \
 	tests/check_refine \

@@ -100,11 +100,15 @@ HR2D_API hr2d_status hr2d_scene_add(hr2d_scene *scene, const hr2d_patch *patch, 
  *         HR2D_EIO, HR2D_ESYNTAX for what is not such a file, HR2D_ESCENE for a value or
  *         patch that makes no sense, and HR2D_EUNSUPPORTED for an effect this version
  *         lacks; the message names the line or the feature
- * Cost linear in the size of the file, in time and memory.
+ * Cost linear in the size of the file, in time and memory: see hr2d_scene_parse().
  */
 HR2D_API hr2d_status hr2d_scene_read(hr2d_scene *scene, const char *path);
 
-/** As hr2d_scene_read(), from `size` bytes of memory, which need not be terminated. */
+/**
+ * As hr2d_scene_read(), from `size` bytes of memory, which need not be terminated.
+ * Beside the text it takes at most 256 bytes of memory for each byte of it, and 32 kB, whatever
+ * the text is and with what jansson takes; most is for short segments with long names.
+ */
 HR2D_API hr2d_status hr2d_scene_parse(hr2d_scene *scene, const char *text, size_t size);
 
 /**
