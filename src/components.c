@@ -24,8 +24,10 @@ static void join(hr2di_components *c, size_t i, size_t j) {
     c->above[top] = other;
 }
 
-/* All patches of a cluster see all of any that it has a link with. */
+/* All patches of a cluster see all of any that it has a link with.  Without links no patch has
+   a home. */
 static void join_clusters(hr2di_components *c, const hr2di_clusters *clusters, size_t patches) {
+  if (clusters->links == 0) return;
   for (size_t k = 0; k < patches; k++)
     if (clusters->home[k] != HR2DI_NO_CLUSTER) join(c, k, patches + clusters->home[k]);
   for (size_t k = 0; k < clusters->linked_count; k++)
