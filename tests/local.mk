@@ -37,7 +37,8 @@ SUITES = \
 	tests/check_study \
 	tests/check_hard_solve \
 	tests/check_threads \
-	tests/check_faults
+	tests/check_faults \
+	tests/check_faults_accuracy
 
 OUTSIDE = \
 	tests/check_cli.sh \
@@ -61,6 +62,7 @@ tests_libsupport_la_SOURCES = \
 	tests/mpfr_exchange.c tests/mpfr_exchange.h \
 	tests/pair_classes.c tests/pair_classes.h \
 	tests/brute_visibility.c tests/brute_visibility.h \
+	tests/fault_stage.c tests/fault_stage.h \
 	tests/hard.c tests/hard.h \
 	tests/hill_climb.c tests/hill_climb.h \
 	tests/hard_rooms.c tests/hard_rooms.h \

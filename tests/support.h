@@ -6,6 +6,7 @@
 
 #include <check.h>
 #include <hr2d/hr2d.h>
+#include <stdatomic.h>
 #include <stdio.h>
 
 /* HR2D_TEST_MULTIPLIER: how much of the work to do, 1 unless set. */
@@ -83,10 +84,10 @@ void test_same_links(const test_links *one, const test_links *other);
 
 /* Memory that runs out: the hooks' ctx. */
 typedef struct test_memory {
-  long until_failure; /* allocations that still succeed; negative: no failure */
-  int for_good;       /* once it has failed it fails for ever */
-  long failures;
-  long live; /* blocks not yet released */
+  atomic_long until_failure; /* allocations that still succeed; negative: no failure */
+  int for_good;              /* once it has failed it fails for ever */
+  atomic_long failures;
+  atomic_long live; /* blocks not yet released */
 } test_memory;
 
 hr2d_allocator test_hooks(test_memory *memory);
