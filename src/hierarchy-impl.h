@@ -20,6 +20,11 @@ struct hr2d_hierarchy {
 /* The size of one element in all arrays together. */
 enum { HR2DI_ELEMENT_BYTES = sizeof(hr2d_element) + sizeof(uint32_t) + sizeof(uint16_t) };
 
+/* The room made for so many elements that are to become more. */
+static inline size_t hr2di_first_capacity(size_t elements) {
+  return elements + elements / 2 + 16;
+}
+
 /* Whether an element's midpoint is a point of its own, so that it can be halved. */
 int hr2di_divisible(const hr2d_hierarchy *hierarchy, uint32_t element);
 
@@ -72,7 +77,7 @@ uint64_t hr2di_clone_bytes(const hr2d_hierarchy *from);
 hr2d_status hr2di_hierarchy_unite(hr2d_hierarchy *hierarchy, hr2d_hierarchy *const *clone,
                                   size_t count, size_t most);
 
-/* Takes back all but the first `elements` elements. */
+/* Takes back all but the first `elements` elements, and their room. */
 void hr2di_hierarchy_truncate(hr2d_hierarchy *hierarchy, size_t elements);
 
 #endif

@@ -9,19 +9,15 @@
 /* Stands for an element that a clone does not have. */
 #define ABSENT UINT32_MAX
 
-static size_t clone_capacity(const hr2d_hierarchy *from) {
-  return from->elements + from->elements / 2 + 16;
-}
-
 uint64_t hr2di_clone_bytes(const hr2d_hierarchy *from) {
-  return (uint64_t)clone_capacity(from) * HR2DI_ELEMENT_BYTES;
+  return (uint64_t)hr2di_first_capacity(from->elements) * HR2DI_ELEMENT_BYTES;
 }
 
 hr2d_status hr2di_hierarchy_clone(const hr2d_hierarchy *from, hr2d_hierarchy **clone) {
   hr2d_hierarchy *made = hr2di_calloc(&from->alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
   *made = *from;
-  made->capacity = clone_capacity(from);
+  made->capacity = hr2di_first_capacity(from->elements);
   made->element = hr2di_alloc(&from->alloc, made->capacity, sizeof *made->element);
   made->parent = hr2di_alloc(&from->alloc, made->capacity, sizeof *made->parent);
   made->level = hr2di_alloc(&from->alloc, made->capacity, sizeof *made->level);

@@ -46,7 +46,7 @@ hr2d_status hr2d_hierarchy_create(const hr2d_scene *scene, hr2d_hierarchy **hier
   made->scene = scene;
   made->order = 1;
   const size_t n = scene->patches;
-  if (n > MOST_ELEMENTS / 2 || set_capacity(made, n + n / 2 + 16)) {
+  if (n > MOST_ELEMENTS / 2 || set_capacity(made, hr2di_first_capacity(n))) {
     hr2d_hierarchy_destroy(made);
     return HR2D_ENOMEM;
   }
@@ -101,6 +101,15 @@ uint32_t hr2di_divide(hr2d_hierarchy *h, uint32_t element, double part, hr2d_poi
   return left;
 }
 
+/* What cannot be moved stays larger than is said. */
+static void shrink(hr2d_hierarchy *h, size_t capacity) {
+  if (capacity >= h->capacity) return;
+  h->capacity = capacity;
+  grow(&h->alloc, &h->element, capacity, sizeof *h->element);
+  grow(&h->alloc, &h->parent, capacity, sizeof *h->parent);
+  grow(&h->alloc, &h->level, capacity, sizeof *h->level);
+}
+
 void hr2di_hierarchy_truncate(hr2d_hierarchy *h, size_t elements) {
   while (h->elements > elements) {
     h->elements -= 2;
@@ -109,6 +118,7 @@ void hr2di_hierarchy_truncate(hr2d_hierarchy *h, size_t elements) {
   h->levels = 0;
   for (size_t k = 0; k < elements; k++)
     if (h->level[k] > h->levels) h->levels = h->level[k];
+  shrink(h, hr2di_first_capacity(elements));
 }
 
 const hr2d_scene *hr2d_hierarchy_scene(const hr2d_hierarchy *hierarchy) {

@@ -63,6 +63,9 @@ static hr2d_status set_sight(hr2di_projector *p) {
   p->test_all =
       !scene->effect[HR2D_EFFECT_FACING].called_for && scene->effect[HR2D_EFFECT_FACING].forced;
   if (!scene->effect[HR2D_EFFECT_OCCLUSION].on) return HR2D_OK;
+  p->bytes += sizeof *p->sight;
+  const hr2d_status status = hr2di_afford(p, 0);
+  if (status) return status;
   p->sight = hr2di_alloc(&p->links->alloc, 1, sizeof *p->sight);
   if (!p->sight)
     return hr2di_fail(&p->links->message, HR2D_ENOMEM, "out of memory for the refinement");

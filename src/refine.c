@@ -30,13 +30,15 @@ typedef struct storing {
   double area[HR2DI_CANDIDATES];
 } storing;
 
-/* The blocks that `count` more links will need are paid for before. */
+/* The blocks that `count` more links will need are paid for before, and the list of blocks. */
 static hr2d_status afford_links(hr2di_projector *p, const hr2di_store *store, size_t count) {
   const uint64_t room = (uint64_t)store->blocks * HR2DI_BLOCK_LINKS - store->count;
   if (count <= room) return HR2D_OK;
-  const uint64_t block = HR2DI_BLOCK_LINKS * sizeof(hr2d_link);
-  const hr2d_status status = hr2di_afford(p, block);
-  if (!status) p->bytes += block;
+  uint64_t more = HR2DI_BLOCK_LINKS * sizeof(hr2d_link);
+  if (store->blocks == store->capacity)
+    more += (store->capacity ? store->capacity : 8) * sizeof *store->block;
+  const hr2d_status status = hr2di_afford(p, more);
+  if (!status) p->bytes += more;
   return status;
 }
 

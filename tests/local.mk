@@ -35,6 +35,7 @@ SUITES = \
 	tests/check_point_view \
 	tests/check_state \
 	tests/check_study \
+	tests/check_hard_refine \
 	tests/check_hard_solve \
 	tests/check_threads \
 	tests/check_faults \

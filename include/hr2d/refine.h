@@ -59,7 +59,8 @@ typedef struct hr2d_refine_options {
   uint64_t max_links;    /**< budget for L; 0 for none */
   uint64_t max_bytes;    /**< budget for elements, links and work space, these of about 60 KiB
                               at least; 0 for none.  Kept at every moment, but for what realloc
-                              holds twice while it moves an array */
+                              holds twice while it moves an array, and a few words per wall
+                              that is looked past */
   unsigned threads;      /**< for hr2d_refine_count(): 0 for all; the counts do not depend
                               on it.  An oracle or a policy that is not flagged thread-safe
                               is asked from one thread only */
