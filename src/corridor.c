@@ -170,13 +170,31 @@ static double cross(hr2d_point p, hr2d_point q, hr2d_point r) {
   return fabs(det) > 0x1p-30 * (fabs(u) + fabs(v)) + 0x1p-900 ? det : 0;
 }
 
-/* Where the line of an edge meets i, as a fraction of i and not before `least`. */
+/* Where a point on the line of i lies, as a fraction of i. */
+static double fraction_at(hr2d_segment i, hr2d_point p) {
+  const double dx = i.b.x - i.a.x, dy = i.b.y - i.a.y;
+  return fabs(dx) >= fabs(dy) ? (p.x - i.a.x) / dx : (p.y - i.a.y) / dy;
+}
+
+static int is_flat(hr2d_point p, hr2d_point q, hr2d_segment i) {
+  const double ux = q.x - p.x, uy = q.y - p.y, vx = i.b.x - i.a.x, vy = i.b.y - i.a.y;
+  return fabs(ux * vy - uy * vx) < 0x1p-5 * (fabs(ux) + fabs(uy)) * (fabs(vx) + fabs(vy));
+}
+
+/* Where the line of an edge meets i, as a fraction of i and not before `least`.  A flat edge
+   with an end on i, but for a rounding h, is taken to meet it there, which at an angle φ costs
+   hφ; to the point where it does, h/φ further, nothing would be seen past that end. */
 static double crossing(hr2di_mark from, hr2di_mark to, hr2d_segment i, double least) {
   const hr2d_point p = from.at, q = to.at;
   if (from.on & to.on & HR2DI_ON_I || hr2di_same(p, i.a) || hr2di_same(q, i.a)) return least;
   if (hr2di_same(p, i.b) || hr2di_same(q, i.b)) return 1;
-  const double a = cross(p, q, i.a), b = cross(p, q, i.b);
-  const double t = a != 0 && b != 0 ? a / (a - b) : hr2di_crossing(p, q, i.a, i.b);
+  double t;
+  if ((from.on | to.on) & HR2DI_ON_I && is_flat(p, q, i)) {
+    t = fraction_at(i, from.on & HR2DI_ON_I ? p : q);
+  } else {
+    const double a = cross(p, q, i.a), b = cross(p, q, i.b);
+    t = a != 0 && b != 0 ? a / (a - b) : hr2di_crossing(p, q, i.a, i.b);
+  }
   return t > least ? fmin(t, 1) : least;
 }
 

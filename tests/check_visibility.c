@@ -483,6 +483,14 @@ static const occluded_pair hugging[] = {
            {-0.11574022284117826, -0.17343819279101627}},
      .occluder = {{{-0.18401433086024954, -0.27574781012686317},
                    {-0.40048672283871245, -0.6001344367658753}}},
+     .count = 1},
+    /* A wedge of 1e-12, and a wall that ends on i: an ulp above it, as flat as that. */
+    {.i = {{0.060466659114480986, 0.693099237443908},
+           {0.16706901709935748, 0.77745647278763585}},
+     .j = {{0.16706901709935748, 0.77745647278763585},
+           {0.056301919673949541, 0.68980357014572102}},
+     .occluder = {{{0.045023148529351381, 0.68087838340663354},
+                   {0.14857689487386272, 0.76282317258613053}}},
      .count = 1}};
 
 START_TEST(walls_that_hug_a_line_are_seen) {
@@ -650,7 +658,7 @@ int main(void) {
   tcase_add_loop_test(tc, touching_occluders_do_not_leak, 0, BARRIERS);
   tcase_add_test(tc, slits_have_their_width);
   tcase_add_test(tc, zero_is_decided_exactly);
-  tcase_add_loop_test(tc, walls_that_hug_a_line_are_seen, 0, 2);
+  tcase_add_loop_test(tc, walls_that_hug_a_line_are_seen, 0, 3);
   tcase_add_test(tc, a_thousand_slits_add_up);
   tcase_add_test(tc, a_fan_of_a_thousand_hides_its_hull);
   tcase_add_test(tc, crowds);
