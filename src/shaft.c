@@ -187,6 +187,23 @@ static inline int certain(double value, double margin) {
   return (value > margin) - (value < -margin);
 }
 
+static int is_near(hr2di_mark p, hr2di_mark corner) {
+  const double near = 16 * TOUCH * largest(corner.at);
+  return corner.on == HR2DI_ON_BOTH && fabs(p.at.x - corner.at.x) <= near &&
+         fabs(p.at.y - corner.at.y) <= near;
+}
+
+/* In a wedge of a few roundings an end may lie on both lines but for a rounding, and far from
+   where they meet: there it is between them, and blocks what its coordinates say. */
+static void part(const hr2di_shaft *s, hr2di_mark *p) {
+  if (p->on != HR2DI_ON_BOTH || is_near(*p, s->a) || is_near(*p, s->b) || is_near(*p, s->c) ||
+      is_near(*p, s->d))
+    return;
+  if (hr2di_side(s->frame.i.a, s->frame.i.b, p->at) > 0 &&
+      hr2di_side(s->frame.j.a, s->frame.j.b, p->at) > 0)
+    p->on = 0;
+}
+
 static inline int clip_wall(const hr2di_shaft *s, double value[4][2], hr2di_obstacle *o) {
   const double at_i = lesser(value[0][0], value[0][1]), at_j = lesser(value[1][0], value[1][1]);
   if (at_i > s->side[0].margin && at_j > s->side[1].margin) return 1;
@@ -205,6 +222,7 @@ static inline int clip_wall(const hr2di_shaft *s, double value[4][2], hr2di_obst
     snap(&o->end[e], s->b);
     snap(&o->end[e], s->c);
     snap(&o->end[e], s->d);
+    part(s, &o->end[e]);
   }
   return !hr2di_same(o->end[0].at, o->end[1].at);
 }

@@ -491,6 +491,14 @@ static const occluded_pair hugging[] = {
            {0.056301919673949541, 0.68980357014572102}},
      .occluder = {{{0.045023148529351381, 0.68087838340663354},
                    {0.14857689487386272, 0.76282317258613053}}},
+     .count = 1},
+    /* A wedge of 5e-15, and an end that counts as lying on both of its sides. */
+    {.i = {{0.40921330233630865, 0.51801319595957573},
+           {0.454152449350265, 0.54138522415613977}},
+     .j = {{0.454152449350265, 0.54138522415613977},
+           {0.10502968267509237, 0.35981286043818267}},
+     .occluder = {{{0.36591414866352745, 0.49549409829594815},
+                   {0.4462127149263066, 0.5372559135403345}}},
      .count = 1}};
 
 START_TEST(walls_that_hug_a_line_are_seen) {
@@ -658,7 +666,7 @@ int main(void) {
   tcase_add_loop_test(tc, touching_occluders_do_not_leak, 0, BARRIERS);
   tcase_add_test(tc, slits_have_their_width);
   tcase_add_test(tc, zero_is_decided_exactly);
-  tcase_add_loop_test(tc, walls_that_hug_a_line_are_seen, 0, 3);
+  tcase_add_loop_test(tc, walls_that_hug_a_line_are_seen, 0, 4);
   tcase_add_test(tc, a_thousand_slits_add_up);
   tcase_add_test(tc, a_fan_of_a_thousand_hides_its_hull);
   tcase_add_test(tc, crowds);
