@@ -25,6 +25,7 @@ SUITES = \
 	tests/check_occlusion \
 	tests/check_effects \
 	tests/check_visibility \
+	tests/check_hard_visibility \
 	tests/check_exchange_matrix \
 	tests/check_blocks \
 	tests/check_order \
