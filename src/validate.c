@@ -42,7 +42,7 @@ static double largest_coordinate(const hr2d_scene *scene) {
   return most;
 }
 
-/* So many roundings across a scene leaves nothing to decide what touches. */
+/* So few roundings across a scene leave nothing to decide what touches a line. */
 #define FEWEST_ROUNDINGS 0x1p+10
 
 static double extent(const hr2d_scene *scene) {
@@ -55,9 +55,23 @@ static double extent(const hr2d_scene *scene) {
   return fmax(high.x - low.x, high.y - low.y);
 }
 
+/* Whether no patch has an end of another behind it, by exact signs; two cannot be in each
+   other's way anyhow. */
+static int is_convex(const hr2d_scene *scene) {
+  for (size_t k = 0; k < scene->patches && scene->patches > 2; k++) {
+    const hr2d_segment s = scene->patch[k].scaled;
+    for (size_t m = 0; m < scene->patches; m++) {
+      const hr2d_segment other = scene->patch[m].scaled;
+      if (hr2d_orientation(s.a, s.b, other.a) < 0 || hr2d_orientation(s.a, s.b, other.b) < 0)
+        return 0;
+    }
+  }
+  return 1;
+}
+
 static hr2d_status check_offset(hr2d_scene *scene) {
   const double across = extent(scene);
-  if (across >= FEWEST_ROUNDINGS * 0x1p-50) return HR2D_OK;
+  if (across >= FEWEST_ROUNDINGS * 0x1p-50 || is_convex(scene)) return HR2D_OK;
   return hr2di_fail(&scene->message, HR2D_ERANGE,
                     "the scene is so far from the origin, %.3g for %.3g across, that rounding "
                     "leaves too few digits: move it to the origin",

@@ -587,12 +587,17 @@ START_TEST(lengths_beyond_a_double_are_refused) {
 }
 END_TEST
 
-/* Between 2^40 times what a scene is across, and twice that. */
+/* Between 2^40 times what a scene is across, and twice that; a convex room, in which nothing
+   can be in the way, is not. */
 START_TEST(scenes_too_far_off_are_refused) {
-  for (int e = 36; e < 46; e++) {
-    double far[4][4];
-    for (int k = 0; k < 16; k++) far[k / 4][k % 4] = ldexp(1, e) + room[k / 4][k % 4];
-    hr2d_scene *scene = scene_of((const double(*)[4])far, 4);
+  for (int e = 36; e < 50; e++) {
+    double far[5][4] = {{0}, {0}, {0}, {0}, {.25, .25, .75, .75}};
+    for (int k = 0; k < 16; k++) far[k / 4][k % 4] = room[k / 4][k % 4];
+    for (int k = 0; k < 20; k++) far[k / 4][k % 4] += ldexp(1, e);
+    hr2d_scene *convex = scene_of((const double(*)[4])far, 4);
+    ck_assert_int_eq(hr2d_scene_commit(convex), HR2D_OK);
+    hr2d_scene_destroy(convex);
+    hr2d_scene *scene = scene_of((const double(*)[4])far, 5);
     ck_assert_int_eq(hr2d_scene_commit(scene), e > 40 ? HR2D_ERANGE : HR2D_OK);
     if (e > 40) check_message(scene, "the scene is so far from the origin");
     hr2d_scene_destroy(scene);

@@ -165,7 +165,8 @@ HR2D_API hr2d_status hr2d_scene_split_crossings(hr2d_scene *scene, size_t *cuts)
  * patch is beyond crosses: what stays allowed can change the answer by as much, and no more.
  * Far from the origin roundings are those of the coordinates: 1e8 patch lengths away eight
  * digits of what is between patches are not there any more, and from 1e12 on (2⁴⁰ times what
- * the scene is across) the scene is refused.
+ * the scene is across) the scene is refused, unless it is a pair of patches or all of them are
+ * in front of each other, so that nothing has to be decided.
  *
  * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE if committed before, HR2D_ESCENE for
  *         an empty scene, differing band counts, patches that cross, patches
