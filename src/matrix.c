@@ -101,8 +101,8 @@ static hr2d_status fill_partial(filler *f, const node *at) {
     return HR2D_OK;
   double area;
   int open;
-  const hr2d_status status =
-      hr2di_sight_area(&f->sight, &shaft, f->list.wall + at->first, at->count, &area, &open);
+  const hr2d_status status = hr2di_sight_area(
+      &f->sight, &shaft, hr2di_walls_from(&f->list, at->first), at->count, &area, &open);
   if (status) return status;
   put(f, i, j, area);
   f->counts.exchange_areas += (unsigned)open;

@@ -96,8 +96,8 @@ static hr2d_status look(walker *w, uint32_t element, const waiting *parent, size
   }
   double area;
   int open;
-  status = hr2di_sight_area(w->sight, &shaft, w->list.wall + first, w->list.count - first,
-                            &area, &open);
+  status = hr2di_sight_area(w->sight, &shaft, hr2di_walls_from(&w->list, first),
+                            w->list.count - first, &area, &open);
   if (!status) hr2di_add(&w->sum[element], area);
   w->list.count = first;
   return status;

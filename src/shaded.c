@@ -37,8 +37,8 @@ static hr2d_status look_closer(hr2di_sight *sight, const hr2di_shaft *shaft,
   int blocked = 0;
   hr2d_status status = HR2D_OK;
   if (*view == HR2DI_PARTIAL)
-    status =
-        hr2di_sight_blocked(sight, shaft, found->wall + first, found->count - first, &blocked);
+    status = hr2di_sight_blocked(sight, shaft, hr2di_walls_from(found, first),
+                                 found->count - first, &blocked);
   if (blocked) {
     *view = HR2DI_BLOCKED;
     found->count = first;
@@ -118,8 +118,9 @@ static hr2d_status propose(hr2di_projector *p, const candidate *c, size_t count)
   p->partial = NULL;
   for (size_t k = 0; k < count && !status; k++) accepted[k] = p->flag[k];
   for (size_t k = 0; k < count && !status; k++)
-    status = accepted[k] ? link_pair(p, c[k].pair, p->found.wall + c[k].first, c[k].count)
-                         : push(p, c[k].pair, p->found.wall + c[k].first, c[k].count);
+    status = accepted[k]
+                 ? link_pair(p, c[k].pair, hr2di_walls_from(&p->found, c[k].first), c[k].count)
+                 : push(p, c[k].pair, hr2di_walls_from(&p->found, c[k].first), c[k].count);
   return status;
 }
 
@@ -166,7 +167,8 @@ hr2d_status hr2di_refuse_shaded(hr2di_projector *p, hr2d_pair pair) {
 
 hr2d_status hr2di_share_shaded(hr2di_projector *p, const hr2di_shaded *from, size_t k) {
   const size_t last = k + 1 < from->stack.count ? from->first[k + 1] : from->list.count;
-  return push(p, from->stack.pair[k], from->list.wall + from->first[k], last - from->first[k]);
+  return push(p, from->stack.pair[k], hr2di_walls_from(&from->list, from->first[k]),
+              last - from->first[k]);
 }
 
 hr2d_status hr2di_play_shaded(hr2di_projector *p) {
@@ -178,7 +180,7 @@ hr2d_status hr2di_play_shaded(hr2di_projector *p) {
   int limited;
   hr2d_status status = hr2di_subdivide(p, pair, &candidates, &limited);
   const uint64_t links = p->counts.links;
-  if (!status && limited) status = link_pair(p, pair, s->list.wall + from, walls);
+  if (!status && limited) status = link_pair(p, pair, hr2di_walls_from(&s->list, from), walls);
   p->counts.limited_links += p->counts.links - links;
   p->found.count = 0;
   for (size_t k = 0; k < candidates && !status; k++) {

@@ -234,8 +234,8 @@ static hr2d_status settle(hr2di_sight *s, part *stack, size_t *parts, double *ar
     --*parts;
     return HR2D_OK;
   }
-  hr2d_status status = hr2di_classes_sort(&s->classes, &top->shaft, s->list.wall + top->first,
-                                          top->count, &passable);
+  hr2d_status status = hr2di_classes_sort(
+      &s->classes, &top->shaft, hr2di_walls_from(&s->list, top->first), top->count, &passable);
   if (!status && passable && s->classes.islands > MOST_ISLANDS) {
     status = cut_up(s, stack, parts, &cut_done);
     if (status || cut_done) return status;

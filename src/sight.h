@@ -13,6 +13,11 @@ typedef struct hr2di_wall_list {
   size_t count, capacity;
 } hr2di_wall_list;
 
+/* Those from number `first` on; NULL where there never were any. */
+static inline uint32_t *hr2di_walls_from(const hr2di_wall_list *list, size_t first) {
+  return list->wall ? list->wall + first : NULL;
+}
+
 /* Which sides of a shaft a body was seen to reach: 1 right, 2 left. */
 enum { HR2DI_REACHES = 16 };
 
