@@ -448,6 +448,35 @@ START_TEST(scale_changes_no_digit) {
 }
 END_TEST
 
+/* In a furnace B is 1 at its corners as well; at one of an open scene it is what it is just
+   before. */
+START_TEST(corners_are_gathered_as_what_is_just_before) {
+  const double at[] = {0, 0x1p-50, 1 - 0x1p-50, 1};
+  double b[4];
+  test_links room =
+      test_make_links(test_named_scene("square_furnace_rho0.5"), NULL, NULL, NULL, NULL);
+  test_refine(&room, 0.5, 8);
+  hr2d_solution *solution = test_solve(&room, 1);
+  for (size_t p = 0; p < 4; p++) {
+    ck_assert_int_eq(hr2d_solution_gather(solution, p, at, 4, b), HR2D_OK);
+    for (int k = 0; k < 4; k++) ck_assert_double_eq_tol(b[k], 1, 1e-12);
+  }
+  hr2d_solution_destroy(solution);
+  test_free_links(&room);
+  test_links corner =
+      test_make_links(test_named_scene("orth_touch_rho0.7"), NULL, NULL, NULL, NULL);
+  test_refine(&corner, 0.5, 8);
+  solution = test_solve(&corner, 1);
+  for (size_t p = 0; p < 2; p++) {
+    ck_assert_int_eq(hr2d_solution_gather(solution, p, at, 4, b), HR2D_OK);
+    ck_assert_double_eq_tol(b[0], b[1], 1e-12);
+    ck_assert_double_eq_tol(b[3], b[2], 1e-12);
+  }
+  hr2d_solution_destroy(solution);
+  test_free_links(&corner);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("solve");
   TCase *reference = tcase_create("reference values");
@@ -475,6 +504,7 @@ int main(void) {
   tcase_add_test(ways, warm_start_saves_gathers);
   tcase_add_test(ways, directed_links_give_the_same_light);
   tcase_add_test(ways, solves_end_early);
+  tcase_add_test(ways, corners_are_gathered_as_what_is_just_before);
   suite_add_tcase(suite, ways);
   return test_run(suite);
 }
