@@ -55,14 +55,15 @@ static int is_enough(const hr2d_error *error, const hr2d_error *reference) {
   return !error || reference->bound <= ENOUGH * error->estimate;
 }
 
-/* Compares with a reference; *enough is 1 if that was good enough. */
+/* Compares with a reference; *enough is 1 if that was good enough, or all that could be had.
+   HR2D_EACCURACY if there was none to be had. */
 static hr2d_status compare(const hr2d_solution *solution, const hr2d_target *target,
                            hr2d_error *average, hr2d_error *sup, int *enough) {
   hr2d_solution *reference = NULL;
   hr2d_account account;
   hr2d_status status = hr2d_solve_to(solution->hierarchy->scene, target, &reference, &account);
   *enough = status == HR2D_EACCURACY;
-  if (status && status != HR2D_EACCURACY) return status;
+  if (!reference) return status;
   if (average) {
     average->estimate = average_distance(solution, reference);
     average->bound = average->estimate + account.average.bound;
@@ -76,17 +77,36 @@ static hr2d_status compare(const hr2d_solution *solution, const hr2d_target *tar
   return HR2D_OK;
 }
 
+/* The caller's progress, and what it said. */
+typedef struct listener {
+  hr2d_progress_fn progress;
+  void *ctx;
+  hr2d_status told;
+} listener;
+
+static hr2d_status listen(void *ctx, const hr2d_progress *progress) {
+  listener *l = ctx;
+  if (l->progress) l->told = l->progress(l->ctx, progress);
+  return l->told;
+}
+
+/* Budgets that do not suffice for a better comparison leave the last one. */
 hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target *how,
                                 hr2d_error *average, hr2d_error *sup) {
   hr2d_target target = HR2D_TARGET_INIT;
   target.error = 0;
   if (how) hr2di_copy_sized(&target, sizeof target, how);
+  listener l = {.progress = target.progress, .ctx = target.progress_ctx};
+  target.progress = listen;
+  target.progress_ctx = &l;
   const double finest = fmax(target.error, FINEST);
   hr2d_status status = HR2D_OK;
-  int enough = 0;
+  int enough = 0, compared = 0;
   for (double error = FIRST; !status && !enough; error *= 1e-3) {
     target.error = fmax(error, finest);
     status = compare(solution, &target, average, sup, &enough);
+    if (status == HR2D_EACCURACY && compared && !l.told) status = HR2D_OK;
+    compared = 1;
     enough = enough || target.error <= finest;
   }
   return status;

@@ -152,7 +152,7 @@ HR2D_API hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *ta
  *                  be told from 0, relative; NULL for the defaults
  * @param average   receives the error in #HR2D_NORM_AVERAGE; may be NULL
  * @param sup       receives the error of hr2d_solution_at(), in #HR2D_NORM_SUP; may be NULL
- * @return as hr2d_solve_to(), but HR2D_OK where that returns HR2D_EACCURACY
+ * @return as hr2d_solve_to(), but HR2D_OK where that returns HR2D_EACCURACY with a solution
  */
 HR2D_API hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target *how,
                                          hr2d_error *average, hr2d_error *sup);
