@@ -12,11 +12,17 @@
    fully, join the rest. */
 #include "project.h"
 
+#include <math.h>
+#include <string.h>
+
 #include "alloc.h"
 #include "predicates.h"
 #include "shaded.h"
 
-enum { TICKS = 64 }; /* rounds between two reports of progress */
+enum {
+  TICKS = 64,     /* rounds between two reports of progress */
+  UNWRITTEN = 255 /* what a callback does not write has no meaning */
+};
 
 static hr2d_status fail(hr2di_projector *p, hr2d_status status, const char *what) {
   return hr2di_fail(&p->links->message, status, "%s", what);
@@ -103,6 +109,8 @@ hr2d_status hr2di_judge(hr2di_projector *p, const hr2d_pair *pairs, size_t count
   const hr2d_batch batch = make_batch(p, pairs, count);
   p->counts.oracle_calls += count;
   const int shortcut = links->oracle.accept && !links->policy.acceptable;
+  memset(p->flag, 0, count);
+  for (size_t k = 0; k < count && !shortcut; k++) p->error[k] = NAN;
   const hr2d_status status =
       shortcut ? links->oracle.accept(links->oracle_ctx, &batch, batch.epsilon, p->flag)
                : links->oracle.estimate(links->oracle_ctx, &batch, p->error);
@@ -192,6 +200,8 @@ static hr2d_status consult(hr2di_projector *p, const hr2d_pair *pairs, size_t co
   const hr2d_linkset *links = p->links;
   const hr2d_policy *policy = &links->policy;
   const hr2d_batch batch = make_batch(p, pairs, count);
+  memset(p->split, UNWRITTEN, count);
+  memset(p->flag, 0, count);
   hr2d_status status = policy->preferred_subdivision(links->policy_ctx, &batch, p->split);
   if (!status && policy->recursion_limit)
     status = policy->recursion_limit(links->policy_ctx, &batch, p->flag);

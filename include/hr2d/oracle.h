@@ -75,14 +75,14 @@ typedef struct hr2d_oracle {
   unsigned flags;     /**< HR2D_ORACLE_… */
 
   /**
-   * Required.  Writes the estimated error of each pair, ≥ 0.  NaN is an error of
-   * the callback (HR2D_ECALLBACK), infinity refuses for every ε.
+   * Required.  Writes the estimated error of each pair, ≥ 0.  NaN, and nothing written,
+   * is an error of the callback (HR2D_ECALLBACK), infinity refuses for every ε.
    * Returns HR2D_OK, HR2D_STOPPED to end the refinement, or any other status.
    */
   hr2d_status (*estimate)(void *ctx, const hr2d_batch *batch, double *error);
 
   /**
-   * Optional, for speed.  Writes 1 where the estimate is ≤ epsilon, else 0: the
+   * Optional, for speed.  Writes 1 where the estimate is ≤ epsilon, else 0 or nothing: the
    * same decision as from `estimate`, which bounds may reach more cheaply.
    * Used where the policy does not bring its own `acceptable`.
    */

@@ -38,19 +38,26 @@ typedef struct hr2d_policy {
   const char *name;   /**< required; for messages */
   unsigned flags;     /**< HR2D_POLICY_… */
 
-  /** Writes 1 for each pair whose error is acceptable.  Default: error ≤ ε. */
+  /**
+   * Writes 1 for each pair whose error is acceptable, for others 0 or nothing.  Default:
+   * error ≤ ε.
+   */
   hr2d_status (*acceptable)(void *ctx, const hr2d_batch *batch, const double *error,
                             unsigned char *accepted);
 
   /**
-   * Writes 1 for each refused pair that is to be linked all the same.  Default:
+   * Writes 1 for each refused pair that is to be linked all the same, for others 0 or
+   * nothing.  Default:
    * never, beyond the limit that always holds: an element on level
    * hr2d_refine_options::max_level, or one whose midpoint is no longer a double
    * between its ends, is not subdivided.
    */
   hr2d_status (*recursion_limit)(void *ctx, const hr2d_batch *batch, unsigned char *limited);
 
-  /** Writes HR2D_SPLIT_… for each pair.  Default: the longer element, on a tie the first. */
+  /**
+   * Writes HR2D_SPLIT_… for each pair; anything else, and nothing, is an error of the
+   * callback (HR2D_ECALLBACK).  Default: the longer element, on a tie the first.
+   */
   hr2d_status (*preferred_subdivision)(void *ctx, const hr2d_batch *batch, unsigned char *split);
 
   /** Optional.  Called once when the owner of ctx, a link set, is destroyed. */
