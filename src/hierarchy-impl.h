@@ -4,6 +4,7 @@
 #define HR2D_SRC_HIERARCHY_IMPL_H
 
 #include <hr2d/hierarchy.h>
+#include <stdatomic.h>
 
 struct hr2d_hierarchy {
   hr2d_allocator alloc;
@@ -12,10 +13,16 @@ struct hr2d_hierarchy {
   uint32_t *parent;
   uint16_t *level;
   size_t elements, capacity;
-  unsigned levels; /* the deepest level */
-  unsigned order;  /* coefficients per element */
-  int refining;    /* a refinement is under way: callbacks may only read */
+  unsigned levels;    /* the deepest level */
+  unsigned order;     /* coefficients per element */
+  int refining;       /* a refinement is under way: callbacks may only read */
+  atomic_int readers; /* solves that are under way: callbacks may not refine */
 };
+
+/* Whether a call that has called back, or another thread, stands on the hierarchy as it is. */
+static inline int hr2di_hierarchy_busy(const hr2d_hierarchy *hierarchy) {
+  return hierarchy->refining || atomic_load(&hierarchy->readers) > 0;
+}
 
 /* The size of one element in all arrays together. */
 enum { HR2DI_ELEMENT_BYTES = sizeof(hr2d_element) + sizeof(uint32_t) + sizeof(uint16_t) };

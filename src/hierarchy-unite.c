@@ -17,6 +17,7 @@ hr2d_status hr2di_hierarchy_clone(const hr2d_hierarchy *from, hr2d_hierarchy **c
   hr2d_hierarchy *made = hr2di_calloc(&from->alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
   *made = *from;
+  made->readers = 0;
   made->capacity = hr2di_first_capacity(from->elements);
   made->element = hr2di_alloc(&from->alloc, made->capacity, sizeof *made->element);
   made->parent = hr2di_alloc(&from->alloc, made->capacity, sizeof *made->parent);

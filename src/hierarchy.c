@@ -171,6 +171,7 @@ uint32_t hr2di_next_leaf(const hr2d_hierarchy *h, uint32_t leaf, uint32_t top) {
 }
 
 hr2d_status hr2d_hierarchy_set_order(hr2d_hierarchy *hierarchy, unsigned order) {
+  if (hr2di_hierarchy_busy(hierarchy)) return HR2D_ESTATE;
   if (order < 1 || order > HR2D_MAX_ORDER) return HR2D_EINVAL;
   hierarchy->order = order;
   return HR2D_OK;

@@ -31,6 +31,7 @@ struct hr2d_linkset {
   hr2di_blocks blocks; /* of links that were solved at an order above 1 */
   hr2di_roots roots;   /* where a refinement begins; empty: with all pairs of patches */
   int directed;
+  int solving;    /* a solve is under way, and may make blocks */
   double epsilon; /* of the last refinement; infinite before */
   hr2d_refine_counts counts;
 };

@@ -21,6 +21,8 @@ hr2d_status hr2di_check_options(hr2d_linkset *links, const hr2d_refine_options *
   options->struct_size = sizeof *options;
   if (links->hierarchy->refining)
     return hr2di_fail(message, HR2D_ESTATE, "the hierarchy is being refined already");
+  if (hr2di_hierarchy_busy(links->hierarchy))
+    return hr2di_fail(message, HR2D_ESTATE, "the hierarchy is being solved on");
   if (!(options->epsilon >= 0))
     return hr2di_fail(message, HR2D_EINVAL, "epsilon %g is not a number ≥ 0", options->epsilon);
   if (links->store.count > 0 && links->directed != directed_by(links, options))

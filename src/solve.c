@@ -14,6 +14,9 @@
 
 static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *o) {
   hr2di_message *message = &links->message;
+  if (links->hierarchy->refining || links->solving)
+    return hr2di_fail(message, HR2D_ESTATE, "the links are being %s already",
+                      links->solving ? "solved on" : "refined");
   if (!(o->tolerance >= 1e-15) || !isfinite(o->tolerance))
     return hr2di_fail(message, HR2D_EINVAL, "tolerance %g is not a number ≥ 1e-15",
                       o->tolerance);
@@ -151,24 +154,35 @@ static hr2d_status check_sign(hr2di_equation *s) {
   return HR2D_OK;
 }
 
-hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *given,
-                       hr2d_solution **solution) {
-  hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+static hr2d_status solve(hr2d_linkset *links, const hr2d_solve_options *options,
+                         hr2d_solution **solution) {
   hr2di_equation eq;
-  if (given) hr2di_copy_sized(&options, sizeof options, given);
-  hr2d_status status = check_options(links, &options);
-  if (!status) status = hr2di_check_existence(links);
-  if (status) return status;
-  status = hr2di_equation_init(&eq, links, &options);
+  hr2d_status status = hr2di_equation_init(&eq, links, options);
   if (!status && links->hierarchy->scene->effect[HR2D_EFFECT_INTERREFLECTION].on) {
-    if (options.start) warm_start(&eq);
+    if (options->start) warm_start(&eq);
     status = hr2di_equation_solve(&eq);
     if (!status) status = check_sign(&eq);
   } else if (!status) {
     status = hr2di_equation_take(&eq);
   }
   if (!status) status = make_solution(&eq, solution);
-  if (status == HR2D_ENOMEM) hr2di_fail(&links->message, status, "out of memory for the solve");
   hr2di_equation_clear(&eq);
+  return status;
+}
+
+/* Callbacks may not change what is solved on. */
+hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *given,
+                       hr2d_solution **solution) {
+  hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+  if (given) hr2di_copy_sized(&options, sizeof options, given);
+  hr2d_status status = check_options(links, &options);
+  if (!status) status = hr2di_check_existence(links);
+  if (status) return status;
+  links->solving = 1;
+  atomic_fetch_add(&links->hierarchy->readers, 1);
+  status = solve(links, &options, solution);
+  atomic_fetch_sub(&links->hierarchy->readers, 1);
+  links->solving = 0;
+  if (status == HR2D_ENOMEM) hr2di_fail(&links->message, status, "out of memory for the solve");
   return status;
 }

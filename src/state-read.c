@@ -200,7 +200,7 @@ hr2d_status hr2d_state_read(hr2d_linkset *links, hr2d_read_fn read, void *ctx,
                             hr2d_solution **solution) {
   hr2d_hierarchy *h = links->hierarchy;
   const size_t roots = h->scene->patches;
-  if (links->store.count > 0 || h->elements > roots || h->refining)
+  if (links->store.count > 0 || h->elements > roots || hr2di_hierarchy_busy(h))
     return hr2di_fail(&links->message, HR2D_ESTATE, "the set or its hierarchy is not empty");
   loading l = {.links = links};
   hr2di_reader_init(&l.reader, read, ctx);

@@ -70,7 +70,7 @@ HR2D_API hr2d_status hr2d_hierarchy_create(const hr2d_scene *scene, hr2d_hierarc
  * Solutions made before keep the order they were made with.
  *
  * @param order  1 to #HR2D_MAX_ORDER
- * @return HR2D_OK, or HR2D_EINVAL
+ * @return HR2D_OK, HR2D_EINVAL, or HR2D_ESTATE from a callback of a refinement or a solve
  */
 HR2D_API hr2d_status hr2d_hierarchy_set_order(hr2d_hierarchy *hierarchy, unsigned order);
 

@@ -44,7 +44,14 @@ typedef struct hr2d_progress {
 
 /**
  * Called every few thousand links and at every iteration.
- * @return HR2D_OK to go on; anything else ends the call with that status
+ *
+ * Like every callback it may call the library on other objects, and read those that the call
+ * works on.  What would change them, a refinement or another order of a hierarchy, a solve of
+ * links that are refined or solved on, returns HR2D_ESTATE there.  It must not destroy them,
+ * nor leave by longjmp() or an exception.
+ *
+ * @return HR2D_OK to go on; anything else ends the call with that status, be it in the
+ *         enumeration or not, and leaves its objects as they were
  */
 typedef hr2d_status (*hr2d_progress_fn)(void *ctx, const hr2d_progress *progress);
 
@@ -96,7 +103,8 @@ typedef struct hr2d_refine_options {
  * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL (ε negative or NaN; `ordered` changed
  *         between refinements), HR2D_EMAX_ELEMENTS, HR2D_EMAX_LINKS, HR2D_EMAX_BYTES,
  *         HR2D_ECALLBACK for an estimate that is NaN or negative or a subdivision
- *         without meaning, or the status of a callback
+ *         without meaning, HR2D_ESTATE from a callback of a call that works on the
+ *         hierarchy, or the status of a callback
  *
  * One hierarchy is refined by one thread at a time.  Cost O(n² + L), and where the scene
  * calls for occlusion a test per wall in the shaft of each pair that has any; memory 64

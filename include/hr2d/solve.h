@@ -92,7 +92,8 @@ typedef struct hr2d_solve_work {
  * @param options   NULL for the defaults
  * @param solution  receives the solution; the caller destroys it
  * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL, HR2D_ESTATE for an empty set of a scene whose
- *         patches do see each other, HR2D_ENO_SOLUTION where light is emitted in a
+ *         patches do see each other, and from a callback of a call that refines or solves on
+ *         these links, HR2D_ENO_SOLUTION where light is emitted in a
  *         closed part of the scene in which nothing absorbs (the message names the
  *         patch; without light B is 0 there), HR2D_ENOT_CONVERGED after max_iterations or
  *         where rows of links exceed 1 so far that light would grow for ever, HR2D_ERANGE
