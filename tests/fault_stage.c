@@ -248,7 +248,7 @@ void fault_play(const fault_act *act) {
   uint64_t undisturbed;
   const long allocations = play_undisturbed(act, &undisturbed);
   const double multiplier = test_multiplier();
-  const double most = (act->most ? act->most : 400) * (multiplier < 1 ? multiplier : 1) + 3;
+  const double most = (act->most ? act->most : 400) * (multiplier < 1 ? multiplier : 1) + 1;
   const double step = (double)allocations > most ? (double)allocations / most : 1;
   long failures = 0;
   for (int for_good = 0; for_good < 2; for_good++)

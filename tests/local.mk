@@ -40,7 +40,8 @@ SUITES = \
 	tests/check_hard_solve \
 	tests/check_threads \
 	tests/check_faults \
-	tests/check_faults_accuracy
+	tests/check_faults_accuracy \
+	tests/check_faults_callbacks
 
 OUTSIDE = \
 	tests/check_cli.sh \
