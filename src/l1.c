@@ -28,6 +28,7 @@
 #include <gsl/gsl_integration.h>
 #include <math.h>
 
+#include "exchange-wide.h"
 #include "l1-frame.h"
 #include "predicates.h"
 
@@ -40,6 +41,7 @@ enum {
 
 #define TOLERANCE 1e-12  /* of one interval, relative to the whole */
 #define NEAREST   1e-15  /* a pole that can be told from the end */
+#define NEAR      0.05   /* of AF + Gc A_x A_y: an error that is not small */
 #define FLAT      1e-140 /* cosines below get the bound AF + Gc A_x A_y */
 
 /* The mean of |linear| over an interval at whose ends it is p and q. */
@@ -49,9 +51,16 @@ static inline double mean_absolute(double p, double q) {
   return 0.5 * fabs(p * part + q * (part - 1));
 }
 
-/* The integral over t. */
-static double integrand(double tau, void *params) {
-  const hr2di_l1_frame *f = params;
+/* The mean of its negative part, without sign. */
+static inline double mean_below(double p, double q) {
+  if (p >= 0 && q >= 0) return 0;
+  if (p <= 0 && q <= 0) return -0.5 * (p + q);
+  return p < 0 ? 0.5 * p * (p / (q - p)) : 0.5 * q * (q / (p - q));
+}
+
+/* The integral over t, of |G − Gc| or of the part of Gc − G that is positive. */
+static inline double integral_over_t(const hr2di_l1_frame *f, double tau,
+                                     double (*mean_of)(double, double)) {
   const hr2di_l1_direction d = hr2di_l1_direction_at(f, tau);
   const double cos_x = f->x.cosine * d.above_a, cos_y = f->y.cosine * d.above_b;
   if (!(cos_x > 0 && cos_y > 0)) return 0;
@@ -61,9 +70,17 @@ static double integrand(double tau, void *params) {
   const double high = last < f->y.high ? last : f->y.high;
   if (!(low < high)) return 0;
   const double gamma = hr2di_l1_cubic(d.a, d.b), slope = f->y.slope;
-  const double mean = mean_absolute(gamma - slope * low, gamma - slope * high);
+  const double mean = mean_of(gamma - slope * low, gamma - slope * high);
   return d.weight * ((high - low) * f->per_length) * (mean * f->per_range) /
          (d.above_a * d.above_a);
+}
+
+static double integrand(double tau, void *params) {
+  return integral_over_t(params, tau, mean_absolute);
+}
+
+static double integrand_below(double tau, void *params) {
+  return integral_over_t(params, tau, mean_below);
 }
 
 typedef struct interval {
@@ -78,8 +95,7 @@ static interval measure(const gsl_function *function, double low, double high) {
 }
 
 /* Bisects until each interval is good to the tolerance. */
-static double refine(hr2di_l1_frame *f, interval whole, double tolerance) {
-  const gsl_function function = {integrand, f};
+static double refine(gsl_function function, interval whole, double tolerance) {
   interval stack[DEPTH + 1];
   int count = 1, measured = 1;
   double sum = 0;
@@ -188,20 +204,61 @@ static void measure_pieces(pieces *p) {
   for (int k = 0; k + 1 < count; k++) add_piece(p, f, at[k], at[k + 1]);
 }
 
+/* Where x is much longer than y, or the angles are flat, what is near a corner is seen at all
+   angles between bounds of t that come from s, and cancel: there G is above Gc.  Since
+   ∫∫ G = AF is known to all its digits,
+
+     ∫∫ |G − Gc| = AF − Gc A_x A_y + 2 ∫∫ (Gc − G)⁺,
+
+   whose last term comes from elsewhere.  Nothing cancels in the sum unless the error is small
+   beside AF + Gc A_x A_y, as it is for small and distant pairs. */
+static double from_area(pieces *p, double area, double outside, double factor, double spread,
+                        double tolerance) {
+  double below = outside;
+  for (int k = 0; k < p->count; k++) {
+    const gsl_function function = {integrand_below, p->owner[k]};
+    const interval s = measure(&function, p->piece[k].low, p->piece[k].high);
+    below += refine(function, s, tolerance);
+  }
+  return (area - spread) + 2 * factor * below;
+}
+
+/* Whether bounds from s keep their digits. */
+static int is_square(const hr2di_l1_frame *f) {
+  return f->length_x < 64 * f->length_y && f->x.cosine > 0.05 && f->y.cosine > 0.05;
+}
+
+/* Whether the error is not small beside AF + Gc A_x A_y; *area becomes AF where it is so, by
+   formulas whose bits do not depend on the scale. */
+static int is_large(const hr2d_segment *i, const hr2d_segment *j, const hr2di_l1_frame *f,
+                    double rough, double spread, double *area) {
+  if (is_square(f) && !(rough > 2 * NEAR * spread)) return 0;
+  *area = hr2di_wide_exchange_area(i, j);
+  return fmax(rough, fabs(*area - spread)) > NEAR * (*area + spread);
+}
+
 /* The error, or, with epsilon ≥ 0, anything on the same side of it. */
-static double integrate(pieces *p, double epsilon) {
+static double integrate(pieces *p, const hr2d_segment *i, const hr2d_segment *j,
+                        double epsilon) {
   const hr2di_l1_frame *f = p->frame;
   const double unit = 0.5 * f->y.cosine * f->distance, whole = f->length_x * f->length_y;
+  const double spread = unit * f->x.cosine * whole;
   measure_pieces(p);
   /* Where one point is behind the other, |G − Gc| = Gc. */
   const double hidden = whole - (f->x.high - f->x.low) * (f->y.high - f->y.low);
   const double outside = f->x.cosine * hidden * f->per_length * f->per_range;
   const double factor = unit / f->per_length / f->per_range, most = epsilon / factor;
   const double rough = outside + p->sum;
-  if (epsilon >= 0 && decided(rough, p->error, most)) return factor * rough;
+  if (epsilon >= 0 && is_square(f) && decided(rough, p->error, most)) return factor * rough;
+  double area;
+  if (is_large(i, j, f, factor * rough, spread, &area))
+    return from_area(p, area, outside, factor, spread,
+                     TOLERANCE * fmax(rough, fabs(area - spread) / factor));
   double total = outside;
-  for (int k = 0; k < p->count; k++)
-    total += refine(p->owner[k], p->piece[k], TOLERANCE * rough);
+  for (int k = 0; k < p->count; k++) {
+    const gsl_function function = {integrand, p->owner[k]};
+    total += refine(function, p->piece[k], TOLERANCE * rough);
+  }
   return factor * total;
 }
 
@@ -237,7 +294,7 @@ static double value_of(const hr2d_segment *i, const hr2d_segment *j, double epsi
   if (f->x.cosine < FLAT || f->y.cosine < FLAT)
     return hr2d_exchange_area(i, j) +
            0.5 * f->x.cosine * f->y.cosine * f->length_x * (f->length_y * f->distance);
-  return integrate(&p, epsilon);
+  return integrate(&p, i, j, epsilon);
 }
 
 double hr2di_l1(const hr2d_segment *i, const hr2d_segment *j) {

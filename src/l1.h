@@ -6,7 +6,7 @@
 #include <hr2d/geometry.h>
 #include <hr2d/oracle.h>
 
-/* The error of a pair of segments, in their unit of length, to a relative 1e-11;
+/* The error of a pair of segments, in their unit of length, to a relative 1e-10;
    infinity where the centres of visible segments coincide, and where lengths and
    distance differ by more than a double can hold.  The order of the
    segments changes no bit.  Allocates nothing. */

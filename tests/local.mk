@@ -10,6 +10,9 @@ SUITES = \
 	tests/check_exchange_area \
 	tests/check_bounds_geometry \
 	tests/check_bounds_oracles \
+	tests/check_bounds_l1 \
+	tests/check_hard_geometry \
+	tests/check_hard_oracles \
 	tests/check_scene \
 	tests/check_crossings \
 	tests/check_geojson \
@@ -63,6 +66,7 @@ tests_libsupport_la_SOURCES = \
 	tests/accuracy_scenes.c tests/accuracy_scenes.h \
 	tests/brute_block.c tests/brute_block.h \
 	tests/mpfr_exchange.c tests/mpfr_exchange.h \
+	tests/mpfr_l1.c tests/mpfr_l1.h \
 	tests/pair_classes.c tests/pair_classes.h \
 	tests/brute_visibility.c tests/brute_visibility.h \
 	tests/fault_stage.c tests/fault_stage.h \

@@ -118,8 +118,10 @@ HR2D_API const hr2d_oracle *hr2d_oracle_bf(void);
  * The exact L¹ error of the geometry term (section 4),
  *   ∫_{A_x} ∫_{A_y} |G(x_c,y_c) − G(x,y)| dy dx,
  * a length, with G = 0 where one point lies behind the other element.  Symmetric.
- * The value is good to a relative 1e-10; decisions are those of the value, mostly from
- * bounds.  Infinite where the centres coincide.
+ * The relative error is at most 1e-10, and G(x_c,y_c) is that of the unrounded midpoints of
+ * the ends; where a cosine there is below 1e-140, the value is AF + G(x_c,y_c) A_x A_y, which is
+ * above the error.  Decisions are those of the value, mostly from bounds.  Infinite where the
+ * centres coincide.
  */
 HR2D_API const hr2d_oracle *hr2d_oracle_l1(void);
 
@@ -127,7 +129,9 @@ HR2D_API const hr2d_oracle *hr2d_oracle_l1(void);
  * The same on the paper's 1024×1024 grid: G is sampled at 1024 midpoints of each patch,
  * and a pair's error is the sum over its samples.  An element of one cell or less has its
  * centre as sample, so that patches of one length are never subdivided below level 10.
- * A length, symmetric.
+ * A length, symmetric.  In plain doubles, as the paper's: of each sampled G the error is at most
+ * 2^-48·D/r², with r the distance of its points and D the extent of the pair, so that nearly
+ * coplanar pairs keep no relative accuracy.
  */
 HR2D_API const hr2d_oracle *hr2d_oracle_l1_grid(void);
 
