@@ -78,28 +78,47 @@ static size_t distinct_sizes(const hr2d_study_row *rows, size_t count) {
 /* N = middle + half·x with x in [−1,1], so that the columns 1, x, x² are far from
    parallel however close the N are. */
 typedef struct scale {
+  uint64_t least;
   double middle, half;
 } scale;
 
 static scale scale_of(const hr2d_study_row *rows, size_t count) {
-  double least = HUGE_VAL, most = 0;
+  uint64_t least = UINT64_MAX, most = 0;
   for (size_t k = 0; k < count; k++) {
-    least = fmin(least, (double)rows[k].counts.elements);
-    most = fmax(most, (double)rows[k].counts.elements);
+    const uint64_t n = rows[k].counts.elements;
+    if (n < least) least = n;
+    if (n > most) most = n;
   }
-  return (scale){0.5 * (least + most), 0.5 * (most - least)};
+  const double half = 0.5 * (double)(most - least);
+  return (scale){least, (double)least + half, half};
+}
+
+/* n − m, of integers that doubles may not tell apart. */
+static double difference(uint64_t n, uint64_t m) {
+  return n >= m ? (double)(n - m) : -(double)(m - n);
 }
 
 /* Links are taken from the first row's, lest equal ones seem to spread. */
 static void fill(const hr2d_study_row *rows, size_t count, scale n, gsl_matrix *powers,
                  gsl_vector *links) {
   for (size_t k = 0; k < count; k++) {
-    const double x = ((double)rows[k].counts.elements - n.middle) / n.half;
+    const double x = ((double)(rows[k].counts.elements - n.least) - n.half) / n.half;
     gsl_matrix_set(powers, k, 0, 1);
     gsl_matrix_set(powers, k, 1, x);
     gsl_matrix_set(powers, k, 2, x * x);
-    gsl_vector_set(links, k, (double)rows[k].counts.links - (double)rows[0].counts.links);
+    gsl_vector_set(links, k, difference(rows[k].counts.links, rows[0].counts.links));
   }
+}
+
+/* Whether some three N are so far apart that rounding x, to 2^-53, leaves nine digits: of
+   1, 2 and 10^18 the first two are one. */
+static int are_spread(const hr2d_study_row *rows, size_t count, scale n) {
+  const double margin = 0x1p-23 * n.half;
+  for (size_t k = 0; k < count; k++) {
+    const double above = (double)(rows[k].counts.elements - n.least);
+    if (above > margin && 2 * n.half - above > margin) return 1;
+  }
+  return 0;
 }
 
 /* 1 − Σe²/Σd², with d the distances from the mean. */
@@ -115,11 +134,17 @@ static double determination(const gsl_vector *links, const gsl_vector *residual)
   return spread > 0 ? 1 - errors / spread : 1;
 }
 
+/* log(n/m), with all its digits where they are close. */
+static double log_ratio(uint64_t n, uint64_t m) {
+  const double ratio = (double)n / (double)m;
+  return ratio > 0.5 && ratio < 2 ? log1p(difference(n, m) / (double)m) : log(ratio);
+}
+
 static double slope_of_logs(const hr2d_study_row *rows, size_t count, double *x, double *y) {
   double c0, c1, cov00, cov01, cov11, sum;
   for (size_t k = 0; k < count; k++) {
-    x[k] = log((double)rows[k].counts.elements);
-    y[k] = log((double)rows[k].counts.links);
+    x[k] = log_ratio(rows[k].counts.elements, rows[0].counts.elements);
+    y[k] = log_ratio(rows[k].counts.links, rows[0].counts.links);
   }
   gsl_fit_linear(x, 1, y, 1, count, &c0, &c1, &cov00, &cov01, &cov11, &sum);
   return c1;
@@ -132,7 +157,7 @@ hr2d_status hr2d_study_fit_rows(const hr2d_study_row *rows, size_t count, hr2d_s
   for (size_t k = 0; k < count; k++)
     if (rows[k].counts.links == 0 || rows[k].counts.elements == 0) return HR2D_EINVAL;
   const scale n = scale_of(rows, count);
-  if (!(n.half > 0)) return HR2D_EINVAL;
+  if (!are_spread(rows, count, n)) return HR2D_EINVAL;
   const hr2d_allocator alloc = hr2di_default_allocator();
   double *space = hr2di_alloc(&alloc, count, 5 * sizeof *space);
   if (!space) return HR2D_ENOMEM;

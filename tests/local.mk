@@ -11,6 +11,7 @@ SUITES = \
 	tests/check_bounds_geometry \
 	tests/check_bounds_oracles \
 	tests/check_bounds_l1 \
+	tests/check_bounds_study \
 	tests/check_hard_geometry \
 	tests/check_hard_oracles \
 	tests/check_scene \

@@ -13,7 +13,7 @@
 
 #define RN MPFR_RNDN
 
-enum { PIECES = 14, GRADING = 4, DEPTH = 60, MOST = 20000, STEPS = 200 };
+enum { PIECES = 8, GRADING = 4, DEPTH = 60, MOST = 20000, STEPS = 200 };
 
 typedef struct real2 {
   mpfr_t x, y;

@@ -54,7 +54,15 @@ HR2D_API hr2d_status hr2d_study_run(hr2d_linkset *links, const hr2d_refine_optio
  * the paper's figures.
  *
  * @param rows  at least 3 rows with different N
- * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL for too few different N, or N or L of 0
+ * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL for N or L of 0, too few different N, or none that
+ *         lies 2^-24 of their range away from its ends
+ *
+ * The fit is made in x = (N − M)/h, with M and 2h the middle and the range of the N, taken from
+ * the integers: N of 10^18 that differ by 1 are told apart.  It is the exact one of L − L_0 off
+ * by some roundings of S = max |L − L_0|, so that where the N fill their range
+ *     |δc| ≤ 1e-14 S/h²,  |δb| ≤ 1e-14 S (1 + 2M/h)/h,  |δa| ≤ 1e-14 (S (1 + M/h)² + L_0),
+ * and the slope is off by 1e-14 of max |log L/L_0| / max |log N/N_0|; with all inner N within a
+ * fraction w of an end of the range, by 1/w² as much (tests/check_bounds_study.c).
  * Thread-safe.  Cost O(count).
  */
 HR2D_API hr2d_status hr2d_study_fit_rows(const hr2d_study_row *rows, size_t count,
