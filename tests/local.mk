@@ -12,6 +12,8 @@ SUITES = \
 	tests/check_bounds_oracles \
 	tests/check_bounds_l1 \
 	tests/check_bounds_study \
+	tests/check_bounds_visibility \
+	tests/check_bounds_solution \
 	tests/check_hard_geometry \
 	tests/check_hard_oracles \
 	tests/check_scene \

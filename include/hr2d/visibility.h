@@ -40,9 +40,15 @@ extern "C" {
  * Swapping i and j changes no bit.  Without an occluder in the way the value is
  * hr2d_exchange_area(i, j).  Whether AF is 0 is decided by exact signs; an end of an
  * occluder that lies within four units in the last place of the line of i or of j counts as
- * lying on it, as one does that was computed to.  The error is a few roundings of the
- * coordinates, relative to the lengths, where several occluders bound
- * the view, and relative to AF itself where it is bounded by two points alone.
+ * lying on it, as one does that was computed to.
+ *
+ * With D the extent of all that is given, the error is below 2^-46 D on rooms of every kind that
+ * the tests draw at random, and below 1e-11 D for the worst that hill climbing finds among
+ * segments whose ends lie on the lines of others exactly or at least 1e-6 D off them; where the
+ * view is bounded by two points alone it is relative to AF itself.  Ends nearer than that, but
+ * not on the line, cost digits in proportion; with patches whose ends miss each other or an
+ * occluder's line by 1e-13 D and less, what is in the way may be taken wrongly, and AF with it:
+ * let ends that are to meet have the same coordinates (hr2d_scene_split_crossings() sees to it).
  * Cost O(count) and what the classes of lines cost that are not blocked.
  */
 HR2D_API hr2d_status hr2d_exchange_area_occluded(const hr2d_segment *i, const hr2d_segment *j,
@@ -80,6 +86,9 @@ typedef struct hr2d_matrix_counts {
  * @param counts   receives what it took; may be NULL
  * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE if the scene is not committed, or the status of
  *         the progress callback
+ *
+ * Errors are those of hr2d_exchange_area_occluded(); rows of closed rooms sum to the patch's
+ * length to 1e-13 of it.
  *
  * Runs of patches on one line are treated as one wall as long as what they see is wholly
  * clear or wholly blocked.  Several calls may run on one scene at once; with several
