@@ -20,17 +20,20 @@ static test_links linked(hr2d_scene *scene, unsigned order, double epsilon) {
 
 /* Σ over patches, with 1 − ρ as it is: exact for ρ ≥ ½. */
 typedef struct totals {
-  double emitted, absorbed, radiosity, worst; /* worst: |B/mean − 1| */
+  double emitted, absorbed, radiosity;
+  double net;   /* what leaves walls less what falls on them */
+  double worst; /* |B/mean − 1| */
 } totals;
 
 static totals sum_up(const hard_room *room, const hr2d_scene *scene, const hr2d_solution *s) {
-  totals sum = {0, 0, 0, 0};
+  totals sum = {0, 0, 0, 0, 0};
   double length = 0;
   for (size_t k = 0; k < room->walls; k++) {
     const double a = hr2d_scene_length(scene, k);
     length += a;
     sum.emitted += a * room->wall[k][4];
     sum.absorbed += a * (1 - room->wall[k][5]) * hr2d_solution_irradiance(s, k, 0);
+    sum.net += a * hr2d_solution_net_flux(s, k, 0);
     sum.radiosity += a * hr2d_solution_average(s, k, 0);
   }
   for (size_t k = 0; k < room->walls; k++)
@@ -47,6 +50,7 @@ static double check_total(const hard_room *room, const hr2d_scene *scene,
   const double error = fabs(sum.radiosity * loss / sum.emitted - 1);
   ck_assert_msg(error <= 1e-14, "%s, 1 - rho = %g: total off by %g", room->name, loss, error);
   ck_assert_double_eq_tol(sum.absorbed / sum.emitted, 1, 1e-14);
+  ck_assert_double_eq_tol(sum.net / sum.emitted, 0, 1e-14);
   const hr2d_power power = hr2d_solution_power(s, 0);
   ck_assert_double_eq_tol(power.absorbed / sum.emitted, 1, 1e-14);
   ck_assert_double_eq(power.escaped, 0);
