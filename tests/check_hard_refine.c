@@ -38,20 +38,27 @@ static int project(recursion *p, hr2d_segment i, hr2d_segment j, unsigned depth)
          project(p, i, (hr2d_segment){mj, j.b}, depth + 1);
 }
 
-/* Two unit patches that touch at (at, at). */
-static void corner_at(double at, double patch[2][6]) {
-  const double made[2][6] = {{at, at, at + 1, at, 1, .5}, {at, at + 1, at, at, 0, .5}};
+/* Unit patches, of which two touch at (at, at).  The third, at the origin, turns its back on
+   them: without it a scene far out has too few digits to be taken. */
+static void corner_at(double at, double patch[3][6]) {
+  const double made[3][6] = {
+      {at, at, at + 1, at, 1, .5}, {at, at + 1, at, at, 0, .5}, {0, 0, 0, 1, 0, 0}};
   memcpy(patch, made, sizeof made);
 }
 
+static size_t corner_patches(double at) {
+  return at > 1e10 ? 3 : 2;
+}
+
 static test_links touching(double at) {
-  double patch[2][6];
+  double patch[3][6];
   corner_at(at, patch);
-  return test_make_links(test_scene((const double(*)[6])patch, 2), NULL, NULL, NULL, NULL);
+  return test_make_links(test_scene((const double(*)[6])patch, corner_patches(at)), NULL, NULL,
+                         NULL, NULL);
 }
 
 static recursion textbook_corner(double at, double epsilon) {
-  double p[2][6];
+  double p[3][6];
   corner_at(at, p);
   recursion made = {.epsilon = epsilon, .limit = ENDLESS};
   project(&made, (hr2d_segment){{p[0][0], p[0][1]}, {p[0][2], p[0][3]}},
@@ -128,8 +135,9 @@ START_TEST(patches_of_few_doubles) {
   /* Both ways from 2 to 2,049 doubles long, at an offset where these are all there are. */
   for (int bits = 1; bits <= 11; bits++) {
     const double size = ldexp(1, bits), x = 0x1p53;
-    const double patch[][6] = {{x, 0, x + size, 0, 1, .5}, {x + size, 4096, x, 4096, 0, .5}};
-    test_links t = test_make_links(test_scene(patch, 2), NULL, NULL, NULL, NULL);
+    const double patch[][6] = {
+        {x, 0, x + size, 0, 1, .5}, {x + size, 4096, x, 4096, 0, .5}, {0, 0, 0, 1, 0, 0}};
+    test_links t = test_make_links(test_scene(patch, 3), NULL, NULL, NULL, NULL);
     hr2d_refine_options options = deep(1e-6);
     ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
     const hr2d_refine_counts c = hr2d_linkset_counts(t.links);
@@ -468,10 +476,10 @@ START_TEST(policies_that_never_accept) {
   int splits[] = {HR2D_SPLIT_FIRST, HR2D_SPLIT_SECOND, HR2D_SPLIT_BOTH};
   for (int k = 0; k < 3; k++) {
     /* 8 doubles to a patch end it soon: 8 × 1, 1 × 8 or 8 × 8 links. */
-    double patch[2][6];
+    double patch[3][6];
     corner_at(0x1p52, patch);
     patch[0][2] = patch[1][1] = 0x1p52 + 8;
-    test_links t = test_make_links(test_scene((const double(*)[6])patch, 2), NULL, NULL, &never,
+    test_links t = test_make_links(test_scene((const double(*)[6])patch, 3), NULL, NULL, &never,
                                    &splits[k]);
     const hr2d_refine_options options = deep(HUGE_VAL);
     ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);

@@ -335,9 +335,11 @@ START_TEST(level_limit_acts_and_says_so) {
 END_TEST
 
 START_TEST(elements_end_where_doubles_do) {
-  /* At 1e15 a unit patch holds 9 doubles: level 3 is the last. */
-  const double far[][6] = {{1e15, 0, 1e15 + 1, 0, 1, .5}, {1e15 + 1, .1, 1e15, .1, 0, .5}};
-  test_links t = test_make_links(test_scene(far, 2), NULL, NULL, NULL, NULL);
+  /* At 1e15 a unit patch holds 9 doubles: level 3 is the last.  The third patch, which turns
+     its back on them, makes the scene so large that it is taken. */
+  const double far[][6] = {
+      {1e15, 0, 1e15 + 1, 0, 1, .5}, {1e15 + 1, .1, 1e15, .1, 0, .5}, {0, 0, 0, 1, 0, 0}};
+  test_links t = test_make_links(test_scene(far, 3), NULL, NULL, NULL, NULL);
   hr2d_refine_options options = with_epsilon(0.01);
   options.max_level = 1000;
   ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
