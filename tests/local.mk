@@ -32,6 +32,7 @@ SUITES = \
 	tests/check_effects \
 	tests/check_visibility \
 	tests/check_hard_visibility \
+	tests/check_hard_scenes \
 	tests/check_exchange_matrix \
 	tests/check_blocks \
 	tests/check_order \

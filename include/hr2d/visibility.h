@@ -87,8 +87,10 @@ typedef struct hr2d_matrix_counts {
  * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE if the scene is not committed, or the status of
  *         the progress callback
  *
- * Errors are those of hr2d_exchange_area_occluded(); rows of closed rooms sum to the patch's
- * length to 1e-13 of it.
+ * Errors are those of hr2d_exchange_area_occluded().  In a closed room each row sums to its
+ * patch's length A within 1e-13·A and 64 units in the last place of the largest coordinate; and
+ * within 2⁻²⁸ of that coordinate where ends go through other patches by a rounding
+ * (hr2d_scene_commit(), which refuses what would cost more).
  *
  * Runs of patches on one line are treated as one wall as long as what they see is wholly
  * clear or wholly blocked.  Several calls may run on one scene at once; with several
