@@ -327,7 +327,7 @@ static hr2d_scene *painted(const plan *p, const size_t *as, const int *reversed)
   return scene;
 }
 
-/* Every power of two that leaves the room and its exchange areas normal doubles. */
+/* Every power of two that leaves coordinates and exchange areas normal doubles. */
 START_TEST(powers_of_two_change_no_bit) {
   rooms s = {.r = randoms_stream(test_seed(), 7000 + _i)};
   for (int k = scaled_count(6); k > 0; k--) {
@@ -336,6 +336,12 @@ START_TEST(powers_of_two_change_no_bit) {
     double least = HUGE_VAL;
     for (size_t m = 0; m < one.patches * one.patches; m++)
       if (one.area[m] > 0) least = fmin(least, one.area[m]);
+    for (size_t m = 0; m < s.plan.walls; m++) {
+      const hr2d_segment w = s.plan.wall[m];
+      const double c[] = {w.a.x, w.a.y, w.b.x, w.b.y};
+      for (int n = 0; n < 4; n++)
+        if (c[n] != 0) least = fmin(least, fabs(c[n]));
+    }
     const int low = -1021 - ilogb(least), range = 1022 - low;
     const int exponents[] = {low, 1022 - 1, low + random_below(&s.r, range)};
     for (int e = 0; e < 3; e++) {

@@ -302,7 +302,7 @@ START_TEST(junctions_are_tight) {
   printf("T-junctions at %g: rows to %.2e, %.2e leaks, rays %.2g\n", scale, worst.relative,
          leak, textbook);
   ck_assert_double_le(leak, 4 * DBL_EPSILON);
-  ck_assert(!(textbook <= .01));
+  ck_assert(!(textbook <= 1e-3));
   char name[40];
   snprintf(name, sizeof name, "T-junctions at %g", scale);
   hard_case("visibility", name, hard_format("rows of rays off by %.2g", textbook),
