@@ -601,7 +601,9 @@ static Suite *make_suite(void) {
   tcase_add_test(blocks, blocks_of_distant_pairs);
   tcase_add_test(blocks, blocks_of_near_pairs);
   tcase_add_test(blocks, blocks_of_clipped_pairs);
-  tcase_add_test(blocks, blocks_of_touching_pairs);
+  /* Where GSL has the excess precision of an x87, as Debian's has with 32 bits, the CQUAD of
+     the reference does not end. */
+  if (SIZE_MAX > UINT32_MAX) tcase_add_test(blocks, blocks_of_touching_pairs);
   tcase_add_test(blocks, blocks_of_shaded_pairs);
   tcase_add_test(blocks, swapped_pairs_have_transposed_blocks);
   tcase_add_test(blocks, blocks_scale_like_lengths);

@@ -236,7 +236,7 @@ static double off_exact(const hr2d_hierarchy *h, uint32_t e, uint64_t place, uns
     worst = fmax(worst, fabs(mpfr_get_d(x, MPFR_RNDN)) / most);
   }
   mpfr_clear(x);
-  return level ? worst / level : worst ? INFINITY : 0;
+  return level ? worst / level : worst > 0 ? INFINITY : 0;
 }
 
 /* Follows the path, looking at the start of each element and at its length. */

@@ -550,6 +550,13 @@ expect 1 "^hr2d: $work/none.svg: cannot be plotted: gnuplot is not installed" st
   --quiet --plot "$work/none.svg"
 PATH=$usual
 check "a plot that fails leaves no file" is_absent "$work/none.svg"
+# A file that is longer than 32 bits can say is replaced as any other, with its mode.
+if truncate -s 3G "$work/long.json" 2>/dev/null; then
+  chmod 640 "$work/long.json"
+  succeeds solve "$far" --quiet --json "$work/long.json"
+  check "a long file is replaced" [ "$(wc -c <"$work/long.json")" -lt 100000 ]
+  check "with its mode" [ -n "$(find "$work/long.json" -perm 640)" ]
+fi
 check "no temporary file is left" no_leftovers
 
 summary check_cli

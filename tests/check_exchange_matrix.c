@@ -162,7 +162,7 @@ START_TEST(entries_are_those_of_pairs) {
       extent = fmax(extent, hypot(all[m].a.x, all[m].a.y));
     }
     for (int pairs = 0; pairs < 200; pairs++) {
-      const size_t i = random_bits(&s.r) % n, j = random_bits(&s.r) % n;
+      const size_t i = (size_t)(random_bits(&s.r) % n), j = (size_t)(random_bits(&s.r) % n);
       const double entry = area[i * n + j];
       double other;
       ck_assert_int_eq(hr2d_exchange_area_occluded(&all[i], &all[j], all, n, NULL, &other),

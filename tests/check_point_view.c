@@ -260,7 +260,7 @@ START_TEST(rays_see_the_same) {
     hr2d_scene *scene = draw_scene(&s, class, 40, k % 3, k % 2, 0);
     hr2di_viewer *viewer = viewer_of(scene);
     for (int m = 0; m < 40; m++) {
-      const size_t patch = random_bits(&s.r) % hr2d_scene_patches(scene);
+      const size_t patch = (size_t)(random_bits(&s.r) % hr2d_scene_patches(scene));
       const double t = draw_fraction(&s.r);
       const hr2di_view_from seen = look(viewer, patch, t);
       brute b = brute_look(scene, patch, t, SIZE_MAX);
@@ -399,7 +399,7 @@ START_TEST(views_integrate_to_exchange_areas) {
   double worst = 0;
   for (int k = 0; k < scaled_count(3); k++) {
     hr2d_scene *scene = draw_scene(&s, class, 8, k % 3, 1, 0);
-    const size_t n = hr2d_scene_patches(scene), patch = random_bits(&s.r) % n;
+    const size_t n = hr2d_scene_patches(scene), patch = (size_t)(random_bits(&s.r) % n);
     double *area = malloc(n * n * sizeof *area), *weight = malloc(n * sizeof *weight);
     ck_assert_int_eq(hr2d_exchange_matrix(scene, NULL, area, NULL), HR2D_OK);
     real expected = 0;
@@ -696,7 +696,7 @@ START_TEST(examples_are_seen_by_rays) {
   hr2di_viewer *viewer = viewer_of(scene);
   double worst = 0, sky = 0, back = 0;
   for (int k = 0; k < scaled_count(200); k++) {
-    const size_t patch = random_bits(&r) % hr2d_scene_patches(scene);
+    const size_t patch = (size_t)(random_bits(&r) % hr2d_scene_patches(scene));
     const double t = random_unit(&r);
     const hr2di_view_from seen = look(viewer, patch, t);
     brute b = brute_look(scene, patch, t, SIZE_MAX);

@@ -18,7 +18,7 @@ unsigned long test_seed(void) {
 }
 
 double test_random(unsigned long *state) {
-  uint64_t z = *state += 0x9e3779b97f4a7c15u;
+  uint64_t z = *state += (unsigned long)0x9e3779b97f4a7c15u;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
   return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
