@@ -34,23 +34,29 @@ static hr2d_status make_some(const maker *m, hr2di_integrator *work, uint64_t fr
   return HR2D_OK;
 }
 
+/* Chunk k of a round. */
+static hr2d_status make_chunk(const maker *m, size_t worker, uint64_t from, uint64_t to,
+                              long k) {
+  const uint64_t first = from + (uint64_t)k * CHUNK;
+  const uint64_t last = first + CHUNK < to ? first + CHUNK : to;
+  return make_some(m, &m->work[worker], first, last);
+}
+
+/* One thread takes none of OpenMP, whose runtime ends the program where it has no memory. */
 static hr2d_status make_round(const maker *m, uint64_t from, uint64_t to) {
   const long chunks = (long)((to - from + CHUNK - 1) / CHUNK);
   hr2d_status worst = HR2D_OK;
 #ifdef _OPENMP
+  if (m->threads > 1) {
 #pragma omp parallel for num_threads((int)m->threads) schedule(dynamic) reduction(max : worst)
-#endif
-  for (long k = 0; k < chunks; k++) {
-#ifdef _OPENMP
-    hr2di_integrator *work = &m->work[omp_get_thread_num()];
-#else
-    hr2di_integrator *work = m->work;
-#endif
-    const uint64_t first = from + (uint64_t)k * CHUNK;
-    const uint64_t last = first + CHUNK < to ? first + CHUNK : to;
-    const hr2d_status status = make_some(m, work, first, last);
-    if (status > worst) worst = status;
+    for (long k = 0; k < chunks; k++) {
+      const hr2d_status status = make_chunk(m, (size_t)omp_get_thread_num(), from, to, k);
+      if (status > worst) worst = status;
+    }
+    return worst;
   }
+#endif
+  for (long k = 0; k < chunks && !worst; k++) worst = make_chunk(m, 0, from, to, k);
   return worst;
 }
 

@@ -203,19 +203,25 @@ static void fill_row(filler *f, size_t row, int calling) {
   atomic_store(&m->stop, 1);
 }
 
-static void fill(filler *const *team, size_t count) {
+/* One thread takes none of OpenMP, whose runtime ends the program where it has no memory. */
+static void fill_rows(filler *const *team, size_t count) {
   const long long rows = (long long)team[0]->m->runs.runs;
 #ifdef _OPENMP
+  if (count > 1) {
 #pragma omp parallel for num_threads((int)count) schedule(dynamic)
-#endif
-  for (long long row = 0; row < rows; row++) {
-#ifdef _OPENMP
-    const int worker = omp_get_thread_num();
-#else
-    const int worker = 0;
-#endif
-    fill_row(team[worker], (size_t)row, worker == 0);
+    for (long long row = 0; row < rows; row++) {
+      const int worker = omp_get_thread_num();
+      fill_row(team[worker], (size_t)row, worker == 0);
+    }
+    return;
   }
+#endif
+  (void)count;
+  for (long long row = 0; row < rows; row++) fill_row(team[0], (size_t)row, 1);
+}
+
+static void fill(filler *const *team, size_t count) {
+  fill_rows(team, count);
   for (size_t k = 0; k < count; k++) flush(team[k]);
 }
 

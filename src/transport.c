@@ -192,14 +192,23 @@ static void lower(hr2di_transport *t, double *irradiance) {
     memcpy(irradiance + k * width, t->down + t->leaf[k] * width, width * sizeof(double));
 }
 
+/* One thread takes none of OpenMP, whose runtime ends the program where it has no memory. */
+static void gather_slices(hr2di_transport *t, hr2di_part part) {
+#ifdef _OPENMP
+  const int threads = t->threads ? (int)t->threads : omp_get_max_threads();
+  if (threads > 1 && t->slices > 1) {
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (size_t slice = 0; slice < t->slices; slice++) gather_slice(t, part, slice);
+    return;
+  }
+#endif
+  for (size_t slice = 0; slice < t->slices; slice++) gather_slice(t, part, slice);
+}
+
 void hr2di_gather_part(hr2di_transport *t, hr2di_part part, const double *radiosity,
                        double *irradiance) {
   hr2di_raise(t, radiosity);
-#ifdef _OPENMP
-  const int threads = t->threads ? (int)t->threads : omp_get_max_threads();
-#pragma omp parallel for num_threads(threads) schedule(dynamic) if (t->slices > 1)
-#endif
-  for (size_t slice = 0; slice < t->slices; slice++) gather_slice(t, part, slice);
+  gather_slices(t, part);
   sum_slices(t);
   if (t->links->roots.clusters && part == HR2DI_ALL_LINKS) gather_clusters(t);
   lower(t, irradiance);

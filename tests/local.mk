@@ -48,7 +48,8 @@ SUITES = \
 	tests/check_threads \
 	tests/check_faults \
 	tests/check_faults_accuracy \
-	tests/check_faults_callbacks
+	tests/check_faults_callbacks \
+	tests/check_faults_malloc
 
 OUTSIDE = \
 	tests/check_cli.sh \

@@ -12,7 +12,9 @@
  * Allocator hooks, given to hr2d_scene_create() and inherited by every object
  * made from that scene.  Each function behaves as its C namesake and may fail.
  * The hooks must be callable from every thread that uses such an object.
- * What jansson allocates while a file is parsed does not come through here.
+ * What jansson allocates while a file is parsed does not come through here; it may fail as
+ * well.  Nor does what OpenMP takes where more than one thread is asked for: its runtime ends
+ * the program if it cannot have it.  With one thread it is not called at all.
  */
 typedef struct hr2d_allocator {
   void *(*allocate)(void *ctx, size_t bytes);                /**< required */
