@@ -5,6 +5,7 @@
 #include <math.h>
 #include <mpfr.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "hard.h"
 #include "mpfr_l1.h"
@@ -70,9 +71,9 @@ static double textbook_bf(hr2d_segment i, hr2d_segment j, double brightness) {
          brightness;
 }
 
-/* The midpoint rule on a grid, as the paper's experiment has it. */
+/* The midpoint rule on a grid. */
 static double textbook_l1(hr2d_segment i, hr2d_segment j) {
-  enum { SAMPLES = 1024 };
+  enum { SAMPLES = 256 };
   const double centre = textbook_kernel(i, middle(i), j, middle(j));
   double sum = 0;
   for (int k = 0; k < SAMPLES; k++)
@@ -271,6 +272,7 @@ static const l1_case l1_cases[] = {
 
 START_TEST(l1_errors) {
   const l1_case *c = &l1_cases[_i];
+  if (test_multiplier() < 0.1 && strstr(c->name, "1e-70")) return; /* seconds in MPFR */
   const double exact = mpfr_l1(&c->i, &c->j, 1e-12);
   report(c->name, textbook_l1(c->i, c->j), ask(hr2d_oracle_l1(), c->i, c->j, 1), exact, 1e-10);
 }
