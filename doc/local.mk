@@ -1,5 +1,6 @@
 # `make doxygen` writes html/ from the headers and doc/*.md.
-EXTRA_DIST += doc/accuracy.md doc/cost.md doc/testing.md doc/occlusion.md doc/scene-files.md doc/theorem.md doc/figures.sh doc/figures
+EXTRA_DIST += doc/accuracy.md doc/cost.md doc/hard-cases.md doc/occlusion.md \
+	doc/scene-files.md doc/testing.md doc/theorem.md doc/figures.sh doc/figures
 
 doxygen: doc/Doxyfile
 	@test -n '$(DOXYGEN)' || { echo "doxygen was not found by configure" >&2; exit 1; }
