@@ -20,13 +20,16 @@ ended() { # ended SIGNAL
   *) return 1 ;;
   esac
 }
+# Signals are as at login, whatever started this script, as far as env can see to that.
+clean=
+! env --default-signal=INT,TERM,HUP true 2>/dev/null || clean='env --default-signal=INT,TERM,HUP'
 interrupt() { # interrupt SIGNAL SECONDS FLAG ARGUMENTS...
   signal=$1
   after=$2
   flag=$3
   shift 3
   # shellcheck disable=SC2086
-  timeout --preserve-status $flag -s "$signal" "$after" "$HR2D_PROGRAM" "$@" \
+  $clean timeout --preserve-status $flag -s "$signal" "$after" "$HR2D_PROGRAM" "$@" \
     >"$work/out" 2>"$work/err" </dev/null
   status=$?
 }
@@ -77,6 +80,7 @@ if [ -n "$plot" ]; then
   ends_soon TERM --foreground study "$scene" --steps 2 --quiet --plot "$new/x.svg"
 fi
 trap '' HUP
+clean=
 make_old
 interrupt HUP 0.05 --foreground factors "$scene" --json "$new/x.json"
 trap - HUP
