@@ -43,6 +43,8 @@ ends_well() {
   *.json) [ "$(head -n 1 "$1")$(tail -n 1 "$1")" = '{}' ] ;;
   *.svg) tail -n 2 "$1" | grep -q '</svg>' ;;
   *.pdf) tail -n 1 "$1" | grep -q '%%EOF' ;;
+  *.state) cp "$1" "$work/copy.state" && hr2d solve "$scene" --eps 0.25 --max-level 5 --quiet \
+    --no-error --state "$work/copy.state" >"$work/taken" 2>&1 ;;
   *.png) tail -c 8 "$1" | grep -q IEND ;;
   *) return 1 ;;
   esac
@@ -80,6 +82,7 @@ arguments() { # arguments COMMAND
   case $1 in
   solve) echo "solve $scene --eps 0.5 --max-level 5 --no-error --at 0:0.5 --csv $new/x.csv --json $new/x.json --draw $new/x.$format" ;;
   target) echo "solve $scene --target-error 1e-3 --json $new/x.json --csv $new/x.csv" ;;
+  stages) echo "solve $scene --multigrid 1:0.5 --eps 0.25 --max-level 5 --no-error --state $new/x.state --csv $new/x.csv" ;;
   study) echo "study $scene --to 0.125 --steps 4 --csv $new/x.csv --json $new/x.json $plot" ;;
   cost) echo "cost $scene --methods size,dense --max-seconds 0.3 --csv $new/x.csv --json $new/x.json $plot" ;;
   factors) echo "factors $scene --csv $new/x.csv --json $new/x.json" ;;

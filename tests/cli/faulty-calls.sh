@@ -40,7 +40,7 @@ every_one_new() {
 
 if strace -qq -e trace=read -e inject=read:error=EIO:when=65535 -o /dev/null true 2>/dev/null; then
   faults=0
-  for command in solve target study cost factors; do
+  for command in solve target stages study cost factors; do
     undisturbed $command
     # shellcheck disable=SC2046
     trace '-e trace=openat,read,write,fsync,fchmod,rename,close' $(arguments $command)

@@ -35,7 +35,7 @@ interrupt() { # interrupt SIGNAL SECONDS FLAG ARGUMENTS...
 }
 
 interrupted=0
-for command in solve target study cost factors; do
+for command in solve target stages study cost factors; do
   undisturbed $command
   most=$(seconds_of $command)
   for _ in $(seq "$(share 5)"); do
@@ -79,9 +79,14 @@ if [ -n "$plot" ]; then
   PATH=$work/bin:$PATH
   ends_soon TERM --foreground study "$scene" --steps 2 --quiet --plot "$new/x.svg"
 fi
-trap '' HUP
-clean=
 make_old
-interrupt HUP 0.05 --foreground factors "$scene" --json "$new/x.json"
+trap '' HUP
+"$HR2D_PROGRAM" solve "$scene" --eps 0.005 --no-error --json "$new/x.json" \
+  >"$work/out" 2>"$work/err" </dev/null &
+child=$!
+sleep 0.1
+kill -HUP "$child"
+wait "$child"
+status=$?
 trap - HUP
 check "what is ignored stays so, as under nohup; $(said)" [ "$status" -eq 0 ]
