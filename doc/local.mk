@@ -1,5 +1,5 @@
 # `make doxygen` writes html/ from the headers and doc/*.md.
-EXTRA_DIST += doc/accuracy.md doc/cost.md doc/hard-cases.md doc/occlusion.md \
+EXTRA_DIST += doc/accuracy.md doc/cost.md doc/fuzzing.md doc/hard-cases.md doc/occlusion.md \
 	doc/scene-files.md doc/testing.md doc/theorem.md doc/figures.sh doc/figures
 
 doxygen: doc/Doxyfile

@@ -64,7 +64,7 @@ TEST_EXTENSIONS = .sh
 SH_LOG_COMPILER = $(SHELL)
 
 if HAVE_TESTS
-check_LTLIBRARIES = tests/libsupport.la
+check_LTLIBRARIES += tests/libsupport.la
 tests_check_threads_LDFLAGS = -pthread
 tests_libsupport_la_SOURCES = \
 	tests/accuracy_nystrom.c tests/accuracy_nystrom.h \

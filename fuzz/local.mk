@@ -1,0 +1,53 @@
+# Harnesses that take any bytes: replayed on their corpus by `make check`, and with
+# --enable-fuzzers made programs that look for more, which `make fuzz` runs.
+check_LTLIBRARIES += fuzz/libfuzz.la
+fuzz_libfuzz_la_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(AM_CPPFLAGS)
+fuzz_libfuzz_la_SOURCES = \
+	fuzz/api.h \
+	fuzz/api-others.c \
+	fuzz/api-refine.c \
+	fuzz/api-solve.c \
+	fuzz/callbacks.c \
+	fuzz/fuzz.h \
+	fuzz/input.c \
+	fuzz/invariants.c \
+	fuzz/memory.c \
+	fuzz/scenes.c \
+	tools/numbers.c tools/numbers.h \
+	tools/pair-line.c tools/pair-line.h
+fuzz_libs = fuzz/libfuzz.la libhr2d-core.la $(JANSSON_LIBS) $(OPENMP_CFLAGS)
+
+REPLAYS = fuzz/replay_scene fuzz/replay_api fuzz/replay_pair
+check_PROGRAMS += $(REPLAYS)
+TESTS += $(REPLAYS)
+fuzz_replay_scene_SOURCES = fuzz/fuzz_scene.c fuzz/replay.c
+fuzz_replay_scene_LDADD = $(fuzz_libs)
+fuzz_replay_api_SOURCES = fuzz/fuzz_api.c fuzz/replay.c
+fuzz_replay_api_LDADD = $(fuzz_libs)
+fuzz_replay_pair_SOURCES = fuzz/fuzz_pair.c fuzz/replay.c
+fuzz_replay_pair_LDADD = $(fuzz_libs)
+
+FUZZERS = fuzz/fuzz_scene fuzz/fuzz_api fuzz/fuzz_pair
+EXTRA_PROGRAMS += $(FUZZERS)
+CLEANFILES += $(FUZZERS)
+fuzz_fuzz_scene_SOURCES = fuzz/fuzz_scene.c
+fuzz_fuzz_scene_LDADD = $(fuzz_libs)
+fuzz_fuzz_scene_LDFLAGS = -fsanitize=fuzzer
+fuzz_fuzz_api_SOURCES = fuzz/fuzz_api.c
+fuzz_fuzz_api_LDADD = $(fuzz_libs)
+fuzz_fuzz_api_LDFLAGS = -fsanitize=fuzzer
+fuzz_fuzz_pair_SOURCES = fuzz/fuzz_pair.c
+fuzz_fuzz_pair_LDADD = $(fuzz_libs)
+fuzz_fuzz_pair_LDFLAGS = -fsanitize=fuzzer
+
+FUZZ_SECONDS = 60
+if ENABLE_FUZZERS
+fuzz: $(FUZZERS)
+	$(SHELL) $(srcdir)/fuzz/run.sh $(FUZZ_SECONDS) $(srcdir)/fuzz
+else
+fuzz:
+	@echo "make fuzz needs ./configure CC=clang --enable-fuzzers" >&2; exit 1
+endif
+.PHONY: fuzz
+
+EXTRA_DIST += fuzz/corpus fuzz/pair.dict fuzz/run.sh fuzz/scene.dict
