@@ -44,8 +44,8 @@ extern "C" {
 /** In which norm an error is measured. */
 typedef enum hr2d_norm {
   HR2D_NORM_AVERAGE = 0, /**< the largest |error| of a patch's average B, relative to that
-                              average, over patches and bands; averages below 256 roundings of
-                            the band's largest count as dark */
+                              average, over patches and bands; averages below
+                              256 roundings of the band's largest count as dark */
   HR2D_NORM_SUP          /**< the largest |error| of B at a point, relative to the largest B
                               of the band, over points and bands */
 } hr2d_norm;
@@ -116,8 +116,8 @@ typedef struct hr2d_account {
  *         the precision of doubles (account->reason says): the best solution is returned with
  *         its errors, which are infinite if there was no time to measure them, and NULL if
  *         there was none for the coarsest; HR2D_ENOMEM, HR2D_EINVAL, HR2D_ESTATE for a scene
- * that is not committed, HR2D_ENO_SOLUTION, HR2D_ENOT_CONVERGED, or the status of the progress
- * callback. With `error` 0 it is HR2D_OK when the budget is used up
+ *         that is not committed, HR2D_ENO_SOLUTION, HR2D_ENOT_CONVERGED, or the status of the
+ *         progress callback.  With `error` 0 it is HR2D_OK when the budget is used up
  *
  * Different scenes, and one scene, may be solved from different threads.  Cost: L is O(N) at
  * fixed order, N grows like the number of patches times log(1/error).

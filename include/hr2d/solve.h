@@ -119,7 +119,8 @@ HR2D_API double hr2d_solution_average(const hr2d_solution *solution, size_t patc
 /**
  * B at fraction t of a patch, counted from its start: the constant of the leaf
  * that holds the point, and on the border of two leaves the straight line between the
- * values at their centres; at an order above 1 the leaf's polynomial.  The back of a two-sided patch starts where its front ends.
+ * values at their centres; at an order above 1 the leaf's polynomial.  The back of a two-sided
+ * patch starts where its front ends.
  * @param t  in [0,1]
  */
 HR2D_API double hr2d_solution_at(const hr2d_solution *solution, size_t patch, double t,
