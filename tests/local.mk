@@ -104,7 +104,8 @@ AM_TESTS_ENVIRONMENT = \
 
 # Check programs alone, unforked and in one thread: libgomp's threads show as leaks.
 # Without the suites that take too long: the sanitizers run these.
-TOO_LONG = tests/check_accuracy tests/check_blocks tests/check_clusters tests/check_occlusion
+TOO_LONG = tests/check_accuracy tests/check_blocks tests/check_clusters tests/check_occlusion \
+	tests/check_theorem tests/check_faults_accuracy tests/check_faults_callbacks
 MEMCHECK = $(VALGRIND) --quiet --error-exitcode=9 --leak-check=full \
 	--errors-for-leak-kinds=definite,indirect
 check-valgrind:
