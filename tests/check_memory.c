@@ -70,7 +70,7 @@ static void add(text *t, const char *part) {
     t->at = realloc(t->at, t->capacity);
     ck_assert_ptr_nonnull(t->at);
   }
-  memcpy(t->at + t->size, part, length);
+  if (length) memcpy(t->at + t->size, part, length);
   t->size += length;
 }
 
