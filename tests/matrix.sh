@@ -15,8 +15,8 @@ passed=0 failed=0
 export HR2D_TEST_MULTIPLIER="${HR2D_TEST_MULTIPLIER-0.1}"
 
 # The suites in which the library or the application has several threads.
-threaded="tests/check_threads tests/check_refine tests/check_order tests/check_solve
-  tests/check_exchange_matrix tests/check_blocks"
+threaded="tests/check_threads tests/check_refine tests/check_order tests/check_solve \
+tests/check_exchange_matrix tests/check_blocks"
 
 # build SETTING CONFIGURE-ARGUMENT...
 build() {
