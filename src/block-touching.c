@@ -68,8 +68,11 @@ static void add_side(hr2di_integrator *w, const corner *c, double lambda, int in
 void hr2di_block_touching(hr2di_integrator *w, const hr2di_pair_frame *f, int at_end,
                           double *block) {
   const size_t p = w->order;
-  const hr2d_point u = f->along_i, v = f->along_j;
-  const double scale = f->length_i * f->length_j;
+  /* In units of which neither product is too small for a double; no digit changes. */
+  const int e_i = -ilogb(f->length_i), e_j = -ilogb(f->length_j);
+  const hr2d_point u = {ldexp(f->along_i.x, e_i), ldexp(f->along_i.y, e_i)};
+  const hr2d_point v = {ldexp(f->along_j.x, e_j), ldexp(f->along_j.y, e_j)};
+  const double scale = ldexp(f->length_i, e_i) * ldexp(f->length_j, e_j);
   corner c = {.sine = fabs(u.x * v.y - u.y * v.x) / scale,
               .cosine = -(u.x * v.x + u.y * v.y) / scale};
   c.versed = c.cosine > 0 ? c.sine * c.sine / (1 + c.cosine) : 1 - c.cosine;

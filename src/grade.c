@@ -7,6 +7,7 @@
    itself. */
 #include "grade.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -157,9 +158,11 @@ static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
   const vertex *v = &g->vertex[number];
   const hr2d_segment s = p->scaled;
   if (v->patch == patch) return HR2D_OK;
-  const double above = hr2di_orient(s.a, s.b, v->at) / (p->length * p->length);
+  const double square = p->length * p->length;
+  if (square < DBL_MIN) return HR2D_OK; /* dust, of which no part is to be told from another */
+  const double above = hr2di_orient(s.a, s.b, v->at) / square;
   const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y;
-  const double at = ((v->at.x - s.a.x) * ux + (v->at.y - s.a.y) * uy) / (p->length * p->length);
+  const double at = ((v->at.x - s.a.x) * ux + (v->at.y - s.a.y) * uy) / square;
   if (above > ON_LINE) {
     if (hr2di_ellipse(s, v->at) >= FAR) return HR2D_OK;
     if (hr2di_reserve(&g->h->alloc, &g->near.point, &g->near.capacity, g->near.count + 1,

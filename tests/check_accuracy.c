@@ -602,6 +602,53 @@ START_TEST(time_runs_out) {
 }
 END_TEST
 
+static void *get_some(void *ctx, size_t bytes) {
+  (void)ctx;
+  return bytes < 1u << 26 ? malloc(bytes ? bytes : 1) : NULL;
+}
+
+static void *change_some(void *ctx, void *block, size_t bytes) {
+  (void)ctx;
+  return bytes < 1u << 26 ? realloc(block, bytes ? bytes : 1) : NULL;
+}
+
+static void release_some(void *ctx, void *block) {
+  (void)ctx;
+  free(block);
+}
+
+/* Patches of 2^-1008 of the scene, whose squares no double has. */
+START_TEST(dust_is_not_divided_for_ever) {
+  const hr2d_allocator hooks = {get_some, change_some, release_some, NULL};
+  const double one = 1, half = 0.5;
+  const hr2d_segment wall[] = {{{-1, -1}, {1, -1}},
+                               {{1, -1}, {1, .5}},
+                               {{1, .5}, {-1, -1}},
+                               {{-0x1p+1009, -1}, {-2, -2}}};
+  hr2d_scene *scene = NULL;
+  hr2d_solution *solution = NULL;
+  hr2d_account a;
+  hr2d_target target = HR2D_TARGET_INIT;
+  target.error = 0.25;
+  target.max_elements = 300;
+  ck_assert_int_eq(hr2d_scene_create(&hooks, &scene), HR2D_OK);
+  for (int k = 0; k < 4; k++) {
+    const hr2d_patch patch = {.a = wall[k].a,
+                              .b = wall[k].b,
+                              .emission = &one,
+                              .emission_bands = 1,
+                              .reflectance = &half,
+                              .reflectance_bands = 1};
+    ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
+  }
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  const hr2d_status status = hr2d_solve_to(scene, &target, &solution, &a);
+  ck_assert_msg(status == HR2D_OK || status == HR2D_EACCURACY, "%s", hr2d_strerror(status));
+  hr2d_solution_destroy(solution);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 START_TEST(other_budgets_hold) {
   hr2d_scene *scene = test_named_scene("square_rho0.9");
   for (int k = 0; k < 3; k++) {
@@ -896,6 +943,7 @@ int main(void) {
   tcase_add_test(calls, defaults_and_older_structs);
   tcase_add_test(calls, time_runs_out);
   tcase_add_test(calls, other_budgets_hold);
+  tcase_add_test(calls, dust_is_not_divided_for_ever);
   tcase_add_test(calls, importance_spares_links);
   tcase_add_test(calls, predictions_count_right);
   tcase_add_test(calls, memory_may_run_out);
