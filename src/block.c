@@ -9,9 +9,10 @@
 #include "predicates.h"
 #include "scene-impl.h"
 
+/* Never 0 between two points: ellipses about panels would be NaN, and halved for ever. */
 static double distance(hr2d_point p, hr2d_point q) {
-  const double dx = p.x - q.x, dy = p.y - q.y;
-  return sqrt(dx * dx + dy * dy);
+  const double dx = p.x - q.x, dy = p.y - q.y, square = dx * dx + dy * dy;
+  return square > 0x1p-900 ? sqrt(square) : hypot(dx, dy);
 }
 
 static int same(hr2d_point p, hr2d_point q) {

@@ -617,14 +617,14 @@ static void release_some(void *ctx, void *block) {
   free(block);
 }
 
-/* Patches of 2^-1008 of the scene, whose squares no double has. */
+/* Patches of 2^-1008 of the scene, whose squares no double has; and of 2^-816, one of which
+   touches what is so long. */
 START_TEST(dust_is_not_divided_for_ever) {
   const hr2d_allocator hooks = {get_some, change_some, release_some, NULL};
   const double one = 1, half = 0.5;
-  const hr2d_segment wall[] = {{{-1, -1}, {1, -1}},
-                               {{1, -1}, {1, .5}},
-                               {{1, .5}, {-1, -1}},
-                               {{-0x1p+1009, -1}, {-2, -2}}};
+  const hr2d_segment wall[] = {{{-1, -1}, {1, -1}}, {{1, -1}, {1, .5}}, {{1, .5}, {-1, -1}}};
+  const hr2d_segment endless[] = {{{-0x1p+1009, -1}, {-2, -2}},
+                                  {{-1, -1}, {-.5, 0x1.0e30cfa0000f1p+817}}};
   hr2d_scene *scene = NULL;
   hr2d_solution *solution = NULL;
   hr2d_account a;
@@ -633,8 +633,9 @@ START_TEST(dust_is_not_divided_for_ever) {
   target.max_elements = 300;
   ck_assert_int_eq(hr2d_scene_create(&hooks, &scene), HR2D_OK);
   for (int k = 0; k < 4; k++) {
-    const hr2d_patch patch = {.a = wall[k].a,
-                              .b = wall[k].b,
+    const hr2d_segment *at = k < 3 ? &wall[k] : &endless[_i];
+    const hr2d_patch patch = {.a = at->a,
+                              .b = at->b,
                               .emission = &one,
                               .emission_bands = 1,
                               .reflectance = &half,
@@ -943,7 +944,7 @@ int main(void) {
   tcase_add_test(calls, defaults_and_older_structs);
   tcase_add_test(calls, time_runs_out);
   tcase_add_test(calls, other_budgets_hold);
-  tcase_add_test(calls, dust_is_not_divided_for_ever);
+  tcase_add_loop_test(calls, dust_is_not_divided_for_ever, 0, 2);
   tcase_add_test(calls, importance_spares_links);
   tcase_add_test(calls, predictions_count_right);
   tcase_add_test(calls, memory_may_run_out);
