@@ -45,13 +45,10 @@ extern "C" {
  * With D the extent of all that is given, the error is below 2^-46 D on rooms of every kind that
  * the tests draw at random, and below 1e-11 D for the worst that hill climbing finds among
  * segments whose ends lie on the lines of others exactly or at least 1e-6 D off them; where the
- * view is bounded by two points alone it is relative to AF itself.  With ends nearer than
- * that, but not on the line, AF is, as far as hill climbing finds, that of ends moved by up to
- * eight units in the last place of the largest coordinate, which may be far from AF where i and j
- * are themselves a few such units apart.  The exception is i and j that face each other with less
- * than 1e-9 D between their lines all along and an occluder across: there AF was seen to be wrong
- * by up to 3e-5 D.  Let ends that are to meet have the same coordinates
- * (hr2d_scene_split_crossings() sees to it).
+ * view is bounded by two points alone it is relative to AF itself.  Ends nearer than that, but
+ * not on the line, cost digits in proportion; with patches whose ends miss each other or an
+ * occluder's line by 1e-13 D and less, what is in the way may be taken wrongly, and AF with it:
+ * let ends that are to meet have the same coordinates (hr2d_scene_split_crossings() sees to it).
  * Cost O(count) and what the classes of lines cost that are not blocked.
  */
 HR2D_API hr2d_status hr2d_exchange_area_occluded(const hr2d_segment *i, const hr2d_segment *j,
