@@ -183,13 +183,9 @@ static int is_flat(hr2d_point p, hr2d_point q, hr2d_segment i) {
 
 /* Where the line of an edge meets i, as a fraction of i and not before `least`.  A flat edge
    with an end on i, but for a rounding h, is taken to meet it there, which at an angle φ costs
-   hφ; to the point where it does, h/φ further, nothing would be seen past that end.  An edge on
-   the line of j, behind which i never is, lies before i on the right hand and beyond it on the
-   left. */
-static double crossing(hr2di_hand hand, hr2di_mark from, hr2di_mark to, hr2d_segment i,
-                       double least) {
+   hφ; to the point where it does, h/φ further, nothing would be seen past that end. */
+static double crossing(hr2di_mark from, hr2di_mark to, hr2d_segment i, double least) {
   const hr2d_point p = from.at, q = to.at;
-  if (from.on & to.on & HR2DI_ON_J) return hand == HR2DI_RIGHT ? least : 1;
   if (from.on & to.on & HR2DI_ON_I || hr2di_same(p, i.a) || hr2di_same(q, i.a)) return least;
   if (hr2di_same(p, i.b) || hr2di_same(q, i.b)) return 1;
   double t;
@@ -218,8 +214,8 @@ int hr2di_corridor_area(const hr2di_frame *frame, const hr2di_chain *right,
   hr2d_point x = i.a;
   for (;;) {
     const hr2di_mark *at = &right->point[r], *to = &left->point[l];
-    const double t_right = r > r_last ? crossing(HR2DI_RIGHT, at[-1], at[0], i, t) : 1;
-    const double t_left = l < l_last ? crossing(HR2DI_LEFT, to[0], to[1], i, t) : 1;
+    const double t_right = r > r_last ? crossing(at[-1], at[0], i, t) : 1;
+    const double t_left = l < l_last ? crossing(to[0], to[1], i, t) : 1;
     const double next = fmin(t_right, t_left);
     if (next > t) {
       const hr2d_segment part = {x, point_at(i, next)}, view = {at->at, to->at};

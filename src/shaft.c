@@ -16,16 +16,6 @@ static double largest(hr2d_point p) {
   return fmax(fabs(p.x), fabs(p.y));
 }
 
-static int is_near(hr2d_point p, hr2d_point q, double near) {
-  return fabs(p.x - q.x) <= near && fabs(p.y - q.y) <= near;
-}
-
-/* What is so near to each other that it is one, for points about i and j. */
-static double rounding(const hr2di_frame *frame) {
-  const double i = fmax(largest(frame->i.a), largest(frame->i.b));
-  return TOUCH * fmax(i, fmax(largest(frame->j.a), largest(frame->j.b)));
-}
-
 /* front() for a point near the line. */
 static int front_of_near(const hr2di_axis *line, hr2d_point p) {
   const int side = hr2di_side(line->a, line->b, p);
@@ -55,17 +45,11 @@ static hr2d_point foot(hr2d_point p, hr2d_point q, hr2d_point on_a, hr2d_point o
   return (hr2d_point){p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
 }
 
-/* Points on one line that are a rounding apart are one; and where i and j begin or end at a
-   corner of both lines nothing lies beyond it on one line and in front of the other. */
-static void snap(const hr2di_frame *frame, hr2di_mark *p, hr2di_mark to, int begins,
-                 double near) {
-  const unsigned both = p->on & to.on;
-  if (!both) return;
-  const int ahead = both & HR2DI_ON_I ? hr2di_order(&frame->i, to.at, p->at)
-                                      : -hr2di_order(&frame->j, to.at, p->at);
-  const int beyond =
-      to.on == HR2DI_ON_BOTH && both != HR2DI_ON_BOTH && (begins ? ahead < 0 : ahead > 0);
-  if (!beyond && !is_near(p->at, to.at, near)) return;
+/* Points on one line that are a rounding apart are one. */
+static void snap(hr2di_mark *p, hr2di_mark to) {
+  const double near = TOUCH * largest(to.at);
+  if (!(p->on & to.on) || fabs(p->at.x - to.at.x) > near || fabs(p->at.y - to.at.y) > near)
+    return;
   p->at = to.at;
   p->on |= to.on;
 }
@@ -116,22 +100,6 @@ static hr2di_half_plane side_between(const hr2di_frame *frame, hr2di_mark p, hr2
   return side;
 }
 
-/* i and j touch where ends of theirs lie a rounding apart, or on one line in an order that
-   contradicts that each is in front of the other's: what is beyond the meeting is cut off.
-   Side p→q of the shaft is a point there. */
-static void touch(const hr2di_frame *frame, hr2di_mark *p, hr2di_mark *q, hr2di_mark *of_i,
-                  hr2di_mark *of_j) {
-  const unsigned both = p->on & q->on;
-  const int on_i = both & HR2DI_ON_I && hr2di_order(&frame->i, p->at, q->at) <= 0;
-  const int on_j = both & HR2DI_ON_J && hr2di_order(&frame->j, p->at, q->at) <= 0;
-  if (!on_i && !on_j && (both || !is_near(p->at, q->at, rounding(frame)))) return;
-  if (on_i)
-    of_i->at = of_j->at;
-  else
-    of_j->at = of_i->at;
-  p->on = q->on = HR2DI_ON_BOTH;
-}
-
 /* fmin() and fmax() would be calls. */
 static inline double lesser(double p, double q) {
   return p < q ? p : q;
@@ -152,9 +120,6 @@ int hr2di_shaft_make(hr2di_shaft *s, hr2di_facing facing, hr2d_segment i, hr2d_s
   if (!clip_segment(&s->a, &s->b, &s->frame.j, HR2DI_ON_J) ||
       !clip_segment(&s->c, &s->d, &s->frame.i, HR2DI_ON_I))
     return 0;
-  touch(&s->frame, &s->b, &s->c, &s->b, &s->c);
-  touch(&s->frame, &s->d, &s->a, &s->a, &s->d);
-  if (hr2di_same(s->a.at, s->b.at) || hr2di_same(s->c.at, s->d.at)) return 0;
   const hr2d_point a = s->a.at, b = s->b.at, c = s->c.at, d = s->d.at;
   s->x0 = lesser(lesser(a.x, b.x), lesser(c.x, d.x));
   s->x1 = greater(greater(a.x, b.x), greater(c.x, d.x));
@@ -222,15 +187,17 @@ static inline int certain(double value, double margin) {
   return (value > margin) - (value < -margin);
 }
 
-static int is_at(hr2di_mark p, hr2di_mark corner, double near) {
-  return corner.on == HR2DI_ON_BOTH && is_near(p.at, corner.at, 16 * near);
+static int is_near(hr2di_mark p, hr2di_mark corner) {
+  const double near = 16 * TOUCH * largest(corner.at);
+  return corner.on == HR2DI_ON_BOTH && fabs(p.at.x - corner.at.x) <= near &&
+         fabs(p.at.y - corner.at.y) <= near;
 }
 
 /* In a wedge of a few roundings an end may lie on both lines but for a rounding, and far from
    where they meet: there it is between them, and blocks what its coordinates say. */
-static void part(const hr2di_shaft *s, hr2di_mark *p, double near) {
-  if (p->on != HR2DI_ON_BOTH || is_at(*p, s->a, near) || is_at(*p, s->b, near) ||
-      is_at(*p, s->c, near) || is_at(*p, s->d, near))
+static void part(const hr2di_shaft *s, hr2di_mark *p) {
+  if (p->on != HR2DI_ON_BOTH || is_near(*p, s->a) || is_near(*p, s->b) || is_near(*p, s->c) ||
+      is_near(*p, s->d))
     return;
   if (hr2di_side(s->frame.i.a, s->frame.i.b, p->at) > 0 &&
       hr2di_side(s->frame.j.a, s->frame.j.b, p->at) > 0)
@@ -251,12 +218,11 @@ static inline int clip_wall(const hr2di_shaft *s, double value[4][2], hr2di_obst
   }
   for (int e = 0; e < 2; e++) {
     if (!o->end[e].on) continue;
-    const double near = rounding(&s->frame);
-    snap(&s->frame, &o->end[e], s->a, 1, near);
-    snap(&s->frame, &o->end[e], s->b, 0, near);
-    snap(&s->frame, &o->end[e], s->c, 0, near);
-    snap(&s->frame, &o->end[e], s->d, 1, near);
-    part(s, &o->end[e], near);
+    snap(&o->end[e], s->a);
+    snap(&o->end[e], s->b);
+    snap(&o->end[e], s->c);
+    snap(&o->end[e], s->d);
+    part(s, &o->end[e]);
   }
   return !hr2di_same(o->end[0].at, o->end[1].at);
 }
