@@ -87,6 +87,9 @@ void fuzz_check_hierarchy(const hr2d_hierarchy *hierarchy);
    a furnace's walls. */
 void fuzz_check_solution(const hr2d_solution *solution, unsigned order, int closure);
 
+/* Whether patches have lengths within 1e4 of each other. */
+int fuzz_is_even(const hr2d_scene *scene);
+
 /* A message that was left by a failure: there is one, and it is UTF-8. */
 void fuzz_check_message(const char *message);
 

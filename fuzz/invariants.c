@@ -178,7 +178,7 @@ static double brightest(const hr2d_scene *scene, size_t band) {
 
 /* The norm in which the solver stops, ∫B², sees no patch so long that its light is thin beside
    that of others; but of its power there is as much. */
-static int is_even(const hr2d_scene *scene) {
+int fuzz_is_even(const hr2d_scene *scene) {
   double least = HUGE_VAL, most = 0;
   for (size_t k = 0; k < hr2d_scene_patches(scene); k++) {
     const double length = hr2d_scene_length(scene, k);
@@ -236,7 +236,7 @@ void fuzz_check_solution(const hr2d_solution *solution, unsigned order, int clos
         REQUIRE(isfinite(hr2d_solution_at(solution, k, q / 4.0, band)));
     }
     check_power(solution, band, order,
-                is_even(scene) &&
+                fuzz_is_even(scene) &&
                     ((closure && !hr2d_linkset_directed(hr2d_solution_links(solution))) ||
                      brightest(scene, band) < NEARLY_WHITE));
   }
