@@ -36,8 +36,9 @@ static void add_links(const hr2d_linkset *links, exchange *e) {
 static hr2d_status add_clusters(const hr2d_linkset *links, exchange *e) {
   const size_t n = links->hierarchy->scene->patches;
   if (!links->roots.clusters) return HR2D_OK;
-  double *one = hr2di_calloc(&links->alloc, 2 * n, sizeof *one), *power = one + n;
+  double *one = hr2di_calloc(&links->alloc, 2 * n, sizeof *one);
   if (!one) return HR2D_ENOMEM;
+  double *power = one + n;
   for (size_t k = 0; k < n; k++) one[k] = 1;
   const hr2d_status status = hr2di_clusters_gather(links->roots.clusters, 1, 1, one, power);
   for (size_t k = 0; k < n; k++) e->escape[k] -= power[k];
