@@ -14,7 +14,8 @@
  * The hooks must be callable from every thread that uses such an object.
  * What jansson allocates while a file is parsed does not come through here; it may fail as
  * well.  Nor does what OpenMP takes where more than one thread is asked for: its runtime ends
- * the program if it cannot have it.  With one thread it is not called at all.
+ * the program if it cannot have it.  With one thread it takes nothing, but for clang's when
+ * it starts.
  */
 typedef struct hr2d_allocator {
   void *(*allocate)(void *ctx, size_t bytes);                /**< required */
