@@ -11,9 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "block.h"
-
-#define NEAR 1.75
+#include "panels.h"
 
 typedef struct corner {
   double sine, versed; /* sin α, 1 − cos α */
@@ -56,7 +54,7 @@ static void add_side(hr2di_integrator *w, const corner *c, double lambda, int in
     const hr2di_span s = stack[--count];
     const double middle = 0.5 * (s.from + s.to);
     if (count > 100 || !(middle > s.from && middle < s.to) ||
-        hr2di_ellipse((hr2d_segment){{s.from, 0}, {s.to, 0}}, pole) >= NEAR) {
+        hr2di_ellipse((hr2d_segment){{s.from, 0}, {s.to, 0}}, pole) >= HR2DI_NEAR_ELLIPSE) {
       add_panel(w, c, lambda, s, inner_at_end, row);
       continue;
     }
