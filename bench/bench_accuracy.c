@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "accuracy/graded-solve.h"
 #include "dense.h"
-#include "graded.h"
 #include "many.h"
 #include "plain.h"
 #include "radiosity_scenes.h"

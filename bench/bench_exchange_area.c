@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "exchange-area.h"
+#include "geometry/exchange-area.h"
 
 enum { ELEMENTS = 256, PAIRS = 16384, METHODS = 3, MAX_ROUNDS = 101 };
 

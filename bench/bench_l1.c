@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "l1.h"
+#include "oracle/l1.h"
 #include "timing.h"
 
 enum { ROUNDS = 5, PAIRS = 40, LIMIT = 1000 };

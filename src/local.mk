@@ -2,131 +2,132 @@
 # the unit tests, which reach the internals that the shared library hides.
 noinst_LTLIBRARIES += libhr2d-core.la
 libhr2d_core_la_CPPFLAGS = -DHR2D_BUILDING -D_POSIX_C_SOURCE=200809L $(PUBLIC_CPPFLAGS) \
-	$(GSL_CFLAGS) $(JANSSON_CFLAGS)
+	-I$(srcdir)/src $(GSL_CFLAGS) $(JANSSON_CFLAGS)
 libhr2d_core_la_CFLAGS = $(AM_CFLAGS) $(OPENMP_CFLAGS)
 libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
 libhr2d_core_la_SOURCES = \
-	src/alloc.c src/alloc.h \
-	src/backs.c src/backs.h \
-	src/balance.c src/balance.h \
-	src/block.c src/block.h \
-	src/block-near.c \
-	src/block-shaded.c \
-	src/block-touching.c \
-	src/blocks.c src/blocks.h \
-	src/bodies.c src/bodies.h \
-	src/boxes.c src/boxes.h \
-	src/bytes.c src/bytes.h \
-	src/classes.c src/classes.h \
-	src/clock.h \
-	src/closure.c src/closure.h \
-	src/closure-orders.c \
-	src/cluster-beams.c src/cluster-beams.h \
-	src/cluster-far.c src/cluster-far.h \
-	src/cluster-gather.c \
-	src/cluster-shade.c src/cluster-shade.h \
-	src/cluster-sides.c src/cluster-sides.h \
-	src/cluster-tree.c src/cluster-tree.h \
-	src/clusters.c src/clusters.h \
-	src/clusters-impl.h \
-	src/commit.c \
-	src/components.c src/components.h \
-	src/corner.c src/corner.h \
-	src/corridor.c src/corridor.h \
-	src/count.c \
-	src/crossings.c src/crossings.h \
-	src/cuts.c src/cuts.h \
-	src/determinant.c src/determinant.h src/dot.h \
-	src/effects.c \
-	src/equation.c src/equation.h \
-	src/estimate.c src/estimate.h \
-	src/events.c src/events.h \
-	src/events-impl.h \
-	src/events-rays.c \
-	src/exchange-area.c src/exchange-area.h \
-	src/exact-orient.c src/exact-orient.h \
-	src/exchange-wide.c src/exchange-wide.h \
-	src/existence.c src/existence.h \
-	src/file.c src/file.h \
-	src/find.h \
-	src/fineness.c src/fineness.h \
-	src/frame.c src/frame.h \
-	src/gather.c \
-	src/geojson.c \
-	src/geojson-feature.c \
-	src/geojson-geometry.c \
-	src/geojson-impl.h \
-	src/geojson-text.c src/geojson-text.h \
-	src/grade.c src/grade.h \
-	src/graded.c src/graded.h \
-	src/hierarchy.c \
-	src/hierarchy-impl.h \
-	src/hierarchy-unite.c \
-	src/images.c src/images.h \
-	src/importance.c src/importance.h \
-	src/kernel.c \
-	src/krylov.c src/krylov.h \
-	src/l1.c src/l1.h \
-	src/l1-bounds.c \
-	src/l1-breaks.c \
-	src/l1-frame.c src/l1-frame.h \
-	src/l1-grid.c src/l1-grid.h \
-	src/legendre.c src/legendre.h \
-	src/light.c \
-	src/linkset.c \
-	src/matrix.c \
-	src/linkset-impl.h \
-	src/linkset-validate.c \
-	src/measure.c \
-	src/message.c src/message.h \
-	src/occluder.c src/occluder.h \
-	src/options.h \
-	src/oracle.c \
-	src/oracle-l1.c \
-	src/panels.h \
-	src/point-factor.h \
-	src/point-view.c src/point-view.h \
-	src/point-view-impl.h \
-	src/point-view-sweep.c \
-	src/policy.c \
-	src/predict.c \
-	src/predicates.c src/predicates.h \
-	src/project.c src/project.h \
-	src/projector.c \
-	src/push-pull.c src/push-pull.h \
-	src/refine.c \
-	src/roots.c src/roots.h \
-	src/rows.c src/rows.h \
-	src/runs.c src/runs.h \
-	src/scene.c \
-	src/scene-file.c src/scene-file.h \
-	src/scene-impl.h \
-	src/separation.c src/separation.h \
-	src/shaded.c src/shaded.h \
-	src/shaft.c src/shaft.h \
-	src/side.h \
-	src/sight.c src/sight.h \
-	src/sky.c src/sky.h \
-	src/solution.c \
-	src/solution-impl.h \
-	src/solve.c \
-	src/split.c \
-	src/state.c \
-	src/state-impl.h \
-	src/state-read.c \
-	src/status.c \
-	src/study.c \
-	src/sum.h \
-	src/target.c \
-	src/transport.c src/transport.h \
-	src/validate.c \
-	src/version.c \
-	src/visible.c \
-	src/vs2.c \
-	src/vs2-impl.h \
-	src/vs2-words.c \
-	src/walls.c src/walls.h \
-	src/wide.h
+	src/base/alloc.c src/base/alloc.h \
+	src/base/clock.h \
+	src/base/krylov.c src/base/krylov.h \
+	src/base/legendre.c src/base/legendre.h \
+	src/base/message.c src/base/message.h \
+	src/base/neumaier-sum.h \
+	src/base/ordered-dot.h \
+	src/base/read-file.c src/base/read-file.h \
+	src/base/scaled-double.h \
+	src/base/sized-struct.h \
+	src/base/status.c \
+	src/base/union-find.h \
+	src/base/version.c \
+	src/geometry/crossings.c src/geometry/crossings.h \
+	src/geometry/cut-points.c src/geometry/cut-points.h \
+	src/geometry/determinant.c src/geometry/determinant.h \
+	src/geometry/exchange-area.c src/geometry/exchange-area.h \
+	src/geometry/exchange-area-scaled.c src/geometry/exchange-area-scaled.h \
+	src/geometry/kernel.c \
+	src/geometry/orient-exact.c src/geometry/orient-exact.h \
+	src/geometry/orient-incident.c src/geometry/orient-incident.h \
+	src/geometry/orient-sign.h \
+	src/geometry/point-view-factor.h \
+	src/geometry/predicates.c src/geometry/predicates.h \
+	src/occlusion/corridor.c src/occlusion/corridor.h \
+	src/occlusion/exchange-occluded.c \
+	src/occlusion/line-classes.c src/occlusion/line-classes.h \
+	src/occlusion/pair-visibility.c src/occlusion/pair-visibility.h \
+	src/occlusion/shaft.c src/occlusion/shaft.h \
+	src/occlusion/wall-bodies.c src/occlusion/wall-bodies.h \
+	src/occlusion/wall-tree.c src/occlusion/wall-tree.h \
+	src/occlusion/walls.c src/occlusion/walls.h \
+	src/scene/back-faces.c src/scene/back-faces.h \
+	src/scene/checks.c \
+	src/scene/commit.c \
+	src/scene/effects.c \
+	src/scene/find-occluder.c src/scene/find-occluder.h \
+	src/scene/patch-runs.c src/scene/patch-runs.h \
+	src/scene/reachability.c \
+	src/scene/scene.c \
+	src/scene/scene-impl.h \
+	src/scene/split-crossings.c \
+	src/formats/geojson.c \
+	src/formats/geojson-feature.c \
+	src/formats/geojson-geometry.c \
+	src/formats/geojson-impl.h \
+	src/formats/geojson-text.c src/formats/geojson-text.h \
+	src/formats/scene-file.c src/formats/scene-file.h \
+	src/formats/vs2.c \
+	src/formats/vs2-impl.h \
+	src/formats/vs2-words.c \
+	src/visibility/events.c src/visibility/events.h \
+	src/visibility/events-impl.h \
+	src/visibility/events-rays.c \
+	src/visibility/exchange-matrix.c \
+	src/visibility/point-view.c src/visibility/point-view.h \
+	src/visibility/point-view-impl.h \
+	src/visibility/point-view-sweep.c \
+	src/hierarchy/hierarchy.c \
+	src/hierarchy/hierarchy-impl.h \
+	src/hierarchy/push-pull.c src/hierarchy/push-pull.h \
+	src/hierarchy/unite.c \
+	src/oracle/l1.c src/oracle/l1.h \
+	src/oracle/l1-bounds.c \
+	src/oracle/l1-breaks.c \
+	src/oracle/l1-frame.c src/oracle/l1-frame.h \
+	src/oracle/l1-grid.c src/oracle/l1-grid.h \
+	src/oracle/l1-oracle.c \
+	src/oracle/oracle.c \
+	src/oracle/policy.c \
+	src/blocks/block.c src/blocks/block.h \
+	src/blocks/near.c \
+	src/blocks/occluded.c \
+	src/blocks/panels.h \
+	src/blocks/touching.c \
+	src/clusters/beams.c src/clusters/beams.h \
+	src/clusters/clusters.c src/clusters/clusters.h \
+	src/clusters/clusters-impl.h \
+	src/clusters/expansion.c src/clusters/expansion.h \
+	src/clusters/facing.c src/clusters/facing.h \
+	src/clusters/occlusion.c src/clusters/occlusion.h \
+	src/clusters/root-pairs.c src/clusters/root-pairs.h \
+	src/clusters/transport.c \
+	src/clusters/tree.c src/clusters/tree.h \
+	src/links/components.c src/links/components.h \
+	src/links/link-blocks.c src/links/link-blocks.h \
+	src/links/linkset.c \
+	src/links/linkset-impl.h \
+	src/solution/point-gather.c \
+	src/solution/solution.c \
+	src/solution/solution-impl.h \
+	src/refine/count.c \
+	src/refine/occluded-pairs.c src/refine/occluded-pairs.h \
+	src/refine/projector.c src/refine/projector.h \
+	src/refine/projector-start.c \
+	src/refine/refine.c \
+	src/refine/study.c \
+	src/refine/validate-links.c \
+	src/solve/background.c src/solve/background.h \
+	src/solve/closure.c src/solve/closure.h \
+	src/solve/closure-order-p.c \
+	src/solve/energy-balance.c src/solve/energy-balance.h \
+	src/solve/equation.c src/solve/equation.h \
+	src/solve/existence.c src/solve/existence.h \
+	src/solve/row-sums.c src/solve/row-sums.h \
+	src/solve/solve.c \
+	src/solve/transport.c src/solve/transport.h \
+	src/accuracy/admissibility.c src/accuracy/admissibility.h \
+	src/accuracy/corner-exponent.c src/accuracy/corner-exponent.h \
+	src/accuracy/error-estimate.c src/accuracy/error-estimate.h \
+	src/accuracy/graded-solve.c src/accuracy/graded-solve.h \
+	src/accuracy/importance.c src/accuracy/importance.h \
+	src/accuracy/mesh-grading.c src/accuracy/mesh-grading.h \
+	src/accuracy/mirror-images.c src/accuracy/mirror-images.h \
+	src/accuracy/predict.c \
+	src/accuracy/resolution.c src/accuracy/resolution.h \
+	src/accuracy/solution-error.c \
+	src/accuracy/solve-to.c \
+	src/state/byte-stream.c src/state/byte-stream.h \
+	src/state/state-impl.h \
+	src/state/state-read.c \
+	src/state/state-write.c
 
 lib_LTLIBRARIES += libhr2d.la
 libhr2d_la_SOURCES =
@@ -138,4 +139,4 @@ EXTRA_libhr2d_la_DEPENDENCIES = src/libhr2d.map
 else
 libhr2d_la_LDFLAGS += -export-symbols-regex '^hr2d_'
 endif
-EXTRA_DIST += src/libhr2d.map
+EXTRA_DIST += src/LAYERS src/libhr2d.map

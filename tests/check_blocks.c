@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "block.h"
+#include "blocks/block.h"
 #include "brute_block.h"
+#include "hierarchy/push-pull.h"
 #include "pair_classes.h"
-#include "push-pull.h"
 #include "support.h"
 #include "visibility_cases.h"
 

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "alloc.h"
-#include "clusters.h"
+#include "base/alloc.h"
+#include "clusters/clusters.h"
 #include "room_plans.h"
 #include "support.h"
 

@@ -11,7 +11,7 @@
 #include <gsl/gsl_integration.h>
 #include <math.h>
 
-#include "corner.h"
+#include "accuracy/corner-exponent.h"
 #include "support.h"
 
 #define PI 3.14159265358979323846

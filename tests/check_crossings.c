@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene-impl.h"
+#include "scene/scene-impl.h"
 #include "support.h"
 
 #define MOST 512

@@ -5,10 +5,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "alloc.h"
-#include "events.h"
+#include "base/alloc.h"
 #include "room_plans.h"
 #include "support.h"
+#include "visibility/events.h"
 
 static hr2di_events events_of(const hr2d_scene *scene, unsigned generations) {
   const hr2d_allocator alloc = hr2di_default_allocator();

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "exchange-area.h"
+#include "geometry/exchange-area.h"
 #include "mpfr_exchange.h"
 #include "pair_classes.h"
 #include "support.h"

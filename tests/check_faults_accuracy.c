@@ -2,9 +2,9 @@
 /* Allocation k of the calls that choose elements and links themselves fails. */
 #include <string.h>
 
-#include "clusters.h"
+#include "clusters/clusters.h"
 #include "fault_stage.h"
-#include "linkset-impl.h"
+#include "links/linkset-impl.h"
 
 static hr2d_status solve_to(fault_stage *s, uint64_t *sum, const hr2d_target *target) {
   hr2d_account account;

@@ -6,9 +6,9 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "geometry/predicates.h"
 #include "mpfr_exchange.h"
 #include "pair_classes.h"
-#include "predicates.h"
 #include "support.h"
 
 #define BAR 4e-15

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "l1-grid.h"
-#include "l1.h"
+#include "geometry/predicates.h"
+#include "oracle/l1-grid.h"
+#include "oracle/l1.h"
 #include "pair_classes.h"
-#include "predicates.h"
 #include "support.h"
 
 /* Nested quadrature: G/Gc − 1 in long double, each line split where it changes its

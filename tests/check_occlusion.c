@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/neumaier-sum.h"
 #include "room_plans.h"
-#include "sum.h"
 #include "support.h"
 
 enum { SIZE, SIZE2, BF, L1, L1_GRID, ORACLES };

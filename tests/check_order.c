@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "grade.h"
+#include "accuracy/admissibility.h"
+#include "accuracy/mesh-grading.h"
 #include "radiosity_scenes.h"
-#include "separation.h"
 #include "support.h"
 
 static radiosity_scenes reference;

@@ -12,12 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "alloc.h"
+#include "base/alloc.h"
 #include "mpfr_exchange.h"
-#include "point-view.h"
 #include "room_plans.h"
-#include "scene-impl.h"
+#include "scene/scene-impl.h"
 #include "support.h"
+#include "visibility/point-view.h"
 
 #define PI 3.14159265358979323846
 

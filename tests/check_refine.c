@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "sum.h"
+#include "base/neumaier-sum.h"
 #include "support.h"
 
 static hr2d_refine_options with_epsilon(double epsilon) {

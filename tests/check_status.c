@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "alloc.h"
-#include "message.h"
+#include "base/alloc.h"
+#include "base/message.h"
 
 START_TEST(every_status_has_its_own_phrase) {
   for (int i = HR2D_OK; i <= HR2D_EACCURACY; i++) {

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "exchange-area.h"
-#include "linkset-impl.h"
-#include "predicates.h"
+#include "geometry/exchange-area.h"
+#include "geometry/predicates.h"
+#include "links/linkset-impl.h"
 #include "support.h"
 
 /* Dyadic scenes: all midpoints lie on their patch, to the last bit. */

@@ -58,6 +58,7 @@ OUTSIDE = \
 	tests/check_resume.sh \
 	tests/check-exports.sh \
 	tests/check-headers.sh \
+	tests/check-layers.sh \
 	tests/check-examples.sh
 
 TEST_EXTENSIONS = .sh

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "predicates.h"
+#include "geometry/predicates.h"
 
 #define PI 3.14159265358979323846
 

@@ -233,10 +233,12 @@ void test_same_links(const test_links *one, const test_links *other) {
 static int runs_out(test_memory *m) {
   /* The hooks may be called from several threads: each gets a number of its own. */
   long left = m->until_failure;
-  while (left > 0 && !atomic_compare_exchange_weak(&m->until_failure, &left, left - 1));
+  while (left > 0 && !atomic_compare_exchange_weak(&m->until_failure, &left, left - 1))
+    ;
   if (left > 0) return 0;
   while (left == 0 && !m->for_good &&
-         !atomic_compare_exchange_weak(&m->until_failure, &left, -1));
+         !atomic_compare_exchange_weak(&m->until_failure, &left, -1))
+    ;
   if (left != 0) return 0;
   m->failures++;
   return 1;

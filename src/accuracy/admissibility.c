@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Links as large as the kernel is smooth, on elements as large as radiosity is. */
+#include "accuracy/admissibility.h"
+
+#include <math.h>
+
+#include "blocks/block.h"
+#include "geometry/predicates.h"
+
+/* On an element with children radiosity is not smooth: of the product of its rough part and the
+   kernel's, which a link drops, only the kernel's is small, and so it must be smaller. */
+#define ROUGH 3.0
+
+/* Light that passes between two patches weighs no more than what either sends in all. */
+static double error_for(const hr2di_separation *s, const hr2d_element *i,
+                        const hr2d_element *j) {
+  if (!s || !s->weight) return 0;
+  return s->target / fmin(s->weight[i->patch], s->weight[j->patch]);
+}
+
+/* Links drop ρ^−2p of what is smooth, ρ^−p of what is rough. */
+static double distance_for(const hr2di_separation *s, const hr2d_element *e, double error) {
+  const double most = e->child ? ROUGH : HR2DI_DISTANT;
+  if (!(error > 0)) return most;
+  return fmin(hr2di_distance_for(e->child ? error * error : error, s->order), most);
+}
+
+static int is_separate(const hr2di_separation *ctx, const hr2d_element *i,
+                       const hr2d_element *j, int partial) {
+  const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
+  const double error = error_for(ctx, i, j);
+  if (error >= 1) return 1;
+  return !partial && hr2di_ellipse_least(s, t) >= distance_for(ctx, i, error) &&
+         hr2di_ellipse_least(t, s) >= distance_for(ctx, j, error) &&
+         hr2di_face(&s, &t) == HR2DI_FACING_FULL;
+}
+
+static hr2d_status estimate(void *ctx, const hr2d_batch *batch, double *error) {
+  for (size_t k = 0; k < batch->count; k++) {
+    const hr2d_pair pair = batch->pairs[k];
+    const int partial = batch->partial && batch->partial[k];
+    error[k] =
+        !is_separate(ctx, &batch->elements[pair.first], &batch->elements[pair.second], partial);
+  }
+  return HR2D_OK;
+}
+
+static const hr2d_oracle separation = {
+    .struct_size = sizeof(hr2d_oracle),
+    .name = "separation",
+    .flags = HR2D_ORACLE_SYMMETRIC | HR2D_ORACLE_THREAD_SAFE,
+    .estimate = estimate,
+};
+
+const hr2d_oracle *hr2di_oracle_separation(void) {
+  return &separation;
+}
+
+static hr2d_status both_leaves(void *ctx, const hr2d_batch *batch, unsigned char *limited) {
+  (void)ctx;
+  for (size_t k = 0; k < batch->count; k++)
+    limited[k] = !batch->elements[batch->pairs[k].first].child &&
+                 !batch->elements[batch->pairs[k].second].child;
+  return HR2D_OK;
+}
+
+/* The longer one, of those that have children. */
+static hr2d_status split_parent(void *ctx, const hr2d_batch *batch, unsigned char *split) {
+  (void)ctx;
+  for (size_t k = 0; k < batch->count; k++) {
+    const hr2d_element *i = &batch->elements[batch->pairs[k].first];
+    const hr2d_element *j = &batch->elements[batch->pairs[k].second];
+    const int second = !i->child || (j->child && j->length > i->length);
+    split[k] = second ? HR2D_SPLIT_SECOND : HR2D_SPLIT_FIRST;
+  }
+  return HR2D_OK;
+}
+
+static const hr2d_policy graded = {
+    .struct_size = sizeof(hr2d_policy),
+    .name = "graded",
+    .flags = HR2D_POLICY_THREAD_SAFE,
+    .recursion_limit = both_leaves,
+    .preferred_subdivision = split_parent,
+};
+
+const hr2d_policy *hr2di_policy_graded(void) {
+  return &graded;
+}

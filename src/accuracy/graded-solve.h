@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A solve on graded trees: elements as radiosity is smooth, links as the kernel is. */
+#ifndef HR2D_SRC_ACCURACY_GRADED_SOLVE_H
+#define HR2D_SRC_ACCURACY_GRADED_SOLVE_H
+
+#include <hr2d/accuracy.h>
+
+#include "accuracy/mesh-grading.h"
+#include "base/message.h"
+
+/* How fine. */
+typedef struct hr2di_fineness {
+  unsigned order;
+  double target; /* relative error that corners are graded for */
+  double digits; /* relative accuracy of links between clusters of patches */
+  hr2d_norm norm;
+  unsigned deeper;      /* levels at corners beyond what the target asks for */
+  int hidden;           /* the scene has visibility events, */
+  int crowded;          /* and very many */
+  unsigned generations; /* of these, at which elements end */
+  unsigned halvings;    /* of every element besides, where there are too many events */
+  const double *weight; /* per patch: what a relative error of its radiosity does to what is
+                           asked for; NULL: 1 */
+} hr2di_fineness;
+
+typedef struct hr2di_answer {
+  hr2d_hierarchy *hierarchy;
+  hr2d_linkset *links;
+  hr2d_solution *solution; /* NULL until solved */
+  hr2di_survey survey;
+  uint64_t events;
+  uint64_t kernels;
+  double refine_seconds, coefficients_seconds, solve_seconds;
+} hr2di_answer;
+
+/* Makes the trees and the links, on a copy of `from` if that is not NULL; HR2D_OK or a status,
+   then with a reason in `message`.  To be ended by hr2di_answer_clear() in either case. */
+hr2d_status hr2di_graded_refine(hr2di_answer *answer, const hr2d_scene *scene,
+                                const hr2d_hierarchy *from, const hr2di_fineness *fineness,
+                                const hr2d_target *target, hr2di_message *message);
+
+/* And solves. */
+hr2d_status hr2di_graded_solve(hr2di_answer *answer, const hr2d_target *target,
+                               hr2di_message *message);
+
+void hr2di_answer_clear(hr2di_answer *answer);
+
+/* Bytes of its elements, links and blocks. */
+uint64_t hr2di_answer_bytes(const hr2di_answer *answer);
+
+#endif

@@ -1,0 +1,360 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A function that is analytic but for points v is approximated on an element by polynomials of
+   degree p−1 to within ρ^−p, if no v lies within the ellipse m of the element,
+   ρ = m + √(m²−1) (see block.h).  Radiosity is singular at the ends of patches in front.  Where
+   an end touches the patch no element is far enough: there B ~ x^γ, and an element of relative
+   size 2^−D adds an error of about (2^−D/p²)^(1+2γ) to averages, and of (2^−D/p²)^γ to B
+   itself. */
+#include "accuracy/mesh-grading.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "accuracy/corner-exponent.h"
+#include "accuracy/mirror-images.h"
+#include "base/alloc.h"
+#include "blocks/block.h"
+#include "geometry/predicates.h"
+#include "scene/scene-impl.h"
+
+/* Ends nearer to the line of a patch, in terms of its length, stand on it. */
+#define ON_LINE 1e-13
+/* Elements no shorter than this part of their patch have distinct ends. */
+#define SHORTEST 0x1p-44
+
+/* Elements that are graded towards an end lie 3 from it. */
+#define FAR 3.0
+
+enum { DEEPEST = 40, STACK = 256 };
+
+/* An end of a patch. */
+typedef struct vertex {
+  hr2d_point at;
+  uint32_t patch;
+  int last; /* the end of the patch, not its start */
+} vertex;
+
+/* A place on a patch where elements end, and how deep they are graded towards it. */
+typedef struct mark {
+  double at;
+  hr2d_point point;
+  unsigned depth;
+} mark;
+
+typedef struct grader {
+  hr2d_hierarchy *h;
+  const hr2di_grading *grading;
+  vertex *vertex; /* by x */
+  size_t vertices;
+  uint32_t *under;   /* of each patch's start and end: 1 + the patch within whose front it
+                        stands, or 0 */
+  hr2di_points near; /* in front of the patch under way, and near to it: ends of others, and
+                        mirror images */
+  mark *mark;        /* of the patch under way, by place */
+  size_t marks, mark_capacity;
+  hr2di_survey survey;
+  double target;   /* of the patch under way */
+  double distance; /* and how far ends must be from its elements */
+  double last[3];  /* angle and ρ of the last corner, and its exponent */
+} grader;
+
+static int by_x(const void *a, const void *b) {
+  const vertex *p = a, *q = b;
+  if (p->at.x != q->at.x) return p->at.x < q->at.x ? -1 : 1;
+  if (p->patch != q->patch) return p->patch < q->patch ? -1 : 1;
+  return p->last - q->last;
+}
+
+static int by_place(const void *a, const void *b) {
+  const mark *p = a, *q = b;
+  if (p->at != q->at) return p->at < q->at ? -1 : 1;
+  return p->depth < q->depth ? 1 : p->depth > q->depth ? -1 : 0;
+}
+
+static hr2d_status list_vertices(grader *g) {
+  const hr2d_scene *scene = g->h->scene;
+  g->vertex = hr2di_alloc(&g->h->alloc, 2 * scene->patches, sizeof *g->vertex);
+  g->under = hr2di_calloc(&g->h->alloc, 2 * scene->patches, sizeof *g->under);
+  if (!g->vertex || !g->under) return HR2D_ENOMEM;
+  for (uint32_t k = 0; k < scene->patches; k++) {
+    const hr2d_segment s = scene->patch[k].scaled;
+    g->vertex[g->vertices++] = (vertex){s.a, k, 0};
+    g->vertex[g->vertices++] = (vertex){s.b, k, 1};
+  }
+  qsort(g->vertex, g->vertices, sizeof *g->vertex, by_x);
+  return HR2D_OK;
+}
+
+static double reflectance(const hr2d_scene *scene, uint32_t patch) {
+  double most = 0;
+  for (size_t b = 0; b < scene->bands; b++)
+    most = fmax(most, hr2d_scene_reflectance(scene, patch, b));
+  return most;
+}
+
+/* Corners alike often follow each other. */
+static double exponent_of(grader *g, double angle, double rho) {
+  if (g->last[0] != angle || g->last[1] != rho) {
+    g->last[0] = angle;
+    g->last[1] = rho;
+    g->last[2] = hr2di_corner_exponent(angle, rho, rho);
+  }
+  return g->last[2];
+}
+
+/* How deep elements are graded where two patches meet at angle α, with light that goes to and
+   fro.  A flat corner has a weak singularity: its strength is about what the patches see of
+   each other, ½(1 + cos α). */
+static unsigned corner_depth(grader *g, double cosine, double sine, double rho) {
+  const double p = g->grading->order, strength = fmin(1, 2 * rho * (1 + cosine));
+  const double gamma = exponent_of(g, atan2(sine, cosine), rho);
+  const double slope = g->grading->norm == HR2D_NORM_SUP ? fmax(gamma, 0.05) : 1 + 2 * gamma;
+  const double digits = log2(strength / g->target) / slope;
+  if (!(strength > g->target)) return g->grading->deeper;
+  g->survey.exponent = fmin(g->survey.exponent, gamma);
+  const double depth = ceil(digits - 2 * log2(p) + 1.5);
+  return (unsigned)fmin(fmax(depth, 2), DEEPEST) + g->grading->deeper;
+}
+
+/* The deepest grading that a patch standing on this one asks for: it may lie on either side of
+   its foot, or on both. */
+static unsigned depth_at(grader *g, uint32_t patch, const vertex *v, double at) {
+  const hr2d_scene *scene = g->h->scene;
+  const hr2d_segment s = scene->patch[patch].scaled, other = scene->patch[v->patch].scaled;
+  const double rho = sqrt(reflectance(scene, patch) * reflectance(scene, v->patch));
+  const double scale = scene->patch[patch].length * scene->patch[v->patch].length;
+  const hr2d_point far = v->last ? other.a : other.b;
+  const hr2d_point u = {(s.b.x - s.a.x), (s.b.y - s.a.y)};
+  const hr2d_point w = {far.x - v->at.x, far.y - v->at.y};
+  const double along = (u.x * w.x + u.y * w.y) / scale, up = (u.x * w.y - u.y * w.x) / scale;
+  if (!(rho > 0) || !(up > 0)) return 0;
+  unsigned depth = 0;
+  /* Its front looks along u where it is traversed downwards. */
+  if (v->last && at < 1) depth = corner_depth(g, along, up, rho);
+  if (!v->last && at > 0) {
+    const unsigned back = corner_depth(g, -along, up, rho);
+    depth = back > depth ? back : depth;
+  }
+  return depth;
+}
+
+static hr2d_status add_mark(grader *g, double at, hr2d_point point, unsigned depth) {
+  if (hr2di_reserve(&g->h->alloc, &g->mark, &g->mark_capacity, g->marks + 1, sizeof *g->mark))
+    return HR2D_ENOMEM;
+  g->mark[g->marks++] = (mark){at, point, depth};
+  return HR2D_OK;
+}
+
+/* Whether the patch of an end that stands on another is in front of that. */
+static int rises(const hr2d_scene *scene, uint32_t patch, const vertex *v) {
+  const hr2d_segment s = scene->patch[patch].scaled, other = scene->patch[v->patch].scaled;
+  return hr2di_orient(s.a, s.b, v->last ? other.a : other.b) > 0;
+}
+
+/* Sorts a vertex into the marks if it is on the patch, into the near ones if in front. */
+static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
+  const hr2di_patch *p = &g->h->scene->patch[patch];
+  const vertex *v = &g->vertex[number];
+  const hr2d_segment s = p->scaled;
+  if (v->patch == patch) return HR2D_OK;
+  const double square = p->length * p->length;
+  if (square < DBL_MIN) return HR2D_OK; /* dust, of which no part is to be told from another */
+  const double above = hr2di_orient(s.a, s.b, v->at) / square;
+  const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y;
+  const double at = ((v->at.x - s.a.x) * ux + (v->at.y - s.a.y) * uy) / square;
+  if (above > ON_LINE) {
+    if (hr2di_ellipse(s, v->at) >= FAR) return HR2D_OK;
+    if (hr2di_reserve(&g->h->alloc, &g->near.point, &g->near.capacity, g->near.count + 1,
+                      sizeof *g->near.point))
+      return HR2D_ENOMEM;
+    g->near.point[g->near.count++] = v->at;
+    return HR2D_OK;
+  }
+  if (above < -ON_LINE || at < -ON_LINE || at > 1 + ON_LINE) return HR2D_OK;
+  const unsigned depth = depth_at(g, patch, v, at);
+  if (at < ON_LINE) return add_mark(g, 0, s.a, depth);
+  if (at > 1 - ON_LINE) return add_mark(g, 1, s.b, depth);
+  if (rises(g->h->scene, patch, v)) g->under[2 * v->patch + (uint32_t)v->last] = patch + 1;
+  return add_mark(g, at, v->at, depth);
+}
+
+/* The vertices that may be near a patch are in a window of x. */
+static hr2d_status look_around(grader *g, uint32_t patch) {
+  const hr2di_patch *p = &g->h->scene->patch[patch];
+  const double middle = 0.5 * (p->scaled.a.x + p->scaled.b.x);
+  const double reach = FAR * p->length;
+  size_t low = 0, high = g->vertices;
+  while (low < high) {
+    const size_t at = low + (high - low) / 2;
+    if (g->vertex[at].at.x < middle - reach)
+      low = at + 1;
+    else
+      high = at;
+  }
+  hr2d_status status = HR2D_OK;
+  for (; low < g->vertices && g->vertex[low].at.x <= middle + reach && !status; low++)
+    status = place(g, patch, (uint32_t)low);
+  return status;
+}
+
+/* What an end stands on has no end there that would be found. */
+static hr2d_status add_foot(grader *g, uint32_t patch, int last) {
+  const hr2d_segment s = g->h->scene->patch[patch].scaled;
+  const vertex foot = {last ? s.b : s.a, patch, last};
+  const uint32_t under = g->under[2 * patch + (uint32_t)last];
+  return under ? add_mark(g, last, foot.at, depth_at(g, under - 1, &foot, 0.5)) : HR2D_OK;
+}
+
+unsigned hr2di_generations_for(double error) {
+  return error >= 3e-3 ? 0 : error >= 1e-8 ? 1 : 2;
+}
+
+static hr2d_status add_events(grader *g, uint32_t patch) {
+  const hr2di_events *events = g->grading->events;
+  const hr2d_segment s = g->h->scene->patch[patch].scaled;
+  size_t low = 0, high = events ? events->count : 0;
+  while (low < high) {
+    const size_t at = low + (high - low) / 2;
+    if (events->event[at].patch < patch)
+      low = at + 1;
+    else
+      high = at;
+  }
+  hr2d_status status = HR2D_OK;
+  for (; events && low < events->count && events->event[low].patch == patch && !status; low++) {
+    const double at = events->event[low].at;
+    if (g->grading->weight && events->event[low].generation > hr2di_generations_for(g->target))
+      continue;
+    const hr2d_point point = {s.a.x + at * (s.b.x - s.a.x), s.a.y + at * (s.b.y - s.a.y)};
+    status = add_mark(g, at, point, 0);
+  }
+  return status;
+}
+
+/* One mark of those that are alike, with the deepest grading. */
+static void sort_marks(grader *g) {
+  size_t kept = 0;
+  if (g->marks > 0) qsort(g->mark, g->marks, sizeof *g->mark, by_place);
+  for (size_t k = 0; k < g->marks; k++) {
+    if (kept > 0 && g->mark[k].at - g->mark[kept - 1].at < 16 * SHORTEST) {
+      if (g->mark[k].depth > g->mark[kept - 1].depth)
+        g->mark[kept - 1].depth = g->mark[k].depth;
+      continue;
+    }
+    g->mark[kept++] = g->mark[k];
+  }
+  g->marks = kept;
+}
+
+/* An element under way: what it is of its patch. */
+typedef struct part {
+  uint32_t element;
+  double from, to;
+  unsigned halvings; /* done besides */
+} part;
+
+/* The mark inside that is nearest to the middle, or NULL. */
+static const mark *mark_inside(const grader *g, const part *e) {
+  const double margin = 4 * SHORTEST, middle = 0.5 * (e->from + e->to);
+  const mark *best = NULL;
+  for (size_t k = 0; k < g->marks; k++) {
+    const double at = g->mark[k].at;
+    if (at <= e->from + margin || at >= e->to - margin) continue;
+    if (!best || fabs(at - middle) < fabs(best->at - middle)) best = &g->mark[k];
+  }
+  return best;
+}
+
+static int wants_halves(const grader *g, const part *e) {
+  const hr2d_element *element = &g->h->element[e->element];
+  const hr2d_segment s = {element->a, element->b};
+  const double size = e->to - e->from, margin = 4 * SHORTEST;
+  if (size < SHORTEST || !hr2di_divisible(g->h, e->element)) return 0;
+  for (size_t k = 0; k < g->marks; k++) {
+    const double at = g->mark[k].at;
+    const double from = fabs(at - e->from), to = fabs(at - e->to);
+    const int touches = from <= margin || to <= margin;
+    /* An event may keep an element from touching a corner that it is near to. */
+    const int near = g->mark[k].depth > 0 && from + to < g->distance * size;
+    if ((touches || near) && size > 1.001 * ldexp(1, -(int)g->mark[k].depth)) return 1;
+  }
+  for (size_t k = 0; k < g->near.count; k++)
+    if (hr2di_ellipse(s, g->near.point[k]) < g->distance) return 1;
+  return 0;
+}
+
+/* How far a leaf is from the ends in front of it. */
+static void survey_leaf(grader *g, const part *e) {
+  const hr2d_element *element = &g->h->element[e->element];
+  const hr2d_segment s = {element->a, element->b};
+  for (size_t k = 0; k < g->near.count; k++)
+    g->survey.ellipse = fmin(g->survey.ellipse, hr2di_ellipse(s, g->near.point[k]));
+}
+
+static hr2d_status divide(grader *g, part *e, int *divided) {
+  hr2d_hierarchy *h = g->h;
+  const mark *inside = mark_inside(g, e);
+  *divided = h->element[e->element].child || inside || wants_halves(g, e);
+  if (!*divided && e->halvings < g->grading->halvings) {
+    *divided = hr2di_divisible(h, e->element);
+    e->halvings++;
+  }
+  if (!*divided || h->element[e->element].child) return HR2D_OK;
+  if (g->grading->max_elements && h->elements + 2 > g->grading->max_elements)
+    return HR2D_EMAX_ELEMENTS;
+  const hr2d_status status = hr2di_hierarchy_reserve(h);
+  if (status) return status;
+  if (inside)
+    hr2di_divide(h, e->element, (inside->at - e->from) / (e->to - e->from), inside->point);
+  else
+    hr2di_halve(h, e->element);
+  return HR2D_OK;
+}
+
+static hr2d_status grade_patch(grader *g, uint32_t patch) {
+  part stack[STACK];
+  size_t count = 0;
+  const double weight = g->grading->weight ? g->grading->weight[patch] : 1;
+  g->near.count = g->marks = 0;
+  g->target = fmin(g->grading->target / weight, 0.5);
+  g->distance = weight < 1 ? hr2di_distance_for(g->target, g->grading->order) : HR2DI_DISTANT;
+  hr2d_status status = look_around(g, patch);
+  if (!status) status = hr2di_add_images(g->h->scene, patch, FAR, &g->near, g->near.count);
+  for (int last = 0; last < 2 && !status; last++) status = add_foot(g, patch, last);
+  if (!status) status = add_events(g, patch);
+  if (status) return status;
+  sort_marks(g);
+  stack[count++] = (part){patch, 0, 1, 0};
+  while (count > 0 && !status) {
+    part e = stack[--count];
+    int divided;
+    status = divide(g, &e, &divided);
+    if (!divided) survey_leaf(g, &e);
+    if (status || !divided || count + 2 > STACK) continue;
+    const uint32_t child = g->h->element[e.element].child;
+    const double middle = e.from + hr2di_left_part(g->h->element, e.element) * (e.to - e.from);
+    stack[count++] = (part){child + 1, middle, e.to, e.halvings};
+    stack[count++] = (part){child, e.from, middle, e.halvings};
+  }
+  return status;
+}
+
+hr2d_status hr2di_grade(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
+                        hr2di_survey *survey) {
+  const hr2d_scene *scene = hierarchy->scene;
+  grader g = {.h = hierarchy, .grading = grading, .survey = {1, FAR}, .target = 1};
+  hr2d_status status = list_vertices(&g);
+  for (uint32_t k = 0; k < scene->patches && !status; k++) {
+    status = look_around(&g, k); /* for what stands on it */
+    g.near.count = g.marks = 0;
+  }
+  for (uint32_t k = 0; k < scene->patches && !status; k++)
+    if (hr2di_lit(scene, k) && reflectance(scene, k) > 0) status = grade_patch(&g, k);
+  hr2di_free(&hierarchy->alloc, g.vertex);
+  hr2di_free(&hierarchy->alloc, g.under);
+  hr2di_free(&hierarchy->alloc, g.near.point);
+  hr2di_free(&hierarchy->alloc, g.mark);
+  *survey = g.survey;
+  return status;
+}

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Walls near a patch are found by the tree of boxes. */
+#include "accuracy/mirror-images.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "blocks/block.h"
+#include "geometry/predicates.h"
+#include "occlusion/wall-tree.h"
+#include "scene/scene-impl.h"
+
+typedef struct mirror {
+  const hr2d_scene *scene;
+  const hr2di_patch *patch;
+  double most;
+  hr2di_points *points;
+  size_t count;
+} mirror;
+
+/* Whether a box comes nearer to the patch than its length. */
+static int is_near(const hr2di_patch *p, const hr2di_box *box) {
+  const hr2d_segment s = p->scaled;
+  const double reach = p->length;
+  return box->x0 <= fmax(s.a.x, s.b.x) + reach && box->x1 >= fmin(s.a.x, s.b.x) - reach &&
+         box->y0 <= fmax(s.a.y, s.b.y) + reach && box->y1 >= fmin(s.a.y, s.b.y) - reach;
+}
+
+/* Images on the patch itself are behind a wall that stands on it. */
+#define ON_PATCH (1 + 1e-9)
+
+/* An image counts if the foot is on the wall, else the wall's own end is what is near; if the
+   patch is on the same side of the wall: `side` is how far it reaches to the left and right;
+   and if some of the wall is in front of the patch, though the image need not be. */
+static hr2d_status add_image(mirror *m, hr2d_segment wall, const double side[2], hr2d_point v) {
+  const hr2d_segment s = m->patch->scaled;
+  const double ux = wall.b.x - wall.a.x, uy = wall.b.y - wall.a.y, square = ux * ux + uy * uy;
+  const double at = ((v.x - wall.a.x) * ux + (v.y - wall.a.y) * uy) / square;
+  const double off = hr2di_orient(wall.a, wall.b, v) / square;
+  const hr2d_point image = {v.x + 2 * off * uy, v.y - 2 * off * ux};
+  if (!(at > 0 && at < 1) || !(off > 0 ? side[0] > 0 : off < 0 && side[1] < 0)) return HR2D_OK;
+  const double least = 1e-13 * m->patch->length * m->patch->length,
+               away = hr2di_ellipse(s, image);
+  if (hr2di_orient(s.a, s.b, wall.a) <= least && hr2di_orient(s.a, s.b, wall.b) <= least)
+    return HR2D_OK;
+  if (away <= ON_PATCH || away >= m->most) return HR2D_OK;
+  hr2di_points *points = m->points;
+  if (hr2di_reserve(&m->scene->alloc, &points->point, &points->capacity, points->count + 1,
+                    sizeof *points->point))
+    return HR2D_ENOMEM;
+  points->point[points->count++] = image;
+  return HR2D_OK;
+}
+
+static hr2d_status add_wall(mirror *m, hr2d_segment wall) {
+  const hr2d_segment s = m->patch->scaled;
+  const double of_a = hr2di_orient(wall.a, wall.b, s.a),
+               of_b = hr2di_orient(wall.a, wall.b, s.b);
+  const double side[] = {fmax(of_a, of_b), fmin(of_a, of_b)};
+  hr2d_status status = add_image(m, wall, side, s.a);
+  if (!status) status = add_image(m, wall, side, s.b);
+  for (size_t k = 0; k < m->count && !status; k++)
+    status = add_image(m, wall, side, m->points->point[k]);
+  return status;
+}
+
+hr2d_status hr2di_add_images(const hr2d_scene *scene, uint32_t patch, double most,
+                             hr2di_points *points, size_t count) {
+  mirror m = {scene, &scene->patch[patch], most, points, count};
+  uint32_t stack[2 * HR2DI_BOX_DEPTH];
+  size_t waiting = 0;
+  hr2d_status status = HR2D_OK;
+  stack[waiting++] = 0;
+  while (waiting > 0 && !status) {
+    const uint32_t number = stack[--waiting];
+    const hr2di_box *box = &scene->walls.box[number];
+    if (!is_near(m.patch, box)) continue;
+    if (box->wall == HR2DI_NO_WALL) {
+      stack[waiting++] = box->below;
+      stack[waiting++] = box->below + 1;
+    } else if (box->wall != scene->walls.of_segment[patch]) {
+      status = add_wall(&m, scene->walls.wall[box->wall].at);
+    }
+  }
+  return status;
+}

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a target will cost: elements and links are made, a few blocks integrated, a few products
+   timed, and the rest is counting. */
+#include <hr2d/accuracy.h>
+#include <math.h>
+#include <stdint.h>
+
+#include "accuracy/error-estimate.h"
+#include "accuracy/resolution.h"
+#include "base/alloc.h"
+#include "base/clock.h"
+#include "base/sized-struct.h"
+#include "blocks/block.h"
+#include "scene/scene-impl.h"
+#include "solve/transport.h"
+
+enum { SAMPLES = 48, PRODUCTS = 64, RUNS = 5 };
+#define SHORT 0.02
+
+/* Gathers of an account of the error: terms of the series, and two solves that are not to full
+   precision (see estimate.c). */
+#define ERROR_GATHERS    8
+#define ERROR_ITERATIONS 0.7
+
+#define CLOSURE     0.5  /* of the time for blocks, on one thread */
+#define PER_ELEMENT 4.0  /* products of a block */
+#define CALLS       2.5  /* of the coarse solve: what is done whatever the order */
+#define REST        1.75 /* what is not counted: fields set up, sampled, and copied */
+
+/* Seconds of an operator: its links and blocks, and one gather. */
+typedef struct cost {
+  uint64_t elements, leaves, links, bytes;
+  double make, gather;
+} cost;
+
+/* Every k-th block is integrated. */
+static hr2d_status time_blocks(const hr2di_answer *a, size_t order, double *seconds) {
+  const hr2d_allocator *alloc = &a->hierarchy->alloc;
+  const uint64_t links = hr2d_linkset_size(a->links);
+  const uint64_t samples = links < SAMPLES ? links : SAMPLES;
+  double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
+  hr2di_integrator work;
+  int distant;
+  hr2d_status status = hr2di_integrator_start(&work, a->hierarchy, alloc, order);
+  const double start = hr2di_now();
+  for (uint64_t k = 0; k < samples && !status; k++) {
+    const hr2d_link link = hr2d_linkset_get(a->links, (2 * k + 1) * links / (2 * samples));
+    status = hr2di_block(&work, link.pair, block, &distant);
+  }
+  *seconds = samples ? (hr2di_now() - start) * ((double)links / (double)samples) : 0;
+  hr2di_integrator_end(&work);
+  return status;
+}
+
+/* Of one block's product, both ways. */
+static double time_product(size_t order) {
+  double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER] = {0}, field[4][HR2D_MAX_ORDER] = {{0}};
+  double least = HUGE_VAL;
+  for (int run = 0; run < 5; run++) {
+    const double start = hr2di_now();
+    for (int k = 0; k < PRODUCTS; k++)
+      hr2di_multiply_block(block, order, field[0], field[1], field[2], field[3]);
+    least = fmin(least, hr2di_now() - start);
+  }
+  return least / PRODUCTS;
+}
+
+/* A gather multiplies each block.  What push and pull, closure and the Krylov method do per
+   element was measured to take four products, and closure to make about as much as distant
+   blocks; such shares hardly depend on the machine. */
+static hr2d_status measure(const hr2d_scene *scene, const hr2d_hierarchy *from,
+                           const hr2di_fineness *fineness, const hr2d_target *target,
+                           hr2di_answer *a, cost *c) {
+  hr2di_message message;
+  hr2d_status status = hr2di_graded_refine(a, scene, from, fineness, target, &message);
+  if (status) return status;
+  const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(a->hierarchy);
+  const double bands = (double)scene->bands;
+  c->elements = counts.elements;
+  c->leaves = counts.leaves;
+  c->links = hr2d_linkset_size(a->links);
+  c->bytes = hr2di_answer_bytes(a) + c->links * (8 * fineness->order * fineness->order + 1);
+  status = time_blocks(a, fineness->order, &c->make);
+  const double threads = target->threads > 1 ? target->threads : 1;
+  c->make = c->make / threads + a->refine_seconds;
+  c->gather =
+      time_product(fineness->order) * bands * ((double)c->links + 1.5 * (double)c->elements);
+  return status;
+}
+
+/* Iterations hardly depend on the order: a coarse solve tells, and what calls take where there
+   is little to do. */
+static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target,
+                              double *iterations, double *seconds) {
+  const double start = hr2di_now();
+  hr2di_answer a;
+  hr2di_message message;
+  const hr2di_fineness coarse = {.order = 2, .target = 0.1, .norm = target->norm};
+  hr2d_status status = hr2di_graded_refine(&a, scene, NULL, &coarse, target, &message);
+  if (!status) status = hr2di_graded_solve(&a, target, &message);
+  if (!status) *iterations = 2 + (double)hr2d_solution_work(a.solution).iterations;
+  hr2di_answer_clear(&a);
+  *seconds = hr2di_now() - start;
+  return status;
+}
+
+static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
+                           hr2d_prediction *p) {
+  const double aim = target->error > 0 ? target->error : 1e-13;
+  hr2di_survey survey;
+  if (hr2di_survey_scene(scene, &survey)) return HR2D_ENOMEM;
+  const hr2di_fineness fineness = hr2di_fineness_for(scene, &survey, aim, target->norm);
+  const hr2di_fineness finer = hr2di_finer(&fineness);
+  hr2di_answer first = {0}, second = {0};
+  cost solve = {0}, error = {0};
+  double iterations = 0, coarse = 0;
+  hr2d_status status = try_coarse(scene, target, &iterations, &coarse);
+  if (!status) status = measure(scene, NULL, &fineness, target, &first, &solve);
+  const int reflects = scene->effect[HR2D_EFFECT_INTERREFLECTION].on;
+  if (!status && reflects)
+    status = measure(scene, first.hierarchy, &finer, target, &second, &error);
+  if (!status) {
+    p->order = fineness.order;
+    p->elements = solve.elements;
+    p->leaves = solve.leaves;
+    p->links = solve.links;
+    p->bytes = solve.bytes + error.bytes;
+    p->seconds = CALLS * coarse +
+                 REST * (solve.make + iterations * solve.gather + error.make +
+                         (ERROR_GATHERS + ERROR_ITERATIONS * iterations) * error.gather);
+  }
+  hr2di_answer_clear(&first);
+  hr2di_answer_clear(&second);
+  return status;
+}
+
+hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *target,
+                         hr2d_prediction *prediction) {
+  hr2d_target used = HR2D_TARGET_INIT;
+  *prediction = (hr2d_prediction){0};
+  if (target) hr2di_copy_sized(&used, sizeof used, target);
+  if (!scene->committed) return HR2D_ESTATE;
+  if (!(used.error >= 0)) return HR2D_EINVAL;
+  const double start = hr2di_now();
+  hr2d_status status = predict(scene, &used, prediction);
+  /* Short times are disturbed by what else the machine does: the least of several. */
+  for (int run = 1; run < RUNS && !status && hr2di_now() - start < SHORT; run++) {
+    const double least = prediction->seconds;
+    status = predict(scene, &used, prediction);
+    prediction->seconds = fmin(prediction->seconds, least);
+  }
+  return status;
+}

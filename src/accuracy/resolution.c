@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* With ellipses of at least m about the elements, ρ* = m + √(m²−1), averages converge like
+   ρ*^−2p, if not for what links between elements that are not leaves drop, which is e^−2.8p;
+   and radiosity after a gather at a rate between ρ*^−2p and ρ*^−p.  Measured errors are below
+   EASY times that, but for narrow corners (see below). */
+#include "accuracy/resolution.h"
+
+#include <math.h>
+
+#include "scene/scene-impl.h"
+
+#define EASY 0.06
+
+static double digits_per_order(const hr2di_survey *survey, hr2d_norm norm) {
+  const double m = survey->ellipse, rate = log(m + sqrt(m * m - 1));
+  return norm == HR2D_NORM_SUP ? 1.4 * rate : fmin(2 * rate, 2.8);
+}
+
+hr2d_status hr2di_survey_scene(const hr2d_scene *scene, hr2di_survey *survey) {
+  const hr2di_grading grading = {.target = 0.1, .order = 2};
+  hr2d_hierarchy *h = NULL;
+  hr2d_status status = hr2d_hierarchy_create(scene, &h);
+  if (!status) status = hr2di_grade(h, &grading, survey);
+  hr2d_hierarchy_destroy(h);
+  return status;
+}
+
+/* Many patches have so many events that to halve all elements is cheaper, as long as not much
+   is asked for: what a kink inside an element does falls like the square of its length. */
+enum { CROWD = 64, MOST_HALVINGS = 3 };
+#define CROWDED_AIM 1e-3
+
+static int is_crowded(const hr2d_scene *scene, int hidden) {
+  return hidden && scene->patches > CROWD;
+}
+
+/* A kink of radiosity inside an element is felt at points more than in averages. */
+static unsigned generations_for(double aim, hr2d_norm norm) {
+  if (norm == HR2D_NORM_AVERAGE) return hr2di_generations_for(aim);
+  return aim >= 0.05 ? 1 : aim >= 1e-4 ? 2 : aim >= 1e-7 ? 3 : 4;
+}
+
+/* In narrow corners with much reflection light goes to and fro often, and errors with it: γ² is
+   what that asks for in excess, from measurements at 10° to 150° and ρ up to 0.999. */
+hr2di_fineness hr2di_fineness_for(const hr2d_scene *scene, const hr2di_survey *survey,
+                                  double aim, hr2d_norm norm) {
+  const double error = aim * fmax(survey->exponent * survey->exponent, 1e-3);
+  const double order = ceil(log(EASY / error) / digits_per_order(survey, norm));
+  const int hidden = scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
+                     scene->effect[HR2D_EFFECT_FACING].called_for ||
+                     scene->effect[HR2D_EFFECT_BACKGROUND].called_for;
+  hr2di_fineness f = {.order = (unsigned)fmin(fmax(order, 2), HR2D_MAX_ORDER - 2),
+                      .target = fmin(0.25 * error, 1),
+                      .digits = fmax(0.02 * error, 1e-14),
+                      .norm = norm,
+                      .hidden = hidden,
+                      .generations = hidden ? generations_for(aim, norm) : 0};
+  if (is_crowded(scene, hidden) && aim >= CROWDED_AIM) {
+    f.order = f.order < 3 ? 3 : f.order;
+    f.generations = 0;
+    f.halvings = aim >= 3e-2 ? 0 : aim >= 3e-3 ? 1 : 2;
+  }
+  f.crowded = is_crowded(scene, hidden);
+  return f;
+}
+
+/* There are no more digits than that; an error that overflowed asks for more. */
+#define MOST_FACTOR 1e16
+
+int hr2di_fineness_raise(hr2di_fineness *f, const hr2di_survey *survey, double factor) {
+  const double gamma = survey->exponent;
+  const double slope = f->norm == HR2D_NORM_SUP ? fmax(gamma, 0.05) : 1 + 2 * gamma;
+  if (f->order + 2 >= HR2D_MAX_ORDER) return -1;
+  factor = fmin(factor, MOST_FACTOR);
+  const double more = fmax(ceil(log(factor) / digits_per_order(survey, f->norm)), 1);
+  f->digits = fmax(f->digits / factor, 1e-14);
+  f->order = (unsigned)fmin(f->order + more, HR2D_MAX_ORDER - 2);
+  f->deeper += (unsigned)fmax(ceil(log2(factor) / slope), 1);
+  if (f->crowded && f->generations == 0 && f->halvings < MOST_HALVINGS)
+    f->halvings++;
+  else if (f->hidden && f->generations < (f->norm == HR2D_NORM_SUP ? 4U : 2U))
+    f->generations++;
+  return 0;
+}

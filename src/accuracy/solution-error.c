@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The error of any solution, by one that is known to be much better. */
+#include <hr2d/accuracy.h>
+#include <math.h>
+
+#include "base/sized-struct.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "scene/scene-impl.h"
+#include "solution/solution-impl.h"
+
+/* A reference is good enough if its bound is this part of the distance. */
+#define ENOUGH 0.05
+#define FIRST  1e-4
+#define FINEST 1e-14
+
+/* Points of each leaf: its ends, just inside, and between. */
+static const double place[] = {1e-9, 0.25, 0.5, 0.75, 1 - 1e-9};
+enum { PLACES = sizeof place / sizeof *place };
+
+static double average_distance(const hr2d_solution *solution, const hr2d_solution *reference) {
+  const hr2d_scene *scene = solution->hierarchy->scene;
+  double most = 0;
+  for (size_t k = 0; k < scene->patches; k++)
+    for (size_t b = 0; b < scene->bands; b++) {
+      const double right = hr2d_solution_average(reference, k, b);
+      const double error = fabs(hr2d_solution_average(solution, k, b) - right);
+      if (error > 0) most = fmax(most, error / right);
+    }
+  return most;
+}
+
+static double sup_distance(const hr2d_solution *solution, const hr2d_solution *reference) {
+  const hr2d_hierarchy *h = solution->hierarchy;
+  double worst = 0;
+  for (size_t b = 0; b < solution->bands; b++) {
+    double error = 0, most = 0;
+    for (uint32_t e = 0; e < solution->elements; e++) {
+      const uint32_t patch = h->element[e].patch;
+      if (h->element[e].child && h->element[e].child < solution->elements) continue;
+      const double from = hr2di_start(h, e);
+      const double size = h->element[e].length / h->element[patch].length;
+      for (int k = 0; k < PLACES; k++) {
+        const double t = fmin(from + place[k] * size, 1);
+        const double right = hr2d_solution_at(reference, patch, t, b);
+        most = fmax(most, right);
+        error = fmax(error, fabs(hr2d_solution_at(solution, patch, t, b) - right));
+      }
+    }
+    if (error > 0) worst = fmax(worst, error / most);
+  }
+  return worst;
+}
+
+static int is_enough(const hr2d_error *error, const hr2d_error *reference) {
+  return !error || reference->bound <= ENOUGH * error->estimate;
+}
+
+/* Compares with a reference; *enough is 1 if that was good enough, or all that could be had.
+   HR2D_EACCURACY if there was none to be had. */
+static hr2d_status compare(const hr2d_solution *solution, const hr2d_target *target,
+                           hr2d_error *average, hr2d_error *sup, int *enough) {
+  hr2d_solution *reference = NULL;
+  hr2d_account account;
+  hr2d_status status = hr2d_solve_to(solution->hierarchy->scene, target, &reference, &account);
+  *enough = status == HR2D_EACCURACY;
+  if (!reference) return status;
+  if (average) {
+    average->estimate = average_distance(solution, reference);
+    average->bound = average->estimate + account.average.bound;
+  }
+  if (sup) {
+    sup->estimate = sup_distance(solution, reference);
+    sup->bound = sup->estimate + account.sup.bound;
+  }
+  *enough = *enough || (is_enough(average, &account.average) && is_enough(sup, &account.sup));
+  hr2d_solution_destroy(reference);
+  return HR2D_OK;
+}
+
+/* The caller's progress, and what it said. */
+typedef struct listener {
+  hr2d_progress_fn progress;
+  void *ctx;
+  hr2d_status told;
+} listener;
+
+static hr2d_status listen(void *ctx, const hr2d_progress *progress) {
+  listener *l = ctx;
+  if (l->progress) l->told = l->progress(l->ctx, progress);
+  return l->told;
+}
+
+/* Budgets that do not suffice for a better comparison leave the last one. */
+hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target *how,
+                                hr2d_error *average, hr2d_error *sup) {
+  hr2d_target target = HR2D_TARGET_INIT;
+  target.error = 0;
+  if (how) hr2di_copy_sized(&target, sizeof target, how);
+  listener l = {.progress = target.progress, .ctx = target.progress_ctx};
+  target.progress = listen;
+  target.progress_ctx = &l;
+  const double finest = fmax(target.error, FINEST);
+  hr2d_status status = HR2D_OK;
+  int enough = 0, compared = 0;
+  for (double error = FIRST; !status && !enough; error *= 1e-3) {
+    target.error = fmax(error, finest);
+    status = compare(solution, &target, average, sup, &enough);
+    if (status == HR2D_EACCURACY && compared && !l.told) status = HR2D_OK;
+    compared = 1;
+    enough = enough || target.error <= finest;
+  }
+  return status;
+}

@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solving to a target: guess how fine, solve, measure the error, and go finer where it is above
+   the target. */
+#include <hr2d/accuracy.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "accuracy/error-estimate.h"
+#include "accuracy/importance.h"
+#include "accuracy/resolution.h"
+#include "base/alloc.h"
+#include "base/clock.h"
+#include "base/sized-struct.h"
+#include "links/linkset-impl.h"
+#include "scene/scene-impl.h"
+#include "solution/solution-impl.h"
+
+/* An estimate is within a factor of 2 of the error. */
+#define MARGIN 0.5
+
+enum { ATTEMPTS = 8, LEAST_SAFE = 6 };
+
+/* What is best so far, and all that was spent. */
+typedef struct search {
+  const hr2d_scene *scene;
+  hr2d_target target;     /* its progress is watch() */
+  hr2d_target given;      /* the caller's */
+  double start, deadline; /* 0 for none */
+  int late;               /* a call was ended because the time was up */
+  hr2d_status told;       /* by the caller's progress, to stop */
+  hr2di_survey survey;
+  hr2di_answer best;
+  double *weight;       /* per patch, where importance is asked for */
+  hr2d_account account; /* of the best, with all times */
+  hr2di_message message;
+} search;
+
+static double left(const search *s) {
+  return s->deadline > 0 ? s->deadline - hr2di_now() : HUGE_VAL;
+}
+
+/* Ends a call when the time is up. */
+static hr2d_status watch(void *ctx, const hr2d_progress *progress) {
+  search *s = ctx;
+  s->late = left(s) <= 0;
+  if (s->late) return HR2D_STOPPED;
+  if (s->given.progress) s->told = s->given.progress(s->given.progress_ctx, progress);
+  return s->told;
+}
+
+static double error_of(const search *s) {
+  return s->target.norm == HR2D_NORM_SUP ? s->account.sup.estimate
+                                         : s->account.average.estimate;
+}
+
+static void add_times(hr2d_account *sum, const hr2di_answer *answer) {
+  sum->refine_seconds += answer->refine_seconds;
+  sum->coefficients_seconds += answer->coefficients_seconds;
+  sum->solve_seconds += answer->solve_seconds;
+  sum->kernels += answer->kernels;
+  sum->solves += answer->solution != NULL;
+}
+
+/* Takes an answer with its errors as the best one. */
+static void keep(search *s, hr2di_answer *answer, const hr2di_errors *errors) {
+  hr2di_answer_clear(&s->best);
+  s->best = *answer;
+  *answer = (hr2di_answer){0};
+  const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(s->best.hierarchy);
+  hr2d_account *a = &s->account;
+  a->average = errors->average;
+  a->sup = errors->sup;
+  a->order = s->best.hierarchy->order;
+  a->elements = counts.elements;
+  a->leaves = counts.leaves;
+  a->links = hr2d_linkset_size(s->best.links);
+  if (s->best.links->roots.clusters)
+    a->links += hr2di_clusters_links(s->best.links->roots.clusters);
+  a->events = s->best.events;
+  a->bytes = hr2di_answer_bytes(&s->best);
+}
+
+/* Solves once, measures the error, and keeps the better one of this and the best. */
+static hr2d_status attempt(search *s, const hr2di_fineness *fineness) {
+  hr2di_answer answer;
+  hr2di_errors errors;
+  hr2d_status status =
+      hr2di_graded_refine(&answer, s->scene, NULL, fineness, &s->target, &s->message);
+  if (!status) status = hr2di_graded_solve(&answer, &s->target, &s->message);
+  add_times(&s->account, &answer);
+  const double start = hr2di_now();
+  if (!status) status = hr2di_estimate(&answer, fineness, &s->target, &errors, &s->message);
+  s->account.error_seconds += hr2di_now() - start;
+  if (!status) {
+    const double error =
+        s->target.norm == HR2D_NORM_SUP ? errors.sup.estimate : errors.average.estimate;
+    s->account.kernels += errors.kernels;
+    if (!s->best.solution || error < error_of(s)) keep(s, &answer, &errors);
+  } else if (s->late && answer.solution && !s->best.solution) {
+    const hr2d_error unknown = {HUGE_VAL, HUGE_VAL};
+    keep(s, &answer, &(hr2di_errors){.average = unknown, .sup = unknown});
+  }
+  hr2di_answer_clear(&answer);
+  return status;
+}
+
+static void give_reason(search *s, const char *reason) {
+  snprintf(s->account.reason, sizeof s->account.reason, "%.150s", reason);
+}
+
+/* Goes finer until the error is below `error`; HR2D_EACCURACY if it does not come down. */
+static hr2d_status reach(search *s, double error) {
+  hr2di_fineness fineness = hr2di_fineness_for(s->scene, &s->survey, error, s->target.norm);
+  double before = HUGE_VAL;
+  int stuck = 0;
+  fineness.weight = s->weight;
+  for (int k = 0; k < ATTEMPTS && stuck < 2; k++) {
+    const hr2d_status status = attempt(s, &fineness);
+    /* Of a low order K may exceed 1 at narrow corners, closure or not. */
+    if (status == HR2D_ENOT_CONVERGED && !s->told && k + 1 < ATTEMPTS &&
+        fineness.order < LEAST_SAFE) {
+      fineness.order++;
+      continue;
+    }
+    if (status || error_of(s) <= MARGIN * error) return status;
+    stuck = error_of(s) > 0.5 * before ? stuck + 1 : 0;
+    before = error_of(s);
+    if (hr2di_fineness_raise(&fineness, &s->best.survey, before / (0.5 * error))) break;
+  }
+  if (error_of(s) <= error) return HR2D_OK;
+  give_reason(s, "finer elements bring the error down no further");
+  return HR2D_EACCURACY;
+}
+
+static int is_budget(hr2d_status status) {
+  return status == HR2D_EMAX_ELEMENTS || status == HR2D_EMAX_LINKS || status == HR2D_EMAX_BYTES;
+}
+
+/* Falling targets, as long as there seems to be time for the next and no budget is spent. */
+static hr2d_status reach_step_by_step(search *s) {
+  hr2d_status status = HR2D_OK;
+  for (double error = 1e-1; !status; error *= 1e-2) {
+    const double aim = fmax(error, s->given.error), start = hr2di_now();
+    status = reach(s, aim);
+    if (status || error_of(s) <= s->given.error || aim <= s->given.error) break;
+    s->late = 1.2 * (hr2di_now() - start) > left(s); /* a finer one takes longer still */
+    if (s->late) break;
+  }
+  return !status && s->late ? HR2D_STOPPED : status;
+}
+
+/* A budget that is spent is not a failure, with a solution or without one. */
+static hr2d_status settle(search *s, hr2d_status status) {
+  if (s->told) {
+    give_reason(s, "stopped by the callback");
+    return s->told;
+  }
+  if (status == HR2D_STOPPED && s->late)
+    give_reason(s, s->best.solution ? "the time is used up"
+                                    : "the time does not suffice for the coarsest solution");
+  else if (status && status != HR2D_EACCURACY)
+    give_reason(s, s->message.text);
+  if (is_budget(status) || (status == HR2D_STOPPED && s->late)) status = HR2D_EACCURACY;
+  const int all_there_is = !(s->given.error > 0) && s->best.solution;
+  return status == HR2D_EACCURACY && all_there_is ? HR2D_OK : status;
+}
+
+static hr2d_status check(const hr2d_scene *scene, const hr2d_target *t) {
+  if (!scene->committed) return HR2D_ESTATE;
+  if (!(t->error >= 0) || !(t->seconds >= 0)) return HR2D_EINVAL;
+  if (t->importance != HR2D_ALL_PATCHES && t->importance >= scene->patches) return HR2D_EINVAL;
+  return t->norm == HR2D_NORM_AVERAGE || t->norm == HR2D_NORM_SUP ? HR2D_OK : HR2D_EINVAL;
+}
+
+static hr2d_status weigh_patches(search *s) {
+  if (s->given.importance == HR2D_ALL_PATCHES) return HR2D_OK;
+  s->weight = hr2di_alloc(&s->scene->alloc, s->scene->patches, sizeof *s->weight);
+  if (!s->weight) return HR2D_ENOMEM;
+  return hr2di_importance(s->scene, s->given.importance, &s->target, s->weight, &s->message);
+}
+
+/* Makes the solution own what it stands on. */
+static void hand_over(search *s, hr2d_solution **solution) {
+  *solution = s->best.solution;
+  if (!*solution) return;
+  (*solution)->own_hierarchy = s->best.hierarchy;
+  (*solution)->own_links = s->best.links;
+  s->best = (hr2di_answer){0};
+}
+
+hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
+                          hr2d_solution **solution, hr2d_account *account) {
+  search s = {.scene = scene, .given = HR2D_TARGET_INIT, .start = hr2di_now()};
+  *solution = NULL;
+  if (account) *account = (hr2d_account){0};
+  if (target) hr2di_copy_sized(&s.given, sizeof s.given, target);
+  hr2d_status status = check(scene, &s.given);
+  if (status) return status;
+  s.target = s.given;
+  s.target.progress = watch;
+  s.target.progress_ctx = &s;
+  if (s.given.seconds > 0) s.deadline = s.start + s.given.seconds;
+  status = hr2di_survey_scene(scene, &s.survey);
+  if (!status) status = weigh_patches(&s);
+  if (!status && !(s.given.seconds > 0)) {
+    status = reach(&s, s.given.error > 0 ? s.given.error : 1e-15);
+    if (is_budget(status) && !s.told) status = reach_step_by_step(&s);
+  } else if (!status) {
+    status = reach_step_by_step(&s);
+  }
+  status = settle(&s, status);
+  if (!s.told && (!status || status == HR2D_EACCURACY)) hand_over(&s, solution);
+  s.account.seconds = hr2di_now() - s.start;
+  if (account) *account = s.account;
+  hr2di_answer_clear(&s.best);
+  hr2di_free(&scene->alloc, s.weight);
+  return status;
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Memory through a scene's hooks; every size is checked for overflow. */
+#ifndef HR2D_SRC_BASE_ALLOC_H
+#define HR2D_SRC_BASE_ALLOC_H
+
+#include <hr2d/memory.h>
+#include <stddef.h>
+
+/* The hooks of malloc. */
+hr2d_allocator hr2di_default_allocator(void);
+
+/* An array of count items, or NULL if it cannot be had; count may be 0. */
+void *hr2di_alloc(const hr2d_allocator *alloc, size_t count, size_t size);
+
+/* As hr2di_alloc(), filled with zero bytes. */
+void *hr2di_calloc(const hr2d_allocator *alloc, size_t count, size_t size);
+
+/* Makes room for `needed` items in *array, whose capacity is *capacity, by
+   doubling.  Returns 0, or -1 with *array and *capacity unchanged. */
+int hr2di_reserve(const hr2d_allocator *alloc, void *array, size_t *capacity, size_t needed,
+                  size_t size);
+
+void hr2di_free(const hr2d_allocator *alloc, void *block);
+
+#endif

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Krylov methods for (I − S) y = b, all bands at once. */
+#ifndef HR2D_SRC_BASE_KRYLOV_H
+#define HR2D_SRC_BASE_KRYLOV_H
+
+#include <hr2d/memory.h>
+#include <hr2d/status.h>
+#include <stdint.h>
+
+typedef struct hr2di_system {
+  const hr2d_allocator *alloc;
+  size_t size, bands;   /* fields are size × bands */
+  const double *weight; /* of the inner product, per item: Σ weight x y */
+  int symmetric;        /* S is self-adjoint in that product */
+
+  /* out = S in */
+  void (*apply)(void *ctx, const double *in, double *out);
+  /* The norm, per band, to which residuals are compared when y is reached. */
+  void (*scale)(void *ctx, const double *y, double *norm);
+  /* Called after each iteration with the largest relative residual. */
+  hr2d_status (*tell)(void *ctx, double residual);
+  void *ctx;
+
+  double tolerance;
+  unsigned max_iterations;
+} hr2di_system;
+
+/* Improves y until ‖b − (I − S) y‖ ≤ tolerance·scale in every band.  HR2D_OK,
+   HR2D_ENOMEM, HR2D_ENOT_CONVERGED (also where a symmetric I − S turns out not to
+   be positive definite), or the status of `tell`.  *residual is the largest one
+   reached, relative to the scale. */
+hr2d_status hr2di_krylov(const hr2di_system *system, const double *b, double *y,
+                         double *residual);
+
+/* Weighted inner product of two fields, per band. */
+void hr2di_dot(const hr2di_system *system, const double *u, const double *v, double *product);
+
+#endif

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The sentence an object keeps about its last failure. */
+#include "base/message.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* How many bytes a UTF-8 character has, by its first byte. */
+static size_t utf8_length(unsigned char first) {
+  if (first >= 0xF0) return 4;
+  if (first >= 0xE0) return 3;
+  return first >= 0xC0 ? 2 : 1;
+}
+
+/* Removes the last character of text[0,length) if not all of its bytes are there. */
+static void trim_partial(char *text, size_t length) {
+  size_t start = length;
+  while (start > 0 && length - start < 4) {
+    const unsigned char byte = (unsigned char)text[--start];
+    if ((byte & 0xC0) == 0x80) continue;
+    if (start + utf8_length(byte) > length) text[start] = '\0';
+    return;
+  }
+}
+
+static int within(unsigned char byte, int least, int most) {
+  return byte >= least && byte <= most;
+}
+
+/* The Unicode Standard, table 3-7. */
+size_t hr2di_utf8_character(const unsigned char *s) {
+  if (s[0] < 0x80) return 1;
+  if (within(s[0], 0xC2, 0xDF)) return within(s[1], 0x80, 0xBF) ? 2 : 0;
+  const int three = within(s[0], 0xE0, 0xEF);
+  if (!three && !within(s[0], 0xF0, 0xF4)) return 0;
+  /* No overlong forms, no surrogates, nothing beyond U+10FFFF. */
+  const int least = s[0] == 0xE0 ? 0xA0 : s[0] == 0xF0 ? 0x90 : 0x80;
+  const int most = s[0] == 0xED ? 0x9F : s[0] == 0xF4 ? 0x8F : 0xBF;
+  if (!within(s[1], least, most) || !within(s[2], 0x80, 0xBF)) return 0;
+  if (three) return 3;
+  return within(s[3], 0x80, 0xBF) ? 4 : 0;
+}
+
+/* C0 and C1, the control characters of ASCII and of Latin-1. */
+static int is_control(const unsigned char *c) {
+  return *c < 0x20 || *c == 0x7F || (c[0] == 0xC2 && c[1] < 0xA0);
+}
+
+/* Texts quoted from files may be cut within a character, and a terminal would obey what
+   else is in them. */
+static void make_readable(char *text) {
+  unsigned char *c = (unsigned char *)text;
+  while (*c) {
+    const size_t length = hr2di_utf8_character(c);
+    const int bad = length == 0 || is_control(c);
+    if (bad) memset(c, '?', length ? length : 1);
+    c += length ? length : 1;
+  }
+}
+
+hr2d_status hr2di_fail(hr2di_message *message, hr2d_status status, const char *format, ...) {
+  /* Written aside first: an argument may be the old message itself. */
+  char text[sizeof message->text];
+  va_list arguments;
+  va_start(arguments, format);
+  const int length = vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  if (length < 0)
+    text[0] = '\0';
+  else if ((size_t)length >= sizeof text)
+    trim_partial(text, sizeof text - 1);
+  make_readable(text);
+  memcpy(message->text, text, sizeof text);
+  return status;
+}
+
+hr2di_quote hr2di_quote_name(const char *name) {
+  hr2di_quote quote;
+  const size_t most = 60, length = strlen(name);
+  size_t cut = length < most ? length : most;
+  while (cut < length && ((unsigned char)name[cut] & 0xC0) == 0x80) cut--;
+  char *at = quote.text;
+  *at++ = '"';
+  memcpy(at, name, cut);
+  strcpy(at + cut, cut < length ? "...\"" : "\"");
+  make_readable(quote.text);
+  return quote;
+}

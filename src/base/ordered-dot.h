@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A scalar product of which four sums run side by side, in vectors of two or of four.  Who adds
+   to whom is written down, so that no bit depends on the compiler, on its level of optimisation
+   or on the processor, as it would if the compiler were free to split the sum. */
+#ifndef HR2D_SRC_BASE_ORDERED_DOT_H
+#define HR2D_SRC_BASE_ORDERED_DOT_H
+
+#include <stddef.h>
+
+static inline double hr2di_four(double s0, double s1, double s2, double s3) {
+  return (s0 + s2) + (s1 + s3);
+}
+
+/* Σ a[k] b[k·stride] */
+static inline double hr2di_dot(const double *a, const double *b, size_t stride, size_t count) {
+  double s0 = 0, s1 = 0, s2 = 0, s3 = 0, rest = 0;
+  size_t k = 0;
+  for (; k + 4 <= count; k += 4) {
+    s0 += a[k] * b[k * stride];
+    s1 += a[k + 1] * b[(k + 1) * stride];
+    s2 += a[k + 2] * b[(k + 2) * stride];
+    s3 += a[k + 3] * b[(k + 3) * stride];
+  }
+  for (; k < count; k++) rest += a[k] * b[k * stride];
+  return hr2di_four(s0, s1, s2, s3) + rest;
+}
+
+#endif

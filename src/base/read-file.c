@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A whole file in memory, read in growing blocks: its size is not to be known
+   beforehand for a pipe, and not to be trusted for anything else. */
+#ifndef _POSIX_C_SOURCE
+#define _POSIX_C_SOURCE 200809L
+#endif
+
+#include "base/read-file.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+
+enum { FIRST_BLOCK = 16384 };
+
+static const char *posix_reason(int failed, const char *buffer) {
+  return failed ? "unknown error" : buffer;
+}
+
+static const char *gnu_reason(const char *text, const char *buffer) {
+  (void)buffer;
+  return text;
+}
+
+/* strerror() is not thread-safe, and strerror_r() has two signatures. */
+static hr2d_status fail_errno(hr2di_message *message, const char *what, int error) {
+  char buffer[128];
+  const char *reason = _Generic(strerror_r(error, buffer, sizeof buffer),
+      int: posix_reason,
+      char *: gnu_reason)(strerror_r(error, buffer, sizeof buffer), buffer);
+  return hr2di_fail(message, error == ENOMEM ? HR2D_ENOMEM : HR2D_EIO, "%s: %s", what, reason);
+}
+
+static hr2d_status read_stream(const hr2d_allocator *alloc, FILE *stream, char **text,
+                               size_t *size, hr2di_message *message) {
+  size_t capacity = 0;
+  for (;;) {
+    if (hr2di_reserve(alloc, text, &capacity, *size ? *size + 1 : FIRST_BLOCK, 1))
+      return hr2di_fail(message, HR2D_ENOMEM, "out of memory after %zu bytes of the file",
+                        *size);
+    errno = 0;
+    size_t got = fread(*text + *size, 1, capacity - *size, stream);
+    *size += got;
+    if (ferror(stream)) return fail_errno(message, "cannot read", errno);
+    if (feof(stream)) return HR2D_OK;
+  }
+}
+
+hr2d_status hr2di_file_read(const hr2d_allocator *alloc, const char *path, char **text,
+                            size_t *size, hr2di_message *message) {
+  *text = NULL;
+  *size = 0;
+  errno = 0;
+  FILE *stream = fopen(path, "rb");
+  if (!stream) return fail_errno(message, "cannot open", errno);
+  /* The blocks are large already, and a stream's buffer would not come from the hooks. */
+  setvbuf(stream, NULL, _IONBF, 0);
+  hr2d_status status = read_stream(alloc, stream, text, size, message);
+  fclose(stream);
+  if (status) {
+    hr2di_free(alloc, *text);
+    *text = NULL;
+    *size = 0;
+  }
+  return status;
+}

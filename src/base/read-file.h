@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A whole file in memory. */
+#ifndef HR2D_SRC_BASE_READ_FILE_H
+#define HR2D_SRC_BASE_READ_FILE_H
+
+#include <hr2d/memory.h>
+#include <hr2d/status.h>
+#include <stddef.h>
+
+#include "base/message.h"
+
+/* Reads `path` into *text, `*size` bytes without a terminator, to be given back with
+   hr2di_free().  Returns HR2D_OK, HR2D_EIO with the system's reason as message, or
+   HR2D_ENOMEM; on failure there is nothing to free. */
+hr2d_status hr2di_file_read(const hr2d_allocator *alloc, const char *path, char **text,
+                            size_t *size, hr2di_message *message);
+
+#endif

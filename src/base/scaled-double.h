@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers m·2^e with the exponent of an int: nothing under- or overflows before
+   the result does.  m is 0 or |m| in [½,1). */
+#ifndef HR2D_SRC_BASE_SCALED_DOUBLE_H
+#define HR2D_SRC_BASE_SCALED_DOUBLE_H
+
+#include <math.h>
+
+typedef struct hr2di_wide {
+  double m;
+  int e;
+} hr2di_wide;
+
+static inline hr2di_wide hr2di_wide_make(double m, int e) {
+  int shift = 0;
+  m = frexp(m, &shift);
+  return (hr2di_wide){m, m == 0 ? 0 : e + shift};
+}
+
+static inline double hr2di_wide_value(hr2di_wide x) {
+  return ldexp(x.m, x.e);
+}
+
+static inline hr2di_wide hr2di_wide_neg(hr2di_wide x) {
+  return (hr2di_wide){-x.m, x.e};
+}
+
+static inline hr2di_wide hr2di_wide_mul(hr2di_wide x, hr2di_wide y) {
+  return hr2di_wide_make(x.m * y.m, x.e + y.e);
+}
+
+static inline hr2di_wide hr2di_wide_div(hr2di_wide x, hr2di_wide y) {
+  return hr2di_wide_make(x.m / y.m, x.e - y.e);
+}
+
+static inline hr2di_wide hr2di_wide_add(hr2di_wide x, hr2di_wide y) {
+  if (x.m == 0) return y;
+  if (y.m == 0) return x;
+  const int e = x.e > y.e ? x.e : y.e;
+  return hr2di_wide_make(ldexp(x.m, x.e - e) + ldexp(y.m, y.e - e), e);
+}
+
+static inline hr2di_wide hr2di_wide_sub(hr2di_wide x, hr2di_wide y) {
+  return hr2di_wide_add(x, hr2di_wide_neg(y));
+}
+
+#endif

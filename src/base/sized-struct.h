@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Structs that callers fill: their first member is the size they were compiled with. */
+#ifndef HR2D_SRC_BASE_SIZED_STRUCT_H
+#define HR2D_SRC_BASE_SIZED_STRUCT_H
+
+#include <stddef.h>
+#include <string.h>
+
+/* Overwrites `to`, of `known` bytes, with what the caller's struct has of it. */
+static inline void hr2di_copy_sized(void *to, size_t known, const void *from) {
+  size_t given;
+  memcpy(&given, from, sizeof given);
+  memcpy(to, from, given < known ? given : known);
+}
+
+#endif

@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which way a block is integrated, and the plain one for distant pairs. */
+#include "blocks/block.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "geometry/predicates.h"
+#include "scene/scene-impl.h"
+
+/* Never 0 between two points: ellipses about panels would be NaN, and halved for ever. */
+static double distance(hr2d_point p, hr2d_point q) {
+  const double dx = p.x - q.x, dy = p.y - q.y, square = dx * dx + dy * dy;
+  return square > 0x1p-900 ? sqrt(square) : hypot(dx, dy);
+}
+
+static int same(hr2d_point p, hr2d_point q) {
+  return p.x == q.x && p.y == q.y;
+}
+
+double hr2di_ellipse(hr2d_segment s, hr2d_point v) {
+  return (distance(s.a, v) + distance(s.b, v)) / distance(s.a, s.b);
+}
+
+/* The sum of distances from a and b is convex along a line, and least where the line meets
+   the segment from a to the mirror image of b. */
+double hr2di_ellipse_least(hr2d_segment s, hr2d_segment of) {
+  const double dx = of.b.x - of.a.x, dy = of.b.y - of.a.y, square = dx * dx + dy * dy;
+  const hr2d_point a = {s.a.x - of.a.x, s.a.y - of.a.y};
+  const hr2d_point b = {s.b.x - of.a.x, s.b.y - of.a.y};
+  const double along_a = (a.x * dx + a.y * dy) / square,
+               along_b = (b.x * dx + b.y * dy) / square;
+  const double off_a = fabs(a.y * dx - a.x * dy), off_b = fabs(b.y * dx - b.x * dy);
+  const double off = off_a + off_b;
+  double t = off > 0 ? (along_a * off_b + along_b * off_a) / off : 0.5;
+  t = fmin(fmax(t, 0), 1);
+  return hr2di_ellipse(s, (hr2d_point){of.a.x + t * dx, of.a.y + t * dy});
+}
+
+double hr2di_distance_for(double error, unsigned order) {
+  const double rho = pow(error, -0.5 / order);
+  return fmin(0.5 * (rho + 1 / rho), HR2DI_DISTANT);
+}
+
+/* Where a linear function with these end values is positive. */
+static hr2di_span positive(const double end[2]) {
+  hr2di_span span = {0, 1};
+  if (!(end[0] > 0)) span.from = end[1] > 0 ? end[0] / (end[0] - end[1]) : 1;
+  if (!(end[1] > 0)) span.to = end[0] > 0 ? end[0] / (end[0] - end[1]) : 0;
+  return span;
+}
+
+/* The vector of an element, from that of its patch, which has more digits. */
+static hr2d_point along(const hr2di_patch *p, const hr2d_element *e) {
+  const double part = e->length / p->length;
+  return (hr2d_point){part * (p->scaled.b.x - p->scaled.a.x),
+                      part * (p->scaled.b.y - p->scaled.a.y)};
+}
+
+static void make_frame(hr2di_pair_frame *f, const hr2d_scene *scene, const hr2d_element *i,
+                       const hr2d_element *j, hr2di_facing facing) {
+  f->i = (hr2d_segment){i->a, i->b};
+  f->j = (hr2d_segment){j->a, j->b};
+  f->along_i = along(&scene->patch[i->patch], i);
+  f->along_j = along(&scene->patch[j->patch], j);
+  f->apart = (hr2d_point){j->a.x - i->a.x, j->a.y - i->a.y};
+  f->length_i = i->length;
+  f->length_j = j->length;
+  f->above_i[0] = hr2di_orient(i->a, i->b, j->a) / i->length;
+  f->above_i[1] = hr2di_orient(i->a, i->b, j->b) / i->length;
+  f->above_j[0] = hr2di_orient(j->a, j->b, i->a) / j->length;
+  f->above_j[1] = hr2di_orient(j->a, j->b, i->b) / j->length;
+  f->front_i = f->front_j = (hr2di_span){0, 1};
+  if (facing == HR2DI_FACING_PART) {
+    f->front_i = positive(f->above_j);
+    f->front_j = positive(f->above_i);
+  }
+}
+
+/* Elements next to a corner of their patches may be so small that coordinates do not tell them
+   apart.  Their distances from the corner do, as fractions of the patches, exactly; `far` is
+   the other end of each patch. */
+static void measure_from_corner(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pair pair,
+                                int at_end) {
+  const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
+  const hr2di_patch *p = &h->scene->patch[i->patch], *q = &h->scene->patch[j->patch];
+  const double from_i = hr2di_start(h, pair.first), size_i = i->length / p->length;
+  const double from_j = hr2di_start(h, pair.second), size_j = j->length / q->length;
+  const hr2d_point u = {p->scaled.b.x - p->scaled.a.x, p->scaled.b.y - p->scaled.a.y};
+  const hr2d_point v = {q->scaled.b.x - q->scaled.a.x, q->scaled.b.y - q->scaled.a.y};
+  const double sine =
+      hr2di_orient(p->scaled.a, p->scaled.b, at_end ? q->scaled.b : q->scaled.a);
+  /* Places along the patches, with the corner at 0. */
+  const double a = at_end ? from_i - 1 : from_i, c = at_end ? from_j : from_j - 1;
+  f->apart = (hr2d_point){c * v.x - a * u.x, c * v.y - a * u.y};
+  f->above_i[0] = fabs(c) * sine / p->length;
+  f->above_i[1] = fabs(c + size_j) * sine / p->length;
+  f->above_j[0] = fabs(a) * sine / q->length;
+  f->above_j[1] = fabs(a + size_i) * sine / q->length;
+}
+
+void hr2di_frame_pair(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pair pair,
+                      hr2di_facing facing) {
+  const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
+  const hr2d_segment p = h->scene->patch[i->patch].scaled, q = h->scene->patch[j->patch].scaled;
+  make_frame(f, h->scene, i, j, facing);
+  if (same(p.b, q.a) || same(p.a, q.b)) measure_from_corner(f, h, pair, same(p.b, q.a));
+}
+
+/* Digits a block is worth at order p: B is approximated to 3.3^−2p in the mean, and a rule of
+   q points on panels as far off as block-near.c makes them is good to 3.19^−(2q−p). */
+static size_t near_points(size_t order) {
+  const double p = (double)order, digits = fmin(2 * p * log(3.3) + 5, 35);
+  return (size_t)ceil(0.5 * (digits / log(3.19) + p));
+}
+
+static double *table(const hr2di_integrator *w, const hr2di_rule *rule) {
+  double *phi = hr2di_alloc(&w->alloc, rule->points * w->order, sizeof *phi);
+  for (size_t q = 0; phi && q < rule->points; q++)
+    hr2di_basis_at(&w->basis, rule->at[q], phi + q * w->order);
+  return phi;
+}
+
+hr2d_status hr2di_integrator_start(hr2di_integrator *w, const hr2d_hierarchy *hierarchy,
+                                   const hr2d_allocator *alloc, size_t order) {
+  const hr2d_scene *scene = hierarchy->scene;
+  *w = (hr2di_integrator){.hierarchy = hierarchy, .alloc = *alloc, .order = order};
+  hr2di_basis_make(&w->basis, order);
+  hr2di_rule_make(&w->far, order + 2);
+  hr2di_rule_make(&w->near, near_points(order));
+  hr2di_rule_make(&w->exact, order);
+  w->phi_far = table(w, &w->far);
+  w->phi_exact = table(w, &w->exact);
+  w->work = hr2di_alloc(alloc, 2 * HR2DI_MOST_POINTS * HR2DI_MOST_POINTS, sizeof *w->work);
+  int room = w->phi_far && w->phi_exact && w->work;
+  if (room && scene->effect[HR2D_EFFECT_OCCLUSION].on) {
+    w->sight = hr2di_alloc(alloc, 1, sizeof *w->sight);
+    if (w->sight) hr2di_sight_start(w->sight, &scene->walls, alloc);
+    room = w->sight != NULL;
+  }
+  return room ? HR2D_OK : HR2D_ENOMEM;
+}
+
+void hr2di_integrator_end(hr2di_integrator *w) {
+  hr2di_free(&w->alloc, w->phi_far);
+  hr2di_free(&w->alloc, w->phi_exact);
+  hr2di_free(&w->alloc, w->work);
+  if (w->sight) hr2di_sight_end(w->sight);
+  hr2di_free(&w->alloc, w->sight);
+  hr2di_free(&w->alloc, w->found.wall);
+  hr2di_free(&w->alloc, w->screen);
+  hr2di_free(&w->alloc, w->point);
+  hr2di_free(&w->alloc, w->cut);
+  hr2di_free(&w->alloc, w->shadow);
+}
+
+/* One tensor rule: G is smooth on both. */
+void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, double *block) {
+  const size_t p = w->order, n = w->far.points;
+  const double scale = 0.5 * f->length_i * f->length_j;
+  double moment[HR2D_MAX_ORDER];
+  w->kernels += n * n;
+  for (size_t k = 0; k < n; k++) {
+    const double s = 0.5 + 0.5 * w->far.at[k];
+    const double x = f->apart.x - s * f->along_i.x, y = f->apart.y - s * f->along_i.y;
+    const double outer = scale * w->far.weight[k] * hr2di_mix(f->above_j, s);
+    memset(moment, 0, p * sizeof *moment);
+    for (size_t q = 0; q < n; q++) {
+      const double t = 0.5 + 0.5 * w->far.at[q];
+      const double rx = x + t * f->along_j.x, ry = y + t * f->along_j.y;
+      const double square = rx * rx + ry * ry;
+      const double g = w->far.weight[q] * hr2di_mix(f->above_i, t) / (square * sqrt(square));
+      const double *phi = w->phi_far + q * p;
+      for (size_t m = 0; m < p; m++) moment[m] += g * phi[m];
+    }
+    const double *phi = w->phi_far + k * p;
+    for (size_t l = 0; l < p; l++)
+      for (size_t m = 0; m < p; m++) block[l * p + m] += outer * phi[l] * moment[m];
+  }
+}
+
+/* The walls in the way, into w->found; the patch with the lower number comes first, as where
+   links are made. */
+static hr2d_status look(hr2di_integrator *w, hr2d_pair pair, hr2di_facing facing,
+                        hr2di_shaft *shaft, hr2di_view *view) {
+  const hr2d_hierarchy *h = w->hierarchy;
+  const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
+  if (i->patch > j->patch) {
+    const hr2d_element *swap = i;
+    i = j;
+    j = swap;
+  }
+  *view = HR2DI_CLEAR;
+  w->found.count = 0;
+  const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
+  if (!w->sight || !hr2di_shaft_make(shaft, facing, s, t, h->scene->patch[i->patch].scaled,
+                                     h->scene->patch[j->patch].scaled))
+    return HR2D_OK;
+  return hr2di_sight_collect(w->sight, shaft, &w->found, view);
+}
+
+hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double *block, int *distant) {
+  const hr2d_hierarchy *h = w->hierarchy;
+  const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
+  const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
+  const hr2d_segment p = h->scene->patch[i->patch].scaled, q = h->scene->patch[j->patch].scaled;
+  const int corner = same(p.b, q.a) || same(p.a, q.b);
+  const hr2di_facing facing = corner ? hr2di_face(&p, &q) : hr2di_face(&s, &t);
+  hr2di_pair_frame f;
+  hr2di_shaft shaft;
+  hr2di_view view;
+  memset(block, 0, w->order * w->order * sizeof *block);
+  *distant = 0;
+  if (facing == HR2DI_FACING_NONE) return HR2D_OK;
+  const hr2d_status status = look(w, pair, facing, &shaft, &view);
+  if (status || view == HR2DI_BLOCKED) return status;
+  hr2di_frame_pair(&f, h, pair, facing);
+  if (view == HR2DI_PARTIAL) return hr2di_block_shaded(w, &f, &shaft, block);
+  const int full = facing == HR2DI_FACING_FULL, touching_end = same(i->b, j->a);
+  *distant = full && hr2di_ellipse_least(s, t) >= HR2DI_DISTANT &&
+             hr2di_ellipse_least(t, s) >= HR2DI_DISTANT;
+  if (*distant)
+    hr2di_block_distant(w, &f, block);
+  else if (full && (touching_end || same(i->a, j->b)))
+    hr2di_block_touching(w, &f, touching_end, block);
+  else
+    hr2di_block_near(w, &f, block);
+  return HR2D_OK;
+}

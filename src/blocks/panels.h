@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Panels of a segment that shrink towards what they are near to. */
+#ifndef HR2D_SRC_BLOCKS_PANELS_H
+#define HR2D_SRC_BLOCKS_PANELS_H
+
+#include "blocks/block.h"
+
+/* A panel is far enough from a point v at an ellipse of m = 1.75, ρ = 3.19 (see block.h). */
+#define HR2DI_NEAR_ELLIPSE 1.75
+
+/* Of an element; G integrates to at most 1, so that less is lost. */
+#define HR2DI_SMALLEST_PANEL 0x1p-46
+
+enum { HR2DI_PANELS = 128 };
+
+/* Those not yet looked at, the next one last. */
+typedef struct hr2di_panels {
+  hr2di_span stack[HR2DI_PANELS];
+  size_t count;
+} hr2di_panels;
+
+/* Puts back the halves of a panel that can still be halved; 0 if it cannot. */
+static inline int hr2di_panel_halved(hr2di_panels *panels, hr2di_span panel) {
+  const double middle = 0.5 * (panel.from + panel.to);
+  if (!(panel.to - panel.from > HR2DI_SMALLEST_PANEL) || panels->count >= HR2DI_PANELS - 2)
+    return 0;
+  panels->stack[panels->count++] = (hr2di_span){middle, panel.to};
+  panels->stack[panels->count++] = (hr2di_span){panel.from, middle};
+  return 1;
+}
+
+/* Whether a panel of the segment that leads from `from` along `along` is near the origin. */
+static inline int hr2di_panel_near(hr2d_point from, hr2d_point along, hr2di_span panel) {
+  const hr2d_segment around = {hr2di_along(from, along, panel.from),
+                               hr2di_along(from, along, panel.to)};
+  return hr2di_ellipse(around, (hr2d_point){0, 0}) < HR2DI_NEAR_ELLIPSE;
+}
+
+#endif

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What clusters leave behind once their pairs are sorted: those that have links. */
+#ifndef HR2D_SRC_CLUSTERS_CLUSTERS_IMPL_H
+#define HR2D_SRC_CLUSTERS_CLUSTERS_IMPL_H
+
+#include "clusters/clusters.h"
+#include "clusters/expansion.h"
+
+#define HR2DI_NO_CLUSTER UINT32_MAX
+
+typedef struct hr2di_linked {
+  hr2di_far far;
+  uint32_t above; /* the least that holds it, before it; or HR2DI_NO_CLUSTER */
+  size_t first;   /* of hr2di_clusters::point */
+} hr2di_linked;
+
+typedef struct hr2di_cluster_link {
+  uint32_t first, second;
+} hr2di_cluster_link;
+
+struct hr2di_clusters {
+  hr2d_allocator alloc;
+  const hr2d_scene *scene;
+  double digits;
+  hr2di_linked *linked; /* those that hold others before them */
+  size_t linked_count;
+  uint32_t *home; /* of each patch: the least that holds it, or HR2DI_NO_CLUSTER */
+  hr2di_cluster_link *link;
+  size_t links, link_capacity;
+  hr2d_point *point;
+  size_t points;
+  double *cosine; /* T_n at the points, for each number of points; see hr2di_cosines() */
+};
+
+/* Keeps of all clusters those between which made->link are, and renumbers these; HR2D_OK or
+   HR2D_ENOMEM. */
+hr2d_status hr2di_clusters_keep(hr2di_clusters *made, const hr2di_cluster_tree *tree,
+                                const hr2di_far *far);
+
+/* T_n at point k of `count`, by n·count + k. */
+static inline const double *hr2di_cosines(const hr2di_clusters *c, unsigned count) {
+  return c->cosine + (size_t)(count - 1) * count * (2 * count - 1) / 6;
+}
+
+#endif

@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pairs of clusters, from the root with itself, are parted until each is settled. */
+#include "clusters/clusters.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/alloc.h"
+#include "clusters/beams.h"
+#include "clusters/clusters-impl.h"
+#include "clusters/facing.h"
+#include "clusters/occlusion.h"
+#include "scene/scene-impl.h"
+
+/* NEAR pairs are handed over at a time.  A link costs as much as its points times those of
+   the other, a pair of patches as much as WORTH of these.  Where so FEW pairs of patches are
+   left, and walls may be in the way, beams tell which of them see each other.  Sines below a
+   part in SLACK of the digits do not matter. */
+enum { NEAR = 256, WORTH = 8, FEW = 256, SLACK = 64 };
+
+/* A pair of clusters; what is known of it holds for its parts. */
+typedef struct two {
+  uint32_t i, j;
+  uint32_t suspect;
+  unsigned char facing, clear;
+} two;
+
+typedef struct walk {
+  hr2di_clusters *made;
+  hr2di_cluster_tree tree;
+  hr2di_far *far;           /* of each cluster; NULL without links */
+  const hr2di_walls *walls; /* NULL: nothing is in the way of anything */
+  two *later;
+  size_t laters, later_capacity;
+  two *stack;
+  size_t count, capacity;
+  hr2di_near_fn near;
+  void *ctx;
+  hr2d_pair pair[NEAR];
+  size_t pairs;
+} walk;
+
+static hr2d_status flush(walk *w) {
+  const size_t count = w->pairs;
+  w->pairs = 0;
+  return count > 0 ? w->near(w->ctx, w->pair, count) : HR2D_OK;
+}
+
+static hr2d_status hand_over(walk *w, uint32_t p, uint32_t q) {
+  w->pair[w->pairs++] = p < q ? (hr2d_pair){p, q} : (hr2d_pair){q, p};
+  return w->pairs == NEAR ? flush(w) : HR2D_OK;
+}
+
+static hr2d_status push(walk *w, two at, uint32_t i, uint32_t j) {
+  if (hr2di_reserve(&w->tree.alloc, &w->stack, &w->capacity, w->count + 1, sizeof *w->stack))
+    return HR2D_ENOMEM;
+  at.i = i;
+  at.j = j;
+  w->stack[w->count++] = at;
+  return HR2D_OK;
+}
+
+static double size_of(const hr2di_cluster *c) {
+  return c->below ? hypot(c->x1 - c->x0, c->y1 - c->y0) : -1;
+}
+
+static hr2d_status part(walk *w, two at) {
+  const hr2di_cluster *i = &w->tree.cluster[at.i], *j = &w->tree.cluster[at.j];
+  hr2d_status status;
+  if (at.i == at.j) {
+    if (!i->below) return HR2D_OK;
+    status = push(w, at, i->below, i->below + 1);
+    if (!status) status = push(w, at, i->below, i->below);
+    return status ? status : push(w, at, i->below + 1, i->below + 1);
+  }
+  const int first = size_of(i) >= size_of(j);
+  status = first ? push(w, at, i->below, at.j) : push(w, at, at.i, j->below);
+  if (status) return status;
+  return first ? push(w, at, i->below + 1, at.j) : push(w, at, at.i, j->below + 1);
+}
+
+static hr2d_status link(walk *w, const two *at) {
+  hr2di_clusters *made = w->made;
+  if (hr2di_reserve(&made->alloc, &made->link, &made->link_capacity, made->links + 1,
+                    sizeof *made->link))
+    return HR2D_ENOMEM;
+  made->link[made->links++] = (hr2di_cluster_link){at->i, at->j};
+  return HR2D_OK;
+}
+
+static double pairs_of(const walk *w, const two *at) {
+  return (double)hr2di_cluster_size(&w->tree.cluster[at->i]) *
+         hr2di_cluster_size(&w->tree.cluster[at->j]);
+}
+
+/* Whether a link of the two costs less than their pairs. */
+static int link_pays(const walk *w, const two *at) {
+  return w->far &&
+         (double)hr2di_far_points(&w->far[at->i]) * (double)hr2di_far_points(&w->far[at->j]) <=
+             WORTH * pairs_of(w, at);
+}
+
+static int may_link(const walk *w, const two *at) {
+  return link_pays(w, at) &&
+         hr2di_far_apart(&w->tree.cluster[at->i], &w->far[at->i], &w->tree.cluster[at->j],
+                         &w->far[at->j], w->made->digits);
+}
+
+/* Completes what is known of a pair that may be linked, until it is known not to be. */
+static int is_clear(walk *w, two *at) {
+  if (!at->facing)
+    at->facing = hr2di_cluster_on(&w->tree, at->i, at->j, HR2DI_SIDE_FRONT) &&
+                 hr2di_cluster_on(&w->tree, at->j, at->i, HR2DI_SIDE_FRONT);
+  if (at->facing && !at->clear)
+    at->clear = (unsigned char)hr2di_clusters_clear(&w->tree, at->i, at->j, &at->suspect);
+  return at->facing && at->clear;
+}
+
+/* The smaller cluster comes first: from its patches beams are cast, and the shorter a patch
+   the narrower they are. */
+static hr2d_status put_off(walk *w, two at) {
+  if (hr2di_reserve(&w->tree.alloc, &w->later, &w->later_capacity, w->laters + 1,
+                    sizeof *w->later))
+    return HR2D_ENOMEM;
+  const hr2di_cluster *i = &w->tree.cluster[at.i], *j = &w->tree.cluster[at.j];
+  const int swap = hypot(i->x1 - i->x0, i->y1 - i->y0) > hypot(j->x1 - j->x0, j->y1 - j->y0);
+  if (swap) at = (two){.i = at.j, .j = at.i};
+  w->later[w->laters++] = at;
+  return HR2D_OK;
+}
+
+static hr2d_status settle(walk *w, two at) {
+  const hr2di_cluster *i = &w->tree.cluster[at.i], *j = &w->tree.cluster[at.j];
+  if (at.i == at.j) return part(w, at);
+  if (!at.facing) {
+    const hr2di_clusters_facing facing = hr2di_clusters_face(&w->tree, at.i, at.j);
+    if (facing == HR2DI_CLUSTERS_APART) return HR2D_OK;
+    at.facing = facing == HR2DI_CLUSTERS_FACING;
+  }
+  if (may_link(w, &at) && is_clear(w, &at)) return link(w, &at);
+  if (!at.clear) {
+    const int few = pairs_of(w, &at) <= FEW && !link_pays(w, &at);
+    if (few && !is_clear(w, &at)) return put_off(w, at);
+    if (!few && hr2di_clusters_blocked(w->walls, i, j)) return HR2D_OK;
+  }
+  if (i->below || j->below) return part(w, at);
+  return hand_over(w, w->tree.patch[i->first], w->tree.patch[j->first]);
+}
+
+static int by_first(const void *left, const void *right) {
+  const two *l = left, *r = right;
+  if (l->i != r->i) return l->i < r->i ? -1 : 1;
+  return (l->j > r->j) - (l->j < r->j);
+}
+
+/* Beams from one patch to what was put off for the clusters that hold it. */
+static hr2d_status cast(walk *w, hr2di_beams *beams, uint32_t place, const size_t *start,
+                        uint32_t *target) {
+  const hr2di_cluster *all = w->tree.cluster;
+  size_t targets = 0;
+  for (uint32_t k = 0;; k = all[k].below + (place >= all[all[k].below].last)) {
+    for (size_t m = start[k]; m < start[k + 1]; m++) target[targets++] = w->later[m].j;
+    if (!all[k].below) break;
+  }
+  const uint32_t patch = w->tree.patch[place];
+  hr2d_status status = hr2di_beams_cast(beams, patch, target, targets);
+  for (size_t k = 0; k < beams->seen_count && !status; k++)
+    status = hand_over(w, patch, beams->seen[k]);
+  return status;
+}
+
+static hr2d_status settle_later(walk *w, const hr2d_scene *scene) {
+  if (w->laters == 0) return HR2D_OK;
+  const hr2d_allocator *alloc = &w->tree.alloc;
+  hr2di_beams beams;
+  size_t *start = hr2di_alloc(alloc, w->tree.clusters + 1, sizeof *start);
+  uint32_t *target = hr2di_alloc(alloc, w->laters, sizeof *target);
+  hr2d_status status = hr2di_beams_start(&beams, scene, &w->tree, alloc);
+  if (!start || !target) status = HR2D_ENOMEM;
+  qsort(w->later, w->laters, sizeof *w->later, by_first);
+  for (size_t k = 0, m = 0; k <= w->tree.clusters && start; start[k++] = m)
+    while (m < w->laters && w->later[m].i < k) m++;
+  for (uint32_t k = 0; k < scene->patches && !status; k++)
+    status = cast(w, &beams, k, start, target);
+  hr2di_beams_end(&beams);
+  hr2di_free(alloc, start);
+  hr2di_free(alloc, target);
+  return status;
+}
+
+static hr2d_status make_far(walk *w) {
+  const double digits = w->made->digits;
+  if (!(digits > 0)) return HR2D_OK;
+  w->tree.slack = digits / SLACK;
+  w->far = hr2di_alloc(&w->tree.alloc, w->tree.clusters, sizeof *w->far);
+  if (!w->far) return HR2D_ENOMEM;
+  for (size_t k = 0; k < w->tree.clusters; k++)
+    w->far[k] = hr2di_far_make(&w->tree.cluster[k], digits);
+  return HR2D_OK;
+}
+
+static hr2d_status sort_pairs(walk *w, const hr2d_scene *scene) {
+  const hr2d_allocator *alloc = &w->made->alloc;
+  hr2d_status status = hr2di_cluster_tree_make(&w->tree, scene, alloc);
+  if (!status) status = make_far(w);
+  if (status) return status;
+  const int shaded = scene->effect[HR2D_EFFECT_OCCLUSION].on;
+  if (shaded) w->walls = &scene->walls;
+  if (shaded) hr2di_clusters_order(&w->tree);
+  status = push(w, (two){.clear = !shaded}, 0, 0);
+  while (!status && w->count > 0) status = settle(w, w->stack[--w->count]);
+  if (!status) status = settle_later(w, scene);
+  return status ? status : flush(w);
+}
+
+hr2d_status hr2di_clusters_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
+                                  double digits, hr2di_near_fn near, void *ctx,
+                                  hr2di_clusters **clusters) {
+  hr2di_clusters *made = hr2di_calloc(alloc, 1, sizeof *made);
+  if (!made) return HR2D_ENOMEM;
+  *made = (hr2di_clusters){.alloc = *alloc, .scene = scene, .digits = digits};
+  walk w = {.made = made, .near = near, .ctx = ctx};
+  hr2d_status status = sort_pairs(&w, scene);
+  if (!status) status = hr2di_clusters_keep(made, &w.tree, w.far);
+  hr2di_cluster_tree_clear(&w.tree);
+  hr2di_free(alloc, w.far);
+  hr2di_free(alloc, w.stack);
+  hr2di_free(alloc, w.later);
+  if (status)
+    hr2di_clusters_destroy(made);
+  else
+    *clusters = made;
+  return status;
+}
+
+void hr2di_clusters_destroy(hr2di_clusters *clusters) {
+  if (!clusters) return;
+  const hr2d_allocator alloc = clusters->alloc;
+  hr2di_free(&alloc, clusters->linked);
+  hr2di_free(&alloc, clusters->home);
+  hr2di_free(&alloc, clusters->link);
+  hr2di_free(&alloc, clusters->point);
+  hr2di_free(&alloc, clusters->cosine);
+  hr2di_free(&alloc, clusters);
+}
+
+uint64_t hr2di_clusters_links(const hr2di_clusters *clusters) {
+  return clusters->links;
+}
+
+uint64_t hr2di_clusters_bytes(const hr2di_clusters *c) {
+  const uint64_t n = HR2DI_FAR_POINTS, cosines = n * (n + 1) * (2 * n + 1) / 6;
+  uint64_t bytes = sizeof *c + c->link_capacity * sizeof *c->link;
+  if (c->links > 0)
+    bytes += c->linked_count * sizeof *c->linked + c->points * sizeof *c->point +
+             c->scene->patches * sizeof *c->home + cosines * sizeof *c->cosine;
+  return bytes;
+}

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Clusters of patches: what many patches exchange with many others, at the cost of few. */
+#ifndef HR2D_SRC_CLUSTERS_CLUSTERS_H
+#define HR2D_SRC_CLUSTERS_CLUSTERS_H
+
+#include <hr2d/oracle.h>
+#include <hr2d/scene.h>
+
+typedef struct hr2di_clusters hr2di_clusters;
+
+/* Called with up to 256 pairs of patches that may see each other and that no cluster link
+   covers, first below second, each once. */
+typedef hr2d_status (*hr2di_near_fn)(void *ctx, const hr2d_pair *pairs, size_t count);
+
+/* Sorts all pairs of patches of a committed scene into three: those that surely cannot see
+   each other, those that clusters exchange for them, and the rest, which go to `near`.  All
+   of a pair that has a link is seen, but for rounding.  `digits` is the accuracy asked of
+   cluster links, as 1e-6: of the irradiance that comes over them where B ≤ 1; 0 for none of
+   them.  The scene must outlive the clusters.  HR2D_OK, HR2D_ENOMEM, or the status of
+   `near`. */
+hr2d_status hr2di_clusters_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
+                                  double digits, hr2di_near_fn near, void *ctx,
+                                  hr2di_clusters **clusters);
+void hr2di_clusters_destroy(hr2di_clusters *clusters);
+
+/* The number of cluster links, each for both directions. */
+uint64_t hr2di_clusters_links(const hr2di_clusters *clusters);
+uint64_t hr2di_clusters_bytes(const hr2di_clusters *clusters);
+
+/* power += K radiosity over the cluster links.  Both are patches × order × bands, with an
+   order of 1 to HR2D_MAX_ORDER: coefficient l of a patch is that of φ_l(ξ) = √(2l+1) P_l(ξ),
+   ξ from −1 at its start to 1 at its end; radiosity_k = (1/A)∫ B φ_k, power_k = ∫∫ G B φ_k
+   dy dx in scaled lengths.  Self-adjoint but for rounding.  The same bits every time.
+   HR2D_OK or HR2D_ENOMEM. */
+hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, size_t order, size_t bands,
+                                  const double *radiosity, double *power);
+
+#endif

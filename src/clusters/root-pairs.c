@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pairs come as clusters are walked, and are sorted as a refinement without clusters would
+   take them: by counting, first by their second patch, then by their first. */
+#include "clusters/root-pairs.h"
+
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/scene-impl.h"
+
+typedef struct collector {
+  hr2di_roots *roots;
+  const hr2d_allocator *alloc;
+} collector;
+
+static hr2d_status collect(void *ctx, const hr2d_pair *pairs, size_t count) {
+  const collector *c = ctx;
+  hr2di_roots *r = c->roots;
+  if (hr2di_reserve(c->alloc, &r->pair, &r->capacity, r->count + count, sizeof *r->pair))
+    return HR2D_ENOMEM;
+  memcpy(r->pair + r->count, pairs, count * sizeof *pairs);
+  r->count += count;
+  return HR2D_OK;
+}
+
+static uint32_t key(const hr2d_pair *pair, int by_first) {
+  return by_first ? pair->first : pair->second;
+}
+
+/* Stable; leaves in `start` where each key's pairs begin, and their number behind. */
+static void sort_by(const hr2d_pair *from, hr2d_pair *to, size_t count, size_t *start,
+                    size_t keys, int by_first) {
+  memset(start, 0, (keys + 1) * sizeof *start);
+  for (size_t k = 0; k < count; k++) start[key(&from[k], by_first) + 1]++;
+  for (size_t k = 0; k < keys; k++) start[k + 1] += start[k];
+  for (size_t k = 0; k < count; k++) to[start[key(&from[k], by_first)]++] = from[k];
+  for (size_t k = keys; k > 0; k--) start[k] = start[k - 1];
+  start[0] = 0;
+}
+
+static hr2d_status sort_pairs(hr2di_roots *r, size_t patches, const hr2d_allocator *alloc) {
+  hr2d_pair *sorted = hr2di_alloc(alloc, r->count, sizeof *sorted);
+  r->row = hr2di_alloc(alloc, patches + 1, sizeof *r->row);
+  const int room = sorted && r->row;
+  if (room) {
+    sort_by(r->pair, sorted, r->count, r->row, patches, 0);
+    sort_by(sorted, r->pair, r->count, r->row, patches, 1);
+  }
+  hr2di_free(alloc, sorted);
+  return room ? HR2D_OK : HR2D_ENOMEM;
+}
+
+hr2d_status hr2di_roots_make(hr2di_roots *roots, const hr2d_scene *scene,
+                             const hr2d_allocator *alloc, double digits) {
+  collector c = {roots, alloc};
+  *roots = (hr2di_roots){.digits = digits};
+  hr2d_status status =
+      hr2di_clusters_create(scene, alloc, digits, collect, &c, &roots->clusters);
+  if (!status) status = sort_pairs(roots, scene->patches, alloc);
+  return status;
+}
+
+void hr2di_roots_clear(hr2di_roots *roots, const hr2d_allocator *alloc) {
+  hr2di_clusters_destroy(roots->clusters);
+  hr2di_free(alloc, roots->pair);
+  hr2di_free(alloc, roots->row);
+  *roots = (hr2di_roots){0};
+}

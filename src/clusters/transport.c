@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* K over cluster links: patches to points, points to points of the clusters around, across
+   the links, and back the same way.
+
+   Interpolation at Chebyshev points is f ≈ Σ_n c_n T_n, c_n = (1 or 2)/q Σ_k T_n(t_k) f(t_k).
+   Applied to what is sent, strengths s at places t become moments Σ s T_n(t), and these
+   strengths at the points; applied to what is received it is its transpose, so that the
+   whole is symmetric. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/legendre.h"
+#include "clusters/clusters-impl.h"
+#include "scene/scene-impl.h"
+
+enum { MOST_POINTS = HR2DI_FAR_POINTS * HR2DI_FAR_POINTS };
+
+/* Of each cluster 2·bands planes, each with a value per point: x components, then y. */
+typedef struct gather {
+  const hr2di_clusters *c;
+  size_t order, bands, planes;
+  double *sent, *received;
+  double *vector; /* one value per plane */
+  hr2di_basis basis;
+  hr2di_rule *rule; /* for each number of points; 0 points: not made yet */
+} gather;
+
+static double *planes_of(const gather *g, double *field, const hr2di_linked *c) {
+  return field + c->first * g->planes;
+}
+
+/* T_n at a place along both directions. */
+typedef struct place {
+  double t[2][HR2DI_FAR_POINTS];
+} place;
+
+static place place_in(const hr2di_far *f, hr2d_point p) {
+  const double along[] = {f->u.x * p.x + f->u.y * p.y, f->u.x * p.y - f->u.y * p.x};
+  place at;
+  for (int k = 0; k < 2; k++) {
+    const double t = f->half[k] > 0 ? (along[k] - f->at[k]) / f->half[k] : 0;
+    at.t[k][0] = 1;
+    if (f->count[k] > 1) at.t[k][1] = t;
+    for (unsigned n = 2; n < f->count[k]; n++)
+      at.t[k][n] = 2 * t * at.t[k][n - 1] - at.t[k][n - 2];
+  }
+  return at;
+}
+
+/* Adds g->vector, sent from a place, to the moments of a cluster. */
+static void send(const gather *g, const hr2di_linked *c, hr2d_point p) {
+  const hr2di_far *f = &c->far;
+  const place at = place_in(f, p);
+  double *moment = planes_of(g, g->sent, c);
+  for (size_t k = 0; k < g->planes; k++)
+    for (unsigned m = 0; m < f->count[1]; m++) {
+      const double s = g->vector[k] * at.t[1][m];
+      for (unsigned n = 0; n < f->count[0]; n++) *moment++ += s * at.t[0][n];
+    }
+}
+
+/* Sets g->vector to what is received at a place. */
+static void receive(const gather *g, const hr2di_linked *c, hr2d_point p) {
+  const hr2di_far *f = &c->far;
+  const place at = place_in(f, p);
+  const double *coefficient = planes_of(g, g->received, c);
+  for (size_t k = 0; k < g->planes; k++) {
+    double sum = 0;
+    for (unsigned m = 0; m < f->count[1]; m++) {
+      double row = 0;
+      for (unsigned n = 0; n < f->count[0]; n++) row += *coefficient++ * at.t[0][n];
+      sum += row * at.t[1][m];
+    }
+    g->vector[k] = sum;
+  }
+}
+
+/* out_a = Σ_b matrix(a,b) in_b along one direction of a plane, where the matrix is
+   (1 or 2)/q T, or its transpose. */
+static void turn(const hr2di_clusters *c, const hr2di_far *f, int along, int transposed,
+                 const double *in, double *out) {
+  const unsigned count = f->count[along], others = f->count[1 - along];
+  const size_t step = along ? f->count[0] : 1, next = along ? 1 : f->count[0];
+  const double *t = hr2di_cosines(c, count);
+  for (unsigned o = 0; o < others; o++, in += next, out += next)
+    for (unsigned a = 0; a < count; a++) {
+      double sum = 0;
+      for (unsigned b = 0; b < count; b++) {
+        const unsigned n = transposed ? b : a, k = transposed ? a : b;
+        sum += (n > 0 ? 2 : 1) * t[n * count + k] * in[b * step];
+      }
+      out[a * step] = sum / count;
+    }
+}
+
+static void turn_planes(const gather *g, double *field, const hr2di_linked *c, int transposed) {
+  double between[MOST_POINTS];
+  const size_t points = hr2di_far_points(&c->far);
+  double *plane = planes_of(g, field, c);
+  for (size_t k = 0; k < g->planes; k++, plane += points) {
+    turn(g->c, &c->far, 0, transposed, plane, between);
+    turn(g->c, &c->far, 1, transposed, between, plane);
+  }
+}
+
+static const hr2di_rule *rule_of(const gather *g, size_t points) {
+  hr2di_rule *rule = &g->rule[points];
+  if (rule->points == 0) hr2di_rule_make(rule, points);
+  return rule;
+}
+
+static hr2d_point point_of(hr2d_segment s, double xi) {
+  const double t = 0.5 * (1 + xi);
+  return (hr2d_point){s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)};
+}
+
+/* B n ds at the Gauss points of a patch; n ds = (−dy, dx)·weight. */
+static void send_patch(const gather *g, size_t patch, const double *radiosity) {
+  const hr2di_linked *c = &g->c->linked[g->c->home[patch]];
+  const hr2di_patch *p = &g->c->scene->patch[patch];
+  const hr2d_segment s = p->scaled;
+  const hr2di_rule *rule =
+      rule_of(g, hr2di_far_gauss(&c->far, p->length, g->order, g->c->digits));
+  for (size_t k = 0; k < rule->points; k++) {
+    for (size_t band = 0; band < g->bands; band++) {
+      const double b =
+          rule->weight[k] * hr2di_basis_sum(&g->basis, rule->at[k], radiosity + band, g->bands);
+      g->vector[band] = b * (s.a.y - s.b.y);
+      g->vector[g->bands + band] = b * (s.b.x - s.a.x);
+    }
+    send(g, c, point_of(s, rule->at[k]));
+  }
+}
+
+static void receive_patch(const gather *g, size_t patch, double *power) {
+  const hr2di_linked *c = &g->c->linked[g->c->home[patch]];
+  const hr2di_patch *p = &g->c->scene->patch[patch];
+  const hr2d_segment s = p->scaled;
+  const hr2di_rule *rule =
+      rule_of(g, hr2di_far_gauss(&c->far, p->length, g->order, g->c->digits));
+  double phi[HR2D_MAX_ORDER];
+  for (size_t k = 0; k < rule->points; k++) {
+    receive(g, c, point_of(s, rule->at[k]));
+    hr2di_basis_at(&g->basis, rule->at[k], phi);
+    for (size_t band = 0; band < g->bands; band++) {
+      const double h = rule->weight[k] * (g->vector[band] * (s.a.y - s.b.y) +
+                                          g->vector[g->bands + band] * (s.b.x - s.a.x));
+      for (size_t l = 0; l < g->order; l++) power[l * g->bands + band] += h * phi[l];
+    }
+  }
+}
+
+/* From the points of a cluster to the one above it, as if they were patches. */
+static void send_up(const gather *g, const hr2di_linked *c) {
+  const hr2di_linked *above = &g->c->linked[c->above];
+  const size_t points = hr2di_far_points(&c->far);
+  const double *plane = planes_of(g, g->sent, c);
+  for (size_t k = 0; k < points; k++) {
+    for (size_t m = 0; m < g->planes; m++) g->vector[m] = plane[m * points + k];
+    send(g, above, g->c->point[c->first + k]);
+  }
+}
+
+static void receive_down(const gather *g, const hr2di_linked *c) {
+  const hr2di_linked *above = &g->c->linked[c->above];
+  const size_t points = hr2di_far_points(&c->far);
+  double *plane = planes_of(g, g->received, c);
+  for (size_t k = 0; k < points; k++) {
+    receive(g, above, g->c->point[c->first + k]);
+    for (size_t m = 0; m < g->planes; m++) plane[m * points + k] += g->vector[m];
+  }
+}
+
+/* T between a point and all points of a cluster: xx, xy, yy. */
+typedef struct row {
+  double xx[MOST_POINTS], xy[MOST_POINTS], yy[MOST_POINTS];
+} row;
+
+static void fill_row(row *t, hr2d_point x, const hr2d_point *y, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    const double dx = y[k].x - x.x, dy = y[k].y - x.y;
+    const double square = dx * dx + dy * dy, s = -0.5 / (square * sqrt(square));
+    t->xx[k] = s * dx * dx;
+    t->xy[k] = s * dx * dy;
+    t->yy[k] = s * dy * dy;
+  }
+}
+
+/* One band of a row, both ways. */
+static void exchange_row(const row *t, size_t count, const double sent[2], const double *sent_x,
+                         const double *sent_y, double received[2], double *received_x,
+                         double *received_y) {
+  double x = 0, y = 0;
+  for (size_t k = 0; k < count; k++) {
+    received_x[k] += t->xx[k] * sent[0] + t->xy[k] * sent[1];
+    received_y[k] += t->xy[k] * sent[0] + t->yy[k] * sent[1];
+    x += t->xx[k] * sent_x[k] + t->xy[k] * sent_y[k];
+    y += t->xy[k] * sent_x[k] + t->yy[k] * sent_y[k];
+  }
+  received[0] += x;
+  received[1] += y;
+}
+
+static void exchange(const gather *g, const hr2di_linked *i, const hr2di_linked *j) {
+  const size_t m = hr2di_far_points(&i->far), n = hr2di_far_points(&j->far);
+  double *sent_i = planes_of(g, g->sent, i), *sent_j = planes_of(g, g->sent, j);
+  double *received_i = planes_of(g, g->received, i), *received_j = planes_of(g, g->received, j);
+  row t;
+  for (size_t k = 0; k < m; k++) {
+    fill_row(&t, g->c->point[i->first + k], g->c->point + j->first, n);
+    for (size_t band = 0; band < g->bands; band++) {
+      const size_t x = band, y = g->bands + band;
+      const double sent[] = {sent_i[x * m + k], sent_i[y * m + k]};
+      double received[2] = {0, 0};
+      exchange_row(&t, n, sent, sent_j + x * n, sent_j + y * n, received, received_j + x * n,
+                   received_j + y * n);
+      received_i[x * m + k] += received[0];
+      received_i[y * m + k] += received[1];
+    }
+  }
+}
+
+static void run(const gather *g, const double *radiosity, double *power) {
+  const hr2di_clusters *c = g->c;
+  const size_t stride = g->order * g->bands, patches = c->scene->patches;
+  for (size_t k = 0; k < patches; k++)
+    if (c->home[k] != HR2DI_NO_CLUSTER) send_patch(g, k, radiosity + k * stride);
+  for (size_t k = c->linked_count; k-- > 0;) {
+    turn_planes(g, g->sent, &c->linked[k], 1);
+    if (c->linked[k].above != HR2DI_NO_CLUSTER) send_up(g, &c->linked[k]);
+  }
+  for (size_t k = 0; k < c->links; k++)
+    exchange(g, &c->linked[c->link[k].first], &c->linked[c->link[k].second]);
+  for (size_t k = 0; k < c->linked_count; k++) {
+    if (c->linked[k].above != HR2DI_NO_CLUSTER) receive_down(g, &c->linked[k]);
+    turn_planes(g, g->received, &c->linked[k], 0);
+  }
+  for (size_t k = 0; k < patches; k++)
+    if (c->home[k] != HR2DI_NO_CLUSTER) receive_patch(g, k, power + k * stride);
+}
+
+hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, size_t order, size_t bands,
+                                  const double *radiosity, double *power) {
+  if (clusters->links == 0) return HR2D_OK;
+  const hr2d_allocator *alloc = &clusters->alloc;
+  gather g = {.c = clusters, .order = order, .bands = bands, .planes = 2 * bands};
+  g.sent = hr2di_calloc(alloc, clusters->points, g.planes * sizeof *g.sent);
+  g.received = hr2di_calloc(alloc, clusters->points, g.planes * sizeof *g.received);
+  g.vector = hr2di_alloc(alloc, g.planes, sizeof *g.vector);
+  g.rule = hr2di_calloc(alloc, HR2DI_MOST_POINTS + 1, sizeof *g.rule);
+  const int room = g.sent && g.received && g.vector && g.rule;
+  if (room) {
+    hr2di_basis_make(&g.basis, order);
+    run(&g, radiosity, power);
+  }
+  hr2di_free(alloc, g.sent);
+  hr2di_free(alloc, g.received);
+  hr2di_free(alloc, g.vector);
+  hr2di_free(alloc, g.rule);
+  return room ? HR2D_OK : HR2D_ENOMEM;
+}

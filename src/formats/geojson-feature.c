@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A GeoJSON feature: what its properties say about all of its patches. */
+#include <float.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "formats/geojson-impl.h"
+
+static void set_label(hr2di_geojson *reader, size_t number, const char *name) {
+  if (name && *name)
+    snprintf(reader->label, sizeof reader->label, "feature %zu (%s)", number,
+             hr2di_quote_name(name).text);
+  else
+    snprintf(reader->label, sizeof reader->label, "feature %zu", number);
+}
+
+static hr2d_status check_value(hr2di_geojson *reader, const char *place, const char *key,
+                               const json_t *json, double max) {
+  if (!json_is_number(json))
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "%s: %s: must be a number or an array of numbers, not %s", place, key,
+                      hr2di_geojson_kind(json));
+  const double value = json_number_value(json);
+  if (value >= 0 && value <= max) return HR2D_OK;
+  if (max < DBL_MAX)
+    return hr2di_fail(reader->message, HR2D_ESCENE,
+                      "%s: %s: must be between 0 and %g, not %.17g", place, key, max, value);
+  return hr2di_fail(reader->message, HR2D_ESCENE, "%s: %s: must not be negative, not %g", place,
+                    key, value);
+}
+
+hr2d_status hr2di_geojson_values(hr2di_geojson *reader, const char *place, const char *key,
+                                 const json_t *json, double max, hr2di_values *values,
+                                 size_t *count) {
+  *count = 0;
+  if (!json) return HR2D_OK;
+  const int array = json_is_array(json);
+  const size_t size = array ? json_array_size(json) : 1;
+  if (!size)
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "%s: %s: must have a value, not be an empty array", place, key);
+  if (hr2di_reserve(reader->alloc, &values->value, &values->capacity, size,
+                    sizeof *values->value))
+    return hr2di_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", place);
+  for (size_t k = 0; k < size; k++) {
+    const json_t *item = array ? json_array_get(json, k) : json;
+    hr2d_status status = check_value(reader, place, key, item, max);
+    if (status) return status;
+    values->value[k] = json_number_value(item);
+  }
+  *count = size;
+  return HR2D_OK;
+}
+
+/* A property with two words to choose from; *is_second tells which. */
+static hr2d_status read_choice(hr2di_geojson *reader, const json_t *properties, const char *key,
+                               const char *first, const char *second, int *is_second) {
+  const json_t *json = hr2di_geojson_member(properties, key);
+  const char *word = json_string_value(json);
+  *is_second = word && strcmp(word, second) == 0;
+  if (!json || *is_second || (word && strcmp(word, first) == 0)) return HR2D_OK;
+  return hr2di_fail(reader->message, HR2D_ESYNTAX, "%s: %s: must be \"%s\" or \"%s\"",
+                    reader->label, key, first, second);
+}
+
+static hr2d_status read_name(hr2di_geojson *reader, const json_t *name) {
+  if (name && !json_is_string(name))
+    return hr2di_fail(reader->message, HR2D_ESYNTAX, "%s: name: must be a string, not %s",
+                      reader->label, hr2di_geojson_kind(name));
+  if (json_string_length(name) > 0) reader->patch.name = json_string_value(name);
+  return HR2D_OK;
+}
+
+static hr2d_status read_light(hr2di_geojson *reader, const json_t *properties) {
+  hr2d_patch *patch = &reader->patch;
+  hr2d_status status = hr2di_geojson_values(reader, reader->label, "emission",
+                                            hr2di_geojson_member(properties, "emission"),
+                                            DBL_MAX, &reader->emission, &patch->emission_bands);
+  if (status) return status;
+  status = hr2di_geojson_values(reader, reader->label, "reflectance",
+                                hr2di_geojson_member(properties, "reflectance"), 1,
+                                &reader->reflectance, &patch->reflectance_bands);
+  if (status) return status;
+  if (patch->emission_bands > 1 && patch->reflectance_bands > 1 &&
+      patch->emission_bands != patch->reflectance_bands)
+    return hr2di_fail(reader->message, HR2D_ESCENE,
+                      "%s: emission has %zu bands, reflectance has %zu", reader->label,
+                      patch->emission_bands, patch->reflectance_bands);
+  patch->emission = reader->emission.value;
+  patch->reflectance = reader->reflectance.value;
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, size_t number) {
+  const json_t *properties = hr2di_geojson_member(feature, "properties");
+  const json_t *name = hr2di_geojson_member(properties, "name");
+  const char *type = json_string_value(json_object_get(feature, "type"));
+  int both;
+
+  reader->patch = (hr2d_patch)HR2D_PATCH_INIT;
+  set_label(reader, number, json_string_value(name));
+  if (!type || strcmp(type, "Feature") != 0)
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "%s: must be an object of \"type\" \"Feature\"", reader->label);
+  if (properties && !json_is_object(properties))
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "%s: properties: must be an object, not %s", reader->label,
+                      hr2di_geojson_kind(properties));
+  hr2d_status status = read_name(reader, name);
+  if (!status) status = read_light(reader, properties);
+  if (!status) status = read_choice(reader, properties, "sides", "front", "both", &both);
+  if (!status)
+    status = read_choice(reader, properties, "faces", "in", "out", &reader->faces_out);
+  if (status) return status;
+  reader->patch.sides = both ? HR2D_SIDES_BOTH : HR2D_SIDES_FRONT;
+  return hr2di_geojson_geometry(reader, hr2di_geojson_member(feature, "geometry"));
+}

@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A GeoJSON geometry: from lines and rings to patches whose fronts are where they
+   should be. */
+#include <float.h>
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "formats/geojson-impl.h"
+#include "geometry/predicates.h"
+#include "scene/scene-impl.h"
+
+/* Of a name that each segment gets, lest a file take the product of its names' length and
+   their number. */
+enum { MOST_NAME = 255 };
+
+/* A line keeps its direction; rings get theirs from what they enclose. */
+typedef enum role { LINE, OUTER, HOLE } role;
+
+/* A run of positions and where it stands: feature 3 ("hall"): polygon 2, ring 1. */
+typedef struct path {
+  const json_t *positions;
+  role role;
+  char place[HR2DI_PLACE_SIZE];
+} path;
+
+static hr2d_status read_position(hr2di_geojson *reader, const path *p, size_t k) {
+  const json_t *position = json_array_get(p->positions, k);
+  const size_t size = json_array_size(position);
+  int numbers = size >= 2;
+  for (size_t m = 0; m < size; m++) numbers &= json_is_number(json_array_get(position, m));
+  if (!numbers)
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "%s: position %zu: must be an array of two or more numbers", p->place,
+                      k + 1);
+  reader->point[k] = (hr2d_point){json_number_value(json_array_get(position, 0)),
+                                  json_number_value(json_array_get(position, 1))};
+  return HR2D_OK;
+}
+
+static int same_point(hr2d_point a, hr2d_point b) {
+  return a.x == b.x && a.y == b.y;
+}
+
+static hr2d_status read_points(hr2di_geojson *reader, const path *p, size_t *count) {
+  const size_t least = p->role == LINE ? 2 : 4;
+  const size_t n = *count = json_array_size(p->positions);
+  if (!json_is_array(p->positions))
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "%s: coordinates: must be an array of positions, not %s", p->place,
+                      hr2di_geojson_kind(p->positions));
+  if (n < least)
+    return hr2di_fail(reader->message, HR2D_ESYNTAX, "%s: needs %zu positions or more, has %zu",
+                      p->place, least, n);
+  if (hr2di_reserve(reader->alloc, &reader->point, &reader->point_capacity, n,
+                    sizeof *reader->point))
+    return hr2di_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", p->place);
+  for (size_t k = 0; k < n; k++) {
+    hr2d_status status = read_position(reader, p, k);
+    if (status) return status;
+    if (k && same_point(reader->point[k - 1], reader->point[k]))
+      return hr2di_fail(reader->message, HR2D_ESCENE,
+                        "%s: segment %zu has no length: positions %zu and %zu are the same",
+                        p->place, k, k, k + 1);
+  }
+  if (p->role != LINE && !same_point(reader->point[0], reader->point[n - 1]))
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "%s: a ring must be closed: its last position must repeat the first",
+                      p->place);
+  return HR2D_OK;
+}
+
+/* Twice the signed area of a ring, as a fan of triangles around its first point; 0
+   where rounding leaves the sign open.  Each triangle has full relative accuracy, so
+   that a convex ring has too, however thin and far from the origin it is; others lose
+   at most their count times the sum of magnitudes.  Scaled against overflow. */
+static double ring_area(const hr2d_point *point, size_t n) {
+  double largest = 0, area = 0, magnitude = 0;
+  int exponent;
+  for (size_t k = 0; k < n; k++)
+    largest = fmax(largest, fmax(fabs(point[k].x), fabs(point[k].y)));
+  frexp(largest, &exponent);
+  hr2d_point corner[3];
+  for (size_t k = 0; k + 1 < n; k++) {
+    corner[k < 2 ? k : 2] =
+        (hr2d_point){ldexp(point[k].x, -exponent), ldexp(point[k].y, -exponent)};
+    if (k < 2) continue;
+    const double triangle = hr2di_orient(corner[0], corner[1], corner[2]);
+    area += triangle;
+    magnitude += fabs(triangle);
+    corner[1] = corner[2];
+  }
+  return fabs(area) > 8 * (double)n * DBL_EPSILON * magnitude ? area : 0;
+}
+
+/* Writes NAME, or NAME/k where the feature has several segments. */
+static hr2d_status set_name(hr2di_geojson *reader, hr2d_patch *patch) {
+  if (!patch->name || reader->segments == 1) return HR2D_OK;
+  const size_t digits = 24;
+  if (hr2di_reserve(reader->alloc, &reader->name, &reader->name_capacity,
+                    strlen(patch->name) + digits, 1))
+    return hr2di_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", reader->label);
+  snprintf(reader->name, reader->name_capacity, "%s/%zu", patch->name, reader->added + 1);
+  patch->name = reader->name;
+  return HR2D_OK;
+}
+
+static hr2d_status add_segment(hr2di_geojson *reader, hr2d_point a, hr2d_point b) {
+  hr2d_patch patch = reader->patch;
+  hr2d_status status = set_name(reader, &patch);
+  if (status) return status;
+  patch.a = a;
+  patch.b = b;
+  status = reader->added++ ? hr2di_scene_add_alike(reader->scene, &patch)
+                           : hr2d_scene_add(reader->scene, &patch, NULL);
+  if (!status || status == HR2D_ENOMEM) return status;
+  return hr2di_fail(reader->message, status, "%s: %s", reader->label, reader->message->text);
+}
+
+static hr2d_status add_path(hr2di_geojson *reader, const path *p) {
+  size_t n;
+  int reverse = 0;
+  hr2d_status status = read_points(reader, p, &n);
+  if (status) return status;
+  if (p->role != LINE) {
+    const double area = ring_area(reader->point, n);
+    if (area == 0)
+      return hr2di_fail(reader->message, HR2D_ESCENE, "%s: the ring encloses no area",
+                        p->place);
+    /* Counter-clockwise, fronts look into the ring. */
+    const int look_in = (p->role == OUTER) != reader->faces_out;
+    reverse = (area > 0) != look_in;
+  }
+  for (size_t k = 1; !status && k < n; k++)
+    status = add_segment(reader, reader->point[reverse ? k : k - 1],
+                         reader->point[reverse ? k - 1 : k]);
+  return status;
+}
+
+/* `prefix` is "polygon 2" in a MultiPolygon, else "". */
+static hr2d_status add_polygon(hr2di_geojson *reader, const json_t *rings, const char *prefix) {
+  path p;
+  if (json_array_size(rings) == 0)
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "%s%s%s: coordinates: must be an array of rings, not %s", reader->label,
+                      *prefix ? ": " : "", prefix,
+                      json_is_array(rings) ? "empty" : hr2di_geojson_kind(rings));
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; !status && k < json_array_size(rings); k++) {
+    p.positions = json_array_get(rings, k);
+    p.role = k ? HOLE : OUTER;
+    snprintf(p.place, sizeof p.place, "%s: %s%sring %zu", reader->label, prefix,
+             *prefix ? ", " : "", k + 1);
+    status = add_path(reader, &p);
+  }
+  return status;
+}
+
+static hr2d_status add_line(hr2di_geojson *reader, const json_t *positions,
+                            const char *prefix) {
+  path p = {.positions = positions, .role = LINE};
+  snprintf(p.place, sizeof p.place, "%s%s%s", reader->label, *prefix ? ": " : "", prefix);
+  return add_path(reader, &p);
+}
+
+typedef struct shape {
+  const char *type;
+  int multi, polygon;
+} shape;
+
+static const shape shapes[] = {
+    {"LineString", 0, 0}, {"MultiLineString", 1, 0}, {"Polygon", 0, 1}, {"MultiPolygon", 1, 1}};
+
+/* Only whether there is more than one matters, and only for lines. */
+static size_t count_segments(const json_t *coordinates, const shape *s) {
+  if (s->polygon) return 3;
+  const json_t *line = s->multi ? json_array_get(coordinates, 0) : coordinates;
+  return json_array_size(line) == 2 && (!s->multi || json_array_size(coordinates) == 1) ? 1 : 2;
+}
+
+static hr2d_status add_parts(hr2di_geojson *reader, const json_t *parts, const shape *s) {
+  char prefix[40];
+  if (json_array_size(parts) == 0)
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "%s: coordinates: must be an array of %s, not %s", reader->label,
+                      s->polygon ? "polygons" : "lines",
+                      json_is_array(parts) ? "empty" : hr2di_geojson_kind(parts));
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; !status && k < json_array_size(parts); k++) {
+    snprintf(prefix, sizeof prefix, "%s %zu", s->polygon ? "polygon" : "line", k + 1);
+    status = (s->polygon ? add_polygon : add_line)(reader, json_array_get(parts, k), prefix);
+  }
+  return status;
+}
+
+hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry) {
+  if (!geometry) return HR2D_OK;
+  const char *type = json_string_value(json_object_get(geometry, "type"));
+  if (!type)
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "%s: geometry: must be an object with a \"type\"", reader->label);
+  const size_t count = sizeof shapes / sizeof *shapes;
+  size_t k = 0;
+  while (k < count && strcmp(type, shapes[k].type) != 0) k++;
+  if (k == count)
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "%s: geometry: %s has no patches; use LineString, Polygon, "
+                      "MultiLineString or MultiPolygon",
+                      reader->label, hr2di_quote_name(type).text);
+  const json_t *coordinates = json_object_get(geometry, "coordinates");
+  reader->segments = count_segments(coordinates, &shapes[k]);
+  reader->added = 0;
+  if (reader->segments > 1 && reader->patch.name && strlen(reader->patch.name) > MOST_NAME)
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "%s: name: must not have more than %d bytes where it is for several "
+                      "segments",
+                      reader->label, MOST_NAME);
+  if (shapes[k].multi) return add_parts(reader, coordinates, &shapes[k]);
+  return (shapes[k].polygon ? add_polygon : add_line)(reader, coordinates, "");
+}

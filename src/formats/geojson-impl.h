@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the parts of the GeoJSON reader share: file, feature, geometry. */
+#ifndef HR2D_SRC_FORMATS_GEOJSON_IMPL_H
+#define HR2D_SRC_FORMATS_GEOJSON_IMPL_H
+
+#include <hr2d/memory.h>
+#include <hr2d/scene.h>
+#include <jansson.h>
+#include <stddef.h>
+
+#include "base/message.h"
+
+enum { HR2DI_LABEL_SIZE = 128, HR2DI_PLACE_SIZE = HR2DI_LABEL_SIZE + 64 };
+
+/* An array that grows and is used again for every feature. */
+typedef struct hr2di_values {
+  double *value;
+  size_t capacity;
+} hr2di_values;
+
+typedef struct hr2di_geojson {
+  hr2d_scene *scene;
+  const hr2d_allocator *alloc;
+  hr2di_message *message;
+
+  /* The feature at hand. */
+  char label[HR2DI_LABEL_SIZE]; /* feature 3 ("north wall") */
+  hr2d_patch patch;             /* what its segments have in common */
+  int faces_out;                /* of its polygons */
+  size_t segments, added;
+
+  /* Room that is kept from feature to feature. */
+  hr2di_values background, emission, reflectance;
+  hr2d_point *point;
+  size_t point_capacity;
+  char *name;
+  size_t name_capacity;
+} hr2di_geojson;
+
+/* Adds the patches of one member of "features"; numbers begin with 1. */
+hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, size_t number);
+
+/* Adds the patches of the feature at hand. */
+hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry);
+
+/* Checks that `value` is a number, or an array of at least one, each in [0,max].
+   *count is 0 for NULL, 1 for a number, and `value` is copied only if it is given.
+   `place` and `key` say in messages where it stands. */
+hr2d_status hr2di_geojson_values(hr2di_geojson *reader, const char *place, const char *key,
+                                 const json_t *json, double max, hr2di_values *values,
+                                 size_t *count);
+
+/* A member of an object; NULL where it is absent or null, as tools write an empty
+   attribute. */
+const json_t *hr2di_geojson_member(const json_t *object, const char *key);
+
+/* "a string", "missing": for messages. */
+const char *hr2di_geojson_kind(const json_t *json);
+
+#endif

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scenes from GeoJSON (RFC 7946 structure): the file and its collection. */
+#include <float.h>
+#include <hr2d/scene.h>
+#include <jansson.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "formats/geojson-impl.h"
+#include "formats/geojson-text.h"
+#include "formats/scene-file.h"
+#include "scene/scene-impl.h"
+
+static const char *const kinds[] = {
+    [JSON_OBJECT] = "an object", [JSON_ARRAY] = "an array", [JSON_STRING] = "a string",
+    [JSON_INTEGER] = "a number", [JSON_REAL] = "a number",  [JSON_TRUE] = "true",
+    [JSON_FALSE] = "false",      [JSON_NULL] = "null",
+};
+
+const char *hr2di_geojson_kind(const json_t *json) {
+  return json ? kinds[json_typeof(json)] : "missing";
+}
+
+const json_t *hr2di_geojson_member(const json_t *object, const char *key) {
+  const json_t *member = json_object_get(object, key);
+  return json_is_null(member) ? NULL : member;
+}
+
+/* Checked although this version has none: a zero is then a statement that the scene does
+   without. */
+static hr2d_status read_medium(hr2di_geojson *reader, const json_t *members) {
+  const json_t *json = hr2di_geojson_member(members, "medium");
+  size_t count;
+  if (json && !json_is_number(json))
+    return hr2di_fail(reader->message, HR2D_ESYNTAX, "hr2d: medium: must be a number, not %s",
+                      hr2di_geojson_kind(json));
+  hr2d_status status =
+      hr2di_geojson_values(reader, "hr2d", "medium", json, DBL_MAX, &reader->emission, &count);
+  if (!status && count && reader->emission.value[0] > 0)
+    return hr2di_fail(reader->message, HR2D_EUNSUPPORTED,
+                      "hr2d: medium: an absorbing medium is not supported by this version");
+  return status;
+}
+
+static hr2d_status read_scene_effects(hr2di_geojson *reader, const json_t *root,
+                                      size_t *background_bands) {
+  const json_t *members = hr2di_geojson_member(root, "hr2d");
+  *background_bands = 0;
+  if (!members) return HR2D_OK;
+  if (!json_is_object(members))
+    return hr2di_fail(reader->message, HR2D_ESYNTAX, "hr2d: must be an object, not %s",
+                      hr2di_geojson_kind(members));
+  hr2d_status status = hr2di_geojson_values(reader, "hr2d", "background",
+                                            hr2di_geojson_member(members, "background"),
+                                            DBL_MAX, &reader->background, background_bands);
+  return status ? status : read_medium(reader, members);
+}
+
+static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
+  const char *type = json_string_value(json_object_get(root, "type"));
+  if (!type)
+    return hr2di_fail(reader->message, HR2D_ESYNTAX, "not a GeoJSON FeatureCollection: %s",
+                      json_is_object(root) ? "\"type\" must be a string"
+                                           : "the outermost value is an array");
+  if (strcmp(type, "FeatureCollection") != 0)
+    return hr2di_fail(reader->message, HR2D_ESYNTAX,
+                      "not a GeoJSON FeatureCollection: \"type\" is %s",
+                      hr2di_quote_name(type).text);
+  const json_t *features = json_object_get(root, "features");
+  if (!json_is_array(features))
+    return hr2di_fail(reader->message, HR2D_ESYNTAX, "features: must be an array, not %s",
+                      hr2di_geojson_kind(features));
+  size_t background_bands;
+  hr2d_status status = read_scene_effects(reader, root, &background_bands);
+  for (size_t k = 0; !status && k < json_array_size(features); k++)
+    status = hr2di_geojson_feature(reader, json_array_get(features, k), k + 1);
+  /* Last, so that there is nothing to take back; a file that says nothing changes nothing. */
+  if (status || !background_bands) return status;
+  return hr2d_scene_set_background(reader->scene, reader->background.value, background_bands);
+}
+
+hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size) {
+  hr2di_geojson reader = {.scene = scene,
+                          .alloc = hr2di_scene_allocator(scene),
+                          .message = hr2di_scene_message(scene)};
+  json_t *root;
+  hr2d_status status = hr2di_geojson_load(text, size, &root, reader.message);
+  if (status) return status;
+  status = read_collection(&reader, root);
+
+  json_decref(root);
+  hr2di_free(reader.alloc, reader.background.value);
+  hr2di_free(reader.alloc, reader.emission.value);
+  hr2di_free(reader.alloc, reader.reflectance.value);
+  hr2di_free(reader.alloc, reader.point);
+  hr2di_free(reader.alloc, reader.name);
+  return status;
+}

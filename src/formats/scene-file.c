@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reading scene files: the text itself tells its format, and a failure leaves the scene
+   as it was. */
+#include "formats/scene-file.h"
+
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/read-file.h"
+#include "scene/scene-impl.h"
+
+static hr2d_status add_text(hr2d_scene *scene, const char *text, size_t size) {
+  /* A byte order mark may be ignored (RFC 8259, section 8.1), and some editors write it. */
+  if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) {
+    text += 3;
+    size -= 3;
+  }
+  const size_t before = hr2d_scene_patches(scene);
+  const hr2d_status status =
+      (hr2di_vs2_recognise(text, size) ? hr2di_vs2_read : hr2di_geojson_read)(scene, text,
+                                                                              size);
+  if (status) hr2di_scene_truncate(scene, before);
+  return status;
+}
+
+/* What both entries refuse before they look at their source. */
+static hr2d_status check_call(hr2d_scene *scene, int source_given) {
+  if (!scene) return HR2D_EINVAL;
+  hr2di_message *message = hr2di_scene_message(scene);
+  if (!source_given) return hr2di_fail(message, HR2D_EINVAL, "there is nothing to read from");
+  if (hr2di_scene_committed(scene))
+    return hr2di_fail(message, HR2D_ESTATE, "the scene is committed: nothing can be added");
+  return HR2D_OK;
+}
+
+hr2d_status hr2d_scene_parse(hr2d_scene *scene, const char *text, size_t size) {
+  hr2d_status status = check_call(scene, text || !size);
+  return status ? status : add_text(scene, size ? text : "", size);
+}
+
+hr2d_status hr2d_scene_read(hr2d_scene *scene, const char *path) {
+  hr2d_status status = check_call(scene, path != NULL);
+  if (status) return status;
+  const hr2d_allocator *alloc = hr2di_scene_allocator(scene);
+  char *text;
+  size_t size;
+  status = hr2di_file_read(alloc, path, &text, &size, hr2di_scene_message(scene));
+  if (status) return status;
+  status = add_text(scene, text, size);
+  hr2di_free(alloc, text);
+  return status;
+}

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The formats of scene files: a reader adds the patches that a text describes.  Of one
+   that fails, hr2d_scene_read() and hr2d_scene_parse() take the patches back. */
+#ifndef HR2D_SRC_FORMATS_SCENE_FILE_H
+#define HR2D_SRC_FORMATS_SCENE_FILE_H
+
+#include <hr2d/scene.h>
+#include <stddef.h>
+
+/* GeoJSON: sets the background last, once nothing else can fail. */
+hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size);
+
+/* View2D's .vs2, and whether a text is meant as such. */
+hr2d_status hr2di_vs2_read(hr2d_scene *scene, const char *text, size_t size);
+int hr2di_vs2_recognise(const char *text, size_t size);
+
+#endif

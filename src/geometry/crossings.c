@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pairs of segments that cross or lie on one another, found by a sweep over x. */
+#include "geometry/crossings.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/alloc.h"
+#include "geometry/determinant.h"
+#include "geometry/predicates.h"
+
+/* Above every rounding, and above the error of a plain determinant of coordinates below
+   2: 2^-50·|u||w| with |w| below 4. */
+#define MARGIN 0x1p-46
+
+/* Two segments that share more than a point within a rounding share a stretch that is
+   longer than this many roundings; what is shorter is a touch at a flat angle. */
+#define LONG_STRETCH 16
+
+/* What is through a segment by a rounding, and longer than this many or than this part of
+   the shorter one, crosses it: visibility takes its end for a foot, and is off by as much. */
+#define LONG_TAIL 0x1p+20
+#define LONG_PART 0x1p-20
+
+static double largest(const hr2d_segment *s) {
+  return fmax(fmax(fabs(s->a.x), fabs(s->a.y)), fmax(fabs(s->b.x), fabs(s->b.y)));
+}
+
+static double length(const hr2d_segment *s) {
+  return hypot(s->b.x - s->a.x, s->b.y - s->a.y);
+}
+
+double hr2di_rounding(const hr2d_segment *i, const hr2d_segment *j) {
+  const double shorter = fmin(length(i), length(j));
+  const double scene = fmin(1, 0x1p+30 * shorter);
+  return 4 * 0x1p-52 * fmax(fmax(largest(i), largest(j)), scene);
+}
+
+/* Both ends of t are on one side of the line of s, well beyond a rounding. */
+static int clear_of(const hr2d_segment *s, const hr2d_segment *t) {
+  const double ux = s->b.x - s->a.x, uy = s->b.y - s->a.y;
+  const double a = ux * (t->a.y - s->a.y) - uy * (t->a.x - s->a.x);
+  const double b = ux * (t->b.y - s->a.y) - uy * (t->b.x - s->a.x);
+  const double margin = MARGIN * (fabs(ux) + fabs(uy));
+  return (a > margin && b > margin) || (a < -margin && b < -margin);
+}
+
+/* An end of one segment against the other's line. */
+typedef struct end {
+  hr2d_point at;
+  hr2di_wide side; /* twice the signed area; its sign is exact */
+  double distance;
+} end;
+
+typedef struct pair {
+  const hr2d_segment *i, *j;
+  end ia, ib, ja, jb;
+  double rounding;
+} pair;
+
+static end measure(hr2d_point p, const hr2d_segment *line) {
+  const hr2di_vector u = hr2di_scaled_difference(line->b, line->a);
+  const hr2di_wide side = hr2di_wide_orient(line->a, line->b, p);
+  end e = {.at = p, .side = hr2di_wide_make(side.m, side.e)};
+  e.distance = fabs(hr2di_wide_value(hr2di_wide_div(e.side, hr2di_wide_length(&u))));
+  return e;
+}
+
+double hr2di_line_distance(hr2d_point p, const hr2d_segment *s) {
+  return measure(p, s).distance;
+}
+
+static pair make_pair(const hr2d_segment *i, const hr2d_segment *j) {
+  return (pair){.i = i,
+                .j = j,
+                .ia = measure(i->a, j),
+                .ib = measure(i->b, j),
+                .ja = measure(j->a, i),
+                .jb = measure(j->b, i),
+                .rounding = hr2di_rounding(i, j)};
+}
+
+static double along(hr2d_point p, int by_x) {
+  return by_x ? p.x : p.y;
+}
+
+/* What the segments share when both are projected on the main axis of the longer one;
+   each end of that is an end of one of them, measured against the other. */
+static double find_stretch(const pair *p, end *from, end *to) {
+  const hr2d_segment *longer = length(p->i) >= length(p->j) ? p->i : p->j;
+  const int by_x = fabs(longer->b.x - longer->a.x) >= fabs(longer->b.y - longer->a.y);
+  const int i_up = along(p->i->b, by_x) > along(p->i->a, by_x),
+            j_up = along(p->j->b, by_x) > along(p->j->a, by_x);
+  const end *i_low = i_up ? &p->ia : &p->ib, *i_high = i_up ? &p->ib : &p->ia;
+  const end *j_low = j_up ? &p->ja : &p->jb, *j_high = j_up ? &p->jb : &p->ja;
+  *from = along(j_low->at, by_x) >= along(i_low->at, by_x) ? *j_low : *i_low;
+  *to = along(j_high->at, by_x) <= along(i_high->at, by_x) ? *j_high : *i_high;
+  return along(to->at, by_x) - along(from->at, by_x);
+}
+
+/* Whether the segments lie on one another.  Opposite fronts that touch exactly, or from
+   behind, are back to back, and neither hides anything that the other should see.  The
+   other way round each would see nothing but the other. */
+static int lie_together(const pair *p, hr2di_meeting *m) {
+  end from, to;
+  const double stretch = find_stretch(p, &from, &to);
+  const int collinear = p->ja.side.m == 0 && p->jb.side.m == 0;
+  const double least = collinear ? fmin(p->rounding, fmin(length(p->i), length(p->j)) / 2)
+                                 : LONG_STRETCH * p->rounding;
+  /* Visibility takes what is so near for lying on a wall's line, or on that of its run. */
+  const double near = 2 * p->rounding;
+  if (stretch <= least || from.distance >= near || to.distance >= near) return 0;
+  const hr2d_segment *i = p->i, *j = p->j;
+  const double dot = (i->b.x - i->a.x) * ((j->b.x - j->a.x) / length(j)) +
+                     (i->b.y - i->a.y) * ((j->b.y - j->a.y) / length(j));
+  const int in_front = from.side.m > 0 || to.side.m > 0;
+  *m = (hr2di_meeting){.kind = dot > 0    ? HR2DI_MEET_LIE
+                               : in_front ? HR2DI_MEET_FACE
+                                          : HR2DI_MEET_FREE,
+                       .together = 1,
+                       .collinear = collinear,
+                       .from = from.at,
+                       .to = to.at};
+  return 1;
+}
+
+static double clamp(double x, double u, double v) {
+  return fmin(fmax(x, fmin(u, v)), fmax(u, v));
+}
+
+static hr2d_point into_box(hr2d_point p, const hr2d_segment *s) {
+  return (hr2d_point){clamp(p.x, s->a.x, s->b.x), clamp(p.y, s->a.y, s->b.y)};
+}
+
+/* The ends of i are on different sides of j, so that no digit is lost in the fraction.
+   The boxes keep a crossing with a level or upright segment exactly on it. */
+static hr2d_point crossing(const pair *p) {
+  const hr2di_wide a = {fabs(p->ia.side.m), p->ia.side.e},
+                   b = {fabs(p->ib.side.m), p->ib.side.e};
+  const hr2di_wide whole = hr2di_wide_add(a, b);
+  const int from_a = hr2di_wide_sub(a, b).m <= 0;
+  const double t = hr2di_wide_value(hr2di_wide_div(from_a ? a : b, whole));
+  const hr2d_point near = from_a ? p->i->a : p->i->b, far = from_a ? p->i->b : p->i->a;
+  const hr2d_point x = {near.x + t * (far.x - near.x), near.y + t * (far.y - near.y)};
+  return into_box(into_box(x, p->i), p->j);
+}
+
+/* Whether an end of s was meant to lie on the other segment: it is through by no more than
+   a rounding, and what is through is not so long, at an angle so flat, that it matters. */
+static int pokes(const pair *p, const hr2d_segment *s, const end *near, const end *far) {
+  const double through = length(s) * (near->distance / (near->distance + far->distance));
+  const double part = LONG_PART * fmin(length(p->i), length(p->j));
+  return near->distance <= p->rounding &&
+         through <= fmax(LONG_STRETCH * p->rounding, fmin(LONG_TAIL * p->rounding, part));
+}
+
+static int cross(const pair *p, hr2di_meeting *m) {
+  if (p->ia.side.m * p->ib.side.m >= 0 || p->ja.side.m * p->jb.side.m >= 0) return 0;
+  if (pokes(p, p->i, &p->ia, &p->ib) || pokes(p, p->i, &p->ib, &p->ia) ||
+      pokes(p, p->j, &p->ja, &p->jb) || pokes(p, p->j, &p->jb, &p->ja))
+    return 0;
+  const hr2d_point x = crossing(p);
+  *m = (hr2di_meeting){.kind = HR2DI_MEET_CROSS,
+                       .from = x,
+                       .to = x,
+                       .sine = (p->ia.distance + p->ib.distance) / length(p->i)};
+  return 1;
+}
+
+hr2di_meeting hr2di_meet(const hr2d_segment *i, const hr2d_segment *j) {
+  hr2di_meeting m = {.kind = HR2DI_MEET_FREE};
+  if (clear_of(i, j) || clear_of(j, i)) return m;
+  const pair p = make_pair(i, j);
+  if (!lie_together(&p, &m)) cross(&p, &m);
+  return m;
+}
+
+typedef struct span {
+  double from, to; /* in x */
+  size_t segment;
+} span;
+
+static int by_start(const void *left, const void *right) {
+  const span *l = left, *r = right;
+  if (l->from != r->from) return l->from < r->from ? -1 : 1;
+  return (l->segment > r->segment) - (l->segment < r->segment);
+}
+
+static const hr2d_segment *at(const hr2d_segment *first, size_t stride, size_t k) {
+  return (const hr2d_segment *)(const void *)((const char *)first + k * stride);
+}
+
+static int meet_in_y(const hr2d_segment *i, const hr2d_segment *j) {
+  return fmin(i->a.y, i->b.y) <= fmax(j->a.y, j->b.y) + MARGIN &&
+         fmin(j->a.y, j->b.y) <= fmax(i->a.y, i->b.y) + MARGIN;
+}
+
+hr2d_status hr2di_sweep(const hr2d_allocator *alloc, const hr2d_segment *first, size_t count,
+                        size_t stride, hr2d_status (*visit)(void *ctx, size_t i, size_t j),
+                        void *ctx) {
+  span *spans = hr2di_alloc(alloc, count, sizeof *spans);
+  if (!spans) return HR2D_ENOMEM;
+  for (size_t k = 0; k < count; k++) {
+    const hr2d_segment *s = at(first, stride, k);
+    spans[k] = (span){fmin(s->a.x, s->b.x), fmax(s->a.x, s->b.x) + MARGIN, k};
+  }
+  qsort(spans, count, sizeof *spans, by_start);
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < count && !status; k++)
+    for (size_t m = k + 1; m < count && spans[m].from <= spans[k].to && !status; m++) {
+      const size_t i = spans[k].segment, j = spans[m].segment;
+      if (!meet_in_y(at(first, stride, i), at(first, stride, j))) continue;
+      status = i < j ? visit(ctx, i, j) : visit(ctx, j, i);
+    }
+  hr2di_free(alloc, spans);
+  return status;
+}

@@ -1,0 +1,322 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Chooses one point for each crossing of two walls, and the same one for crossings that
+   are one place.
+
+   A point P serves walls i and j if it is within two roundings of both lines: cut there,
+   both bend by no more than that and meet in P exactly, so that they cross no more.  A
+   crossing takes the nearest point that serves it among the ends and cuts of its walls,
+   else among the ends and cuts of others within two roundings, else its own.  The steeper
+   a crossing, the better its own point is known: three lines through one place take the
+   point of the two that cross most steeply, whichever way the others miss it. */
+#include "geometry/cut-points.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "base/alloc.h"
+#include "geometry/crossings.h"
+
+#define NONE SIZE_MAX
+
+typedef struct crossing {
+  size_t i, j;
+  hr2d_point at;
+  double sine;
+  size_t node;
+  double reach;  /* two roundings */
+  double window; /* no point is within reach of both lines and further from `at` */
+} crossing;
+
+typedef struct partners { /* that share a stretch */
+  size_t i, j;
+  int part; /* in any case, not only if one of them is cut */
+} partners;
+
+/* A point that may serve crossings nearby: an end, or a crossing once it is settled. */
+typedef struct node {
+  double key;
+  hr2d_point at;
+  size_t crossing; /* NONE for an end */
+  int settled;
+} node;
+
+typedef struct finder {
+  const hr2d_allocator *alloc;
+  const hr2di_cut_wall *wall;
+  size_t walls;
+  hr2di_cuts *cuts;
+  crossing *crossing;
+  size_t crossings, crossing_capacity;
+  partners *partners;
+  size_t pairs, pair_capacity;
+  int parted; /* some partners must part */
+  node *node; /* by key */
+  size_t nodes;
+} finder;
+
+static hr2d_segment directed(const hr2di_cut_wall *w, int side) {
+  return side == HR2DI_FORWARD ? w->s : (hr2d_segment){w->s.b, w->s.a};
+}
+
+/* Whether patches on two walls that share a stretch hide each other, or overlap so
+   little that one of them can do without. */
+static int must_part(const hr2di_cut_wall *i, const hr2di_cut_wall *j) {
+  for (int a = HR2DI_FORWARD; a <= HR2DI_BACKWARD; a++)
+    for (int b = HR2DI_FORWARD; b <= HR2DI_BACKWARD; b++) {
+      if (!(i->sides & a) || !(j->sides & b)) continue;
+      const hr2d_segment s = directed(i, a), t = directed(j, b);
+      const hr2di_meeting m = hr2di_meet(&s, &t);
+      if (m.kind == HR2DI_MEET_FACE) return 1;
+      if (m.kind == HR2DI_MEET_LIE && hypot(m.to.x - m.from.x, m.to.y - m.from.y) <=
+                                          HR2DI_SHORT_STRETCH * hr2di_rounding(&s, &t))
+        return 1;
+    }
+  return 0;
+}
+
+static hr2d_status note_partners(finder *f, size_t i, size_t j) {
+  if (hr2di_reserve(f->alloc, &f->partners, &f->pair_capacity, f->pairs + 1,
+                    sizeof *f->partners))
+    return HR2D_ENOMEM;
+  const int part = must_part(&f->wall[i], &f->wall[j]);
+  f->partners[f->pairs++] = (partners){i, j, part};
+  f->parted |= part;
+  return HR2D_OK;
+}
+
+static hr2d_status note_meeting(void *ctx, size_t i, size_t j) {
+  finder *f = ctx;
+  const hr2d_segment *s = &f->wall[i].s, *t = &f->wall[j].s;
+  const hr2di_meeting m = hr2di_meet(s, t);
+  if (m.together) return note_partners(f, i, j);
+  if (m.kind != HR2DI_MEET_CROSS) return HR2D_OK;
+  if (hr2di_reserve(f->alloc, &f->crossing, &f->crossing_capacity, f->crossings + 1,
+                    sizeof *f->crossing))
+    return HR2D_ENOMEM;
+  const int e = f->cuts->exponent;
+  const hr2d_point at = {ldexp(ldexp(m.from.x, e), -e), ldexp(ldexp(m.from.y, e), -e)};
+  const double reach = 2 * hr2di_rounding(s, t);
+  f->crossing[f->crossings++] = (crossing){i, j, at, m.sine, 0, reach, 4 * reach / m.sine};
+  return HR2D_OK;
+}
+
+static int steepest_first(const void *left, const void *right) {
+  const crossing *l = left, *r = right;
+  if (l->sine != r->sine) return l->sine > r->sine ? -1 : 1;
+  if (l->i != r->i) return l->i < r->i ? -1 : 1;
+  return (l->j > r->j) - (l->j < r->j);
+}
+
+/* Across a direction in which points of a lattice rarely coincide. */
+static double key_of(hr2d_point p) {
+  return 0.8251 * p.x + 0.5650 * p.y;
+}
+
+static int by_key(const void *left, const void *right) {
+  const node *l = left, *r = right;
+  if (l->key != r->key) return l->key < r->key ? -1 : 1;
+  return (l->crossing > r->crossing) - (l->crossing < r->crossing);
+}
+
+static hr2d_status make_nodes(finder *f) {
+  f->node = hr2di_alloc(f->alloc, 2 * f->walls + f->crossings, sizeof *f->node);
+  if (!f->node) return HR2D_ENOMEM;
+  for (size_t k = 0; k < f->walls; k++) {
+    const hr2d_segment *s = &f->wall[k].s;
+    f->node[f->nodes++] = (node){key_of(s->a), s->a, NONE, 1};
+    f->node[f->nodes++] = (node){key_of(s->b), s->b, NONE, 1};
+  }
+  for (size_t k = 0; k < f->crossings; k++)
+    f->node[f->nodes++] = (node){key_of(f->crossing[k].at), f->crossing[k].at, k, 0};
+  qsort(f->node, f->nodes, sizeof *f->node, by_key);
+  for (size_t k = 0; k < f->nodes; k++)
+    if (f->node[k].crossing != NONE) f->crossing[f->node[k].crossing].node = k;
+  return HR2D_OK;
+}
+
+static int same(hr2d_point p, hr2d_point q) {
+  return p.x == q.x && p.y == q.y;
+}
+
+static double apart(hr2d_point p, hr2d_point q) {
+  return fmax(fabs(p.x - q.x), fabs(p.y - q.y));
+}
+
+static int is_on(const finder *f, size_t wall, hr2d_point p) {
+  if (same(f->wall[wall].s.a, p) || same(f->wall[wall].s.b, p)) return 1;
+  const hr2di_cut_range own = f->cuts->of[wall];
+  for (size_t k = own.first; k < own.end; k++)
+    if (same(f->cuts->cut[k].at, p)) return 1;
+  return 0;
+}
+
+static double along(const hr2d_segment *s, hr2d_point p) {
+  const double dx = s->b.x - s->a.x, dy = s->b.y - s->a.y;
+  if (fabs(dx) >= fabs(dy)) return dx > 0 ? p.x : -p.x;
+  return dy > 0 ? p.y : -p.y;
+}
+
+static int is_inside(const hr2d_segment *s, hr2d_point p) {
+  const double t = along(s, p);
+  return t > along(s, s->a) && t < along(s, s->b);
+}
+
+static int serves(const finder *f, size_t wall, hr2d_point p, double reach) {
+  return is_on(f, wall, p) ||
+         (is_inside(&f->wall[wall].s, p) && hr2di_line_distance(p, &f->wall[wall].s) <= reach);
+}
+
+/* The point chosen so far, and how far it is from the crossing; below 0 if both walls
+   are cut there already. */
+typedef struct choice {
+  hr2d_point at;
+  double distance;
+} choice;
+
+#define SHARED (-1)
+
+static void offer(const finder *f, const crossing *c, hr2d_point p, choice *best) {
+  const double distance = apart(p, c->at);
+  if (best->distance == SHARED || distance > c->window) return;
+  const int shared = is_on(f, c->i, p) && is_on(f, c->j, p);
+  if (!shared && (distance >= best->distance || !serves(f, c->i, p, c->reach) ||
+                  !serves(f, c->j, p, c->reach)))
+    return;
+  *best = (choice){p, shared ? SHARED : distance};
+}
+
+static void offer_wall(const finder *f, const crossing *c, size_t wall, choice *best) {
+  offer(f, c, f->wall[wall].s.a, best);
+  offer(f, c, f->wall[wall].s.b, best);
+  const hr2di_cut_range own = f->cuts->of[wall];
+  for (size_t k = own.first; k < own.end; k++) offer(f, c, f->cuts->cut[k].at, best);
+}
+
+static size_t first_node(const finder *f, double key) {
+  size_t low = 0, high = f->nodes;
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    if (f->node[middle].key < key)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+static void offer_neighbours(const finder *f, const crossing *c, choice *best) {
+  const double key = key_of(c->at), width = 2 * c->reach;
+  for (size_t k = first_node(f, key - width); k < f->nodes && f->node[k].key <= key + width;
+       k++)
+    if (f->node[k].settled && apart(f->node[k].at, c->at) <= c->reach)
+      offer(f, c, f->node[k].at, best);
+}
+
+/* Room for one cut of each wall at each crossing and each end of a partner. */
+static hr2d_status make_room(finder *f) {
+  hr2di_cuts *cuts = f->cuts;
+  const size_t room = 2 * f->crossings + 4 * f->pairs;
+  cuts->cut = hr2di_alloc(f->alloc, room, sizeof *cuts->cut);
+  cuts->of = hr2di_calloc(f->alloc, f->walls, sizeof *cuts->of);
+  if (!cuts->cut || !cuts->of) return HR2D_ENOMEM;
+  for (size_t k = 0; k < f->crossings; k++) {
+    cuts->of[f->crossing[k].i].end++;
+    cuts->of[f->crossing[k].j].end++;
+  }
+  for (size_t k = 0; k < f->pairs; k++) {
+    cuts->of[f->partners[k].i].end += 2;
+    cuts->of[f->partners[k].j].end += 2;
+  }
+  size_t next = 0;
+  for (size_t k = 0; k < f->walls; k++) {
+    const size_t size = cuts->of[k].end;
+    cuts->of[k] = (hr2di_cut_range){next, next};
+    next += size;
+  }
+  return HR2D_OK;
+}
+
+static int is_cut(const finder *f, size_t wall) {
+  return f->cuts->of[wall].end > f->cuts->of[wall].first;
+}
+
+static void cut(finder *f, size_t wall, hr2d_point p) {
+  if (is_on(f, wall, p)) return;
+  f->cuts->cut[f->cuts->of[wall].end++] = (hr2di_cut){p, along(&f->wall[wall].s, p)};
+  f->cuts->count++;
+}
+
+static void settle(finder *f, const crossing *c) {
+  choice best = {.at = c->at, .distance = HUGE_VAL};
+  offer_wall(f, c, c->i, &best);
+  offer_wall(f, c, c->j, &best);
+  if (best.distance == HUGE_VAL) offer_neighbours(f, c, &best);
+  f->node[c->node].at = best.at;
+  f->node[c->node].settled = 1;
+  f->cuts->place[f->cuts->places++] = best.at;
+  if (best.distance == SHARED) return;
+  cut(f, c->i, best.at);
+  cut(f, c->j, best.at);
+}
+
+/* A wall that is cut bends by a rounding, away from what lay along it: where two shared
+   a stretch, that becomes a wall of its own first. */
+static void cut_partners(finder *f) {
+  for (size_t k = 0; k < f->pairs; k++)
+    f->partners[k].part |= is_cut(f, f->partners[k].i) || is_cut(f, f->partners[k].j);
+  for (size_t k = 0; k < 2 * f->pairs; k++) {
+    const partners *p = &f->partners[k / 2];
+    const size_t i = k % 2 ? p->j : p->i;
+    const hr2d_segment own = f->wall[i].s, other = f->wall[k % 2 ? p->i : p->j].s;
+    if (p->part && is_inside(&own, other.a)) cut(f, i, other.a);
+    if (p->part && is_inside(&own, other.b)) cut(f, i, other.b);
+  }
+}
+
+static int by_position(const void *left, const void *right) {
+  const hr2di_cut *l = left, *r = right;
+  return (l->along > r->along) - (l->along < r->along);
+}
+
+static hr2d_status find(finder *f) {
+  hr2di_cuts *cuts = f->cuts;
+  if (hr2di_sweep(f->alloc, &f->wall[0].s, f->walls, sizeof *f->wall, note_meeting, f))
+    return HR2D_ENOMEM;
+  if (f->crossings == 0 && !f->parted) return HR2D_OK;
+  if (f->crossings > 0) qsort(f->crossing, f->crossings, sizeof *f->crossing, steepest_first);
+  if (make_nodes(f) || make_room(f) ||
+      hr2di_reserve(f->alloc, &cuts->place, &cuts->place_capacity, cuts->places + f->crossings,
+                    sizeof *cuts->place))
+    return HR2D_ENOMEM;
+  for (size_t k = 0; k < f->crossings; k++) settle(f, &f->crossing[k]);
+  cut_partners(f);
+  for (size_t k = 0; k < f->walls; k++)
+    if (is_cut(f, k))
+      qsort(&cuts->cut[cuts->of[k].first], cuts->of[k].end - cuts->of[k].first,
+            sizeof *cuts->cut, by_position);
+  return HR2D_OK;
+}
+
+static void drop_cuts(hr2di_cuts *cuts) {
+  hr2di_free(cuts->alloc, cuts->cut);
+  hr2di_free(cuts->alloc, cuts->of);
+  cuts->cut = NULL;
+  cuts->of = NULL;
+  cuts->count = 0;
+}
+
+hr2d_status hr2di_find_cuts(hr2di_cuts *cuts, const hr2di_cut_wall *wall, size_t walls) {
+  finder f = {.alloc = cuts->alloc, .wall = wall, .walls = walls, .cuts = cuts};
+  drop_cuts(cuts);
+  const hr2d_status status = find(&f);
+  hr2di_free(f.alloc, f.crossing);
+  hr2di_free(f.alloc, f.partners);
+  hr2di_free(f.alloc, f.node);
+  return status;
+}
+
+void hr2di_free_cuts(hr2di_cuts *cuts) {
+  drop_cuts(cuts);
+  hr2di_free(cuts->alloc, cuts->place);
+}

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The points at which walls are to be cut lest they cross: segments without direction,
+   of which patches use one side or both. */
+#ifndef HR2D_SRC_GEOMETRY_CUT_POINTS_H
+#define HR2D_SRC_GEOMETRY_CUT_POINTS_H
+
+#include <hr2d/geometry.h>
+#include <hr2d/memory.h>
+#include <stddef.h>
+
+typedef struct hr2di_cut_wall {
+  hr2d_segment s;
+  int sides; /* HR2DI_FORWARD, HR2DI_BACKWARD or both: directions of patches */
+} hr2di_cut_wall;
+
+enum { HR2DI_FORWARD = 1, HR2DI_BACKWARD = 2 };
+
+/* A stretch of up to so many roundings, a billionth of the scene, that two patches have
+   in common is an accident: at an angle of 2^-20 a rounding shifts a crossing as far. */
+#define HR2DI_SHORT_STRETCH 0x1p+20
+
+typedef struct hr2di_cut {
+  hr2d_point at;
+  double along; /* grows from a to b */
+} hr2di_cut;
+
+/* The cuts of a wall, cut[first, end), from a to b. */
+typedef struct hr2di_cut_range {
+  size_t first, end;
+} hr2di_cut_range;
+
+typedef struct hr2di_cuts {
+  const hr2d_allocator *alloc;
+  int exponent; /* points must be doubles when multiplied by 2^exponent */
+  hr2di_cut *cut;
+  hr2di_cut_range *of; /* by wall */
+  size_t count;
+  hr2d_point *place; /* where walls cross, each place at least once */
+  size_t places, place_capacity;
+} hr2di_cuts;
+
+/* Replaces the cuts by those of `walls` walls, no two of which have the same segment,
+   and adds to the places.  Coordinates are below 2.  HR2D_OK or HR2D_ENOMEM; without cuts
+   there is no `of`. */
+hr2d_status hr2di_find_cuts(hr2di_cuts *cuts, const hr2di_cut_wall *wall, size_t walls);
+
+void hr2di_free_cuts(hr2di_cuts *cuts);
+
+#endif

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Exchange areas of segments whose coordinates are very large, very small or of
+   very different scales. */
+#ifndef HR2D_SRC_GEOMETRY_EXCHANGE_AREA_SCALED_H
+#define HR2D_SRC_GEOMETRY_EXCHANGE_AREA_SCALED_H
+
+#include <hr2d/geometry.h>
+
+/* The same formulas as in exchange-area.c, for any finite coordinates. */
+double hr2di_wide_exchange_area(const hr2d_segment *i, const hr2d_segment *j);
+
+#endif

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The kernel G of equation (1), without ever forming r³.
+
+   With h_y the distance of y from the line of i and h_x that of x from the line
+   of j, cosθx = h_y/r and cosθy = h_x/r.  The distances come from the end points of
+   the segments, so that a point rounded off its own segment does no harm.
+
+   In roundings of 2^-53 a determinant is good to 2, a length to 3, and so a cosine to
+   2 + 3 + 3 and 2 divisions, and G to 10 + 10 + 3 and 2 operations. */
+#include <hr2d/geometry.h>
+#include <math.h>
+
+#include "geometry/determinant.h"
+#include "geometry/predicates.h"
+
+/* cosθ = orient(abp)/(|ab| r); negative behind the segment. */
+static hr2di_wide cosine(const hr2d_segment *s, hr2d_point p, hr2di_wide r) {
+  const hr2di_vector ab = hr2di_scaled_difference(s->b, s->a);
+  const hr2di_wide det = hr2di_wide_orient(s->a, s->b, p);
+  if (det.m <= 0) return (hr2di_wide){0, 0};
+  return hr2di_wide_div(hr2di_wide_div(hr2di_wide_make(det.m, det.e), hr2di_wide_length(&ab)),
+                        r);
+}
+
+double hr2d_kernel(const hr2d_segment *i, hr2d_point x, const hr2d_segment *j, hr2d_point y) {
+  if (!hr2di_finite(i->a) || !hr2di_finite(i->b) || !hr2di_finite(j->a) ||
+      !hr2di_finite(j->b) || !hr2di_finite(x) || !hr2di_finite(y))
+    return NAN;
+  const hr2di_vector xy = hr2di_scaled_difference(y, x);
+  const hr2di_wide r = hr2di_wide_length(&xy);
+  if (r.m == 0) return hr2di_face(i, j) == HR2DI_FACING_NONE ? 0 : INFINITY;
+  const hr2di_wide cosines = hr2di_wide_mul(cosine(i, y, r), cosine(j, x, r));
+  const hr2di_wide twice_r = {r.m, r.e + 1};
+  return hr2di_wide_value(hr2di_wide_div(cosines, twice_r));
+}

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Orientations of points whose coordinates lie too far apart for exact differences. */
+#ifndef HR2D_SRC_GEOMETRY_ORIENT_EXACT_H
+#define HR2D_SRC_GEOMETRY_ORIENT_EXACT_H
+
+#include <hr2d/geometry.h>
+
+#include "base/scaled-double.h"
+
+/* (b−a)×(c−a) for any finite points: its sign is exact, and its relative error below
+   1.001·2^-53. */
+hr2di_wide hr2di_exact_orient(hr2d_point a, hr2d_point b, hr2d_point c);
+
+#endif

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The two-scale relation along whole trees: children come after their parents, so that a
+   falling loop meets them first, and a rising one their parents. */
+#include "hierarchy/push-pull.h"
+
+#include "base/alloc.h"
+#include "base/legendre.h"
+#include "base/ordered-dot.h"
+
+static int is_halved(const hr2d_element *element, uint32_t at) {
+  return hr2di_left_part(element, at) == 0.5;
+}
+
+static void make_pair(const hr2di_push_pull *p, size_t pair, double left) {
+  const size_t square = p->order * p->order;
+  double *relation = p->relation + 2 * pair * square;
+  hr2di_two_scale(-1, 2 * left - 1, p->order, relation);
+  hr2di_two_scale(2 * left - 1, 1, p->order, relation + square);
+}
+
+hr2d_status hr2di_push_pull_init(hr2di_push_pull *p, const hr2d_hierarchy *hierarchy,
+                                 const hr2d_allocator *alloc, size_t order, size_t bands) {
+  const hr2d_element *element = hierarchy->element;
+  *p = (hr2di_push_pull){.hierarchy = hierarchy,
+                         .alloc = *alloc,
+                         .elements = hierarchy->elements,
+                         .order = order,
+                         .bands = bands};
+  size_t odd = 0;
+  for (uint32_t e = 0; e < p->elements; e++) odd += element[e].child && !is_halved(element, e);
+  p->relation = hr2di_alloc(alloc, 1 + odd, 2 * order * order * sizeof *p->relation);
+  if (!p->relation) return HR2D_ENOMEM;
+  make_pair(p, 0, 0.5);
+  if (odd == 0) return HR2D_OK;
+  p->pair_of = hr2di_calloc(alloc, p->elements, sizeof *p->pair_of);
+  if (!p->pair_of) return HR2D_ENOMEM;
+  uint32_t pairs = 1;
+  for (uint32_t e = 0; e < p->elements; e++) {
+    if (!element[e].child || is_halved(element, e)) continue;
+    make_pair(p, pairs, hr2di_left_part(element, e));
+    p->pair_of[e] = pairs++;
+  }
+  return HR2D_OK;
+}
+
+void hr2di_push_pull_clear(hr2di_push_pull *p) {
+  hr2di_free(&p->alloc, p->relation);
+  hr2di_free(&p->alloc, p->pair_of);
+}
+
+static const double *relation_of(const hr2di_push_pull *p, uint32_t element) {
+  const size_t pair = p->pair_of ? p->pair_of[element] : 0;
+  return p->relation + 2 * pair * p->order * p->order;
+}
+
+/* parent_l += part Σ_k relation_lk child_k.  A stride that is known makes a loop of vectors. */
+static inline void add_up_bands(const double *relation, size_t order, size_t bands, double part,
+                                const double *child, double *parent) {
+  for (size_t l = 0; l < order; l++)
+    for (size_t b = 0; b < bands; b++)
+      parent[l * bands + b] += part * hr2di_dot(relation + l * order, child + b, bands, l + 1);
+}
+
+static void add_up(const hr2di_push_pull *p, const double *relation, double part,
+                   const double *child, double *parent) {
+  if (p->bands == 1)
+    add_up_bands(relation, p->order, 1, part, child, parent);
+  else
+    add_up_bands(relation, p->order, p->bands, part, child, parent);
+}
+
+void hr2di_pull(const hr2di_push_pull *p, double *field) {
+  const size_t bands = p->bands, width = p->order * bands;
+  const hr2d_element *element = p->hierarchy->element;
+  for (uint32_t e = (uint32_t)p->elements; e-- > 0;) {
+    if (!element[e].child) continue;
+    const double *left = field + element[e].child * width, *right = left + width;
+    double *here = field + e * width;
+    const double part = hr2di_left_part(element, e);
+    if (width == bands) {
+      for (size_t b = 0; b < bands; b++)
+        here[b] =
+            part == 0.5 ? 0.5 * (left[b] + right[b]) : right[b] + part * (left[b] - right[b]);
+      continue;
+    }
+    const double *relation = relation_of(p, e);
+    for (size_t k = 0; k < width; k++) here[k] = 0;
+    add_up(p, relation, part, left, here);
+    add_up(p, relation + p->order * p->order, 1 - part, right, here);
+  }
+}
+
+/* child_k += Σ_l relation_lk parent_l */
+static inline void add_down_bands(const double *relation, size_t order, size_t bands,
+                                  const double *restrict parent, double *restrict child) {
+  for (size_t l = 0; l < order; l++)
+    for (size_t b = 0; b < bands; b++)
+      for (size_t k = 0; k <= l; k++)
+        child[k * bands + b] += relation[l * order + k] * parent[l * bands + b];
+}
+
+static void add_down(const hr2di_push_pull *p, const double *relation, const double *parent,
+                     double *child) {
+  if (p->bands == 1)
+    add_down_bands(relation, p->order, 1, parent, child);
+  else
+    add_down_bands(relation, p->order, p->bands, parent, child);
+}
+
+void hr2di_push(const hr2di_push_pull *p, double *field) {
+  const size_t bands = p->bands, width = p->order * bands, square = p->order * p->order;
+  const hr2d_element *element = p->hierarchy->element;
+  for (uint32_t e = 0; e < p->elements; e++) {
+    const uint32_t parent = p->hierarchy->parent[e];
+    if (parent == e) continue;
+    double *here = field + e * width;
+    const double *above = field + parent * width;
+    if (width == bands) {
+      for (size_t b = 0; b < bands; b++) here[b] += above[b];
+      continue;
+    }
+    const int right = e == element[parent].child + 1;
+    add_down(p, relation_of(p, parent) + (right ? square : 0), above, here);
+  }
+}

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Copies of a hierarchy that grow apart, and the union of what they grew. */
+#include <string.h>
+
+#include "base/alloc.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "scene/scene-impl.h"
+
+/* Stands for an element that a clone does not have. */
+#define ABSENT UINT32_MAX
+
+uint64_t hr2di_clone_bytes(const hr2d_hierarchy *from) {
+  return (uint64_t)hr2di_first_capacity(from->elements) * HR2DI_ELEMENT_BYTES;
+}
+
+hr2d_status hr2di_hierarchy_clone(const hr2d_hierarchy *from, hr2d_hierarchy **clone) {
+  hr2d_hierarchy *made = hr2di_calloc(&from->alloc, 1, sizeof *made);
+  if (!made) return HR2D_ENOMEM;
+  *made = *from;
+  made->readers = 0;
+  made->capacity = hr2di_first_capacity(from->elements);
+  made->element = hr2di_alloc(&from->alloc, made->capacity, sizeof *made->element);
+  made->parent = hr2di_alloc(&from->alloc, made->capacity, sizeof *made->parent);
+  made->level = hr2di_alloc(&from->alloc, made->capacity, sizeof *made->level);
+  if (!made->element || !made->parent || !made->level) {
+    hr2d_hierarchy_destroy(made);
+    return HR2D_ENOMEM;
+  }
+  memcpy(made->element, from->element, from->elements * sizeof *made->element);
+  memcpy(made->parent, from->parent, from->elements * sizeof *made->parent);
+  memcpy(made->level, from->level, from->elements * sizeof *made->level);
+  *clone = made;
+  return HR2D_OK;
+}
+
+/* The walk visits the same element in the hierarchy and in all clones at once: a
+   column has its number in each. */
+typedef struct walk {
+  uint32_t *column;
+  size_t width, columns;
+  size_t most; /* elements there may be room for */
+} walk;
+
+/* Pushes the columns of the children, the right one first. */
+static void push_children(walk *w, const uint32_t *parent, const hr2d_hierarchy *h,
+                          hr2d_hierarchy *const *clone) {
+  uint32_t *right = w->column + w->columns * w->width, *left = right + w->width;
+  right[0] = h->element[parent[0]].child + 1;
+  left[0] = right[0] - 1;
+  for (size_t k = 1; k < w->width; k++) {
+    const uint32_t child = parent[k] == ABSENT ? 0 : clone[k - 1]->element[parent[k]].child;
+    right[k] = child ? child + 1 : ABSENT;
+    left[k] = child ? child : ABSENT;
+  }
+  w->columns += 2;
+}
+
+static int some_clone_halved(const uint32_t *column, size_t width,
+                             hr2d_hierarchy *const *clone) {
+  for (size_t k = 1; k < width; k++)
+    if (column[k] != ABSENT && clone[k - 1]->element[column[k]].child) return 1;
+  return 0;
+}
+
+static hr2d_status unite_patch(hr2d_hierarchy *h, hr2d_hierarchy *const *clone, walk *w,
+                               uint32_t patch, uint32_t *top) {
+  for (size_t k = 0; k < w->width; k++) w->column[k] = patch;
+  w->columns = 1;
+  while (w->columns > 0) {
+    w->columns--;
+    memcpy(top, w->column + w->columns * w->width, w->width * sizeof *top);
+    if (!some_clone_halved(top, w->width, clone)) continue;
+    if (!h->element[top[0]].child) {
+      const int full = h->elements + 2 > h->capacity;
+      const hr2d_status status =
+          full && h->capacity > w->most / 2 ? HR2D_EMAX_BYTES : hr2di_hierarchy_reserve(h);
+      if (status) return status;
+      hr2di_halve(h, top[0]);
+    }
+    push_children(w, top, h, clone);
+  }
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_hierarchy_unite(hr2d_hierarchy *h, hr2d_hierarchy *const *clone, size_t count,
+                                  size_t most) {
+  unsigned levels = h->levels;
+  for (size_t k = 0; k < count; k++)
+    levels = clone[k]->levels > levels ? clone[k]->levels : levels;
+  walk w = {.width = count + 1, .most = most};
+  /* A level leaves at most a sibling behind, and the last holds two. */
+  w.column = hr2di_alloc(&h->alloc, (size_t)levels + 3, w.width * sizeof *w.column);
+  uint32_t *top = hr2di_alloc(&h->alloc, w.width, sizeof *top);
+  const size_t elements = h->elements;
+  hr2d_status status = w.column && top ? HR2D_OK : HR2D_ENOMEM;
+  for (size_t patch = 0; patch < h->scene->patches && !status; patch++)
+    status = unite_patch(h, clone, &w, (uint32_t)patch, top);
+  if (status) hr2di_hierarchy_truncate(h, elements);
+  hr2di_free(&h->alloc, w.column);
+  hr2di_free(&h->alloc, top);
+  return status;
+}

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Joined by links, and where clusters spare most of these, by theirs. */
+#include "links/components.h"
+
+#include "base/alloc.h"
+#include "clusters/clusters-impl.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "scene/scene-impl.h"
+
+size_t hr2di_component(hr2di_components *c, size_t k) {
+  while (c->above[k] != k) {
+    c->above[k] = c->above[c->above[k]];
+    k = c->above[k];
+  }
+  return k;
+}
+
+/* The lesser number stays on top: that of a patch, and not of a cluster. */
+static void join(hr2di_components *c, size_t i, size_t j) {
+  const size_t top = hr2di_component(c, i), other = hr2di_component(c, j);
+  if (top < other)
+    c->above[other] = top;
+  else
+    c->above[top] = other;
+}
+
+/* All patches of a cluster see all of any that it has a link with.  Without links no patch has
+   a home. */
+static void join_clusters(hr2di_components *c, const hr2di_clusters *clusters, size_t patches) {
+  if (clusters->links == 0) return;
+  for (size_t k = 0; k < patches; k++)
+    if (clusters->home[k] != HR2DI_NO_CLUSTER) join(c, k, patches + clusters->home[k]);
+  for (size_t k = 0; k < clusters->linked_count; k++)
+    if (clusters->linked[k].above != HR2DI_NO_CLUSTER)
+      join(c, patches + k, patches + clusters->linked[k].above);
+  for (size_t k = 0; k < clusters->links; k++)
+    join(c, patches + clusters->link[k].first, patches + clusters->link[k].second);
+}
+
+hr2d_status hr2di_components_make(hr2di_components *c, const hr2d_linkset *links) {
+  const hr2d_element *element = links->hierarchy->element;
+  const size_t patches = links->hierarchy->scene->patches;
+  const hr2di_clusters *clusters = links->roots.clusters;
+  const size_t count = patches + (clusters ? clusters->linked_count : 0);
+  c->alloc = links->alloc;
+  c->above = hr2di_alloc(&links->alloc, count, sizeof *c->above);
+  if (!c->above) return HR2D_ENOMEM;
+  for (size_t k = 0; k < count; k++) c->above[k] = k;
+  if (clusters) join_clusters(c, clusters, patches);
+  for (size_t block = 0; block < links->store.blocks; block++)
+    for (size_t k = 0; k < hr2di_store_block_size(&links->store, block); k++) {
+      const hr2d_pair pair = links->store.block[block][k].pair;
+      join(c, element[pair.first].patch, element[pair.second].patch);
+    }
+  return HR2D_OK;
+}
+
+void hr2di_components_clear(hr2di_components *c) {
+  hr2di_free(&c->alloc, c->above);
+  c->above = NULL;
+}

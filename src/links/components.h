@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Components: patches that exchange light with each other, over however many others. */
+#ifndef HR2D_SRC_LINKS_COMPONENTS_H
+#define HR2D_SRC_LINKS_COMPONENTS_H
+
+#include "links/linkset-impl.h"
+
+typedef struct hr2di_components {
+  hr2d_allocator alloc;
+  size_t *above; /* union-find: over patches, and behind them over clusters */
+} hr2di_components;
+
+/* Joins what links of a set join; HR2D_OK or HR2D_ENOMEM.  To be cleared in either case. */
+hr2d_status hr2di_components_make(hr2di_components *c, const hr2d_linkset *links);
+void hr2di_components_clear(hr2di_components *c);
+
+/* The component that holds a patch: the number of the first patch in it. */
+size_t hr2di_component(hr2di_components *c, size_t patch);
+
+#endif

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Each block has a place of its own, so that threads leave no trace. */
+#include "links/link-blocks.h"
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include "base/alloc.h"
+#include "blocks/block.h"
+#include "links/linkset-impl.h"
+
+/* Links are done in rounds, and progress is told between them. */
+enum { CHUNK = 16, ROUND = 256 };
+
+typedef struct maker {
+  const hr2d_linkset *links;
+  hr2di_blocks *blocks;
+  hr2di_integrator *work; /* per thread */
+  size_t threads;
+} maker;
+
+static hr2d_status make_some(const maker *m, hr2di_integrator *work, uint64_t from,
+                             uint64_t to) {
+  const size_t square = m->blocks->order * m->blocks->order;
+  for (uint64_t k = from; k < to; k++) {
+    const hr2d_link *link = hr2di_store_at(&m->links->store, k);
+    double *block = m->blocks->value + k * square;
+    int distant;
+    const hr2d_status status = hr2di_block(work, link->pair, block, &distant);
+    if (status) return status;
+    m->blocks->distant[k] = (unsigned char)distant;
+  }
+  return HR2D_OK;
+}
+
+/* Chunk k of a round. */
+static hr2d_status make_chunk(const maker *m, size_t worker, uint64_t from, uint64_t to,
+                              long k) {
+  const uint64_t first = from + (uint64_t)k * CHUNK;
+  const uint64_t last = first + CHUNK < to ? first + CHUNK : to;
+  return make_some(m, &m->work[worker], first, last);
+}
+
+/* One thread takes none of OpenMP, whose runtime ends the program where it has no memory. */
+static hr2d_status make_round(const maker *m, uint64_t from, uint64_t to) {
+  const long chunks = (long)((to - from + CHUNK - 1) / CHUNK);
+  hr2d_status worst = HR2D_OK;
+#ifdef _OPENMP
+  if (m->threads > 1) {
+#pragma omp parallel for num_threads((int)m->threads) schedule(dynamic) reduction(max : worst)
+    for (long k = 0; k < chunks; k++) {
+      const hr2d_status status = make_chunk(m, (size_t)omp_get_thread_num(), from, to, k);
+      if (status > worst) worst = status;
+    }
+    return worst;
+  }
+#endif
+  for (long k = 0; k < chunks && !worst; k++) worst = make_chunk(m, 0, from, to, k);
+  return worst;
+}
+
+static hr2d_status tell(const hr2d_linkset *links, const hr2di_blocks_plan *plan,
+                        uint64_t done) {
+  if (!plan->progress) return HR2D_OK;
+  const hr2d_progress progress = {.struct_size = sizeof progress,
+                                  .phase = "coefficients",
+                                  .elements = hr2d_hierarchy_count(links->hierarchy).elements,
+                                  .links = links->store.count,
+                                  .fraction = (double)done / (double)links->store.count};
+  return plan->progress(plan->progress_ctx, &progress);
+}
+
+static hr2d_status make_all(const maker *m, const hr2di_blocks_plan *plan) {
+  hr2d_status status = HR2D_OK;
+  const uint64_t count = m->links->store.count;
+  for (uint64_t from = 0; from < count && !status; from += ROUND) {
+    const uint64_t to = from + ROUND < count ? from + ROUND : count;
+    status = make_round(m, from, to);
+    if (!status) status = tell(m->links, plan, to);
+  }
+  return status;
+}
+
+/* Few links are done before a thread has woken up. */
+static size_t count_threads(unsigned asked, uint64_t links) {
+#ifdef _OPENMP
+  const size_t threads = asked ? asked : (size_t)omp_get_max_threads();
+  const size_t most = (size_t)(1 + links / ROUND);
+  return threads < most ? threads : most;
+#else
+  (void)asked;
+  (void)links;
+  return 1;
+#endif
+}
+
+static hr2d_status run(hr2d_linkset *links, hr2di_blocks *made, const hr2di_blocks_plan *plan) {
+  const hr2d_allocator *alloc = &links->alloc;
+  maker m = {.links = links,
+             .blocks = made,
+             .threads = count_threads(plan->threads, links->store.count)};
+  m.work = hr2di_calloc(alloc, m.threads, sizeof *m.work);
+  if (!m.work) return HR2D_ENOMEM;
+  hr2d_status status = HR2D_OK;
+  size_t started = 0;
+  while (started < m.threads && !status)
+    status = hr2di_integrator_start(&m.work[started++], links->hierarchy, alloc, made->order);
+  if (!status) status = make_all(&m, plan);
+  while (started > 0) {
+    made->kernels += m.work[--started].kernels;
+    hr2di_integrator_end(&m.work[started]);
+  }
+  hr2di_free(alloc, m.work);
+  return status;
+}
+
+hr2d_status hr2di_blocks_make(hr2d_linkset *links, size_t order,
+                              const hr2di_blocks_plan *plan) {
+  const uint64_t count = links->store.count;
+  hr2di_blocks made = {.order = order, .links = count};
+  hr2di_blocks_clear(&links->blocks, &links->alloc);
+  if (count == 0) return HR2D_OK;
+  if (count > SIZE_MAX / (order * order * sizeof *made.value)) return HR2D_ENOMEM;
+  made.value = hr2di_alloc(&links->alloc, (size_t)count, order * order * sizeof *made.value);
+  made.distant = hr2di_alloc(&links->alloc, (size_t)count, 1);
+  hr2d_status status = made.value && made.distant ? HR2D_OK : HR2D_ENOMEM;
+  if (!status) status = run(links, &made, plan);
+  if (status)
+    hr2di_blocks_clear(&made, &links->alloc);
+  else
+    links->blocks = made;
+  return status;
+}
+
+void hr2di_blocks_clear(hr2di_blocks *blocks, const hr2d_allocator *alloc) {
+  hr2di_free(alloc, blocks->value);
+  hr2di_free(alloc, blocks->distant);
+  *blocks = (hr2di_blocks){0};
+}

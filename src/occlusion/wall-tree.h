@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A binary tree of boxes over walls. */
+#ifndef HR2D_SRC_OCCLUSION_WALL_TREE_H
+#define HR2D_SRC_OCCLUSION_WALL_TREE_H
+
+#include "occlusion/walls.h"
+
+/* A walk with a stack leaves one box behind per level.  The number of walls is halved at
+   least every third level, see boxes.c. */
+enum { HR2DI_BOX_DEPTH = 100 };
+
+/* Fills walls->box, which has room; HR2D_OK or HR2D_ENOMEM. */
+hr2d_status hr2di_boxes_make(hr2di_walls *walls);
+
+#endif

@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Segments to walls: vertices, runs on one line, joints. */
+#include "occlusion/walls.h"
+
+#include <stdlib.h>
+
+#include "base/alloc.h"
+#include "base/union-find.h"
+#include "geometry/orient-sign.h"
+#include "geometry/predicates.h"
+#include "occlusion/wall-bodies.h"
+#include "occlusion/wall-tree.h"
+
+/* Runs are looked for at vertices where at most so many segments meet; where more do,
+   they stay as they are, which costs nothing but time. */
+enum { MOST_MEETING = 16 };
+
+/* An end of a segment. */
+typedef struct tip {
+  hr2d_point point;
+  uint32_t segment;
+  uint32_t which; /* 0 or 1 */
+} tip;
+
+/* Unions of segments; the root of each has the outermost ends found so far. */
+typedef struct runs {
+  const hr2d_segment *segment;
+  size_t count;
+  uint32_t *above;
+  hr2d_segment *span; /* its lesser end first */
+  tip *tip;           /* 2·count, sorted by point */
+  uint32_t *vertex;   /* of each end of each segment: 2·segment + which */
+} runs;
+
+static int less(hr2d_point p, hr2d_point q) {
+  return p.x != q.x ? p.x < q.x : p.y < q.y;
+}
+
+static int by_point(const void *left, const void *right) {
+  const tip *l = left, *r = right;
+  if (less(l->point, r->point)) return -1;
+  if (less(r->point, l->point)) return 1;
+  const uint32_t p = 2 * l->segment + l->which, q = 2 * r->segment + r->which;
+  return (p > q) - (p < q);
+}
+
+static void unite(runs *r, uint32_t i, uint32_t j) {
+  i = hr2di_find(r->above, i);
+  j = hr2di_find(r->above, j);
+  if (i == j) return;
+  if (i > j) {
+    const uint32_t swap = i;
+    i = j;
+    j = swap;
+  }
+  r->above[j] = i;
+  if (less(r->span[j].a, r->span[i].a)) r->span[i].a = r->span[j].a;
+  if (less(r->span[i].b, r->span[j].b)) r->span[i].b = r->span[j].b;
+}
+
+/* Both ends of t lie on the line of s; exact, and so transitive.  A point has no line. */
+static int on_line(hr2d_segment s, hr2d_segment t) {
+  return !hr2di_same(s.a, s.b) && !hr2di_same(t.a, t.b) && hr2di_side(s.a, s.b, t.a) == 0 &&
+         hr2di_side(s.a, s.b, t.b) == 0;
+}
+
+/* Unites segments on one line that meet in a vertex. */
+static void unite_at(runs *r, const tip *first, size_t count) {
+  if (count > MOST_MEETING) return;
+  for (size_t k = 0; k < count; k++)
+    for (size_t m = k + 1; m < count; m++) {
+      const uint32_t i = first[k].segment, j = first[m].segment;
+      if (on_line(r->segment[i], r->segment[j])) unite(r, i, j);
+    }
+}
+
+/* Numbers the vertices; their number. */
+static size_t find_runs(runs *r) {
+  for (size_t k = 0; k < r->count; k++) {
+    const hr2d_segment s = r->segment[k];
+    r->above[k] = (uint32_t)k;
+    r->span[k] = less(s.a, s.b) ? s : (hr2d_segment){s.b, s.a};
+    r->tip[2 * k] = (tip){s.a, (uint32_t)k, 0};
+    r->tip[2 * k + 1] = (tip){s.b, (uint32_t)k, 1};
+  }
+  qsort(r->tip, 2 * r->count, sizeof *r->tip, by_point);
+  size_t vertices = 0;
+  for (size_t first = 0, last; first < 2 * r->count; first = last, vertices++) {
+    for (last = first;
+         last < 2 * r->count && hr2di_same(r->tip[last].point, r->tip[first].point); last++)
+      r->vertex[2 * r->tip[last].segment + r->tip[last].which] = (uint32_t)vertices;
+    unite_at(r, r->tip + first, last - first);
+  }
+  return vertices;
+}
+
+/* One wall per run; vertices within a run have it as their host. */
+static void make_walls(hr2di_walls *w, runs *r) {
+  for (uint32_t k = 0; k < r->count; k++)
+    if (hr2di_find(r->above, k) == k) {
+      w->of_segment[k] = (uint32_t)w->walls;
+      w->wall[w->walls++].at = r->span[k];
+    }
+  for (size_t v = 0; v < w->vertices; v++) w->host[v] = HR2DI_NO_WALL;
+  for (uint32_t k = 0; k < r->count; k++) {
+    const uint32_t wall = w->of_segment[hr2di_find(r->above, k)];
+    const hr2d_point end[] = {r->segment[k].a, r->segment[k].b};
+    w->of_segment[k] = wall;
+    for (int e = 0; e < 2; e++) {
+      const uint32_t vertex = r->vertex[2 * k + (uint32_t)e];
+      /* Both ends of an occluder that is a point are one vertex. */
+      const int at_a = hr2di_same(end[e], w->wall[wall].at.a);
+      const int at_b = hr2di_same(end[e], w->wall[wall].at.b);
+      if (at_a) w->wall[wall].vertex[0] = vertex;
+      if (at_b) w->wall[wall].vertex[1] = vertex;
+      if (!at_a && !at_b) w->host[vertex] = wall;
+    }
+  }
+}
+
+/* A few units in the last place of coordinates below 2: an end that is so near to the
+   line of a wall was meant to lie on it. */
+#define TOUCH 0x1p-50
+
+/* p lies on the inside of a wall, but for rounding. */
+static int touches(hr2d_segment w, hr2d_point p) {
+  const double dx = w.b.x - w.a.x, dy = w.b.y - w.a.y, length = hypot(dx, dy);
+  const double along = (p.x - w.a.x) * dx + (p.y - w.a.y) * dy;
+  return fabs(hr2di_orient(w.a, w.b, p)) <= TOUCH * length && along > 0 &&
+         along < length * length && !hr2di_same(p, w.a) && !hr2di_same(p, w.b);
+}
+
+/* The wall on whose inside p lies, if there is one. */
+static uint32_t host_of(const hr2di_walls *w, hr2d_point p) {
+  uint32_t stack[HR2DI_BOX_DEPTH], count = 0;
+  stack[count++] = 0;
+  while (count > 0) {
+    const hr2di_box *box = &w->box[stack[--count]];
+    if (p.x < box->x0 - TOUCH || p.x > box->x1 + TOUCH || p.y < box->y0 - TOUCH ||
+        p.y > box->y1 + TOUCH)
+      continue;
+    if (box->wall == HR2DI_NO_WALL) {
+      stack[count++] = box->below;
+      stack[count++] = box->below + 1;
+    } else if (touches(w->wall[box->wall].at, p)) {
+      return box->wall;
+    }
+  }
+  return HR2DI_NO_WALL;
+}
+
+static hr2d_status reserve(hr2di_walls *w, runs *r, size_t count) {
+  const hr2d_allocator *alloc = &w->alloc;
+  if (count > UINT32_MAX / 4) return HR2D_ENOMEM;
+  w->wall = hr2di_alloc(alloc, count, sizeof *w->wall);
+  w->of_segment = hr2di_alloc(alloc, count, sizeof *w->of_segment);
+  w->host = hr2di_alloc(alloc, 2 * count, sizeof *w->host);
+  w->box = hr2di_alloc(alloc, 2 * count, sizeof *w->box);
+  w->body = hr2di_alloc(alloc, count, sizeof *w->body);
+  w->body_of = hr2di_alloc(alloc, count, sizeof *w->body_of);
+  r->above = hr2di_alloc(alloc, count, sizeof *r->above);
+  r->span = hr2di_alloc(alloc, count, sizeof *r->span);
+  r->tip = hr2di_alloc(alloc, 2 * count, sizeof *r->tip);
+  r->vertex = hr2di_alloc(alloc, 2 * count, sizeof *r->vertex);
+  const int room = w->wall && w->of_segment && w->host && w->box && w->body && w->body_of &&
+                   r->above && r->span && r->tip && r->vertex;
+  return room ? HR2D_OK : HR2D_ENOMEM;
+}
+
+hr2d_status hr2di_walls_make(hr2di_walls *walls, const hr2d_allocator *alloc,
+                             const hr2d_segment *segment, size_t count) {
+  *walls = (hr2di_walls){.alloc = *alloc};
+  runs r = {.segment = segment, .count = count};
+  hr2d_status status = reserve(walls, &r, count);
+  if (!status) {
+    walls->vertices = find_runs(&r);
+    make_walls(walls, &r);
+    status = hr2di_bodies_make(walls);
+    if (!status) status = hr2di_boxes_make(walls);
+  }
+  for (size_t k = 0; k < 2 * count && !status; k++) {
+    uint32_t *host = &walls->host[r.vertex[2 * r.tip[k].segment + r.tip[k].which]];
+    if (*host == HR2DI_NO_WALL) *host = host_of(walls, r.tip[k].point);
+  }
+  hr2di_free(alloc, r.above);
+  hr2di_free(alloc, r.span);
+  hr2di_free(alloc, r.tip);
+  hr2di_free(alloc, r.vertex);
+  return status;
+}
+
+void hr2di_walls_clear(hr2di_walls *walls) {
+  hr2di_free(&walls->alloc, walls->wall);
+  hr2di_free(&walls->alloc, walls->of_segment);
+  hr2di_free(&walls->alloc, walls->host);
+  hr2di_free(&walls->alloc, walls->box);
+  hr2di_free(&walls->alloc, walls->body);
+  hr2di_free(&walls->alloc, walls->body_of);
+}

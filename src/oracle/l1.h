@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The L¹ error of a link: ∫∫ |G(x_c,y_c) − G(x,y)| dy dx (paper, section 4). */
+#ifndef HR2D_SRC_ORACLE_L1_H
+#define HR2D_SRC_ORACLE_L1_H
+
+#include <hr2d/geometry.h>
+#include <hr2d/oracle.h>
+
+/* The error of a pair of segments, in their unit of length, to a relative 1e-10;
+   infinity where the centres of visible segments coincide, and where lengths and
+   distance differ by more than a double can hold.  The order of the
+   segments changes no bit.  Allocates nothing. */
+double hr2di_l1(const hr2d_segment *i, const hr2d_segment *j);
+
+/* Whether scale·hr2di_l1(i, j) ≤ epsilon: the same decision, mostly for less. */
+int hr2di_l1_accept(const hr2d_segment *i, const hr2d_segment *j, double scale, double epsilon);
+
+/* Bounds on hr2di_l1() from the derivatives of G at the centres; low = 0 and
+   high = infinity for pairs that are too close, or too flat.  `high` holds for every
+   midpoint rule on a product grid, too. */
+typedef struct hr2di_l1_range {
+  double low, high;
+} hr2di_l1_range;
+
+hr2di_l1_range hr2di_l1_bounds(const hr2d_segment *i, const hr2d_segment *j);
+
+#endif

@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The oracles size, size2 and bf, and all by name. */
+#include <float.h>
+#include <hr2d/oracle.h>
+#include <math.h>
+#include <string.h>
+
+#include "geometry/determinant.h"
+
+/* Below this a sum of two squares, or its product with another such number, may have
+   lost digits to underflow. */
+#define SMALL_SQUARE 1e-140
+
+static double larger(double p, double q) {
+  return p > q ? p : q;
+}
+
+static double smaller(double p, double q) {
+  return p < q ? p : q;
+}
+
+static double centre_distance2(const hr2d_element *i, const hr2d_element *j) {
+  const double dx = j->centre.x - i->centre.x, dy = j->centre.y - i->centre.y;
+  return dx * dx + dy * dy;
+}
+
+/* max(A_x, A_y)/r, with r good to 3 roundings. */
+static double size_of_pair(const hr2d_element *i, const hr2d_element *j) {
+  const double r2 = centre_distance2(i, j);
+  const double r = r2 > SMALL_SQUARE
+                       ? sqrt(r2)
+                       : hypot(j->centre.x - i->centre.x, j->centre.y - i->centre.y);
+  return larger(i->length, j->length) / r;
+}
+
+static double size2_of_pair(const hr2d_element *i, const hr2d_element *j) {
+  const double r2 = centre_distance2(i, j), a = larger(i->length, j->length);
+  if (r2 > SMALL_SQUARE && a * a > SMALL_SQUARE) return a * a / r2;
+  const double size = size_of_pair(i, j);
+  return size * size;
+}
+
+/* In a pair that is only partly visible the kernel jumps at the shadow's border instead
+   of changing smoothly: its elements must be half as long. */
+static double weight(const hr2d_batch *batch, size_t k) {
+  return batch->partial && batch->partial[k] ? 2 : 1;
+}
+
+static hr2d_status estimate_size(void *ctx, const hr2d_batch *batch, double *error) {
+  (void)ctx;
+  for (size_t k = 0; k < batch->count; k++)
+    error[k] = weight(batch, k) * size_of_pair(&batch->elements[batch->pairs[k].first],
+                                               &batch->elements[batch->pairs[k].second]);
+  return HR2D_OK;
+}
+
+static hr2d_status estimate_size2(void *ctx, const hr2d_batch *batch, double *error) {
+  (void)ctx;
+  for (size_t k = 0; k < batch->count; k++)
+    error[k] = weight(batch, k) * weight(batch, k) *
+               size2_of_pair(&batch->elements[batch->pairs[k].first],
+                             &batch->elements[batch->pairs[k].second]);
+  return HR2D_OK;
+}
+
+/* A² ≤ ε²r² decides without root or division.  Each side, and the estimate's own
+   square, is off by at most 5 roundings, so that the two can only disagree where
+   the difference is within 16 units in the last place of A²; there the estimate
+   itself decides.  So it does where underflow might have eaten digits: with
+   1e-300 < ε² < 1e20 that shows in a difference below 1e-280. */
+static int doubtful(double excess, double a2) {
+  return !(fabs(excess) - 16 * DBL_EPSILON * a2 > 1e-280);
+}
+
+/* The first loop has no branches; a doubt anywhere in the batch is looked into then. */
+static hr2d_status accept_squares(const hr2d_batch *batch, double epsilon2, double epsilon,
+                                  double (*estimate)(const hr2d_element *,
+                                                     const hr2d_element *),
+                                  unsigned char *accepted) {
+  const hr2d_element *element = batch->elements;
+  const hr2d_pair *pair = batch->pairs;
+  const size_t count = batch->count;
+  const int in_range = epsilon2 > 1e-300 && epsilon2 < 1e20;
+  double margin = 1;
+  for (size_t k = 0; k < count; k++) {
+    const hr2d_element *i = &element[pair[k].first], *j = &element[pair[k].second];
+    const double a = larger(i->length, j->length), a2 = a * a;
+    const double excess = a2 - epsilon2 * centre_distance2(i, j);
+    accepted[k] = excess <= 0;
+    margin = smaller(margin, fabs(excess) - 16 * DBL_EPSILON * a2);
+  }
+  if (in_range && margin > 1e-280) return HR2D_OK;
+  for (size_t k = 0; k < count; k++) {
+    const hr2d_element *i = &element[pair[k].first], *j = &element[pair[k].second];
+    const double a = larger(i->length, j->length), a2 = a * a;
+    if (!in_range || doubtful(a2 - epsilon2 * centre_distance2(i, j), a2))
+      accepted[k] = estimate(i, j) <= epsilon;
+  }
+  return HR2D_OK;
+}
+
+static hr2d_status accept_partial(const hr2d_batch *batch, double epsilon, double factor,
+                                  double (*estimate)(const hr2d_element *,
+                                                     const hr2d_element *),
+                                  unsigned char *accepted) {
+  for (size_t k = 0; k < batch->count; k++)
+    accepted[k] =
+        (batch->partial[k] ? factor : 1) * estimate(&batch->elements[batch->pairs[k].first],
+                                                    &batch->elements[batch->pairs[k].second]) <=
+        epsilon;
+  return HR2D_OK;
+}
+
+static hr2d_status accept_size(void *ctx, const hr2d_batch *batch, double epsilon,
+                               unsigned char *accepted) {
+  (void)ctx;
+  if (batch->partial) return accept_partial(batch, epsilon, 2, size_of_pair, accepted);
+  return accept_squares(batch, epsilon * epsilon, epsilon, size_of_pair, accepted);
+}
+
+static hr2d_status accept_size2(void *ctx, const hr2d_batch *batch, double epsilon,
+                                unsigned char *accepted) {
+  (void)ctx;
+  if (batch->partial) return accept_partial(batch, epsilon, 4, size2_of_pair, accepted);
+  return accept_squares(batch, epsilon, epsilon, size2_of_pair, accepted);
+}
+
+/* An element against the centre of another, d away from its own. */
+static hr2di_wide wide_cosine(const hr2d_element *e, const hr2di_vector *d, hr2di_wide r) {
+  const hr2di_vector along = hr2di_scaled_difference(e->b, e->a);
+  hr2di_wide det = hr2di_wide_det(&along, d);
+  det.m = fabs(det.m);
+  return hr2di_wide_div(hr2di_wide_div(det, hr2di_wide_make(e->length, 0)), r);
+}
+
+static double wide_bf(const hr2d_element *i, const hr2d_element *j, double brightness) {
+  const hr2di_vector d = hr2di_scaled_difference(j->centre, i->centre);
+  const hr2di_wide r = hr2di_wide_length(&d);
+  if (r.m == 0) return HUGE_VAL;
+  const hr2di_wide cosines = hr2di_wide_mul(wide_cosine(i, &d, r), wide_cosine(j, &d, r));
+  const hr2di_wide size = hr2di_wide_div(hr2di_wide_make(larger(i->length, j->length), -1), r);
+  return hr2di_wide_value(
+      hr2di_wide_mul(hr2di_wide_mul(cosines, size), hr2di_wide_make(brightness, 0)));
+}
+
+/* G(x_c,y_c)·max(A_x,A_y)·B_y; lengths cancel, so that only ratios are formed.  Determinants
+   have 2 roundings, r has 3, a cosine 7 and the product 21; the shortcut is for what can
+   neither lose bits of a difference nor leave the range of a double on the way. */
+static double bf_of_pair(const hr2d_element *i, const hr2d_element *j, double brightness) {
+  if (!(brightness > 0)) return 0;
+  if (!hr2di_plain(i->a) || !hr2di_plain(i->b) || !hr2di_plain(i->centre) ||
+      !hr2di_plain(j->a) || !hr2di_plain(j->b) || !hr2di_plain(j->centre))
+    return wide_bf(i, j, brightness);
+  const hr2di_vector along_i = hr2di_difference(i->b, i->a);
+  const hr2di_vector along_j = hr2di_difference(j->b, j->a);
+  const hr2di_vector d = hr2di_difference(j->centre, i->centre);
+  const double r = hr2di_length(&d);
+  if (!(r > 0)) return HUGE_VAL;
+  const double cos_i = fabs(hr2di_det(&along_i, &d)) / (i->length * r);
+  const double cos_j = fabs(hr2di_det(&along_j, &d)) / (j->length * r);
+  const double cosines = 0.5 * cos_i * cos_j;
+  if (!(cosines > 1e-250 && cosines < 1e250)) return wide_bf(i, j, brightness);
+  return cosines * (larger(i->length, j->length) / r) * brightness;
+}
+
+static hr2d_status estimate_bf(void *ctx, const hr2d_batch *batch, double *error) {
+  (void)ctx;
+  for (size_t k = 0; k < batch->count; k++) {
+    const hr2d_pair pair = batch->pairs[k];
+    error[k] = weight(batch, k) *
+               bf_of_pair(&batch->elements[pair.first], &batch->elements[pair.second],
+                          batch->brightness ? batch->brightness[pair.second] : 1);
+  }
+  return HR2D_OK;
+}
+
+static const hr2d_oracle oracle_size = {
+    .struct_size = sizeof(hr2d_oracle),
+    .name = "size",
+    .flags = HR2D_ORACLE_SYMMETRIC | HR2D_ORACLE_THREAD_SAFE,
+    .estimate = estimate_size,
+    .accept = accept_size,
+};
+
+static const hr2d_oracle oracle_size2 = {
+    .struct_size = sizeof(hr2d_oracle),
+    .name = "size2",
+    .flags = HR2D_ORACLE_SYMMETRIC | HR2D_ORACLE_THREAD_SAFE,
+    .estimate = estimate_size2,
+    .accept = accept_size2,
+};
+
+static const hr2d_oracle oracle_bf = {
+    .struct_size = sizeof(hr2d_oracle),
+    .name = "bf",
+    .flags = HR2D_ORACLE_THREAD_SAFE | HR2D_ORACLE_NEEDS_BRIGHTNESS,
+    .estimate = estimate_bf,
+};
+
+const hr2d_oracle *hr2d_oracle_size(void) {
+  return &oracle_size;
+}
+
+const hr2d_oracle *hr2d_oracle_size2(void) {
+  return &oracle_size2;
+}
+
+const hr2d_oracle *hr2d_oracle_bf(void) {
+  return &oracle_bf;
+}
+
+const hr2d_oracle *hr2d_oracle_find(const char *name) {
+  const hr2d_oracle *const known[] = {&oracle_size, &oracle_size2, &oracle_bf, hr2d_oracle_l1(),
+                                      hr2d_oracle_l1_grid()};
+  for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+    if (strcmp(known[k]->name, name) == 0) return known[k];
+  return NULL;
+}

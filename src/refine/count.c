@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Counting N and L without links, on several threads.
+
+   Each worker has a copy of the hierarchy that it grows alone.  The first refines
+   until there is work for all: refused pairs on its stacks, and patches not yet
+   projected.  What a pair leads to does not depend on who works on it or when, so
+   that sums and the union of the trees are those of one thread. */
+#include <hr2d/refine.h>
+#include <stdatomic.h>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include "base/alloc.h"
+#include "refine/occluded-pairs.h"
+#include "refine/projector.h"
+#include "scene/scene-impl.h"
+
+enum {
+  ENOUGH = 2048, /* refused pairs to share out */
+  SHARE = 8,     /* pairs to a task */
+  MOST_WORKERS = 256,
+  STACKS = 4
+};
+
+typedef struct worker {
+  hr2d_linkset links; /* a view: its own hierarchy, message, and no links */
+  hr2di_projector *projector;
+  hr2d_status status;
+} worker;
+
+typedef struct team {
+  hr2d_linkset *links;
+  hr2d_refine_options options;
+  size_t count;
+  worker *worker;
+  hr2d_hierarchy **clone; /* of each worker */
+
+  hr2di_stack stack[STACKS]; /* the pairs to share out */
+  hr2di_shaded shaded;
+  size_t next_patch; /* the first not yet projected */
+
+  atomic_ullong links_told; /* by all workers */
+  atomic_ullong tasks_done;
+  atomic_int stop;
+} team;
+
+static size_t shares(size_t pairs) {
+  return (pairs + SHARE - 1) / SHARE;
+}
+
+static unsigned long long task_count(const team *t) {
+  unsigned long long tasks = t->links->hierarchy->scene->patches - t->next_patch;
+  for (int k = 0; k < STACKS; k++) tasks += shares(t->stack[k].count);
+  return tasks + shares(t->shaded.stack.count);
+}
+
+/* The stacks of a projector but the one in the shade. */
+static hr2di_stack *stack_of(hr2di_projector *p, int k) {
+  hr2di_stack *const stack[STACKS] = {&p->open, &p->guarded, &p->fresh[0], &p->fresh[1]};
+  return stack[k];
+}
+
+/* Every worker looks whether another has failed; the calling thread tells progress. */
+static hr2d_status tell(hr2di_projector *p) {
+  team *t = p->tell_ctx;
+  if (atomic_load(&t->stop)) return HR2D_STOPPED;
+  if (p != t->worker[0].projector || !p->options.progress) return HR2D_OK;
+  const unsigned long long tasks = task_count(t);
+  const hr2d_progress progress = {
+      .struct_size = sizeof progress,
+      .phase = "refine",
+      .elements = p->hierarchy->elements,
+      .links = atomic_load(&t->links_told) + p->counts.links,
+      .fraction = tasks ? (double)atomic_load(&t->tasks_done) / (double)tasks : 0};
+  const hr2d_status status = p->options.progress(p->options.progress_ctx, &progress);
+  return status ? hr2di_fail(&p->links->message, status, "callback \"progress\": %s",
+                             hr2d_strerror(status))
+                : HR2D_OK;
+}
+
+static size_t wanted_workers(const hr2d_linkset *links, const hr2d_refine_options *options) {
+#ifdef _OPENMP
+  size_t wanted = options->threads ? options->threads : (size_t)omp_get_max_threads();
+  if (!(links->oracle.flags & HR2D_ORACLE_THREAD_SAFE) ||
+      !(links->policy.flags & HR2D_POLICY_THREAD_SAFE))
+    wanted = 1;
+  return wanted < MOST_WORKERS ? wanted : MOST_WORKERS;
+#else
+  (void)links;
+  (void)options;
+  return 1;
+#endif
+}
+
+/* Each worker has a part of the budget, and one is for their union; 0 stays 0. */
+static uint64_t part_of_budget(const team *t) {
+  const uint64_t budget = t->options.max_bytes, part = budget / (t->count + 1);
+  return budget && !part ? 1 : part;
+}
+
+/* A worker begins with a copy of what `from` has become by then. */
+static hr2d_status hire(team *t, size_t k, const hr2d_hierarchy *from) {
+  worker *w = &t->worker[k];
+  w->links = *t->links;
+  w->links.store = (hr2di_store){0};
+  w->links.message.text[0] = '\0';
+  hr2d_refine_options options = t->options;
+  options.max_bytes = part_of_budget(t);
+  if (options.max_bytes && hr2di_clone_bytes(from) > options.max_bytes)
+    return hr2di_overspent(&w->links, t->options.max_bytes, 0);
+  hr2d_status status = hr2di_hierarchy_clone(from, &t->clone[k]);
+  if (status) return hr2di_fail(&w->links.message, status, "out of memory for the count");
+  w->links.hierarchy = t->clone[k];
+  t->clone[k]->refining = 1;
+  status = hr2di_projector_start(&w->links, &options, &w->projector);
+  if (status == HR2D_EMAX_BYTES) return hr2di_overspent(&w->links, t->options.max_bytes, 0);
+  if (status) return status;
+  w->projector->budget = t->options.max_bytes;
+  if (t->count > 1) w->projector->tell = tell;
+  w->projector->tell_ctx = t;
+  return HR2D_OK;
+}
+
+/* The first worker alone, until there are pairs enough for all; alone to the end if
+   there is no other. */
+static hr2d_status begin(team *t) {
+  hr2di_projector *p = t->worker[0].projector;
+  const size_t n = t->links->hierarchy->scene->patches;
+  hr2d_status status = HR2D_OK;
+  while (t->next_patch < n && !status && hr2di_waiting(p) < ENOUGH) {
+    status = hr2di_project_row(p, t->next_patch++);
+    if (!status) status = hr2di_drain(p, t->count > 1 ? ENOUGH : SIZE_MAX);
+  }
+  return status;
+}
+
+static hr2d_status take_share(hr2di_projector *p, hr2di_stack *to, const hr2di_stack *from,
+                              size_t share) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = share * SHARE; k < from->count && k < (share + 1) * SHARE && !status; k++)
+    status = hr2di_refuse(p, to, from->pair[k]);
+  return status;
+}
+
+static hr2d_status take_shaded(hr2di_projector *p, const hr2di_shaded *from, size_t share) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = share * SHARE; k < from->stack.count && k < (share + 1) * SHARE && !status;
+       k++)
+    status = hr2di_share_shaded(p, from, k);
+  return status;
+}
+
+/* Pairs of some stack, or a patch not yet projected. */
+static hr2d_status take(team *t, hr2di_projector *p, size_t task) {
+  for (int k = 0; k < STACKS; k++) {
+    const size_t some = shares(t->stack[k].count);
+    if (task < some) return take_share(p, stack_of(p, k), &t->stack[k], task);
+    task -= some;
+  }
+  const size_t shaded = shares(t->shaded.stack.count);
+  if (task < shaded) return take_shaded(p, &t->shaded, task);
+  return hr2di_project_row(p, t->next_patch + (task - shaded));
+}
+
+static hr2d_status do_task(team *t, hr2di_projector *p, size_t task) {
+  const uint64_t before = p->counts.links;
+  hr2d_status status = tell(p);
+  if (!status) status = take(t, p, task);
+  if (!status) status = hr2di_drain(p, SIZE_MAX);
+  if (p != t->worker[0].projector) atomic_fetch_add(&t->links_told, p->counts.links - before);
+  atomic_fetch_add(&t->tasks_done, 1);
+  return status;
+}
+
+/* The calling thread tells progress before and after, lest it find nothing to do
+   between. */
+static void work(team *t) {
+  const long long tasks = (long long)task_count(t);
+  worker *first = &t->worker[0];
+  first->status = tell(first->projector);
+  if (first->status) return;
+#ifdef _OPENMP
+#pragma omp parallel for num_threads((int)t->count) schedule(dynamic)
+#endif
+  for (long long task = 0; task < tasks; task++) {
+#ifdef _OPENMP
+    worker *w = &t->worker[omp_get_thread_num()];
+#else
+    worker *w = first;
+#endif
+    if (atomic_load(&t->stop)) continue;
+    w->status = do_task(t, w->projector, (size_t)task);
+    if (w->status) atomic_store(&t->stop, 1);
+  }
+  if (!atomic_load(&t->stop)) first->status = tell(first->projector);
+}
+
+static uint64_t shared_bytes(const team *t) {
+  uint64_t pairs = t->shaded.stack.capacity;
+  for (int k = 0; k < STACKS; k++) pairs += t->stack[k].capacity;
+  return pairs * sizeof(hr2d_pair) + t->shaded.first_capacity * sizeof *t->shaded.first +
+         t->shaded.list.capacity * sizeof *t->shaded.list.wall;
+}
+
+/* The pairs on the first worker's stacks become everybody's, at the first one's cost. */
+static void share_out(team *t) {
+  hr2di_projector *p = t->worker[0].projector;
+  for (int k = 0; k < STACKS; k++) {
+    t->stack[k] = *stack_of(p, k);
+    *stack_of(p, k) = (hr2di_stack){0};
+  }
+  t->shaded = p->shaded;
+  p->shaded = (hr2di_shaded){0};
+  p->bytes += shared_bytes(t);
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 1; k < t->count && !status; k++) {
+    status = hire(t, k, t->clone[0]);
+    t->worker[k].status = status;
+  }
+  if (!status) work(t);
+}
+
+/* The first worker that failed, and was not merely told to stop, gives the reason. */
+static hr2d_status gather_status(team *t) {
+  const worker *reason = NULL;
+  for (size_t k = 0; k < t->count; k++) {
+    const worker *w = &t->worker[k];
+    if (w->status && (!reason || (!reason->links.message.text[0]))) reason = w;
+  }
+  if (!reason) return HR2D_OK;
+  return hr2di_fail(&t->links->message, reason->status, "%s", reason->links.message.text);
+}
+
+/* How many elements the union may have room for. */
+static size_t union_room(const team *t, size_t hired) {
+  if (!t->options.max_bytes) return SIZE_MAX;
+  const uint64_t rest = t->options.max_bytes - hired * part_of_budget(t);
+  return (size_t)(rest / HR2DI_ELEMENT_BYTES);
+}
+
+static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
+  hr2d_linkset *links = t->links;
+  hr2d_refine_counts sum = {0};
+  for (size_t k = 0; k < t->count; k++) {
+    if (!t->clone[k]) continue; /* the first was done before the others began */
+    const hr2d_refine_counts *part = &t->worker[k].projector->counts;
+    sum.links += part->links;
+    sum.limited_links += part->limited_links;
+    sum.oracle_calls += part->oracle_calls;
+    sum.facing_tests += part->facing_tests;
+    const hr2di_sight *sight = t->worker[k].projector->sight;
+    sum.visibility_tests += sight ? sight->tests : 0;
+    sum.blocked_pairs += part->blocked_pairs;
+    sum.partial_links += part->partial_links;
+    sum.dark_pairs += part->dark_pairs;
+  }
+  if (t->options.max_links && sum.links > t->options.max_links)
+    return hr2di_fail(&links->message, HR2D_EMAX_LINKS, "more than %llu links are needed",
+                      (unsigned long long)t->options.max_links);
+  const size_t elements = links->hierarchy->elements;
+  const size_t hired = t->count > 1 && t->clone[1] ? t->count : 1;
+  const hr2d_status status =
+      hr2di_hierarchy_unite(links->hierarchy, t->clone, hired, union_room(t, hired));
+  if (status == HR2D_EMAX_BYTES) return hr2di_overspent(links, t->options.max_bytes, sum.links);
+  if (status) return hr2di_fail(&links->message, status, "no room for the elements");
+  if (t->options.max_elements && links->hierarchy->elements > t->options.max_elements) {
+    hr2di_hierarchy_truncate(links->hierarchy, elements);
+    return hr2di_fail(&links->message, HR2D_EMAX_ELEMENTS,
+                      "more than %llu elements are needed, for %llu links",
+                      (unsigned long long)t->options.max_elements,
+                      (unsigned long long)sum.links);
+  }
+  *counts = sum;
+  hr2di_count_elements(links->hierarchy, counts);
+  return HR2D_OK;
+}
+
+static int finished(const team *t) {
+  const hr2di_projector *p = t->worker[0].projector;
+  return hr2di_waiting(p) == 0 && t->next_patch == t->links->hierarchy->scene->patches;
+}
+
+static hr2d_status count_as_team(team *t, hr2d_refine_counts *counts) {
+  worker *first = &t->worker[0];
+  t->links->hierarchy->refining = 1;
+  first->status = hire(t, 0, t->links->hierarchy);
+  if (!first->status) first->status = begin(t);
+  if (!first->status && t->count > 1 && !finished(t)) share_out(t);
+  t->links->hierarchy->refining = 0;
+  const hr2d_status status = gather_status(t);
+  return status ? status : sum_up(t, counts);
+}
+
+hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *options,
+                              hr2d_refine_counts *counts) {
+  team t = {.links = links};
+  if (links->store.count > 0)
+    return hr2di_fail(&links->message, HR2D_ESTATE, "the set has links already");
+  hr2d_status status = hr2di_check_options(links, options, &t.options);
+  if (status) return status;
+  t.count = wanted_workers(links, &t.options);
+  if (t.options.max_bytes &&
+      t.count * (sizeof *t.worker + sizeof *t.clone) > t.options.max_bytes)
+    return hr2di_overspent(links, t.options.max_bytes, 0);
+  t.worker = hr2di_calloc(&links->alloc, t.count, sizeof *t.worker);
+  t.clone = hr2di_calloc(&links->alloc, t.count, sizeof *t.clone);
+  if (t.worker && t.clone)
+    status = count_as_team(&t, counts);
+  else
+    status = hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the count");
+  for (size_t k = 0; k < t.count && t.worker && t.clone; k++) {
+    if (t.worker[k].projector) hr2di_projector_end(t.worker[k].projector);
+    hr2d_hierarchy_destroy(t.clone[k]);
+  }
+  for (int k = 0; k < STACKS; k++) hr2di_free(&links->alloc, t.stack[k].pair);
+  hr2di_free(&links->alloc, t.shaded.stack.pair);
+  hr2di_free(&links->alloc, t.shaded.first);
+  hr2di_free(&links->alloc, t.shaded.list.wall);
+  hr2di_free(&links->alloc, t.worker);
+  hr2di_free(&links->alloc, t.clone);
+  return status;
+}

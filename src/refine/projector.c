@@ -1,0 +1,395 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ProjectKernel without recursion: rounds of pairs between two stacks.
+
+   A round takes up to HR2DI_BATCH refused pairs from the top of a stack, lets the
+   policy choose what to subdivide, and proposes the pairs that come of it to the
+   oracle at once.  Accepted ones go to the sink, refused ones back to the stack, so
+   that the order is depth first and the stacks stay short: each level above the
+   current one leaves at most a batch behind.
+
+   Pairs that face each other fully have only descendants that do.  A pair cut by a
+   horizon is guarded: its descendants are tested and, once they face each other
+   fully, join the rest. */
+#include "refine/projector.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "geometry/predicates.h"
+#include "refine/occluded-pairs.h"
+
+enum {
+  TICKS = 64,     /* rounds between two reports of progress */
+  UNWRITTEN = 255 /* what a callback does not write has no meaning */
+};
+
+static hr2d_status fail(hr2di_projector *p, hr2d_status status, const char *what) {
+  return hr2di_fail(&p->links->message, status, "%s", what);
+}
+
+static uint64_t stack_bytes(const hr2di_projector *p) {
+  const uint64_t pairs = p->open.capacity + p->guarded.capacity + p->fresh[0].capacity +
+                         p->fresh[1].capacity + p->shaded.stack.capacity;
+  const uint64_t walls =
+      p->shaded.list.capacity + p->found.capacity + (p->sight ? p->sight->list.capacity : 0);
+  return pairs * sizeof(hr2d_pair) + p->shaded.first_capacity * sizeof *p->shaded.first +
+         walls * sizeof *p->found.wall + p->brightness_capacity * sizeof *p->brightness;
+}
+
+hr2d_status hr2di_overspent(hr2d_linkset *links, uint64_t budget, uint64_t made) {
+  return hr2di_fail(&links->message, HR2D_EMAX_BYTES,
+                    "more than %llu bytes are needed, after %llu links",
+                    (unsigned long long)budget, (unsigned long long)made);
+}
+
+hr2d_status hr2di_afford(hr2di_projector *p, uint64_t more) {
+  const uint64_t budget = p->options.max_bytes;
+  if (budget == 0) return HR2D_OK;
+  const uint64_t held =
+      p->bytes + (uint64_t)p->hierarchy->capacity * HR2DI_ELEMENT_BYTES + stack_bytes(p);
+  if (held <= budget && more <= budget - held) return HR2D_OK;
+  return hr2di_overspent(p->links, p->budget, p->counts.links);
+}
+
+static hr2d_status reserve(hr2di_projector *p, hr2di_stack *stack, size_t more) {
+  const size_t needed = stack->count + more;
+  if (needed <= stack->capacity) return HR2D_OK;
+  const hr2d_status status = hr2di_afford(p, 2 * needed * sizeof(hr2d_pair));
+  if (status) return status;
+  return hr2di_reserve(&p->links->alloc, &stack->pair, &stack->capacity, needed,
+                       sizeof *stack->pair)
+             ? fail(p, HR2D_ENOMEM, "out of memory for refused pairs")
+             : HR2D_OK;
+}
+
+hr2d_status hr2di_refuse(hr2di_projector *p, hr2di_stack *stack, hr2d_pair pair) {
+  const hr2d_status status = reserve(p, stack, 1);
+  if (!status) stack->pair[stack->count++] = pair;
+  return status;
+}
+
+static hr2d_batch make_batch(const hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
+  return (hr2d_batch){.struct_size = sizeof(hr2d_batch),
+                      .hierarchy = p->hierarchy,
+                      .elements = p->hierarchy->element,
+                      .pairs = pairs,
+                      .count = count,
+                      .unit = hr2d_scene_unit(p->hierarchy->scene),
+                      .epsilon = p->options.epsilon,
+                      .partial = p->partial,
+                      .brightness = p->brightness};
+}
+
+static hr2d_status check_callback(hr2di_projector *p, hr2d_status status, const char *kind,
+                                  const char *name) {
+  if (!status) return HR2D_OK;
+  return hr2di_fail(&p->links->message, status, "%s \"%s\": %s", kind, name,
+                    hr2d_strerror(status));
+}
+
+static hr2d_status compare(hr2di_projector *p, const hr2d_batch *batch) {
+  const hr2d_linkset *links = p->links;
+  for (size_t k = 0; k < batch->count; k++)
+    if (!(p->error[k] >= 0))
+      return hr2di_fail(&p->links->message, HR2D_ECALLBACK,
+                        "oracle \"%s\": an estimate of %g, for elements %u and %u",
+                        links->oracle.name, p->error[k], (unsigned)batch->pairs[k].first,
+                        (unsigned)batch->pairs[k].second);
+  if (links->policy.acceptable)
+    return check_callback(p,
+                          links->policy.acceptable(links->policy_ctx, batch, p->error, p->flag),
+                          "policy", links->policy.name);
+  for (size_t k = 0; k < batch->count; k++) p->flag[k] = p->error[k] <= p->options.epsilon;
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_judge(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
+  const hr2d_linkset *links = p->links;
+  const hr2d_batch batch = make_batch(p, pairs, count);
+  p->counts.oracle_calls += count;
+  const int shortcut = links->oracle.accept && !links->policy.acceptable;
+  memset(p->flag, 0, count);
+  for (size_t k = 0; k < count && !shortcut; k++) p->error[k] = NAN;
+  const hr2d_status status =
+      shortcut ? links->oracle.accept(links->oracle_ctx, &batch, batch.epsilon, p->flag)
+               : links->oracle.estimate(links->oracle_ctx, &batch, p->error);
+  if (status) return check_callback(p, status, "oracle", links->oracle.name);
+  return shortcut ? HR2D_OK : compare(p, &batch);
+}
+
+hr2d_status hr2di_count_links(hr2di_projector *p, size_t more) {
+  const uint64_t budget = p->options.max_links;
+  p->counts.links += more;
+  if (budget == 0 || p->counts.links <= budget) return HR2D_OK;
+  return hr2di_fail(&p->links->message, HR2D_EMAX_LINKS, "more than %llu links are needed",
+                    (unsigned long long)budget);
+}
+
+hr2d_status hr2di_emit(hr2di_projector *p, const double *area, size_t count) {
+  if (count == 0) return HR2D_OK;
+  const hr2d_status status = hr2di_count_links(p, count);
+  return status || !p->sink ? status : p->sink(p->sink_ctx, p->accepted, area, count);
+}
+
+/* Proposes pairs: accepted ones are emitted, refused ones pushed. */
+static hr2d_status propose(hr2di_projector *p, const hr2d_pair *pairs, size_t count,
+                           hr2di_stack *refused) {
+  if (count == 0) return HR2D_OK;
+  hr2d_status status = reserve(p, refused, count);
+  if (!status) status = hr2di_judge(p, pairs, count);
+  if (status) return status;
+  /* Without branches, which would be mispredicted: each pair is written to both. */
+  hr2d_pair *accepted = p->accepted, *stack = refused->pair + refused->count;
+  for (size_t k = 0; k < count; k++) {
+    const hr2d_pair pair = pairs[k];
+    const size_t yes = p->flag[k] != 0;
+    *accepted = pair;
+    *stack = pair;
+    accepted += yes;
+    stack += 1 - yes;
+  }
+  refused->count = (size_t)(stack - refused->pair);
+  return hr2di_emit(p, NULL, (size_t)(accepted - p->accepted));
+}
+
+hr2d_status hr2di_propose_guarded(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
+  const hr2d_element *element = p->hierarchy->element;
+  size_t full = 0, part = 0;
+  for (size_t k = 0; k < count; k++) {
+    const hr2d_element *i = &element[pairs[k].first], *j = &element[pairs[k].second];
+    const hr2di_facing facing =
+        hr2di_face(&(hr2d_segment){i->a, i->b}, &(hr2d_segment){j->a, j->b});
+    if (facing == HR2DI_FACING_NONE) continue;
+    if (facing == HR2DI_FACING_PART || p->test_all)
+      p->sorted[1][part++] = pairs[k];
+    else
+      p->sorted[0][full++] = pairs[k];
+  }
+  const hr2d_status status = propose(p, p->sorted[0], full, &p->open);
+  return status ? status : propose(p, p->sorted[1], part, &p->guarded);
+}
+
+/* Halves a leaf within the budgets. */
+static hr2d_status halve(hr2di_projector *p, uint32_t element) {
+  hr2d_hierarchy *h = p->hierarchy;
+  if (p->options.max_elements && h->elements + 2 > p->options.max_elements)
+    return hr2di_fail(&p->links->message, HR2D_EMAX_ELEMENTS,
+                      "more than %llu elements are needed, after %llu links",
+                      (unsigned long long)p->options.max_elements,
+                      (unsigned long long)p->counts.links);
+  hr2d_status status = HR2D_OK;
+  if (h->elements + 2 > h->capacity)
+    status = hr2di_afford(p, (uint64_t)h->capacity * HR2DI_ELEMENT_BYTES);
+  if (!status && p->brightness && h->elements + 2 > p->brightness_capacity)
+    status = hr2di_afford(p, 2 * (h->elements + 2) * sizeof *p->brightness);
+  if (status) return status;
+  status = hr2di_hierarchy_reserve(h);
+  if (!status && p->brightness &&
+      hr2di_reserve(&h->alloc, &p->brightness, &p->brightness_capacity, h->elements + 2,
+                    sizeof *p->brightness))
+    status = HR2D_ENOMEM;
+  if (status) return fail(p, status, "no room for another element");
+  const uint32_t child = hr2di_halve(h, element);
+  if (p->brightness) p->brightness[child] = p->brightness[child + 1] = p->brightness[element];
+  return HR2D_OK;
+}
+
+/* Asks the policy about refused pairs: p->split, and p->flag for its own limit. */
+static hr2d_status consult(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
+  const hr2d_linkset *links = p->links;
+  const hr2d_policy *policy = &links->policy;
+  const hr2d_batch batch = make_batch(p, pairs, count);
+  memset(p->split, UNWRITTEN, count);
+  memset(p->flag, 0, count);
+  hr2d_status status = policy->preferred_subdivision(links->policy_ctx, &batch, p->split);
+  if (!status && policy->recursion_limit)
+    status = policy->recursion_limit(links->policy_ctx, &batch, p->flag);
+  if (status) return check_callback(p, status, "policy", policy->name);
+  /* What is left of earlier batches was checked then; all 256 go faster than some. */
+  unsigned char most = 0;
+  for (size_t k = 0; k < HR2DI_BATCH; k++) most = p->split[k] > most ? p->split[k] : most;
+  if (most > HR2D_SPLIT_BOTH)
+    return hr2di_fail(&p->links->message, HR2D_ECALLBACK,
+                      "policy \"%s\": a subdivision of %u has no meaning", policy->name,
+                      (unsigned)most);
+  return HR2D_OK;
+}
+
+static int splits_first(unsigned split) {
+  return split != HR2D_SPLIT_SECOND;
+}
+
+static int splits_second(unsigned split) {
+  return split != HR2D_SPLIT_FIRST;
+}
+
+/* Whether the limits allow an element to be subdivided. */
+static int may_split(const hr2di_projector *p, uint32_t element) {
+  const hr2d_hierarchy *h = p->hierarchy;
+  return h->level[element] < p->options.max_level &&
+         (h->element[element].child || hr2di_divisible(h, element));
+}
+
+/* Halves what is to be split and was not yet.  Pairs that a limit holds for go to
+   p->accepted; the others stay in `pairs`, and their number is returned in *count. */
+static hr2d_status prepare(hr2di_projector *p, hr2d_pair *pairs, size_t *count,
+                           size_t *limited) {
+  const int own_limit = p->links->policy.recursion_limit != NULL;
+  size_t kept = 0;
+  for (size_t k = 0; k < *count; k++) {
+    const hr2d_pair pair = pairs[k];
+    const unsigned split = p->split[k];
+    if ((own_limit && p->flag[k]) || (splits_first(split) && !may_split(p, pair.first)) ||
+        (splits_second(split) && !may_split(p, pair.second))) {
+      p->accepted[(*limited)++] = pair;
+      continue;
+    }
+    hr2d_status status = HR2D_OK;
+    if (splits_first(split) && !p->hierarchy->element[pair.first].child)
+      status = halve(p, pair.first);
+    if (!status && splits_second(split) && !p->hierarchy->element[pair.second].child)
+      status = halve(p, pair.second);
+    if (status) return status;
+    pairs[kept] = pair;
+    p->split[kept++] = p->split[k];
+  }
+  *count = kept;
+  return HR2D_OK;
+}
+
+/* The two pairs that come of splitting one element of a pair, chosen without a branch,
+   which would be mispredicted: as words, with the first element in the low half.
+   Returns 0 if the element has no children yet. */
+static inline int split_one(const hr2d_element *element, hr2d_pair pair, unsigned split,
+                            hr2d_pair out[2]) {
+  const unsigned shift = 32 * split;
+  const uint64_t both = (uint64_t)pair.second << 32 | pair.first;
+  const uint64_t child = element[(uint32_t)(both >> shift)].child;
+  const uint64_t left = (both & ~((uint64_t)UINT32_MAX << shift)) | child << shift;
+  const uint64_t right = left + ((uint64_t)1 << shift);
+  out[0] = (hr2d_pair){(uint32_t)left, (uint32_t)(left >> 32)};
+  out[1] = (hr2d_pair){(uint32_t)right, (uint32_t)(right >> 32)};
+  return child != 0;
+}
+
+/* The pairs that come of subdividing, in p->candidate; their number, or 0 if some
+   element to be split has no children yet. */
+static size_t subdivide(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
+  const hr2d_element *element = p->hierarchy->element;
+  hr2d_pair *out = p->candidate;
+  int ready = 1;
+  for (size_t k = 0; k < count; k++) {
+    const unsigned split = p->split[k];
+    if (split == HR2D_SPLIT_BOTH) {
+      hr2d_pair half[2];
+      ready &= split_one(element, pairs[k], HR2D_SPLIT_FIRST, half);
+      ready &= split_one(element, half[0], HR2D_SPLIT_SECOND, out);
+      ready &= split_one(element, half[1], HR2D_SPLIT_SECOND, out + 2);
+      out += 4;
+    } else {
+      ready &= split_one(element, pairs[k], split, out);
+      out += 2;
+    }
+  }
+  return ready ? (size_t)(out - p->candidate) : 0;
+}
+
+/* One round: the topmost refused pairs are subdivided, or linked where a limit holds. */
+static hr2d_status play(hr2di_projector *p, hr2di_stack *stack) {
+  size_t count = stack->count < HR2DI_BATCH ? stack->count : HR2DI_BATCH, limited = 0;
+  hr2d_pair *pairs = stack->pair + stack->count - count;
+  hr2d_status status = consult(p, pairs, count);
+  if (status) return status;
+  stack->count -= count;
+  const int limits = p->check_levels || p->links->policy.recursion_limit;
+  size_t candidates = limits ? 0 : subdivide(p, pairs, count);
+  if (candidates == 0) {
+    status = prepare(p, pairs, &count, &limited);
+    p->counts.limited_links += limited;
+    if (!status) status = hr2di_emit(p, NULL, limited);
+    if (status) return status;
+    candidates = subdivide(p, pairs, count);
+  }
+  if (stack == &p->open) return propose(p, p->candidate, candidates, &p->open);
+  p->counts.facing_tests += candidates;
+  return hr2di_propose_guarded(p, p->candidate, candidates);
+}
+
+hr2d_status hr2di_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidates,
+                            int *limited) {
+  size_t count = 1, held = 0;
+  hr2d_status status = consult(p, &pair, 1);
+  if (!status) status = prepare(p, &pair, &count, &held);
+  *limited = held > 0;
+  *candidates = status || held ? 0 : subdivide(p, &pair, 1);
+  return status;
+}
+
+size_t hr2di_waiting(const hr2di_projector *p) {
+  return p->open.count + p->guarded.count + p->shaded.stack.count + p->fresh[0].count +
+         p->fresh[1].count;
+}
+
+/* Proposes the topmost pairs that have come out of the shade. */
+static hr2d_status propose_fresh(hr2di_projector *p) {
+  hr2di_stack *fresh = &p->fresh[p->fresh[0].count == 0];
+  const size_t count = fresh->count < HR2DI_BATCH ? fresh->count : HR2DI_BATCH;
+  fresh->count -= count;
+  return propose(p, fresh->pair + fresh->count, count,
+                 fresh == &p->fresh[0] ? &p->open : &p->guarded);
+}
+
+/* Full rounds first; pairs in the shade while there are none. */
+static hr2d_status play_next(hr2di_projector *p) {
+  if (p->open.count >= HR2DI_BATCH) return play(p, &p->open);
+  if (p->guarded.count >= HR2DI_BATCH) return play(p, &p->guarded);
+  const size_t fresh = p->fresh[0].count + p->fresh[1].count;
+  if (p->shaded.stack.count > 0 && fresh < HR2DI_BATCH) return hr2di_play_shaded(p);
+  if (fresh > 0) return propose_fresh(p);
+  return play(p, p->open.count > 0 ? &p->open : &p->guarded);
+}
+
+hr2d_status hr2di_drain(hr2di_projector *p, size_t enough) {
+  hr2d_status status = HR2D_OK;
+  for (;;) {
+    const size_t left = hr2di_waiting(p);
+    if (status || left == 0 || left >= enough) return status;
+    status = play_next(p);
+    if (status || ++p->ticks < TICKS) continue;
+    p->ticks = 0;
+    status = p->tell ? p->tell(p) : hr2di_tell(p);
+  }
+}
+
+void hr2di_count_elements(const hr2d_hierarchy *hierarchy, hr2d_refine_counts *counts) {
+  const hr2d_hierarchy_counts h = hr2d_hierarchy_count(hierarchy);
+  counts->elements = h.elements;
+  counts->leaves = h.leaves;
+  counts->levels = h.levels;
+}
+
+/* The part of its root pair that a pair on a stack stands for, summed up. */
+static double unfinished(const hr2di_projector *p, const hr2di_stack *stack) {
+  const hr2d_element *e = p->hierarchy->element;
+  double sum = 0;
+  for (size_t k = 0; k < stack->count; k++) {
+    const hr2d_element *i = &e[stack->pair[k].first], *j = &e[stack->pair[k].second];
+    sum += i->length / e[i->patch].length * (j->length / e[j->patch].length);
+  }
+  return sum;
+}
+
+hr2d_status hr2di_tell(hr2di_projector *p) {
+  if (!p->options.progress) return HR2D_OK;
+  const double done = p->roots_done - unfinished(p, &p->open) - unfinished(p, &p->guarded) -
+                      unfinished(p, &p->fresh[0]) - unfinished(p, &p->fresh[1]) -
+                      unfinished(p, &p->shaded.stack);
+  const hr2d_progress progress = {.struct_size = sizeof progress,
+                                  .phase = "refine",
+                                  .elements = p->hierarchy->elements,
+                                  .links = p->counts.links,
+                                  .fraction = done > 0 ? done / p->roots : 0};
+  return check_callback(p, p->options.progress(p->options.progress_ctx, &progress), "callback",
+                        "progress");
+}

@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The engine of ProjectKernel: pairs go in, links come out of a sink. */
+#ifndef HR2D_SRC_REFINE_PROJECTOR_H
+#define HR2D_SRC_REFINE_PROJECTOR_H
+
+#include <hr2d/refine.h>
+
+#include "hierarchy/hierarchy-impl.h"
+#include "links/linkset-impl.h"
+#include "occlusion/pair-visibility.h"
+
+enum {
+  HR2DI_BATCH = 256,                 /* pairs subdivided at a time */
+  HR2DI_CANDIDATES = 4 * HR2DI_BATCH /* pairs proposed at a time: both elements split */
+};
+
+/* Where accepted pairs go.  Pairs see each other at least in part; `area` is NULL unless
+   their exchange areas were integrated already, around what is in the way. */
+typedef hr2d_status (*hr2di_sink)(void *ctx, const hr2d_pair *pairs, const double *area,
+                                  size_t count);
+
+typedef struct hr2di_stack {
+  hr2d_pair *pair;
+  size_t count, capacity;
+} hr2di_stack;
+
+/* Pairs with walls in the way: each with its own, behind those of the pair below. */
+typedef struct hr2di_shaded {
+  hr2di_stack stack;
+  size_t *first; /* where a pair's walls begin in `list` */
+  size_t first_capacity;
+  hr2di_wall_list list;
+} hr2di_shaded;
+
+typedef struct hr2di_projector hr2di_projector;
+
+struct hr2di_projector {
+  hr2d_linkset *links;
+  hr2d_hierarchy *hierarchy;
+  hr2d_refine_options options;
+  hr2di_sink sink; /* NULL: only counted */
+  void *sink_ctx;
+  hr2d_refine_counts counts; /* of this refinement alone; elements and levels unused */
+  int directed;              /* links carry light from second to first only */
+  int check_levels;          /* elements below max_level exist already */
+  int test_all;              /* facing is tested although no horizon cuts a pair */
+  double *brightness;        /* per element, or NULL; as long as brightness_capacity */
+  size_t brightness_capacity;
+  uint64_t bytes;           /* held by others than the hierarchy and the stacks */
+  uint64_t budget;          /* of bytes, of which options.max_bytes may be a part */
+  double roots, roots_done; /* pairs of patches, for progress */
+  unsigned ticks;           /* rounds since progress was told */
+  hr2d_status (*tell)(hr2di_projector *p); /* tells progress; NULL: hr2di_tell() */
+  void *tell_ctx;
+
+  hr2di_stack open;    /* refused pairs that face each other fully */
+  hr2di_stack guarded; /* refused pairs that one horizon still cuts */
+
+  /* Where the scene calls for occlusion, else all empty. */
+  hr2di_sight *sight;
+  hr2di_shaded shaded;          /* refused pairs with walls in the way */
+  hr2di_stack fresh[2];         /* pairs that have come out of them, facing fully and in
+                                   part, not yet proposed */
+  hr2di_wall_list found;        /* of pairs not yet judged */
+  const unsigned char *partial; /* of the pairs to be judged; NULL: nothing in the way */
+
+  /* the round under way */
+  hr2d_pair candidate[HR2DI_CANDIDATES];
+  hr2d_pair sorted[2][HR2DI_CANDIDATES]; /* facing fully, in part */
+  hr2d_pair accepted[HR2DI_CANDIDATES];
+  double error[HR2DI_CANDIDATES];
+  unsigned char flag[HR2DI_CANDIDATES];
+  unsigned char split[HR2DI_BATCH];
+};
+
+/* Completes the options and checks them against the set. */
+hr2d_status hr2di_check_options(hr2d_linkset *links, const hr2d_refine_options *given,
+                                hr2d_refine_options *options);
+
+/* Makes a projector for checked options; to be ended by hr2di_projector_end(). */
+hr2d_status hr2di_projector_start(hr2d_linkset *links, const hr2d_refine_options *options,
+                                  hr2di_projector **made);
+void hr2di_projector_end(hr2di_projector *p);
+
+/* Proposes a patch with those behind it, or with all where links are directed, and
+   leaves what is refused on the stacks. */
+hr2d_status hr2di_project_row(hr2di_projector *p, size_t patch);
+
+/* Proposes all pairs of patches, and all that comes of them. */
+hr2d_status hr2di_project_all(hr2di_projector *p);
+
+/* Proposes up to HR2DI_CANDIDATES pairs of which some may not see each other, or only
+   in part: these are dropped, and guarded. */
+hr2d_status hr2di_propose_guarded(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
+
+/* Asks the oracle about pairs, with p->partial; sets p->flag to 1 where they are
+   acceptable. */
+hr2d_status hr2di_judge(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
+
+/* Puts a pair on a stack, for the next hr2di_drain(). */
+hr2d_status hr2di_refuse(hr2di_projector *p, hr2di_stack *stack, hr2d_pair pair);
+
+/* Hands the first `count` of p->accepted to the sink. */
+hr2d_status hr2di_emit(hr2di_projector *p, const double *area, size_t count);
+
+/* Subdivides one pair, into p->candidate; none if a limit holds, and then *limited. */
+hr2d_status hr2di_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidates,
+                            int *limited);
+
+/* How many pairs wait on the stacks. */
+size_t hr2di_waiting(const hr2di_projector *p);
+
+/* Subdivides until no refused pair is left, or `enough` of them are. */
+hr2d_status hr2di_drain(hr2di_projector *p, size_t enough);
+
+/* Counts links, HR2D_EMAX_LINKS if that breaks the budget. */
+hr2d_status hr2di_count_links(hr2di_projector *p, size_t more);
+
+/* HR2D_EMAX_BYTES if `more` bytes would break the budget. */
+hr2d_status hr2di_afford(hr2di_projector *p, uint64_t more);
+
+/* HR2D_EMAX_BYTES, with a message. */
+hr2d_status hr2di_overspent(hr2d_linkset *links, uint64_t budget, uint64_t made);
+
+/* Sets the counts of elements. */
+void hr2di_count_elements(const hr2d_hierarchy *hierarchy, hr2d_refine_counts *counts);
+
+/* Tells progress; the status of the callback. */
+hr2d_status hr2di_tell(hr2di_projector *p);
+
+#endif

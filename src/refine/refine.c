@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Refinement with links: into the set, or to a visitor. */
+#include <hr2d/refine.h>
+
+#include "base/alloc.h"
+#include "geometry/exchange-area.h"
+#include "geometry/predicates.h"
+#include "refine/occluded-pairs.h"
+#include "refine/projector.h"
+#include "scene/scene-impl.h"
+
+/* Runs a projector that is set up.  On failure the hierarchy gets its former size. */
+static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
+                       hr2d_status (*project)(hr2di_projector *)) {
+  hr2d_hierarchy *h = p->hierarchy;
+  const size_t elements = h->elements;
+  p->sink = sink;
+  p->sink_ctx = sink_ctx;
+  h->refining = 1;
+  const hr2d_status status = project(p);
+  h->refining = 0;
+  if (p->sight) p->counts.visibility_tests = p->sight->tests;
+  if (status) hr2di_hierarchy_truncate(h, elements);
+  return status;
+}
+
+typedef struct storing {
+  hr2di_projector *projector;
+  hr2di_store *store;
+  double area[HR2DI_CANDIDATES];
+} storing;
+
+/* The blocks that `count` more links will need are paid for before, and the list of blocks. */
+static hr2d_status afford_links(hr2di_projector *p, const hr2di_store *store, size_t count) {
+  const uint64_t room = (uint64_t)store->blocks * HR2DI_BLOCK_LINKS - store->count;
+  if (count <= room) return HR2D_OK;
+  uint64_t more = HR2DI_BLOCK_LINKS * sizeof(hr2d_link);
+  if (store->blocks == store->capacity)
+    more += (store->capacity ? store->capacity : 8) * sizeof *store->block;
+  const hr2d_status status = hr2di_afford(p, more);
+  if (!status) p->bytes += more;
+  return status;
+}
+
+static hr2d_status add_links(storing *s, const hr2d_pair *pairs, const double *area,
+                             size_t count) {
+  hr2d_linkset *links = s->projector->links;
+  hr2d_status status = afford_links(s->projector, s->store, count);
+  if (status) return status;
+  status = hr2di_store_add(s->store, &links->alloc, pairs, area, count);
+  return status ? hr2di_fail(&links->message, status, "out of memory after %llu links",
+                             (unsigned long long)s->store->count)
+                : HR2D_OK;
+}
+
+static hr2d_status store_links(void *ctx, const hr2d_pair *pairs, const double *area,
+                               size_t count) {
+  storing *s = ctx;
+  if (area) return add_links(s, pairs, area, count);
+  s->projector->counts.exchange_areas += count;
+  hr2di_exchange_areas(s->projector->hierarchy->element, pairs, count, s->area);
+  return add_links(s, pairs, s->area, count);
+}
+
+/* Whether a pair, or one that it is part of, faces fully.  Then all below it does,
+   whatever rounding makes of the elements, and nothing there is tested again. */
+static int faces_fully(const hr2d_hierarchy *h, hr2d_pair pair) {
+  for (uint32_t i = pair.first, above_i;; i = above_i) {
+    above_i = h->parent[i];
+    for (uint32_t j = pair.second, above_j;; j = above_j) {
+      above_j = h->parent[j];
+      const hr2d_element *e = &h->element[i], *f = &h->element[j];
+      if (hr2di_face(&(hr2d_segment){e->a, e->b}, &(hr2d_segment){f->a, f->b}) ==
+          HR2DI_FACING_FULL)
+        return 1;
+      if (above_j == j) break;
+    }
+    if (above_i == i) return 0;
+  }
+}
+
+/* Which links have walls in the way, into p->partial. */
+static hr2d_status look_again(hr2di_projector *p, const hr2d_pair *pairs, size_t count,
+                              unsigned char *partial) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < count && !status; k++) {
+    hr2di_view view;
+    p->found.count = 0;
+    status = hr2di_look(p, pairs[k], &view);
+    partial[k] = view != HR2DI_CLEAR;
+    if (partial[k]) p->partial = partial;
+  }
+  return status;
+}
+
+static hr2d_status refuse_link(hr2di_projector *p, hr2d_pair pair, int partial) {
+  if (partial) return hr2di_refuse_shaded(p, pair);
+  const int clipped = p->hierarchy->scene->effect[HR2D_EFFECT_FACING].on;
+  const int open = !p->test_all && (!clipped || faces_fully(p->hierarchy, pair));
+  return hr2di_refuse(p, open ? &p->open : &p->guarded, pair);
+}
+
+/* Proposes the links of a set again: acceptable ones are kept with their exchange
+   areas, the others refused. */
+static hr2d_status project_links(hr2di_projector *p) {
+  storing *s = p->sink_ctx;
+  const hr2di_store *old = &p->links->store;
+  hr2d_pair pairs[HR2DI_BATCH];
+  unsigned char partial[HR2DI_BATCH] = {0};
+  double area[HR2DI_BATCH];
+  hr2d_status status = HR2D_OK;
+  p->roots = (double)old->count;
+  for (uint64_t first = 0; first < old->count && !status; first += HR2DI_BATCH) {
+    const uint64_t rest = old->count - first;
+    const size_t count = rest < HR2DI_BATCH ? (size_t)rest : HR2DI_BATCH;
+    for (size_t k = 0; k < count; k++) pairs[k] = hr2di_store_at(old, first + k)->pair;
+    if (p->sight) status = look_again(p, pairs, count, partial);
+    if (!status) status = hr2di_judge(p, pairs, count);
+    p->partial = NULL;
+    size_t kept = 0;
+    for (size_t k = 0; k < count && !status; k++) {
+      if (!p->flag[k]) {
+        status = refuse_link(p, pairs[k], partial[k]);
+        continue;
+      }
+      p->counts.partial_links += partial[k];
+      area[kept] = hr2di_store_at(old, first + k)->exchange_area;
+      pairs[kept++] = pairs[k];
+    }
+    if (!status) status = hr2di_count_links(p, kept);
+    if (!status) status = add_links(s, pairs, area, kept);
+    p->roots_done += (double)count;
+    if (!status) status = hr2di_drain(p, SIZE_MAX);
+  }
+  return status;
+}
+
+/* What the set holds now, and what all its refinements took. */
+static void sum_counts(hr2d_linkset *links, const hr2di_projector *p) {
+  hr2d_refine_counts *counts = &links->counts;
+  hr2di_count_elements(p->hierarchy, counts);
+  counts->links = p->counts.links;
+  counts->limited_links = p->counts.limited_links;
+  counts->oracle_calls += p->counts.oracle_calls;
+  counts->facing_tests += p->counts.facing_tests;
+  counts->visibility_tests += p->counts.visibility_tests;
+  counts->exchange_areas += p->counts.exchange_areas;
+  counts->partial_links = p->counts.partial_links;
+  counts->blocked_pairs += p->counts.blocked_pairs;
+  counts->dark_pairs += p->counts.dark_pairs;
+}
+
+hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options) {
+  hr2d_refine_options used;
+  hr2di_projector *p = NULL;
+  hr2di_store made = {0};
+  hr2d_status status = hr2di_check_options(links, options, &used);
+  if (!status) status = hr2di_projector_start(links, &used, &p);
+  if (status) return status;
+  p->bytes += sizeof(storing);
+  status = hr2di_afford(p, 0);
+  storing *s = status ? NULL : hr2di_calloc(&links->alloc, 1, sizeof *s);
+  if (s) {
+    s->projector = p;
+    s->store = &made;
+    status = run(p, store_links, s, links->store.count > 0 ? project_links : hr2di_project_all);
+  } else if (!status) {
+    status = hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
+  }
+  if (status) {
+    hr2di_store_clear(&made, &links->alloc);
+  } else {
+    hr2di_store_clear(&links->store, &links->alloc);
+    hr2di_blocks_clear(&links->blocks, &links->alloc);
+    links->store = made;
+    links->directed = p->directed;
+    links->epsilon = used.epsilon;
+    sum_counts(links, p);
+  }
+  hr2di_free(&links->alloc, s);
+  hr2di_projector_end(p);
+  return status;
+}
+
+typedef struct visiting {
+  hr2di_projector *projector;
+  hr2d_visitor visit;
+  void *visit_ctx;
+  double area[HR2DI_CANDIDATES];
+  hr2d_link link[HR2DI_CANDIDATES];
+} visiting;
+
+static hr2d_status visit_links(void *ctx, const hr2d_pair *pairs, const double *area,
+                               size_t count) {
+  visiting *v = ctx;
+  const hr2d_hierarchy *h = v->projector->hierarchy;
+  if (!area) {
+    v->projector->counts.exchange_areas += count;
+    hr2di_exchange_areas(h->element, pairs, count, v->area);
+    area = v->area;
+  }
+  const double unit = hr2d_scene_unit(h->scene);
+  for (size_t k = 0; k < count; k++) v->link[k] = (hr2d_link){pairs[k], area[k] * unit};
+  const hr2d_status status = v->visit(v->visit_ctx, v->link, count);
+  return status ? hr2di_fail(&v->projector->links->message, status, "visitor: %s",
+                             hr2d_strerror(status))
+                : HR2D_OK;
+}
+
+hr2d_status hr2d_refine_visit(hr2d_linkset *links, const hr2d_refine_options *options,
+                              hr2d_visitor visit, void *visit_ctx, hr2d_refine_counts *counts) {
+  hr2d_refine_options used;
+  hr2di_projector *p = NULL;
+  if (links->store.count > 0)
+    return hr2di_fail(&links->message, HR2D_ESTATE, "the set has links already");
+  hr2d_status status = hr2di_check_options(links, options, &used);
+  if (!status) status = hr2di_projector_start(links, &used, &p);
+  if (status) return status;
+  p->bytes += sizeof(visiting);
+  status = hr2di_afford(p, 0);
+  visiting *v = status ? NULL : hr2di_calloc(&links->alloc, 1, sizeof *v);
+  if (v) {
+    v->projector = p;
+    v->visit = visit;
+    v->visit_ctx = visit_ctx;
+    status = run(p, visit_links, v, hr2di_project_all);
+  } else if (!status) {
+    status = hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
+  }
+  if (!status) {
+    *counts = p->counts;
+    hr2di_count_elements(p->hierarchy, counts);
+  }
+  hr2di_free(&links->alloc, v);
+  hr2di_projector_end(p);
+  return status;
+}

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Backs, less what other patches cover: those of two-sided patches, and of such as lie
+   back to back in part. */
+#include "scene/back-faces.h"
+
+#include "base/alloc.h"
+#include "geometry/orient-sign.h"
+#include "scene/scene-impl.h"
+
+/* Position along a line in the direction of s, exact to compare. */
+static double along(hr2d_segment s, hr2d_point p) {
+  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
+  return fabs(dx) >= fabs(dy) ? (dx > 0 ? p.x : -p.x) : (dy > 0 ? p.y : -p.y);
+}
+
+/* Whether t lies along s, on its line and in its direction. */
+static int lies_along(hr2d_segment s, hr2d_segment t) {
+  return hr2di_side(s.a, s.b, t.a) == 0 && hr2di_side(s.a, s.b, t.b) == 0 &&
+         along(s, t.a) < along(s, t.b) && along(s, t.a) < along(s, s.b) &&
+         along(s, t.b) > along(s, s.a);
+}
+
+static hr2d_status add(const hr2d_scene *scene, hr2di_backs *backs, uint32_t patch,
+                       hr2d_segment at) {
+  if (hr2di_reserve(&scene->alloc, &backs->back, &backs->capacity, backs->count + 1,
+                    sizeof *backs->back))
+    return HR2D_ENOMEM;
+  backs->back[backs->count++] = (hr2di_back){at, patch};
+  return HR2D_OK;
+}
+
+/* Takes t away from the parts of a back that begin at `first`. */
+static hr2d_status cover(const hr2d_scene *scene, hr2di_backs *backs, size_t first,
+                         hr2d_segment t) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = backs->count; k-- > first && !status;) {
+    const hr2di_back b = backs->back[k];
+    if (!lies_along(b.at, t)) continue;
+    backs->back[k] = backs->back[--backs->count];
+    if (along(b.at, b.at.a) < along(b.at, t.a))
+      status = add(scene, backs, b.patch, (hr2d_segment){b.at.a, t.a});
+    if (!status && along(b.at, t.b) < along(b.at, b.at.b))
+      status = add(scene, backs, b.patch, (hr2d_segment){t.b, b.at.b});
+  }
+  return status;
+}
+
+hr2d_status hr2di_find_backs(const hr2d_scene *scene, hr2di_backs *backs) {
+  hr2d_status status = HR2D_OK;
+  for (uint32_t k = 0; k < scene->patches && !status; k++) {
+    const hr2d_segment s = scene->patch[k].scaled;
+    const size_t first = backs->count;
+    status = add(scene, backs, k, (hr2d_segment){s.b, s.a});
+    for (size_t m = 0; m < scene->patches && !status && backs->count > first; m++)
+      status = cover(scene, backs, first, scene->patch[m].scaled);
+  }
+  return status;
+}

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Commit: what is found out once about a scene, and from then on only read. */
+#include "base/alloc.h"
+#include "scene/scene-impl.h"
+
+static hr2d_status check_background(hr2d_scene *scene) {
+  const size_t bands = scene->background_bands;
+  if (bands <= 1 || bands == scene->bands) return HR2D_OK;
+  if (scene->bands > 1)
+    return hr2di_fail(&scene->message, HR2D_ESCENE,
+                      "the background has %zu bands where the patches have %zu", bands,
+                      scene->bands);
+  scene->bands = bands;
+  return HR2D_OK;
+}
+
+static hr2d_status make_walls(hr2d_scene *scene) {
+  hr2d_segment *segment = hr2di_alloc(&scene->alloc, scene->patches, sizeof *segment);
+  hr2d_status status = segment ? HR2D_OK : HR2D_ENOMEM;
+  for (size_t k = 0; k < scene->patches && segment; k++) segment[k] = scene->patch[k].scaled;
+  if (!status) status = hr2di_walls_make(&scene->walls, &scene->alloc, segment, scene->patches);
+  hr2di_free(&scene->alloc, segment);
+  return status ? hr2di_fail(&scene->message, status, "out of memory for the walls") : HR2D_OK;
+}
+
+void hr2di_scene_clear_commit(hr2d_scene *scene) {
+  hr2di_walls_clear(&scene->walls);
+  scene->walls = (hr2di_walls){.alloc = scene->alloc};
+  hr2di_free(&scene->alloc, scene->dark);
+  scene->dark = NULL;
+  scene->bands = 1;
+  scene->exponent = 0;
+  for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
+    scene->effect[e].on = 0;
+    scene->effect[e].reason[0] = '\0';
+  }
+}
+
+hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
+  if (scene->committed)
+    return hr2di_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");
+  if (scene->patches == 0)
+    return hr2di_fail(&scene->message, HR2D_ESCENE, "the scene has no patches");
+  hr2d_status (*const part[])(hr2d_scene *) = {
+      hr2di_check_bands, check_background,      hr2di_scale,     hr2di_check_overlaps,
+      make_walls,        hr2di_analyse_effects, hr2di_find_light};
+  for (size_t k = 0; k < sizeof part / sizeof *part; k++) {
+    const hr2d_status status = part[k](scene);
+    if (!status) continue;
+    hr2di_scene_clear_commit(scene);
+    return status;
+  }
+  scene->committed = 1;
+  return HR2D_OK;
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which effects a scene calls for, each with its reason. */
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "geometry/predicates.h"
+#include "scene/find-occluder.h"
+#include "scene/scene-impl.h"
+
+static const char *const effect_name[HR2D_EFFECT_COUNT] = {
+    [HR2D_EFFECT_OCCLUSION] = "occlusion", [HR2D_EFFECT_INTERREFLECTION] = "interreflection",
+    [HR2D_EFFECT_EMISSION] = "emission",   [HR2D_EFFECT_BANDS] = "bands",
+    [HR2D_EFFECT_TWO_SIDED] = "two-sided", [HR2D_EFFECT_FACING] = "facing",
+    [HR2D_EFFECT_CORNER] = "corner",       [HR2D_EFFECT_BACKGROUND] = "background",
+};
+
+const char *hr2d_effect_name(hr2d_effect effect) {
+  return (unsigned)effect < HR2D_EFFECT_COUNT ? effect_name[effect] : NULL;
+}
+
+int hr2d_scene_effect(const hr2d_scene *scene, hr2d_effect effect, const char **reason) {
+  if (reason) *reason = "";
+  if ((unsigned)effect >= HR2D_EFFECT_COUNT) return 0;
+  if (reason) *reason = scene->effect[effect].reason;
+  return scene->effect[effect].on;
+}
+
+__attribute__((format(printf, 4, 5))) static void set(hr2d_scene *scene, hr2d_effect effect,
+                                                      int on, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(scene->effect[effect].reason, sizeof scene->effect[effect].reason, format,
+            arguments);
+  va_end(arguments);
+  scene->effect[effect].on = on;
+}
+
+static int same(hr2d_point p, hr2d_point q) {
+  return p.x == q.x && p.y == q.y;
+}
+
+/* p lies on the closed segment. */
+static int on_segment(const hr2d_segment *s, hr2d_point p) {
+  const hr2d_point a = s->a, b = s->b;
+  if ((p.x < a.x && p.x < b.x) || (p.x > a.x && p.x > b.x) || (p.y < a.y && p.y < b.y) ||
+      (p.y > a.y && p.y > b.y))
+    return 0;
+  return hr2d_orientation(a, b, p) == 0;
+}
+
+static int touch(const hr2d_segment *i, const hr2d_segment *j) {
+  return on_segment(i, j->a) || on_segment(i, j->b) || on_segment(j, i->a) ||
+         on_segment(j, i->b);
+}
+
+static void analyse_materials(hr2d_scene *scene) {
+  set(scene, HR2D_EFFECT_INTERREFLECTION, 0, "every reflectance is 0");
+  set(scene, HR2D_EFFECT_EMISSION, 0, "no patch emits");
+  if (scene->bands > 1)
+    set(scene, HR2D_EFFECT_BANDS, 1, "%zu bands", scene->bands);
+  else
+    set(scene, HR2D_EFFECT_BANDS, 0, "one band");
+  for (size_t k = scene->patches; k-- > 0;)
+    for (size_t band = 0; band < scene->bands; band++) {
+      if (hr2d_scene_reflectance(scene, k, band) > 0)
+        set(scene, HR2D_EFFECT_INTERREFLECTION, 1, "%s reflects",
+            hr2di_patch_label(scene, k).text);
+      if (hr2d_scene_emission(scene, k, band) > 0)
+        set(scene, HR2D_EFFECT_EMISSION, 1, "%s emits", hr2di_patch_label(scene, k).text);
+    }
+}
+
+static void analyse_background(hr2d_scene *scene) {
+  set(scene, HR2D_EFFECT_BACKGROUND, 0, "no light comes in from the surroundings");
+  for (size_t band = scene->bands; band-- > 0;) {
+    const double background = hr2d_scene_background(scene, band);
+    if (!(background > 0)) continue;
+    set(scene, HR2D_EFFECT_BACKGROUND, 1, "the surroundings send %g", background);
+    if (!scene->effect[HR2D_EFFECT_EMISSION].on)
+      set(scene, HR2D_EFFECT_EMISSION, 1, "the surroundings send light in");
+  }
+}
+
+static void set_pair(hr2d_scene *scene, hr2d_effect effect, const char *what, size_t i,
+                     size_t j) {
+  if (scene->effect[effect].on) return;
+  const hr2di_label first = hr2di_patch_label(scene, i), second = hr2di_patch_label(scene, j);
+  set(scene, effect, 1, "%s and %s %s", first.text, second.text, what);
+}
+
+/* Returns how many pairs see each other. */
+static size_t analyse_pairs(hr2d_scene *scene) {
+  set(scene, HR2D_EFFECT_TWO_SIDED, 0, "no two patches stand back to back, end to end");
+  set(scene, HR2D_EFFECT_FACING, 0, "patches see each other wholly or not at all");
+  set(scene, HR2D_EFFECT_CORNER, 0, "patches that see each other do not touch");
+  size_t seen = 0;
+  for (size_t i = 0; i < scene->patches; i++)
+    for (size_t j = i + 1; j < scene->patches; j++) {
+      const hr2d_segment *s = &scene->patch[i].scaled, *t = &scene->patch[j].scaled;
+      if (same(s->a, t->b) && same(s->b, t->a))
+        set_pair(scene, HR2D_EFFECT_TWO_SIDED, "stand back to back", i, j);
+      const hr2di_facing facing = hr2di_face(s, t);
+      if (facing == HR2DI_FACING_NONE) continue;
+      seen++;
+      if (facing == HR2DI_FACING_PART)
+        set_pair(scene, HR2D_EFFECT_FACING, "see each other in part", i, j);
+      if (!scene->effect[HR2D_EFFECT_CORNER].on && touch(s, t))
+        set_pair(scene, HR2D_EFFECT_CORNER, "touch", i, j);
+    }
+  return seen;
+}
+
+/* A forced effect is on for that reason alone where the scene does not call for it. */
+static void force(hr2d_scene *scene) {
+  for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
+    scene->effect[e].called_for = scene->effect[e].on;
+    if (!scene->effect[e].forced || scene->effect[e].on) continue;
+    char reason[sizeof scene->effect[e].reason];
+    snprintf(reason, sizeof reason, "%s", scene->effect[e].reason);
+    set(scene, (hr2d_effect)e, 1, "forced, though %.350s", reason);
+  }
+}
+
+hr2d_status hr2di_analyse_effects(hr2d_scene *scene) {
+  analyse_materials(scene);
+  analyse_background(scene);
+  const size_t seen = analyse_pairs(scene);
+  hr2di_occlusion found;
+  const hr2d_status status = hr2di_find_occluder(scene, &found);
+  if (status) return status;
+  if (found.exists)
+    set(scene, HR2D_EFFECT_OCCLUSION, 1, "%s can stand between %s and %s",
+        hr2di_patch_label(scene, found.occluder).text, hr2di_patch_label(scene, found.i).text,
+        hr2di_patch_label(scene, found.j).text);
+  else
+    set(scene, HR2D_EFFECT_OCCLUSION, 0,
+        "nothing can stand between patches that see each other (pairs: %zu)", seen);
+  force(scene);
+  return HR2D_OK;
+}

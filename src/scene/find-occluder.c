@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Search for an occluder: a patch that reaches into the shaft of two others. */
+#include "scene/find-occluder.h"
+
+#include "geometry/orient-sign.h"
+#include "occlusion/pair-visibility.h"
+#include "scene/scene-impl.h"
+
+/* A patch with the whole scene on one side of its line can stand between nothing. */
+static int on_hull(const hr2d_scene *scene, size_t k) {
+  const hr2d_segment w = scene->patch[k].scaled;
+  int left = 0, right = 0;
+  for (size_t m = 0; m < scene->patches; m++) {
+    const hr2d_segment s = scene->patch[m].scaled;
+    const int at_a = hr2di_side(w.a, w.b, s.a), at_b = hr2di_side(w.a, w.b, s.b);
+    left |= at_a > 0 || at_b > 0;
+    right |= at_a < 0 || at_b < 0;
+    if (left && right) return 0;
+  }
+  return 1;
+}
+
+static int all_on_hull(const hr2d_scene *scene) {
+  for (size_t k = 0; k < scene->patches; k++)
+    if (!on_hull(scene, k)) return 0;
+  return 1;
+}
+
+/* The first patch of a wall's body that is in the way itself. */
+static size_t patch_in_way(const hr2d_scene *scene, const hr2di_shaft *shaft, uint32_t wall) {
+  const hr2di_walls *walls = &scene->walls;
+  for (size_t k = 0; k < scene->patches; k++) {
+    hr2di_obstacle obstacle;
+    if (walls->body_of[walls->of_segment[k]] == walls->body_of[wall] &&
+        hr2di_shaft_test(shaft, scene->patch[k].scaled, &obstacle))
+      return k;
+  }
+  return 0;
+}
+
+static hr2d_status look_between(const hr2d_scene *scene, hr2di_sight *sight, size_t i, size_t j,
+                                hr2di_occlusion *found) {
+  const hr2d_segment s = scene->patch[i].scaled, t = scene->patch[j].scaled;
+  hr2di_shaft shaft;
+  hr2di_view view;
+  if (!hr2di_shaft_make(&shaft, hr2di_face(&s, &t), s, t, s, t)) return HR2D_OK;
+  sight->list.count = 0;
+  const hr2d_status status = hr2di_sight_collect(sight, &shaft, &sight->list, &view);
+  if (!status && view != HR2DI_CLEAR)
+    *found = (hr2di_occlusion){1, i, j, patch_in_way(scene, &shaft, sight->last)};
+  return status;
+}
+
+hr2d_status hr2di_find_occluder(hr2d_scene *scene, hr2di_occlusion *found) {
+  *found = (hr2di_occlusion){0};
+  if (all_on_hull(scene)) return HR2D_OK;
+  hr2di_sight sight;
+  hr2di_sight_start(&sight, &scene->walls, &scene->alloc);
+  hr2d_status status = HR2D_OK;
+  for (size_t i = 0; i < scene->patches && !found->exists && !status; i++)
+    for (size_t j = i + 1; j < scene->patches && !found->exists && !status; j++)
+      status = look_between(scene, &sight, i, j, found);
+  hr2di_sight_end(&sight);
+  return status ? hr2di_fail(&scene->message, status, "out of memory for the analysis")
+                : HR2D_OK;
+}

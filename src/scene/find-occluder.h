@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Whether anything can stand between two patches of a scene. */
+#ifndef HR2D_SRC_SCENE_FIND_OCCLUDER_H
+#define HR2D_SRC_SCENE_FIND_OCCLUDER_H
+
+#include <hr2d/scene.h>
+#include <stddef.h>
+
+typedef struct hr2di_occlusion {
+  int exists;
+  size_t i, j, occluder; /* the first found */
+} hr2di_occlusion;
+
+/* Looks for a patch that reaches into the shaft of two others.  O(n²) where all
+   patches lie on the hull of the scene, else O(n³) until one is found. */
+hr2d_status hr2di_find_occluder(hr2d_scene *scene, hr2di_occlusion *found);
+
+#endif

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs: the patches along one side of a wall, in the order of its direction. */
+#ifndef HR2D_SRC_SCENE_PATCH_RUNS_H
+#define HR2D_SRC_SCENE_PATCH_RUNS_H
+
+#include <hr2d/scene.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct hr2di_run {
+  uint32_t first, last; /* of hr2di_runs::patch */
+} hr2di_run;
+
+typedef struct hr2di_runs {
+  hr2d_allocator alloc;
+  uint32_t *patch;
+  hr2di_run *run;
+  size_t runs;
+} hr2di_runs;
+
+/* The runs of a committed scene; HR2D_OK or HR2D_ENOMEM.  To be ended by
+   hr2di_runs_clear() in either case. */
+hr2d_status hr2di_runs_make(hr2di_runs *runs, const hr2d_scene *scene);
+void hr2di_runs_clear(hr2di_runs *runs);
+
+#endif

@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which patches light can reach at all: those that are joined to a source by a way from
+   patch to patch that see each other.  No other patch needs a link. */
+#include "base/alloc.h"
+#include "occlusion/pair-visibility.h"
+#include "scene/scene-impl.h"
+
+/* A search that goes out from the sources. */
+typedef struct search {
+  hr2d_scene *scene;
+  hr2di_sight sight;
+  uint32_t *reached; /* patches, in the order in which light comes to them */
+  size_t count;
+} search;
+
+static int emits(const hr2d_scene *scene, size_t patch) {
+  for (size_t band = 0; band < scene->bands; band++)
+    if (hr2d_scene_emission(scene, patch, band) > 0) return 1;
+  return 0;
+}
+
+/* Whether j surely sees i; or, `exactly`, whether it does. */
+static hr2d_status sees(search *s, size_t i, size_t j, int exactly, int *seen) {
+  const hr2d_segment p = s->scene->patch[i].scaled, q = s->scene->patch[j].scaled;
+  hr2di_shaft shaft;
+  const hr2di_facing facing = hr2di_face(&p, &q);
+  *seen = facing != HR2DI_FACING_NONE;
+  if (!s->scene->effect[HR2D_EFFECT_OCCLUSION].on ||
+      !hr2di_shaft_make(&shaft, facing, p, q, p, q))
+    return HR2D_OK;
+  if (!exactly) return hr2di_sight_surely(&s->sight, &shaft, seen);
+  hr2di_wall_list found = {0};
+  hr2di_view view;
+  hr2d_status status = hr2di_sight_collect(&s->sight, &shaft, &found, &view);
+  if (!status && view == HR2DI_BLOCKED) *seen = 0;
+  if (!status && view == HR2DI_PARTIAL)
+    status = hr2di_sight_open(&s->sight, &shaft, found.wall, found.count, seen);
+  hr2di_free(&s->scene->alloc, found.wall);
+  return status;
+}
+
+/* Light goes on from one patch that it has reached to all that are still dark. */
+static hr2d_status spread_from(search *s, size_t from, int exactly) {
+  unsigned char *dark = s->scene->dark;
+  for (size_t k = 0; k < s->scene->patches; k++) {
+    int seen = 0;
+    const hr2d_status status = dark[k] ? sees(s, s->reached[from], k, exactly, &seen) : HR2D_OK;
+    if (status) return status;
+    if (!seen) continue;
+    dark[k] = 0;
+    s->reached[s->count++] = (uint32_t)k;
+  }
+  return HR2D_OK;
+}
+
+/* From number `from` on to all that surely see one that it has reached. */
+static hr2d_status spread_surely(search *s, size_t from) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = from; k < s->count && s->count < s->scene->patches && !status; k++)
+    status = spread_from(s, k, 0);
+  return status;
+}
+
+/* Most patches see some lit one without much in the way.  For the others each lit one is
+   looked at exactly. */
+static hr2d_status spread(search *s) {
+  hr2d_status status = spread_surely(s, 0);
+  for (size_t k = 0; k < s->count && s->count < s->scene->patches && !status; k++) {
+    const size_t before = s->count;
+    status = spread_from(s, k, 1);
+    if (!status) status = spread_surely(s, before);
+  }
+  return status;
+}
+
+/* Light from the background may come to any patch. */
+static int all_lit(const hr2d_scene *scene) {
+  if (scene->effect[HR2D_EFFECT_EMISSION].forced ||
+      scene->effect[HR2D_EFFECT_BACKGROUND].called_for)
+    return 1;
+  size_t k = 0;
+  while (k < scene->patches && emits(scene, k)) k++;
+  return k == scene->patches;
+}
+
+hr2d_status hr2di_find_light(hr2d_scene *scene) {
+  if (all_lit(scene)) return HR2D_OK;
+  const size_t n = scene->patches;
+  search s = {.scene = scene};
+  s.reached = hr2di_alloc(&scene->alloc, n, sizeof *s.reached);
+  scene->dark = hr2di_calloc(&scene->alloc, n, 1);
+  hr2di_sight_start(&s.sight, &scene->walls, &scene->alloc);
+  hr2d_status status = s.reached && scene->dark ? HR2D_OK : HR2D_ENOMEM;
+  for (size_t k = 0; k < n && !status; k++)
+    if (emits(scene, k))
+      s.reached[s.count++] = (uint32_t)k;
+    else
+      scene->dark[k] = 1;
+  if (!status) status = spread(&s);
+  const int none_dark = s.count == n;
+  hr2di_sight_end(&s.sight);
+  hr2di_free(&scene->alloc, s.reached);
+  if (status || none_dark) {
+    hr2di_free(&scene->alloc, scene->dark);
+    scene->dark = NULL;
+  }
+  return status ? hr2di_fail(&scene->message, status, "out of memory for the analysis")
+                : HR2D_OK;
+}

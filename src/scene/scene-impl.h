@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a scene is made of, for the modules that build, check and read it. */
+#ifndef HR2D_SRC_SCENE_SCENE_IMPL_H
+#define HR2D_SRC_SCENE_SCENE_IMPL_H
+
+#include <hr2d/scene.h>
+
+#include "base/message.h"
+#include "occlusion/walls.h"
+
+/* What a patch emits and reflects: shared by the segments of a feature, by both sides of a
+   patch and by the pieces of one, lest a file of many values and many segments take their
+   product. */
+typedef struct hr2di_light {
+  size_t users;
+  double value[]; /* emission, then reflectance */
+} hr2di_light;
+
+typedef struct hr2di_patch {
+  hr2d_segment given;  /* as added, in scene lengths */
+  hr2d_segment scaled; /* divided by the unit; set by commit */
+  double length;       /* of the scaled segment; set by commit */
+  char *name;
+  hr2di_light *light;
+  size_t emission_bands; /* 0, 1 or as many as the scene has */
+  size_t reflectance_bands;
+} hr2di_patch;
+
+struct hr2d_scene {
+  hr2d_allocator alloc;
+  hr2di_message message;
+  int committed;
+  hr2di_patch *patch;
+  size_t patches, capacity;
+  size_t bands;
+  double *background; /* background_bands values; NULL for none */
+  size_t background_bands;
+  int exponent;        /* the unit is 2^exponent */
+  hr2di_walls walls;   /* what can be in the way; made by commit */
+  unsigned char *dark; /* per patch: no light reaches it; NULL where none is */
+  struct {
+    int on;
+    int called_for; /* on although not forced */
+    int forced;
+    char reason[400];
+  } effect[HR2D_EFFECT_COUNT];
+};
+
+/* For readers of scene files. */
+const hr2d_allocator *hr2di_scene_allocator(const hr2d_scene *scene);
+hr2di_message *hr2di_scene_message(hr2d_scene *scene);
+int hr2di_scene_committed(const hr2d_scene *scene);
+
+/* As hr2d_scene_add(), with the E and ρ of the patch added last. */
+hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch);
+
+/* One user less. */
+void hr2di_light_release(const hr2d_allocator *alloc, hr2di_light *light);
+
+/* Takes back all but the first `patches` patches. */
+void hr2di_scene_truncate(hr2d_scene *scene, size_t patches);
+
+/* How messages name a patch: patch 3 ("wall"). */
+typedef struct hr2di_label {
+  char text[112];
+} hr2di_label;
+
+hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch);
+
+/* Takes back what commit has made. */
+void hr2di_scene_clear_commit(hr2d_scene *scene);
+
+/* The parts of commit, in their order: each leaves a message if it fails. */
+hr2d_status hr2di_check_bands(hr2d_scene *scene);
+hr2d_status hr2di_scale(hr2d_scene *scene);
+hr2d_status hr2di_check_overlaps(hr2d_scene *scene);
+hr2d_status hr2di_analyse_effects(hr2d_scene *scene);
+hr2d_status hr2di_find_light(hr2d_scene *scene);
+
+static inline int hr2di_lit(const hr2d_scene *scene, size_t patch) {
+  return !scene->dark || !scene->dark[patch];
+}
+
+#endif

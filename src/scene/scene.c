@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The scene object: adding patches, committing, reading back. */
+#include <assert.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/scene-impl.h"
+
+hr2d_status hr2d_scene_create(const hr2d_allocator *allocator, hr2d_scene **scene) {
+  hr2d_allocator alloc = allocator ? *allocator : hr2di_default_allocator();
+  if (!alloc.allocate || !alloc.reallocate || !alloc.release) return HR2D_EINVAL;
+  hr2d_scene *made = hr2di_calloc(&alloc, 1, sizeof *made);
+  if (!made) return HR2D_ENOMEM;
+  made->alloc = made->walls.alloc = alloc;
+  made->bands = 1;
+  *scene = made;
+  return HR2D_OK;
+}
+
+void hr2d_scene_destroy(hr2d_scene *scene) {
+  if (!scene) return;
+  hr2di_scene_truncate(scene, 0);
+  hr2di_free(&scene->alloc, scene->patch);
+  hr2di_free(&scene->alloc, scene->background);
+  hr2di_scene_clear_commit(scene);
+  const hr2d_allocator alloc = scene->alloc;
+  hr2di_free(&alloc, scene);
+}
+
+void hr2di_light_release(const hr2d_allocator *alloc, hr2di_light *light) {
+  if (light && --light->users == 0) hr2di_free(alloc, light);
+}
+
+void hr2di_scene_truncate(hr2d_scene *scene, size_t patches) {
+  while (scene->patches > patches) {
+    const hr2di_patch *last = &scene->patch[--scene->patches];
+    hr2di_free(&scene->alloc, last->name);
+    hr2di_light_release(&scene->alloc, last->light);
+  }
+}
+
+const hr2d_allocator *hr2di_scene_allocator(const hr2d_scene *scene) {
+  return &scene->alloc;
+}
+
+hr2di_message *hr2di_scene_message(hr2d_scene *scene) {
+  return &scene->message;
+}
+
+int hr2di_scene_committed(const hr2d_scene *scene) {
+  return scene->committed;
+}
+
+/* The name of a patch to be added, or of its back. */
+static char *make_name(hr2d_scene *scene, const char *name, size_t index, int back) {
+  char numbered[32];
+  snprintf(numbered, sizeof numbered, "patch %zu", index);
+  if (!name) name = numbered;
+  const char *suffix = back ? " (back)" : "";
+  const size_t size = strlen(name) + strlen(suffix) + 1;
+  char *made = hr2di_alloc(&scene->alloc, size, 1);
+  if (made) snprintf(made, size, "%s%s", name, suffix);
+  return made;
+}
+
+/* One user, and room for its value besides: a light begins with no more than a double. */
+static hr2di_light *make_light(const hr2d_scene *scene, const hr2d_patch *patch) {
+  static_assert(offsetof(hr2di_light, value) <= sizeof(double), "counts of users are small");
+  const size_t e = patch->emission_bands, r = patch->reflectance_bands;
+  if (e > SIZE_MAX - 1 - r) return NULL;
+  hr2di_light *light = hr2di_alloc(&scene->alloc, e + r + 1, sizeof(double));
+  if (!light) return NULL;
+  light->users = 1;
+  for (size_t k = 0; k < e; k++) light->value[k] = patch->emission[k];
+  for (size_t k = 0; k < r; k++) light->value[e + k] = patch->reflectance[k];
+  return light;
+}
+
+static hr2d_status add_side(hr2d_scene *scene, const hr2d_patch *patch, size_t index, int back,
+                            hr2di_light *light) {
+  if (hr2di_reserve(&scene->alloc, &scene->patch, &scene->capacity, scene->patches + 1,
+                    sizeof *scene->patch))
+    return HR2D_ENOMEM;
+  hr2di_patch made = {.given = {patch->a, patch->b},
+                      .emission_bands = patch->emission_bands,
+                      .reflectance_bands = patch->reflectance_bands,
+                      .light = light};
+  if (back) made.given = (hr2d_segment){patch->b, patch->a};
+  made.name = make_name(scene, patch->name, index, back);
+  if (!made.name) return HR2D_ENOMEM;
+  light->users++;
+  scene->patch[scene->patches++] = made;
+  return HR2D_OK;
+}
+
+/* Takes the caller's share of the light; NULL where it could not be made. */
+static hr2d_status add_sides(hr2d_scene *scene, const hr2d_patch *patch, hr2di_light *light) {
+  const size_t front = scene->patches;
+  hr2d_status status = light ? add_side(scene, patch, front, 0, light) : HR2D_ENOMEM;
+  if (!status && patch->sides == HR2D_SIDES_BOTH)
+    status = add_side(scene, patch, front, 1, light);
+  hr2di_light_release(&scene->alloc, light);
+  if (!status) return HR2D_OK;
+  hr2di_scene_truncate(scene, front);
+  return hr2di_fail(&scene->message, status, "out of memory for patch %zu", front);
+}
+
+static hr2di_label make_label(size_t index, const char *name) {
+  hr2di_label label;
+  char numbered[32];
+  snprintf(numbered, sizeof numbered, "patch %zu", index);
+  if (!name || strcmp(name, numbered) == 0)
+    snprintf(label.text, sizeof label.text, "%s", numbered);
+  else
+    snprintf(label.text, sizeof label.text, "%s (%s)", numbered, hr2di_quote_name(name).text);
+  return label;
+}
+
+hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch) {
+  return make_label(patch, scene->patch[patch].name);
+}
+
+static hr2d_status check_values(hr2d_scene *scene, const char *label, const char *what,
+                                const double *value, size_t count, double most) {
+  if (count > 0 && !value)
+    return hr2di_fail(&scene->message, HR2D_EINVAL, "%s: %s: %zu bands but no values", label,
+                      what, count);
+  for (size_t k = 0; k < count; k++) {
+    if (!isfinite(value[k]))
+      return hr2di_fail(&scene->message, HR2D_ESCENE, "%s: %s is not finite", label, what);
+    if (value[k] < 0)
+      return hr2di_fail(&scene->message, HR2D_ESCENE, "%s: %s %g is negative", label, what,
+                        value[k]);
+    if (value[k] > most)
+      return hr2di_fail(&scene->message, HR2D_ESCENE, "%s: %s %.17g is above %g", label, what,
+                        value[k], most);
+  }
+  return HR2D_OK;
+}
+
+static hr2d_status check_segment(hr2d_scene *scene, const hr2d_patch *patch,
+                                 const char *label) {
+  const double coordinate[] = {patch->a.x, patch->a.y, patch->b.x, patch->b.y};
+  for (int k = 0; k < 4; k++)
+    if (!isfinite(coordinate[k]))
+      return hr2di_fail(&scene->message, HR2D_ESCENE, "%s: a coordinate is not finite", label);
+  if (patch->a.x == patch->b.x && patch->a.y == patch->b.y)
+    return hr2di_fail(&scene->message, HR2D_ESCENE, "%s: its length is zero, at (%.17g, %.17g)",
+                      label, patch->a.x, patch->a.y);
+  if (patch->sides != HR2D_SIDES_FRONT && patch->sides != HR2D_SIDES_BOTH)
+    return hr2di_fail(&scene->message, HR2D_EINVAL, "%s: sides has no meaning", label);
+  return HR2D_OK;
+}
+
+static hr2d_status check_light(hr2d_scene *scene, const hr2d_patch *patch, const char *label) {
+  hr2d_status status =
+      check_values(scene, label, "emission", patch->emission, patch->emission_bands, HUGE_VAL);
+  return status ? status
+                : check_values(scene, label, "reflectance", patch->reflectance,
+                               patch->reflectance_bands, 1);
+}
+
+hr2d_status hr2d_scene_add(hr2d_scene *scene, const hr2d_patch *patch, size_t *index) {
+  if (scene->committed)
+    return hr2di_fail(&scene->message, HR2D_ESTATE, "a committed scene takes no more patches");
+  const size_t front = scene->patches;
+  const hr2di_label label = make_label(front, patch->name);
+  hr2d_status status = check_segment(scene, patch, label.text);
+  if (!status) status = check_light(scene, patch, label.text);
+  if (!status) status = add_sides(scene, patch, make_light(scene, patch));
+  if (!status && index) *index = front;
+  return status;
+}
+
+hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch) {
+  hr2d_status status =
+      check_segment(scene, patch, make_label(scene->patches, patch->name).text);
+  if (status) return status;
+  const hr2di_patch *last = &scene->patch[scene->patches - 1];
+  hr2d_patch alike = *patch;
+  alike.emission_bands = last->emission_bands;
+  alike.reflectance_bands = last->reflectance_bands;
+  last->light->users++;
+  return add_sides(scene, &alike, last->light);
+}
+
+hr2d_status hr2d_scene_set_background(hr2d_scene *scene, const double *background,
+                                      size_t bands) {
+  if (scene->committed)
+    return hr2di_fail(&scene->message, HR2D_ESTATE, "a committed scene takes no background");
+  hr2d_status status =
+      check_values(scene, "background", "radiosity", background, bands, HUGE_VAL);
+  if (status) return status;
+  double *copy = hr2di_alloc(&scene->alloc, bands, sizeof *copy);
+  if (!copy)
+    return hr2di_fail(&scene->message, HR2D_ENOMEM, "out of memory for the background");
+  for (size_t k = 0; k < bands; k++) copy[k] = background[k];
+  hr2di_free(&scene->alloc, scene->background);
+  scene->background = copy;
+  scene->background_bands = bands;
+  return HR2D_OK;
+}
+
+hr2d_status hr2d_scene_force(hr2d_scene *scene, hr2d_effect effect) {
+  if ((unsigned)effect >= HR2D_EFFECT_COUNT)
+    return hr2di_fail(&scene->message, HR2D_EINVAL, "there is no effect %d", (int)effect);
+  if (scene->committed)
+    return hr2di_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");
+  scene->effect[effect].forced = 1;
+  return HR2D_OK;
+}
+
+const char *hr2d_scene_message(const hr2d_scene *scene) {
+  return scene->message.text;
+}
+
+size_t hr2d_scene_patches(const hr2d_scene *scene) {
+  return scene->patches;
+}
+
+size_t hr2d_scene_bands(const hr2d_scene *scene) {
+  return scene->bands;
+}
+
+hr2d_segment hr2d_scene_segment(const hr2d_scene *scene, size_t patch) {
+  return scene->patch[patch].given;
+}
+
+double hr2d_scene_length(const hr2d_scene *scene, size_t patch) {
+  if (scene->committed) return ldexp(scene->patch[patch].length, scene->exponent);
+  const hr2d_segment s = scene->patch[patch].given;
+  return hypot(s.b.x - s.a.x, s.b.y - s.a.y);
+}
+
+const char *hr2d_scene_name(const hr2d_scene *scene, size_t patch) {
+  return scene->patch[patch].name;
+}
+
+hr2d_status hr2d_scene_find(const hr2d_scene *scene, const char *name, size_t *patch) {
+  for (size_t k = 0; k < scene->patches; k++)
+    if (strcmp(scene->patch[k].name, name) == 0) {
+      *patch = k;
+      return HR2D_OK;
+    }
+  return HR2D_EINVAL;
+}
+
+/* The value of a band among `bands` values, of which one holds for every band. */
+static double band_value(const double *value, size_t bands, size_t band) {
+  return bands == 0 ? 0 : value[bands == 1 ? 0 : band];
+}
+
+double hr2d_scene_emission(const hr2d_scene *scene, size_t patch, size_t band) {
+  const hr2di_patch *p = &scene->patch[patch];
+  return band_value(p->light->value, p->emission_bands, band);
+}
+
+double hr2d_scene_reflectance(const hr2d_scene *scene, size_t patch, size_t band) {
+  const hr2di_patch *p = &scene->patch[patch];
+  return band_value(p->light->value + p->emission_bands, p->reflectance_bands, band);
+}
+
+double hr2d_scene_background(const hr2d_scene *scene, size_t band) {
+  return band_value(scene->background, scene->background_bands, band);
+}
+
+double hr2d_scene_unit(const hr2d_scene *scene) {
+  return ldexp(1, scene->exponent);
+}

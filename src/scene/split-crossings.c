@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cuts patches that cross into pieces that touch; and patches that share a stretch within
+   rounding, where it begins and ends, lest cuts bend them apart: patches back to back are
+   then exactly so. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "geometry/crossings.h"
+#include "geometry/cut-points.h"
+#include "scene/scene-impl.h"
+
+/* Points that are rounded bend the pieces, which may then meet others by a rounding
+   more than before; those are cut there in the next round, at the points that are there
+   already.  Two or three rounds do, up to ten in bundles of patches a few roundings
+   apart; that this always ends is not proved. */
+#define MOST_ROUNDS 32
+
+typedef struct piece {
+  hr2d_segment s; /* scaled */
+  size_t patch;
+  int left_out;
+} piece;
+
+typedef struct splitter {
+  hr2d_scene *scene;
+  const hr2d_allocator *alloc;
+  piece *piece; /* by patch, in its direction */
+  size_t pieces, capacity;
+  piece *cut_piece; /* those of the next round */
+  size_t cut_pieces, cut_capacity;
+  hr2di_cut_wall *wall; /* the segments without direction, each once */
+  size_t *wall_of;      /* of a piece */
+  size_t walls;
+  hr2di_cuts cuts;
+} splitter;
+
+static int compare_points(hr2d_point p, hr2d_point q) {
+  if (p.x != q.x) return p.x < q.x ? -1 : 1;
+  return (p.y > q.y) - (p.y < q.y);
+}
+
+static hr2d_segment undirected(hr2d_segment s) {
+  return compare_points(s.a, s.b) <= 0 ? s : (hr2d_segment){s.b, s.a};
+}
+
+static int side_of(const hr2d_segment *s) {
+  return compare_points(s->a, s->b) < 0 ? HR2DI_FORWARD : HR2DI_BACKWARD;
+}
+
+typedef struct place {
+  hr2d_segment s;
+  size_t piece;
+} place;
+
+static int by_segment(const void *left, const void *right) {
+  const place *l = left, *r = right;
+  const int a = compare_points(l->s.a, r->s.a), b = compare_points(l->s.b, r->s.b);
+  if (a || b) return a ? a : b;
+  return (l->piece > r->piece) - (l->piece < r->piece);
+}
+
+/* Patches back to back are one wall, lest they be cut at different points. */
+static hr2d_status make_walls(splitter *p) {
+  place *sorted = hr2di_alloc(p->alloc, p->pieces, sizeof *sorted);
+  hr2di_free(p->alloc, p->wall);
+  hr2di_free(p->alloc, p->wall_of);
+  p->wall = hr2di_alloc(p->alloc, p->pieces, sizeof *p->wall);
+  p->wall_of = hr2di_alloc(p->alloc, p->pieces, sizeof *p->wall_of);
+  p->walls = 0;
+  const int made = sorted && p->wall && p->wall_of;
+  if (made) {
+    for (size_t k = 0; k < p->pieces; k++) sorted[k] = (place){undirected(p->piece[k].s), k};
+    qsort(sorted, p->pieces, sizeof *sorted, by_segment);
+    for (size_t k = 0; k < p->pieces; k++) {
+      const hr2d_segment s = sorted[k].s;
+      if (k == 0 || compare_points(s.a, sorted[k - 1].s.a) ||
+          compare_points(s.b, sorted[k - 1].s.b))
+        p->wall[p->walls++] = (hr2di_cut_wall){s, 0};
+      p->wall[p->walls - 1].sides |= side_of(&p->piece[sorted[k].piece].s);
+      p->wall_of[sorted[k].piece] = p->walls - 1;
+    }
+  }
+  hr2di_free(p->alloc, sorted);
+  return made ? HR2D_OK : HR2D_ENOMEM;
+}
+
+static hr2d_status push(splitter *p, hr2d_point a, hr2d_point b, size_t patch) {
+  if (hr2di_reserve(p->alloc, &p->cut_piece, &p->cut_capacity, p->cut_pieces + 1,
+                    sizeof *p->cut_piece))
+    return HR2D_ENOMEM;
+  p->cut_piece[p->cut_pieces++] = (piece){{a, b}, patch, 0};
+  return HR2D_OK;
+}
+
+static hr2d_status cut_one(splitter *p, size_t k) {
+  const piece whole = p->piece[k];
+  const hr2di_cut_range own = p->cuts.of[p->wall_of[k]];
+  const int forward = side_of(&whole.s) == HR2DI_FORWARD;
+  hr2d_point from = whole.s.a;
+  for (size_t m = 0; m < own.end - own.first; m++) {
+    const hr2d_point at = p->cuts.cut[forward ? own.first + m : own.end - 1 - m].at;
+    if (push(p, from, at, whole.patch)) return HR2D_ENOMEM;
+    from = at;
+  }
+  return push(p, from, whole.s.b, whole.patch);
+}
+
+static hr2d_status cut_all(splitter *p) {
+  p->cut_pieces = 0;
+  for (size_t k = 0; k < p->pieces; k++)
+    if (cut_one(p, k)) return HR2D_ENOMEM;
+  piece *const pieces = p->piece;
+  const size_t capacity = p->capacity;
+  p->piece = p->cut_piece;
+  p->pieces = p->cut_pieces;
+  p->capacity = p->cut_capacity;
+  p->cut_piece = pieces;
+  p->cut_capacity = capacity;
+  return HR2D_OK;
+}
+
+static hr2d_status cut_until_free(splitter *p) {
+  hr2d_scene *scene = p->scene;
+  for (int round = 0;; round++) {
+    hr2d_status status = make_walls(p);
+    if (!status) status = hr2di_find_cuts(&p->cuts, p->wall, p->walls);
+    if (status || p->cuts.count == 0) return status;
+    if (round == MOST_ROUNDS) break;
+    status = cut_all(p);
+    if (status) return status;
+  }
+  size_t k = 0;
+  while (p->cuts.of[p->wall_of[k]].first == p->cuts.of[p->wall_of[k]].end) k++;
+  return hr2di_fail(&scene->message, HR2D_ESCENE,
+                    "%s is crossed within roundings still, after %d rounds of cutting",
+                    hr2di_patch_label(scene, p->piece[k].patch).text, MOST_ROUNDS);
+}
+
+static int is_whole(const splitter *p, size_t k) {
+  const size_t patch = p->piece[k].patch;
+  return (k == 0 || p->piece[k - 1].patch != patch) &&
+         (k + 1 == p->pieces || p->piece[k + 1].patch != patch);
+}
+
+static int is_short(const splitter *p, const piece *part) {
+  const hr2d_segment *s = &part->s, *whole = &p->scene->patch[part->patch].scaled;
+  /* Far from the origin roundings are large, and what they are of a patch is not. */
+  const double most = fmin(HR2DI_SHORT_STRETCH * hr2di_rounding(whole, whole),
+                           hypot(whole->b.x - whole->a.x, whole->b.y - whole->a.y) * 0x1p-20);
+  return hypot(s->b.x - s->a.x, s->b.y - s->a.y) <= most;
+}
+
+/* Two patches that pass two points within roundings have the stretch between these in
+   common.  One piece is left out, if it is that short. */
+static hr2d_status leave_copies_out(splitter *p) {
+  char *seen = hr2di_calloc(p->alloc, p->walls, 1);
+  if (!seen) return HR2D_ENOMEM;
+  for (size_t k = 0; k < p->pieces; k++) {
+    const int side = side_of(&p->piece[k].s);
+    char *w = &seen[p->wall_of[k]];
+    p->piece[k].left_out = (*w & side) && is_short(p, &p->piece[k]) && !is_whole(p, k);
+    *w = (char)(*w | side);
+  }
+  hr2di_free(p->alloc, seen);
+  return HR2D_OK;
+}
+
+/* Takes over nothing from `whole`. */
+static hr2d_status make_piece(splitter *p, const hr2di_patch *whole, const piece *part,
+                              size_t number, hr2di_patch *made) {
+  const int e = p->scene->exponent;
+  const size_t size = strlen(whole->name) + 32;
+  *made = *whole;
+  made->given.a = (hr2d_point){ldexp(part->s.a.x, e), ldexp(part->s.a.y, e)};
+  made->given.b = (hr2d_point){ldexp(part->s.b.x, e), ldexp(part->s.b.y, e)};
+  made->name = hr2di_alloc(p->alloc, size, 1);
+  if (!made->name) return HR2D_ENOMEM;
+  made->light->users++;
+  snprintf(made->name, size, "%s [%zu]", whole->name, number);
+  return HR2D_OK;
+}
+
+static void free_patch(const hr2d_allocator *alloc, const hr2di_patch *patch) {
+  hr2di_free(alloc, patch->name);
+  hr2di_light_release(alloc, patch->light);
+}
+
+/* Frees those of the first `count` patches made that are pieces. */
+static void free_pieces(const splitter *p, const hr2di_patch *made, size_t count) {
+  for (size_t k = 0, m = 0; m < count; k++) {
+    if (p->piece[k].left_out) continue;
+    if (!is_whole(p, k)) free_patch(p->alloc, &made[m]);
+    m++;
+  }
+}
+
+/* Fills `made` with the patches that are whole, as they are, and pieces of the others. */
+static hr2d_status make_patches(splitter *p, hr2di_patch *made, size_t *count) {
+  size_t number = 0;
+  *count = 0;
+  for (size_t k = 0; k < p->pieces; k++) {
+    const piece *part = &p->piece[k];
+    const hr2di_patch *whole = &p->scene->patch[part->patch];
+    if (k > 0 && p->piece[k - 1].patch != part->patch) number = 0;
+    if (part->left_out) continue;
+    if (is_whole(p, k))
+      made[*count] = *whole;
+    else if (make_piece(p, whole, part, ++number, &made[*count])) {
+      free_pieces(p, made, *count);
+      return HR2D_ENOMEM;
+    }
+    ++*count;
+  }
+  return HR2D_OK;
+}
+
+static hr2d_status replace_patches(splitter *p) {
+  hr2d_scene *scene = p->scene;
+  size_t count;
+  hr2di_patch *made = hr2di_alloc(p->alloc, p->pieces, sizeof *made);
+  if (!made || leave_copies_out(p) || make_patches(p, made, &count)) {
+    hr2di_free(p->alloc, made);
+    return HR2D_ENOMEM;
+  }
+  for (size_t k = 0; k < p->pieces; k++)
+    if (!is_whole(p, k) && (k == 0 || p->piece[k - 1].patch != p->piece[k].patch))
+      free_patch(p->alloc, &scene->patch[p->piece[k].patch]);
+  hr2di_free(p->alloc, scene->patch);
+  scene->patch = made;
+  scene->patches = count;
+  scene->capacity = p->pieces;
+  return HR2D_OK;
+}
+
+static int by_place(const void *left, const void *right) {
+  return compare_points(*(const hr2d_point *)left, *(const hr2d_point *)right);
+}
+
+static size_t count_places(hr2di_cuts *cuts) {
+  size_t count = 0;
+  if (cuts->places > 0) qsort(cuts->place, cuts->places, sizeof *cuts->place, by_place);
+  for (size_t k = 0; k < cuts->places; k++)
+    count += k == 0 || by_place(&cuts->place[k], &cuts->place[k - 1]) != 0;
+  return count;
+}
+
+static hr2d_status split(splitter *p) {
+  hr2d_scene *scene = p->scene;
+  hr2d_status status = hr2di_scale(scene);
+  if (status) return status;
+  p->cuts = (hr2di_cuts){.alloc = p->alloc, .exponent = scene->exponent};
+  if (hr2di_reserve(p->alloc, &p->piece, &p->capacity, scene->patches, sizeof *p->piece))
+    return HR2D_ENOMEM;
+  for (; p->pieces < scene->patches; p->pieces++)
+    p->piece[p->pieces] = (piece){scene->patch[p->pieces].scaled, p->pieces, 0};
+  status = cut_until_free(p);
+  if (status || p->pieces == scene->patches) return status;
+  return replace_patches(p);
+}
+
+hr2d_status hr2d_scene_split_crossings(hr2d_scene *scene, size_t *cuts) {
+  if (scene->committed)
+    return hr2di_fail(&scene->message, HR2D_ESTATE, "a committed scene cannot be cut");
+  splitter p = {.scene = scene, .alloc = &scene->alloc, .cuts = {.alloc = &scene->alloc}};
+  hr2d_status status = scene->patches > 0 ? split(&p) : HR2D_OK;
+  scene->exponent = 0;
+  if (!status && cuts) *cuts = count_places(&p.cuts);
+  hr2di_free(p.alloc, p.piece);
+  hr2di_free(p.alloc, p.cut_piece);
+  hr2di_free(p.alloc, p.wall);
+  hr2di_free(p.alloc, p.wall_of);
+  hr2di_free_cuts(&p.cuts);
+  if (status == HR2D_ENOMEM)
+    hr2di_fail(&scene->message, status, "out of memory for the crossings");
+  return status;
+}

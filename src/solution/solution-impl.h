@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Radiosity on the elements of a hierarchy. */
+#ifndef HR2D_SRC_SOLUTION_SOLUTION_IMPL_H
+#define HR2D_SRC_SOLUTION_SOLUTION_IMPL_H
+
+#include <hr2d/solve.h>
+
+struct hr2d_solution {
+  hr2d_allocator alloc;
+  const hr2d_linkset *links;
+  const hr2d_hierarchy *hierarchy;
+  hr2d_hierarchy *own_hierarchy; /* of hr2d_solve_to(): destroyed with the solution, as are */
+  hr2d_linkset *own_links;
+  size_t elements; /* of the hierarchy when this was solved */
+  size_t order, bands;
+  double *value;      /* elements × order × bands, Legendre coefficients of B */
+  double *irradiance; /* likewise of H */
+  hr2d_power *power;  /* per band */
+  hr2d_solve_work work;
+  double residual;
+};
+
+/* Its B on leaves of a hierarchy that has grown from its own, at another order perhaps: count ×
+   order × bands coefficients. */
+void hr2di_restrict(const hr2d_solution *from, const hr2d_hierarchy *hierarchy,
+                    const uint32_t *leaf, size_t count, size_t order, double *field);
+
+#endif

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The solution object: reading radiosity back. */
+#include "base/alloc.h"
+#include "base/legendre.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "solution/solution-impl.h"
+
+void hr2d_solution_destroy(hr2d_solution *solution) {
+  if (!solution) return;
+  const hr2d_allocator alloc = solution->alloc;
+  hr2di_free(&alloc, solution->value);
+  hr2di_free(&alloc, solution->irradiance);
+  hr2di_free(&alloc, solution->power);
+  hr2d_linkset_destroy(solution->own_links);
+  hr2d_hierarchy_destroy(solution->own_hierarchy);
+  hr2di_free(&alloc, solution);
+}
+
+static double average(const hr2d_solution *s, const double *value, size_t element,
+                      size_t band) {
+  return value[element * s->order * s->bands + band];
+}
+
+double hr2d_solution_element(const hr2d_solution *solution, uint32_t element, size_t band) {
+  return average(solution, solution->value, element, band);
+}
+
+double hr2d_solution_average(const hr2d_solution *solution, size_t patch, size_t band) {
+  return average(solution, solution->value, patch, band);
+}
+
+/* The leaf of the solution at *t of a patch, and the fraction that is of the leaf; on a border
+   the one before it or behind it. */
+static uint32_t leaf_at(const hr2d_solution *solution, size_t patch, double *t, int before) {
+  const hr2d_element *element = solution->hierarchy->element;
+  uint32_t at = (uint32_t)patch;
+  while (element[at].child && element[at].child < solution->elements)
+    at = hr2di_child_at(element, at, t, before);
+  return at;
+}
+
+static double leaf_value(const hr2d_solution *s, const double *value, uint32_t leaf, double t,
+                         size_t band) {
+  hr2di_basis basis;
+  if (s->order == 1) return average(s, value, leaf, band);
+  hr2di_basis_make(&basis, s->order);
+  return hr2di_basis_sum(&basis, 2 * t - 1, value + leaf * s->order * s->bands + band,
+                         s->bands);
+}
+
+/* On a border the straight line between the values at the leaves' centres, or at an order above
+   1 the mean of what they have there. */
+static double value_at(const hr2d_solution *s, const double *value, size_t patch, double t,
+                       size_t band) {
+  double t_before = t, t_behind = t;
+  const uint32_t before = leaf_at(s, patch, &t_before, 1);
+  const uint32_t behind = leaf_at(s, patch, &t_behind, 0);
+  const double here = leaf_value(s, value, before, t_before, band);
+  if (before == behind) return here;
+  const double there = leaf_value(s, value, behind, t_behind, band);
+  if (s->order > 1) return 0.5 * (here + there);
+  const hr2d_element *element = s->hierarchy->element;
+  const double part =
+      element[before].length / (element[before].length + element[behind].length);
+  return here + part * (there - here);
+}
+
+/* The youngest ancestor that the solution knows has a polynomial, whose values at the points of
+   a rule give the coefficients on the leaf. */
+static void restrict_to(const hr2d_solution *from, const hr2d_hierarchy *h, uint32_t leaf,
+                        const hr2di_rule *rule, const hr2di_basis *to, double *field) {
+  double start = 0, size = 1, phi[HR2D_MAX_ORDER];
+  uint32_t e = leaf;
+  while (e >= from->elements) {
+    const uint32_t above = h->parent[e];
+    const double left = hr2di_left_part(h->element, above);
+    const int right = e != h->element[above].child;
+    const double part = right ? 1 - left : left;
+    start = (right ? left : 0) + part * start;
+    size *= part;
+    e = above;
+  }
+  for (size_t q = 0; q < rule->points; q++) {
+    const double t = start + size * (0.5 + 0.5 * rule->at[q]);
+    hr2di_basis_at(to, rule->at[q], phi);
+    for (size_t b = 0; b < from->bands; b++) {
+      const double value = rule->weight[q] * leaf_value(from, from->value, e, t, b);
+      for (size_t l = 0; l < to->order; l++) field[l * from->bands + b] += value * phi[l];
+    }
+  }
+}
+
+/* Legendre coefficients are nested, so that on leaves both know they are copied. */
+void hr2di_restrict(const hr2d_solution *from, const hr2d_hierarchy *hierarchy,
+                    const uint32_t *leaf, size_t count, size_t order, double *field) {
+  const size_t bands = from->bands, width = order * bands, known = from->order * bands;
+  hr2di_rule rule;
+  hr2di_basis basis;
+  hr2di_rule_make(&rule, order > from->order ? order : from->order);
+  hr2di_basis_make(&basis, order);
+  for (size_t k = 0; k < count; k++) {
+    double *to = field + k * width;
+    for (size_t m = 0; m < width; m++)
+      to[m] = leaf[k] < from->elements && m < known ? from->value[leaf[k] * known + m] : 0;
+    if (leaf[k] >= from->elements) restrict_to(from, hierarchy, leaf[k], &rule, &basis, to);
+  }
+}
+
+double hr2d_solution_at(const hr2d_solution *solution, size_t patch, double t, size_t band) {
+  return value_at(solution, solution->value, patch, t, band);
+}
+
+double hr2d_solution_irradiance(const hr2d_solution *solution, size_t patch, size_t band) {
+  return average(solution, solution->irradiance, patch, band);
+}
+
+double hr2d_solution_irradiance_at(const hr2d_solution *solution, size_t patch, double t,
+                                   size_t band) {
+  return value_at(solution, solution->irradiance, patch, t, band);
+}
+
+double hr2d_solution_net_flux(const hr2d_solution *solution, size_t patch, size_t band) {
+  /* B − H of B = E + ρH, without the digits they have in common. */
+  const hr2d_scene *scene = solution->hierarchy->scene;
+  return hr2d_scene_emission(scene, patch, band) -
+         (1 - hr2d_scene_reflectance(scene, patch, band)) *
+             hr2d_solution_irradiance(solution, patch, band);
+}
+
+hr2d_power hr2d_solution_power(const hr2d_solution *solution, size_t band) {
+  return solution->power[band];
+}
+
+hr2d_solve_work hr2d_solution_work(const hr2d_solution *solution) {
+  return solution->work;
+}
+
+const hr2d_linkset *hr2d_solution_links(const hr2d_solution *solution) {
+  return solution->links;
+}
+
+double hr2d_solution_residual(const hr2d_solution *solution) {
+  return solution->residual;
+}

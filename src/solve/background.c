@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The background's part of the irradiance: what is missing of each row, less backs. */
+#include "solve/background.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "base/legendre.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "scene/back-faces.h"
+#include "scene/scene-impl.h"
+#include "visibility/point-view.h"
+
+/* Sky that cannot be told from rounding. */
+#define NONE 1e-14
+
+hr2d_status hr2di_set_sky(hr2di_transport *t, const hr2di_rows *rows) {
+  t->sky = hr2di_alloc(&t->alloc, t->leaves, sizeof *t->sky);
+  if (!t->sky) return HR2D_ENOMEM;
+  for (size_t k = 0; k < t->leaves; k++) {
+    const uint32_t leaf = t->leaf[k];
+    t->sky[k] = fmax(0, 1 - rows->front[leaf] - rows->back[leaf]);
+  }
+  return HR2D_OK;
+}
+
+typedef struct looker {
+  hr2di_transport *t;
+  hr2di_viewer *viewer;
+  hr2di_basis basis;
+  hr2di_rule rule;
+} looker;
+
+/* Backs that a leaf sees, which begins at fraction `from` of its patch. */
+static hr2d_status take_backs(looker *l, size_t leaf, double from, double size) {
+  hr2di_transport *t = l->t;
+  const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
+  double *sky = t->sky + leaf * t->order, phi[HR2D_MAX_ORDER];
+  for (size_t q = 0; q < l->rule.points; q++) {
+    hr2di_view_from seen;
+    const double at = from + size * (0.5 + 0.5 * l->rule.at[q]);
+    if (hr2di_view_at(l->viewer, patch, at, &seen)) return HR2D_ENOMEM;
+    hr2di_basis_at(&l->basis, l->rule.at[q], phi);
+    for (size_t k = 0; k < t->order; k++) sky[k] -= l->rule.weight[q] * seen.back * phi[k];
+  }
+  return HR2D_OK;
+}
+
+static hr2d_status take_all_backs(hr2di_transport *t) {
+  const hr2d_hierarchy *h = t->hierarchy;
+  looker l = {.t = t};
+  hr2di_basis_make(&l.basis, t->order);
+  hr2di_rule_make(&l.rule, t->order + 6);
+  hr2d_status status = hr2di_viewer_create(h->scene, &t->alloc, &l.viewer);
+  for (size_t k = 0; k < t->leaves && !status; k++) {
+    const hr2d_element *e = &h->element[t->leaf[k]];
+    if (hr2di_lit(h->scene, e->patch))
+      status = take_backs(&l, k, hr2di_start(h, t->leaf[k]),
+                          e->length / h->element[e->patch].length);
+  }
+  hr2di_viewer_destroy(l.viewer);
+  return status;
+}
+
+/* 1 − K1 where light comes to. */
+static hr2d_status take_rows(hr2di_transport *t) {
+  const size_t field = t->leaves * t->width;
+  double *one = hr2di_calloc(&t->alloc, 2 * field, sizeof *one);
+  if (!one) return HR2D_ENOMEM;
+  double *row = one + field;
+  for (size_t k = 0; k < t->leaves; k++)
+    for (size_t b = 0; b < t->bands; b++) one[k * t->width + b] = 1;
+  hr2di_gather(t, one, row);
+  for (size_t k = 0; k < t->leaves; k++) {
+    const int lit = hr2di_lit(t->hierarchy->scene, t->hierarchy->element[t->leaf[k]].patch);
+    for (size_t l = 0; l < t->order && lit; l++)
+      t->sky[k * t->order + l] = (l == 0) - row[k * t->width + l * t->bands];
+  }
+  hr2di_free(&t->alloc, one);
+  return HR2D_OK;
+}
+
+/* A closed room has no sky, whatever rounding makes of its rows. */
+static void clear_closed(hr2di_transport *t) {
+  for (size_t k = 0; k < t->leaves; k++) {
+    double *sky = t->sky + k * t->order, most = 0;
+    for (size_t l = 0; l < t->order; l++) most = fmax(most, fabs(sky[l]));
+    for (size_t l = 0; l < t->order && most <= NONE; l++) sky[l] = 0;
+  }
+}
+
+hr2d_status hr2di_set_sky_orders(hr2di_transport *t) {
+  hr2di_backs backs = {0};
+  t->sky = hr2di_calloc(&t->alloc, t->leaves * t->order, sizeof *t->sky);
+  hr2d_status status = t->sky ? take_rows(t) : HR2D_ENOMEM;
+  if (!status) status = hr2di_find_backs(t->hierarchy->scene, &backs);
+  if (!status && backs.count > 0) status = take_all_backs(t);
+  if (!status) clear_closed(t);
+  hr2di_free(&t->alloc, backs.back);
+  return status;
+}

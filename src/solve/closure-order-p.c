@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Closure at an order p above 1.
+
+   Near, touching and shaded pairs are linked exactly.  A link between distant pairs i and j
+   drops what is beyond degree p−1 on i, and so its part of a leaf's row sum is off by some
+   3.3^−p of it.  The exact part is the point form factor F(x → j), which is elementary, as
+   nothing is in the way, and smooth.  On each leaf d = Π(Σ F(x → j) − K_distant 1) multiplies
+   B, with Π onto degree p−1, as (1/A)∫ d φ_l φ_m: symmetric, so that the operator stays so. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/neumaier-sum.h"
+#include "blocks/block.h"
+#include "geometry/point-view-factor.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "scene/scene-impl.h"
+#include "solve/closure.h"
+
+/* A patch that misses less than this part of its row misses nothing. */
+#define CLOSED 1e-14
+
+/* Points beyond the order, for form factors of elements at an ellipse of 1.8 or more: good to
+   3.3^−2p−32 of them. */
+enum { MORE_POINTS = 16 };
+
+typedef struct rows {
+  const hr2di_transport *t;
+  hr2di_basis basis;
+  hr2di_rule rule;                               /* for form factors */
+  hr2di_rule product;                            /* for d φ_l φ_m, of degree 3p − 3 */
+  unsigned char *closed;                         /* per patch */
+  hr2di_sum *rest;                               /* per patch: what its links leave of A */
+  uint32_t *number;                              /* of each leaf among the leaves */
+  double *one;                                   /* leaves × width: B = 1 */
+  double *row;                                   /* what distant links make of it */
+  double *all;                                   /* what all do */
+  double *exact;                                 /* leaves × order */
+  double phi[HR2DI_MOST_POINTS][HR2D_MAX_ORDER]; /* at the points of `rule` */
+  double product_phi[HR2DI_MOST_POINTS][HR2D_MAX_ORDER];
+} rows;
+
+/* What the leaves below an element see of another, by degree. */
+static void add_exact(rows *r, uint32_t receiver, uint32_t source) {
+  const hr2d_hierarchy *h = r->t->hierarchy;
+  const size_t order = r->t->order;
+  const double start = hr2di_start(h, receiver), size = h->element[receiver].length;
+  const double whole = h->element[h->element[receiver].patch].length;
+  hr2di_pair_frame f;
+  hr2di_frame_pair(&f, h, (hr2d_pair){receiver, source}, HR2DI_FACING_FULL);
+  const hr2d_point normal = {-f.along_i.y / size, f.along_i.x / size};
+  uint32_t leaf = hr2di_first_leaf(h, receiver);
+  do {
+    const double from = (hr2di_start(h, leaf) - start) * (whole / size);
+    const double part = h->element[leaf].length / size;
+    double *exact = r->exact + r->number[leaf] * order;
+    for (size_t q = 0; q < r->rule.points; q++) {
+      const double s = from + part * (0.5 + 0.5 * r->rule.at[q]);
+      const hr2d_point c = hr2di_along(f.apart, f.along_i, -s);
+      const hr2d_point d = {c.x + f.along_j.x, c.y + f.along_j.y};
+      const double factor = r->rule.weight[q] * hr2di_point_factor(normal, c, d);
+      for (size_t l = 0; l < order; l++) exact[l] += factor * r->phi[q][l];
+    }
+    leaf = hr2di_next_leaf(h, leaf, receiver);
+  } while (leaf);
+}
+
+static void add_links(rows *r) {
+  const hr2d_linkset *links = r->t->links;
+  const hr2d_element *element = r->t->hierarchy->element;
+  for (uint64_t k = 0; k < links->store.count; k++) {
+    if (!links->blocks.distant[k]) continue;
+    const hr2d_pair pair = hr2di_store_at(&links->store, k)->pair;
+    if (!r->closed[element[pair.first].patch]) add_exact(r, pair.first, pair.second);
+    if (!links->directed && !r->closed[element[pair.second].patch])
+      add_exact(r, pair.second, pair.first);
+  }
+}
+
+/* Which patches see patches wherever they look: A − Σ AF over their links is 0. */
+static void find_closed(rows *r) {
+  const hr2d_linkset *links = r->t->links;
+  const hr2d_element *element = r->t->hierarchy->element;
+  const size_t patches = r->t->hierarchy->scene->patches;
+  hr2di_sum *rest = r->rest;
+  for (size_t k = 0; k < patches; k++) rest[k] = (hr2di_sum){element[k].length, 0};
+  for (uint64_t k = 0; k < links->store.count; k++) {
+    const hr2d_link *link = hr2di_store_at(&links->store, k);
+    hr2di_add(&rest[element[link->pair.first].patch], -link->exchange_area);
+    if (!links->directed)
+      hr2di_add(&rest[element[link->pair.second].patch], -link->exchange_area);
+  }
+  for (size_t k = 0; k < patches; k++)
+    r->closed[k] = fabs(hr2di_total(&rest[k])) <= CLOSED * element[k].length;
+}
+
+/* The same where clusters have part of the rows, to a known accuracy: smaller openings are
+   none. */
+static void find_closed_by_rows(rows *r, hr2di_transport *t) {
+  const double none = 10 * t->links->roots.digits;
+  hr2di_raise(t, r->all);
+  for (size_t k = 0; k < t->hierarchy->scene->patches; k++)
+    r->closed[k] = fabs(1 - t->up[k * t->width]) <= none;
+}
+
+/* (1/A)∫ d φ_l φ_m of d = Σ missing_k φ_k, symmetric. */
+static void multiply(const rows *r, const double *missing, double *closure) {
+  const size_t order = r->t->order;
+  memset(closure, 0, order * order * sizeof *closure);
+  for (size_t q = 0; q < r->product.points; q++) {
+    const double *phi = r->product_phi[q];
+    double d = 0;
+    for (size_t k = 0; k < order; k++) d += missing[k] * phi[k];
+    for (size_t l = 0; l < order; l++) {
+      const double row = r->product.weight[q] * d * phi[l];
+      for (size_t m = 0; m < order; m++) closure[l * order + m] += row * phi[m];
+    }
+  }
+}
+
+static void close_rows(rows *r, hr2di_transport *t, double *closure) {
+  for (size_t q = 0; q < r->rule.points; q++)
+    hr2di_basis_at(&r->basis, r->rule.at[q], r->phi[q]);
+  for (size_t q = 0; q < r->product.points; q++)
+    hr2di_basis_at(&r->basis, r->product.at[q], r->product_phi[q]);
+  for (size_t k = 0; k < t->leaves; k++) {
+    r->number[t->leaf[k]] = (uint32_t)k;
+    for (size_t b = 0; b < t->bands; b++) r->one[k * t->width + b] = 1;
+  }
+  hr2di_gather_part(t, HR2DI_ALL_LINKS, r->one, r->all);
+  hr2di_gather_part(t, HR2DI_DISTANT_LINKS, r->one, r->row);
+  const hr2di_clusters *clusters = t->links->roots.clusters;
+  if (clusters && hr2di_clusters_links(clusters) > 0)
+    find_closed_by_rows(r, t);
+  else
+    find_closed(r);
+  add_links(r);
+  for (size_t k = 0; k < t->leaves; k++) {
+    const int closed = r->closed[t->hierarchy->element[t->leaf[k]].patch];
+    const double *row = (closed ? r->all : r->row) + k * t->width;
+    double *missing = r->exact + k * t->order;
+    if (closed) missing[0] = 1;
+    for (size_t l = 0; l < t->order; l++) missing[l] -= row[l * t->bands];
+    multiply(r, missing, closure + k * t->order * t->order);
+  }
+}
+
+hr2d_status hr2di_close_orders(hr2di_transport *t) {
+  const hr2d_allocator *alloc = &t->alloc;
+  rows r = {.t = t};
+  hr2di_basis_make(&r.basis, t->order);
+  hr2di_rule_make(&r.rule, t->order + MORE_POINTS);
+  hr2di_rule_make(&r.product, (3 * t->order) / 2);
+  r.number = hr2di_alloc(alloc, t->elements, sizeof *r.number);
+  r.one = hr2di_calloc(alloc, t->leaves * t->width, sizeof *r.one);
+  r.row = hr2di_alloc(alloc, t->leaves * t->width, sizeof *r.row);
+  r.all = hr2di_alloc(alloc, t->leaves * t->width, sizeof *r.all);
+  r.closed = hr2di_alloc(alloc, t->hierarchy->scene->patches, 1);
+  r.rest = hr2di_alloc(alloc, t->hierarchy->scene->patches, sizeof *r.rest);
+  r.exact = hr2di_calloc(alloc, t->leaves * t->order, sizeof *r.exact);
+  double *closure = hr2di_alloc(alloc, t->leaves, t->order * t->order * sizeof *closure);
+  const int room =
+      r.number && r.one && r.row && r.all && r.closed && r.rest && r.exact && closure;
+  if (room) {
+    close_rows(&r, t, closure);
+    t->closure = closure;
+  } else {
+    hr2di_free(alloc, closure);
+  }
+  hr2di_free(alloc, r.number);
+  hr2di_free(alloc, r.one);
+  hr2di_free(alloc, r.row);
+  hr2di_free(alloc, r.all);
+  hr2di_free(alloc, r.closed);
+  hr2di_free(alloc, r.rest);
+  hr2di_free(alloc, r.exact);
+  return room ? HR2D_OK : HR2D_ENOMEM;
+}

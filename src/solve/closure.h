@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Closure: the part of each leaf's exchange that coarse links spread wrongly. */
+#ifndef HR2D_SRC_SOLVE_CLOSURE_H
+#define HR2D_SRC_SOLVE_CLOSURE_H
+
+#include "solve/row-sums.h"
+#include "solve/transport.h"
+
+/* Sets t->closure from the links and the exact row sums; HR2D_OK or HR2D_ENOMEM. */
+hr2d_status hr2di_close(hr2di_transport *t, const hr2di_rows *rows);
+
+/* The same at an order above 1; no row sums need be integrated. */
+hr2d_status hr2di_close_orders(hr2di_transport *t);
+
+#endif

@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/energy-balance.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/alloc.h"
+#include "base/neumaier-sum.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "links/components.h"
+#include "scene/scene-impl.h"
+
+/* A component misses nothing if it misses less than this part of its rows, which are 1 on
+   leaves of patches that rows.c takes as closed; and little, so that it is balanced. */
+#define CLOSED 1e-14
+#define LITTLE (1. / 64)
+
+static const hr2d_element *leaf_of(const hr2di_transport *t, size_t leaf) {
+  return &t->hierarchy->element[t->leaf[leaf]];
+}
+
+static double rho_of(const hr2di_transport *t, size_t leaf, size_t band) {
+  return hr2d_scene_reflectance(t->hierarchy->scene, leaf_of(t, leaf)->patch, band);
+}
+
+static hr2d_status set_missing(hr2di_balance *b, hr2di_transport *t) {
+  const size_t field = t->leaves * t->width;
+  double *one = hr2di_calloc(&t->alloc, 2 * field, sizeof *one);
+  if (!one) return HR2D_ENOMEM;
+  double *const row = one + field;
+  for (size_t k = 0; k < t->leaves; k++)
+    for (size_t band = 0; band < t->bands; band++) one[k * t->width + band] = 1;
+  hr2di_gather(t, one, row);
+  for (size_t k = 0; k < t->leaves * t->order; k++)
+    b->missing[k] = one[k * t->bands] - row[k * t->bands];
+  hr2di_free(&t->alloc, one);
+  return t->failed ? HR2D_ENOMEM : HR2D_OK;
+}
+
+/* What is known of a component while they are numbered, at its first patch. */
+typedef struct tally {
+  hr2di_sum length, missing;
+  uint32_t number; /* from 1; 0: not numbered yet */
+} tally;
+
+/* Numbers the components that miss nothing or little. */
+static void number(hr2di_balance *b, const hr2di_transport *t, hr2di_components *c, tally *of) {
+  for (size_t k = 0; k < t->leaves; k++) {
+    tally *mine = &of[hr2di_component(c, leaf_of(t, k)->patch)];
+    const double length = hr2di_total(&mine->length), missing = hr2di_total(&mine->missing);
+    if (mine->number == 0)
+      mine->number = missing <= LITTLE * length ? (uint32_t)++b->count : HR2DI_OPEN;
+    b->component[k] = mine->number == HR2DI_OPEN ? HR2DI_OPEN : mine->number - 1;
+    if (hr2di_balance_holds(b, k) && missing > CLOSED * length) continue;
+    for (size_t l = 0; l < t->order; l++) b->missing[k * t->order + l] = 0;
+  }
+}
+
+static hr2d_status find_components(hr2di_balance *b, hr2di_transport *t) {
+  hr2di_components c = {.alloc = t->alloc};
+  hr2d_status status = hr2di_components_make(&c, t->links);
+  tally *of = hr2di_calloc(&t->alloc, t->hierarchy->scene->patches, sizeof *of);
+  b->component = hr2di_alloc(&t->alloc, t->leaves, sizeof *b->component);
+  b->missing = hr2di_alloc(&t->alloc, t->leaves * t->order, sizeof *b->missing);
+  if (!of || !b->component || !b->missing) status = HR2D_ENOMEM;
+  if (!status) status = set_missing(b, t);
+  for (size_t k = 0; k < t->leaves && !status; k++) {
+    tally *mine = &of[hr2di_component(&c, leaf_of(t, k)->patch)];
+    const double area = leaf_of(t, k)->length;
+    hr2di_add(&mine->length, area);
+    hr2di_add(&mine->missing, area * b->missing[k * t->order]);
+  }
+  if (!status) number(b, t, &c, of);
+  hr2di_free(&t->alloc, of);
+  hr2di_components_clear(&c);
+  return status;
+}
+
+static hr2di_sum *sum_of(const hr2di_balance *b, const hr2di_transport *t, size_t leaf,
+                         size_t band) {
+  return &b->sum[b->component[leaf] * t->bands + band];
+}
+
+static void clear_sums(const hr2di_balance *b, const hr2di_transport *t) {
+  for (size_t k = 0; k < b->count * t->bands; k++) b->sum[k] = (hr2di_sum){0, 0};
+}
+
+/* ∫m, ∫(1−ρ) + ∫m, and this less ∫(1−ρ)m. */
+static void set_losses(hr2di_balance *b, const hr2di_transport *t) {
+  clear_sums(b, t);
+  for (size_t k = 0; k < t->leaves; k++) {
+    if (!hr2di_balance_holds(b, k)) continue;
+    const double area = leaf_of(t, k)->length, escape = area * b->missing[k * t->order];
+    b->length[b->component[k]] += area;
+    b->escape[b->component[k]] += escape;
+    for (size_t band = 0; band < t->bands; band++) {
+      hr2di_add(sum_of(b, t, k, band), area * (1 - rho_of(t, k, band)));
+      b->response[b->component[k] * t->bands + band] -= escape * (1 - rho_of(t, k, band));
+      hr2di_add(sum_of(b, t, k, band), escape);
+    }
+  }
+  for (size_t k = 0; k < b->count * t->bands; k++) {
+    b->loss[k] = hr2di_total(&b->sum[k]);
+    b->response[k] += b->loss[k];
+  }
+}
+
+hr2d_status hr2di_balance_make(hr2di_balance *b, hr2di_transport *t) {
+  *b = (hr2di_balance){.alloc = t->alloc};
+  const hr2d_status status = find_components(b, t);
+  if (status || b->count == 0) return status;
+  const size_t values = b->count * t->bands;
+  b->length = hr2di_calloc(&b->alloc, 2 * b->count + 3 * values, sizeof *b->length);
+  b->sum = hr2di_alloc(&b->alloc, values, sizeof *b->sum);
+  if (!b->length || !b->sum) return HR2D_ENOMEM;
+  b->escape = b->length + b->count;
+  b->loss = b->escape + b->count;
+  b->level = b->loss + values;
+  b->response = b->level + values;
+  set_losses(b, t);
+  return HR2D_OK;
+}
+
+void hr2di_balance_clear(hr2di_balance *b) {
+  hr2di_free(&b->alloc, b->component);
+  hr2di_free(&b->alloc, b->missing);
+  hr2di_free(&b->alloc, b->length);
+  hr2di_free(&b->alloc, b->sum);
+}
+
+void hr2di_balance_set(hr2di_balance *b, const hr2di_transport *t, const double *source,
+                       const double *background) {
+  clear_sums(b, t);
+  for (size_t k = 0; k < t->leaves; k++)
+    for (size_t band = 0; band < t->bands && hr2di_balance_holds(b, k); band++) {
+      const double area = leaf_of(t, k)->length;
+      hr2di_add(sum_of(b, t, k, band), area * source[k * t->width + band]);
+      if (background && t->sky)
+        hr2di_add(sum_of(b, t, k, band), area * (t->sky[k * t->order] * background[band]));
+    }
+  for (size_t k = 0; k < b->count * t->bands; k++)
+    b->level[k] = b->loss[k] > 0 ? hr2di_total(&b->sum[k]) / b->loss[k] : 0;
+}
+
+/* Adding a to h adds ρa to z, and ∫(1−ρ)a + ∫mρa to the balance. */
+void hr2di_balance_correct(hr2di_balance *b, const hr2di_transport *t, const double *source,
+                           const double *h) {
+  clear_sums(b, t);
+  for (size_t k = 0; k < t->leaves; k++)
+    for (size_t band = 0; band < t->bands && hr2di_balance_holds(b, k); band++) {
+      const double area = leaf_of(t, k)->length, rho = rho_of(t, k, band);
+      const size_t at = k * t->width + band;
+      double off = (1 - rho) * h[at];
+      for (size_t l = 0; l < t->order; l++) {
+        const double constant = l == 0 ? (1 - rho) * hr2di_balance_at(b, t, k, band) : 0;
+        const double z = source[at + l * t->bands] - constant + rho * h[at + l * t->bands];
+        off += b->missing[k * t->order + l] * z;
+      }
+      hr2di_add(sum_of(b, t, k, band), area * off);
+    }
+  for (size_t k = 0; k < b->count * t->bands; k++)
+    if (b->response[k] > 0) b->level[k] -= hr2di_total(&b->sum[k]) / b->response[k];
+}
+
+double hr2di_balance_at(const hr2di_balance *b, const hr2di_transport *t, size_t leaf,
+                        size_t band) {
+  return hr2di_balance_holds(b, leaf) ? b->level[b->component[leaf] * t->bands + band] : 0;
+}
+
+void hr2di_balance_add(const hr2di_balance *b, const hr2di_transport *t, double *field) {
+  for (size_t k = 0; k < t->leaves && b->count > 0; k++)
+    for (size_t band = 0; band < t->bands; band++)
+      field[k * t->width + band] += hr2di_balance_at(b, t, k, band);
+}
+
+void hr2di_balance_absorb(const hr2di_balance *b, const hr2di_transport *t, double *field) {
+  for (size_t k = 0; k < t->leaves && b->count > 0; k++)
+    for (size_t band = 0; band < t->bands; band++)
+      field[k * t->width + band] -= (1 - rho_of(t, k, band)) * hr2di_balance_at(b, t, k, band);
+}
+
+void hr2di_balance_release(const hr2di_balance *b, const hr2di_transport *t, double *field) {
+  for (size_t k = 0; k < t->leaves && b->count > 0; k++)
+    for (size_t m = 0; m < t->width; m++)
+      field[k * t->width + m] -=
+          b->missing[k * t->order + m / t->bands] * hr2di_balance_at(b, t, k, m % t->bands);
+}
+
+double hr2di_balance_doubt(const hr2di_balance *b, size_t bands) {
+  double most = 0;
+  for (size_t k = 0; k < b->count * bands; k++)
+    if (b->escape[k / bands] > 0 && b->level[k] != 0)
+      most = fmax(most, DBL_EPSILON * b->length[k / bands] / b->loss[k]);
+  return most;
+}

@@ -1,0 +1,276 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* B = Q + ρ K B on the leaves, for a source Q.
+
+   With B = Q + √ρ y the equation becomes (I − √ρ K √ρ) y = √ρ K Q.  Its operator is
+   self-adjoint in Σ A x y, because A_i K_ij = AF_ij = A_j K_ji, and positive definite
+   where light is lost; patches with ρ = 0 drop out by themselves.  In closed components Q' and
+   z stand for Q and B, see balance.h. */
+#include "solve/equation.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "base/clock.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "scene/scene-impl.h"
+#include "solve/background.h"
+#include "solve/closure.h"
+#include "solve/row-sums.h"
+
+/* Where nothing reflects there is nothing to close. */
+static int reflects(const hr2d_scene *scene) {
+  for (size_t k = 0; k < scene->patches; k++)
+    for (size_t band = 0; band < scene->bands; band++)
+      if (hr2d_scene_reflectance(scene, k, band) > 0) return 1;
+  return 0;
+}
+
+/* Closure, and the view of the background, need what leaves see of all patches. */
+static hr2d_status integrate_rows(hr2di_equation *s) {
+  const int closure = s->options.closure && reflects(s->links->hierarchy->scene);
+  const int background = s->links->hierarchy->scene->effect[HR2D_EFFECT_BACKGROUND].on;
+  if (!closure && !background) return HR2D_OK;
+  if (s->transport.order > 1) {
+    hr2d_status status = closure ? hr2di_close_orders(&s->transport) : HR2D_OK;
+    if (background) s->row_sums = s->transport.leaves;
+    return !status && background ? hr2di_set_sky_orders(&s->transport) : status;
+  }
+  hr2di_rows rows;
+  hr2d_status status = hr2di_rows_make(&rows, &s->transport, background);
+  if (!status && background) status = hr2di_set_sky(&s->transport, &rows);
+  if (!status && closure) status = hr2di_close(&s->transport, &rows);
+  s->row_sums = rows.leaves;
+  hr2di_rows_clear(&rows);
+  return status;
+}
+
+/* An order above 1 needs blocks, unless a former solve has made them. */
+static hr2d_status integrate_blocks(hr2di_equation *s) {
+  hr2d_linkset *links = s->links;
+  const unsigned order = links->hierarchy->order;
+  if (order == 1 || (links->blocks.order == order && links->blocks.links == links->store.count))
+    return HR2D_OK;
+  const hr2di_blocks_plan plan = {s->options.threads, s->options.progress,
+                                  s->options.progress_ctx};
+  const double start = hr2di_now();
+  const hr2d_status status = hr2di_blocks_make(links, order, &plan);
+  s->kernels = links->blocks.kernels;
+  s->coefficients_seconds = hr2di_now() - start;
+  return status && status != HR2D_ENOMEM
+             ? hr2di_fail(&links->message, status, "coefficients: %s", hr2d_strerror(status))
+             : status;
+}
+
+/* The powers of two that bring the light of each band near 1: neither squares nor what comes of
+   B after many reflections then leave the range of a double, and denormals have all digits. */
+static void set_exponents(hr2di_equation *s) {
+  const hr2d_scene *scene = s->links->hierarchy->scene;
+  for (size_t b = 0; b < scene->bands; b++) {
+    double most = hr2d_scene_background(scene, b);
+    for (size_t k = 0; k < scene->patches; k++)
+      most = fmax(most, hr2d_scene_emission(scene, k, b));
+    s->exponent[b] = most > 0 ? ilogb(most) : 0;
+    s->light[b] = ldexp(hr2d_scene_background(scene, b), -s->exponent[b]);
+  }
+}
+
+/* Coefficients of leaves are numbered as the items of the system. */
+static void set_surfaces(hr2di_equation *s) {
+  const hr2di_transport *t = &s->transport;
+  const hr2d_scene *scene = t->hierarchy->scene;
+  for (size_t k = 0; k < s->items; k++) {
+    const hr2d_element *e = &t->hierarchy->element[t->leaf[k / t->order]];
+    s->weight[k] = e->length;
+    for (size_t b = 0; b < t->bands; b++) {
+      const int constant = k % t->order == 0;
+      s->source[k * t->bands + b] =
+          constant ? ldexp(hr2d_scene_emission(scene, e->patch, b), -s->exponent[b]) : 0;
+      s->root_rho[k * t->bands + b] = sqrt(hr2d_scene_reflectance(scene, e->patch, b));
+    }
+  }
+}
+
+hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
+                                const hr2d_solve_options *options) {
+  *s = (hr2di_equation){.links = links, .options = *options, .background = 1};
+  s->transport.alloc = links->alloc;
+  hr2di_transport *t = &s->transport;
+  hr2d_status status = integrate_blocks(s);
+  if (!status) status = hr2di_transport_init(t, s->links, s->options.threads);
+  if (!status) status = integrate_rows(s);
+  if (!status && t->closure && !links->directed) status = hr2di_balance_make(&s->balance, t);
+  if (status) return status;
+  s->items = t->leaves * t->order;
+  s->field = t->leaves * t->width;
+  s->space =
+      hr2di_calloc(&s->links->alloc, s->items + 7 * s->field + 3 * t->bands, sizeof *s->space);
+  s->exponent = hr2di_alloc(&s->links->alloc, t->bands, sizeof *s->exponent);
+  if (!s->space || !s->exponent) return HR2D_ENOMEM;
+  double **const field[] = {&s->source, &s->root_rho, &s->radiosity, &s->irradiance,
+                            &s->y,      &s->b,        &s->work};
+  s->weight = s->space;
+  for (size_t k = 0; k < 7; k++) *field[k] = s->space + s->items + k * s->field;
+  s->norm[0] = s->space + s->items + 7 * s->field;
+  s->norm[1] = s->norm[0] + t->bands;
+  s->light = s->norm[1] + t->bands;
+  set_exponents(s);
+  set_surfaces(s);
+  return HR2D_OK;
+}
+
+/* out = √ρ K √ρ in */
+static void apply(void *ctx, const double *in, double *out) {
+  hr2di_equation *s = ctx;
+  for (size_t k = 0; k < s->field; k++) s->work[k] = s->root_rho[k] * in[k];
+  hr2di_gather(&s->transport, s->work, out);
+  for (size_t k = 0; k < s->field; k++) out[k] *= s->root_rho[k];
+}
+
+/* out = Q' + √ρ y, which is z, with Q' = Q where nothing is closed. */
+static void set_fluctuation(hr2di_equation *s, const double *y, double *out) {
+  for (size_t k = 0; k < s->field; k++) out[k] = s->source[k];
+  hr2di_balance_absorb(&s->balance, &s->transport, out);
+  for (size_t k = 0; k < s->field && y; k++) out[k] += s->root_rho[k] * y[k];
+}
+
+/* B = c + z */
+static void set_radiosity(hr2di_equation *s, const double *y) {
+  set_fluctuation(s, y, s->radiosity);
+  hr2di_balance_add(&s->balance, &s->transport, s->radiosity);
+}
+
+static hr2di_system make_system(hr2di_equation *s);
+
+static void scale(void *ctx, const double *y, double *norm) {
+  hr2di_equation *s = ctx;
+  const hr2di_system system = make_system(s);
+  set_radiosity(s, y);
+  hr2di_dot(&system, s->radiosity, s->radiosity, norm);
+  for (size_t b = 0; b < system.bands; b++) norm[b] = sqrt(norm[b]);
+}
+
+static hr2d_status tell(void *ctx, double residual) {
+  hr2di_equation *s = ctx;
+  s->looks++;
+  if (!s->options.progress) return HR2D_OK;
+  const double digits = residual > 0 ? log(residual) / log(s->options.tolerance) : 1;
+  const hr2d_progress progress = {.struct_size = sizeof progress,
+                                  .phase = "solve",
+                                  .elements = s->transport.elements,
+                                  .links = s->links->store.count,
+                                  .fraction = fmin(fmax(digits, 0), 1),
+                                  .residual = residual};
+  return s->options.progress(s->options.progress_ctx, &progress);
+}
+
+static hr2di_system make_system(hr2di_equation *s) {
+  return (hr2di_system){.alloc = &s->links->alloc,
+                        .size = s->items,
+                        .bands = s->transport.bands,
+                        .weight = s->weight,
+                        .symmetric = !s->links->directed,
+                        .apply = apply,
+                        .scale = scale,
+                        .tell = tell,
+                        .ctx = s,
+                        .tolerance = s->options.tolerance,
+                        .max_iterations = s->options.max_iterations};
+}
+
+/* H = K B, and what comes from the background. */
+void hr2di_equation_gather(hr2di_equation *s, const double *radiosity) {
+  hr2di_gather(&s->transport, radiosity, s->irradiance);
+  if (s->background) hr2di_add_background(&s->transport, s->light, s->irradiance);
+}
+
+/* h = Kz, what comes from the background, and what balance takes off. */
+static void gather_rest(hr2di_equation *s, const double *z, double *out) {
+  hr2di_gather(&s->transport, z, out);
+  if (s->background) hr2di_add_background(&s->transport, s->light, out);
+  hr2di_balance_release(&s->balance, &s->transport, out);
+}
+
+void hr2di_equation_balance(hr2di_equation *s) {
+  if (s->balance.count > 0)
+    hr2di_balance_set(&s->balance, &s->transport, s->source, s->background ? s->light : NULL);
+}
+
+hr2d_status hr2di_equation_solve(hr2di_equation *s) {
+  hr2di_equation_balance(s);
+  set_fluctuation(s, NULL, s->radiosity);
+  gather_rest(s, s->radiosity, s->irradiance);
+  for (size_t k = 0; k < s->field; k++) s->b[k] = s->root_rho[k] * s->irradiance[k];
+  const hr2di_system system = make_system(s);
+  double residual = 0;
+  hr2d_status status = hr2di_krylov(&system, s->b, s->y, &residual);
+  if (s->transport.failed) status = HR2D_ENOMEM;
+  if (status == HR2D_ENOT_CONVERGED && s->looks <= s->options.max_iterations)
+    return hr2di_fail(&s->links->message, status,
+                      "after %llu iterations I − ρK is found not to be positive definite: rows "
+                      "of the links exceed 1, and closure or finer links are needed",
+                      (unsigned long long)s->looks);
+  if (status == HR2D_ENOT_CONVERGED)
+    return hr2di_fail(&s->links->message, status,
+                      "the relative residual is %.1e where %.1e was asked for, after %llu "
+                      "gathers",
+                      residual, s->options.tolerance, (unsigned long long)s->transport.sweeps);
+  if (status) return hr2di_fail(&s->links->message, status, "solve: %s", hr2d_strerror(status));
+  return hr2di_equation_take(s);
+}
+
+/* H = c + h with c corrected, and B = Q + ρH. */
+static void balance(hr2di_equation *s) {
+  const hr2di_transport *t = &s->transport;
+  hr2di_balance_correct(&s->balance, t, s->source, s->irradiance);
+  hr2di_balance_add(&s->balance, t, s->irradiance);
+  for (size_t k = 0; k < s->field; k++)
+    if (hr2di_balance_holds(&s->balance, k / t->width))
+      s->radiosity[k] = s->source[k] + s->root_rho[k] * s->root_rho[k] * s->irradiance[k];
+}
+
+hr2d_status hr2di_equation_take(hr2di_equation *s) {
+  set_fluctuation(s, s->y, s->radiosity);
+  gather_rest(s, s->radiosity, s->irradiance);
+  if (s->balance.count > 0) balance(s);
+  return s->transport.failed ? HR2D_ENOMEM : HR2D_OK;
+}
+
+/* c where item k is the constant of a leaf. */
+static double constant_of(const hr2di_equation *s, size_t k) {
+  const hr2di_transport *t = &s->transport;
+  const size_t m = k % t->width;
+  return m < t->bands ? hr2di_balance_at(&s->balance, t, k / t->width, m) : 0;
+}
+
+/* With B = c + z it is Q − (1−ρ)c + ρ(Kz + S − mc) − z. */
+void hr2di_equation_defect(hr2di_equation *s, const double *radiosity, double *out) {
+  for (size_t k = 0; k < s->field; k++) s->work[k] = radiosity[k] - constant_of(s, k);
+  gather_rest(s, s->work, out);
+  for (size_t k = 0; k < s->field; k++)
+    out[k] = s->root_rho[k] * s->root_rho[k] * out[k] - s->work[k];
+  set_fluctuation(s, NULL, s->work);
+  for (size_t k = 0; k < s->field; k++) out[k] += s->work[k];
+}
+
+double hr2di_equation_residual(hr2di_equation *s) {
+  const hr2di_system system = make_system(s);
+  if (s->balance.count > 0)
+    hr2di_equation_defect(s, s->radiosity, s->y);
+  else
+    for (size_t k = 0; k < s->field; k++)
+      s->y[k] =
+          s->source[k] + s->root_rho[k] * s->root_rho[k] * s->irradiance[k] - s->radiosity[k];
+  hr2di_dot(&system, s->y, s->y, s->norm[0]);
+  hr2di_dot(&system, s->radiosity, s->radiosity, s->norm[1]);
+  double most = 0;
+  for (size_t b = 0; b < system.bands; b++)
+    if (s->norm[0][b] > 0) most = fmax(most, sqrt(s->norm[0][b] / s->norm[1][b]));
+  return most;
+}
+
+void hr2di_equation_clear(hr2di_equation *s) {
+  hr2di_balance_clear(&s->balance);
+  hr2di_transport_clear(&s->transport);
+  hr2di_free(&s->links->alloc, s->space);
+  hr2di_free(&s->links->alloc, s->exponent);
+}

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Light that neither is absorbed nor escapes has nowhere to go: in a component of
+   patches linked to each other, closed and with ρ = 1 throughout, ∫(E + ρH − B) = 0
+   forces ∫E = 0. */
+#include "solve/existence.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "links/components.h"
+#include "scene/scene-impl.h"
+
+/* A component is taken as closed if less than this part of its light escapes: below it, an
+   opening cannot be told from rounding; or below what clusters may be off by. */
+#define CLOSED 1e-13
+
+typedef struct exchange {
+  hr2di_components components;
+  double *escape; /* per patch, then per component: A − Σ AF, summed up */
+  double *length;
+} exchange;
+
+static void add_links(const hr2d_linkset *links, exchange *e) {
+  const hr2d_element *element = links->hierarchy->element;
+  const hr2di_store *store = &links->store;
+  for (size_t block = 0; block < store->blocks; block++)
+    for (size_t k = 0; k < hr2di_store_block_size(store, block); k++) {
+      const hr2d_link link = store->block[block][k];
+      e->escape[element[link.pair.first].patch] -= link.exchange_area;
+      if (!links->directed) e->escape[element[link.pair.second].patch] -= link.exchange_area;
+    }
+}
+
+/* What clusters exchange for the patches in them. */
+static hr2d_status add_clusters(const hr2d_linkset *links, exchange *e) {
+  const size_t n = links->hierarchy->scene->patches;
+  if (!links->roots.clusters) return HR2D_OK;
+  double *one = hr2di_calloc(&links->alloc, 2 * n, sizeof *one);
+  if (!one) return HR2D_ENOMEM;
+  double *power = one + n;
+  for (size_t k = 0; k < n; k++) one[k] = 1;
+  const hr2d_status status = hr2di_clusters_gather(links->roots.clusters, 1, 1, one, power);
+  for (size_t k = 0; k < n; k++) e->escape[k] -= power[k];
+  hr2di_free(&links->alloc, one);
+  return status;
+}
+
+static void sum_up(const hr2d_scene *scene, exchange *e) {
+  for (size_t k = 0; k < scene->patches; k++) {
+    const size_t root = hr2di_component(&e->components, k);
+    if (root == k) continue;
+    e->escape[root] += e->escape[k];
+    e->length[root] += e->length[k];
+  }
+}
+
+/* Judges one band: a component is in doubt if it is closed and nothing absorbs. */
+static hr2d_status check_band(hr2d_linkset *links, exchange *e, size_t band,
+                              unsigned char *absorbs) {
+  const hr2d_scene *scene = links->hierarchy->scene;
+  const double closed = links->roots.clusters ? fmax(CLOSED, 10 * links->roots.digits) : CLOSED;
+  for (size_t k = 0; k < scene->patches; k++) absorbs[k] = 0;
+  for (size_t k = 0; k < scene->patches; k++)
+    if (hr2d_scene_reflectance(scene, k, band) < 1)
+      absorbs[hr2di_component(&e->components, k)] = 1;
+  for (size_t k = 0; k < scene->patches; k++) {
+    const size_t root = hr2di_component(&e->components, k);
+    if (absorbs[root] || e->escape[root] > closed * e->length[root] ||
+        !(hr2d_scene_emission(scene, k, band) > 0))
+      continue;
+    return hr2di_fail(&links->message, HR2D_ENO_SOLUTION,
+                      "no solution in band %zu: %s emits into a closed part of the scene "
+                      "where every reflectance is 1, so that light has nowhere to go",
+                      band, hr2di_patch_label(scene, k).text);
+  }
+  return HR2D_OK;
+}
+
+static int some_patch_absorbs_nothing(const hr2d_scene *scene) {
+  for (size_t k = 0; k < scene->patches; k++)
+    for (size_t band = 0; band < scene->bands; band++)
+      if (hr2d_scene_reflectance(scene, k, band) == 1) return 1;
+  return 0;
+}
+
+static hr2d_status sum_exchange(const hr2d_linkset *links, exchange *e) {
+  const hr2d_scene *scene = links->hierarchy->scene;
+  hr2d_status status = hr2di_components_make(&e->components, links);
+  for (size_t k = 0; k < scene->patches; k++)
+    e->escape[k] = e->length[k] = scene->patch[k].length;
+  if (!status) status = add_clusters(links, e);
+  if (status) return status;
+  add_links(links, e);
+  sum_up(scene, e);
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_check_existence(hr2d_linkset *links) {
+  const hr2d_scene *scene = links->hierarchy->scene;
+  if (!some_patch_absorbs_nothing(scene)) return HR2D_OK;
+  const hr2d_allocator *alloc = &links->alloc;
+  exchange e = {.escape = hr2di_alloc(alloc, scene->patches, sizeof *e.escape),
+                .length = hr2di_alloc(alloc, scene->patches, sizeof *e.length)};
+  e.components.alloc = *alloc;
+  unsigned char *absorbs = hr2di_alloc(alloc, scene->patches, 1);
+  hr2d_status status = HR2D_ENOMEM;
+  if (e.escape && e.length && absorbs) status = sum_exchange(links, &e);
+  if (status) hr2di_fail(&links->message, status, "out of memory for the solve");
+  for (size_t band = 0; band < scene->bands && !status; band++)
+    status = check_band(links, &e, band, absorbs);
+  hr2di_components_clear(&e.components);
+  hr2di_free(alloc, e.escape);
+  hr2di_free(alloc, e.length);
+  hr2di_free(alloc, absorbs);
+  return status;
+}

@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Row sums of leaves.
+
+   A patch that sees patches wherever it looks has leaves that do: their sums are 1.  The
+   leaves of others are asked for what they exchange with every patch that theirs sees; or,
+   where things are in the way of whole patches, with the elements that they are linked
+   with, themselves or what they are part of.  A tree is walked down as far as something in
+   the way of its elements asks for. */
+#include "solve/row-sums.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "base/neumaier-sum.h"
+#include "geometry/predicates.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "occlusion/pair-visibility.h"
+#include "scene/back-faces.h"
+#include "scene/scene-impl.h"
+
+/* A patch that misses less than this part of its row misses nothing.  The sum over its
+   links is compensated, and each exchange area good to 4e-15. */
+#define CLOSED 1e-14
+
+/* Elements wait on a stack: one per level and their walls. */
+enum { DEPTH = 1100 };
+
+typedef struct waiting {
+  uint32_t element;
+  size_t first, count; /* of its walls */
+} waiting;
+
+/* The row of one patch. */
+typedef struct walker {
+  const hr2d_hierarchy *h;
+  hr2di_backs backs;        /* empty if not asked for */
+  hr2d_segment line;        /* of the patch */
+  hr2d_segment source;      /* what its leaves see: a patch, the back of one, or an element */
+  hr2d_segment source_line; /* of which that is a part */
+  hr2di_sight *sight;       /* NULL where nothing is in the way */
+  hr2di_wall_list list;
+  waiting stack[DEPTH];
+  hr2di_sum *sum; /* per element, set for leaves */
+} walker;
+
+/* A − Σ AF of each patch, over its links. */
+static void sum_links(const hr2di_transport *t, hr2di_sum *rest) {
+  const hr2d_element *element = t->hierarchy->element;
+  const hr2di_store *store = &t->links->store;
+  for (size_t k = 0; k < t->hierarchy->scene->patches; k++)
+    rest[k] = (hr2di_sum){element[k].length, 0};
+  for (size_t block = 0; block < store->blocks; block++)
+    for (size_t k = 0; k < hr2di_store_block_size(store, block); k++) {
+      const hr2d_link *link = &store->block[block][k];
+      hr2di_add(&rest[element[link->pair.first].patch], -link->exchange_area);
+      if (!t->links->directed)
+        hr2di_add(&rest[element[link->pair.second].patch], -link->exchange_area);
+    }
+}
+
+/* All leaves below an element see the source without anything in the way. */
+static void add_clear(walker *w, uint32_t top) {
+  const hr2d_element *element = w->h->element;
+  uint32_t leaf = hr2di_first_leaf(w->h, top);
+  do {
+    const hr2d_segment s = {element[leaf].a, element[leaf].b};
+    hr2di_add(&w->sum[leaf], hr2d_exchange_area(&s, &w->source));
+    leaf = hr2di_next_leaf(w->h, leaf, top);
+  } while (leaf);
+}
+
+/* Looks at an element: adds what its leaves see if that is clear, else puts it on the
+   stack; `parent` is NULL for a patch. */
+static hr2d_status look(walker *w, uint32_t element, const waiting *parent, size_t *count) {
+  const hr2d_element *e = &w->h->element[element];
+  const hr2d_segment s = {e->a, e->b};
+  hr2di_shaft shaft;
+  hr2di_view view = HR2DI_CLEAR;
+  const size_t first = w->list.count;
+  const hr2di_facing facing = hr2di_face(&s, &w->source);
+  if (facing == HR2DI_FACING_NONE) return HR2D_OK;
+  const int shaded =
+      w->sight && hr2di_shaft_make(&shaft, facing, s, w->source, w->line, w->source_line);
+  hr2d_status status = HR2D_OK;
+  if (shaded && parent)
+    status = hr2di_sight_shrink(w->sight, &shaft, &w->list, parent->first, parent->count,
+                                &w->list, &view);
+  else if (shaded)
+    status = hr2di_sight_collect(w->sight, &shaft, &w->list, &view);
+  if (status) return status;
+  if (view == HR2DI_CLEAR) add_clear(w, element);
+  if (view != HR2DI_PARTIAL) return HR2D_OK;
+  if (e->child) {
+    w->stack[(*count)++] = (waiting){element, first, w->list.count - first};
+    return HR2D_OK;
+  }
+  double area;
+  int open;
+  status = hr2di_sight_area(w->sight, &shaft, hr2di_walls_from(&w->list, first),
+                            w->list.count - first, &area, &open);
+  if (!status) hr2di_add(&w->sum[element], area);
+  w->list.count = first;
+  return status;
+}
+
+/* What the leaves of a patch, or of a part of it, see of the source. */
+static hr2d_status walk(walker *w, uint32_t patch) {
+  size_t count = 0;
+  w->list.count = 0;
+  hr2d_status status = look(w, patch, NULL, &count);
+  while (count > 0 && !status) {
+    const waiting top = w->stack[--count];
+    const uint32_t child = w->h->element[top.element].child;
+    w->list.count = top.first + top.count;
+    for (uint32_t k = 0; k < 2 && !status; k++) status = look(w, child + k, &top, &count);
+  }
+  return status;
+}
+
+/* All that the leaves of a patch see of patches, and of their backs if asked for. */
+static hr2d_status walk_row(walker *w, uint32_t patch, hr2di_sum *front, hr2di_sum *back) {
+  const hr2d_scene *scene = w->h->scene;
+  hr2d_status status = HR2D_OK;
+  w->line = scene->patch[patch].scaled;
+  w->sum = front;
+  for (size_t k = 0; k < scene->patches && !status && front; k++) {
+    if (k == patch || !hr2di_lit(scene, k)) continue;
+    w->source = w->source_line = scene->patch[k].scaled;
+    status = walk(w, patch);
+  }
+  w->sum = back;
+  for (size_t k = 0; k < w->backs.count && !status; k++) {
+    const hr2d_segment s = scene->patch[w->backs.back[k].patch].scaled;
+    w->source = w->backs.back[k].at;
+    w->source_line = (hr2d_segment){s.b, s.a};
+    status = walk(w, patch);
+  }
+  return status;
+}
+
+/* What the leaves of an element see of another that it is linked with.  A shadow that
+   changes no bit of the link is none for its leaves. */
+static hr2d_status walk_link(walker *w, uint32_t receiver, uint32_t source, double area) {
+  const hr2d_element *e = &w->h->element[receiver], *f = &w->h->element[source];
+  const hr2d_segment s = {e->a, e->b};
+  w->source = (hr2d_segment){f->a, f->b};
+  w->source_line = w->h->scene->patch[f->patch].scaled;
+  w->line = w->h->scene->patch[e->patch].scaled;
+  if (hr2d_exchange_area(&s, &w->source) != area) return walk(w, receiver);
+  add_clear(w, receiver);
+  return HR2D_OK;
+}
+
+static hr2d_status walk_links(walker *w, const hr2di_transport *t,
+                              const unsigned char *closed) {
+  const hr2d_element *element = w->h->element;
+  const hr2di_store *store = &t->links->store;
+  hr2d_status status = HR2D_OK;
+  for (uint64_t k = 0; k < store->count && !status; k++) {
+    const hr2d_link link = *hr2di_store_at(store, k);
+    const uint32_t i = link.pair.first, j = link.pair.second;
+    if (!closed[element[i].patch]) status = walk_link(w, i, j, link.exchange_area);
+    if (!status && !t->links->directed && !closed[element[j].patch])
+      status = walk_link(w, j, i, link.exchange_area);
+  }
+  return status;
+}
+
+/* Sums to rows; 1 for the leaves of closed patches. */
+static void finish(hr2di_rows *rows, uint32_t patch, const hr2di_sum *front,
+                   const hr2di_sum *back) {
+  const hr2d_hierarchy *h = rows->hierarchy;
+  uint32_t leaf = hr2di_first_leaf(h, patch);
+  do {
+    const double length = h->element[leaf].length;
+    rows->leaves += !rows->closed[patch];
+    rows->front[leaf] = rows->closed[patch] ? 1 : hr2di_total(&front[leaf]) / length;
+    if (rows->back) rows->back[leaf] = hr2di_total(&back[leaf]) / length;
+    leaf = hr2di_next_leaf(h, leaf, patch);
+  } while (leaf);
+}
+
+static hr2d_status walk_rows(hr2di_rows *rows, const hr2di_transport *t, walker *w,
+                             const hr2di_sum *rest, hr2di_sum *front, hr2di_sum *back) {
+  const hr2d_scene *scene = w->h->scene;
+  const int by_links = scene->effect[HR2D_EFFECT_OCCLUSION].called_for;
+  hr2d_status status = HR2D_OK;
+  for (uint32_t k = 0; k < scene->patches; k++)
+    rows->closed[k] = fabs(hr2di_total(&rest[k])) <= CLOSED * w->h->element[k].length;
+  w->sum = front;
+  if (by_links) status = walk_links(w, t, rows->closed);
+  for (uint32_t k = 0; k < scene->patches && !status; k++) {
+    if (!hr2di_lit(scene, k)) continue;
+    if (!rows->closed[k]) status = walk_row(w, k, by_links ? NULL : front, back);
+    finish(rows, k, front, back);
+  }
+  return status;
+}
+
+hr2d_status hr2di_rows_make(hr2di_rows *rows, const hr2di_transport *t, int backs) {
+  const hr2d_scene *scene = t->hierarchy->scene;
+  *rows = (hr2di_rows){.hierarchy = t->hierarchy, .alloc = t->alloc};
+  rows->front = hr2di_calloc(&t->alloc, t->elements, sizeof *rows->front);
+  rows->back = backs ? hr2di_calloc(&t->alloc, t->elements, sizeof *rows->back) : NULL;
+  rows->closed = hr2di_calloc(&t->alloc, scene->patches, 1);
+  hr2di_sum *rest = hr2di_alloc(&t->alloc, scene->patches, sizeof *rest);
+  hr2di_sum *front = hr2di_calloc(&t->alloc, t->elements, sizeof *front);
+  hr2di_sum *back = backs ? hr2di_calloc(&t->alloc, t->elements, sizeof *back) : NULL;
+  walker *w = hr2di_calloc(&t->alloc, 1, sizeof *w);
+  hr2d_status status = HR2D_ENOMEM;
+  if (rows->front && rows->closed && rest && front && w && (!backs || (rows->back && back))) {
+    hr2di_sight sight;
+    hr2di_sight_start(&sight, &scene->walls, &t->alloc);
+    w->h = t->hierarchy;
+    w->sight = scene->effect[HR2D_EFFECT_OCCLUSION].on || backs ? &sight : NULL;
+    sum_links(t, rest);
+    status = backs ? hr2di_find_backs(scene, &w->backs) : HR2D_OK;
+    if (!status) status = walk_rows(rows, t, w, rest, front, back);
+    hr2di_sight_end(&sight);
+    hr2di_free(&t->alloc, w->list.wall);
+    hr2di_free(&t->alloc, w->backs.back);
+  }
+  hr2di_free(&t->alloc, w);
+  hr2di_free(&t->alloc, rest);
+  hr2di_free(&t->alloc, front);
+  hr2di_free(&t->alloc, back);
+  return status;
+}
+
+void hr2di_rows_clear(hr2di_rows *rows) {
+  hr2di_free(&rows->alloc, rows->front);
+  hr2di_free(&rows->alloc, rows->back);
+  hr2di_free(&rows->alloc, rows->closed);
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Row sums: how much of all directions a leaf sees patches in, and how much their backs. */
+#ifndef HR2D_SRC_SOLVE_ROW_SUMS_H
+#define HR2D_SRC_SOLVE_ROW_SUMS_H
+
+#include "solve/transport.h"
+
+typedef struct hr2di_rows {
+  const hr2d_hierarchy *hierarchy;
+  hr2d_allocator alloc;
+  double *front;         /* per element, set for leaves: ∫ G V over all patches, at most 1 */
+  double *back;          /* the same over the backs of patches that have a front only; NULL if
+                            not asked for */
+  unsigned char *closed; /* per patch: its leaves see patches wherever they look */
+  uint64_t leaves;       /* whose sums were integrated */
+} hr2di_rows;
+
+/* The exact sums of the leaves of all patches that light reaches, from the links' own
+   exchange areas where these leave no opening; HR2D_OK or HR2D_ENOMEM.  To be ended by
+   hr2di_rows_clear() in either case. */
+hr2d_status hr2di_rows_make(hr2di_rows *rows, const hr2di_transport *transport, int backs);
+void hr2di_rows_clear(hr2di_rows *rows);
+
+#endif

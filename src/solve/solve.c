@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solving on a set of links: from a former solution perhaps, to a solution and its powers. */
+#include <hr2d/solve.h>
+#include <math.h>
+
+#include "base/alloc.h"
+#include "base/neumaier-sum.h"
+#include "base/sized-struct.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "scene/scene-impl.h"
+#include "solution/solution-impl.h"
+#include "solve/equation.h"
+#include "solve/existence.h"
+
+static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *o) {
+  hr2di_message *message = &links->message;
+  if (links->hierarchy->refining || links->solving)
+    return hr2di_fail(message, HR2D_ESTATE, "the links are being %s already",
+                      links->solving ? "solved on" : "refined");
+  if (!(o->tolerance >= 1e-15) || !isfinite(o->tolerance))
+    return hr2di_fail(message, HR2D_EINVAL, "tolerance %g is not a number ≥ 1e-15",
+                      o->tolerance);
+  if (o->start && o->start->hierarchy != links->hierarchy)
+    return hr2di_fail(message, HR2D_EINVAL, "the warm start is from another hierarchy");
+  if (links->counts.elements == 0)
+    return hr2di_fail(message, HR2D_ESTATE, "the link set was never refined");
+  return HR2D_OK;
+}
+
+/* y = (B − E)/√ρ of a former solution, perhaps of another order and on younger leaves; with c
+   for closed components taken off. */
+static void warm_start(hr2di_equation *s) {
+  const hr2di_transport *t = &s->transport;
+  hr2di_restrict(s->options.start, t->hierarchy, t->leaf, t->leaves, t->order, s->radiosity);
+  for (size_t k = 0; k < s->field; k++)
+    if (s->root_rho[k] > 0)
+      s->y[k] =
+          (ldexp(s->radiosity[k], -s->exponent[k % t->bands]) - s->source[k]) / s->root_rho[k];
+  hr2di_equation_balance(s);
+  for (size_t k = 0; k < t->leaves && s->balance.count > 0; k++)
+    for (size_t b = 0; b < t->bands; b++) {
+      const size_t at = k * t->width + b;
+      s->y[at] -= s->root_rho[at] * hr2di_balance_at(&s->balance, t, k, b);
+    }
+}
+
+/* What escapes of B = c + … in balanced components is ∫mB; elsewhere everything that arrives
+   was sent, so that what is sent and does not arrive has escaped. */
+static void add_escape(const hr2di_equation *s, size_t leaf, size_t band, hr2di_sum *escaped) {
+  const hr2di_transport *t = &s->transport;
+  const size_t at = leaf * t->width + band;
+  const double area = s->weight[leaf * t->order];
+  if (!hr2di_balance_holds(&s->balance, leaf)) {
+    hr2di_add(escaped, area * s->radiosity[at]);
+    hr2di_add(escaped, -area * s->irradiance[at]);
+    if (t->sky) hr2di_add(escaped, area * (t->sky[leaf * t->order] * s->light[band]));
+    return;
+  }
+  for (size_t l = 0; l < t->order; l++)
+    hr2di_add(escaped, area * (s->balance.missing[leaf * t->order + l] *
+                               s->radiosity[at + l * t->bands]));
+}
+
+/* Powers in scene lengths. */
+static hr2d_power sum_power(const hr2di_equation *s, size_t band) {
+  const hr2di_transport *t = &s->transport;
+  const hr2d_scene *scene = t->hierarchy->scene;
+  hr2di_sum emitted = {0, 0}, received = {0, 0}, absorbed = {0, 0}, escaped = {0, 0};
+  for (size_t k = 0; k < t->leaves; k++) {
+    const size_t at = k * t->width + band, patch = t->hierarchy->element[t->leaf[k]].patch;
+    const double absorbance = 1 - hr2d_scene_reflectance(scene, patch, band);
+    const double area = s->weight[k * t->order];
+    hr2di_add(&emitted, area * s->source[at]);
+    hr2di_add(&absorbed, area * (absorbance * s->irradiance[at]));
+    if (t->sky) hr2di_add(&received, area * (t->sky[k * t->order] * s->light[band]));
+    add_escape(s, k, band, &escaped);
+  }
+  const double unit = hr2d_scene_unit(scene);
+  const int e = s->exponent[band];
+  return (hr2d_power){
+      ldexp(unit * hr2di_total(&emitted), e), ldexp(unit * hr2di_total(&received), e),
+      ldexp(unit * hr2di_total(&absorbed), e), ldexp(unit * hr2di_total(&escaped), e)};
+}
+
+/* A field of the leaves on every element, in the unit of E; whether no double is too small for
+   it. */
+static int take_raised(hr2di_equation *s, const double *leaf_field, double *field) {
+  hr2di_transport *t = &s->transport;
+  int finite = 1;
+  hr2di_raise(t, leaf_field);
+  for (size_t k = 0; k < t->elements * t->width; k++) {
+    field[k] = ldexp(t->up[k], s->exponent[k % t->bands]);
+    finite &= isfinite(field[k]) != 0;
+  }
+  return finite;
+}
+
+static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
+  hr2di_transport *t = &s->transport;
+  hr2d_solution *made = hr2di_calloc(&s->links->alloc, 1, sizeof *made);
+  if (!made) return HR2D_ENOMEM;
+  *made = (hr2d_solution){.alloc = s->links->alloc,
+                          .links = s->links,
+                          .hierarchy = t->hierarchy,
+                          .elements = t->elements,
+                          .order = t->order,
+                          .bands = t->bands,
+                          .work = {.gathers = t->sweeps,
+                                   .iterations = s->looks ? s->looks - 1 : 0,
+                                   .row_sums = s->row_sums,
+                                   .background_rows = t->sky ? s->row_sums : 0,
+                                   .kernels = s->kernels,
+                                   .coefficients_seconds = s->coefficients_seconds},
+                          .residual = hr2di_equation_residual(s)};
+  made->power = hr2di_alloc(&made->alloc, t->bands, sizeof *made->power);
+  made->value = hr2di_alloc(&made->alloc, t->elements * t->width, sizeof *made->value);
+  if (!made->power || !made->value) {
+    hr2d_solution_destroy(made);
+    return HR2D_ENOMEM;
+  }
+  for (size_t band = 0; band < t->bands; band++) made->power[band] = sum_power(s, band);
+  int finite = take_raised(s, s->radiosity, made->value);
+  finite &= take_raised(s, s->irradiance, t->up);
+  made->irradiance = t->up;
+  t->up = NULL;
+  if (finite && !t->failed) {
+    *solution = made;
+    return HR2D_OK;
+  }
+  hr2d_solution_destroy(made);
+  return t->failed ? HR2D_ENOMEM
+                   : hr2di_fail(&s->links->message, HR2D_ERANGE,
+                                "a radiosity is beyond what a double can represent");
+}
+
+/* If B = Q + ρKB and neither K nor Q is negative, then B is negative somewhere if and only if
+   ΣK^kρ^kQ diverges: with the positive left eigenvector v of the radius λ, (1−λ)vB = vQ.  At an
+   order above 1 a little of it may come of other things. */
+static hr2d_status check_sign(hr2di_equation *s) {
+  const hr2di_transport *t = &s->transport;
+  const double least = t->order > 1 ? 1e-2 : 1e-6;
+  for (size_t b = 0; b < t->bands; b++) {
+    double low = 0, high = 0;
+    for (size_t k = 0; k < t->leaves; k++) {
+      low = fmin(low, s->radiosity[k * t->width + b]);
+      high = fmax(high, s->radiosity[k * t->width + b]);
+    }
+    if (low < -least * high || (low < 0 && high == 0))
+      return hr2di_fail(&s->links->message, HR2D_ENOT_CONVERGED,
+                        "in band %zu the links reflect more light than falls on them, so that "
+                        "it grows for ever: closure or finer links are needed",
+                        b);
+  }
+  return HR2D_OK;
+}
+
+static hr2d_status solve(hr2d_linkset *links, const hr2d_solve_options *options,
+                         hr2d_solution **solution) {
+  hr2di_equation eq;
+  hr2d_status status = hr2di_equation_init(&eq, links, options);
+  if (!status && links->hierarchy->scene->effect[HR2D_EFFECT_INTERREFLECTION].on) {
+    if (options->start) warm_start(&eq);
+    status = hr2di_equation_solve(&eq);
+    if (!status) status = check_sign(&eq);
+  } else if (!status) {
+    status = hr2di_equation_take(&eq);
+  }
+  if (!status) status = make_solution(&eq, solution);
+  hr2di_equation_clear(&eq);
+  return status;
+}
+
+/* Callbacks may not change what is solved on. */
+hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *given,
+                       hr2d_solution **solution) {
+  hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+  if (given) hr2di_copy_sized(&options, sizeof options, given);
+  hr2d_status status = check_options(links, &options);
+  if (!status) status = hr2di_check_existence(links);
+  if (status) return status;
+  links->solving = 1;
+  atomic_fetch_add(&links->hierarchy->readers, 1);
+  status = solve(links, &options, solution);
+  atomic_fetch_sub(&links->hierarchy->readers, 1);
+  links->solving = 0;
+  if (status == HR2D_ENOMEM) hr2di_fail(&links->message, status, "out of memory for the solve");
+  return status;
+}

@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pull, gather over links, push. */
+#include "solve/transport.h"
+
+#include <stdint.h>
+#include <string.h>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include "base/alloc.h"
+#include "base/ordered-dot.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "scene/scene-impl.h"
+
+/* A slice needs its own copy of `down`, so there are few, and each has many links. */
+enum { MOST_SLICES = 16, SLICE_BLOCKS = 64 };
+
+static size_t count_slices(const hr2d_linkset *links) {
+  const size_t slices = 1 + links->store.blocks / SLICE_BLOCKS;
+  return slices < MOST_SLICES ? slices : MOST_SLICES;
+}
+
+hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
+                                 unsigned threads) {
+  const hr2d_hierarchy *h = links->hierarchy;
+  *t = (hr2di_transport){.links = links,
+                         .hierarchy = h,
+                         .alloc = links->alloc,
+                         .order = h->order,
+                         .bands = h->scene->bands,
+                         .width = h->order * h->scene->bands,
+                         .elements = h->elements,
+                         .slices = count_slices(links),
+                         .threads = threads};
+  /* With 32 bits the width of a field can be too much for a size_t; all fields are smaller than
+     those below. */
+  if (t->bands > PTRDIFF_MAX / sizeof(double) / t->order) return HR2D_ENOMEM;
+  const size_t field = t->width * sizeof(double);
+  if (hr2di_push_pull_init(&t->trees, h, &t->alloc, t->order, t->bands)) return HR2D_ENOMEM;
+  t->leaf = hr2di_alloc(&t->alloc, (size_t)hr2d_hierarchy_count(h).leaves, sizeof *t->leaf);
+  t->up = hr2di_alloc(&t->alloc, t->elements, field);
+  t->down = hr2di_alloc(&t->alloc, t->elements * t->slices, field);
+  if (!t->leaf || !t->up || !t->down) return HR2D_ENOMEM;
+  for (size_t e = 0; e < t->elements; e++)
+    if (!h->element[e].child) t->leaf[t->leaves++] = (uint32_t)e;
+  return HR2D_OK;
+}
+
+void hr2di_transport_clear(hr2di_transport *t) {
+  hr2di_push_pull_clear(&t->trees);
+  hr2di_free(&t->alloc, t->leaf);
+  hr2di_free(&t->alloc, t->up);
+  hr2di_free(&t->alloc, t->down);
+  hr2di_free(&t->alloc, t->closure);
+  hr2di_free(&t->alloc, t->sky);
+}
+
+void hr2di_raise(hr2di_transport *t, const double *leaf_field) {
+  for (size_t k = 0; k < t->leaves; k++)
+    memcpy(t->up + t->leaf[k] * t->width, leaf_field + k * t->width, t->width * sizeof(double));
+  hr2di_pull(&t->trees, t->up);
+}
+
+/* Power received over the links of one block, both ways unless directed. */
+static void gather_block(const hr2d_link *link, size_t count, size_t bands, int plain,
+                         int directed, const double *up, double *down) {
+  if (plain && !directed) {
+    for (size_t k = 0; k < count; k++) {
+      const hr2d_pair p = link[k].pair;
+      const double area = link[k].exchange_area;
+      down[p.first] += area * up[p.second];
+      down[p.second] += area * up[p.first];
+    }
+    return;
+  }
+  for (size_t k = 0; k < count; k++) {
+    const size_t i = link[k].pair.first * bands, j = link[k].pair.second * bands;
+    const double area = link[k].exchange_area;
+    for (size_t b = 0; b < bands; b++) down[i + b] += area * up[j + b];
+    for (size_t b = 0; b < bands && !directed; b++) down[j + b] += area * up[i + b];
+  }
+}
+
+/* to_l += Σ_m C_lm from_m */
+static inline void add_bands(const double *c, size_t order, size_t bands, const double *from,
+                             double *to) {
+  for (size_t l = 0; l < order; l++)
+    for (size_t b = 0; b < bands; b++)
+      to[l * bands + b] += hr2di_dot(c + l * order, from + b, bands, order);
+}
+
+static void add_block(const double *c, size_t order, size_t bands, const double *from,
+                      double *to) {
+  if (bands == 1)
+    add_bands(c, order, 1, from, to);
+  else
+    add_bands(c, order, bands, from, to);
+}
+
+/* to_m += Σ_l C_lm from_l */
+static void add_transposed(const double *c, size_t order, size_t bands, const double *from,
+                           double *to) {
+  for (size_t l = 0; l < order; l++)
+    for (size_t b = 0; b < bands; b++)
+      for (size_t m = 0; m < order; m++)
+        to[m * bands + b] += c[l * order + m] * from[l * bands + b];
+}
+
+/* Both, in one pass over the block of a grey scene; sums as those of hr2di_dot(). */
+void hr2di_multiply_block(const double *restrict c, size_t order, const double *restrict up_i,
+                          const double *restrict up_j, double *restrict down_i,
+                          double *restrict down_j) {
+  for (size_t l = 0; l < order; l++) {
+    const double *row = c + l * order, here = up_i[l];
+    double s0 = 0, s1 = 0, s2 = 0, s3 = 0, rest = 0;
+    size_t m = 0;
+    for (; m + 4 <= order; m += 4) {
+      s0 += row[m] * up_j[m];
+      s1 += row[m + 1] * up_j[m + 1];
+      s2 += row[m + 2] * up_j[m + 2];
+      s3 += row[m + 3] * up_j[m + 3];
+      for (size_t k = m; k < m + 4; k++) down_j[k] += row[k] * here;
+    }
+    for (; m < order; m++) {
+      rest += row[m] * up_j[m];
+      down_j[m] += row[m] * here;
+    }
+    down_i[l] += hr2di_four(s0, s1, s2, s3) + rest;
+  }
+}
+
+/* The same with blocks, for links from number `first` on. */
+static void gather_orders(const hr2di_transport *t, hr2di_part part, uint64_t first,
+                          size_t count, double *down) {
+  const hr2di_blocks *blocks = &t->links->blocks;
+  const size_t order = t->order, bands = t->bands, width = t->width;
+  for (uint64_t k = first; k < first + count; k++) {
+    if (part == HR2DI_DISTANT_LINKS && !blocks->distant[k]) continue;
+    const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
+    const double *c = blocks->value + k * order * order;
+    const size_t i = pair.first * width, j = pair.second * width;
+    if (bands == 1 && !t->links->directed) {
+      hr2di_multiply_block(c, order, t->up + i, t->up + j, down + i, down + j);
+      continue;
+    }
+    add_block(c, order, bands, t->up + j, down + i);
+    if (!t->links->directed) add_transposed(c, order, bands, t->up + i, down + j);
+  }
+}
+
+static void gather_slice(hr2di_transport *t, hr2di_part part, size_t slice) {
+  const hr2di_store *store = &t->links->store;
+  const size_t from = slice * store->blocks / t->slices;
+  const size_t to = (slice + 1) * store->blocks / t->slices;
+  double *down = t->down + slice * t->elements * t->width;
+  memset(down, 0, t->elements * t->width * sizeof *down);
+  const int plain = !t->hierarchy->scene->effect[HR2D_EFFECT_BANDS].on;
+  for (size_t k = from; k < to; k++) {
+    const size_t count = hr2di_store_block_size(store, k);
+    if (t->order > 1)
+      gather_orders(t, part, (uint64_t)k * HR2DI_BLOCK_LINKS, count, down);
+    else
+      gather_block(store->block[k], count, t->bands, plain, t->links->directed, t->up, down);
+  }
+}
+
+/* Sums the slices in their order, so that the threads leave no trace. */
+static void sum_slices(hr2di_transport *t) {
+  const size_t field = t->elements * t->width;
+  for (size_t s = 1; s < t->slices; s++) {
+    const double *part = t->down + s * field;
+    for (size_t k = 0; k < field; k++) t->down[k] += part[k];
+  }
+}
+
+/* Roots are the first elements, so that their fields are those of the patches. */
+static void gather_clusters(hr2di_transport *t) {
+  if (hr2di_clusters_gather(t->links->roots.clusters, t->order, t->bands, t->up, t->down))
+    t->failed = 1;
+}
+
+/* Power to irradiance, and every element's to its children. */
+static void lower(hr2di_transport *t, double *irradiance) {
+  const size_t width = t->width;
+  const hr2d_element *element = t->hierarchy->element;
+  for (size_t e = 0; e < t->elements; e++)
+    for (size_t k = 0; k < width; k++) t->down[e * width + k] /= element[e].length;
+  hr2di_push(&t->trees, t->down);
+  for (size_t k = 0; k < t->leaves; k++)
+    memcpy(irradiance + k * width, t->down + t->leaf[k] * width, width * sizeof(double));
+}
+
+/* One thread takes none of OpenMP, whose runtime ends the program where it has no memory. */
+static void gather_slices(hr2di_transport *t, hr2di_part part) {
+#ifdef _OPENMP
+  const int threads = t->threads ? (int)t->threads : omp_get_max_threads();
+  if (threads > 1 && t->slices > 1) {
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (size_t slice = 0; slice < t->slices; slice++) gather_slice(t, part, slice);
+    return;
+  }
+#endif
+  for (size_t slice = 0; slice < t->slices; slice++) gather_slice(t, part, slice);
+}
+
+void hr2di_gather_part(hr2di_transport *t, hr2di_part part, const double *radiosity,
+                       double *irradiance) {
+  hr2di_raise(t, radiosity);
+  gather_slices(t, part);
+  sum_slices(t);
+  if (t->links->roots.clusters && part == HR2DI_ALL_LINKS) gather_clusters(t);
+  lower(t, irradiance);
+  t->sweeps++;
+}
+
+void hr2di_gather(hr2di_transport *t, const double *radiosity, double *irradiance) {
+  hr2di_gather_part(t, HR2DI_ALL_LINKS, radiosity, irradiance);
+  const size_t square = t->order * t->order;
+  for (size_t k = 0; k < t->leaves && t->closure; k++)
+    add_block(t->closure + k * square, t->order, t->bands, radiosity + k * t->width,
+              irradiance + k * t->width);
+}
+
+void hr2di_add_background(const hr2di_transport *t, const double *light, double *irradiance) {
+  for (size_t k = 0; k < t->leaves * t->order && t->sky; k++)
+    for (size_t b = 0; b < t->bands; b++) irradiance[k * t->bands + b] += t->sky[k] * light[b];
+}

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The transport operator: irradiance from radiosity, over the links of all levels.
+
+   Fields on leaves are arrays of leaves × order × bands; the operator takes them up the
+   trees, gathers over the links, and brings what is gathered down. */
+#ifndef HR2D_SRC_SOLVE_TRANSPORT_H
+#define HR2D_SRC_SOLVE_TRANSPORT_H
+
+#include "hierarchy/push-pull.h"
+#include "links/linkset-impl.h"
+
+typedef struct hr2di_transport {
+  const hr2d_linkset *links;
+  const hr2d_hierarchy *hierarchy;
+  hr2d_allocator alloc;
+  hr2di_push_pull trees;
+  size_t order, bands, width; /* width is order × bands */
+  size_t elements, leaves;
+  uint32_t *leaf;   /* the element of each leaf */
+  double *up;       /* elements × width: radiosity */
+  double *down;     /* slices × elements × width: power received, then irradiance */
+  double *closure;  /* leaves × order × order, added to the diagonal; NULL for none */
+  double *sky;      /* leaves × order: how much of all directions the background is seen in;
+                       NULL: none */
+  size_t slices;    /* the links are cut into so many parts, whatever the threads */
+  unsigned threads; /* 0 for all */
+  uint64_t sweeps;  /* gathers so far */
+  int failed;       /* a gather lacked memory; what it made is not to be used */
+} hr2di_transport;
+
+/* For the order of the hierarchy, and links that have blocks if that is above 1; HR2D_OK or
+   HR2D_ENOMEM; to be cleared in either case. */
+hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
+                                 unsigned threads);
+
+void hr2di_transport_clear(hr2di_transport *t);
+
+/* A leaf field on every element, into t->up. */
+void hr2di_raise(hr2di_transport *t, const double *leaf_field);
+
+/* irradiance = K radiosity: H_i = Σ_j AF_ij B_j / A_i on leaves. */
+void hr2di_gather(hr2di_transport *t, const double *radiosity, double *irradiance);
+
+/* What `part` of the links carries alone: those between distant pairs, or all. */
+typedef enum hr2di_part { HR2DI_ALL_LINKS, HR2DI_DISTANT_LINKS } hr2di_part;
+void hr2di_gather_part(hr2di_transport *t, hr2di_part part, const double *radiosity,
+                       double *irradiance);
+
+/* down_i += C up_j and down_j += Cᵀ up_i of one block. */
+void hr2di_multiply_block(const double *block, size_t order, const double *up_i,
+                          const double *up_j, double *down_i, double *down_j);
+
+/* Adds what arrives from a background of so much light per band. */
+void hr2di_add_background(const hr2di_transport *t, const double *light, double *irradiance);
+
+#endif

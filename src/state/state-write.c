@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writing the state of a solve. */
+#include <string.h>
+
+#include "hierarchy/hierarchy-impl.h"
+#include "links/linkset-impl.h"
+#include "scene/scene-impl.h"
+#include "solution/solution-impl.h"
+#include "state/byte-stream.h"
+#include "state/state-impl.h"
+
+uint64_t hr2di_state_scene(const hr2d_scene *scene) {
+  hr2di_hash hash = hr2di_hash_word(HR2DI_HASH_INIT, scene->patches);
+  for (int e = 0; e < HR2D_EFFECT_COUNT; e++)
+    hash = hr2di_hash_word(hash, (uint64_t)scene->effect[e].on);
+  for (size_t k = 0; k < scene->patches; k++) {
+    const hr2d_segment s = scene->patch[k].given;
+    const double coordinate[] = {s.a.x, s.a.y, s.b.x, s.b.y};
+    for (int c = 0; c < 4; c++) hash = hr2di_hash_double(hash, coordinate[c]);
+    for (size_t band = 0; band < scene->bands; band++) {
+      hash = hr2di_hash_double(hash, hr2d_scene_emission(scene, k, band));
+      hash = hr2di_hash_double(hash, hr2d_scene_reflectance(scene, k, band));
+    }
+  }
+  for (size_t band = 0; band < scene->bands; band++)
+    hash = hr2di_hash_double(hash, hr2d_scene_background(scene, band));
+  return hash;
+}
+
+uint64_t hr2di_state_method(const hr2d_linkset *links) {
+  const char *oracle = links->oracle.name, *policy = links->policy.name;
+  const hr2di_hash hash = hr2di_hash_bytes(HR2DI_HASH_INIT, oracle, strlen(oracle) + 1);
+  return hr2di_hash_bytes(hash, policy, strlen(policy));
+}
+
+void hr2di_state_counters(hr2d_refine_counts *counts, hr2d_solve_work *work,
+                          uint64_t *counter[HR2DI_STATE_COUNTERS]) {
+  uint64_t *all[HR2DI_STATE_COUNTERS] = {&counts->elements,
+                                         &counts->leaves,
+                                         &counts->links,
+                                         &counts->limited_links,
+                                         &counts->oracle_calls,
+                                         &counts->facing_tests,
+                                         &counts->visibility_tests,
+                                         &counts->exchange_areas,
+                                         &counts->partial_links,
+                                         &counts->blocked_pairs,
+                                         &counts->dark_pairs,
+                                         &work->gathers,
+                                         &work->iterations,
+                                         &work->row_sums,
+                                         &work->background_rows,
+                                         &work->kernels};
+  memcpy(counter, all, sizeof all);
+}
+
+static void put_head(hr2di_writer *w, const hr2d_solution *s) {
+  const hr2d_linkset *links = s->links;
+  hr2d_refine_counts counts = links->counts;
+  hr2d_solve_work work = s->work;
+  uint64_t *counter[HR2DI_STATE_COUNTERS];
+  const uint64_t head[] = {hr2di_state_scene(s->hierarchy->scene),
+                           hr2di_state_method(links),
+                           s->hierarchy->elements,
+                           links->store.count,
+                           s->elements,
+                           s->order,
+                           s->bands,
+                           (uint64_t)links->directed};
+  hr2di_put_text(w, HR2DI_STATE_TITLE, HR2DI_STATE_TITLE_BYTES);
+  for (size_t k = 0; k < sizeof head / sizeof *head; k++) hr2di_put_word(w, head[k]);
+  hr2di_put_double(w, links->epsilon);
+  hr2di_put_double(w, s->residual);
+  hr2di_state_counters(&counts, &work, counter);
+  for (int k = 0; k < HR2DI_STATE_COUNTERS; k++) hr2di_put_word(w, *counter[k]);
+}
+
+static void put_links(hr2di_writer *w, const hr2di_store *store) {
+  for (uint64_t k = 0; k < store->count && !w->status; k++) {
+    const hr2d_link *link = hr2di_store_at(store, k);
+    hr2di_put_half(w, link->pair.first);
+    hr2di_put_half(w, link->pair.second);
+    hr2di_put_double(w, link->exchange_area);
+  }
+}
+
+static void put_fields(hr2di_writer *w, const hr2d_solution *s) {
+  const size_t count = s->elements * s->order * s->bands;
+  for (size_t band = 0; band < s->bands; band++) {
+    const hr2d_power *p = &s->power[band];
+    hr2di_put_double(w, p->emitted);
+    hr2di_put_double(w, p->received);
+    hr2di_put_double(w, p->absorbed);
+    hr2di_put_double(w, p->escaped);
+  }
+  for (size_t k = 0; k < count && !w->status; k++) hr2di_put_double(w, s->value[k]);
+  for (size_t k = 0; k < count && !w->status; k++) hr2di_put_double(w, s->irradiance[k]);
+}
+
+hr2d_status hr2d_state_write(const hr2d_solution *solution, hr2d_write_fn write, void *ctx) {
+  const hr2d_hierarchy *h = solution->hierarchy;
+  hr2di_writer w;
+  if (solution->own_links) return HR2D_EUNSUPPORTED;
+  hr2di_writer_init(&w, write, ctx);
+  put_head(&w, solution);
+  for (size_t k = h->scene->patches; k < h->elements && !w.status; k += 2)
+    hr2di_put_half(&w, h->parent[k]);
+  put_links(&w, &solution->links->store);
+  put_fields(&w, solution);
+  return hr2di_writer_end(&w);
+}

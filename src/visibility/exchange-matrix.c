@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The exchange areas of all pairs of patches.
+
+   Pairs of runs are halved until nothing is in the way of a part, or nothing passes, or
+   it is one pair of patches.  Where nothing is in the way all pairs below get the
+   unoccluded exchange area without a further test. */
+#include <hr2d/visibility.h>
+#include <stdatomic.h>
+#include <string.h>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include "base/alloc.h"
+#include "base/sized-struct.h"
+#include "geometry/exchange-area.h"
+#include "geometry/predicates.h"
+#include "occlusion/pair-visibility.h"
+#include "scene/patch-runs.h"
+#include "scene/scene-impl.h"
+
+enum { BATCH = 1024, DEPTH = 80, TILE = 8, MOST_THREADS = 256 };
+
+/* A pair of parts of two runs, with its walls in filler::list from `first` on. */
+typedef struct node {
+  hr2di_run i, j;
+  size_t first, count;
+  hr2di_facing facing;
+} node;
+
+/* What all threads share; each fills entries of its own. */
+typedef struct matrix {
+  const hr2d_scene *scene;
+  size_t n;
+  double *area;
+  double unit; /* of the scene's coordinates */
+  hr2di_runs runs;
+  hr2d_element *element; /* of which only a and b are used */
+  hr2d_matrix_options options;
+  atomic_size_t rows_done;
+  atomic_int stop;
+} matrix;
+
+/* The work of one thread. */
+typedef struct filler {
+  matrix *m;
+  hr2d_status status;
+  hr2d_matrix_counts counts;
+  hr2di_sight sight;
+  hr2di_wall_list list;
+  hr2d_pair pair[BATCH];
+  double value[BATCH];
+  size_t pairs;
+} filler;
+
+/* The upper triangle is filled first. */
+static void put(filler *f, uint32_t i, uint32_t j, double area) {
+  const size_t row = i < j ? i : j, column = i < j ? j : i;
+  f->m->area[row * f->m->n + column] = area * f->m->unit;
+}
+
+static void flush(filler *f) {
+  hr2di_exchange_areas(f->m->element, f->pair, f->pairs, f->value);
+  for (size_t k = 0; k < f->pairs; k++)
+    put(f, f->pair[k].first, f->pair[k].second, f->value[k]);
+  f->counts.exchange_areas += f->pairs;
+  f->pairs = 0;
+}
+
+static void fill_clear(filler *f, hr2di_run i, hr2di_run j) {
+  for (uint32_t k = i.first; k < i.last; k++)
+    for (uint32_t m = j.first; m < j.last; m++) {
+      f->pair[f->pairs++] = (hr2d_pair){f->m->runs.patch[k], f->m->runs.patch[m]};
+      if (f->pairs == BATCH) flush(f);
+    }
+}
+
+/* From the start of the first patch of a part to the end of its last. */
+static hr2d_segment span(const filler *f, hr2di_run r) {
+  const hr2di_patch *patch = f->m->scene->patch;
+  return (hr2d_segment){patch[f->m->runs.patch[r.first]].scaled.a,
+                        patch[f->m->runs.patch[r.last - 1]].scaled.b};
+}
+
+/* Parts of runs that face each other fully do so, too. */
+static int shaft_of(const filler *f, hr2di_run i, hr2di_run j, hr2di_facing *facing,
+                    hr2di_shaft *shaft) {
+  const hr2d_segment s = span(f, i), t = span(f, j);
+  if (*facing != HR2DI_FACING_FULL) *facing = hr2di_face(&s, &t);
+  return hr2di_shaft_make(shaft, *facing, s, t, s, t);
+}
+
+static hr2d_status fill_partial(filler *f, const node *at) {
+  const uint32_t i = f->m->runs.patch[at->i.first], j = f->m->runs.patch[at->j.first];
+  hr2di_shaft shaft;
+  /* The first of two patches is the one with the lower index, as in links. */
+  hr2di_facing facing = at->facing;
+  if (!(i < j ? shaft_of(f, at->i, at->j, &facing, &shaft)
+              : shaft_of(f, at->j, at->i, &facing, &shaft)))
+    return HR2D_OK;
+  double area;
+  int open;
+  const hr2d_status status = hr2di_sight_area(
+      &f->sight, &shaft, hr2di_walls_from(&f->list, at->first), at->count, &area, &open);
+  if (status) return status;
+  put(f, i, j, area);
+  f->counts.exchange_areas += (unsigned)open;
+  f->counts.partial_pairs += (unsigned)open;
+  f->counts.blocked_pairs += !open;
+  return HR2D_OK;
+}
+
+static double extent(const filler *f, hr2di_run r) {
+  const hr2d_segment s = span(f, r);
+  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
+  return r.last - r.first == 1 ? 0 : dx * dx + dy * dy;
+}
+
+/* The longer of the parts is halved, unless it is a single patch. */
+static void halve(const filler *f, const node *at, node half[2]) {
+  half[0] = half[1] = *at;
+  const int first = extent(f, at->i) >= extent(f, at->j);
+  const hr2di_run r = first ? at->i : at->j;
+  const uint32_t middle = r.first + (r.last - r.first) / 2;
+  (first ? &half[0].i : &half[0].j)->last = middle;
+  (first ? &half[1].i : &half[1].j)->first = middle;
+}
+
+static uint64_t pairs_of(const node *at) {
+  return (uint64_t)(at->i.last - at->i.first) * (at->j.last - at->j.first);
+}
+
+/* Fills what needs no further look; *keep if the part is to be halved. */
+static hr2d_status look(filler *f, node *at, const node *parent, int *keep) {
+  hr2di_shaft shaft;
+  hr2di_view view = HR2DI_CLEAR;
+  *keep = 0;
+  const int shaded = shaft_of(f, at->i, at->j, &at->facing, &shaft);
+  if (at->facing == HR2DI_FACING_NONE) return HR2D_OK;
+  at->first = f->list.count;
+  if (!shaded || !f->m->scene->effect[HR2D_EFFECT_OCCLUSION].on) {
+    fill_clear(f, at->i, at->j);
+    return HR2D_OK;
+  }
+  const hr2d_status status =
+      parent ? hr2di_sight_shrink(&f->sight, &shaft, &f->list, parent->first, parent->count,
+                                  &f->list, &view)
+             : hr2di_sight_collect(&f->sight, &shaft, &f->list, &view);
+  at->count = f->list.count - at->first;
+  if (status) return status;
+  if (view == HR2DI_CLEAR) fill_clear(f, at->i, at->j);
+  if (view == HR2DI_BLOCKED) f->counts.blocked_pairs += pairs_of(at);
+  *keep = view == HR2DI_PARTIAL;
+  return HR2D_OK;
+}
+
+static hr2d_status fill_runs(filler *f, hr2di_run i, hr2di_run j) {
+  node stack[DEPTH];
+  size_t count = 0;
+  int keep;
+  f->list.count = 0;
+  stack[0] = (node){.i = i, .j = j, .facing = HR2DI_FACING_NONE};
+  hr2d_status status = look(f, &stack[0], NULL, &keep);
+  count += (size_t)keep;
+  while (count > 0 && !status) {
+    const node at = stack[--count];
+    node half[2];
+    f->list.count = at.first + at.count;
+    if (pairs_of(&at) == 1) {
+      status = fill_partial(f, &at);
+      continue;
+    }
+    halve(f, &at, half);
+    for (int k = 0; k < 2 && !status; k++) {
+      status = look(f, &half[k], &at, &keep);
+      if (keep) stack[count++] = half[k];
+    }
+  }
+  return status;
+}
+
+/* The calling thread tells progress; every thread looks whether another has failed. */
+static hr2d_status tell(const filler *f, int calling) {
+  const matrix *m = f->m;
+  if (atomic_load(&m->stop)) return HR2D_STOPPED;
+  if (!calling || !m->options.progress) return HR2D_OK;
+  const double rest = 1 - (double)atomic_load(&m->rows_done) / (double)m->runs.runs;
+  const hr2d_progress progress = {
+      .struct_size = sizeof progress, .phase = "factors", .fraction = 1 - rest * rest};
+  return m->options.progress(m->options.progress_ctx, &progress);
+}
+
+/* A run with all those behind it. */
+static void fill_row(filler *f, size_t row, int calling) {
+  matrix *m = f->m;
+  hr2d_status status = tell(f, calling);
+  for (size_t k = row + 1; k < m->runs.runs && !status; k++)
+    status = fill_runs(f, m->runs.run[row], m->runs.run[k]);
+  atomic_fetch_add(&m->rows_done, 1);
+  if (!status || f->status) return;
+  f->status = status;
+  atomic_store(&m->stop, 1);
+}
+
+/* One thread takes none of OpenMP, whose runtime ends the program where it has no memory. */
+static void fill_rows(filler *const *team, size_t count) {
+  const long long rows = (long long)team[0]->m->runs.runs;
+#ifdef _OPENMP
+  if (count > 1) {
+#pragma omp parallel for num_threads((int)count) schedule(dynamic)
+    for (long long row = 0; row < rows; row++) {
+      const int worker = omp_get_thread_num();
+      fill_row(team[worker], (size_t)row, worker == 0);
+    }
+    return;
+  }
+#endif
+  (void)count;
+  for (long long row = 0; row < rows; row++) fill_row(team[0], (size_t)row, 1);
+}
+
+static void fill(filler *const *team, size_t count) {
+  fill_rows(team, count);
+  for (size_t k = 0; k < count; k++) flush(team[k]);
+}
+
+/* Tile by tile, lest each value take a cache line of its own. */
+static void mirror(double *area, size_t n) {
+  for (size_t i0 = 0; i0 < n; i0 += TILE)
+    for (size_t j0 = i0; j0 < n; j0 += TILE)
+      for (size_t i = i0; i < n && i < i0 + TILE; i++)
+        for (size_t j = j0 > i ? j0 : i + 1; j < n && j < j0 + TILE; j++)
+          area[j * n + i] = area[i * n + j];
+}
+
+static size_t count_threads(const matrix *m) {
+#ifdef _OPENMP
+  const size_t wanted = m->options.threads ? m->options.threads : (size_t)omp_get_max_threads();
+  const size_t most = wanted < MOST_THREADS ? wanted : MOST_THREADS;
+  return most < m->runs.runs ? most : m->runs.runs;
+#else
+  (void)m;
+  return 1;
+#endif
+}
+
+static hr2d_status start(matrix *m) {
+  const hr2d_status status = hr2di_runs_make(&m->runs, m->scene);
+  if (status) return status;
+  m->element = hr2di_calloc(&m->scene->alloc, m->n, sizeof *m->element);
+  if (!m->element) return HR2D_ENOMEM;
+  for (size_t k = 0; k < m->n; k++) {
+    m->element[k].a = m->scene->patch[k].scaled.a;
+    m->element[k].b = m->scene->patch[k].scaled.b;
+  }
+  memset(m->area, 0, m->n * m->n * sizeof *m->area);
+  return HR2D_OK;
+}
+
+static hr2d_status hire(matrix *m, filler **team, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    team[k] = hr2di_calloc(&m->scene->alloc, 1, sizeof **team);
+    if (!team[k]) return HR2D_ENOMEM;
+    team[k]->m = m;
+    hr2di_sight_start(&team[k]->sight, &m->scene->walls, &m->scene->alloc);
+  }
+  return HR2D_OK;
+}
+
+/* Adds up the counts; the status of the first that failed and was not told to stop. */
+static hr2d_status dismiss(matrix *m, filler **team, size_t count, hr2d_matrix_counts *sum) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < count && team[k]; k++) {
+    filler *f = team[k];
+    sum->exchange_areas += f->counts.exchange_areas;
+    sum->partial_pairs += f->counts.partial_pairs;
+    sum->blocked_pairs += f->counts.blocked_pairs;
+    sum->visibility_tests += f->sight.tests;
+    if (f->status && (!status || status == HR2D_STOPPED)) status = f->status;
+    hr2di_sight_end(&f->sight);
+    hr2di_free(&m->scene->alloc, f->list.wall);
+    hr2di_free(&m->scene->alloc, f);
+  }
+  return status;
+}
+
+static hr2d_status fill_matrix(matrix *m, hr2d_matrix_counts *counts) {
+  filler *team[MOST_THREADS] = {0};
+  const size_t count = count_threads(m);
+  hr2d_status status = hire(m, team, count);
+  if (!status) fill(team, count);
+  const hr2d_status failed = dismiss(m, team, count, counts);
+  if (!status) status = failed;
+  if (!status) mirror(m->area, m->n);
+  return status;
+}
+
+/* Progress is told once more at the end. */
+static hr2d_status tell_end(const matrix *m) {
+  const hr2d_progress progress = {
+      .struct_size = sizeof progress, .phase = "factors", .fraction = 1};
+  return m->options.progress ? m->options.progress(m->options.progress_ctx, &progress)
+                             : HR2D_OK;
+}
+
+hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_options *options,
+                                 double *area, hr2d_matrix_counts *counts) {
+  if (!scene->committed) return HR2D_ESTATE;
+  matrix m = {.scene = scene,
+              .n = scene->patches,
+              .area = area,
+              .unit = hr2d_scene_unit(scene),
+              .options = HR2D_MATRIX_OPTIONS_INIT};
+  if (options) hr2di_copy_sized(&m.options, sizeof m.options, options);
+  hr2d_matrix_counts sum = {0};
+  hr2d_status status = start(&m);
+  if (!status) status = fill_matrix(&m, &sum);
+  if (!status) status = tell_end(&m);
+  if (!status && counts) *counts = sum;
+  hr2di_runs_clear(&m.runs);
+  hr2di_free(&scene->alloc, m.element);
+  return status;
+}
