@@ -19,10 +19,14 @@ static int check_target(const options *o, uint64_t given) {
   static const struct {
     uint64_t bit;
     const char *name;
-  } choice[] = {{GIVEN(ORACLE), "oracle"},         {GIVEN(EPS), "eps"},
-                {GIVEN(VARIANT), "variant"},       {GIVEN(MULTIGRID), "multigrid"},
-                {GIVEN(ORDER), "order"},           {GIVEN(LEVEL), "max-level"},
-                {GIVEN(NO_CLOSURE), "no-closure"}, {GIVEN(NO_ERROR), "no-error"},
+  } choice[] = {{GIVEN(ORACLE), "oracle"},
+                {GIVEN(EPS), "eps"},
+                {GIVEN(VARIANT), "variant"},
+                {GIVEN(MULTIGRID), "multigrid"},
+                {GIVEN(ORDER), "order"},
+                {GIVEN(LEVEL), "max-level"},
+                {GIVEN(NO_CLOSURE), "no-closure"},
+                {GIVEN(NO_ERROR), "no-error"},
                 {GIVEN(STATE), "state"}};
   const char *target = o->target_error > 0 ? "target-error" : "time-budget";
   for (size_t k = 0; is_targeted(o) && k < sizeof choice / sizeof *choice; k++)

@@ -44,7 +44,7 @@ typedef struct options {
   unsigned steps, max_level, threads;
   uint64_t max_links, max_elements;
   const char *state; /* file name; NULL: not given */
-  place *at; /* at_count of them, in the order given */
+  place *at;         /* at_count of them, in the order given */
   size_t at_count;
   place links_of;
   int one_level; /* link_level was given */

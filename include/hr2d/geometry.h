@@ -48,9 +48,9 @@ HR2D_API int hr2d_orientation(hr2d_point a, hr2d_point b, hr2d_point c);
  * @return AF in scene lengths, 0 ≤ AF ≤ min(A_i, A_j) up to rounding; 0 where
  *         neither sees the other's front; NaN if a coordinate is not finite
  *
- * The relative error is at most 4e-15; the value is 0 only where AF is 0 or below the doubles, and
- * hr2d_exchange_area(i, j) == hr2d_exchange_area(j, i) bit for bit.
- * Constant cost: four square roots for a pair in general position.
+ * The relative error is at most 4e-15; the value is 0 only where AF is 0 or below the doubles,
+ * and hr2d_exchange_area(i, j) == hr2d_exchange_area(j, i) bit for bit. Constant cost: four
+ * square roots for a pair in general position.
  */
 HR2D_API double hr2d_exchange_area(const hr2d_segment *i, const hr2d_segment *j);
 

@@ -10,11 +10,10 @@
 #ifndef HR2D_HIERARCHY_H
 #define HR2D_HIERARCHY_H
 
-#include <stdint.h>
-
 #include <hr2d/geometry.h>
 #include <hr2d/scene.h>
 #include <hr2d/status.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {

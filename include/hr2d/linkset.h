@@ -10,12 +10,11 @@
 #ifndef HR2D_LINKSET_H
 #define HR2D_LINKSET_H
 
-#include <stdint.h>
-
 #include <hr2d/hierarchy.h>
 #include <hr2d/oracle.h>
 #include <hr2d/policy.h>
 #include <hr2d/status.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -17,18 +17,17 @@
  * Estimates are functions of what stands in the elements: ends, centres and lengths, each taken
  * as exact.  Bounds of their errors are relative, for coordinates below 2 and, those that are
  * not 0, within 2^800 of each other; of a value below DBL_MIN, relative to that, and a step of
- * the subnormal numbers.  Decisions are those of the estimates, bit for bit.  The tests hold the
- * bounds against MPFR, also where hill climbing finds the worst (tests/check_bounds_oracles.c,
- * tests/check_bounds_l1.c).
+ * the subnormal numbers.  Decisions are those of the estimates, bit for bit.  The tests hold
+ * the bounds against MPFR, also where hill climbing finds the worst
+ * (tests/check_bounds_oracles.c, tests/check_bounds_l1.c).
  */
 #ifndef HR2D_ORACLE_H
 #define HR2D_ORACLE_H
 
-#include <stddef.h>
-#include <stdint.h>
-
 #include <hr2d/hierarchy.h>
 #include <hr2d/status.h>
+#include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -119,9 +118,9 @@ HR2D_API const hr2d_oracle *hr2d_oracle_bf(void);
  *   ∫_{A_x} ∫_{A_y} |G(x_c,y_c) − G(x,y)| dy dx,
  * a length, with G = 0 where one point lies behind the other element.  Symmetric.
  * The relative error is at most 1e-10, and G(x_c,y_c) is that of the unrounded midpoints of
- * the ends; where a cosine there is below 1e-140, the value is AF + G(x_c,y_c) A_x A_y, which is
- * above the error.  Decisions are those of the value, mostly from bounds.  Infinite where the
- * centres coincide.
+ * the ends; where a cosine there is below 1e-140, the value is AF + G(x_c,y_c) A_x A_y, which
+ * is above the error.  Decisions are those of the value, mostly from bounds.  Infinite where
+ * the centres coincide.
  */
 HR2D_API const hr2d_oracle *hr2d_oracle_l1(void);
 
@@ -129,9 +128,9 @@ HR2D_API const hr2d_oracle *hr2d_oracle_l1(void);
  * The same on the paper's 1024×1024 grid: G is sampled at 1024 midpoints of each patch,
  * and a pair's error is the sum over its samples.  An element of one cell or less has its
  * centre as sample, so that patches of one length are never subdivided below level 10.
- * A length, symmetric.  In plain doubles, as the paper's: of each sampled G the error is at most
- * 2^-48·D/r², with r the distance of its points and D the extent of the pair, so that nearly
- * coplanar pairs keep no relative accuracy.
+ * A length, symmetric.  In plain doubles, as the paper's: of each sampled G the error is at
+ * most 2^-48·D/r², with r the distance of its points and D the extent of the pair, so that
+ * nearly coplanar pairs keep no relative accuracy.
  */
 HR2D_API const hr2d_oracle *hr2d_oracle_l1_grid(void);
 

@@ -7,10 +7,9 @@
 #ifndef HR2D_POLICY_H
 #define HR2D_POLICY_H
 
-#include <stddef.h>
-
 #include <hr2d/oracle.h>
 #include <hr2d/status.h>
+#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -58,7 +57,8 @@ typedef struct hr2d_policy {
    * Writes HR2D_SPLIT_… for each pair; anything else, and nothing, is an error of the
    * callback (HR2D_ECALLBACK).  Default: the longer element, on a tie the first.
    */
-  hr2d_status (*preferred_subdivision)(void *ctx, const hr2d_batch *batch, unsigned char *split);
+  hr2d_status (*preferred_subdivision)(void *ctx, const hr2d_batch *batch,
+                                       unsigned char *split);
 
   /** Optional.  Called once when the owner of ctx, a link set, is destroyed. */
   void (*destroy)(void *ctx);

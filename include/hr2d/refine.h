@@ -7,11 +7,11 @@
  * linked if its error is acceptable or a limit holds; otherwise the policy says
  * which element to subdivide and the new pairs are proposed.  The order is depth
  * first, the result the same for every run, and nothing recurs on the C stack.
- * It ends on any input.  With an ε that no pair meets, be it 0, and with any policy, elements end
- * at `max_level` or where their midpoint is no longer a double between their ends: 53 levels
- * below the size of their coordinates, 1075 at a corner on the origin.  Pairs of such elements
- * may be more than anyone can wait for, unless a budget ends it, or a callback.  Elements are
- * numbered with 32 bits; beyond 2³² − 2 it is HR2D_EMAX_ELEMENTS.
+ * It ends on any input.  With an ε that no pair meets, be it 0, and with any policy, elements
+ * end at `max_level` or where their midpoint is no longer a double between their ends: 53
+ * levels below the size of their coordinates, 1075 at a corner on the origin.  Pairs of such
+ * elements may be more than anyone can wait for, unless a budget ends it, or a callback.
+ * Elements are numbered with 32 bits; beyond 2³² − 2 it is HR2D_EMAX_ELEMENTS.
  *
  * A pair that cannot see each other is dropped; so is one that occluders hide, and what
  * no light can reach (HR2D_EFFECT_EMISSION, which can be forced).  A pair that sees each
@@ -20,11 +20,10 @@
 #ifndef HR2D_REFINE_H
 #define HR2D_REFINE_H
 
-#include <stddef.h>
-#include <stdint.h>
-
 #include <hr2d/linkset.h>
 #include <hr2d/status.h>
+#include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -87,8 +86,8 @@ typedef struct hr2d_refine_options {
 #define HR2D_DEFAULT_MAX_LEVEL 24
 
 /** ε = 0.1, the default limit, no budgets, one thread, no callback. */
-#define HR2D_REFINE_OPTIONS_INIT \
-  {sizeof(hr2d_refine_options), 0.1, HR2D_DEFAULT_MAX_LEVEL, 0, 0, 0, 0, 1, NULL, NULL, NULL}
+#define HR2D_REFINE_OPTIONS_INIT                                                               \
+  { sizeof(hr2d_refine_options), 0.1, HR2D_DEFAULT_MAX_LEVEL, 0, 0, 0, 0, 1, NULL, NULL, NULL }
 
 /**
  * Fills a link set, or refines it further.

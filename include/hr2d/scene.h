@@ -10,11 +10,10 @@
 #ifndef HR2D_SCENE_H
 #define HR2D_SCENE_H
 
-#include <stddef.h>
-
 #include <hr2d/geometry.h>
 #include <hr2d/memory.h>
 #include <hr2d/status.h>
+#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -35,17 +34,18 @@ typedef enum hr2d_sides {
  * holds for every band, no value means 0.  All is copied.
  */
 typedef struct hr2d_patch {
-  hr2d_point a, b;             /**< end points; the front is the left of a→b */
-  const char *name;            /**< UTF-8, or NULL: "patch K", with K its index */
-  const double *emission;      /**< E ≥ 0, power per scene length */
-  size_t emission_bands;       /**< how many values `emission` has */
-  const double *reflectance;   /**< 0 ≤ ρ ≤ 1, dimensionless */
-  size_t reflectance_bands;    /**< how many values `reflectance` has */
-  hr2d_sides sides;            /**< HR2D_SIDES_BOTH adds two patches */
+  hr2d_point a, b;           /**< end points; the front is the left of a→b */
+  const char *name;          /**< UTF-8, or NULL: "patch K", with K its index */
+  const double *emission;    /**< E ≥ 0, power per scene length */
+  size_t emission_bands;     /**< how many values `emission` has */
+  const double *reflectance; /**< 0 ≤ ρ ≤ 1, dimensionless */
+  size_t reflectance_bands;  /**< how many values `reflectance` has */
+  hr2d_sides sides;          /**< HR2D_SIDES_BOTH adds two patches */
 } hr2d_patch;
 
 /** A black patch that emits nothing. */
-#define HR2D_PATCH_INIT {{0, 0}, {0, 0}, NULL, NULL, 0, NULL, 0, HR2D_SIDES_FRONT}
+#define HR2D_PATCH_INIT                                                                        \
+  { {0, 0}, {0, 0}, NULL, NULL, 0, NULL, 0, HR2D_SIDES_FRONT }
 
 /** What can change the answer in some scenes and cannot in others. */
 typedef enum hr2d_effect {
@@ -228,7 +228,8 @@ HR2D_API double hr2d_scene_unit(const hr2d_scene *scene);
  * @param reason  receives a phrase owned by the scene; may be NULL
  * @return 1 or 0
  */
-HR2D_API int hr2d_scene_effect(const hr2d_scene *scene, hr2d_effect effect, const char **reason);
+HR2D_API int hr2d_scene_effect(const hr2d_scene *scene, hr2d_effect effect,
+                               const char **reason);
 
 /** The name of an effect, as "occlusion"; NULL outside the enumeration. */
 HR2D_API const char *hr2d_effect_name(hr2d_effect effect);

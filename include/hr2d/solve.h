@@ -29,19 +29,18 @@
  * double can be, also in one band beside another.
  *
  * Of its own discrete equation a solution B differs from the exact one, B_d, in the norm ∫B² by
- * no more than (tolerance + 1e-15) ‖B_d‖ / (1 − max ρ), in a closed room at order 1 with closure
- * (tests/check_bounds_solution.c); averages share that, and hr2d_solution_at() on leaves.
- * hr2d_solution_gather() adds the roundings of one gather to the error of B_h, times ρ.
+ * no more than (tolerance + 1e-15) ‖B_d‖ / (1 − max ρ), in a closed room at order 1 with
+ * closure (tests/check_bounds_solution.c); averages share that, and hr2d_solution_at() on
+ * leaves. hr2d_solution_gather() adds the roundings of one gather to the error of B_h, times ρ.
  */
 #ifndef HR2D_SOLVE_H
 #define HR2D_SOLVE_H
 
-#include <stddef.h>
-#include <stdint.h>
-
 #include <hr2d/linkset.h>
 #include <hr2d/refine.h>
 #include <hr2d/status.h>
+#include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -52,9 +51,9 @@ typedef struct hr2d_solution hr2d_solution;
 
 /** How to solve.  Start from #HR2D_SOLVE_OPTIONS_INIT. */
 typedef struct hr2d_solve_options {
-  size_t struct_size;         /**< so that the options can grow */
-  double tolerance;           /**< stop when ‖residual‖ ≤ tolerance·‖B‖, in each band, in
-                                   the norm ∫B²; at least 1e-15, and finite */
+  size_t struct_size; /**< so that the options can grow */
+  double tolerance;   /**< stop when ‖residual‖ ≤ tolerance·‖B‖, in each band, in
+                           the norm ∫B²; at least 1e-15, and finite */
   unsigned max_iterations;    /**< give up with HR2D_ENOT_CONVERGED after so many */
   unsigned threads;           /**< 0 for all; the result does not depend on it, bit for bit */
   int closure;                /**< 1: the exchange of every leaf with all others is exact; 0:
@@ -67,7 +66,8 @@ typedef struct hr2d_solve_options {
 } hr2d_solve_options;
 
 /** Tolerance 1e-15, at most 10000 iterations, one thread, with closure. */
-#define HR2D_SOLVE_OPTIONS_INIT {sizeof(hr2d_solve_options), 1e-15, 10000, 1, 1, NULL, NULL, NULL}
+#define HR2D_SOLVE_OPTIONS_INIT                                                                \
+  { sizeof(hr2d_solve_options), 1e-15, 10000, 1, 1, NULL, NULL, NULL }
 
 /** Where the power of one band goes; power per length across the plane; infinite where that is
     beyond a double. */

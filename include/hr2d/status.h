@@ -23,23 +23,23 @@ extern "C" {
 
 /** The outcome of a call.  Success is 0; new values are only ever appended. */
 typedef enum hr2d_status {
-  HR2D_OK = 0,           /**< done */
-  HR2D_STOPPED,          /**< a callback asked to stop; not a failure of the library */
-  HR2D_ENOMEM,           /**< an allocation failed */
-  HR2D_EINVAL,           /**< an argument or option has no meaning */
-  HR2D_ESTATE,           /**< the object is not in the state the call needs */
-  HR2D_ERANGE,           /**< beyond what a double can represent */
-  HR2D_EIO,              /**< a file could not be read */
-  HR2D_ESYNTAX,          /**< a file is not what it should be */
-  HR2D_ESCENE,           /**< the scene is not valid */
-  HR2D_EUNSUPPORTED,     /**< the scene calls for an effect this version lacks */
-  HR2D_ECALLBACK,        /**< a callback failed or returned a value without meaning */
-  HR2D_EMAX_ELEMENTS,    /**< the budget `max_elements` is spent */
-  HR2D_EMAX_LINKS,       /**< the budget `max_links` is spent */
-  HR2D_EMAX_BYTES,       /**< the budget `max_bytes` is spent */
-  HR2D_ENO_SOLUTION,     /**< the radiosity equation of this scene has no solution */
-  HR2D_ENOT_CONVERGED,   /**< the iteration limit came before the tolerance */
-  HR2D_EACCURACY         /**< the accuracy asked for was not reached; what was is returned */
+  HR2D_OK = 0,         /**< done */
+  HR2D_STOPPED,        /**< a callback asked to stop; not a failure of the library */
+  HR2D_ENOMEM,         /**< an allocation failed */
+  HR2D_EINVAL,         /**< an argument or option has no meaning */
+  HR2D_ESTATE,         /**< the object is not in the state the call needs */
+  HR2D_ERANGE,         /**< beyond what a double can represent */
+  HR2D_EIO,            /**< a file could not be read */
+  HR2D_ESYNTAX,        /**< a file is not what it should be */
+  HR2D_ESCENE,         /**< the scene is not valid */
+  HR2D_EUNSUPPORTED,   /**< the scene calls for an effect this version lacks */
+  HR2D_ECALLBACK,      /**< a callback failed or returned a value without meaning */
+  HR2D_EMAX_ELEMENTS,  /**< the budget `max_elements` is spent */
+  HR2D_EMAX_LINKS,     /**< the budget `max_links` is spent */
+  HR2D_EMAX_BYTES,     /**< the budget `max_bytes` is spent */
+  HR2D_ENO_SOLUTION,   /**< the radiosity equation of this scene has no solution */
+  HR2D_ENOT_CONVERGED, /**< the iteration limit came before the tolerance */
+  HR2D_EACCURACY       /**< the accuracy asked for was not reached; what was is returned */
 } hr2d_status;
 
 /**

@@ -6,12 +6,11 @@
 #ifndef HR2D_STUDY_H
 #define HR2D_STUDY_H
 
-#include <stddef.h>
-#include <stdint.h>
-
 #include <hr2d/linkset.h>
 #include <hr2d/refine.h>
 #include <hr2d/status.h>
+#include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -29,8 +28,8 @@ typedef struct hr2d_study_fit {
   double a;     /**< the constant */
   double b;     /**< of N */
   double c;     /**< of N² */
-  double r2;      /**< 1 − (sum of squared residuals)/(sum of squares about the mean) */
-  double slope;   /**< of the least-squares line through (log N, log L) */
+  double r2;    /**< 1 − (sum of squared residuals)/(sum of squares about the mean) */
+  double slope; /**< of the least-squares line through (log N, log L) */
 } hr2d_study_fit;
 
 /**

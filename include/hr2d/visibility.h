@@ -12,14 +12,13 @@
 #ifndef HR2D_VISIBILITY_H
 #define HR2D_VISIBILITY_H
 
-#include <stddef.h>
-#include <stdint.h>
-
 #include <hr2d/geometry.h>
 #include <hr2d/memory.h>
 #include <hr2d/refine.h>
 #include <hr2d/scene.h>
 #include <hr2d/status.h>
+#include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -42,14 +41,14 @@ extern "C" {
  * occluder that lies within four units in the last place of the line of i or of j counts as
  * lying on it, as one does that was computed to.
  *
- * With D the extent of all that is given, the error is below 2^-46 D on rooms of every kind that
- * the tests draw at random, and below 1e-11 D for the worst that hill climbing finds among
+ * With D the extent of all that is given, the error is below 2^-46 D on rooms of every kind
+ * that the tests draw at random, and below 1e-11 D for the worst that hill climbing finds among
  * segments whose ends lie on the lines of others exactly or at least 1e-6 D off them; where the
  * view is bounded by two points alone it is relative to AF itself.  Ends nearer than that, but
  * not on the line, cost digits in proportion; with patches whose ends miss each other or an
  * occluder's line by 1e-13 D and less, what is in the way may be taken wrongly, and AF with it:
- * let ends that are to meet have the same coordinates (hr2d_scene_split_crossings() sees to it).
- * Cost O(count) and what the classes of lines cost that are not blocked.
+ * let ends that are to meet have the same coordinates (hr2d_scene_split_crossings() sees to
+ * it). Cost O(count) and what the classes of lines cost that are not blocked.
  */
 HR2D_API hr2d_status hr2d_exchange_area_occluded(const hr2d_segment *i, const hr2d_segment *j,
                                                  const hr2d_segment *occluder, size_t count,
@@ -65,7 +64,8 @@ typedef struct hr2d_matrix_options {
 } hr2d_matrix_options;
 
 /** One thread, no callback. */
-#define HR2D_MATRIX_OPTIONS_INIT {sizeof(hr2d_matrix_options), 1, NULL, NULL}
+#define HR2D_MATRIX_OPTIONS_INIT                                                               \
+  { sizeof(hr2d_matrix_options), 1, NULL, NULL }
 
 /** What hr2d_exchange_matrix() took. */
 typedef struct hr2d_matrix_counts {
