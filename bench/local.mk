@@ -1,22 +1,22 @@
 # Measurements, built and run by `make bench` alone.
-BENCHES = bench/bench_exchange_area bench/bench_refine bench/bench_l1 bench/bench_visibility \
-	bench/bench_accuracy
+BENCHES = bench/bench-exchange-area bench/bench-refine bench/bench-l1 bench/bench-visibility \
+	bench/bench-accuracy
 EXTRA_PROGRAMS += $(BENCHES)
 CLEANFILES += $(BENCHES)
-bench_bench_exchange_area_SOURCES = bench/bench_exchange_area.c bench/timing.h
+bench_bench_exchange_area_SOURCES = bench/bench-exchange-area.c bench/timing.h
 bench_bench_exchange_area_LDADD = libhr2d-core.la $(OPENMP_CFLAGS)
-bench_bench_refine_SOURCES = bench/bench_refine.c bench/plain.c bench/plain.h bench/timing.h
+bench_bench_refine_SOURCES = bench/bench-refine.c bench/plain.c bench/plain.h bench/timing.h
 bench_bench_refine_LDADD = libhr2d-core.la $(OPENMP_CFLAGS) -lm
-bench_bench_visibility_SOURCES = bench/bench_visibility.c bench/timing.h
+bench_bench_visibility_SOURCES = bench/bench-visibility.c bench/timing.h
 bench_bench_visibility_LDADD = libhr2d-core.la $(OPENMP_CFLAGS) -lm
-bench_bench_l1_SOURCES = bench/bench_l1.c bench/timing.h
+bench_bench_l1_SOURCES = bench/bench-l1.c bench/timing.h
 bench_bench_l1_CPPFLAGS = $(AM_CPPFLAGS)
 bench_bench_l1_LDADD = libhr2d-core.la $(GSL_LIBS) $(OPENMP_CFLAGS) -lm
-bench_bench_accuracy_SOURCES = bench/bench_accuracy.c bench/dense.c bench/dense.h bench/many.c \
-	bench/many.h bench/plain.c bench/plain.h bench/timing.h tests/radiosity_scenes.c \
-	tests/radiosity_scenes.h
-bench_bench_accuracy_CPPFLAGS = $(AM_CPPFLAGS) -I$(srcdir)/tests $(LAPACK_CFLAGS) \
-	-DBENCH_DATA='"$(abs_top_srcdir)/tests/reference"'
+bench_bench_accuracy_SOURCES = bench/bench-accuracy.c bench/dense.c bench/dense.h bench/many.c \
+	bench/many.h bench/plain.c bench/plain.h bench/timing.h \
+	tests/support/radiosity-scenes.c tests/support/radiosity-scenes.h
+bench_bench_accuracy_CPPFLAGS = $(AM_CPPFLAGS) $(LAPACK_CFLAGS) \
+	-DBENCH_DATA='"$(abs_top_srcdir)/tests/data/reference"'
 bench_bench_accuracy_LDADD = libhr2d-core.la $(LAPACK_LIBS) $(GSL_LIBS) $(OPENMP_CFLAGS) -lm
 
 bench: $(BENCHES)

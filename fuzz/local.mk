@@ -1,7 +1,8 @@
 # Harnesses that take any bytes: replayed on their corpus by `make check`, and with
 # --enable-fuzzers made programs that look for more, which `make fuzz` runs.
 check_LTLIBRARIES += fuzz/libfuzz.la
-fuzz_libfuzz_la_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(AM_CPPFLAGS)
+fuzz_pair_cppflags = $(AM_CPPFLAGS) -I$(srcdir)/tools
+fuzz_libfuzz_la_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(fuzz_pair_cppflags)
 fuzz_libfuzz_la_SOURCES = \
 	fuzz/api.h \
 	fuzz/api-others.c \
@@ -13,30 +14,32 @@ fuzz_libfuzz_la_SOURCES = \
 	fuzz/invariants.c \
 	fuzz/memory.c \
 	fuzz/scenes.c \
-	tools/numbers.c tools/numbers.h \
-	tools/pair-line.c tools/pair-line.h
+	tools/cli/numbers.c tools/cli/numbers.h \
+	tools/pair/line.c tools/pair/line.h
 fuzz_libs = fuzz/libfuzz.la libhr2d-core.la $(JANSSON_LIBS) $(OPENMP_CFLAGS)
 
-REPLAYS = fuzz/replay_scene fuzz/replay_api fuzz/replay_pair
+REPLAYS = fuzz/replay-scene fuzz/replay-api fuzz/replay-pair
 check_PROGRAMS += $(REPLAYS)
 TESTS += $(REPLAYS)
-fuzz_replay_scene_SOURCES = fuzz/fuzz_scene.c fuzz/replay.c
+fuzz_replay_scene_SOURCES = fuzz/fuzz-scene.c fuzz/replay.c
 fuzz_replay_scene_LDADD = $(fuzz_libs)
-fuzz_replay_api_SOURCES = fuzz/fuzz_api.c fuzz/replay.c
+fuzz_replay_api_SOURCES = fuzz/fuzz-api.c fuzz/replay.c
 fuzz_replay_api_LDADD = $(fuzz_libs)
-fuzz_replay_pair_SOURCES = fuzz/fuzz_pair.c fuzz/replay.c
+fuzz_replay_pair_SOURCES = fuzz/fuzz-pair.c fuzz/replay.c
+fuzz_replay_pair_CPPFLAGS = $(fuzz_pair_cppflags)
 fuzz_replay_pair_LDADD = $(fuzz_libs)
 
-FUZZERS = fuzz/fuzz_scene fuzz/fuzz_api fuzz/fuzz_pair
+FUZZERS = fuzz/fuzz-scene fuzz/fuzz-api fuzz/fuzz-pair
 EXTRA_PROGRAMS += $(FUZZERS)
 CLEANFILES += $(FUZZERS)
-fuzz_fuzz_scene_SOURCES = fuzz/fuzz_scene.c
+fuzz_fuzz_scene_SOURCES = fuzz/fuzz-scene.c
 fuzz_fuzz_scene_LDADD = $(fuzz_libs)
 fuzz_fuzz_scene_LDFLAGS = -fsanitize=fuzzer
-fuzz_fuzz_api_SOURCES = fuzz/fuzz_api.c
+fuzz_fuzz_api_SOURCES = fuzz/fuzz-api.c
 fuzz_fuzz_api_LDADD = $(fuzz_libs)
 fuzz_fuzz_api_LDFLAGS = -fsanitize=fuzzer
-fuzz_fuzz_pair_SOURCES = fuzz/fuzz_pair.c
+fuzz_fuzz_pair_SOURCES = fuzz/fuzz-pair.c
+fuzz_fuzz_pair_CPPFLAGS = $(fuzz_pair_cppflags)
 fuzz_fuzz_pair_LDADD = $(fuzz_libs)
 fuzz_fuzz_pair_LDFLAGS = -fsanitize=fuzzer
 

@@ -60,14 +60,14 @@ static int replay_folder(const char *folder) {
   return files;
 }
 
-/* replay_scene replays corpus/scene. */
+/* replay-scene replays corpus/scene. */
 static int replay_corpus(const char *program) {
-  const char *source = getenv("HR2D_SRCDIR"), *name = strstr(program, "replay_");
+  const char *source = getenv("HR2D_SRCDIR"), *name = strstr(program, "replay-");
   char folder[PATH_SIZE];
   if (!name) return -1;
-  for (const char *next; (next = strstr(name + 1, "replay_"));) name = next;
+  for (const char *next; (next = strstr(name + 1, "replay-"));) name = next;
   snprintf(folder, sizeof folder, "%s/fuzz/corpus/%s", source ? source : ".",
-           name + strlen("replay_"));
+           name + strlen("replay-"));
   return replay_folder(folder);
 }
 

@@ -13,7 +13,7 @@ for harness in scene api pair; do
   # Texts and sequences of calls as long as are worth the time.
   case $harness in scene) longest=6000 ;; *) longest=600 ;; esac
   log=fuzz/$harness.log
-  if "fuzz/fuzz_$harness" ${dictionary:+"$dictionary"} -max_total_time="$seconds" \
+  if "fuzz/fuzz-$harness" ${dictionary:+"$dictionary"} -max_total_time="$seconds" \
     -max_len=$longest -timeout=60 -rss_limit_mb=2048 -print_final_stats=1 \
     -artifact_prefix="fuzz/fault-$harness-" "fuzz/found/$harness" "$folder/corpus/$harness" \
     >"$log" 2>&1; then
@@ -24,7 +24,7 @@ for harness in scene api pair; do
   fi
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   edges=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$log" | tail -n 1)
-  echo "fuzz_$harness: ${runs:-0} runs, ${edges:-0} edges"
+  echo "fuzz-$harness: ${runs:-0} runs, ${edges:-0} edges"
 done
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

@@ -1,88 +1,88 @@
 # The tests: Check programs, and scripts for what is seen from outside.  A program
 # without a list of sources is made from the one file that is called as it is.
-AM_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/src $(GSL_CFLAGS) $(JANSSON_CFLAGS) \
+AM_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/src -I$(srcdir)/tests $(GSL_CFLAGS) $(JANSSON_CFLAGS) \
 	$(CHECK_CFLAGS) $(MPFR_CFLAGS)
 LDADD = tests/libsupport.la libhr2d-core.la $(CHECK_LIBS) $(MPFR_LIBS) $(OPENMP_CFLAGS)
 
 SUITES = \
-	tests/check_status \
-	tests/check_geometry \
-	tests/check_exchange_area \
-	tests/check_bounds_geometry \
-	tests/check_bounds_oracles \
-	tests/check_bounds_l1 \
-	tests/check_bounds_study \
-	tests/check_bounds_visibility \
-	tests/check_bounds_solution \
-	tests/check_hard_geometry \
-	tests/check_hard_oracles \
-	tests/check_scene \
-	tests/check_crossings \
-	tests/check_geojson \
-	tests/check_memory \
-	tests/check_vs2 \
-	tests/check_hierarchy \
-	tests/check_refine \
-	tests/check_linkset \
-	tests/check_validate \
-	tests/check_theorem \
-	tests/check_l1 \
-	tests/check_solve \
-	tests/check_occlusion \
-	tests/check_effects \
-	tests/check_visibility \
-	tests/check_hard_visibility \
-	tests/check_hard_scenes \
-	tests/check_exchange_matrix \
-	tests/check_blocks \
-	tests/check_order \
-	tests/check_accuracy \
-	tests/check_clusters \
-	tests/check_corner \
-	tests/check_events \
-	tests/check_point_view \
-	tests/check_state \
-	tests/check_study \
-	tests/check_hard_refine \
-	tests/check_hard_solve \
-	tests/check_threads \
-	tests/check_faults \
-	tests/check_faults_accuracy \
-	tests/check_faults_callbacks \
-	tests/check_faults_malloc
+	tests/unit/base/check-status \
+	tests/unit/geometry/check-geometry \
+	tests/unit/geometry/check-exchange-area \
+	tests/bounds/check-bounds-geometry \
+	tests/bounds/check-bounds-oracles \
+	tests/bounds/check-bounds-l1 \
+	tests/bounds/check-bounds-study \
+	tests/bounds/check-bounds-visibility \
+	tests/bounds/check-bounds-solution \
+	tests/hard/check-hard-geometry \
+	tests/hard/check-hard-oracles \
+	tests/unit/scene/check-scene \
+	tests/unit/scene/check-crossings \
+	tests/unit/formats/check-geojson \
+	tests/unit/formats/check-memory \
+	tests/unit/formats/check-vs2 \
+	tests/unit/hierarchy/check-hierarchy \
+	tests/unit/refine/check-refine \
+	tests/unit/links/check-linkset \
+	tests/unit/refine/check-validate \
+	tests/paper/check-theorem \
+	tests/unit/oracle/check-l1 \
+	tests/unit/solve/check-solve \
+	tests/unit/refine/check-occlusion \
+	tests/unit/scene/check-effects \
+	tests/unit/occlusion/check-visibility \
+	tests/hard/check-hard-visibility \
+	tests/hard/check-hard-scenes \
+	tests/unit/visibility/check-exchange-matrix \
+	tests/unit/blocks/check-blocks \
+	tests/unit/solve/check-order \
+	tests/unit/accuracy/check-accuracy \
+	tests/unit/clusters/check-clusters \
+	tests/unit/accuracy/check-corner \
+	tests/unit/visibility/check-events \
+	tests/unit/visibility/check-point-view \
+	tests/unit/state/check-state \
+	tests/unit/refine/check-study \
+	tests/hard/check-hard-refine \
+	tests/hard/check-hard-solve \
+	tests/threads/check-threads \
+	tests/faults/check-faults \
+	tests/faults/check-faults-accuracy \
+	tests/faults/check-faults-callbacks \
+	tests/faults/check-faults-malloc
 
 OUTSIDE = \
-	tests/check_cli.sh \
-	tests/check-program-faults.sh \
-	tests/check_digits.sh \
-	tests/check_resume.sh \
-	tests/check-exports.sh \
-	tests/check-headers.sh \
-	tests/check-layers.sh \
-	tests/check-examples.sh
+	tests/program/check-cli.sh \
+	tests/program/check-program-faults.sh \
+	tests/program/check-digits.sh \
+	tests/program/check-resume.sh \
+	tests/package/check-exports.sh \
+	tests/package/check-headers.sh \
+	tests/package/check-layers.sh \
+	tests/package/check-examples.sh
 
 TEST_EXTENSIONS = .sh
 SH_LOG_COMPILER = $(SHELL)
 
 if HAVE_TESTS
 check_LTLIBRARIES += tests/libsupport.la
-tests_check_threads_LDFLAGS = -pthread
+tests_threads_check_threads_LDFLAGS = -pthread
 tests_libsupport_la_SOURCES = \
-	tests/accuracy_nystrom.c tests/accuracy_nystrom.h \
-	tests/accuracy_scenes.c tests/accuracy_scenes.h \
-	tests/brute_block.c tests/brute_block.h \
-	tests/mpfr_exchange.c tests/mpfr_exchange.h \
-	tests/mpfr_l1.c tests/mpfr_l1.h \
-	tests/pair_classes.c tests/pair_classes.h \
-	tests/brute_visibility.c tests/brute_visibility.h \
-	tests/fault_stage.c tests/fault_stage.h \
-	tests/hard.c tests/hard.h \
-	tests/hill_climb.c tests/hill_climb.h \
-	tests/hard_rooms.c tests/hard_rooms.h \
-	tests/radiosity_scenes.c tests/radiosity_scenes.h \
-	tests/room_plans.c tests/room_plans.h \
-	tests/support.c tests/support.h \
-	tests/visibility_cases.c tests/visibility_cases.h
+	tests/support/accuracy-scenes.c tests/support/accuracy-scenes.h \
+	tests/support/fault-stage.c tests/support/fault-stage.h \
+	tests/support/hard.c tests/support/hard.h \
+	tests/support/hard-rooms.c tests/support/hard-rooms.h \
+	tests/support/hill-climb.c tests/support/hill-climb.h \
+	tests/support/pair-classes.c tests/support/pair-classes.h \
+	tests/support/radiosity-scenes.c tests/support/radiosity-scenes.h \
+	tests/support/room-plans.c tests/support/room-plans.h \
+	tests/support/support.c tests/support/support.h \
+	tests/support/visibility-cases.c tests/support/visibility-cases.h \
+	tests/independent/accuracy-nystrom.c tests/independent/accuracy-nystrom.h \
+	tests/independent/brute-block.c tests/independent/brute-block.h \
+	tests/independent/brute-visibility.c tests/independent/brute-visibility.h \
+	tests/independent/mpfr-exchange.c tests/independent/mpfr-exchange.h \
+	tests/independent/mpfr-l1.c tests/independent/mpfr-l1.h
 check_PROGRAMS += $(SUITES)
 TESTS += $(SUITES) $(OUTSIDE)
 else
@@ -97,7 +97,7 @@ AM_TESTS_ENVIRONMENT = \
 	CK_DEFAULT_TIMEOUT="$${CK_DEFAULT_TIMEOUT-600}"; export CK_DEFAULT_TIMEOUT; \
 	HR2D_SRCDIR='$(abs_top_srcdir)'; export HR2D_SRCDIR; \
 	HR2D_BUILDDIR='$(abs_top_builddir)'; export HR2D_BUILDDIR; \
-	HR2D_TEST_DATA='$(abs_top_srcdir)/tests/reference'; export HR2D_TEST_DATA; \
+	HR2D_TEST_DATA='$(abs_top_srcdir)/tests/data/reference'; export HR2D_TEST_DATA; \
 	HR2D_SCENES='$(abs_top_srcdir)/examples/scenes'; export HR2D_SCENES; \
 	HR2D_PROGRAM='$(abs_top_builddir)/tools/hr2d$(EXEEXT)'; export HR2D_PROGRAM; \
 	HR2D_EXAMPLES='$(EXAMPLES)'; export HR2D_EXAMPLES; \
@@ -105,8 +105,10 @@ AM_TESTS_ENVIRONMENT = \
 
 # Check programs alone, unforked and in one thread: libgomp's threads show as leaks.
 # Without the suites that take too long: the sanitizers run these.
-TOO_LONG = tests/check_accuracy tests/check_blocks tests/check_clusters tests/check_occlusion \
-	tests/check_theorem tests/check_faults_accuracy tests/check_faults_callbacks
+TOO_LONG = tests/unit/accuracy/check-accuracy tests/unit/blocks/check-blocks \
+	tests/unit/clusters/check-clusters tests/unit/refine/check-occlusion \
+	tests/paper/check-theorem tests/faults/check-faults-accuracy \
+	tests/faults/check-faults-callbacks
 MEMCHECK = $(VALGRIND) --quiet --error-exitcode=9 --leak-check=full \
 	--errors-for-leak-kinds=definite,indirect
 check-valgrind:
@@ -120,7 +122,7 @@ check-matrix:
 .PHONY: check-valgrind check-matrix
 
 # The table of doc/hard-cases.md, as these suites measure it.
-HARD = $(filter tests/check_hard_%,$(SUITES))
+HARD = $(filter tests/hard/%,$(SUITES))
 hard-cases: $(HARD)
 	@rm -f hard-cases.md
 	@for suite in $(HARD); do \
@@ -153,8 +155,8 @@ endif
 installcheck-local:
 	DESTDIR='$(DESTDIR)' libdir='$(libdir)' pkgconfigdir='$(pkgconfigdir)' \
 	bindir='$(bindir)' PKG_CONFIG='$(PKG_CONFIG)' CC='$(CC)' CXX='$(CXX)' \
-	$(SHELL) $(srcdir)/tests/consumer/run.sh $(srcdir)/tests/consumer
+	$(SHELL) $(srcdir)/tests/package/consumer/run.sh $(srcdir)/tests/package/consumer
 
-EXTRA_DIST += $(OUTSIDE) tests/summary.sh tests/lsan.supp tests/cli tests/malformed tests/reference \
-	tests/matrix.sh tests/digits.sh tests/race.c \
-	tests/consumer/main.c tests/consumer/main.cpp tests/consumer/run.sh
+EXTRA_DIST += $(OUTSIDE) tests/digits.sh tests/lsan.supp tests/matrix.sh tests/summary.sh \
+	tests/data tests/program/cli tests/threads/race.c tests/package/consumer/main.c \
+	tests/package/consumer/main.cpp tests/package/consumer/run.sh

@@ -15,8 +15,9 @@ passed=0 failed=0
 export HR2D_TEST_MULTIPLIER="${HR2D_TEST_MULTIPLIER-0.1}"
 
 # The suites in which the library or the application has several threads.
-threaded="tests/check_threads tests/check_refine tests/check_order tests/check_solve \
-tests/check_exchange_matrix tests/check_blocks"
+threaded="tests/threads/check-threads tests/unit/refine/check-refine \
+tests/unit/solve/check-order tests/unit/solve/check-solve \
+tests/unit/visibility/check-exchange-matrix tests/unit/blocks/check-blocks"
 
 # build SETTING CONFIGURE-ARGUMENT...
 build() {

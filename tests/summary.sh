@@ -4,8 +4,8 @@
 # how many checks passed and failed.  A script counts as one check, and so does a
 # program that ended without Check's summary.
 set -eu
-cd "$1/tests"
-results=$(find . -name '*.trs' | sed 's|^\./||; s|\.trs$||' | sort)
+cd "$1"
+results=$(find tests fuzz -name '*.trs' | sed 's|\.trs$||' | sort)
 [ -n "$results" ] || { echo "0 passed, 1 failed"; exit 1; }
 
 for test in $results; do
@@ -13,7 +13,7 @@ for test in $results; do
   line=$(grep -E '^[0-9]+%: Checks: ' "$test.log" | tail -n 1)
   echo "$test|$result|$line"
 done | awk -F '|' '
-  { printf "%-20s %s\n", $1, $3 ? $3 : $2
+  { printf "%-40s %s\n", $1, $3 ? $3 : $2
     split($3, count, /[^0-9]+/)          # percent, checks, failures, errors
     bad = count[3] + count[4]
     if ($2 !~ /^(PASS|SKIP)/ && !bad) bad = 1

@@ -3,7 +3,7 @@
 #ifndef HR2D_TOOLS_HELP_H
 #define HR2D_TOOLS_HELP_H
 
-#include "options.h"
+#include "cli/options.h"
 
 /* The help of a command, or of the program for 0. */
 void print_help(int command);

@@ -3,11 +3,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "commands.h"
-#include "complain.h"
-#include "load.h"
-#include "output.h"
-#include "report.h"
+#include "cli/commands.h"
+#include "cli/load.h"
+#include "output/complain.h"
+#include "output/json.h"
+#include "output/output.h"
 
 typedef struct summary {
   double length;                      /* of all patches */

@@ -5,10 +5,10 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include "commands.h"
-#include "complain.h"
+#include "cli/commands.h"
 #include "help.h"
-#include "output.h"
+#include "output/complain.h"
+#include "output/output.h"
 
 /* A closed standard stream would lend its number to the next file opened.  The wrong
    mode makes every use of it fail, as it should. */

@@ -138,7 +138,8 @@ typedef struct hr2d_prediction {
 /**
  * Predicts what hr2d_solve_to() will take, by making the elements and links and integrating
  * a few of the blocks.  Errors and parameters as there.  On a machine at rest `seconds` is
- * right within a factor of 2 for most scenes; tests/check_accuracy.c has the list.
+ * right within a factor of 2 for most scenes; tests/unit/accuracy/check-accuracy.c has the
+ * list.
  */
 HR2D_API hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *target,
                                   hr2d_prediction *prediction);

@@ -10,7 +10,7 @@
  * Bounds of errors are relative and hold for all finite coordinates.  What is below DBL_MIN has
  * the error of DBL_MIN, and one step of the subnormal numbers; what is beyond DBL_MAX is
  * infinity.  The tests hold the bounds against MPFR on random inputs and on the worst that hill
- * climbing finds (tests/check_bounds_geometry.c).
+ * climbing finds (tests/bounds/check-bounds-geometry.c).
  */
 #ifndef HR2D_GEOMETRY_H
 #define HR2D_GEOMETRY_H

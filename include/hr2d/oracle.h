@@ -19,7 +19,7 @@
  * not 0, within 2^800 of each other; of a value below DBL_MIN, relative to that, and a step of
  * the subnormal numbers.  Decisions are those of the estimates, bit for bit.  The tests hold
  * the bounds against MPFR, also where hill climbing finds the worst
- * (tests/check_bounds_oracles.c, tests/check_bounds_l1.c).
+ * (tests/bounds/check-bounds-oracles.c, tests/bounds/check-bounds-l1.c).
  */
 #ifndef HR2D_ORACLE_H
 #define HR2D_ORACLE_H

@@ -30,8 +30,9 @@
  *
  * Of its own discrete equation a solution B differs from the exact one, B_d, in the norm ∫B² by
  * no more than (tolerance + 1e-15) ‖B_d‖ / (1 − max ρ), in a closed room at order 1 with
- * closure (tests/check_bounds_solution.c); averages share that, and hr2d_solution_at() on
- * leaves. hr2d_solution_gather() adds the roundings of one gather to the error of B_h, times ρ.
+ * closure (tests/bounds/check-bounds-solution.c); averages share that, and hr2d_solution_at()
+ * on leaves. hr2d_solution_gather() adds the roundings of one gather to the error of B_h, times
+ * ρ.
  */
 #ifndef HR2D_SOLVE_H
 #define HR2D_SOLVE_H

@@ -61,7 +61,7 @@ HR2D_API hr2d_status hr2d_study_run(hr2d_linkset *links, const hr2d_refine_optio
  * by some roundings of S = max |L − L_0|, so that where the N fill their range
  *     |δc| ≤ 1e-14 S/h²,  |δb| ≤ 1e-14 S (1 + 2M/h)/h,  |δa| ≤ 1e-14 (S (1 + M/h)² + L_0),
  * and the slope is off by 1e-14 of max |log L/L_0| / max |log N/N_0|; with all inner N within a
- * fraction w of an end of the range, by 1/w² as much (tests/check_bounds_study.c).
+ * fraction w of an end of the range, by 1/w² as much (tests/bounds/check-bounds-study.c).
  * Thread-safe.  Cost O(count).
  */
 HR2D_API hr2d_status hr2d_study_fit_rows(const hr2d_study_row *rows, size_t count,

@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Allocation k of the calls that choose elements and links themselves fails. */
+#include <string.h>
+
+#include "clusters/clusters.h"
+#include "links/linkset-impl.h"
+#include "support/fault-stage.h"
+
+static hr2d_status solve_to(fault_stage *s, uint64_t *sum, const hr2d_target *target) {
+  hr2d_account account;
+  hr2d_solution_destroy(s->result);
+  s->result = (hr2d_solution *)s; /* to be overwritten in any case */
+  const hr2d_status status = hr2d_solve_to(s->scene, target, &s->result, &account);
+  if (status) {
+    ck_assert_ptr_null(s->result);
+    if (status == HR2D_ENOMEM && *account.reason)
+      ck_assert_msg(strstr(account.reason, "memory") || strstr(account.reason, "room"), "%s",
+                    account.reason);
+    return status;
+  }
+  ck_assert_str_eq(account.reason, "");
+  const uint64_t counts[] = {account.order, account.solves, account.elements, account.leaves,
+                             account.links, account.events, account.bytes,    account.kernels};
+  *sum = fault_mix(*sum, counts, sizeof counts);
+  *sum = fault_mix(*sum, &account.average, sizeof account.average);
+  *sum = fault_mix(*sum, &account.sup, sizeof account.sup);
+  *sum = fault_mix_count(*sum, fault_solution_sum(s->result));
+  return HR2D_OK;
+}
+
+static hr2d_status reach(fault_stage *s, uint64_t *sum) {
+  hr2d_target target = HR2D_TARGET_INIT;
+  target.error = 1e-3;
+  return solve_to(s, sum, &target);
+}
+
+static hr2d_status reach_everywhere(fault_stage *s, uint64_t *sum) {
+  hr2d_target target = HR2D_TARGET_INIT;
+  target.error = 1e-2;
+  target.norm = HR2D_NORM_SUP;
+  return solve_to(s, sum, &target);
+}
+
+static hr2d_status reach_one(fault_stage *s, uint64_t *sum) {
+  hr2d_target target = HR2D_TARGET_INIT;
+  target.error = 1e-3;
+  target.importance = 1;
+  return solve_to(s, sum, &target);
+}
+
+static hr2d_status reach_by_two(fault_stage *s, uint64_t *sum) {
+  hr2d_target target = HR2D_TARGET_INIT;
+  target.error = 1e-2;
+  target.threads = 2;
+  return solve_to(s, sum, &target);
+}
+
+static hr2d_status reach_roughly(fault_stage *s, uint64_t *sum) {
+  hr2d_target target = HR2D_TARGET_INIT;
+  target.error = 0.1;
+  return solve_to(s, sum, &target);
+}
+
+/* Runs that are short are repeated, as time has it. */
+static hr2d_status predict(fault_stage *s, uint64_t *sum) {
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_prediction p;
+  target.error = 1e-3;
+  const hr2d_status status = hr2d_predict(s->scene, &target, &p);
+  const uint64_t counts[] = {p.order, p.elements, p.leaves, p.links, p.bytes};
+  if (!status) *sum = fault_mix(*sum, counts, sizeof counts);
+  return status;
+}
+
+static hr2d_status measure(fault_stage *s, uint64_t *sum) {
+  hr2d_target how = HR2D_TARGET_INIT;
+  hr2d_error average, sup;
+  how.error = 1e-3;
+  const hr2d_status status = hr2d_solution_error(s->solution, &how, &average, &sup);
+  if (status) return status;
+  *sum = fault_mix(fault_mix(*sum, &average, sizeof average), &sup, sizeof sup);
+  return HR2D_OK;
+}
+
+static void play(const char *name, fault_depth depth, fault_plan plan,
+                 hr2d_status (*call)(fault_stage *, uint64_t *), int most) {
+  const fault_act act = {
+      .name = name, .setting = {.depth = depth, .plan = plan}, .call = call, .most = most};
+  fault_play(&act);
+}
+
+START_TEST(targets) {
+  play("solve_to", DEPTH_COMMITTED, PLAN_PAIR, reach, 100);
+  play("solve_to, occluded", DEPTH_COMMITTED, PLAN_ROOM, reach, 50);
+  play("solve_to, open", DEPTH_COMMITTED, PLAN_OPEN, reach, 50);
+  play("solve_to, at points", DEPTH_COMMITTED, PLAN_ROOM, reach_everywhere, 40);
+  play("solve_to, one patch", DEPTH_COMMITTED, PLAN_ROOM, reach_one, 40);
+  play("solve_to, 2 threads", DEPTH_COMMITTED, PLAN_OPEN, reach_by_two, 30);
+}
+END_TEST
+
+static uint64_t cluster_links(fault_plan plan) {
+  fault_stage s;
+  uint64_t sum = 0;
+  fault_stage_make(&s, &(fault_setting){.depth = DEPTH_COMMITTED, .plan = plan});
+  ck_assert_int_eq(reach_roughly(&s, &sum), HR2D_OK);
+  const hr2d_linkset *links = hr2d_solution_links(s.result);
+  ck_assert_ptr_nonnull(links->roots.clusters);
+  const uint64_t count = hr2di_clusters_links(links->roots.clusters);
+  fault_stage_end(&s);
+  return count;
+}
+
+START_TEST(clusters) {
+  ck_assert_uint_gt(cluster_links(PLAN_ROWS), 0);
+  play("solve_to, clusters", DEPTH_COMMITTED, PLAN_ROWS, reach_roughly, 12);
+}
+END_TEST
+
+START_TEST(clusters_without_links_are_solved) {
+  ck_assert_uint_eq(cluster_links(PLAN_BLOCKS), 0);
+}
+END_TEST
+
+START_TEST(predictions) {
+  play("predict", DEPTH_COMMITTED, PLAN_ROOM, predict, 10);
+  play("solution_error", DEPTH_SOLVED, PLAN_PAIR, measure, 40);
+  play("solution_error, occluded", DEPTH_SOLVED, PLAN_ROOM, measure, 20);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("faults of targets");
+  TCase *memory = tcase_create("memory");
+  tcase_set_timeout(memory, 600);
+  tcase_add_test(memory, targets);
+  tcase_add_test(memory, clusters);
+  tcase_add_test(memory, clusters_without_links_are_solved);
+  tcase_add_test(memory, predictions);
+  suite_add_tcase(suite, memory);
+  return test_run(suite);
+}

@@ -1,0 +1,395 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Allocation k of a call fails, for every k: once, and from then on.  The call says so,
+   its objects are as they were, the same call then gives the same bits, nothing leaks. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "support/fault-stage.h"
+
+static const char *of_scene(const fault_stage *s) {
+  return hr2d_scene_message(s->scene);
+}
+
+static const char *of_links(const fault_stage *s) {
+  return hr2d_linkset_message(s->links);
+}
+
+static hr2d_status create_scene(fault_stage *s, uint64_t *sum) {
+  const hr2d_allocator hooks = test_hooks(&s->memory);
+  (void)sum;
+  return hr2d_scene_create(&hooks, &s->scene);
+}
+
+/* A call whose outcome is the scene itself. */
+static hr2d_status with_scene(fault_stage *s, uint64_t *sum, hr2d_status status) {
+  if (!status) *sum = fault_mix_count(*sum, fault_stage_sum(s));
+  return status;
+}
+
+static hr2d_status add_patch(fault_stage *s, uint64_t *sum) {
+  static const double e[] = {1, 2, 3}, rho[] = {.5, .25, .125};
+  const hr2d_patch patch = {.a = {3, 3},
+                            .b = {4, 5},
+                            .name = "a patch with a name that is longer than others",
+                            .emission = e,
+                            .emission_bands = 3,
+                            .reflectance = rho,
+                            .reflectance_bands = 3,
+                            .sides = HR2D_SIDES_BOTH};
+  size_t index = 99;
+  const hr2d_status status = hr2d_scene_add(s->scene, &patch, &index);
+  return with_scene(s, sum, status);
+}
+
+static hr2d_status set_background(fault_stage *s, uint64_t *sum) {
+  static const double sky[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  return with_scene(s, sum, hr2d_scene_set_background(s->scene, sky, 10));
+}
+
+static hr2d_status split_crossings(fault_stage *s, uint64_t *sum) {
+  size_t cuts = 0;
+  const hr2d_status status = hr2d_scene_split_crossings(s->scene, &cuts);
+  if (!status) ck_assert_uint_eq(cuts, 1);
+  return with_scene(s, sum, status);
+}
+
+static hr2d_status commit(fault_stage *s, uint64_t *sum) {
+  const hr2d_status status = hr2d_scene_commit(s->scene);
+  for (int e = 0; !status && e < HR2D_EFFECT_COUNT; e++)
+    *sum = fault_mix_count(*sum, (uint64_t)hr2d_scene_effect(s->scene, (hr2d_effect)e, NULL));
+  return with_scene(s, sum, status);
+}
+
+static hr2d_status force_and_commit(fault_stage *s, uint64_t *sum) {
+  for (int e = 0; e < HR2D_EFFECT_COUNT; e++)
+    ck_assert_int_eq(hr2d_scene_force(s->scene, (hr2d_effect)e), HR2D_OK);
+  return commit(s, sum);
+}
+
+static const char geojson[] =
+    "{\"type\":\"FeatureCollection\",\"hr2d\":{\"background\":[1,2]},\"features\":[{\"type\":"
+    "\"Feature\",\"properties\":{\"name\":\"room\",\"reflectance\":[0.5,0.9],\"emission\":0.25,"
+    "\"sides\":\"both\"},\"geometry\":{\"type\":\"MultiPolygon\",\"coordinates\":[[[[0,0],[2,0]"
+    ","
+    "[2,1],[0,1],[0,0]],[[0.5,0.5],[1,0.5],[1,0.75],[0.5,0.5]]]]}}]}";
+
+static hr2d_status parse_geojson(fault_stage *s, uint64_t *sum) {
+  return with_scene(s, sum, hr2d_scene_parse(s->scene, geojson, sizeof geojson - 1));
+}
+
+static hr2d_status read_file(fault_stage *s, uint64_t *sum, const char *name) {
+  const char *folder = getenv("HR2D_SCENES");
+  char path[4096];
+  ck_assert_msg(folder != NULL, "HR2D_SCENES is not set");
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  return with_scene(s, sum, hr2d_scene_read(s->scene, path));
+}
+
+static hr2d_status read_geojson(fault_stage *s, uint64_t *sum) {
+  return read_file(s, sum, "furnace.geojson");
+}
+
+static hr2d_status read_vs2(fault_stage *s, uint64_t *sum) {
+  return read_file(s, sum, "blk1.vs2");
+}
+
+static hr2d_status create_hierarchy(fault_stage *s, uint64_t *sum) {
+  hr2d_hierarchy *made = NULL;
+  const hr2d_status status = hr2d_hierarchy_create(s->scene, &made);
+  ck_assert((made != NULL) == !status);
+  if (!status) *sum = fault_mix_count(*sum, hr2d_hierarchy_count(made).elements);
+  hr2d_hierarchy_destroy(made);
+  return status;
+}
+
+static void destroyed(void *ctx) {
+  (*(int *)ctx)++;
+}
+
+/* On failure the caller keeps the contexts. */
+static hr2d_status create_links(fault_stage *s, uint64_t *sum) {
+  hr2d_oracle oracle = *hr2d_oracle_size();
+  hr2d_policy policy = *hr2d_policy_modified();
+  hr2d_linkset *made = NULL;
+  int count = 0;
+  (void)sum;
+  oracle.destroy = policy.destroy = destroyed;
+  const hr2d_status status =
+      hr2d_linkset_create(s->hierarchy, &oracle, &count, &policy, &count, &made);
+  ck_assert((made != NULL) == !status);
+  ck_assert_int_eq(count, 0);
+  hr2d_linkset_destroy(made);
+  ck_assert_int_eq(count, status ? 0 : 2);
+  return status;
+}
+
+static hr2d_refine_options options(double epsilon) {
+  hr2d_refine_options o = HR2D_REFINE_OPTIONS_INIT;
+  o.epsilon = epsilon;
+  o.max_level = 5;
+  return o;
+}
+
+static hr2d_status with_links(fault_stage *s, uint64_t *sum, hr2d_status status) {
+  if (!status) *sum = fault_mix_count(*sum, fault_stage_sum(s));
+  return status;
+}
+
+static hr2d_status refine(fault_stage *s, uint64_t *sum) {
+  const hr2d_refine_options o = options(0.15);
+  return with_links(s, sum, hr2d_refine(s->links, &o));
+}
+
+/* The error is a length. */
+static hr2d_status refine_finely(fault_stage *s, uint64_t *sum) {
+  const hr2d_refine_options o = options(0.001);
+  return with_links(s, sum, hr2d_refine(s->links, &o));
+}
+
+static hr2d_status refine_ordered(fault_stage *s, uint64_t *sum) {
+  hr2d_refine_options o = options(0.15);
+  o.ordered = 1;
+  return with_links(s, sum, hr2d_refine(s->links, &o));
+}
+
+static hr2d_status refine_by_brightness(fault_stage *s, uint64_t *sum) {
+  hr2d_refine_options o = options(0.02);
+  o.brightness = s->solution;
+  return with_links(s, sum, hr2d_refine(s->links, &o));
+}
+
+static hr2d_status count_on(fault_stage *s, uint64_t *sum, unsigned threads) {
+  hr2d_refine_options o = options(threads > 1 ? 0.005 : 0.05);
+  hr2d_refine_counts counts;
+  o.max_level = threads > 1 ? 9 : 8;
+  o.threads = threads;
+  const hr2d_status status = hr2d_refine_count(s->links, &o, &counts);
+  if (!status) *sum = fault_mix_count(*sum, fault_counts_sum(&counts));
+  return with_links(s, sum, status);
+}
+
+static hr2d_status count(fault_stage *s, uint64_t *sum) {
+  return count_on(s, sum, 1);
+}
+
+static hr2d_status count_by_three(fault_stage *s, uint64_t *sum) {
+  return count_on(s, sum, 3);
+}
+
+static hr2d_status look(void *ctx, const hr2d_link *links, size_t count_of_links) {
+  *(uint64_t *)ctx = fault_mix(*(uint64_t *)ctx, links, count_of_links * sizeof *links);
+  return HR2D_OK;
+}
+
+static hr2d_status visit(fault_stage *s, uint64_t *sum) {
+  const hr2d_refine_options o = options(0.15);
+  hr2d_refine_counts counts;
+  return with_links(s, sum, hr2d_refine_visit(s->links, &o, look, sum, &counts));
+}
+
+static hr2d_status study(fault_stage *s, uint64_t *sum) {
+  static const double epsilon[] = {0.7, 0.3, 0.15};
+  const hr2d_refine_options o = options(1);
+  hr2d_study_row row[3];
+  size_t done = 99;
+  const hr2d_status status = hr2d_study_run(s->links, &o, epsilon, 3, row, &done);
+  ck_assert(status ? done < 3 : done == 3);
+  for (size_t k = 0; !status && k < 3; k++)
+    *sum = fault_mix_count(*sum, fault_counts_sum(&row[k].counts));
+  return with_links(s, sum, status);
+}
+
+static hr2d_status validate(fault_stage *s, uint64_t *sum) {
+  return with_links(s, sum, hr2d_linkset_validate(s->links));
+}
+
+static hr2d_status solve_as(fault_stage *s, uint64_t *sum, const hr2d_solve_options *how) {
+  hr2d_solution_destroy(s->result);
+  s->result = NULL;
+  const hr2d_status status = hr2d_solve(s->links, how, &s->result);
+  if (!status) *sum = fault_mix_count(*sum, fault_solution_sum(s->result));
+  return status;
+}
+
+static hr2d_status solve(fault_stage *s, uint64_t *sum) {
+  return solve_as(s, sum, NULL);
+}
+
+static hr2d_status solve_otherwise(fault_stage *s, uint64_t *sum) {
+  hr2d_solve_options how = HR2D_SOLVE_OPTIONS_INIT;
+  how.closure = 0;
+  how.start = s->solution;
+  how.threads = 2;
+  return solve_as(s, sum, &how);
+}
+
+static hr2d_status gather(fault_stage *s, uint64_t *sum) {
+  static const double t[] = {0, 0.25, 0.3, 1};
+  double value[8];
+  const hr2d_status status = hr2d_solution_gather(s->solution, 0, t, 4, value);
+  if (!status) *sum = fault_mix(*sum, value, sizeof value);
+  return status;
+}
+
+static hr2d_status matrix_on(fault_stage *s, uint64_t *sum, unsigned threads) {
+  hr2d_matrix_options how = HR2D_MATRIX_OPTIONS_INIT;
+  double area[64];
+  const size_t n = hr2d_scene_patches(s->scene);
+  ck_assert_uint_le(n * n, sizeof area / sizeof *area);
+  how.threads = threads;
+  const hr2d_status status = hr2d_exchange_matrix(s->scene, &how, area, NULL);
+  if (!status) *sum = fault_mix(*sum, area, n * n * sizeof *area);
+  return status;
+}
+
+static hr2d_status matrix(fault_stage *s, uint64_t *sum) {
+  return matrix_on(s, sum, 1);
+}
+
+static hr2d_status matrix_by_three(fault_stage *s, uint64_t *sum) {
+  return matrix_on(s, sum, 3);
+}
+
+static hr2d_status area(fault_stage *s, uint64_t *sum) {
+  const hr2d_allocator hooks = test_hooks(&s->memory);
+  const hr2d_segment i = {{0, 0}, {4, 0}}, j = {{4, 1}, {0, 1}};
+  hr2d_segment occluder[40];
+  double value;
+  for (int k = 0; k < 40; k++)
+    occluder[k] = (hr2d_segment){{.1 * k, .5}, {.1 * k + .05, .5 + .01 * (k % 7)}};
+  const hr2d_status status = hr2d_exchange_area_occluded(&i, &j, occluder, 40, &hooks, &value);
+  if (!status) *sum = fault_mix_real(*sum, value);
+  return status;
+}
+
+#define PLAY(...)                                                                              \
+  do {                                                                                         \
+    const fault_act act = {__VA_ARGS__};                                                       \
+    fault_play(&act);                                                                          \
+  } while (0)
+
+START_TEST(scenes) {
+  PLAY("scene_create", {.depth = DEPTH_NOTHING}, create_scene, NULL, 0);
+  PLAY("scene_add", {.depth = DEPTH_SCENE}, add_patch, of_scene, 0);
+  PLAY("scene_add to others", {.depth = DEPTH_FILLED, .plan = PLAN_ROOM}, add_patch, of_scene,
+       0);
+  PLAY("scene_set_background", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, set_background,
+       of_scene, 0);
+  PLAY("scene_parse", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, parse_geojson, of_scene, 0);
+  PLAY("scene_read", {.depth = DEPTH_SCENE}, read_geojson, of_scene, 0);
+  PLAY("scene_read of .vs2", {.depth = DEPTH_SCENE}, read_vs2, of_scene, 0);
+  PLAY("scene_split_crossings", {.depth = DEPTH_FILLED, .plan = PLAN_CROSSING}, split_crossings,
+       of_scene, 0);
+  PLAY("scene_commit", {.depth = DEPTH_FILLED, .plan = PLAN_ROOM}, commit, of_scene, 0);
+  PLAY("scene_commit, in part dark", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, commit,
+       of_scene, 0);
+  PLAY("scene_commit, all forced", {.depth = DEPTH_FILLED, .plan = PLAN_ROOM}, force_and_commit,
+       of_scene, 0);
+  PLAY("scene_commit, many", {.depth = DEPTH_FILLED, .plan = PLAN_BLOCKS}, commit, of_scene,
+       60);
+}
+END_TEST
+
+START_TEST(refinements) {
+  static const char *const oracles[] = {"size", "size2", "bf", "l1", "l1-grid"};
+  static const char *const policies[] = {"original", "modified"};
+  PLAY("hierarchy_create", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, create_hierarchy,
+       NULL, 0);
+  PLAY("linkset_create", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, create_links, NULL, 0);
+  for (size_t k = 0; k < sizeof oracles / sizeof *oracles; k++)
+    for (size_t m = 0; m < sizeof policies / sizeof *policies; m++) {
+      const hr2d_oracle *oracle = hr2d_oracle_find(oracles[k]);
+      const hr2d_policy *policy = hr2d_policy_find(policies[m]);
+      hr2d_status (*call)(fault_stage *, uint64_t *) =
+          strncmp(oracles[k], "l1", 2) ? refine : refine_finely;
+      char name[64];
+      snprintf(name, sizeof name, "refine, %s, %s", oracles[k], policies[m]);
+      PLAY(name,
+           {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM, .oracle = oracle, .policy = policy},
+           call, of_links, 60);
+      snprintf(name, sizeof name, "refine again, %s, %s", oracles[k], policies[m]);
+      PLAY(name,
+           {.depth = DEPTH_REFINED, .plan = PLAN_ROOM, .oracle = oracle, .policy = policy},
+           call, of_links, 60);
+    }
+  PLAY("refine, open", {.depth = DEPTH_COMMITTED, .plan = PLAN_OPEN}, refine, of_links, 0);
+  PLAY("refine, clear", {.depth = DEPTH_COMMITTED, .plan = PLAN_PAIR}, refine, of_links, 0);
+  PLAY("refine, ordered", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, refine_ordered,
+       of_links, 0);
+  PLAY("refine, by brightness",
+       {.depth = DEPTH_SOLVED, .plan = PLAN_ROOM, .oracle = hr2d_oracle_bf()},
+       refine_by_brightness, of_links, 0);
+  PLAY("refine, many", {.depth = DEPTH_COMMITTED, .plan = PLAN_BLOCKS}, refine, of_links, 6);
+}
+END_TEST
+
+START_TEST(counts) {
+  PLAY("refine_count", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, count, of_links, 60);
+  PLAY("refine_count, bf",
+       {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM, .oracle = hr2d_oracle_bf()}, count,
+       of_links, 60);
+  PLAY("refine_count by 3", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, count_by_three,
+       of_links, 60);
+  PLAY("refine_visit", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, visit, of_links, 60);
+  PLAY("study_run", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, study, of_links, 0);
+  PLAY("linkset_validate", {.depth = DEPTH_REFINED, .plan = PLAN_ROOM}, validate, of_links, 0);
+  PLAY("linkset_validate, directed",
+       {.depth = DEPTH_REFINED, .plan = PLAN_OPEN, .oracle = hr2d_oracle_bf()}, validate,
+       of_links, 0);
+}
+END_TEST
+
+START_TEST(solutions) {
+  PLAY("solve", {.depth = DEPTH_REFINED, .plan = PLAN_ROOM}, solve, of_links, 0);
+  PLAY("solve, open", {.depth = DEPTH_REFINED, .plan = PLAN_OPEN}, solve, of_links, 0);
+  PLAY("solve, directed",
+       {.depth = DEPTH_REFINED, .plan = PLAN_ROOM, .oracle = hr2d_oracle_bf()}, solve, of_links,
+       0);
+  PLAY("solve, order 4", {.depth = DEPTH_REFINED, .plan = PLAN_ROOM, .order = 4}, solve,
+       of_links, 60);
+  PLAY("solve, open, order 4", {.depth = DEPTH_REFINED, .plan = PLAN_OPEN, .order = 4}, solve,
+       of_links, 60);
+  PLAY("solve, warm, no closure", {.depth = DEPTH_SOLVED, .plan = PLAN_PAIR}, solve_otherwise,
+       of_links, 0);
+  PLAY("solve, warm, order 4", {.depth = DEPTH_SOLVED, .plan = PLAN_PAIR, .order = 4},
+       solve_otherwise, of_links, 0);
+  PLAY("solution_gather", {.depth = DEPTH_SOLVED, .plan = PLAN_ROOM}, gather, NULL, 0);
+  PLAY("solution_gather, open", {.depth = DEPTH_SOLVED, .plan = PLAN_OPEN, .order = 4}, gather,
+       NULL, 0);
+}
+END_TEST
+
+START_TEST(exchanges) {
+  PLAY("exchange_matrix", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, matrix, NULL, 0);
+  PLAY("exchange_matrix by 3", {.depth = DEPTH_COMMITTED, .plan = PLAN_OPEN}, matrix_by_three,
+       NULL, 0);
+  PLAY("exchange_area_occluded", {.depth = DEPTH_NOTHING}, area, NULL, 0);
+}
+END_TEST
+
+START_TEST(failures_are_seen) {
+  /* Negative control: the hooks are really used, and a leak would be counted. */
+  test_memory memory = {.until_failure = 0, .for_good = 1};
+  hr2d_scene *scene = NULL;
+  const hr2d_allocator hooks = test_hooks(&memory);
+  ck_assert_int_eq(hr2d_scene_create(&hooks, &scene), HR2D_ENOMEM);
+  memory.until_failure = -1;
+  ck_assert_int_eq(hr2d_scene_create(&hooks, &scene), HR2D_OK);
+  ck_assert_int_eq(memory.live, 1);
+  hr2d_scene_destroy(scene);
+  hr2d_allocator missing = test_hooks(&memory);
+  missing.reallocate = NULL;
+  ck_assert_int_eq(hr2d_scene_create(&missing, &scene), HR2D_EINVAL);
+}
+END_TEST
+
+int main(void) {
+  const TTest *const tests[] = {scenes,    refinements, counts,
+                                solutions, exchanges,   failures_are_seen};
+  Suite *suite = suite_create("faults");
+  TCase *memory = tcase_create("memory");
+  tcase_set_timeout(memory, 600);
+  for (size_t k = 0; k < sizeof tests / sizeof *tests; k++) tcase_add_test(memory, tests[k]);
+  suite_add_tcase(suite, memory);
+  return test_run(suite);
+}

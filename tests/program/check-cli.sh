@@ -1,0 +1,562 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The program as a user meets it: exit status, messages, files, pictures.
+#
+# Environment: HR2D_PROGRAM, the program; HR2D_SCENES, the example scenes;
+# HR2D_SRCDIR, the top of the sources.
+# shellcheck disable=SC2154 # what expect.sh sets
+: "${HR2D_SRCDIR:?names the source directory}"
+scenes=${HR2D_SCENES:-$HR2D_SRCDIR/examples/scenes}
+data=$HR2D_SRCDIR/tests/program/cli
+reference=$HR2D_SRCDIR/tests/data/reference
+. "$data/expect.sh"
+
+is_absent() {
+  ! [ -e "$1" ]
+}
+no_leftovers() {
+  [ -z "$(find "$work" -name '.hr2d-*')" ]
+}
+
+far=$scenes/par-far.geojson
+narrow=$scenes/par-near.geojson
+
+# ---- bad usage: exit 2, one line
+usage "no command given"
+usage "unknown command 'price'" price "$far"
+usage "unknown command ''" ""
+usage "expected a command before '--eps'" --eps 1
+usage "'x' is one argument too many" --help x
+usage "'solve' needs a SCENE file" solve
+usage "'info' needs a SCENE file" info
+usage "'factors' needs a SCENE file" factors
+usage "'b' is one argument too many" solve a b
+usage "'x' is one argument too many" pair x
+usage "unknown option '--frobnicate'" solve "$far" --frobnicate
+usage "unknown option '-x'" solve -x "$far"
+usage "unknown option '--max-l'" solve "$far" --max-l 3
+usage "'--eps' lacks its argument" solve "$far" --eps
+usage "'--quiet=3' takes no argument" solve "$far" --quiet=3
+usage "'info' has no option --eps" info "$far" --eps 1
+usage "'solve' has no option --plot" solve "$far" --plot x.svg
+usage "'study' has no option --at" study "$far" --at 0:0
+usage "'factors' has no option --eps" factors "$far" --eps 1
+usage "'info' has no option --csv" info "$far" --csv a
+usage "'pair' has no option --force" pair --force occlusion
+usage "'pair' has no option --split-crossings" pair --split-crossings
+usage "'--split-crossings=1' takes no argument" factors "$far" --split-crossings=1
+usage "--force: 'fog' is none of occlusion, .*background.*, corner" solve "$far" --force fog
+usage "--force: 'occlusio' is none of" factors "$far" --force occlusio
+usage "two outputs go to '-'" factors "$far" --json - --csv -
+usage "--eps: 'x' is not a number greater than 0" solve "$far" --eps x
+usage "--eps: '0.1x' is not" solve "$far" --eps 0.1x
+usage "--eps: '' is not" solve "$far" --eps ''
+usage "--eps: ' 1' is not" solve "$far" --eps ' 1'
+usage "--eps: 'nan' is not" solve "$far" --eps nan
+usage "--eps: 'inf' is not" solve "$far" --eps inf
+usage "--eps: '1e999' is not" solve "$far" --eps 1e999
+usage "--eps: '-1' is not" solve "$far" --eps -1
+usage "--eps: '0' is not" solve "$far" --eps 0
+usage "--oracle: 'l2' is none of size, size2, bf" solve "$far" --oracle l2
+usage "--variant: 'x' is neither original nor modified" solve "$far" --variant x
+usage "--max-level: '1001' is not a whole number from 0 to 1000" solve "$far" --max-level 1001
+usage "--max-level: '2.5' is not" solve "$far" --max-level 2.5
+usage "--max-links: '0' is not" solve "$far" --max-links 0
+usage "--max-links: '-3' is not" solve "$far" --max-links -3
+usage "--max-elements: '99999999999999999999' is not" solve "$far" \
+  --max-elements 99999999999999999999
+usage "--threads: '1025' is not" solve "$far" --threads 1025
+usage "--multigrid: '1' is not FROM:RATIO" solve "$far" --multigrid 1
+usage "--multigrid: the ratio '2' is not" solve "$far" --multigrid 1:2
+usage "--multigrid: 0.01 is not greater than --eps 0.1" solve "$far" --multigrid 0.01:0.5
+usage "--at: '1' is not PATCH:T" solve "$far" --at 1
+usage "--at: '1:1.5' does not end in a number from 0 to 1" solve "$far" --at 1:1.5
+usage "--at: '1:' does not end" solve "$far" --at 1:
+usage "--at: the scene has no patch 2, only 0 to 1" solve "$far" --at 2:0
+usage "--at: the scene has no patch called 'foo'" solve "$far" --at foo:0
+usage "--links-of needs --draw" solve "$far" --links-of 0:0
+usage "--draw: 'a.jpg' does not end in .svg, .png or .pdf" solve "$far" --draw a.jpg
+usage "--draw: '.png' does not end" solve "$far" --draw .png
+usage "--json: the file name is empty" solve "$far" --json ''
+usage "two outputs go to '-'" solve "$far" --json - --csv -
+usage "two outputs go to 'a'" study "$far" --json a --csv a
+usage "--from 1 is not greater than --to 2" study "$far" --from 1 --to 2
+usage "--from 1 is not greater than --to 1" study "$far" --to 1
+usage "--steps: '1' is not" study "$far" --steps 1
+usage "--resume needs --csv with a file" study "$far" --resume
+usage "--resume needs --csv with a file" study "$far" --resume --csv -
+usage "--plot-log needs --plot" study "$far" --plot-log
+usage "--link-level needs --links-of" solve "$far" --link-level 1
+usage "--link-parents needs --link-level" solve "$far" --draw a.svg --links-of 0:0 --link-parents
+usage "--link-parents needs --link-level with at least 1" solve "$far" --draw a.svg \
+  --links-of 0:0 --link-level 0 --link-parents --variant modified
+usage "--link-parents needs --variant modified" solve "$far" --draw a.svg --links-of 0:0 \
+  --link-level 1 --link-parents
+
+# ---- help and version
+fits_screen() {
+  awk 'length($0) > 80 { bad = 1 } END { exit bad || NR < 5 || NR > 40 }' "$work/out"
+}
+for command in "" info solve study cost factors pair; do
+  # shellcheck disable=SC2086
+  succeeds $command --help
+  check "help of '$command' fits a screen" fits_screen
+done
+succeeds --version
+check "version is printed" grep -q '^hr2d [0-9][0-9]*\.[0-9][0-9]*\.[0-9]' "$work/out"
+
+# ---- bad input: exit 1, the file is named
+expect 1 "^hr2d: $work/none: ." solve "$work/none"
+expect 1 "^hr2d: $data/crossing.geojson: .*cross/1.* cross at (0.5, 0.5)" solve "$data/crossing.geojson"
+expect 1 "^hr2d: $data/crossing.geojson: .*cross/1.* cross at (0.5, 0.5)" factors "$data/crossing.geojson"
+expect 1 "^hr2d: $far: .*10 links" solve "$far" --max-links 10
+expect 1 "^hr2d: $far: .*3 elements" solve "$far" --max-elements 3
+for file in "$HR2D_SRCDIR"/tests/data/malformed/*.geojson; do
+  expect 1 "^hr2d: $file: ." solve "$file"
+done
+
+# ---- info
+succeeds info "$data/occluded.geojson" --json "$work/info.json"
+check "info prints the effects" grep -q '^  occlusion  *on  .*"blocker"' "$work/out"
+check "info prints the length" grep -q '^total length  2.8$' "$work/out"
+for key in scene cuts patches length bands bounding_box reflectance background effects \
+  reasons status; do
+  check "info has the key $key" grep -q "^  \"$key\": " "$work/info.json"
+done
+check "info says occlusion" grep -q '"occlusion": true' "$work/info.json"
+check "and no background" grep -q '"background": false' "$work/info.json"
+check "nor its light" lacks '^background ' "$work/out"
+succeeds info "$data/sky.geojson" --json "$work/info.json"
+check "info prints the background" grep -q '^background    0.5 1$' "$work/out"
+check "and its effect" grep -q '^  background  *on ' "$work/out"
+check "also as JSON" grep -q '"background": true' "$work/info.json"
+succeeds info "$far" --force occlusion --force bands
+check "info says what is forced" [ "$(grep -c -e '^  occlusion  *on' -e '^  bands  *on' "$work/out")" -eq 2 ]
+
+# ---- solve
+succeeds solve "$narrow" --eps 0.015625 --at bottom:0.25 --at 1:0.5 --json "$work/solve.json" \
+  --csv "$work/solve.csv"
+for key in scene patches at elements leaves links limited_links levels order epsilon oracle \
+  variant effects work seconds peak_bytes error power status; do
+  check "solve has the key $key" grep -q "^  \"$key\": " "$work/solve.json"
+done
+for key in index name length average irradiance net_flux patch t value oracle_calls \
+  facing_tests visibility_tests exchange_areas partial_links blocked_pairs dark_pairs sweeps \
+  iterations row_sums background_rows emitted received absorbed escaped relative_error refine \
+  coefficients solve total estimate bound occlusion background; do
+  check "solve has the inner key $key" grep -q "^   *\"$key\": " "$work/solve.json"
+done
+number() { # the first number of an array, by key and the which-th time it occurs
+  awk -v key="\"$1\": [" -v which="$2" 'index($0, key) { n++; if (n == which) { getline; print; exit } }' \
+    "$work/solve.json" | tr -d ' ,'
+}
+value() { # the first value of a key
+  grep -o "\"$1\": [^,]*" "$work/solve.json" | head -n 1 | cut -d' ' -f2
+}
+# tests/data/reference/radiosity_reference.csv
+check "average of bottom" near "$(number average 1)" 1.26523096533323 1e-5
+check "average of top" near "$(number average 2)" 0.575479501950071 1e-5
+check "B at a quarter of bottom" near "$(number value 1)" 1.28925868287759 1e-3
+check "B at half of top" near "$(number value 2)" 0.639919968806328 1e-3
+# B = E + ρH with ρ = 1/2
+check "H of bottom" near "$(number irradiance 1)" 0.53046193066646 3e-5
+check "H of top" near "$(number irradiance 2)" 1.150959003900142 1e-5
+check "B - H of top" near "$(number net_flux 2)" -0.575479501950071 1e-5
+check "N of par0.1" grep -q '^  "elements": 4094,$' "$work/solve.json"
+check "L of par0.1" grep -q '^  "links": 246082,$' "$work/solve.json"
+check "CSV has a row for each leaf" [ "$(wc -l <"$work/solve.csv")" -eq 2049 ]
+check "CSV has its header" grep -qx 'patch,name,t0,t1,ax,ay,bx,by,B0,H0' "$work/solve.csv"
+if command -v python3 >/dev/null 2>&1; then
+  check "JSON is JSON" python3 -m json.tool "$work/solve.json" /dev/null
+fi
+succeeds solve "$narrow" --quiet
+check "quiet prints nothing" [ ! -s "$work/out" -a ! -s "$work/err" ]
+succeeds solve "$narrow" --json -
+check "JSON alone on standard output" [ "$(head -c 1 "$work/out")" = "{" ]
+check "no table beside it" lacks '^scene' "$work/out"
+succeeds solve "$scenes/lit-room.geojson" --csv -
+check "three bands" [ "$(head -n 1 "$work/out")" = "patch,name,t0,t1,ax,ay,bx,by,B0,B1,B2,H0,H1,H2" ]
+succeeds solve "$scenes/corner.geojson"
+check "the recursion limit is told" \
+  grep -q 'recursion limit acted on [0-9]* links at level 24 (touching patches)' "$work/out"
+succeeds solve "$data/names.geojson" --at 'a:b, "c":0.5' --at 'größer:1' --csv -
+check "CSV quotes names" grep -q '^0,"a:b, ""c""",0,' "$work/out"
+succeeds solve "$far" --oracle bf --variant modified --multigrid 1:0.5 --eps 0.01 --threads 2 \
+  --json "$work/bf.json"
+check "bf is directed and named" grep -q '"oracle": "bf"' "$work/bf.json"
+succeeds solve "$narrow" --quiet --multigrid 1:0.5 --eps 0.0625 --json "$work/many.json"
+check "multigridding ends with the links of the last step" \
+  grep -q '^  "links": 15244,$' "$work/many.json"
+hr2d solve "$scenes/square-room.geojson" --threads 1 --csv "$work/one.csv" --quiet
+hr2d solve "$scenes/square-room.geojson" --threads 3 --csv "$work/three.csv" --quiet
+check "threads leave no trace" cmp -s "$work/one.csv" "$work/three.csv"
+
+# A closed room of E = 1 − ρ: B = H = 1, whatever the links.
+succeeds solve "$scenes/furnace-enclosure.geojson" --at 0:0.3 --json "$work/solve.json"
+check "H of an enclosure" near "$(number irradiance 1)" 1 1e-12
+check "H at a point of it" near "$(number irradiance 5)" 1 1e-12
+check "its net flux is 0" small "$(number net_flux 1)" 1e-12
+check "its power balance" grep -q '^power  *emitted 0.4 = absorbed 0.4 + escaped 0 (' "$work/out"
+check "closes" small "$(value relative_error)" 1e-12
+succeeds solve "$data/sky.geojson" --json "$work/solve.json"
+check "light that comes in is told" grep -q '^power 1 .* + received [0-9.]* = ' "$work/out"
+check "and balanced" small "$(value relative_error)" 1e-12
+succeeds solve "$scenes/occluders-200.geojson" --eps 1 --csv "$work/solve.csv"
+check "long tables are cut short" grep -q '^  \.\.\.  366 more patches' "$work/out"
+check "CSV is not" [ "$(cut -d, -f1 "$work/solve.csv" | sort -u | wc -l)" -eq 407 ]
+
+# ---- factors
+cells() { # cells FILE: rows of numbers, without the header
+  sed 1d "$1" | tr , ' '
+}
+rows_sum_to_1() { # rows_sum_to_1 CSV N
+  cells "$1" | awk -v n="$2" '{ s = 0; for (k = 1; k <= NF; k++) s += $k
+                               if (NF != n || s < 1 - 2e-14 || s > 1 + 2e-14) bad = 1 }
+                             END { exit bad || NR != n }'
+}
+reciprocal() { # reciprocal CSV JSON N: A_i F_ij = A_j F_ji
+  { grep -o '"length": [^,]*' "$2" | cut -d' ' -f2; cells "$1"; } |
+    awk -v n="$3" 'NR <= n { a[NR] = $1; next }
+      { for (k = 1; k <= n; k++) f[NR - n, k] = a[NR - n] * $k }
+      END { for (i = 1; i <= n; i++) for (j = 1; j < i; j++) {
+              d = f[i, j] - f[j, i]; if (d > 1e-15 || d < -1e-15) bad = 1 }
+            exit bad || NR != 2 * n }'
+}
+succeeds factors "$far" --csv -
+check "CSV has a line of names" [ "$(head -n 1 "$work/out")" = "bottom,top" ]
+# √2 − 1
+check "F of two opposite sides of a square" \
+  near "$(sed -n 2p "$work/out" | cut -d, -f2)" 0.41421356237309504880 1e-15
+check "nothing sees itself" [ "$(sed -n 3p "$work/out" | cut -d, -f2)" = 0 ]
+succeeds factors "$data/names.geojson" --csv -
+check "CSV quotes names of columns" [ "$(head -n 1 "$work/out")" = '"a:b, ""c""",größer' ]
+for scene in square-room:4 furnace:11 lit-room:9 castel-del-monte:14 partition:30 \
+  occluders-200:406; do
+  n=${scene#*:}
+  succeeds factors "$scenes/${scene%:*}.geojson" --csv "$work/f.csv" --json "$work/f.json"
+  check "rows of $scene sum to 1" rows_sum_to_1 "$work/f.csv" "$n"
+  check "$scene is reciprocal" reciprocal "$work/f.csv" "$work/f.json" "$n"
+  check "number of patches of $scene" grep -q "^patches   $n\$" "$work/out"
+done
+check "the table of many patches is cut short" grep -q '^  \.\.\.  366 more patches' "$work/out"
+for key in scene cuts patches factors work seconds status; do
+  check "factors has the key $key" grep -q "^  \"$key\": " "$work/f.json"
+done
+for key in index name length row_sum exchange_areas partial_pairs blocked_pairs \
+  visibility_tests; do
+  check "factors has the inner key $key" grep -q "\"$key\": " "$work/f.json"
+done
+if command -v python3 >/dev/null 2>&1; then
+  check "factors are JSON" python3 -c 'import json, sys
+d = json.load(open(sys.argv[1]))
+n = len(d["patches"])
+assert len(d["factors"]) == n and all(len(row) == n for row in d["factors"])
+assert all(abs(sum(row) - p["row_sum"]) < 1e-14 for row, p in zip(d["factors"], d["patches"]))
+assert isinstance(d["seconds"], float)' "$work/f.json"
+fi
+# Lines pass an obstacle from (0.3, 0.5) to (0.7, 0.5) in a unit square on either side, by
+# crossed strings √0.34 − ½ on each.
+for scene in "$data/occluded.geojson" "$scenes/blk1.vs2"; do
+  succeeds factors "$scene" --csv "$work/f.csv"
+  check "F around the obstacle of $scene" \
+    near "$(sed -n 2p "$work/f.csv" | cut -d, -f2)" 0.16619037896906 1e-13
+  check "the pair is seen in part: $scene" grep -q '^pairs .* 1 partly visible, 0 blocked$' "$work/out"
+done
+succeeds factors "$far"
+check "what escapes is told" grep -q '^worst .* = 5.858e-01, of patch 0 (bottom)$' "$work/out"
+succeeds factors "$far" --quiet
+check "quiet factors print nothing" [ ! -s "$work/out" -a ! -s "$work/err" ]
+succeeds factors "$far" --json -
+check "JSON of factors alone" [ "$(head -c 1 "$work/out")" = "{" ]
+expect 1 "^hr2d: $work/no/x.csv: cannot be written" factors "$far" --csv "$work/no/x.csv"
+[ ! -c /dev/full ] || expect 1 '^hr2d: /dev/full: cannot be written' factors "$far" --csv /dev/full
+[ ! -c /dev/full ] || expect 1 '^hr2d: /dev/full: cannot be written' factors "$far" --json /dev/full
+# Patches in one line: read at once, but with a matrix of half a gigabyte.
+awk 'BEGIN { printf "{\"type\": \"FeatureCollection\", \"features\": [{\"type\": \"Feature\","
+             printf "\"properties\": {}, \"geometry\": {\"type\": \"LineString\", \"coordinates\": ["
+             for (k = 0; k < 8000; k++) printf "[%d, 0], ", k
+             print "[8000, 0]]}}]}" }' >"$work/line.geojson"
+limited() { # limited ARGUMENTS...: with 300 MB of address space
+  # shellcheck disable=SC3045
+  (ulimit -v 300000 && exec "$HR2D_PROGRAM" "$@") >"$work/out" 2>"$work/err" </dev/null
+  status=$?
+}
+limited info "$work/line.geojson"
+if [ "$status" -eq 0 ]; then # a program with a sanitizer takes more
+  limited factors "$work/line.geojson"
+  check "a matrix that does not fit is told" \
+    matches 1 "^hr2d: $work/line.geojson: out of memory: the factors of 8000 patches take 512 MB\$"
+fi
+
+# ---- crossings that are cut, effects that are forced
+succeeds factors "$data/crossing.geojson" --split-crossings --csv "$work/f.csv"
+check "the crossing is told" grep -q '^crossings 1 cut$' "$work/out"
+check "pieces have names" grep -q 'cross/1 \[1\],' "$work/f.csv"
+check "rows around the crossing sum to 1" rows_sum_to_1 "$work/f.csv" 12
+for command in info solve study; do
+  succeeds $command "$data/crossing.geojson" --split-crossings --json "$work/cut.json"
+  check "$command tells the crossing" grep -q '^crossings  *1 cut$' "$work/out"
+  check "$command writes it" grep -q '^  "cuts": 1,$' "$work/cut.json"
+done
+for effect in occlusion interreflection emission bands two-sided facing background corner; do
+  hr2d solve "$far" --quiet --csv "$work/one.csv"
+  hr2d solve "$far" --quiet --csv "$work/forced.csv" --force "$effect"
+  check "forced $effect changes no bit" cmp -s "$work/one.csv" "$work/forced.csv"
+done
+sed 's/"emission": 1,//' "$narrow" >"$work/dark.geojson"
+hr2d study "$narrow" --quiet --csv "$work/one.csv"
+hr2d study "$work/dark.geojson" --quiet --csv "$work/dark.csv"
+check "the scene is dark" lacks emission "$work/dark.geojson"
+check "a study counts links in the dark" sh -c "cut -d, -f1-5 '$work/dark.csv' >'$work/a' &&
+  cut -d, -f1-5 '$work/one.csv' | cmp -s - '$work/a'"
+
+# ---- study
+succeeds study "$narrow" --from 1 --to 0.015625 --steps 4 --json "$work/study.json" \
+  --csv "$work/study.csv"
+check "the fit is printed" grep -q '^R² = .*slope of log L on log N = ' "$work/out"
+for key in a b c r2 slope; do
+  check "the fit has the key $key" grep -q "^    \"$key\": [-0-9]" "$work/study.json"
+done
+for key in epsilon elements leaves links oracle_calls seconds; do
+  check "rows have the key $key" grep -q "^      \"$key\": [0-9]" "$work/study.json"
+done
+awk -F, '$1 == "par0.1" && $2 == "original" { print $4 "," $6 "," $7 "," $10 "," $11 }' \
+  "$reference/counts_maxAr_pow2.csv" | head -n 4 >"$work/expected"
+sed 1d "$work/study.csv" | cut -d, -f1-5 >"$work/counted"
+check "N, leaves, L and calls are the reference's" cmp "$work/expected" "$work/counted"
+succeeds study "$narrow" --steps 2 --json "$work/two.json"
+check "two rows have no fit" grep -q '^  "fit": null' "$work/two.json"
+
+# ---- study, resumed: as in one go, seconds apart
+sweep() { # sweep CSV ARGUMENTS...
+  csv=$1
+  shift
+  run study "$narrow" --to 0.015625 --steps 25 --quiet --csv "$csv" "$@"
+}
+same_counts() {
+  cut -d, -f1-5 "$1" >"$work/counts"
+  cut -d, -f1-5 "$2" | cmp -s "$work/counts"
+}
+sweep "$work/whole.csv"
+check "the sweep has its rows" [ "$(wc -l <"$work/whole.csv")" -eq 26 ]
+sweep "$work/none.csv" --resume
+check "a file that does not exist is begun" same_counts "$work/whole.csv" "$work/none.csv"
+awk -F, -v OFS=, 'NR > 1 { $6 = 12345 } NR < 4 || NR > 8 && NR < 20' "$work/whole.csv" \
+  >"$work/part.csv"
+sweep "$work/part.csv" --resume --json "$work/part.json"
+check "a resumed sweep is that of one go" same_counts "$work/whole.csv" "$work/part.csv"
+check "and counts no row again" [ "$(grep -c ',12345$' "$work/part.csv")" -eq 13 ]
+check "and is complete" grep -q '^  "status": "ok"$' "$work/part.json"
+sort "$work/part.csv" | grep -v epsilon | sed '1i epsilon,elements,leaves,links,oracle_calls,seconds' |
+  sed 's/$/\r/' >"$work/sorted.csv"
+sweep "$work/sorted.csv" --resume
+check "the order of rows and the kind of line ends do not matter" \
+  cmp -s "$work/part.csv" "$work/sorted.csv"
+sweep "$work/part.csv" --resume --steps 4 --from 2
+check "rows for other ε stay" [ "$(wc -l <"$work/part.csv")" -eq 29 ]
+check "sorted by ε" sh -c "sed 1d '$work/part.csv' | sort -c -t, -k1,1gr"
+sweep "$work/limit.csv" --max-links 20000 --json "$work/limit.json"
+check "a limit ends a sweep with 1; was $status" matches 1 '20000 links'
+check "its rows are kept" [ "$(wc -l <"$work/limit.csv")" -gt 10 ]
+check "and called incomplete" grep -q '^  "status": "incomplete"$' "$work/limit.json"
+sweep "$work/limit.csv" --resume
+check "and taken up again" same_counts "$work/whole.csv" "$work/limit.csv"
+
+refuses() { # refuses REGEX SCRIPT: what a sed script makes of the CSV is not resumed
+  sed "$2" "$work/whole.csv" >"$work/bad.csv"
+  cp "$work/bad.csv" "$work/kept.csv"
+  sweep "$work/bad.csv" --resume
+  check "a CSV after sed '$2' -> $1; was $(head -n 1 "$work/err")" \
+    matches 1 "^hr2d: $work/bad.csv: cannot be resumed: .*$1"
+  check "and is left alone" cmp -s "$work/bad.csv" "$work/kept.csv"
+}
+refuses 'it is empty' d
+refuses 'line 1 is not the header' 1d
+refuses 'line 1 is not the header' '1s/links/knots/'
+refuses 'line 3 has fewer fields' '3s/,[^,]*$//'
+refuses 'line 3 has more fields' '3s/$/,1/'
+refuses 'line 3 has fewer fields' '3s/.*//'
+refuses 'line 4 does not begin with an epsilon' '4s/^/x/'
+refuses 'line 4 does not begin with an epsilon' '4s/^/-/'
+refuses "line 5: '9x' is no number of leaves" '5s/,[^,]*/,9x/2'
+refuses "line 5: '0' is no number of links" '5s/,[^,]*/,0/3'
+refuses "line 5: '-1' is no number of oracle calls" '5s/,[^,]*/,-1/4'
+refuses 'line 5 does not end with seconds' '5s/[^,]*$/soon/'
+refuses 'line 6 contains a NUL byte' '6s/,/\x00/'
+refuses 'is there twice' '7p'
+refuses 'do not belong to a scene of 2 patches' '8s/,[^,]*/,999999/1'
+refuses 'where this study counts' '2s/,[^,]*/,7777777/3'
+head -c -3 "$work/whole.csv" >"$work/bad.csv"
+sweep "$work/bad.csv" --resume
+check "a CSV that is cut off" matches 1 'line 26 is cut off$'
+for foreign in "$scenes/orth-near.geojson" "$narrow --oracle bf" "$narrow --variant modified"; do
+  # shellcheck disable=SC2086
+  run study $foreign --quiet --resume --csv "$work/whole.csv"
+  check "the CSV of another study is refused: $foreign" matches 1 'where this study counts'
+done
+mkdir "$work/folder.csv"
+sweep "$work/folder.csv" --resume
+check "a folder is refused" [ "$status" -eq 1 ]
+
+# ---- pair
+echo '0 0 1 0 1 1 0 1' | hr2d pair >"$work/out"
+# shellcheck disable=SC2046
+set -- $(cat "$work/out")
+check "four numbers for a pair" [ $# -eq 4 ]
+check "unit square" near "$1" 0.41421356237309504880 2.5e-16
+check "size oracle of the unit square" [ "$4" = 1 ]
+awk -F, 'NR > 1 { print $2, $3, $4, $5, $6, $7, $8, $9 }' "$reference/formfactors.csv" |
+  hr2d pair >"$work/out" 2>"$work/err"
+check "the reference pairs are read" [ $? -eq 0 ]
+# A denormal AF has no 17 digits to compare, but its view factors do.
+sed 1d "$reference/formfactors.csv" | cut -d, -f10-12 | tr , ' ' | paste -d ' ' - "$work/out" |
+  awk 'function off(x, y) { d = x - y; if (d < 0) d = -d; return d > 4e-15 * y }
+       { if ($1 + 0 > 2.3e-308 && off($4, $1)) bad = 1
+         if (off($5, $2) || off($6, $3)) { bad = 1; print "  line " NR ": " $0 } }
+       END { exit bad || NR < 10 }'
+check "pair agrees with the reference" [ $? -eq 0 ]
+pair() { # pair STATUS REGEX INPUT
+  # shellcheck disable=SC2059
+  printf "$3" | hr2d pair >"$work/out" 2>"$work/err"
+  status=$?
+  check "pair '$3' -> $1, $2; was $status, $(head -n 1 "$work/err")" matches "$1" "$2"
+}
+pair 1 '^hr2d: standard input: line 3: expected 8 numbers, found 7$' \
+  '# seven\n\n1 2 3 4 5 6 7\n'
+pair 1 'line 1: expected 8 numbers, found 9$' '1 2 3 4 5 6 7 8 9\n'
+pair 1 "line 1: 'x' is not a finite number" '1 2 3 4 x 6 7 8\n'
+pair 1 "line 1: 'nan' is not" '1 2 3 4 nan 6 7 8\n'
+pair 1 "line 1: 'inf' is not" '1 2 3 4 5 6 inf 8\n'
+pair 1 'line 2: the first segment has length 0' '0 0 1 0 1 1 0 1\n1 1 1 1 0 0 1 0\n'
+check "the lines before a bad one are answered" [ "$(wc -l <"$work/out")" -eq 1 ]
+pair 1 'line 1: the second segment has length 0' '0 0 1 0 1 1 1 1'
+pair 1 'line 1: contains a NUL byte' '0 0 1 0\0000 1 1 0 1\n'
+printf '  \n# nothing\n0 0 1 0 0.5 -1 0.5 1\n' | hr2d pair --oracle size2 >"$work/out"
+check "crossing segments have AF and no estimate" \
+  grep -q '^0\.[0-9]* 0\.[0-9]* 0\.[0-9]* nan$' "$work/out"
+
+# ---- files are whole or not there
+echo old >"$work/old.csv"
+echo old >"$work/old.png"
+(
+  trap '' XFSZ
+  ulimit -f 8
+  hr2d solve "$narrow" --eps 0.1 --quiet --csv "$work/old.csv" 2>"$work/err"
+)
+check "a write that fails is told" [ $? -eq 1 ]
+check "by name" grep -q "^hr2d: $work/old.csv: cannot be written" "$work/err"
+check "and leaves the old file" grep -qx old "$work/old.csv"
+check "and nothing else" no_leftovers
+succeeds solve "$narrow" --quiet --csv "$work/old.csv"
+check "a write that succeeds replaces the old file" lacks '^old$' "$work/old.csv"
+ln -s old.csv "$work/link.csv"
+succeeds solve "$far" --quiet --csv "$work/link.csv"
+check "a link stays a link" [ -L "$work/link.csv" ]
+expect 1 "^hr2d: $work/no/x.json: cannot be written" solve "$far" --json "$work/no/x.json"
+expect 1 "^hr2d: $work: cannot be written: is a directory" solve "$far" --json "$work"
+if [ -c /dev/full ]; then
+  expect 1 '^hr2d: /dev/full: cannot be written' solve "$far" --quiet --json /dev/full
+  expect 1 '^hr2d: /dev/full: cannot be written' study "$far" --quiet --csv /dev/full
+  check "a device stays a device" [ -c /dev/full ]
+  hr2d solve "$far" >/dev/full 2>"$work/err"
+  check "a full standard output is told" [ $? -eq 1 ]
+  hr2d --help >/dev/full 2>"$work/err"
+  check "also by --help" [ $? -eq 1 ]
+fi
+hr2d solve "$far" >&- 2>"$work/err"
+check "a closed standard output is told" [ $? -eq 1 ]
+
+# ---- interrupted: counts for minutes otherwise
+"$HR2D_PROGRAM" study "$scenes/square-room.geojson" --from 1e-4 --to 1e-5 --json "$work/late.json" \
+  >/dev/null 2>"$work/err" &
+child=$!
+sleep 1
+kill -TERM "$child"
+wait "$child"
+check "an interrupt ends with 130" [ $? -eq 130 ]
+check "and says so" grep -q 'interrupted$' "$work/err"
+check "and leaves no file" is_absent "$work/late.json"
+begin() { # begin SIGNAL: a sweep that takes minutes, ended once its CSV is there
+  mkdir "$work/$1"
+  "$HR2D_PROGRAM" study "$scenes/square-room.geojson" --to 1e-5 --steps 100 --threads 1 \
+    --json "$work/$1/late.json" --csv "$work/$1/late.csv" >"$work/out" 2>"$work/err" &
+  child=$!
+  for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do
+    sleep 1
+    [ ! -s "$work/$1/late.csv" ] || break
+  done
+  kill -"$1" "$child"
+  wait "$child"
+  status=$?
+}
+whole_rows() {
+  awk -F, 'NF != 6 { bad = 1 } END { exit bad || NR < 3 || NR > 90 }' "$1"
+}
+begin TERM
+check "an interrupted sweep ends with 130 and says how far it came" \
+  matches 130 '[0-9]* of 100 steps done when interrupted$'
+check "its rows are written" whole_rows "$work/TERM/late.csv"
+check "as JSON, too" grep -q '^  "status": "incomplete"$' "$work/TERM/late.json"
+check "and fitted" grep -q '^R² = ' "$work/out"
+begin KILL 2>/dev/null
+check "a killed sweep leaves its rows, whole" whole_rows "$work/KILL/late.csv"
+
+# ---- pictures
+run solve "$far" --quiet --draw "$work/probe.svg"
+if grep -q 'without cairo' "$work/err"; then
+  check "no cairo is told" [ "$status" -eq 1 ]
+else
+  for scene in "$scenes"/*.geojson "$data/names.geojson"; do
+    succeeds solve "$scene" --quiet --draw "$work/picture.svg"
+    check "SVG of $scene" magic "$work/picture.svg" 3c3f786d
+    check "SVG of $scene is whole" grep -q '</svg>' "$work/picture.svg"
+  done
+  succeeds solve "$narrow" --quiet --draw "$work/old.png" --links-of top:0.3
+  check "PNG" magic "$work/old.png" 89504e47
+  succeeds solve "$far" --quiet --draw "$work/picture.pdf" --links-of 0:0
+  succeeds solve "$narrow" --quiet --eps 0.25 --variant modified --draw "$work/picture.svg" \
+    --links-of bottom:0.49 --link-level 5
+  succeeds solve "$far" --quiet --eps 0.5 --variant modified --draw "$work/picture.svg" \
+    --links-of bottom:0.3 --link-level 1 --link-parents
+  succeeds solve "$far" --quiet --eps 0.5 --draw "$work/picture.svg" --links-of 1:1 --link-level 0
+  usage "--link-level: the elements at this point have levels 0 to 1" solve "$far" --quiet \
+    --eps 0.5 --draw "$work/picture.svg" --links-of 1:1 --link-level 2
+  expect 1 "^hr2d: $work/no/x.svg: cannot be written" solve "$far" --draw "$work/no/x.svg"
+  check "PDF" magic "$work/picture.pdf" 25504446
+  [ ! -c /dev/full ] || ln -s /dev/full "$work/full.png"
+  [ ! -c /dev/full ] || expect 1 "^hr2d: $work/full.png: cannot be written" \
+    solve "$far" --quiet --draw "$work/full.png"
+fi
+if command -v gnuplot >/dev/null 2>&1; then
+  for end in svg:3c3f786d png:89504e47 pdf:25504446; do
+    succeeds study "$narrow" --quiet --plot "$work/it's \"a\" plot.${end%:*}"
+    check "plot as ${end%:*}" magic "$work/it's \"a\" plot.${end%:*}" "${end#*:}"
+  done
+  succeeds study "$narrow" --quiet --plot "$work/plot.svg" --plot-log
+  check "the slope is on logarithmic axes" grep -q 'L ∝ N' "$work/plot.svg"
+fi
+# A gnuplot that fails, and a PATH that has everything but gnuplot.
+mkdir "$work/bad" "$work/bin"
+printf '#!/bin/sh\necho no luck >&2\nexit 3\n' >"$work/bad/gnuplot"
+chmod +x "$work/bad/gnuplot"
+ln -s /usr/bin/* /bin/* "$work/bin" 2>/dev/null
+rm -f "$work"/bin/gnuplot*
+usual=$PATH
+PATH=$work/bad:$usual
+expect 1 "^hr2d: $work/none.svg: gnuplot failed: no luck" study "$far" --quiet \
+  --plot "$work/none.svg"
+PATH=$work/bin
+expect 1 "^hr2d: $work/none.svg: cannot be plotted: gnuplot is not installed" study "$far" \
+  --quiet --plot "$work/none.svg"
+PATH=$usual
+check "a plot that fails leaves no file" is_absent "$work/none.svg"
+# A file that is longer than 32 bits can say is replaced as any other, with its mode.
+if truncate -s 3G "$work/long.json" 2>/dev/null; then
+  chmod 640 "$work/long.json"
+  succeeds solve "$far" --quiet --json "$work/long.json"
+  check "a long file is replaced" [ "$(wc -c <"$work/long.json")" -lt 100000 ]
+  check "with its mode" [ -n "$(find "$work/long.json" -perm 640)" ]
+fi
+check "no temporary file is left" no_leftovers
+
+summary check-cli

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Random scenes of every kind of light and shape, small enough to be solved to many digits. */
+#ifndef HR2D_TESTS_SUPPORT_ACCURACY_SCENES_H
+#define HR2D_TESTS_SUPPORT_ACCURACY_SCENES_H
+
+#include <hr2d/hr2d.h>
+#include <stdio.h>
+
+#include "support/room-plans.h"
+
+enum { ACCURACY_BANDS = 3 };
+
+typedef struct accuracy_scene {
+  const char *shape;
+  int open; /* not a room */
+  plan plan;
+  size_t bands;
+  double (*emission)[ACCURACY_BANDS]; /* of each wall */
+  double (*reflectance)[ACCURACY_BANDS];
+  double background[ACCURACY_BANDS];
+} accuracy_scene;
+
+/* Shape and light number k of a seed: rooms, also with things in them, open scenes, patches
+   that touch at any angle or stand on each other; up to three bands; reflectances from 0 to
+   `most`, of which some may be just that. */
+accuracy_scene accuracy_draw(uint64_t seed, int k, double most);
+void accuracy_free(accuracy_scene *s);
+
+/* The sources for which B = 1; black backs would be colder than all that. */
+void accuracy_set_isothermal(accuracy_scene *s);
+
+/* Sources of 1 in a single band, which has the largest reflectances: B says by how much an
+   error of any source may grow, κ = ‖(I − ρK)⁻¹‖∞. */
+void accuracy_set_uniform(accuracy_scene *s);
+
+/* A committed scene. */
+hr2d_scene *accuracy_make(const accuracy_scene *s);
+
+/* As GeoJSON. */
+void accuracy_print(FILE *out, const accuracy_scene *s);
+
+#endif

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A search for the inputs on which a function of some numbers is worst: random ones first,
+   then from several starts upward in small and in wild steps. */
+#ifndef HR2D_TESTS_SUPPORT_HILL_CLIMB_H
+#define HR2D_TESTS_SUPPORT_HILL_CLIMB_H
+
+#include <stddef.h>
+
+#include "support/pair-classes.h"
+
+enum { HILL_MOST = 24 };
+
+typedef struct hill {
+  const char *name;
+  size_t count;  /* numbers of an input, at most HILL_MOST */
+  size_t points; /* the first 2·points of them are the x and y of points */
+  void (*draw)(const void *ctx, randoms *r, double *x);
+  /* What is to be large; negative for an input that the bound does not speak of. */
+  double (*error)(const void *ctx, const double *x);
+  const void *ctx;
+} hill;
+
+typedef struct hill_effort {
+  int draws;         /* random inputs */
+  int climbs, steps; /* a climb starts from the best of a few random inputs */
+} hill_effort;
+
+typedef struct summit {
+  double error;
+  double x[HILL_MOST];
+  long tried; /* inputs that the bound speaks of */
+} summit;
+
+/* `stream` tells searches of one seed apart; draws and climbs are scaled by
+   test_multiplier(). */
+summit hill_climb(const hill *hill, hill_effort effort, int stream);
+
+/* Prints the seed, the worst input as hexadecimal numbers, and its error, and asserts that
+   that is within the bound, and that something was tried. */
+void hill_assert(const hill *hill, const summit *top, double bound);
+
+/* Both. */
+void hill_hold(const hill *hill, hill_effort effort, int stream, double bound);
+
+#endif

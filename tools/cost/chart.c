@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The script for the chart of costs: a curve for each method, its name and its slope at its
+   end. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cost/cost.h"
+#include "output/complain.h"
+#include "output/gnuplot.h"
+
+enum { MOST_CURVES = 16, WIDTH = 900, HEIGHT = 640 };
+
+/* Part of the width that is kept for names, and what a character and a line of them take. */
+#define LABELS    0.27
+#define CHARACTER 0.0095
+#define LINE      0.034
+#define GAP       0.012
+
+typedef struct curve {
+  const cost_method *method;
+  hr2d_point end;   /* in [0,1], from the lower left */
+  hr2d_point label; /* the left end of its name, likewise */
+  char text[64];
+} curve;
+
+typedef struct chart {
+  const cost *cost;
+  against quantity;
+  double worst, best, least, most; /* decades of error and of what is drawn upwards */
+  curve curves[MOST_CURVES];
+  size_t count;
+} chart;
+
+/* The paper's oracles, orders from light to dark, the automatic ones, the baseline. */
+static const char *colour_of(const char *method) {
+  static const struct {
+    const char *method, *colour;
+  } colours[] = {{"size", "#d95f02"},     {"size2", "#f0a850"},   {"bf", "#a6761d"},
+                 {"l1", "#e7298a"},       {"l1-grid", "#f4a6cf"}, {"multigrid", "#8c2d04"},
+                 {"order-2", "#a6cee3"},  {"order-4", "#6baed6"}, {"order-8", "#3182bd"},
+                 {"order-16", "#08519c"}, {"auto", "#006d2c"},    {"auto-solve", "#66c2a4"},
+                 {"dense", "#737373"}};
+  for (size_t k = 0; k < sizeof colours / sizeof *colours; k++)
+    if (!strcmp(colours[k].method, method)) return colours[k].colour;
+  return "#000000";
+}
+
+/* What is less than the error of the reference is drawn as that. */
+static double decade_of_error(const chart *d, const cost_row *row) {
+  return log10(fmax(row->error, cost_floor(d->cost)));
+}
+
+static double decade_of_cost(const chart *d, const cost_row *row) {
+  return log10(cost_quantity(row, d->quantity));
+}
+
+static void measure(chart *d) {
+  d->worst = d->most = -INFINITY;
+  d->best = d->least = INFINITY;
+  for (size_t k = 0; k < d->cost->count; k++) {
+    const cost_row *row = &d->cost->rows[k];
+    d->worst = fmax(d->worst, decade_of_error(d, row));
+    d->best = fmin(d->best, decade_of_error(d, row));
+    d->most = fmax(d->most, decade_of_cost(d, row));
+    d->least = fmin(d->least, decade_of_cost(d, row));
+  }
+  d->worst = fmin(1, d->worst) + 0.2;
+  d->best -= LABELS / (1 - LABELS) * (d->worst - d->best) + 0.2;
+  d->most += 0.5;
+  d->least -= 0.3;
+}
+
+static void describe(const chart *d, curve *v) {
+  cost_fit fit;
+  const int size = (int)sizeof v->text;
+  if (cost_fit_rows(d->cost, v->method, d->quantity, &fit))
+    snprintf(v->text, size, "%s", v->method->name);
+  else if (!fit.is_digital)
+    snprintf(v->text, size, "%s  %.2f", v->method->name, fit.slope);
+  else if (d->quantity == AGAINST_SECONDS)
+    snprintf(v->text, size, "%s  %.2g ms/digit", v->method->name, 1e3 * fit.digit);
+  else
+    snprintf(v->text, size, "%s  %.3g/digit", v->method->name, fit.digit);
+}
+
+static hr2d_point on_chart(const chart *d, const cost_row *row) {
+  return (hr2d_point){(d->worst - decade_of_error(d, row)) / (d->worst - d->best),
+                      (decade_of_cost(d, row) - d->least) / (d->most - d->least)};
+}
+
+static void find_curves(chart *d) {
+  for (size_t k = 0; k < d->cost->count; k++) {
+    const cost_row *row = &d->cost->rows[k];
+    const int begins = !k || row->method != d->cost->rows[k - 1].method;
+    if (begins && d->count == MOST_CURVES) return;
+    curve *v = &d->curves[begins ? d->count++ : d->count - 1];
+    if (begins) v->method = row->method;
+    v->end = on_chart(d, row);
+  }
+  for (size_t k = 0; k < d->count; k++) describe(d, &d->curves[k]);
+}
+
+static double width_of(const curve *v) {
+  return CHARACTER * (double)strlen(v->text);
+}
+
+/* Whether a line passes through a name at some place. */
+static int crosses(const curve *v, hr2d_point label, hr2d_point a, hr2d_point b) {
+  for (int k = 0; k <= 40; k++) {
+    const double x = a.x + k * (b.x - a.x) / 40, y = a.y + k * (b.y - a.y) / 40;
+    if (x > label.x && x < label.x + width_of(v) && fabs(y - label.y) < 0.5 * LINE) return 1;
+  }
+  return 0;
+}
+
+static int is_clear_of_curves(const chart *d, const curve *v, hr2d_point label) {
+  const cost_row *rows = d->cost->rows;
+  for (size_t k = 1; k < d->cost->count; k++)
+    if (rows[k].method == rows[k - 1].method &&
+        crosses(v, label, on_chart(d, &rows[k - 1]), on_chart(d, &rows[k])))
+      return 0;
+  return 1;
+}
+
+/* Of the first k names. */
+static int is_clear_of_names(const chart *d, size_t k, hr2d_point label) {
+  const double right = label.x + width_of(&d->curves[k]);
+  for (size_t j = 0; j < k; j++) {
+    const curve *w = &d->curves[j];
+    if (fabs(label.y - w->label.y) < LINE && label.x < w->label.x + width_of(w) &&
+        w->label.x < right)
+      return 0;
+  }
+  return label.x > 0 && right < 1 && label.y > 0.5 * LINE && label.y < 1 - 0.5 * LINE;
+}
+
+/* The nearest place beside the end of a curve, right or left of it, that is free of the names
+   before it, and if possible of all curves. */
+static void place_label(chart *d, size_t k) {
+  curve *v = &d->curves[k];
+  v->label = (hr2d_point){v->end.x + GAP, v->end.y};
+  for (int clear = 1; clear >= 0; clear--)
+    for (int step = 0; step < 120; step++) {
+      const double off = 0.25 * LINE * (step / 4);
+      const hr2d_point at = {step % 2 ? v->end.x - GAP - width_of(v) : v->end.x + GAP,
+                             step / 2 % 2 ? v->end.y - off : v->end.y + off};
+      if (!is_clear_of_names(d, k, at) || (clear && !is_clear_of_curves(d, v, at))) continue;
+      v->label = at;
+      return;
+    }
+}
+
+/* At every decade, or at every other where there are many. */
+static void write_tics(FILE *script, const chart *d) {
+  const double end = d->best + LABELS * (d->worst - d->best);
+  const int step = d->worst - end > 7 ? 2 : 1;
+  const char *separator = "set xtics (";
+  for (int e = step * (int)floor(d->worst / step); e >= end; e -= step) {
+    fprintf(script, "%s'10^{%d}' 1e%d", separator, e, e);
+    separator = ", ";
+  }
+  fputs(")\nset format y '10^{%T}'\nset mytics 10\nset tics nomirror\n", script);
+}
+
+static void write_axes(FILE *script, const chart *d) {
+  static const char *const name[] = {"seconds", "links L", "bytes"};
+  static const char *const law[] = {"seconds", "links", "bytes"};
+  fprintf(script,
+          "set logscale xy\nset xrange [%.17g:%.17g]\nset yrange [%.17g:%.17g]\n"
+          "set xlabel \"relative error of average B\\n{/*0.8 a number s beside a curve: %s ∝ "
+          "error^{−s}}\"\nset ylabel '%s'\n",
+          pow(10, d->worst), pow(10, d->best), pow(10, d->least), pow(10, d->most),
+          law[d->quantity], name[d->quantity]);
+  write_tics(script, d);
+  fputs("set border 3 linecolor rgb '#404040'\nset grid linecolor rgb '#dcdcdc'\nunset key\n",
+        script);
+}
+
+static void write_title(FILE *script, const chart *d) {
+  const char *scene = d->cost->options->scene, *slash = strrchr(scene, '/');
+  char title[512];
+  snprintf(title, sizeof title, "%s: %s against error", slash ? slash + 1 : scene,
+           d->quantity == AGAINST_SECONDS ? "seconds"
+           : d->quantity == AGAINST_LINKS ? "links"
+                                          : "bytes");
+  fputs("set title ", script);
+  gnuplot_quote(script, title);
+  fputs(" noenhanced\n", script);
+}
+
+static void write_labels(FILE *script, const chart *d) {
+  for (size_t k = 0; k < d->count; k++) {
+    const curve *v = &d->curves[k];
+    fputs("set label ", script);
+    gnuplot_quote(script, v->text);
+    fprintf(script,
+            " at graph %.4f, graph %.4f left noenhanced textcolor rgb '%s' font ',12'\n",
+            v->label.x, v->label.y, colour_of(v->method->name));
+  }
+}
+
+/* Data blocks of panel number `panel`, which have to be there before the first plot. */
+static void write_data(FILE *script, const chart *d, size_t panel) {
+  size_t k = 0;
+  for (size_t j = 0; j < d->count; j++) {
+    fprintf(script, "$curve%zu_%zu << END\n", panel, j);
+    for (; k < d->cost->count && d->cost->rows[k].method == d->curves[j].method; k++)
+      fprintf(script, "%.17g %.17g\n", pow(10, decade_of_error(d, &d->cost->rows[k])),
+              cost_quantity(&d->cost->rows[k], d->quantity));
+    fputs("END\n", script);
+  }
+}
+
+static void write_curves(FILE *script, const chart *d, size_t panel) {
+  for (size_t j = 0; j < d->count; j++) {
+    const char *method = d->curves[j].method->name;
+    fprintf(script,
+            "%s$curve%zu_%zu using 1:2 with linespoints pointtype %d pointsize 0.6 "
+            "linewidth %g linecolor rgb '%s'",
+            j ? ", " : "plot ", panel, j, strcmp(method, "dense") ? 7 : 5,
+            strncmp(method, "auto", 4) ? 1.2 : 2.2, colour_of(method));
+  }
+  fputs("\n", script);
+}
+
+static void make_panel(chart *d, const cost *c, against quantity) {
+  *d = (chart){.cost = c, .quantity = quantity};
+  measure(d);
+  find_curves(d);
+  for (size_t k = 0; k < d->count; k++) place_label(d, k);
+}
+
+static void write_script(FILE *script, const void *ctx) {
+  const cost *c = ctx;
+  const options *o = c->options;
+  chart d[AGAINST_COUNT];
+  fputs("set encoding utf8\n", script);
+  gnuplot_terminal(script, o->plot, WIDTH, HEIGHT * (int)o->panels);
+  for (size_t k = 0; k < o->panels; k++) {
+    make_panel(&d[k], c, o->against[k]);
+    write_data(script, &d[k], k);
+  }
+  fprintf(script, "set multiplot layout %zu,1\n", o->panels);
+  for (size_t k = 0; k < o->panels; k++) {
+    fputs("unset label\n", script);
+    write_title(script, &d[k]);
+    write_axes(script, &d[k]);
+    write_labels(script, &d[k]);
+    write_curves(script, &d[k], k);
+  }
+}
+
+int cost_draw(const cost *c) {
+  return c->count ? gnuplot_draw(c->options->plot, write_script, c)
+                  : fail(c->options->plot, "there is nothing to plot");
+}

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Least squares: a power of the error for all methods but the automatic ones, whose cost grows
+   with the digits. */
+#include <gsl/gsl_fit.h>
+#include <math.h>
+#include <string.h>
+
+#include "cost/cost.h"
+
+enum { MOST = 64, LEAST = 3 };
+
+double cost_quantity(const cost_row *row, against quantity) {
+  switch (quantity) {
+  case AGAINST_LINKS:
+    return (double)row->links;
+  case AGAINST_BYTES:
+    return (double)row->bytes;
+  default:
+    return row->seconds;
+  }
+}
+
+/* Rows whose error can be told from that of the reference. */
+static size_t collect(const cost *c, const cost_method *m, against quantity, double *digits,
+                      double *value) {
+  size_t count = 0;
+  for (size_t k = 0; k < c->count && count < MOST; k++) {
+    const cost_row *row = &c->rows[k];
+    if (row->method != m || !(row->error > 2 * cost_floor(c)) || !(row->error < 1)) continue;
+    digits[count] = -log10(row->error);
+    value[count++] = cost_quantity(row, quantity);
+  }
+  return count;
+}
+
+/* The finer half of the digits: coarse runs take what any run takes. */
+static size_t keep_fine(double *digits, double *value, size_t count) {
+  double most = 0, least = INFINITY;
+  size_t kept = 0;
+  for (size_t k = 0; k < count; k++) {
+    most = fmax(most, digits[k]);
+    least = fmin(least, digits[k]);
+  }
+  const double middle = 0.5 * (most + least);
+  for (size_t k = 0; k < count; k++) kept += digits[k] >= middle;
+  if (kept < LEAST) return count;
+  kept = 0;
+  for (size_t k = 0; k < count; k++)
+    if (digits[k] >= middle) {
+      digits[kept] = digits[k];
+      value[kept++] = value[k];
+    }
+  return kept;
+}
+
+/* Over less than a decade of error a slope says nothing. */
+static int is_wide(const double *digits, size_t count) {
+  double most = -INFINITY, least = INFINITY;
+  for (size_t k = 0; k < count; k++) {
+    most = fmax(most, digits[k]);
+    least = fmin(least, digits[k]);
+  }
+  return most - least >= 1;
+}
+
+static double line(const double *x, const double *y, size_t count) {
+  double c0 = 0, c1 = 0, cov00 = 0, cov01 = 0, cov11 = 0, rest = 0;
+  gsl_fit_linear(x, 1, y, 1, count, &c0, &c1, &cov00, &cov01, &cov11, &rest);
+  return c1;
+}
+
+int cost_fit_rows(const cost *c, const cost_method *m, against quantity, cost_fit *fit) {
+  double digits[MOST], value[MOST];
+  size_t count = collect(c, m, quantity, digits, value);
+  fit->is_digital = !m->oracle && strcmp(m->name, "dense") != 0;
+  if (!fit->is_digital) count = keep_fine(digits, value, count);
+  if (count < LEAST || !is_wide(digits, count)) return -1;
+  fit->digit = line(digits, value, count);
+  for (size_t k = 0; k < count; k++) value[k] = log10(value[k]);
+  fit->slope = line(digits, value, count);
+  return isfinite(fit->slope) ? 0 : -1;
+}

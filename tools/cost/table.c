@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of `hr2d cost`, method after method. */
+#include <stdio.h>
+
+#include "cost/cost.h"
+#include "output/json.h"
+
+/* Seconds as one would say them. */
+static const char *say(double seconds, char *text, size_t size) {
+  if (seconds < 1e-3)
+    snprintf(text, size, "%.2g ms", 1e3 * seconds);
+  else if (seconds < 1)
+    snprintf(text, size, "%.0f ms", 1e3 * seconds);
+  else
+    snprintf(text, size, "%.2g s", seconds);
+  return text;
+}
+
+static void print_prediction_table(const cost *c) {
+  printf("\n%10s %6s %12s %14s %14s %10s\n", "target", "order", "N", "L", "bytes", "seconds");
+  for (int k = 0; k < c->predictions; k++) {
+    const hr2d_prediction *p = &c->prediction[k];
+    printf("%10.0e %6u %12llu %14llu %14llu %10.4f\n", cost_prediction_target(k), p->order,
+           (unsigned long long)p->elements, (unsigned long long)p->links,
+           (unsigned long long)p->bytes, p->seconds);
+  }
+}
+
+void cost_print_predictions(const cost *c) {
+  char text[32];
+  printf("predicted  ");
+  for (int k = 0; k < c->predictions; k++)
+    printf("%s%.0e: about %s", k ? ", " : "", cost_prediction_target(k),
+           say(c->prediction[k].seconds, text, sizeof text));
+  puts("");
+}
+
+void cost_print_head(const cost *c) {
+  const hr2d_account *a = &c->reference;
+  print_scene(c->options, 11, c->cuts);
+  cost_print_predictions(c);
+  if (c->options->predict) {
+    print_prediction_table(c);
+    return;
+  }
+  printf("reference  error at most %.1e: p = %u, N = %llu, L = %llu, %.3f seconds\n",
+         a->average.bound, a->order, (unsigned long long)a->elements,
+         (unsigned long long)a->links, a->seconds);
+  printf("\n%-10s %10s %10s %12s %13s %11s %10s\n", "method", "parameter", "N", "L", "bytes",
+         "seconds", "error");
+  fflush(stdout);
+}
+
+/* An error that is less than the reference's own can only be said to be so. */
+static void print_row(const cost *c, const cost_row *row) {
+  const int below = row->error < cost_floor(c);
+  printf("%-10s %10.3g %10llu %12llu %13llu %11.6f %s%9.1e\n", row->method->name,
+         row->parameter, (unsigned long long)row->elements, (unsigned long long)row->links,
+         (unsigned long long)row->bytes, row->seconds, below ? "<" : " ",
+         below ? cost_floor(c) : row->error);
+}
+
+void cost_print_rows(const cost *c, size_t first) {
+  for (size_t k = first; k < c->count; k++) print_row(c, &c->rows[k]);
+  if (*c->message && c->count == first) printf("%-10s %s\n", "", "no rows");
+  fflush(stdout);
+}
+
+/* The steeper, the dearer the next digit: 10^s times what the last one took. */
+static void print_fit(const cost *c, const cost_method *m) {
+  cost_fit time, links;
+  char text[32];
+  if (cost_fit_rows(c, m, AGAINST_SECONDS, &time) || cost_fit_rows(c, m, AGAINST_LINKS, &links))
+    return;
+  if (time.is_digital)
+    printf("%-10s %s and %.3g links for each digit\n", m->name,
+           say(time.digit, text, sizeof text), links.digit);
+  else
+    printf("%-10s seconds ~ error^-%.2f, links ~ error^-%.2f\n", m->name, time.slope,
+           links.slope);
+}
+
+void cost_print_fits(const cost *c) {
+  const cost_method *m;
+  puts("");
+  for (size_t k = 0; (m = cost_method_at(k)); k++) print_fit(c, m);
+}

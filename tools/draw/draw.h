@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The picture of a solved scene. */
+#ifndef HR2D_TOOLS_DRAW_DRAW_H
+#define HR2D_TOOLS_DRAW_DRAW_H
+
+#include "run/run.h"
+
+/* Whether this program can draw such a file at all.  Returns 0, or EXIT_FAILED after
+   complaining. */
+int draw_check(const char *path);
+
+/* Draws the scene coloured by B, and the links of --links-of if that was given. */
+int draw_run(const run *r, const char *path);
+
+#endif

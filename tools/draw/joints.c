@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How bands end where patches meet, and how thick they may be to stay apart. */
+#include "draw/picture.h"
+
+#if HAVE_CAIRO
+#include <math.h>
+
+/* Beyond this many patches pairs are not compared; the bands are thin by then. */
+enum { MOST_COMPARED = 2000 };
+
+#define THICKEST 8.0
+#define THINNEST 1.5
+#define TOUCH    0.05 /* points that are closer than this are one */
+#define TURN     6.283185307179586
+
+static double distance(hr2d_point p, hr2d_point q) {
+  return hypot(q.x - p.x, q.y - p.y);
+}
+
+double to_stroke(hr2d_point q, const stroke *s) {
+  if (!(s->length > 0)) return distance(q, s->a);
+  const double ux = (s->b.x - s->a.x) / s->length, uy = (s->b.y - s->a.y) / s->length;
+  const double t = fmin(fmax((q.x - s->a.x) * ux + (q.y - s->a.y) * uy, 0), s->length);
+  return distance(q, (hr2d_point){s->a.x + t * ux, s->a.y + t * uy});
+}
+
+/* The angle from direction p→u to direction p→v, seen turning towards the front. */
+static double opening(const stroke *s, hr2d_point p, hr2d_point u, hr2d_point v) {
+  const double ux = u.x - p.x, uy = u.y - p.y, vx = v.x - p.x, vy = v.y - p.y;
+  const double side = ux * s->front.y - uy * s->front.x > 0 ? 1 : -1;
+  const double angle = atan2(side * (ux * vy - uy * vx), ux * vx + uy * vy);
+  return angle < 1e-6 ? angle + TURN : angle;
+}
+
+/* The smallest opening at end p of stroke s, whose other end is u. */
+static double smallest(const picture *p, const stroke *s, hr2d_point at, hr2d_point u) {
+  double least = TURN;
+  for (size_t k = 0; k < hr2d_scene_patches(p->run->scene); k++) {
+    const stroke *o = &p->strokes[k];
+    if (o == s || to_stroke(at, o) > TOUCH) continue;
+    if (distance(at, o->a) > TOUCH) least = fmin(least, opening(s, at, u, o->a));
+    if (distance(at, o->b) > TOUCH) least = fmin(least, opening(s, at, u, o->b));
+  }
+  return least;
+}
+
+/* Neighbours share an opening below 180° by its bisector. */
+static double cut(const picture *p, const stroke *s, hr2d_point at, hr2d_point u) {
+  const double angle = smallest(p, s, at, u);
+  return angle < 0.5 * TURN ? fmin(p->band / tan(0.5 * angle), 0.5 * s->length) : 0;
+}
+
+/* How far a point lies in front of a stroke, infinite where it lies elsewhere. */
+static double ahead(hr2d_point q, const stroke *s) {
+  if (!(s->length > 0)) return INFINITY;
+  const double dx = q.x - s->a.x, dy = q.y - s->a.y;
+  const double along = (dx * (s->b.x - s->a.x) + dy * (s->b.y - s->a.y)) / s->length;
+  const double height = dx * s->front.x + dy * s->front.y;
+  return along < 0 || along > s->length || height < TOUCH ? INFINITY : height;
+}
+
+/* The narrowest gap between a patch and what stands right before it. */
+static double narrowest(const picture *p) {
+  const size_t count = hr2d_scene_patches(p->run->scene);
+  double least = INFINITY;
+  for (size_t i = 0; i < count; i++)
+    for (size_t j = 0; j < count; j++) {
+      const stroke *s = &p->strokes[i], *o = &p->strokes[j];
+      if (i == j || to_stroke(s->a, o) < TOUCH || to_stroke(s->b, o) < TOUCH) continue;
+      least = fmin(least, fmin(ahead(o->a, s), ahead(o->b, s)));
+    }
+  return least;
+}
+
+static double choose_band(const picture *p) {
+  const size_t count = hr2d_scene_patches(p->run->scene);
+  if (count > MOST_COMPARED) return THINNEST;
+  return fmax(THINNEST, fmin(THICKEST, 0.4 * narrowest(p)));
+}
+
+static int is_twin(const stroke *s, const stroke *o) {
+  return distance(s->a, o->b) < TOUCH && distance(s->b, o->a) < TOUCH;
+}
+
+void join_strokes(picture *p) {
+  const size_t count = hr2d_scene_patches(p->run->scene);
+  p->band = choose_band(p);
+  if (count > MOST_COMPARED) return;
+  for (size_t k = 0; k < count; k++) {
+    stroke *s = &p->strokes[k];
+    s->cut_a = cut(p, s, s->a, s->b);
+    s->cut_b = cut(p, s, s->b, s->a);
+    for (size_t j = 0; j < count; j++)
+      if (j != k && is_twin(s, &p->strokes[j])) s->twin = 1;
+  }
+}
+#endif

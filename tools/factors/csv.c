@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The matrix as CSV (RFC 4180). */
+#include "output/csv.h"
+
+#include <stdio.h>
+
+#include "factors/factors.h"
+#include "output/output.h"
+
+int factors_write_csv(const factors *f) {
+  output out;
+  const int status = output_open(&out, f->options->csv);
+  const size_t n = f->patches;
+  if (status) return status;
+  for (size_t k = 0; k < n; k++) {
+    csv_text(out.stream, hr2d_scene_name(f->scene, k));
+    fputc(k + 1 < n ? ',' : '\n', out.stream);
+  }
+  for (size_t k = 0; k < n * n && !ferror(out.stream); k++)
+    fprintf(out.stream, "%.17g%c", f->factor[k], (k + 1) % n ? ',' : '\n');
+  return output_close(&out, 0);
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The view factors of a scene, F_ij = AF_ij / A_i. */
+#ifndef HR2D_TOOLS_FACTORS_FACTORS_H
+#define HR2D_TOOLS_FACTORS_FACTORS_H
+
+#include <hr2d/hr2d.h>
+
+#include "cli/options.h"
+
+typedef struct factors {
+  const options *options;
+  const hr2d_scene *scene;
+  size_t cuts; /* of --split-crossings */
+  size_t patches;
+  double *factor;  /* patches × patches, row by row */
+  double *row_sum; /* Σ F_ij */
+  double *missing; /* 1 − Σ F_ij, summed without the rounding of the row sum */
+  hr2d_matrix_counts counts;
+  double seconds; /* for all exchange areas */
+} factors;
+
+/* factors-csv.c: a line of names, then a row of F_ij for each patch. */
+int factors_write_csv(const factors *f);
+
+/* factors-json.c */
+int factors_write_json(const factors *f, const char *path);
+
+#endif

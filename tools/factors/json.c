@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The matrix as JSON, written row by row: as a document it would take ten times its memory. */
+#include "output/json.h"
+
+#include <stdio.h>
+
+#include "factors/factors.h"
+#include "output/complain.h"
+#include "output/output.h"
+
+/* Writes a value on one line and takes it over; NULL is a failed allocation. */
+static int write_value(FILE *stream, json_t *value) {
+  if (!value) return fail_memory();
+  const size_t flags = JSON_ENCODE_ANY | JSON_REAL_PRECISION(17);
+  const int bad = json_dumpf(value, stream, flags) && !ferror(stream);
+  json_decref(value);
+  return bad ? fail_memory() : 0;
+}
+
+static int write_member(FILE *stream, const char *key, json_t *value) {
+  fprintf(stream, ",\n  \"%s\": ", key);
+  return write_value(stream, value);
+}
+
+static json_t *patch_entry(const factors *f, size_t k) {
+  json_t *patch = json_object();
+  json_put(&patch, "index", json_count(k));
+  json_put(&patch, "name", json_text(hr2d_scene_name(f->scene, k)));
+  json_put(&patch, "length", json_number(hr2d_scene_length(f->scene, k)));
+  json_put(&patch, "row_sum", json_number(f->row_sum[k]));
+  json_put(&patch, "missing", json_number(f->missing[k]));
+  return patch;
+}
+
+static json_t *row(const factors *f, size_t k) {
+  json_t *list = json_array();
+  for (size_t j = 0; j < f->patches; j++)
+    json_push(&list, json_number(f->factor[k * f->patches + j]));
+  return list;
+}
+
+/* An array with an item per patch, each on its own line. */
+static int write_list(FILE *stream, const char *key, const factors *f,
+                      json_t *(*item)(const factors *, size_t)) {
+  int status = 0;
+  fprintf(stream, ",\n  \"%s\": [", key);
+  for (size_t k = 0; !status && !ferror(stream) && k < f->patches; k++) {
+    fputs(k ? ",\n    " : "\n    ", stream);
+    status = write_value(stream, item(f, k));
+  }
+  fputs("\n  ]", stream);
+  return status;
+}
+
+static json_t *work(const factors *f) {
+  json_t *object = json_object();
+  json_put(&object, "exchange_areas", json_count(f->counts.exchange_areas));
+  json_put(&object, "partial_pairs", json_count(f->counts.partial_pairs));
+  json_put(&object, "blocked_pairs", json_count(f->counts.blocked_pairs));
+  json_put(&object, "visibility_tests", json_count(f->counts.visibility_tests));
+  return object;
+}
+
+int factors_write_json(const factors *f, const char *path) {
+  output out;
+  int status = output_open(&out, path);
+  if (status) return status;
+  fputs("{\n  \"scene\": ", out.stream);
+  status = write_value(out.stream, json_text(f->options->scene));
+  if (!status) status = write_member(out.stream, "cuts", json_count(f->cuts));
+  if (!status) status = write_list(out.stream, "patches", f, patch_entry);
+  if (!status) status = write_list(out.stream, "factors", f, row);
+  if (!status) status = write_member(out.stream, "effects", json_effects(f->scene));
+  if (!status) status = write_member(out.stream, "work", work(f));
+  if (!status) status = write_member(out.stream, "seconds", json_number(f->seconds));
+  if (!status) status = write_member(out.stream, "status", json_text("ok"));
+  fputs("\n}\n", out.stream);
+  return output_close(&out, status);
+}

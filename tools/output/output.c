@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A temporary file beside the target, renamed once every byte is known to be there. */
+#include "output/output.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/options.h"
+#include "output/complain.h"
+
+enum { MOST_LINKS = 40, LINK_SIZE = 4096 };
+
+/* One output is open at a time; a signal handler must be able to find it. */
+static const char *volatile pending;
+
+static int failed(const char *path, const char *what) {
+  return errno ? fail(path, "%s: %s", what, strerror(errno)) : fail(path, "%s", what);
+}
+
+/* The directory part of a path, for the caller to free; "." if there is none. */
+static char *directory_of(const char *path) {
+  const char *slash = strrchr(path, '/');
+  if (!slash) return strdup(".");
+  return strndup(path, slash == path ? 1 : (size_t)(slash - path));
+}
+
+/* directory/name, for the caller to free. */
+static char *inside_directory_of(const char *path, const char *name) {
+  char *directory = directory_of(path);
+  const size_t size = directory ? strlen(directory) + strlen(name) + 2 : 0;
+  char *joined = directory ? malloc(size) : NULL;
+  if (joined) snprintf(joined, size, "%s/%s", directory, name);
+  free(directory);
+  return joined;
+}
+
+/* Follows links, also to what is not there yet, so that a rename replaces the file and not
+   the link to it; for the caller to free. */
+static char *target_of(const char *path) {
+  char link[LINK_SIZE], *at = strdup(path);
+  for (int k = 0; at && k < MOST_LINKS; k++) {
+    const ssize_t size = readlink(at, link, sizeof link);
+    if (size < 0 || (size_t)size == sizeof link) break;
+    link[size] = '\0';
+    char *next = *link == '/' ? strdup(link) : inside_directory_of(at, link);
+    free(at);
+    at = next;
+  }
+  return at;
+}
+
+/* As fopen() would give: what the umask leaves, or what the old file had. */
+static mode_t permissions(const char *target) {
+  struct stat old;
+  if (!stat(target, &old)) return old.st_mode & 07777;
+  const mode_t mask = umask(0);
+  umask(mask);
+  return 0666 & ~mask;
+}
+
+/* The name is pending before there is such a file: an interrupt between would leave it. */
+static int open_temporary(output *out) {
+  out->temporary = inside_directory_of(out->target, ".hr2d-XXXXXX");
+  if (!out->temporary) return fail_memory();
+  pending = out->temporary;
+  const int fd = mkstemp(out->temporary);
+  if (fd < 0) {
+    const int status = failed(out->path, "cannot be written");
+    pending = NULL;
+    free(out->temporary);
+    out->temporary = NULL;
+    return status;
+  }
+  if (fchmod(fd, permissions(out->target)) || !(out->stream = fdopen(fd, "wb"))) {
+    const int status = failed(out->path, "cannot be written");
+    close(fd);
+    return status;
+  }
+  return 0;
+}
+
+static void release(output *out) {
+  if (out->temporary) unlink(out->temporary);
+  pending = NULL;
+  free(out->temporary);
+  free(out->target);
+  *out = (output){0};
+}
+
+/* A file that is there but protected is not replaced either. */
+static int check_place(const char *path, const char *target) {
+  struct stat old;
+  if (!stat(path, &old)) {
+    if (S_ISDIR(old.st_mode)) return fail(path, "cannot be written: is a directory");
+    if (!S_ISREG(old.st_mode)) return 0;
+    if (access(path, W_OK)) return failed(path, "cannot be written");
+  } else if (errno != ENOENT) {
+    return failed(path, "cannot be written");
+  }
+  char *directory = directory_of(target);
+  if (!directory) return fail_memory();
+  const int bad = access(directory, W_OK | X_OK);
+  const int status = bad ? failed(path, "cannot be written") : 0;
+  free(directory);
+  return status;
+}
+
+int output_check(const char *path) {
+  if (!path || to_stdout(path)) return 0;
+  char *target = target_of(path);
+  const int status = target ? check_place(path, target) : fail_memory();
+  free(target);
+  return status;
+}
+
+int output_open(output *out, const char *path) {
+  *out = (output){.path = path};
+  if (to_stdout(path)) {
+    out->stream = stdout;
+    return 0;
+  }
+  struct stat old;
+  if (!stat(path, &old) && !S_ISREG(old.st_mode)) {
+    out->stream = fopen(path, "wb");
+    return out->stream ? 0 : failed(path, "cannot be written");
+  }
+  out->target = target_of(path);
+  int status = out->target ? check_place(path, out->target) : fail_memory();
+  if (!status) status = open_temporary(out);
+  if (status) release(out);
+  return status;
+}
+
+/* Bytes that are only in the cache when the name is there could be lost with the power; some
+   file systems cannot tell. */
+static int is_on_disk(FILE *stream) {
+  return !fsync(fileno(stream)) || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
+}
+
+/* A write that failed has kept its reason to itself; another one tells. */
+static int is_complete(const output *out) {
+  const int lost = ferror(out->stream);
+  errno = 0;
+  if (lost && out->temporary) fputc('\n', out->stream);
+  return !fflush(out->stream) && !lost && (!out->temporary || is_on_disk(out->stream));
+}
+
+static int replace(output *out) {
+  if (rename(out->temporary, out->target)) return -1;
+  pending = NULL;
+  free(out->temporary);
+  out->temporary = NULL;
+  return 0;
+}
+
+int output_close(output *out, int status) {
+  if (!out->stream) return status;
+  int complete = is_complete(out), reason = errno;
+  if (out->stream != stdout && fclose(out->stream) && complete) {
+    complete = 0;
+    reason = errno;
+  }
+  if (complete && !status && out->temporary && replace(out)) {
+    complete = 0;
+    reason = errno;
+  }
+  errno = reason;
+  if (!complete && !status) status = failed(out->path, "cannot be written");
+  release(out);
+  return status;
+}
+
+void output_abandon(void) {
+  if (pending) unlink(pending);
+}
+
+int output_finish(int status) {
+  errno = 0;
+  const int bad = ferror(stdout) | fflush(stdout);
+  if (!(bad | fclose(stdout))) return status;
+  if (status) return status;
+  return failed("standard output", "cannot be written");
+}

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Refine and solve once, or for falling ε, each stage starting from the last. */
+#include "run/run.h"
+
+#include <math.h>
+#include <sys/resource.h>
+
+#include "cli/load.h"
+#include "output/complain.h"
+#include "run/state.h"
+
+hr2d_refine_options refine_options(const options *o) {
+  hr2d_refine_options refine = HR2D_REFINE_OPTIONS_INIT;
+  refine.epsilon = o->epsilon;
+  refine.max_level = o->max_level;
+  refine.max_links = o->max_links;
+  refine.max_elements = o->max_elements;
+  return refine;
+}
+
+/* The ε of a stage, FROM·RATIO^stage; the last one is --eps itself. */
+static double stage_epsilon(const options *o, unsigned stage) {
+  if (!(o->multigrid_ratio > 0)) return o->epsilon;
+  const double epsilon = o->multigrid_from * pow(o->multigrid_ratio, stage);
+  return epsilon > o->epsilon * (1 + 1e-12) ? epsilon : o->epsilon;
+}
+
+static unsigned count_stages(const options *o) {
+  unsigned stages = 1;
+  while (stage_epsilon(o, stages - 1) > o->epsilon) stages++;
+  return stages;
+}
+
+/* The first one that is finer than the state at hand; the last is made again in any case, with
+   what the options now say. */
+static unsigned first_stage(const run *r, unsigned stages) {
+  unsigned stage = 0;
+  while (r->resumed > 0 && stage + 1 < stages && stage_epsilon(r->options, stage) >= r->resumed)
+    stage++;
+  return stage;
+}
+
+static hr2d_status refine_stage(run *r, double epsilon, progress *p) {
+  hr2d_refine_options refine = refine_options(r->options);
+  refine.epsilon = epsilon;
+  refine.brightness = r->solution;
+  refine.progress = progress_show;
+  refine.progress_ctx = p;
+  const double start = seconds();
+  const hr2d_status status = hr2d_refine(r->own_links, &refine);
+  r->account.refine_seconds += seconds() - start;
+  return status;
+}
+
+static void add_work(run *r, hr2d_solve_work stage) {
+  hr2d_solve_work *sum = &r->work;
+  sum->gathers += stage.gathers;
+  sum->iterations += stage.iterations;
+  sum->row_sums += stage.row_sums;
+  sum->background_rows += stage.background_rows;
+  sum->kernels += stage.kernels;
+}
+
+static hr2d_status solve_stage(run *r, progress *p) {
+  hr2d_solve_options solve = HR2D_SOLVE_OPTIONS_INIT;
+  solve.threads = r->options->threads;
+  solve.closure = r->options->closure;
+  solve.start = r->solution;
+  solve.progress = progress_show;
+  solve.progress_ctx = p;
+  hr2d_solution *next = NULL;
+  const double start = seconds();
+  p->coefficients = start;
+  const hr2d_status status = hr2d_solve(r->own_links, &solve, &next);
+  r->account.coefficients_seconds += p->coefficients - start;
+  r->account.solve_seconds += seconds() - p->coefficients;
+  if (status) return status;
+  hr2d_solution_destroy(r->solution);
+  r->solution = next;
+  add_work(r, hr2d_solution_work(next));
+  return HR2D_OK;
+}
+
+static int run_stages(run *r, progress *p) {
+  const options *o = r->options;
+  hr2d_status status = hr2d_hierarchy_create(r->scene, &r->own_hierarchy);
+  if (!status) status = hr2d_hierarchy_set_order(r->own_hierarchy, o->order);
+  if (!status)
+    status =
+        hr2d_linkset_create(r->own_hierarchy, o->oracle, NULL, o->policy, NULL, &r->own_links);
+  if (status) return fail_call(o->scene, "", status);
+  r->hierarchy = r->own_hierarchy;
+  r->links = r->own_links;
+  r->account.order = o->order;
+  int code = state_load(r);
+  p->steps = count_stages(o);
+  p->step = first_stage(r, p->steps);
+  for (; !status && !code && p->step < p->steps; p->step++) {
+    status = refine_stage(r, stage_epsilon(o, p->step), p);
+    if (!status) status = solve_stage(r, p);
+    if (!status) code = state_save(r);
+  }
+  p->steps = 0;
+  r->account.links = hr2d_linkset_size(r->links);
+  progress_clear(p);
+  if (!status) return code;
+  code = fail_call(o->scene, hr2d_linkset_message(r->links), status);
+  state_mention(r);
+  return code;
+}
+
+int run_solve(run *r) {
+  progress p;
+  progress_start(&p, r->options->quiet);
+  if (is_targeted(r->options)) return run_target(r, &p);
+  const int status = run_stages(r, &p);
+  return status ? status : run_error(r, &p);
+}
+
+void run_release(run *r) {
+  hr2d_solution_destroy(r->solution);
+  hr2d_linkset_destroy(r->own_links);
+  hr2d_hierarchy_destroy(r->own_hierarchy);
+  *r = (run){0};
+}
+
+double run_mean(const run *r, uint32_t element) {
+  const size_t bands = hr2d_scene_bands(r->scene);
+  double sum = 0;
+  for (size_t b = 0; b < bands; b++) sum += hr2d_solution_element(r->solution, element, b);
+  return sum / (double)bands;
+}
+
+double run_mean_at(const run *r, size_t patch, double t) {
+  const size_t bands = hr2d_scene_bands(r->scene);
+  double sum = 0;
+  for (size_t b = 0; b < bands; b++) sum += hr2d_solution_at(r->solution, patch, t, b);
+  return sum / (double)bands;
+}
+
+double power_error(const hr2d_power *p) {
+  const double in = p->emitted + p->received;
+  return in > 0 ? fabs(in - p->absorbed - p->escaped) / in : 0;
+}
+
+uint64_t peak_bytes(void) {
+  struct rusage usage;
+  return getrusage(RUSAGE_SELF, &usage) ? 0 : 1024 * (uint64_t)usage.ru_maxrss;
+}

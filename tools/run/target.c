@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs to a target error or a time budget, errors of the others, and points. */
+#include <math.h>
+#include <stdio.h>
+
+#include "cli/load.h"
+#include "output/complain.h"
+#include "run/run.h"
+
+/* Up to so many patches the error is measured without being asked for. */
+enum { FEW_PATCHES = 200 };
+
+static hr2d_target make_target(const run *r, progress *p) {
+  const options *o = r->options;
+  hr2d_target target = HR2D_TARGET_INIT;
+  target.error = o->target_error;
+  target.norm = o->norm;
+  if (o->importance.patch) target.importance = r->places[o->at_count + 1];
+  target.threads = o->threads;
+  target.max_elements = o->max_elements;
+  target.max_links = o->max_links;
+  target.progress = progress_show;
+  target.progress_ctx = p;
+  /* Reading the scene has had its part; a budget of nothing would be none at all. */
+  if (o->time_budget > 0) target.seconds = fmax(1e-3, o->time_budget - (seconds() - r->start));
+  return target;
+}
+
+/* What was reached, in the norm that was asked for. */
+static int complain_of_error(const run *r) {
+  const hr2d_account *a = &r->account;
+  const int sup = r->options->norm == HR2D_NORM_SUP;
+  const hr2d_error *e = sup ? &a->sup : &a->average;
+  return fail(r->options->scene, "%s; the error is about %.1e, at most %.1e",
+              *a->reason ? a->reason : "the target error was not reached", e->estimate,
+              e->bound);
+}
+
+int run_target(run *r, progress *p) {
+  const hr2d_target target = make_target(r, p);
+  const hr2d_status status = hr2d_solve_to(r->scene, &target, &r->solution, &r->account);
+  progress_clear(p);
+  r->inaccurate = status == HR2D_EACCURACY && r->solution;
+  if (status && status != HR2D_EACCURACY)
+    return fail_call(r->options->scene, r->account.reason, status);
+  if (!r->solution) return fail(r->options->scene, "%s", r->account.reason);
+  r->links = hr2d_solution_links(r->solution);
+  r->hierarchy = hr2d_linkset_hierarchy(r->links);
+  r->work = hr2d_solution_work(r->solution);
+  r->work.kernels = r->account.kernels;
+  return r->inaccurate ? complain_of_error(r) : EXIT_DONE;
+}
+
+/* The bound holds the error of what the solution is compared with, which is made better until
+   the difference can be told from it. */
+static hr2d_status compare(run *r, progress *p) {
+  hr2d_target how = HR2D_TARGET_INIT;
+  hr2d_account *a = &r->account;
+  hr2d_status status = HR2D_OK;
+  how.threads = r->options->threads;
+  how.progress = progress_show;
+  how.progress_ctx = p;
+  for (how.error = 1e-6; !status && how.error > 0.5e-12; how.error *= 1e-3) {
+    hr2d_error average, sup;
+    status = hr2d_solution_error(r->solution, &how, &average, &sup);
+    if (status) break;
+    a->average = average;
+    a->sup = sup;
+    if (average.estimate > 0.5 * average.bound) break;
+  }
+  return status;
+}
+
+int run_error(run *r, progress *p) {
+  const options *o = r->options;
+  r->account.average = r->account.sup = (hr2d_error){NAN, NAN};
+  if (o->no_error || (!o->error && hr2d_scene_patches(r->scene) > FEW_PATCHES)) return 0;
+  const double start = seconds();
+  const hr2d_status status = compare(r, p);
+  r->account.error_seconds = seconds() - start;
+  progress_clear(p);
+  if (!status) return EXIT_DONE;
+  if (status == HR2D_STOPPED) return fail_call(o->scene, "", status);
+  r->inaccurate = 1;
+  return fail(o->scene, "the error is not known: %s", hr2d_strerror(status));
+}
+
+/* H from B = E + ρH where that loses no digits worth having, so that both are as good. */
+static double irradiance(const run *r, size_t patch, double t, size_t band, double radiosity) {
+  const double emission = hr2d_scene_emission(r->scene, patch, band);
+  const double reflected = radiosity - emission;
+  if (reflected > 1e-3 * emission)
+    return reflected / hr2d_scene_reflectance(r->scene, patch, band);
+  return hr2d_solution_irradiance_at(r->solution, patch, t, band);
+}
+
+int run_place(const run *r, size_t k, double *b, double *h) {
+  const double t = r->options->at[k].t;
+  const size_t patch = r->places[k], bands = hr2d_scene_bands(r->scene);
+  const int gather = r->account.order > 1 || is_targeted(r->options);
+  if (gather && hr2d_solution_gather(r->solution, patch, &t, 1, b)) return fail_memory();
+  for (size_t band = 0; band < bands; band++) {
+    if (!gather) b[band] = hr2d_solution_at(r->solution, patch, t, band);
+    h[band] = gather ? irradiance(r, patch, t, band, b[band])
+                     : hr2d_solution_irradiance_at(r->solution, patch, t, band);
+  }
+  return EXIT_DONE;
+}

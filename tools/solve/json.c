@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The result of a run for programs. */
+#include "output/json.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "run/run.h"
+
+static json_t *per_band(const run *r, size_t patch,
+                        double (*get)(const hr2d_solution *, size_t, size_t)) {
+  json_t *array = json_array();
+  for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++)
+    json_push(&array, json_number(get(r->solution, patch, b)));
+  return array;
+}
+
+static json_t *patches(const run *r) {
+  json_t *list = json_array();
+  for (size_t k = 0; k < hr2d_scene_patches(r->scene); k++) {
+    json_t *patch = json_object();
+    json_put(&patch, "index", json_count(k));
+    json_put(&patch, "name", json_text(hr2d_scene_name(r->scene, k)));
+    json_put(&patch, "length", json_number(hr2d_scene_length(r->scene, k)));
+    json_put(&patch, "average", per_band(r, k, hr2d_solution_average));
+    json_put(&patch, "irradiance", per_band(r, k, hr2d_solution_irradiance));
+    json_put(&patch, "net_flux", per_band(r, k, hr2d_solution_net_flux));
+    json_push(&list, patch);
+  }
+  return list;
+}
+
+static json_t *numbers(const double *value, size_t count) {
+  json_t *array = json_array();
+  for (size_t k = 0; k < count; k++) json_push(&array, json_number(value[k]));
+  return array;
+}
+
+static json_t *place_entry(const run *r, size_t k) {
+  const size_t bands = hr2d_scene_bands(r->scene);
+  double *value = malloc(2 * bands * sizeof *value);
+  json_t *entry = value && !run_place(r, k, value, value + bands) ? json_object() : NULL;
+  json_put(&entry, "patch", json_count(r->places[k]));
+  json_put(&entry, "t", json_number(r->options->at[k].t));
+  json_put(&entry, "value", entry ? numbers(value, bands) : NULL);
+  json_put(&entry, "irradiance", entry ? numbers(value + bands, bands) : NULL);
+  free(value);
+  return entry;
+}
+
+static json_t *places(const run *r) {
+  json_t *list = json_array();
+  for (size_t k = 0; k < r->options->at_count; k++) json_push(&list, place_entry(r, k));
+  return list;
+}
+
+static json_t *work(const run *r, const hr2d_refine_counts *n) {
+  json_t *object = json_object();
+  json_put(&object, "oracle_calls", json_count(n->oracle_calls));
+  json_put(&object, "facing_tests", json_count(n->facing_tests));
+  json_put(&object, "visibility_tests", json_count(n->visibility_tests));
+  json_put(&object, "exchange_areas", json_count(n->exchange_areas));
+  json_put(&object, "partial_links", json_count(n->partial_links));
+  json_put(&object, "blocked_pairs", json_count(n->blocked_pairs));
+  json_put(&object, "dark_pairs", json_count(n->dark_pairs));
+  json_put(&object, "sweeps", json_count(r->work.gathers));
+  json_put(&object, "iterations", json_count(r->work.iterations));
+  json_put(&object, "row_sums", json_count(r->work.row_sums));
+  json_put(&object, "background_rows", json_count(r->work.background_rows));
+  json_put(&object, "kernels", json_count(r->work.kernels));
+  return object;
+}
+
+/* At order 1 exchange areas are computed while refining and have no time of their own. */
+static json_t *times(const run *r, double total_seconds) {
+  const hr2d_account *a = &r->account;
+  json_t *object = json_object();
+  json_put(&object, "refine", json_number(a->refine_seconds));
+  json_put(&object, "coefficients", json_number(a->order > 1 ? a->coefficients_seconds : NAN));
+  json_put(&object, "solve", json_number(a->solve_seconds));
+  json_put(&object, "error", json_number(a->error_seconds));
+  json_put(&object, "total", json_number(total_seconds));
+  return object;
+}
+
+static json_t *power(const run *r) {
+  json_t *list = json_array();
+  for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++) {
+    const hr2d_power p = hr2d_solution_power(r->solution, b);
+    json_t *band = json_object();
+    json_put(&band, "emitted", json_number(p.emitted));
+    json_put(&band, "received", json_number(p.received));
+    json_put(&band, "absorbed", json_number(p.absorbed));
+    json_put(&band, "escaped", json_number(p.escaped));
+    json_put(&band, "relative_error", json_number(power_error(&p)));
+    json_push(&list, band);
+  }
+  return list;
+}
+
+static json_t *errors(const hr2d_account *a) {
+  json_t *object = json_object();
+  json_put(&object, "estimate", json_number(a->average.estimate));
+  json_put(&object, "bound", json_number(a->average.bound));
+  json_put(&object, "sup_estimate", json_number(a->sup.estimate));
+  json_put(&object, "sup_bound", json_number(a->sup.bound));
+  return object;
+}
+
+static json_t *optional(double x) {
+  return x > 0 ? json_number(x) : json_null();
+}
+
+/* What was asked for; null where the method was given instead. */
+static json_t *target(const run *r) {
+  const options *o = r->options;
+  if (!is_targeted(o)) return json_null();
+  json_t *object = json_object();
+  json_put(&object, "error", optional(o->target_error));
+  json_put(&object, "norm", json_text(o->norm == HR2D_NORM_SUP ? "sup" : "average"));
+  json_put(&object, "seconds", optional(o->time_budget));
+  json_put(&object, "importance",
+           o->importance.patch ? json_count(r->places[o->at_count + 1]) : json_null());
+  json_put(&object, "reason", json_text(r->account.reason));
+  return object;
+}
+
+/* The keys that every solve has, null where there is no such thing. */
+static void put_method(json_t **root, const run *r) {
+  const options *o = r->options;
+  const int free_choice = !is_targeted(o);
+  json_put(root, "order", json_count(r->account.order));
+  json_put(root, "epsilon", free_choice ? json_number(o->epsilon) : json_null());
+  json_put(root, "oracle", json_text(free_choice ? o->oracle->name : "separation"));
+  json_put(root, "variant", free_choice ? json_text(o->policy->name) : json_null());
+  json_put(root, "target", target(r));
+}
+
+static void put_counts(json_t **root, const run *r, const hr2d_refine_counts *n) {
+  json_put(root, "elements", json_count(n->elements));
+  json_put(root, "leaves", json_count(n->leaves));
+  json_put(root, "links", json_count(r->account.links));
+  json_put(root, "limited_links", json_count(n->limited_links));
+  json_put(root, "levels", json_count(n->levels));
+}
+
+int write_run(const run *r, double total_seconds, const char *path) {
+  const options *o = r->options;
+  const hr2d_refine_counts counts = hr2d_linkset_counts(r->links);
+  json_t *root = json_object();
+  json_put(&root, "scene", json_text(o->scene));
+  json_put(&root, "cuts", json_count(r->cuts));
+  json_put(&root, "patches", patches(r));
+  json_put(&root, "at", places(r));
+  put_counts(&root, r, &counts);
+  put_method(&root, r);
+  json_put(&root, "effects", json_effects(r->scene));
+  json_put(&root, "work", work(r, &counts));
+  json_put(&root, "seconds", times(r, total_seconds));
+  json_put(&root, "peak_bytes", json_count(peak_bytes()));
+  json_put(&root, "power", power(r));
+  json_put(&root, "residual", json_number(hr2d_solution_residual(r->solution)));
+  json_put(&root, "error", errors(&r->account));
+  json_put(&root, "status", json_text(r->inaccurate ? "inaccurate" : "ok"));
+  return json_write(root, path);
+}

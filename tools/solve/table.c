@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The summary of a run for people. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "output/complain.h"
+#include "output/json.h"
+#include "run/run.h"
+
+/* Of many bands each has a line. */
+static void print_values(const run *r, size_t patch, int indent) {
+  const size_t bands = hr2d_scene_bands(r->scene);
+  for (size_t b = 0; b < bands; b++) {
+    if (b) printf("%*s", indent, "");
+    if (bands > 1) printf("  %4zu", b);
+    printf("  %12.6g  %12.6g  %12.6g\n", hr2d_solution_average(r->solution, patch, b),
+           hr2d_solution_irradiance(r->solution, patch, b),
+           hr2d_solution_net_flux(r->solution, patch, b));
+  }
+}
+
+static void print_patches(const run *r) {
+  const size_t count = hr2d_scene_patches(r->scene);
+  const int width = name_width(r->scene);
+  printf("\npatch  ");
+  print_padded(stdout, "name", width);
+  printf("  %12s%s  %12s  %12s  %12s\n", "length",
+         hr2d_scene_bands(r->scene) > 1 ? "  band" : "", "average B", "average H", "B - H");
+  for (size_t k = 0; k < count; k++) {
+    if (is_skipped(k, count)) continue;
+    printf("%5zu  ", k);
+    print_padded(stdout, hr2d_scene_name(r->scene, k), width);
+    printf("  %12.6g", hr2d_scene_length(r->scene, k));
+    print_values(r, k, 7 + width + 14);
+  }
+  puts("");
+}
+
+/* Points of a high order are good for more digits than those of constants. */
+static int print_places(const run *r) {
+  const options *o = r->options;
+  const size_t bands = hr2d_scene_bands(r->scene);
+  const int digits = r->account.order > 1 ? 12 : 9;
+  double *value = o->at_count ? malloc(2 * bands * sizeof *value) : NULL;
+  int status = o->at_count && !value ? fail_memory() : EXIT_DONE;
+  for (size_t k = 0; !status && k < o->at_count; k++) {
+    status = run_place(r, k, value, value + bands);
+    if (status) break;
+    printf("at %s:%g ", o->at[k].patch, o->at[k].t);
+    for (size_t b = 0; b < bands; b++) printf(" %.*g", digits, value[b]);
+    printf("  H");
+    for (size_t b = 0; b < bands; b++) printf(" %.*g", digits, value[bands + b]);
+    puts("");
+  }
+  if (o->at_count) puts("");
+  free(value);
+  return status;
+}
+
+static void print_method(const run *r) {
+  const options *o = r->options;
+  if (!is_targeted(o)) {
+    printf("method    oracle %s, variant %s, epsilon %g\n", o->oracle->name, o->policy->name,
+           o->epsilon);
+    if (r->resumed > 0) printf("          from epsilon %g in %s\n", r->resumed, o->state);
+    return;
+  }
+  printf("target   ");
+  if (o->target_error > 0)
+    printf(" error %g %s", o->target_error,
+           o->norm == HR2D_NORM_SUP ? "at all points" : "in averages");
+  if (o->importance.patch) printf(" of %s", o->importance.patch);
+  if (o->time_budget > 0)
+    printf("%s %g seconds", o->target_error > 0 ? " within" : " best within", o->time_budget);
+  puts("");
+}
+
+/* Relative errors, of averages first. */
+static void print_error(const run *r) {
+  const hr2d_account *a = &r->account;
+  if (isnan(a->average.estimate)) return;
+  printf("error     of averages about %.1e, at most %.1e\n", a->average.estimate,
+         a->average.bound);
+  printf("          at points about %.1e, at most %.1e\n", a->sup.estimate, a->sup.bound);
+}
+
+static void print_seconds(const run *r, double total_seconds) {
+  const hr2d_account *a = &r->account;
+  if (a->order > 1)
+    printf("seconds   refine %.3f, coefficients %.3f", a->refine_seconds,
+           a->coefficients_seconds);
+  else
+    printf("seconds   refine (with coefficients) %.3f", a->refine_seconds);
+  printf(", solve %.3f", a->solve_seconds);
+  if (a->error_seconds > 0) printf(", error %.3f", a->error_seconds);
+  printf(", total %.3f\n", total_seconds);
+}
+
+static void print_counts(const run *r, const hr2d_refine_counts *n) {
+  printf("elements  N = %llu, of which %llu leaves, on levels 0 to %u\n",
+         (unsigned long long)n->elements, (unsigned long long)n->leaves, n->levels);
+  printf("links     L = %llu, each for %s\n", (unsigned long long)r->account.links,
+         hr2d_linkset_directed(r->links) ? "one direction" : "both directions");
+  if (r->account.links > n->links)
+    printf("          %llu of them between clusters of patches\n",
+           (unsigned long long)(r->account.links - n->links));
+  if (n->partial_links)
+    printf("          %llu of them around occluders\n", (unsigned long long)n->partial_links);
+  /* To a target, elements are there before links. */
+  if (!n->limited_links || is_targeted(r->options)) return;
+  const int corner = hr2d_scene_effect(r->scene, HR2D_EFFECT_CORNER, NULL);
+  printf("          recursion limit acted on %llu links at level %u%s\n",
+         (unsigned long long)n->limited_links, r->options->max_level,
+         corner ? " (touching patches)" : "");
+}
+
+/* Nothing escapes from a closed scene but rounding, of many coefficients at a high order. */
+static double beyond_rounding(double power, double in) {
+  return fabs(power) > 1e-13 * in ? power : 0;
+}
+
+static void print_power(const run *r) {
+  const size_t bands = hr2d_scene_bands(r->scene);
+  for (size_t b = 0; b < bands; b++) {
+    const hr2d_power p = hr2d_solution_power(r->solution, b);
+    const double in = p.emitted + p.received;
+    char title[32] = "power";
+    if (bands > 1) snprintf(title, sizeof title, "power %zu", b);
+    printf("%-9s emitted %.6g", title, p.emitted);
+    if (p.received > 0) printf(" + received %.6g", p.received);
+    printf(" = absorbed %.6g + escaped %.6g (relative error %.1e)\n",
+           beyond_rounding(p.absorbed, in), beyond_rounding(p.escaped, in), power_error(&p));
+  }
+}
+
+static void print_effort(const run *r, const hr2d_refine_counts *n) {
+  const effort list[] = {
+      {"oracle calls", n->oracle_calls},   {"exchange areas", n->exchange_areas},
+      {"facing tests", n->facing_tests},   {"visibility tests", n->visibility_tests},
+      {"blocked pairs", n->blocked_pairs}, {"dark pairs", n->dark_pairs},
+      {"row sums", r->work.row_sums},      {"kernels", r->work.kernels}};
+  print_work(list, sizeof list / sizeof *list);
+}
+
+int print_run(const run *r, double total_seconds) {
+  const hr2d_refine_counts counts = hr2d_linkset_counts(r->links);
+  print_scene(r->options, 10, r->cuts);
+  print_method(r);
+  print_patches(r);
+  const int status = print_places(r);
+  print_counts(r, &counts);
+  printf("order     p = %u\n", r->account.order);
+  print_power(r);
+  print_error(r);
+  print_effort(r, &counts);
+  printf("solve     %llu gathers, %llu iterations, relative residual %.1e\n",
+         (unsigned long long)r->work.gathers, (unsigned long long)r->work.iterations,
+         hr2d_solution_residual(r->solution));
+  print_seconds(r, total_seconds);
+  printf("memory    %.1f MB at the peak\n", (double)peak_bytes() / 1e6);
+  return status;
+}

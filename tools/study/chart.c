@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The script for the chart of a study. */
+#include "study/chart.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "output/gnuplot.h"
+
+static void write_title(FILE *script, const options *o) {
+  const char *slash = strrchr(o->scene, '/');
+  char title[512];
+  snprintf(title, sizeof title, "%s: oracle %s, variant %s", slash ? slash + 1 : o->scene,
+           o->oracle->name, o->policy->name);
+  fputs("set title ", script);
+  gnuplot_quote(script, title);
+  fputs(" noenhanced\n", script);
+}
+
+/* An axis that counts thousands or millions rather than write their zeros. */
+typedef struct axis {
+  const char *quantity, *unit;
+  double divisor;
+} axis;
+
+static axis choose_axis(const char *quantity, double most, int logarithmic) {
+  if (logarithmic || most < 1e5) return (axis){quantity, "", 1};
+  if (most < 1e6) return (axis){quantity, " (thousands)", 1e3};
+  if (most < 1e9) return (axis){quantity, " (millions)", 1e6};
+  return (axis){quantity, " (billions)", 1e9};
+}
+
+/* A number in gnuplot's enhanced text. */
+static const char *enhanced(double x, char *text, size_t size) {
+  const double magnitude = fabs(x);
+  const int exponent = magnitude > 0 ? (int)floor(log10(magnitude)) : 0;
+  if (exponent >= -3 && exponent < 4)
+    snprintf(text, size, "%.4g", magnitude);
+  else
+    snprintf(text, size, "%.3f·10^{%d}", magnitude * pow(10, -exponent), exponent);
+  return text;
+}
+
+static void write_curve(FILE *script, const char *key) {
+  fputs("plot f(x) with lines linewidth 2 linecolor rgb '#21918c' title ", script);
+  gnuplot_quote(script, key);
+  fputs(", ", script);
+}
+
+static void write_quadratic(FILE *script, const hr2d_study_fit *fit, const axis *n,
+                            const axis *l) {
+  char key[192], a[32], b[32], c[32];
+  snprintf(key, sizeof key, "L = %s%s %s %s N %s %s N^2,  R^2 = %.6f", fit->a < 0 ? "−" : "",
+           enhanced(fit->a, a, sizeof a), fit->b < 0 ? "−" : "+", enhanced(fit->b, b, sizeof b),
+           fit->c < 0 ? "−" : "+", enhanced(fit->c, c, sizeof c), fit->r2);
+  fprintf(script, "f(x) = (%.17g + x*%g*(%.17g + x*%g*(%.17g)))/%g\n", fit->a, n->divisor,
+          fit->b, n->divisor, fit->c, l->divisor);
+  write_curve(script, key);
+}
+
+/* The least-squares line through (log N, log L) goes through their means. */
+static void write_power(FILE *script, const hr2d_study_row *rows, size_t count,
+                        const hr2d_study_fit *fit) {
+  char key[64];
+  double x = 0, y = 0;
+  for (size_t k = 0; k < count; k++) {
+    x += log((double)rows[k].counts.elements) / (double)count;
+    y += log((double)rows[k].counts.links) / (double)count;
+  }
+  fprintf(script, "f(x) = exp(%.17g + %.17g*log(x))\n", y - fit->slope * x, fit->slope);
+  snprintf(key, sizeof key, "L ∝ N^{%.3f}", fit->slope);
+  write_curve(script, key);
+}
+
+static void write_axes(FILE *script, const axis *n, const axis *l, double most,
+                       int logarithmic) {
+  fprintf(script, "set xlabel '%s N%s'\nset ylabel '%s L%s'\n", n->quantity, n->unit,
+          l->quantity, l->unit);
+  if (logarithmic)
+    fputs("set logscale xy\nset format '10^{%T}'\nset mxtics 10\nset mytics 10\n"
+          "set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03\n"
+          "set autoscale fix\n",
+          script);
+  else
+    fprintf(script, "set xrange [0:%.17g]\nset yrange [0:*]\nset format '%%.7g'\n",
+            1.04 * most / n->divisor);
+  fputs("set key top left reverse Left spacing 1.3\n"
+        "set border 3 linecolor rgb '#404040'\nset tics nomirror\n"
+        "set grid linecolor rgb '#c8c8c8'\nset samples 500\n",
+        script);
+}
+
+typedef struct chart {
+  const options *options;
+  const hr2d_study_row *rows;
+  size_t count;
+  const hr2d_study_fit *fit;
+} chart;
+
+static void write_script(FILE *script, const void *ctx) {
+  const chart *drawn = ctx;
+  const options *o = drawn->options;
+  const hr2d_study_row *rows = drawn->rows;
+  const hr2d_study_fit *fit = drawn->fit;
+  const size_t count = drawn->count;
+  double most_n = 0, most_l = 0;
+  fputs("set encoding utf8\n$rows << END\n", script);
+  for (size_t k = 0; k < count; k++) {
+    const hr2d_refine_counts *c = &rows[k].counts;
+    most_n = fmax(most_n, (double)c->elements);
+    most_l = fmax(most_l, (double)c->links);
+    fprintf(script, "%.17g %.17g\n", (double)c->elements, (double)c->links);
+  }
+  const axis n = choose_axis("elements", most_n, o->plot_log);
+  const axis l = choose_axis("links", most_l, o->plot_log);
+  fputs("END\n", script);
+  gnuplot_terminal(script, o->plot, 800, 560);
+  write_title(script, o);
+  write_axes(script, &n, &l, most_n, o->plot_log);
+  if (!fit)
+    fputs("plot ", script);
+  else if (o->plot_log)
+    write_power(script, rows, count, fit);
+  else
+    write_quadratic(script, fit, &n, &l);
+  fprintf(script,
+          "$rows using ($1/%g):($2/%g) with points pointtype 7 pointsize %g"
+          " linecolor rgb '#440154' title '%zu values of ε'\n",
+          n.divisor, l.divisor, count > 60 ? 0.6 : 1.1, count);
+}
+
+int chart_study(const options *o, const hr2d_study_row *rows, size_t count,
+                const hr2d_study_fit *fit) {
+  const chart drawn = {o, rows, count, fit};
+  return gnuplot_draw(o->plot, write_script, &drawn);
+}

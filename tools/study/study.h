@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A study under way: which ε are wanted, what is counted, the fit. */
+#ifndef HR2D_TOOLS_STUDY_STUDY_H
+#define HR2D_TOOLS_STUDY_STUDY_H
+
+#include <hr2d/hr2d.h>
+#include <stddef.h>
+
+#include "cli/options.h"
+#include "output/progress.h"
+
+typedef struct study {
+  const options *options;
+  size_t cuts;          /* of --split-crossings */
+  hr2d_study_row *rows; /* ε falls; N is 0 in rows that are not counted yet */
+  size_t count;
+  size_t known; /* rows that --resume found */
+  hr2d_study_fit fit;
+  int fitted;
+  int quiet;    /* no table */
+  int complete; /* nothing ended the sweep early */
+} study;
+
+/* study-plan.c: the rows of the CSV with --resume, and those that are still to be
+   counted.  Returns 0 or the exit status after complaining; either way the rows are
+   to be freed. */
+int study_plan(study *s, const hr2d_scene *scene);
+
+/* Keeps the rows that are counted. */
+void study_drop_uncounted(study *s);
+
+/* study-csv.c: the rows that are counted, written whole. */
+int study_write_csv(const study *s);
+
+/* Reads what that wrote, into memory that the caller frees; a file that does not exist
+   has no rows.  Returns 0 or EXIT_FAILED. */
+int study_read_csv(const char *path, hr2d_study_row **rows, size_t *count);
+
+/* Whether a CSV can be replaced again and again, as a pipe or device cannot. */
+int study_can_rewrite_csv(const study *s);
+
+/* study-json.c */
+int study_write_json(const study *s);
+
+/* study-sweep.c: the progress line of a sweep, and the interrupt key. */
+typedef struct sweep {
+  progress line;
+  int wanted;
+  double epsilon;
+  size_t step, steps;
+} sweep;
+
+void sweep_start(sweep *w, const study *s);
+
+/* Before the count of row `step`; returns HR2D_STOPPED after an interrupt. */
+hr2d_status sweep_next(sweep *w, const study *s, size_t step);
+
+/* A progress callback of the library; ctx is a sweep. */
+hr2d_status sweep_show(void *ctx, const hr2d_progress *now);
+
+#endif
