@@ -19,6 +19,7 @@ libhr2d_core_la_SOURCES = \
 	src/base/status.c \
 	src/base/union-find.h \
 	src/base/version.c \
+	src/geometry/bernstein-ellipse.c src/geometry/bernstein-ellipse.h \
 	src/geometry/crossings.c src/geometry/crossings.h \
 	src/geometry/cut-points.c src/geometry/cut-points.h \
 	src/geometry/determinant.c src/geometry/determinant.h \
@@ -30,6 +31,7 @@ libhr2d_core_la_SOURCES = \
 	src/geometry/orient-sign.h \
 	src/geometry/point-view-factor.h \
 	src/geometry/predicates.c src/geometry/predicates.h \
+	src/geometry/vector.h \
 	src/occlusion/corridor.c src/occlusion/corridor.h \
 	src/occlusion/exchange-occluded.c \
 	src/occlusion/line-classes.c src/occlusion/line-classes.h \

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "blocks/block.h"
+#include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
 
 /* On an element with children radiosity is not smooth: of the product of its rough part and the
@@ -20,9 +20,9 @@ static double error_for(const hr2di_separation *s, const hr2d_element *i,
 
 /* Links drop ρ^−2p of what is smooth, ρ^−p of what is rough. */
 static double distance_for(const hr2di_separation *s, const hr2d_element *e, double error) {
-  const double most = e->child ? ROUGH : HR2DI_DISTANT;
+  const double most = e->child ? ROUGH : HR2DI_ELLIPSE_DISTANT;
   if (!(error > 0)) return most;
-  return fmin(hr2di_distance_for(e->child ? error * error : error, s->order), most);
+  return fmin(hr2di_ellipse_for(e->child ? error * error : error, s->order), most);
 }
 
 static int is_separate(const hr2di_separation *ctx, const hr2d_element *i,

@@ -14,7 +14,7 @@
 #include "accuracy/corner-exponent.h"
 #include "accuracy/mirror-images.h"
 #include "base/alloc.h"
-#include "blocks/block.h"
+#include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
 #include "scene/scene-impl.h"
 
@@ -318,7 +318,8 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
   const double weight = g->grading->weight ? g->grading->weight[patch] : 1;
   g->near.count = g->marks = 0;
   g->target = fmin(g->grading->target / weight, 0.5);
-  g->distance = weight < 1 ? hr2di_distance_for(g->target, g->grading->order) : HR2DI_DISTANT;
+  g->distance =
+      weight < 1 ? hr2di_ellipse_for(g->target, g->grading->order) : HR2DI_ELLIPSE_DISTANT;
   hr2d_status status = look_around(g, patch);
   if (!status) status = hr2di_add_images(g->h->scene, patch, FAR, &g->near, g->near.count);
   for (int last = 0; last < 2 && !status; last++) status = add_foot(g, patch, last);

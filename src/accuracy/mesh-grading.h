@@ -32,9 +32,9 @@ typedef struct hr2di_survey {
 
 /* Divides elements, also of trees that have grown before: at visibility events and where the
    end of a patch stands on another; towards corners, geometrically; and until no end of a patch
-   is nearer to an element in front of it than an ellipse of HR2DI_DISTANT.  Patches that
-   reflect nothing have B = E and stay whole.  HR2D_OK, HR2D_ENOMEM or HR2D_EMAX_ELEMENTS, with
-   part of the divisions done. */
+   is nearer to an element in front of it than an ellipse of HR2DI_ELLIPSE_DISTANT.  Patches
+   that reflect nothing have B = E and stay whole.  HR2D_OK, HR2D_ENOMEM or HR2D_EMAX_ELEMENTS,
+   with part of the divisions done. */
 hr2d_status hr2di_grade(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
                         hr2di_survey *survey);
 

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "blocks/block.h"
+#include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
 #include "occlusion/wall-tree.h"
 #include "scene/scene-impl.h"

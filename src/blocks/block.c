@@ -6,42 +6,10 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
+#include "geometry/vector.h"
 #include "scene/scene-impl.h"
-
-/* Never 0 between two points: ellipses about panels would be NaN, and halved for ever. */
-static double distance(hr2d_point p, hr2d_point q) {
-  const double dx = p.x - q.x, dy = p.y - q.y, square = dx * dx + dy * dy;
-  return square > 0x1p-900 ? sqrt(square) : hypot(dx, dy);
-}
-
-static int same(hr2d_point p, hr2d_point q) {
-  return p.x == q.x && p.y == q.y;
-}
-
-double hr2di_ellipse(hr2d_segment s, hr2d_point v) {
-  return (distance(s.a, v) + distance(s.b, v)) / distance(s.a, s.b);
-}
-
-/* The sum of distances from a and b is convex along a line, and least where the line meets
-   the segment from a to the mirror image of b. */
-double hr2di_ellipse_least(hr2d_segment s, hr2d_segment of) {
-  const double dx = of.b.x - of.a.x, dy = of.b.y - of.a.y, square = dx * dx + dy * dy;
-  const hr2d_point a = {s.a.x - of.a.x, s.a.y - of.a.y};
-  const hr2d_point b = {s.b.x - of.a.x, s.b.y - of.a.y};
-  const double along_a = (a.x * dx + a.y * dy) / square,
-               along_b = (b.x * dx + b.y * dy) / square;
-  const double off_a = fabs(a.y * dx - a.x * dy), off_b = fabs(b.y * dx - b.x * dy);
-  const double off = off_a + off_b;
-  double t = off > 0 ? (along_a * off_b + along_b * off_a) / off : 0.5;
-  t = fmin(fmax(t, 0), 1);
-  return hr2di_ellipse(s, (hr2d_point){of.a.x + t * dx, of.a.y + t * dy});
-}
-
-double hr2di_distance_for(double error, unsigned order) {
-  const double rho = pow(error, -0.5 / order);
-  return fmin(0.5 * (rho + 1 / rho), HR2DI_DISTANT);
-}
 
 /* Where a linear function with these end values is positive. */
 static hr2di_span positive(const double end[2]) {
@@ -105,7 +73,8 @@ void hr2di_frame_pair(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pair pa
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
   const hr2d_segment p = h->scene->patch[i->patch].scaled, q = h->scene->patch[j->patch].scaled;
   make_frame(f, h->scene, i, j, facing);
-  if (same(p.b, q.a) || same(p.a, q.b)) measure_from_corner(f, h, pair, same(p.b, q.a));
+  if (hr2di_point_same(p.b, q.a) || hr2di_point_same(p.a, q.b))
+    measure_from_corner(f, h, pair, hr2di_point_same(p.b, q.a));
 }
 
 /* Digits a block is worth at order p: B is approximated to 3.3^−2p in the mean, and a rule of
@@ -205,7 +174,7 @@ hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double *block, int 
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
   const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
   const hr2d_segment p = h->scene->patch[i->patch].scaled, q = h->scene->patch[j->patch].scaled;
-  const int corner = same(p.b, q.a) || same(p.a, q.b);
+  const int corner = hr2di_point_same(p.b, q.a) || hr2di_point_same(p.a, q.b);
   const hr2di_facing facing = corner ? hr2di_face(&p, &q) : hr2di_face(&s, &t);
   hr2di_pair_frame f;
   hr2di_shaft shaft;
@@ -217,12 +186,12 @@ hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double *block, int 
   if (status || view == HR2DI_BLOCKED) return status;
   hr2di_frame_pair(&f, h, pair, facing);
   if (view == HR2DI_PARTIAL) return hr2di_block_shaded(w, &f, &shaft, block);
-  const int full = facing == HR2DI_FACING_FULL, touching_end = same(i->b, j->a);
-  *distant = full && hr2di_ellipse_least(s, t) >= HR2DI_DISTANT &&
-             hr2di_ellipse_least(t, s) >= HR2DI_DISTANT;
+  const int full = facing == HR2DI_FACING_FULL, touching_end = hr2di_point_same(i->b, j->a);
+  *distant = full && hr2di_ellipse_least(s, t) >= HR2DI_ELLIPSE_DISTANT &&
+             hr2di_ellipse_least(t, s) >= HR2DI_ELLIPSE_DISTANT;
   if (*distant)
     hr2di_block_distant(w, &f, block);
-  else if (full && (touching_end || same(i->a, j->b)))
+  else if (full && (touching_end || hr2di_point_same(i->a, j->b)))
     hr2di_block_touching(w, &f, touching_end, block);
   else
     hr2di_block_near(w, &f, block);

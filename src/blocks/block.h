@@ -67,20 +67,6 @@ hr2d_status hr2di_block(hr2di_integrator *work, hr2d_pair pair, double *block, i
 void hr2di_frame_pair(hr2di_pair_frame *frame, const hr2d_hierarchy *hierarchy, hr2d_pair pair,
                       hr2di_facing facing);
 
-/* How far v is from a segment in terms of its length: (|va| + |vb|)/|ab|, the sum of the half
-   axes of the ellipse with foci a and b through v.  A function with a singularity at v is
-   approximated on ab by polynomials of degree n to within ρ^−n, ρ = m + √(m²−1). */
-double hr2di_ellipse(hr2d_segment s, hr2d_point v);
-
-/* The least of it over the points of a segment. */
-double hr2di_ellipse_least(hr2d_segment s, hr2d_segment of);
-
-/* Pairs at least so far apart, both ways, are distant. */
-#define HR2DI_DISTANT 1.8
-
-/* The ellipse at which ρ^−2p is an error, at most HR2DI_DISTANT: as far as need be. */
-double hr2di_distance_for(double error, unsigned order);
-
 /* The parts of the job; each adds to a block.  */
 void hr2di_block_distant(hr2di_integrator *work, const hr2di_pair_frame *f, double *block);
 void hr2di_block_touching(hr2di_integrator *work, const hr2di_pair_frame *f, int at_end,

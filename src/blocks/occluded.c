@@ -13,6 +13,7 @@
 
 #include "base/alloc.h"
 #include "blocks/block.h"
+#include "geometry/vector.h"
 #include "scene/scene-impl.h"
 
 /* Parts of j narrower than this are none, and cuts of i closer than this one. */
@@ -48,25 +49,17 @@ typedef struct view {
   signature seen; /* of the cell under way */
 } view;
 
-static double cross(hr2d_point u, hr2d_point v) {
-  return u.x * v.y - u.y * v.x;
-}
-
-static hr2d_point minus(hr2d_point p, hr2d_point q) {
-  return (hr2d_point){p.x - q.x, p.y - q.y};
-}
-
 /* How far a point is in front of the line of j. */
 static double height(const hr2di_pair_frame *f, hr2d_point p) {
-  return cross(f->along_j, minus(p, f->j.a)) / f->length_j;
+  return hr2di_point_cross(f->along_j, hr2di_point_minus(p, f->j.a)) / f->length_j;
 }
 
 /* Whether a point is on the line of i but for rounding: then it is seen along i, on the side of
    the start of j or on the other. */
 static int is_foot(const hr2di_pair_frame *f, hr2d_point p) {
-  const hr2d_point from = minus(p, f->i.a);
+  const hr2d_point from = hr2di_point_minus(p, f->i.a);
   const double size = fabs(from.x) + fabs(from.y) + f->length_i;
-  return cross(f->along_i, from) <= FOOT * f->length_i * size;
+  return hr2di_point_cross(f->along_i, from) <= FOOT * f->length_i * size;
 }
 
 /* Where x sees a point on the line of j; an end of what is in front if that is nearer. */
@@ -75,11 +68,12 @@ static bound project(const view *v, double s, uint32_t point) {
   const bound start = {f->front_j.from, START}, end = {f->front_j.to, END};
   if (point < FIRST) return point == START ? start : end;
   const hr2d_point x = hr2di_along(f->i.a, f->along_i, s), p = v->work->point[point];
-  const hr2d_point way = minus(p, x);
+  const hr2d_point way = hr2di_point_minus(p, x);
   if (is_foot(f, p)) return f->along_i.x * way.x + f->along_i.y * way.y > 0 ? start : end;
-  if (cross(minus(v->work->point[START], x), way) <= 0) return start;
-  if (cross(minus(v->work->point[END], x), way) >= 0) return end;
-  const double t = cross(minus(f->j.a, x), way) / cross(way, f->along_j);
+  if (hr2di_point_cross(hr2di_point_minus(v->work->point[START], x), way) <= 0) return start;
+  if (hr2di_point_cross(hr2di_point_minus(v->work->point[END], x), way) >= 0) return end;
+  const double t =
+      hr2di_point_cross(hr2di_point_minus(f->j.a, x), way) / hr2di_point_cross(way, f->along_j);
   return (bound){fmin(fmax(t, start.at), end.at), point};
 }
 
@@ -174,9 +168,9 @@ static hr2d_status make_cuts(hr2di_integrator *w, const view *v, size_t *cuts) {
   w->cut[(*cuts)++] = f->front_i.to;
   for (size_t k = FIRST; k < v->points; k++)
     for (size_t m = 0; m < k; m++) {
-      const hr2d_point line = minus(w->point[m], w->point[k]);
-      const double at_a = cross(line, minus(f->i.a, w->point[k]));
-      const double at_b = cross(line, minus(f->i.b, w->point[k]));
+      const hr2d_point line = hr2di_point_minus(w->point[m], w->point[k]);
+      const double at_a = hr2di_point_cross(line, hr2di_point_minus(f->i.a, w->point[k]));
+      const double at_b = hr2di_point_cross(line, hr2di_point_minus(f->i.b, w->point[k]));
       const double s = at_a / (at_a - at_b);
       if (s > f->front_i.from && s < f->front_i.to) w->cut[(*cuts)++] = s;
     }

@@ -4,6 +4,7 @@
 #define HR2D_SRC_BLOCKS_PANELS_H
 
 #include "blocks/block.h"
+#include "geometry/bernstein-ellipse.h"
 
 /* A panel is far enough from a point v at an ellipse of m = 1.75, ρ = 3.19 (see block.h). */
 #define HR2DI_NEAR_ELLIPSE 1.75

@@ -11,6 +11,7 @@
 
 #include "base/alloc.h"
 #include "geometry/orient-sign.h"
+#include "geometry/vector.h"
 #include "scene/scene-impl.h"
 
 /* No cluster is deeper: the first two ways of parting leave these many levels to the last,
@@ -48,14 +49,6 @@ static hr2d_point direction(const maker *m, uint32_t patch) {
   return (hr2d_point){(s.b.x - s.a.x) / length, (s.b.y - s.a.y) / length};
 }
 
-static double dot(hr2d_point p, hr2d_point q) {
-  return p.x * q.x + p.y * q.y;
-}
-
-static double cross(hr2d_point p, hr2d_point q) {
-  return p.x * q.y - p.y * q.x;
-}
-
 /* Along which wall a patch lies, and which way it points there. */
 static uint32_t run_of(const maker *m, uint32_t patch) {
   const uint32_t wall = m->scene->walls.of_segment[patch];
@@ -65,7 +58,7 @@ static uint32_t run_of(const maker *m, uint32_t patch) {
 }
 
 static void widen(hr2di_extent *e, hr2d_point u, hr2d_point p) {
-  const double along = dot(u, p), across = cross(u, p);
+  const double along = hr2di_point_dot(u, p), across = hr2di_point_cross(u, p);
   e->u0 = fmin(e->u0, along);
   e->u1 = fmax(e->u1, along);
   e->v0 = fmin(e->v0, across);
@@ -109,8 +102,8 @@ static int find_cone(const maker *m, const item *items, size_t count, hr2d_point
   double least = 1, most = 0;
   for (size_t k = 0; k < count; k++) {
     const hr2d_point d = direction(m, items[k].patch);
-    least = fmin(least, dot(*axis, d));
-    most = fmax(most, fabs(cross(*axis, d)));
+    least = fmin(least, hr2di_point_dot(*axis, d));
+    most = fmax(most, fabs(hr2di_point_cross(*axis, d)));
   }
   *cosine = least;
   if (least > 0) *sine = most;
@@ -135,8 +128,8 @@ static void measure(const maker *m, hr2di_cluster *c, const item *items) {
     c->y0 = fmin(c->y0, fmin(s.a.y, s.b.y));
     c->y1 = fmax(c->y1, fmax(s.a.y, s.b.y));
     if (run_of(m, items[k].patch) != c->run) c->run = HR2DI_NO_RUN;
-    if (dot(c->u, s.a) < dot(c->u, c->span.a)) c->span.a = s.a;
-    if (dot(c->u, s.b) > dot(c->u, c->span.b)) c->span.b = s.b;
+    if (hr2di_point_dot(c->u, s.a) < hr2di_point_dot(c->u, c->span.a)) c->span.a = s.a;
+    if (hr2di_point_dot(c->u, s.b) > hr2di_point_dot(c->u, c->span.b)) c->span.b = s.b;
   }
 }
 
@@ -161,7 +154,7 @@ static size_t part_by_normal(const maker *m, item *items, size_t count) {
   hr2d_point axis;
   double cosine, sine;
   for (size_t k = 0; k < count; k++)
-    items[k].key = dot(first, direction(m, items[k].patch)) < 0.5;
+    items[k].key = hr2di_point_dot(first, direction(m, items[k].patch)) < 0.5;
   const size_t low = part(items, count);
   if (low == 0 || low == count) return 0;
   find_cone(m, items, low, &axis, &cosine, &sine);
@@ -184,7 +177,7 @@ static size_t part_by_place(const maker *m, const hr2di_cluster *c, item *items,
   for (size_t k = 0; k < count; k++) {
     const hr2d_segment s = segment(m, items[k].patch);
     const hr2d_point twice = {s.a.x + s.b.x, s.a.y + s.b.y};
-    items[k].key = along ? dot(c->u, twice) : cross(c->u, twice);
+    items[k].key = along ? hr2di_point_dot(c->u, twice) : hr2di_point_cross(c->u, twice);
   }
   qsort(items, count, sizeof *items, by_key);
   return count / 2;

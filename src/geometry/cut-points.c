@@ -16,6 +16,7 @@
 
 #include "base/alloc.h"
 #include "geometry/crossings.h"
+#include "geometry/vector.h"
 
 #define NONE SIZE_MAX
 
@@ -135,19 +136,16 @@ static hr2d_status make_nodes(finder *f) {
   return HR2D_OK;
 }
 
-static int same(hr2d_point p, hr2d_point q) {
-  return p.x == q.x && p.y == q.y;
-}
-
 static double apart(hr2d_point p, hr2d_point q) {
   return fmax(fabs(p.x - q.x), fabs(p.y - q.y));
 }
 
 static int is_on(const finder *f, size_t wall, hr2d_point p) {
-  if (same(f->wall[wall].s.a, p) || same(f->wall[wall].s.b, p)) return 1;
+  if (hr2di_point_same(f->wall[wall].s.a, p) || hr2di_point_same(f->wall[wall].s.b, p))
+    return 1;
   const hr2di_cut_range own = f->cuts->of[wall];
   for (size_t k = own.first; k < own.end; k++)
-    if (same(f->cuts->cut[k].at, p)) return 1;
+    if (hr2di_point_same(f->cuts->cut[k].at, p)) return 1;
   return 0;
 }
 

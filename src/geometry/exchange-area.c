@@ -26,6 +26,7 @@
 
 #include "geometry/determinant.h"
 #include "geometry/exchange-area-scaled.h"
+#include "geometry/vector.h"
 
 typedef struct determinants {
   double abc, abd, cda, cdb;
@@ -88,16 +89,8 @@ typedef struct quadrilateral {
   hr2d_point ab, cd, ac, bd, ad, bc;
 } quadrilateral;
 
-static inline hr2d_point minus(hr2d_point to, hr2d_point from) {
-  return (hr2d_point){to.x - from.x, to.y - from.y};
-}
-
 static inline double length(hr2d_point v) {
   return sqrt(v.x * v.x + v.y * v.y);
-}
-
-static inline double dot(hr2d_point u, hr2d_point v) {
-  return u.x * v.x + u.y * v.y;
 }
 
 /* G_x(y,z) for vectors to y and z with determinant det; for an obtuse angle the
@@ -127,24 +120,29 @@ static double crossing_area(double length_i, double length_j, double dot, double
    left; likewise for the other ends.  If j crosses i itself, both are cut at X.  No
    other two determinants of a visible pair are negative, since A + C = B + D. */
 static double clipped_area(const quadrilateral *s, determinants o) {
-  const double u = length(s->ab), v = length(s->cd), uv = dot(s->ab, s->cd);
+  const double u = length(s->ab), v = length(s->cd), uv = hr2di_point_dot(s->ab, s->cd);
   if (o.abd < 0 && o.cda < 0)
     return crossing_area(u, v, uv, o.cdb, o.abc, o.abc - o.abd, length(s->bc));
   if (o.abc < 0 && o.cdb < 0)
     return crossing_area(u, v, uv, o.cda, o.abd, o.cda - o.cdb, length(s->ad));
-  if (o.abd < 0) return corner_area(u, length(s->ac), dot(s->ab, s->ac), o.abc, length(s->bc));
-  if (o.abc < 0) return corner_area(u, length(s->bd), -dot(s->ab, s->bd), o.abd, length(s->ad));
-  if (o.cda < 0) return corner_area(v, length(s->bd), dot(s->bd, s->cd), o.cdb, length(s->bc));
-  return corner_area(v, length(s->ac), -dot(s->ac, s->cd), o.cda, length(s->ad));
+  if (o.abd < 0)
+    return corner_area(u, length(s->ac), hr2di_point_dot(s->ab, s->ac), o.abc, length(s->bc));
+  if (o.abc < 0)
+    return corner_area(u, length(s->bd), -hr2di_point_dot(s->ab, s->bd), o.abd, length(s->ad));
+  if (o.cda < 0)
+    return corner_area(v, length(s->bd), hr2di_point_dot(s->bd, s->cd), o.cdb, length(s->bc));
+  return corner_area(v, length(s->ac), -hr2di_point_dot(s->ac, s->cd), o.cda, length(s->ad));
 }
 
 /* AF from determinants that have all their digits; plain coordinates. */
 static double area_of(const hr2d_segment *i, const hr2d_segment *j, determinants o) {
   if ((o.abc <= 0 && o.abd <= 0) || (o.cda <= 0 && o.cdb <= 0)) return 0;
-  const quadrilateral s = {minus(i->b, i->a), minus(j->b, j->a), minus(j->a, i->a),
-                           minus(j->b, i->b), minus(j->b, i->a), minus(j->a, i->b)};
+  const quadrilateral s = {hr2di_point_minus(i->b, i->a), hr2di_point_minus(j->b, j->a),
+                           hr2di_point_minus(j->a, i->a), hr2di_point_minus(j->b, i->b),
+                           hr2di_point_minus(j->b, i->a), hr2di_point_minus(j->a, i->b)};
   if (o.abc < 0 || o.abd < 0 || o.cda < 0 || o.cdb < 0) return clipped_area(&s, o);
-  const double p = length(s.ac), q = length(s.bd), e = dot(s.ac, s.bd), k = o.abc + o.cda;
+  const double p = length(s.ac), q = length(s.bd), e = hr2di_point_dot(s.ac, s.bd),
+               k = o.abc + o.cda;
   const double at_ad = (p * o.abd + q * o.cda) + k * length(s.ad);
   const double at_bc = (q * o.abc + p * o.cdb) + k * length(s.bc);
   /* At a common corner a = d or b = c the term and its denominator vanish. */

@@ -60,7 +60,7 @@ static inline int hr2di_turn(const hr2di_frame *frame, hr2di_mark p, hr2di_mark 
 
 /* One place, but for rounding across a line. */
 static inline int hr2di_same_mark(const hr2di_frame *frame, hr2di_mark p, hr2di_mark q) {
-  if (hr2di_same(p.at, q.at) || hr2di_corners(p, q)) return 1;
+  if (hr2di_point_same(p.at, q.at) || hr2di_corners(p, q)) return 1;
   const unsigned both = p.on & q.on;
   if (both & HR2DI_ON_I) return hr2di_order(&frame->i, p.at, q.at) == 0;
   return both & HR2DI_ON_J ? hr2di_order(&frame->j, p.at, q.at) == 0 : 0;

@@ -6,9 +6,7 @@
 #include <hr2d/geometry.h>
 #include <math.h>
 
-static inline int hr2di_same(hr2d_point p, hr2d_point q) {
-  return p.x == q.x && p.y == q.y;
-}
+#include "geometry/vector.h"
 
 static inline int hr2di_sign(double x) {
   return (x > 0) - (x < 0);

@@ -46,7 +46,7 @@ int hr2di_side_close(hr2d_point a, hr2d_point b, hr2d_point c) {
   const double ux = b.x - a.x, uy = b.y - a.y, wx = c.x - a.x, wy = c.y - a.y;
   if (ux == 0 || wy == 0) return -hr2di_sign(uy) * hr2di_sign(wx);
   if (uy == 0 || wx == 0) return hr2di_sign(ux) * hr2di_sign(wy);
-  if (hr2di_same(c, b)) return 0;
+  if (hr2di_point_same(c, b)) return 0;
   return hr2d_orientation(a, b, c);
 }
 

@@ -186,8 +186,9 @@ static int is_flat(hr2d_point p, hr2d_point q, hr2d_segment i) {
    hφ; to the point where it does, h/φ further, nothing would be seen past that end. */
 static double crossing(hr2di_mark from, hr2di_mark to, hr2d_segment i, double least) {
   const hr2d_point p = from.at, q = to.at;
-  if (from.on & to.on & HR2DI_ON_I || hr2di_same(p, i.a) || hr2di_same(q, i.a)) return least;
-  if (hr2di_same(p, i.b) || hr2di_same(q, i.b)) return 1;
+  if (from.on & to.on & HR2DI_ON_I || hr2di_point_same(p, i.a) || hr2di_point_same(q, i.a))
+    return least;
+  if (hr2di_point_same(p, i.b) || hr2di_point_same(q, i.b)) return 1;
   double t;
   if ((from.on | to.on) & HR2DI_ON_I && is_flat(p, q, i)) {
     t = fraction_at(i, from.on & HR2DI_ON_I ? p : q);

@@ -66,7 +66,7 @@ static int clip(hr2di_obstacle *o, const hr2di_axis *line, unsigned bit, const i
     o->end[k].on = bit;
     o->whole &= ~(1u << k);
   }
-  return !hr2di_same(o->end[0].at, o->end[1].at);
+  return !hr2di_point_same(o->end[0].at, o->end[1].at);
 }
 
 /* The part of a segment in front of a line. */
@@ -224,7 +224,7 @@ static inline int clip_wall(const hr2di_shaft *s, double value[4][2], hr2di_obst
     snap(&o->end[e], s->d);
     part(s, &o->end[e]);
   }
-  return !hr2di_same(o->end[0].at, o->end[1].at);
+  return !hr2di_point_same(o->end[0].at, o->end[1].at);
 }
 
 /* Which ends of the obstacle are beyond the side k, p→q, of the shaft, or on it.  Where i

@@ -60,8 +60,8 @@ static void unite(runs *r, uint32_t i, uint32_t j) {
 
 /* Both ends of t lie on the line of s; exact, and so transitive.  A point has no line. */
 static int on_line(hr2d_segment s, hr2d_segment t) {
-  return !hr2di_same(s.a, s.b) && !hr2di_same(t.a, t.b) && hr2di_side(s.a, s.b, t.a) == 0 &&
-         hr2di_side(s.a, s.b, t.b) == 0;
+  return !hr2di_point_same(s.a, s.b) && !hr2di_point_same(t.a, t.b) &&
+         hr2di_side(s.a, s.b, t.a) == 0 && hr2di_side(s.a, s.b, t.b) == 0;
 }
 
 /* Unites segments on one line that meet in a vertex. */
@@ -87,7 +87,8 @@ static size_t find_runs(runs *r) {
   size_t vertices = 0;
   for (size_t first = 0, last; first < 2 * r->count; first = last, vertices++) {
     for (last = first;
-         last < 2 * r->count && hr2di_same(r->tip[last].point, r->tip[first].point); last++)
+         last < 2 * r->count && hr2di_point_same(r->tip[last].point, r->tip[first].point);
+         last++)
       r->vertex[2 * r->tip[last].segment + r->tip[last].which] = (uint32_t)vertices;
     unite_at(r, r->tip + first, last - first);
   }
@@ -109,8 +110,8 @@ static void make_walls(hr2di_walls *w, runs *r) {
     for (int e = 0; e < 2; e++) {
       const uint32_t vertex = r->vertex[2 * k + (uint32_t)e];
       /* Both ends of an occluder that is a point are one vertex. */
-      const int at_a = hr2di_same(end[e], w->wall[wall].at.a);
-      const int at_b = hr2di_same(end[e], w->wall[wall].at.b);
+      const int at_a = hr2di_point_same(end[e], w->wall[wall].at.a);
+      const int at_b = hr2di_point_same(end[e], w->wall[wall].at.b);
       if (at_a) w->wall[wall].vertex[0] = vertex;
       if (at_b) w->wall[wall].vertex[1] = vertex;
       if (!at_a && !at_b) w->host[vertex] = wall;
@@ -127,7 +128,7 @@ static int touches(hr2d_segment w, hr2d_point p) {
   const double dx = w.b.x - w.a.x, dy = w.b.y - w.a.y, length = hypot(dx, dy);
   const double along = (p.x - w.a.x) * dx + (p.y - w.a.y) * dy;
   return fabs(hr2di_orient(w.a, w.b, p)) <= TOUCH * length && along > 0 &&
-         along < length * length && !hr2di_same(p, w.a) && !hr2di_same(p, w.b);
+         along < length * length && !hr2di_point_same(p, w.a) && !hr2di_point_same(p, w.b);
 }
 
 /* The wall on whose inside p lies, if there is one. */

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "geometry/crossings.h"
+#include "geometry/vector.h"
 #include "scene/scene-impl.h"
 
 hr2d_status hr2di_check_bands(hr2d_scene *scene) {
@@ -101,12 +102,9 @@ static hr2d_point in_scene_lengths(const hr2d_scene *scene, hr2d_point p) {
   return (hr2d_point){ldexp(p.x, scene->exponent), ldexp(p.y, scene->exponent)};
 }
 
-static int same(hr2d_point p, hr2d_point q) {
-  return p.x == q.x && p.y == q.y;
-}
-
 static int is_between(const hr2d_segment *s, hr2d_point p, hr2d_point q) {
-  return (same(s->a, p) && same(s->b, q)) || (same(s->a, q) && same(s->b, p));
+  return (hr2di_point_same(s->a, p) && hr2di_point_same(s->b, q)) ||
+         (hr2di_point_same(s->a, q) && hr2di_point_same(s->b, p));
 }
 
 static hr2d_status fail_crossing(hr2d_scene *scene, size_t i, size_t j, hr2d_point x) {
@@ -138,7 +136,7 @@ static hr2d_status fail_overlap(hr2d_scene *scene, size_t i, size_t j, const hr2
                       "%s: hr2d_scene_split_crossings() or --split-crossings puts them back to "
                       "back; or use \"sides\": \"both\"",
                       first.text, second.text, where.text);
-  if (same(s->a, t->a) && same(s->b, t->b))
+  if (hr2di_point_same(s->a, t->a) && hr2di_point_same(s->b, t->b))
     return hr2di_fail(&scene->message, HR2D_ESCENE, "%s is a copy of %s, %s", second.text,
                       first.text, where.text);
   const int first_inside = is_between(s, m->from, m->to);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "geometry/predicates.h"
+#include "geometry/vector.h"
 #include "scene/find-occluder.h"
 #include "scene/scene-impl.h"
 
@@ -33,10 +34,6 @@ __attribute__((format(printf, 4, 5))) static void set(hr2d_scene *scene, hr2d_ef
             arguments);
   va_end(arguments);
   scene->effect[effect].on = on;
-}
-
-static int same(hr2d_point p, hr2d_point q) {
-  return p.x == q.x && p.y == q.y;
 }
 
 /* p lies on the closed segment. */
@@ -97,7 +94,7 @@ static size_t analyse_pairs(hr2d_scene *scene) {
   for (size_t i = 0; i < scene->patches; i++)
     for (size_t j = i + 1; j < scene->patches; j++) {
       const hr2d_segment *s = &scene->patch[i].scaled, *t = &scene->patch[j].scaled;
-      if (same(s->a, t->b) && same(s->b, t->a))
+      if (hr2di_point_same(s->a, t->b) && hr2di_point_same(s->b, t->a))
         set_pair(scene, HR2D_EFFECT_TWO_SIDED, "stand back to back", i, j);
       const hr2di_facing facing = hr2di_face(s, t);
       if (facing == HR2DI_FACING_NONE) continue;

@@ -91,7 +91,7 @@ static unsigned crossed(const hr2di_vertices *t, hr2d_point p, uint32_t wall) {
 /* Where a patch ends inside its wall there is something to see from its side only. */
 static hr2d_status add_joint(finder *f, hr2d_point p, uint32_t wall, unsigned side) {
   const hr2d_segment w = f->vertices.walls->wall[wall].at;
-  if (hr2di_same(p, w.a) || hr2di_same(p, w.b)) return HR2D_OK;
+  if (hr2di_point_same(p, w.a) || hr2di_point_same(p, w.b)) return HR2D_OK;
   const unsigned sides = side | crossed(&f->vertices, p, wall);
   return add_origin(f, (hr2di_origin){p, HR2DI_NO_VERTEX, wall, sides, HR2DI_NO_VERTEX});
 }
@@ -104,7 +104,8 @@ static hr2d_status add_joints(finder *f, uint32_t wall, unsigned side) {
   const uint32_t *patch = f->vertices.runs.patch;
   for (uint32_t k = run.first; k < run.last && !status; k++) {
     const hr2d_segment s = f->scene->patch[patch[k]].scaled;
-    const int joined = k > run.first && hr2di_same(f->scene->patch[patch[k - 1]].scaled.b, s.a);
+    const int joined =
+        k > run.first && hr2di_point_same(f->scene->patch[patch[k - 1]].scaled.b, s.a);
     if (!joined) status = add_joint(f, s.a, wall, side);
     if (!status) status = add_joint(f, s.b, wall, side);
   }

@@ -40,7 +40,7 @@ static void number_vertices(hr2di_viewer *w, tip *tips) {
   qsort(tips, 2 * w->patches, sizeof *tips, by_point);
   for (size_t k = 0; k < 2 * w->patches; k++) {
     const hr2d_point at = tips[k].at;
-    if (k == 0 || !hr2di_same(at, tips[k - 1].at))
+    if (k == 0 || !hr2di_point_same(at, tips[k - 1].at))
       w->vertex[w->vertices++] = (hr2d_point){HR2DI_VIEW_SCALE * at.x, HR2DI_VIEW_SCALE * at.y};
     w->end[tips[k].index / 2][tips[k].index % 2] = (uint32_t)w->vertices - 1;
   }
@@ -55,7 +55,7 @@ static void find_twins(hr2di_viewer *w, tip *tips) {
   }
   qsort(tips, w->patches, sizeof *tips, by_point);
   for (size_t k = 1; k < w->patches; k++)
-    if (hr2di_same(tips[k].at, tips[k - 1].at))
+    if (hr2di_point_same(tips[k].at, tips[k - 1].at))
       w->twin[tips[k].index] = w->twin[tips[k - 1].index] = 1;
 }
 

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Points as vectors, in plain doubles. */
+#ifndef HR2D_SRC_GEOMETRY_VECTOR_H
+#define HR2D_SRC_GEOMETRY_VECTOR_H
+
+#include <hr2d/geometry.h>
+
+static inline int hr2di_point_same(hr2d_point p, hr2d_point q) {
+  return p.x == q.x && p.y == q.y;
+}
+
+/* p − q */
+static inline hr2d_point hr2di_point_minus(hr2d_point p, hr2d_point q) {
+  return (hr2d_point){p.x - q.x, p.y - q.y};
+}
+
+static inline double hr2di_point_dot(hr2d_point u, hr2d_point v) {
+  return u.x * v.x + u.y * v.y;
+}
+
+static inline double hr2di_point_cross(hr2d_point u, hr2d_point v) {
+  return u.x * v.y - u.y * v.x;
+}
+
+#endif
