@@ -55,6 +55,7 @@ libhr2d_core_la_SOURCES = \
 	src/formats/geojson-geometry.c \
 	src/formats/geojson-impl.h \
 	src/formats/geojson-text.c src/formats/geojson-text.h \
+	src/formats/geojson-values.c \
 	src/formats/scene-file.c src/formats/scene-file.h \
 	src/formats/vs2.c \
 	src/formats/vs2-impl.h \
@@ -64,6 +65,7 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/events-rays.c \
 	src/visibility/exchange-matrix.c \
 	src/visibility/point-view.c src/visibility/point-view.h \
+	src/visibility/point-view-glimpse.c \
 	src/visibility/point-view-impl.h \
 	src/visibility/point-view-sweep.c \
 	src/hierarchy/hierarchy.c \

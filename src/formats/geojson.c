@@ -11,21 +11,6 @@
 #include "formats/scene-file.h"
 #include "scene/scene-impl.h"
 
-static const char *const kinds[] = {
-    [JSON_OBJECT] = "an object", [JSON_ARRAY] = "an array", [JSON_STRING] = "a string",
-    [JSON_INTEGER] = "a number", [JSON_REAL] = "a number",  [JSON_TRUE] = "true",
-    [JSON_FALSE] = "false",      [JSON_NULL] = "null",
-};
-
-const char *hr2di_geojson_kind(const json_t *json) {
-  return json ? kinds[json_typeof(json)] : "missing";
-}
-
-const json_t *hr2di_geojson_member(const json_t *object, const char *key) {
-  const json_t *member = json_object_get(object, key);
-  return json_is_null(member) ? NULL : member;
-}
-
 /* Checked although this version has none: a zero is then a statement that the scene does
    without. */
 static hr2d_status read_medium(hr2di_geojson *reader, const json_t *members) {

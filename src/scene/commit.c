@@ -23,19 +23,6 @@ static hr2d_status make_walls(hr2d_scene *scene) {
   return status ? hr2di_fail(&scene->message, status, "out of memory for the walls") : HR2D_OK;
 }
 
-void hr2di_scene_clear_commit(hr2d_scene *scene) {
-  hr2di_walls_clear(&scene->walls);
-  scene->walls = (hr2di_walls){.alloc = scene->alloc};
-  hr2di_free(&scene->alloc, scene->dark);
-  scene->dark = NULL;
-  scene->bands = 1;
-  scene->exponent = 0;
-  for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
-    scene->effect[e].on = 0;
-    scene->effect[e].reason[0] = '\0';
-  }
-}
-
 hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
   if (scene->committed)
     return hr2di_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");

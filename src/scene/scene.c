@@ -21,6 +21,19 @@ hr2d_status hr2d_scene_create(const hr2d_allocator *allocator, hr2d_scene **scen
   return HR2D_OK;
 }
 
+void hr2di_scene_clear_commit(hr2d_scene *scene) {
+  hr2di_walls_clear(&scene->walls);
+  scene->walls = (hr2di_walls){.alloc = scene->alloc};
+  hr2di_free(&scene->alloc, scene->dark);
+  scene->dark = NULL;
+  scene->bands = 1;
+  scene->exponent = 0;
+  for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
+    scene->effect[e].on = 0;
+    scene->effect[e].reason[0] = '\0';
+  }
+}
+
 void hr2d_scene_destroy(hr2d_scene *scene) {
   if (!scene) return;
   hr2di_scene_truncate(scene, 0);
