@@ -106,6 +106,7 @@ libhr2d_core_la_SOURCES = \
 	src/refine/projector.c src/refine/projector.h \
 	src/refine/projector-start.c \
 	src/refine/refine.c \
+	src/refine/rounds.c src/refine/rounds.h \
 	src/refine/study.c \
 	src/refine/validate-links.c \
 	src/solve/background.c src/solve/background.h \

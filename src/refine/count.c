@@ -15,6 +15,7 @@
 #include "base/alloc.h"
 #include "refine/occluded-pairs.h"
 #include "refine/projector.h"
+#include "refine/rounds.h"
 #include "scene/scene-impl.h"
 
 enum {
@@ -129,9 +130,9 @@ static hr2d_status begin(team *t) {
   hr2di_projector *p = t->worker[0].projector;
   const size_t n = t->links->hierarchy->scene->patches;
   hr2d_status status = HR2D_OK;
-  while (t->next_patch < n && !status && hr2di_waiting(p) < ENOUGH) {
+  while (t->next_patch < n && !status && hr2di_rounds_waiting(p) < ENOUGH) {
     status = hr2di_project_row(p, t->next_patch++);
-    if (!status) status = hr2di_drain(p, t->count > 1 ? ENOUGH : SIZE_MAX);
+    if (!status) status = hr2di_rounds_run(p, t->count > 1 ? ENOUGH : SIZE_MAX);
   }
   return status;
 }
@@ -168,7 +169,7 @@ static hr2d_status do_task(team *t, hr2di_projector *p, size_t task) {
   const uint64_t before = p->counts.links;
   hr2d_status status = tell(p);
   if (!status) status = take(t, p, task);
-  if (!status) status = hr2di_drain(p, SIZE_MAX);
+  if (!status) status = hr2di_rounds_run(p, SIZE_MAX);
   if (p != t->worker[0].projector) atomic_fetch_add(&t->links_told, p->counts.links - before);
   atomic_fetch_add(&t->tasks_done, 1);
   return status;
@@ -279,7 +280,7 @@ static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
 
 static int finished(const team *t) {
   const hr2di_projector *p = t->worker[0].projector;
-  return hr2di_waiting(p) == 0 && t->next_patch == t->links->hierarchy->scene->patches;
+  return hr2di_rounds_waiting(p) == 0 && t->next_patch == t->links->hierarchy->scene->patches;
 }
 
 static hr2d_status count_as_team(team *t, hr2d_refine_counts *counts) {

@@ -6,6 +6,7 @@
 #include "base/sized-struct.h"
 #include "refine/occluded-pairs.h"
 #include "refine/projector.h"
+#include "refine/rounds.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 
@@ -155,7 +156,7 @@ hr2d_status hr2di_project_all(hr2di_projector *p) {
   hr2d_status status = HR2D_OK;
   for (size_t patch = 0; patch < p->hierarchy->scene->patches && !status; patch++) {
     status = hr2di_project_row(p, patch);
-    if (!status) status = hr2di_drain(p, SIZE_MAX);
+    if (!status) status = hr2di_rounds_run(p, SIZE_MAX);
   }
   return status;
 }

@@ -1,15 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ProjectKernel without recursion: rounds of pairs between two stacks.
-
-   A round takes up to HR2DI_BATCH refused pairs from the top of a stack, lets the
-   policy choose what to subdivide, and proposes the pairs that come of it to the
-   oracle at once.  Accepted ones go to the sink, refused ones back to the stack, so
-   that the order is depth first and the stacks stay short: each level above the
-   current one leaves at most a batch behind.
-
-   Pairs that face each other fully have only descendants that do.  A pair cut by a
-   horizon is guarded: its descendants are tested and, once they face each other
-   fully, join the rest. */
+/* The steps of ProjectKernel on many pairs at once: propose them to the oracle, let the policy
+   choose what to subdivide, halve elements, make the pairs that come of it; and the budgets. */
 #include "refine/projector.h"
 
 #include <math.h>
@@ -17,12 +8,8 @@
 
 #include "base/alloc.h"
 #include "geometry/predicates.h"
-#include "refine/occluded-pairs.h"
 
-enum {
-  TICKS = 64,     /* rounds between two reports of progress */
-  UNWRITTEN = 255 /* what a callback does not write has no meaning */
-};
+enum { UNWRITTEN = 255 /* what a callback does not write has no meaning */ };
 
 static hr2d_status fail(hr2di_projector *p, hr2d_status status, const char *what) {
   return hr2di_fail(&p->links->message, status, "%s", what);
@@ -81,8 +68,8 @@ static hr2d_batch make_batch(const hr2di_projector *p, const hr2d_pair *pairs, s
                       .brightness = p->brightness};
 }
 
-static hr2d_status check_callback(hr2di_projector *p, hr2d_status status, const char *kind,
-                                  const char *name) {
+hr2d_status hr2di_projector_check_callback(hr2di_projector *p, hr2d_status status,
+                                           const char *kind, const char *name) {
   if (!status) return HR2D_OK;
   return hr2di_fail(&p->links->message, status, "%s \"%s\": %s", kind, name,
                     hr2d_strerror(status));
@@ -97,9 +84,9 @@ static hr2d_status compare(hr2di_projector *p, const hr2d_batch *batch) {
                         links->oracle.name, p->error[k], (unsigned)batch->pairs[k].first,
                         (unsigned)batch->pairs[k].second);
   if (links->policy.acceptable)
-    return check_callback(p,
-                          links->policy.acceptable(links->policy_ctx, batch, p->error, p->flag),
-                          "policy", links->policy.name);
+    return hr2di_projector_check_callback(
+        p, links->policy.acceptable(links->policy_ctx, batch, p->error, p->flag), "policy",
+        links->policy.name);
   for (size_t k = 0; k < batch->count; k++) p->flag[k] = p->error[k] <= p->options.epsilon;
   return HR2D_OK;
 }
@@ -114,7 +101,7 @@ hr2d_status hr2di_judge(hr2di_projector *p, const hr2d_pair *pairs, size_t count
   const hr2d_status status =
       shortcut ? links->oracle.accept(links->oracle_ctx, &batch, batch.epsilon, p->flag)
                : links->oracle.estimate(links->oracle_ctx, &batch, p->error);
-  if (status) return check_callback(p, status, "oracle", links->oracle.name);
+  if (status) return hr2di_projector_check_callback(p, status, "oracle", links->oracle.name);
   return shortcut ? HR2D_OK : compare(p, &batch);
 }
 
@@ -132,9 +119,8 @@ hr2d_status hr2di_emit(hr2di_projector *p, const double *area, size_t count) {
   return status || !p->sink ? status : p->sink(p->sink_ctx, p->accepted, area, count);
 }
 
-/* Proposes pairs: accepted ones are emitted, refused ones pushed. */
-static hr2d_status propose(hr2di_projector *p, const hr2d_pair *pairs, size_t count,
-                           hr2di_stack *refused) {
+hr2d_status hr2di_projector_propose(hr2di_projector *p, const hr2d_pair *pairs, size_t count,
+                                    hr2di_stack *refused) {
   if (count == 0) return HR2D_OK;
   hr2d_status status = reserve(p, refused, count);
   if (!status) status = hr2di_judge(p, pairs, count);
@@ -166,8 +152,8 @@ hr2d_status hr2di_propose_guarded(hr2di_projector *p, const hr2d_pair *pairs, si
     else
       p->sorted[0][full++] = pairs[k];
   }
-  const hr2d_status status = propose(p, p->sorted[0], full, &p->open);
-  return status ? status : propose(p, p->sorted[1], part, &p->guarded);
+  const hr2d_status status = hr2di_projector_propose(p, p->sorted[0], full, &p->open);
+  return status ? status : hr2di_projector_propose(p, p->sorted[1], part, &p->guarded);
 }
 
 /* Halves a leaf within the budgets. */
@@ -195,8 +181,8 @@ static hr2d_status halve(hr2di_projector *p, uint32_t element) {
   return HR2D_OK;
 }
 
-/* Asks the policy about refused pairs: p->split, and p->flag for its own limit. */
-static hr2d_status consult(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
+hr2d_status hr2di_projector_choose_split(hr2di_projector *p, const hr2d_pair *pairs,
+                                         size_t count) {
   const hr2d_linkset *links = p->links;
   const hr2d_policy *policy = &links->policy;
   const hr2d_batch batch = make_batch(p, pairs, count);
@@ -205,7 +191,7 @@ static hr2d_status consult(hr2di_projector *p, const hr2d_pair *pairs, size_t co
   hr2d_status status = policy->preferred_subdivision(links->policy_ctx, &batch, p->split);
   if (!status && policy->recursion_limit)
     status = policy->recursion_limit(links->policy_ctx, &batch, p->flag);
-  if (status) return check_callback(p, status, "policy", policy->name);
+  if (status) return hr2di_projector_check_callback(p, status, "policy", policy->name);
   /* What is left of earlier batches was checked then; all 256 go faster than some. */
   unsigned char most = 0;
   for (size_t k = 0; k < HR2DI_BATCH; k++) most = p->split[k] > most ? p->split[k] : most;
@@ -231,10 +217,8 @@ static int may_split(const hr2di_projector *p, uint32_t element) {
          (h->element[element].child || hr2di_divisible(h, element));
 }
 
-/* Halves what is to be split and was not yet.  Pairs that a limit holds for go to
-   p->accepted; the others stay in `pairs`, and their number is returned in *count. */
-static hr2d_status prepare(hr2di_projector *p, hr2d_pair *pairs, size_t *count,
-                           size_t *limited) {
+hr2d_status hr2di_projector_prepare(hr2di_projector *p, hr2d_pair *pairs, size_t *count,
+                                    size_t *limited) {
   const int own_limit = p->links->policy.recursion_limit != NULL;
   size_t kept = 0;
   for (size_t k = 0; k < *count; k++) {
@@ -273,9 +257,7 @@ static inline int split_one(const hr2d_element *element, hr2d_pair pair, unsigne
   return child != 0;
 }
 
-/* The pairs that come of subdividing, in p->candidate; their number, or 0 if some
-   element to be split has no children yet. */
-static size_t subdivide(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
+size_t hr2di_projector_children(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
   const hr2d_element *element = p->hierarchy->element;
   hr2d_pair *out = p->candidate;
   int ready = 1;
@@ -295,71 +277,14 @@ static size_t subdivide(hr2di_projector *p, const hr2d_pair *pairs, size_t count
   return ready ? (size_t)(out - p->candidate) : 0;
 }
 
-/* One round: the topmost refused pairs are subdivided, or linked where a limit holds. */
-static hr2d_status play(hr2di_projector *p, hr2di_stack *stack) {
-  size_t count = stack->count < HR2DI_BATCH ? stack->count : HR2DI_BATCH, limited = 0;
-  hr2d_pair *pairs = stack->pair + stack->count - count;
-  hr2d_status status = consult(p, pairs, count);
-  if (status) return status;
-  stack->count -= count;
-  const int limits = p->check_levels || p->links->policy.recursion_limit;
-  size_t candidates = limits ? 0 : subdivide(p, pairs, count);
-  if (candidates == 0) {
-    status = prepare(p, pairs, &count, &limited);
-    p->counts.limited_links += limited;
-    if (!status) status = hr2di_emit(p, NULL, limited);
-    if (status) return status;
-    candidates = subdivide(p, pairs, count);
-  }
-  if (stack == &p->open) return propose(p, p->candidate, candidates, &p->open);
-  p->counts.facing_tests += candidates;
-  return hr2di_propose_guarded(p, p->candidate, candidates);
-}
-
 hr2d_status hr2di_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidates,
                             int *limited) {
   size_t count = 1, held = 0;
-  hr2d_status status = consult(p, &pair, 1);
-  if (!status) status = prepare(p, &pair, &count, &held);
+  hr2d_status status = hr2di_projector_choose_split(p, &pair, 1);
+  if (!status) status = hr2di_projector_prepare(p, &pair, &count, &held);
   *limited = held > 0;
-  *candidates = status || held ? 0 : subdivide(p, &pair, 1);
+  *candidates = status || held ? 0 : hr2di_projector_children(p, &pair, 1);
   return status;
-}
-
-size_t hr2di_waiting(const hr2di_projector *p) {
-  return p->open.count + p->guarded.count + p->shaded.stack.count + p->fresh[0].count +
-         p->fresh[1].count;
-}
-
-/* Proposes the topmost pairs that have come out of the shade. */
-static hr2d_status propose_fresh(hr2di_projector *p) {
-  hr2di_stack *fresh = &p->fresh[p->fresh[0].count == 0];
-  const size_t count = fresh->count < HR2DI_BATCH ? fresh->count : HR2DI_BATCH;
-  fresh->count -= count;
-  return propose(p, fresh->pair + fresh->count, count,
-                 fresh == &p->fresh[0] ? &p->open : &p->guarded);
-}
-
-/* Full rounds first; pairs in the shade while there are none. */
-static hr2d_status play_next(hr2di_projector *p) {
-  if (p->open.count >= HR2DI_BATCH) return play(p, &p->open);
-  if (p->guarded.count >= HR2DI_BATCH) return play(p, &p->guarded);
-  const size_t fresh = p->fresh[0].count + p->fresh[1].count;
-  if (p->shaded.stack.count > 0 && fresh < HR2DI_BATCH) return hr2di_play_shaded(p);
-  if (fresh > 0) return propose_fresh(p);
-  return play(p, p->open.count > 0 ? &p->open : &p->guarded);
-}
-
-hr2d_status hr2di_drain(hr2di_projector *p, size_t enough) {
-  hr2d_status status = HR2D_OK;
-  for (;;) {
-    const size_t left = hr2di_waiting(p);
-    if (status || left == 0 || left >= enough) return status;
-    status = play_next(p);
-    if (status || ++p->ticks < TICKS) continue;
-    p->ticks = 0;
-    status = p->tell ? p->tell(p) : hr2di_tell(p);
-  }
 }
 
 void hr2di_count_elements(const hr2d_hierarchy *hierarchy, hr2d_refine_counts *counts) {
@@ -367,29 +292,4 @@ void hr2di_count_elements(const hr2d_hierarchy *hierarchy, hr2d_refine_counts *c
   counts->elements = h.elements;
   counts->leaves = h.leaves;
   counts->levels = h.levels;
-}
-
-/* The part of its root pair that a pair on a stack stands for, summed up. */
-static double unfinished(const hr2di_projector *p, const hr2di_stack *stack) {
-  const hr2d_element *e = p->hierarchy->element;
-  double sum = 0;
-  for (size_t k = 0; k < stack->count; k++) {
-    const hr2d_element *i = &e[stack->pair[k].first], *j = &e[stack->pair[k].second];
-    sum += i->length / e[i->patch].length * (j->length / e[j->patch].length);
-  }
-  return sum;
-}
-
-hr2d_status hr2di_tell(hr2di_projector *p) {
-  if (!p->options.progress) return HR2D_OK;
-  const double done = p->roots_done - unfinished(p, &p->open) - unfinished(p, &p->guarded) -
-                      unfinished(p, &p->fresh[0]) - unfinished(p, &p->fresh[1]) -
-                      unfinished(p, &p->shaded.stack);
-  const hr2d_progress progress = {.struct_size = sizeof progress,
-                                  .phase = "refine",
-                                  .elements = p->hierarchy->elements,
-                                  .links = p->counts.links,
-                                  .fraction = done > 0 ? done / p->roots : 0};
-  return check_callback(p, p->options.progress(p->options.progress_ctx, &progress), "callback",
-                        "progress");
 }

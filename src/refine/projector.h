@@ -50,7 +50,7 @@ struct hr2di_projector {
   uint64_t budget;          /* of bytes, of which options.max_bytes may be a part */
   double roots, roots_done; /* pairs of patches, for progress */
   unsigned ticks;           /* rounds since progress was told */
-  hr2d_status (*tell)(hr2di_projector *p); /* tells progress; NULL: hr2di_tell() */
+  hr2d_status (*tell)(hr2di_projector *p); /* tells progress; NULL: hr2di_rounds_report() */
   void *tell_ctx;
 
   hr2di_stack open;    /* refused pairs that face each other fully */
@@ -97,7 +97,28 @@ hr2d_status hr2di_propose_guarded(hr2di_projector *p, const hr2d_pair *pairs, si
    acceptable. */
 hr2d_status hr2di_judge(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
 
-/* Puts a pair on a stack, for the next hr2di_drain(). */
+/* Proposes pairs: links those that are accepted, pushes the others on a stack. */
+hr2d_status hr2di_projector_propose(hr2di_projector *p, const hr2d_pair *pairs, size_t count,
+                                    hr2di_stack *refused);
+
+/* Asks the policy about refused pairs: sets p->split, and p->flag where its own limit holds. */
+hr2d_status hr2di_projector_choose_split(hr2di_projector *p, const hr2d_pair *pairs,
+                                         size_t count);
+
+/* Halves the elements that are to be split and have no children yet.  Pairs that a limit holds
+   for go to p->accepted; the others stay in `pairs`, and *count is their number. */
+hr2d_status hr2di_projector_prepare(hr2di_projector *p, hr2d_pair *pairs, size_t *count,
+                                    size_t *limited);
+
+/* Writes the pairs that come of subdividing to p->candidate and returns their number, or 0 if
+   some element to be split has no children yet. */
+size_t hr2di_projector_children(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
+
+/* Leaves a message if a callback has failed; returns its status. */
+hr2d_status hr2di_projector_check_callback(hr2di_projector *p, hr2d_status status,
+                                           const char *kind, const char *name);
+
+/* Puts a pair on a stack, for the next hr2di_rounds_run(). */
 hr2d_status hr2di_refuse(hr2di_projector *p, hr2di_stack *stack, hr2d_pair pair);
 
 /* Hands the first `count` of p->accepted to the sink. */
@@ -106,12 +127,6 @@ hr2d_status hr2di_emit(hr2di_projector *p, const double *area, size_t count);
 /* Subdivides one pair, into p->candidate; none if a limit holds, and then *limited. */
 hr2d_status hr2di_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidates,
                             int *limited);
-
-/* How many pairs wait on the stacks. */
-size_t hr2di_waiting(const hr2di_projector *p);
-
-/* Subdivides until no refused pair is left, or `enough` of them are. */
-hr2d_status hr2di_drain(hr2di_projector *p, size_t enough);
 
 /* Counts links, HR2D_EMAX_LINKS if that breaks the budget. */
 hr2d_status hr2di_count_links(hr2di_projector *p, size_t more);
@@ -124,8 +139,5 @@ hr2d_status hr2di_overspent(hr2d_linkset *links, uint64_t budget, uint64_t made)
 
 /* Sets the counts of elements. */
 void hr2di_count_elements(const hr2d_hierarchy *hierarchy, hr2d_refine_counts *counts);
-
-/* Tells progress; the status of the callback. */
-hr2d_status hr2di_tell(hr2di_projector *p);
 
 #endif

@@ -7,6 +7,7 @@
 #include "geometry/predicates.h"
 #include "refine/occluded-pairs.h"
 #include "refine/projector.h"
+#include "refine/rounds.h"
 #include "scene/scene-impl.h"
 
 /* Runs a projector that is set up.  On failure the hierarchy gets its former size. */
@@ -130,7 +131,7 @@ static hr2d_status project_links(hr2di_projector *p) {
     if (!status) status = hr2di_count_links(p, kept);
     if (!status) status = add_links(s, pairs, area, kept);
     p->roots_done += (double)count;
-    if (!status) status = hr2di_drain(p, SIZE_MAX);
+    if (!status) status = hr2di_rounds_run(p, SIZE_MAX);
   }
   return status;
 }

@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ProjectKernel without recursion: rounds of pairs between two stacks.
+
+   A round takes up to HR2DI_BATCH refused pairs from the top of a stack, lets the
+   policy choose what to subdivide, and proposes the pairs that come of it to the
+   oracle at once.  Accepted ones go to the sink, refused ones back to the stack, so
+   that the order is depth first and the stacks stay short: each level above the
+   current one leaves at most a batch behind.
+
+   Pairs that face each other fully have only descendants that do.  A pair cut by a
+   horizon is guarded: its descendants are tested and, once they face each other
+   fully, join the rest. */
+#include "refine/rounds.h"
+
+#include "refine/occluded-pairs.h"
+
+enum { TICKS = 64 /* rounds between two reports of progress */ };
+
+/* One round: the topmost refused pairs are subdivided, or linked where a limit holds. */
+static hr2d_status play(hr2di_projector *p, hr2di_stack *stack) {
+  size_t count = stack->count < HR2DI_BATCH ? stack->count : HR2DI_BATCH, limited = 0;
+  hr2d_pair *pairs = stack->pair + stack->count - count;
+  hr2d_status status = hr2di_projector_choose_split(p, pairs, count);
+  if (status) return status;
+  stack->count -= count;
+  const int limits = p->check_levels || p->links->policy.recursion_limit;
+  size_t candidates = limits ? 0 : hr2di_projector_children(p, pairs, count);
+  if (candidates == 0) {
+    status = hr2di_projector_prepare(p, pairs, &count, &limited);
+    p->counts.limited_links += limited;
+    if (!status) status = hr2di_emit(p, NULL, limited);
+    if (status) return status;
+    candidates = hr2di_projector_children(p, pairs, count);
+  }
+  if (stack == &p->open) return hr2di_projector_propose(p, p->candidate, candidates, &p->open);
+  p->counts.facing_tests += candidates;
+  return hr2di_propose_guarded(p, p->candidate, candidates);
+}
+
+size_t hr2di_rounds_waiting(const hr2di_projector *p) {
+  return p->open.count + p->guarded.count + p->shaded.stack.count + p->fresh[0].count +
+         p->fresh[1].count;
+}
+
+/* Proposes the topmost pairs that have come out of the shade. */
+static hr2d_status propose_fresh(hr2di_projector *p) {
+  hr2di_stack *fresh = &p->fresh[p->fresh[0].count == 0];
+  const size_t count = fresh->count < HR2DI_BATCH ? fresh->count : HR2DI_BATCH;
+  fresh->count -= count;
+  return hr2di_projector_propose(p, fresh->pair + fresh->count, count,
+                                 fresh == &p->fresh[0] ? &p->open : &p->guarded);
+}
+
+/* Full rounds first; pairs in the shade while there are none. */
+static hr2d_status play_next(hr2di_projector *p) {
+  if (p->open.count >= HR2DI_BATCH) return play(p, &p->open);
+  if (p->guarded.count >= HR2DI_BATCH) return play(p, &p->guarded);
+  const size_t fresh = p->fresh[0].count + p->fresh[1].count;
+  if (p->shaded.stack.count > 0 && fresh < HR2DI_BATCH) return hr2di_play_shaded(p);
+  if (fresh > 0) return propose_fresh(p);
+  return play(p, p->open.count > 0 ? &p->open : &p->guarded);
+}
+
+hr2d_status hr2di_rounds_run(hr2di_projector *p, size_t enough) {
+  hr2d_status status = HR2D_OK;
+  for (;;) {
+    const size_t left = hr2di_rounds_waiting(p);
+    if (status || left == 0 || left >= enough) return status;
+    status = play_next(p);
+    if (status || ++p->ticks < TICKS) continue;
+    p->ticks = 0;
+    status = p->tell ? p->tell(p) : hr2di_rounds_report(p);
+  }
+}
+
+/* The part of its root pair that a pair on a stack stands for, summed up. */
+static double unfinished(const hr2di_projector *p, const hr2di_stack *stack) {
+  const hr2d_element *e = p->hierarchy->element;
+  double sum = 0;
+  for (size_t k = 0; k < stack->count; k++) {
+    const hr2d_element *i = &e[stack->pair[k].first], *j = &e[stack->pair[k].second];
+    sum += i->length / e[i->patch].length * (j->length / e[j->patch].length);
+  }
+  return sum;
+}
+
+hr2d_status hr2di_rounds_report(hr2di_projector *p) {
+  if (!p->options.progress) return HR2D_OK;
+  const double done = p->roots_done - unfinished(p, &p->open) - unfinished(p, &p->guarded) -
+                      unfinished(p, &p->fresh[0]) - unfinished(p, &p->fresh[1]) -
+                      unfinished(p, &p->shaded.stack);
+  const hr2d_progress progress = {.struct_size = sizeof progress,
+                                  .phase = "refine",
+                                  .elements = p->hierarchy->elements,
+                                  .links = p->counts.links,
+                                  .fraction = done > 0 ? done / p->roots : 0};
+  return hr2di_projector_check_callback(
+      p, p->options.progress(p->options.progress_ctx, &progress), "callback", "progress");
+}
