@@ -98,6 +98,7 @@ libhr2d_core_la_SOURCES = \
 	src/links/link-blocks.c src/links/link-blocks.h \
 	src/links/linkset.c \
 	src/links/linkset-impl.h \
+	src/links/patch-defect.c src/links/patch-defect.h \
 	src/solution/point-gather.c \
 	src/solution/solution.c \
 	src/solution/solution-impl.h \

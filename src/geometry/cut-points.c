@@ -149,15 +149,9 @@ static int is_on(const finder *f, size_t wall, hr2d_point p) {
   return 0;
 }
 
-static double along(const hr2d_segment *s, hr2d_point p) {
-  const double dx = s->b.x - s->a.x, dy = s->b.y - s->a.y;
-  if (fabs(dx) >= fabs(dy)) return dx > 0 ? p.x : -p.x;
-  return dy > 0 ? p.y : -p.y;
-}
-
 static int is_inside(const hr2d_segment *s, hr2d_point p) {
-  const double t = along(s, p);
-  return t > along(s, s->a) && t < along(s, s->b);
+  const double t = hr2di_point_along(*s, p);
+  return t > hr2di_point_along(*s, s->a) && t < hr2di_point_along(*s, s->b);
 }
 
 static int serves(const finder *f, size_t wall, hr2d_point p, double reach) {
@@ -241,7 +235,7 @@ static int is_cut(const finder *f, size_t wall) {
 
 static void cut(finder *f, size_t wall, hr2d_point p) {
   if (is_on(f, wall, p)) return;
-  f->cuts->cut[f->cuts->of[wall].end++] = (hr2di_cut){p, along(&f->wall[wall].s, p)};
+  f->cuts->cut[f->cuts->of[wall].end++] = (hr2di_cut){p, hr2di_point_along(f->wall[wall].s, p)};
   f->cuts->count++;
 }
 

@@ -4,6 +4,7 @@
 #define HR2D_SRC_GEOMETRY_VECTOR_H
 
 #include <hr2d/geometry.h>
+#include <math.h>
 
 static inline int hr2di_point_same(hr2d_point p, hr2d_point q) {
   return p.x == q.x && p.y == q.y;
@@ -20,6 +21,13 @@ static inline double hr2di_point_dot(hr2d_point u, hr2d_point v) {
 
 static inline double hr2di_point_cross(hr2d_point u, hr2d_point v) {
   return u.x * v.y - u.y * v.x;
+}
+
+/* The coordinate of p that grows from s.a to s.b, or its negative: orders points of a line. */
+static inline double hr2di_point_along(hr2d_segment s, hr2d_point p) {
+  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
+  if (fabs(dx) >= fabs(dy)) return dx > 0 ? p.x : -p.x;
+  return dy > 0 ? p.y : -p.y;
 }
 
 #endif

@@ -3,25 +3,17 @@
 #include "links/components.h"
 
 #include "base/alloc.h"
+#include "base/union-find.h"
 #include "clusters/clusters-impl.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 
 size_t hr2di_component(hr2di_components *c, size_t k) {
-  while (c->above[k] != k) {
-    c->above[k] = c->above[c->above[k]];
-    k = c->above[k];
-  }
-  return k;
+  return hr2di_union_find(c->parent, (uint32_t)k);
 }
 
-/* The lesser number stays on top: that of a patch, and not of a cluster. */
 static void join(hr2di_components *c, size_t i, size_t j) {
-  const size_t top = hr2di_component(c, i), other = hr2di_component(c, j);
-  if (top < other)
-    c->above[other] = top;
-  else
-    c->above[top] = other;
+  hr2di_union_join(c->parent, (uint32_t)i, (uint32_t)j);
 }
 
 /* All patches of a cluster see all of any that it has a link with.  Without links no patch has
@@ -43,9 +35,9 @@ hr2d_status hr2di_components_make(hr2di_components *c, const hr2d_linkset *links
   const hr2di_clusters *clusters = links->roots.clusters;
   const size_t count = patches + (clusters ? clusters->linked_count : 0);
   c->alloc = links->alloc;
-  c->above = hr2di_alloc(&links->alloc, count, sizeof *c->above);
-  if (!c->above) return HR2D_ENOMEM;
-  for (size_t k = 0; k < count; k++) c->above[k] = k;
+  c->parent = count <= UINT32_MAX ? hr2di_alloc(&links->alloc, count, sizeof *c->parent) : NULL;
+  if (!c->parent) return HR2D_ENOMEM;
+  for (size_t k = 0; k < count; k++) c->parent[k] = (uint32_t)k;
   if (clusters) join_clusters(c, clusters, patches);
   for (size_t block = 0; block < links->store.blocks; block++)
     for (size_t k = 0; k < hr2di_store_block_size(&links->store, block); k++) {
@@ -56,6 +48,6 @@ hr2d_status hr2di_components_make(hr2di_components *c, const hr2d_linkset *links
 }
 
 void hr2di_components_clear(hr2di_components *c) {
-  hr2di_free(&c->alloc, c->above);
-  c->above = NULL;
+  hr2di_free(&c->alloc, c->parent);
+  c->parent = NULL;
 }

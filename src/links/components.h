@@ -7,7 +7,7 @@
 
 typedef struct hr2di_components {
   hr2d_allocator alloc;
-  size_t *above; /* union-find: over patches, and behind them over clusters */
+  uint32_t *parent; /* union-find: over patches, and behind them over clusters */
 } hr2di_components;
 
 /* Joins what links of a set join; HR2D_OK or HR2D_ENOMEM.  To be cleared in either case. */

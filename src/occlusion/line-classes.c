@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/union-find.h"
 #include "geometry/orient-sign.h"
 
 enum { TO_RIGHT = 1, TO_LEFT = 2, NEITHER = 3 };
@@ -34,28 +35,25 @@ void hr2di_classes_start(hr2di_classes *c, const hr2di_walls *walls,
 }
 
 void hr2di_classes_end(hr2di_classes *c) {
-  void *const held[] = {
-      c->barrier,          c->island,      c->point,      c->joint,
-      c->joint_of,         c->right.point, c->left.point, c->wider_right.point,
-      c->wider_left.point, c->stack,       c->put_off};
+  void *const held[] = {c->barrier,
+                        c->parent,
+                        c->island,
+                        c->point,
+                        c->joint,
+                        c->joint_of,
+                        c->right.point,
+                        c->left.point,
+                        c->wider_right.point,
+                        c->wider_left.point,
+                        c->stack,
+                        c->put_off};
   for (size_t k = 0; k < sizeof held / sizeof *held; k++) hr2di_free(&c->alloc, held[k]);
 }
 
-static uint32_t find(hr2di_barrier *barrier, uint32_t k) {
-  while (barrier[k].above != k) {
-    barrier[k].above = barrier[barrier[k].above].above;
-    k = barrier[k].above;
-  }
-  return k;
-}
-
-/* The lesser number stands for both. */
-static void join(hr2di_barrier *barrier, uint32_t i, uint32_t j) {
-  i = find(barrier, i);
-  j = find(barrier, j);
-  const uint32_t root = i < j ? i : j, other = i < j ? j : i;
-  barrier[other].above = root;
-  barrier[root].hand |= barrier[other].hand;
+/* The hand of both is that of the root. */
+static void join(hr2di_classes *c, uint32_t i, uint32_t j) {
+  const uint32_t other = hr2di_union_join(c->parent, i, j);
+  c->barrier[c->parent[other]].hand |= c->barrier[other].hand;
 }
 
 /* The barrier meets the side p→q of the shaft: it cuts it, or ends where it begins or
@@ -82,13 +80,13 @@ static void join_at(hr2di_classes *c, uint32_t k, uint32_t vertex) {
   const uint32_t other = c->joint[vertex];
   const uint32_t *end = other < k ? c->walls->wall[c->barrier[other].wall].vertex : NULL;
   if (end && (end[0] == vertex || end[1] == vertex))
-    join(c->barrier, other, k);
+    join(c, other, k);
   else
     c->joint[vertex] = k;
   const uint32_t host = c->walls->host[vertex];
   if (host == HR2DI_NO_WALL) return;
   const uint32_t at = c->joint_of[host];
-  if (at < c->barriers && c->barrier[at].wall == host) join(c->barrier, at, k);
+  if (at < c->barriers && c->barrier[at].wall == host) join(c, at, k);
 }
 
 /* A joint counts only within the shaft: outside of it something may pass between. */
@@ -105,6 +103,7 @@ static hr2d_status reserve(hr2di_classes *c, size_t count) {
   const hr2d_allocator *alloc = &c->alloc;
   const size_t vertices = c->joint_capacity, walls = c->joint_of_capacity;
   if (hr2di_reserve(alloc, &c->barrier, &c->barrier_capacity, count, sizeof *c->barrier) ||
+      hr2di_reserve(alloc, &c->parent, &c->parent_capacity, count, sizeof *c->parent) ||
       hr2di_reserve(alloc, &c->island, &c->island_capacity, count, sizeof *c->island) ||
       hr2di_reserve(alloc, &c->point, &c->point_capacity, 2 * count, sizeof *c->point) ||
       hr2di_reserve(alloc, &c->joint, &c->joint_capacity, c->walls->vertices,
@@ -139,7 +138,7 @@ static int by_width(const void *left, const void *right) {
 /* The points of the barriers joined to k. */
 static void put_points(hr2di_classes *c, uint32_t k) {
   for (uint32_t m = k; m < c->barriers; m++)
-    if (find(c->barrier, m) == k) {
+    if (hr2di_union_find(c->parent, m) == k) {
       c->point[c->points++] = c->barrier[m].at.end[0];
       c->point[c->points++] = c->barrier[m].at.end[1];
     }
@@ -151,7 +150,7 @@ static hr2d_status gather(hr2di_classes *c, const hr2di_shaft *s, unsigned known
   if (!status) status = hr2di_chain_begin(&c->left, &c->alloc, s->a, s->d);
   c->points = c->islands = 0;
   for (uint32_t k = 0; k < c->barriers && !status; k++) {
-    if (find(c->barrier, k) != k) continue;
+    if (hr2di_union_find(c->parent, k) != k) continue;
     const size_t first = c->points;
     int grown;
     put_points(c, k);
@@ -180,17 +179,17 @@ hr2d_status hr2di_classes_sort(hr2di_classes *c, const hr2di_shaft *shaft, const
   c->barriers = 0;
   *passable = 0;
   for (size_t k = 0; k < count; k++) {
-    hr2di_barrier b = {.wall = wall[k], .above = (uint32_t)c->barriers};
+    hr2di_barrier b = {.wall = wall[k]};
     if (!hr2di_shaft_test(shaft, c->walls->wall[wall[k]].at, &b.at)) continue;
     if (b.at.right && meets_side(&shaft->frame, &b.at, shaft->b, shaft->c)) b.hand |= TO_RIGHT;
     if (b.at.left && meets_side(&shaft->frame, &b.at, shaft->a, shaft->d)) b.hand |= TO_LEFT;
     if (b.hand == NEITHER) return HR2D_OK;
-    c->joint_of[wall[k]] = (uint32_t)c->barriers;
+    c->joint_of[wall[k]] = c->parent[c->barriers] = (uint32_t)c->barriers;
     c->barrier[c->barriers++] = b;
   }
   join_all(c, shaft);
   for (uint32_t k = 0; k < c->barriers; k++)
-    if (c->barrier[find(c->barrier, k)].hand == NEITHER) return HR2D_OK;
+    if (c->barrier[hr2di_union_find(c->parent, k)].hand == NEITHER) return HR2D_OK;
   const hr2d_status status = begin(c, shaft);
   if (status) return status;
   /* Without islands there is one class, and the sum looks at it. */

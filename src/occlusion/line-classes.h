@@ -14,7 +14,6 @@
 typedef struct hr2di_barrier {
   hr2di_obstacle at;
   uint32_t wall;
-  uint32_t above;     /* union-find: barriers that are joined leave no gap */
   unsigned char hand; /* 1 if it must be left on the right, 2 on the left, 3: blocked */
 } hr2di_barrier;
 
@@ -30,6 +29,8 @@ typedef struct hr2di_classes {
   hr2d_allocator alloc;
   hr2di_barrier *barrier;
   size_t barriers, barrier_capacity;
+  uint32_t *parent; /* union-find: barriers that are joined leave no gap */
+  size_t parent_capacity;
   hr2di_island *island;
   size_t islands, island_capacity;
   hr2di_mark *point; /* of the barriers, joined ones together */

@@ -10,15 +10,14 @@
 static const double direction[HR2DI_CHORDS][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
 
 /* Walls that share a vertex get one root, the least of them. */
-static void unite(const hr2di_walls *w, uint32_t *above, uint32_t *first) {
+static void unite(const hr2di_walls *w, uint32_t *parent, uint32_t *first) {
   for (size_t v = 0; v < w->vertices; v++) first[v] = HR2DI_NO_WALL;
-  for (uint32_t k = 0; k < w->walls; k++) above[k] = k;
+  for (uint32_t k = 0; k < w->walls; k++) parent[k] = k;
   for (uint32_t k = 0; k < w->walls; k++)
     for (int e = 0; e < 2; e++) {
       uint32_t *at = &first[w->wall[k].vertex[e]];
       if (*at == HR2DI_NO_WALL) *at = k;
-      const uint32_t i = hr2di_find(above, *at), j = hr2di_find(above, k);
-      above[i < j ? j : i] = i < j ? i : j;
+      hr2di_union_join(parent, *at, k);
     }
 }
 
@@ -34,12 +33,12 @@ static void extend(hr2di_body *body, hr2d_point p) {
 }
 
 hr2d_status hr2di_bodies_make(hr2di_walls *w) {
-  uint32_t *above = hr2di_alloc(&w->alloc, w->walls, sizeof *above);
+  uint32_t *parent = hr2di_alloc(&w->alloc, w->walls, sizeof *parent);
   uint32_t *first = hr2di_alloc(&w->alloc, w->vertices, sizeof *first);
-  const hr2d_status status = above && first ? HR2D_OK : HR2D_ENOMEM;
-  if (!status) unite(w, above, first);
+  const hr2d_status status = parent && first ? HR2D_OK : HR2D_ENOMEM;
+  if (!status) unite(w, parent, first);
   for (uint32_t k = 0; k < w->walls && !status; k++) {
-    const uint32_t root = hr2di_find(above, k);
+    const uint32_t root = hr2di_union_find(parent, k);
     const hr2d_segment s = w->wall[k].at;
     if (root == k) {
       w->body_of[k] = (uint32_t)w->bodies++;
@@ -49,7 +48,7 @@ hr2d_status hr2di_bodies_make(hr2di_walls *w) {
     extend(&w->body[w->body_of[k]], s.a);
     extend(&w->body[w->body_of[k]], s.b);
   }
-  hr2di_free(&w->alloc, above);
+  hr2di_free(&w->alloc, parent);
   hr2di_free(&w->alloc, first);
   return status;
 }

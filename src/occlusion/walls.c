@@ -26,7 +26,7 @@ typedef struct tip {
 typedef struct runs {
   const hr2d_segment *segment;
   size_t count;
-  uint32_t *above;
+  uint32_t *parent;
   hr2d_segment *span; /* its lesser end first */
   tip *tip;           /* 2·count, sorted by point */
   uint32_t *vertex;   /* of each end of each segment: 2·segment + which */
@@ -45,15 +45,9 @@ static int by_point(const void *left, const void *right) {
 }
 
 static void unite(runs *r, uint32_t i, uint32_t j) {
-  i = hr2di_find(r->above, i);
-  j = hr2di_find(r->above, j);
+  j = hr2di_union_join(r->parent, i, j);
+  i = r->parent[j];
   if (i == j) return;
-  if (i > j) {
-    const uint32_t swap = i;
-    i = j;
-    j = swap;
-  }
-  r->above[j] = i;
   if (less(r->span[j].a, r->span[i].a)) r->span[i].a = r->span[j].a;
   if (less(r->span[i].b, r->span[j].b)) r->span[i].b = r->span[j].b;
 }
@@ -78,7 +72,7 @@ static void unite_at(runs *r, const tip *first, size_t count) {
 static size_t find_runs(runs *r) {
   for (size_t k = 0; k < r->count; k++) {
     const hr2d_segment s = r->segment[k];
-    r->above[k] = (uint32_t)k;
+    r->parent[k] = (uint32_t)k;
     r->span[k] = less(s.a, s.b) ? s : (hr2d_segment){s.b, s.a};
     r->tip[2 * k] = (tip){s.a, (uint32_t)k, 0};
     r->tip[2 * k + 1] = (tip){s.b, (uint32_t)k, 1};
@@ -98,13 +92,13 @@ static size_t find_runs(runs *r) {
 /* One wall per run; vertices within a run have it as their host. */
 static void make_walls(hr2di_walls *w, runs *r) {
   for (uint32_t k = 0; k < r->count; k++)
-    if (hr2di_find(r->above, k) == k) {
+    if (hr2di_union_find(r->parent, k) == k) {
       w->of_segment[k] = (uint32_t)w->walls;
       w->wall[w->walls++].at = r->span[k];
     }
   for (size_t v = 0; v < w->vertices; v++) w->host[v] = HR2DI_NO_WALL;
   for (uint32_t k = 0; k < r->count; k++) {
-    const uint32_t wall = w->of_segment[hr2di_find(r->above, k)];
+    const uint32_t wall = w->of_segment[hr2di_union_find(r->parent, k)];
     const hr2d_point end[] = {r->segment[k].a, r->segment[k].b};
     w->of_segment[k] = wall;
     for (int e = 0; e < 2; e++) {
@@ -159,12 +153,12 @@ static hr2d_status reserve(hr2di_walls *w, runs *r, size_t count) {
   w->box = hr2di_alloc(alloc, 2 * count, sizeof *w->box);
   w->body = hr2di_alloc(alloc, count, sizeof *w->body);
   w->body_of = hr2di_alloc(alloc, count, sizeof *w->body_of);
-  r->above = hr2di_alloc(alloc, count, sizeof *r->above);
+  r->parent = hr2di_alloc(alloc, count, sizeof *r->parent);
   r->span = hr2di_alloc(alloc, count, sizeof *r->span);
   r->tip = hr2di_alloc(alloc, 2 * count, sizeof *r->tip);
   r->vertex = hr2di_alloc(alloc, 2 * count, sizeof *r->vertex);
   const int room = w->wall && w->of_segment && w->host && w->box && w->body && w->body_of &&
-                   r->above && r->span && r->tip && r->vertex;
+                   r->parent && r->span && r->tip && r->vertex;
   return room ? HR2D_OK : HR2D_ENOMEM;
 }
 
@@ -183,7 +177,7 @@ hr2d_status hr2di_walls_make(hr2di_walls *walls, const hr2d_allocator *alloc,
     uint32_t *host = &walls->host[r.vertex[2 * r.tip[k].segment + r.tip[k].which]];
     if (*host == HR2DI_NO_WALL) *host = host_of(walls, r.tip[k].point);
   }
-  hr2di_free(alloc, r.above);
+  hr2di_free(alloc, r.parent);
   hr2di_free(alloc, r.span);
   hr2di_free(alloc, r.tip);
   hr2di_free(alloc, r.vertex);

@@ -7,17 +7,12 @@
 #include "geometry/orient-sign.h"
 #include "scene/scene-impl.h"
 
-/* Position along a line in the direction of s, exact to compare. */
-static double along(hr2d_segment s, hr2d_point p) {
-  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
-  return fabs(dx) >= fabs(dy) ? (dx > 0 ? p.x : -p.x) : (dy > 0 ? p.y : -p.y);
-}
-
 /* Whether t lies along s, on its line and in its direction. */
 static int lies_along(hr2d_segment s, hr2d_segment t) {
   return hr2di_side(s.a, s.b, t.a) == 0 && hr2di_side(s.a, s.b, t.b) == 0 &&
-         along(s, t.a) < along(s, t.b) && along(s, t.a) < along(s, s.b) &&
-         along(s, t.b) > along(s, s.a);
+         hr2di_point_along(s, t.a) < hr2di_point_along(s, t.b) &&
+         hr2di_point_along(s, t.a) < hr2di_point_along(s, s.b) &&
+         hr2di_point_along(s, t.b) > hr2di_point_along(s, s.a);
 }
 
 static hr2d_status add(const hr2d_scene *scene, hr2di_backs *backs, uint32_t patch,
@@ -37,9 +32,9 @@ static hr2d_status cover(const hr2d_scene *scene, hr2di_backs *backs, size_t fir
     const hr2di_back b = backs->back[k];
     if (!lies_along(b.at, t)) continue;
     backs->back[k] = backs->back[--backs->count];
-    if (along(b.at, b.at.a) < along(b.at, t.a))
+    if (hr2di_point_along(b.at, b.at.a) < hr2di_point_along(b.at, t.a))
       status = add(scene, backs, b.patch, (hr2d_segment){b.at.a, t.a});
-    if (!status && along(b.at, t.b) < along(b.at, b.at.b))
+    if (!status && hr2di_point_along(b.at, t.b) < hr2di_point_along(b.at, b.at.b))
       status = add(scene, backs, b.patch, (hr2d_segment){t.b, b.at.b});
   }
   return status;

@@ -10,15 +10,12 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/neumaier-sum.h"
 #include "blocks/block.h"
 #include "geometry/point-view-factor.h"
 #include "hierarchy/hierarchy-impl.h"
+#include "links/patch-defect.h"
 #include "scene/scene-impl.h"
 #include "solve/closure.h"
-
-/* A patch that misses less than this part of its row misses nothing. */
-#define CLOSED 1e-14
 
 /* Points beyond the order, for form factors of elements at an ellipse of 1.8 or more: good to
    3.3^−2p−32 of them. */
@@ -30,7 +27,7 @@ typedef struct rows {
   hr2di_rule rule;                               /* for form factors */
   hr2di_rule product;                            /* for d φ_l φ_m, of degree 3p − 3 */
   unsigned char *closed;                         /* per patch */
-  hr2di_sum *rest;                               /* per patch: what its links leave of A */
+  hr2di_sum *defect;                             /* per patch */
   uint32_t *number;                              /* of each leaf among the leaves */
   double *one;                                   /* leaves × width: B = 1 */
   double *row;                                   /* what distant links make of it */
@@ -77,21 +74,10 @@ static void add_links(rows *r) {
   }
 }
 
-/* Which patches see patches wherever they look: A − Σ AF over their links is 0. */
+/* Which patches see patches in every direction. */
 static void find_closed(rows *r) {
-  const hr2d_linkset *links = r->t->links;
-  const hr2d_element *element = r->t->hierarchy->element;
-  const size_t patches = r->t->hierarchy->scene->patches;
-  hr2di_sum *rest = r->rest;
-  for (size_t k = 0; k < patches; k++) rest[k] = (hr2di_sum){element[k].length, 0};
-  for (uint64_t k = 0; k < links->store.count; k++) {
-    const hr2d_link *link = hr2di_store_at(&links->store, k);
-    hr2di_add(&rest[element[link->pair.first].patch], -link->exchange_area);
-    if (!links->directed)
-      hr2di_add(&rest[element[link->pair.second].patch], -link->exchange_area);
-  }
-  for (size_t k = 0; k < patches; k++)
-    r->closed[k] = fabs(hr2di_total(&rest[k])) <= CLOSED * element[k].length;
+  hr2di_defect_sum(r->t->links, r->defect);
+  hr2di_defect_closed(r->t->links, r->defect, r->closed);
 }
 
 /* The same where clusters have part of the rows, to a known accuracy: smaller openings are
@@ -156,11 +142,11 @@ hr2d_status hr2di_close_orders(hr2di_transport *t) {
   r.row = hr2di_alloc(alloc, t->leaves * t->width, sizeof *r.row);
   r.all = hr2di_alloc(alloc, t->leaves * t->width, sizeof *r.all);
   r.closed = hr2di_alloc(alloc, t->hierarchy->scene->patches, 1);
-  r.rest = hr2di_alloc(alloc, t->hierarchy->scene->patches, sizeof *r.rest);
+  r.defect = hr2di_alloc(alloc, t->hierarchy->scene->patches, sizeof *r.defect);
   r.exact = hr2di_calloc(alloc, t->leaves * t->order, sizeof *r.exact);
   double *closure = hr2di_alloc(alloc, t->leaves, t->order * t->order * sizeof *closure);
   const int room =
-      r.number && r.one && r.row && r.all && r.closed && r.rest && r.exact && closure;
+      r.number && r.one && r.row && r.all && r.closed && r.defect && r.exact && closure;
   if (room) {
     close_rows(&r, t, closure);
     t->closure = closure;
@@ -172,7 +158,7 @@ hr2d_status hr2di_close_orders(hr2di_transport *t) {
   hr2di_free(alloc, r.row);
   hr2di_free(alloc, r.all);
   hr2di_free(alloc, r.closed);
-  hr2di_free(alloc, r.rest);
+  hr2di_free(alloc, r.defect);
   hr2di_free(alloc, r.exact);
   return room ? HR2D_OK : HR2D_ENOMEM;
 }

@@ -5,14 +5,13 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "base/neumaier-sum.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/components.h"
+#include "links/patch-defect.h"
 #include "scene/scene-impl.h"
 
-/* A component misses nothing if it misses less than this part of its rows, which are 1 on
-   leaves of patches that rows.c takes as closed; and little, so that it is balanced. */
-#define CLOSED 1e-14
+/* A component misses nothing if it misses less than HR2DI_DEFECT_CLOSED of its rows, which are
+   1 on leaves of closed patches.  One that misses less than this part is balanced. */
 #define LITTLE (1. / 64)
 
 static const hr2d_element *leaf_of(const hr2di_transport *t, size_t leaf) {
@@ -51,7 +50,7 @@ static void number(hr2di_balance *b, const hr2di_transport *t, hr2di_components 
     if (mine->number == 0)
       mine->number = missing <= LITTLE * length ? (uint32_t)++b->count : HR2DI_OPEN;
     b->component[k] = mine->number == HR2DI_OPEN ? HR2DI_OPEN : mine->number - 1;
-    if (hr2di_balance_holds(b, k) && missing > CLOSED * length) continue;
+    if (hr2di_balance_holds(b, k) && missing > HR2DI_DEFECT_CLOSED * length) continue;
     for (size_t l = 0; l < t->order; l++) b->missing[k * t->order + l] = 0;
   }
 }

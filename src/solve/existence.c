@@ -9,28 +9,14 @@
 #include "base/alloc.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/components.h"
+#include "links/patch-defect.h"
 #include "scene/scene-impl.h"
-
-/* A component is taken as closed if less than this part of its light escapes: below it, an
-   opening cannot be told from rounding; or below what clusters may be off by. */
-#define CLOSED 1e-13
 
 typedef struct exchange {
   hr2di_components components;
-  double *escape; /* per patch, then per component: A − Σ AF, summed up */
+  hr2di_sum *escape; /* per patch its defect, then per component their sum */
   double *length;
 } exchange;
-
-static void add_links(const hr2d_linkset *links, exchange *e) {
-  const hr2d_element *element = links->hierarchy->element;
-  const hr2di_store *store = &links->store;
-  for (size_t block = 0; block < store->blocks; block++)
-    for (size_t k = 0; k < hr2di_store_block_size(store, block); k++) {
-      const hr2d_link link = store->block[block][k];
-      e->escape[element[link.pair.first].patch] -= link.exchange_area;
-      if (!links->directed) e->escape[element[link.pair.second].patch] -= link.exchange_area;
-    }
-}
 
 /* What clusters exchange for the patches in them. */
 static hr2d_status add_clusters(const hr2d_linkset *links, exchange *e) {
@@ -41,7 +27,7 @@ static hr2d_status add_clusters(const hr2d_linkset *links, exchange *e) {
   double *power = one + n;
   for (size_t k = 0; k < n; k++) one[k] = 1;
   const hr2d_status status = hr2di_clusters_gather(links->roots.clusters, 1, 1, one, power);
-  for (size_t k = 0; k < n; k++) e->escape[k] -= power[k];
+  for (size_t k = 0; k < n; k++) hr2di_add(&e->escape[k], -power[k]);
   hr2di_free(&links->alloc, one);
   return status;
 }
@@ -50,23 +36,25 @@ static void sum_up(const hr2d_scene *scene, exchange *e) {
   for (size_t k = 0; k < scene->patches; k++) {
     const size_t root = hr2di_component(&e->components, k);
     if (root == k) continue;
-    e->escape[root] += e->escape[k];
+    hr2di_add(&e->escape[root], hr2di_total(&e->escape[k]));
     e->length[root] += e->length[k];
   }
 }
 
-/* Judges one band: a component is in doubt if it is closed and nothing absorbs. */
+/* Judges one band: a component is in doubt if it is closed and nothing absorbs.  What clusters
+   exchange is known to their accuracy only. */
 static hr2d_status check_band(hr2d_linkset *links, exchange *e, size_t band,
                               unsigned char *absorbs) {
   const hr2d_scene *scene = links->hierarchy->scene;
-  const double closed = links->roots.clusters ? fmax(CLOSED, 10 * links->roots.digits) : CLOSED;
+  const double by_clusters = links->roots.clusters ? 10 * links->roots.digits : 0;
+  const double closed = fmax(HR2DI_DEFECT_NO_ESCAPE, by_clusters);
   for (size_t k = 0; k < scene->patches; k++) absorbs[k] = 0;
   for (size_t k = 0; k < scene->patches; k++)
     if (hr2d_scene_reflectance(scene, k, band) < 1)
       absorbs[hr2di_component(&e->components, k)] = 1;
   for (size_t k = 0; k < scene->patches; k++) {
     const size_t root = hr2di_component(&e->components, k);
-    if (absorbs[root] || e->escape[root] > closed * e->length[root] ||
+    if (absorbs[root] || hr2di_total(&e->escape[root]) > closed * e->length[root] ||
         !(hr2d_scene_emission(scene, k, band) > 0))
       continue;
     return hr2di_fail(&links->message, HR2D_ENO_SOLUTION,
@@ -87,11 +75,10 @@ static int some_patch_absorbs_nothing(const hr2d_scene *scene) {
 static hr2d_status sum_exchange(const hr2d_linkset *links, exchange *e) {
   const hr2d_scene *scene = links->hierarchy->scene;
   hr2d_status status = hr2di_components_make(&e->components, links);
-  for (size_t k = 0; k < scene->patches; k++)
-    e->escape[k] = e->length[k] = scene->patch[k].length;
+  for (size_t k = 0; k < scene->patches; k++) e->length[k] = scene->patch[k].length;
+  hr2di_defect_sum(links, e->escape);
   if (!status) status = add_clusters(links, e);
   if (status) return status;
-  add_links(links, e);
   sum_up(scene, e);
   return HR2D_OK;
 }

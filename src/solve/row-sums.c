@@ -8,19 +8,13 @@
    the way of its elements asks for. */
 #include "solve/row-sums.h"
 
-#include <math.h>
-
 #include "base/alloc.h"
-#include "base/neumaier-sum.h"
 #include "geometry/predicates.h"
 #include "hierarchy/hierarchy-impl.h"
+#include "links/patch-defect.h"
 #include "occlusion/pair-visibility.h"
 #include "scene/back-faces.h"
 #include "scene/scene-impl.h"
-
-/* A patch that misses less than this part of its row misses nothing.  The sum over its
-   links is compensated, and each exchange area good to 4e-15. */
-#define CLOSED 1e-14
 
 /* Elements wait on a stack: one per level and their walls. */
 enum { DEPTH = 1100 };
@@ -42,21 +36,6 @@ typedef struct walker {
   waiting stack[DEPTH];
   hr2di_sum *sum; /* per element, set for leaves */
 } walker;
-
-/* A − Σ AF of each patch, over its links. */
-static void sum_links(const hr2di_transport *t, hr2di_sum *rest) {
-  const hr2d_element *element = t->hierarchy->element;
-  const hr2di_store *store = &t->links->store;
-  for (size_t k = 0; k < t->hierarchy->scene->patches; k++)
-    rest[k] = (hr2di_sum){element[k].length, 0};
-  for (size_t block = 0; block < store->blocks; block++)
-    for (size_t k = 0; k < hr2di_store_block_size(store, block); k++) {
-      const hr2d_link *link = &store->block[block][k];
-      hr2di_add(&rest[element[link->pair.first].patch], -link->exchange_area);
-      if (!t->links->directed)
-        hr2di_add(&rest[element[link->pair.second].patch], -link->exchange_area);
-    }
-}
 
 /* All leaves below an element see the source without anything in the way. */
 static void add_clear(walker *w, uint32_t top) {
@@ -181,12 +160,11 @@ static void finish(hr2di_rows *rows, uint32_t patch, const hr2di_sum *front,
 }
 
 static hr2d_status walk_rows(hr2di_rows *rows, const hr2di_transport *t, walker *w,
-                             const hr2di_sum *rest, hr2di_sum *front, hr2di_sum *back) {
+                             const hr2di_sum *defect, hr2di_sum *front, hr2di_sum *back) {
   const hr2d_scene *scene = w->h->scene;
   const int by_links = scene->effect[HR2D_EFFECT_OCCLUSION].called_for;
   hr2d_status status = HR2D_OK;
-  for (uint32_t k = 0; k < scene->patches; k++)
-    rows->closed[k] = fabs(hr2di_total(&rest[k])) <= CLOSED * w->h->element[k].length;
+  hr2di_defect_closed(t->links, defect, rows->closed);
   w->sum = front;
   if (by_links) status = walk_links(w, t, rows->closed);
   for (uint32_t k = 0; k < scene->patches && !status; k++) {
@@ -203,25 +181,25 @@ hr2d_status hr2di_rows_make(hr2di_rows *rows, const hr2di_transport *t, int back
   rows->front = hr2di_calloc(&t->alloc, t->elements, sizeof *rows->front);
   rows->back = backs ? hr2di_calloc(&t->alloc, t->elements, sizeof *rows->back) : NULL;
   rows->closed = hr2di_calloc(&t->alloc, scene->patches, 1);
-  hr2di_sum *rest = hr2di_alloc(&t->alloc, scene->patches, sizeof *rest);
+  hr2di_sum *defect = hr2di_alloc(&t->alloc, scene->patches, sizeof *defect);
   hr2di_sum *front = hr2di_calloc(&t->alloc, t->elements, sizeof *front);
   hr2di_sum *back = backs ? hr2di_calloc(&t->alloc, t->elements, sizeof *back) : NULL;
   walker *w = hr2di_calloc(&t->alloc, 1, sizeof *w);
   hr2d_status status = HR2D_ENOMEM;
-  if (rows->front && rows->closed && rest && front && w && (!backs || (rows->back && back))) {
+  if (rows->front && rows->closed && defect && front && w && (!backs || (rows->back && back))) {
     hr2di_sight sight;
     hr2di_sight_start(&sight, &scene->walls, &t->alloc);
     w->h = t->hierarchy;
     w->sight = scene->effect[HR2D_EFFECT_OCCLUSION].on || backs ? &sight : NULL;
-    sum_links(t, rest);
+    hr2di_defect_sum(t->links, defect);
     status = backs ? hr2di_find_backs(scene, &w->backs) : HR2D_OK;
-    if (!status) status = walk_rows(rows, t, w, rest, front, back);
+    if (!status) status = walk_rows(rows, t, w, defect, front, back);
     hr2di_sight_end(&sight);
     hr2di_free(&t->alloc, w->list.wall);
     hr2di_free(&t->alloc, w->backs.back);
   }
   hr2di_free(&t->alloc, w);
-  hr2di_free(&t->alloc, rest);
+  hr2di_free(&t->alloc, defect);
   hr2di_free(&t->alloc, front);
   hr2di_free(&t->alloc, back);
   return status;

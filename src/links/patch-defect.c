@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "links/patch-defect.h"
+
+#include "hierarchy/hierarchy-impl.h"
+#include "scene/scene-impl.h"
+
+void hr2di_defect_sum(const hr2d_linkset *links, hr2di_sum *defect) {
+  const hr2d_element *element = links->hierarchy->element;
+  const hr2di_store *store = &links->store;
+  for (size_t k = 0; k < links->hierarchy->scene->patches; k++)
+    defect[k] = (hr2di_sum){element[k].length, 0};
+  for (size_t block = 0; block < store->blocks; block++)
+    for (size_t k = 0; k < hr2di_store_block_size(store, block); k++) {
+      const hr2d_link *link = &store->block[block][k];
+      hr2di_add(&defect[element[link->pair.first].patch], -link->exchange_area);
+      if (!links->directed)
+        hr2di_add(&defect[element[link->pair.second].patch], -link->exchange_area);
+    }
+}
+
+void hr2di_defect_closed(const hr2d_linkset *links, const hr2di_sum *defect,
+                         unsigned char *closed) {
+  const hr2d_element *element = links->hierarchy->element;
+  for (size_t k = 0; k < links->hierarchy->scene->patches; k++)
+    closed[k] = fabs(hr2di_total(&defect[k])) <= HR2DI_DEFECT_CLOSED * element[k].length;
+}

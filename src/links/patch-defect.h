@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The defect of a patch: A − Σ AF over its links, in units of the scene.  It is 0 where the
+   patch sees patches in every direction, else its exchange area with the surroundings. */
+#ifndef HR2D_SRC_LINKS_PATCH_DEFECT_H
+#define HR2D_SRC_LINKS_PATCH_DEFECT_H
+
+#include "base/neumaier-sum.h"
+#include "links/linkset-impl.h"
+
+/* A patch, or a component of patches, whose defect is at most this part of its length is
+   closed: the sum is compensated, each exchange area is good to 4e-15 of itself, and the areas
+   add up to the length. */
+#define HR2DI_DEFECT_CLOSED 1e-14
+
+/* The same for the question whether light can escape at all.  It is coarser, as a solution
+   beside an opening of 1e-14 would be roundings times 1e14; solve.h states it. */
+#define HR2DI_DEFECT_NO_ESCAPE 1e-13
+
+/* Sets the defect of every patch.  Links of clusters do not count. */
+void hr2di_defect_sum(const hr2d_linkset *links, hr2di_sum *defect);
+
+/* Marks the patches that are closed by their defects. */
+void hr2di_defect_closed(const hr2d_linkset *links, const hr2di_sum *defect,
+                         unsigned char *closed);
+
+#endif
