@@ -183,10 +183,10 @@ static void print_order(const radiosity_scene *known, unsigned order) {
   double time[FEW], error = 0, unknowns = 0, links = 0;
   for (int k = 0; k < FEW; k++) {
     hr2d_scene *scene = make(known);
-    const hr2di_fineness fineness = {
+    const hr2di_resolution fineness = {
         .order = order, .target = pow(3.3, -2.0 * order), .generations = order > 8 ? 2 : 1};
     const hr2d_target target = HR2D_TARGET_INIT;
-    hr2di_answer answer = {0};
+    hr2di_graded answer = {0};
     hr2di_message message = {0};
     const double start = seconds_now();
     hr2d_status status =
@@ -197,7 +197,7 @@ static void print_order(const radiosity_scene *known, unsigned order) {
     error = radiosity_average_error(known, answer.solution);
     unknowns = (double)(order * hr2d_hierarchy_count(answer.hierarchy).leaves);
     links = (double)hr2d_linkset_size(answer.links);
-    hr2di_answer_clear(&answer);
+    hr2di_graded_clear(&answer);
     hr2d_scene_destroy(scene);
   }
   printf("  %-28s%4u%8.0f%8.0f%10.2f%10.1e\n", known->name, order, links, unknowns,

@@ -12,27 +12,27 @@
 #define ROUGH 3.0
 
 /* Light that passes between two patches weighs no more than what either sends in all. */
-static double error_for(const hr2di_separation *s, const hr2d_element *i,
+static double error_for(const hr2di_admissibility *s, const hr2d_element *i,
                         const hr2d_element *j) {
   if (!s || !s->weight) return 0;
   return s->target / fmin(s->weight[i->patch], s->weight[j->patch]);
 }
 
 /* Links drop ρ^−2p of what is smooth, ρ^−p of what is rough. */
-static double distance_for(const hr2di_separation *s, const hr2d_element *e, double error) {
+static double distance_for(const hr2di_admissibility *s, const hr2d_element *e, double error) {
   const double most = e->child ? ROUGH : HR2DI_ELLIPSE_DISTANT;
   if (!(error > 0)) return most;
   return fmin(hr2di_ellipse_for(e->child ? error * error : error, s->order), most);
 }
 
-static int is_separate(const hr2di_separation *ctx, const hr2d_element *i,
+static int is_separate(const hr2di_admissibility *ctx, const hr2d_element *i,
                        const hr2d_element *j, int partial) {
   const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
   const double error = error_for(ctx, i, j);
   if (error >= 1) return 1;
   return !partial && hr2di_ellipse_least(s, t) >= distance_for(ctx, i, error) &&
          hr2di_ellipse_least(t, s) >= distance_for(ctx, j, error) &&
-         hr2di_face(&s, &t) == HR2DI_FACING_FULL;
+         hr2di_facing_of(&s, &t) == HR2DI_FACING_FULL;
 }
 
 static hr2d_status estimate(void *ctx, const hr2d_batch *batch, double *error) {
@@ -52,7 +52,7 @@ static const hr2d_oracle separation = {
     .estimate = estimate,
 };
 
-const hr2d_oracle *hr2di_oracle_separation(void) {
+const hr2d_oracle *hr2di_admissibility_oracle(void) {
   return &separation;
 }
 
@@ -84,6 +84,6 @@ static const hr2d_policy graded = {
     .preferred_subdivision = split_parent,
 };
 
-const hr2d_policy *hr2di_policy_graded(void) {
+const hr2d_policy *hr2di_admissibility_fixed_leaves(void) {
   return &graded;
 }

@@ -8,17 +8,17 @@
 #include <hr2d/policy.h>
 
 /* Context of the oracle; without one every patch has weight 1. */
-typedef struct hr2di_separation {
+typedef struct hr2di_admissibility {
   unsigned order;
   double target;
   const double *weight; /* per patch, see graded.h; NULL: 1 */
-} hr2di_separation;
+} hr2di_admissibility;
 
 /* 0 for pairs that are distant, both ways, see each other's fronts wholly and have nothing in
    the way; and for what is too unimportant to ask for that; else 1. */
-const hr2d_oracle *hr2di_oracle_separation(void);
+const hr2d_oracle *hr2di_admissibility_oracle(void);
 
 /* Never divides a leaf: leaves are linked as they are. */
-const hr2d_policy *hr2di_policy_graded(void);
+const hr2d_policy *hr2di_admissibility_fixed_leaves(void);
 
 #endif

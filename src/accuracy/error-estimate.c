@@ -43,8 +43,8 @@ typedef struct estimator {
 
 /* A generation of events more where that may be told from rounding; where elements end at none,
    the order has to tell. */
-hr2di_fineness hr2di_finer(const hr2di_fineness *f) {
-  hr2di_fineness finer = *f;
+hr2di_resolution hr2di_resolution_finer(const hr2di_resolution *f) {
+  hr2di_resolution finer = *f;
   const unsigned order = f->order + (f->order < 4 ? 3 : 2);
   finer.order = order < HR2D_MAX_ORDER ? order : HR2D_MAX_ORDER;
   finer.deeper += 4;
@@ -76,7 +76,7 @@ static void reflect(hr2di_equation *eq, double *field) {
 static void set_source(estimator *e) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
-  hr2di_restrict(e->coarse, t->hierarchy, t->leaf, t->leaves, t->order, e->kept);
+  hr2di_solution_restrict(e->coarse, t->hierarchy, t->leaf, t->leaves, t->order, e->kept);
   for (size_t k = 0; k < eq->field; k++)
     e->kept[k] = ldexp(e->kept[k], -eq->exponent[k % t->bands]);
   hr2di_equation_balance(eq);
@@ -133,7 +133,7 @@ static hr2d_status solve(estimator *e, double tolerance) {
 /* |average| of a field over each patch; 0 where only another one counts. */
 static void average_errors(estimator *e, const double *field, size_t only, double *error) {
   hr2di_transport *t = &e->eq.transport;
-  hr2di_raise(t, field);
+  hr2di_transport_pull(t, field);
   for (size_t k = 0; k < t->hierarchy->scene->patches; k++)
     for (size_t b = 0; b < t->bands; b++) {
       const int counts = only == HR2D_ALL_PATCHES || k == only;
@@ -189,7 +189,7 @@ static double worst_point(const estimator *e, double factor, const double *field
 }
 
 static hr2d_status measure(estimator *e, const hr2d_target *target, double *average,
-                           hr2di_errors *errors) {
+                           hr2di_error_pair *errors) {
   hr2di_equation *eq = &e->eq;
   double *head =
       average + hr2d_scene_patches(eq->transport.hierarchy->scene) * eq->transport.bands;
@@ -214,8 +214,8 @@ static hr2d_status measure(estimator *e, const hr2d_target *target, double *aver
   return status;
 }
 
-static hr2d_status run(const hr2di_answer *finer, const hr2d_solution *coarse,
-                       const hr2d_target *target, hr2di_errors *errors) {
+static hr2d_status run(const hr2di_graded *finer, const hr2d_solution *coarse,
+                       const hr2d_target *target, hr2di_error_pair *errors) {
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   options.threads = target->threads;
   options.progress = target->progress;
@@ -223,8 +223,8 @@ static hr2d_status run(const hr2di_answer *finer, const hr2d_solution *coarse,
   estimator e = {.coarse = coarse};
   hr2d_status status = hr2di_equation_init(&e.eq, finer->links, &options);
   if (!status) {
-    hr2di_basis_make(&e.basis, e.eq.transport.order);
-    hr2di_rule_make(&e.rule, e.eq.transport.order + 2);
+    hr2di_basis_init(&e.basis, e.eq.transport.order);
+    hr2di_rule_init(&e.rule, e.eq.transport.order + 2);
     const hr2d_allocator *alloc = &finer->links->alloc;
     const size_t values = hr2d_scene_patches(finer->hierarchy->scene) * e.eq.transport.bands;
     double *space = hr2di_alloc(alloc, 4 * e.eq.field + 2 * values, sizeof *space);
@@ -238,8 +238,8 @@ static hr2d_status run(const hr2di_answer *finer, const hr2d_solution *coarse,
     } else {
       status = HR2D_ENOMEM;
     }
-    hr2di_free(alloc, space);
-    hr2di_free(alloc, e.exponent);
+    hr2di_alloc_free(alloc, space);
+    hr2di_alloc_free(alloc, e.exponent);
   }
   errors->kernels = e.eq.kernels;
   hr2di_equation_clear(&e.eq);
@@ -247,24 +247,24 @@ static hr2d_status run(const hr2di_answer *finer, const hr2d_solution *coarse,
 }
 
 /* Where nothing reflects B = E, without error. */
-hr2d_status hr2di_estimate(const hr2di_answer *answer, const hr2di_fineness *fineness,
-                           const hr2d_target *target, hr2di_errors *errors,
-                           hr2di_message *message) {
+hr2d_status hr2di_error_estimate(const hr2di_graded *answer, const hr2di_resolution *fineness,
+                                 const hr2d_target *target, hr2di_error_pair *errors,
+                                 hr2di_message *message) {
   const hr2d_scene *scene = answer->hierarchy->scene;
-  const hr2di_fineness finer = hr2di_finer(fineness);
-  hr2di_answer held;
-  *errors = (hr2di_errors){0};
+  const hr2di_resolution finer = hr2di_resolution_finer(fineness);
+  hr2di_graded held;
+  *errors = (hr2di_error_pair){0};
   if (!scene->effect[HR2D_EFFECT_INTERREFLECTION].on) return HR2D_OK;
   hr2d_status status =
       hr2di_graded_refine(&held, scene, answer->hierarchy, &finer, target, message);
   if (!status) {
     status = run(&held, answer->solution, target, errors);
-    errors->bytes = hr2di_answer_bytes(&held);
+    errors->bytes = hr2di_graded_bytes(&held);
     if (status)
-      hr2di_fail(message, status, "%s",
-                 hr2d_linkset_message(held.links)[0] ? hr2d_linkset_message(held.links)
-                                                     : hr2d_strerror(status));
+      hr2di_message_fail(message, status, "%s",
+                         hr2d_linkset_message(held.links)[0] ? hr2d_linkset_message(held.links)
+                                                             : hr2d_strerror(status));
   }
-  hr2di_answer_clear(&held);
+  hr2di_graded_clear(&held);
   return status;
 }

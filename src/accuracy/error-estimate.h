@@ -5,20 +5,20 @@
 
 #include "accuracy/graded-solve.h"
 
-typedef struct hr2di_errors {
+typedef struct hr2di_error_pair {
   hr2d_error average; /* of the worst patch, or of the one asked for */
   hr2d_error sup;
   uint64_t kernels; /* values of G it took */
   uint64_t bytes;   /* of the finer trees, links and blocks */
-} hr2di_errors;
+} hr2di_error_pair;
 
 /* Estimates the error of an answer of this fineness; HR2D_OK, or a status with a reason in
    `message`. */
-hr2d_status hr2di_estimate(const hr2di_answer *answer, const hr2di_fineness *fineness,
-                           const hr2d_target *target, hr2di_errors *errors,
-                           hr2di_message *message);
+hr2d_status hr2di_error_estimate(const hr2di_graded *answer, const hr2di_resolution *fineness,
+                                 const hr2d_target *target, hr2di_error_pair *errors,
+                                 hr2di_message *message);
 
 /* The fineness of the operator that an answer is held against. */
-hr2di_fineness hr2di_finer(const hr2di_fineness *fineness);
+hr2di_resolution hr2di_resolution_finer(const hr2di_resolution *fineness);
 
 #endif

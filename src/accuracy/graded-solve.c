@@ -17,7 +17,7 @@ static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
                                unsigned generations) {
   hr2d_status status = HR2D_OK;
   while (generations > 0) {
-    status = hr2di_events_find(events, h->scene, &h->alloc, generations--, MOST_EVENTS);
+    status = hr2di_events_init(events, h->scene, &h->alloc, generations--, MOST_EVENTS);
     if (status != HR2D_EMAX_ELEMENTS) return status;
     hr2di_events_clear(events);
     *events = (hr2di_events){0};
@@ -27,8 +27,8 @@ static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
 }
 
 /* Trees that have grown before have been halved. */
-static hr2d_status grade(hr2di_answer *a, const hr2d_hierarchy *from,
-                         const hr2di_fineness *fineness, const hr2d_target *target) {
+static hr2d_status grade(hr2di_graded *a, const hr2d_hierarchy *from,
+                         const hr2di_resolution *fineness, const hr2d_target *target) {
   hr2d_hierarchy *h = a->hierarchy;
   hr2di_events events = {.alloc = h->alloc};
   hr2d_status status = find_events(&events, h, fineness->generations);
@@ -40,56 +40,57 @@ static hr2d_status grade(hr2di_answer *a, const hr2d_hierarchy *from,
                                  .weight = fineness->weight,
                                  .events = &events,
                                  .max_elements = target->max_elements};
-  if (!status) status = hr2di_grade(h, &grading, &a->survey);
+  if (!status) status = hr2di_grading_apply(h, &grading, &a->survey);
   a->events = events.count;
   hr2di_events_clear(&events);
   return status;
 }
 
-static hr2d_status link_elements(hr2di_answer *a, const hr2di_fineness *fineness,
+static hr2d_status link_elements(hr2di_graded *a, const hr2di_resolution *fineness,
                                  const hr2d_target *target) {
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
-  hr2di_separation separation = {fineness->order, fineness->target, fineness->weight};
+  hr2di_admissibility separation = {fineness->order, fineness->target, fineness->weight};
   options.epsilon = 0.5; /* the oracle says 0 or 1 */
   options.max_level = UINT32_MAX;
   options.max_links = target->max_links;
   options.max_bytes = target->max_bytes;
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;
-  hr2d_status status = hr2d_linkset_create(a->hierarchy, hr2di_oracle_separation(), &separation,
-                                           hr2di_policy_graded(), NULL, &a->links);
+  hr2d_status status =
+      hr2d_linkset_create(a->hierarchy, hr2di_admissibility_oracle(), &separation,
+                          hr2di_admissibility_fixed_leaves(), NULL, &a->links);
   if (status) return status;
   if (a->hierarchy->scene->patches >= MANY)
-    status = hr2di_roots_make(&a->links->roots, a->hierarchy->scene, &a->links->alloc,
+    status = hr2di_roots_init(&a->links->roots, a->hierarchy->scene, &a->links->alloc,
                               fineness->digits);
   if (!status) status = hr2d_refine(a->links, &options);
   a->links->oracle_ctx = NULL; /* which is not asked again */
   return status;
 }
 
-static hr2d_status explain(const hr2di_answer *a, hr2d_status status, hr2di_message *message) {
+static hr2d_status explain(const hr2di_graded *a, hr2d_status status, hr2di_message *message) {
   if (!status) return status;
   const char *own = a->links ? hr2d_linkset_message(a->links) : "";
-  return hr2di_fail(message, status, "%s", own[0] ? own : hr2d_strerror(status));
+  return hr2di_message_fail(message, status, "%s", own[0] ? own : hr2d_strerror(status));
 }
 
-hr2d_status hr2di_graded_refine(hr2di_answer *a, const hr2d_scene *scene,
-                                const hr2d_hierarchy *from, const hr2di_fineness *fineness,
+hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
+                                const hr2d_hierarchy *from, const hr2di_resolution *fineness,
                                 const hr2d_target *target, hr2di_message *message) {
-  const double start = hr2di_now();
-  *a = (hr2di_answer){0};
+  const double start = hr2di_clock_now();
+  *a = (hr2di_graded){0};
   hr2d_status status = from ? hr2di_hierarchy_clone(from, &a->hierarchy)
                             : hr2d_hierarchy_create(scene, &a->hierarchy);
   if (!status) a->hierarchy->order = fineness->order;
   if (!status) status = grade(a, from, fineness, target);
   if (!status) status = link_elements(a, fineness, target);
-  a->refine_seconds = hr2di_now() - start;
+  a->refine_seconds = hr2di_clock_now() - start;
   return explain(a, status, message);
 }
 
-hr2d_status hr2di_graded_solve(hr2di_answer *a, const hr2d_target *target,
+hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2d_target *target,
                                hr2di_message *message) {
-  const double start = hr2di_now();
+  const double start = hr2di_clock_now();
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   options.threads = target->threads;
   options.progress = target->progress;
@@ -99,17 +100,17 @@ hr2d_status hr2di_graded_solve(hr2di_answer *a, const hr2d_target *target,
   const hr2d_solve_work work = hr2d_solution_work(a->solution);
   a->kernels = work.kernels;
   a->coefficients_seconds = work.coefficients_seconds;
-  a->solve_seconds = hr2di_now() - start - work.coefficients_seconds;
+  a->solve_seconds = hr2di_clock_now() - start - work.coefficients_seconds;
   return HR2D_OK;
 }
 
-void hr2di_answer_clear(hr2di_answer *a) {
+void hr2di_graded_clear(hr2di_graded *a) {
   hr2d_solution_destroy(a->solution);
   hr2d_linkset_destroy(a->links);
   hr2d_hierarchy_destroy(a->hierarchy);
-  *a = (hr2di_answer){0};
+  *a = (hr2di_graded){0};
 }
 
-uint64_t hr2di_answer_bytes(const hr2di_answer *a) {
+uint64_t hr2di_graded_bytes(const hr2di_graded *a) {
   return (uint64_t)a->hierarchy->capacity * HR2DI_ELEMENT_BYTES + hr2d_linkset_bytes(a->links);
 }

@@ -9,7 +9,7 @@
 #include "base/message.h"
 
 /* How fine. */
-typedef struct hr2di_fineness {
+typedef struct hr2di_resolution {
   unsigned order;
   double target; /* relative error that corners are graded for */
   double digits; /* relative accuracy of links between clusters of patches */
@@ -21,9 +21,9 @@ typedef struct hr2di_fineness {
   unsigned halvings;    /* of every element besides, where there are too many events */
   const double *weight; /* per patch: what a relative error of its radiosity does to what is
                            asked for; NULL: 1 */
-} hr2di_fineness;
+} hr2di_resolution;
 
-typedef struct hr2di_answer {
+typedef struct hr2di_graded {
   hr2d_hierarchy *hierarchy;
   hr2d_linkset *links;
   hr2d_solution *solution; /* NULL until solved */
@@ -31,21 +31,21 @@ typedef struct hr2di_answer {
   uint64_t events;
   uint64_t kernels;
   double refine_seconds, coefficients_seconds, solve_seconds;
-} hr2di_answer;
+} hr2di_graded;
 
 /* Makes the trees and the links, on a copy of `from` if that is not NULL; HR2D_OK or a status,
-   then with a reason in `message`.  To be ended by hr2di_answer_clear() in either case. */
-hr2d_status hr2di_graded_refine(hr2di_answer *answer, const hr2d_scene *scene,
-                                const hr2d_hierarchy *from, const hr2di_fineness *fineness,
+   then with a reason in `message`.  To be ended by hr2di_graded_clear() in either case. */
+hr2d_status hr2di_graded_refine(hr2di_graded *answer, const hr2d_scene *scene,
+                                const hr2d_hierarchy *from, const hr2di_resolution *fineness,
                                 const hr2d_target *target, hr2di_message *message);
 
 /* And solves. */
-hr2d_status hr2di_graded_solve(hr2di_answer *answer, const hr2d_target *target,
+hr2d_status hr2di_graded_solve(hr2di_graded *answer, const hr2d_target *target,
                                hr2di_message *message);
 
-void hr2di_answer_clear(hr2di_answer *answer);
+void hr2di_graded_clear(hr2di_graded *answer);
 
 /* Bytes of its elements, links and blocks. */
-uint64_t hr2di_answer_bytes(const hr2di_answer *answer);
+uint64_t hr2di_graded_bytes(const hr2di_graded *answer);
 
 #endif

@@ -35,7 +35,7 @@ static void multiply(hr2di_equation *eq, const hr2d_solution *solution, size_t p
   const hr2di_transport *t = &eq->transport;
   const double area = t->hierarchy->element[patch].length;
   double *radiosity = eq->work;
-  hr2di_restrict(solution, t->hierarchy, t->leaf, t->leaves, t->order, radiosity);
+  hr2di_solution_restrict(solution, t->hierarchy, t->leaf, t->leaves, t->order, radiosity);
   for (size_t k = 0; k < eq->field; k++) {
     const size_t item = k / t->bands;
     const hr2d_element *e = &t->hierarchy->element[t->leaf[item / t->order]];
@@ -45,7 +45,7 @@ static void multiply(hr2di_equation *eq, const hr2d_solution *solution, size_t p
   }
 }
 
-static hr2d_status weigh(const hr2di_answer *coarse, size_t patch, const hr2d_target *target,
+static hr2d_status weigh(const hr2di_graded *coarse, size_t patch, const hr2d_target *target,
                          double *weight) {
   const hr2d_scene *scene = coarse->hierarchy->scene;
   const hr2d_allocator *alloc = &coarse->links->alloc;
@@ -54,7 +54,7 @@ static hr2d_status weigh(const hr2di_answer *coarse, size_t patch, const hr2d_ta
   options.tolerance = 1e-6;
   hr2di_equation eq;
   hr2d_status status = hr2di_equation_init(&eq, coarse->links, &options);
-  double *product = hr2di_calloc(alloc, scene->patches * scene->bands, sizeof *product);
+  double *product = hr2di_alloc_zero(alloc, scene->patches * scene->bands, sizeof *product);
   if (!status && !product) status = HR2D_ENOMEM;
   if (!status) status = solve_adjoint(&eq, patch);
   if (!status) multiply(&eq, coarse->solution, patch, product);
@@ -66,21 +66,21 @@ static hr2d_status weigh(const hr2di_answer *coarse, size_t patch, const hr2d_ta
     }
     weight[k] = fmin(weight[k], 1);
   }
-  hr2di_free(alloc, product);
+  hr2di_alloc_free(alloc, product);
   hr2di_equation_clear(&eq);
   return status;
 }
 
 hr2d_status hr2di_importance(const hr2d_scene *scene, size_t patch, const hr2d_target *target,
                              double *weight, hr2di_message *message) {
-  const hr2di_fineness fineness = {.order = 2, .target = 0.1, .norm = target->norm};
-  hr2di_answer coarse;
+  const hr2di_resolution fineness = {.order = 2, .target = 0.1, .norm = target->norm};
+  hr2di_graded coarse;
   hr2d_status status = hr2di_graded_refine(&coarse, scene, NULL, &fineness, target, message);
   if (!status) status = hr2di_graded_solve(&coarse, target, message);
   if (!status) {
     status = weigh(&coarse, patch, target, weight);
-    if (status) hr2di_fail(message, status, "importance: %s", hr2d_strerror(status));
+    if (status) hr2di_message_fail(message, status, "importance: %s", hr2d_strerror(status));
   }
-  hr2di_answer_clear(&coarse);
+  hr2di_graded_clear(&coarse);
   return status;
 }

@@ -47,11 +47,11 @@ typedef struct grader {
   const hr2di_grading *grading;
   vertex *vertex; /* by x */
   size_t vertices;
-  uint32_t *under;   /* of each patch's start and end: 1 + the patch within whose front it
-                        stands, or 0 */
-  hr2di_points near; /* in front of the patch under way, and near to it: ends of others, and
-                        mirror images */
-  mark *mark;        /* of the patch under way, by place */
+  uint32_t *under;         /* of each patch's start and end: 1 + the patch within whose front it
+                              stands, or 0 */
+  hr2di_image_points near; /* in front of the patch under way, and near to it: ends of others,
+                        and mirror images */
+  mark *mark;              /* of the patch under way, by place */
   size_t marks, mark_capacity;
   hr2di_survey survey;
   double target;   /* of the patch under way */
@@ -75,7 +75,7 @@ static int by_place(const void *a, const void *b) {
 static hr2d_status list_vertices(grader *g) {
   const hr2d_scene *scene = g->h->scene;
   g->vertex = hr2di_alloc(&g->h->alloc, 2 * scene->patches, sizeof *g->vertex);
-  g->under = hr2di_calloc(&g->h->alloc, 2 * scene->patches, sizeof *g->under);
+  g->under = hr2di_alloc_zero(&g->h->alloc, 2 * scene->patches, sizeof *g->under);
   if (!g->vertex || !g->under) return HR2D_ENOMEM;
   for (uint32_t k = 0; k < scene->patches; k++) {
     const hr2d_segment s = scene->patch[k].scaled;
@@ -140,7 +140,8 @@ static unsigned depth_at(grader *g, uint32_t patch, const vertex *v, double at) 
 }
 
 static hr2d_status add_mark(grader *g, double at, hr2d_point point, unsigned depth) {
-  if (hr2di_reserve(&g->h->alloc, &g->mark, &g->mark_capacity, g->marks + 1, sizeof *g->mark))
+  if (hr2di_alloc_reserve(&g->h->alloc, &g->mark, &g->mark_capacity, g->marks + 1,
+                          sizeof *g->mark))
     return HR2D_ENOMEM;
   g->mark[g->marks++] = (mark){at, point, depth};
   return HR2D_OK;
@@ -165,8 +166,8 @@ static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
   const double at = ((v->at.x - s.a.x) * ux + (v->at.y - s.a.y) * uy) / square;
   if (above > ON_LINE) {
     if (hr2di_ellipse(s, v->at) >= FAR) return HR2D_OK;
-    if (hr2di_reserve(&g->h->alloc, &g->near.point, &g->near.capacity, g->near.count + 1,
-                      sizeof *g->near.point))
+    if (hr2di_alloc_reserve(&g->h->alloc, &g->near.point, &g->near.capacity, g->near.count + 1,
+                            sizeof *g->near.point))
       return HR2D_ENOMEM;
     g->near.point[g->near.count++] = v->at;
     return HR2D_OK;
@@ -206,7 +207,7 @@ static hr2d_status add_foot(grader *g, uint32_t patch, int last) {
   return under ? add_mark(g, last, foot.at, depth_at(g, under - 1, &foot, 0.5)) : HR2D_OK;
 }
 
-unsigned hr2di_generations_for(double error) {
+unsigned hr2di_grading_generations(double error) {
   return error >= 3e-3 ? 0 : error >= 1e-8 ? 1 : 2;
 }
 
@@ -224,7 +225,8 @@ static hr2d_status add_events(grader *g, uint32_t patch) {
   hr2d_status status = HR2D_OK;
   for (; events && low < events->count && events->event[low].patch == patch && !status; low++) {
     const double at = events->event[low].at;
-    if (g->grading->weight && events->event[low].generation > hr2di_generations_for(g->target))
+    if (g->grading->weight &&
+        events->event[low].generation > hr2di_grading_generations(g->target))
       continue;
     const hr2d_point point = {s.a.x + at * (s.b.x - s.a.x), s.a.y + at * (s.b.y - s.a.y)};
     status = add_mark(g, at, point, 0);
@@ -270,7 +272,7 @@ static int wants_halves(const grader *g, const part *e) {
   const hr2d_element *element = &g->h->element[e->element];
   const hr2d_segment s = {element->a, element->b};
   const double size = e->to - e->from, margin = 4 * SHORTEST;
-  if (size < SHORTEST || !hr2di_divisible(g->h, e->element)) return 0;
+  if (size < SHORTEST || !hr2di_element_divisible(g->h, e->element)) return 0;
   for (size_t k = 0; k < g->marks; k++) {
     const double at = g->mark[k].at;
     const double from = fabs(at - e->from), to = fabs(at - e->to);
@@ -297,7 +299,7 @@ static hr2d_status divide(grader *g, part *e, int *divided) {
   const mark *inside = mark_inside(g, e);
   *divided = h->element[e->element].child || inside || wants_halves(g, e);
   if (!*divided && e->halvings < g->grading->halvings) {
-    *divided = hr2di_divisible(h, e->element);
+    *divided = hr2di_element_divisible(h, e->element);
     e->halvings++;
   }
   if (!*divided || h->element[e->element].child) return HR2D_OK;
@@ -306,9 +308,10 @@ static hr2d_status divide(grader *g, part *e, int *divided) {
   const hr2d_status status = hr2di_hierarchy_reserve(h);
   if (status) return status;
   if (inside)
-    hr2di_divide(h, e->element, (inside->at - e->from) / (e->to - e->from), inside->point);
+    hr2di_element_divide(h, e->element, (inside->at - e->from) / (e->to - e->from),
+                         inside->point);
   else
-    hr2di_halve(h, e->element);
+    hr2di_element_halve(h, e->element);
   return HR2D_OK;
 }
 
@@ -321,7 +324,7 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
   g->distance =
       weight < 1 ? hr2di_ellipse_for(g->target, g->grading->order) : HR2DI_ELLIPSE_DISTANT;
   hr2d_status status = look_around(g, patch);
-  if (!status) status = hr2di_add_images(g->h->scene, patch, FAR, &g->near, g->near.count);
+  if (!status) status = hr2di_images_add(g->h->scene, patch, FAR, &g->near, g->near.count);
   for (int last = 0; last < 2 && !status; last++) status = add_foot(g, patch, last);
   if (!status) status = add_events(g, patch);
   if (status) return status;
@@ -334,15 +337,16 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
     if (!divided) survey_leaf(g, &e);
     if (status || !divided || count + 2 > STACK) continue;
     const uint32_t child = g->h->element[e.element].child;
-    const double middle = e.from + hr2di_left_part(g->h->element, e.element) * (e.to - e.from);
+    const double middle =
+        e.from + hr2di_element_left_part(g->h->element, e.element) * (e.to - e.from);
     stack[count++] = (part){child + 1, middle, e.to, e.halvings};
     stack[count++] = (part){child, e.from, middle, e.halvings};
   }
   return status;
 }
 
-hr2d_status hr2di_grade(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
-                        hr2di_survey *survey) {
+hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
+                                hr2di_survey *survey) {
   const hr2d_scene *scene = hierarchy->scene;
   grader g = {.h = hierarchy, .grading = grading, .survey = {1, FAR}, .target = 1};
   hr2d_status status = list_vertices(&g);
@@ -351,11 +355,11 @@ hr2d_status hr2di_grade(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
     g.near.count = g.marks = 0;
   }
   for (uint32_t k = 0; k < scene->patches && !status; k++)
-    if (hr2di_lit(scene, k) && reflectance(scene, k) > 0) status = grade_patch(&g, k);
-  hr2di_free(&hierarchy->alloc, g.vertex);
-  hr2di_free(&hierarchy->alloc, g.under);
-  hr2di_free(&hierarchy->alloc, g.near.point);
-  hr2di_free(&hierarchy->alloc, g.mark);
+    if (hr2di_scene_lit(scene, k) && reflectance(scene, k) > 0) status = grade_patch(&g, k);
+  hr2di_alloc_free(&hierarchy->alloc, g.vertex);
+  hr2di_alloc_free(&hierarchy->alloc, g.under);
+  hr2di_alloc_free(&hierarchy->alloc, g.near.point);
+  hr2di_alloc_free(&hierarchy->alloc, g.mark);
   *survey = g.survey;
   return status;
 }

@@ -22,7 +22,7 @@ typedef struct hr2di_grading {
 /* The generations of events that an error of averages asks for, from measurements: where no
    event is an element's end, radiosity's kinks do some 1e-4 to averages, beyond one generation
    1e-9. */
-unsigned hr2di_generations_for(double error);
+unsigned hr2di_grading_generations(double error);
 
 /* What was found on the way. */
 typedef struct hr2di_survey {
@@ -35,7 +35,7 @@ typedef struct hr2di_survey {
    is nearer to an element in front of it than an ellipse of HR2DI_ELLIPSE_DISTANT.  Patches
    that reflect nothing have B = E and stay whole.  HR2D_OK, HR2D_ENOMEM or HR2D_EMAX_ELEMENTS,
    with part of the divisions done. */
-hr2d_status hr2di_grade(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
-                        hr2di_survey *survey);
+hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
+                                hr2di_survey *survey);
 
 #endif

@@ -14,7 +14,7 @@ typedef struct mirror {
   const hr2d_scene *scene;
   const hr2di_patch *patch;
   double most;
-  hr2di_points *points;
+  hr2di_image_points *points;
   size_t count;
 } mirror;
 
@@ -44,9 +44,9 @@ static hr2d_status add_image(mirror *m, hr2d_segment wall, const double side[2],
   if (hr2di_orient(s.a, s.b, wall.a) <= least && hr2di_orient(s.a, s.b, wall.b) <= least)
     return HR2D_OK;
   if (away <= ON_PATCH || away >= m->most) return HR2D_OK;
-  hr2di_points *points = m->points;
-  if (hr2di_reserve(&m->scene->alloc, &points->point, &points->capacity, points->count + 1,
-                    sizeof *points->point))
+  hr2di_image_points *points = m->points;
+  if (hr2di_alloc_reserve(&m->scene->alloc, &points->point, &points->capacity,
+                          points->count + 1, sizeof *points->point))
     return HR2D_ENOMEM;
   points->point[points->count++] = image;
   return HR2D_OK;
@@ -64,8 +64,8 @@ static hr2d_status add_wall(mirror *m, hr2d_segment wall) {
   return status;
 }
 
-hr2d_status hr2di_add_images(const hr2d_scene *scene, uint32_t patch, double most,
-                             hr2di_points *points, size_t count) {
+hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double most,
+                             hr2di_image_points *points, size_t count) {
   mirror m = {scene, &scene->patch[patch], most, points, count};
   uint32_t stack[2 * HR2DI_BOX_DEPTH];
   size_t waiting = 0;

@@ -10,15 +10,15 @@
 #include <hr2d/scene.h>
 #include <stdint.h>
 
-typedef struct hr2di_points {
+typedef struct hr2di_image_points {
   hr2d_point *point;
   size_t count, capacity;
-} hr2di_points;
+} hr2di_image_points;
 
 /* Appends to `points` the images of its first `count` points, and of the patch's ends, in walls
    near to the patch, as far as they are in front of it and within an ellipse of `most`; HR2D_OK
    or HR2D_ENOMEM. */
-hr2d_status hr2di_add_images(const hr2d_scene *scene, uint32_t patch, double most,
-                             hr2di_points *points, size_t count);
+hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double most,
+                             hr2di_image_points *points, size_t count);
 
 #endif

@@ -34,21 +34,21 @@ typedef struct cost {
 } cost;
 
 /* Every k-th block is integrated. */
-static hr2d_status time_blocks(const hr2di_answer *a, size_t order, double *seconds) {
+static hr2d_status time_blocks(const hr2di_graded *a, size_t order, double *seconds) {
   const hr2d_allocator *alloc = &a->hierarchy->alloc;
   const uint64_t links = hr2d_linkset_size(a->links);
   const uint64_t samples = links < SAMPLES ? links : SAMPLES;
   double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
   hr2di_integrator work;
   int distant;
-  hr2d_status status = hr2di_integrator_start(&work, a->hierarchy, alloc, order);
-  const double start = hr2di_now();
+  hr2d_status status = hr2di_integrator_init(&work, a->hierarchy, alloc, order);
+  const double start = hr2di_clock_now();
   for (uint64_t k = 0; k < samples && !status; k++) {
     const hr2d_link link = hr2d_linkset_get(a->links, (2 * k + 1) * links / (2 * samples));
     status = hr2di_block(&work, link.pair, block, &distant);
   }
-  *seconds = samples ? (hr2di_now() - start) * ((double)links / (double)samples) : 0;
-  hr2di_integrator_end(&work);
+  *seconds = samples ? (hr2di_clock_now() - start) * ((double)links / (double)samples) : 0;
+  hr2di_integrator_clear(&work);
   return status;
 }
 
@@ -57,10 +57,10 @@ static double time_product(size_t order) {
   double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER] = {0}, field[4][HR2D_MAX_ORDER] = {{0}};
   double least = HUGE_VAL;
   for (int run = 0; run < 5; run++) {
-    const double start = hr2di_now();
+    const double start = hr2di_clock_now();
     for (int k = 0; k < PRODUCTS; k++)
-      hr2di_multiply_block(block, order, field[0], field[1], field[2], field[3]);
-    least = fmin(least, hr2di_now() - start);
+      hr2di_transport_multiply(block, order, field[0], field[1], field[2], field[3]);
+    least = fmin(least, hr2di_clock_now() - start);
   }
   return least / PRODUCTS;
 }
@@ -69,8 +69,8 @@ static double time_product(size_t order) {
    element was measured to take four products, and closure to make about as much as distant
    blocks; such shares hardly depend on the machine. */
 static hr2d_status measure(const hr2d_scene *scene, const hr2d_hierarchy *from,
-                           const hr2di_fineness *fineness, const hr2d_target *target,
-                           hr2di_answer *a, cost *c) {
+                           const hr2di_resolution *fineness, const hr2d_target *target,
+                           hr2di_graded *a, cost *c) {
   hr2di_message message;
   hr2d_status status = hr2di_graded_refine(a, scene, from, fineness, target, &message);
   if (status) return status;
@@ -79,7 +79,7 @@ static hr2d_status measure(const hr2d_scene *scene, const hr2d_hierarchy *from,
   c->elements = counts.elements;
   c->leaves = counts.leaves;
   c->links = hr2d_linkset_size(a->links);
-  c->bytes = hr2di_answer_bytes(a) + c->links * (8 * fineness->order * fineness->order + 1);
+  c->bytes = hr2di_graded_bytes(a) + c->links * (8 * fineness->order * fineness->order + 1);
   status = time_blocks(a, fineness->order, &c->make);
   const double threads = target->threads > 1 ? target->threads : 1;
   c->make = c->make / threads + a->refine_seconds;
@@ -92,15 +92,15 @@ static hr2d_status measure(const hr2d_scene *scene, const hr2d_hierarchy *from,
    is little to do. */
 static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target,
                               double *iterations, double *seconds) {
-  const double start = hr2di_now();
-  hr2di_answer a;
+  const double start = hr2di_clock_now();
+  hr2di_graded a;
   hr2di_message message;
-  const hr2di_fineness coarse = {.order = 2, .target = 0.1, .norm = target->norm};
+  const hr2di_resolution coarse = {.order = 2, .target = 0.1, .norm = target->norm};
   hr2d_status status = hr2di_graded_refine(&a, scene, NULL, &coarse, target, &message);
   if (!status) status = hr2di_graded_solve(&a, target, &message);
   if (!status) *iterations = 2 + (double)hr2d_solution_work(a.solution).iterations;
-  hr2di_answer_clear(&a);
-  *seconds = hr2di_now() - start;
+  hr2di_graded_clear(&a);
+  *seconds = hr2di_clock_now() - start;
   return status;
 }
 
@@ -108,10 +108,10 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
                            hr2d_prediction *p) {
   const double aim = target->error > 0 ? target->error : 1e-13;
   hr2di_survey survey;
-  if (hr2di_survey_scene(scene, &survey)) return HR2D_ENOMEM;
-  const hr2di_fineness fineness = hr2di_fineness_for(scene, &survey, aim, target->norm);
-  const hr2di_fineness finer = hr2di_finer(&fineness);
-  hr2di_answer first = {0}, second = {0};
+  if (hr2di_resolution_survey(scene, &survey)) return HR2D_ENOMEM;
+  const hr2di_resolution fineness = hr2di_resolution_for(scene, &survey, aim, target->norm);
+  const hr2di_resolution finer = hr2di_resolution_finer(&fineness);
+  hr2di_graded first = {0}, second = {0};
   cost solve = {0}, error = {0};
   double iterations = 0, coarse = 0;
   hr2d_status status = try_coarse(scene, target, &iterations, &coarse);
@@ -129,8 +129,8 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
                  REST * (solve.make + iterations * solve.gather + error.make +
                          (ERROR_GATHERS + ERROR_ITERATIONS * iterations) * error.gather);
   }
-  hr2di_answer_clear(&first);
-  hr2di_answer_clear(&second);
+  hr2di_graded_clear(&first);
+  hr2di_graded_clear(&second);
   return status;
 }
 
@@ -138,13 +138,13 @@ hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *target,
                          hr2d_prediction *prediction) {
   hr2d_target used = HR2D_TARGET_INIT;
   *prediction = (hr2d_prediction){0};
-  if (target) hr2di_copy_sized(&used, sizeof used, target);
+  if (target) hr2di_sized_copy(&used, sizeof used, target);
   if (!scene->committed) return HR2D_ESTATE;
   if (!(used.error >= 0)) return HR2D_EINVAL;
-  const double start = hr2di_now();
+  const double start = hr2di_clock_now();
   hr2d_status status = predict(scene, &used, prediction);
   /* Short times are disturbed by what else the machine does: the least of several. */
-  for (int run = 1; run < RUNS && !status && hr2di_now() - start < SHORT; run++) {
+  for (int run = 1; run < RUNS && !status && hr2di_clock_now() - start < SHORT; run++) {
     const double least = prediction->seconds;
     status = predict(scene, &used, prediction);
     prediction->seconds = fmin(prediction->seconds, least);

@@ -16,11 +16,11 @@ static double digits_per_order(const hr2di_survey *survey, hr2d_norm norm) {
   return norm == HR2D_NORM_SUP ? 1.4 * rate : fmin(2 * rate, 2.8);
 }
 
-hr2d_status hr2di_survey_scene(const hr2d_scene *scene, hr2di_survey *survey) {
+hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, hr2di_survey *survey) {
   const hr2di_grading grading = {.target = 0.1, .order = 2};
   hr2d_hierarchy *h = NULL;
   hr2d_status status = hr2d_hierarchy_create(scene, &h);
-  if (!status) status = hr2di_grade(h, &grading, survey);
+  if (!status) status = hr2di_grading_apply(h, &grading, survey);
   hr2d_hierarchy_destroy(h);
   return status;
 }
@@ -36,25 +36,25 @@ static int is_crowded(const hr2d_scene *scene, int hidden) {
 
 /* A kink of radiosity inside an element is felt at points more than in averages. */
 static unsigned generations_for(double aim, hr2d_norm norm) {
-  if (norm == HR2D_NORM_AVERAGE) return hr2di_generations_for(aim);
+  if (norm == HR2D_NORM_AVERAGE) return hr2di_grading_generations(aim);
   return aim >= 0.05 ? 1 : aim >= 1e-4 ? 2 : aim >= 1e-7 ? 3 : 4;
 }
 
 /* In narrow corners with much reflection light goes to and fro often, and errors with it: γ² is
    what that asks for in excess, from measurements at 10° to 150° and ρ up to 0.999. */
-hr2di_fineness hr2di_fineness_for(const hr2d_scene *scene, const hr2di_survey *survey,
-                                  double aim, hr2d_norm norm) {
+hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_survey *survey,
+                                      double aim, hr2d_norm norm) {
   const double error = aim * fmax(survey->exponent * survey->exponent, 1e-3);
   const double order = ceil(log(EASY / error) / digits_per_order(survey, norm));
   const int hidden = scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
                      scene->effect[HR2D_EFFECT_FACING].called_for ||
                      scene->effect[HR2D_EFFECT_BACKGROUND].called_for;
-  hr2di_fineness f = {.order = (unsigned)fmin(fmax(order, 2), HR2D_MAX_ORDER - 2),
-                      .target = fmin(0.25 * error, 1),
-                      .digits = fmax(0.02 * error, 1e-14),
-                      .norm = norm,
-                      .hidden = hidden,
-                      .generations = hidden ? generations_for(aim, norm) : 0};
+  hr2di_resolution f = {.order = (unsigned)fmin(fmax(order, 2), HR2D_MAX_ORDER - 2),
+                        .target = fmin(0.25 * error, 1),
+                        .digits = fmax(0.02 * error, 1e-14),
+                        .norm = norm,
+                        .hidden = hidden,
+                        .generations = hidden ? generations_for(aim, norm) : 0};
   if (is_crowded(scene, hidden) && aim >= CROWDED_AIM) {
     f.order = f.order < 3 ? 3 : f.order;
     f.generations = 0;
@@ -67,7 +67,7 @@ hr2di_fineness hr2di_fineness_for(const hr2d_scene *scene, const hr2di_survey *s
 /* There are no more digits than that; an error that overflowed asks for more. */
 #define MOST_FACTOR 1e16
 
-int hr2di_fineness_raise(hr2di_fineness *f, const hr2di_survey *survey, double factor) {
+int hr2di_resolution_raise(hr2di_resolution *f, const hr2di_survey *survey, double factor) {
   const double gamma = survey->exponent;
   const double slope = f->norm == HR2D_NORM_SUP ? fmax(gamma, 0.05) : 1 + 2 * gamma;
   if (f->order + 2 >= HR2D_MAX_ORDER) return -1;

@@ -6,14 +6,15 @@
 #include "accuracy/graded-solve.h"
 
 /* Looks at the corners and ends of a scene; HR2D_OK or HR2D_ENOMEM. */
-hr2d_status hr2di_survey_scene(const hr2d_scene *scene, hr2di_survey *survey);
+hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, hr2di_survey *survey);
 
 /* A first guess. */
-hr2di_fineness hr2di_fineness_for(const hr2d_scene *scene, const hr2di_survey *survey,
-                                  double error, hr2d_norm norm);
+hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_survey *survey,
+                                      double error, hr2d_norm norm);
 
 /* Makes it finer, so that the error may fall by a factor; 0, or -1 if it is as fine as can be.
  */
-int hr2di_fineness_raise(hr2di_fineness *fineness, const hr2di_survey *survey, double factor);
+int hr2di_resolution_raise(hr2di_resolution *fineness, const hr2di_survey *survey,
+                           double factor);
 
 #endif

@@ -37,7 +37,7 @@ static double sup_distance(const hr2d_solution *solution, const hr2d_solution *r
     for (uint32_t e = 0; e < solution->elements; e++) {
       const uint32_t patch = h->element[e].patch;
       if (h->element[e].child && h->element[e].child < solution->elements) continue;
-      const double from = hr2di_start(h, e);
+      const double from = hr2di_element_start(h, e);
       const double size = h->element[e].length / h->element[patch].length;
       for (int k = 0; k < PLACES; k++) {
         const double t = fmin(from + place[k] * size, 1);
@@ -95,7 +95,7 @@ hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target
                                 hr2d_error *average, hr2d_error *sup) {
   hr2d_target target = HR2D_TARGET_INIT;
   target.error = 0;
-  if (how) hr2di_copy_sized(&target, sizeof target, how);
+  if (how) hr2di_sized_copy(&target, sizeof target, how);
   listener l = {.progress = target.progress, .ctx = target.progress_ctx};
   target.progress = listen;
   target.progress_ctx = &l;

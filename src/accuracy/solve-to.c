@@ -30,14 +30,14 @@ typedef struct search {
   int late;               /* a call was ended because the time was up */
   hr2d_status told;       /* by the caller's progress, to stop */
   hr2di_survey survey;
-  hr2di_answer best;
+  hr2di_graded best;
   double *weight;       /* per patch, where importance is asked for */
   hr2d_account account; /* of the best, with all times */
   hr2di_message message;
 } search;
 
 static double left(const search *s) {
-  return s->deadline > 0 ? s->deadline - hr2di_now() : HUGE_VAL;
+  return s->deadline > 0 ? s->deadline - hr2di_clock_now() : HUGE_VAL;
 }
 
 /* Ends a call when the time is up. */
@@ -54,7 +54,7 @@ static double error_of(const search *s) {
                                          : s->account.average.estimate;
 }
 
-static void add_times(hr2d_account *sum, const hr2di_answer *answer) {
+static void add_times(hr2d_account *sum, const hr2di_graded *answer) {
   sum->refine_seconds += answer->refine_seconds;
   sum->coefficients_seconds += answer->coefficients_seconds;
   sum->solve_seconds += answer->solve_seconds;
@@ -63,10 +63,10 @@ static void add_times(hr2d_account *sum, const hr2di_answer *answer) {
 }
 
 /* Takes an answer with its errors as the best one. */
-static void keep(search *s, hr2di_answer *answer, const hr2di_errors *errors) {
-  hr2di_answer_clear(&s->best);
+static void keep(search *s, hr2di_graded *answer, const hr2di_error_pair *errors) {
+  hr2di_graded_clear(&s->best);
   s->best = *answer;
-  *answer = (hr2di_answer){0};
+  *answer = (hr2di_graded){0};
   const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(s->best.hierarchy);
   hr2d_account *a = &s->account;
   a->average = errors->average;
@@ -78,20 +78,21 @@ static void keep(search *s, hr2di_answer *answer, const hr2di_errors *errors) {
   if (s->best.links->roots.clusters)
     a->links += hr2di_clusters_links(s->best.links->roots.clusters);
   a->events = s->best.events;
-  a->bytes = hr2di_answer_bytes(&s->best);
+  a->bytes = hr2di_graded_bytes(&s->best);
 }
 
 /* Solves once, measures the error, and keeps the better one of this and the best. */
-static hr2d_status attempt(search *s, const hr2di_fineness *fineness) {
-  hr2di_answer answer;
-  hr2di_errors errors;
+static hr2d_status attempt(search *s, const hr2di_resolution *fineness) {
+  hr2di_graded answer;
+  hr2di_error_pair errors;
   hr2d_status status =
       hr2di_graded_refine(&answer, s->scene, NULL, fineness, &s->target, &s->message);
   if (!status) status = hr2di_graded_solve(&answer, &s->target, &s->message);
   add_times(&s->account, &answer);
-  const double start = hr2di_now();
-  if (!status) status = hr2di_estimate(&answer, fineness, &s->target, &errors, &s->message);
-  s->account.error_seconds += hr2di_now() - start;
+  const double start = hr2di_clock_now();
+  if (!status)
+    status = hr2di_error_estimate(&answer, fineness, &s->target, &errors, &s->message);
+  s->account.error_seconds += hr2di_clock_now() - start;
   if (!status) {
     const double error =
         s->target.norm == HR2D_NORM_SUP ? errors.sup.estimate : errors.average.estimate;
@@ -99,9 +100,9 @@ static hr2d_status attempt(search *s, const hr2di_fineness *fineness) {
     if (!s->best.solution || error < error_of(s)) keep(s, &answer, &errors);
   } else if (s->late && answer.solution && !s->best.solution) {
     const hr2d_error unknown = {HUGE_VAL, HUGE_VAL};
-    keep(s, &answer, &(hr2di_errors){.average = unknown, .sup = unknown});
+    keep(s, &answer, &(hr2di_error_pair){.average = unknown, .sup = unknown});
   }
-  hr2di_answer_clear(&answer);
+  hr2di_graded_clear(&answer);
   return status;
 }
 
@@ -111,7 +112,7 @@ static void give_reason(search *s, const char *reason) {
 
 /* Goes finer until the error is below `error`; HR2D_EACCURACY if it does not come down. */
 static hr2d_status reach(search *s, double error) {
-  hr2di_fineness fineness = hr2di_fineness_for(s->scene, &s->survey, error, s->target.norm);
+  hr2di_resolution fineness = hr2di_resolution_for(s->scene, &s->survey, error, s->target.norm);
   double before = HUGE_VAL;
   int stuck = 0;
   fineness.weight = s->weight;
@@ -126,7 +127,7 @@ static hr2d_status reach(search *s, double error) {
     if (status || error_of(s) <= MARGIN * error) return status;
     stuck = error_of(s) > 0.5 * before ? stuck + 1 : 0;
     before = error_of(s);
-    if (hr2di_fineness_raise(&fineness, &s->best.survey, before / (0.5 * error))) break;
+    if (hr2di_resolution_raise(&fineness, &s->best.survey, before / (0.5 * error))) break;
   }
   if (error_of(s) <= error) return HR2D_OK;
   give_reason(s, "finer elements bring the error down no further");
@@ -141,10 +142,10 @@ static int is_budget(hr2d_status status) {
 static hr2d_status reach_step_by_step(search *s) {
   hr2d_status status = HR2D_OK;
   for (double error = 1e-1; !status; error *= 1e-2) {
-    const double aim = fmax(error, s->given.error), start = hr2di_now();
+    const double aim = fmax(error, s->given.error), start = hr2di_clock_now();
     status = reach(s, aim);
     if (status || error_of(s) <= s->given.error || aim <= s->given.error) break;
-    s->late = 1.2 * (hr2di_now() - start) > left(s); /* a finer one takes longer still */
+    s->late = 1.2 * (hr2di_clock_now() - start) > left(s); /* a finer one takes longer still */
     if (s->late) break;
   }
   return !status && s->late ? HR2D_STOPPED : status;
@@ -186,22 +187,22 @@ static void hand_over(search *s, hr2d_solution **solution) {
   if (!*solution) return;
   (*solution)->own_hierarchy = s->best.hierarchy;
   (*solution)->own_links = s->best.links;
-  s->best = (hr2di_answer){0};
+  s->best = (hr2di_graded){0};
 }
 
 hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
                           hr2d_solution **solution, hr2d_account *account) {
-  search s = {.scene = scene, .given = HR2D_TARGET_INIT, .start = hr2di_now()};
+  search s = {.scene = scene, .given = HR2D_TARGET_INIT, .start = hr2di_clock_now()};
   *solution = NULL;
   if (account) *account = (hr2d_account){0};
-  if (target) hr2di_copy_sized(&s.given, sizeof s.given, target);
+  if (target) hr2di_sized_copy(&s.given, sizeof s.given, target);
   hr2d_status status = check(scene, &s.given);
   if (status) return status;
   s.target = s.given;
   s.target.progress = watch;
   s.target.progress_ctx = &s;
   if (s.given.seconds > 0) s.deadline = s.start + s.given.seconds;
-  status = hr2di_survey_scene(scene, &s.survey);
+  status = hr2di_resolution_survey(scene, &s.survey);
   if (!status) status = weigh_patches(&s);
   if (!status && !(s.given.seconds > 0)) {
     status = reach(&s, s.given.error > 0 ? s.given.error : 1e-15);
@@ -211,9 +212,9 @@ hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
   }
   status = settle(&s, status);
   if (!s.told && (!status || status == HR2D_EACCURACY)) hand_over(&s, solution);
-  s.account.seconds = hr2di_now() - s.start;
+  s.account.seconds = hr2di_clock_now() - s.start;
   if (account) *account = s.account;
-  hr2di_answer_clear(&s.best);
-  hr2di_free(&scene->alloc, s.weight);
+  hr2di_graded_clear(&s.best);
+  hr2di_alloc_free(&scene->alloc, s.weight);
   return status;
 }

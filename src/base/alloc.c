@@ -21,7 +21,7 @@ static void default_release(void *ctx, void *block) {
   free(block);
 }
 
-hr2d_allocator hr2di_default_allocator(void) {
+hr2d_allocator hr2di_alloc_default(void) {
   return (hr2d_allocator){default_allocate, default_reallocate, default_release, NULL};
 }
 
@@ -37,14 +37,14 @@ void *hr2di_alloc(const hr2d_allocator *alloc, size_t count, size_t size) {
   return alloc->allocate(alloc->ctx, bytes ? bytes : 1);
 }
 
-void *hr2di_calloc(const hr2d_allocator *alloc, size_t count, size_t size) {
+void *hr2di_alloc_zero(const hr2d_allocator *alloc, size_t count, size_t size) {
   void *block = hr2di_alloc(alloc, count, size);
   if (block) memset(block, 0, count * size);
   return block;
 }
 
-int hr2di_reserve(const hr2d_allocator *alloc, void *array, size_t *capacity, size_t needed,
-                  size_t size) {
+int hr2di_alloc_reserve(const hr2d_allocator *alloc, void *array, size_t *capacity,
+                        size_t needed, size_t size) {
   if (needed <= *capacity) return 0;
   if (!fits(needed, size)) return -1;
   size_t grown = *capacity < 8 ? 8 : *capacity;
@@ -61,6 +61,6 @@ int hr2di_reserve(const hr2d_allocator *alloc, void *array, size_t *capacity, si
   return 0;
 }
 
-void hr2di_free(const hr2d_allocator *alloc, void *block) {
+void hr2di_alloc_free(const hr2d_allocator *alloc, void *block) {
   if (block) alloc->release(alloc->ctx, block);
 }

@@ -7,19 +7,19 @@
 #include <stddef.h>
 
 /* The hooks of malloc. */
-hr2d_allocator hr2di_default_allocator(void);
+hr2d_allocator hr2di_alloc_default(void);
 
 /* An array of count items, or NULL if it cannot be had; count may be 0. */
 void *hr2di_alloc(const hr2d_allocator *alloc, size_t count, size_t size);
 
 /* As hr2di_alloc(), filled with zero bytes. */
-void *hr2di_calloc(const hr2d_allocator *alloc, size_t count, size_t size);
+void *hr2di_alloc_zero(const hr2d_allocator *alloc, size_t count, size_t size);
 
 /* Makes room for `needed` items in *array, whose capacity is *capacity, by
    doubling.  Returns 0, or -1 with *array and *capacity unchanged. */
-int hr2di_reserve(const hr2d_allocator *alloc, void *array, size_t *capacity, size_t needed,
-                  size_t size);
+int hr2di_alloc_reserve(const hr2d_allocator *alloc, void *array, size_t *capacity,
+                        size_t needed, size_t size);
 
-void hr2di_free(const hr2d_allocator *alloc, void *block);
+void hr2di_alloc_free(const hr2d_allocator *alloc, void *block);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include <time.h>
 
-static inline double hr2di_now(void) {
+static inline double hr2di_clock_now(void) {
   struct timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;

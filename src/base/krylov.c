@@ -9,7 +9,8 @@
 
 #include "base/alloc.h"
 
-void hr2di_dot(const hr2di_system *system, const double *u, const double *v, double *product) {
+void hr2di_krylov_dot(const hr2di_krylov_system *system, const double *u, const double *v,
+                      double *product) {
   const size_t bands = system->bands;
   memset(product, 0, bands * sizeof *product);
   for (size_t k = 0; k < system->size; k++)
@@ -18,14 +19,15 @@ void hr2di_dot(const hr2di_system *system, const double *u, const double *v, dou
 }
 
 /* u += factor·v, per band. */
-static void add(const hr2di_system *system, double *u, const double *factor, const double *v) {
+static void add(const hr2di_krylov_system *system, double *u, const double *factor,
+                const double *v) {
   const size_t bands = system->bands;
   for (size_t k = 0; k < system->size; k++)
     for (size_t b = 0; b < bands; b++) u[k * bands + b] += factor[b] * v[k * bands + b];
 }
 
 /* u = v + factor·u, per band. */
-static void scale_add(const hr2di_system *system, double *u, const double *factor,
+static void scale_add(const hr2di_krylov_system *system, double *u, const double *factor,
                       const double *v) {
   const size_t bands = system->bands;
   for (size_t k = 0; k < system->size; k++)
@@ -34,13 +36,13 @@ static void scale_add(const hr2di_system *system, double *u, const double *facto
 }
 
 /* out = (I − S) in */
-static void apply(const hr2di_system *system, const double *in, double *out) {
+static void apply(const hr2di_krylov_system *system, const double *in, double *out) {
   system->apply(system->ctx, in, out);
   for (size_t k = 0; k < system->size * system->bands; k++) out[k] = in[k] - out[k];
 }
 
 /* r = b − (I − S) y */
-static void form_residual(const hr2di_system *system, const double *b, const double *y,
+static void form_residual(const hr2di_krylov_system *system, const double *b, const double *y,
                           double *r) {
   apply(system, y, r);
   for (size_t k = 0; k < system->size * system->bands; k++) r[k] = b[k] - r[k];
@@ -49,7 +51,7 @@ static void form_residual(const hr2di_system *system, const double *b, const dou
 enum { FIELDS = 5, SCALARS = 7 };
 
 typedef struct state {
-  const hr2di_system *system;
+  const hr2di_krylov_system *system;
   double *y;
   double *field[FIELDS]; /* work space */
   double *scalar[SCALARS];
@@ -60,7 +62,7 @@ typedef struct state {
 /* Looks at the residual r: which bands still need work goes to `active`. */
 static hr2d_status look(state *s, const double *r, double *active) {
   double *square = s->scalar[1], *norm = s->scalar[2];
-  hr2di_dot(s->system, r, r, square);
+  hr2di_krylov_dot(s->system, r, r, square);
   s->system->scale(s->system->ctx, s->y, norm);
   s->residual = 0;
   s->done = 1;
@@ -75,18 +77,18 @@ static hr2d_status look(state *s, const double *r, double *active) {
 }
 
 static hr2d_status conjugate_gradients(state *s, const double *b) {
-  const hr2di_system *system = s->system;
+  const hr2di_krylov_system *system = s->system;
   double *r = s->field[0], *p = s->field[1], *q = s->field[2];
   double *active = s->scalar[0], *rr = s->scalar[3], *pq = s->scalar[4], *step = s->scalar[5],
          *next = s->scalar[6];
   form_residual(system, b, s->y, r);
   memcpy(p, r, system->size * system->bands * sizeof *p);
-  hr2di_dot(system, r, r, rr);
+  hr2di_krylov_dot(system, r, r, rr);
   hr2d_status status = look(s, r, active);
   for (unsigned k = 0; !status && !s->done; k++) {
     if (k == system->max_iterations) return HR2D_ENOT_CONVERGED;
     apply(system, p, q);
-    hr2di_dot(system, p, q, pq);
+    hr2di_krylov_dot(system, p, q, pq);
     for (size_t c = 0; c < system->bands; c++) {
       if (active[c] != 0 && !(pq[c] > 0)) return HR2D_ENOT_CONVERGED;
       step[c] = active[c] != 0 ? rr[c] / pq[c] : 0;
@@ -94,7 +96,7 @@ static hr2d_status conjugate_gradients(state *s, const double *b) {
     add(system, s->y, step, p);
     for (size_t c = 0; c < system->bands; c++) step[c] = -step[c];
     add(system, r, step, q);
-    hr2di_dot(system, r, r, next);
+    hr2di_krylov_dot(system, r, r, next);
     for (size_t c = 0; c < system->bands; c++) {
       step[c] = rr[c] > 0 ? next[c] / rr[c] : 0;
       rr[c] = next[c];
@@ -107,12 +109,12 @@ static hr2d_status conjugate_gradients(state *s, const double *b) {
 
 /* One BiCGSTAB iteration; r is the residual, r0 its first value, rho = <r0,r>. */
 static hr2d_status stabilised_step(state *s, const double *active, double *rho) {
-  const hr2di_system *system = s->system;
+  const hr2di_krylov_system *system = s->system;
   double *r = s->field[0], *p = s->field[1], *v = s->field[2], *t = s->field[3];
   const double *r0 = s->field[4];
   double *alpha = s->scalar[4], *omega = s->scalar[5], *other = s->scalar[6];
   apply(system, p, v);
-  hr2di_dot(system, r0, v, other);
+  hr2di_krylov_dot(system, r0, v, other);
   for (size_t c = 0; c < system->bands; c++) {
     if (active[c] != 0 && other[c] == 0) return HR2D_ENOT_CONVERGED;
     alpha[c] = active[c] != 0 ? rho[c] / other[c] : 0;
@@ -121,15 +123,15 @@ static hr2d_status stabilised_step(state *s, const double *active, double *rho) 
   add(system, s->y, alpha, p);
   add(system, r, other, v);
   apply(system, r, t);
-  hr2di_dot(system, t, t, other);
-  hr2di_dot(system, t, r, omega);
+  hr2di_krylov_dot(system, t, t, other);
+  hr2di_krylov_dot(system, t, r, omega);
   for (size_t c = 0; c < system->bands; c++)
     omega[c] = active[c] != 0 && other[c] > 0 ? omega[c] / other[c] : 0;
   add(system, s->y, omega, r);
   for (size_t c = 0; c < system->bands; c++) omega[c] = -omega[c];
   add(system, r, omega, t);
   add(system, p, omega, v); /* p − ω v, to be scaled by β */
-  hr2di_dot(system, r0, r, other);
+  hr2di_krylov_dot(system, r0, r, other);
   for (size_t c = 0; c < system->bands; c++) {
     const double beta = rho[c] * omega[c] != 0 ? -other[c] / rho[c] * (alpha[c] / omega[c]) : 0;
     rho[c] = other[c];
@@ -140,13 +142,13 @@ static hr2d_status stabilised_step(state *s, const double *active, double *rho) 
 }
 
 static hr2d_status stabilised_gradients(state *s, const double *b) {
-  const hr2di_system *system = s->system;
+  const hr2di_krylov_system *system = s->system;
   const size_t bytes = system->size * system->bands * sizeof(double);
   double *r = s->field[0], *active = s->scalar[0], *rho = s->scalar[3];
   form_residual(system, b, s->y, r);
   memcpy(s->field[1], r, bytes);
   memcpy(s->field[4], r, bytes);
-  hr2di_dot(system, r, r, rho);
+  hr2di_krylov_dot(system, r, r, rho);
   hr2d_status status = look(s, r, active);
   for (unsigned k = 0; !status && !s->done; k++) {
     if (k == system->max_iterations) return HR2D_ENOT_CONVERGED;
@@ -156,18 +158,18 @@ static hr2d_status stabilised_gradients(state *s, const double *b) {
   return status;
 }
 
-hr2d_status hr2di_krylov(const hr2di_system *system, const double *b, double *y,
+hr2d_status hr2di_krylov(const hr2di_krylov_system *system, const double *b, double *y,
                          double *residual) {
   state s = {.system = system, .y = y};
   const size_t field = system->size * system->bands;
   double *space =
-      hr2di_calloc(system->alloc, FIELDS * field + SCALARS * system->bands, sizeof *space);
+      hr2di_alloc_zero(system->alloc, FIELDS * field + SCALARS * system->bands, sizeof *space);
   if (!space) return HR2D_ENOMEM;
   for (size_t k = 0; k < FIELDS; k++) s.field[k] = space + k * field;
   for (size_t k = 0; k < SCALARS; k++) s.scalar[k] = space + FIELDS * field + k * system->bands;
   const hr2d_status status =
       system->symmetric ? conjugate_gradients(&s, b) : stabilised_gradients(&s, b);
   *residual = s.residual;
-  hr2di_free(system->alloc, space);
+  hr2di_alloc_free(system->alloc, space);
   return status;
 }

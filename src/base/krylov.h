@@ -7,7 +7,7 @@
 #include <hr2d/status.h>
 #include <stdint.h>
 
-typedef struct hr2di_system {
+typedef struct hr2di_krylov_system {
   const hr2d_allocator *alloc;
   size_t size, bands;   /* fields are size × bands */
   const double *weight; /* of the inner product, per item: Σ weight x y */
@@ -23,16 +23,17 @@ typedef struct hr2di_system {
 
   double tolerance;
   unsigned max_iterations;
-} hr2di_system;
+} hr2di_krylov_system;
 
 /* Improves y until ‖b − (I − S) y‖ ≤ tolerance·scale in every band.  HR2D_OK,
    HR2D_ENOMEM, HR2D_ENOT_CONVERGED (also where a symmetric I − S turns out not to
    be positive definite), or the status of `tell`.  *residual is the largest one
    reached, relative to the scale. */
-hr2d_status hr2di_krylov(const hr2di_system *system, const double *b, double *y,
+hr2d_status hr2di_krylov(const hr2di_krylov_system *system, const double *b, double *y,
                          double *residual);
 
 /* Weighted inner product of two fields, per band. */
-void hr2di_dot(const hr2di_system *system, const double *u, const double *v, double *product);
+void hr2di_krylov_dot(const hr2di_krylov_system *system, const double *u, const double *v,
+                      double *product);
 
 #endif

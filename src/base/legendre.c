@@ -20,7 +20,7 @@ static void evaluate(size_t n, double x, double *value, double *slope) {
 
 /* Newton's method converges from the asymptotic places, x ≈ cos(π(k + 3/4)/(n + 1/2)), and
    the weights 2/((1−x²)P'²) are insensitive to what is left, as their derivative is 0. */
-void hr2di_rule_make(hr2di_rule *rule, size_t points) {
+void hr2di_rule_init(hr2di_rule *rule, size_t points) {
   const double pi = 3.14159265358979323846;
   const size_t n = points;
   rule->points = n;
@@ -40,7 +40,7 @@ void hr2di_rule_make(hr2di_rule *rule, size_t points) {
   }
 }
 
-void hr2di_basis_make(hr2di_basis *basis, size_t order) {
+void hr2di_basis_init(hr2di_basis *basis, size_t order) {
   basis->order = order;
   for (size_t k = 0; k < order; k++) {
     const double l = (double)k;
@@ -50,12 +50,12 @@ void hr2di_basis_make(hr2di_basis *basis, size_t order) {
 }
 
 /* Means of φ_l(parent) φ_k(child) over the child, of degree l + k ≤ 2·order − 2. */
-void hr2di_two_scale(double low, double high, size_t order, double *relation) {
+void hr2di_legendre_two_scale(double low, double high, size_t order, double *relation) {
   hr2di_rule rule;
   hr2di_basis basis;
   double phi[HR2D_MAX_ORDER], above[HR2D_MAX_ORDER];
-  hr2di_rule_make(&rule, order);
-  hr2di_basis_make(&basis, order);
+  hr2di_rule_init(&rule, order);
+  hr2di_basis_init(&basis, order);
   memset(relation, 0, order * order * sizeof *relation);
   for (size_t q = 0; q < order; q++) {
     hr2di_basis_at(&basis, rule.at[q], phi);

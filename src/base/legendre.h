@@ -7,17 +7,17 @@
 #include <hr2d/hierarchy.h>
 #include <stddef.h>
 
-enum { HR2DI_MOST_POINTS = 64 };
+enum { HR2DI_RULE_POINTS = 64 };
 
 /* A mean over [-1,1], exact for polynomials of degree 2·points − 1. */
 typedef struct hr2di_rule {
   size_t points;
-  double at[HR2DI_MOST_POINTS];     /* rising */
-  double weight[HR2DI_MOST_POINTS]; /* their sum is 1 */
+  double at[HR2DI_RULE_POINTS];     /* rising */
+  double weight[HR2DI_RULE_POINTS]; /* their sum is 1 */
 } hr2di_rule;
 
-/* 1 ≤ points ≤ HR2DI_MOST_POINTS. */
-void hr2di_rule_make(hr2di_rule *rule, size_t points);
+/* 1 ≤ points ≤ HR2DI_RULE_POINTS. */
+void hr2di_rule_init(hr2di_rule *rule, size_t points);
 
 /* The recurrence φ_{l+1} = ahead_l ξ φ_l − behind_l φ_{l−1}. */
 typedef struct hr2di_basis {
@@ -25,7 +25,7 @@ typedef struct hr2di_basis {
   double ahead[HR2D_MAX_ORDER], behind[HR2D_MAX_ORDER];
 } hr2di_basis;
 
-void hr2di_basis_make(hr2di_basis *basis, size_t order);
+void hr2di_basis_init(hr2di_basis *basis, size_t order);
 
 /* φ_0 … φ_{order−1} at ξ. */
 static inline void hr2di_basis_at(const hr2di_basis *basis, double xi, double *phi) {
@@ -53,6 +53,6 @@ static inline double hr2di_basis_sum(const hr2di_basis *basis, double xi,
 
 /* The two-scale relation: with a child that spans [low, high] of its parent's [-1,1],
    φ_l(parent) = Σ_k relation[l·order + k] φ_k(child). */
-void hr2di_two_scale(double low, double high, size_t order, double *relation);
+void hr2di_legendre_two_scale(double low, double high, size_t order, double *relation);
 
 #endif

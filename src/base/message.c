@@ -29,7 +29,7 @@ static int within(unsigned char byte, int least, int most) {
 }
 
 /* The Unicode Standard, table 3-7. */
-size_t hr2di_utf8_character(const unsigned char *s) {
+size_t hr2di_message_utf8(const unsigned char *s) {
   if (s[0] < 0x80) return 1;
   if (within(s[0], 0xC2, 0xDF)) return within(s[1], 0x80, 0xBF) ? 2 : 0;
   const int three = within(s[0], 0xE0, 0xEF);
@@ -52,14 +52,15 @@ static int is_control(const unsigned char *c) {
 static void make_readable(char *text) {
   unsigned char *c = (unsigned char *)text;
   while (*c) {
-    const size_t length = hr2di_utf8_character(c);
+    const size_t length = hr2di_message_utf8(c);
     const int bad = length == 0 || is_control(c);
     if (bad) memset(c, '?', length ? length : 1);
     c += length ? length : 1;
   }
 }
 
-hr2d_status hr2di_fail(hr2di_message *message, hr2d_status status, const char *format, ...) {
+hr2d_status hr2di_message_fail(hr2di_message *message, hr2d_status status, const char *format,
+                               ...) {
   /* Written aside first: an argument may be the old message itself. */
   char text[sizeof message->text];
   va_list arguments;
@@ -75,8 +76,8 @@ hr2d_status hr2di_fail(hr2di_message *message, hr2d_status status, const char *f
   return status;
 }
 
-hr2di_quote hr2di_quote_name(const char *name) {
-  hr2di_quote quote;
+hr2di_message_quoted hr2di_message_quote(const char *name) {
+  hr2di_message_quoted quote;
   const size_t most = 60, length = strlen(name);
   size_t cut = length < most ? length : most;
   while (cut < length && ((unsigned char)name[cut] & 0xC0) == 0x80) cut--;

@@ -13,17 +13,17 @@ typedef struct hr2di_message {
 /* Writes the message as printf would, cut to fit on a whole UTF-8 character, and
    returns `status`, so that a failure can be reported in one line. */
 __attribute__((format(printf, 3, 4))) hr2d_status
-hr2di_fail(hr2di_message *message, hr2d_status status, const char *format, ...);
+hr2di_message_fail(hr2di_message *message, hr2d_status status, const char *format, ...);
 
 /* The length of the UTF-8 character at `s`, the start of a string; 0 if it is none. */
-size_t hr2di_utf8_character(const unsigned char *s);
+size_t hr2di_message_utf8(const unsigned char *s);
 
 /* A name for messages: in quotes, short enough to leave room for what is said about
    it, and without control characters, which a terminal would obey. */
-typedef struct hr2di_quote {
+typedef struct hr2di_message_quoted {
   char text[72];
-} hr2di_quote;
+} hr2di_message_quoted;
 
-hr2di_quote hr2di_quote_name(const char *name);
+hr2di_message_quoted hr2di_message_quote(const char *name);
 
 #endif

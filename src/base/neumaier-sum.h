@@ -10,14 +10,14 @@ typedef struct hr2di_sum {
   double head, tail;
 } hr2di_sum;
 
-static inline void hr2di_add(hr2di_sum *sum, double term) {
+static inline void hr2di_sum_add(hr2di_sum *sum, double term) {
   const double head = sum->head + term;
   sum->tail +=
       fabs(sum->head) >= fabs(term) ? (sum->head - head) + term : (term - head) + sum->head;
   sum->head = head;
 }
 
-static inline double hr2di_total(const hr2di_sum *sum) {
+static inline double hr2di_sum_total(const hr2di_sum *sum) {
   return sum->head + sum->tail;
 }
 

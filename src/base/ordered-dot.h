@@ -7,12 +7,13 @@
 
 #include <stddef.h>
 
-static inline double hr2di_four(double s0, double s1, double s2, double s3) {
+static inline double hr2di_dot_four(double s0, double s1, double s2, double s3) {
   return (s0 + s2) + (s1 + s3);
 }
 
 /* Σ a[k] b[k·stride] */
-static inline double hr2di_dot(const double *a, const double *b, size_t stride, size_t count) {
+static inline double hr2di_dot_strided(const double *a, const double *b, size_t stride,
+                                       size_t count) {
   double s0 = 0, s1 = 0, s2 = 0, s3 = 0, rest = 0;
   size_t k = 0;
   for (; k + 4 <= count; k += 4) {
@@ -22,7 +23,7 @@ static inline double hr2di_dot(const double *a, const double *b, size_t stride, 
     s3 += a[k + 3] * b[(k + 3) * stride];
   }
   for (; k < count; k++) rest += a[k] * b[k * stride];
-  return hr2di_four(s0, s1, s2, s3) + rest;
+  return hr2di_dot_four(s0, s1, s2, s3) + rest;
 }
 
 #endif

@@ -30,16 +30,17 @@ static hr2d_status fail_errno(hr2di_message *message, const char *what, int erro
   const char *reason = _Generic(strerror_r(error, buffer, sizeof buffer),
       int: posix_reason,
       char *: gnu_reason)(strerror_r(error, buffer, sizeof buffer), buffer);
-  return hr2di_fail(message, error == ENOMEM ? HR2D_ENOMEM : HR2D_EIO, "%s: %s", what, reason);
+  return hr2di_message_fail(message, error == ENOMEM ? HR2D_ENOMEM : HR2D_EIO, "%s: %s", what,
+                            reason);
 }
 
 static hr2d_status read_stream(const hr2d_allocator *alloc, FILE *stream, char **text,
                                size_t *size, hr2di_message *message) {
   size_t capacity = 0;
   for (;;) {
-    if (hr2di_reserve(alloc, text, &capacity, *size ? *size + 1 : FIRST_BLOCK, 1))
-      return hr2di_fail(message, HR2D_ENOMEM, "out of memory after %zu bytes of the file",
-                        *size);
+    if (hr2di_alloc_reserve(alloc, text, &capacity, *size ? *size + 1 : FIRST_BLOCK, 1))
+      return hr2di_message_fail(message, HR2D_ENOMEM,
+                                "out of memory after %zu bytes of the file", *size);
     errno = 0;
     size_t got = fread(*text + *size, 1, capacity - *size, stream);
     *size += got;
@@ -60,7 +61,7 @@ hr2d_status hr2di_file_read(const hr2d_allocator *alloc, const char *path, char 
   hr2d_status status = read_stream(alloc, stream, text, size, message);
   fclose(stream);
   if (status) {
-    hr2di_free(alloc, *text);
+    hr2di_alloc_free(alloc, *text);
     *text = NULL;
     *size = 0;
   }

@@ -10,7 +10,7 @@
 #include "base/message.h"
 
 /* Reads `path` into *text, `*size` bytes without a terminator, to be given back with
-   hr2di_free().  Returns HR2D_OK, HR2D_EIO with the system's reason as message, or
+   hr2di_alloc_free().  Returns HR2D_OK, HR2D_EIO with the system's reason as message, or
    HR2D_ENOMEM; on failure there is nothing to free. */
 hr2d_status hr2di_file_read(const hr2d_allocator *alloc, const char *path, char **text,
                             size_t *size, hr2di_message *message);

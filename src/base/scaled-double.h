@@ -6,42 +6,42 @@
 
 #include <math.h>
 
-typedef struct hr2di_wide {
+typedef struct hr2di_scaled {
   double m;
   int e;
-} hr2di_wide;
+} hr2di_scaled;
 
-static inline hr2di_wide hr2di_wide_make(double m, int e) {
+static inline hr2di_scaled hr2di_scaled_of(double m, int e) {
   int shift = 0;
   m = frexp(m, &shift);
-  return (hr2di_wide){m, m == 0 ? 0 : e + shift};
+  return (hr2di_scaled){m, m == 0 ? 0 : e + shift};
 }
 
-static inline double hr2di_wide_value(hr2di_wide x) {
+static inline double hr2di_scaled_value(hr2di_scaled x) {
   return ldexp(x.m, x.e);
 }
 
-static inline hr2di_wide hr2di_wide_neg(hr2di_wide x) {
-  return (hr2di_wide){-x.m, x.e};
+static inline hr2di_scaled hr2di_scaled_neg(hr2di_scaled x) {
+  return (hr2di_scaled){-x.m, x.e};
 }
 
-static inline hr2di_wide hr2di_wide_mul(hr2di_wide x, hr2di_wide y) {
-  return hr2di_wide_make(x.m * y.m, x.e + y.e);
+static inline hr2di_scaled hr2di_scaled_mul(hr2di_scaled x, hr2di_scaled y) {
+  return hr2di_scaled_of(x.m * y.m, x.e + y.e);
 }
 
-static inline hr2di_wide hr2di_wide_div(hr2di_wide x, hr2di_wide y) {
-  return hr2di_wide_make(x.m / y.m, x.e - y.e);
+static inline hr2di_scaled hr2di_scaled_div(hr2di_scaled x, hr2di_scaled y) {
+  return hr2di_scaled_of(x.m / y.m, x.e - y.e);
 }
 
-static inline hr2di_wide hr2di_wide_add(hr2di_wide x, hr2di_wide y) {
+static inline hr2di_scaled hr2di_scaled_add(hr2di_scaled x, hr2di_scaled y) {
   if (x.m == 0) return y;
   if (y.m == 0) return x;
   const int e = x.e > y.e ? x.e : y.e;
-  return hr2di_wide_make(ldexp(x.m, x.e - e) + ldexp(y.m, y.e - e), e);
+  return hr2di_scaled_of(ldexp(x.m, x.e - e) + ldexp(y.m, y.e - e), e);
 }
 
-static inline hr2di_wide hr2di_wide_sub(hr2di_wide x, hr2di_wide y) {
-  return hr2di_wide_add(x, hr2di_wide_neg(y));
+static inline hr2di_scaled hr2di_scaled_sub(hr2di_scaled x, hr2di_scaled y) {
+  return hr2di_scaled_add(x, hr2di_scaled_neg(y));
 }
 
 #endif

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Overwrites `to`, of `known` bytes, with what the caller's struct has of it. */
-static inline void hr2di_copy_sized(void *to, size_t known, const void *from) {
+static inline void hr2di_sized_copy(void *to, size_t known, const void *from) {
   size_t given;
   memcpy(&given, from, sizeof given);
   memcpy(to, from, given < known ? given : known);

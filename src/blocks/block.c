@@ -53,8 +53,8 @@ static void measure_from_corner(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr
                                 int at_end) {
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
   const hr2di_patch *p = &h->scene->patch[i->patch], *q = &h->scene->patch[j->patch];
-  const double from_i = hr2di_start(h, pair.first), size_i = i->length / p->length;
-  const double from_j = hr2di_start(h, pair.second), size_j = j->length / q->length;
+  const double from_i = hr2di_element_start(h, pair.first), size_i = i->length / p->length;
+  const double from_j = hr2di_element_start(h, pair.second), size_j = j->length / q->length;
   const hr2d_point u = {p->scaled.b.x - p->scaled.a.x, p->scaled.b.y - p->scaled.a.y};
   const hr2d_point v = {q->scaled.b.x - q->scaled.a.x, q->scaled.b.y - q->scaled.a.y};
   const double sine =
@@ -68,8 +68,8 @@ static void measure_from_corner(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr
   f->above_j[1] = fabs(a + size_i) * sine / q->length;
 }
 
-void hr2di_frame_pair(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pair pair,
-                      hr2di_facing facing) {
+void hr2di_pair_frame_init(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pair pair,
+                           hr2di_facing facing) {
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
   const hr2d_segment p = h->scene->patch[i->patch].scaled, q = h->scene->patch[j->patch].scaled;
   make_frame(f, h->scene, i, j, facing);
@@ -91,37 +91,37 @@ static double *table(const hr2di_integrator *w, const hr2di_rule *rule) {
   return phi;
 }
 
-hr2d_status hr2di_integrator_start(hr2di_integrator *w, const hr2d_hierarchy *hierarchy,
-                                   const hr2d_allocator *alloc, size_t order) {
+hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hierarchy,
+                                  const hr2d_allocator *alloc, size_t order) {
   const hr2d_scene *scene = hierarchy->scene;
   *w = (hr2di_integrator){.hierarchy = hierarchy, .alloc = *alloc, .order = order};
-  hr2di_basis_make(&w->basis, order);
-  hr2di_rule_make(&w->far, order + 2);
-  hr2di_rule_make(&w->near, near_points(order));
-  hr2di_rule_make(&w->exact, order);
+  hr2di_basis_init(&w->basis, order);
+  hr2di_rule_init(&w->far, order + 2);
+  hr2di_rule_init(&w->near, near_points(order));
+  hr2di_rule_init(&w->exact, order);
   w->phi_far = table(w, &w->far);
   w->phi_exact = table(w, &w->exact);
-  w->work = hr2di_alloc(alloc, 2 * HR2DI_MOST_POINTS * HR2DI_MOST_POINTS, sizeof *w->work);
+  w->work = hr2di_alloc(alloc, 2 * HR2DI_RULE_POINTS * HR2DI_RULE_POINTS, sizeof *w->work);
   int room = w->phi_far && w->phi_exact && w->work;
   if (room && scene->effect[HR2D_EFFECT_OCCLUSION].on) {
     w->sight = hr2di_alloc(alloc, 1, sizeof *w->sight);
-    if (w->sight) hr2di_sight_start(w->sight, &scene->walls, alloc);
+    if (w->sight) hr2di_visibility_init(w->sight, &scene->walls, alloc);
     room = w->sight != NULL;
   }
   return room ? HR2D_OK : HR2D_ENOMEM;
 }
 
-void hr2di_integrator_end(hr2di_integrator *w) {
-  hr2di_free(&w->alloc, w->phi_far);
-  hr2di_free(&w->alloc, w->phi_exact);
-  hr2di_free(&w->alloc, w->work);
-  if (w->sight) hr2di_sight_end(w->sight);
-  hr2di_free(&w->alloc, w->sight);
-  hr2di_free(&w->alloc, w->found.wall);
-  hr2di_free(&w->alloc, w->screen);
-  hr2di_free(&w->alloc, w->point);
-  hr2di_free(&w->alloc, w->cut);
-  hr2di_free(&w->alloc, w->shadow);
+void hr2di_integrator_clear(hr2di_integrator *w) {
+  hr2di_alloc_free(&w->alloc, w->phi_far);
+  hr2di_alloc_free(&w->alloc, w->phi_exact);
+  hr2di_alloc_free(&w->alloc, w->work);
+  if (w->sight) hr2di_visibility_clear(w->sight);
+  hr2di_alloc_free(&w->alloc, w->sight);
+  hr2di_alloc_free(&w->alloc, w->found.wall);
+  hr2di_alloc_free(&w->alloc, w->screen);
+  hr2di_alloc_free(&w->alloc, w->point);
+  hr2di_alloc_free(&w->alloc, w->cut);
+  hr2di_alloc_free(&w->alloc, w->shadow);
 }
 
 /* One tensor rule: G is smooth on both. */
@@ -133,13 +133,14 @@ void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, double 
   for (size_t k = 0; k < n; k++) {
     const double s = 0.5 + 0.5 * w->far.at[k];
     const double x = f->apart.x - s * f->along_i.x, y = f->apart.y - s * f->along_i.y;
-    const double outer = scale * w->far.weight[k] * hr2di_mix(f->above_j, s);
+    const double outer = scale * w->far.weight[k] * hr2di_block_mix(f->above_j, s);
     memset(moment, 0, p * sizeof *moment);
     for (size_t q = 0; q < n; q++) {
       const double t = 0.5 + 0.5 * w->far.at[q];
       const double rx = x + t * f->along_j.x, ry = y + t * f->along_j.y;
       const double square = rx * rx + ry * ry;
-      const double g = w->far.weight[q] * hr2di_mix(f->above_i, t) / (square * sqrt(square));
+      const double g =
+          w->far.weight[q] * hr2di_block_mix(f->above_i, t) / (square * sqrt(square));
       const double *phi = w->phi_far + q * p;
       for (size_t m = 0; m < p; m++) moment[m] += g * phi[m];
     }
@@ -152,7 +153,7 @@ void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, double 
 /* The walls in the way, into w->found; the patch with the lower number comes first, as where
    links are made. */
 static hr2d_status look(hr2di_integrator *w, hr2d_pair pair, hr2di_facing facing,
-                        hr2di_shaft *shaft, hr2di_view *view) {
+                        hr2di_shaft *shaft, hr2di_visibility_class *view) {
   const hr2d_hierarchy *h = w->hierarchy;
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
   if (i->patch > j->patch) {
@@ -163,10 +164,10 @@ static hr2d_status look(hr2di_integrator *w, hr2d_pair pair, hr2di_facing facing
   *view = HR2DI_CLEAR;
   w->found.count = 0;
   const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
-  if (!w->sight || !hr2di_shaft_make(shaft, facing, s, t, h->scene->patch[i->patch].scaled,
+  if (!w->sight || !hr2di_shaft_init(shaft, facing, s, t, h->scene->patch[i->patch].scaled,
                                      h->scene->patch[j->patch].scaled))
     return HR2D_OK;
-  return hr2di_sight_collect(w->sight, shaft, &w->found, view);
+  return hr2di_visibility_collect(w->sight, shaft, &w->found, view);
 }
 
 hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double *block, int *distant) {
@@ -175,17 +176,17 @@ hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double *block, int 
   const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
   const hr2d_segment p = h->scene->patch[i->patch].scaled, q = h->scene->patch[j->patch].scaled;
   const int corner = hr2di_point_same(p.b, q.a) || hr2di_point_same(p.a, q.b);
-  const hr2di_facing facing = corner ? hr2di_face(&p, &q) : hr2di_face(&s, &t);
+  const hr2di_facing facing = corner ? hr2di_facing_of(&p, &q) : hr2di_facing_of(&s, &t);
   hr2di_pair_frame f;
   hr2di_shaft shaft;
-  hr2di_view view;
+  hr2di_visibility_class view;
   memset(block, 0, w->order * w->order * sizeof *block);
   *distant = 0;
   if (facing == HR2DI_FACING_NONE) return HR2D_OK;
   const hr2d_status status = look(w, pair, facing, &shaft, &view);
   if (status || view == HR2DI_BLOCKED) return status;
-  hr2di_frame_pair(&f, h, pair, facing);
-  if (view == HR2DI_PARTIAL) return hr2di_block_shaded(w, &f, &shaft, block);
+  hr2di_pair_frame_init(&f, h, pair, facing);
+  if (view == HR2DI_PARTIAL) return hr2di_block_occluded(w, &f, &shaft, block);
   const int full = facing == HR2DI_FACING_FULL, touching_end = hr2di_point_same(i->b, j->a);
   *distant = full && hr2di_ellipse_least(s, t) >= HR2DI_ELLIPSE_DISTANT &&
              hr2di_ellipse_least(t, s) >= HR2DI_ELLIPSE_DISTANT;

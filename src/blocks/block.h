@@ -39,8 +39,8 @@ typedef struct hr2di_integrator {
   hr2di_basis basis;
   hr2di_rule far, near, exact; /* the last integrates φ_l φ_m */
   double *phi_far, *phi_exact; /* of the rules' points */
-  double *work;                /* 2 × HR2DI_MOST_POINTS × order, and more */
-  hr2di_sight *sight;          /* NULL where nothing is in the way */
+  double *work;                /* 2 × HR2DI_RULE_POINTS × order, and more */
+  hr2di_visibility *sight;     /* NULL where nothing is in the way */
   hr2di_wall_list found;
   hr2di_screen *screen;
   size_t screen_capacity;
@@ -53,10 +53,10 @@ typedef struct hr2di_integrator {
   uint64_t kernels; /* evaluations of G so far */
 } hr2di_integrator;
 
-/* HR2D_OK or HR2D_ENOMEM; to be ended by hr2di_integrator_end() in either case. */
-hr2d_status hr2di_integrator_start(hr2di_integrator *work, const hr2d_hierarchy *hierarchy,
-                                   const hr2d_allocator *alloc, size_t order);
-void hr2di_integrator_end(hr2di_integrator *work);
+/* HR2D_OK or HR2D_ENOMEM; to be ended by hr2di_integrator_clear() in either case. */
+hr2d_status hr2di_integrator_init(hr2di_integrator *work, const hr2d_hierarchy *hierarchy,
+                                  const hr2d_allocator *alloc, size_t order);
+void hr2di_integrator_clear(hr2di_integrator *work);
 
 /* The block of a pair, order × order, l for the first element, and whether it was integrated
    as that of a distant pair; HR2D_OK or HR2D_ENOMEM. */
@@ -64,20 +64,20 @@ hr2d_status hr2di_block(hr2di_integrator *work, hr2d_pair pair, double *block, i
 
 /* How a pair lies that faces each other so, with more digits than coordinates have where their
    patches have a common end. */
-void hr2di_frame_pair(hr2di_pair_frame *frame, const hr2d_hierarchy *hierarchy, hr2d_pair pair,
-                      hr2di_facing facing);
+void hr2di_pair_frame_init(hr2di_pair_frame *frame, const hr2d_hierarchy *hierarchy,
+                           hr2d_pair pair, hr2di_facing facing);
 
 /* The parts of the job; each adds to a block.  */
 void hr2di_block_distant(hr2di_integrator *work, const hr2di_pair_frame *f, double *block);
 void hr2di_block_touching(hr2di_integrator *work, const hr2di_pair_frame *f, int at_end,
                           double *block);
 void hr2di_block_near(hr2di_integrator *work, const hr2di_pair_frame *f, double *block);
-hr2d_status hr2di_block_shaded(hr2di_integrator *work, const hr2di_pair_frame *f,
-                               const hr2di_shaft *shaft, double *block);
+hr2d_status hr2di_block_occluded(hr2di_integrator *work, const hr2di_pair_frame *f,
+                                 const hr2di_shaft *shaft, double *block);
 
 /* moment_m += ∫ G(x,y) φ_m(y) dy over a part of j, at x = a + s(b−a). */
-void hr2di_add_moments(hr2di_integrator *work, const hr2di_pair_frame *f, double s,
-                       hr2di_span part, double *moment);
+void hr2di_block_add_moments(hr2di_integrator *work, const hr2di_pair_frame *f, double s,
+                             hr2di_span part, double *moment);
 
 /* The parts of j that x sees; their number.  The integrand over x is smooth but near some
    points. */
@@ -92,14 +92,14 @@ typedef struct hr2di_strip {
 /* The most parts that `seen` may return. */
 enum { HR2DI_PARTS = 64 };
 
-void hr2di_add_strip(hr2di_integrator *work, const hr2di_pair_frame *f,
-                     const hr2di_strip *strip, double *block);
+void hr2di_block_add_strip(hr2di_integrator *work, const hr2di_pair_frame *f,
+                           const hr2di_strip *strip, double *block);
 
-static inline hr2d_point hr2di_along(hr2d_point from, hr2d_point way, double part) {
+static inline hr2d_point hr2di_block_along(hr2d_point from, hr2d_point way, double part) {
   return (hr2d_point){from.x + part * way.x, from.y + part * way.y};
 }
 
-static inline double hr2di_mix(const double end[2], double part) {
+static inline double hr2di_block_mix(const double end[2], double part) {
   return end[0] + part * (end[1] - end[0]);
 }
 

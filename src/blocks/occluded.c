@@ -67,7 +67,7 @@ static bound project(const view *v, double s, uint32_t point) {
   const hr2di_pair_frame *f = v->f;
   const bound start = {f->front_j.from, START}, end = {f->front_j.to, END};
   if (point < FIRST) return point == START ? start : end;
-  const hr2d_point x = hr2di_along(f->i.a, f->along_i, s), p = v->work->point[point];
+  const hr2d_point x = hr2di_block_along(f->i.a, f->along_i, s), p = v->work->point[point];
   const hr2d_point way = hr2di_point_minus(p, x);
   if (is_foot(f, p)) return f->along_i.x * way.x + f->along_i.y * way.y > 0 ? start : end;
   if (hr2di_point_cross(hr2di_point_minus(v->work->point[START], x), way) <= 0) return start;
@@ -134,13 +134,14 @@ static uint32_t number(hr2di_integrator *w, size_t *points, hr2d_point p) {
 static hr2d_status make_screens(hr2di_integrator *w, const hr2di_shaft *shaft, view *v) {
   const hr2di_pair_frame *f = v->f;
   const size_t most = w->found.count;
-  if (hr2di_reserve(&w->alloc, &w->screen, &w->screen_capacity, most, sizeof *w->screen) ||
-      hr2di_reserve(&w->alloc, &w->point, &w->point_capacity, FIRST + 2 * most,
-                    sizeof *w->point) ||
-      hr2di_reserve(&w->alloc, &w->shadow, &w->shadow_capacity, most, sizeof *w->shadow))
+  if (hr2di_alloc_reserve(&w->alloc, &w->screen, &w->screen_capacity, most,
+                          sizeof *w->screen) ||
+      hr2di_alloc_reserve(&w->alloc, &w->point, &w->point_capacity, FIRST + 2 * most,
+                          sizeof *w->point) ||
+      hr2di_alloc_reserve(&w->alloc, &w->shadow, &w->shadow_capacity, most, sizeof *w->shadow))
     return HR2D_ENOMEM;
-  w->point[START] = hr2di_along(f->j.a, f->along_j, f->front_j.from);
-  w->point[END] = hr2di_along(f->j.a, f->along_j, f->front_j.to);
+  w->point[START] = hr2di_block_along(f->j.a, f->along_j, f->front_j.from);
+  w->point[END] = hr2di_block_along(f->j.a, f->along_j, f->front_j.to);
   v->points = FIRST;
   for (size_t k = 0; k < most; k++) {
     hr2di_obstacle o;
@@ -161,7 +162,7 @@ static int rising(const void *a, const void *b) {
 static hr2d_status make_cuts(hr2di_integrator *w, const view *v, size_t *cuts) {
   const hr2di_pair_frame *f = v->f;
   const size_t most = v->points * v->points + 2;
-  if (hr2di_reserve(&w->alloc, &w->cut, &w->cut_capacity, most, sizeof *w->cut))
+  if (hr2di_alloc_reserve(&w->alloc, &w->cut, &w->cut_capacity, most, sizeof *w->cut))
     return HR2D_ENOMEM;
   *cuts = 0;
   w->cut[(*cuts)++] = f->front_i.from;
@@ -190,8 +191,8 @@ static size_t find_singular(const view *v, hr2d_point *singular) {
       singular[count++] = p;
       if (end[m] < FIRST || slope == 0) continue;
       singular[count++] =
-          hr2di_along(f->i.a, f->along_i, (height(f, p) - f->above_j[0]) / slope);
-      singular[count++] = hr2di_along(f->i.a, f->along_i, -f->above_j[0] / slope);
+          hr2di_block_along(f->i.a, f->along_i, (height(f, p) - f->above_j[0]) / slope);
+      singular[count++] = hr2di_block_along(f->i.a, f->along_i, -f->above_j[0] / slope);
     }
   }
   return count;
@@ -202,11 +203,11 @@ static void add_cell(hr2di_integrator *w, view *v, hr2di_span cell, double *bloc
   if (v->seen.parts == 0) return;
   const size_t count = find_singular(v, singular);
   const hr2di_strip strip = {cell, singular, count, see, v};
-  hr2di_add_strip(w, v->f, &strip, block);
+  hr2di_block_add_strip(w, v->f, &strip, block);
 }
 
-hr2d_status hr2di_block_shaded(hr2di_integrator *w, const hr2di_pair_frame *f,
-                               const hr2di_shaft *shaft, double *block) {
+hr2d_status hr2di_block_occluded(hr2di_integrator *w, const hr2di_pair_frame *f,
+                                 const hr2di_shaft *shaft, double *block) {
   view v = {.work = w, .f = f};
   size_t cuts = 0;
   hr2d_status status = make_screens(w, shaft, &v);

@@ -32,8 +32,8 @@ static inline int hr2di_panel_halved(hr2di_panels *panels, hr2di_span panel) {
 
 /* Whether a panel of the segment that leads from `from` along `along` is near the origin. */
 static inline int hr2di_panel_near(hr2d_point from, hr2d_point along, hr2di_span panel) {
-  const hr2d_segment around = {hr2di_along(from, along, panel.from),
-                               hr2di_along(from, along, panel.to)};
+  const hr2d_segment around = {hr2di_block_along(from, along, panel.from),
+                               hr2di_block_along(from, along, panel.to)};
   return hr2di_ellipse(around, (hr2d_point){0, 0}) < HR2DI_NEAR_ELLIPSE;
 }
 

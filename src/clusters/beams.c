@@ -36,19 +36,19 @@ struct hr2di_beam {
   size_t first_wall, walls; /* of hr2di_beams::wall */
 };
 
-hr2d_status hr2di_beams_start(hr2di_beams *b, const hr2d_scene *scene,
-                              const hr2di_cluster_tree *tree, const hr2d_allocator *alloc) {
+hr2d_status hr2di_beams_init(hr2di_beams *b, const hr2d_scene *scene,
+                             const hr2di_cluster_tree *tree, const hr2d_allocator *alloc) {
   *b = (hr2di_beams){.scene = scene, .tree = tree, .alloc = *alloc};
-  b->mark = hr2di_calloc(alloc, scene->patches, sizeof *b->mark);
+  b->mark = hr2di_alloc_zero(alloc, scene->patches, sizeof *b->mark);
   return b->mark ? HR2D_OK : HR2D_ENOMEM;
 }
 
-void hr2di_beams_end(hr2di_beams *b) {
-  hr2di_free(&b->alloc, b->target);
-  hr2di_free(&b->alloc, b->wall);
-  hr2di_free(&b->alloc, b->beam);
-  hr2di_free(&b->alloc, b->mark);
-  hr2di_free(&b->alloc, b->seen);
+void hr2di_beams_clear(hr2di_beams *b) {
+  hr2di_alloc_free(&b->alloc, b->target);
+  hr2di_alloc_free(&b->alloc, b->wall);
+  hr2di_alloc_free(&b->alloc, b->beam);
+  hr2di_alloc_free(&b->alloc, b->mark);
+  hr2di_alloc_free(&b->alloc, b->seen);
 }
 
 static hr2d_point point_of(hr2d_segment s, double t) {
@@ -150,7 +150,7 @@ static void search(const hr2di_walls *walls, const hr2di_shaft *shaft, cut *hidd
       test(walls, box->wall, shaft, hidden, found);
       continue;
     }
-    if (hr2di_body_across(walls, shaft, box)) hide_by_body(hidden, shaft, box);
+    if (hr2di_clusters_body_across(walls, shaft, box)) hide_by_body(hidden, shaft, box);
     const hr2di_box *below = &walls->box[box->below];
     const uint32_t nearer = along(below, p, q) > along(below + 1, p, q);
     stack[count++] = box->below + !nearer;
@@ -187,8 +187,8 @@ static int may_meet(const hr2di_shaft *shaft, const cut *hidden, const hr2di_clu
 }
 
 static hr2d_status put_target(hr2di_beams *b, uint32_t cluster) {
-  if (hr2di_reserve(&b->alloc, &b->target, &b->target_capacity, b->targets + 1,
-                    sizeof *b->target))
+  if (hr2di_alloc_reserve(&b->alloc, &b->target, &b->target_capacity, b->targets + 1,
+                          sizeof *b->target))
     return HR2D_ENOMEM;
   b->target[b->targets++] = cluster;
   return HR2D_OK;
@@ -218,8 +218,9 @@ static hr2d_status see(hr2di_beams *b, uint32_t patch, uint32_t other) {
   if (b->mark[other] == patch + 1) return HR2D_OK;
   b->mark[other] = patch + 1;
   const hr2di_patch *p = b->scene->patch;
-  if (hr2di_face(&p[patch].scaled, &p[other].scaled) == HR2DI_FACING_NONE) return HR2D_OK;
-  if (hr2di_reserve(&b->alloc, &b->seen, &b->seen_capacity, b->seen_count + 1, sizeof *b->seen))
+  if (hr2di_facing_of(&p[patch].scaled, &p[other].scaled) == HR2DI_FACING_NONE) return HR2D_OK;
+  if (hr2di_alloc_reserve(&b->alloc, &b->seen, &b->seen_capacity, b->seen_count + 1,
+                          sizeof *b->seen))
     return HR2D_ENOMEM;
   b->seen[b->seen_count++] = other;
   return HR2D_OK;
@@ -238,7 +239,7 @@ static hr2d_status see_targets(hr2di_beams *b, const hr2di_shaft *shaft, const c
 }
 
 static hr2d_status push(hr2di_beams *b, hr2di_beam beam) {
-  if (hr2di_reserve(&b->alloc, &b->beam, &b->capacity, b->count + 1, sizeof beam))
+  if (hr2di_alloc_reserve(&b->alloc, &b->beam, &b->capacity, b->count + 1, sizeof beam))
     return HR2D_ENOMEM;
   b->beam[b->count++] = beam;
   return HR2D_OK;
@@ -262,7 +263,7 @@ static hr2d_status keep_walls(hr2di_beams *b, hr2di_beam *beam, const finds *fou
   beam->first_wall += beam->walls;
   beam->walls = found->all ? found->walls : 0;
   const size_t needed = beam->first_wall + beam->walls;
-  if (hr2di_reserve(&b->alloc, &b->wall, &b->wall_capacity, needed, sizeof *b->wall))
+  if (hr2di_alloc_reserve(&b->alloc, &b->wall, &b->wall_capacity, needed, sizeof *b->wall))
     return HR2D_ENOMEM;
   for (size_t k = 0; k < beam->walls; k++) b->wall[beam->first_wall + k] = found->wall[k];
   return HR2D_OK;
@@ -274,7 +275,7 @@ static hr2d_status follow(hr2di_beams *b, uint32_t patch, hr2di_beam beam) {
   const hr2d_segment i = part_of(line, beam.from), j = part_of(screen[beam.side], beam.to);
   hr2di_shaft shaft;
   finds found;
-  if (!hr2di_shaft_make(&shaft, hr2di_face(&i, &j), i, j, line, screen[beam.side]))
+  if (!hr2di_shaft_init(&shaft, hr2di_facing_of(&i, &j), i, j, line, screen[beam.side]))
     return HR2D_OK;
   look(b, &beam, &shaft, &beam.hidden, &found);
   const double middle = 0.5 * fmin(beam.hidden.distance, 0.25);

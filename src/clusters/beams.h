@@ -29,10 +29,10 @@ typedef struct hr2di_beams {
   size_t seen_count, seen_capacity;
 } hr2di_beams;
 
-/* To be ended by hr2di_beams_end() in either case. */
-hr2d_status hr2di_beams_start(hr2di_beams *beams, const hr2d_scene *scene,
-                              const hr2di_cluster_tree *tree, const hr2d_allocator *alloc);
-void hr2di_beams_end(hr2di_beams *beams);
+/* To be ended by hr2di_beams_clear() in either case. */
+hr2d_status hr2di_beams_init(hr2di_beams *beams, const hr2d_scene *scene,
+                             const hr2di_cluster_tree *tree, const hr2d_allocator *alloc);
+void hr2di_beams_clear(hr2di_beams *beams);
 
 /* Collects beams->seen: the patches of clusters, without those that face a patch not at all
    or are surely hidden from it, each once; HR2D_OK or HR2D_ENOMEM. */

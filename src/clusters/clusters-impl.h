@@ -9,7 +9,7 @@
 #define HR2DI_NO_CLUSTER UINT32_MAX
 
 typedef struct hr2di_linked {
-  hr2di_far far;
+  hr2di_expansion far;
   uint32_t above; /* the least that holds it, before it; or HR2DI_NO_CLUSTER */
   size_t first;   /* of hr2di_clusters::point */
 } hr2di_linked;
@@ -29,16 +29,17 @@ struct hr2di_clusters {
   size_t links, link_capacity;
   hr2d_point *point;
   size_t points;
-  double *cosine; /* T_n at the points, for each number of points; see hr2di_cosines() */
+  double
+      *cosine; /* T_n at the points, for each number of points; see hr2di_clusters_cosines() */
 };
 
 /* Keeps of all clusters those between which made->link are, and renumbers these; HR2D_OK or
    HR2D_ENOMEM. */
 hr2d_status hr2di_clusters_keep(hr2di_clusters *made, const hr2di_cluster_tree *tree,
-                                const hr2di_far *far);
+                                const hr2di_expansion *far);
 
 /* T_n at point k of `count`, by n·count + k. */
-static inline const double *hr2di_cosines(const hr2di_clusters *c, unsigned count) {
+static inline const double *hr2di_clusters_cosines(const hr2di_clusters *c, unsigned count) {
   return c->cosine + (size_t)(count - 1) * count * (2 * count - 1) / 6;
 }
 

@@ -28,7 +28,7 @@ typedef struct two {
 typedef struct walk {
   hr2di_clusters *made;
   hr2di_cluster_tree tree;
-  hr2di_far *far;           /* of each cluster; NULL without links */
+  hr2di_expansion *far;     /* of each cluster; NULL without links */
   const hr2di_walls *walls; /* NULL: nothing is in the way of anything */
   two *later;
   size_t laters, later_capacity;
@@ -52,7 +52,8 @@ static hr2d_status hand_over(walk *w, uint32_t p, uint32_t q) {
 }
 
 static hr2d_status push(walk *w, two at, uint32_t i, uint32_t j) {
-  if (hr2di_reserve(&w->tree.alloc, &w->stack, &w->capacity, w->count + 1, sizeof *w->stack))
+  if (hr2di_alloc_reserve(&w->tree.alloc, &w->stack, &w->capacity, w->count + 1,
+                          sizeof *w->stack))
     return HR2D_ENOMEM;
   at.i = i;
   at.j = j;
@@ -81,8 +82,8 @@ static hr2d_status part(walk *w, two at) {
 
 static hr2d_status link(walk *w, const two *at) {
   hr2di_clusters *made = w->made;
-  if (hr2di_reserve(&made->alloc, &made->link, &made->link_capacity, made->links + 1,
-                    sizeof *made->link))
+  if (hr2di_alloc_reserve(&made->alloc, &made->link, &made->link_capacity, made->links + 1,
+                          sizeof *made->link))
     return HR2D_ENOMEM;
   made->link[made->links++] = (hr2di_cluster_link){at->i, at->j};
   return HR2D_OK;
@@ -95,15 +96,15 @@ static double pairs_of(const walk *w, const two *at) {
 
 /* Whether a link of the two costs less than their pairs. */
 static int link_pays(const walk *w, const two *at) {
-  return w->far &&
-         (double)hr2di_far_points(&w->far[at->i]) * (double)hr2di_far_points(&w->far[at->j]) <=
-             WORTH * pairs_of(w, at);
+  return w->far && (double)hr2di_expansion_points(&w->far[at->i]) *
+                           (double)hr2di_expansion_points(&w->far[at->j]) <=
+                       WORTH * pairs_of(w, at);
 }
 
 static int may_link(const walk *w, const two *at) {
   return link_pays(w, at) &&
-         hr2di_far_apart(&w->tree.cluster[at->i], &w->far[at->i], &w->tree.cluster[at->j],
-                         &w->far[at->j], w->made->digits);
+         hr2di_expansion_apart(&w->tree.cluster[at->i], &w->far[at->i], &w->tree.cluster[at->j],
+                               &w->far[at->j], w->made->digits);
 }
 
 /* Completes what is known of a pair that may be linked, until it is known not to be. */
@@ -119,8 +120,8 @@ static int is_clear(walk *w, two *at) {
 /* The smaller cluster comes first: from its patches beams are cast, and the shorter a patch
    the narrower they are. */
 static hr2d_status put_off(walk *w, two at) {
-  if (hr2di_reserve(&w->tree.alloc, &w->later, &w->later_capacity, w->laters + 1,
-                    sizeof *w->later))
+  if (hr2di_alloc_reserve(&w->tree.alloc, &w->later, &w->later_capacity, w->laters + 1,
+                          sizeof *w->later))
     return HR2D_ENOMEM;
   const hr2di_cluster *i = &w->tree.cluster[at.i], *j = &w->tree.cluster[at.j];
   const int swap = hypot(i->x1 - i->x0, i->y1 - i->y0) > hypot(j->x1 - j->x0, j->y1 - j->y0);
@@ -175,16 +176,16 @@ static hr2d_status settle_later(walk *w, const hr2d_scene *scene) {
   hr2di_beams beams;
   size_t *start = hr2di_alloc(alloc, w->tree.clusters + 1, sizeof *start);
   uint32_t *target = hr2di_alloc(alloc, w->laters, sizeof *target);
-  hr2d_status status = hr2di_beams_start(&beams, scene, &w->tree, alloc);
+  hr2d_status status = hr2di_beams_init(&beams, scene, &w->tree, alloc);
   if (!start || !target) status = HR2D_ENOMEM;
   qsort(w->later, w->laters, sizeof *w->later, by_first);
   for (size_t k = 0, m = 0; k <= w->tree.clusters && start; start[k++] = m)
     while (m < w->laters && w->later[m].i < k) m++;
   for (uint32_t k = 0; k < scene->patches && !status; k++)
     status = cast(w, &beams, k, start, target);
-  hr2di_beams_end(&beams);
-  hr2di_free(alloc, start);
-  hr2di_free(alloc, target);
+  hr2di_beams_clear(&beams);
+  hr2di_alloc_free(alloc, start);
+  hr2di_alloc_free(alloc, target);
   return status;
 }
 
@@ -195,13 +196,13 @@ static hr2d_status make_far(walk *w) {
   w->far = hr2di_alloc(&w->tree.alloc, w->tree.clusters, sizeof *w->far);
   if (!w->far) return HR2D_ENOMEM;
   for (size_t k = 0; k < w->tree.clusters; k++)
-    w->far[k] = hr2di_far_make(&w->tree.cluster[k], digits);
+    w->far[k] = hr2di_expansion_of(&w->tree.cluster[k], digits);
   return HR2D_OK;
 }
 
 static hr2d_status sort_pairs(walk *w, const hr2d_scene *scene) {
   const hr2d_allocator *alloc = &w->made->alloc;
-  hr2d_status status = hr2di_cluster_tree_make(&w->tree, scene, alloc);
+  hr2d_status status = hr2di_cluster_tree_init(&w->tree, scene, alloc);
   if (!status) status = make_far(w);
   if (status) return status;
   const int shaded = scene->effect[HR2D_EFFECT_OCCLUSION].on;
@@ -216,16 +217,16 @@ static hr2d_status sort_pairs(walk *w, const hr2d_scene *scene) {
 hr2d_status hr2di_clusters_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
                                   double digits, hr2di_near_fn near, void *ctx,
                                   hr2di_clusters **clusters) {
-  hr2di_clusters *made = hr2di_calloc(alloc, 1, sizeof *made);
+  hr2di_clusters *made = hr2di_alloc_zero(alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
   *made = (hr2di_clusters){.alloc = *alloc, .scene = scene, .digits = digits};
   walk w = {.made = made, .near = near, .ctx = ctx};
   hr2d_status status = sort_pairs(&w, scene);
   if (!status) status = hr2di_clusters_keep(made, &w.tree, w.far);
   hr2di_cluster_tree_clear(&w.tree);
-  hr2di_free(alloc, w.far);
-  hr2di_free(alloc, w.stack);
-  hr2di_free(alloc, w.later);
+  hr2di_alloc_free(alloc, w.far);
+  hr2di_alloc_free(alloc, w.stack);
+  hr2di_alloc_free(alloc, w.later);
   if (status)
     hr2di_clusters_destroy(made);
   else
@@ -236,12 +237,12 @@ hr2d_status hr2di_clusters_create(const hr2d_scene *scene, const hr2d_allocator 
 void hr2di_clusters_destroy(hr2di_clusters *clusters) {
   if (!clusters) return;
   const hr2d_allocator alloc = clusters->alloc;
-  hr2di_free(&alloc, clusters->linked);
-  hr2di_free(&alloc, clusters->home);
-  hr2di_free(&alloc, clusters->link);
-  hr2di_free(&alloc, clusters->point);
-  hr2di_free(&alloc, clusters->cosine);
-  hr2di_free(&alloc, clusters);
+  hr2di_alloc_free(&alloc, clusters->linked);
+  hr2di_alloc_free(&alloc, clusters->home);
+  hr2di_alloc_free(&alloc, clusters->link);
+  hr2di_alloc_free(&alloc, clusters->point);
+  hr2di_alloc_free(&alloc, clusters->cosine);
+  hr2di_alloc_free(&alloc, clusters);
 }
 
 uint64_t hr2di_clusters_links(const hr2di_clusters *clusters) {
@@ -249,7 +250,7 @@ uint64_t hr2di_clusters_links(const hr2di_clusters *clusters) {
 }
 
 uint64_t hr2di_clusters_bytes(const hr2di_clusters *c) {
-  const uint64_t n = HR2DI_FAR_POINTS, cosines = n * (n + 1) * (2 * n + 1) / 6;
+  const uint64_t n = HR2DI_EXPANSION_POINTS, cosines = n * (n + 1) * (2 * n + 1) / 6;
   uint64_t bytes = sizeof *c + c->link_capacity * sizeof *c->link;
   if (c->links > 0)
     bytes += c->linked_count * sizeof *c->linked + c->points * sizeof *c->point +

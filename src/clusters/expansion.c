@@ -15,24 +15,24 @@
 
 /* The constant in front of the bound grows with 1/r³ towards the ellipse, but m is seldom as
    small as it may be: the errors measured are a fifth of what is asked for, and less. */
-double hr2di_far_degree(double digits, double m) {
+double hr2di_expansion_degree(double digits, double m) {
   return log(1 / digits) / log(m + sqrt(m * m - 1));
 }
 
 /* What is APART along the longer direction of half h is (APART−1)·h away from the cluster,
    so that along a shorter one m ≥ (APART−1)·h/half. */
-hr2di_far hr2di_far_make(const hr2di_cluster *c, double digits) {
+hr2di_expansion hr2di_expansion_of(const hr2di_cluster *c, double digits) {
   const hr2di_extent *e = &c->nested;
-  hr2di_far far = {.u = c->u,
-                   .at = {0.5 * (e->u0 + e->u1), 0.5 * (e->v0 + e->v1)},
-                   .half = {0.5 * (e->u1 - e->u0), 0.5 * (e->v1 - e->v0)}};
+  hr2di_expansion far = {.u = c->u,
+                         .at = {0.5 * (e->u0 + e->u1), 0.5 * (e->v0 + e->v1)},
+                         .half = {0.5 * (e->u1 - e->u0), 0.5 * (e->v1 - e->v0)}};
   const double longer = fmax(far.half[0], far.half[1]);
   for (int k = 0; k < 2; k++) {
     far.reach[k] = fmax(APART * far.half[k], (APART - 1) * longer);
     if (far.half[k] == longer) far.reach[k] = APART * longer;
     const double degree =
-        far.half[k] > 0 ? hr2di_far_degree(digits, far.reach[k] / far.half[k]) : 0;
-    far.count[k] = (unsigned)fmin(fmax(ceil(degree), 1), HR2DI_FAR_POINTS);
+        far.half[k] > 0 ? hr2di_expansion_degree(digits, far.reach[k] / far.half[k]) : 0;
+    far.count[k] = (unsigned)fmin(fmax(ceil(degree), 1), HR2DI_EXPANSION_POINTS);
   }
   return far;
 }
@@ -51,7 +51,7 @@ static double around(double half, double along, double aside) {
   return hypot(along - half, aside) + hypot(along + half, aside);
 }
 
-static int apart(const hr2di_cluster *c, const hr2di_far *far, const hr2di_cluster *other,
+static int apart(const hr2di_cluster *c, const hr2di_expansion *far, const hr2di_cluster *other,
                  double least) {
   const hr2di_extent e = hr2di_cluster_extent_of(c, other, &other->nested);
   const double u0 = e.u0 - far->at[0], u1 = e.u1 - far->at[0];
@@ -63,22 +63,23 @@ static int apart(const hr2di_cluster *c, const hr2di_far *far, const hr2di_clust
 }
 
 /* What is HR2DI_CLUSTER_TOUCH behind a patch at the distance r has a cosine of −TOUCH/r. */
-int hr2di_far_apart(const hr2di_cluster *i, const hr2di_far *far_i, const hr2di_cluster *j,
-                    const hr2di_far *far_j, double digits) {
+int hr2di_expansion_apart(const hr2di_cluster *i, const hr2di_expansion *far_i,
+                          const hr2di_cluster *j, const hr2di_expansion *far_j, double digits) {
   const double least = 8 * HR2DI_CLUSTER_TOUCH / digits;
   return apart(i, far_i, j, least) && apart(j, far_j, i, least);
 }
 
-size_t hr2di_far_gauss(const hr2di_far *far, double length, size_t order, double digits) {
+size_t hr2di_expansion_gauss(const hr2di_expansion *far, double length, size_t order,
+                             double digits) {
   const double gap = (APART - 1) * fmax(far->half[0], far->half[1]);
-  const double degree = hr2di_far_degree(digits, hypot(2 * gap / length, 1));
+  const double degree = hr2di_expansion_degree(digits, hypot(2 * gap / length, 1));
   const double most = far->count[0] + far->count[1] - 2;
   return (size_t)ceil(0.5 * ((double)order + fmin(ceil(degree), most)));
 }
 
 static hr2d_status reserve(hr2di_clusters *made, size_t linked, size_t points) {
   const hr2d_allocator *alloc = &made->alloc;
-  const size_t n = HR2DI_FAR_POINTS, cosines = n * (n + 1) * (2 * n + 1) / 6;
+  const size_t n = HR2DI_EXPANSION_POINTS, cosines = n * (n + 1) * (2 * n + 1) / 6;
   made->linked = hr2di_alloc(alloc, linked, sizeof *made->linked);
   made->point = hr2di_alloc(alloc, points, sizeof *made->point);
   made->home = hr2di_alloc(alloc, made->scene->patches, sizeof *made->home);
@@ -88,8 +89,9 @@ static hr2d_status reserve(hr2di_clusters *made, size_t linked, size_t points) {
 
 /* A cluster's Chebyshev points, those along u next to each other. */
 static void put_points(const hr2di_clusters *made, const hr2di_linked *c) {
-  const hr2di_far *f = &c->far;
-  const double *tu = hr2di_cosines(made, f->count[0]), *tv = hr2di_cosines(made, f->count[1]);
+  const hr2di_expansion *f = &c->far;
+  const double *tu = hr2di_clusters_cosines(made, f->count[0]),
+               *tv = hr2di_clusters_cosines(made, f->count[1]);
   hr2d_point *point = made->point + c->first;
   for (unsigned b = 0; b < f->count[1]; b++)
     for (unsigned a = 0; a < f->count[0]; a++) {
@@ -103,14 +105,14 @@ static void put_points(const hr2di_clusters *made, const hr2di_linked *c) {
 static void put_cosines(hr2di_clusters *made) {
   const double pi = 3.14159265358979323846;
   double *cosine = made->cosine;
-  for (unsigned count = 1; count <= HR2DI_FAR_POINTS; count++)
+  for (unsigned count = 1; count <= HR2DI_EXPANSION_POINTS; count++)
     for (unsigned n = 0; n < count; n++)
       for (unsigned k = 0; k < count; k++) *cosine++ = cos(n * (2 * k + 1) * pi / (2 * count));
 }
 
 /* Numbers the clusters that have links; how many points they have. */
 static size_t number_linked(hr2di_clusters *made, const hr2di_cluster_tree *tree,
-                            const hr2di_far *far, uint32_t *number) {
+                            const hr2di_expansion *far, uint32_t *number) {
   size_t points = 0;
   for (size_t k = 0; k < tree->clusters; k++) number[k] = HR2DI_NO_CLUSTER;
   for (size_t k = 0; k < made->links; k++)
@@ -118,14 +120,14 @@ static size_t number_linked(hr2di_clusters *made, const hr2di_cluster_tree *tree
   for (size_t k = 0; k < tree->clusters; k++) {
     if (number[k] == HR2DI_NO_CLUSTER) continue;
     number[k] = (uint32_t)made->linked_count++;
-    points += hr2di_far_points(&far[k]);
+    points += hr2di_expansion_points(&far[k]);
   }
   return points;
 }
 
 /* Parents come before children: the last one that claims a patch is the least. */
 static void put_linked(hr2di_clusters *made, const hr2di_cluster_tree *tree,
-                       const hr2di_far *far, const uint32_t *number) {
+                       const hr2di_expansion *far, const uint32_t *number) {
   for (size_t k = 0; k < made->scene->patches; k++) made->home[k] = HR2DI_NO_CLUSTER;
   put_cosines(made);
   for (size_t k = 0; k < tree->clusters; k++) {
@@ -133,7 +135,7 @@ static void put_linked(hr2di_clusters *made, const hr2di_cluster_tree *tree,
     const hr2di_cluster *c = &tree->cluster[k];
     hr2di_linked *linked = &made->linked[number[k]];
     *linked = (hr2di_linked){far[k], made->home[tree->patch[c->first]], made->points};
-    made->points += hr2di_far_points(&linked->far);
+    made->points += hr2di_expansion_points(&linked->far);
     for (uint32_t p = c->first; p < c->last; p++) made->home[tree->patch[p]] = number[k];
     put_points(made, linked);
   }
@@ -144,13 +146,13 @@ static void put_linked(hr2di_clusters *made, const hr2di_cluster_tree *tree,
 }
 
 hr2d_status hr2di_clusters_keep(hr2di_clusters *made, const hr2di_cluster_tree *tree,
-                                const hr2di_far *far) {
+                                const hr2di_expansion *far) {
   if (made->links == 0) return HR2D_OK;
   uint32_t *number = hr2di_alloc(&tree->alloc, tree->clusters, sizeof *number);
   if (!number) return HR2D_ENOMEM;
   const size_t points = number_linked(made, tree, far, number);
   const hr2d_status status = reserve(made, made->linked_count, points);
   if (!status) put_linked(made, tree, far, number);
-  hr2di_free(&tree->alloc, number);
+  hr2di_alloc_free(&tree->alloc, number);
   return status;
 }

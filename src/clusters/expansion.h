@@ -12,30 +12,31 @@
 
 #include "clusters/tree.h"
 
-enum { HR2DI_FAR_POINTS = 32 }; /* at most, along one direction */
+enum { HR2DI_EXPANSION_POINTS = 32 }; /* at most, along one direction */
 
-typedef struct hr2di_far {
+typedef struct hr2di_expansion {
   hr2d_point u;      /* as the cluster's */
   double at[2];      /* the middle along u and v */
   double half[2];    /* half of the extents */
   double reach[2];   /* m ≥ reach/half is asked of what it is linked to */
   unsigned count[2]; /* of points */
-} hr2di_far;
+} hr2di_expansion;
 
-static inline size_t hr2di_far_points(const hr2di_far *far) {
+static inline size_t hr2di_expansion_points(const hr2di_expansion *far) {
   return (size_t)far->count[0] * far->count[1];
 }
 
 /* The degree that interpolates to a relative accuracy what is analytic within m. */
-double hr2di_far_degree(double digits, double m);
+double hr2di_expansion_degree(double digits, double m);
 
-hr2di_far hr2di_far_make(const hr2di_cluster *cluster, double digits);
+hr2di_expansion hr2di_expansion_of(const hr2di_cluster *cluster, double digits);
 
 /* Whether two clusters are far enough from each other. */
-int hr2di_far_apart(const hr2di_cluster *i, const hr2di_far *far_i, const hr2di_cluster *j,
-                    const hr2di_far *far_j, double digits);
+int hr2di_expansion_apart(const hr2di_cluster *i, const hr2di_expansion *far_i,
+                          const hr2di_cluster *j, const hr2di_expansion *far_j, double digits);
 
 /* The Gauss points a patch of a cluster needs for what is of this degree along it. */
-size_t hr2di_far_gauss(const hr2di_far *far, double length, size_t order, double digits);
+size_t hr2di_expansion_gauss(const hr2di_expansion *far, double length, size_t order,
+                             double digits);
 
 #endif

@@ -90,7 +90,7 @@ hr2di_clusters_facing hr2di_clusters_face(const hr2di_cluster_tree *tree, uint32
   if (c->run != HR2DI_NO_RUN && d->run != HR2DI_NO_RUN) {
     /* What two runs cannot see of each other no parts of them can. */
     const hr2di_facing facing =
-        c->run == d->run ? HR2DI_FACING_NONE : hr2di_face(&c->span, &d->span);
+        c->run == d->run ? HR2DI_FACING_NONE : hr2di_facing_of(&c->span, &d->span);
     return facing == HR2DI_FACING_NONE   ? HR2DI_CLUSTERS_APART
            : facing == HR2DI_FACING_FULL ? HR2DI_CLUSTERS_FACING
                                          : HR2DI_CLUSTERS_MIXED;

@@ -131,14 +131,14 @@ static double length_of(hr2d_segment s) {
   return fabs(s.b.x - s.a.x) + fabs(s.b.y - s.a.y);
 }
 
-int hr2di_body_across(const hr2di_walls *walls, const hr2di_shaft *shaft,
-                      const hr2di_box *box) {
+int hr2di_clusters_body_across(const hr2di_walls *walls, const hr2di_shaft *shaft,
+                               const hr2di_box *box) {
   if (box->body == HR2DI_NO_BODY ||
       !hr2di_shaft_has_in_front(shaft, box->x0, box->x1, box->y0, box->y1))
     return 0;
   const double dx = (shaft->c.at.x + shaft->d.at.x) - (shaft->a.at.x + shaft->b.at.x);
   const double dy = (shaft->c.at.y + shaft->d.at.y) - (shaft->a.at.y + shaft->b.at.y);
-  const hr2d_segment chord = hr2di_chord_across(&walls->body[box->body], dx, dy);
+  const hr2d_segment chord = hr2di_body_chord_across(&walls->body[box->body], dx, dy);
   hr2di_obstacle obstacle;
   return hr2di_shaft_test(shaft, chord, &obstacle) == HR2DI_ACROSS;
 }
@@ -148,7 +148,7 @@ int hr2di_clusters_blocked(const hr2di_walls *walls, const hr2di_cluster *i,
   hr2d_segment door[2];
   hr2di_shaft shaft;
   if (!find_doors(i, j, door) ||
-      !hr2di_shaft_make(&shaft, HR2DI_FACING_FULL, door[0], door[1], door[0], door[1]))
+      !hr2di_shaft_init(&shaft, HR2DI_FACING_FULL, door[0], door[1], door[0], door[1]))
     return 0;
   const double least = fmin(length_of(door[0]), length_of(door[1]));
   uint32_t stack[STACK], count = 0;
@@ -159,7 +159,7 @@ int hr2di_clusters_blocked(const hr2di_walls *walls, const hr2di_cluster *i,
         !hr2di_shaft_meets_box(&shaft, box->x0, box->x1, box->y0, box->y1))
       continue;
     if (box->wall == HR2DI_NO_WALL) {
-      if (hr2di_body_across(walls, &shaft, box)) return 1;
+      if (hr2di_clusters_body_across(walls, &shaft, box)) return 1;
       stack[count++] = box->below;
       stack[count++] = box->below + 1;
       continue;

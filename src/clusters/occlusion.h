@@ -19,6 +19,7 @@ int hr2di_clusters_blocked(const hr2di_walls *walls, const hr2di_cluster *i,
                            const hr2di_cluster *j);
 
 /* Whether the body whose walls are all those of a box cuts a shaft in two. */
-int hr2di_body_across(const hr2di_walls *walls, const hr2di_shaft *shaft, const hr2di_box *box);
+int hr2di_clusters_body_across(const hr2di_walls *walls, const hr2di_shaft *shaft,
+                               const hr2di_box *box);
 
 #endif

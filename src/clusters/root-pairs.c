@@ -16,7 +16,7 @@ typedef struct collector {
 static hr2d_status collect(void *ctx, const hr2d_pair *pairs, size_t count) {
   const collector *c = ctx;
   hr2di_roots *r = c->roots;
-  if (hr2di_reserve(c->alloc, &r->pair, &r->capacity, r->count + count, sizeof *r->pair))
+  if (hr2di_alloc_reserve(c->alloc, &r->pair, &r->capacity, r->count + count, sizeof *r->pair))
     return HR2D_ENOMEM;
   memcpy(r->pair + r->count, pairs, count * sizeof *pairs);
   r->count += count;
@@ -46,11 +46,11 @@ static hr2d_status sort_pairs(hr2di_roots *r, size_t patches, const hr2d_allocat
     sort_by(r->pair, sorted, r->count, r->row, patches, 0);
     sort_by(sorted, r->pair, r->count, r->row, patches, 1);
   }
-  hr2di_free(alloc, sorted);
+  hr2di_alloc_free(alloc, sorted);
   return room ? HR2D_OK : HR2D_ENOMEM;
 }
 
-hr2d_status hr2di_roots_make(hr2di_roots *roots, const hr2d_scene *scene,
+hr2d_status hr2di_roots_init(hr2di_roots *roots, const hr2d_scene *scene,
                              const hr2d_allocator *alloc, double digits) {
   collector c = {roots, alloc};
   *roots = (hr2di_roots){.digits = digits};
@@ -62,7 +62,7 @@ hr2d_status hr2di_roots_make(hr2di_roots *roots, const hr2d_scene *scene,
 
 void hr2di_roots_clear(hr2di_roots *roots, const hr2d_allocator *alloc) {
   hr2di_clusters_destroy(roots->clusters);
-  hr2di_free(alloc, roots->pair);
-  hr2di_free(alloc, roots->row);
+  hr2di_alloc_free(alloc, roots->pair);
+  hr2di_alloc_free(alloc, roots->row);
   *roots = (hr2di_roots){0};
 }

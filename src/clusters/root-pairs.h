@@ -14,7 +14,7 @@ typedef struct hr2di_roots {
 } hr2di_roots;
 
 /* Finds the pairs of a scene; HR2D_OK or HR2D_ENOMEM.  To be cleared in either case. */
-hr2d_status hr2di_roots_make(hr2di_roots *roots, const hr2d_scene *scene,
+hr2d_status hr2di_roots_init(hr2di_roots *roots, const hr2d_scene *scene,
                              const hr2d_allocator *alloc, double digits);
 void hr2di_roots_clear(hr2di_roots *roots, const hr2d_allocator *alloc);
 

@@ -14,7 +14,7 @@
 #include "clusters/clusters-impl.h"
 #include "scene/scene-impl.h"
 
-enum { MOST_POINTS = HR2DI_FAR_POINTS * HR2DI_FAR_POINTS };
+enum { MOST_POINTS = HR2DI_EXPANSION_POINTS * HR2DI_EXPANSION_POINTS };
 
 /* Of each cluster 2·bands planes, each with a value per point: x components, then y. */
 typedef struct gather {
@@ -32,10 +32,10 @@ static double *planes_of(const gather *g, double *field, const hr2di_linked *c) 
 
 /* T_n at a place along both directions. */
 typedef struct place {
-  double t[2][HR2DI_FAR_POINTS];
+  double t[2][HR2DI_EXPANSION_POINTS];
 } place;
 
-static place place_in(const hr2di_far *f, hr2d_point p) {
+static place place_in(const hr2di_expansion *f, hr2d_point p) {
   const double along[] = {f->u.x * p.x + f->u.y * p.y, f->u.x * p.y - f->u.y * p.x};
   place at;
   for (int k = 0; k < 2; k++) {
@@ -50,7 +50,7 @@ static place place_in(const hr2di_far *f, hr2d_point p) {
 
 /* Adds g->vector, sent from a place, to the moments of a cluster. */
 static void send(const gather *g, const hr2di_linked *c, hr2d_point p) {
-  const hr2di_far *f = &c->far;
+  const hr2di_expansion *f = &c->far;
   const place at = place_in(f, p);
   double *moment = planes_of(g, g->sent, c);
   for (size_t k = 0; k < g->planes; k++)
@@ -62,7 +62,7 @@ static void send(const gather *g, const hr2di_linked *c, hr2d_point p) {
 
 /* Sets g->vector to what is received at a place. */
 static void receive(const gather *g, const hr2di_linked *c, hr2d_point p) {
-  const hr2di_far *f = &c->far;
+  const hr2di_expansion *f = &c->far;
   const place at = place_in(f, p);
   const double *coefficient = planes_of(g, g->received, c);
   for (size_t k = 0; k < g->planes; k++) {
@@ -78,11 +78,11 @@ static void receive(const gather *g, const hr2di_linked *c, hr2d_point p) {
 
 /* out_a = Σ_b matrix(a,b) in_b along one direction of a plane, where the matrix is
    (1 or 2)/q T, or its transpose. */
-static void turn(const hr2di_clusters *c, const hr2di_far *f, int along, int transposed,
+static void turn(const hr2di_clusters *c, const hr2di_expansion *f, int along, int transposed,
                  const double *in, double *out) {
   const unsigned count = f->count[along], others = f->count[1 - along];
   const size_t step = along ? f->count[0] : 1, next = along ? 1 : f->count[0];
-  const double *t = hr2di_cosines(c, count);
+  const double *t = hr2di_clusters_cosines(c, count);
   for (unsigned o = 0; o < others; o++, in += next, out += next)
     for (unsigned a = 0; a < count; a++) {
       double sum = 0;
@@ -96,7 +96,7 @@ static void turn(const hr2di_clusters *c, const hr2di_far *f, int along, int tra
 
 static void turn_planes(const gather *g, double *field, const hr2di_linked *c, int transposed) {
   double between[MOST_POINTS];
-  const size_t points = hr2di_far_points(&c->far);
+  const size_t points = hr2di_expansion_points(&c->far);
   double *plane = planes_of(g, field, c);
   for (size_t k = 0; k < g->planes; k++, plane += points) {
     turn(g->c, &c->far, 0, transposed, plane, between);
@@ -106,7 +106,7 @@ static void turn_planes(const gather *g, double *field, const hr2di_linked *c, i
 
 static const hr2di_rule *rule_of(const gather *g, size_t points) {
   hr2di_rule *rule = &g->rule[points];
-  if (rule->points == 0) hr2di_rule_make(rule, points);
+  if (rule->points == 0) hr2di_rule_init(rule, points);
   return rule;
 }
 
@@ -121,7 +121,7 @@ static void send_patch(const gather *g, size_t patch, const double *radiosity) {
   const hr2di_patch *p = &g->c->scene->patch[patch];
   const hr2d_segment s = p->scaled;
   const hr2di_rule *rule =
-      rule_of(g, hr2di_far_gauss(&c->far, p->length, g->order, g->c->digits));
+      rule_of(g, hr2di_expansion_gauss(&c->far, p->length, g->order, g->c->digits));
   for (size_t k = 0; k < rule->points; k++) {
     for (size_t band = 0; band < g->bands; band++) {
       const double b =
@@ -138,7 +138,7 @@ static void receive_patch(const gather *g, size_t patch, double *power) {
   const hr2di_patch *p = &g->c->scene->patch[patch];
   const hr2d_segment s = p->scaled;
   const hr2di_rule *rule =
-      rule_of(g, hr2di_far_gauss(&c->far, p->length, g->order, g->c->digits));
+      rule_of(g, hr2di_expansion_gauss(&c->far, p->length, g->order, g->c->digits));
   double phi[HR2D_MAX_ORDER];
   for (size_t k = 0; k < rule->points; k++) {
     receive(g, c, point_of(s, rule->at[k]));
@@ -154,7 +154,7 @@ static void receive_patch(const gather *g, size_t patch, double *power) {
 /* From the points of a cluster to the one above it, as if they were patches. */
 static void send_up(const gather *g, const hr2di_linked *c) {
   const hr2di_linked *above = &g->c->linked[c->above];
-  const size_t points = hr2di_far_points(&c->far);
+  const size_t points = hr2di_expansion_points(&c->far);
   const double *plane = planes_of(g, g->sent, c);
   for (size_t k = 0; k < points; k++) {
     for (size_t m = 0; m < g->planes; m++) g->vector[m] = plane[m * points + k];
@@ -164,7 +164,7 @@ static void send_up(const gather *g, const hr2di_linked *c) {
 
 static void receive_down(const gather *g, const hr2di_linked *c) {
   const hr2di_linked *above = &g->c->linked[c->above];
-  const size_t points = hr2di_far_points(&c->far);
+  const size_t points = hr2di_expansion_points(&c->far);
   double *plane = planes_of(g, g->received, c);
   for (size_t k = 0; k < points; k++) {
     receive(g, above, g->c->point[c->first + k]);
@@ -203,7 +203,7 @@ static void exchange_row(const row *t, size_t count, const double sent[2], const
 }
 
 static void exchange(const gather *g, const hr2di_linked *i, const hr2di_linked *j) {
-  const size_t m = hr2di_far_points(&i->far), n = hr2di_far_points(&j->far);
+  const size_t m = hr2di_expansion_points(&i->far), n = hr2di_expansion_points(&j->far);
   double *sent_i = planes_of(g, g->sent, i), *sent_j = planes_of(g, g->sent, j);
   double *received_i = planes_of(g, g->received, i), *received_j = planes_of(g, g->received, j);
   row t;
@@ -245,18 +245,18 @@ hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, size_t order, size_t
   if (clusters->links == 0) return HR2D_OK;
   const hr2d_allocator *alloc = &clusters->alloc;
   gather g = {.c = clusters, .order = order, .bands = bands, .planes = 2 * bands};
-  g.sent = hr2di_calloc(alloc, clusters->points, g.planes * sizeof *g.sent);
-  g.received = hr2di_calloc(alloc, clusters->points, g.planes * sizeof *g.received);
+  g.sent = hr2di_alloc_zero(alloc, clusters->points, g.planes * sizeof *g.sent);
+  g.received = hr2di_alloc_zero(alloc, clusters->points, g.planes * sizeof *g.received);
   g.vector = hr2di_alloc(alloc, g.planes, sizeof *g.vector);
-  g.rule = hr2di_calloc(alloc, HR2DI_MOST_POINTS + 1, sizeof *g.rule);
+  g.rule = hr2di_alloc_zero(alloc, HR2DI_RULE_POINTS + 1, sizeof *g.rule);
   const int room = g.sent && g.received && g.vector && g.rule;
   if (room) {
-    hr2di_basis_make(&g.basis, order);
+    hr2di_basis_init(&g.basis, order);
     run(&g, radiosity, power);
   }
-  hr2di_free(alloc, g.sent);
-  hr2di_free(alloc, g.received);
-  hr2di_free(alloc, g.vector);
-  hr2di_free(alloc, g.rule);
+  hr2di_alloc_free(alloc, g.sent);
+  hr2di_alloc_free(alloc, g.received);
+  hr2di_alloc_free(alloc, g.vector);
+  hr2di_alloc_free(alloc, g.rule);
   return room ? HR2D_OK : HR2D_ENOMEM;
 }

@@ -220,7 +220,7 @@ static void nest(hr2di_cluster_tree *tree) {
   }
 }
 
-hr2d_status hr2di_cluster_tree_make(hr2di_cluster_tree *tree, const hr2d_scene *scene,
+hr2d_status hr2di_cluster_tree_init(hr2di_cluster_tree *tree, const hr2d_scene *scene,
                                     const hr2d_allocator *alloc) {
   const size_t n = scene->patches;
   *tree = (hr2di_cluster_tree){.alloc = *alloc};
@@ -237,12 +237,12 @@ hr2d_status hr2di_cluster_tree_make(hr2di_cluster_tree *tree, const hr2d_scene *
     nest(tree);
     for (uint32_t k = 0; k < n; k++) tree->patch[k] = m.item[k].patch;
   }
-  hr2di_free(alloc, m.item);
+  hr2di_alloc_free(alloc, m.item);
   return room ? HR2D_OK : HR2D_ENOMEM;
 }
 
 void hr2di_cluster_tree_clear(hr2di_cluster_tree *tree) {
-  hr2di_free(&tree->alloc, tree->cluster);
-  hr2di_free(&tree->alloc, tree->patch);
+  hr2di_alloc_free(&tree->alloc, tree->cluster);
+  hr2di_alloc_free(&tree->alloc, tree->patch);
   *tree = (hr2di_cluster_tree){.alloc = tree->alloc};
 }

@@ -42,7 +42,7 @@ typedef struct hr2di_cluster_tree {
 
 /* For a committed scene; HR2D_OK or HR2D_ENOMEM.  To be ended by hr2di_cluster_tree_clear()
    in either case. */
-hr2d_status hr2di_cluster_tree_make(hr2di_cluster_tree *tree, const hr2d_scene *scene,
+hr2d_status hr2di_cluster_tree_init(hr2di_cluster_tree *tree, const hr2d_scene *scene,
                                     const hr2d_allocator *alloc);
 void hr2di_cluster_tree_clear(hr2di_cluster_tree *tree);
 

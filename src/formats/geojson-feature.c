@@ -10,7 +10,7 @@
 static void set_label(hr2di_geojson *reader, size_t number, const char *name) {
   if (name && *name)
     snprintf(reader->label, sizeof reader->label, "feature %zu (%s)", number,
-             hr2di_quote_name(name).text);
+             hr2di_message_quote(name).text);
   else
     snprintf(reader->label, sizeof reader->label, "feature %zu", number);
 }
@@ -22,14 +22,15 @@ static hr2d_status read_choice(hr2di_geojson *reader, const json_t *properties, 
   const char *word = json_string_value(json);
   *is_second = word && strcmp(word, second) == 0;
   if (!json || *is_second || (word && strcmp(word, first) == 0)) return HR2D_OK;
-  return hr2di_fail(reader->message, HR2D_ESYNTAX, "%s: %s: must be \"%s\" or \"%s\"",
-                    reader->label, key, first, second);
+  return hr2di_message_fail(reader->message, HR2D_ESYNTAX, "%s: %s: must be \"%s\" or \"%s\"",
+                            reader->label, key, first, second);
 }
 
 static hr2d_status read_name(hr2di_geojson *reader, const json_t *name) {
   if (name && !json_is_string(name))
-    return hr2di_fail(reader->message, HR2D_ESYNTAX, "%s: name: must be a string, not %s",
-                      reader->label, hr2di_geojson_kind(name));
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: name: must be a string, not %s", reader->label,
+                              hr2di_geojson_kind(name));
   if (json_string_length(name) > 0) reader->patch.name = json_string_value(name);
   return HR2D_OK;
 }
@@ -46,9 +47,9 @@ static hr2d_status read_light(hr2di_geojson *reader, const json_t *properties) {
   if (status) return status;
   if (patch->emission_bands > 1 && patch->reflectance_bands > 1 &&
       patch->emission_bands != patch->reflectance_bands)
-    return hr2di_fail(reader->message, HR2D_ESCENE,
-                      "%s: emission has %zu bands, reflectance has %zu", reader->label,
-                      patch->emission_bands, patch->reflectance_bands);
+    return hr2di_message_fail(reader->message, HR2D_ESCENE,
+                              "%s: emission has %zu bands, reflectance has %zu", reader->label,
+                              patch->emission_bands, patch->reflectance_bands);
   patch->emission = reader->emission.value;
   patch->reflectance = reader->reflectance.value;
   return HR2D_OK;
@@ -63,12 +64,12 @@ hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, 
   reader->patch = (hr2d_patch)HR2D_PATCH_INIT;
   set_label(reader, number, json_string_value(name));
   if (!type || strcmp(type, "Feature") != 0)
-    return hr2di_fail(reader->message, HR2D_ESYNTAX,
-                      "%s: must be an object of \"type\" \"Feature\"", reader->label);
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: must be an object of \"type\" \"Feature\"", reader->label);
   if (properties && !json_is_object(properties))
-    return hr2di_fail(reader->message, HR2D_ESYNTAX,
-                      "%s: properties: must be an object, not %s", reader->label,
-                      hr2di_geojson_kind(properties));
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: properties: must be an object, not %s", reader->label,
+                              hr2di_geojson_kind(properties));
   hr2d_status status = read_name(reader, name);
   if (!status) status = read_light(reader, properties);
   if (!status) status = read_choice(reader, properties, "sides", "front", "both", &both);

@@ -32,9 +32,9 @@ static hr2d_status read_position(hr2di_geojson *reader, const path *p, size_t k)
   int numbers = size >= 2;
   for (size_t m = 0; m < size; m++) numbers &= json_is_number(json_array_get(position, m));
   if (!numbers)
-    return hr2di_fail(reader->message, HR2D_ESYNTAX,
-                      "%s: position %zu: must be an array of two or more numbers", p->place,
-                      k + 1);
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: position %zu: must be an array of two or more numbers",
+                              p->place, k + 1);
   reader->point[k] = (hr2d_point){json_number_value(json_array_get(position, 0)),
                                   json_number_value(json_array_get(position, 1))};
   return HR2D_OK;
@@ -48,27 +48,28 @@ static hr2d_status read_points(hr2di_geojson *reader, const path *p, size_t *cou
   const size_t least = p->role == LINE ? 2 : 4;
   const size_t n = *count = json_array_size(p->positions);
   if (!json_is_array(p->positions))
-    return hr2di_fail(reader->message, HR2D_ESYNTAX,
-                      "%s: coordinates: must be an array of positions, not %s", p->place,
-                      hr2di_geojson_kind(p->positions));
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: coordinates: must be an array of positions, not %s",
+                              p->place, hr2di_geojson_kind(p->positions));
   if (n < least)
-    return hr2di_fail(reader->message, HR2D_ESYNTAX, "%s: needs %zu positions or more, has %zu",
-                      p->place, least, n);
-  if (hr2di_reserve(reader->alloc, &reader->point, &reader->point_capacity, n,
-                    sizeof *reader->point))
-    return hr2di_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", p->place);
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: needs %zu positions or more, has %zu", p->place, least, n);
+  if (hr2di_alloc_reserve(reader->alloc, &reader->point, &reader->point_capacity, n,
+                          sizeof *reader->point))
+    return hr2di_message_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", p->place);
   for (size_t k = 0; k < n; k++) {
     hr2d_status status = read_position(reader, p, k);
     if (status) return status;
     if (k && same_point(reader->point[k - 1], reader->point[k]))
-      return hr2di_fail(reader->message, HR2D_ESCENE,
-                        "%s: segment %zu has no length: positions %zu and %zu are the same",
-                        p->place, k, k, k + 1);
+      return hr2di_message_fail(
+          reader->message, HR2D_ESCENE,
+          "%s: segment %zu has no length: positions %zu and %zu are the same", p->place, k, k,
+          k + 1);
   }
   if (p->role != LINE && !same_point(reader->point[0], reader->point[n - 1]))
-    return hr2di_fail(reader->message, HR2D_ESYNTAX,
-                      "%s: a ring must be closed: its last position must repeat the first",
-                      p->place);
+    return hr2di_message_fail(
+        reader->message, HR2D_ESYNTAX,
+        "%s: a ring must be closed: its last position must repeat the first", p->place);
   return HR2D_OK;
 }
 
@@ -99,9 +100,9 @@ static double ring_area(const hr2d_point *point, size_t n) {
 static hr2d_status set_name(hr2di_geojson *reader, hr2d_patch *patch) {
   if (!patch->name || reader->segments == 1) return HR2D_OK;
   const size_t digits = 24;
-  if (hr2di_reserve(reader->alloc, &reader->name, &reader->name_capacity,
-                    strlen(patch->name) + digits, 1))
-    return hr2di_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", reader->label);
+  if (hr2di_alloc_reserve(reader->alloc, &reader->name, &reader->name_capacity,
+                          strlen(patch->name) + digits, 1))
+    return hr2di_message_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", reader->label);
   snprintf(reader->name, reader->name_capacity, "%s/%zu", patch->name, reader->added + 1);
   patch->name = reader->name;
   return HR2D_OK;
@@ -116,7 +117,8 @@ static hr2d_status add_segment(hr2di_geojson *reader, hr2d_point a, hr2d_point b
   status = reader->added++ ? hr2di_scene_add_alike(reader->scene, &patch)
                            : hr2d_scene_add(reader->scene, &patch, NULL);
   if (!status || status == HR2D_ENOMEM) return status;
-  return hr2di_fail(reader->message, status, "%s: %s", reader->label, reader->message->text);
+  return hr2di_message_fail(reader->message, status, "%s: %s", reader->label,
+                            reader->message->text);
 }
 
 static hr2d_status add_path(hr2di_geojson *reader, const path *p) {
@@ -127,8 +129,8 @@ static hr2d_status add_path(hr2di_geojson *reader, const path *p) {
   if (p->role != LINE) {
     const double area = ring_area(reader->point, n);
     if (area == 0)
-      return hr2di_fail(reader->message, HR2D_ESCENE, "%s: the ring encloses no area",
-                        p->place);
+      return hr2di_message_fail(reader->message, HR2D_ESCENE, "%s: the ring encloses no area",
+                                p->place);
     /* Counter-clockwise, fronts look into the ring. */
     const int look_in = (p->role == OUTER) != reader->faces_out;
     reverse = (area > 0) != look_in;
@@ -143,10 +145,10 @@ static hr2d_status add_path(hr2di_geojson *reader, const path *p) {
 static hr2d_status add_polygon(hr2di_geojson *reader, const json_t *rings, const char *prefix) {
   path p;
   if (json_array_size(rings) == 0)
-    return hr2di_fail(reader->message, HR2D_ESYNTAX,
-                      "%s%s%s: coordinates: must be an array of rings, not %s", reader->label,
-                      *prefix ? ": " : "", prefix,
-                      json_is_array(rings) ? "empty" : hr2di_geojson_kind(rings));
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s%s%s: coordinates: must be an array of rings, not %s",
+                              reader->label, *prefix ? ": " : "", prefix,
+                              json_is_array(rings) ? "empty" : hr2di_geojson_kind(rings));
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; !status && k < json_array_size(rings); k++) {
     p.positions = json_array_get(rings, k);
@@ -183,10 +185,10 @@ static size_t count_segments(const json_t *coordinates, const shape *s) {
 static hr2d_status add_parts(hr2di_geojson *reader, const json_t *parts, const shape *s) {
   char prefix[40];
   if (json_array_size(parts) == 0)
-    return hr2di_fail(reader->message, HR2D_ESYNTAX,
-                      "%s: coordinates: must be an array of %s, not %s", reader->label,
-                      s->polygon ? "polygons" : "lines",
-                      json_is_array(parts) ? "empty" : hr2di_geojson_kind(parts));
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: coordinates: must be an array of %s, not %s", reader->label,
+                              s->polygon ? "polygons" : "lines",
+                              json_is_array(parts) ? "empty" : hr2di_geojson_kind(parts));
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; !status && k < json_array_size(parts); k++) {
     snprintf(prefix, sizeof prefix, "%s %zu", s->polygon ? "polygon" : "line", k + 1);
@@ -199,24 +201,25 @@ hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry
   if (!geometry) return HR2D_OK;
   const char *type = json_string_value(json_object_get(geometry, "type"));
   if (!type)
-    return hr2di_fail(reader->message, HR2D_ESYNTAX,
-                      "%s: geometry: must be an object with a \"type\"", reader->label);
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: geometry: must be an object with a \"type\"", reader->label);
   const size_t count = sizeof shapes / sizeof *shapes;
   size_t k = 0;
   while (k < count && strcmp(type, shapes[k].type) != 0) k++;
   if (k == count)
-    return hr2di_fail(reader->message, HR2D_ESYNTAX,
-                      "%s: geometry: %s has no patches; use LineString, Polygon, "
-                      "MultiLineString or MultiPolygon",
-                      reader->label, hr2di_quote_name(type).text);
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: geometry: %s has no patches; use LineString, Polygon, "
+                              "MultiLineString or MultiPolygon",
+                              reader->label, hr2di_message_quote(type).text);
   const json_t *coordinates = json_object_get(geometry, "coordinates");
   reader->segments = count_segments(coordinates, &shapes[k]);
   reader->added = 0;
   if (reader->segments > 1 && reader->patch.name && strlen(reader->patch.name) > MOST_NAME)
-    return hr2di_fail(reader->message, HR2D_ESYNTAX,
-                      "%s: name: must not have more than %d bytes where it is for several "
-                      "segments",
-                      reader->label, MOST_NAME);
+    return hr2di_message_fail(
+        reader->message, HR2D_ESYNTAX,
+        "%s: name: must not have more than %d bytes where it is for several "
+        "segments",
+        reader->label, MOST_NAME);
   if (shapes[k].multi) return add_parts(reader, coordinates, &shapes[k]);
   return (shapes[k].polygon ? add_polygon : add_line)(reader, coordinates, "");
 }

@@ -117,7 +117,8 @@ static hr2d_status fail_at(hr2di_message *message, const char *text, const char 
     column = *text == '\n' ? 1 : column + !continues;
     line += *text == '\n';
   }
-  return hr2di_fail(message, HR2D_ESYNTAX, "line %lu, column %lu: %s", line, column, what);
+  return hr2di_message_fail(message, HR2D_ESYNTAX, "line %lu, column %lu: %s", line, column,
+                            what);
 }
 
 static hr2d_status fail_error(hr2di_message *message, const source *s,
@@ -125,9 +126,9 @@ static hr2d_status fail_error(hr2di_message *message, const source *s,
   const int before = error->line == 1 ? (int)s->pad + AROUND : 0;
   /* jansson's own text names a flag of its interface. */
   const int nul = json_error_code(error) == json_error_null_character;
-  return hr2di_fail(message, HR2D_ESYNTAX, "line %d, column %d: %s", error->line,
-                    error->column - before,
-                    nul ? "a string must not contain \\u0000" : error->text);
+  return hr2di_message_fail(message, HR2D_ESYNTAX, "line %d, column %d: %s", error->line,
+                            error->column - before,
+                            nul ? "a string must not contain \\u0000" : error->text);
 }
 
 /* The text within the array that holds it, as a reference of its own. */
@@ -163,7 +164,7 @@ hr2d_status hr2di_geojson_load(const char *text, size_t size, json_t **root,
   if (!*root || starved) {
     json_decref(*root);
     *root = NULL;
-    return hr2di_fail(message, HR2D_ENOMEM, "out of memory while parsing");
+    return hr2di_message_fail(message, HR2D_ENOMEM, "out of memory while parsing");
   }
   const char *behind = s.end;
   while (behind < last && is_space(*behind)) behind++;

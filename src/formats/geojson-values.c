@@ -24,16 +24,17 @@ const json_t *hr2di_geojson_member(const json_t *object, const char *key) {
 static hr2d_status check_value(hr2di_geojson *reader, const char *place, const char *key,
                                const json_t *json, double max) {
   if (!json_is_number(json))
-    return hr2di_fail(reader->message, HR2D_ESYNTAX,
-                      "%s: %s: must be a number or an array of numbers, not %s", place, key,
-                      hr2di_geojson_kind(json));
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: %s: must be a number or an array of numbers, not %s", place,
+                              key, hr2di_geojson_kind(json));
   const double value = json_number_value(json);
   if (value >= 0 && value <= max) return HR2D_OK;
   if (max < DBL_MAX)
-    return hr2di_fail(reader->message, HR2D_ESCENE,
-                      "%s: %s: must be between 0 and %g, not %.17g", place, key, max, value);
-  return hr2di_fail(reader->message, HR2D_ESCENE, "%s: %s: must not be negative, not %g", place,
-                    key, value);
+    return hr2di_message_fail(reader->message, HR2D_ESCENE,
+                              "%s: %s: must be between 0 and %g, not %.17g", place, key, max,
+                              value);
+  return hr2di_message_fail(reader->message, HR2D_ESCENE,
+                            "%s: %s: must not be negative, not %g", place, key, value);
 }
 
 hr2d_status hr2di_geojson_values(hr2di_geojson *reader, const char *place, const char *key,
@@ -44,11 +45,11 @@ hr2d_status hr2di_geojson_values(hr2di_geojson *reader, const char *place, const
   const int array = json_is_array(json);
   const size_t size = array ? json_array_size(json) : 1;
   if (!size)
-    return hr2di_fail(reader->message, HR2D_ESYNTAX,
-                      "%s: %s: must have a value, not be an empty array", place, key);
-  if (hr2di_reserve(reader->alloc, &values->value, &values->capacity, size,
-                    sizeof *values->value))
-    return hr2di_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", place);
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: %s: must have a value, not be an empty array", place, key);
+  if (hr2di_alloc_reserve(reader->alloc, &values->value, &values->capacity, size,
+                          sizeof *values->value))
+    return hr2di_message_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", place);
   for (size_t k = 0; k < size; k++) {
     const json_t *item = array ? json_array_get(json, k) : json;
     hr2d_status status = check_value(reader, place, key, item, max);

@@ -17,13 +17,15 @@ static hr2d_status read_medium(hr2di_geojson *reader, const json_t *members) {
   const json_t *json = hr2di_geojson_member(members, "medium");
   size_t count;
   if (json && !json_is_number(json))
-    return hr2di_fail(reader->message, HR2D_ESYNTAX, "hr2d: medium: must be a number, not %s",
-                      hr2di_geojson_kind(json));
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "hr2d: medium: must be a number, not %s",
+                              hr2di_geojson_kind(json));
   hr2d_status status =
       hr2di_geojson_values(reader, "hr2d", "medium", json, DBL_MAX, &reader->emission, &count);
   if (!status && count && reader->emission.value[0] > 0)
-    return hr2di_fail(reader->message, HR2D_EUNSUPPORTED,
-                      "hr2d: medium: an absorbing medium is not supported by this version");
+    return hr2di_message_fail(
+        reader->message, HR2D_EUNSUPPORTED,
+        "hr2d: medium: an absorbing medium is not supported by this version");
   return status;
 }
 
@@ -33,8 +35,8 @@ static hr2d_status read_scene_effects(hr2di_geojson *reader, const json_t *root,
   *background_bands = 0;
   if (!members) return HR2D_OK;
   if (!json_is_object(members))
-    return hr2di_fail(reader->message, HR2D_ESYNTAX, "hr2d: must be an object, not %s",
-                      hr2di_geojson_kind(members));
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX, "hr2d: must be an object, not %s",
+                              hr2di_geojson_kind(members));
   hr2d_status status = hr2di_geojson_values(reader, "hr2d", "background",
                                             hr2di_geojson_member(members, "background"),
                                             DBL_MAX, &reader->background, background_bands);
@@ -44,17 +46,18 @@ static hr2d_status read_scene_effects(hr2di_geojson *reader, const json_t *root,
 static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
   const char *type = json_string_value(json_object_get(root, "type"));
   if (!type)
-    return hr2di_fail(reader->message, HR2D_ESYNTAX, "not a GeoJSON FeatureCollection: %s",
-                      json_is_object(root) ? "\"type\" must be a string"
-                                           : "the outermost value is an array");
+    return hr2di_message_fail(
+        reader->message, HR2D_ESYNTAX, "not a GeoJSON FeatureCollection: %s",
+        json_is_object(root) ? "\"type\" must be a string" : "the outermost value is an array");
   if (strcmp(type, "FeatureCollection") != 0)
-    return hr2di_fail(reader->message, HR2D_ESYNTAX,
-                      "not a GeoJSON FeatureCollection: \"type\" is %s",
-                      hr2di_quote_name(type).text);
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "not a GeoJSON FeatureCollection: \"type\" is %s",
+                              hr2di_message_quote(type).text);
   const json_t *features = json_object_get(root, "features");
   if (!json_is_array(features))
-    return hr2di_fail(reader->message, HR2D_ESYNTAX, "features: must be an array, not %s",
-                      hr2di_geojson_kind(features));
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "features: must be an array, not %s",
+                              hr2di_geojson_kind(features));
   size_t background_bands;
   hr2d_status status = read_scene_effects(reader, root, &background_bands);
   for (size_t k = 0; !status && k < json_array_size(features); k++)
@@ -74,10 +77,10 @@ hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size)
   status = read_collection(&reader, root);
 
   json_decref(root);
-  hr2di_free(reader.alloc, reader.background.value);
-  hr2di_free(reader.alloc, reader.emission.value);
-  hr2di_free(reader.alloc, reader.reflectance.value);
-  hr2di_free(reader.alloc, reader.point);
-  hr2di_free(reader.alloc, reader.name);
+  hr2di_alloc_free(reader.alloc, reader.background.value);
+  hr2di_alloc_free(reader.alloc, reader.emission.value);
+  hr2di_alloc_free(reader.alloc, reader.reflectance.value);
+  hr2di_alloc_free(reader.alloc, reader.point);
+  hr2di_alloc_free(reader.alloc, reader.name);
   return status;
 }

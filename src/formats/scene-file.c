@@ -27,9 +27,11 @@ static hr2d_status add_text(hr2d_scene *scene, const char *text, size_t size) {
 static hr2d_status check_call(hr2d_scene *scene, int source_given) {
   if (!scene) return HR2D_EINVAL;
   hr2di_message *message = hr2di_scene_message(scene);
-  if (!source_given) return hr2di_fail(message, HR2D_EINVAL, "there is nothing to read from");
+  if (!source_given)
+    return hr2di_message_fail(message, HR2D_EINVAL, "there is nothing to read from");
   if (hr2di_scene_committed(scene))
-    return hr2di_fail(message, HR2D_ESTATE, "the scene is committed: nothing can be added");
+    return hr2di_message_fail(message, HR2D_ESTATE,
+                              "the scene is committed: nothing can be added");
   return HR2D_OK;
 }
 
@@ -47,6 +49,6 @@ hr2d_status hr2d_scene_read(hr2d_scene *scene, const char *path) {
   status = hr2di_file_read(alloc, path, &text, &size, hr2di_scene_message(scene));
   if (status) return status;
   status = add_text(scene, text, size);
-  hr2di_free(alloc, text);
+  hr2di_alloc_free(alloc, text);
   return status;
 }

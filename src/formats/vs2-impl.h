@@ -12,15 +12,15 @@
 #include "base/message.h"
 
 /* A part of the text. */
-typedef struct hr2di_span {
+typedef struct hr2di_vs2_span {
   const char *at, *end;
-} hr2di_span;
+} hr2di_vs2_span;
 
 /* Takes the next line off `text`, without its end: LF, CR LF, or CR.  0 if there is none. */
-int hr2di_vs2_line(hr2di_span *text, hr2di_span *line);
+int hr2di_vs2_line(hr2di_vs2_span *text, hr2di_vs2_span *line);
 
 /* Takes the next word off `line`; 0 if there is none before its end or a comment. */
-int hr2di_vs2_word(hr2di_span *line, hr2di_span *word);
+int hr2di_vs2_word(hr2di_vs2_span *line, hr2di_vs2_span *word);
 
 typedef struct hr2di_vs2 {
   hr2d_scene *scene;
@@ -39,16 +39,16 @@ typedef struct hr2di_vs2 {
 
 /* Each takes the next field off `line`; `what` is its name in messages.  A number is finite;
    of an integer beyond a long long the nearest is taken, which no vertex or surface has. */
-hr2d_status hr2di_vs2_field(hr2di_vs2 *reader, hr2di_span *line, const char *what);
-hr2d_status hr2di_vs2_number(hr2di_vs2 *reader, hr2di_span *line, const char *what,
+hr2d_status hr2di_vs2_field(hr2di_vs2 *reader, hr2di_vs2_span *line, const char *what);
+hr2d_status hr2di_vs2_number(hr2di_vs2 *reader, hr2di_vs2_span *line, const char *what,
                              double *value);
-hr2d_status hr2di_vs2_integer(hr2di_vs2 *reader, hr2di_span *line, const char *what,
+hr2d_status hr2di_vs2_integer(hr2di_vs2 *reader, hr2di_vs2_span *line, const char *what,
                               long long *value);
 
 /* A name: UTF-8, as names of patches are. */
-hr2d_status hr2di_vs2_name(hr2di_vs2 *reader, hr2di_span *line);
+hr2d_status hr2di_vs2_name(hr2di_vs2 *reader, hr2di_vs2_span *line);
 
 /* The field at hand for messages. */
-hr2di_quote hr2di_vs2_quote(hr2di_vs2 *reader);
+hr2di_message_quoted hr2di_vs2_quote(hr2di_vs2 *reader);
 
 #endif

@@ -14,7 +14,7 @@
 
 /* The letter of a record in upper case; E for every word that begins with it, as in "End
    of data", '*' and '/' for what begins with them; 0 for any other word. */
-static char record_letter(hr2di_span word) {
+static char record_letter(hr2di_vs2_span word) {
   const char c = *word.at, upper = c >= 'a' && c <= 'z' ? (char)(c - 'a' + 'A') : c;
   if (upper == 'E' || upper == '*' || upper == '/') return upper;
   return word.end - word.at == 1 ? upper : '\0';
@@ -22,7 +22,7 @@ static char record_letter(hr2di_span word) {
 
 /* Comments do not decide: JSON is commented too, against its rules. */
 int hr2di_vs2_recognise(const char *text, size_t size) {
-  hr2di_span rest = {text, text + size}, line, word;
+  hr2di_vs2_span rest = {text, text + size}, line, word;
   while (hr2di_vs2_line(&rest, &line)) {
     if (!hr2di_vs2_word(&line, &word)) continue;
     const char letter = record_letter(word);
@@ -31,68 +31,72 @@ int hr2di_vs2_recognise(const char *text, size_t size) {
   return 0;
 }
 
-static hr2d_status end_of_record(hr2di_vs2 *reader, hr2di_span *line) {
-  hr2di_span rest = *line, word;
+static hr2d_status end_of_record(hr2di_vs2 *reader, hr2di_vs2_span *line) {
+  hr2di_vs2_span rest = *line, word;
   if (!hr2di_vs2_word(&rest, &word)) return HR2D_OK;
   hr2d_status status = hr2di_vs2_field(reader, line, "text behind the last field");
   if (status) return status;
-  return hr2di_fail(reader->message, HR2D_ESYNTAX, "line %zu: text behind the last field: %s",
-                    reader->line, hr2di_vs2_quote(reader).text);
+  return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                            "line %zu: text behind the last field: %s", reader->line,
+                            hr2di_vs2_quote(reader).text);
 }
 
 /* The number of a vertex or surface, of which there were `before`. */
-static hr2d_status read_sequence(hr2di_vs2 *reader, hr2di_span *line, const char *what,
+static hr2d_status read_sequence(hr2di_vs2 *reader, hr2di_vs2_span *line, const char *what,
                                  size_t before) {
   long long number;
   hr2d_status status = hr2di_vs2_integer(reader, line, "number", &number);
   if (status) return status;
   if (number > 0 && (unsigned long long)number == before + 1) return HR2D_OK;
   if (number > 0 && (unsigned long long)number <= before)
-    return hr2di_fail(reader->message, HR2D_ESYNTAX, "line %zu: %s %lld is there already",
-                      reader->line, what, number);
-  return hr2di_fail(reader->message, HR2D_ESYNTAX, "line %zu: %s %s where %zu comes next",
-                    reader->line, what, hr2di_vs2_quote(reader).text, before + 1);
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "line %zu: %s %lld is there already", reader->line, what, number);
+  return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                            "line %zu: %s %s where %zu comes next", reader->line, what,
+                            hr2di_vs2_quote(reader).text, before + 1);
 }
 
-static hr2d_status read_geometry(hr2di_vs2 *reader, hr2di_span *line) {
+static hr2d_status read_geometry(hr2di_vs2 *reader, hr2di_vs2_span *line) {
   long long dimensions;
   hr2d_status status = hr2di_vs2_integer(reader, line, "geometry", &dimensions);
   if (!status && dimensions != 2)
-    status = hr2di_fail(reader->message, HR2D_ESYNTAX, "line %zu: geometry must be 2, not %s",
-                        reader->line, hr2di_vs2_quote(reader).text);
+    status = hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                                "line %zu: geometry must be 2, not %s", reader->line,
+                                hr2di_vs2_quote(reader).text);
   return status ? status : end_of_record(reader, line);
 }
 
-static hr2d_status read_vertex(hr2di_vs2 *reader, hr2di_span *line) {
+static hr2d_status read_vertex(hr2di_vs2 *reader, hr2di_vs2_span *line) {
   hr2d_point point;
   hr2d_status status = read_sequence(reader, line, "vertex", reader->vertices);
   if (!status) status = hr2di_vs2_number(reader, line, "x", &point.x);
   if (!status) status = hr2di_vs2_number(reader, line, "y", &point.y);
   if (!status) status = end_of_record(reader, line);
   if (status) return status;
-  if (hr2di_reserve(reader->alloc, &reader->vertex, &reader->vertex_capacity,
-                    reader->vertices + 1, sizeof *reader->vertex))
-    return hr2di_fail(reader->message, HR2D_ENOMEM, "line %zu: out of memory", reader->line);
+  if (hr2di_alloc_reserve(reader->alloc, &reader->vertex, &reader->vertex_capacity,
+                          reader->vertices + 1, sizeof *reader->vertex))
+    return hr2di_message_fail(reader->message, HR2D_ENOMEM, "line %zu: out of memory",
+                              reader->line);
   reader->vertex[reader->vertices++] = point;
   return HR2D_OK;
 }
 
-static hr2d_status read_end(hr2di_vs2 *reader, hr2di_span *line, const char *what,
+static hr2d_status read_end(hr2di_vs2 *reader, hr2di_vs2_span *line, const char *what,
                             hr2d_point *point) {
   long long number;
   hr2d_status status = hr2di_vs2_integer(reader, line, what, &number);
   if (status) return status;
   if (number < 1 || (unsigned long long)number > reader->vertices)
-    return hr2di_fail(reader->message, HR2D_ESCENE,
-                      "line %zu: %s: there is no vertex %s above this line", reader->line, what,
-                      hr2di_vs2_quote(reader).text);
+    return hr2di_message_fail(reader->message, HR2D_ESCENE,
+                              "line %zu: %s: there is no vertex %s above this line",
+                              reader->line, what, hr2di_vs2_quote(reader).text);
   *point = reader->vertex[number - 1];
   return HR2D_OK;
 }
 
 /* obs, bas and cmb say what View2D is to leave out or to add up; here they have to be
    integers, and that is all. */
-static hr2d_status skip_integers(hr2di_vs2 *reader, hr2di_span *line) {
+static hr2d_status skip_integers(hr2di_vs2 *reader, hr2di_vs2_span *line) {
   static const char *const names[] = {"obs", "bas", "cmb"};
   hr2d_status status = HR2D_OK;
   long long ignored;
@@ -101,19 +105,20 @@ static hr2d_status skip_integers(hr2di_vs2 *reader, hr2di_span *line) {
   return status;
 }
 
-static hr2d_status read_reflectance(hr2di_vs2 *reader, hr2di_span *line, double *reflectance) {
+static hr2d_status read_reflectance(hr2di_vs2 *reader, hr2di_vs2_span *line,
+                                    double *reflectance) {
   double emittance;
   hr2d_status status = hr2di_vs2_number(reader, line, "emit", &emittance);
   if (status) return status;
   if (!(emittance >= 0 && emittance <= 1))
-    return hr2di_fail(reader->message, HR2D_ESCENE,
-                      "line %zu: emit must be between 0 and 1, not %s", reader->line,
-                      hr2di_vs2_quote(reader).text);
+    return hr2di_message_fail(reader->message, HR2D_ESCENE,
+                              "line %zu: emit must be between 0 and 1, not %s", reader->line,
+                              hr2di_vs2_quote(reader).text);
   *reflectance = 1 - emittance;
   return HR2D_OK;
 }
 
-static hr2d_status read_surface(hr2di_vs2 *reader, hr2di_span *line) {
+static hr2d_status read_surface(hr2di_vs2 *reader, hr2di_vs2_span *line) {
   double reflectance;
   hr2d_patch patch = {.reflectance = &reflectance, .reflectance_bands = 1};
   hr2d_status status = read_sequence(reader, line, "surface", reader->surfaces);
@@ -127,13 +132,13 @@ static hr2d_status read_surface(hr2di_vs2 *reader, hr2di_span *line) {
   patch.name = reader->word;
   status = hr2d_scene_add(reader->scene, &patch, NULL);
   if (status)
-    return hr2di_fail(reader->message, status, "line %zu: %s", reader->line,
-                      reader->message->text);
+    return hr2di_message_fail(reader->message, status, "line %zu: %s", reader->line,
+                              reader->message->text);
   reader->surfaces++;
   return HR2D_OK;
 }
 
-static hr2d_status read_record(hr2di_vs2 *reader, hr2di_span line, char letter) {
+static hr2d_status read_record(hr2di_vs2 *reader, hr2di_vs2_span line, char letter) {
   hr2d_status status = hr2di_vs2_field(reader, &line, "the record");
   if (status) return status;
   switch (letter) {
@@ -147,34 +152,35 @@ static hr2d_status read_record(hr2di_vs2 *reader, hr2di_span line, char letter) 
   case 'S':
     return read_surface(reader, &line);
   case 'O':
-    return hr2di_fail(reader->message, HR2D_EUNSUPPORTED,
-                      "line %zu: an obstruction (O) is not supported by this version; a "
-                      "surface (S) obstructs as well",
-                      reader->line);
+    return hr2di_message_fail(
+        reader->message, HR2D_EUNSUPPORTED,
+        "line %zu: an obstruction (O) is not supported by this version; a "
+        "surface (S) obstructs as well",
+        reader->line);
   default:
-    return hr2di_fail(reader->message, HR2D_ESYNTAX, "line %zu: unknown record %s",
-                      reader->line, hr2di_vs2_quote(reader).text);
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX, "line %zu: unknown record %s",
+                              reader->line, hr2di_vs2_quote(reader).text);
   }
 }
 
-static hr2d_status read_records(hr2di_vs2 *reader, hr2di_span text) {
+static hr2d_status read_records(hr2di_vs2 *reader, hr2di_vs2_span text) {
   hr2d_status status = HR2D_OK;
-  hr2di_span line, word;
+  hr2di_vs2_span line, word;
   int ended = 0;
   while (!status && hr2di_vs2_line(&text, &line)) {
     reader->line++;
-    hr2di_span rest = line;
+    hr2di_vs2_span rest = line;
     const char letter = hr2di_vs2_word(&rest, &word) ? record_letter(word) : '/';
     if (letter == '/') continue;
     if (ended)
-      return hr2di_fail(reader->message, HR2D_ESYNTAX,
-                        "line %zu: text behind the end of the data", reader->line);
+      return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                                "line %zu: text behind the end of the data", reader->line);
     ended = letter == 'E' || letter == '*';
     if (!ended) status = read_record(reader, line, letter);
   }
   if (!status && reader->surfaces == 0)
-    return hr2di_fail(reader->message, HR2D_ESCENE, "line %zu: the data end without a surface",
-                      reader->line);
+    return hr2di_message_fail(reader->message, HR2D_ESCENE,
+                              "line %zu: the data end without a surface", reader->line);
   return status;
 }
 
@@ -185,10 +191,10 @@ hr2d_status hr2di_vs2_read(hr2d_scene *scene, const char *text, size_t size) {
   /* Of this thread only, and only around strtod(): others may print meanwhile. */
   reader.numbers = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
   if (!reader.numbers)
-    return hr2di_fail(reader.message, HR2D_ENOMEM, "out of memory for a locale");
-  const hr2d_status status = read_records(&reader, (hr2di_span){text, text + size});
+    return hr2di_message_fail(reader.message, HR2D_ENOMEM, "out of memory for a locale");
+  const hr2d_status status = read_records(&reader, (hr2di_vs2_span){text, text + size});
   freelocale(reader.numbers);
-  hr2di_free(reader.alloc, reader.word);
-  hr2di_free(reader.alloc, reader.vertex);
+  hr2di_alloc_free(reader.alloc, reader.word);
+  hr2di_alloc_free(reader.alloc, reader.vertex);
   return status;
 }

@@ -30,7 +30,7 @@ static double length(const hr2d_segment *s) {
   return hypot(s->b.x - s->a.x, s->b.y - s->a.y);
 }
 
-double hr2di_rounding(const hr2d_segment *i, const hr2d_segment *j) {
+double hr2di_crossings_rounding(const hr2d_segment *i, const hr2d_segment *j) {
   const double shorter = fmin(length(i), length(j));
   const double scene = fmin(1, 0x1p+30 * shorter);
   return 4 * 0x1p-52 * fmax(fmax(largest(i), largest(j)), scene);
@@ -48,7 +48,7 @@ static int clear_of(const hr2d_segment *s, const hr2d_segment *t) {
 /* An end of one segment against the other's line. */
 typedef struct end {
   hr2d_point at;
-  hr2di_wide side; /* twice the signed area; its sign is exact */
+  hr2di_scaled side; /* twice the signed area; its sign is exact */
   double distance;
 } end;
 
@@ -59,14 +59,15 @@ typedef struct pair {
 } pair;
 
 static end measure(hr2d_point p, const hr2d_segment *line) {
-  const hr2di_vector u = hr2di_scaled_difference(line->b, line->a);
-  const hr2di_wide side = hr2di_wide_orient(line->a, line->b, p);
-  end e = {.at = p, .side = hr2di_wide_make(side.m, side.e)};
-  e.distance = fabs(hr2di_wide_value(hr2di_wide_div(e.side, hr2di_wide_length(&u))));
+  const hr2di_vector u = hr2di_vector_difference_scaled(line->b, line->a);
+  const hr2di_scaled side = hr2di_orient_scaled(line->a, line->b, p);
+  end e = {.at = p, .side = hr2di_scaled_of(side.m, side.e)};
+  e.distance =
+      fabs(hr2di_scaled_value(hr2di_scaled_div(e.side, hr2di_vector_length_scaled(&u))));
   return e;
 }
 
-double hr2di_line_distance(hr2d_point p, const hr2d_segment *s) {
+double hr2di_crossings_distance(hr2d_point p, const hr2d_segment *s) {
   return measure(p, s).distance;
 }
 
@@ -77,7 +78,7 @@ static pair make_pair(const hr2d_segment *i, const hr2d_segment *j) {
                 .ib = measure(i->b, j),
                 .ja = measure(j->a, i),
                 .jb = measure(j->b, i),
-                .rounding = hr2di_rounding(i, j)};
+                .rounding = hr2di_crossings_rounding(i, j)};
 }
 
 static double along(hr2d_point p, int by_x) {
@@ -135,11 +136,11 @@ static hr2d_point into_box(hr2d_point p, const hr2d_segment *s) {
 /* The ends of i are on different sides of j, so that no digit is lost in the fraction.
    The boxes keep a crossing with a level or upright segment exactly on it. */
 static hr2d_point crossing(const pair *p) {
-  const hr2di_wide a = {fabs(p->ia.side.m), p->ia.side.e},
-                   b = {fabs(p->ib.side.m), p->ib.side.e};
-  const hr2di_wide whole = hr2di_wide_add(a, b);
-  const int from_a = hr2di_wide_sub(a, b).m <= 0;
-  const double t = hr2di_wide_value(hr2di_wide_div(from_a ? a : b, whole));
+  const hr2di_scaled a = {fabs(p->ia.side.m), p->ia.side.e},
+                     b = {fabs(p->ib.side.m), p->ib.side.e};
+  const hr2di_scaled whole = hr2di_scaled_add(a, b);
+  const int from_a = hr2di_scaled_sub(a, b).m <= 0;
+  const double t = hr2di_scaled_value(hr2di_scaled_div(from_a ? a : b, whole));
   const hr2d_point near = from_a ? p->i->a : p->i->b, far = from_a ? p->i->b : p->i->a;
   const hr2d_point x = {near.x + t * (far.x - near.x), near.y + t * (far.y - near.y)};
   return into_box(into_box(x, p->i), p->j);
@@ -167,7 +168,7 @@ static int cross(const pair *p, hr2di_meeting *m) {
   return 1;
 }
 
-hr2di_meeting hr2di_meet(const hr2d_segment *i, const hr2d_segment *j) {
+hr2di_meeting hr2di_crossings_meet(const hr2d_segment *i, const hr2d_segment *j) {
   hr2di_meeting m = {.kind = HR2DI_MEET_FREE};
   if (clear_of(i, j) || clear_of(j, i)) return m;
   const pair p = make_pair(i, j);
@@ -195,9 +196,10 @@ static int meet_in_y(const hr2d_segment *i, const hr2d_segment *j) {
          fmin(j->a.y, j->b.y) <= fmax(i->a.y, i->b.y) + MARGIN;
 }
 
-hr2d_status hr2di_sweep(const hr2d_allocator *alloc, const hr2d_segment *first, size_t count,
-                        size_t stride, hr2d_status (*visit)(void *ctx, size_t i, size_t j),
-                        void *ctx) {
+hr2d_status hr2di_crossings_sweep(const hr2d_allocator *alloc, const hr2d_segment *first,
+                                  size_t count, size_t stride,
+                                  hr2d_status (*visit)(void *ctx, size_t i, size_t j),
+                                  void *ctx) {
   span *spans = hr2di_alloc(alloc, count, sizeof *spans);
   if (!spans) return HR2D_ENOMEM;
   for (size_t k = 0; k < count; k++) {
@@ -212,6 +214,6 @@ hr2d_status hr2di_sweep(const hr2d_allocator *alloc, const hr2d_segment *first, 
       if (!meet_in_y(at(first, stride, i), at(first, stride, j))) continue;
       status = i < j ? visit(ctx, i, j) : visit(ctx, j, i);
     }
-  hr2di_free(alloc, spans);
+  hr2di_alloc_free(alloc, spans);
   return status;
 }

@@ -31,19 +31,20 @@ typedef struct hr2di_meeting {
 } hr2di_meeting;
 
 /* What is called a rounding for these two; below 2^-48. */
-double hr2di_rounding(const hr2d_segment *i, const hr2d_segment *j);
+double hr2di_crossings_rounding(const hr2d_segment *i, const hr2d_segment *j);
 
 /* Coordinates are below 2. */
-hr2di_meeting hr2di_meet(const hr2d_segment *i, const hr2d_segment *j);
+hr2di_meeting hr2di_crossings_meet(const hr2d_segment *i, const hr2d_segment *j);
 
 /* How far p is from the line of s, to a few units in the last place. */
-double hr2di_line_distance(hr2d_point p, const hr2d_segment *s);
+double hr2di_crossings_distance(hr2d_point p, const hr2d_segment *s);
 
 /* Calls `visit` with i < j for each two segments whose boxes are within a rounding of
    meeting, until it returns other than HR2D_OK, and returns that; HR2D_ENOMEM if there
    is no memory.  Segments lie `stride` bytes apart. */
-hr2d_status hr2di_sweep(const hr2d_allocator *alloc, const hr2d_segment *first, size_t count,
-                        size_t stride, hr2d_status (*visit)(void *ctx, size_t i, size_t j),
-                        void *ctx);
+hr2d_status hr2di_crossings_sweep(const hr2d_allocator *alloc, const hr2d_segment *first,
+                                  size_t count, size_t stride,
+                                  hr2d_status (*visit)(void *ctx, size_t i, size_t j),
+                                  void *ctx);
 
 #endif

@@ -67,18 +67,19 @@ static int must_part(const hr2di_cut_wall *i, const hr2di_cut_wall *j) {
     for (int b = HR2DI_FORWARD; b <= HR2DI_BACKWARD; b++) {
       if (!(i->sides & a) || !(j->sides & b)) continue;
       const hr2d_segment s = directed(i, a), t = directed(j, b);
-      const hr2di_meeting m = hr2di_meet(&s, &t);
+      const hr2di_meeting m = hr2di_crossings_meet(&s, &t);
       if (m.kind == HR2DI_MEET_FACE) return 1;
-      if (m.kind == HR2DI_MEET_LIE && hypot(m.to.x - m.from.x, m.to.y - m.from.y) <=
-                                          HR2DI_SHORT_STRETCH * hr2di_rounding(&s, &t))
+      if (m.kind == HR2DI_MEET_LIE &&
+          hypot(m.to.x - m.from.x, m.to.y - m.from.y) <=
+              HR2DI_SHORT_STRETCH * hr2di_crossings_rounding(&s, &t))
         return 1;
     }
   return 0;
 }
 
 static hr2d_status note_partners(finder *f, size_t i, size_t j) {
-  if (hr2di_reserve(f->alloc, &f->partners, &f->pair_capacity, f->pairs + 1,
-                    sizeof *f->partners))
+  if (hr2di_alloc_reserve(f->alloc, &f->partners, &f->pair_capacity, f->pairs + 1,
+                          sizeof *f->partners))
     return HR2D_ENOMEM;
   const int part = must_part(&f->wall[i], &f->wall[j]);
   f->partners[f->pairs++] = (partners){i, j, part};
@@ -89,15 +90,15 @@ static hr2d_status note_partners(finder *f, size_t i, size_t j) {
 static hr2d_status note_meeting(void *ctx, size_t i, size_t j) {
   finder *f = ctx;
   const hr2d_segment *s = &f->wall[i].s, *t = &f->wall[j].s;
-  const hr2di_meeting m = hr2di_meet(s, t);
+  const hr2di_meeting m = hr2di_crossings_meet(s, t);
   if (m.together) return note_partners(f, i, j);
   if (m.kind != HR2DI_MEET_CROSS) return HR2D_OK;
-  if (hr2di_reserve(f->alloc, &f->crossing, &f->crossing_capacity, f->crossings + 1,
-                    sizeof *f->crossing))
+  if (hr2di_alloc_reserve(f->alloc, &f->crossing, &f->crossing_capacity, f->crossings + 1,
+                          sizeof *f->crossing))
     return HR2D_ENOMEM;
   const int e = f->cuts->exponent;
   const hr2d_point at = {ldexp(ldexp(m.from.x, e), -e), ldexp(ldexp(m.from.y, e), -e)};
-  const double reach = 2 * hr2di_rounding(s, t);
+  const double reach = 2 * hr2di_crossings_rounding(s, t);
   f->crossing[f->crossings++] = (crossing){i, j, at, m.sine, 0, reach, 4 * reach / m.sine};
   return HR2D_OK;
 }
@@ -155,8 +156,8 @@ static int is_inside(const hr2d_segment *s, hr2d_point p) {
 }
 
 static int serves(const finder *f, size_t wall, hr2d_point p, double reach) {
-  return is_on(f, wall, p) ||
-         (is_inside(&f->wall[wall].s, p) && hr2di_line_distance(p, &f->wall[wall].s) <= reach);
+  return is_on(f, wall, p) || (is_inside(&f->wall[wall].s, p) &&
+                               hr2di_crossings_distance(p, &f->wall[wall].s) <= reach);
 }
 
 /* The point chosen so far, and how far it is from the crossing; below 0 if both walls
@@ -210,7 +211,7 @@ static hr2d_status make_room(finder *f) {
   hr2di_cuts *cuts = f->cuts;
   const size_t room = 2 * f->crossings + 4 * f->pairs;
   cuts->cut = hr2di_alloc(f->alloc, room, sizeof *cuts->cut);
-  cuts->of = hr2di_calloc(f->alloc, f->walls, sizeof *cuts->of);
+  cuts->of = hr2di_alloc_zero(f->alloc, f->walls, sizeof *cuts->of);
   if (!cuts->cut || !cuts->of) return HR2D_ENOMEM;
   for (size_t k = 0; k < f->crossings; k++) {
     cuts->of[f->crossing[k].i].end++;
@@ -273,13 +274,14 @@ static int by_position(const void *left, const void *right) {
 
 static hr2d_status find(finder *f) {
   hr2di_cuts *cuts = f->cuts;
-  if (hr2di_sweep(f->alloc, &f->wall[0].s, f->walls, sizeof *f->wall, note_meeting, f))
+  if (hr2di_crossings_sweep(f->alloc, &f->wall[0].s, f->walls, sizeof *f->wall, note_meeting,
+                            f))
     return HR2D_ENOMEM;
   if (f->crossings == 0 && !f->parted) return HR2D_OK;
   if (f->crossings > 0) qsort(f->crossing, f->crossings, sizeof *f->crossing, steepest_first);
   if (make_nodes(f) || make_room(f) ||
-      hr2di_reserve(f->alloc, &cuts->place, &cuts->place_capacity, cuts->places + f->crossings,
-                    sizeof *cuts->place))
+      hr2di_alloc_reserve(f->alloc, &cuts->place, &cuts->place_capacity,
+                          cuts->places + f->crossings, sizeof *cuts->place))
     return HR2D_ENOMEM;
   for (size_t k = 0; k < f->crossings; k++) settle(f, &f->crossing[k]);
   cut_partners(f);
@@ -291,24 +293,24 @@ static hr2d_status find(finder *f) {
 }
 
 static void drop_cuts(hr2di_cuts *cuts) {
-  hr2di_free(cuts->alloc, cuts->cut);
-  hr2di_free(cuts->alloc, cuts->of);
+  hr2di_alloc_free(cuts->alloc, cuts->cut);
+  hr2di_alloc_free(cuts->alloc, cuts->of);
   cuts->cut = NULL;
   cuts->of = NULL;
   cuts->count = 0;
 }
 
-hr2d_status hr2di_find_cuts(hr2di_cuts *cuts, const hr2di_cut_wall *wall, size_t walls) {
+hr2d_status hr2di_cuts_init(hr2di_cuts *cuts, const hr2di_cut_wall *wall, size_t walls) {
   finder f = {.alloc = cuts->alloc, .wall = wall, .walls = walls, .cuts = cuts};
   drop_cuts(cuts);
   const hr2d_status status = find(&f);
-  hr2di_free(f.alloc, f.crossing);
-  hr2di_free(f.alloc, f.partners);
-  hr2di_free(f.alloc, f.node);
+  hr2di_alloc_free(f.alloc, f.crossing);
+  hr2di_alloc_free(f.alloc, f.partners);
+  hr2di_alloc_free(f.alloc, f.node);
   return status;
 }
 
-void hr2di_free_cuts(hr2di_cuts *cuts) {
+void hr2di_cuts_clear(hr2di_cuts *cuts) {
   drop_cuts(cuts);
-  hr2di_free(cuts->alloc, cuts->place);
+  hr2di_alloc_free(cuts->alloc, cuts->place);
 }

@@ -42,8 +42,8 @@ typedef struct hr2di_cuts {
 /* Replaces the cuts by those of `walls` walls, no two of which have the same segment,
    and adds to the places.  Coordinates are below 2.  HR2D_OK or HR2D_ENOMEM; without cuts
    there is no `of`. */
-hr2d_status hr2di_find_cuts(hr2di_cuts *cuts, const hr2di_cut_wall *wall, size_t walls);
+hr2d_status hr2di_cuts_init(hr2di_cuts *cuts, const hr2di_cut_wall *wall, size_t walls);
 
-void hr2di_free_cuts(hr2di_cuts *cuts);
+void hr2di_cuts_clear(hr2di_cuts *cuts);
 
 #endif

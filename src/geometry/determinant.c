@@ -4,7 +4,7 @@
 #include "geometry/determinant.h"
 
 static double sum_tail(double x, double y, double s) {
-  return hr2di_diff_tail(x, -y, s);
+  return hr2di_tail_of_difference(x, -y, s);
 }
 
 /* Adds x to an expansion: n doubles that do not overlap, smallest first, none of
@@ -29,7 +29,7 @@ static double exact_det(const hr2di_vector *u, const hr2di_vector *v) {
     for (int k = 0; k < 4; k++) {
       const double x = left[term][k & 1], y = right[term][k >> 1], p = x * y;
       if (p == 0) continue;
-      n = grow(expansion, n, hr2di_product_tail(x, y, p));
+      n = grow(expansion, n, hr2di_tail_of_product(x, y, p));
       n = grow(expansion, n, p);
     }
   for (int k = 0; k < n; k++) sum += expansion[k];
@@ -44,7 +44,7 @@ double hr2di_det(const hr2di_vector *u, const hr2di_vector *v) {
 
 /* Then a difference is a multiple of 2^-852 of the largest, and scaled to 2^499 each of its
    parts is one of 2^-355 at least: products and their tails stay above 2^-710. */
-int hr2di_near_in_scale(const hr2d_point *points, int count) {
+int hr2di_points_near_in_scale(const hr2d_point *points, int count) {
   double least = INFINITY, most = 0;
   for (int k = 0; k < 2 * count; k++) {
     const double x = fabs(k & 1 ? points[k / 2].y : points[k / 2].x);
@@ -54,11 +54,11 @@ int hr2di_near_in_scale(const hr2d_point *points, int count) {
   return least >= most * 0x1p-800;
 }
 
-hr2di_vector hr2di_scaled_difference(hr2d_point to, hr2d_point from) {
-  hr2di_vector v = hr2di_difference(to, from);
+hr2di_vector hr2di_vector_difference_scaled(hr2d_point to, hr2d_point from) {
+  hr2di_vector v = hr2di_vector_difference(to, from);
   if (!isfinite(v.x) || !isfinite(v.y)) {
-    v = hr2di_difference((hr2d_point){0.5 * to.x, 0.5 * to.y},
-                         (hr2d_point){0.5 * from.x, 0.5 * from.y});
+    v = hr2di_vector_difference((hr2d_point){0.5 * to.x, 0.5 * to.y},
+                                (hr2d_point){0.5 * from.x, 0.5 * from.y});
     v.e = 1;
   }
   const double size = fmax(fabs(v.x), fabs(v.y));

@@ -33,56 +33,56 @@ typedef struct hr2di_vector {
 #define HR2DI_PLAIN_MIN 0x1p-100
 #define HR2DI_PLAIN_MAX 0x1p+100
 
-static inline int hr2di_plain(hr2d_point a) {
+static inline int hr2di_point_plain(hr2d_point a) {
   const double x = fabs(a.x), y = fabs(a.y);
   return (x <= HR2DI_PLAIN_MAX) & (y <= HR2DI_PLAIN_MAX) & ((x >= HR2DI_PLAIN_MIN) | (x == 0)) &
          ((y >= HR2DI_PLAIN_MIN) | (y == 0));
 }
 
-static inline int hr2di_finite(hr2d_point a) {
+static inline int hr2di_point_finite(hr2d_point a) {
   return isfinite(a.x) && isfinite(a.y);
 }
 
 /* Whether points, other than 0, lie within 2^800 of each other: then scaled differences lose
    no bit, and their determinants are exact in sign. */
-int hr2di_near_in_scale(const hr2d_point *points, int count);
+int hr2di_points_near_in_scale(const hr2d_point *points, int count);
 
 /* The rounding error of s = x − y (Knuth). */
-static inline double hr2di_diff_tail(double x, double y, double s) {
+static inline double hr2di_tail_of_difference(double x, double y, double s) {
   const double virtual_y = x - s, virtual_x = s + virtual_y;
   return (x - virtual_x) + (virtual_y - y);
 }
 
 #ifdef FP_FAST_FMA
-static inline double hr2di_product_tail(double x, double y, double p) {
+static inline double hr2di_tail_of_product(double x, double y, double p) {
   return fma(x, y, -p);
 }
 #else
 /* The upper 26 bits (Veltkamp); x below 2^996. */
-static inline double hr2di_upper(double x) {
+static inline double hr2di_tail_upper(double x) {
   const double t = 0x1.0000002p+27 * x;
   return t - (t - x);
 }
 
 /* The rounding error of p = x·y (Dekker), exact where no part underflows; the
    same bits as from a fused multiply-add. */
-static inline double hr2di_product_tail(double x, double y, double p) {
-  const double xh = hr2di_upper(x), xl = x - xh, yh = hr2di_upper(y), yl = y - yh;
+static inline double hr2di_tail_of_product(double x, double y, double p) {
+  const double xh = hr2di_tail_upper(x), xl = x - xh, yh = hr2di_tail_upper(y), yl = y - yh;
   return xl * yl - (((p - xh * yh) - xl * yh) - xh * yl);
 }
 #endif
 
 /* to − from, unscaled. */
-static inline hr2di_vector hr2di_difference(hr2d_point to, hr2d_point from) {
+static inline hr2di_vector hr2di_vector_difference(hr2d_point to, hr2d_point from) {
   hr2di_vector v = {.x = to.x - from.x, .y = to.y - from.y};
-  v.tx = hr2di_diff_tail(to.x, from.x, v.x);
-  v.ty = hr2di_diff_tail(to.y, from.y, v.y);
+  v.tx = hr2di_tail_of_difference(to.x, from.x, v.x);
+  v.ty = hr2di_tail_of_difference(to.y, from.y, v.y);
   return v;
 }
 
 /* to − from for any finite points, its larger component in [2^499, 2^500).
    Exact unless the points' last bits lie more than 2^1000 below. */
-hr2di_vector hr2di_scaled_difference(hr2d_point to, hr2d_point from);
+hr2di_vector hr2di_vector_difference_scaled(hr2d_point to, hr2d_point from);
 
 /* u × v without the exponents of the vectors: exact sign, and relative error
    below 2·2^-53.  det(−u,v) = det(u,−v) = −det(u,v) bit for bit. */
@@ -95,8 +95,9 @@ double hr2di_det(const hr2di_vector *u, const hr2di_vector *v);
 static inline double hr2di_det_corrected(const hr2di_vector *u, const hr2di_vector *v,
                                          int *sure) {
   const double p = u->x * v->y, q = u->y * v->x, plain = p - q;
-  const double rounding = hr2di_diff_tail(p, q, plain) + (hr2di_product_tail(u->x, v->y, p) -
-                                                          hr2di_product_tail(u->y, v->x, q));
+  const double rounding =
+      hr2di_tail_of_difference(p, q, plain) +
+      (hr2di_tail_of_product(u->x, v->y, p) - hr2di_tail_of_product(u->y, v->x, q));
   const double tails = (u->x * v->ty + u->tx * v->y) - (u->y * v->tx + u->ty * v->x);
   const double det = plain + (rounding + tails);
   *sure &= fabs(det) >= 0x1p-47 * (fabs(p) + fabs(q));
@@ -104,25 +105,26 @@ static inline double hr2di_det_corrected(const hr2di_vector *u, const hr2di_vect
 }
 
 /* hr2di_det() with the exponents. */
-static inline hr2di_wide hr2di_wide_det(const hr2di_vector *u, const hr2di_vector *v) {
-  return hr2di_wide_make(hr2di_det(u, v), u->e + v->e);
+static inline hr2di_scaled hr2di_det_scaled(const hr2di_vector *u, const hr2di_vector *v) {
+  return hr2di_scaled_of(hr2di_det(u, v), u->e + v->e);
 }
 
 /* u · v, its error small against |u||v|. */
-static inline double hr2di_dot(const hr2di_vector *u, const hr2di_vector *v) {
+static inline double hr2di_vector_dot(const hr2di_vector *u, const hr2di_vector *v) {
   return u->x * v->x + u->y * v->y;
 }
 
-static inline double hr2di_length(const hr2di_vector *v) {
+static inline double hr2di_vector_length(const hr2di_vector *v) {
   return sqrt(v->x * v->x + v->y * v->y);
 }
 
-static inline hr2di_wide hr2di_wide_dot(const hr2di_vector *u, const hr2di_vector *v) {
-  return hr2di_wide_make(hr2di_dot(u, v), u->e + v->e);
+static inline hr2di_scaled hr2di_vector_dot_scaled(const hr2di_vector *u,
+                                                   const hr2di_vector *v) {
+  return hr2di_scaled_of(hr2di_vector_dot(u, v), u->e + v->e);
 }
 
-static inline hr2di_wide hr2di_wide_length(const hr2di_vector *v) {
-  return hr2di_wide_make(hr2di_length(v), v->e);
+static inline hr2di_scaled hr2di_vector_length_scaled(const hr2di_vector *v) {
+  return hr2di_scaled_of(hr2di_vector_length(v), v->e);
 }
 
 #endif

@@ -11,13 +11,13 @@
 #include "geometry/determinant.h"
 #include "geometry/orient-exact.h"
 
-#define ADD hr2di_wide_add
-#define SUB hr2di_wide_sub
-#define MUL hr2di_wide_mul
-#define DIV hr2di_wide_div
-#define NEG hr2di_wide_neg
+#define ADD hr2di_scaled_add
+#define SUB hr2di_scaled_sub
+#define MUL hr2di_scaled_mul
+#define DIV hr2di_scaled_div
+#define NEG hr2di_scaled_neg
 
-typedef hr2di_wide wide;
+typedef hr2di_scaled wide;
 
 typedef struct pair {
   hr2di_vector ab, cd, ac, bd, ad, bc;
@@ -32,8 +32,8 @@ static wide corner_area(wide length_y, wide length_z, wide dot, wide det, wide o
 }
 
 static wide crossing_area(const pair *s, wide on_i, wide on_j, wide m, wide opposite) {
-  const wide u = hr2di_wide_length(&s->ab), v = hr2di_wide_length(&s->cd);
-  const wide dot = hr2di_wide_dot(&s->ab, &s->cd), product = MUL(u, v);
+  const wide u = hr2di_vector_length_scaled(&s->ab), v = hr2di_vector_length_scaled(&s->cd);
+  const wide dot = hr2di_vector_dot_scaled(&s->ab, &s->cd), product = MUL(u, v);
   const wide part_i = MUL(u, DIV(on_i, m)), part_j = MUL(v, DIV(on_j, m));
   const wide sum = ADD(ADD(part_i, part_j), opposite);
   if (dot.m > 0) return DIV(MUL(on_i, on_j), MUL(sum, ADD(product, dot)));
@@ -41,26 +41,30 @@ static wide crossing_area(const pair *s, wide on_i, wide on_j, wide m, wide oppo
 }
 
 static wide clipped_area(const pair *s) {
-  const wide u = hr2di_wide_length(&s->ab), v = hr2di_wide_length(&s->cd);
-  const wide ac = hr2di_wide_length(&s->ac), bd = hr2di_wide_length(&s->bd);
-  const wide ad = hr2di_wide_length(&s->ad), bc = hr2di_wide_length(&s->bc);
+  const wide u = hr2di_vector_length_scaled(&s->ab), v = hr2di_vector_length_scaled(&s->cd);
+  const wide ac = hr2di_vector_length_scaled(&s->ac), bd = hr2di_vector_length_scaled(&s->bd);
+  const wide ad = hr2di_vector_length_scaled(&s->ad), bc = hr2di_vector_length_scaled(&s->bc);
   if (s->abd.m < 0 && s->cda.m < 0)
     return crossing_area(s, s->cdb, s->abc, SUB(s->abc, s->abd), bc);
   if (s->abc.m < 0 && s->cdb.m < 0)
     return crossing_area(s, s->cda, s->abd, SUB(s->cda, s->cdb), ad);
-  if (s->abd.m < 0) return corner_area(u, ac, hr2di_wide_dot(&s->ab, &s->ac), s->abc, bc);
-  if (s->abc.m < 0) return corner_area(u, bd, NEG(hr2di_wide_dot(&s->ab, &s->bd)), s->abd, ad);
-  if (s->cda.m < 0) return corner_area(v, bd, hr2di_wide_dot(&s->bd, &s->cd), s->cdb, bc);
-  return corner_area(v, ac, NEG(hr2di_wide_dot(&s->ac, &s->cd)), s->cda, ad);
+  if (s->abd.m < 0)
+    return corner_area(u, ac, hr2di_vector_dot_scaled(&s->ab, &s->ac), s->abc, bc);
+  if (s->abc.m < 0)
+    return corner_area(u, bd, NEG(hr2di_vector_dot_scaled(&s->ab, &s->bd)), s->abd, ad);
+  if (s->cda.m < 0)
+    return corner_area(v, bd, hr2di_vector_dot_scaled(&s->bd, &s->cd), s->cdb, bc);
+  return corner_area(v, ac, NEG(hr2di_vector_dot_scaled(&s->ac, &s->cd)), s->cda, ad);
 }
 
 static wide facing_area(const pair *s) {
-  const wide p = hr2di_wide_length(&s->ac), q = hr2di_wide_length(&s->bd);
-  const wide k = ADD(s->abc, s->cda), pq = MUL(p, q), e = hr2di_wide_dot(&s->ac, &s->bd);
+  const wide p = hr2di_vector_length_scaled(&s->ac), q = hr2di_vector_length_scaled(&s->bd);
+  const wide k = ADD(s->abc, s->cda), pq = MUL(p, q),
+             e = hr2di_vector_dot_scaled(&s->ac, &s->bd);
   const wide at_ad =
-      ADD(ADD(MUL(p, s->abd), MUL(q, s->cda)), MUL(k, hr2di_wide_length(&s->ad)));
+      ADD(ADD(MUL(p, s->abd), MUL(q, s->cda)), MUL(k, hr2di_vector_length_scaled(&s->ad)));
   const wide at_bc =
-      ADD(ADD(MUL(q, s->abc), MUL(p, s->cdb)), MUL(k, hr2di_wide_length(&s->bc)));
+      ADD(ADD(MUL(q, s->abc), MUL(p, s->cdb)), MUL(k, hr2di_vector_length_scaled(&s->bc)));
   wide t = {0, 0};
   if (at_ad.m > 0) t = DIV(MUL(s->abd, s->cda), at_ad);
   if (at_bc.m > 0) t = ADD(t, DIV(MUL(s->abc, s->cdb), at_bc));
@@ -68,31 +72,32 @@ static wide facing_area(const pair *s) {
 }
 
 static void set_determinants(pair *s, const hr2d_segment *i, const hr2d_segment *j) {
-  if (hr2di_near_in_scale((const hr2d_point[]){i->a, i->b, j->a, j->b}, 4)) {
-    s->abc = hr2di_wide_det(&s->ab, &s->ac);
-    s->abd = hr2di_wide_det(&s->ab, &s->bd);
-    s->cda = NEG(hr2di_wide_det(&s->cd, &s->ac));
-    s->cdb = NEG(hr2di_wide_det(&s->cd, &s->bd));
+  if (hr2di_points_near_in_scale((const hr2d_point[]){i->a, i->b, j->a, j->b}, 4)) {
+    s->abc = hr2di_det_scaled(&s->ab, &s->ac);
+    s->abd = hr2di_det_scaled(&s->ab, &s->bd);
+    s->cda = NEG(hr2di_det_scaled(&s->cd, &s->ac));
+    s->cdb = NEG(hr2di_det_scaled(&s->cd, &s->bd));
   } else {
-    s->abc = hr2di_exact_orient(i->a, i->b, j->a);
-    s->abd = hr2di_exact_orient(i->a, i->b, j->b);
-    s->cda = hr2di_exact_orient(j->a, j->b, i->a);
-    s->cdb = hr2di_exact_orient(j->a, j->b, i->b);
+    s->abc = hr2di_orient_exact(i->a, i->b, j->a);
+    s->abd = hr2di_orient_exact(i->a, i->b, j->b);
+    s->cda = hr2di_orient_exact(j->a, j->b, i->a);
+    s->cdb = hr2di_orient_exact(j->a, j->b, i->b);
   }
 }
 
-double hr2di_wide_exchange_area(const hr2d_segment *i, const hr2d_segment *j) {
-  if (!hr2di_finite(i->a) || !hr2di_finite(i->b) || !hr2di_finite(j->a) || !hr2di_finite(j->b))
+double hr2di_exchange_area_scaled(const hr2d_segment *i, const hr2d_segment *j) {
+  if (!hr2di_point_finite(i->a) || !hr2di_point_finite(i->b) || !hr2di_point_finite(j->a) ||
+      !hr2di_point_finite(j->b))
     return NAN;
   pair s;
-  s.ab = hr2di_scaled_difference(i->b, i->a);
-  s.cd = hr2di_scaled_difference(j->b, j->a);
-  s.ac = hr2di_scaled_difference(j->a, i->a);
-  s.bd = hr2di_scaled_difference(j->b, i->b);
-  s.ad = hr2di_scaled_difference(j->b, i->a);
-  s.bc = hr2di_scaled_difference(j->a, i->b);
+  s.ab = hr2di_vector_difference_scaled(i->b, i->a);
+  s.cd = hr2di_vector_difference_scaled(j->b, j->a);
+  s.ac = hr2di_vector_difference_scaled(j->a, i->a);
+  s.bd = hr2di_vector_difference_scaled(j->b, i->b);
+  s.ad = hr2di_vector_difference_scaled(j->b, i->a);
+  s.bc = hr2di_vector_difference_scaled(j->a, i->b);
   set_determinants(&s, i, j);
   if ((s.abc.m <= 0 && s.abd.m <= 0) || (s.cda.m <= 0 && s.cdb.m <= 0)) return 0;
   const int clipped = s.abc.m < 0 || s.abd.m < 0 || s.cda.m < 0 || s.cdb.m < 0;
-  return hr2di_wide_value(clipped ? clipped_area(&s) : facing_area(&s));
+  return hr2di_scaled_value(clipped ? clipped_area(&s) : facing_area(&s));
 }

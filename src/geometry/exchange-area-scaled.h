@@ -7,6 +7,6 @@
 #include <hr2d/geometry.h>
 
 /* The same formulas as in exchange-area.c, for any finite coordinates. */
-double hr2di_wide_exchange_area(const hr2d_segment *i, const hr2d_segment *j);
+double hr2di_exchange_area_scaled(const hr2d_segment *i, const hr2d_segment *j);
 
 #endif

@@ -154,8 +154,8 @@ static double area_of(const hr2d_segment *i, const hr2d_segment *j, determinants
 /* The determinants with corrections of first order, abc = NaN if that is not
    enough.  Plain coordinates; without branches. */
 static inline determinants corrected(hr2d_point a, hr2d_point b, hr2d_point c, hr2d_point d) {
-  const hr2di_vector ab = hr2di_difference(b, a), cd = hr2di_difference(d, c);
-  const hr2di_vector ac = hr2di_difference(c, a), bd = hr2di_difference(d, b);
+  const hr2di_vector ab = hr2di_vector_difference(b, a), cd = hr2di_vector_difference(d, c);
+  const hr2di_vector ac = hr2di_vector_difference(c, a), bd = hr2di_vector_difference(d, b);
   int sure = 1;
   determinants o;
   o.abc = hr2di_det_corrected(&ab, &ac, &sure);
@@ -167,14 +167,17 @@ static inline determinants corrected(hr2d_point a, hr2d_point b, hr2d_point c, h
 }
 
 static determinants exact(const hr2d_segment *i, const hr2d_segment *j) {
-  const hr2di_vector ab = hr2di_difference(i->b, i->a), cd = hr2di_difference(j->b, j->a);
-  const hr2di_vector ac = hr2di_difference(j->a, i->a), bd = hr2di_difference(j->b, i->b);
+  const hr2di_vector ab = hr2di_vector_difference(i->b, i->a),
+                     cd = hr2di_vector_difference(j->b, j->a);
+  const hr2di_vector ac = hr2di_vector_difference(j->a, i->a),
+                     bd = hr2di_vector_difference(j->b, i->b);
   return (determinants){hr2di_det(&ab, &ac), hr2di_det(&ab, &bd), -hr2di_det(&cd, &ac),
                         -hr2di_det(&cd, &bd)};
 }
 
 static inline int is_plain(const hr2d_segment *i, const hr2d_segment *j) {
-  return hr2di_plain(i->a) & hr2di_plain(i->b) & hr2di_plain(j->a) & hr2di_plain(j->b);
+  return hr2di_point_plain(i->a) & hr2di_point_plain(i->b) & hr2di_point_plain(j->a) &
+         hr2di_point_plain(j->b);
 }
 
 static double careful_area(const hr2d_segment *i, const hr2d_segment *j, determinants o) {
@@ -184,7 +187,7 @@ static double careful_area(const hr2d_segment *i, const hr2d_segment *j, determi
 double hr2d_exchange_area(const hr2d_segment *i, const hr2d_segment *j) {
   const double area = plain_area(i->a, i->b, j->a, j->b);
   if (area >= 0) return area;
-  if (!is_plain(i, j)) return hr2di_wide_exchange_area(i, j);
+  if (!is_plain(i, j)) return hr2di_exchange_area_scaled(i, j);
   return careful_area(i, j, corrected(i->a, i->b, j->a, j->b));
 }
 
@@ -220,7 +223,7 @@ static size_t collect(block *p, size_t n, double *area, size_t *place) {
       put(p, left, i, j);
       place[left++] = k;
     } else
-      area[k] = hr2di_wide_exchange_area(&i, &j);
+      area[k] = hr2di_exchange_area_scaled(&i, &j);
   }
   return left;
 }

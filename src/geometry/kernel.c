@@ -14,22 +14,22 @@
 #include "geometry/predicates.h"
 
 /* cosθ = orient(abp)/(|ab| r); negative behind the segment. */
-static hr2di_wide cosine(const hr2d_segment *s, hr2d_point p, hr2di_wide r) {
-  const hr2di_vector ab = hr2di_scaled_difference(s->b, s->a);
-  const hr2di_wide det = hr2di_wide_orient(s->a, s->b, p);
-  if (det.m <= 0) return (hr2di_wide){0, 0};
-  return hr2di_wide_div(hr2di_wide_div(hr2di_wide_make(det.m, det.e), hr2di_wide_length(&ab)),
-                        r);
+static hr2di_scaled cosine(const hr2d_segment *s, hr2d_point p, hr2di_scaled r) {
+  const hr2di_vector ab = hr2di_vector_difference_scaled(s->b, s->a);
+  const hr2di_scaled det = hr2di_orient_scaled(s->a, s->b, p);
+  if (det.m <= 0) return (hr2di_scaled){0, 0};
+  return hr2di_scaled_div(
+      hr2di_scaled_div(hr2di_scaled_of(det.m, det.e), hr2di_vector_length_scaled(&ab)), r);
 }
 
 double hr2d_kernel(const hr2d_segment *i, hr2d_point x, const hr2d_segment *j, hr2d_point y) {
-  if (!hr2di_finite(i->a) || !hr2di_finite(i->b) || !hr2di_finite(j->a) ||
-      !hr2di_finite(j->b) || !hr2di_finite(x) || !hr2di_finite(y))
+  if (!hr2di_point_finite(i->a) || !hr2di_point_finite(i->b) || !hr2di_point_finite(j->a) ||
+      !hr2di_point_finite(j->b) || !hr2di_point_finite(x) || !hr2di_point_finite(y))
     return NAN;
-  const hr2di_vector xy = hr2di_scaled_difference(y, x);
-  const hr2di_wide r = hr2di_wide_length(&xy);
-  if (r.m == 0) return hr2di_face(i, j) == HR2DI_FACING_NONE ? 0 : INFINITY;
-  const hr2di_wide cosines = hr2di_wide_mul(cosine(i, y, r), cosine(j, x, r));
-  const hr2di_wide twice_r = {r.m, r.e + 1};
-  return hr2di_wide_value(hr2di_wide_div(cosines, twice_r));
+  const hr2di_vector xy = hr2di_vector_difference_scaled(y, x);
+  const hr2di_scaled r = hr2di_vector_length_scaled(&xy);
+  if (r.m == 0) return hr2di_facing_of(i, j) == HR2DI_FACING_NONE ? 0 : INFINITY;
+  const hr2di_scaled cosines = hr2di_scaled_mul(cosine(i, y, r), cosine(j, x, r));
+  const hr2di_scaled twice_r = {r.m, r.e + 1};
+  return hr2di_scaled_value(hr2di_scaled_div(cosines, twice_r));
 }

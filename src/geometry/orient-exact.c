@@ -59,7 +59,7 @@ static int carry(fixed *f) {
 }
 
 /* Of three limbs at least 65 bits count: a relative error of 2^-53 and 2^-64. */
-static hr2di_wide value_of(fixed *f) {
+static hr2di_scaled value_of(fixed *f) {
   const int sign = carry(f);
   if (sign < 0) {
     for (int k = 0; k < LIMBS; k++) f->limb[k] = -f->limb[k];
@@ -70,10 +70,10 @@ static hr2di_wide value_of(fixed *f) {
   const double head = (double)(f->limb[top] * ((int64_t)1 << 20) + (f->limb[top - 1] >> 12));
   const double tail =
       (double)((f->limb[top - 1] & 0xfff) * ((int64_t)1 << 32) + f->limb[top - 2]);
-  return hr2di_wide_make(sign * (head + tail * 0x1p-44), LOWEST + 32 * top - 20);
+  return hr2di_scaled_of(sign * (head + tail * 0x1p-44), LOWEST + 32 * top - 20);
 }
 
-hr2di_wide hr2di_exact_orient(hr2d_point a, hr2d_point b, hr2d_point c) {
+hr2di_scaled hr2di_orient_exact(hr2d_point a, hr2d_point b, hr2d_point c) {
   fixed f = {{0}};
   add_product(&f, a.x, b.y, 1);
   add_product(&f, a.y, b.x, -1);

@@ -9,6 +9,6 @@
 
 /* (b−a)×(c−a) for any finite points: its sign is exact, and its relative error below
    1.001·2^-53. */
-hr2di_wide hr2di_exact_orient(hr2d_point a, hr2d_point b, hr2d_point c);
+hr2di_scaled hr2di_orient_exact(hr2d_point a, hr2d_point b, hr2d_point c);
 
 #endif

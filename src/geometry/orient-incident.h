@@ -14,10 +14,10 @@
 
 enum { HR2DI_ON_I = 1, HR2DI_ON_J = 2, HR2DI_ON_BOTH = 3 };
 
-typedef struct hr2di_mark {
+typedef struct hr2di_incident_point {
   hr2d_point at;
   unsigned on; /* lines on which it lies; it is in front of the other */
-} hr2di_mark;
+} hr2di_incident_point;
 
 /* A line, with its front on the left, and the coordinate that grows along it. */
 typedef struct hr2di_axis {
@@ -26,9 +26,9 @@ typedef struct hr2di_axis {
   double way;
 } hr2di_axis;
 
-typedef struct hr2di_frame {
+typedef struct hr2di_pair_lines {
   hr2di_axis i, j;
-} hr2di_frame;
+} hr2di_pair_lines;
 
 static inline hr2di_axis hr2di_axis_of(hr2d_segment s) {
   const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
@@ -37,44 +37,45 @@ static inline hr2di_axis hr2di_axis_of(hr2d_segment s) {
 }
 
 /* How q lies to p along a line: 1 ahead, −1 behind. */
-static inline int hr2di_order(const hr2di_axis *axis, hr2d_point p, hr2d_point q) {
-  return hr2di_sign(axis->way * (axis->by_x ? q.x - p.x : q.y - p.y));
+static inline int hr2di_axis_order(const hr2di_axis *axis, hr2d_point p, hr2d_point q) {
+  return hr2di_sign_of(axis->way * (axis->by_x ? q.x - p.x : q.y - p.y));
 }
 
 /* Both lie where the two lines meet. */
-static inline int hr2di_corners(hr2di_mark p, hr2di_mark q) {
+static inline int hr2di_incident_corners(hr2di_incident_point p, hr2di_incident_point q) {
   return (p.on & q.on) == HR2DI_ON_BOTH;
 }
 
 /* The turn of points of which two lie on one line. */
-int hr2di_turn_marked(const hr2di_frame *frame, const hr2di_mark *p, const hr2di_mark *q,
-                      const hr2di_mark *r);
+int hr2di_orient_incident_on_line(const hr2di_pair_lines *frame, const hr2di_incident_point *p,
+                                  const hr2di_incident_point *q, const hr2di_incident_point *r);
 
 /* 1 if p, q, r turn left, −1 right, 0 if they lie on one line. */
-static inline int hr2di_turn(const hr2di_frame *frame, hr2di_mark p, hr2di_mark q,
-                             hr2di_mark r) {
+static inline int hr2di_orient_incident(const hr2di_pair_lines *frame, hr2di_incident_point p,
+                                        hr2di_incident_point q, hr2di_incident_point r) {
   if ((p.on & q.on) | (q.on & r.on) | (r.on & p.on))
-    return hr2di_turn_marked(frame, &p, &q, &r);
-  return hr2di_side(p.at, q.at, r.at);
+    return hr2di_orient_incident_on_line(frame, &p, &q, &r);
+  return hr2di_orient_sign(p.at, q.at, r.at);
 }
 
 /* One place, but for rounding across a line. */
-static inline int hr2di_same_mark(const hr2di_frame *frame, hr2di_mark p, hr2di_mark q) {
-  if (hr2di_point_same(p.at, q.at) || hr2di_corners(p, q)) return 1;
+static inline int hr2di_incident_same(const hr2di_pair_lines *frame, hr2di_incident_point p,
+                                      hr2di_incident_point q) {
+  if (hr2di_point_same(p.at, q.at) || hr2di_incident_corners(p, q)) return 1;
   const unsigned both = p.on & q.on;
-  if (both & HR2DI_ON_I) return hr2di_order(&frame->i, p.at, q.at) == 0;
-  return both & HR2DI_ON_J ? hr2di_order(&frame->j, p.at, q.at) == 0 : 0;
+  if (both & HR2DI_ON_I) return hr2di_axis_order(&frame->i, p.at, q.at) == 0;
+  return both & HR2DI_ON_J ? hr2di_axis_order(&frame->j, p.at, q.at) == 0 : 0;
 }
 
 /* For three points on one line: whether p lies ahead of `from` on the way to `to` (1), at
    it (0), or behind it (−1). */
-static inline int hr2di_ahead(const hr2di_frame *frame, hr2di_mark from, hr2di_mark to,
-                              hr2di_mark p) {
+static inline int hr2di_incident_ahead(const hr2di_pair_lines *frame, hr2di_incident_point from,
+                                       hr2di_incident_point to, hr2di_incident_point p) {
   const unsigned all = from.on & to.on & p.on;
   const hr2di_axis axis = all & HR2DI_ON_I   ? frame->i
                           : all & HR2DI_ON_J ? frame->j
                                              : hr2di_axis_of((hr2d_segment){from.at, to.at});
-  return hr2di_order(&axis, from.at, to.at) * hr2di_order(&axis, from.at, p.at);
+  return hr2di_axis_order(&axis, from.at, to.at) * hr2di_axis_order(&axis, from.at, p.at);
 }
 
 #endif

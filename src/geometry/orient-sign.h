@@ -8,22 +8,22 @@
 
 #include "geometry/vector.h"
 
-static inline int hr2di_sign(double x) {
+static inline int hr2di_sign_of(double x) {
   return (x > 0) - (x < 0);
 }
 
 /* The same where rounding leaves a doubt. */
-int hr2di_side_close(hr2d_point a, hr2d_point b, hr2d_point c);
+int hr2di_orient_sign_exact(hr2d_point a, hr2d_point b, hr2d_point c);
 
 /* hr2d_orientation().  The rounding error of det is below 3·2^-53·size, and that of an
    underflow below 2^-1000 for coordinates below 2^500. */
-static inline int hr2di_side(hr2d_point a, hr2d_point b, hr2d_point c) {
+static inline int hr2di_orient_sign(hr2d_point a, hr2d_point b, hr2d_point c) {
   const double ux = b.x - a.x, uy = b.y - a.y, wx = c.x - a.x, wy = c.y - a.y;
   const double p = ux * wy, q = uy * wx;
   const double det = p - q, doubt = 0x1p-50 * (fabs(p) + fabs(q)) + 0x1p-900;
   if (det > doubt) return 1;
   if (det < -doubt) return -1;
-  return hr2di_side_close(a, b, c);
+  return hr2di_orient_sign_exact(a, b, c);
 }
 
 #endif

@@ -11,7 +11,7 @@
    sin(δ/2) cos θ_M = (C×D)/(|C||D||M|) · n·M/|M|, and |M|² = 2(1 + C·D/(|C||D|)): nothing
    cancels.  A segment that begins at the point covers all up to the horizon on that side, as
    from a point just before it. */
-static inline double hr2di_point_factor(hr2d_point normal, hr2d_point c, hr2d_point d) {
+static inline double hr2di_point_view_factor(hr2d_point normal, hr2d_point c, hr2d_point d) {
   if (c.x == 0 && c.y == 0) c = (hr2d_point){normal.y, -normal.x};
   if (d.x == 0 && d.y == 0) d = (hr2d_point){-normal.y, normal.x};
   const double size_c = sqrt(c.x * c.x + c.y * c.y), size_d = sqrt(d.x * d.x + d.y * d.y);

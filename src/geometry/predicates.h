@@ -9,7 +9,7 @@
 
 /* (b−a)×(c−a) for any finite points, to 2·2^-53 of itself and with its exact sign; m is not
    brought into [½,1). */
-hr2di_wide hr2di_wide_orient(hr2d_point a, hr2d_point b, hr2d_point c);
+hr2di_scaled hr2di_orient_scaled(hr2d_point a, hr2d_point b, hr2d_point c);
 
 /* (b−a)×(c−a), twice the signed area of the triangle, to a few units in the last
    place.  It may underflow: where only the sign matters, hr2d_orientation() has it. */
@@ -17,7 +17,7 @@ double hr2di_orient(hr2d_point a, hr2d_point b, hr2d_point c);
 
 /* Where p→q meets the line through a and b, as a fraction of p→q, to a few units in the
    last place; nothing under- or overflows.  NaN if it runs along the line. */
-double hr2di_crossing(hr2d_point a, hr2d_point b, hr2d_point p, hr2d_point q);
+double hr2di_line_crossing(hr2d_point a, hr2d_point b, hr2d_point p, hr2d_point q);
 
 /* How two segments see each other's fronts, exactly. */
 typedef enum hr2di_facing {
@@ -26,6 +26,6 @@ typedef enum hr2di_facing {
   HR2DI_FACING_FULL
 } hr2di_facing;
 
-hr2di_facing hr2di_face(const hr2d_segment *i, const hr2d_segment *j);
+hr2di_facing hr2di_facing_of(const hr2d_segment *i, const hr2d_segment *j);
 
 #endif

@@ -28,26 +28,27 @@ static inline int hr2di_hierarchy_busy(const hr2d_hierarchy *hierarchy) {
 enum { HR2DI_ELEMENT_BYTES = sizeof(hr2d_element) + sizeof(uint32_t) + sizeof(uint16_t) };
 
 /* The room made for so many elements that are to become more. */
-static inline size_t hr2di_first_capacity(size_t elements) {
+static inline size_t hr2di_hierarchy_first_capacity(size_t elements) {
   return elements + elements / 2 + 16;
 }
 
 /* Whether an element's midpoint is a point of its own, so that it can be halved. */
-int hr2di_divisible(const hr2d_hierarchy *hierarchy, uint32_t element);
+int hr2di_element_divisible(const hr2d_hierarchy *hierarchy, uint32_t element);
 
 /* Makes room for two more elements; HR2D_OK, HR2D_ENOMEM or HR2D_EMAX_ELEMENTS
    where their numbers would not fit. */
 hr2d_status hr2di_hierarchy_reserve(hr2d_hierarchy *hierarchy);
 
 /* Halves a divisible leaf, with room reserved; returns the left child. */
-uint32_t hr2di_halve(hr2d_hierarchy *hierarchy, uint32_t element);
+uint32_t hr2di_element_halve(hr2d_hierarchy *hierarchy, uint32_t element);
 
 /* Divides a leaf at a point inside, `part` of its length from its start, with room reserved;
    returns the left child. */
-uint32_t hr2di_divide(hr2d_hierarchy *hierarchy, uint32_t element, double part, hr2d_point at);
+uint32_t hr2di_element_divide(hr2d_hierarchy *hierarchy, uint32_t element, double part,
+                              hr2d_point at);
 
 /* How much of an element its left child is; ½ where it was halved. */
-static inline double hr2di_left_part(const hr2d_element *element, uint32_t at) {
+static inline double hr2di_element_left_part(const hr2d_element *element, uint32_t at) {
   const double left = element[element[at].child].length;
   const double right = element[element[at].child + 1].length;
   return left == right ? 0.5 : left / (left + right);
@@ -55,27 +56,28 @@ static inline double hr2di_left_part(const hr2d_element *element, uint32_t at) {
 
 /* The child that holds fraction *t of an element, and the fraction that this is of the
    child, exact for halves.  On the border it is the child before, or the one behind. */
-static inline uint32_t hr2di_child_at(const hr2d_element *element, uint32_t at, double *t,
-                                      int before) {
-  const double left = hr2di_left_part(element, at);
+static inline uint32_t hr2di_element_child_at(const hr2d_element *element, uint32_t at,
+                                              double *t, int before) {
+  const double left = hr2di_element_left_part(element, at);
   const int right = before ? *t > left : *t >= left;
   *t = right ? (*t - left) / (1 - left) : *t / left;
   return element[at].child + (uint32_t)right;
 }
 
 /* Where an element begins, a fraction of its patch, exact for halves of halves. */
-double hr2di_start(const hr2d_hierarchy *hierarchy, uint32_t element);
+double hr2di_element_start(const hr2d_hierarchy *hierarchy, uint32_t element);
 
 /* The leaves below an element, as the tree is walked: the first, and the one behind a leaf, or
    0 behind the last. */
-uint32_t hr2di_first_leaf(const hr2d_hierarchy *hierarchy, uint32_t top);
-uint32_t hr2di_next_leaf(const hr2d_hierarchy *hierarchy, uint32_t leaf, uint32_t top);
+uint32_t hr2di_hierarchy_first_leaf(const hr2d_hierarchy *hierarchy, uint32_t top);
+uint32_t hr2di_hierarchy_next_leaf(const hr2d_hierarchy *hierarchy, uint32_t leaf,
+                                   uint32_t top);
 
 /* A copy on the same scene; HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_hierarchy_clone(const hr2d_hierarchy *from, hr2d_hierarchy **clone);
 
 /* The bytes of a clone. */
-uint64_t hr2di_clone_bytes(const hr2d_hierarchy *from);
+uint64_t hr2di_hierarchy_clone_bytes(const hr2d_hierarchy *from);
 
 /* Grows by every element that one of `count` clones has, numbered patch by patch, a
    parent's children before its right neighbour's.  HR2D_OK, or HR2D_ENOMEM or

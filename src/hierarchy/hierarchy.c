@@ -40,13 +40,13 @@ static hr2d_status set_capacity(hr2d_hierarchy *h, size_t capacity) {
 
 hr2d_status hr2d_hierarchy_create(const hr2d_scene *scene, hr2d_hierarchy **hierarchy) {
   if (!scene->committed) return HR2D_ESTATE;
-  hr2d_hierarchy *made = hr2di_calloc(&scene->alloc, 1, sizeof *made);
+  hr2d_hierarchy *made = hr2di_alloc_zero(&scene->alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
   made->alloc = scene->alloc;
   made->scene = scene;
   made->order = 1;
   const size_t n = scene->patches;
-  if (n > MOST_ELEMENTS / 2 || set_capacity(made, hr2di_first_capacity(n))) {
+  if (n > MOST_ELEMENTS / 2 || set_capacity(made, hr2di_hierarchy_first_capacity(n))) {
     hr2d_hierarchy_destroy(made);
     return HR2D_ENOMEM;
   }
@@ -64,13 +64,13 @@ hr2d_status hr2d_hierarchy_create(const hr2d_scene *scene, hr2d_hierarchy **hier
 void hr2d_hierarchy_destroy(hr2d_hierarchy *hierarchy) {
   if (!hierarchy) return;
   const hr2d_allocator alloc = hierarchy->alloc;
-  hr2di_free(&alloc, hierarchy->element);
-  hr2di_free(&alloc, hierarchy->parent);
-  hr2di_free(&alloc, hierarchy->level);
-  hr2di_free(&alloc, hierarchy);
+  hr2di_alloc_free(&alloc, hierarchy->element);
+  hr2di_alloc_free(&alloc, hierarchy->parent);
+  hr2di_alloc_free(&alloc, hierarchy->level);
+  hr2di_alloc_free(&alloc, hierarchy);
 }
 
-int hr2di_divisible(const hr2d_hierarchy *hierarchy, uint32_t element) {
+int hr2di_element_divisible(const hr2d_hierarchy *hierarchy, uint32_t element) {
   const hr2d_element *e = &hierarchy->element[element];
   const hr2d_point m = e->centre;
   return 0.5 * e->length > 0 && (m.x != e->a.x || m.y != e->a.y) &&
@@ -83,11 +83,11 @@ hr2d_status hr2di_hierarchy_reserve(hr2d_hierarchy *h) {
   return set_capacity(h, h->capacity > MOST_ELEMENTS / 2 ? MOST_ELEMENTS : 2 * h->capacity);
 }
 
-uint32_t hr2di_halve(hr2d_hierarchy *h, uint32_t element) {
-  return hr2di_divide(h, element, 0.5, h->element[element].centre);
+uint32_t hr2di_element_halve(hr2d_hierarchy *h, uint32_t element) {
+  return hr2di_element_divide(h, element, 0.5, h->element[element].centre);
 }
 
-uint32_t hr2di_divide(hr2d_hierarchy *h, uint32_t element, double part, hr2d_point at) {
+uint32_t hr2di_element_divide(hr2d_hierarchy *h, uint32_t element, double part, hr2d_point at) {
   const hr2d_element e = h->element[element];
   const uint32_t left = (uint32_t)h->elements, right = left + 1;
   h->element[left] = make_element(e.a, at, part * e.length, e.patch);
@@ -118,7 +118,7 @@ void hr2di_hierarchy_truncate(hr2d_hierarchy *h, size_t elements) {
   h->levels = 0;
   for (size_t k = 0; k < elements; k++)
     if (h->level[k] > h->levels) h->levels = h->level[k];
-  shrink(h, hr2di_first_capacity(elements));
+  shrink(h, hr2di_hierarchy_first_capacity(elements));
 }
 
 const hr2d_scene *hr2d_hierarchy_scene(const hr2d_hierarchy *hierarchy) {
@@ -146,28 +146,28 @@ uint32_t hr2d_element_parent(const hr2d_hierarchy *hierarchy, uint32_t element) 
 uint32_t hr2d_hierarchy_leaf(const hr2d_hierarchy *hierarchy, size_t patch, double t) {
   uint32_t element = (uint32_t)patch;
   while (hierarchy->element[element].child)
-    element = hr2di_child_at(hierarchy->element, element, &t, 0);
+    element = hr2di_element_child_at(hierarchy->element, element, &t, 0);
   return element;
 }
 
-double hr2di_start(const hr2d_hierarchy *h, uint32_t element) {
+double hr2di_element_start(const hr2d_hierarchy *h, uint32_t element) {
   double start = 0;
   for (uint32_t above = h->parent[element]; above != element; above = h->parent[element]) {
-    const double left = hr2di_left_part(h->element, above);
+    const double left = hr2di_element_left_part(h->element, above);
     start = element == h->element[above].child ? left * start : left + (1 - left) * start;
     element = above;
   }
   return start;
 }
 
-uint32_t hr2di_first_leaf(const hr2d_hierarchy *h, uint32_t top) {
+uint32_t hr2di_hierarchy_first_leaf(const hr2d_hierarchy *h, uint32_t top) {
   while (h->element[top].child) top = h->element[top].child;
   return top;
 }
 
-uint32_t hr2di_next_leaf(const hr2d_hierarchy *h, uint32_t leaf, uint32_t top) {
+uint32_t hr2di_hierarchy_next_leaf(const hr2d_hierarchy *h, uint32_t leaf, uint32_t top) {
   while (leaf != top && leaf == h->element[h->parent[leaf]].child + 1) leaf = h->parent[leaf];
-  return leaf == top ? 0 : hr2di_first_leaf(h, leaf + 1);
+  return leaf == top ? 0 : hr2di_hierarchy_first_leaf(h, leaf + 1);
 }
 
 hr2d_status hr2d_hierarchy_set_order(hr2d_hierarchy *hierarchy, unsigned order) {

@@ -8,14 +8,14 @@
 #include "base/ordered-dot.h"
 
 static int is_halved(const hr2d_element *element, uint32_t at) {
-  return hr2di_left_part(element, at) == 0.5;
+  return hr2di_element_left_part(element, at) == 0.5;
 }
 
 static void make_pair(const hr2di_push_pull *p, size_t pair, double left) {
   const size_t square = p->order * p->order;
   double *relation = p->relation + 2 * pair * square;
-  hr2di_two_scale(-1, 2 * left - 1, p->order, relation);
-  hr2di_two_scale(2 * left - 1, 1, p->order, relation + square);
+  hr2di_legendre_two_scale(-1, 2 * left - 1, p->order, relation);
+  hr2di_legendre_two_scale(2 * left - 1, 1, p->order, relation + square);
 }
 
 hr2d_status hr2di_push_pull_init(hr2di_push_pull *p, const hr2d_hierarchy *hierarchy,
@@ -32,20 +32,20 @@ hr2d_status hr2di_push_pull_init(hr2di_push_pull *p, const hr2d_hierarchy *hiera
   if (!p->relation) return HR2D_ENOMEM;
   make_pair(p, 0, 0.5);
   if (odd == 0) return HR2D_OK;
-  p->pair_of = hr2di_calloc(alloc, p->elements, sizeof *p->pair_of);
+  p->pair_of = hr2di_alloc_zero(alloc, p->elements, sizeof *p->pair_of);
   if (!p->pair_of) return HR2D_ENOMEM;
   uint32_t pairs = 1;
   for (uint32_t e = 0; e < p->elements; e++) {
     if (!element[e].child || is_halved(element, e)) continue;
-    make_pair(p, pairs, hr2di_left_part(element, e));
+    make_pair(p, pairs, hr2di_element_left_part(element, e));
     p->pair_of[e] = pairs++;
   }
   return HR2D_OK;
 }
 
 void hr2di_push_pull_clear(hr2di_push_pull *p) {
-  hr2di_free(&p->alloc, p->relation);
-  hr2di_free(&p->alloc, p->pair_of);
+  hr2di_alloc_free(&p->alloc, p->relation);
+  hr2di_alloc_free(&p->alloc, p->pair_of);
 }
 
 static const double *relation_of(const hr2di_push_pull *p, uint32_t element) {
@@ -58,7 +58,8 @@ static inline void add_up_bands(const double *relation, size_t order, size_t ban
                                 const double *child, double *parent) {
   for (size_t l = 0; l < order; l++)
     for (size_t b = 0; b < bands; b++)
-      parent[l * bands + b] += part * hr2di_dot(relation + l * order, child + b, bands, l + 1);
+      parent[l * bands + b] +=
+          part * hr2di_dot_strided(relation + l * order, child + b, bands, l + 1);
 }
 
 static void add_up(const hr2di_push_pull *p, const double *relation, double part,
@@ -69,14 +70,14 @@ static void add_up(const hr2di_push_pull *p, const double *relation, double part
     add_up_bands(relation, p->order, p->bands, part, child, parent);
 }
 
-void hr2di_pull(const hr2di_push_pull *p, double *field) {
+void hr2di_push_pull_up(const hr2di_push_pull *p, double *field) {
   const size_t bands = p->bands, width = p->order * bands;
   const hr2d_element *element = p->hierarchy->element;
   for (uint32_t e = (uint32_t)p->elements; e-- > 0;) {
     if (!element[e].child) continue;
     const double *left = field + element[e].child * width, *right = left + width;
     double *here = field + e * width;
-    const double part = hr2di_left_part(element, e);
+    const double part = hr2di_element_left_part(element, e);
     if (width == bands) {
       for (size_t b = 0; b < bands; b++)
         here[b] =
@@ -107,7 +108,7 @@ static void add_down(const hr2di_push_pull *p, const double *relation, const dou
     add_down_bands(relation, p->order, p->bands, parent, child);
 }
 
-void hr2di_push(const hr2di_push_pull *p, double *field) {
+void hr2di_push_pull_down(const hr2di_push_pull *p, double *field) {
   const size_t bands = p->bands, width = p->order * bands, square = p->order * p->order;
   const hr2d_element *element = p->hierarchy->element;
   for (uint32_t e = 0; e < p->elements; e++) {

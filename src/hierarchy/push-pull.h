@@ -22,9 +22,9 @@ hr2d_status hr2di_push_pull_init(hr2di_push_pull *p, const hr2d_hierarchy *hiera
 void hr2di_push_pull_clear(hr2di_push_pull *p);
 
 /* Elements with children get what these have together, from values on the leaves. */
-void hr2di_pull(const hr2di_push_pull *p, double *field);
+void hr2di_push_pull_up(const hr2di_push_pull *p, double *field);
 
 /* Adds to every element what those above it have. */
-void hr2di_push(const hr2di_push_pull *p, double *field);
+void hr2di_push_pull_down(const hr2di_push_pull *p, double *field);
 
 #endif

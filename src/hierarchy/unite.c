@@ -9,16 +9,16 @@
 /* Stands for an element that a clone does not have. */
 #define ABSENT UINT32_MAX
 
-uint64_t hr2di_clone_bytes(const hr2d_hierarchy *from) {
-  return (uint64_t)hr2di_first_capacity(from->elements) * HR2DI_ELEMENT_BYTES;
+uint64_t hr2di_hierarchy_clone_bytes(const hr2d_hierarchy *from) {
+  return (uint64_t)hr2di_hierarchy_first_capacity(from->elements) * HR2DI_ELEMENT_BYTES;
 }
 
 hr2d_status hr2di_hierarchy_clone(const hr2d_hierarchy *from, hr2d_hierarchy **clone) {
-  hr2d_hierarchy *made = hr2di_calloc(&from->alloc, 1, sizeof *made);
+  hr2d_hierarchy *made = hr2di_alloc_zero(&from->alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
   *made = *from;
   made->readers = 0;
-  made->capacity = hr2di_first_capacity(from->elements);
+  made->capacity = hr2di_hierarchy_first_capacity(from->elements);
   made->element = hr2di_alloc(&from->alloc, made->capacity, sizeof *made->element);
   made->parent = hr2di_alloc(&from->alloc, made->capacity, sizeof *made->parent);
   made->level = hr2di_alloc(&from->alloc, made->capacity, sizeof *made->level);
@@ -75,7 +75,7 @@ static hr2d_status unite_patch(hr2d_hierarchy *h, hr2d_hierarchy *const *clone, 
       const hr2d_status status =
           full && h->capacity > w->most / 2 ? HR2D_EMAX_BYTES : hr2di_hierarchy_reserve(h);
       if (status) return status;
-      hr2di_halve(h, top[0]);
+      hr2di_element_halve(h, top[0]);
     }
     push_children(w, top, h, clone);
   }
@@ -96,7 +96,7 @@ hr2d_status hr2di_hierarchy_unite(hr2d_hierarchy *h, hr2d_hierarchy *const *clon
   for (size_t patch = 0; patch < h->scene->patches && !status; patch++)
     status = unite_patch(h, clone, &w, (uint32_t)patch, top);
   if (status) hr2di_hierarchy_truncate(h, elements);
-  hr2di_free(&h->alloc, w.column);
-  hr2di_free(&h->alloc, top);
+  hr2di_alloc_free(&h->alloc, w.column);
+  hr2di_alloc_free(&h->alloc, top);
   return status;
 }

@@ -29,7 +29,7 @@ static void join_clusters(hr2di_components *c, const hr2di_clusters *clusters, s
     join(c, patches + clusters->link[k].first, patches + clusters->link[k].second);
 }
 
-hr2d_status hr2di_components_make(hr2di_components *c, const hr2d_linkset *links) {
+hr2d_status hr2di_components_init(hr2di_components *c, const hr2d_linkset *links) {
   const hr2d_element *element = links->hierarchy->element;
   const size_t patches = links->hierarchy->scene->patches;
   const hr2di_clusters *clusters = links->roots.clusters;
@@ -40,7 +40,7 @@ hr2d_status hr2di_components_make(hr2di_components *c, const hr2d_linkset *links
   for (size_t k = 0; k < count; k++) c->parent[k] = (uint32_t)k;
   if (clusters) join_clusters(c, clusters, patches);
   for (size_t block = 0; block < links->store.blocks; block++)
-    for (size_t k = 0; k < hr2di_store_block_size(&links->store, block); k++) {
+    for (size_t k = 0; k < hr2di_store_chunk_size(&links->store, block); k++) {
       const hr2d_pair pair = links->store.block[block][k].pair;
       join(c, element[pair.first].patch, element[pair.second].patch);
     }
@@ -48,6 +48,6 @@ hr2d_status hr2di_components_make(hr2di_components *c, const hr2d_linkset *links
 }
 
 void hr2di_components_clear(hr2di_components *c) {
-  hr2di_free(&c->alloc, c->parent);
+  hr2di_alloc_free(&c->alloc, c->parent);
   c->parent = NULL;
 }

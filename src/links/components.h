@@ -11,7 +11,7 @@ typedef struct hr2di_components {
 } hr2di_components;
 
 /* Joins what links of a set join; HR2D_OK or HR2D_ENOMEM.  To be cleared in either case. */
-hr2d_status hr2di_components_make(hr2di_components *c, const hr2d_linkset *links);
+hr2d_status hr2di_components_init(hr2di_components *c, const hr2d_linkset *links);
 void hr2di_components_clear(hr2di_components *c);
 
 /* The component that holds a patch: the number of the first patch in it. */

@@ -15,7 +15,7 @@ enum { CHUNK = 16, ROUND = 256 };
 
 typedef struct maker {
   const hr2d_linkset *links;
-  hr2di_blocks *blocks;
+  hr2di_link_blocks *blocks;
   hr2di_integrator *work; /* per thread */
   size_t threads;
 } maker;
@@ -60,7 +60,7 @@ static hr2d_status make_round(const maker *m, uint64_t from, uint64_t to) {
   return worst;
 }
 
-static hr2d_status tell(const hr2d_linkset *links, const hr2di_blocks_plan *plan,
+static hr2d_status tell(const hr2d_linkset *links, const hr2di_link_blocks_plan *plan,
                         uint64_t done) {
   if (!plan->progress) return HR2D_OK;
   const hr2d_progress progress = {.struct_size = sizeof progress,
@@ -71,7 +71,7 @@ static hr2d_status tell(const hr2d_linkset *links, const hr2di_blocks_plan *plan
   return plan->progress(plan->progress_ctx, &progress);
 }
 
-static hr2d_status make_all(const maker *m, const hr2di_blocks_plan *plan) {
+static hr2d_status make_all(const maker *m, const hr2di_link_blocks_plan *plan) {
   hr2d_status status = HR2D_OK;
   const uint64_t count = m->links->store.count;
   for (uint64_t from = 0; from < count && !status; from += ROUND) {
@@ -95,31 +95,32 @@ static size_t count_threads(unsigned asked, uint64_t links) {
 #endif
 }
 
-static hr2d_status run(hr2d_linkset *links, hr2di_blocks *made, const hr2di_blocks_plan *plan) {
+static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made,
+                       const hr2di_link_blocks_plan *plan) {
   const hr2d_allocator *alloc = &links->alloc;
   maker m = {.links = links,
              .blocks = made,
              .threads = count_threads(plan->threads, links->store.count)};
-  m.work = hr2di_calloc(alloc, m.threads, sizeof *m.work);
+  m.work = hr2di_alloc_zero(alloc, m.threads, sizeof *m.work);
   if (!m.work) return HR2D_ENOMEM;
   hr2d_status status = HR2D_OK;
   size_t started = 0;
   while (started < m.threads && !status)
-    status = hr2di_integrator_start(&m.work[started++], links->hierarchy, alloc, made->order);
+    status = hr2di_integrator_init(&m.work[started++], links->hierarchy, alloc, made->order);
   if (!status) status = make_all(&m, plan);
   while (started > 0) {
     made->kernels += m.work[--started].kernels;
-    hr2di_integrator_end(&m.work[started]);
+    hr2di_integrator_clear(&m.work[started]);
   }
-  hr2di_free(alloc, m.work);
+  hr2di_alloc_free(alloc, m.work);
   return status;
 }
 
-hr2d_status hr2di_blocks_make(hr2d_linkset *links, size_t order,
-                              const hr2di_blocks_plan *plan) {
+hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order,
+                                   const hr2di_link_blocks_plan *plan) {
   const uint64_t count = links->store.count;
-  hr2di_blocks made = {.order = order, .links = count};
-  hr2di_blocks_clear(&links->blocks, &links->alloc);
+  hr2di_link_blocks made = {.order = order, .links = count};
+  hr2di_link_blocks_clear(&links->blocks, &links->alloc);
   if (count == 0) return HR2D_OK;
   if (count > SIZE_MAX / (order * order * sizeof *made.value)) return HR2D_ENOMEM;
   made.value = hr2di_alloc(&links->alloc, (size_t)count, order * order * sizeof *made.value);
@@ -127,14 +128,14 @@ hr2d_status hr2di_blocks_make(hr2d_linkset *links, size_t order,
   hr2d_status status = made.value && made.distant ? HR2D_OK : HR2D_ENOMEM;
   if (!status) status = run(links, &made, plan);
   if (status)
-    hr2di_blocks_clear(&made, &links->alloc);
+    hr2di_link_blocks_clear(&made, &links->alloc);
   else
     links->blocks = made;
   return status;
 }
 
-void hr2di_blocks_clear(hr2di_blocks *blocks, const hr2d_allocator *alloc) {
-  hr2di_free(alloc, blocks->value);
-  hr2di_free(alloc, blocks->distant);
-  *blocks = (hr2di_blocks){0};
+void hr2di_link_blocks_clear(hr2di_link_blocks *blocks, const hr2d_allocator *alloc) {
+  hr2di_alloc_free(alloc, blocks->value);
+  hr2di_alloc_free(alloc, blocks->distant);
+  *blocks = (hr2di_link_blocks){0};
 }

@@ -10,7 +10,7 @@
 #include "links/link-blocks.h"
 
 /* Links are kept in blocks, so that a growing store never copies them. */
-enum { HR2DI_BLOCK_LINKS = 4096 };
+enum { HR2DI_CHUNK_LINKS = 4096 };
 
 /* Exchange areas are in units of the scene here, not in scene lengths. */
 typedef struct hr2di_store {
@@ -28,8 +28,8 @@ struct hr2d_linkset {
   void *policy_ctx;
   hr2di_message message;
   hr2di_store store;
-  hr2di_blocks blocks; /* of links that were solved at an order above 1 */
-  hr2di_roots roots;   /* where a refinement begins; empty: with all pairs of patches */
+  hr2di_link_blocks blocks; /* of links that were solved at an order above 1 */
+  hr2di_roots roots;        /* where a refinement begins; empty: with all pairs of patches */
   int directed;
   int solving;    /* a solve is under way, and may make blocks */
   double epsilon; /* of the last refinement; infinite before */
@@ -45,13 +45,13 @@ void hr2di_store_clear(hr2di_store *store, const hr2d_allocator *alloc);
 uint64_t hr2di_store_bytes(const hr2di_store *store);
 
 static inline const hr2d_link *hr2di_store_at(const hr2di_store *store, uint64_t index) {
-  return &store->block[index / HR2DI_BLOCK_LINKS][index % HR2DI_BLOCK_LINKS];
+  return &store->block[index / HR2DI_CHUNK_LINKS][index % HR2DI_CHUNK_LINKS];
 }
 
 /* How many links block k holds. */
-static inline size_t hr2di_store_block_size(const hr2di_store *store, size_t k) {
-  const uint64_t rest = store->count - (uint64_t)k * HR2DI_BLOCK_LINKS;
-  return rest < HR2DI_BLOCK_LINKS ? (size_t)rest : HR2DI_BLOCK_LINKS;
+static inline size_t hr2di_store_chunk_size(const hr2di_store *store, size_t k) {
+  const uint64_t rest = store->count - (uint64_t)k * HR2DI_CHUNK_LINKS;
+  return rest < HR2DI_CHUNK_LINKS ? (size_t)rest : HR2DI_CHUNK_LINKS;
 }
 
 #endif

@@ -21,13 +21,13 @@ hr2d_status hr2d_linkset_create(hr2d_hierarchy *hierarchy, const hr2d_oracle *or
   if (!HAS(oracle, hr2d_oracle, estimate) || !oracle->name || !oracle->estimate)
     return HR2D_EINVAL;
   if (!HAS(policy, hr2d_policy, flags) || !policy->name) return HR2D_EINVAL;
-  hr2d_linkset *made = hr2di_calloc(&hierarchy->alloc, 1, sizeof *made);
+  hr2d_linkset *made = hr2di_alloc_zero(&hierarchy->alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
   made->alloc = hierarchy->alloc;
   made->hierarchy = hierarchy;
   made->epsilon = HUGE_VAL;
-  hr2di_copy_sized(&made->oracle, sizeof made->oracle, oracle);
-  hr2di_copy_sized(&made->policy, sizeof made->policy, policy);
+  hr2di_sized_copy(&made->oracle, sizeof made->oracle, oracle);
+  hr2di_sized_copy(&made->policy, sizeof made->policy, policy);
   made->oracle_ctx = oracle_ctx;
   made->policy_ctx = policy_ctx;
   if (!made->policy.preferred_subdivision)
@@ -42,16 +42,16 @@ void hr2d_linkset_destroy(hr2d_linkset *links) {
   if (links->policy.destroy) links->policy.destroy(links->policy_ctx);
   const hr2d_allocator alloc = links->alloc;
   hr2di_store_clear(&links->store, &alloc);
-  hr2di_blocks_clear(&links->blocks, &alloc);
+  hr2di_link_blocks_clear(&links->blocks, &alloc);
   hr2di_roots_clear(&links->roots, &alloc);
-  hr2di_free(&alloc, links);
+  hr2di_alloc_free(&alloc, links);
 }
 
 static hr2d_status add_block(hr2di_store *store, const hr2d_allocator *alloc) {
-  if (hr2di_reserve(alloc, &store->block, &store->capacity, store->blocks + 1,
-                    sizeof *store->block))
+  if (hr2di_alloc_reserve(alloc, &store->block, &store->capacity, store->blocks + 1,
+                          sizeof *store->block))
     return HR2D_ENOMEM;
-  hr2d_link *block = hr2di_alloc(alloc, HR2DI_BLOCK_LINKS, sizeof *block);
+  hr2d_link *block = hr2di_alloc(alloc, HR2DI_CHUNK_LINKS, sizeof *block);
   if (!block) return HR2D_ENOMEM;
   store->block[store->blocks++] = block;
   return HR2D_OK;
@@ -60,10 +60,10 @@ static hr2d_status add_block(hr2di_store *store, const hr2d_allocator *alloc) {
 hr2d_status hr2di_store_add(hr2di_store *store, const hr2d_allocator *alloc,
                             const hr2d_pair *pair, const double *area, size_t count) {
   while (count > 0) {
-    const size_t at = (size_t)(store->count % HR2DI_BLOCK_LINKS);
+    const size_t at = (size_t)(store->count % HR2DI_CHUNK_LINKS);
     if (at == 0 && add_block(store, alloc)) return HR2D_ENOMEM;
     hr2d_link *link = store->block[store->blocks - 1] + at;
-    const size_t room = HR2DI_BLOCK_LINKS - at, some = count < room ? count : room;
+    const size_t room = HR2DI_CHUNK_LINKS - at, some = count < room ? count : room;
     for (size_t k = 0; k < some; k++) link[k] = (hr2d_link){pair[k], area[k]};
     store->count += some;
     pair += some;
@@ -74,13 +74,13 @@ hr2d_status hr2di_store_add(hr2di_store *store, const hr2d_allocator *alloc,
 }
 
 void hr2di_store_clear(hr2di_store *store, const hr2d_allocator *alloc) {
-  while (store->blocks > 0) hr2di_free(alloc, store->block[--store->blocks]);
-  hr2di_free(alloc, store->block);
+  while (store->blocks > 0) hr2di_alloc_free(alloc, store->block[--store->blocks]);
+  hr2di_alloc_free(alloc, store->block);
   *store = (hr2di_store){0};
 }
 
 uint64_t hr2di_store_bytes(const hr2di_store *store) {
-  return (uint64_t)store->blocks * HR2DI_BLOCK_LINKS * sizeof(hr2d_link) +
+  return (uint64_t)store->blocks * HR2DI_CHUNK_LINKS * sizeof(hr2d_link) +
          (uint64_t)store->capacity * sizeof *store->block;
 }
 
@@ -115,7 +115,7 @@ hr2d_refine_counts hr2d_linkset_counts(const hr2d_linkset *links) {
 }
 
 uint64_t hr2d_linkset_bytes(const hr2d_linkset *links) {
-  const hr2di_blocks *b = &links->blocks;
+  const hr2di_link_blocks *b = &links->blocks;
   const hr2di_roots *r = &links->roots;
   return hr2di_store_bytes(&links->store) +
          (r->clusters ? hr2di_clusters_bytes(r->clusters) + r->capacity * sizeof *r->pair : 0) +

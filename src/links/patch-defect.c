@@ -10,11 +10,11 @@ void hr2di_defect_sum(const hr2d_linkset *links, hr2di_sum *defect) {
   for (size_t k = 0; k < links->hierarchy->scene->patches; k++)
     defect[k] = (hr2di_sum){element[k].length, 0};
   for (size_t block = 0; block < store->blocks; block++)
-    for (size_t k = 0; k < hr2di_store_block_size(store, block); k++) {
+    for (size_t k = 0; k < hr2di_store_chunk_size(store, block); k++) {
       const hr2d_link *link = &store->block[block][k];
-      hr2di_add(&defect[element[link->pair.first].patch], -link->exchange_area);
+      hr2di_sum_add(&defect[element[link->pair.first].patch], -link->exchange_area);
       if (!links->directed)
-        hr2di_add(&defect[element[link->pair.second].patch], -link->exchange_area);
+        hr2di_sum_add(&defect[element[link->pair.second].patch], -link->exchange_area);
     }
 }
 
@@ -22,5 +22,5 @@ void hr2di_defect_closed(const hr2d_linkset *links, const hr2di_sum *defect,
                          unsigned char *closed) {
   const hr2d_element *element = links->hierarchy->element;
   for (size_t k = 0; k < links->hierarchy->scene->patches; k++)
-    closed[k] = fabs(hr2di_total(&defect[k])) <= HR2DI_DEFECT_CLOSED * element[k].length;
+    closed[k] = fabs(hr2di_sum_total(&defect[k])) <= HR2DI_DEFECT_CLOSED * element[k].length;
 }

@@ -15,9 +15,10 @@
 #include "geometry/orient-sign.h"
 #include "geometry/predicates.h"
 
-hr2d_status hr2di_chain_begin(hr2di_chain *chain, const hr2d_allocator *alloc, hr2di_mark from,
-                              hr2di_mark to) {
-  if (hr2di_reserve(alloc, &chain->point, &chain->capacity, 2, sizeof from)) return HR2D_ENOMEM;
+hr2d_status hr2di_chain_init(hr2di_chain *chain, const hr2d_allocator *alloc,
+                             hr2di_incident_point from, hr2di_incident_point to) {
+  if (hr2di_alloc_reserve(alloc, &chain->point, &chain->capacity, 2, sizeof from))
+    return HR2D_ENOMEM;
   chain->point[0] = from;
   chain->point[1] = to;
   chain->count = 2;
@@ -26,11 +27,11 @@ hr2d_status hr2di_chain_begin(hr2di_chain *chain, const hr2d_allocator *alloc, h
 
 /* Puts p in place of the points [first, last). */
 static hr2d_status splice(hr2di_chain *chain, const hr2d_allocator *alloc, size_t first,
-                          size_t last, hr2di_mark p) {
-  if (first == last && hr2di_reserve(alloc, &chain->point, &chain->capacity, chain->count + 1,
-                                     sizeof *chain->point))
+                          size_t last, hr2di_incident_point p) {
+  if (first == last && hr2di_alloc_reserve(alloc, &chain->point, &chain->capacity,
+                                           chain->count + 1, sizeof *chain->point))
     return HR2D_ENOMEM;
-  hr2di_mark *point = chain->point;
+  hr2di_incident_point *point = chain->point;
   memmove(point + first + 1, point + last, (chain->count - last) * sizeof *point);
   point[first] = p;
   chain->count -= last - first;
@@ -38,7 +39,7 @@ static hr2d_status splice(hr2di_chain *chain, const hr2d_allocator *alloc, size_
   return HR2D_OK;
 }
 
-static hr2di_mark knowing(hr2di_mark p, unsigned known) {
+static hr2di_incident_point knowing(hr2di_incident_point p, unsigned known) {
   p.on &= known;
   return p;
 }
@@ -46,31 +47,33 @@ static hr2di_mark knowing(hr2di_mark p, unsigned known) {
 /* Whether p lengthens a chain that is a segment, there and back, or a point: no edge of it
    sees a point on its own line.  That is so where i and j touch, or one ends on the line
    of the other. */
-static int lengthens(const hr2di_frame *frame, const hr2di_chain *chain, hr2di_mark p) {
-  const hr2di_mark *at = chain->point;
-  if (hr2di_same_mark(frame, at[0], p) || hr2di_same_mark(frame, at[1], p)) return 0;
-  if (chain->count == 2 && hr2di_same_mark(frame, at[0], at[1])) return 1;
+static int lengthens(const hr2di_pair_lines *frame, const hr2di_chain *chain,
+                     hr2di_incident_point p) {
+  const hr2di_incident_point *at = chain->point;
+  if (hr2di_incident_same(frame, at[0], p) || hr2di_incident_same(frame, at[1], p)) return 0;
+  if (chain->count == 2 && hr2di_incident_same(frame, at[0], at[1])) return 1;
   const int flat =
-      chain->count == 2 || (chain->count == 3 && hr2di_turn(frame, at[0], at[1], at[2]) == 0);
-  if (!flat || hr2di_turn(frame, at[0], at[1], p) != 0) return 0;
+      chain->count == 2 ||
+      (chain->count == 3 && hr2di_orient_incident(frame, at[0], at[1], at[2]) == 0);
+  if (!flat || hr2di_orient_incident(frame, at[0], at[1], p) != 0) return 0;
   /* beyond the tip, or before the start of a segment that has none yet */
-  return hr2di_ahead(frame, at[1], at[0], p) < 0 ||
-         (chain->count == 2 && hr2di_ahead(frame, at[0], at[1], p) < 0);
+  return hr2di_incident_ahead(frame, at[1], at[0], p) < 0 ||
+         (chain->count == 2 && hr2di_incident_ahead(frame, at[0], at[1], p) < 0);
 }
 
 /* Whether an edge has p on its outer side. */
-static int sees(const hr2di_frame *frame, const hr2di_chain *chain, size_t edge, hr2di_mark p,
-                unsigned known) {
-  const hr2di_mark *at = chain->point + edge;
-  return chain->hand * hr2di_turn(frame, knowing(at[0], known), knowing(at[1], known),
-                                  knowing(p, known)) >
+static int sees(const hr2di_pair_lines *frame, const hr2di_chain *chain, size_t edge,
+                hr2di_incident_point p, unsigned known) {
+  const hr2di_incident_point *at = chain->point + edge;
+  return chain->hand * hr2di_orient_incident(frame, knowing(at[0], known),
+                                             knowing(at[1], known), knowing(p, known)) >
          0;
 }
 
 /* The edges that see p are contiguous; p replaces what is between their outer ends. */
 static hr2d_status add_point(hr2di_chain *chain, const hr2d_allocator *alloc,
-                             const hr2di_frame *frame, unsigned known, hr2di_mark p,
-                             int *grown) {
+                             const hr2di_pair_lines *frame, unsigned known,
+                             hr2di_incident_point p, int *grown) {
   const size_t edges = chain->count - 1;
   size_t first = 0, last;
   while (first < edges && !sees(frame, chain, first, p, known)) first++;
@@ -86,8 +89,8 @@ static hr2d_status add_point(hr2di_chain *chain, const hr2d_allocator *alloc,
 }
 
 hr2d_status hr2di_chain_add(hr2di_chain *chain, const hr2d_allocator *alloc,
-                            const hr2di_frame *frame, unsigned known, const hr2di_mark *point,
-                            size_t count, int *grown) {
+                            const hr2di_pair_lines *frame, unsigned known,
+                            const hr2di_incident_point *point, size_t count, int *grown) {
   hr2d_status status = HR2D_OK;
   *grown = 0;
   for (size_t k = 0; k < count && !status; k++)
@@ -95,7 +98,7 @@ hr2d_status hr2di_chain_add(hr2di_chain *chain, const hr2d_allocator *alloc,
   return status;
 }
 
-int hr2di_chain_sound(const hr2di_frame *frame, const hr2di_chain *chain) {
+int hr2di_chain_sound(const hr2di_pair_lines *frame, const hr2di_chain *chain) {
   size_t marked = 0;
   for (size_t k = 1; k + 1 < chain->count; k++) marked += chain->point[k].on != 0;
   if (marked == 0 || chain->count < 4) return 1;
@@ -107,29 +110,29 @@ int hr2di_chain_sound(const hr2di_frame *frame, const hr2di_chain *chain) {
 
 /* The search of bridge() with what points know of the lines they lie on, or, `known` = 0,
    without.  −1 where it does not end. */
-static int search(const hr2di_frame *frame, const hr2di_chain *low, const hr2di_chain *high,
-                  unsigned known, size_t *from, size_t *to) {
+static int search(const hr2di_pair_lines *frame, const hr2di_chain *low,
+                  const hr2di_chain *high, unsigned known, size_t *from, size_t *to) {
   const int hand = high->hand;
-  hr2di_mark f = low->point[*from], t = high->point[*to];
+  hr2di_incident_point f = low->point[*from], t = high->point[*to];
   f.on &= known;
   t.on &= known;
   for (size_t turns = low->count + high->count + 2; turns > 0; turns--) {
     int moved = 0;
-    if (hr2di_same_mark(frame, f, t)) return 0;
+    if (hr2di_incident_same(frame, f, t)) return 0;
     for (size_t k = 0; k < high->count; k++) {
-      const hr2di_mark p = {high->point[k].at, high->point[k].on & known};
-      const int side = hand * hr2di_turn(frame, f, t, p);
-      if (side < 0 || (side == 0 && hr2di_ahead(frame, t, f, p) <= 0)) continue;
-      if (side == 0 && hr2di_ahead(frame, f, t, p) <= 0) return 0;
+      const hr2di_incident_point p = {high->point[k].at, high->point[k].on & known};
+      const int side = hand * hr2di_orient_incident(frame, f, t, p);
+      if (side < 0 || (side == 0 && hr2di_incident_ahead(frame, t, f, p) <= 0)) continue;
+      if (side == 0 && hr2di_incident_ahead(frame, f, t, p) <= 0) return 0;
       moved |= side;
       t = p;
       *to = k;
     }
     for (size_t k = 0; k < low->count; k++) {
-      const hr2di_mark p = {low->point[k].at, low->point[k].on & known};
-      const int side = -hand * hr2di_turn(frame, f, t, p);
-      if (side < 0 || (side == 0 && hr2di_ahead(frame, f, t, p) <= 0)) continue;
-      if (side == 0 && hr2di_ahead(frame, t, f, p) <= 0) return 0;
+      const hr2di_incident_point p = {low->point[k].at, low->point[k].on & known};
+      const int side = -hand * hr2di_orient_incident(frame, f, t, p);
+      if (side < 0 || (side == 0 && hr2di_incident_ahead(frame, f, t, p) <= 0)) continue;
+      if (side == 0 && hr2di_incident_ahead(frame, t, f, p) <= 0) return 0;
       moved |= side;
       f = p;
       *from = k;
@@ -147,8 +150,8 @@ static int search(const hr2di_frame *frame, const hr2di_chain *low, const hr2di_
    Unless two points on the line of i or j are a rounding apart and a third is in line with
    them: what they know of that line and where they are may then make the search go round
    in a circle.  Where they are never does. */
-static int bridge(const hr2di_frame *frame, const hr2di_chain *low, const hr2di_chain *high,
-                  size_t *from, size_t *to) {
+static int bridge(const hr2di_pair_lines *frame, const hr2di_chain *low,
+                  const hr2di_chain *high, size_t *from, size_t *to) {
   const size_t start[] = {*from, *to};
   int found = search(frame, low, high, HR2DI_ON_BOTH, from, to);
   if (found >= 0) return found;
@@ -157,7 +160,7 @@ static int bridge(const hr2di_frame *frame, const hr2di_chain *low, const hr2di_
   return search(frame, low, high, 0, from, to) > 0;
 }
 
-int hr2di_corridor_open(const hr2di_frame *frame, const hr2di_chain *right,
+int hr2di_corridor_open(const hr2di_pair_lines *frame, const hr2di_chain *right,
                         const hr2di_chain *left) {
   size_t l = 0, r = right->count - 1;
   return bridge(frame, left, right, &l, &r);
@@ -184,7 +187,8 @@ static int is_flat(hr2d_point p, hr2d_point q, hr2d_segment i) {
 /* Where the line of an edge meets i, as a fraction of i and not before `least`.  A flat edge
    with an end on i, but for a rounding h, is taken to meet it there, which at an angle φ costs
    hφ; to the point where it does, h/φ further, nothing would be seen past that end. */
-static double crossing(hr2di_mark from, hr2di_mark to, hr2d_segment i, double least) {
+static double crossing(hr2di_incident_point from, hr2di_incident_point to, hr2d_segment i,
+                       double least) {
   const hr2d_point p = from.at, q = to.at;
   if (from.on & to.on & HR2DI_ON_I || hr2di_point_same(p, i.a) || hr2di_point_same(q, i.a))
     return least;
@@ -194,7 +198,7 @@ static double crossing(hr2di_mark from, hr2di_mark to, hr2d_segment i, double le
     t = fraction_at(i, from.on & HR2DI_ON_I ? p : q);
   } else {
     const double a = cross(p, q, i.a), b = cross(p, q, i.b);
-    t = a != 0 && b != 0 ? a / (a - b) : hr2di_crossing(p, q, i.a, i.b);
+    t = a != 0 && b != 0 ? a / (a - b) : hr2di_line_crossing(p, q, i.a, i.b);
   }
   return t > least ? fmin(t, 1) : least;
 }
@@ -205,7 +209,7 @@ static hr2d_point point_at(hr2d_segment i, double t) {
   return (hr2d_point){from.x + u * (i.b.x - i.a.x), from.y + u * (i.b.y - i.a.y)};
 }
 
-int hr2di_corridor_area(const hr2di_frame *frame, const hr2di_chain *right,
+int hr2di_corridor_area(const hr2di_pair_lines *frame, const hr2di_chain *right,
                         const hr2di_chain *left, hr2d_segment i, double *area) {
   size_t r = right->count - 1, l = 0, r_last = 0, l_last = left->count - 1;
   double sum = 0, t = 0;
@@ -214,7 +218,7 @@ int hr2di_corridor_area(const hr2di_frame *frame, const hr2di_chain *right,
     return 0;
   hr2d_point x = i.a;
   for (;;) {
-    const hr2di_mark *at = &right->point[r], *to = &left->point[l];
+    const hr2di_incident_point *at = &right->point[r], *to = &left->point[l];
     const double t_right = r > r_last ? crossing(at[-1], at[0], i, t) : 1;
     const double t_left = l < l_last ? crossing(to[0], to[1], i, t) : 1;
     const double next = fmin(t_right, t_left);

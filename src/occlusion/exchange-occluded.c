@@ -50,28 +50,29 @@ static int comes_first(const hr2d_segment *i, const hr2d_segment *j) {
   return i->b.y <= j->b.y;
 }
 
-static hr2d_status integrate(hr2di_sight *sight, hr2d_segment i, hr2d_segment j, double *area) {
+static hr2d_status integrate(hr2di_visibility *sight, hr2d_segment i, hr2d_segment j,
+                             double *area) {
   hr2di_shaft shaft;
   hr2di_wall_list list = {0};
-  hr2di_view view;
+  hr2di_visibility_class view;
   int open;
   *area = 0;
-  if (!hr2di_shaft_make(&shaft, hr2di_face(&i, &j), i, j, i, j)) {
+  if (!hr2di_shaft_init(&shaft, hr2di_facing_of(&i, &j), i, j, i, j)) {
     *area = hr2d_exchange_area(&i, &j);
     return HR2D_OK;
   }
-  hr2d_status status = hr2di_sight_collect(sight, &shaft, &list, &view);
+  hr2d_status status = hr2di_visibility_collect(sight, &shaft, &list, &view);
   if (!status && view == HR2DI_CLEAR) *area = hr2d_exchange_area(&i, &j);
   if (!status && view == HR2DI_PARTIAL)
-    status = hr2di_sight_area(sight, &shaft, list.wall, list.count, area, &open);
-  hr2di_free(&sight->alloc, list.wall);
+    status = hr2di_visibility_area(sight, &shaft, list.wall, list.count, area, &open);
+  hr2di_alloc_free(&sight->alloc, list.wall);
   return status;
 }
 
 hr2d_status hr2d_exchange_area_occluded(const hr2d_segment *i, const hr2d_segment *j,
                                         const hr2d_segment *occluder, size_t count,
                                         const hr2d_allocator *alloc, double *area) {
-  const hr2d_allocator used = alloc ? *alloc : hr2di_default_allocator();
+  const hr2d_allocator used = alloc ? *alloc : hr2di_alloc_default();
   if (count == 0) {
     if (!is_finite(*i) || !is_finite(*j)) return HR2D_EINVAL;
     *area = hr2d_exchange_area(i, j);
@@ -88,17 +89,17 @@ hr2d_status hr2d_exchange_area_occluded(const hr2d_segment *i, const hr2d_segmen
   hr2d_status status = normalise(segment, count + 2, &exponent);
   if (!status) {
     hr2di_walls walls;
-    hr2di_sight sight;
+    hr2di_visibility sight;
     double scaled = 0;
-    status = hr2di_walls_make(&walls, &used, segment + 2, count);
-    hr2di_sight_start(&sight, &walls, &used);
+    status = hr2di_walls_init(&walls, &used, segment + 2, count);
+    hr2di_visibility_init(&sight, &walls, &used);
     if (!status) status = integrate(&sight, segment[0], segment[1], &scaled);
     /* Roundings of far coordinates may exceed all there is of a small pair. */
     scaled = fmin(scaled, hr2d_exchange_area(&segment[0], &segment[1]));
     if (!status) *area = ldexp(scaled, exponent);
-    hr2di_sight_end(&sight);
+    hr2di_visibility_clear(&sight);
     hr2di_walls_clear(&walls);
   }
-  hr2di_free(&used, segment);
+  hr2di_alloc_free(&used, segment);
   return status;
 }

@@ -25,8 +25,8 @@ typedef struct hr2di_put_off {
   size_t island;      /* the next to be tried */
 } hr2di_put_off;
 
-void hr2di_classes_start(hr2di_classes *c, const hr2di_walls *walls,
-                         const hr2d_allocator *alloc) {
+void hr2di_classes_init(hr2di_classes *c, const hr2di_walls *walls,
+                        const hr2d_allocator *alloc) {
   *c = (hr2di_classes){.walls = walls, .alloc = *alloc};
   c->right.hand = HR2DI_RIGHT;
   c->left.hand = HR2DI_LEFT;
@@ -34,7 +34,7 @@ void hr2di_classes_start(hr2di_classes *c, const hr2di_walls *walls,
   c->wider_left.hand = HR2DI_LEFT;
 }
 
-void hr2di_classes_end(hr2di_classes *c) {
+void hr2di_classes_clear(hr2di_classes *c) {
   void *const held[] = {c->barrier,
                         c->parent,
                         c->island,
@@ -47,7 +47,7 @@ void hr2di_classes_end(hr2di_classes *c) {
                         c->wider_left.point,
                         c->stack,
                         c->put_off};
-  for (size_t k = 0; k < sizeof held / sizeof *held; k++) hr2di_free(&c->alloc, held[k]);
+  for (size_t k = 0; k < sizeof held / sizeof *held; k++) hr2di_alloc_free(&c->alloc, held[k]);
 }
 
 /* The hand of both is that of the root. */
@@ -58,19 +58,20 @@ static void join(hr2di_classes *c, uint32_t i, uint32_t j) {
 
 /* The barrier meets the side p→q of the shaft: it cuts it, or ends where it begins or
    ends.  Not every touch is noticed; what is not is found out with the class. */
-static int meets_side(const hr2di_frame *f, const hr2di_obstacle *o, hr2di_mark p,
-                      hr2di_mark q) {
-  const hr2di_mark a = o->end[0], b = o->end[1];
-  if (hr2di_same_mark(f, a, p) || hr2di_same_mark(f, b, p) || hr2di_same_mark(f, a, q) ||
-      hr2di_same_mark(f, b, q))
+static int meets_side(const hr2di_pair_lines *f, const hr2di_obstacle *o,
+                      hr2di_incident_point p, hr2di_incident_point q) {
+  const hr2di_incident_point a = o->end[0], b = o->end[1];
+  if (hr2di_incident_same(f, a, p) || hr2di_incident_same(f, b, p) ||
+      hr2di_incident_same(f, a, q) || hr2di_incident_same(f, b, q))
     return 1;
-  if (hr2di_same_mark(f, p, q)) return 0;
-  return hr2di_turn(f, p, q, a) * hr2di_turn(f, p, q, b) < 0 &&
-         hr2di_turn(f, a, b, p) * hr2di_turn(f, a, b, q) <= 0;
+  if (hr2di_incident_same(f, p, q)) return 0;
+  return hr2di_orient_incident(f, p, q, a) * hr2di_orient_incident(f, p, q, b) < 0 &&
+         hr2di_orient_incident(f, a, b, p) * hr2di_orient_incident(f, a, b, q) <= 0;
 }
 
-static int between_sides(const hr2di_shaft *s, hr2di_mark p) {
-  return hr2di_turn(&s->frame, s->b, s->c, p) >= 0 && hr2di_turn(&s->frame, s->d, s->a, p) >= 0;
+static int between_sides(const hr2di_shaft *s, hr2di_incident_point p) {
+  return hr2di_orient_incident(&s->frame, s->b, s->c, p) >= 0 &&
+         hr2di_orient_incident(&s->frame, s->d, s->a, p) >= 0;
 }
 
 /* Joins barrier k with an earlier one of the same vertex, and with the one on which the
@@ -102,14 +103,15 @@ static void join_all(hr2di_classes *c, const hr2di_shaft *shaft) {
 static hr2d_status reserve(hr2di_classes *c, size_t count) {
   const hr2d_allocator *alloc = &c->alloc;
   const size_t vertices = c->joint_capacity, walls = c->joint_of_capacity;
-  if (hr2di_reserve(alloc, &c->barrier, &c->barrier_capacity, count, sizeof *c->barrier) ||
-      hr2di_reserve(alloc, &c->parent, &c->parent_capacity, count, sizeof *c->parent) ||
-      hr2di_reserve(alloc, &c->island, &c->island_capacity, count, sizeof *c->island) ||
-      hr2di_reserve(alloc, &c->point, &c->point_capacity, 2 * count, sizeof *c->point) ||
-      hr2di_reserve(alloc, &c->joint, &c->joint_capacity, c->walls->vertices,
-                    sizeof *c->joint) ||
-      hr2di_reserve(alloc, &c->joint_of, &c->joint_of_capacity, c->walls->walls,
-                    sizeof *c->joint_of))
+  if (hr2di_alloc_reserve(alloc, &c->barrier, &c->barrier_capacity, count,
+                          sizeof *c->barrier) ||
+      hr2di_alloc_reserve(alloc, &c->parent, &c->parent_capacity, count, sizeof *c->parent) ||
+      hr2di_alloc_reserve(alloc, &c->island, &c->island_capacity, count, sizeof *c->island) ||
+      hr2di_alloc_reserve(alloc, &c->point, &c->point_capacity, 2 * count, sizeof *c->point) ||
+      hr2di_alloc_reserve(alloc, &c->joint, &c->joint_capacity, c->walls->vertices,
+                          sizeof *c->joint) ||
+      hr2di_alloc_reserve(alloc, &c->joint_of, &c->joint_of_capacity, c->walls->walls,
+                          sizeof *c->joint_of))
     return HR2D_ENOMEM;
   for (size_t k = vertices; k < c->joint_capacity; k++) c->joint[k] = UINT32_MAX;
   for (size_t k = walls; k < c->joint_of_capacity; k++) c->joint_of[k] = UINT32_MAX;
@@ -117,7 +119,7 @@ static hr2d_status reserve(hr2di_classes *c, size_t count) {
 }
 
 /* The width of points across the shaft. */
-static double width_of(const hr2di_shaft *s, const hr2di_mark *point, size_t count) {
+static double width_of(const hr2di_shaft *s, const hr2di_incident_point *point, size_t count) {
   const hr2d_point across = hr2di_shaft_across(s);
   double least = HUGE_VAL, most = -HUGE_VAL;
   for (size_t k = 0; k < count; k++) {
@@ -146,8 +148,8 @@ static void put_points(hr2di_classes *c, uint32_t k) {
 
 /* The chains with all that has its side by itself, and the islands. */
 static hr2d_status gather(hr2di_classes *c, const hr2di_shaft *s, unsigned known) {
-  hr2d_status status = hr2di_chain_begin(&c->right, &c->alloc, s->b, s->c);
-  if (!status) status = hr2di_chain_begin(&c->left, &c->alloc, s->a, s->d);
+  hr2d_status status = hr2di_chain_init(&c->right, &c->alloc, s->b, s->c);
+  if (!status) status = hr2di_chain_init(&c->left, &c->alloc, s->a, s->d);
   c->points = c->islands = 0;
   for (uint32_t k = 0; k < c->barriers && !status; k++) {
     if (hr2di_union_find(c->parent, k) != k) continue;
@@ -198,9 +200,10 @@ hr2d_status hr2di_classes_sort(hr2di_classes *c, const hr2di_shaft *shaft, const
   return HR2D_OK;
 }
 
-static hr2d_status copy(hr2di_chain *to, const hr2d_allocator *alloc, const hr2di_mark *point,
-                        size_t count) {
-  if (hr2di_reserve(alloc, &to->point, &to->capacity, count, sizeof *point)) return HR2D_ENOMEM;
+static hr2d_status copy(hr2di_chain *to, const hr2d_allocator *alloc,
+                        const hr2di_incident_point *point, size_t count) {
+  if (hr2di_alloc_reserve(alloc, &to->point, &to->capacity, count, sizeof *point))
+    return HR2D_ENOMEM;
   memcpy(to->point, point, count * sizeof *point);
   to->count = count;
   return HR2D_OK;
@@ -209,10 +212,10 @@ static hr2d_status copy(hr2di_chain *to, const hr2d_allocator *alloc, const hr2d
 /* The class with these chains is to be looked at later, from `island` on. */
 static hr2d_status put_off(hr2di_classes *c, const hr2di_chain *right, const hr2di_chain *left,
                            size_t island) {
-  if (hr2di_reserve(&c->alloc, &c->stack, &c->stack_capacity,
-                    c->stacked + right->count + left->count, sizeof *c->stack) ||
-      hr2di_reserve(&c->alloc, &c->put_off, &c->put_off_capacity, c->put_offs + 1,
-                    sizeof *c->put_off))
+  if (hr2di_alloc_reserve(&c->alloc, &c->stack, &c->stack_capacity,
+                          c->stacked + right->count + left->count, sizeof *c->stack) ||
+      hr2di_alloc_reserve(&c->alloc, &c->put_off, &c->put_off_capacity, c->put_offs + 1,
+                          sizeof *c->put_off))
     return HR2D_ENOMEM;
   memcpy(c->stack + c->stacked, right->point, right->count * sizeof *c->stack);
   memcpy(c->stack + c->stacked + right->count, left->point, left->count * sizeof *c->stack);

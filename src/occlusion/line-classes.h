@@ -33,21 +33,21 @@ typedef struct hr2di_classes {
   size_t parent_capacity;
   hr2di_island *island;
   size_t islands, island_capacity;
-  hr2di_mark *point; /* of the barriers, joined ones together */
+  hr2di_incident_point *point; /* of the barriers, joined ones together */
   size_t points, point_capacity;
   uint32_t *joint, *joint_of; /* per vertex and wall: the barrier there, if its joint says so */
   size_t joint_capacity, joint_of_capacity;
   hr2di_chain right, left;             /* of the class under way */
   hr2di_chain wider_right, wider_left; /* the same with an island more */
-  hr2di_mark *stack;                   /* chains of the classes put off */
+  hr2di_incident_point *stack;         /* chains of the classes put off */
   size_t stacked, stack_capacity;
   struct hr2di_put_off *put_off;
   size_t put_offs, put_off_capacity;
 } hr2di_classes;
 
-void hr2di_classes_start(hr2di_classes *classes, const hr2di_walls *walls,
-                         const hr2d_allocator *alloc);
-void hr2di_classes_end(hr2di_classes *classes);
+void hr2di_classes_init(hr2di_classes *classes, const hr2di_walls *walls,
+                        const hr2d_allocator *alloc);
+void hr2di_classes_clear(hr2di_classes *classes);
 
 /* Sorts the walls in the way of a shaft: to the right, to the left, and islands.
  *passable is 0 if they are seen to leave no gap.  HR2D_OK or HR2D_ENOMEM. */

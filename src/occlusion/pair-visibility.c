@@ -18,21 +18,21 @@ enum { MOST_ISLANDS = 8, MOST_CUTS = 24 };
    they leave none. */
 enum { FEW = 4, WIDEST = 16 };
 
-void hr2di_sight_start(hr2di_sight *sight, const hr2di_walls *walls,
-                       const hr2d_allocator *alloc) {
-  *sight = (hr2di_sight){.walls = walls, .alloc = *alloc};
-  hr2di_classes_start(&sight->classes, walls, alloc);
+void hr2di_visibility_init(hr2di_visibility *sight, const hr2di_walls *walls,
+                           const hr2d_allocator *alloc) {
+  *sight = (hr2di_visibility){.walls = walls, .alloc = *alloc};
+  hr2di_classes_init(&sight->classes, walls, alloc);
 }
 
-void hr2di_sight_end(hr2di_sight *sight) {
-  hr2di_classes_end(&sight->classes);
-  hr2di_free(&sight->alloc, sight->list.wall);
+void hr2di_visibility_clear(hr2di_visibility *sight) {
+  hr2di_classes_clear(&sight->classes);
+  hr2di_alloc_free(&sight->alloc, sight->list.wall);
 }
 
 /* Whether the body of a wall in the way cuts the shaft in two: it is in front of i and j
    and reaches either side.  Bodies share slots; one that is forgotten is noticed later,
    when the pair is integrated. */
-static int body_cuts(hr2di_sight *s, const hr2di_shaft *shaft, uint32_t wall,
+static int body_cuts(hr2di_visibility *s, const hr2di_shaft *shaft, uint32_t wall,
                      const hr2di_obstacle *o) {
   const uint32_t number = s->walls->body_of[wall];
   hr2di_reach *reach = &s->reach[number % HR2DI_REACHES];
@@ -46,8 +46,8 @@ static int body_cuts(hr2di_sight *s, const hr2di_shaft *shaft, uint32_t wall,
 }
 
 /* Tests a wall and appends it if it is in the way.  *view is what it was, or worse. */
-static hr2d_status test(hr2di_sight *s, const hr2di_shaft *shaft, uint32_t wall,
-                        hr2di_wall_list *found, hr2di_view *view) {
+static hr2d_status test(hr2di_visibility *s, const hr2di_shaft *shaft, uint32_t wall,
+                        hr2di_wall_list *found, hr2di_visibility_class *view) {
   hr2di_obstacle obstacle;
   hr2di_in_way way = hr2di_shaft_test(shaft, s->walls->wall[wall].at, &obstacle);
   s->tests++;
@@ -58,8 +58,8 @@ static hr2d_status test(hr2di_sight *s, const hr2di_shaft *shaft, uint32_t wall,
   *view = way == HR2DI_ACROSS ? HR2DI_BLOCKED : HR2DI_PARTIAL;
   s->last = wall;
   if (way == HR2DI_ACROSS) return HR2D_OK;
-  if (hr2di_reserve(&s->alloc, &found->wall, &found->capacity, found->count + 1,
-                    sizeof *found->wall))
+  if (hr2di_alloc_reserve(&s->alloc, &found->wall, &found->capacity, found->count + 1,
+                          sizeof *found->wall))
     return HR2D_ENOMEM;
   found->wall[found->count++] = wall;
   return HR2D_OK;
@@ -71,13 +71,13 @@ static uint32_t first_wall(const hr2di_walls *walls, const hr2di_box *box) {
 }
 
 /* Whether a body whose walls a box holds cuts the shaft in two. */
-static int body_across(hr2di_sight *s, const hr2di_shaft *shaft, const hr2di_box *box) {
+static int body_across(hr2di_visibility *s, const hr2di_shaft *shaft, const hr2di_box *box) {
   if (box->body == HR2DI_NO_BODY ||
       !hr2di_shaft_has_in_front(shaft, box->x0, box->x1, box->y0, box->y1))
     return 0;
   const double dx = (shaft->c.at.x + shaft->d.at.x) - (shaft->a.at.x + shaft->b.at.x);
   const double dy = (shaft->c.at.y + shaft->d.at.y) - (shaft->a.at.y + shaft->b.at.y);
-  const hr2d_segment chord = hr2di_chord_across(&s->walls->body[box->body], dx, dy);
+  const hr2d_segment chord = hr2di_body_chord_across(&s->walls->body[box->body], dx, dy);
   hr2di_obstacle obstacle;
   s->tests++;
   return hr2di_shaft_test(shaft, chord, &obstacle) == HR2DI_ACROSS;
@@ -113,11 +113,11 @@ static hr2d_point middle_of(const hr2di_shaft *s) {
                       0.25 * ((s->a.at.y + s->b.at.y) + (s->c.at.y + s->d.at.y))};
 }
 
-/* hr2di_sight_collect(), until there are more than `most`.  What is across is most likely in
-   the middle: looked for there first it is found soon even where every box meets the shaft,
+/* hr2di_visibility_collect(), until there are more than `most`.  What is across is most likely
+   in the middle: looked for there first it is found soon even where every box meets the shaft,
    as do those around a fan of walls that meet in a point. */
-static hr2d_status collect(hr2di_sight *s, const hr2di_shaft *shaft, size_t most,
-                           hr2di_wall_list *found, hr2di_view *view) {
+static hr2d_status collect(hr2di_visibility *s, const hr2di_shaft *shaft, size_t most,
+                           hr2di_wall_list *found, hr2di_visibility_class *view) {
   const size_t before = found->count;
   const hr2d_point middle = middle_of(shaft);
   uint32_t stack[HR2DI_BOX_DEPTH], count = 0;
@@ -147,25 +147,25 @@ static hr2d_status collect(hr2di_sight *s, const hr2di_shaft *shaft, size_t most
   return status;
 }
 
-hr2d_status hr2di_sight_collect(hr2di_sight *s, const hr2di_shaft *shaft,
-                                hr2di_wall_list *found, hr2di_view *view) {
+hr2d_status hr2di_visibility_collect(hr2di_visibility *s, const hr2di_shaft *shaft,
+                                     hr2di_wall_list *found, hr2di_visibility_class *view) {
   return collect(s, shaft, SIZE_MAX, found, view);
 }
 
-hr2d_status hr2di_sight_surely(hr2di_sight *s, const hr2di_shaft *shaft, int *surely) {
+hr2d_status hr2di_visibility_quick(hr2di_visibility *s, const hr2di_shaft *shaft, int *surely) {
   hr2di_wall_list found = {0};
-  hr2di_view view;
+  hr2di_visibility_class view;
   hr2d_status status = collect(s, shaft, FEW, &found, &view);
   *surely = view == HR2DI_CLEAR;
   if (!status && view == HR2DI_PARTIAL && found.count <= FEW)
-    status = hr2di_sight_open(s, shaft, found.wall, found.count, surely);
-  hr2di_free(&s->alloc, found.wall);
+    status = hr2di_visibility_any(s, shaft, found.wall, found.count, surely);
+  hr2di_alloc_free(&s->alloc, found.wall);
   return status;
 }
 
-hr2d_status hr2di_sight_shrink(hr2di_sight *s, const hr2di_shaft *shaft,
-                               const hr2di_wall_list *from, size_t first, size_t count,
-                               hr2di_wall_list *found, hr2di_view *view) {
+hr2d_status hr2di_visibility_shrink(hr2di_visibility *s, const hr2di_shaft *shaft,
+                                    const hr2di_wall_list *from, size_t first, size_t count,
+                                    hr2di_wall_list *found, hr2di_visibility_class *view) {
   const size_t before = found->count;
   hr2d_status status = HR2D_OK;
   *view = HR2DI_CLEAR;
@@ -200,7 +200,7 @@ static int cut(const hr2di_shaft *shaft, hr2d_segment i[2], hr2d_segment j[2]) {
 }
 
 /* Both halves of a part, onto the stack in its place. */
-static hr2d_status cut_up(hr2di_sight *s, part *stack, size_t *parts, int *done) {
+static hr2d_status cut_up(hr2di_visibility *s, part *stack, size_t *parts, int *done) {
   const part whole = stack[*parts - 1];
   hr2d_segment i[2], j[2];
   *done = 0;
@@ -210,12 +210,12 @@ static hr2d_status cut_up(hr2di_sight *s, part *stack, size_t *parts, int *done)
   hr2d_status status = HR2D_OK;
   for (int k = 0; k < 2 && !status; k++) {
     part *half = &stack[*parts];
-    hr2di_view view;
+    hr2di_visibility_class view;
     half->cuts = whole.cuts + 1;
     half->first = s->list.count;
     if (!hr2di_shaft_part(&half->shaft, &whole.shaft, i[k], j[k])) continue;
-    status = hr2di_sight_shrink(s, &half->shaft, &s->list, whole.first, whole.count, &s->list,
-                                &view);
+    status = hr2di_visibility_shrink(s, &half->shaft, &s->list, whole.first, whole.count,
+                                     &s->list, &view);
     half->count = s->list.count - half->first;
     if (view != HR2DI_BLOCKED) ++*parts;
   }
@@ -223,7 +223,8 @@ static hr2d_status cut_up(hr2di_sight *s, part *stack, size_t *parts, int *done)
 }
 
 /* One part: its area and whether it is open, or its halves. */
-static hr2d_status settle(hr2di_sight *s, part *stack, size_t *parts, double *area, int *open) {
+static hr2d_status settle(hr2di_visibility *s, part *stack, size_t *parts, double *area,
+                          int *open) {
   const part *top = &stack[*parts - 1];
   int passable, cut_done;
   if (top->count == 0) {
@@ -234,8 +235,9 @@ static hr2d_status settle(hr2di_sight *s, part *stack, size_t *parts, double *ar
     --*parts;
     return HR2D_OK;
   }
-  hr2d_status status = hr2di_classes_sort(
-      &s->classes, &top->shaft, hr2di_walls_from(&s->list, top->first), top->count, &passable);
+  hr2d_status status =
+      hr2di_classes_sort(&s->classes, &top->shaft, hr2di_wall_list_from(&s->list, top->first),
+                         top->count, &passable);
   if (!status && passable && s->classes.islands > MOST_ISLANDS) {
     status = cut_up(s, stack, parts, &cut_done);
     if (status || cut_done) return status;
@@ -245,15 +247,15 @@ static hr2d_status settle(hr2di_sight *s, part *stack, size_t *parts, double *ar
   return status;
 }
 
-static hr2d_status sum_parts(hr2di_sight *s, const hr2di_shaft *shaft, const uint32_t *wall,
-                             size_t count, double *area, int *open) {
+static hr2d_status sum_parts(hr2di_visibility *s, const hr2di_shaft *shaft,
+                             const uint32_t *wall, size_t count, double *area, int *open) {
   part stack[MOST_CUTS + 2];
   size_t parts = 1;
   hr2d_status status = HR2D_OK;
   *open = 0;
   if (area) *area = 0;
   s->list.count = 0;
-  if (hr2di_reserve(&s->alloc, &s->list.wall, &s->list.capacity, count, sizeof *wall))
+  if (hr2di_alloc_reserve(&s->alloc, &s->list.wall, &s->list.capacity, count, sizeof *wall))
     return HR2D_ENOMEM;
   for (size_t k = 0; k < count; k++) s->list.wall[k] = wall[k];
   s->list.count = count;
@@ -270,14 +272,14 @@ static hr2d_status sum_parts(hr2di_sight *s, const hr2di_shaft *shaft, const uin
   return status;
 }
 
-static hr2d_point between(hr2di_mark p, hr2di_mark q) {
+static hr2d_point between(hr2di_incident_point p, hr2di_incident_point q) {
   return (hr2d_point){0.5 * (p.at.x + q.at.x), 0.5 * (p.at.y + q.at.y)};
 }
 
 /* Whether the line from centre to centre passes all walls.  Coordinates lie in [-2,2], so
    that all rounding, that of the centres included, is below 2^-48. */
-static int centres_see(const hr2di_sight *s, const hr2di_shaft *shaft, const uint32_t *wall,
-                       size_t count) {
+static int centres_see(const hr2di_visibility *s, const hr2di_shaft *shaft,
+                       const uint32_t *wall, size_t count) {
   const hr2d_point p = between(shaft->a, shaft->b), q = between(shaft->c, shaft->d);
   const double ux = q.x - p.x, uy = q.y - p.y;
   for (size_t k = 0; k < count; k++) {
@@ -289,8 +291,8 @@ static int centres_see(const hr2di_sight *s, const hr2di_shaft *shaft, const uin
   return 1;
 }
 
-hr2d_status hr2di_sight_open(hr2di_sight *sight, const hr2di_shaft *shaft, const uint32_t *wall,
-                             size_t count, int *open) {
+hr2d_status hr2di_visibility_any(hr2di_visibility *sight, const hr2di_shaft *shaft,
+                                 const uint32_t *wall, size_t count, int *open) {
   *open = centres_see(sight, shaft, wall, count);
   if (*open) return HR2D_OK;
   return sum_parts(sight, shaft, wall, count, NULL, open);
@@ -302,8 +304,8 @@ static double width_of(const hr2di_shaft *s, hr2d_segment wall) {
   return fabs(across.x * (wall.b.x - wall.a.x) + across.y * (wall.b.y - wall.a.y));
 }
 
-hr2d_status hr2di_sight_blocked(hr2di_sight *s, const hr2di_shaft *shaft, const uint32_t *wall,
-                                size_t count, int *blocked) {
+hr2d_status hr2di_visibility_blocked(hr2di_visibility *s, const hr2di_shaft *shaft,
+                                     const uint32_t *wall, size_t count, int *blocked) {
   uint32_t widest[WIDEST];
   double width[WIDEST];
   size_t kept = 0;
@@ -319,12 +321,12 @@ hr2d_status hr2di_sight_blocked(hr2di_sight *s, const hr2di_shaft *shaft, const 
     widest[at] = wall[k];
   }
   int open;
-  const hr2d_status status = hr2di_sight_open(s, shaft, widest, kept, &open);
+  const hr2d_status status = hr2di_visibility_any(s, shaft, widest, kept, &open);
   *blocked = !open;
   return status;
 }
 
-hr2d_status hr2di_sight_area(hr2di_sight *sight, const hr2di_shaft *shaft, const uint32_t *wall,
-                             size_t count, double *area, int *open) {
+hr2d_status hr2di_visibility_area(hr2di_visibility *sight, const hr2di_shaft *shaft,
+                                  const uint32_t *wall, size_t count, double *area, int *open) {
   return sum_parts(sight, shaft, wall, count, area, open);
 }

@@ -14,7 +14,7 @@ typedef struct hr2di_wall_list {
 } hr2di_wall_list;
 
 /* Those from number `first` on; NULL where there never were any. */
-static inline uint32_t *hr2di_walls_from(const hr2di_wall_list *list, size_t first) {
+static inline uint32_t *hr2di_wall_list_from(const hr2di_wall_list *list, size_t first) {
   return list->wall ? list->wall + first : NULL;
 }
 
@@ -22,13 +22,13 @@ static inline uint32_t *hr2di_walls_from(const hr2di_wall_list *list, size_t fir
 enum { HR2DI_REACHES = 16 };
 
 typedef struct hr2di_reach {
-  uint64_t look; /* hr2di_sight::looks, of when it was seen */
+  uint64_t look; /* hr2di_visibility::looks, of when it was seen */
   uint32_t body;
   unsigned beyond;
 } hr2di_reach;
 
 /* Work space of one thread. */
-typedef struct hr2di_sight {
+typedef struct hr2di_visibility {
   const hr2di_walls *walls;
   hr2d_allocator alloc;
   uint64_t tests; /* of walls and boxes against a shaft, so far */
@@ -37,43 +37,44 @@ typedef struct hr2di_sight {
   hr2di_reach reach[HR2DI_REACHES];
   hr2di_classes classes;
   hr2di_wall_list list; /* of the parts of a pair under way */
-} hr2di_sight;
+} hr2di_visibility;
 
-void hr2di_sight_start(hr2di_sight *sight, const hr2di_walls *walls,
-                       const hr2d_allocator *alloc);
-void hr2di_sight_end(hr2di_sight *sight);
+void hr2di_visibility_init(hr2di_visibility *sight, const hr2di_walls *walls,
+                           const hr2d_allocator *alloc);
+void hr2di_visibility_clear(hr2di_visibility *sight);
 
-typedef enum hr2di_view {
+typedef enum hr2di_visibility_class {
   HR2DI_CLEAR,   /* nothing in the way */
   HR2DI_PARTIAL, /* something, but maybe not everywhere */
   HR2DI_BLOCKED  /* nothing passes */
-} hr2di_view;
+} hr2di_visibility_class;
 
 /* Appends to `found` the walls in the way, of those in the scene, by their numbers; HR2D_OK or
    HR2D_ENOMEM. Nothing is appended unless the view is partial.  One wall across is noticed
-   here, what several block together by hr2di_sight_open(). */
-hr2d_status hr2di_sight_collect(hr2di_sight *sight, const hr2di_shaft *shaft,
-                                hr2di_wall_list *found, hr2di_view *view);
+   here, what several block together by hr2di_visibility_any(). */
+hr2d_status hr2di_visibility_collect(hr2di_visibility *sight, const hr2di_shaft *shaft,
+                                     hr2di_wall_list *found, hr2di_visibility_class *view);
 
 /* The same of the `count` walls from number `first` on in `from`, which may be `found`. */
-hr2d_status hr2di_sight_shrink(hr2di_sight *sight, const hr2di_shaft *shaft,
-                               const hr2di_wall_list *from, size_t first, size_t count,
-                               hr2di_wall_list *found, hr2di_view *view);
+hr2d_status hr2di_visibility_shrink(hr2di_visibility *sight, const hr2di_shaft *shaft,
+                                    const hr2di_wall_list *from, size_t first, size_t count,
+                                    hr2di_wall_list *found, hr2di_visibility_class *view);
 
 /* Whether two segments surely see each other, for little: nothing is in the way, or so few
-   walls that it is known at once.  What this does not notice hr2di_sight_open() does. */
-hr2d_status hr2di_sight_surely(hr2di_sight *sight, const hr2di_shaft *shaft, int *surely);
+   walls that it is known at once.  What this does not notice hr2di_visibility_any() does. */
+hr2d_status hr2di_visibility_quick(hr2di_visibility *sight, const hr2di_shaft *shaft,
+                                   int *surely);
 
 /* Whether some light passes between the walls in the way; exact. */
-hr2d_status hr2di_sight_open(hr2di_sight *sight, const hr2di_shaft *shaft, const uint32_t *wall,
-                             size_t count, int *open);
+hr2d_status hr2di_visibility_any(hr2di_visibility *sight, const hr2di_shaft *shaft,
+                                 const uint32_t *wall, size_t count, int *open);
 
 /* Whether the widest of many walls block the pair together; never 1 if they do not. */
-hr2d_status hr2di_sight_blocked(hr2di_sight *sight, const hr2di_shaft *shaft,
-                                const uint32_t *wall, size_t count, int *blocked);
+hr2d_status hr2di_visibility_blocked(hr2di_visibility *sight, const hr2di_shaft *shaft,
+                                     const uint32_t *wall, size_t count, int *blocked);
 
 /* The exchange area past the walls in the way, and whether some light passes. */
-hr2d_status hr2di_sight_area(hr2di_sight *sight, const hr2di_shaft *shaft, const uint32_t *wall,
-                             size_t count, double *area, int *open);
+hr2d_status hr2di_visibility_area(hr2di_visibility *sight, const hr2di_shaft *shaft,
+                                  const uint32_t *wall, size_t count, double *area, int *open);
 
 #endif

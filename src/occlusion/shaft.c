@@ -18,11 +18,11 @@ static double largest(hr2d_point p) {
 
 /* front() for a point near the line. */
 static int front_of_near(const hr2di_axis *line, hr2d_point p) {
-  const int side = hr2di_side(line->a, line->b, p);
+  const int side = hr2di_orient_sign(line->a, line->b, p);
   if (side == 0) return 0;
   const double size = fmax(largest(p), fmax(largest(line->a), largest(line->b)));
   const hr2d_segment s = {line->a, line->b};
-  return hr2di_line_distance(p, &s) <= TOUCH * size ? 0 : side;
+  return hr2di_crossings_distance(p, &s) <= TOUCH * size ? 0 : side;
 }
 
 /* 1 if p is in front of a line, −1 if behind, 0 if on it.  Coordinates lie in [-2,2], so
@@ -38,15 +38,15 @@ static inline int front(const hr2di_axis *line, hr2d_point p) {
 /* The point of p→q on a line between them; an end of the segment on that line if it is
    that. */
 static hr2d_point foot(hr2d_point p, hr2d_point q, hr2d_point on_a, hr2d_point on_b) {
-  if (hr2di_side(p, q, on_a) == 0) return on_a;
-  if (hr2di_side(p, q, on_b) == 0) return on_b;
-  const double t = hr2di_crossing(on_a, on_b, p, q);
+  if (hr2di_orient_sign(p, q, on_a) == 0) return on_a;
+  if (hr2di_orient_sign(p, q, on_b) == 0) return on_b;
+  const double t = hr2di_line_crossing(on_a, on_b, p, q);
   if (t > 0.5) return (hr2d_point){q.x + (1 - t) * (p.x - q.x), q.y + (1 - t) * (p.y - q.y)};
   return (hr2d_point){p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
 }
 
 /* Points on one line that are a rounding apart are one. */
-static void snap(hr2di_mark *p, hr2di_mark to) {
+static void snap(hr2di_incident_point *p, hr2di_incident_point to) {
   const double near = TOUCH * largest(to.at);
   if (!(p->on & to.on) || fabs(p->at.x - to.at.x) > near || fabs(p->at.y - to.at.y) > near)
     return;
@@ -70,7 +70,8 @@ static int clip(hr2di_obstacle *o, const hr2di_axis *line, unsigned bit, const i
 }
 
 /* The part of a segment in front of a line. */
-static int clip_segment(hr2di_mark *p, hr2di_mark *q, const hr2di_axis *line, unsigned bit) {
+static int clip_segment(hr2di_incident_point *p, hr2di_incident_point *q,
+                        const hr2di_axis *line, unsigned bit) {
   const int at[2] = {front(line, p->at), front(line, q->at)};
   if (at[0] > 0 && at[1] > 0) return 1;
   hr2di_obstacle o = {.end = {*p, *q}, .whole = 3};
@@ -93,8 +94,9 @@ static hr2di_half_plane left_of(hr2d_point a, hr2d_point b) {
 /* From p on one of i and j to q on the other.  Where they touch there is no side to be beyond
    of.  Where p and q are on one line, one of them is a foot and off by 2^-49 at most, and that
    line is off by 2^-49·(|pr| + |qr|)/|pq| at r. */
-static hr2di_half_plane side_between(const hr2di_frame *frame, hr2di_mark p, hr2di_mark q) {
-  if (hr2di_same_mark(frame, p, q)) return (hr2di_half_plane){0, 0, 0, 0};
+static hr2di_half_plane side_between(const hr2di_pair_lines *frame, hr2di_incident_point p,
+                                     hr2di_incident_point q) {
+  if (hr2di_incident_same(frame, p, q)) return (hr2di_half_plane){0, 0, 0, 0};
   hr2di_half_plane side = left_of(p.at, q.at);
   if (p.on & q.on) side.margin += 0x1p-45;
   return side;
@@ -109,14 +111,14 @@ static inline double greater(double p, double q) {
   return p > q ? p : q;
 }
 
-int hr2di_shaft_make(hr2di_shaft *s, hr2di_facing facing, hr2d_segment i, hr2d_segment j,
+int hr2di_shaft_init(hr2di_shaft *s, hr2di_facing facing, hr2d_segment i, hr2d_segment j,
                      hr2d_segment line_i, hr2d_segment line_j) {
   if (facing == HR2DI_FACING_NONE) return 0;
-  s->frame = (hr2di_frame){hr2di_axis_of(line_i), hr2di_axis_of(line_j)};
-  s->a = (hr2di_mark){i.a, HR2DI_ON_I};
-  s->b = (hr2di_mark){i.b, HR2DI_ON_I};
-  s->c = (hr2di_mark){j.a, HR2DI_ON_J};
-  s->d = (hr2di_mark){j.b, HR2DI_ON_J};
+  s->frame = (hr2di_pair_lines){hr2di_axis_of(line_i), hr2di_axis_of(line_j)};
+  s->a = (hr2di_incident_point){i.a, HR2DI_ON_I};
+  s->b = (hr2di_incident_point){i.b, HR2DI_ON_I};
+  s->c = (hr2di_incident_point){j.a, HR2DI_ON_J};
+  s->d = (hr2di_incident_point){j.b, HR2DI_ON_J};
   if (!clip_segment(&s->a, &s->b, &s->frame.j, HR2DI_ON_J) ||
       !clip_segment(&s->c, &s->d, &s->frame.i, HR2DI_ON_I))
     return 0;
@@ -135,7 +137,7 @@ int hr2di_shaft_make(hr2di_shaft *s, hr2di_facing facing, hr2d_segment i, hr2d_s
 int hr2di_shaft_part(hr2di_shaft *part, const hr2di_shaft *whole, hr2d_segment i,
                      hr2d_segment j) {
   const hr2di_axis p = whole->frame.i, q = whole->frame.j;
-  return hr2di_shaft_make(part, HR2DI_FACING_FULL, i, j, (hr2d_segment){p.a, p.b},
+  return hr2di_shaft_init(part, HR2DI_FACING_FULL, i, j, (hr2d_segment){p.a, p.b},
                           (hr2d_segment){q.a, q.b});
 }
 
@@ -187,7 +189,7 @@ static inline int certain(double value, double margin) {
   return (value > margin) - (value < -margin);
 }
 
-static int is_near(hr2di_mark p, hr2di_mark corner) {
+static int is_near(hr2di_incident_point p, hr2di_incident_point corner) {
   const double near = 16 * TOUCH * largest(corner.at);
   return corner.on == HR2DI_ON_BOTH && fabs(p.at.x - corner.at.x) <= near &&
          fabs(p.at.y - corner.at.y) <= near;
@@ -195,12 +197,12 @@ static int is_near(hr2di_mark p, hr2di_mark corner) {
 
 /* In a wedge of a few roundings an end may lie on both lines but for a rounding, and far from
    where they meet: there it is between them, and blocks what its coordinates say. */
-static void part(const hr2di_shaft *s, hr2di_mark *p) {
+static void part(const hr2di_shaft *s, hr2di_incident_point *p) {
   if (p->on != HR2DI_ON_BOTH || is_near(*p, s->a) || is_near(*p, s->b) || is_near(*p, s->c) ||
       is_near(*p, s->d))
     return;
-  if (hr2di_side(s->frame.i.a, s->frame.i.b, p->at) > 0 &&
-      hr2di_side(s->frame.j.a, s->frame.j.b, p->at) > 0)
+  if (hr2di_orient_sign(s->frame.i.a, s->frame.i.b, p->at) > 0 &&
+      hr2di_orient_sign(s->frame.j.a, s->frame.j.b, p->at) > 0)
     p->on = 0;
 }
 
@@ -230,16 +232,17 @@ static inline int clip_wall(const hr2di_shaft *s, double value[4][2], hr2di_obst
 /* Which ends of the obstacle are beyond the side k, p→q, of the shaft, or on it.  Where i
    and j touch, the side is a point. */
 static inline unsigned beyond_side(const hr2di_shaft *s, const hr2di_obstacle *o, int k,
-                                   double value[4][2], hr2di_mark p, hr2di_mark q) {
+                                   double value[4][2], hr2di_incident_point p,
+                                   hr2di_incident_point q) {
   const hr2di_half_plane *h = &s->side[k];
   const int point = h->margin == 0;
   unsigned beyond = 0;
   for (unsigned e = 0; e < 2; e++) {
     int sign = o->whole & (1u << e) ? certain(value[k][e], h->margin) : 0;
     if (point)
-      sign = !hr2di_same_mark(&s->frame, o->end[e], p);
+      sign = !hr2di_incident_same(&s->frame, o->end[e], p);
     else if (sign == 0)
-      sign = hr2di_turn(&s->frame, p, q, o->end[e]);
+      sign = hr2di_orient_incident(&s->frame, p, q, o->end[e]);
     beyond |= (unsigned)(sign <= 0) << e;
   }
   return beyond;
@@ -259,9 +262,11 @@ hr2di_in_way hr2di_shaft_test(const hr2di_shaft *s, hr2d_segment w, hr2di_obstac
   /* An end within the shaft is in the way, and does not span it. */
   for (unsigned e = 0; e < 2; e++)
     if (!o->end[e].on && !((right | left) & (1u << e))) return HR2DI_INSIDE;
-  const hr2di_mark p = o->end[0], q = o->end[1];
-  const int a = hr2di_turn(&s->frame, p, q, s->a), b = hr2di_turn(&s->frame, p, q, s->b);
-  const int c = hr2di_turn(&s->frame, p, q, s->c), d = hr2di_turn(&s->frame, p, q, s->d);
+  const hr2di_incident_point p = o->end[0], q = o->end[1];
+  const int a = hr2di_orient_incident(&s->frame, p, q, s->a),
+            b = hr2di_orient_incident(&s->frame, p, q, s->b);
+  const int c = hr2di_orient_incident(&s->frame, p, q, s->c),
+            d = hr2di_orient_incident(&s->frame, p, q, s->d);
   if ((a >= 0 && b >= 0 && c >= 0 && d >= 0) || (a <= 0 && b <= 0 && c <= 0 && d <= 0))
     return HR2DI_ASIDE;
   const int between =

@@ -15,16 +15,16 @@ typedef struct hr2di_half_plane {
 } hr2di_half_plane;
 
 typedef struct hr2di_shaft {
-  hr2di_frame frame;        /* of the patches of which i and j are parts */
-  hr2di_mark a, b, c, d;    /* i = ab and j = cd, clipped at each other's horizon */
-  double x0, x1, y0, y1;    /* box around them */
+  hr2di_pair_lines frame;          /* of the patches of which i and j are parts */
+  hr2di_incident_point a, b, c, d; /* i = ab and j = cd, clipped at each other's horizon */
+  double x0, x1, y0, y1;           /* box around them */
   hr2di_half_plane side[4]; /* in front of i, of j, between them on the right, on the left */
 } hr2di_shaft;
 
 /* Makes the shaft of i and j, parts of two lines; 0 if there is none: they do not face
    each other, or one lies along the line of the other but for rounding, so that nothing
    is between them. */
-int hr2di_shaft_make(hr2di_shaft *shaft, hr2di_facing facing, hr2d_segment i, hr2d_segment j,
+int hr2di_shaft_init(hr2di_shaft *shaft, hr2di_facing facing, hr2d_segment i, hr2d_segment j,
                      hr2d_segment line_i, hr2d_segment line_j);
 
 /* The shaft of parts of i and j; the same. */
@@ -52,7 +52,7 @@ typedef enum hr2di_in_way {
 
 /* What of a wall is in front of i and j. */
 typedef struct hr2di_obstacle {
-  hr2di_mark end[2];
+  hr2di_incident_point end[2];
   unsigned whole;       /* 1 and 2: this end is the wall's own */
   unsigned right, left; /* 1 and 2: this end reaches that side of the shaft, or is beyond */
 } hr2di_obstacle;

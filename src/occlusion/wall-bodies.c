@@ -32,7 +32,7 @@ static void extend(hr2di_body *body, hr2d_point p) {
   }
 }
 
-hr2d_status hr2di_bodies_make(hr2di_walls *w) {
+hr2d_status hr2di_wall_bodies_init(hr2di_walls *w) {
   uint32_t *parent = hr2di_alloc(&w->alloc, w->walls, sizeof *parent);
   uint32_t *first = hr2di_alloc(&w->alloc, w->vertices, sizeof *first);
   const hr2d_status status = parent && first ? HR2D_OK : HR2D_ENOMEM;
@@ -48,12 +48,12 @@ hr2d_status hr2di_bodies_make(hr2di_walls *w) {
     extend(&w->body[w->body_of[k]], s.a);
     extend(&w->body[w->body_of[k]], s.b);
   }
-  hr2di_free(&w->alloc, parent);
-  hr2di_free(&w->alloc, first);
+  hr2di_alloc_free(&w->alloc, parent);
+  hr2di_alloc_free(&w->alloc, first);
   return status;
 }
 
-hr2d_segment hr2di_chord_across(const hr2di_body *body, double dx, double dy) {
+hr2d_segment hr2di_body_chord_across(const hr2di_body *body, double dx, double dy) {
   if (fabs(dy) > 2.4 * fabs(dx)) return body->chord[0];
   if (fabs(dx) > 2.4 * fabs(dy)) return body->chord[1];
   return body->chord[(dx > 0) == (dy > 0) ? 3 : 2];

@@ -75,7 +75,7 @@ static size_t cut(const item *items, size_t count, int one) {
   return middle;
 }
 
-hr2d_status hr2di_boxes_make(hr2di_walls *walls) {
+hr2d_status hr2di_wall_tree_init(hr2di_walls *walls) {
   item *items = hr2di_alloc(&walls->alloc, walls->walls, sizeof *items);
   if (!items) return HR2D_ENOMEM;
   for (uint32_t k = 0; k < walls->walls; k++) items[k] = (item){0, k, walls->body_of[k]};
@@ -96,6 +96,6 @@ hr2d_status hr2di_boxes_make(hr2di_walls *walls) {
     tasks[count++] = (task){box->below, t.first, middle, t.whole && !one};
     tasks[count++] = (task){box->below + 1, middle, t.last, t.whole && !one};
   }
-  hr2di_free(&walls->alloc, items);
+  hr2di_alloc_free(&walls->alloc, items);
   return HR2D_OK;
 }

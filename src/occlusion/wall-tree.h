@@ -10,6 +10,6 @@
 enum { HR2DI_BOX_DEPTH = 100 };
 
 /* Fills walls->box, which has room; HR2D_OK or HR2D_ENOMEM. */
-hr2d_status hr2di_boxes_make(hr2di_walls *walls);
+hr2d_status hr2di_wall_tree_init(hr2di_walls *walls);
 
 #endif

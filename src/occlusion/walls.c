@@ -55,7 +55,7 @@ static void unite(runs *r, uint32_t i, uint32_t j) {
 /* Both ends of t lie on the line of s; exact, and so transitive.  A point has no line. */
 static int on_line(hr2d_segment s, hr2d_segment t) {
   return !hr2di_point_same(s.a, s.b) && !hr2di_point_same(t.a, t.b) &&
-         hr2di_side(s.a, s.b, t.a) == 0 && hr2di_side(s.a, s.b, t.b) == 0;
+         hr2di_orient_sign(s.a, s.b, t.a) == 0 && hr2di_orient_sign(s.a, s.b, t.b) == 0;
 }
 
 /* Unites segments on one line that meet in a vertex. */
@@ -162,7 +162,7 @@ static hr2d_status reserve(hr2di_walls *w, runs *r, size_t count) {
   return room ? HR2D_OK : HR2D_ENOMEM;
 }
 
-hr2d_status hr2di_walls_make(hr2di_walls *walls, const hr2d_allocator *alloc,
+hr2d_status hr2di_walls_init(hr2di_walls *walls, const hr2d_allocator *alloc,
                              const hr2d_segment *segment, size_t count) {
   *walls = (hr2di_walls){.alloc = *alloc};
   runs r = {.segment = segment, .count = count};
@@ -170,25 +170,25 @@ hr2d_status hr2di_walls_make(hr2di_walls *walls, const hr2d_allocator *alloc,
   if (!status) {
     walls->vertices = find_runs(&r);
     make_walls(walls, &r);
-    status = hr2di_bodies_make(walls);
-    if (!status) status = hr2di_boxes_make(walls);
+    status = hr2di_wall_bodies_init(walls);
+    if (!status) status = hr2di_wall_tree_init(walls);
   }
   for (size_t k = 0; k < 2 * count && !status; k++) {
     uint32_t *host = &walls->host[r.vertex[2 * r.tip[k].segment + r.tip[k].which]];
     if (*host == HR2DI_NO_WALL) *host = host_of(walls, r.tip[k].point);
   }
-  hr2di_free(alloc, r.parent);
-  hr2di_free(alloc, r.span);
-  hr2di_free(alloc, r.tip);
-  hr2di_free(alloc, r.vertex);
+  hr2di_alloc_free(alloc, r.parent);
+  hr2di_alloc_free(alloc, r.span);
+  hr2di_alloc_free(alloc, r.tip);
+  hr2di_alloc_free(alloc, r.vertex);
   return status;
 }
 
 void hr2di_walls_clear(hr2di_walls *walls) {
-  hr2di_free(&walls->alloc, walls->wall);
-  hr2di_free(&walls->alloc, walls->of_segment);
-  hr2di_free(&walls->alloc, walls->host);
-  hr2di_free(&walls->alloc, walls->box);
-  hr2di_free(&walls->alloc, walls->body);
-  hr2di_free(&walls->alloc, walls->body_of);
+  hr2di_alloc_free(&walls->alloc, walls->wall);
+  hr2di_alloc_free(&walls->alloc, walls->of_segment);
+  hr2di_alloc_free(&walls->alloc, walls->host);
+  hr2di_alloc_free(&walls->alloc, walls->box);
+  hr2di_alloc_free(&walls->alloc, walls->body);
+  hr2di_alloc_free(&walls->alloc, walls->body_of);
 }

@@ -45,7 +45,7 @@ typedef struct hr2di_walls {
 
 /* Makes walls of `count` ≥ 1 segments, with coordinates in [-2,2]; HR2D_OK or
    HR2D_ENOMEM.  To be ended by hr2di_walls_clear() in either case. */
-hr2d_status hr2di_walls_make(hr2di_walls *walls, const hr2d_allocator *alloc,
+hr2d_status hr2di_walls_init(hr2di_walls *walls, const hr2d_allocator *alloc,
                              const hr2d_segment *segment, size_t count);
 
 void hr2di_walls_clear(hr2di_walls *walls);

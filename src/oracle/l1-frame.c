@@ -19,7 +19,7 @@ static hr2di_vector shifted(hr2di_vector v, int e) {
 
 /* p + q + tail as head and tail. */
 static void add_exactly(double p, double q, double tail, double *head, double *rest) {
-  const double sum = p + q, error = hr2di_diff_tail(p, -q, sum) + tail;
+  const double sum = p + q, error = hr2di_tail_of_difference(p, -q, sum) + tail;
   *head = sum + error;
   *rest = error - (*head - sum);
 }
@@ -46,15 +46,16 @@ static void clip(hr2di_l1_side *s, double half) {
 
 /* Twice the difference of the centres is the sum of those of two pairs of end points,
    which are close to each other where the segments face each other squarely. */
-int hr2di_l1_frame_make(const hr2d_segment *i, const hr2d_segment *j, hr2di_l1_frame *f) {
-  const int plain =
-      hr2di_plain(i->a) && hr2di_plain(i->b) && hr2di_plain(j->a) && hr2di_plain(j->b);
+int hr2di_l1_frame_init(const hr2d_segment *i, const hr2d_segment *j, hr2di_l1_frame *f) {
+  const int plain = hr2di_point_plain(i->a) && hr2di_point_plain(i->b) &&
+                    hr2di_point_plain(j->a) && hr2di_point_plain(j->b);
   hr2di_vector (*difference)(hr2d_point, hr2d_point) =
-      plain ? hr2di_difference : hr2di_scaled_difference;
+      plain ? hr2di_vector_difference : hr2di_vector_difference_scaled;
   const hr2di_vector u = difference(i->b, i->a), v = difference(j->b, j->a);
   const hr2di_vector r = sum_of(difference(i->a, j->b), difference(i->b, j->a));
   const hr2di_vector across = turned(r);
-  const double lu = hr2di_length(&u), lv = hr2di_length(&v), lr = hr2di_length(&r);
+  const double lu = hr2di_vector_length(&u), lv = hr2di_vector_length(&v),
+               lr = hr2di_vector_length(&r);
   const double hx = -hr2di_det(&u, &r), hy = hr2di_det(&v, &r);
   f->distance = ldexp(lr, r.e - 1);
   if (!(hx > 0 && hy > 0)) return 0;

@@ -56,7 +56,7 @@ static inline double hr2di_l1_cubic(double p, double q) {
 
 /* Returns 0 if Gc is 0 or the centres coincide; then only the distance is set.  The
    origin is the line of the centres. */
-int hr2di_l1_frame_make(const hr2d_segment *i, const hr2d_segment *j, hr2di_l1_frame *f);
+int hr2di_l1_frame_init(const hr2d_segment *i, const hr2d_segment *j, hr2di_l1_frame *f);
 
 /* Moves the origin to the line from y at t to x at s, or to an angle. */
 void hr2di_l1_turn_to_line(hr2di_l1_frame *f, double s, double t);

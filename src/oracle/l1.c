@@ -233,7 +233,7 @@ static int is_square(const hr2di_l1_frame *f) {
 static int is_large(const hr2d_segment *i, const hr2d_segment *j, const hr2di_l1_frame *f,
                     double rough, double spread, double *area) {
   if (is_square(f) && !(rough > 2 * NEAR * spread)) return 0;
-  *area = hr2di_wide_exchange_area(i, j);
+  *area = hr2di_exchange_area_scaled(i, j);
   return fmax(rough, fabs(*area - spread)) > NEAR * (*area + spread);
 }
 
@@ -287,8 +287,8 @@ static double value_of(const hr2d_segment *i, const hr2d_segment *j, double epsi
     i = j;
     j = other;
   }
-  if (!hr2di_l1_frame_make(i, j, f)) {
-    if (f->distance == 0 && hr2di_face(i, j) != HR2DI_FACING_NONE) return INFINITY;
+  if (!hr2di_l1_frame_init(i, j, f)) {
+    if (f->distance == 0 && hr2di_facing_of(i, j) != HR2DI_FACING_NONE) return INFINITY;
     return hr2d_exchange_area(i, j);
   }
   if (f->x.cosine < FLAT || f->y.cosine < FLAT)

@@ -126,21 +126,22 @@ static hr2d_status accept_size2(void *ctx, const hr2d_batch *batch, double epsil
 }
 
 /* An element against the centre of another, d away from its own. */
-static hr2di_wide wide_cosine(const hr2d_element *e, const hr2di_vector *d, hr2di_wide r) {
-  const hr2di_vector along = hr2di_scaled_difference(e->b, e->a);
-  hr2di_wide det = hr2di_wide_det(&along, d);
+static hr2di_scaled wide_cosine(const hr2d_element *e, const hr2di_vector *d, hr2di_scaled r) {
+  const hr2di_vector along = hr2di_vector_difference_scaled(e->b, e->a);
+  hr2di_scaled det = hr2di_det_scaled(&along, d);
   det.m = fabs(det.m);
-  return hr2di_wide_div(hr2di_wide_div(det, hr2di_wide_make(e->length, 0)), r);
+  return hr2di_scaled_div(hr2di_scaled_div(det, hr2di_scaled_of(e->length, 0)), r);
 }
 
 static double wide_bf(const hr2d_element *i, const hr2d_element *j, double brightness) {
-  const hr2di_vector d = hr2di_scaled_difference(j->centre, i->centre);
-  const hr2di_wide r = hr2di_wide_length(&d);
+  const hr2di_vector d = hr2di_vector_difference_scaled(j->centre, i->centre);
+  const hr2di_scaled r = hr2di_vector_length_scaled(&d);
   if (r.m == 0) return HUGE_VAL;
-  const hr2di_wide cosines = hr2di_wide_mul(wide_cosine(i, &d, r), wide_cosine(j, &d, r));
-  const hr2di_wide size = hr2di_wide_div(hr2di_wide_make(larger(i->length, j->length), -1), r);
-  return hr2di_wide_value(
-      hr2di_wide_mul(hr2di_wide_mul(cosines, size), hr2di_wide_make(brightness, 0)));
+  const hr2di_scaled cosines = hr2di_scaled_mul(wide_cosine(i, &d, r), wide_cosine(j, &d, r));
+  const hr2di_scaled size =
+      hr2di_scaled_div(hr2di_scaled_of(larger(i->length, j->length), -1), r);
+  return hr2di_scaled_value(
+      hr2di_scaled_mul(hr2di_scaled_mul(cosines, size), hr2di_scaled_of(brightness, 0)));
 }
 
 /* G(x_c,y_c)·max(A_x,A_y)·B_y; lengths cancel, so that only ratios are formed.  Determinants
@@ -148,13 +149,13 @@ static double wide_bf(const hr2d_element *i, const hr2d_element *j, double brigh
    neither lose bits of a difference nor leave the range of a double on the way. */
 static double bf_of_pair(const hr2d_element *i, const hr2d_element *j, double brightness) {
   if (!(brightness > 0)) return 0;
-  if (!hr2di_plain(i->a) || !hr2di_plain(i->b) || !hr2di_plain(i->centre) ||
-      !hr2di_plain(j->a) || !hr2di_plain(j->b) || !hr2di_plain(j->centre))
+  if (!hr2di_point_plain(i->a) || !hr2di_point_plain(i->b) || !hr2di_point_plain(i->centre) ||
+      !hr2di_point_plain(j->a) || !hr2di_point_plain(j->b) || !hr2di_point_plain(j->centre))
     return wide_bf(i, j, brightness);
-  const hr2di_vector along_i = hr2di_difference(i->b, i->a);
-  const hr2di_vector along_j = hr2di_difference(j->b, j->a);
-  const hr2di_vector d = hr2di_difference(j->centre, i->centre);
-  const double r = hr2di_length(&d);
+  const hr2di_vector along_i = hr2di_vector_difference(i->b, i->a);
+  const hr2di_vector along_j = hr2di_vector_difference(j->b, j->a);
+  const hr2di_vector d = hr2di_vector_difference(j->centre, i->centre);
+  const double r = hr2di_vector_length(&d);
   if (!(r > 0)) return HUGE_VAL;
   const double cos_i = fabs(hr2di_det(&along_i, &d)) / (i->length * r);
   const double cos_j = fabs(hr2di_det(&along_j, &d)) / (j->length * r);

@@ -39,7 +39,7 @@ typedef struct team {
   hr2d_hierarchy **clone; /* of each worker */
 
   hr2di_stack stack[STACKS]; /* the pairs to share out */
-  hr2di_shaded shaded;
+  hr2di_occluded_pairs shaded;
   size_t next_patch; /* the first not yet projected */
 
   atomic_ullong links_told; /* by all workers */
@@ -76,8 +76,8 @@ static hr2d_status tell(hr2di_projector *p) {
       .links = atomic_load(&t->links_told) + p->counts.links,
       .fraction = tasks ? (double)atomic_load(&t->tasks_done) / (double)tasks : 0};
   const hr2d_status status = p->options.progress(p->options.progress_ctx, &progress);
-  return status ? hr2di_fail(&p->links->message, status, "callback \"progress\": %s",
-                             hr2d_strerror(status))
+  return status ? hr2di_message_fail(&p->links->message, status, "callback \"progress\": %s",
+                                     hr2d_strerror(status))
                 : HR2D_OK;
 }
 
@@ -109,14 +109,16 @@ static hr2d_status hire(team *t, size_t k, const hr2d_hierarchy *from) {
   w->links.message.text[0] = '\0';
   hr2d_refine_options options = t->options;
   options.max_bytes = part_of_budget(t);
-  if (options.max_bytes && hr2di_clone_bytes(from) > options.max_bytes)
-    return hr2di_overspent(&w->links, t->options.max_bytes, 0);
+  if (options.max_bytes && hr2di_hierarchy_clone_bytes(from) > options.max_bytes)
+    return hr2di_projector_fail_budget(&w->links, t->options.max_bytes, 0);
   hr2d_status status = hr2di_hierarchy_clone(from, &t->clone[k]);
-  if (status) return hr2di_fail(&w->links.message, status, "out of memory for the count");
+  if (status)
+    return hr2di_message_fail(&w->links.message, status, "out of memory for the count");
   w->links.hierarchy = t->clone[k];
   t->clone[k]->refining = 1;
-  status = hr2di_projector_start(&w->links, &options, &w->projector);
-  if (status == HR2D_EMAX_BYTES) return hr2di_overspent(&w->links, t->options.max_bytes, 0);
+  status = hr2di_projector_create(&w->links, &options, &w->projector);
+  if (status == HR2D_EMAX_BYTES)
+    return hr2di_projector_fail_budget(&w->links, t->options.max_bytes, 0);
   if (status) return status;
   w->projector->budget = t->options.max_bytes;
   if (t->count > 1) w->projector->tell = tell;
@@ -131,7 +133,7 @@ static hr2d_status begin(team *t) {
   const size_t n = t->links->hierarchy->scene->patches;
   hr2d_status status = HR2D_OK;
   while (t->next_patch < n && !status && hr2di_rounds_waiting(p) < ENOUGH) {
-    status = hr2di_project_row(p, t->next_patch++);
+    status = hr2di_projector_row(p, t->next_patch++);
     if (!status) status = hr2di_rounds_run(p, t->count > 1 ? ENOUGH : SIZE_MAX);
   }
   return status;
@@ -141,15 +143,16 @@ static hr2d_status take_share(hr2di_projector *p, hr2di_stack *to, const hr2di_s
                               size_t share) {
   hr2d_status status = HR2D_OK;
   for (size_t k = share * SHARE; k < from->count && k < (share + 1) * SHARE && !status; k++)
-    status = hr2di_refuse(p, to, from->pair[k]);
+    status = hr2di_projector_push(p, to, from->pair[k]);
   return status;
 }
 
-static hr2d_status take_shaded(hr2di_projector *p, const hr2di_shaded *from, size_t share) {
+static hr2d_status take_shaded(hr2di_projector *p, const hr2di_occluded_pairs *from,
+                               size_t share) {
   hr2d_status status = HR2D_OK;
   for (size_t k = share * SHARE; k < from->stack.count && k < (share + 1) * SHARE && !status;
        k++)
-    status = hr2di_share_shaded(p, from, k);
+    status = hr2di_occluded_share(p, from, k);
   return status;
 }
 
@@ -162,7 +165,7 @@ static hr2d_status take(team *t, hr2di_projector *p, size_t task) {
   }
   const size_t shaded = shares(t->shaded.stack.count);
   if (task < shaded) return take_shaded(p, &t->shaded, task);
-  return hr2di_project_row(p, t->next_patch + (task - shaded));
+  return hr2di_projector_row(p, t->next_patch + (task - shaded));
 }
 
 static hr2d_status do_task(team *t, hr2di_projector *p, size_t task) {
@@ -213,7 +216,7 @@ static void share_out(team *t) {
     *stack_of(p, k) = (hr2di_stack){0};
   }
   t->shaded = p->shaded;
-  p->shaded = (hr2di_shaded){0};
+  p->shaded = (hr2di_occluded_pairs){0};
   p->bytes += shared_bytes(t);
   hr2d_status status = HR2D_OK;
   for (size_t k = 1; k < t->count && !status; k++) {
@@ -231,7 +234,8 @@ static hr2d_status gather_status(team *t) {
     if (w->status && (!reason || (!reason->links.message.text[0]))) reason = w;
   }
   if (!reason) return HR2D_OK;
-  return hr2di_fail(&t->links->message, reason->status, "%s", reason->links.message.text);
+  return hr2di_message_fail(&t->links->message, reason->status, "%s",
+                            reason->links.message.text);
 }
 
 /* How many elements the union may have room for. */
@@ -251,30 +255,32 @@ static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
     sum.limited_links += part->limited_links;
     sum.oracle_calls += part->oracle_calls;
     sum.facing_tests += part->facing_tests;
-    const hr2di_sight *sight = t->worker[k].projector->sight;
+    const hr2di_visibility *sight = t->worker[k].projector->sight;
     sum.visibility_tests += sight ? sight->tests : 0;
     sum.blocked_pairs += part->blocked_pairs;
     sum.partial_links += part->partial_links;
     sum.dark_pairs += part->dark_pairs;
   }
   if (t->options.max_links && sum.links > t->options.max_links)
-    return hr2di_fail(&links->message, HR2D_EMAX_LINKS, "more than %llu links are needed",
-                      (unsigned long long)t->options.max_links);
+    return hr2di_message_fail(&links->message, HR2D_EMAX_LINKS,
+                              "more than %llu links are needed",
+                              (unsigned long long)t->options.max_links);
   const size_t elements = links->hierarchy->elements;
   const size_t hired = t->count > 1 && t->clone[1] ? t->count : 1;
   const hr2d_status status =
       hr2di_hierarchy_unite(links->hierarchy, t->clone, hired, union_room(t, hired));
-  if (status == HR2D_EMAX_BYTES) return hr2di_overspent(links, t->options.max_bytes, sum.links);
-  if (status) return hr2di_fail(&links->message, status, "no room for the elements");
+  if (status == HR2D_EMAX_BYTES)
+    return hr2di_projector_fail_budget(links, t->options.max_bytes, sum.links);
+  if (status) return hr2di_message_fail(&links->message, status, "no room for the elements");
   if (t->options.max_elements && links->hierarchy->elements > t->options.max_elements) {
     hr2di_hierarchy_truncate(links->hierarchy, elements);
-    return hr2di_fail(&links->message, HR2D_EMAX_ELEMENTS,
-                      "more than %llu elements are needed, for %llu links",
-                      (unsigned long long)t->options.max_elements,
-                      (unsigned long long)sum.links);
+    return hr2di_message_fail(&links->message, HR2D_EMAX_ELEMENTS,
+                              "more than %llu elements are needed, for %llu links",
+                              (unsigned long long)t->options.max_elements,
+                              (unsigned long long)sum.links);
   }
   *counts = sum;
-  hr2di_count_elements(links->hierarchy, counts);
+  hr2di_projector_count_elements(links->hierarchy, counts);
   return HR2D_OK;
 }
 
@@ -298,28 +304,28 @@ hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *op
                               hr2d_refine_counts *counts) {
   team t = {.links = links};
   if (links->store.count > 0)
-    return hr2di_fail(&links->message, HR2D_ESTATE, "the set has links already");
-  hr2d_status status = hr2di_check_options(links, options, &t.options);
+    return hr2di_message_fail(&links->message, HR2D_ESTATE, "the set has links already");
+  hr2d_status status = hr2di_projector_check_options(links, options, &t.options);
   if (status) return status;
   t.count = wanted_workers(links, &t.options);
   if (t.options.max_bytes &&
       t.count * (sizeof *t.worker + sizeof *t.clone) > t.options.max_bytes)
-    return hr2di_overspent(links, t.options.max_bytes, 0);
-  t.worker = hr2di_calloc(&links->alloc, t.count, sizeof *t.worker);
-  t.clone = hr2di_calloc(&links->alloc, t.count, sizeof *t.clone);
+    return hr2di_projector_fail_budget(links, t.options.max_bytes, 0);
+  t.worker = hr2di_alloc_zero(&links->alloc, t.count, sizeof *t.worker);
+  t.clone = hr2di_alloc_zero(&links->alloc, t.count, sizeof *t.clone);
   if (t.worker && t.clone)
     status = count_as_team(&t, counts);
   else
-    status = hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the count");
+    status = hr2di_message_fail(&links->message, HR2D_ENOMEM, "out of memory for the count");
   for (size_t k = 0; k < t.count && t.worker && t.clone; k++) {
-    if (t.worker[k].projector) hr2di_projector_end(t.worker[k].projector);
+    if (t.worker[k].projector) hr2di_projector_destroy(t.worker[k].projector);
     hr2d_hierarchy_destroy(t.clone[k]);
   }
-  for (int k = 0; k < STACKS; k++) hr2di_free(&links->alloc, t.stack[k].pair);
-  hr2di_free(&links->alloc, t.shaded.stack.pair);
-  hr2di_free(&links->alloc, t.shaded.first);
-  hr2di_free(&links->alloc, t.shaded.list.wall);
-  hr2di_free(&links->alloc, t.worker);
-  hr2di_free(&links->alloc, t.clone);
+  for (int k = 0; k < STACKS; k++) hr2di_alloc_free(&links->alloc, t.stack[k].pair);
+  hr2di_alloc_free(&links->alloc, t.shaded.stack.pair);
+  hr2di_alloc_free(&links->alloc, t.shaded.first);
+  hr2di_alloc_free(&links->alloc, t.shaded.list.wall);
+  hr2di_alloc_free(&links->alloc, t.worker);
+  hr2di_alloc_free(&links->alloc, t.clone);
   return status;
 }

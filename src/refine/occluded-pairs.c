@@ -12,7 +12,8 @@
 #include "scene/scene-impl.h"
 
 static hr2d_status out_of_memory(hr2di_projector *p) {
-  return hr2di_fail(&p->links->message, HR2D_ENOMEM, "out of memory for walls in the way");
+  return hr2di_message_fail(&p->links->message, HR2D_ENOMEM,
+                            "out of memory for walls in the way");
 }
 
 /* The patch with the lower number comes first, so that both directions get the same
@@ -26,19 +27,20 @@ static int make_shaft(const hr2d_hierarchy *h, hr2d_pair pair, hr2di_facing *fac
     j = swap;
   }
   const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
-  *facing = hr2di_face(&s, &t);
-  return hr2di_shaft_make(shaft, *facing, s, t, h->scene->patch[i->patch].scaled,
+  *facing = hr2di_facing_of(&s, &t);
+  return hr2di_shaft_init(shaft, *facing, s, t, h->scene->patch[i->patch].scaled,
                           h->scene->patch[j->patch].scaled);
 }
 
 /* Looks once more where several walls might block a pair together. */
-static hr2d_status look_closer(hr2di_sight *sight, const hr2di_shaft *shaft,
-                               hr2di_wall_list *found, size_t first, hr2di_view *view) {
+static hr2d_status look_closer(hr2di_visibility *sight, const hr2di_shaft *shaft,
+                               hr2di_wall_list *found, size_t first,
+                               hr2di_visibility_class *view) {
   int blocked = 0;
   hr2d_status status = HR2D_OK;
   if (*view == HR2DI_PARTIAL)
-    status = hr2di_sight_blocked(sight, shaft, hr2di_walls_from(found, first),
-                                 found->count - first, &blocked);
+    status = hr2di_visibility_blocked(sight, shaft, hr2di_wall_list_from(found, first),
+                                      found->count - first, &blocked);
   if (blocked) {
     *view = HR2DI_BLOCKED;
     found->count = first;
@@ -46,13 +48,14 @@ static hr2d_status look_closer(hr2di_sight *sight, const hr2di_shaft *shaft,
   return status;
 }
 
-hr2d_status hr2di_look(hr2di_projector *p, hr2d_pair pair, hr2di_view *view) {
+hr2d_status hr2di_occluded_collect(hr2di_projector *p, hr2d_pair pair,
+                                   hr2di_visibility_class *view) {
   hr2di_shaft shaft;
   hr2di_facing facing;
   const size_t first = p->found.count;
   *view = HR2DI_CLEAR;
   if (!make_shaft(p->hierarchy, pair, &facing, &shaft)) return HR2D_OK;
-  hr2d_status status = hr2di_sight_collect(p->sight, &shaft, &p->found, view);
+  hr2d_status status = hr2di_visibility_collect(p->sight, &shaft, &p->found, view);
   if (!status) status = look_closer(p->sight, &shaft, &p->found, first, view);
   return status ? out_of_memory(p) : HR2D_OK;
 }
@@ -60,17 +63,18 @@ hr2d_status hr2di_look(hr2di_projector *p, hr2d_pair pair, hr2di_view *view) {
 /* Puts a pair on the stack with its walls. */
 static hr2d_status push(hr2di_projector *p, hr2d_pair pair, const uint32_t *wall,
                         size_t count) {
-  hr2di_shaded *s = &p->shaded;
+  hr2di_occluded_pairs *s = &p->shaded;
   const hr2d_allocator *alloc = &p->links->alloc;
   const size_t pairs = s->stack.count + 1, walls = s->list.count + count;
-  hr2d_status status =
-      hr2di_afford(p, (pairs > s->first_capacity ? 2 * pairs * sizeof *s->first : 0) +
-                          (walls > s->list.capacity ? 2 * walls * sizeof *wall : 0));
-  if (!status) status = hr2di_refuse(p, &s->stack, pair);
+  hr2d_status status = hr2di_projector_check_budget(
+      p, (pairs > s->first_capacity ? 2 * pairs * sizeof *s->first : 0) +
+             (walls > s->list.capacity ? 2 * walls * sizeof *wall : 0));
+  if (!status) status = hr2di_projector_push(p, &s->stack, pair);
   if (status) return status;
-  if (hr2di_reserve(alloc, &s->first, &s->first_capacity, s->stack.count, sizeof *s->first) ||
-      hr2di_reserve(alloc, &s->list.wall, &s->list.capacity, s->list.count + count,
-                    sizeof *s->list.wall))
+  if (hr2di_alloc_reserve(alloc, &s->first, &s->first_capacity, s->stack.count,
+                          sizeof *s->first) ||
+      hr2di_alloc_reserve(alloc, &s->list.wall, &s->list.capacity, s->list.count + count,
+                          sizeof *s->list.wall))
     return out_of_memory(p);
   s->first[s->stack.count - 1] = s->list.count;
   for (size_t k = 0; k < count; k++) s->list.wall[s->list.count++] = wall[k];
@@ -85,9 +89,9 @@ static hr2d_status link_pair(hr2di_projector *p, hr2d_pair pair, const uint32_t 
   double area = 0;
   int open = 0;
   if (!make_shaft(p->hierarchy, pair, &facing, &shaft)) return HR2D_OK;
-  const hr2d_status status = p->sink
-                                 ? hr2di_sight_area(p->sight, &shaft, wall, count, &area, &open)
-                                 : hr2di_sight_open(p->sight, &shaft, wall, count, &open);
+  const hr2d_status status =
+      p->sink ? hr2di_visibility_area(p->sight, &shaft, wall, count, &area, &open)
+              : hr2di_visibility_any(p->sight, &shaft, wall, count, &open);
   if (status) return out_of_memory(p);
   if (!open) {
     p->counts.blocked_pairs++;
@@ -96,7 +100,7 @@ static hr2d_status link_pair(hr2di_projector *p, hr2d_pair pair, const uint32_t 
   p->counts.partial_links++;
   p->counts.exchange_areas += p->sink != NULL;
   p->accepted[0] = pair;
-  return hr2di_emit(p, &area, 1);
+  return hr2di_projector_accept(p, &area, 1);
 }
 
 /* A pair to be proposed, with walls of p->found. */
@@ -114,84 +118,88 @@ static hr2d_status propose(hr2di_projector *p, const candidate *c, size_t count)
   if (count == 0) return HR2D_OK;
   for (size_t k = 0; k < count; k++) pairs[k] = c[k].pair;
   p->partial = partial;
-  hr2d_status status = hr2di_judge(p, pairs, count);
+  hr2d_status status = hr2di_projector_estimate(p, pairs, count);
   p->partial = NULL;
   for (size_t k = 0; k < count && !status; k++) accepted[k] = p->flag[k];
   for (size_t k = 0; k < count && !status; k++)
-    status = accepted[k]
-                 ? link_pair(p, c[k].pair, hr2di_walls_from(&p->found, c[k].first), c[k].count)
-                 : push(p, c[k].pair, hr2di_walls_from(&p->found, c[k].first), c[k].count);
+    status =
+        accepted[k]
+            ? link_pair(p, c[k].pair, hr2di_wall_list_from(&p->found, c[k].first), c[k].count)
+            : push(p, c[k].pair, hr2di_wall_list_from(&p->found, c[k].first), c[k].count);
   return status;
 }
 
 /* Puts what has come out of the shade where it is proposed with others, drops what is
    blocked, and adds the rest to the candidates. */
-static hr2d_status sort_out(hr2di_projector *p, hr2d_pair pair, hr2di_view view,
+static hr2d_status sort_out(hr2di_projector *p, hr2d_pair pair, hr2di_visibility_class view,
                             hr2di_facing facing, size_t first, candidate *c, size_t *count) {
   p->counts.blocked_pairs += view == HR2DI_BLOCKED;
   if (view == HR2DI_CLEAR)
-    return hr2di_refuse(p, &p->fresh[facing == HR2DI_FACING_PART || p->test_all], pair);
+    return hr2di_projector_push(p, &p->fresh[facing == HR2DI_FACING_PART || p->test_all], pair);
   if (view == HR2DI_PARTIAL) c[(*count)++] = (candidate){pair, first, p->found.count - first};
   return HR2D_OK;
 }
 
-hr2d_status hr2di_propose_roots(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
-  if (!p->sight) return hr2di_propose_guarded(p, pairs, count);
+hr2d_status hr2di_occluded_propose_roots(hr2di_projector *p, const hr2d_pair *pairs,
+                                         size_t count) {
+  if (!p->sight) return hr2di_projector_propose_clipped(p, pairs, count);
   hr2d_pair clear[HR2DI_CANDIDATES];
   size_t kept = 0;
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < count && !status; k++) {
     const hr2d_element *i = &p->hierarchy->element[pairs[k].first];
     const hr2d_element *j = &p->hierarchy->element[pairs[k].second];
-    if (hr2di_face(&(hr2d_segment){i->a, i->b}, &(hr2d_segment){j->a, j->b}) ==
+    if (hr2di_facing_of(&(hr2d_segment){i->a, i->b}, &(hr2d_segment){j->a, j->b}) ==
         HR2DI_FACING_NONE)
       continue;
-    hr2di_view view;
+    hr2di_visibility_class view;
     candidate c = {pairs[k], 0, 0};
     p->found.count = 0;
-    status = hr2di_look(p, pairs[k], &view);
+    status = hr2di_occluded_collect(p, pairs[k], &view);
     c.count = p->found.count;
     p->counts.blocked_pairs += view == HR2DI_BLOCKED;
     if (view == HR2DI_CLEAR) clear[kept++] = pairs[k];
     if (view == HR2DI_PARTIAL && !status) status = propose(p, &c, 1);
   }
-  return status ? status : hr2di_propose_guarded(p, clear, kept);
+  return status ? status : hr2di_projector_propose_clipped(p, clear, kept);
 }
 
-hr2d_status hr2di_refuse_shaded(hr2di_projector *p, hr2d_pair pair) {
-  hr2di_view view;
+hr2d_status hr2di_occluded_push(hr2di_projector *p, hr2d_pair pair) {
+  hr2di_visibility_class view;
   p->found.count = 0;
-  const hr2d_status status = hr2di_look(p, pair, &view);
+  const hr2d_status status = hr2di_occluded_collect(p, pair, &view);
   return status ? status : push(p, pair, p->found.wall, p->found.count);
 }
 
-hr2d_status hr2di_share_shaded(hr2di_projector *p, const hr2di_shaded *from, size_t k) {
+hr2d_status hr2di_occluded_share(hr2di_projector *p, const hr2di_occluded_pairs *from,
+                                 size_t k) {
   const size_t last = k + 1 < from->stack.count ? from->first[k + 1] : from->list.count;
-  return push(p, from->stack.pair[k], hr2di_walls_from(&from->list, from->first[k]),
+  return push(p, from->stack.pair[k], hr2di_wall_list_from(&from->list, from->first[k]),
               last - from->first[k]);
 }
 
-hr2d_status hr2di_play_shaded(hr2di_projector *p) {
-  hr2di_shaded *s = &p->shaded;
+hr2d_status hr2di_occluded_round(hr2di_projector *p) {
+  hr2di_occluded_pairs *s = &p->shaded;
   const hr2d_pair pair = s->stack.pair[--s->stack.count];
   const size_t from = s->first[s->stack.count], walls = s->list.count - from;
   candidate c[MOST];
   size_t candidates, count = 0;
   int limited;
-  hr2d_status status = hr2di_subdivide(p, pair, &candidates, &limited);
+  hr2d_status status = hr2di_projector_subdivide(p, pair, &candidates, &limited);
   const uint64_t links = p->counts.links;
-  if (!status && limited) status = link_pair(p, pair, hr2di_walls_from(&s->list, from), walls);
+  if (!status && limited)
+    status = link_pair(p, pair, hr2di_wall_list_from(&s->list, from), walls);
   p->counts.limited_links += p->counts.links - links;
   p->found.count = 0;
   for (size_t k = 0; k < candidates && !status; k++) {
     hr2di_shaft shaft;
     hr2di_facing facing;
-    hr2di_view view = HR2DI_CLEAR;
+    hr2di_visibility_class view = HR2DI_CLEAR;
     const size_t first = p->found.count;
     const int shaded = make_shaft(p->hierarchy, p->candidate[k], &facing, &shaft);
     if (facing == HR2DI_FACING_NONE) continue;
     if (shaded &&
-        (hr2di_sight_shrink(p->sight, &shaft, &s->list, from, walls, &p->found, &view) ||
+        (hr2di_visibility_shrink(p->sight, &shaft, &s->list, from, walls, &p->found, &view) ||
          look_closer(p->sight, &shaft, &p->found, first, &view)))
       return out_of_memory(p);
     status = sort_out(p, p->candidate[k], view, facing, first, c, &count);
@@ -200,8 +208,8 @@ hr2d_status hr2di_play_shaded(hr2di_projector *p) {
   return status ? status : propose(p, c, count);
 }
 
-hr2d_status hr2di_shaded_area(hr2di_sight *sight, const hr2d_hierarchy *hierarchy,
-                              hr2d_pair pair, double *area, hr2di_view *view) {
+hr2d_status hr2di_occluded_area(hr2di_visibility *sight, const hr2d_hierarchy *hierarchy,
+                                hr2d_pair pair, double *area, hr2di_visibility_class *view) {
   hr2di_shaft shaft;
   hr2di_facing facing;
   hr2di_wall_list found = {0};
@@ -210,12 +218,12 @@ hr2d_status hr2di_shaded_area(hr2di_sight *sight, const hr2d_hierarchy *hierarch
   hr2d_status status = HR2D_OK;
   *view = HR2DI_CLEAR;
   if (make_shaft(hierarchy, pair, &facing, &shaft))
-    status = hr2di_sight_collect(sight, &shaft, &found, view);
+    status = hr2di_visibility_collect(sight, &shaft, &found, view);
   if (!status && *view == HR2DI_CLEAR) hr2di_exchange_areas(hierarchy->element, &pair, 1, area);
   if (!status && *view == HR2DI_PARTIAL) {
-    status = hr2di_sight_area(sight, &shaft, found.wall, found.count, area, &open);
+    status = hr2di_visibility_area(sight, &shaft, found.wall, found.count, area, &open);
     if (!open) *view = HR2DI_BLOCKED;
   }
-  hr2di_free(&sight->alloc, found.wall);
+  hr2di_alloc_free(&sight->alloc, found.wall);
   return status;
 }

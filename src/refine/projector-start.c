@@ -14,24 +14,25 @@ static int directed_by(const hr2d_linkset *links, const hr2d_refine_options *opt
   return options->ordered || !(links->oracle.flags & HR2D_ORACLE_SYMMETRIC);
 }
 
-hr2d_status hr2di_check_options(hr2d_linkset *links, const hr2d_refine_options *given,
-                                hr2d_refine_options *options) {
+hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine_options *given,
+                                          hr2d_refine_options *options) {
   hr2di_message *message = &links->message;
   *options = (hr2d_refine_options)HR2D_REFINE_OPTIONS_INIT;
-  if (given) hr2di_copy_sized(options, sizeof *options, given);
+  if (given) hr2di_sized_copy(options, sizeof *options, given);
   options->struct_size = sizeof *options;
   if (links->hierarchy->refining)
-    return hr2di_fail(message, HR2D_ESTATE, "the hierarchy is being refined already");
+    return hr2di_message_fail(message, HR2D_ESTATE, "the hierarchy is being refined already");
   if (hr2di_hierarchy_busy(links->hierarchy))
-    return hr2di_fail(message, HR2D_ESTATE, "the hierarchy is being solved on");
+    return hr2di_message_fail(message, HR2D_ESTATE, "the hierarchy is being solved on");
   if (!(options->epsilon >= 0))
-    return hr2di_fail(message, HR2D_EINVAL, "epsilon %g is not a number ≥ 0", options->epsilon);
+    return hr2di_message_fail(message, HR2D_EINVAL, "epsilon %g is not a number ≥ 0",
+                              options->epsilon);
   if (links->store.count > 0 && links->directed != directed_by(links, options))
-    return hr2di_fail(message, HR2D_EINVAL,
-                      "the links are %s, and a further refinement cannot change that",
-                      links->directed ? "directed" : "not directed");
+    return hr2di_message_fail(message, HR2D_EINVAL,
+                              "the links are %s, and a further refinement cannot change that",
+                              links->directed ? "directed" : "not directed");
   if (options->brightness && options->brightness->hierarchy != links->hierarchy)
-    return hr2di_fail(message, HR2D_EINVAL, "the brightness is from another hierarchy");
+    return hr2di_message_fail(message, HR2D_EINVAL, "the brightness is from another hierarchy");
   return HR2D_OK;
 }
 
@@ -41,11 +42,11 @@ static hr2d_status set_brightness(hr2di_projector *p) {
   if (!(p->links->oracle.flags & HR2D_ORACLE_NEEDS_BRIGHTNESS)) return HR2D_OK;
   const hr2d_hierarchy *h = p->hierarchy;
   const hr2d_solution *solution = p->options.brightness;
-  hr2d_status status = hr2di_afford(p, 2 * h->elements * sizeof *p->brightness);
+  hr2d_status status = hr2di_projector_check_budget(p, 2 * h->elements * sizeof *p->brightness);
   if (status) return status;
-  if (hr2di_reserve(&h->alloc, &p->brightness, &p->brightness_capacity, h->elements,
-                    sizeof *p->brightness))
-    return hr2di_fail(&p->links->message, HR2D_ENOMEM, "out of memory for brightness");
+  if (hr2di_alloc_reserve(&h->alloc, &p->brightness, &p->brightness_capacity, h->elements,
+                          sizeof *p->brightness))
+    return hr2di_message_fail(&p->links->message, HR2D_ENOMEM, "out of memory for brightness");
   double most = 0;
   for (size_t e = 0; e < h->elements; e++) {
     const int root = h->parent[e] == e;
@@ -67,23 +68,25 @@ static hr2d_status set_sight(hr2di_projector *p) {
       !scene->effect[HR2D_EFFECT_FACING].called_for && scene->effect[HR2D_EFFECT_FACING].forced;
   if (!scene->effect[HR2D_EFFECT_OCCLUSION].on) return HR2D_OK;
   p->bytes += sizeof *p->sight;
-  const hr2d_status status = hr2di_afford(p, 0);
+  const hr2d_status status = hr2di_projector_check_budget(p, 0);
   if (status) return status;
   p->sight = hr2di_alloc(&p->links->alloc, 1, sizeof *p->sight);
   if (!p->sight)
-    return hr2di_fail(&p->links->message, HR2D_ENOMEM, "out of memory for the refinement");
-  hr2di_sight_start(p->sight, &scene->walls, &p->links->alloc);
+    return hr2di_message_fail(&p->links->message, HR2D_ENOMEM,
+                              "out of memory for the refinement");
+  hr2di_visibility_init(p->sight, &scene->walls, &p->links->alloc);
   return HR2D_OK;
 }
 
-hr2d_status hr2di_projector_start(hr2d_linkset *links, const hr2d_refine_options *options,
-                                  hr2di_projector **made) {
+hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_options *options,
+                                   hr2di_projector **made) {
   const uint64_t held = sizeof(hr2di_projector) + hr2di_store_bytes(&links->store) +
                         (uint64_t)links->hierarchy->capacity * HR2DI_ELEMENT_BYTES;
   if (options->max_bytes && held > options->max_bytes)
-    return hr2di_overspent(links, options->max_bytes, 0);
-  hr2di_projector *p = hr2di_calloc(&links->alloc, 1, sizeof *p);
-  if (!p) return hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
+    return hr2di_projector_fail_budget(links, options->max_bytes, 0);
+  hr2di_projector *p = hr2di_alloc_zero(&links->alloc, 1, sizeof *p);
+  if (!p)
+    return hr2di_message_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
   p->links = links;
   p->hierarchy = links->hierarchy;
   p->options = *options;
@@ -97,25 +100,25 @@ hr2d_status hr2di_projector_start(hr2d_linkset *links, const hr2d_refine_options
   hr2d_status status = set_brightness(p);
   if (!status) status = set_sight(p);
   if (status)
-    hr2di_projector_end(p);
+    hr2di_projector_destroy(p);
   else
     *made = p;
   return status;
 }
 
-void hr2di_projector_end(hr2di_projector *p) {
+void hr2di_projector_destroy(hr2di_projector *p) {
   const hr2d_allocator *alloc = &p->links->alloc;
-  hr2di_free(alloc, p->open.pair);
-  hr2di_free(alloc, p->guarded.pair);
-  for (int k = 0; k < 2; k++) hr2di_free(alloc, p->fresh[k].pair);
-  hr2di_free(alloc, p->shaded.stack.pair);
-  hr2di_free(alloc, p->shaded.first);
-  hr2di_free(alloc, p->shaded.list.wall);
-  hr2di_free(alloc, p->found.wall);
-  if (p->sight) hr2di_sight_end(p->sight);
-  hr2di_free(alloc, p->sight);
-  hr2di_free(alloc, p->brightness);
-  hr2di_free(alloc, p);
+  hr2di_alloc_free(alloc, p->open.pair);
+  hr2di_alloc_free(alloc, p->guarded.pair);
+  for (int k = 0; k < 2; k++) hr2di_alloc_free(alloc, p->fresh[k].pair);
+  hr2di_alloc_free(alloc, p->shaded.stack.pair);
+  hr2di_alloc_free(alloc, p->shaded.first);
+  hr2di_alloc_free(alloc, p->shaded.list.wall);
+  hr2di_alloc_free(alloc, p->found.wall);
+  if (p->sight) hr2di_visibility_clear(p->sight);
+  hr2di_alloc_free(alloc, p->sight);
+  hr2di_alloc_free(alloc, p->brightness);
+  hr2di_alloc_free(alloc, p);
 }
 
 /* Collects pairs to be proposed. */
@@ -127,17 +130,17 @@ typedef struct proposals {
 static hr2d_status add_root(hr2di_projector *p, proposals *roots, size_t patch, size_t k) {
   const hr2d_scene *scene = p->hierarchy->scene;
   p->roots_done++;
-  if (!hr2di_lit(scene, patch) || !hr2di_lit(scene, k)) {
+  if (!hr2di_scene_lit(scene, patch) || !hr2di_scene_lit(scene, k)) {
     p->counts.dark_pairs++;
     return HR2D_OK;
   }
   roots->pair[roots->count++] = (hr2d_pair){(uint32_t)patch, (uint32_t)k};
   if (roots->count < HR2DI_CANDIDATES) return HR2D_OK;
   roots->count = 0;
-  return hr2di_propose_roots(p, roots->pair, HR2DI_CANDIDATES);
+  return hr2di_occluded_propose_roots(p, roots->pair, HR2DI_CANDIDATES);
 }
 
-hr2d_status hr2di_project_row(hr2di_projector *p, size_t patch) {
+hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch) {
   const size_t n = p->hierarchy->scene->patches;
   const hr2di_roots *known = &p->links->roots;
   proposals roots;
@@ -149,13 +152,13 @@ hr2d_status hr2di_project_row(hr2di_projector *p, size_t patch) {
   else
     for (size_t k = p->directed ? 0 : patch + 1; k < n && !status; k++)
       if (k != patch) status = add_root(p, &roots, patch, k);
-  return status ? status : hr2di_propose_roots(p, roots.pair, roots.count);
+  return status ? status : hr2di_occluded_propose_roots(p, roots.pair, roots.count);
 }
 
-hr2d_status hr2di_project_all(hr2di_projector *p) {
+hr2d_status hr2di_projector_all(hr2di_projector *p) {
   hr2d_status status = HR2D_OK;
   for (size_t patch = 0; patch < p->hierarchy->scene->patches && !status; patch++) {
-    status = hr2di_project_row(p, patch);
+    status = hr2di_projector_row(p, patch);
     if (!status) status = hr2di_rounds_run(p, SIZE_MAX);
   }
   return status;

@@ -12,7 +12,7 @@
 enum { UNWRITTEN = 255 /* what a callback does not write has no meaning */ };
 
 static hr2d_status fail(hr2di_projector *p, hr2d_status status, const char *what) {
-  return hr2di_fail(&p->links->message, status, "%s", what);
+  return hr2di_message_fail(&p->links->message, status, "%s", what);
 }
 
 static uint64_t stack_bytes(const hr2di_projector *p) {
@@ -24,33 +24,33 @@ static uint64_t stack_bytes(const hr2di_projector *p) {
          walls * sizeof *p->found.wall + p->brightness_capacity * sizeof *p->brightness;
 }
 
-hr2d_status hr2di_overspent(hr2d_linkset *links, uint64_t budget, uint64_t made) {
-  return hr2di_fail(&links->message, HR2D_EMAX_BYTES,
-                    "more than %llu bytes are needed, after %llu links",
-                    (unsigned long long)budget, (unsigned long long)made);
+hr2d_status hr2di_projector_fail_budget(hr2d_linkset *links, uint64_t budget, uint64_t made) {
+  return hr2di_message_fail(&links->message, HR2D_EMAX_BYTES,
+                            "more than %llu bytes are needed, after %llu links",
+                            (unsigned long long)budget, (unsigned long long)made);
 }
 
-hr2d_status hr2di_afford(hr2di_projector *p, uint64_t more) {
+hr2d_status hr2di_projector_check_budget(hr2di_projector *p, uint64_t more) {
   const uint64_t budget = p->options.max_bytes;
   if (budget == 0) return HR2D_OK;
   const uint64_t held =
       p->bytes + (uint64_t)p->hierarchy->capacity * HR2DI_ELEMENT_BYTES + stack_bytes(p);
   if (held <= budget && more <= budget - held) return HR2D_OK;
-  return hr2di_overspent(p->links, p->budget, p->counts.links);
+  return hr2di_projector_fail_budget(p->links, p->budget, p->counts.links);
 }
 
 static hr2d_status reserve(hr2di_projector *p, hr2di_stack *stack, size_t more) {
   const size_t needed = stack->count + more;
   if (needed <= stack->capacity) return HR2D_OK;
-  const hr2d_status status = hr2di_afford(p, 2 * needed * sizeof(hr2d_pair));
+  const hr2d_status status = hr2di_projector_check_budget(p, 2 * needed * sizeof(hr2d_pair));
   if (status) return status;
-  return hr2di_reserve(&p->links->alloc, &stack->pair, &stack->capacity, needed,
-                       sizeof *stack->pair)
+  return hr2di_alloc_reserve(&p->links->alloc, &stack->pair, &stack->capacity, needed,
+                             sizeof *stack->pair)
              ? fail(p, HR2D_ENOMEM, "out of memory for refused pairs")
              : HR2D_OK;
 }
 
-hr2d_status hr2di_refuse(hr2di_projector *p, hr2di_stack *stack, hr2d_pair pair) {
+hr2d_status hr2di_projector_push(hr2di_projector *p, hr2di_stack *stack, hr2d_pair pair) {
   const hr2d_status status = reserve(p, stack, 1);
   if (!status) stack->pair[stack->count++] = pair;
   return status;
@@ -71,18 +71,18 @@ static hr2d_batch make_batch(const hr2di_projector *p, const hr2d_pair *pairs, s
 hr2d_status hr2di_projector_check_callback(hr2di_projector *p, hr2d_status status,
                                            const char *kind, const char *name) {
   if (!status) return HR2D_OK;
-  return hr2di_fail(&p->links->message, status, "%s \"%s\": %s", kind, name,
-                    hr2d_strerror(status));
+  return hr2di_message_fail(&p->links->message, status, "%s \"%s\": %s", kind, name,
+                            hr2d_strerror(status));
 }
 
 static hr2d_status compare(hr2di_projector *p, const hr2d_batch *batch) {
   const hr2d_linkset *links = p->links;
   for (size_t k = 0; k < batch->count; k++)
     if (!(p->error[k] >= 0))
-      return hr2di_fail(&p->links->message, HR2D_ECALLBACK,
-                        "oracle \"%s\": an estimate of %g, for elements %u and %u",
-                        links->oracle.name, p->error[k], (unsigned)batch->pairs[k].first,
-                        (unsigned)batch->pairs[k].second);
+      return hr2di_message_fail(
+          &p->links->message, HR2D_ECALLBACK,
+          "oracle \"%s\": an estimate of %g, for elements %u and %u", links->oracle.name,
+          p->error[k], (unsigned)batch->pairs[k].first, (unsigned)batch->pairs[k].second);
   if (links->policy.acceptable)
     return hr2di_projector_check_callback(
         p, links->policy.acceptable(links->policy_ctx, batch, p->error, p->flag), "policy",
@@ -91,7 +91,7 @@ static hr2d_status compare(hr2di_projector *p, const hr2d_batch *batch) {
   return HR2D_OK;
 }
 
-hr2d_status hr2di_judge(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
+hr2d_status hr2di_projector_estimate(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
   const hr2d_linkset *links = p->links;
   const hr2d_batch batch = make_batch(p, pairs, count);
   p->counts.oracle_calls += count;
@@ -105,17 +105,17 @@ hr2d_status hr2di_judge(hr2di_projector *p, const hr2d_pair *pairs, size_t count
   return shortcut ? HR2D_OK : compare(p, &batch);
 }
 
-hr2d_status hr2di_count_links(hr2di_projector *p, size_t more) {
+hr2d_status hr2di_projector_count_links(hr2di_projector *p, size_t more) {
   const uint64_t budget = p->options.max_links;
   p->counts.links += more;
   if (budget == 0 || p->counts.links <= budget) return HR2D_OK;
-  return hr2di_fail(&p->links->message, HR2D_EMAX_LINKS, "more than %llu links are needed",
-                    (unsigned long long)budget);
+  return hr2di_message_fail(&p->links->message, HR2D_EMAX_LINKS,
+                            "more than %llu links are needed", (unsigned long long)budget);
 }
 
-hr2d_status hr2di_emit(hr2di_projector *p, const double *area, size_t count) {
+hr2d_status hr2di_projector_accept(hr2di_projector *p, const double *area, size_t count) {
   if (count == 0) return HR2D_OK;
-  const hr2d_status status = hr2di_count_links(p, count);
+  const hr2d_status status = hr2di_projector_count_links(p, count);
   return status || !p->sink ? status : p->sink(p->sink_ctx, p->accepted, area, count);
 }
 
@@ -123,7 +123,7 @@ hr2d_status hr2di_projector_propose(hr2di_projector *p, const hr2d_pair *pairs, 
                                     hr2di_stack *refused) {
   if (count == 0) return HR2D_OK;
   hr2d_status status = reserve(p, refused, count);
-  if (!status) status = hr2di_judge(p, pairs, count);
+  if (!status) status = hr2di_projector_estimate(p, pairs, count);
   if (status) return status;
   /* Without branches, which would be mispredicted: each pair is written to both. */
   hr2d_pair *accepted = p->accepted, *stack = refused->pair + refused->count;
@@ -136,16 +136,17 @@ hr2d_status hr2di_projector_propose(hr2di_projector *p, const hr2d_pair *pairs, 
     stack += 1 - yes;
   }
   refused->count = (size_t)(stack - refused->pair);
-  return hr2di_emit(p, NULL, (size_t)(accepted - p->accepted));
+  return hr2di_projector_accept(p, NULL, (size_t)(accepted - p->accepted));
 }
 
-hr2d_status hr2di_propose_guarded(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
+hr2d_status hr2di_projector_propose_clipped(hr2di_projector *p, const hr2d_pair *pairs,
+                                            size_t count) {
   const hr2d_element *element = p->hierarchy->element;
   size_t full = 0, part = 0;
   for (size_t k = 0; k < count; k++) {
     const hr2d_element *i = &element[pairs[k].first], *j = &element[pairs[k].second];
     const hr2di_facing facing =
-        hr2di_face(&(hr2d_segment){i->a, i->b}, &(hr2d_segment){j->a, j->b});
+        hr2di_facing_of(&(hr2d_segment){i->a, i->b}, &(hr2d_segment){j->a, j->b});
     if (facing == HR2DI_FACING_NONE) continue;
     if (facing == HR2DI_FACING_PART || p->test_all)
       p->sorted[1][part++] = pairs[k];
@@ -160,23 +161,23 @@ hr2d_status hr2di_propose_guarded(hr2di_projector *p, const hr2d_pair *pairs, si
 static hr2d_status halve(hr2di_projector *p, uint32_t element) {
   hr2d_hierarchy *h = p->hierarchy;
   if (p->options.max_elements && h->elements + 2 > p->options.max_elements)
-    return hr2di_fail(&p->links->message, HR2D_EMAX_ELEMENTS,
-                      "more than %llu elements are needed, after %llu links",
-                      (unsigned long long)p->options.max_elements,
-                      (unsigned long long)p->counts.links);
+    return hr2di_message_fail(&p->links->message, HR2D_EMAX_ELEMENTS,
+                              "more than %llu elements are needed, after %llu links",
+                              (unsigned long long)p->options.max_elements,
+                              (unsigned long long)p->counts.links);
   hr2d_status status = HR2D_OK;
   if (h->elements + 2 > h->capacity)
-    status = hr2di_afford(p, (uint64_t)h->capacity * HR2DI_ELEMENT_BYTES);
+    status = hr2di_projector_check_budget(p, (uint64_t)h->capacity * HR2DI_ELEMENT_BYTES);
   if (!status && p->brightness && h->elements + 2 > p->brightness_capacity)
-    status = hr2di_afford(p, 2 * (h->elements + 2) * sizeof *p->brightness);
+    status = hr2di_projector_check_budget(p, 2 * (h->elements + 2) * sizeof *p->brightness);
   if (status) return status;
   status = hr2di_hierarchy_reserve(h);
   if (!status && p->brightness &&
-      hr2di_reserve(&h->alloc, &p->brightness, &p->brightness_capacity, h->elements + 2,
-                    sizeof *p->brightness))
+      hr2di_alloc_reserve(&h->alloc, &p->brightness, &p->brightness_capacity, h->elements + 2,
+                          sizeof *p->brightness))
     status = HR2D_ENOMEM;
   if (status) return fail(p, status, "no room for another element");
-  const uint32_t child = hr2di_halve(h, element);
+  const uint32_t child = hr2di_element_halve(h, element);
   if (p->brightness) p->brightness[child] = p->brightness[child + 1] = p->brightness[element];
   return HR2D_OK;
 }
@@ -196,9 +197,9 @@ hr2d_status hr2di_projector_choose_split(hr2di_projector *p, const hr2d_pair *pa
   unsigned char most = 0;
   for (size_t k = 0; k < HR2DI_BATCH; k++) most = p->split[k] > most ? p->split[k] : most;
   if (most > HR2D_SPLIT_BOTH)
-    return hr2di_fail(&p->links->message, HR2D_ECALLBACK,
-                      "policy \"%s\": a subdivision of %u has no meaning", policy->name,
-                      (unsigned)most);
+    return hr2di_message_fail(&p->links->message, HR2D_ECALLBACK,
+                              "policy \"%s\": a subdivision of %u has no meaning", policy->name,
+                              (unsigned)most);
   return HR2D_OK;
 }
 
@@ -214,7 +215,7 @@ static int splits_second(unsigned split) {
 static int may_split(const hr2di_projector *p, uint32_t element) {
   const hr2d_hierarchy *h = p->hierarchy;
   return h->level[element] < p->options.max_level &&
-         (h->element[element].child || hr2di_divisible(h, element));
+         (h->element[element].child || hr2di_element_divisible(h, element));
 }
 
 hr2d_status hr2di_projector_prepare(hr2di_projector *p, hr2d_pair *pairs, size_t *count,
@@ -277,8 +278,8 @@ size_t hr2di_projector_children(hr2di_projector *p, const hr2d_pair *pairs, size
   return ready ? (size_t)(out - p->candidate) : 0;
 }
 
-hr2d_status hr2di_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidates,
-                            int *limited) {
+hr2d_status hr2di_projector_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidates,
+                                      int *limited) {
   size_t count = 1, held = 0;
   hr2d_status status = hr2di_projector_choose_split(p, &pair, 1);
   if (!status) status = hr2di_projector_prepare(p, &pair, &count, &held);
@@ -287,7 +288,8 @@ hr2d_status hr2di_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidat
   return status;
 }
 
-void hr2di_count_elements(const hr2d_hierarchy *hierarchy, hr2d_refine_counts *counts) {
+void hr2di_projector_count_elements(const hr2d_hierarchy *hierarchy,
+                                    hr2d_refine_counts *counts) {
   const hr2d_hierarchy_counts h = hr2d_hierarchy_count(hierarchy);
   counts->elements = h.elements;
   counts->leaves = h.leaves;

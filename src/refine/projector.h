@@ -25,12 +25,12 @@ typedef struct hr2di_stack {
 } hr2di_stack;
 
 /* Pairs with walls in the way: each with its own, behind those of the pair below. */
-typedef struct hr2di_shaded {
+typedef struct hr2di_occluded_pairs {
   hr2di_stack stack;
   size_t *first; /* where a pair's walls begin in `list` */
   size_t first_capacity;
   hr2di_wall_list list;
-} hr2di_shaded;
+} hr2di_occluded_pairs;
 
 typedef struct hr2di_projector hr2di_projector;
 
@@ -57,8 +57,8 @@ struct hr2di_projector {
   hr2di_stack guarded; /* refused pairs that one horizon still cuts */
 
   /* Where the scene calls for occlusion, else all empty. */
-  hr2di_sight *sight;
-  hr2di_shaded shaded;          /* refused pairs with walls in the way */
+  hr2di_visibility *sight;
+  hr2di_occluded_pairs shaded;  /* refused pairs with walls in the way */
   hr2di_stack fresh[2];         /* pairs that have come out of them, facing fully and in
                                    part, not yet proposed */
   hr2di_wall_list found;        /* of pairs not yet judged */
@@ -74,28 +74,29 @@ struct hr2di_projector {
 };
 
 /* Completes the options and checks them against the set. */
-hr2d_status hr2di_check_options(hr2d_linkset *links, const hr2d_refine_options *given,
-                                hr2d_refine_options *options);
+hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine_options *given,
+                                          hr2d_refine_options *options);
 
-/* Makes a projector for checked options; to be ended by hr2di_projector_end(). */
-hr2d_status hr2di_projector_start(hr2d_linkset *links, const hr2d_refine_options *options,
-                                  hr2di_projector **made);
-void hr2di_projector_end(hr2di_projector *p);
+/* Makes a projector for checked options; to be ended by hr2di_projector_destroy(). */
+hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_options *options,
+                                   hr2di_projector **made);
+void hr2di_projector_destroy(hr2di_projector *p);
 
 /* Proposes a patch with those behind it, or with all where links are directed, and
    leaves what is refused on the stacks. */
-hr2d_status hr2di_project_row(hr2di_projector *p, size_t patch);
+hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch);
 
 /* Proposes all pairs of patches, and all that comes of them. */
-hr2d_status hr2di_project_all(hr2di_projector *p);
+hr2d_status hr2di_projector_all(hr2di_projector *p);
 
 /* Proposes up to HR2DI_CANDIDATES pairs of which some may not see each other, or only
    in part: these are dropped, and guarded. */
-hr2d_status hr2di_propose_guarded(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
+hr2d_status hr2di_projector_propose_clipped(hr2di_projector *p, const hr2d_pair *pairs,
+                                            size_t count);
 
 /* Asks the oracle about pairs, with p->partial; sets p->flag to 1 where they are
    acceptable. */
-hr2d_status hr2di_judge(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
+hr2d_status hr2di_projector_estimate(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
 
 /* Proposes pairs: links those that are accepted, pushes the others on a stack. */
 hr2d_status hr2di_projector_propose(hr2di_projector *p, const hr2d_pair *pairs, size_t count,
@@ -119,25 +120,26 @@ hr2d_status hr2di_projector_check_callback(hr2di_projector *p, hr2d_status statu
                                            const char *kind, const char *name);
 
 /* Puts a pair on a stack, for the next hr2di_rounds_run(). */
-hr2d_status hr2di_refuse(hr2di_projector *p, hr2di_stack *stack, hr2d_pair pair);
+hr2d_status hr2di_projector_push(hr2di_projector *p, hr2di_stack *stack, hr2d_pair pair);
 
 /* Hands the first `count` of p->accepted to the sink. */
-hr2d_status hr2di_emit(hr2di_projector *p, const double *area, size_t count);
+hr2d_status hr2di_projector_accept(hr2di_projector *p, const double *area, size_t count);
 
 /* Subdivides one pair, into p->candidate; none if a limit holds, and then *limited. */
-hr2d_status hr2di_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidates,
-                            int *limited);
+hr2d_status hr2di_projector_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidates,
+                                      int *limited);
 
 /* Counts links, HR2D_EMAX_LINKS if that breaks the budget. */
-hr2d_status hr2di_count_links(hr2di_projector *p, size_t more);
+hr2d_status hr2di_projector_count_links(hr2di_projector *p, size_t more);
 
 /* HR2D_EMAX_BYTES if `more` bytes would break the budget. */
-hr2d_status hr2di_afford(hr2di_projector *p, uint64_t more);
+hr2d_status hr2di_projector_check_budget(hr2di_projector *p, uint64_t more);
 
 /* HR2D_EMAX_BYTES, with a message. */
-hr2d_status hr2di_overspent(hr2d_linkset *links, uint64_t budget, uint64_t made);
+hr2d_status hr2di_projector_fail_budget(hr2d_linkset *links, uint64_t budget, uint64_t made);
 
 /* Sets the counts of elements. */
-void hr2di_count_elements(const hr2d_hierarchy *hierarchy, hr2d_refine_counts *counts);
+void hr2di_projector_count_elements(const hr2d_hierarchy *hierarchy,
+                                    hr2d_refine_counts *counts);
 
 #endif

@@ -33,12 +33,12 @@ typedef struct storing {
 
 /* The blocks that `count` more links will need are paid for before, and the list of blocks. */
 static hr2d_status afford_links(hr2di_projector *p, const hr2di_store *store, size_t count) {
-  const uint64_t room = (uint64_t)store->blocks * HR2DI_BLOCK_LINKS - store->count;
+  const uint64_t room = (uint64_t)store->blocks * HR2DI_CHUNK_LINKS - store->count;
   if (count <= room) return HR2D_OK;
-  uint64_t more = HR2DI_BLOCK_LINKS * sizeof(hr2d_link);
+  uint64_t more = HR2DI_CHUNK_LINKS * sizeof(hr2d_link);
   if (store->blocks == store->capacity)
     more += (store->capacity ? store->capacity : 8) * sizeof *store->block;
-  const hr2d_status status = hr2di_afford(p, more);
+  const hr2d_status status = hr2di_projector_check_budget(p, more);
   if (!status) p->bytes += more;
   return status;
 }
@@ -49,8 +49,8 @@ static hr2d_status add_links(storing *s, const hr2d_pair *pairs, const double *a
   hr2d_status status = afford_links(s->projector, s->store, count);
   if (status) return status;
   status = hr2di_store_add(s->store, &links->alloc, pairs, area, count);
-  return status ? hr2di_fail(&links->message, status, "out of memory after %llu links",
-                             (unsigned long long)s->store->count)
+  return status ? hr2di_message_fail(&links->message, status, "out of memory after %llu links",
+                                     (unsigned long long)s->store->count)
                 : HR2D_OK;
 }
 
@@ -71,7 +71,7 @@ static int faces_fully(const hr2d_hierarchy *h, hr2d_pair pair) {
     for (uint32_t j = pair.second, above_j;; j = above_j) {
       above_j = h->parent[j];
       const hr2d_element *e = &h->element[i], *f = &h->element[j];
-      if (hr2di_face(&(hr2d_segment){e->a, e->b}, &(hr2d_segment){f->a, f->b}) ==
+      if (hr2di_facing_of(&(hr2d_segment){e->a, e->b}, &(hr2d_segment){f->a, f->b}) ==
           HR2DI_FACING_FULL)
         return 1;
       if (above_j == j) break;
@@ -85,9 +85,9 @@ static hr2d_status look_again(hr2di_projector *p, const hr2d_pair *pairs, size_t
                               unsigned char *partial) {
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < count && !status; k++) {
-    hr2di_view view;
+    hr2di_visibility_class view;
     p->found.count = 0;
-    status = hr2di_look(p, pairs[k], &view);
+    status = hr2di_occluded_collect(p, pairs[k], &view);
     partial[k] = view != HR2DI_CLEAR;
     if (partial[k]) p->partial = partial;
   }
@@ -95,10 +95,10 @@ static hr2d_status look_again(hr2di_projector *p, const hr2d_pair *pairs, size_t
 }
 
 static hr2d_status refuse_link(hr2di_projector *p, hr2d_pair pair, int partial) {
-  if (partial) return hr2di_refuse_shaded(p, pair);
+  if (partial) return hr2di_occluded_push(p, pair);
   const int clipped = p->hierarchy->scene->effect[HR2D_EFFECT_FACING].on;
   const int open = !p->test_all && (!clipped || faces_fully(p->hierarchy, pair));
-  return hr2di_refuse(p, open ? &p->open : &p->guarded, pair);
+  return hr2di_projector_push(p, open ? &p->open : &p->guarded, pair);
 }
 
 /* Proposes the links of a set again: acceptable ones are kept with their exchange
@@ -116,7 +116,7 @@ static hr2d_status project_links(hr2di_projector *p) {
     const size_t count = rest < HR2DI_BATCH ? (size_t)rest : HR2DI_BATCH;
     for (size_t k = 0; k < count; k++) pairs[k] = hr2di_store_at(old, first + k)->pair;
     if (p->sight) status = look_again(p, pairs, count, partial);
-    if (!status) status = hr2di_judge(p, pairs, count);
+    if (!status) status = hr2di_projector_estimate(p, pairs, count);
     p->partial = NULL;
     size_t kept = 0;
     for (size_t k = 0; k < count && !status; k++) {
@@ -128,7 +128,7 @@ static hr2d_status project_links(hr2di_projector *p) {
       area[kept] = hr2di_store_at(old, first + k)->exchange_area;
       pairs[kept++] = pairs[k];
     }
-    if (!status) status = hr2di_count_links(p, kept);
+    if (!status) status = hr2di_projector_count_links(p, kept);
     if (!status) status = add_links(s, pairs, area, kept);
     p->roots_done += (double)count;
     if (!status) status = hr2di_rounds_run(p, SIZE_MAX);
@@ -139,7 +139,7 @@ static hr2d_status project_links(hr2di_projector *p) {
 /* What the set holds now, and what all its refinements took. */
 static void sum_counts(hr2d_linkset *links, const hr2di_projector *p) {
   hr2d_refine_counts *counts = &links->counts;
-  hr2di_count_elements(p->hierarchy, counts);
+  hr2di_projector_count_elements(p->hierarchy, counts);
   counts->links = p->counts.links;
   counts->limited_links = p->counts.limited_links;
   counts->oracle_calls += p->counts.oracle_calls;
@@ -155,31 +155,33 @@ hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options)
   hr2d_refine_options used;
   hr2di_projector *p = NULL;
   hr2di_store made = {0};
-  hr2d_status status = hr2di_check_options(links, options, &used);
-  if (!status) status = hr2di_projector_start(links, &used, &p);
+  hr2d_status status = hr2di_projector_check_options(links, options, &used);
+  if (!status) status = hr2di_projector_create(links, &used, &p);
   if (status) return status;
   p->bytes += sizeof(storing);
-  status = hr2di_afford(p, 0);
-  storing *s = status ? NULL : hr2di_calloc(&links->alloc, 1, sizeof *s);
+  status = hr2di_projector_check_budget(p, 0);
+  storing *s = status ? NULL : hr2di_alloc_zero(&links->alloc, 1, sizeof *s);
   if (s) {
     s->projector = p;
     s->store = &made;
-    status = run(p, store_links, s, links->store.count > 0 ? project_links : hr2di_project_all);
+    status =
+        run(p, store_links, s, links->store.count > 0 ? project_links : hr2di_projector_all);
   } else if (!status) {
-    status = hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
+    status =
+        hr2di_message_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
   }
   if (status) {
     hr2di_store_clear(&made, &links->alloc);
   } else {
     hr2di_store_clear(&links->store, &links->alloc);
-    hr2di_blocks_clear(&links->blocks, &links->alloc);
+    hr2di_link_blocks_clear(&links->blocks, &links->alloc);
     links->store = made;
     links->directed = p->directed;
     links->epsilon = used.epsilon;
     sum_counts(links, p);
   }
-  hr2di_free(&links->alloc, s);
-  hr2di_projector_end(p);
+  hr2di_alloc_free(&links->alloc, s);
+  hr2di_projector_destroy(p);
   return status;
 }
 
@@ -203,8 +205,8 @@ static hr2d_status visit_links(void *ctx, const hr2d_pair *pairs, const double *
   const double unit = hr2d_scene_unit(h->scene);
   for (size_t k = 0; k < count; k++) v->link[k] = (hr2d_link){pairs[k], area[k] * unit};
   const hr2d_status status = v->visit(v->visit_ctx, v->link, count);
-  return status ? hr2di_fail(&v->projector->links->message, status, "visitor: %s",
-                             hr2d_strerror(status))
+  return status ? hr2di_message_fail(&v->projector->links->message, status, "visitor: %s",
+                                     hr2d_strerror(status))
                 : HR2D_OK;
 }
 
@@ -213,26 +215,27 @@ hr2d_status hr2d_refine_visit(hr2d_linkset *links, const hr2d_refine_options *op
   hr2d_refine_options used;
   hr2di_projector *p = NULL;
   if (links->store.count > 0)
-    return hr2di_fail(&links->message, HR2D_ESTATE, "the set has links already");
-  hr2d_status status = hr2di_check_options(links, options, &used);
-  if (!status) status = hr2di_projector_start(links, &used, &p);
+    return hr2di_message_fail(&links->message, HR2D_ESTATE, "the set has links already");
+  hr2d_status status = hr2di_projector_check_options(links, options, &used);
+  if (!status) status = hr2di_projector_create(links, &used, &p);
   if (status) return status;
   p->bytes += sizeof(visiting);
-  status = hr2di_afford(p, 0);
-  visiting *v = status ? NULL : hr2di_calloc(&links->alloc, 1, sizeof *v);
+  status = hr2di_projector_check_budget(p, 0);
+  visiting *v = status ? NULL : hr2di_alloc_zero(&links->alloc, 1, sizeof *v);
   if (v) {
     v->projector = p;
     v->visit = visit;
     v->visit_ctx = visit_ctx;
-    status = run(p, visit_links, v, hr2di_project_all);
+    status = run(p, visit_links, v, hr2di_projector_all);
   } else if (!status) {
-    status = hr2di_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
+    status =
+        hr2di_message_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
   }
   if (!status) {
     *counts = p->counts;
-    hr2di_count_elements(p->hierarchy, counts);
+    hr2di_projector_count_elements(p->hierarchy, counts);
   }
-  hr2di_free(&links->alloc, v);
-  hr2di_projector_end(p);
+  hr2di_alloc_free(&links->alloc, v);
+  hr2di_projector_destroy(p);
   return status;
 }

@@ -28,13 +28,13 @@ static hr2d_status play(hr2di_projector *p, hr2di_stack *stack) {
   if (candidates == 0) {
     status = hr2di_projector_prepare(p, pairs, &count, &limited);
     p->counts.limited_links += limited;
-    if (!status) status = hr2di_emit(p, NULL, limited);
+    if (!status) status = hr2di_projector_accept(p, NULL, limited);
     if (status) return status;
     candidates = hr2di_projector_children(p, pairs, count);
   }
   if (stack == &p->open) return hr2di_projector_propose(p, p->candidate, candidates, &p->open);
   p->counts.facing_tests += candidates;
-  return hr2di_propose_guarded(p, p->candidate, candidates);
+  return hr2di_projector_propose_clipped(p, p->candidate, candidates);
 }
 
 size_t hr2di_rounds_waiting(const hr2di_projector *p) {
@@ -56,7 +56,7 @@ static hr2d_status play_next(hr2di_projector *p) {
   if (p->open.count >= HR2DI_BATCH) return play(p, &p->open);
   if (p->guarded.count >= HR2DI_BATCH) return play(p, &p->guarded);
   const size_t fresh = p->fresh[0].count + p->fresh[1].count;
-  if (p->shaded.stack.count > 0 && fresh < HR2DI_BATCH) return hr2di_play_shaded(p);
+  if (p->shaded.stack.count > 0 && fresh < HR2DI_BATCH) return hr2di_occluded_round(p);
   if (fresh > 0) return propose_fresh(p);
   return play(p, p->open.count > 0 ? &p->open : &p->guarded);
 }

@@ -29,15 +29,15 @@ static hr2d_status count_once(hr2d_linkset *links, const hr2d_refine_options *op
     status = hr2d_linkset_create(hierarchy, &oracle, links->oracle_ctx, &policy,
                                  links->policy_ctx, &fresh);
   if (status) {
-    hr2di_fail(&links->message, status, "out of memory for the study");
+    hr2di_message_fail(&links->message, status, "out of memory for the study");
   } else {
-    const double start = hr2di_now();
+    const double start = hr2di_clock_now();
     status = hr2d_refine_count(fresh, options, &row->counts);
-    row->seconds = hr2di_now() - start;
+    row->seconds = hr2di_clock_now() - start;
     row->epsilon = options->epsilon;
     if (status)
-      hr2di_fail(&links->message, status, "at epsilon %g: %s", options->epsilon,
-                 hr2d_linkset_message(fresh));
+      hr2di_message_fail(&links->message, status, "at epsilon %g: %s", options->epsilon,
+                         hr2d_linkset_message(fresh));
   }
   hr2d_linkset_destroy(fresh);
   hr2d_hierarchy_destroy(hierarchy);
@@ -48,14 +48,14 @@ hr2d_status hr2d_study_run(hr2d_linkset *links, const hr2d_refine_options *optio
                            const double *epsilon, size_t count, hr2d_study_row *rows,
                            size_t *done) {
   hr2d_refine_options used = HR2D_REFINE_OPTIONS_INIT;
-  if (options) hr2di_copy_sized(&used, sizeof used, options);
+  if (options) hr2di_sized_copy(&used, sizeof used, options);
   used.struct_size = sizeof used;
   used.brightness = NULL; /* every count begins on a fresh hierarchy */
   hr2d_status status = HR2D_OK;
   size_t k = 0;
   if (done) *done = 0;
   if (links->store.count > 0)
-    return hr2di_fail(&links->message, HR2D_ESTATE, "the set has links already");
+    return hr2di_message_fail(&links->message, HR2D_ESTATE, "the set has links already");
   for (; k < count && !status; k++) {
     used.epsilon = epsilon[k];
     status = count_once(links, &used, &rows[k]);
@@ -158,7 +158,7 @@ hr2d_status hr2d_study_fit_rows(const hr2d_study_row *rows, size_t count, hr2d_s
     if (rows[k].counts.links == 0 || rows[k].counts.elements == 0) return HR2D_EINVAL;
   const scale n = scale_of(rows, count);
   if (!are_spread(rows, count, n)) return HR2D_EINVAL;
-  const hr2d_allocator alloc = hr2di_default_allocator();
+  const hr2d_allocator alloc = hr2di_alloc_default();
   double *space = hr2di_alloc(&alloc, count, 5 * sizeof *space);
   if (!space) return HR2D_ENOMEM;
   double tau[3], solution[3];
@@ -173,7 +173,7 @@ hr2d_status hr2d_study_fit_rows(const hr2d_study_row *rows, size_t count, hr2d_s
                         &residual.vector);
   const double r2 = determination(&links.vector, &residual.vector);
   const double slope = slope_of_logs(rows, count, space, space + count);
-  hr2di_free(&alloc, space);
+  hr2di_alloc_free(&alloc, space);
   const double m = n.middle / n.half, first = (double)rows[0].counts.links;
   const hr2d_study_fit made = {.a = first + solution[0] - m * (solution[1] - m * solution[2]),
                                .b = (solution[1] - 2 * m * solution[2]) / n.half,

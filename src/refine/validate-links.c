@@ -41,16 +41,16 @@ typedef struct validator {
   node *node;
   hr2d_pair *stack;
   size_t capacity;
-  hr2di_sight *sight; /* NULL where nothing can be in the way */
+  hr2di_visibility *sight; /* NULL where nothing can be in the way */
 } validator;
 
 static hr2d_status fail(validator *v, hr2d_pair pair, const char *what) {
   const hr2d_scene *scene = v->h->scene;
   const hr2d_element *e = v->h->element;
-  return hr2di_fail(&v->links->message, HR2D_EINVAL, "elements %u of %s and %u of %s %s",
-                    (unsigned)pair.first, hr2di_patch_label(scene, e[pair.first].patch).text,
-                    (unsigned)pair.second, hr2di_patch_label(scene, e[pair.second].patch).text,
-                    what);
+  return hr2di_message_fail(
+      &v->links->message, HR2D_EINVAL, "elements %u of %s and %u of %s %s",
+      (unsigned)pair.first, hr2di_patch_label(scene, e[pair.first].patch).text,
+      (unsigned)pair.second, hr2di_patch_label(scene, e[pair.second].patch).text, what);
 }
 
 static hr2d_status fail_overlap(validator *v, hr2d_pair one, hr2d_pair other) {
@@ -64,7 +64,7 @@ static hr2d_status fail_overlap(validator *v, hr2d_pair one, hr2d_pair other) {
 
 static hr2di_facing face(const validator *v, uint32_t i, uint32_t j) {
   const hr2d_element *e = v->h->element;
-  return hr2di_face(&(hr2d_segment){e[i].a, e[i].b}, &(hr2d_segment){e[j].a, e[j].b});
+  return hr2di_facing_of(&(hr2d_segment){e[i].a, e[i].b}, &(hr2d_segment){e[j].a, e[j].b});
 }
 
 /* A root is its own parent. */
@@ -77,7 +77,7 @@ static int is_right(const validator *v, uint32_t element) {
 }
 
 static hr2d_status out_of_memory(validator *v) {
-  return hr2di_fail(&v->links->message, HR2D_ENOMEM, "out of memory");
+  return hr2di_message_fail(&v->links->message, HR2D_ENOMEM, "out of memory");
 }
 
 /* The exchange areas that links should have. */
@@ -85,8 +85,8 @@ static hr2d_status integrate(validator *v, const hr2d_pair *pair, size_t count, 
   hr2d_status status = HR2D_OK;
   if (!v->sight) hr2di_exchange_areas(v->h->element, pair, count, area);
   for (size_t k = 0; k < count && v->sight && !status; k++) {
-    hr2di_view view;
-    if (hr2di_shaded_area(v->sight, v->h, pair[k], &area[k], &view)) return out_of_memory(v);
+    hr2di_visibility_class view;
+    if (hr2di_occluded_area(v->sight, v->h, pair[k], &area[k], &view)) return out_of_memory(v);
     if (view == HR2DI_BLOCKED)
       status = fail(v, pair[k], "are linked, but are hidden from each other");
   }
@@ -100,9 +100,10 @@ static hr2d_status check_areas(validator *v, const hr2d_link *link, size_t count
   for (size_t k = 0; k < count; k++) {
     pair[k] = link[k].pair;
     if (pair[k].first >= v->h->elements || pair[k].second >= v->h->elements)
-      return hr2di_fail(&v->links->message, HR2D_EINVAL,
-                        "elements %u and %u are linked, but there are only %zu",
-                        (unsigned)pair[k].first, (unsigned)pair[k].second, v->h->elements);
+      return hr2di_message_fail(&v->links->message, HR2D_EINVAL,
+                                "elements %u and %u are linked, but there are only %zu",
+                                (unsigned)pair[k].first, (unsigned)pair[k].second,
+                                v->h->elements);
     if (element[pair[k].first].patch == element[pair[k].second].patch)
       return fail(v, pair[k], "are linked, but belong to the same patch");
   }
@@ -223,9 +224,9 @@ static int inherits(const validator *v, hr2d_pair pair, uint32_t top, hr2di_faci
 
 /* Whether walls hide a pair; *hidden is 0 where there are none. */
 static hr2d_status look(validator *v, hr2d_pair pair, int *hidden) {
-  hr2di_view view = HR2DI_CLEAR;
+  hr2di_visibility_class view = HR2DI_CLEAR;
   double area = 0;
-  if (v->sight && hr2di_shaded_area(v->sight, v->h, pair, &area, &view))
+  if (v->sight && hr2di_occluded_area(v->sight, v->h, pair, &area, &view))
     return out_of_memory(v);
   const hr2d_element *e = v->h->element;
   const double length = fmin(e[pair.first].length, e[pair.second].length);
@@ -257,7 +258,7 @@ static hr2d_status check_unseen(validator *v, uint32_t e, uint32_t f) {
       const uint32_t left = element[p.first].child, right = element[p.second].child;
       if (!left && !right)
         return fail(v, (hr2d_pair){e, f}, "see each other, but no link joins them");
-      if (hr2di_reserve(&v->links->alloc, &v->stack, &v->capacity, count + 2, sizeof p))
+      if (hr2di_alloc_reserve(&v->links->alloc, &v->stack, &v->capacity, count + 2, sizeof p))
         return out_of_memory(v);
       for (uint32_t k = 0; k < 2; k++)
         v->stack[count++] =
@@ -337,7 +338,8 @@ static hr2d_status check_patches(validator *v, uint32_t p, uint32_t q) {
                                         !inherits(v, pair, q, HR2DI_FACING_FULL)))
       return fail(v, pair, "are linked, but cannot see each other");
   }
-  if (facing == HR2DI_FACING_NONE || !hr2di_lit(v->h->scene, p) || !hr2di_lit(v->h->scene, q))
+  if (facing == HR2DI_FACING_NONE || !hr2di_scene_lit(v->h->scene, p) ||
+      !hr2di_scene_lit(v->h->scene, q))
     return HR2D_OK;
   mark(v, 0);
   const hr2d_status status = walk(v, p, q, facing);
@@ -372,16 +374,16 @@ hr2d_status hr2d_linkset_validate(hr2d_linkset *links) {
     status = out_of_memory(&v);
   } else {
     for (size_t e = 0; e < h->elements; e++) v.node[e] = (node){.links = NO_LINK, .by = NOBODY};
-    hr2di_sight sight;
-    hr2di_sight_start(&sight, &h->scene->walls, alloc);
+    hr2di_visibility sight;
+    hr2di_visibility_init(&sight, &h->scene->walls, alloc);
     if (h->scene->effect[HR2D_EFFECT_OCCLUSION].on) v.sight = &sight;
     status = check_all(&v);
-    hr2di_sight_end(&sight);
+    hr2di_visibility_clear(&sight);
   }
-  hr2di_free(alloc, v.pair);
-  hr2di_free(alloc, v.spare);
-  hr2di_free(alloc, v.bucket);
-  hr2di_free(alloc, v.node);
-  hr2di_free(alloc, v.stack);
+  hr2di_alloc_free(alloc, v.pair);
+  hr2di_alloc_free(alloc, v.spare);
+  hr2di_alloc_free(alloc, v.bucket);
+  hr2di_alloc_free(alloc, v.node);
+  hr2di_alloc_free(alloc, v.stack);
   return status;
 }

@@ -9,7 +9,7 @@
 
 /* Whether t lies along s, on its line and in its direction. */
 static int lies_along(hr2d_segment s, hr2d_segment t) {
-  return hr2di_side(s.a, s.b, t.a) == 0 && hr2di_side(s.a, s.b, t.b) == 0 &&
+  return hr2di_orient_sign(s.a, s.b, t.a) == 0 && hr2di_orient_sign(s.a, s.b, t.b) == 0 &&
          hr2di_point_along(s, t.a) < hr2di_point_along(s, t.b) &&
          hr2di_point_along(s, t.a) < hr2di_point_along(s, s.b) &&
          hr2di_point_along(s, t.b) > hr2di_point_along(s, s.a);
@@ -17,8 +17,8 @@ static int lies_along(hr2d_segment s, hr2d_segment t) {
 
 static hr2d_status add(const hr2d_scene *scene, hr2di_backs *backs, uint32_t patch,
                        hr2d_segment at) {
-  if (hr2di_reserve(&scene->alloc, &backs->back, &backs->capacity, backs->count + 1,
-                    sizeof *backs->back))
+  if (hr2di_alloc_reserve(&scene->alloc, &backs->back, &backs->capacity, backs->count + 1,
+                          sizeof *backs->back))
     return HR2D_ENOMEM;
   backs->back[backs->count++] = (hr2di_back){at, patch};
   return HR2D_OK;
@@ -40,7 +40,7 @@ static hr2d_status cover(const hr2d_scene *scene, hr2di_backs *backs, size_t fir
   return status;
 }
 
-hr2d_status hr2di_find_backs(const hr2d_scene *scene, hr2di_backs *backs) {
+hr2d_status hr2di_backs_init(const hr2d_scene *scene, hr2di_backs *backs) {
   hr2d_status status = HR2D_OK;
   for (uint32_t k = 0; k < scene->patches && !status; k++) {
     const hr2d_segment s = scene->patch[k].scaled;

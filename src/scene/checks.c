@@ -7,7 +7,7 @@
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
 
-hr2d_status hr2di_check_bands(hr2d_scene *scene) {
+hr2d_status hr2di_scene_check_bands(hr2d_scene *scene) {
   size_t bands = 1, setter = 0;
   for (size_t k = 0; k < scene->patches; k++) {
     const hr2di_patch *p = &scene->patch[k];
@@ -15,7 +15,7 @@ hr2d_status hr2di_check_bands(hr2d_scene *scene) {
     for (int c = 0; c < 2; c++) {
       if (count[c] <= 1) continue;
       if (bands > 1 && count[c] != bands)
-        return hr2di_fail(
+        return hr2di_message_fail(
             &scene->message, HR2D_ESCENE, "%s has %zu bands of %s where %s has %zu bands",
             hr2di_patch_label(scene, k).text, count[c], c ? "reflectance" : "emission",
             hr2di_patch_label(scene, setter).text, bands);
@@ -73,27 +73,30 @@ static int is_convex(const hr2d_scene *scene) {
 static hr2d_status check_offset(hr2d_scene *scene) {
   const double across = extent(scene);
   if (across >= FEWEST_ROUNDINGS * 0x1p-50 || is_convex(scene)) return HR2D_OK;
-  return hr2di_fail(&scene->message, HR2D_ERANGE,
-                    "the scene is so far from the origin, %.3g for %.3g across, that rounding "
-                    "leaves too few digits: move it to the origin",
-                    ldexp(1, scene->exponent), ldexp(across, scene->exponent));
+  return hr2di_message_fail(
+      &scene->message, HR2D_ERANGE,
+      "the scene is so far from the origin, %.3g for %.3g across, that rounding "
+      "leaves too few digits: move it to the origin",
+      ldexp(1, scene->exponent), ldexp(across, scene->exponent));
 }
 
 /* Scaling by a power of two is exact unless a coordinate becomes subnormal. */
-hr2d_status hr2di_scale(hr2d_scene *scene) {
+hr2d_status hr2di_scene_scale(hr2d_scene *scene) {
   scene->exponent = ilogb(largest_coordinate(scene));
   for (size_t k = 0; k < scene->patches; k++) {
     hr2di_patch *p = &scene->patch[k];
     if (!scale_point(p->given.a, scene->exponent, &p->scaled.a) ||
         !scale_point(p->given.b, scene->exponent, &p->scaled.b))
-      return hr2di_fail(&scene->message, HR2D_ERANGE,
-                        "%s: its coordinates are too small beside the largest of the scene, "
-                        "about %g",
-                        hr2di_patch_label(scene, k).text, ldexp(1, scene->exponent));
+      return hr2di_message_fail(
+          &scene->message, HR2D_ERANGE,
+          "%s: its coordinates are too small beside the largest of the scene, "
+          "about %g",
+          hr2di_patch_label(scene, k).text, ldexp(1, scene->exponent));
     p->length = hypot(p->scaled.b.x - p->scaled.a.x, p->scaled.b.y - p->scaled.a.y);
     if (!isfinite(ldexp(p->length, scene->exponent)))
-      return hr2di_fail(&scene->message, HR2D_ERANGE, "%s: its length is beyond a double",
-                        hr2di_patch_label(scene, k).text);
+      return hr2di_message_fail(&scene->message, HR2D_ERANGE,
+                                "%s: its length is beyond a double",
+                                hr2di_patch_label(scene, k).text);
   }
   return check_offset(scene);
 }
@@ -109,11 +112,11 @@ static int is_between(const hr2d_segment *s, hr2d_point p, hr2d_point q) {
 
 static hr2d_status fail_crossing(hr2d_scene *scene, size_t i, size_t j, hr2d_point x) {
   const hr2d_point at = in_scene_lengths(scene, x);
-  return hr2di_fail(&scene->message, HR2D_ESCENE,
-                    "%s and %s cross at (%.9g, %.9g): hr2d_scene_split_crossings() or "
-                    "--split-crossings cuts them there",
-                    hr2di_patch_label(scene, i).text, hr2di_patch_label(scene, j).text, at.x,
-                    at.y);
+  return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                            "%s and %s cross at (%.9g, %.9g): hr2d_scene_split_crossings() or "
+                            "--split-crossings cuts them there",
+                            hr2di_patch_label(scene, i).text, hr2di_patch_label(scene, j).text,
+                            at.x, at.y);
 }
 
 /* Where, and along which length, two patches lie on one another. */
@@ -131,37 +134,41 @@ static hr2d_status fail_overlap(hr2d_scene *scene, size_t i, size_t j, const hr2
   const hr2di_label where = describe_stretch(scene, m);
   const char *within = m->collinear ? "" : " within rounding";
   if (m->kind == HR2DI_MEET_FACE)
-    return hr2di_fail(&scene->message, HR2D_ESCENE,
-                      "%s and %s face each other with no more than a rounding between them, "
-                      "%s: hr2d_scene_split_crossings() or --split-crossings puts them back to "
-                      "back; or use \"sides\": \"both\"",
-                      first.text, second.text, where.text);
+    return hr2di_message_fail(
+        &scene->message, HR2D_ESCENE,
+        "%s and %s face each other with no more than a rounding between them, "
+        "%s: hr2d_scene_split_crossings() or --split-crossings puts them back to "
+        "back; or use \"sides\": \"both\"",
+        first.text, second.text, where.text);
   if (hr2di_point_same(s->a, t->a) && hr2di_point_same(s->b, t->b))
-    return hr2di_fail(&scene->message, HR2D_ESCENE, "%s is a copy of %s, %s", second.text,
-                      first.text, where.text);
+    return hr2di_message_fail(&scene->message, HR2D_ESCENE, "%s is a copy of %s, %s",
+                              second.text, first.text, where.text);
   const int first_inside = is_between(s, m->from, m->to);
   if (first_inside || is_between(t, m->from, m->to))
-    return hr2di_fail(&scene->message, HR2D_ESCENE,
-                      "%s lies on %s%s with its front on the same side, %s",
-                      first_inside ? first.text : second.text,
-                      first_inside ? second.text : first.text, within, where.text);
-  return hr2di_fail(&scene->message, HR2D_ESCENE,
-                    "%s and %s lie on one another%s with their fronts on the same side, %s",
-                    first.text, second.text, within, where.text);
+    return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                              "%s lies on %s%s with its front on the same side, %s",
+                              first_inside ? first.text : second.text,
+                              first_inside ? second.text : first.text, within, where.text);
+  return hr2di_message_fail(
+      &scene->message, HR2D_ESCENE,
+      "%s and %s lie on one another%s with their fronts on the same side, %s", first.text,
+      second.text, within, where.text);
 }
 
 static hr2d_status check_pair(void *ctx, size_t i, size_t j) {
   hr2d_scene *scene = ctx;
-  const hr2di_meeting m = hr2di_meet(&scene->patch[i].scaled, &scene->patch[j].scaled);
+  const hr2di_meeting m =
+      hr2di_crossings_meet(&scene->patch[i].scaled, &scene->patch[j].scaled);
   if (m.kind == HR2DI_MEET_FREE) return HR2D_OK;
   if (m.kind == HR2DI_MEET_CROSS) return fail_crossing(scene, i, j, m.from);
   return fail_overlap(scene, i, j, &m);
 }
 
-hr2d_status hr2di_check_overlaps(hr2d_scene *scene) {
-  const hr2d_status status = hr2di_sweep(&scene->alloc, &scene->patch[0].scaled, scene->patches,
-                                         sizeof *scene->patch, check_pair, scene);
+hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene) {
+  const hr2d_status status =
+      hr2di_crossings_sweep(&scene->alloc, &scene->patch[0].scaled, scene->patches,
+                            sizeof *scene->patch, check_pair, scene);
   if (status == HR2D_ENOMEM)
-    hr2di_fail(&scene->message, status, "out of memory for the checks");
+    hr2di_message_fail(&scene->message, status, "out of memory for the checks");
   return status;
 }

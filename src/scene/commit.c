@@ -7,9 +7,9 @@ static hr2d_status check_background(hr2d_scene *scene) {
   const size_t bands = scene->background_bands;
   if (bands <= 1 || bands == scene->bands) return HR2D_OK;
   if (scene->bands > 1)
-    return hr2di_fail(&scene->message, HR2D_ESCENE,
-                      "the background has %zu bands where the patches have %zu", bands,
-                      scene->bands);
+    return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                              "the background has %zu bands where the patches have %zu", bands,
+                              scene->bands);
   scene->bands = bands;
   return HR2D_OK;
 }
@@ -18,19 +18,21 @@ static hr2d_status make_walls(hr2d_scene *scene) {
   hr2d_segment *segment = hr2di_alloc(&scene->alloc, scene->patches, sizeof *segment);
   hr2d_status status = segment ? HR2D_OK : HR2D_ENOMEM;
   for (size_t k = 0; k < scene->patches && segment; k++) segment[k] = scene->patch[k].scaled;
-  if (!status) status = hr2di_walls_make(&scene->walls, &scene->alloc, segment, scene->patches);
-  hr2di_free(&scene->alloc, segment);
-  return status ? hr2di_fail(&scene->message, status, "out of memory for the walls") : HR2D_OK;
+  if (!status) status = hr2di_walls_init(&scene->walls, &scene->alloc, segment, scene->patches);
+  hr2di_alloc_free(&scene->alloc, segment);
+  return status ? hr2di_message_fail(&scene->message, status, "out of memory for the walls")
+                : HR2D_OK;
 }
 
 hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
   if (scene->committed)
-    return hr2di_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");
+    return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");
   if (scene->patches == 0)
-    return hr2di_fail(&scene->message, HR2D_ESCENE, "the scene has no patches");
+    return hr2di_message_fail(&scene->message, HR2D_ESCENE, "the scene has no patches");
   hr2d_status (*const part[])(hr2d_scene *) = {
-      hr2di_check_bands, check_background,      hr2di_scale,     hr2di_check_overlaps,
-      make_walls,        hr2di_analyse_effects, hr2di_find_light};
+      hr2di_scene_check_bands,    check_background, hr2di_scene_scale,
+      hr2di_scene_check_overlaps, make_walls,       hr2di_scene_analyse_effects,
+      hr2di_scene_find_light};
   for (size_t k = 0; k < sizeof part / sizeof *part; k++) {
     const hr2d_status status = part[k](scene);
     if (!status) continue;

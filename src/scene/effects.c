@@ -96,7 +96,7 @@ static size_t analyse_pairs(hr2d_scene *scene) {
       const hr2d_segment *s = &scene->patch[i].scaled, *t = &scene->patch[j].scaled;
       if (hr2di_point_same(s->a, t->b) && hr2di_point_same(s->b, t->a))
         set_pair(scene, HR2D_EFFECT_TWO_SIDED, "stand back to back", i, j);
-      const hr2di_facing facing = hr2di_face(s, t);
+      const hr2di_facing facing = hr2di_facing_of(s, t);
       if (facing == HR2DI_FACING_NONE) continue;
       seen++;
       if (facing == HR2DI_FACING_PART)
@@ -118,12 +118,12 @@ static void force(hr2d_scene *scene) {
   }
 }
 
-hr2d_status hr2di_analyse_effects(hr2d_scene *scene) {
+hr2d_status hr2di_scene_analyse_effects(hr2d_scene *scene) {
   analyse_materials(scene);
   analyse_background(scene);
   const size_t seen = analyse_pairs(scene);
   hr2di_occlusion found;
-  const hr2d_status status = hr2di_find_occluder(scene, &found);
+  const hr2d_status status = hr2di_occluder_find(scene, &found);
   if (status) return status;
   if (found.exists)
     set(scene, HR2D_EFFECT_OCCLUSION, 1, "%s can stand between %s and %s",

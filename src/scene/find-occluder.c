@@ -12,7 +12,7 @@ static int on_hull(const hr2d_scene *scene, size_t k) {
   int left = 0, right = 0;
   for (size_t m = 0; m < scene->patches; m++) {
     const hr2d_segment s = scene->patch[m].scaled;
-    const int at_a = hr2di_side(w.a, w.b, s.a), at_b = hr2di_side(w.a, w.b, s.b);
+    const int at_a = hr2di_orient_sign(w.a, w.b, s.a), at_b = hr2di_orient_sign(w.a, w.b, s.b);
     left |= at_a > 0 || at_b > 0;
     right |= at_a < 0 || at_b < 0;
     if (left && right) return 0;
@@ -38,29 +38,29 @@ static size_t patch_in_way(const hr2d_scene *scene, const hr2di_shaft *shaft, ui
   return 0;
 }
 
-static hr2d_status look_between(const hr2d_scene *scene, hr2di_sight *sight, size_t i, size_t j,
-                                hr2di_occlusion *found) {
+static hr2d_status look_between(const hr2d_scene *scene, hr2di_visibility *sight, size_t i,
+                                size_t j, hr2di_occlusion *found) {
   const hr2d_segment s = scene->patch[i].scaled, t = scene->patch[j].scaled;
   hr2di_shaft shaft;
-  hr2di_view view;
-  if (!hr2di_shaft_make(&shaft, hr2di_face(&s, &t), s, t, s, t)) return HR2D_OK;
+  hr2di_visibility_class view;
+  if (!hr2di_shaft_init(&shaft, hr2di_facing_of(&s, &t), s, t, s, t)) return HR2D_OK;
   sight->list.count = 0;
-  const hr2d_status status = hr2di_sight_collect(sight, &shaft, &sight->list, &view);
+  const hr2d_status status = hr2di_visibility_collect(sight, &shaft, &sight->list, &view);
   if (!status && view != HR2DI_CLEAR)
     *found = (hr2di_occlusion){1, i, j, patch_in_way(scene, &shaft, sight->last)};
   return status;
 }
 
-hr2d_status hr2di_find_occluder(hr2d_scene *scene, hr2di_occlusion *found) {
+hr2d_status hr2di_occluder_find(hr2d_scene *scene, hr2di_occlusion *found) {
   *found = (hr2di_occlusion){0};
   if (all_on_hull(scene)) return HR2D_OK;
-  hr2di_sight sight;
-  hr2di_sight_start(&sight, &scene->walls, &scene->alloc);
+  hr2di_visibility sight;
+  hr2di_visibility_init(&sight, &scene->walls, &scene->alloc);
   hr2d_status status = HR2D_OK;
   for (size_t i = 0; i < scene->patches && !found->exists && !status; i++)
     for (size_t j = i + 1; j < scene->patches && !found->exists && !status; j++)
       status = look_between(scene, &sight, i, j, found);
-  hr2di_sight_end(&sight);
-  return status ? hr2di_fail(&scene->message, status, "out of memory for the analysis")
+  hr2di_visibility_clear(&sight);
+  return status ? hr2di_message_fail(&scene->message, status, "out of memory for the analysis")
                 : HR2D_OK;
 }

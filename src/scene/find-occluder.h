@@ -13,6 +13,6 @@ typedef struct hr2di_occlusion {
 
 /* Looks for a patch that reaches into the shaft of two others.  O(n²) where all
    patches lie on the hull of the scene, else O(n³) until one is found. */
-hr2d_status hr2di_find_occluder(hr2d_scene *scene, hr2di_occlusion *found);
+hr2d_status hr2di_occluder_find(hr2d_scene *scene, hr2di_occlusion *found);
 
 #endif

@@ -32,14 +32,14 @@ static place place_of(const hr2d_scene *scene, uint32_t patch) {
   return (place){wall, to > from, to > from ? from : -from, patch};
 }
 
-hr2d_status hr2di_runs_make(hr2di_runs *runs, const hr2d_scene *scene) {
+hr2d_status hr2di_runs_init(hr2di_runs *runs, const hr2d_scene *scene) {
   const size_t n = scene->patches;
   *runs = (hr2di_runs){.alloc = scene->alloc};
   runs->patch = hr2di_alloc(&runs->alloc, n, sizeof *runs->patch);
   runs->run = hr2di_alloc(&runs->alloc, n, sizeof *runs->run);
   place *places = hr2di_alloc(&runs->alloc, n, sizeof *places);
   if (!runs->patch || !runs->run || !places) {
-    hr2di_free(&runs->alloc, places);
+    hr2di_alloc_free(&runs->alloc, places);
     return HR2D_ENOMEM;
   }
   for (uint32_t k = 0; k < n; k++) places[k] = place_of(scene, k);
@@ -51,11 +51,11 @@ hr2d_status hr2di_runs_make(hr2di_runs *runs, const hr2d_scene *scene) {
     runs->run[runs->runs - 1].last = k + 1;
     runs->patch[k] = places[k].patch;
   }
-  hr2di_free(&runs->alloc, places);
+  hr2di_alloc_free(&runs->alloc, places);
   return HR2D_OK;
 }
 
 void hr2di_runs_clear(hr2di_runs *runs) {
-  hr2di_free(&runs->alloc, runs->patch);
-  hr2di_free(&runs->alloc, runs->run);
+  hr2di_alloc_free(&runs->alloc, runs->patch);
+  hr2di_alloc_free(&runs->alloc, runs->run);
 }

@@ -20,7 +20,7 @@ typedef struct hr2di_runs {
 
 /* The runs of a committed scene; HR2D_OK or HR2D_ENOMEM.  To be ended by
    hr2di_runs_clear() in either case. */
-hr2d_status hr2di_runs_make(hr2di_runs *runs, const hr2d_scene *scene);
+hr2d_status hr2di_runs_init(hr2di_runs *runs, const hr2d_scene *scene);
 void hr2di_runs_clear(hr2di_runs *runs);
 
 #endif

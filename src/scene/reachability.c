@@ -8,7 +8,7 @@
 /* A search that goes out from the sources. */
 typedef struct search {
   hr2d_scene *scene;
-  hr2di_sight sight;
+  hr2di_visibility sight;
   uint32_t *reached; /* patches, in the order in which light comes to them */
   size_t count;
 } search;
@@ -23,19 +23,19 @@ static int emits(const hr2d_scene *scene, size_t patch) {
 static hr2d_status sees(search *s, size_t i, size_t j, int exactly, int *seen) {
   const hr2d_segment p = s->scene->patch[i].scaled, q = s->scene->patch[j].scaled;
   hr2di_shaft shaft;
-  const hr2di_facing facing = hr2di_face(&p, &q);
+  const hr2di_facing facing = hr2di_facing_of(&p, &q);
   *seen = facing != HR2DI_FACING_NONE;
   if (!s->scene->effect[HR2D_EFFECT_OCCLUSION].on ||
-      !hr2di_shaft_make(&shaft, facing, p, q, p, q))
+      !hr2di_shaft_init(&shaft, facing, p, q, p, q))
     return HR2D_OK;
-  if (!exactly) return hr2di_sight_surely(&s->sight, &shaft, seen);
+  if (!exactly) return hr2di_visibility_quick(&s->sight, &shaft, seen);
   hr2di_wall_list found = {0};
-  hr2di_view view;
-  hr2d_status status = hr2di_sight_collect(&s->sight, &shaft, &found, &view);
+  hr2di_visibility_class view;
+  hr2d_status status = hr2di_visibility_collect(&s->sight, &shaft, &found, &view);
   if (!status && view == HR2DI_BLOCKED) *seen = 0;
   if (!status && view == HR2DI_PARTIAL)
-    status = hr2di_sight_open(&s->sight, &shaft, found.wall, found.count, seen);
-  hr2di_free(&s->scene->alloc, found.wall);
+    status = hr2di_visibility_any(&s->sight, &shaft, found.wall, found.count, seen);
+  hr2di_alloc_free(&s->scene->alloc, found.wall);
   return status;
 }
 
@@ -83,13 +83,13 @@ static int all_lit(const hr2d_scene *scene) {
   return k == scene->patches;
 }
 
-hr2d_status hr2di_find_light(hr2d_scene *scene) {
+hr2d_status hr2di_scene_find_light(hr2d_scene *scene) {
   if (all_lit(scene)) return HR2D_OK;
   const size_t n = scene->patches;
   search s = {.scene = scene};
   s.reached = hr2di_alloc(&scene->alloc, n, sizeof *s.reached);
-  scene->dark = hr2di_calloc(&scene->alloc, n, 1);
-  hr2di_sight_start(&s.sight, &scene->walls, &scene->alloc);
+  scene->dark = hr2di_alloc_zero(&scene->alloc, n, 1);
+  hr2di_visibility_init(&s.sight, &scene->walls, &scene->alloc);
   hr2d_status status = s.reached && scene->dark ? HR2D_OK : HR2D_ENOMEM;
   for (size_t k = 0; k < n && !status; k++)
     if (emits(scene, k))
@@ -98,12 +98,12 @@ hr2d_status hr2di_find_light(hr2d_scene *scene) {
       scene->dark[k] = 1;
   if (!status) status = spread(&s);
   const int none_dark = s.count == n;
-  hr2di_sight_end(&s.sight);
-  hr2di_free(&scene->alloc, s.reached);
+  hr2di_visibility_clear(&s.sight);
+  hr2di_alloc_free(&scene->alloc, s.reached);
   if (status || none_dark) {
-    hr2di_free(&scene->alloc, scene->dark);
+    hr2di_alloc_free(&scene->alloc, scene->dark);
     scene->dark = NULL;
   }
-  return status ? hr2di_fail(&scene->message, status, "out of memory for the analysis")
+  return status ? hr2di_message_fail(&scene->message, status, "out of memory for the analysis")
                 : HR2D_OK;
 }

@@ -71,13 +71,13 @@ hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch);
 void hr2di_scene_clear_commit(hr2d_scene *scene);
 
 /* The parts of commit, in their order: each leaves a message if it fails. */
-hr2d_status hr2di_check_bands(hr2d_scene *scene);
-hr2d_status hr2di_scale(hr2d_scene *scene);
-hr2d_status hr2di_check_overlaps(hr2d_scene *scene);
-hr2d_status hr2di_analyse_effects(hr2d_scene *scene);
-hr2d_status hr2di_find_light(hr2d_scene *scene);
+hr2d_status hr2di_scene_check_bands(hr2d_scene *scene);
+hr2d_status hr2di_scene_scale(hr2d_scene *scene);
+hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene);
+hr2d_status hr2di_scene_analyse_effects(hr2d_scene *scene);
+hr2d_status hr2di_scene_find_light(hr2d_scene *scene);
 
-static inline int hr2di_lit(const hr2d_scene *scene, size_t patch) {
+static inline int hr2di_scene_lit(const hr2d_scene *scene, size_t patch) {
   return !scene->dark || !scene->dark[patch];
 }
 

@@ -11,9 +11,9 @@
 #include "scene/scene-impl.h"
 
 hr2d_status hr2d_scene_create(const hr2d_allocator *allocator, hr2d_scene **scene) {
-  hr2d_allocator alloc = allocator ? *allocator : hr2di_default_allocator();
+  hr2d_allocator alloc = allocator ? *allocator : hr2di_alloc_default();
   if (!alloc.allocate || !alloc.reallocate || !alloc.release) return HR2D_EINVAL;
-  hr2d_scene *made = hr2di_calloc(&alloc, 1, sizeof *made);
+  hr2d_scene *made = hr2di_alloc_zero(&alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
   made->alloc = made->walls.alloc = alloc;
   made->bands = 1;
@@ -24,7 +24,7 @@ hr2d_status hr2d_scene_create(const hr2d_allocator *allocator, hr2d_scene **scen
 void hr2di_scene_clear_commit(hr2d_scene *scene) {
   hr2di_walls_clear(&scene->walls);
   scene->walls = (hr2di_walls){.alloc = scene->alloc};
-  hr2di_free(&scene->alloc, scene->dark);
+  hr2di_alloc_free(&scene->alloc, scene->dark);
   scene->dark = NULL;
   scene->bands = 1;
   scene->exponent = 0;
@@ -37,21 +37,21 @@ void hr2di_scene_clear_commit(hr2d_scene *scene) {
 void hr2d_scene_destroy(hr2d_scene *scene) {
   if (!scene) return;
   hr2di_scene_truncate(scene, 0);
-  hr2di_free(&scene->alloc, scene->patch);
-  hr2di_free(&scene->alloc, scene->background);
+  hr2di_alloc_free(&scene->alloc, scene->patch);
+  hr2di_alloc_free(&scene->alloc, scene->background);
   hr2di_scene_clear_commit(scene);
   const hr2d_allocator alloc = scene->alloc;
-  hr2di_free(&alloc, scene);
+  hr2di_alloc_free(&alloc, scene);
 }
 
 void hr2di_light_release(const hr2d_allocator *alloc, hr2di_light *light) {
-  if (light && --light->users == 0) hr2di_free(alloc, light);
+  if (light && --light->users == 0) hr2di_alloc_free(alloc, light);
 }
 
 void hr2di_scene_truncate(hr2d_scene *scene, size_t patches) {
   while (scene->patches > patches) {
     const hr2di_patch *last = &scene->patch[--scene->patches];
-    hr2di_free(&scene->alloc, last->name);
+    hr2di_alloc_free(&scene->alloc, last->name);
     hr2di_light_release(&scene->alloc, last->light);
   }
 }
@@ -95,8 +95,8 @@ static hr2di_light *make_light(const hr2d_scene *scene, const hr2d_patch *patch)
 
 static hr2d_status add_side(hr2d_scene *scene, const hr2d_patch *patch, size_t index, int back,
                             hr2di_light *light) {
-  if (hr2di_reserve(&scene->alloc, &scene->patch, &scene->capacity, scene->patches + 1,
-                    sizeof *scene->patch))
+  if (hr2di_alloc_reserve(&scene->alloc, &scene->patch, &scene->capacity, scene->patches + 1,
+                          sizeof *scene->patch))
     return HR2D_ENOMEM;
   hr2di_patch made = {.given = {patch->a, patch->b},
                       .emission_bands = patch->emission_bands,
@@ -119,7 +119,7 @@ static hr2d_status add_sides(hr2d_scene *scene, const hr2d_patch *patch, hr2di_l
   hr2di_light_release(&scene->alloc, light);
   if (!status) return HR2D_OK;
   hr2di_scene_truncate(scene, front);
-  return hr2di_fail(&scene->message, status, "out of memory for patch %zu", front);
+  return hr2di_message_fail(&scene->message, status, "out of memory for patch %zu", front);
 }
 
 static hr2di_label make_label(size_t index, const char *name) {
@@ -129,7 +129,8 @@ static hr2di_label make_label(size_t index, const char *name) {
   if (!name || strcmp(name, numbered) == 0)
     snprintf(label.text, sizeof label.text, "%s", numbered);
   else
-    snprintf(label.text, sizeof label.text, "%s (%s)", numbered, hr2di_quote_name(name).text);
+    snprintf(label.text, sizeof label.text, "%s (%s)", numbered,
+             hr2di_message_quote(name).text);
   return label;
 }
 
@@ -140,17 +141,18 @@ hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch) {
 static hr2d_status check_values(hr2d_scene *scene, const char *label, const char *what,
                                 const double *value, size_t count, double most) {
   if (count > 0 && !value)
-    return hr2di_fail(&scene->message, HR2D_EINVAL, "%s: %s: %zu bands but no values", label,
-                      what, count);
+    return hr2di_message_fail(&scene->message, HR2D_EINVAL, "%s: %s: %zu bands but no values",
+                              label, what, count);
   for (size_t k = 0; k < count; k++) {
     if (!isfinite(value[k]))
-      return hr2di_fail(&scene->message, HR2D_ESCENE, "%s: %s is not finite", label, what);
+      return hr2di_message_fail(&scene->message, HR2D_ESCENE, "%s: %s is not finite", label,
+                                what);
     if (value[k] < 0)
-      return hr2di_fail(&scene->message, HR2D_ESCENE, "%s: %s %g is negative", label, what,
-                        value[k]);
+      return hr2di_message_fail(&scene->message, HR2D_ESCENE, "%s: %s %g is negative", label,
+                                what, value[k]);
     if (value[k] > most)
-      return hr2di_fail(&scene->message, HR2D_ESCENE, "%s: %s %.17g is above %g", label, what,
-                        value[k], most);
+      return hr2di_message_fail(&scene->message, HR2D_ESCENE, "%s: %s %.17g is above %g", label,
+                                what, value[k], most);
   }
   return HR2D_OK;
 }
@@ -160,12 +162,14 @@ static hr2d_status check_segment(hr2d_scene *scene, const hr2d_patch *patch,
   const double coordinate[] = {patch->a.x, patch->a.y, patch->b.x, patch->b.y};
   for (int k = 0; k < 4; k++)
     if (!isfinite(coordinate[k]))
-      return hr2di_fail(&scene->message, HR2D_ESCENE, "%s: a coordinate is not finite", label);
+      return hr2di_message_fail(&scene->message, HR2D_ESCENE, "%s: a coordinate is not finite",
+                                label);
   if (patch->a.x == patch->b.x && patch->a.y == patch->b.y)
-    return hr2di_fail(&scene->message, HR2D_ESCENE, "%s: its length is zero, at (%.17g, %.17g)",
-                      label, patch->a.x, patch->a.y);
+    return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                              "%s: its length is zero, at (%.17g, %.17g)", label, patch->a.x,
+                              patch->a.y);
   if (patch->sides != HR2D_SIDES_FRONT && patch->sides != HR2D_SIDES_BOTH)
-    return hr2di_fail(&scene->message, HR2D_EINVAL, "%s: sides has no meaning", label);
+    return hr2di_message_fail(&scene->message, HR2D_EINVAL, "%s: sides has no meaning", label);
   return HR2D_OK;
 }
 
@@ -179,7 +183,8 @@ static hr2d_status check_light(hr2d_scene *scene, const hr2d_patch *patch, const
 
 hr2d_status hr2d_scene_add(hr2d_scene *scene, const hr2d_patch *patch, size_t *index) {
   if (scene->committed)
-    return hr2di_fail(&scene->message, HR2D_ESTATE, "a committed scene takes no more patches");
+    return hr2di_message_fail(&scene->message, HR2D_ESTATE,
+                              "a committed scene takes no more patches");
   const size_t front = scene->patches;
   const hr2di_label label = make_label(front, patch->name);
   hr2d_status status = check_segment(scene, patch, label.text);
@@ -204,15 +209,16 @@ hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch) {
 hr2d_status hr2d_scene_set_background(hr2d_scene *scene, const double *background,
                                       size_t bands) {
   if (scene->committed)
-    return hr2di_fail(&scene->message, HR2D_ESTATE, "a committed scene takes no background");
+    return hr2di_message_fail(&scene->message, HR2D_ESTATE,
+                              "a committed scene takes no background");
   hr2d_status status =
       check_values(scene, "background", "radiosity", background, bands, HUGE_VAL);
   if (status) return status;
   double *copy = hr2di_alloc(&scene->alloc, bands, sizeof *copy);
   if (!copy)
-    return hr2di_fail(&scene->message, HR2D_ENOMEM, "out of memory for the background");
+    return hr2di_message_fail(&scene->message, HR2D_ENOMEM, "out of memory for the background");
   for (size_t k = 0; k < bands; k++) copy[k] = background[k];
-  hr2di_free(&scene->alloc, scene->background);
+  hr2di_alloc_free(&scene->alloc, scene->background);
   scene->background = copy;
   scene->background_bands = bands;
   return HR2D_OK;
@@ -220,9 +226,10 @@ hr2d_status hr2d_scene_set_background(hr2d_scene *scene, const double *backgroun
 
 hr2d_status hr2d_scene_force(hr2d_scene *scene, hr2d_effect effect) {
   if ((unsigned)effect >= HR2D_EFFECT_COUNT)
-    return hr2di_fail(&scene->message, HR2D_EINVAL, "there is no effect %d", (int)effect);
+    return hr2di_message_fail(&scene->message, HR2D_EINVAL, "there is no effect %d",
+                              (int)effect);
   if (scene->committed)
-    return hr2di_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");
+    return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");
   scene->effect[effect].forced = 1;
   return HR2D_OK;
 }

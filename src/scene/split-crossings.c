@@ -65,8 +65,8 @@ static int by_segment(const void *left, const void *right) {
 /* Patches back to back are one wall, lest they be cut at different points. */
 static hr2d_status make_walls(splitter *p) {
   place *sorted = hr2di_alloc(p->alloc, p->pieces, sizeof *sorted);
-  hr2di_free(p->alloc, p->wall);
-  hr2di_free(p->alloc, p->wall_of);
+  hr2di_alloc_free(p->alloc, p->wall);
+  hr2di_alloc_free(p->alloc, p->wall_of);
   p->wall = hr2di_alloc(p->alloc, p->pieces, sizeof *p->wall);
   p->wall_of = hr2di_alloc(p->alloc, p->pieces, sizeof *p->wall_of);
   p->walls = 0;
@@ -83,13 +83,13 @@ static hr2d_status make_walls(splitter *p) {
       p->wall_of[sorted[k].piece] = p->walls - 1;
     }
   }
-  hr2di_free(p->alloc, sorted);
+  hr2di_alloc_free(p->alloc, sorted);
   return made ? HR2D_OK : HR2D_ENOMEM;
 }
 
 static hr2d_status push(splitter *p, hr2d_point a, hr2d_point b, size_t patch) {
-  if (hr2di_reserve(p->alloc, &p->cut_piece, &p->cut_capacity, p->cut_pieces + 1,
-                    sizeof *p->cut_piece))
+  if (hr2di_alloc_reserve(p->alloc, &p->cut_piece, &p->cut_capacity, p->cut_pieces + 1,
+                          sizeof *p->cut_piece))
     return HR2D_ENOMEM;
   p->cut_piece[p->cut_pieces++] = (piece){{a, b}, patch, 0};
   return HR2D_OK;
@@ -126,7 +126,7 @@ static hr2d_status cut_until_free(splitter *p) {
   hr2d_scene *scene = p->scene;
   for (int round = 0;; round++) {
     hr2d_status status = make_walls(p);
-    if (!status) status = hr2di_find_cuts(&p->cuts, p->wall, p->walls);
+    if (!status) status = hr2di_cuts_init(&p->cuts, p->wall, p->walls);
     if (status || p->cuts.count == 0) return status;
     if (round == MOST_ROUNDS) break;
     status = cut_all(p);
@@ -134,9 +134,9 @@ static hr2d_status cut_until_free(splitter *p) {
   }
   size_t k = 0;
   while (p->cuts.of[p->wall_of[k]].first == p->cuts.of[p->wall_of[k]].end) k++;
-  return hr2di_fail(&scene->message, HR2D_ESCENE,
-                    "%s is crossed within roundings still, after %d rounds of cutting",
-                    hr2di_patch_label(scene, p->piece[k].patch).text, MOST_ROUNDS);
+  return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                            "%s is crossed within roundings still, after %d rounds of cutting",
+                            hr2di_patch_label(scene, p->piece[k].patch).text, MOST_ROUNDS);
 }
 
 static int is_whole(const splitter *p, size_t k) {
@@ -148,7 +148,7 @@ static int is_whole(const splitter *p, size_t k) {
 static int is_short(const splitter *p, const piece *part) {
   const hr2d_segment *s = &part->s, *whole = &p->scene->patch[part->patch].scaled;
   /* Far from the origin roundings are large, and what they are of a patch is not. */
-  const double most = fmin(HR2DI_SHORT_STRETCH * hr2di_rounding(whole, whole),
+  const double most = fmin(HR2DI_SHORT_STRETCH * hr2di_crossings_rounding(whole, whole),
                            hypot(whole->b.x - whole->a.x, whole->b.y - whole->a.y) * 0x1p-20);
   return hypot(s->b.x - s->a.x, s->b.y - s->a.y) <= most;
 }
@@ -156,7 +156,7 @@ static int is_short(const splitter *p, const piece *part) {
 /* Two patches that pass two points within roundings have the stretch between these in
    common.  One piece is left out, if it is that short. */
 static hr2d_status leave_copies_out(splitter *p) {
-  char *seen = hr2di_calloc(p->alloc, p->walls, 1);
+  char *seen = hr2di_alloc_zero(p->alloc, p->walls, 1);
   if (!seen) return HR2D_ENOMEM;
   for (size_t k = 0; k < p->pieces; k++) {
     const int side = side_of(&p->piece[k].s);
@@ -164,7 +164,7 @@ static hr2d_status leave_copies_out(splitter *p) {
     p->piece[k].left_out = (*w & side) && is_short(p, &p->piece[k]) && !is_whole(p, k);
     *w = (char)(*w | side);
   }
-  hr2di_free(p->alloc, seen);
+  hr2di_alloc_free(p->alloc, seen);
   return HR2D_OK;
 }
 
@@ -184,7 +184,7 @@ static hr2d_status make_piece(splitter *p, const hr2di_patch *whole, const piece
 }
 
 static void free_patch(const hr2d_allocator *alloc, const hr2di_patch *patch) {
-  hr2di_free(alloc, patch->name);
+  hr2di_alloc_free(alloc, patch->name);
   hr2di_light_release(alloc, patch->light);
 }
 
@@ -222,13 +222,13 @@ static hr2d_status replace_patches(splitter *p) {
   size_t count;
   hr2di_patch *made = hr2di_alloc(p->alloc, p->pieces, sizeof *made);
   if (!made || leave_copies_out(p) || make_patches(p, made, &count)) {
-    hr2di_free(p->alloc, made);
+    hr2di_alloc_free(p->alloc, made);
     return HR2D_ENOMEM;
   }
   for (size_t k = 0; k < p->pieces; k++)
     if (!is_whole(p, k) && (k == 0 || p->piece[k - 1].patch != p->piece[k].patch))
       free_patch(p->alloc, &scene->patch[p->piece[k].patch]);
-  hr2di_free(p->alloc, scene->patch);
+  hr2di_alloc_free(p->alloc, scene->patch);
   scene->patch = made;
   scene->patches = count;
   scene->capacity = p->pieces;
@@ -249,10 +249,10 @@ static size_t count_places(hr2di_cuts *cuts) {
 
 static hr2d_status split(splitter *p) {
   hr2d_scene *scene = p->scene;
-  hr2d_status status = hr2di_scale(scene);
+  hr2d_status status = hr2di_scene_scale(scene);
   if (status) return status;
   p->cuts = (hr2di_cuts){.alloc = p->alloc, .exponent = scene->exponent};
-  if (hr2di_reserve(p->alloc, &p->piece, &p->capacity, scene->patches, sizeof *p->piece))
+  if (hr2di_alloc_reserve(p->alloc, &p->piece, &p->capacity, scene->patches, sizeof *p->piece))
     return HR2D_ENOMEM;
   for (; p->pieces < scene->patches; p->pieces++)
     p->piece[p->pieces] = (piece){scene->patch[p->pieces].scaled, p->pieces, 0};
@@ -263,17 +263,17 @@ static hr2d_status split(splitter *p) {
 
 hr2d_status hr2d_scene_split_crossings(hr2d_scene *scene, size_t *cuts) {
   if (scene->committed)
-    return hr2di_fail(&scene->message, HR2D_ESTATE, "a committed scene cannot be cut");
+    return hr2di_message_fail(&scene->message, HR2D_ESTATE, "a committed scene cannot be cut");
   splitter p = {.scene = scene, .alloc = &scene->alloc, .cuts = {.alloc = &scene->alloc}};
   hr2d_status status = scene->patches > 0 ? split(&p) : HR2D_OK;
   scene->exponent = 0;
   if (!status && cuts) *cuts = count_places(&p.cuts);
-  hr2di_free(p.alloc, p.piece);
-  hr2di_free(p.alloc, p.cut_piece);
-  hr2di_free(p.alloc, p.wall);
-  hr2di_free(p.alloc, p.wall_of);
-  hr2di_free_cuts(&p.cuts);
+  hr2di_alloc_free(p.alloc, p.piece);
+  hr2di_alloc_free(p.alloc, p.cut_piece);
+  hr2di_alloc_free(p.alloc, p.wall);
+  hr2di_alloc_free(p.alloc, p.wall_of);
+  hr2di_cuts_clear(&p.cuts);
   if (status == HR2D_ENOMEM)
-    hr2di_fail(&scene->message, status, "out of memory for the crossings");
+    hr2di_message_fail(&scene->message, status, "out of memory for the crossings");
   return status;
 }

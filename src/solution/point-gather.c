@@ -26,8 +26,9 @@ static void add_constant(gatherer *g, const hr2d_element *e, const double *coeff
                          hr2di_span part) {
   const hr2d_point along = {e->b.x - e->a.x, e->b.y - e->a.y};
   const hr2d_point from = {e->a.x - g->x.x, e->a.y - g->x.y};
-  const double factor = hr2di_point_factor(g->normal, hr2di_along(from, along, part.from),
-                                           hr2di_along(from, along, part.to));
+  const double factor =
+      hr2di_point_view_factor(g->normal, hr2di_block_along(from, along, part.from),
+                              hr2di_block_along(from, along, part.to));
   for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += factor * coefficient[b];
 }
 
@@ -38,7 +39,7 @@ static void add_panel(gatherer *g, hr2d_point from, hr2d_point along, hr2di_span
   const size_t bands = g->solution->bands;
   for (size_t q = 0; q < g->rule.points; q++) {
     const double t = panel.from + size * (0.5 + 0.5 * g->rule.at[q]);
-    const hr2d_point r = hr2di_along(from, along, t);
+    const hr2d_point r = hr2di_block_along(from, along, t);
     const double square = r.x * r.x + r.y * r.y;
     if (!(square > 0)) continue; /* x is a corner, and the panel as small as rounding */
     const double cos_x = g->normal.x * r.x + g->normal.y * r.y;
@@ -89,7 +90,7 @@ static void add_glimpse(gatherer *g, const hr2di_glimpse *seen) {
     if (p.to <= seen->from || p.from >= seen->to) continue;
     const uint32_t child = element[p.element].child;
     if (child && child < g->solution->elements && count < STACK - 2) {
-      const double middle = p.from + hr2di_left_part(element, p.element) * size;
+      const double middle = p.from + hr2di_element_left_part(element, p.element) * size;
       stack[count++] = (piece){child + 1, middle, p.to};
       stack[count++] = (piece){child, p.from, middle};
       continue;
@@ -128,8 +129,8 @@ hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t patch, co
   gatherer g = {.solution = solution};
   hr2d_status status =
       hr2di_viewer_create(solution->hierarchy->scene, &solution->alloc, &viewer);
-  hr2di_basis_make(&g.basis, solution->order);
-  hr2di_rule_make(&g.rule, POINTS);
+  hr2di_basis_init(&g.basis, solution->order);
+  hr2di_rule_init(&g.rule, POINTS);
   for (size_t k = 0; k < count && !status; k++) {
     g.value = value + k * solution->bands;
     status = gather_at(&g, viewer, patch, t[k]);

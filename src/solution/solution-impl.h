@@ -22,7 +22,7 @@ struct hr2d_solution {
 
 /* Its B on leaves of a hierarchy that has grown from its own, at another order perhaps: count ×
    order × bands coefficients. */
-void hr2di_restrict(const hr2d_solution *from, const hr2d_hierarchy *hierarchy,
-                    const uint32_t *leaf, size_t count, size_t order, double *field);
+void hr2di_solution_restrict(const hr2d_solution *from, const hr2d_hierarchy *hierarchy,
+                             const uint32_t *leaf, size_t count, size_t order, double *field);
 
 #endif

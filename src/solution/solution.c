@@ -8,12 +8,12 @@
 void hr2d_solution_destroy(hr2d_solution *solution) {
   if (!solution) return;
   const hr2d_allocator alloc = solution->alloc;
-  hr2di_free(&alloc, solution->value);
-  hr2di_free(&alloc, solution->irradiance);
-  hr2di_free(&alloc, solution->power);
+  hr2di_alloc_free(&alloc, solution->value);
+  hr2di_alloc_free(&alloc, solution->irradiance);
+  hr2di_alloc_free(&alloc, solution->power);
   hr2d_linkset_destroy(solution->own_links);
   hr2d_hierarchy_destroy(solution->own_hierarchy);
-  hr2di_free(&alloc, solution);
+  hr2di_alloc_free(&alloc, solution);
 }
 
 static double average(const hr2d_solution *s, const double *value, size_t element,
@@ -35,7 +35,7 @@ static uint32_t leaf_at(const hr2d_solution *solution, size_t patch, double *t, 
   const hr2d_element *element = solution->hierarchy->element;
   uint32_t at = (uint32_t)patch;
   while (element[at].child && element[at].child < solution->elements)
-    at = hr2di_child_at(element, at, t, before);
+    at = hr2di_element_child_at(element, at, t, before);
   return at;
 }
 
@@ -43,7 +43,7 @@ static double leaf_value(const hr2d_solution *s, const double *value, uint32_t l
                          size_t band) {
   hr2di_basis basis;
   if (s->order == 1) return average(s, value, leaf, band);
-  hr2di_basis_make(&basis, s->order);
+  hr2di_basis_init(&basis, s->order);
   return hr2di_basis_sum(&basis, 2 * t - 1, value + leaf * s->order * s->bands + band,
                          s->bands);
 }
@@ -73,7 +73,7 @@ static void restrict_to(const hr2d_solution *from, const hr2d_hierarchy *h, uint
   uint32_t e = leaf;
   while (e >= from->elements) {
     const uint32_t above = h->parent[e];
-    const double left = hr2di_left_part(h->element, above);
+    const double left = hr2di_element_left_part(h->element, above);
     const int right = e != h->element[above].child;
     const double part = right ? 1 - left : left;
     start = (right ? left : 0) + part * start;
@@ -91,13 +91,13 @@ static void restrict_to(const hr2d_solution *from, const hr2d_hierarchy *h, uint
 }
 
 /* Legendre coefficients are nested, so that on leaves both know they are copied. */
-void hr2di_restrict(const hr2d_solution *from, const hr2d_hierarchy *hierarchy,
-                    const uint32_t *leaf, size_t count, size_t order, double *field) {
+void hr2di_solution_restrict(const hr2d_solution *from, const hr2d_hierarchy *hierarchy,
+                             const uint32_t *leaf, size_t count, size_t order, double *field) {
   const size_t bands = from->bands, width = order * bands, known = from->order * bands;
   hr2di_rule rule;
   hr2di_basis basis;
-  hr2di_rule_make(&rule, order > from->order ? order : from->order);
-  hr2di_basis_make(&basis, order);
+  hr2di_rule_init(&rule, order > from->order ? order : from->order);
+  hr2di_basis_init(&basis, order);
   for (size_t k = 0; k < count; k++) {
     double *to = field + k * width;
     for (size_t m = 0; m < width; m++)

@@ -14,7 +14,7 @@
 /* Sky that cannot be told from rounding. */
 #define NONE 1e-14
 
-hr2d_status hr2di_set_sky(hr2di_transport *t, const hr2di_rows *rows) {
+hr2d_status hr2di_background_set(hr2di_transport *t, const hr2di_row_sums *rows) {
   t->sky = hr2di_alloc(&t->alloc, t->leaves, sizeof *t->sky);
   if (!t->sky) return HR2D_ENOMEM;
   for (size_t k = 0; k < t->leaves; k++) {
@@ -49,13 +49,13 @@ static hr2d_status take_backs(looker *l, size_t leaf, double from, double size) 
 static hr2d_status take_all_backs(hr2di_transport *t) {
   const hr2d_hierarchy *h = t->hierarchy;
   looker l = {.t = t};
-  hr2di_basis_make(&l.basis, t->order);
-  hr2di_rule_make(&l.rule, t->order + 6);
+  hr2di_basis_init(&l.basis, t->order);
+  hr2di_rule_init(&l.rule, t->order + 6);
   hr2d_status status = hr2di_viewer_create(h->scene, &t->alloc, &l.viewer);
   for (size_t k = 0; k < t->leaves && !status; k++) {
     const hr2d_element *e = &h->element[t->leaf[k]];
-    if (hr2di_lit(h->scene, e->patch))
-      status = take_backs(&l, k, hr2di_start(h, t->leaf[k]),
+    if (hr2di_scene_lit(h->scene, e->patch))
+      status = take_backs(&l, k, hr2di_element_start(h, t->leaf[k]),
                           e->length / h->element[e->patch].length);
   }
   hr2di_viewer_destroy(l.viewer);
@@ -65,18 +65,19 @@ static hr2d_status take_all_backs(hr2di_transport *t) {
 /* 1 − K1 where light comes to. */
 static hr2d_status take_rows(hr2di_transport *t) {
   const size_t field = t->leaves * t->width;
-  double *one = hr2di_calloc(&t->alloc, 2 * field, sizeof *one);
+  double *one = hr2di_alloc_zero(&t->alloc, 2 * field, sizeof *one);
   if (!one) return HR2D_ENOMEM;
   double *row = one + field;
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t b = 0; b < t->bands; b++) one[k * t->width + b] = 1;
-  hr2di_gather(t, one, row);
+  hr2di_transport_apply(t, one, row);
   for (size_t k = 0; k < t->leaves; k++) {
-    const int lit = hr2di_lit(t->hierarchy->scene, t->hierarchy->element[t->leaf[k]].patch);
+    const int lit =
+        hr2di_scene_lit(t->hierarchy->scene, t->hierarchy->element[t->leaf[k]].patch);
     for (size_t l = 0; l < t->order && lit; l++)
       t->sky[k * t->order + l] = (l == 0) - row[k * t->width + l * t->bands];
   }
-  hr2di_free(&t->alloc, one);
+  hr2di_alloc_free(&t->alloc, one);
   return HR2D_OK;
 }
 
@@ -89,13 +90,13 @@ static void clear_closed(hr2di_transport *t) {
   }
 }
 
-hr2d_status hr2di_set_sky_orders(hr2di_transport *t) {
+hr2d_status hr2di_background_set_order_p(hr2di_transport *t) {
   hr2di_backs backs = {0};
-  t->sky = hr2di_calloc(&t->alloc, t->leaves * t->order, sizeof *t->sky);
+  t->sky = hr2di_alloc_zero(&t->alloc, t->leaves * t->order, sizeof *t->sky);
   hr2d_status status = t->sky ? take_rows(t) : HR2D_ENOMEM;
-  if (!status) status = hr2di_find_backs(t->hierarchy->scene, &backs);
+  if (!status) status = hr2di_backs_init(t->hierarchy->scene, &backs);
   if (!status && backs.count > 0) status = take_all_backs(t);
   if (!status) clear_closed(t);
-  hr2di_free(&t->alloc, backs.back);
+  hr2di_alloc_free(&t->alloc, backs.back);
   return status;
 }

@@ -8,10 +8,10 @@
 
 /* Sets t->sky from row sums, which know backs: what each leaf sees besides patches and their
    backs.  HR2D_OK or HR2D_ENOMEM. */
-hr2d_status hr2di_set_sky(hr2di_transport *t, const hr2di_rows *rows);
+hr2d_status hr2di_background_set(hr2di_transport *t, const hr2di_row_sums *rows);
 
 /* The same at an order above 1, from the rows of the operator; from points of each leaf it is
    looked for backs. */
-hr2d_status hr2di_set_sky_orders(hr2di_transport *t);
+hr2d_status hr2di_background_set_order_p(hr2di_transport *t);
 
 #endif

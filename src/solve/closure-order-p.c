@@ -33,32 +33,32 @@ typedef struct rows {
   double *row;                                   /* what distant links make of it */
   double *all;                                   /* what all do */
   double *exact;                                 /* leaves × order */
-  double phi[HR2DI_MOST_POINTS][HR2D_MAX_ORDER]; /* at the points of `rule` */
-  double product_phi[HR2DI_MOST_POINTS][HR2D_MAX_ORDER];
+  double phi[HR2DI_RULE_POINTS][HR2D_MAX_ORDER]; /* at the points of `rule` */
+  double product_phi[HR2DI_RULE_POINTS][HR2D_MAX_ORDER];
 } rows;
 
 /* What the leaves below an element see of another, by degree. */
 static void add_exact(rows *r, uint32_t receiver, uint32_t source) {
   const hr2d_hierarchy *h = r->t->hierarchy;
   const size_t order = r->t->order;
-  const double start = hr2di_start(h, receiver), size = h->element[receiver].length;
+  const double start = hr2di_element_start(h, receiver), size = h->element[receiver].length;
   const double whole = h->element[h->element[receiver].patch].length;
   hr2di_pair_frame f;
-  hr2di_frame_pair(&f, h, (hr2d_pair){receiver, source}, HR2DI_FACING_FULL);
+  hr2di_pair_frame_init(&f, h, (hr2d_pair){receiver, source}, HR2DI_FACING_FULL);
   const hr2d_point normal = {-f.along_i.y / size, f.along_i.x / size};
-  uint32_t leaf = hr2di_first_leaf(h, receiver);
+  uint32_t leaf = hr2di_hierarchy_first_leaf(h, receiver);
   do {
-    const double from = (hr2di_start(h, leaf) - start) * (whole / size);
+    const double from = (hr2di_element_start(h, leaf) - start) * (whole / size);
     const double part = h->element[leaf].length / size;
     double *exact = r->exact + r->number[leaf] * order;
     for (size_t q = 0; q < r->rule.points; q++) {
       const double s = from + part * (0.5 + 0.5 * r->rule.at[q]);
-      const hr2d_point c = hr2di_along(f.apart, f.along_i, -s);
+      const hr2d_point c = hr2di_block_along(f.apart, f.along_i, -s);
       const hr2d_point d = {c.x + f.along_j.x, c.y + f.along_j.y};
-      const double factor = r->rule.weight[q] * hr2di_point_factor(normal, c, d);
+      const double factor = r->rule.weight[q] * hr2di_point_view_factor(normal, c, d);
       for (size_t l = 0; l < order; l++) exact[l] += factor * r->phi[q][l];
     }
-    leaf = hr2di_next_leaf(h, leaf, receiver);
+    leaf = hr2di_hierarchy_next_leaf(h, leaf, receiver);
   } while (leaf);
 }
 
@@ -84,7 +84,7 @@ static void find_closed(rows *r) {
    none. */
 static void find_closed_by_rows(rows *r, hr2di_transport *t) {
   const double none = 10 * t->links->roots.digits;
-  hr2di_raise(t, r->all);
+  hr2di_transport_pull(t, r->all);
   for (size_t k = 0; k < t->hierarchy->scene->patches; k++)
     r->closed[k] = fabs(1 - t->up[k * t->width]) <= none;
 }
@@ -113,8 +113,8 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
     r->number[t->leaf[k]] = (uint32_t)k;
     for (size_t b = 0; b < t->bands; b++) r->one[k * t->width + b] = 1;
   }
-  hr2di_gather_part(t, HR2DI_ALL_LINKS, r->one, r->all);
-  hr2di_gather_part(t, HR2DI_DISTANT_LINKS, r->one, r->row);
+  hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, r->one, r->all);
+  hr2di_transport_apply_part(t, HR2DI_DISTANT_LINKS, r->one, r->row);
   const hr2di_clusters *clusters = t->links->roots.clusters;
   if (clusters && hr2di_clusters_links(clusters) > 0)
     find_closed_by_rows(r, t);
@@ -131,19 +131,19 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
   }
 }
 
-hr2d_status hr2di_close_orders(hr2di_transport *t) {
+hr2d_status hr2di_closure_set_order_p(hr2di_transport *t) {
   const hr2d_allocator *alloc = &t->alloc;
   rows r = {.t = t};
-  hr2di_basis_make(&r.basis, t->order);
-  hr2di_rule_make(&r.rule, t->order + MORE_POINTS);
-  hr2di_rule_make(&r.product, (3 * t->order) / 2);
+  hr2di_basis_init(&r.basis, t->order);
+  hr2di_rule_init(&r.rule, t->order + MORE_POINTS);
+  hr2di_rule_init(&r.product, (3 * t->order) / 2);
   r.number = hr2di_alloc(alloc, t->elements, sizeof *r.number);
-  r.one = hr2di_calloc(alloc, t->leaves * t->width, sizeof *r.one);
+  r.one = hr2di_alloc_zero(alloc, t->leaves * t->width, sizeof *r.one);
   r.row = hr2di_alloc(alloc, t->leaves * t->width, sizeof *r.row);
   r.all = hr2di_alloc(alloc, t->leaves * t->width, sizeof *r.all);
   r.closed = hr2di_alloc(alloc, t->hierarchy->scene->patches, 1);
   r.defect = hr2di_alloc(alloc, t->hierarchy->scene->patches, sizeof *r.defect);
-  r.exact = hr2di_calloc(alloc, t->leaves * t->order, sizeof *r.exact);
+  r.exact = hr2di_alloc_zero(alloc, t->leaves * t->order, sizeof *r.exact);
   double *closure = hr2di_alloc(alloc, t->leaves, t->order * t->order * sizeof *closure);
   const int room =
       r.number && r.one && r.row && r.all && r.closed && r.defect && r.exact && closure;
@@ -151,14 +151,14 @@ hr2d_status hr2di_close_orders(hr2di_transport *t) {
     close_rows(&r, t, closure);
     t->closure = closure;
   } else {
-    hr2di_free(alloc, closure);
+    hr2di_alloc_free(alloc, closure);
   }
-  hr2di_free(alloc, r.number);
-  hr2di_free(alloc, r.one);
-  hr2di_free(alloc, r.row);
-  hr2di_free(alloc, r.all);
-  hr2di_free(alloc, r.closed);
-  hr2di_free(alloc, r.defect);
-  hr2di_free(alloc, r.exact);
+  hr2di_alloc_free(alloc, r.number);
+  hr2di_alloc_free(alloc, r.one);
+  hr2di_alloc_free(alloc, r.row);
+  hr2di_alloc_free(alloc, r.all);
+  hr2di_alloc_free(alloc, r.closed);
+  hr2di_alloc_free(alloc, r.defect);
+  hr2di_alloc_free(alloc, r.exact);
   return room ? HR2D_OK : HR2D_ENOMEM;
 }

@@ -11,7 +11,7 @@
 
 #include "base/alloc.h"
 
-hr2d_status hr2di_close(hr2di_transport *t, const hr2di_rows *rows) {
+hr2d_status hr2di_closure_set(hr2di_transport *t, const hr2di_row_sums *rows) {
   const size_t field = t->leaves * t->bands;
   double *closure = hr2di_alloc(&t->alloc, t->leaves, sizeof *closure);
   double *one = hr2di_alloc(&t->alloc, field, sizeof *one);
@@ -19,14 +19,14 @@ hr2d_status hr2di_close(hr2di_transport *t, const hr2di_rows *rows) {
   const int room = closure && one && row;
   if (room) {
     for (size_t k = 0; k < field; k++) one[k] = 1;
-    hr2di_gather(t, one, row);
+    hr2di_transport_apply(t, one, row);
     for (size_t k = 0; k < t->leaves; k++)
       closure[k] = rows->front[t->leaf[k]] - row[k * t->bands];
     t->closure = closure;
   } else {
-    hr2di_free(&t->alloc, closure);
+    hr2di_alloc_free(&t->alloc, closure);
   }
-  hr2di_free(&t->alloc, one);
-  hr2di_free(&t->alloc, row);
+  hr2di_alloc_free(&t->alloc, one);
+  hr2di_alloc_free(&t->alloc, row);
   return room ? HR2D_OK : HR2D_ENOMEM;
 }

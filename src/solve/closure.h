@@ -7,9 +7,9 @@
 #include "solve/transport.h"
 
 /* Sets t->closure from the links and the exact row sums; HR2D_OK or HR2D_ENOMEM. */
-hr2d_status hr2di_close(hr2di_transport *t, const hr2di_rows *rows);
+hr2d_status hr2di_closure_set(hr2di_transport *t, const hr2di_row_sums *rows);
 
 /* The same at an order above 1; no row sums need be integrated. */
-hr2d_status hr2di_close_orders(hr2di_transport *t);
+hr2d_status hr2di_closure_set_order_p(hr2di_transport *t);
 
 #endif

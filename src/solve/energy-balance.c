@@ -24,15 +24,15 @@ static double rho_of(const hr2di_transport *t, size_t leaf, size_t band) {
 
 static hr2d_status set_missing(hr2di_balance *b, hr2di_transport *t) {
   const size_t field = t->leaves * t->width;
-  double *one = hr2di_calloc(&t->alloc, 2 * field, sizeof *one);
+  double *one = hr2di_alloc_zero(&t->alloc, 2 * field, sizeof *one);
   if (!one) return HR2D_ENOMEM;
   double *const row = one + field;
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t band = 0; band < t->bands; band++) one[k * t->width + band] = 1;
-  hr2di_gather(t, one, row);
+  hr2di_transport_apply(t, one, row);
   for (size_t k = 0; k < t->leaves * t->order; k++)
     b->missing[k] = one[k * t->bands] - row[k * t->bands];
-  hr2di_free(&t->alloc, one);
+  hr2di_alloc_free(&t->alloc, one);
   return t->failed ? HR2D_ENOMEM : HR2D_OK;
 }
 
@@ -46,7 +46,8 @@ typedef struct tally {
 static void number(hr2di_balance *b, const hr2di_transport *t, hr2di_components *c, tally *of) {
   for (size_t k = 0; k < t->leaves; k++) {
     tally *mine = &of[hr2di_component(c, leaf_of(t, k)->patch)];
-    const double length = hr2di_total(&mine->length), missing = hr2di_total(&mine->missing);
+    const double length = hr2di_sum_total(&mine->length),
+                 missing = hr2di_sum_total(&mine->missing);
     if (mine->number == 0)
       mine->number = missing <= LITTLE * length ? (uint32_t)++b->count : HR2DI_OPEN;
     b->component[k] = mine->number == HR2DI_OPEN ? HR2DI_OPEN : mine->number - 1;
@@ -57,8 +58,8 @@ static void number(hr2di_balance *b, const hr2di_transport *t, hr2di_components 
 
 static hr2d_status find_components(hr2di_balance *b, hr2di_transport *t) {
   hr2di_components c = {.alloc = t->alloc};
-  hr2d_status status = hr2di_components_make(&c, t->links);
-  tally *of = hr2di_calloc(&t->alloc, t->hierarchy->scene->patches, sizeof *of);
+  hr2d_status status = hr2di_components_init(&c, t->links);
+  tally *of = hr2di_alloc_zero(&t->alloc, t->hierarchy->scene->patches, sizeof *of);
   b->component = hr2di_alloc(&t->alloc, t->leaves, sizeof *b->component);
   b->missing = hr2di_alloc(&t->alloc, t->leaves * t->order, sizeof *b->missing);
   if (!of || !b->component || !b->missing) status = HR2D_ENOMEM;
@@ -66,11 +67,11 @@ static hr2d_status find_components(hr2di_balance *b, hr2di_transport *t) {
   for (size_t k = 0; k < t->leaves && !status; k++) {
     tally *mine = &of[hr2di_component(&c, leaf_of(t, k)->patch)];
     const double area = leaf_of(t, k)->length;
-    hr2di_add(&mine->length, area);
-    hr2di_add(&mine->missing, area * b->missing[k * t->order]);
+    hr2di_sum_add(&mine->length, area);
+    hr2di_sum_add(&mine->missing, area * b->missing[k * t->order]);
   }
   if (!status) number(b, t, &c, of);
-  hr2di_free(&t->alloc, of);
+  hr2di_alloc_free(&t->alloc, of);
   hr2di_components_clear(&c);
   return status;
 }
@@ -93,23 +94,23 @@ static void set_losses(hr2di_balance *b, const hr2di_transport *t) {
     b->length[b->component[k]] += area;
     b->escape[b->component[k]] += escape;
     for (size_t band = 0; band < t->bands; band++) {
-      hr2di_add(sum_of(b, t, k, band), area * (1 - rho_of(t, k, band)));
+      hr2di_sum_add(sum_of(b, t, k, band), area * (1 - rho_of(t, k, band)));
       b->response[b->component[k] * t->bands + band] -= escape * (1 - rho_of(t, k, band));
-      hr2di_add(sum_of(b, t, k, band), escape);
+      hr2di_sum_add(sum_of(b, t, k, band), escape);
     }
   }
   for (size_t k = 0; k < b->count * t->bands; k++) {
-    b->loss[k] = hr2di_total(&b->sum[k]);
+    b->loss[k] = hr2di_sum_total(&b->sum[k]);
     b->response[k] += b->loss[k];
   }
 }
 
-hr2d_status hr2di_balance_make(hr2di_balance *b, hr2di_transport *t) {
+hr2d_status hr2di_balance_init(hr2di_balance *b, hr2di_transport *t) {
   *b = (hr2di_balance){.alloc = t->alloc};
   const hr2d_status status = find_components(b, t);
   if (status || b->count == 0) return status;
   const size_t values = b->count * t->bands;
-  b->length = hr2di_calloc(&b->alloc, 2 * b->count + 3 * values, sizeof *b->length);
+  b->length = hr2di_alloc_zero(&b->alloc, 2 * b->count + 3 * values, sizeof *b->length);
   b->sum = hr2di_alloc(&b->alloc, values, sizeof *b->sum);
   if (!b->length || !b->sum) return HR2D_ENOMEM;
   b->escape = b->length + b->count;
@@ -121,10 +122,10 @@ hr2d_status hr2di_balance_make(hr2di_balance *b, hr2di_transport *t) {
 }
 
 void hr2di_balance_clear(hr2di_balance *b) {
-  hr2di_free(&b->alloc, b->component);
-  hr2di_free(&b->alloc, b->missing);
-  hr2di_free(&b->alloc, b->length);
-  hr2di_free(&b->alloc, b->sum);
+  hr2di_alloc_free(&b->alloc, b->component);
+  hr2di_alloc_free(&b->alloc, b->missing);
+  hr2di_alloc_free(&b->alloc, b->length);
+  hr2di_alloc_free(&b->alloc, b->sum);
 }
 
 void hr2di_balance_set(hr2di_balance *b, const hr2di_transport *t, const double *source,
@@ -133,12 +134,12 @@ void hr2di_balance_set(hr2di_balance *b, const hr2di_transport *t, const double 
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t band = 0; band < t->bands && hr2di_balance_holds(b, k); band++) {
       const double area = leaf_of(t, k)->length;
-      hr2di_add(sum_of(b, t, k, band), area * source[k * t->width + band]);
+      hr2di_sum_add(sum_of(b, t, k, band), area * source[k * t->width + band]);
       if (background && t->sky)
-        hr2di_add(sum_of(b, t, k, band), area * (t->sky[k * t->order] * background[band]));
+        hr2di_sum_add(sum_of(b, t, k, band), area * (t->sky[k * t->order] * background[band]));
     }
   for (size_t k = 0; k < b->count * t->bands; k++)
-    b->level[k] = b->loss[k] > 0 ? hr2di_total(&b->sum[k]) / b->loss[k] : 0;
+    b->level[k] = b->loss[k] > 0 ? hr2di_sum_total(&b->sum[k]) / b->loss[k] : 0;
 }
 
 /* Adding a to h adds ρa to z, and ∫(1−ρ)a + ∫mρa to the balance. */
@@ -155,10 +156,10 @@ void hr2di_balance_correct(hr2di_balance *b, const hr2di_transport *t, const dou
         const double z = source[at + l * t->bands] - constant + rho * h[at + l * t->bands];
         off += b->missing[k * t->order + l] * z;
       }
-      hr2di_add(sum_of(b, t, k, band), area * off);
+      hr2di_sum_add(sum_of(b, t, k, band), area * off);
     }
   for (size_t k = 0; k < b->count * t->bands; k++)
-    if (b->response[k] > 0) b->level[k] -= hr2di_total(&b->sum[k]) / b->response[k];
+    if (b->response[k] > 0) b->level[k] -= hr2di_sum_total(&b->sum[k]) / b->response[k];
 }
 
 double hr2di_balance_at(const hr2di_balance *b, const hr2di_transport *t, size_t leaf,

@@ -31,7 +31,7 @@ typedef struct hr2di_balance {
 
 /* Finds the components of a symmetric K with closure.  HR2D_OK or HR2D_ENOMEM; to be cleared
    in either case. */
-hr2d_status hr2di_balance_make(hr2di_balance *b, hr2di_transport *t);
+hr2d_status hr2di_balance_init(hr2di_balance *b, hr2di_transport *t);
 void hr2di_balance_clear(hr2di_balance *b);
 
 /* Sets c to that of a source and the background, or NULL; to 0 where nothing is lost. */

@@ -31,16 +31,16 @@ static hr2d_status integrate_rows(hr2di_equation *s) {
   const int background = s->links->hierarchy->scene->effect[HR2D_EFFECT_BACKGROUND].on;
   if (!closure && !background) return HR2D_OK;
   if (s->transport.order > 1) {
-    hr2d_status status = closure ? hr2di_close_orders(&s->transport) : HR2D_OK;
+    hr2d_status status = closure ? hr2di_closure_set_order_p(&s->transport) : HR2D_OK;
     if (background) s->row_sums = s->transport.leaves;
-    return !status && background ? hr2di_set_sky_orders(&s->transport) : status;
+    return !status && background ? hr2di_background_set_order_p(&s->transport) : status;
   }
-  hr2di_rows rows;
-  hr2d_status status = hr2di_rows_make(&rows, &s->transport, background);
-  if (!status && background) status = hr2di_set_sky(&s->transport, &rows);
-  if (!status && closure) status = hr2di_close(&s->transport, &rows);
+  hr2di_row_sums rows;
+  hr2d_status status = hr2di_row_sums_init(&rows, &s->transport, background);
+  if (!status && background) status = hr2di_background_set(&s->transport, &rows);
+  if (!status && closure) status = hr2di_closure_set(&s->transport, &rows);
   s->row_sums = rows.leaves;
-  hr2di_rows_clear(&rows);
+  hr2di_row_sums_clear(&rows);
   return status;
 }
 
@@ -50,14 +50,15 @@ static hr2d_status integrate_blocks(hr2di_equation *s) {
   const unsigned order = links->hierarchy->order;
   if (order == 1 || (links->blocks.order == order && links->blocks.links == links->store.count))
     return HR2D_OK;
-  const hr2di_blocks_plan plan = {s->options.threads, s->options.progress,
-                                  s->options.progress_ctx};
-  const double start = hr2di_now();
-  const hr2d_status status = hr2di_blocks_make(links, order, &plan);
+  const hr2di_link_blocks_plan plan = {s->options.threads, s->options.progress,
+                                       s->options.progress_ctx};
+  const double start = hr2di_clock_now();
+  const hr2d_status status = hr2di_link_blocks_init(links, order, &plan);
   s->kernels = links->blocks.kernels;
-  s->coefficients_seconds = hr2di_now() - start;
+  s->coefficients_seconds = hr2di_clock_now() - start;
   return status && status != HR2D_ENOMEM
-             ? hr2di_fail(&links->message, status, "coefficients: %s", hr2d_strerror(status))
+             ? hr2di_message_fail(&links->message, status, "coefficients: %s",
+                                  hr2d_strerror(status))
              : status;
 }
 
@@ -98,12 +99,12 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
   hr2d_status status = integrate_blocks(s);
   if (!status) status = hr2di_transport_init(t, s->links, s->options.threads);
   if (!status) status = integrate_rows(s);
-  if (!status && t->closure && !links->directed) status = hr2di_balance_make(&s->balance, t);
+  if (!status && t->closure && !links->directed) status = hr2di_balance_init(&s->balance, t);
   if (status) return status;
   s->items = t->leaves * t->order;
   s->field = t->leaves * t->width;
-  s->space =
-      hr2di_calloc(&s->links->alloc, s->items + 7 * s->field + 3 * t->bands, sizeof *s->space);
+  s->space = hr2di_alloc_zero(&s->links->alloc, s->items + 7 * s->field + 3 * t->bands,
+                              sizeof *s->space);
   s->exponent = hr2di_alloc(&s->links->alloc, t->bands, sizeof *s->exponent);
   if (!s->space || !s->exponent) return HR2D_ENOMEM;
   double **const field[] = {&s->source, &s->root_rho, &s->radiosity, &s->irradiance,
@@ -122,7 +123,7 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
 static void apply(void *ctx, const double *in, double *out) {
   hr2di_equation *s = ctx;
   for (size_t k = 0; k < s->field; k++) s->work[k] = s->root_rho[k] * in[k];
-  hr2di_gather(&s->transport, s->work, out);
+  hr2di_transport_apply(&s->transport, s->work, out);
   for (size_t k = 0; k < s->field; k++) out[k] *= s->root_rho[k];
 }
 
@@ -139,13 +140,13 @@ static void set_radiosity(hr2di_equation *s, const double *y) {
   hr2di_balance_add(&s->balance, &s->transport, s->radiosity);
 }
 
-static hr2di_system make_system(hr2di_equation *s);
+static hr2di_krylov_system make_system(hr2di_equation *s);
 
 static void scale(void *ctx, const double *y, double *norm) {
   hr2di_equation *s = ctx;
-  const hr2di_system system = make_system(s);
+  const hr2di_krylov_system system = make_system(s);
   set_radiosity(s, y);
-  hr2di_dot(&system, s->radiosity, s->radiosity, norm);
+  hr2di_krylov_dot(&system, s->radiosity, s->radiosity, norm);
   for (size_t b = 0; b < system.bands; b++) norm[b] = sqrt(norm[b]);
 }
 
@@ -163,30 +164,30 @@ static hr2d_status tell(void *ctx, double residual) {
   return s->options.progress(s->options.progress_ctx, &progress);
 }
 
-static hr2di_system make_system(hr2di_equation *s) {
-  return (hr2di_system){.alloc = &s->links->alloc,
-                        .size = s->items,
-                        .bands = s->transport.bands,
-                        .weight = s->weight,
-                        .symmetric = !s->links->directed,
-                        .apply = apply,
-                        .scale = scale,
-                        .tell = tell,
-                        .ctx = s,
-                        .tolerance = s->options.tolerance,
-                        .max_iterations = s->options.max_iterations};
+static hr2di_krylov_system make_system(hr2di_equation *s) {
+  return (hr2di_krylov_system){.alloc = &s->links->alloc,
+                               .size = s->items,
+                               .bands = s->transport.bands,
+                               .weight = s->weight,
+                               .symmetric = !s->links->directed,
+                               .apply = apply,
+                               .scale = scale,
+                               .tell = tell,
+                               .ctx = s,
+                               .tolerance = s->options.tolerance,
+                               .max_iterations = s->options.max_iterations};
 }
 
 /* H = K B, and what comes from the background. */
 void hr2di_equation_gather(hr2di_equation *s, const double *radiosity) {
-  hr2di_gather(&s->transport, radiosity, s->irradiance);
-  if (s->background) hr2di_add_background(&s->transport, s->light, s->irradiance);
+  hr2di_transport_apply(&s->transport, radiosity, s->irradiance);
+  if (s->background) hr2di_transport_add_background(&s->transport, s->light, s->irradiance);
 }
 
 /* h = Kz, what comes from the background, and what balance takes off. */
 static void gather_rest(hr2di_equation *s, const double *z, double *out) {
-  hr2di_gather(&s->transport, z, out);
-  if (s->background) hr2di_add_background(&s->transport, s->light, out);
+  hr2di_transport_apply(&s->transport, z, out);
+  if (s->background) hr2di_transport_add_background(&s->transport, s->light, out);
   hr2di_balance_release(&s->balance, &s->transport, out);
 }
 
@@ -200,21 +201,24 @@ hr2d_status hr2di_equation_solve(hr2di_equation *s) {
   set_fluctuation(s, NULL, s->radiosity);
   gather_rest(s, s->radiosity, s->irradiance);
   for (size_t k = 0; k < s->field; k++) s->b[k] = s->root_rho[k] * s->irradiance[k];
-  const hr2di_system system = make_system(s);
+  const hr2di_krylov_system system = make_system(s);
   double residual = 0;
   hr2d_status status = hr2di_krylov(&system, s->b, s->y, &residual);
   if (s->transport.failed) status = HR2D_ENOMEM;
   if (status == HR2D_ENOT_CONVERGED && s->looks <= s->options.max_iterations)
-    return hr2di_fail(&s->links->message, status,
-                      "after %llu iterations I − ρK is found not to be positive definite: rows "
-                      "of the links exceed 1, and closure or finer links are needed",
-                      (unsigned long long)s->looks);
+    return hr2di_message_fail(
+        &s->links->message, status,
+        "after %llu iterations I − ρK is found not to be positive definite: rows "
+        "of the links exceed 1, and closure or finer links are needed",
+        (unsigned long long)s->looks);
   if (status == HR2D_ENOT_CONVERGED)
-    return hr2di_fail(&s->links->message, status,
-                      "the relative residual is %.1e where %.1e was asked for, after %llu "
-                      "gathers",
-                      residual, s->options.tolerance, (unsigned long long)s->transport.sweeps);
-  if (status) return hr2di_fail(&s->links->message, status, "solve: %s", hr2d_strerror(status));
+    return hr2di_message_fail(
+        &s->links->message, status,
+        "the relative residual is %.1e where %.1e was asked for, after %llu "
+        "gathers",
+        residual, s->options.tolerance, (unsigned long long)s->transport.sweeps);
+  if (status)
+    return hr2di_message_fail(&s->links->message, status, "solve: %s", hr2d_strerror(status));
   return hr2di_equation_take(s);
 }
 
@@ -253,15 +257,15 @@ void hr2di_equation_defect(hr2di_equation *s, const double *radiosity, double *o
 }
 
 double hr2di_equation_residual(hr2di_equation *s) {
-  const hr2di_system system = make_system(s);
+  const hr2di_krylov_system system = make_system(s);
   if (s->balance.count > 0)
     hr2di_equation_defect(s, s->radiosity, s->y);
   else
     for (size_t k = 0; k < s->field; k++)
       s->y[k] =
           s->source[k] + s->root_rho[k] * s->root_rho[k] * s->irradiance[k] - s->radiosity[k];
-  hr2di_dot(&system, s->y, s->y, s->norm[0]);
-  hr2di_dot(&system, s->radiosity, s->radiosity, s->norm[1]);
+  hr2di_krylov_dot(&system, s->y, s->y, s->norm[0]);
+  hr2di_krylov_dot(&system, s->radiosity, s->radiosity, s->norm[1]);
   double most = 0;
   for (size_t b = 0; b < system.bands; b++)
     if (s->norm[0][b] > 0) most = fmax(most, sqrt(s->norm[0][b] / s->norm[1][b]));
@@ -271,6 +275,6 @@ double hr2di_equation_residual(hr2di_equation *s) {
 void hr2di_equation_clear(hr2di_equation *s) {
   hr2di_balance_clear(&s->balance);
   hr2di_transport_clear(&s->transport);
-  hr2di_free(&s->links->alloc, s->space);
-  hr2di_free(&s->links->alloc, s->exponent);
+  hr2di_alloc_free(&s->links->alloc, s->space);
+  hr2di_alloc_free(&s->links->alloc, s->exponent);
 }

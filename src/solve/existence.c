@@ -22,13 +22,13 @@ typedef struct exchange {
 static hr2d_status add_clusters(const hr2d_linkset *links, exchange *e) {
   const size_t n = links->hierarchy->scene->patches;
   if (!links->roots.clusters) return HR2D_OK;
-  double *one = hr2di_calloc(&links->alloc, 2 * n, sizeof *one);
+  double *one = hr2di_alloc_zero(&links->alloc, 2 * n, sizeof *one);
   if (!one) return HR2D_ENOMEM;
   double *power = one + n;
   for (size_t k = 0; k < n; k++) one[k] = 1;
   const hr2d_status status = hr2di_clusters_gather(links->roots.clusters, 1, 1, one, power);
-  for (size_t k = 0; k < n; k++) hr2di_add(&e->escape[k], -power[k]);
-  hr2di_free(&links->alloc, one);
+  for (size_t k = 0; k < n; k++) hr2di_sum_add(&e->escape[k], -power[k]);
+  hr2di_alloc_free(&links->alloc, one);
   return status;
 }
 
@@ -36,7 +36,7 @@ static void sum_up(const hr2d_scene *scene, exchange *e) {
   for (size_t k = 0; k < scene->patches; k++) {
     const size_t root = hr2di_component(&e->components, k);
     if (root == k) continue;
-    hr2di_add(&e->escape[root], hr2di_total(&e->escape[k]));
+    hr2di_sum_add(&e->escape[root], hr2di_sum_total(&e->escape[k]));
     e->length[root] += e->length[k];
   }
 }
@@ -54,13 +54,14 @@ static hr2d_status check_band(hr2d_linkset *links, exchange *e, size_t band,
       absorbs[hr2di_component(&e->components, k)] = 1;
   for (size_t k = 0; k < scene->patches; k++) {
     const size_t root = hr2di_component(&e->components, k);
-    if (absorbs[root] || hr2di_total(&e->escape[root]) > closed * e->length[root] ||
+    if (absorbs[root] || hr2di_sum_total(&e->escape[root]) > closed * e->length[root] ||
         !(hr2d_scene_emission(scene, k, band) > 0))
       continue;
-    return hr2di_fail(&links->message, HR2D_ENO_SOLUTION,
-                      "no solution in band %zu: %s emits into a closed part of the scene "
-                      "where every reflectance is 1, so that light has nowhere to go",
-                      band, hr2di_patch_label(scene, k).text);
+    return hr2di_message_fail(
+        &links->message, HR2D_ENO_SOLUTION,
+        "no solution in band %zu: %s emits into a closed part of the scene "
+        "where every reflectance is 1, so that light has nowhere to go",
+        band, hr2di_patch_label(scene, k).text);
   }
   return HR2D_OK;
 }
@@ -74,7 +75,7 @@ static int some_patch_absorbs_nothing(const hr2d_scene *scene) {
 
 static hr2d_status sum_exchange(const hr2d_linkset *links, exchange *e) {
   const hr2d_scene *scene = links->hierarchy->scene;
-  hr2d_status status = hr2di_components_make(&e->components, links);
+  hr2d_status status = hr2di_components_init(&e->components, links);
   for (size_t k = 0; k < scene->patches; k++) e->length[k] = scene->patch[k].length;
   hr2di_defect_sum(links, e->escape);
   if (!status) status = add_clusters(links, e);
@@ -83,7 +84,7 @@ static hr2d_status sum_exchange(const hr2d_linkset *links, exchange *e) {
   return HR2D_OK;
 }
 
-hr2d_status hr2di_check_existence(hr2d_linkset *links) {
+hr2d_status hr2di_existence_check(hr2d_linkset *links) {
   const hr2d_scene *scene = links->hierarchy->scene;
   if (!some_patch_absorbs_nothing(scene)) return HR2D_OK;
   const hr2d_allocator *alloc = &links->alloc;
@@ -93,12 +94,12 @@ hr2d_status hr2di_check_existence(hr2d_linkset *links) {
   unsigned char *absorbs = hr2di_alloc(alloc, scene->patches, 1);
   hr2d_status status = HR2D_ENOMEM;
   if (e.escape && e.length && absorbs) status = sum_exchange(links, &e);
-  if (status) hr2di_fail(&links->message, status, "out of memory for the solve");
+  if (status) hr2di_message_fail(&links->message, status, "out of memory for the solve");
   for (size_t band = 0; band < scene->bands && !status; band++)
     status = check_band(links, &e, band, absorbs);
   hr2di_components_clear(&e.components);
-  hr2di_free(alloc, e.escape);
-  hr2di_free(alloc, e.length);
-  hr2di_free(alloc, absorbs);
+  hr2di_alloc_free(alloc, e.escape);
+  hr2di_alloc_free(alloc, e.length);
+  hr2di_alloc_free(alloc, absorbs);
   return status;
 }

@@ -7,6 +7,6 @@
 
 /* HR2D_OK, HR2D_ENOMEM, or HR2D_ENO_SOLUTION with a message: some patches exchange
    light with each other alone, absorb nothing of it, and emit. */
-hr2d_status hr2di_check_existence(hr2d_linkset *links);
+hr2d_status hr2di_existence_check(hr2d_linkset *links);
 
 #endif

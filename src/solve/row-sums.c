@@ -31,7 +31,7 @@ typedef struct walker {
   hr2d_segment line;        /* of the patch */
   hr2d_segment source;      /* what its leaves see: a patch, the back of one, or an element */
   hr2d_segment source_line; /* of which that is a part */
-  hr2di_sight *sight;       /* NULL where nothing is in the way */
+  hr2di_visibility *sight;  /* NULL where nothing is in the way */
   hr2di_wall_list list;
   waiting stack[DEPTH];
   hr2di_sum *sum; /* per element, set for leaves */
@@ -40,11 +40,11 @@ typedef struct walker {
 /* All leaves below an element see the source without anything in the way. */
 static void add_clear(walker *w, uint32_t top) {
   const hr2d_element *element = w->h->element;
-  uint32_t leaf = hr2di_first_leaf(w->h, top);
+  uint32_t leaf = hr2di_hierarchy_first_leaf(w->h, top);
   do {
     const hr2d_segment s = {element[leaf].a, element[leaf].b};
-    hr2di_add(&w->sum[leaf], hr2d_exchange_area(&s, &w->source));
-    leaf = hr2di_next_leaf(w->h, leaf, top);
+    hr2di_sum_add(&w->sum[leaf], hr2d_exchange_area(&s, &w->source));
+    leaf = hr2di_hierarchy_next_leaf(w->h, leaf, top);
   } while (leaf);
 }
 
@@ -54,18 +54,18 @@ static hr2d_status look(walker *w, uint32_t element, const waiting *parent, size
   const hr2d_element *e = &w->h->element[element];
   const hr2d_segment s = {e->a, e->b};
   hr2di_shaft shaft;
-  hr2di_view view = HR2DI_CLEAR;
+  hr2di_visibility_class view = HR2DI_CLEAR;
   const size_t first = w->list.count;
-  const hr2di_facing facing = hr2di_face(&s, &w->source);
+  const hr2di_facing facing = hr2di_facing_of(&s, &w->source);
   if (facing == HR2DI_FACING_NONE) return HR2D_OK;
   const int shaded =
-      w->sight && hr2di_shaft_make(&shaft, facing, s, w->source, w->line, w->source_line);
+      w->sight && hr2di_shaft_init(&shaft, facing, s, w->source, w->line, w->source_line);
   hr2d_status status = HR2D_OK;
   if (shaded && parent)
-    status = hr2di_sight_shrink(w->sight, &shaft, &w->list, parent->first, parent->count,
-                                &w->list, &view);
+    status = hr2di_visibility_shrink(w->sight, &shaft, &w->list, parent->first, parent->count,
+                                     &w->list, &view);
   else if (shaded)
-    status = hr2di_sight_collect(w->sight, &shaft, &w->list, &view);
+    status = hr2di_visibility_collect(w->sight, &shaft, &w->list, &view);
   if (status) return status;
   if (view == HR2DI_CLEAR) add_clear(w, element);
   if (view != HR2DI_PARTIAL) return HR2D_OK;
@@ -75,9 +75,9 @@ static hr2d_status look(walker *w, uint32_t element, const waiting *parent, size
   }
   double area;
   int open;
-  status = hr2di_sight_area(w->sight, &shaft, hr2di_walls_from(&w->list, first),
-                            w->list.count - first, &area, &open);
-  if (!status) hr2di_add(&w->sum[element], area);
+  status = hr2di_visibility_area(w->sight, &shaft, hr2di_wall_list_from(&w->list, first),
+                                 w->list.count - first, &area, &open);
+  if (!status) hr2di_sum_add(&w->sum[element], area);
   w->list.count = first;
   return status;
 }
@@ -103,7 +103,7 @@ static hr2d_status walk_row(walker *w, uint32_t patch, hr2di_sum *front, hr2di_s
   w->line = scene->patch[patch].scaled;
   w->sum = front;
   for (size_t k = 0; k < scene->patches && !status && front; k++) {
-    if (k == patch || !hr2di_lit(scene, k)) continue;
+    if (k == patch || !hr2di_scene_lit(scene, k)) continue;
     w->source = w->source_line = scene->patch[k].scaled;
     status = walk(w, patch);
   }
@@ -146,20 +146,20 @@ static hr2d_status walk_links(walker *w, const hr2di_transport *t,
 }
 
 /* Sums to rows; 1 for the leaves of closed patches. */
-static void finish(hr2di_rows *rows, uint32_t patch, const hr2di_sum *front,
+static void finish(hr2di_row_sums *rows, uint32_t patch, const hr2di_sum *front,
                    const hr2di_sum *back) {
   const hr2d_hierarchy *h = rows->hierarchy;
-  uint32_t leaf = hr2di_first_leaf(h, patch);
+  uint32_t leaf = hr2di_hierarchy_first_leaf(h, patch);
   do {
     const double length = h->element[leaf].length;
     rows->leaves += !rows->closed[patch];
-    rows->front[leaf] = rows->closed[patch] ? 1 : hr2di_total(&front[leaf]) / length;
-    if (rows->back) rows->back[leaf] = hr2di_total(&back[leaf]) / length;
-    leaf = hr2di_next_leaf(h, leaf, patch);
+    rows->front[leaf] = rows->closed[patch] ? 1 : hr2di_sum_total(&front[leaf]) / length;
+    if (rows->back) rows->back[leaf] = hr2di_sum_total(&back[leaf]) / length;
+    leaf = hr2di_hierarchy_next_leaf(h, leaf, patch);
   } while (leaf);
 }
 
-static hr2d_status walk_rows(hr2di_rows *rows, const hr2di_transport *t, walker *w,
+static hr2d_status walk_rows(hr2di_row_sums *rows, const hr2di_transport *t, walker *w,
                              const hr2di_sum *defect, hr2di_sum *front, hr2di_sum *back) {
   const hr2d_scene *scene = w->h->scene;
   const int by_links = scene->effect[HR2D_EFFECT_OCCLUSION].called_for;
@@ -168,45 +168,45 @@ static hr2d_status walk_rows(hr2di_rows *rows, const hr2di_transport *t, walker 
   w->sum = front;
   if (by_links) status = walk_links(w, t, rows->closed);
   for (uint32_t k = 0; k < scene->patches && !status; k++) {
-    if (!hr2di_lit(scene, k)) continue;
+    if (!hr2di_scene_lit(scene, k)) continue;
     if (!rows->closed[k]) status = walk_row(w, k, by_links ? NULL : front, back);
     finish(rows, k, front, back);
   }
   return status;
 }
 
-hr2d_status hr2di_rows_make(hr2di_rows *rows, const hr2di_transport *t, int backs) {
+hr2d_status hr2di_row_sums_init(hr2di_row_sums *rows, const hr2di_transport *t, int backs) {
   const hr2d_scene *scene = t->hierarchy->scene;
-  *rows = (hr2di_rows){.hierarchy = t->hierarchy, .alloc = t->alloc};
-  rows->front = hr2di_calloc(&t->alloc, t->elements, sizeof *rows->front);
-  rows->back = backs ? hr2di_calloc(&t->alloc, t->elements, sizeof *rows->back) : NULL;
-  rows->closed = hr2di_calloc(&t->alloc, scene->patches, 1);
+  *rows = (hr2di_row_sums){.hierarchy = t->hierarchy, .alloc = t->alloc};
+  rows->front = hr2di_alloc_zero(&t->alloc, t->elements, sizeof *rows->front);
+  rows->back = backs ? hr2di_alloc_zero(&t->alloc, t->elements, sizeof *rows->back) : NULL;
+  rows->closed = hr2di_alloc_zero(&t->alloc, scene->patches, 1);
   hr2di_sum *defect = hr2di_alloc(&t->alloc, scene->patches, sizeof *defect);
-  hr2di_sum *front = hr2di_calloc(&t->alloc, t->elements, sizeof *front);
-  hr2di_sum *back = backs ? hr2di_calloc(&t->alloc, t->elements, sizeof *back) : NULL;
-  walker *w = hr2di_calloc(&t->alloc, 1, sizeof *w);
+  hr2di_sum *front = hr2di_alloc_zero(&t->alloc, t->elements, sizeof *front);
+  hr2di_sum *back = backs ? hr2di_alloc_zero(&t->alloc, t->elements, sizeof *back) : NULL;
+  walker *w = hr2di_alloc_zero(&t->alloc, 1, sizeof *w);
   hr2d_status status = HR2D_ENOMEM;
   if (rows->front && rows->closed && defect && front && w && (!backs || (rows->back && back))) {
-    hr2di_sight sight;
-    hr2di_sight_start(&sight, &scene->walls, &t->alloc);
+    hr2di_visibility sight;
+    hr2di_visibility_init(&sight, &scene->walls, &t->alloc);
     w->h = t->hierarchy;
     w->sight = scene->effect[HR2D_EFFECT_OCCLUSION].on || backs ? &sight : NULL;
     hr2di_defect_sum(t->links, defect);
-    status = backs ? hr2di_find_backs(scene, &w->backs) : HR2D_OK;
+    status = backs ? hr2di_backs_init(scene, &w->backs) : HR2D_OK;
     if (!status) status = walk_rows(rows, t, w, defect, front, back);
-    hr2di_sight_end(&sight);
-    hr2di_free(&t->alloc, w->list.wall);
-    hr2di_free(&t->alloc, w->backs.back);
+    hr2di_visibility_clear(&sight);
+    hr2di_alloc_free(&t->alloc, w->list.wall);
+    hr2di_alloc_free(&t->alloc, w->backs.back);
   }
-  hr2di_free(&t->alloc, w);
-  hr2di_free(&t->alloc, defect);
-  hr2di_free(&t->alloc, front);
-  hr2di_free(&t->alloc, back);
+  hr2di_alloc_free(&t->alloc, w);
+  hr2di_alloc_free(&t->alloc, defect);
+  hr2di_alloc_free(&t->alloc, front);
+  hr2di_alloc_free(&t->alloc, back);
   return status;
 }
 
-void hr2di_rows_clear(hr2di_rows *rows) {
-  hr2di_free(&rows->alloc, rows->front);
-  hr2di_free(&rows->alloc, rows->back);
-  hr2di_free(&rows->alloc, rows->closed);
+void hr2di_row_sums_clear(hr2di_row_sums *rows) {
+  hr2di_alloc_free(&rows->alloc, rows->front);
+  hr2di_alloc_free(&rows->alloc, rows->back);
+  hr2di_alloc_free(&rows->alloc, rows->closed);
 }

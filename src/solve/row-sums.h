@@ -5,7 +5,7 @@
 
 #include "solve/transport.h"
 
-typedef struct hr2di_rows {
+typedef struct hr2di_row_sums {
   const hr2d_hierarchy *hierarchy;
   hr2d_allocator alloc;
   double *front;         /* per element, set for leaves: ∫ G V over all patches, at most 1 */
@@ -13,12 +13,13 @@ typedef struct hr2di_rows {
                             not asked for */
   unsigned char *closed; /* per patch: its leaves see patches wherever they look */
   uint64_t leaves;       /* whose sums were integrated */
-} hr2di_rows;
+} hr2di_row_sums;
 
 /* The exact sums of the leaves of all patches that light reaches, from the links' own
    exchange areas where these leave no opening; HR2D_OK or HR2D_ENOMEM.  To be ended by
-   hr2di_rows_clear() in either case. */
-hr2d_status hr2di_rows_make(hr2di_rows *rows, const hr2di_transport *transport, int backs);
-void hr2di_rows_clear(hr2di_rows *rows);
+   hr2di_row_sums_clear() in either case. */
+hr2d_status hr2di_row_sums_init(hr2di_row_sums *rows, const hr2di_transport *transport,
+                                int backs);
+void hr2di_row_sums_clear(hr2di_row_sums *rows);
 
 #endif

@@ -15,15 +15,15 @@
 static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *o) {
   hr2di_message *message = &links->message;
   if (links->hierarchy->refining || links->solving)
-    return hr2di_fail(message, HR2D_ESTATE, "the links are being %s already",
-                      links->solving ? "solved on" : "refined");
+    return hr2di_message_fail(message, HR2D_ESTATE, "the links are being %s already",
+                              links->solving ? "solved on" : "refined");
   if (!(o->tolerance >= 1e-15) || !isfinite(o->tolerance))
-    return hr2di_fail(message, HR2D_EINVAL, "tolerance %g is not a number ≥ 1e-15",
-                      o->tolerance);
+    return hr2di_message_fail(message, HR2D_EINVAL, "tolerance %g is not a number ≥ 1e-15",
+                              o->tolerance);
   if (o->start && o->start->hierarchy != links->hierarchy)
-    return hr2di_fail(message, HR2D_EINVAL, "the warm start is from another hierarchy");
+    return hr2di_message_fail(message, HR2D_EINVAL, "the warm start is from another hierarchy");
   if (links->counts.elements == 0)
-    return hr2di_fail(message, HR2D_ESTATE, "the link set was never refined");
+    return hr2di_message_fail(message, HR2D_ESTATE, "the link set was never refined");
   return HR2D_OK;
 }
 
@@ -31,7 +31,8 @@ static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *
    for closed components taken off. */
 static void warm_start(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
-  hr2di_restrict(s->options.start, t->hierarchy, t->leaf, t->leaves, t->order, s->radiosity);
+  hr2di_solution_restrict(s->options.start, t->hierarchy, t->leaf, t->leaves, t->order,
+                          s->radiosity);
   for (size_t k = 0; k < s->field; k++)
     if (s->root_rho[k] > 0)
       s->y[k] =
@@ -51,14 +52,14 @@ static void add_escape(const hr2di_equation *s, size_t leaf, size_t band, hr2di_
   const size_t at = leaf * t->width + band;
   const double area = s->weight[leaf * t->order];
   if (!hr2di_balance_holds(&s->balance, leaf)) {
-    hr2di_add(escaped, area * s->radiosity[at]);
-    hr2di_add(escaped, -area * s->irradiance[at]);
-    if (t->sky) hr2di_add(escaped, area * (t->sky[leaf * t->order] * s->light[band]));
+    hr2di_sum_add(escaped, area * s->radiosity[at]);
+    hr2di_sum_add(escaped, -area * s->irradiance[at]);
+    if (t->sky) hr2di_sum_add(escaped, area * (t->sky[leaf * t->order] * s->light[band]));
     return;
   }
   for (size_t l = 0; l < t->order; l++)
-    hr2di_add(escaped, area * (s->balance.missing[leaf * t->order + l] *
-                               s->radiosity[at + l * t->bands]));
+    hr2di_sum_add(escaped, area * (s->balance.missing[leaf * t->order + l] *
+                                   s->radiosity[at + l * t->bands]));
 }
 
 /* Powers in scene lengths. */
@@ -70,16 +71,16 @@ static hr2d_power sum_power(const hr2di_equation *s, size_t band) {
     const size_t at = k * t->width + band, patch = t->hierarchy->element[t->leaf[k]].patch;
     const double absorbance = 1 - hr2d_scene_reflectance(scene, patch, band);
     const double area = s->weight[k * t->order];
-    hr2di_add(&emitted, area * s->source[at]);
-    hr2di_add(&absorbed, area * (absorbance * s->irradiance[at]));
-    if (t->sky) hr2di_add(&received, area * (t->sky[k * t->order] * s->light[band]));
+    hr2di_sum_add(&emitted, area * s->source[at]);
+    hr2di_sum_add(&absorbed, area * (absorbance * s->irradiance[at]));
+    if (t->sky) hr2di_sum_add(&received, area * (t->sky[k * t->order] * s->light[band]));
     add_escape(s, k, band, &escaped);
   }
   const double unit = hr2d_scene_unit(scene);
   const int e = s->exponent[band];
   return (hr2d_power){
-      ldexp(unit * hr2di_total(&emitted), e), ldexp(unit * hr2di_total(&received), e),
-      ldexp(unit * hr2di_total(&absorbed), e), ldexp(unit * hr2di_total(&escaped), e)};
+      ldexp(unit * hr2di_sum_total(&emitted), e), ldexp(unit * hr2di_sum_total(&received), e),
+      ldexp(unit * hr2di_sum_total(&absorbed), e), ldexp(unit * hr2di_sum_total(&escaped), e)};
 }
 
 /* A field of the leaves on every element, in the unit of E; whether no double is too small for
@@ -87,7 +88,7 @@ static hr2d_power sum_power(const hr2di_equation *s, size_t band) {
 static int take_raised(hr2di_equation *s, const double *leaf_field, double *field) {
   hr2di_transport *t = &s->transport;
   int finite = 1;
-  hr2di_raise(t, leaf_field);
+  hr2di_transport_pull(t, leaf_field);
   for (size_t k = 0; k < t->elements * t->width; k++) {
     field[k] = ldexp(t->up[k], s->exponent[k % t->bands]);
     finite &= isfinite(field[k]) != 0;
@@ -97,7 +98,7 @@ static int take_raised(hr2di_equation *s, const double *leaf_field, double *fiel
 
 static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
   hr2di_transport *t = &s->transport;
-  hr2d_solution *made = hr2di_calloc(&s->links->alloc, 1, sizeof *made);
+  hr2d_solution *made = hr2di_alloc_zero(&s->links->alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
   *made = (hr2d_solution){.alloc = s->links->alloc,
                           .links = s->links,
@@ -129,8 +130,8 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
   }
   hr2d_solution_destroy(made);
   return t->failed ? HR2D_ENOMEM
-                   : hr2di_fail(&s->links->message, HR2D_ERANGE,
-                                "a radiosity is beyond what a double can represent");
+                   : hr2di_message_fail(&s->links->message, HR2D_ERANGE,
+                                        "a radiosity is beyond what a double can represent");
 }
 
 /* If B = Q + ρKB and neither K nor Q is negative, then B is negative somewhere if and only if
@@ -146,10 +147,11 @@ static hr2d_status check_sign(hr2di_equation *s) {
       high = fmax(high, s->radiosity[k * t->width + b]);
     }
     if (low < -least * high || (low < 0 && high == 0))
-      return hr2di_fail(&s->links->message, HR2D_ENOT_CONVERGED,
-                        "in band %zu the links reflect more light than falls on them, so that "
-                        "it grows for ever: closure or finer links are needed",
-                        b);
+      return hr2di_message_fail(
+          &s->links->message, HR2D_ENOT_CONVERGED,
+          "in band %zu the links reflect more light than falls on them, so that "
+          "it grows for ever: closure or finer links are needed",
+          b);
   }
   return HR2D_OK;
 }
@@ -174,15 +176,16 @@ static hr2d_status solve(hr2d_linkset *links, const hr2d_solve_options *options,
 hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *given,
                        hr2d_solution **solution) {
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
-  if (given) hr2di_copy_sized(&options, sizeof options, given);
+  if (given) hr2di_sized_copy(&options, sizeof options, given);
   hr2d_status status = check_options(links, &options);
-  if (!status) status = hr2di_check_existence(links);
+  if (!status) status = hr2di_existence_check(links);
   if (status) return status;
   links->solving = 1;
   atomic_fetch_add(&links->hierarchy->readers, 1);
   status = solve(links, &options, solution);
   atomic_fetch_sub(&links->hierarchy->readers, 1);
   links->solving = 0;
-  if (status == HR2D_ENOMEM) hr2di_fail(&links->message, status, "out of memory for the solve");
+  if (status == HR2D_ENOMEM)
+    hr2di_message_fail(&links->message, status, "out of memory for the solve");
   return status;
 }

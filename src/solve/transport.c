@@ -50,17 +50,17 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
 
 void hr2di_transport_clear(hr2di_transport *t) {
   hr2di_push_pull_clear(&t->trees);
-  hr2di_free(&t->alloc, t->leaf);
-  hr2di_free(&t->alloc, t->up);
-  hr2di_free(&t->alloc, t->down);
-  hr2di_free(&t->alloc, t->closure);
-  hr2di_free(&t->alloc, t->sky);
+  hr2di_alloc_free(&t->alloc, t->leaf);
+  hr2di_alloc_free(&t->alloc, t->up);
+  hr2di_alloc_free(&t->alloc, t->down);
+  hr2di_alloc_free(&t->alloc, t->closure);
+  hr2di_alloc_free(&t->alloc, t->sky);
 }
 
-void hr2di_raise(hr2di_transport *t, const double *leaf_field) {
+void hr2di_transport_pull(hr2di_transport *t, const double *leaf_field) {
   for (size_t k = 0; k < t->leaves; k++)
     memcpy(t->up + t->leaf[k] * t->width, leaf_field + k * t->width, t->width * sizeof(double));
-  hr2di_pull(&t->trees, t->up);
+  hr2di_push_pull_up(&t->trees, t->up);
 }
 
 /* Power received over the links of one block, both ways unless directed. */
@@ -88,7 +88,7 @@ static inline void add_bands(const double *c, size_t order, size_t bands, const 
                              double *to) {
   for (size_t l = 0; l < order; l++)
     for (size_t b = 0; b < bands; b++)
-      to[l * bands + b] += hr2di_dot(c + l * order, from + b, bands, order);
+      to[l * bands + b] += hr2di_dot_strided(c + l * order, from + b, bands, order);
 }
 
 static void add_block(const double *c, size_t order, size_t bands, const double *from,
@@ -108,10 +108,10 @@ static void add_transposed(const double *c, size_t order, size_t bands, const do
         to[m * bands + b] += c[l * order + m] * from[l * bands + b];
 }
 
-/* Both, in one pass over the block of a grey scene; sums as those of hr2di_dot(). */
-void hr2di_multiply_block(const double *restrict c, size_t order, const double *restrict up_i,
-                          const double *restrict up_j, double *restrict down_i,
-                          double *restrict down_j) {
+/* Both, in one pass over the block of a grey scene; sums as those of hr2di_dot_strided(). */
+void hr2di_transport_multiply(const double *restrict c, size_t order,
+                              const double *restrict up_i, const double *restrict up_j,
+                              double *restrict down_i, double *restrict down_j) {
   for (size_t l = 0; l < order; l++) {
     const double *row = c + l * order, here = up_i[l];
     double s0 = 0, s1 = 0, s2 = 0, s3 = 0, rest = 0;
@@ -127,14 +127,14 @@ void hr2di_multiply_block(const double *restrict c, size_t order, const double *
       rest += row[m] * up_j[m];
       down_j[m] += row[m] * here;
     }
-    down_i[l] += hr2di_four(s0, s1, s2, s3) + rest;
+    down_i[l] += hr2di_dot_four(s0, s1, s2, s3) + rest;
   }
 }
 
 /* The same with blocks, for links from number `first` on. */
-static void gather_orders(const hr2di_transport *t, hr2di_part part, uint64_t first,
+static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, uint64_t first,
                           size_t count, double *down) {
-  const hr2di_blocks *blocks = &t->links->blocks;
+  const hr2di_link_blocks *blocks = &t->links->blocks;
   const size_t order = t->order, bands = t->bands, width = t->width;
   for (uint64_t k = first; k < first + count; k++) {
     if (part == HR2DI_DISTANT_LINKS && !blocks->distant[k]) continue;
@@ -142,7 +142,7 @@ static void gather_orders(const hr2di_transport *t, hr2di_part part, uint64_t fi
     const double *c = blocks->value + k * order * order;
     const size_t i = pair.first * width, j = pair.second * width;
     if (bands == 1 && !t->links->directed) {
-      hr2di_multiply_block(c, order, t->up + i, t->up + j, down + i, down + j);
+      hr2di_transport_multiply(c, order, t->up + i, t->up + j, down + i, down + j);
       continue;
     }
     add_block(c, order, bands, t->up + j, down + i);
@@ -150,7 +150,7 @@ static void gather_orders(const hr2di_transport *t, hr2di_part part, uint64_t fi
   }
 }
 
-static void gather_slice(hr2di_transport *t, hr2di_part part, size_t slice) {
+static void gather_slice(hr2di_transport *t, hr2di_transport_part part, size_t slice) {
   const hr2di_store *store = &t->links->store;
   const size_t from = slice * store->blocks / t->slices;
   const size_t to = (slice + 1) * store->blocks / t->slices;
@@ -158,9 +158,9 @@ static void gather_slice(hr2di_transport *t, hr2di_part part, size_t slice) {
   memset(down, 0, t->elements * t->width * sizeof *down);
   const int plain = !t->hierarchy->scene->effect[HR2D_EFFECT_BANDS].on;
   for (size_t k = from; k < to; k++) {
-    const size_t count = hr2di_store_block_size(store, k);
+    const size_t count = hr2di_store_chunk_size(store, k);
     if (t->order > 1)
-      gather_orders(t, part, (uint64_t)k * HR2DI_BLOCK_LINKS, count, down);
+      gather_orders(t, part, (uint64_t)k * HR2DI_CHUNK_LINKS, count, down);
     else
       gather_block(store->block[k], count, t->bands, plain, t->links->directed, t->up, down);
   }
@@ -187,13 +187,13 @@ static void lower(hr2di_transport *t, double *irradiance) {
   const hr2d_element *element = t->hierarchy->element;
   for (size_t e = 0; e < t->elements; e++)
     for (size_t k = 0; k < width; k++) t->down[e * width + k] /= element[e].length;
-  hr2di_push(&t->trees, t->down);
+  hr2di_push_pull_down(&t->trees, t->down);
   for (size_t k = 0; k < t->leaves; k++)
     memcpy(irradiance + k * width, t->down + t->leaf[k] * width, width * sizeof(double));
 }
 
 /* One thread takes none of OpenMP, whose runtime ends the program where it has no memory. */
-static void gather_slices(hr2di_transport *t, hr2di_part part) {
+static void gather_slices(hr2di_transport *t, hr2di_transport_part part) {
 #ifdef _OPENMP
   const int threads = t->threads ? (int)t->threads : omp_get_max_threads();
   if (threads > 1 && t->slices > 1) {
@@ -205,9 +205,9 @@ static void gather_slices(hr2di_transport *t, hr2di_part part) {
   for (size_t slice = 0; slice < t->slices; slice++) gather_slice(t, part, slice);
 }
 
-void hr2di_gather_part(hr2di_transport *t, hr2di_part part, const double *radiosity,
-                       double *irradiance) {
-  hr2di_raise(t, radiosity);
+void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
+                                const double *radiosity, double *irradiance) {
+  hr2di_transport_pull(t, radiosity);
   gather_slices(t, part);
   sum_slices(t);
   if (t->links->roots.clusters && part == HR2DI_ALL_LINKS) gather_clusters(t);
@@ -215,15 +215,16 @@ void hr2di_gather_part(hr2di_transport *t, hr2di_part part, const double *radios
   t->sweeps++;
 }
 
-void hr2di_gather(hr2di_transport *t, const double *radiosity, double *irradiance) {
-  hr2di_gather_part(t, HR2DI_ALL_LINKS, radiosity, irradiance);
+void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *irradiance) {
+  hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, radiosity, irradiance);
   const size_t square = t->order * t->order;
   for (size_t k = 0; k < t->leaves && t->closure; k++)
     add_block(t->closure + k * square, t->order, t->bands, radiosity + k * t->width,
               irradiance + k * t->width);
 }
 
-void hr2di_add_background(const hr2di_transport *t, const double *light, double *irradiance) {
+void hr2di_transport_add_background(const hr2di_transport *t, const double *light,
+                                    double *irradiance) {
   for (size_t k = 0; k < t->leaves * t->order && t->sky; k++)
     for (size_t b = 0; b < t->bands; b++) irradiance[k * t->bands + b] += t->sky[k] * light[b];
 }

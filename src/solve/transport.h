@@ -36,21 +36,22 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
 void hr2di_transport_clear(hr2di_transport *t);
 
 /* A leaf field on every element, into t->up. */
-void hr2di_raise(hr2di_transport *t, const double *leaf_field);
+void hr2di_transport_pull(hr2di_transport *t, const double *leaf_field);
 
 /* irradiance = K radiosity: H_i = Σ_j AF_ij B_j / A_i on leaves. */
-void hr2di_gather(hr2di_transport *t, const double *radiosity, double *irradiance);
+void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *irradiance);
 
 /* What `part` of the links carries alone: those between distant pairs, or all. */
-typedef enum hr2di_part { HR2DI_ALL_LINKS, HR2DI_DISTANT_LINKS } hr2di_part;
-void hr2di_gather_part(hr2di_transport *t, hr2di_part part, const double *radiosity,
-                       double *irradiance);
+typedef enum hr2di_transport_part { HR2DI_ALL_LINKS, HR2DI_DISTANT_LINKS } hr2di_transport_part;
+void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
+                                const double *radiosity, double *irradiance);
 
 /* down_i += C up_j and down_j += Cᵀ up_i of one block. */
-void hr2di_multiply_block(const double *block, size_t order, const double *up_i,
-                          const double *up_j, double *down_i, double *down_j);
+void hr2di_transport_multiply(const double *block, size_t order, const double *up_i,
+                              const double *up_j, double *down_i, double *down_j);
 
 /* Adds what arrives from a background of so much light per band. */
-void hr2di_add_background(const hr2di_transport *t, const double *light, double *irradiance);
+void hr2di_transport_add_background(const hr2di_transport *t, const double *light,
+                                    double *irradiance);
 
 #endif

@@ -45,7 +45,7 @@ static void flush(hr2di_writer *w) {
   w->used = 0;
 }
 
-void hr2di_put_text(hr2di_writer *w, const char *text, size_t size) {
+void hr2di_writer_text(hr2di_writer *w, const char *text, size_t size) {
   if (size > sizeof w->buffer - w->used) flush(w);
   memcpy(w->buffer + w->used, text, size);
   w->hash = hr2di_hash_bytes(w->hash, text, size);
@@ -55,18 +55,18 @@ void hr2di_put_text(hr2di_writer *w, const char *text, size_t size) {
 static void put(hr2di_writer *w, uint64_t word, size_t size) {
   unsigned char byte[8];
   encode(byte, word, size);
-  hr2di_put_text(w, (const char *)byte, size);
+  hr2di_writer_text(w, (const char *)byte, size);
 }
 
-void hr2di_put_half(hr2di_writer *w, uint32_t word) {
+void hr2di_writer_half(hr2di_writer *w, uint32_t word) {
   put(w, word, 4);
 }
 
-void hr2di_put_word(hr2di_writer *w, uint64_t word) {
+void hr2di_writer_word(hr2di_writer *w, uint64_t word) {
   put(w, word, 8);
 }
 
-void hr2di_put_double(hr2di_writer *w, double value) {
+void hr2di_writer_double(hr2di_writer *w, double value) {
   uint64_t word;
   memcpy(&word, &value, sizeof word);
   put(w, word, 8);
@@ -87,7 +87,7 @@ void hr2di_reader_init(hr2di_reader *r, hr2d_read_fn read, void *ctx) {
   r->at = r->held = 0;
 }
 
-void hr2di_expect(hr2di_reader *r, uint64_t bytes) {
+void hr2di_reader_expect(hr2di_reader *r, uint64_t bytes) {
   r->expected += bytes;
 }
 
@@ -102,7 +102,7 @@ static void fill(hr2di_reader *r) {
   if (some) r->status = r->read(r->ctx, r->buffer + left, some);
 }
 
-void hr2di_get_text(hr2di_reader *r, char *text, size_t size) {
+void hr2di_reader_text(hr2di_reader *r, char *text, size_t size) {
   if (!r->status && r->held - r->at < size) fill(r);
   if (!r->status && r->held - r->at < size) r->status = HR2D_ESYNTAX;
   memset(text, 0, size);
@@ -114,19 +114,19 @@ void hr2di_get_text(hr2di_reader *r, char *text, size_t size) {
 
 static uint64_t get(hr2di_reader *r, size_t size) {
   unsigned char byte[8];
-  hr2di_get_text(r, (char *)byte, size);
+  hr2di_reader_text(r, (char *)byte, size);
   return decode(byte, size);
 }
 
-uint32_t hr2di_get_half(hr2di_reader *r) {
+uint32_t hr2di_reader_half(hr2di_reader *r) {
   return (uint32_t)get(r, 4);
 }
 
-uint64_t hr2di_get_word(hr2di_reader *r) {
+uint64_t hr2di_reader_word(hr2di_reader *r) {
   return get(r, 8);
 }
 
-double hr2di_get_double(hr2di_reader *r) {
+double hr2di_reader_double(hr2di_reader *r) {
   const uint64_t word = get(r, 8);
   double value;
   memcpy(&value, &word, sizeof value);

@@ -29,10 +29,10 @@ typedef struct hr2di_writer {
 } hr2di_writer;
 
 void hr2di_writer_init(hr2di_writer *w, hr2d_write_fn write, void *ctx);
-void hr2di_put_text(hr2di_writer *w, const char *text, size_t size);
-void hr2di_put_half(hr2di_writer *w, uint32_t word);
-void hr2di_put_word(hr2di_writer *w, uint64_t word);
-void hr2di_put_double(hr2di_writer *w, double value);
+void hr2di_writer_text(hr2di_writer *w, const char *text, size_t size);
+void hr2di_writer_half(hr2di_writer *w, uint32_t word);
+void hr2di_writer_word(hr2di_writer *w, uint64_t word);
+void hr2di_writer_double(hr2di_writer *w, double value);
 
 /* Writes the hash, and what is still in the buffer. */
 hr2d_status hr2di_writer_end(hr2di_writer *w);
@@ -51,12 +51,12 @@ typedef struct hr2di_reader {
 void hr2di_reader_init(hr2di_reader *r, hr2d_read_fn read, void *ctx);
 
 /* That so many bytes more will be asked for, so that they can be read in blocks. */
-void hr2di_expect(hr2di_reader *r, uint64_t bytes);
+void hr2di_reader_expect(hr2di_reader *r, uint64_t bytes);
 
-void hr2di_get_text(hr2di_reader *r, char *text, size_t size);
-uint32_t hr2di_get_half(hr2di_reader *r);
-uint64_t hr2di_get_word(hr2di_reader *r);
-double hr2di_get_double(hr2di_reader *r);
+void hr2di_reader_text(hr2di_reader *r, char *text, size_t size);
+uint32_t hr2di_reader_half(hr2di_reader *r);
+uint64_t hr2di_reader_word(hr2di_reader *r);
+double hr2di_reader_double(hr2di_reader *r);
 
 /* Reads the hash; HR2D_ESYNTAX if it is not that of what was read. */
 hr2d_status hr2di_reader_end(hr2di_reader *r);

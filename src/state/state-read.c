@@ -22,7 +22,7 @@ typedef struct loading {
 } loading;
 
 static hr2d_status damaged(loading *l, const char *what) {
-  return hr2di_fail(&l->links->message, HR2D_ESYNTAX, "the state is damaged: %s", what);
+  return hr2di_message_fail(&l->links->message, HR2D_ESYNTAX, "the state is damaged: %s", what);
 }
 
 static void get_head(loading *l, hr2d_solve_work *work) {
@@ -31,11 +31,11 @@ static void get_head(loading *l, hr2d_solve_work *work) {
   uint64_t *word[] = {&head->scene,  &head->method, &head->elements, &head->links,
                       &head->solved, &head->order,  &head->bands,    &head->directed};
   uint64_t *counter[HR2DI_STATE_COUNTERS];
-  for (size_t k = 0; k < sizeof word / sizeof *word; k++) *word[k] = hr2di_get_word(r);
-  head->epsilon = hr2di_get_double(r);
-  head->residual = hr2di_get_double(r);
+  for (size_t k = 0; k < sizeof word / sizeof *word; k++) *word[k] = hr2di_reader_word(r);
+  head->epsilon = hr2di_reader_double(r);
+  head->residual = hr2di_reader_double(r);
   hr2di_state_counters(&l->counts, work, counter);
-  for (int k = 0; k < HR2DI_STATE_COUNTERS; k++) *counter[k] = hr2di_get_word(r);
+  for (int k = 0; k < HR2DI_STATE_COUNTERS; k++) *counter[k] = hr2di_reader_word(r);
 }
 
 static hr2d_status check_head(loading *l) {
@@ -43,9 +43,10 @@ static hr2d_status check_head(loading *l) {
   const hr2d_scene *scene = l->links->hierarchy->scene;
   hr2di_message *message = &l->links->message;
   if (head->scene != hr2di_state_scene(scene))
-    return hr2di_fail(message, HR2D_EINVAL, "the state is that of another scene");
+    return hr2di_message_fail(message, HR2D_EINVAL, "the state is that of another scene");
   if (head->method != hr2di_state_method(l->links))
-    return hr2di_fail(message, HR2D_EINVAL, "the state was made with another oracle or policy");
+    return hr2di_message_fail(message, HR2D_EINVAL,
+                              "the state was made with another oracle or policy");
   const uint64_t n = scene->patches;
   if (head->elements < n || (head->elements - n) % 2 || head->elements > UINT32_MAX)
     return damaged(l, "its number of elements");
@@ -61,15 +62,15 @@ static hr2d_status check_head(loading *l) {
 /* Whether it begins as one; also where its beginning cannot be read. */
 static int is_state(hr2di_reader *r) {
   char title[HR2DI_STATE_TITLE_BYTES];
-  hr2di_expect(r, sizeof title);
-  hr2di_get_text(r, title, sizeof title);
+  hr2di_reader_expect(r, sizeof title);
+  hr2di_reader_text(r, title, sizeof title);
   return r->status ? r->status != HR2D_ESYNTAX
                    : !memcmp(title, HR2DI_STATE_TITLE, sizeof title);
 }
 
 static hr2d_status read_head(loading *l, hr2d_solve_work *work) {
   hr2di_reader *r = &l->reader;
-  hr2di_expect(r, HR2DI_STATE_HEAD_BYTES);
+  hr2di_reader_expect(r, HR2DI_STATE_HEAD_BYTES);
   get_head(l, work);
   if (r->status) return r->status;
   const hr2d_status status = check_head(l);
@@ -77,22 +78,23 @@ static hr2d_status read_head(loading *l, hr2d_solve_work *work) {
   const uint64_t divisions = (head->elements - l->links->hierarchy->scene->patches) / 2;
   const uint64_t items = head->solved * head->order;
   if (!status && head->bands > UINT64_MAX / 64 / items) return damaged(l, "its size");
-  hr2di_expect(r, 4 * divisions + 16 * head->links + 32 * head->bands +
-                      16 * items * head->bands + 8);
+  hr2di_reader_expect(r, 4 * divisions + 16 * head->links + 32 * head->bands +
+                             16 * items * head->bands + 8);
   return status;
 }
 
 static hr2d_status read_elements(loading *l) {
   hr2d_hierarchy *h = l->links->hierarchy;
   while (h->elements < l->head.elements) {
-    const uint32_t element = hr2di_get_half(&l->reader);
+    const uint32_t element = hr2di_reader_half(&l->reader);
     if (l->reader.status) return l->reader.status;
-    if (element >= h->elements || h->element[element].child || !hr2di_divisible(h, element) ||
-        h->level[element] == UINT16_MAX)
+    if (element >= h->elements || h->element[element].child ||
+        !hr2di_element_divisible(h, element) || h->level[element] == UINT16_MAX)
       return damaged(l, "an element that cannot be divided");
     const hr2d_status status = hr2di_hierarchy_reserve(h);
-    if (status) return hr2di_fail(&l->links->message, status, "out of memory for elements");
-    hr2di_halve(h, element);
+    if (status)
+      return hr2di_message_fail(&l->links->message, status, "out of memory for elements");
+    hr2di_element_halve(h, element);
   }
   return HR2D_OK;
 }
@@ -108,21 +110,21 @@ static hr2d_status read_links(loading *l) {
   hr2di_reader *r = &l->reader;
   for (uint64_t k = 0; k < l->head.links; k++) {
     hr2d_pair pair;
-    pair.first = hr2di_get_half(r);
-    pair.second = hr2di_get_half(r);
-    const double area = hr2di_get_double(r);
+    pair.first = hr2di_reader_half(r);
+    pair.second = hr2di_reader_half(r);
+    const double area = hr2di_reader_double(r);
     if (r->status) return r->status;
     if (!is_link(l->links->hierarchy, pair, area)) return damaged(l, "a link");
     if (hr2di_store_add(&l->store, &l->links->alloc, &pair, &area, 1))
-      return hr2di_fail(&l->links->message, HR2D_ENOMEM, "out of memory after %llu links",
-                        (unsigned long long)k);
+      return hr2di_message_fail(&l->links->message, HR2D_ENOMEM,
+                                "out of memory after %llu links", (unsigned long long)k);
   }
   return HR2D_OK;
 }
 
 static hr2d_status read_doubles(loading *l, double *value, size_t count) {
   for (size_t k = 0; k < count; k++) {
-    value[k] = hr2di_get_double(&l->reader);
+    value[k] = hr2di_reader_double(&l->reader);
     if (l->reader.status) return l->reader.status;
     if (!isfinite(value[k])) return damaged(l, "a value that is not finite");
   }
@@ -133,7 +135,7 @@ static hr2d_status read_doubles(loading *l, double *value, size_t count) {
 static hr2d_status read_power(loading *l, hr2d_power *power) {
   double *part[] = {&power->emitted, &power->received, &power->absorbed, &power->escaped};
   for (int k = 0; k < 4; k++) {
-    *part[k] = hr2di_get_double(&l->reader);
+    *part[k] = hr2di_reader_double(&l->reader);
     if (isnan(*part[k])) return damaged(l, "a power that is no number");
   }
   return l->reader.status;
@@ -144,7 +146,7 @@ static hr2d_status read_solution(loading *l, const hr2d_solve_work *work) {
   const hr2di_state_head *head = &l->head;
   const size_t bands = (size_t)head->bands, order = (size_t)head->order;
   const size_t count = (size_t)head->solved * order * bands;
-  hr2d_solution *s = l->solution = hr2di_calloc(alloc, 1, sizeof *s);
+  hr2d_solution *s = l->solution = hr2di_alloc_zero(alloc, 1, sizeof *s);
   if (s) {
     *s = (hr2d_solution){.alloc = *alloc,
                          .links = l->links,
@@ -159,7 +161,8 @@ static hr2d_status read_solution(loading *l, const hr2d_solve_work *work) {
     s->irradiance = hr2di_alloc(alloc, count, sizeof *s->irradiance);
   }
   if (!s || !s->power || !s->value || !s->irradiance)
-    return hr2di_fail(&l->links->message, HR2D_ENOMEM, "out of memory for the solution");
+    return hr2di_message_fail(&l->links->message, HR2D_ENOMEM,
+                              "out of memory for the solution");
   hr2d_status status = HR2D_OK;
   for (size_t band = 0; band < bands && !status; band++)
     status = read_power(l, &s->power[band]);
@@ -170,8 +173,8 @@ static hr2d_status read_solution(loading *l, const hr2d_solve_work *work) {
 static hr2d_status read_all(loading *l) {
   hr2d_solve_work work = {0};
   if (!is_state(&l->reader))
-    return hr2di_fail(&l->links->message, HR2D_ESYNTAX,
-                      "this is not a state, or not of this version");
+    return hr2di_message_fail(&l->links->message, HR2D_ESYNTAX,
+                              "this is not a state, or not of this version");
   hr2d_status status = read_head(l, &work);
   if (!status) status = read_elements(l);
   if (!status) status = read_links(l);
@@ -181,8 +184,8 @@ static hr2d_status read_all(loading *l) {
   if (!status) status = l->reader.status;
   if (status == HR2D_ESYNTAX && l->reader.status) return damaged(l, "it ends too early");
   if (status && status == l->reader.status)
-    return hr2di_fail(&l->links->message, status, "reading the state: %s",
-                      hr2d_strerror(status));
+    return hr2di_message_fail(&l->links->message, status, "reading the state: %s",
+                              hr2d_strerror(status));
   return status;
 }
 
@@ -201,7 +204,8 @@ hr2d_status hr2d_state_read(hr2d_linkset *links, hr2d_read_fn read, void *ctx,
   hr2d_hierarchy *h = links->hierarchy;
   const size_t roots = h->scene->patches;
   if (links->store.count > 0 || h->elements > roots || hr2di_hierarchy_busy(h))
-    return hr2di_fail(&links->message, HR2D_ESTATE, "the set or its hierarchy is not empty");
+    return hr2di_message_fail(&links->message, HR2D_ESTATE,
+                              "the set or its hierarchy is not empty");
   loading l = {.links = links};
   hr2di_reader_init(&l.reader, read, ctx);
   h->refining = 1;

@@ -67,20 +67,20 @@ static void put_head(hr2di_writer *w, const hr2d_solution *s) {
                            s->order,
                            s->bands,
                            (uint64_t)links->directed};
-  hr2di_put_text(w, HR2DI_STATE_TITLE, HR2DI_STATE_TITLE_BYTES);
-  for (size_t k = 0; k < sizeof head / sizeof *head; k++) hr2di_put_word(w, head[k]);
-  hr2di_put_double(w, links->epsilon);
-  hr2di_put_double(w, s->residual);
+  hr2di_writer_text(w, HR2DI_STATE_TITLE, HR2DI_STATE_TITLE_BYTES);
+  for (size_t k = 0; k < sizeof head / sizeof *head; k++) hr2di_writer_word(w, head[k]);
+  hr2di_writer_double(w, links->epsilon);
+  hr2di_writer_double(w, s->residual);
   hr2di_state_counters(&counts, &work, counter);
-  for (int k = 0; k < HR2DI_STATE_COUNTERS; k++) hr2di_put_word(w, *counter[k]);
+  for (int k = 0; k < HR2DI_STATE_COUNTERS; k++) hr2di_writer_word(w, *counter[k]);
 }
 
 static void put_links(hr2di_writer *w, const hr2di_store *store) {
   for (uint64_t k = 0; k < store->count && !w->status; k++) {
     const hr2d_link *link = hr2di_store_at(store, k);
-    hr2di_put_half(w, link->pair.first);
-    hr2di_put_half(w, link->pair.second);
-    hr2di_put_double(w, link->exchange_area);
+    hr2di_writer_half(w, link->pair.first);
+    hr2di_writer_half(w, link->pair.second);
+    hr2di_writer_double(w, link->exchange_area);
   }
 }
 
@@ -88,13 +88,13 @@ static void put_fields(hr2di_writer *w, const hr2d_solution *s) {
   const size_t count = s->elements * s->order * s->bands;
   for (size_t band = 0; band < s->bands; band++) {
     const hr2d_power *p = &s->power[band];
-    hr2di_put_double(w, p->emitted);
-    hr2di_put_double(w, p->received);
-    hr2di_put_double(w, p->absorbed);
-    hr2di_put_double(w, p->escaped);
+    hr2di_writer_double(w, p->emitted);
+    hr2di_writer_double(w, p->received);
+    hr2di_writer_double(w, p->absorbed);
+    hr2di_writer_double(w, p->escaped);
   }
-  for (size_t k = 0; k < count && !w->status; k++) hr2di_put_double(w, s->value[k]);
-  for (size_t k = 0; k < count && !w->status; k++) hr2di_put_double(w, s->irradiance[k]);
+  for (size_t k = 0; k < count && !w->status; k++) hr2di_writer_double(w, s->value[k]);
+  for (size_t k = 0; k < count && !w->status; k++) hr2di_writer_double(w, s->irradiance[k]);
 }
 
 hr2d_status hr2d_state_write(const hr2d_solution *solution, hr2d_write_fn write, void *ctx) {
@@ -104,7 +104,7 @@ hr2d_status hr2d_state_write(const hr2d_solution *solution, hr2d_write_fn write,
   hr2di_writer_init(&w, write, ctx);
   put_head(&w, solution);
   for (size_t k = h->scene->patches; k < h->elements && !w.status; k += 2)
-    hr2di_put_half(&w, h->parent[k]);
+    hr2di_writer_half(&w, h->parent[k]);
   put_links(&w, &solution->links->store);
   put_fields(&w, solution);
   return hr2di_writer_end(&w);

@@ -14,8 +14,8 @@
 #include "occlusion/walls.h"
 #include "scene/patch-runs.h"
 
-#define HR2DI_NO_VERTEX UINT32_MAX
-#define HR2DI_NO_RUN    UINT32_MAX
+#define HR2DI_NO_VERTEX     UINT32_MAX
+#define HR2DI_EVENTS_NO_RUN UINT32_MAX
 
 typedef struct hr2di_vertices {
   hr2d_allocator alloc;
@@ -31,11 +31,11 @@ typedef struct hr2di_vertices {
 
 /* Of a committed scene; HR2D_OK or HR2D_ENOMEM.  To be ended by hr2di_vertices_clear() in
    either case. */
-hr2d_status hr2di_vertices_make(hr2di_vertices *vertices, const hr2d_scene *scene,
+hr2d_status hr2di_vertices_init(hr2di_vertices *vertices, const hr2d_scene *scene,
                                 const hr2d_allocator *alloc);
 void hr2di_vertices_clear(hr2di_vertices *vertices);
 
-enum { HR2DI_RIGHT = 1, HR2DI_LEFT = 2 };
+enum { HR2DI_EVENTS_RIGHT = 1, HR2DI_EVENTS_LEFT = 2 };
 
 /* Where radiosity or visibility is not smooth: v in the above. */
 typedef struct hr2di_origin {
@@ -53,12 +53,12 @@ int hr2di_origin_reaches(hr2di_vertices *vertices, const hr2di_origin *v, uint32
 
 /* The next of the walls on whose inside p lies, but for rounding; `stack` has room for
    HR2DI_BOX_DEPTH boxes, and box 0 on it, to begin with. */
-uint32_t hr2di_next_host(const hr2di_vertices *vertices, hr2d_point p, uint32_t *stack,
-                         uint32_t *count);
+uint32_t hr2di_events_next_host(const hr2di_vertices *vertices, hr2d_point p, uint32_t *stack,
+                                uint32_t *count);
 
 /* The patch along one side of a wall that has p strictly inside, where the line from → to
    goes through p and is not along the wall; 0 if there is none. */
-int hr2di_patch_across(const hr2di_vertices *vertices, uint32_t wall, unsigned side,
-                       hr2d_point from, hr2d_point to, uint32_t *patch);
+int hr2di_events_patch_across(const hr2di_vertices *vertices, uint32_t wall, unsigned side,
+                              hr2d_point from, hr2d_point to, uint32_t *patch);
 
 #endif

@@ -31,7 +31,7 @@ static void index_ends(hr2di_vertices *t) {
 }
 
 static void index_runs(hr2di_vertices *t) {
-  for (size_t k = 0; k < 2 * t->walls->walls; k++) t->run[k] = HR2DI_NO_RUN;
+  for (size_t k = 0; k < 2 * t->walls->walls; k++) t->run[k] = HR2DI_EVENTS_NO_RUN;
   for (size_t r = 0; r < t->runs.runs; r++) {
     const uint32_t patch = t->runs.patch[t->runs.run[r].first];
     const uint32_t wall = t->walls->of_segment[patch];
@@ -41,16 +41,16 @@ static void index_runs(hr2di_vertices *t) {
   }
 }
 
-hr2d_status hr2di_vertices_make(hr2di_vertices *t, const hr2d_scene *scene,
+hr2d_status hr2di_vertices_init(hr2di_vertices *t, const hr2d_scene *scene,
                                 const hr2d_allocator *alloc) {
   const hr2di_walls *walls = &scene->walls;
   *t = (hr2di_vertices){.alloc = *alloc, .scene = scene, .walls = walls};
   t->blocker = HR2DI_NO_WALL;
   t->point = hr2di_alloc(alloc, walls->vertices, sizeof *t->point);
-  t->first = hr2di_calloc(alloc, walls->vertices + 1, sizeof *t->first);
+  t->first = hr2di_alloc_zero(alloc, walls->vertices + 1, sizeof *t->first);
   t->wall = hr2di_alloc(alloc, 2 * walls->walls, sizeof *t->wall);
   t->run = hr2di_alloc(alloc, 2 * walls->walls, sizeof *t->run);
-  const hr2d_status status = hr2di_runs_make(&t->runs, scene);
+  const hr2d_status status = hr2di_runs_init(&t->runs, scene);
   if (status || !t->point || !t->first || !t->wall || !t->run) return HR2D_ENOMEM;
   index_ends(t);
   index_runs(t);
@@ -58,10 +58,10 @@ hr2d_status hr2di_vertices_make(hr2di_vertices *t, const hr2d_scene *scene,
 }
 
 void hr2di_vertices_clear(hr2di_vertices *t) {
-  hr2di_free(&t->alloc, t->point);
-  hr2di_free(&t->alloc, t->first);
-  hr2di_free(&t->alloc, t->wall);
-  hr2di_free(&t->alloc, t->run);
+  hr2di_alloc_free(&t->alloc, t->point);
+  hr2di_alloc_free(&t->alloc, t->first);
+  hr2di_alloc_free(&t->alloc, t->wall);
+  hr2di_alloc_free(&t->alloc, t->run);
   hr2di_runs_clear(&t->runs);
 }
 
@@ -95,7 +95,7 @@ static int grazes(const hr2di_vertices *t, const ray *r) {
   for (uint32_t k = t->first[r->u]; k < t->first[r->u + 1]; k++) {
     const hr2di_wall *w = &t->walls->wall[t->wall[k]];
     const hr2d_point other = w->vertex[0] == r->u ? w->at.b : w->at.a;
-    const int side = hr2di_side(r->from, r->at, other);
+    const int side = hr2di_orient_sign(r->from, r->at, other);
     if (side > 0) left = 1;
     if (side < 0) right = 1;
     if ((left && right) || (side == 0 && beyond(r, other.x, other.y) > 0)) return 0;
@@ -127,11 +127,14 @@ static int wall_blocks(const hr2di_vertices *t, const ray *r, uint32_t wall) {
   if (wall == r->v->host || ends_at(w, r->u) ||
       (r->v->vertex != HR2DI_NO_VERTEX && ends_at(w, r->v->vertex)))
     return 0;
-  const int a = hr2di_side(r->from, r->at, w->at.a), b = hr2di_side(r->from, r->at, w->at.b);
+  const int a = hr2di_orient_sign(r->from, r->at, w->at.a),
+            b = hr2di_orient_sign(r->from, r->at, w->at.b);
   if (a * b > 0) return 0;
   if (a == 0 || b == 0)
     return (a == 0 && end_blocks(t, r, w, 0)) || (b == 0 && end_blocks(t, r, w, 1));
-  return hr2di_side(w->at.a, w->at.b, r->from) * hr2di_side(w->at.a, w->at.b, r->at) < 0 &&
+  return hr2di_orient_sign(w->at.a, w->at.b, r->from) *
+                 hr2di_orient_sign(w->at.a, w->at.b, r->at) <
+             0 &&
          !(r->v->host != HR2DI_NO_WALL && touches(w->at, r->from));
 }
 
@@ -175,12 +178,13 @@ static void meet_wall(const hr2di_vertices *t, const ray *r, uint32_t wall, hit 
   const hr2di_wall *w = &t->walls->wall[wall];
   const hr2d_point a = w->at.a, b = w->at.b;
   if (ends_at(w, r->u)) return;
-  const int at_a = hr2di_side(r->from, r->at, a), at_b = hr2di_side(r->from, r->at, b);
+  const int at_a = hr2di_orient_sign(r->from, r->at, a),
+            at_b = hr2di_orient_sign(r->from, r->at, b);
   if (at_a * at_b > 0) return;
   if (at_a == 0) meet_end(t, r, w, 0, h);
   if (at_b == 0) meet_end(t, r, w, 1, h);
   /* With a on the left, u lies to the right of a→b if the ray is still to meet it. */
-  if (at_a * at_b == 0 || hr2di_side(a, b, r->at) != -at_a) return;
+  if (at_a * at_b == 0 || hr2di_orient_sign(a, b, r->at) != -at_a) return;
   const double from_a = fabs(r->dx * (a.y - r->at.y) - r->dy * (a.x - r->at.x));
   const double from_b = fabs(r->dx * (b.y - r->at.y) - r->dy * (b.x - r->at.x));
   const double f = from_a + from_b > 0 ? from_a / (from_a + from_b) : 0.5;
@@ -224,8 +228,8 @@ static hit first_hit(const hr2di_vertices *t, const ray *r) {
   return h;
 }
 
-uint32_t hr2di_next_host(const hr2di_vertices *t, hr2d_point p, uint32_t *stack,
-                         uint32_t *count) {
+uint32_t hr2di_events_next_host(const hr2di_vertices *t, hr2d_point p, uint32_t *stack,
+                                uint32_t *count) {
   while (*count > 0) {
     const hr2di_box *box = &t->walls->box[stack[--*count]];
     if (p.x < box->x0 - TOUCH || p.x > box->x1 + TOUCH || p.y < box->y0 - TOUCH ||
@@ -241,23 +245,23 @@ uint32_t hr2di_next_host(const hr2di_vertices *t, hr2d_point p, uint32_t *stack,
   return HR2DI_NO_WALL;
 }
 
-int hr2di_patch_across(const hr2di_vertices *t, uint32_t wall, unsigned side, hr2d_point from,
-                       hr2d_point to, uint32_t *patch) {
-  const uint32_t number = t->run[2 * wall + (side == HR2DI_LEFT)];
-  if (number == HR2DI_NO_RUN) return 0;
+int hr2di_events_patch_across(const hr2di_vertices *t, uint32_t wall, unsigned side,
+                              hr2d_point from, hr2d_point to, uint32_t *patch) {
+  const uint32_t number = t->run[2 * wall + (side == HR2DI_EVENTS_LEFT)];
+  if (number == HR2DI_EVENTS_NO_RUN) return 0;
   uint32_t low = t->runs.run[number].first, high = t->runs.run[number].last;
   const hr2di_patch *patches = t->scene->patch;
-  const int start = hr2di_side(from, to, patches[t->runs.patch[low]].scaled.a);
+  const int start = hr2di_orient_sign(from, to, patches[t->runs.patch[low]].scaled.a);
   /* The last patch that starts before the line. */
   while (high - low > 1) {
     const uint32_t middle = low + (high - low) / 2;
-    if (hr2di_side(from, to, patches[t->runs.patch[middle]].scaled.a) == start)
+    if (hr2di_orient_sign(from, to, patches[t->runs.patch[middle]].scaled.a) == start)
       low = middle;
     else
       high = middle;
   }
   *patch = t->runs.patch[low];
-  return start != 0 && hr2di_side(from, to, patches[*patch].scaled.b) == -start;
+  return start != 0 && hr2di_orient_sign(from, to, patches[*patch].scaled.b) == -start;
 }
 
 /* Whether there is something to see of v from u's side of its host.  Along the host it is
@@ -265,11 +269,11 @@ int hr2di_patch_across(const hr2di_vertices *t, uint32_t wall, unsigned side, hr
 static int shows(const hr2di_vertices *t, const hr2di_origin *v, uint32_t u) {
   if (v->host == HR2DI_NO_WALL) return 1;
   const hr2di_wall *w = &t->walls->wall[v->host];
-  const int side = hr2di_side(w->at.a, w->at.b, t->point[u]);
+  const int side = hr2di_orient_sign(w->at.a, w->at.b, t->point[u]);
   if (side == 0)
-    return v->vertex == HR2DI_NO_VERTEX && v->sides == (HR2DI_LEFT | HR2DI_RIGHT) &&
-           ends_at(w, u);
-  return (v->sides & (side > 0 ? HR2DI_LEFT : HR2DI_RIGHT)) != 0;
+    return v->vertex == HR2DI_NO_VERTEX &&
+           v->sides == (HR2DI_EVENTS_LEFT | HR2DI_EVENTS_RIGHT) && ends_at(w, u);
+  return (v->sides & (side > 0 ? HR2DI_EVENTS_LEFT : HR2DI_EVENTS_RIGHT)) != 0;
 }
 
 int hr2di_origin_reaches(hr2di_vertices *t, const hr2di_origin *v, uint32_t u,
@@ -284,7 +288,8 @@ int hr2di_origin_reaches(hr2di_vertices *t, const hr2di_origin *v, uint32_t u,
   if (h.near_end != HR2DI_NO_VERTEX && is_foot(t, h.near_end))
     wall = t->walls->host[h.near_end];
   const hr2d_segment w = t->walls->wall[wall].at;
-  const int side = hr2di_side(w.a, w.b, at);
+  const int side = hr2di_orient_sign(w.a, w.b, at);
   if (side == 0) return 0;
-  return hr2di_patch_across(t, wall, side > 0 ? HR2DI_LEFT : HR2DI_RIGHT, v->at, at, patch);
+  return hr2di_events_patch_across(t, wall, side > 0 ? HR2DI_EVENTS_LEFT : HR2DI_EVENTS_RIGHT,
+                                   v->at, at, patch);
 }

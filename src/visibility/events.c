@@ -60,21 +60,21 @@ static hr2d_status settle(finder *f) {
 
 static hr2d_status add(finder *f, uint32_t patch, double at, unsigned generation,
                        uint32_t via) {
-  if (!(at >= ALIKE && 1 - at >= ALIKE) || !hr2di_lit(f->scene, patch)) return HR2D_OK;
+  if (!(at >= ALIKE && 1 - at >= ALIKE) || !hr2di_scene_lit(f->scene, patch)) return HR2D_OK;
   /* Half of them are more than there may be: some must be alike. */
   if (f->count / 2 > f->most) {
     const hr2d_status status = settle(f);
     if (status) return status;
   }
-  if (hr2di_reserve(&f->alloc, &f->found, &f->capacity, f->count + 1, sizeof *f->found))
+  if (hr2di_alloc_reserve(&f->alloc, &f->found, &f->capacity, f->count + 1, sizeof *f->found))
     return HR2D_ENOMEM;
   f->found[f->count++] = (candidate){{patch, at, generation}, via};
   return HR2D_OK;
 }
 
 static hr2d_status add_origin(finder *f, hr2di_origin origin) {
-  if (hr2di_reserve(&f->alloc, &f->origin, &f->origin_capacity, f->origins + 1,
-                    sizeof *f->origin))
+  if (hr2di_alloc_reserve(&f->alloc, &f->origin, &f->origin_capacity, f->origins + 1,
+                          sizeof *f->origin))
     return HR2D_ENOMEM;
   f->origin[f->origins++] = origin;
   return HR2D_OK;
@@ -83,8 +83,8 @@ static hr2d_status add_origin(finder *f, hr2di_origin origin) {
 /* The sides of a wall on which another one that has p inside is seen. */
 static unsigned crossed(const hr2di_vertices *t, hr2d_point p, uint32_t wall) {
   uint32_t stack[HR2DI_BOX_DEPTH] = {0}, count = 1, host;
-  while ((host = hr2di_next_host(t, p, stack, &count)) != HR2DI_NO_WALL)
-    if (host != wall) return HR2DI_LEFT | HR2DI_RIGHT;
+  while ((host = hr2di_events_next_host(t, p, stack, &count)) != HR2DI_NO_WALL)
+    if (host != wall) return HR2DI_EVENTS_LEFT | HR2DI_EVENTS_RIGHT;
   return 0;
 }
 
@@ -97,9 +97,9 @@ static hr2d_status add_joint(finder *f, hr2d_point p, uint32_t wall, unsigned si
 }
 
 static hr2d_status add_joints(finder *f, uint32_t wall, unsigned side) {
-  const uint32_t number = f->vertices.run[2 * wall + (side == HR2DI_LEFT)];
+  const uint32_t number = f->vertices.run[2 * wall + (side == HR2DI_EVENTS_LEFT)];
   hr2d_status status = HR2D_OK;
-  if (number == HR2DI_NO_RUN) return status;
+  if (number == HR2DI_EVENTS_NO_RUN) return status;
   const hr2di_run run = f->vertices.runs.run[number];
   const uint32_t *patch = f->vertices.runs.patch;
   for (uint32_t k = run.first; k < run.last && !status; k++) {
@@ -116,12 +116,12 @@ static hr2d_status add_joints(finder *f, uint32_t wall, unsigned side) {
 static unsigned sides_of(const hr2di_vertices *t, uint32_t vertex) {
   const uint32_t host = t->walls->host[vertex];
   unsigned sides = 0;
-  if (host == HR2DI_NO_WALL) return HR2DI_LEFT | HR2DI_RIGHT;
+  if (host == HR2DI_NO_WALL) return HR2DI_EVENTS_LEFT | HR2DI_EVENTS_RIGHT;
   const hr2d_segment h = t->walls->wall[host].at;
   for (uint32_t k = t->first[vertex]; k < t->first[vertex + 1]; k++) {
     const hr2di_wall *w = &t->walls->wall[t->wall[k]];
-    const int side = hr2di_side(h.a, h.b, w->vertex[0] == vertex ? w->at.b : w->at.a);
-    sides |= side > 0 ? HR2DI_LEFT : HR2DI_RIGHT;
+    const int side = hr2di_orient_sign(h.a, h.b, w->vertex[0] == vertex ? w->at.b : w->at.a);
+    sides |= side > 0 ? HR2DI_EVENTS_LEFT : HR2DI_EVENTS_RIGHT;
   }
   return sides | crossed(t, t->point[vertex], host);
 }
@@ -135,8 +135,8 @@ static hr2d_status add_vertices(finder *f) {
       status = add_origin(f, (hr2di_origin){t->point[v], v, t->walls->host[v], sides_of(t, v),
                                             HR2DI_NO_VERTEX});
   for (uint32_t w = 0; w < t->walls->walls && !status; w++) {
-    status = add_joints(f, w, HR2DI_LEFT);
-    if (!status) status = add_joints(f, w, HR2DI_RIGHT);
+    status = add_joints(f, w, HR2DI_EVENTS_LEFT);
+    if (!status) status = add_joints(f, w, HR2DI_EVENTS_RIGHT);
   }
   return status;
 }
@@ -168,7 +168,8 @@ static hr2d_status add_events(finder *f, unsigned generation) {
     const hr2d_segment w = walls->wall[host].at;
     const double along = (s.b.x - s.a.x) * (w.b.x - w.a.x) + (s.b.y - s.a.y) * (w.b.y - w.a.y);
     status = add_origin(f, (hr2di_origin){point_on(f->scene, c.event), HR2DI_NO_VERTEX, host,
-                                          along > 0 ? HR2DI_LEFT : HR2DI_RIGHT, c.via});
+                                          along > 0 ? HR2DI_EVENTS_LEFT : HR2DI_EVENTS_RIGHT,
+                                          c.via});
   }
   return status;
 }
@@ -185,7 +186,7 @@ static hr2d_status follow_lines(finder *f, unsigned generation) {
       if (v->vertex == u || v->via == u || !hr2di_origin_reaches(&f->vertices, v, u, &patch))
         continue;
       const hr2d_segment s = f->scene->patch[patch].scaled;
-      status = add(f, patch, hr2di_crossing(v->at, t->point[u], s.a, s.b), generation, u);
+      status = add(f, patch, hr2di_line_crossing(v->at, t->point[u], s.a, s.b), generation, u);
     }
   }
   return status;
@@ -202,11 +203,12 @@ static hr2d_status add_feet_of(finder *f, uint32_t own, hr2d_point foot, hr2d_po
   const hr2di_vertices *t = &f->vertices;
   uint32_t stack[HR2DI_BOX_DEPTH] = {0}, count = 1, wall, patch;
   hr2d_status status = HR2D_OK;
-  while (!status && (wall = hr2di_next_host(t, foot, stack, &count)) != HR2DI_NO_WALL) {
+  while (!status && (wall = hr2di_events_next_host(t, foot, stack, &count)) != HR2DI_NO_WALL) {
     const hr2d_segment w = t->walls->wall[wall].at;
-    const int side = wall == own ? 0 : hr2di_side(w.a, w.b, other);
+    const int side = wall == own ? 0 : hr2di_orient_sign(w.a, w.b, other);
     if (side != 0 &&
-        hr2di_patch_across(t, wall, side > 0 ? HR2DI_LEFT : HR2DI_RIGHT, foot, other, &patch))
+        hr2di_events_patch_across(t, wall, side > 0 ? HR2DI_EVENTS_LEFT : HR2DI_EVENTS_RIGHT,
+                                  foot, other, &patch))
       status =
           add(f, patch, fraction_of(f->scene->patch[patch].scaled, foot), 1, HR2DI_NO_VERTEX);
   }
@@ -225,7 +227,7 @@ static hr2d_status add_feet(finder *f) {
 }
 
 static hr2d_status find(finder *f, unsigned generations) {
-  hr2d_status status = hr2di_vertices_make(&f->vertices, f->scene, &f->alloc);
+  hr2d_status status = hr2di_vertices_init(&f->vertices, f->scene, &f->alloc);
   if (!status) status = add_vertices(f);
   if (!status) status = add_feet(f);
   for (unsigned g = 1; g <= generations && !status; g++) {
@@ -237,7 +239,7 @@ static hr2d_status find(finder *f, unsigned generations) {
   return status;
 }
 
-hr2d_status hr2di_events_find(hr2di_events *events, const hr2d_scene *scene,
+hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
                               const hr2d_allocator *alloc, unsigned generations, size_t most) {
   *events = (hr2di_events){.alloc = *alloc};
   if (generations == 0 || !(scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
@@ -246,18 +248,18 @@ hr2d_status hr2di_events_find(hr2di_events *events, const hr2d_scene *scene,
     return HR2D_OK;
   finder f = {.scene = scene, .alloc = *alloc, .most = most};
   hr2d_status status = find(&f, generations);
-  if (!status &&
-      hr2di_reserve(alloc, &events->event, &events->capacity, f.count, sizeof *events->event))
+  if (!status && hr2di_alloc_reserve(alloc, &events->event, &events->capacity, f.count,
+                                     sizeof *events->event))
     status = HR2D_ENOMEM;
   for (size_t k = 0; k < f.count && !status; k++)
     events->event[events->count++] = f.found[k].event;
   hr2di_vertices_clear(&f.vertices);
-  hr2di_free(alloc, f.origin);
-  hr2di_free(alloc, f.found);
+  hr2di_alloc_free(alloc, f.origin);
+  hr2di_alloc_free(alloc, f.found);
   return status;
 }
 
 void hr2di_events_clear(hr2di_events *events) {
-  hr2di_free(&events->alloc, events->event);
+  hr2di_alloc_free(&events->alloc, events->event);
   *events = (hr2di_events){.alloc = events->alloc};
 }

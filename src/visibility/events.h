@@ -34,7 +34,7 @@ typedef struct hr2di_events {
    tree of walls, 0.1 to 0.6 µs each; generation g+1 one for each event of generation g and each
    vertex.
  */
-hr2d_status hr2di_events_find(hr2di_events *events, const hr2d_scene *scene,
+hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
                               const hr2d_allocator *alloc, unsigned generations, size_t most);
 void hr2di_events_clear(hr2di_events *events);
 

@@ -47,7 +47,7 @@ typedef struct filler {
   matrix *m;
   hr2d_status status;
   hr2d_matrix_counts counts;
-  hr2di_sight sight;
+  hr2di_visibility sight;
   hr2di_wall_list list;
   hr2d_pair pair[BATCH];
   double value[BATCH];
@@ -87,8 +87,8 @@ static hr2d_segment span(const filler *f, hr2di_run r) {
 static int shaft_of(const filler *f, hr2di_run i, hr2di_run j, hr2di_facing *facing,
                     hr2di_shaft *shaft) {
   const hr2d_segment s = span(f, i), t = span(f, j);
-  if (*facing != HR2DI_FACING_FULL) *facing = hr2di_face(&s, &t);
-  return hr2di_shaft_make(shaft, *facing, s, t, s, t);
+  if (*facing != HR2DI_FACING_FULL) *facing = hr2di_facing_of(&s, &t);
+  return hr2di_shaft_init(shaft, *facing, s, t, s, t);
 }
 
 static hr2d_status fill_partial(filler *f, const node *at) {
@@ -101,8 +101,8 @@ static hr2d_status fill_partial(filler *f, const node *at) {
     return HR2D_OK;
   double area;
   int open;
-  const hr2d_status status = hr2di_sight_area(
-      &f->sight, &shaft, hr2di_walls_from(&f->list, at->first), at->count, &area, &open);
+  const hr2d_status status = hr2di_visibility_area(
+      &f->sight, &shaft, hr2di_wall_list_from(&f->list, at->first), at->count, &area, &open);
   if (status) return status;
   put(f, i, j, area);
   f->counts.exchange_areas += (unsigned)open;
@@ -134,7 +134,7 @@ static uint64_t pairs_of(const node *at) {
 /* Fills what needs no further look; *keep if the part is to be halved. */
 static hr2d_status look(filler *f, node *at, const node *parent, int *keep) {
   hr2di_shaft shaft;
-  hr2di_view view = HR2DI_CLEAR;
+  hr2di_visibility_class view = HR2DI_CLEAR;
   *keep = 0;
   const int shaded = shaft_of(f, at->i, at->j, &at->facing, &shaft);
   if (at->facing == HR2DI_FACING_NONE) return HR2D_OK;
@@ -144,9 +144,9 @@ static hr2d_status look(filler *f, node *at, const node *parent, int *keep) {
     return HR2D_OK;
   }
   const hr2d_status status =
-      parent ? hr2di_sight_shrink(&f->sight, &shaft, &f->list, parent->first, parent->count,
-                                  &f->list, &view)
-             : hr2di_sight_collect(&f->sight, &shaft, &f->list, &view);
+      parent ? hr2di_visibility_shrink(&f->sight, &shaft, &f->list, parent->first,
+                                       parent->count, &f->list, &view)
+             : hr2di_visibility_collect(&f->sight, &shaft, &f->list, &view);
   at->count = f->list.count - at->first;
   if (status) return status;
   if (view == HR2DI_CLEAR) fill_clear(f, at->i, at->j);
@@ -246,9 +246,9 @@ static size_t count_threads(const matrix *m) {
 }
 
 static hr2d_status start(matrix *m) {
-  const hr2d_status status = hr2di_runs_make(&m->runs, m->scene);
+  const hr2d_status status = hr2di_runs_init(&m->runs, m->scene);
   if (status) return status;
-  m->element = hr2di_calloc(&m->scene->alloc, m->n, sizeof *m->element);
+  m->element = hr2di_alloc_zero(&m->scene->alloc, m->n, sizeof *m->element);
   if (!m->element) return HR2D_ENOMEM;
   for (size_t k = 0; k < m->n; k++) {
     m->element[k].a = m->scene->patch[k].scaled.a;
@@ -260,10 +260,10 @@ static hr2d_status start(matrix *m) {
 
 static hr2d_status hire(matrix *m, filler **team, size_t count) {
   for (size_t k = 0; k < count; k++) {
-    team[k] = hr2di_calloc(&m->scene->alloc, 1, sizeof **team);
+    team[k] = hr2di_alloc_zero(&m->scene->alloc, 1, sizeof **team);
     if (!team[k]) return HR2D_ENOMEM;
     team[k]->m = m;
-    hr2di_sight_start(&team[k]->sight, &m->scene->walls, &m->scene->alloc);
+    hr2di_visibility_init(&team[k]->sight, &m->scene->walls, &m->scene->alloc);
   }
   return HR2D_OK;
 }
@@ -278,9 +278,9 @@ static hr2d_status dismiss(matrix *m, filler **team, size_t count, hr2d_matrix_c
     sum->blocked_pairs += f->counts.blocked_pairs;
     sum->visibility_tests += f->sight.tests;
     if (f->status && (!status || status == HR2D_STOPPED)) status = f->status;
-    hr2di_sight_end(&f->sight);
-    hr2di_free(&m->scene->alloc, f->list.wall);
-    hr2di_free(&m->scene->alloc, f);
+    hr2di_visibility_clear(&f->sight);
+    hr2di_alloc_free(&m->scene->alloc, f->list.wall);
+    hr2di_alloc_free(&m->scene->alloc, f);
   }
   return status;
 }
@@ -312,13 +312,13 @@ hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_opti
               .area = area,
               .unit = hr2d_scene_unit(scene),
               .options = HR2D_MATRIX_OPTIONS_INIT};
-  if (options) hr2di_copy_sized(&m.options, sizeof m.options, options);
+  if (options) hr2di_sized_copy(&m.options, sizeof m.options, options);
   hr2d_matrix_counts sum = {0};
   hr2d_status status = start(&m);
   if (!status) status = fill_matrix(&m, &sum);
   if (!status) status = tell_end(&m);
   if (!status && counts) *counts = sum;
   hr2di_runs_clear(&m.runs);
-  hr2di_free(&scene->alloc, m.element);
+  hr2di_alloc_free(&scene->alloc, m.element);
   return status;
 }

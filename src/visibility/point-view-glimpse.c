@@ -12,7 +12,7 @@ static double cross(const hr2di_viewer *w, uint32_t u, uint32_t v) {
   const hr2di_bearing *p = &w->bearing[u], *q = &w->bearing[v];
   const double det = hr2di_det(&p->to, &q->to);
   if (fabs(det) >= 0x1p-40 * p->distance * q->distance) return det;
-  const hr2di_vector uv = hr2di_difference(w->vertex[v], w->vertex[u]);
+  const hr2di_vector uv = hr2di_vector_difference(w->vertex[v], w->vertex[u]);
   return hr2di_det(p->distance < q->distance ? &p->to : &q->to, &uv);
 }
 
@@ -54,7 +54,7 @@ void hr2di_view_note(hr2di_viewer *w, const hr2di_arc *arc, uint32_t right, uint
   const double sine = half_sine(w, right, left);
   if (!(sine > 0)) return;
   if (!arc->front) {
-    hr2di_add(&w->back, sine);
+    hr2di_sum_add(&w->back, sine);
     return;
   }
   double from = fraction_at(w, arc, right), to = fraction_at(w, arc, left);

@@ -69,7 +69,7 @@ struct hr2di_viewer {
 #define HR2DI_VIEW_SCALE 0x1p+400
 
 /* u → v turns left as seen from the point: 1; right: -1; exact for the vectors `to`. */
-static inline int hr2di_turn(const hr2di_viewer *w, uint32_t u, uint32_t v) {
+static inline int hr2di_view_turn(const hr2di_viewer *w, uint32_t u, uint32_t v) {
   const double det = hr2di_det(&w->bearing[u].to, &w->bearing[v].to);
   return (det > 0) - (det < 0);
 }

@@ -12,7 +12,7 @@
 
 static int precedes(const hr2di_viewer *w, hr2di_direction p, hr2di_direction q) {
   if (fabs(p.key - q.key) > SURE) return p.key < q.key;
-  const int turn = hr2di_turn(w, p.vertex, q.vertex);
+  const int turn = hr2di_view_turn(w, p.vertex, q.vertex);
   return turn ? turn > 0 : p.vertex < q.vertex;
 }
 
@@ -52,7 +52,7 @@ static uint32_t rank_directions(hr2di_viewer *w) {
   uint32_t rank = 0;
   for (size_t k = 0; k < count; k++) {
     const int same = k > 0 && d[k].key - d[k - 1].key <= SURE &&
-                     hr2di_turn(w, d[k - 1].vertex, d[k].vertex) == 0;
+                     hr2di_view_turn(w, d[k - 1].vertex, d[k].vertex) == 0;
     if (!same) rank++;
     w->rank[d[k].vertex] = rank;
   }
@@ -79,7 +79,7 @@ static void list_arcs(hr2di_viewer *w, uint32_t horizon) {
 static int side_of(const hr2di_viewer *w, const hr2di_arc *arc, uint32_t v) {
   const uint32_t a = w->end[arc->patch][0], b = w->end[arc->patch][1];
   if (v == a || v == b) return 0;
-  const int side = hr2di_side(w->vertex[a], w->vertex[b], w->vertex[v]);
+  const int side = hr2di_orient_sign(w->vertex[a], w->vertex[b], w->vertex[v]);
   return arc->front ? side : -side;
 }
 

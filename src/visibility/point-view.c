@@ -66,7 +66,7 @@ static int reserve(hr2di_viewer *w) {
   const size_t n = w->patches, ends = 2 * n;
   w->vertex = hr2di_alloc(alloc, ends, sizeof *w->vertex);
   w->end = hr2di_alloc(alloc, n, sizeof *w->end);
-  w->twin = hr2di_calloc(alloc, n, sizeof *w->twin);
+  w->twin = hr2di_alloc_zero(alloc, n, sizeof *w->twin);
   w->bearing = hr2di_alloc(alloc, ends, sizeof *w->bearing);
   w->arc = hr2di_alloc(alloc, n, sizeof *w->arc);
   w->direction[0] = hr2di_alloc(alloc, ends, sizeof **w->direction);
@@ -87,20 +87,20 @@ hr2d_status hr2di_viewer_create(const hr2d_scene *scene, const hr2d_allocator *a
                                 hr2di_viewer **viewer) {
   *viewer = NULL;
   if (scene->patches > UINT32_MAX / 4) return HR2D_ENOMEM;
-  hr2di_viewer *w = hr2di_calloc(alloc, 1, sizeof *w);
+  hr2di_viewer *w = hr2di_alloc_zero(alloc, 1, sizeof *w);
   if (!w) return HR2D_ENOMEM;
   w->alloc = *alloc;
   w->scene = scene;
   w->patches = scene->patches;
   tip *tips = hr2di_alloc(alloc, 2 * w->patches, sizeof *tips);
   if (!tips || !reserve(w)) {
-    hr2di_free(alloc, tips);
+    hr2di_alloc_free(alloc, tips);
     hr2di_viewer_destroy(w);
     return HR2D_ENOMEM;
   }
   number_vertices(w, tips);
   find_twins(w, tips);
-  hr2di_free(alloc, tips);
+  hr2di_alloc_free(alloc, tips);
   *viewer = w;
   return HR2D_OK;
 }
@@ -113,33 +113,33 @@ void hr2di_viewer_destroy(hr2di_viewer *viewer) {
                          viewer->rank,    viewer->direction[1], viewer->starting,
                          viewer->ending,  viewer->heap,         viewer->glimpse,
                          viewer->sorted,  viewer->first};
-  for (size_t k = 0; k < sizeof block / sizeof *block; k++) hr2di_free(&alloc, block[k]);
-  hr2di_free(&alloc, viewer);
+  for (size_t k = 0; k < sizeof block / sizeof *block; k++) hr2di_alloc_free(&alloc, block[k]);
+  hr2di_alloc_free(&alloc, viewer);
 }
 
 /* t times one component of b − a, with its rounding error. */
 static double part(double t, double head, double tail, double *error) {
   const double product = t * head;
-  *error = hr2di_product_tail(t, head, product) + t * tail;
+  *error = hr2di_tail_of_product(t, head, product) + t * tail;
   return product;
 }
 
 /* One component of (vertex − base) − (x − base). */
 static double minus(double p, double p_tail, double q, double q_tail, double *tail) {
   const double plain = p - q;
-  const double rest = hr2di_diff_tail(p, q, plain) + (p_tail - q_tail);
+  const double rest = hr2di_tail_of_difference(p, q, plain) + (p_tail - q_tail);
   const double head = plain + rest;
-  *tail = hr2di_diff_tail(plain, -rest, head);
+  *tail = hr2di_tail_of_difference(plain, -rest, head);
   return head;
 }
 
 static void find_direction(hr2di_bearing *b, const hr2di_vector *axis, double length) {
-  b->distance = hr2di_length(&b->to);
+  b->distance = hr2di_vector_length(&b->to);
   if (!(b->distance > 0)) {
     b->height = 0;
     return;
   }
-  const double along = hr2di_dot(&b->to, axis) / length, height = b->height;
+  const double along = hr2di_vector_dot(&b->to, axis) / length, height = b->height;
   b->sine = along / b->distance;
   b->cosine = height / b->distance;
   b->key = fabs(along) <= height ? -along / height : height / along + (along > 0 ? -2 : 2);
@@ -150,18 +150,18 @@ static void take_bearings(hr2di_viewer *w, size_t patch, double t) {
   const hr2d_point a = w->vertex[w->end[patch][0]], b = w->vertex[w->end[patch][1]];
   const hr2d_point base = t <= .5 ? a : b;
   const double from_base = t <= .5 ? t : t - 1;
-  const hr2di_vector ab = hr2di_difference(b, a);
+  const hr2di_vector ab = hr2di_vector_difference(b, a);
   /* Not so short that squares of its length underflow. */
   const int e = 400 - ilogb(fmax(fabs(ab.x), fabs(ab.y)));
   const hr2di_vector axis = {ldexp(ab.x, e), ldexp(ab.y, e), ldexp(ab.tx, e), ldexp(ab.ty, e),
                              0};
-  const double length = hr2di_length(&axis);
+  const double length = hr2di_vector_length(&axis);
   hr2di_vector x = {.e = 0};
   x.x = part(from_base, ab.x, ab.tx, &x.tx);
   x.y = part(from_base, ab.y, ab.ty, &x.ty);
   for (size_t v = 0; v < w->vertices; v++) {
     hr2di_bearing *bearing = &w->bearing[v];
-    const hr2di_vector d = hr2di_difference(w->vertex[v], base);
+    const hr2di_vector d = hr2di_vector_difference(w->vertex[v], base);
     bearing->height = hr2di_det(&axis, &d) / length;
     bearing->to.x = minus(d.x, d.tx, x.x, x.tx, &bearing->to.tx);
     bearing->to.y = minus(d.y, d.ty, x.y, x.ty, &bearing->to.ty);
@@ -184,16 +184,17 @@ static int side_close(const hr2di_viewer *w, uint32_t p, uint32_t q) {
   const uint32_t *end = w->end[w->patch];
   const double at_a = hr2di_orient(at_p, at_q, w->vertex[end[0]]);
   const double at_b = hr2di_orient(at_p, at_q, w->vertex[end[1]]);
-  const int side = hr2di_sign(at_a * (1 - w->t) + at_b * w->t);
-  if (side || (extent(to_p) > 0 && extent(to_q) > 0 && hr2di_dot(to_p, to_q) > 0)) return side;
-  return hr2di_sign(w->t <= .5 ? at_b - at_a : at_a - at_b);
+  const int side = hr2di_sign_of(at_a * (1 - w->t) + at_b * w->t);
+  if (side || (extent(to_p) > 0 && extent(to_q) > 0 && hr2di_vector_dot(to_p, to_q) > 0))
+    return side;
+  return hr2di_sign_of(w->t <= .5 ? at_b - at_a : at_a - at_b);
 }
 
 /* Which side of a patch the point sees: 1 the front, -1 the back, 0 neither. */
 static int side_seen(const hr2di_viewer *w, uint32_t p, uint32_t q) {
   const hr2di_vector *to_p = &w->bearing[p].to, *to_q = &w->bearing[q].to;
   const double det = hr2di_det(to_p, to_q);
-  if (fabs(det) > 0x1p-100 * extent(to_p) * extent(to_q)) return hr2di_sign(det);
+  if (fabs(det) > 0x1p-100 * extent(to_p) * extent(to_q)) return hr2di_sign_of(det);
   return side_close(w, p, q);
 }
 
@@ -247,11 +248,11 @@ hr2d_status hr2di_view_at(hr2di_viewer *viewer, size_t patch, double t, hr2di_vi
       hr2di_view_note(w, &w->arc[k], w->arc[k].right, w->arc[k].left);
   }
   hr2di_sum front = {0, 0};
-  for (size_t k = 0; k < w->glimpses; k++) hr2di_add(&front, w->glimpse[k].sine);
+  for (size_t k = 0; k < w->glimpses; k++) hr2di_sum_add(&front, w->glimpse[k].sine);
   *seen = (hr2di_view_from){.glimpse = w->glimpse,
                             .count = w->glimpses,
-                            .front = fmin(hr2di_total(&front), 1),
-                            .back = fmin(hr2di_total(&w->back), 1)};
+                            .front = fmin(hr2di_sum_total(&front), 1),
+                            .back = fmin(hr2di_sum_total(&w->back), 1)};
   seen->sky = fmax(1 - seen->front - seen->back, 0);
   return HR2D_OK;
 }

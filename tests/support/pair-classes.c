@@ -158,7 +158,7 @@ static pair corner(randoms *r) {
 static pair clipped(randoms *r) {
   for (;;) {
     const pair p = generic(r);
-    if (hr2di_face(&p.i, &p.j) == HR2DI_FACING_PART) return p;
+    if (hr2di_facing_of(&p.i, &p.j) == HR2DI_FACING_PART) return p;
   }
 }
 
@@ -279,7 +279,7 @@ const int pair_class_count = sizeof pair_classes / sizeof pair_classes[0];
 pair draw_pair(const pair_class *class, randoms *r) {
   pair p = class->draw(r);
   const int turns = random_below(r, 8) ? 4 : 0;
-  for (int k = 0; k < turns && hr2di_face(&p.i, &p.j) == HR2DI_FACING_NONE; k++) {
+  for (int k = 0; k < turns && hr2di_facing_of(&p.i, &p.j) == HR2DI_FACING_NONE; k++) {
     hr2d_segment *s = k & 1 ? &p.j : &p.i;
     *s = (hr2d_segment){s->b, s->a};
   }

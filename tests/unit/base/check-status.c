@@ -88,8 +88,8 @@ START_TEST(sizes_that_overflow_never_reach_the_hooks) {
     size_t capacity = 1;
     const size_t count = refusals[i].count, size = refusals[i].size;
     ck_assert_ptr_null(hr2di_alloc(&alloc, count, size));
-    ck_assert_ptr_null(hr2di_calloc(&alloc, count, size));
-    ck_assert_int_eq(hr2di_reserve(&alloc, &array, &capacity, count, size), -1);
+    ck_assert_ptr_null(hr2di_alloc_zero(&alloc, count, size));
+    ck_assert_int_eq(hr2di_alloc_reserve(&alloc, &array, &capacity, count, size), -1);
     ck_assert_ptr_eq(array, &byte);
     ck_assert_uint_eq(capacity, 1);
   }
@@ -101,21 +101,21 @@ START_TEST(an_array_of_nothing_is_not_a_failure) {
   hook_state hooks = {0, UINT_MAX, 0};
   const hr2d_allocator alloc = counting(&hooks);
   void *blocks[] = {hr2di_alloc(&alloc, 0, 8), hr2di_alloc(&alloc, 8, 0),
-                    hr2di_calloc(&alloc, 0, SIZE_MAX)};
+                    hr2di_alloc_zero(&alloc, 0, SIZE_MAX)};
   for (size_t i = 0; i < 3; i++) {
     ck_assert_ptr_nonnull(blocks[i]);
-    hr2di_free(&alloc, blocks[i]);
+    hr2di_alloc_free(&alloc, blocks[i]);
   }
-  hr2di_free(&alloc, NULL);
+  hr2di_alloc_free(&alloc, NULL);
 }
 END_TEST
 
 START_TEST(calloc_fills_with_zero) {
-  const hr2d_allocator alloc = hr2di_default_allocator();
-  unsigned char *bytes = hr2di_calloc(&alloc, 1000, 1);
+  const hr2d_allocator alloc = hr2di_alloc_default();
+  unsigned char *bytes = hr2di_alloc_zero(&alloc, 1000, 1);
   ck_assert_ptr_nonnull(bytes);
   for (size_t i = 0; i < 1000; i++) ck_assert_uint_eq(bytes[i], 0);
-  hr2di_free(&alloc, bytes);
+  hr2di_alloc_free(&alloc, bytes);
 }
 END_TEST
 
@@ -124,7 +124,7 @@ START_TEST(reserve_keeps_what_is_there_and_doubles) {
   const hr2d_allocator alloc = counting(&hooks);
   size_t *array = NULL, capacity = 0;
   for (size_t i = 0; i < 100000; i++) {
-    ck_assert_int_eq(hr2di_reserve(&alloc, &array, &capacity, i + 1, sizeof *array), 0);
+    ck_assert_int_eq(hr2di_alloc_reserve(&alloc, &array, &capacity, i + 1, sizeof *array), 0);
     ck_assert_uint_ge(capacity, i + 1);
     array[i] = i;
   }
@@ -134,9 +134,9 @@ START_TEST(reserve_keeps_what_is_there_and_doubles) {
   ck_assert_uint_le(capacity, 200000);
 
   const unsigned calls = hooks.calls;
-  ck_assert_int_eq(hr2di_reserve(&alloc, &array, &capacity, 5, sizeof *array), 0);
+  ck_assert_int_eq(hr2di_alloc_reserve(&alloc, &array, &capacity, 5, sizeof *array), 0);
   ck_assert_uint_eq(hooks.calls, calls);
-  hr2di_free(&alloc, array);
+  hr2di_alloc_free(&alloc, array);
 }
 END_TEST
 
@@ -145,15 +145,15 @@ START_TEST(a_refused_reserve_changes_nothing) {
   const hr2d_allocator alloc = counting(&hooks);
   int *array = NULL;
   size_t capacity = 0;
-  ck_assert_int_eq(hr2di_reserve(&alloc, &array, &capacity, 3, sizeof *array), 0);
+  ck_assert_int_eq(hr2di_alloc_reserve(&alloc, &array, &capacity, 3, sizeof *array), 0);
   array[2] = 42;
   int *const before = array;
   const size_t capacity_before = capacity;
-  ck_assert_int_eq(hr2di_reserve(&alloc, &array, &capacity, 1000, sizeof *array), -1);
+  ck_assert_int_eq(hr2di_alloc_reserve(&alloc, &array, &capacity, 1000, sizeof *array), -1);
   ck_assert_ptr_eq(array, before);
   ck_assert_uint_eq(capacity, capacity_before);
   ck_assert_int_eq(array[2], 42);
-  hr2di_free(&alloc, array);
+  hr2di_alloc_free(&alloc, array);
 }
 END_TEST
 
@@ -164,7 +164,7 @@ START_TEST(reserve_does_not_double_beyond_the_largest_size) {
   char *array = NULL;
   size_t capacity = (size_t)PTRDIFF_MAX / 16 - 1;
   const size_t needed = (size_t)PTRDIFF_MAX / 8 - 1;
-  ck_assert_int_eq(hr2di_reserve(&alloc, &array, &capacity, needed, 8), -1);
+  ck_assert_int_eq(hr2di_alloc_reserve(&alloc, &array, &capacity, needed, 8), -1);
   ck_assert_uint_eq(hooks.calls, 1);
   ck_assert_uint_ge(hooks.largest, needed * 8);
   ck_assert_uint_le(hooks.largest, PTRDIFF_MAX);
@@ -173,10 +173,10 @@ END_TEST
 
 START_TEST(fail_writes_and_returns) {
   hr2di_message message = {""};
-  ck_assert_int_eq(hr2di_fail(&message, HR2D_ESCENE, "patch \"%s\": %d", "ceiling", 7),
+  ck_assert_int_eq(hr2di_message_fail(&message, HR2D_ESCENE, "patch \"%s\": %d", "ceiling", 7),
                    HR2D_ESCENE);
   ck_assert_str_eq(message.text, "patch \"ceiling\": 7");
-  ck_assert_int_eq(hr2di_fail(&message, HR2D_EIO, "file: %s", message.text), HR2D_EIO);
+  ck_assert_int_eq(hr2di_message_fail(&message, HR2D_EIO, "file: %s", message.text), HR2D_EIO);
   ck_assert_str_eq(message.text, "file: patch \"ceiling\": 7");
 }
 END_TEST
@@ -212,7 +212,7 @@ START_TEST(a_long_message_is_cut_between_characters) {
       argument[length] = '\0';
 
       hr2di_message message;
-      hr2di_fail(&message, HR2D_ESCENE, "%s", argument);
+      hr2di_message_fail(&message, HR2D_ESCENE, "%s", argument);
       const size_t kept = strlen(message.text);
       ck_assert_uint_le(kept, room);
       ck_assert_uint_gt(kept + width, room);
@@ -227,7 +227,7 @@ START_TEST(a_message_that_just_fits_is_whole) {
   memset(argument, '-', sizeof argument);
   memcpy(argument + sizeof argument - 4, "∫", 4);
   hr2di_message message;
-  hr2di_fail(&message, HR2D_ESCENE, "%s", argument);
+  hr2di_message_fail(&message, HR2D_ESCENE, "%s", argument);
   ck_assert_str_eq(message.text, argument);
 }
 END_TEST

@@ -17,9 +17,9 @@
 enum { SQUARE = HR2D_MAX_ORDER * HR2D_MAX_ORDER };
 
 START_TEST(rules_are_those_of_gsl) {
-  for (size_t n = 1; n <= HR2DI_MOST_POINTS; n++) {
+  for (size_t n = 1; n <= HR2DI_RULE_POINTS; n++) {
     hr2di_rule rule;
-    hr2di_rule_make(&rule, n);
+    hr2di_rule_init(&rule, n);
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(n);
     ck_assert_uint_eq(rule.points, n);
     /* GSL makes the others itself, with weights that are good to 1e-10. */
@@ -40,9 +40,9 @@ START_TEST(rules_are_those_of_gsl) {
 END_TEST
 
 START_TEST(rules_are_exact_to_their_degree) {
-  for (size_t n = 1; n <= HR2DI_MOST_POINTS; n++) {
+  for (size_t n = 1; n <= HR2DI_RULE_POINTS; n++) {
     hr2di_rule rule;
-    hr2di_rule_make(&rule, n);
+    hr2di_rule_init(&rule, n);
     for (int degree = 0; degree <= 2 * (int)n; degree += 2) {
       double sum = 0;
       for (size_t k = 0; k < n; k++) sum += rule.weight[k] * pow(rule.at[k], degree);
@@ -59,7 +59,7 @@ END_TEST
 START_TEST(polynomials_are_those_of_gsl) {
   hr2di_basis basis;
   double phi[HR2D_MAX_ORDER], legendre[HR2D_MAX_ORDER], coefficient[3 * HR2D_MAX_ORDER];
-  hr2di_basis_make(&basis, HR2D_MAX_ORDER);
+  hr2di_basis_init(&basis, HR2D_MAX_ORDER);
   for (double xi = -1; xi <= 1; xi += 1. / 64) {
     hr2di_basis_at(&basis, xi, phi);
     gsl_sf_legendre_Pl_array(HR2D_MAX_ORDER - 1, xi, legendre);
@@ -79,8 +79,8 @@ START_TEST(polynomials_are_orthonormal) {
   hr2di_rule rule;
   hr2di_basis basis;
   double product[SQUARE] = {0}, phi[HR2D_MAX_ORDER];
-  hr2di_rule_make(&rule, HR2D_MAX_ORDER);
-  hr2di_basis_make(&basis, HR2D_MAX_ORDER);
+  hr2di_rule_init(&rule, HR2D_MAX_ORDER);
+  hr2di_basis_init(&basis, HR2D_MAX_ORDER);
   for (size_t q = 0; q < rule.points; q++) {
     hr2di_basis_at(&basis, rule.at[q], phi);
     for (size_t l = 0; l < HR2D_MAX_ORDER; l++)
@@ -96,7 +96,7 @@ END_TEST
 /* φ_l(parent) = Σ_k relation_lk φ_k(child) at points of the child, by GSL's polynomials. */
 static void check_two_scale(double low, double high, size_t order) {
   double relation[SQUARE], above[HR2D_MAX_ORDER], below[HR2D_MAX_ORDER];
-  hr2di_two_scale(low, high, order, relation);
+  hr2di_legendre_two_scale(low, high, order, relation);
   for (double t = 0; t <= 1; t += 1. / 16) {
     const double here = low + t * (high - low);
     gsl_sf_legendre_Pl_array((int)order - 1, here, above);
@@ -135,9 +135,9 @@ static test_links random_tree(unsigned long *state, size_t divisions) {
     const hr2d_point at = {element->a.x + part * (element->b.x - element->a.x), element->a.y};
     ck_assert_int_eq(hr2di_hierarchy_reserve(h), HR2D_OK);
     if (part == 0.5)
-      hr2di_halve(h, e);
+      hr2di_element_halve(h, e);
     else
-      hr2di_divide(h, e, part, at);
+      hr2di_element_divide(h, e, part, at);
   }
   return t;
 }
@@ -155,10 +155,10 @@ static void check_pull_of_push(const hr2d_hierarchy *h, unsigned long *state, si
   ck_assert_int_eq(hr2di_push_pull_init(&trees, h, &alloc, order, bands), HR2D_OK);
   double *down = calloc(size, sizeof *down), *up = calloc(size, sizeof *up);
   for (size_t k = 0; k < 2 * width; k++) down[k] = test_random(state) - 0.5;
-  hr2di_push(&trees, down);
+  hr2di_push_pull_down(&trees, down);
   for (size_t e = 0; e < h->elements; e++)
     if (is_leaf(h, e)) memcpy(up + e * width, down + e * width, width * sizeof *up);
-  hr2di_pull(&trees, up);
+  hr2di_push_pull_up(&trees, up);
   for (size_t k = 0; k < size; k++) ck_assert_double_eq_tol(up[k], down[k], 2e-13);
   free(down);
   free(up);
@@ -176,8 +176,8 @@ static void check_pull(const hr2d_hierarchy *h, unsigned long *state, size_t ord
     up[k] = is_leaf(h, k / order) ? test_random(state) : 0;
     pushed[k] = down[k] = test_random(state) - 0.5;
   }
-  hr2di_pull(&trees, up);
-  hr2di_push(&trees, pushed);
+  hr2di_push_pull_up(&trees, up);
+  hr2di_push_pull_down(&trees, pushed);
   double over_all = 0, over_leaves = 0;
   for (size_t k = 0; k < size; k++) {
     const double length = h->element[k / order].length;
@@ -187,7 +187,8 @@ static void check_pull(const hr2d_hierarchy *h, unsigned long *state, size_t ord
   ck_assert_double_eq_tol(over_all, over_leaves, 1e-12 * (double)order);
   for (uint32_t root = 0; root < 2; root++) {
     double sum = 0;
-    for (uint32_t e = hr2di_first_leaf(h, root); e; e = hr2di_next_leaf(h, e, root))
+    for (uint32_t e = hr2di_hierarchy_first_leaf(h, root); e;
+         e = hr2di_hierarchy_next_leaf(h, e, root))
       sum += h->element[e].length * up[e * order];
     ck_assert_double_eq_tol(up[root * order], sum / h->element[root].length, 1e-14);
   }
@@ -268,10 +269,10 @@ static int make_block(const stage *s, size_t order, int swapped, double *block) 
   int distant;
   const hr2d_allocator *alloc = &s->hierarchy->alloc;
   const hr2d_pair swap = {s->pair.second, s->pair.first};
-  ck_assert_int_eq(hr2di_integrator_start(&work, s->hierarchy, alloc, order), HR2D_OK);
+  ck_assert_int_eq(hr2di_integrator_init(&work, s->hierarchy, alloc, order), HR2D_OK);
   ck_assert_int_eq(hr2di_block(&work, swapped ? swap : s->pair, block, &distant), HR2D_OK);
   for (size_t k = 0; k < order * order; k++) block[k] *= hr2d_scene_unit(s->scene);
-  hr2di_integrator_end(&work);
+  hr2di_integrator_clear(&work);
   return distant;
 }
 

@@ -71,7 +71,7 @@ static void gather_matrix(sorted *s) {
 /* Takes over the scene. */
 static sorted sort_scene(hr2d_scene *scene, double digits) {
   sorted s = {.scene = scene, .n = hr2d_scene_patches(scene)};
-  const hr2d_allocator alloc = hr2di_default_allocator();
+  const hr2d_allocator alloc = hr2di_alloc_default();
   s.near = calloc(s.n * s.n, 1);
   s.area = new_doubles(s.n * s.n);
   s.linked = new_doubles(s.n * s.n);
@@ -435,7 +435,7 @@ END_TEST
 
 /* Takes over the scene. */
 static size_t count_near(hr2d_scene *scene, double digits, uint64_t *links, uint64_t *bytes) {
-  const hr2d_allocator alloc = hr2di_default_allocator();
+  const hr2d_allocator alloc = hr2di_alloc_default();
   sorted s = {.scene = scene, .n = hr2d_scene_patches(scene)};
   ck_assert_int_eq(hr2di_clusters_create(scene, &alloc, digits, put_near, &s, &s.clusters),
                    HR2D_OK);
@@ -488,7 +488,7 @@ static hr2d_status stop_at(void *ctx, const hr2d_pair *pairs, size_t count) {
 }
 
 START_TEST(near_may_stop) {
-  const hr2d_allocator alloc = hr2di_default_allocator();
+  const hr2d_allocator alloc = hr2di_alloc_default();
   hr2d_scene *scene = draw(&shapes[_i], 400, 0);
   hr2di_clusters *clusters = NULL;
   for (int calls = 1; calls < 4; calls++) {

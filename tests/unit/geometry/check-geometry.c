@@ -112,9 +112,9 @@ START_TEST(facing_is_exact_and_agrees_with_the_area) {
   for (int k = scaled_count(10000); k > 0; k--) {
     const pair p = draw_pair(class, &r);
     if (!near_in_scale((const hr2d_point[]){p.i.a, p.i.b, p.j.a, p.j.b}, 4)) continue;
-    const hr2di_facing facing = hr2di_face(&p.i, &p.j);
+    const hr2di_facing facing = hr2di_facing_of(&p.i, &p.j);
     ck_assert_int_eq(facing, exact_facing(&p));
-    ck_assert_int_eq(facing, hr2di_face(&p.j, &p.i));
+    ck_assert_int_eq(facing, hr2di_facing_of(&p.j, &p.i));
     const double af = area(p.i, p.j);
     if (facing == HR2DI_FACING_NONE)
       ck_assert(af == 0);
@@ -155,7 +155,7 @@ START_TEST(nothing_is_exchanged_with_a_back) {
   ck_assert(area(up, (hr2d_segment){{1, -1}, {0, -1}}) == 0);
   ck_assert(area(up, (hr2d_segment){{1, 0}, {2, 0}}) == 0);
   ck_assert(area(up, (hr2d_segment){{3, 0}, {2, 0}}) == 0);
-  ck_assert_int_eq(hr2di_face(&up, &down), HR2DI_FACING_NONE);
+  ck_assert_int_eq(hr2di_facing_of(&up, &down), HR2DI_FACING_NONE);
 }
 END_TEST
 

@@ -241,7 +241,7 @@ static pair corner_pair(randoms *r) {
 static pair half_pair(randoms *r) {
   for (;;) {
     const pair p = any_pair(r);
-    if (hr2di_face(&p.i, &p.j) == HR2DI_FACING_PART) return p;
+    if (hr2di_facing_of(&p.i, &p.j) == HR2DI_FACING_PART) return p;
   }
 }
 

@@ -169,19 +169,20 @@ static void check_transport(const test_links *t, const char *what) {
   for (uint64_t k = 0; k < hr2d_linkset_size(t->links); k++) {
     const hr2d_link link = hr2d_linkset_get(t->links, k);
     const size_t i = element[link.pair.first].patch, j = element[link.pair.second].patch;
-    hr2di_add(&sum[i * n + j], link.exchange_area);
+    hr2di_sum_add(&sum[i * n + j], link.exchange_area);
     links[i * n + j]++;
-    if (!directed) hr2di_add(&sum[j * n + i], link.exchange_area);
+    if (!directed) hr2di_sum_add(&sum[j * n + i], link.exchange_area);
     if (!directed) links[j * n + i]++;
   }
   for (size_t i = 0; i < n; i++)
     for (size_t j = 0; j < n; j++) {
       const size_t at = i * n + j;
-      const double off = hr2di_total(&sum[at]) - area[at];
+      const double off = hr2di_sum_total(&sum[at]) - area[at];
       ck_assert_msg(fabs(off) <= 1e-13 * hr2d_scene_length(t->scene, i),
                     "%s: patches %zu and %zu exchange %g, their links %g more", what, i, j,
                     area[at], off);
-      const int negligible = hr2di_total(&sum[at]) <= 1e-25 * hr2d_scene_length(t->scene, i);
+      const int negligible =
+          hr2di_sum_total(&sum[at]) <= 1e-25 * hr2d_scene_length(t->scene, i);
       ck_assert_msg(!links[at] == !(area[at] > 0) || (area[at] == 0 && negligible),
                     "%s: patches %zu and %zu: %zu links for %g", what, i, j, links[at],
                     area[at]);

@@ -84,14 +84,14 @@ static void check_transport(const test_links *t) {
     const hr2d_link link = hr2d_linkset_get(t->links, k);
     ck_assert_double_ge(link.exchange_area, 0);
     const size_t i = element[link.pair.first].patch, j = element[link.pair.second].patch;
-    hr2di_add(&sum[i * n + j], link.exchange_area);
-    if (!directed) hr2di_add(&sum[j * n + i], link.exchange_area);
+    hr2di_sum_add(&sum[i * n + j], link.exchange_area);
+    if (!directed) hr2di_sum_add(&sum[j * n + i], link.exchange_area);
   }
   for (size_t i = 0; i < n; i++)
     for (size_t j = 0; j < n; j++) {
       const hr2d_segment s = hr2d_scene_segment(t->scene, i),
                          u = hr2d_scene_segment(t->scene, j);
-      ck_assert_double_eq_tol(hr2di_total(&sum[i * n + j]),
+      ck_assert_double_eq_tol(hr2di_sum_total(&sum[i * n + j]),
                               i == j ? 0 : hr2d_exchange_area(&s, &u), 1e-14);
     }
   free(sum);

@@ -190,7 +190,7 @@ START_TEST(multigrid_keeps_what_faces_fully) {
     test_links once = test_make_links(turned(flat, 4, angle, 0), NULL, NULL, NULL, NULL);
     const hr2d_segment i = hr2d_scene_segment(once.scene, 0);
     const hr2d_segment j = hr2d_scene_segment(once.scene, 1);
-    if (hr2di_face(&i, &j) != HR2DI_FACING_FULL) { /* the turn has seen to that */
+    if (hr2di_facing_of(&i, &j) != HR2DI_FACING_FULL) { /* the turn has seen to that */
       test_free_links(&once);
       continue;
     }

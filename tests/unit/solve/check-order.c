@@ -36,14 +36,14 @@ static test_links refined(hr2d_scene *scene, unsigned order, double epsilon,
 /* Links between elements that are as large as B is smooth, and end where something comes into
    view. */
 static test_links graded(hr2d_scene *scene, unsigned order, double target) {
-  test_links t =
-      test_make_links(scene, hr2di_oracle_separation(), NULL, hr2di_policy_graded(), NULL);
+  test_links t = test_make_links(scene, hr2di_admissibility_oracle(), NULL,
+                                 hr2di_admissibility_fixed_leaves(), NULL);
   hr2di_events events;
   const hr2di_grading grading = {.target = target, .order = order, .events = &events};
   hr2di_survey survey;
   ck_assert_int_eq(hr2d_hierarchy_set_order(t.hierarchy, order), HR2D_OK);
-  ck_assert_int_eq(hr2di_events_find(&events, scene, &t.hierarchy->alloc, 1, 1000), HR2D_OK);
-  ck_assert_int_eq(hr2di_grade(t.hierarchy, &grading, &survey), HR2D_OK);
+  ck_assert_int_eq(hr2di_events_init(&events, scene, &t.hierarchy->alloc, 1, 1000), HR2D_OK);
+  ck_assert_int_eq(hr2di_grading_apply(t.hierarchy, &grading, &survey), HR2D_OK);
   hr2di_events_clear(&events);
   test_refine(&t, 0.5, 60000);
   return t;
@@ -605,15 +605,15 @@ static void tell(story *s, const char *name, long until_failure, int for_good) {
   ck_assert_ptr_nonnull(s->t.scene);
   ck_assert_int_eq(hr2d_hierarchy_create(s->t.scene, &s->t.hierarchy), HR2D_OK);
   ck_assert_int_eq(hr2d_hierarchy_set_order(s->t.hierarchy, 5), HR2D_OK);
-  ck_assert_int_eq(hr2d_linkset_create(s->t.hierarchy, hr2di_oracle_separation(), NULL,
-                                       hr2di_policy_graded(), NULL, &s->t.links),
+  ck_assert_int_eq(hr2d_linkset_create(s->t.hierarchy, hr2di_admissibility_oracle(), NULL,
+                                       hr2di_admissibility_fixed_leaves(), NULL, &s->t.links),
                    HR2D_OK);
   s->fault.until_failure = until_failure;
   s->fault.for_good = for_good;
   const hr2di_grading grading = {.target = 1e-4, .order = 5};
   hr2di_survey survey;
-  if (again(s, hr2di_grade(s->t.hierarchy, &grading, &survey)))
-    ck_assert_int_eq(hr2di_grade(s->t.hierarchy, &grading, &survey), HR2D_OK);
+  if (again(s, hr2di_grading_apply(s->t.hierarchy, &grading, &survey)))
+    ck_assert_int_eq(hr2di_grading_apply(s->t.hierarchy, &grading, &survey), HR2D_OK);
   const hr2d_refine_options refine = {
       .struct_size = sizeof refine, .epsilon = 0.5, .max_level = 60000, .threads = 1};
   if (again(s, hr2d_refine(s->t.links, &refine)))

@@ -11,9 +11,9 @@
 #include "visibility/events.h"
 
 static hr2di_events events_of(const hr2d_scene *scene, unsigned generations) {
-  const hr2d_allocator alloc = hr2di_default_allocator();
+  const hr2d_allocator alloc = hr2di_alloc_default();
   hr2di_events found;
-  ck_assert_int_eq(hr2di_events_find(&found, scene, &alloc, generations, SIZE_MAX), HR2D_OK);
+  ck_assert_int_eq(hr2di_events_init(&found, scene, &alloc, generations, SIZE_MAX), HR2D_OK);
   for (size_t k = 0; k < found.count; k++) {
     const hr2di_event *e = &found.event[k];
     ck_assert(e->at > 0 && e->at < 1 && e->generation >= 1 && e->generation <= generations);
@@ -521,16 +521,16 @@ END_TEST
 /* Limits. */
 
 START_TEST(test_most) {
-  const hr2d_allocator alloc = hr2di_default_allocator();
+  const hr2d_allocator alloc = hr2di_alloc_default();
   hr2d_scene *scene = test_scene(square, ROWS(square));
   const size_t count[] = {0, 10, 18};
   for (unsigned g = 0; g <= 2; g++) {
     hr2di_events found;
-    ck_assert_int_eq(hr2di_events_find(&found, scene, &alloc, g, count[g]), HR2D_OK);
+    ck_assert_int_eq(hr2di_events_init(&found, scene, &alloc, g, count[g]), HR2D_OK);
     ck_assert_uint_eq(found.count, count[g]);
     hr2di_events_clear(&found);
     for (size_t most = 0; most < count[g]; most++) {
-      ck_assert_int_eq(hr2di_events_find(&found, scene, &alloc, g, most), HR2D_EMAX_ELEMENTS);
+      ck_assert_int_eq(hr2di_events_init(&found, scene, &alloc, g, most), HR2D_EMAX_ELEMENTS);
       hr2di_events_clear(&found);
     }
   }
@@ -554,7 +554,7 @@ START_TEST(test_failures) {
       memory.for_good = for_good;
       memory.failures = 0;
       hr2di_events found;
-      const hr2d_status status = hr2di_events_find(&found, scene, &hooks, 2, SIZE_MAX);
+      const hr2d_status status = hr2di_events_init(&found, scene, &hooks, 2, SIZE_MAX);
       done = memory.failures == 0;
       ck_assert_int_eq(status, done ? HR2D_OK : HR2D_ENOMEM);
       ck_assert_int_ge(k, done ? 5 : 0);

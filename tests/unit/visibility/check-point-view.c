@@ -29,7 +29,7 @@ static int scaled_count(int count) {
 }
 
 static hr2di_viewer *viewer_of(const hr2d_scene *scene) {
-  const hr2d_allocator alloc = hr2di_default_allocator();
+  const hr2d_allocator alloc = hr2di_alloc_default();
   hr2di_viewer *viewer = NULL;
   ck_assert_int_eq(hr2di_viewer_create(scene, &alloc, &viewer), HR2D_OK);
   return viewer;
