@@ -20,9 +20,9 @@ static double error_for(const hr2di_admissibility *s, const hr2d_element *i,
 
 /* Links drop ρ^−2p of what is smooth, ρ^−p of what is rough. */
 static double distance_for(const hr2di_admissibility *s, const hr2d_element *e, double error) {
-  const double most = e->child ? ROUGH : HR2DI_ELLIPSE_DISTANT;
-  if (!(error > 0)) return most;
-  return fmin(hr2di_ellipse_for(e->child ? error * error : error, s->order), most);
+  const double max = e->child ? ROUGH : HR2DI_ELLIPSE_DISTANT;
+  if (!(error > 0)) return max;
+  return fmin(hr2di_ellipse_for(e->child ? error * error : error, s->order), max);
 }
 
 static int is_separate(const hr2di_admissibility *ctx, const hr2d_element *i,

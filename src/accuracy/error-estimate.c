@@ -47,8 +47,8 @@ hr2di_resolution hr2di_resolution_finer(const hr2di_resolution *f) {
   hr2di_resolution finer = *f;
   const unsigned order = f->order + (f->order < 4 ? 3 : 2);
   finer.order = order < HR2D_MAX_ORDER ? order : HR2D_MAX_ORDER;
-  finer.deeper += 4;
-  finer.digits = fmax(0.1 * f->digits, 1e-14);
+  finer.corner_levels += 4;
+  finer.cluster_accuracy = fmax(0.1 * f->cluster_accuracy, 1e-14);
   if (f->weight) finer.target *= 0.01;
   if (f->hidden && (f->target < 1e-5 || f->generations == 0)) finer.generations++;
   return finer;
@@ -58,11 +58,11 @@ hr2di_resolution hr2di_resolution_finer(const hr2di_resolution *f) {
 static double leaf_most(const estimator *e, const double *field, size_t leaf, size_t band) {
   const hr2di_transport *t = &e->eq.transport;
   const double *at = field + leaf * t->width + band;
-  double most = fmax(fabs(hr2di_basis_sum(&e->basis, -1, at, t->bands)),
-                     fabs(hr2di_basis_sum(&e->basis, 1, at, t->bands)));
+  double max = fmax(fabs(hr2di_basis_sum(&e->basis, -1, at, t->bands)),
+                    fabs(hr2di_basis_sum(&e->basis, 1, at, t->bands)));
   for (size_t q = 0; q < e->rule.points; q++)
-    most = fmax(most, fabs(hr2di_basis_sum(&e->basis, e->rule.at[q], at, t->bands)));
-  return most;
+    max = fmax(max, fabs(hr2di_basis_sum(&e->basis, e->rule.at[q], at, t->bands)));
+  return max;
 }
 
 /* field = ρK field, through eq->irradiance. */
@@ -101,10 +101,10 @@ static void set_majorant(estimator *e) {
   const hr2di_transport *t = &eq->transport;
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t b = 0; b < t->bands; b++) {
-      const double most =
+      const double max =
           BETWEEN * leaf_most(e, eq->source, k, b) + ROUNDING * leaf_most(e, e->rest, k, b);
       for (size_t l = 0; l < t->order; l++)
-        eq->source[k * t->width + l * t->bands + b] = l == 0 ? most : 0;
+        eq->source[k * t->width + l * t->bands + b] = l == 0 ? max : 0;
     }
   for (size_t k = 0; k < eq->field; k++) eq->y[k] = 0;
 }
@@ -115,9 +115,9 @@ static hr2d_status solve(estimator *e, double tolerance) {
   hr2di_equation *eq = &e->eq;
   const size_t bands = eq->transport.bands;
   for (size_t b = 0; b < bands; b++) {
-    double most = 0;
-    for (size_t k = b; k < eq->field; k += bands) most = fmax(most, fabs(eq->source[k]));
-    e->exponent[b] = most > 0 ? ilogb(most) : 0;
+    double max = 0;
+    for (size_t k = b; k < eq->field; k += bands) max = fmax(max, fabs(eq->source[k]));
+    e->exponent[b] = max > 0 ? ilogb(max) : 0;
     for (size_t k = b; k < eq->field; k += bands)
       eq->source[k] = ldexp(eq->source[k], -e->exponent[b]);
   }
@@ -148,10 +148,10 @@ static double average_of(const estimator *e, size_t patch, size_t band) {
 
 /* What is darker than this is dark, and has no relative error. */
 static double least_average(const estimator *e, size_t band) {
-  double most = 0;
+  double max = 0;
   for (size_t k = 0; k < e->eq.transport.hierarchy->scene->patches; k++)
-    most = fmax(most, average_of(e, k, band));
-  return DARK * most;
+    max = fmax(max, average_of(e, k, band));
+  return DARK * max;
 }
 
 /* The largest of Σ factor·error, relative to the averages of B. */
@@ -160,12 +160,12 @@ static double worst_average(const estimator *e, double factor, const double *err
   const hr2di_transport *t = &e->eq.transport;
   double worst = 0;
   for (size_t b = 0; b < t->bands; b++) {
-    const double least = least_average(e, b);
+    const double min = least_average(e, b);
     for (size_t k = 0; k < t->hierarchy->scene->patches; k++) {
       const size_t at = k * t->bands + b;
       const double average = average_of(e, k, b);
       const double sum = factor * error[at] + (more ? more[at] : 0);
-      if (sum > 0 && (average > least || sum > least)) worst = fmax(worst, sum / average);
+      if (sum > 0 && (average > min || sum > min)) worst = fmax(worst, sum / average);
     }
   }
   return worst;
@@ -177,13 +177,13 @@ static double worst_point(const estimator *e, double factor, const double *field
   const hr2di_transport *t = &e->eq.transport;
   double worst = 0;
   for (size_t b = 0; b < t->bands; b++) {
-    double error = 0, most = 0;
+    double error = 0, max = 0;
     for (size_t k = 0; k < t->leaves; k++) {
       const double rest = more ? leaf_most(e, more, k, b) : 0;
       error = fmax(error, factor * leaf_most(e, field, k, b) + rest);
-      most = fmax(most, leaf_most(e, e->kept, k, b));
+      max = fmax(max, leaf_most(e, e->kept, k, b));
     }
-    if (error > 0) worst = fmax(worst, error / most);
+    if (error > 0) worst = fmax(worst, error / max);
   }
   return worst;
 }

@@ -35,7 +35,7 @@ static hr2d_status grade(hr2di_graded *a, const hr2d_hierarchy *from,
   const hr2di_grading grading = {.target = fineness->target,
                                  .norm = fineness->norm,
                                  .order = fineness->order,
-                                 .deeper = fineness->deeper,
+                                 .corner_levels = fineness->corner_levels,
                                  .halvings = from ? 0 : fineness->halvings,
                                  .weight = fineness->weight,
                                  .events = &events,
@@ -62,7 +62,7 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_resolution *finene
   if (status) return status;
   if (a->hierarchy->scene->patches >= MANY)
     status = hr2di_roots_init(&a->links->roots, a->hierarchy->scene, &a->links->alloc,
-                              fineness->digits);
+                              fineness->cluster_accuracy);
   if (!status) status = hr2d_refine(a->links, &options);
   a->links->oracle_ctx = NULL; /* which is not asked again */
   return status;

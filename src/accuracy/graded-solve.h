@@ -11,16 +11,16 @@
 /* How fine. */
 typedef struct hr2di_resolution {
   unsigned order;
-  double target; /* relative error that corners are graded for */
-  double digits; /* relative accuracy of links between clusters of patches */
+  double target;           /* relative error that corners are graded for */
+  double cluster_accuracy; /* relative accuracy of links between clusters of patches */
   hr2d_norm norm;
-  unsigned deeper;      /* levels at corners beyond what the target asks for */
-  int hidden;           /* the scene has visibility events, */
-  int crowded;          /* and very many */
-  unsigned generations; /* of these, at which elements end */
-  unsigned halvings;    /* of every element besides, where there are too many events */
-  const double *weight; /* per patch: what a relative error of its radiosity does to what is
-                           asked for; NULL: 1 */
+  unsigned corner_levels; /* levels at corners beyond what the target asks for */
+  int hidden;             /* the scene has visibility events, */
+  int crowded;            /* and very many */
+  unsigned generations;   /* of these, at which elements end */
+  unsigned halvings;      /* of every element besides, where there are too many events */
+  const double *weight;   /* per patch: what a relative error of its radiosity does to what is
+                             asked for; NULL: 1 */
 } hr2di_resolution;
 
 typedef struct hr2di_graded {

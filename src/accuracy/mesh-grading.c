@@ -87,10 +87,10 @@ static hr2d_status list_vertices(grader *g) {
 }
 
 static double reflectance(const hr2d_scene *scene, uint32_t patch) {
-  double most = 0;
+  double max = 0;
   for (size_t b = 0; b < scene->bands; b++)
-    most = fmax(most, hr2d_scene_reflectance(scene, patch, b));
-  return most;
+    max = fmax(max, hr2d_scene_reflectance(scene, patch, b));
+  return max;
 }
 
 /* Corners alike often follow each other. */
@@ -111,10 +111,10 @@ static unsigned corner_depth(grader *g, double cosine, double sine, double rho) 
   const double gamma = exponent_of(g, atan2(sine, cosine), rho);
   const double slope = g->grading->norm == HR2D_NORM_SUP ? fmax(gamma, 0.05) : 1 + 2 * gamma;
   const double digits = log2(strength / g->target) / slope;
-  if (!(strength > g->target)) return g->grading->deeper;
+  if (!(strength > g->target)) return g->grading->corner_levels;
   g->survey.exponent = fmin(g->survey.exponent, gamma);
   const double depth = ceil(digits - 2 * log2(p) + 1.5);
-  return (unsigned)fmin(fmax(depth, 2), DEEPEST) + g->grading->deeper;
+  return (unsigned)fmin(fmax(depth, 2), DEEPEST) + g->grading->corner_levels;
 }
 
 /* The deepest grading that a patch standing on this one asks for: it may lie on either side of

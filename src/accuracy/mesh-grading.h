@@ -12,7 +12,7 @@ typedef struct hr2di_grading {
   double target;              /* the relative error that corners are graded for */
   hr2d_norm norm;             /* of that error */
   unsigned order;             /* of the elements */
-  unsigned deeper;            /* levels at corners beyond what the target asks for */
+  unsigned corner_levels;     /* levels at corners beyond what the target asks for */
   unsigned halvings;          /* of every element besides */
   const double *weight;       /* see graded.h; NULL: 1 */
   const hr2di_events *events; /* where elements end; NULL for none */

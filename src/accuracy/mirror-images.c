@@ -13,7 +13,7 @@
 typedef struct mirror {
   const hr2d_scene *scene;
   const hr2di_patch *patch;
-  double most;
+  double max;
   hr2di_image_points *points;
   size_t count;
 } mirror;
@@ -39,11 +39,11 @@ static hr2d_status add_image(mirror *m, hr2d_segment wall, const double side[2],
   const double off = hr2di_orient(wall.a, wall.b, v) / square;
   const hr2d_point image = {v.x + 2 * off * uy, v.y - 2 * off * ux};
   if (!(at > 0 && at < 1) || !(off > 0 ? side[0] > 0 : off < 0 && side[1] < 0)) return HR2D_OK;
-  const double least = 1e-13 * m->patch->length * m->patch->length,
+  const double min = 1e-13 * m->patch->length * m->patch->length,
                away = hr2di_ellipse(s, image);
-  if (hr2di_orient(s.a, s.b, wall.a) <= least && hr2di_orient(s.a, s.b, wall.b) <= least)
+  if (hr2di_orient(s.a, s.b, wall.a) <= min && hr2di_orient(s.a, s.b, wall.b) <= min)
     return HR2D_OK;
-  if (away <= ON_PATCH || away >= m->most) return HR2D_OK;
+  if (away <= ON_PATCH || away >= m->max) return HR2D_OK;
   hr2di_image_points *points = m->points;
   if (hr2di_alloc_reserve(&m->scene->alloc, &points->point, &points->capacity,
                           points->count + 1, sizeof *points->point))
@@ -64,9 +64,9 @@ static hr2d_status add_wall(mirror *m, hr2d_segment wall) {
   return status;
 }
 
-hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double most,
+hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max,
                              hr2di_image_points *points, size_t count) {
-  mirror m = {scene, &scene->patch[patch], most, points, count};
+  mirror m = {scene, &scene->patch[patch], max, points, count};
   uint32_t stack[2 * HR2DI_BOX_DEPTH];
   size_t waiting = 0;
   hr2d_status status = HR2D_OK;

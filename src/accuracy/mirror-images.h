@@ -16,9 +16,9 @@ typedef struct hr2di_image_points {
 } hr2di_image_points;
 
 /* Appends to `points` the images of its first `count` points, and of the patch's ends, in walls
-   near to the patch, as far as they are in front of it and within an ellipse of `most`; HR2D_OK
+   near to the patch, as far as they are in front of it and within an ellipse of `max`; HR2D_OK
    or HR2D_ENOMEM. */
-hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double most,
+hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max,
                              hr2di_image_points *points, size_t count);
 
 #endif

@@ -55,14 +55,14 @@ static hr2d_status time_blocks(const hr2di_graded *a, size_t order, double *seco
 /* Of one block's product, both ways. */
 static double time_product(size_t order) {
   double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER] = {0}, field[4][HR2D_MAX_ORDER] = {{0}};
-  double least = HUGE_VAL;
+  double min = HUGE_VAL;
   for (int run = 0; run < 5; run++) {
     const double start = hr2di_clock_now();
     for (int k = 0; k < PRODUCTS; k++)
       hr2di_transport_multiply(block, order, field[0], field[1], field[2], field[3]);
-    least = fmin(least, hr2di_clock_now() - start);
+    min = fmin(min, hr2di_clock_now() - start);
   }
-  return least / PRODUCTS;
+  return min / PRODUCTS;
 }
 
 /* A gather multiplies each block.  What push and pull, closure and the Krylov method do per
@@ -145,9 +145,9 @@ hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *target,
   hr2d_status status = predict(scene, &used, prediction);
   /* Short times are disturbed by what else the machine does: the least of several. */
   for (int run = 1; run < RUNS && !status && hr2di_clock_now() - start < SHORT; run++) {
-    const double least = prediction->seconds;
+    const double min = prediction->seconds;
     status = predict(scene, &used, prediction);
-    prediction->seconds = fmin(prediction->seconds, least);
+    prediction->seconds = fmin(prediction->seconds, min);
   }
   return status;
 }

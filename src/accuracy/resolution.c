@@ -51,7 +51,7 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
                      scene->effect[HR2D_EFFECT_BACKGROUND].called_for;
   hr2di_resolution f = {.order = (unsigned)fmin(fmax(order, 2), HR2D_MAX_ORDER - 2),
                         .target = fmin(0.25 * error, 1),
-                        .digits = fmax(0.02 * error, 1e-14),
+                        .cluster_accuracy = fmax(0.02 * error, 1e-14),
                         .norm = norm,
                         .hidden = hidden,
                         .generations = hidden ? generations_for(aim, norm) : 0};
@@ -73,9 +73,9 @@ int hr2di_resolution_raise(hr2di_resolution *f, const hr2di_survey *survey, doub
   if (f->order + 2 >= HR2D_MAX_ORDER) return -1;
   factor = fmin(factor, MOST_FACTOR);
   const double more = fmax(ceil(log(factor) / digits_per_order(survey, f->norm)), 1);
-  f->digits = fmax(f->digits / factor, 1e-14);
+  f->cluster_accuracy = fmax(f->cluster_accuracy / factor, 1e-14);
   f->order = (unsigned)fmin(f->order + more, HR2D_MAX_ORDER - 2);
-  f->deeper += (unsigned)fmax(ceil(log2(factor) / slope), 1);
+  f->corner_levels += (unsigned)fmax(ceil(log2(factor) / slope), 1);
   if (f->crowded && f->generations == 0 && f->halvings < MOST_HALVINGS)
     f->halvings++;
   else if (f->hidden && f->generations < (f->norm == HR2D_NORM_SUP ? 4U : 2U))

@@ -19,21 +19,21 @@ enum { PLACES = sizeof place / sizeof *place };
 
 static double average_distance(const hr2d_solution *solution, const hr2d_solution *reference) {
   const hr2d_scene *scene = solution->hierarchy->scene;
-  double most = 0;
+  double max = 0;
   for (size_t k = 0; k < scene->patches; k++)
     for (size_t b = 0; b < scene->bands; b++) {
       const double right = hr2d_solution_average(reference, k, b);
       const double error = fabs(hr2d_solution_average(solution, k, b) - right);
-      if (error > 0) most = fmax(most, error / right);
+      if (error > 0) max = fmax(max, error / right);
     }
-  return most;
+  return max;
 }
 
 static double sup_distance(const hr2d_solution *solution, const hr2d_solution *reference) {
   const hr2d_hierarchy *h = solution->hierarchy;
   double worst = 0;
   for (size_t b = 0; b < solution->bands; b++) {
-    double error = 0, most = 0;
+    double error = 0, max = 0;
     for (uint32_t e = 0; e < solution->elements; e++) {
       const uint32_t patch = h->element[e].patch;
       if (h->element[e].child && h->element[e].child < solution->elements) continue;
@@ -42,11 +42,11 @@ static double sup_distance(const hr2d_solution *solution, const hr2d_solution *r
       for (int k = 0; k < PLACES; k++) {
         const double t = fmin(from + place[k] * size, 1);
         const double right = hr2d_solution_at(reference, patch, t, b);
-        most = fmax(most, right);
+        max = fmax(max, right);
         error = fmax(error, fabs(hr2d_solution_at(solution, patch, t, b) - right));
       }
     }
-    if (error > 0) worst = fmax(worst, error / most);
+    if (error > 0) worst = fmax(worst, error / max);
   }
   return worst;
 }
@@ -81,13 +81,13 @@ static hr2d_status compare(const hr2d_solution *solution, const hr2d_target *tar
 typedef struct listener {
   hr2d_progress_fn progress;
   void *ctx;
-  hr2d_status told;
+  hr2d_status progress_status;
 } listener;
 
 static hr2d_status listen(void *ctx, const hr2d_progress *progress) {
   listener *l = ctx;
-  if (l->progress) l->told = l->progress(l->ctx, progress);
-  return l->told;
+  if (l->progress) l->progress_status = l->progress(l->ctx, progress);
+  return l->progress_status;
 }
 
 /* Budgets that do not suffice for a better comparison leave the last one. */
@@ -105,7 +105,7 @@ hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target
   for (double error = FIRST; !status && !enough; error *= 1e-3) {
     target.error = fmax(error, finest);
     status = compare(solution, &target, average, sup, &enough);
-    if (status == HR2D_EACCURACY && compared && !l.told) status = HR2D_OK;
+    if (status == HR2D_EACCURACY && compared && !l.progress_status) status = HR2D_OK;
     compared = 1;
     enough = enough || target.error <= finest;
   }

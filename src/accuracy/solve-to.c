@@ -24,11 +24,11 @@ enum { ATTEMPTS = 8, LEAST_SAFE = 6 };
 /* What is best so far, and all that was spent. */
 typedef struct search {
   const hr2d_scene *scene;
-  hr2d_target target;     /* its progress is watch() */
-  hr2d_target given;      /* the caller's */
-  double start, deadline; /* 0 for none */
-  int late;               /* a call was ended because the time was up */
-  hr2d_status told;       /* by the caller's progress, to stop */
+  hr2d_target target;          /* its progress is watch() */
+  hr2d_target given;           /* the caller's */
+  double start, deadline;      /* 0 for none */
+  int late;                    /* a call was ended because the time was up */
+  hr2d_status progress_status; /* by the caller's progress, to stop */
   hr2di_survey survey;
   hr2di_graded best;
   double *weight;       /* per patch, where importance is asked for */
@@ -45,8 +45,9 @@ static hr2d_status watch(void *ctx, const hr2d_progress *progress) {
   search *s = ctx;
   s->late = left(s) <= 0;
   if (s->late) return HR2D_STOPPED;
-  if (s->given.progress) s->told = s->given.progress(s->given.progress_ctx, progress);
-  return s->told;
+  if (s->given.progress)
+    s->progress_status = s->given.progress(s->given.progress_ctx, progress);
+  return s->progress_status;
 }
 
 static double error_of(const search *s) {
@@ -119,7 +120,7 @@ static hr2d_status reach(search *s, double error) {
   for (int k = 0; k < ATTEMPTS && stuck < 2; k++) {
     const hr2d_status status = attempt(s, &fineness);
     /* Of a low order K may exceed 1 at narrow corners, closure or not. */
-    if (status == HR2D_ENOT_CONVERGED && !s->told && k + 1 < ATTEMPTS &&
+    if (status == HR2D_ENOT_CONVERGED && !s->progress_status && k + 1 < ATTEMPTS &&
         fineness.order < LEAST_SAFE) {
       fineness.order++;
       continue;
@@ -153,9 +154,9 @@ static hr2d_status reach_step_by_step(search *s) {
 
 /* A budget that is spent is not a failure, with a solution or without one. */
 static hr2d_status settle(search *s, hr2d_status status) {
-  if (s->told) {
+  if (s->progress_status) {
     give_reason(s, "stopped by the callback");
-    return s->told;
+    return s->progress_status;
   }
   if (status == HR2D_STOPPED && s->late)
     give_reason(s, s->best.solution ? "the time is used up"
@@ -206,12 +207,12 @@ hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
   if (!status) status = weigh_patches(&s);
   if (!status && !(s.given.seconds > 0)) {
     status = reach(&s, s.given.error > 0 ? s.given.error : 1e-15);
-    if (is_budget(status) && !s.told) status = reach_step_by_step(&s);
+    if (is_budget(status) && !s.progress_status) status = reach_step_by_step(&s);
   } else if (!status) {
     status = reach_step_by_step(&s);
   }
   status = settle(&s, status);
-  if (!s.told && (!status || status == HR2D_EACCURACY)) hand_over(&s, solution);
+  if (!s.progress_status && (!status || status == HR2D_EACCURACY)) hand_over(&s, solution);
   s.account.seconds = hr2di_clock_now() - s.start;
   if (account) *account = s.account;
   hr2di_graded_clear(&s.best);

@@ -53,15 +53,16 @@ void hr2di_basis_init(hr2di_basis *basis, size_t order) {
 void hr2di_legendre_two_scale(double low, double high, size_t order, double *relation) {
   hr2di_rule rule;
   hr2di_basis basis;
-  double phi[HR2D_MAX_ORDER], above[HR2D_MAX_ORDER];
+  double phi[HR2D_MAX_ORDER], parent_phi[HR2D_MAX_ORDER];
   hr2di_rule_init(&rule, order);
   hr2di_basis_init(&basis, order);
   memset(relation, 0, order * order * sizeof *relation);
   for (size_t q = 0; q < order; q++) {
     hr2di_basis_at(&basis, rule.at[q], phi);
-    hr2di_basis_at(&basis, 0.5 * ((1 - rule.at[q]) * low + (1 + rule.at[q]) * high), above);
+    hr2di_basis_at(&basis, 0.5 * ((1 - rule.at[q]) * low + (1 + rule.at[q]) * high),
+                   parent_phi);
     for (size_t l = 0; l < order; l++)
       for (size_t k = 0; k <= l; k++)
-        relation[l * order + k] += rule.weight[q] * above[l] * phi[k];
+        relation[l * order + k] += rule.weight[q] * parent_phi[l] * phi[k];
   }
 }

@@ -24,8 +24,8 @@ static void trim_partial(char *text, size_t length) {
   }
 }
 
-static int within(unsigned char byte, int least, int most) {
-  return byte >= least && byte <= most;
+static int within(unsigned char byte, int min, int max) {
+  return byte >= min && byte <= max;
 }
 
 /* The Unicode Standard, table 3-7. */
@@ -35,9 +35,9 @@ size_t hr2di_message_utf8(const unsigned char *s) {
   const int three = within(s[0], 0xE0, 0xEF);
   if (!three && !within(s[0], 0xF0, 0xF4)) return 0;
   /* No overlong forms, no surrogates, nothing beyond U+10FFFF. */
-  const int least = s[0] == 0xE0 ? 0xA0 : s[0] == 0xF0 ? 0x90 : 0x80;
-  const int most = s[0] == 0xED ? 0x9F : s[0] == 0xF4 ? 0x8F : 0xBF;
-  if (!within(s[1], least, most) || !within(s[2], 0x80, 0xBF)) return 0;
+  const int min = s[0] == 0xE0 ? 0xA0 : s[0] == 0xF0 ? 0x90 : 0x80;
+  const int max = s[0] == 0xED ? 0x9F : s[0] == 0xF4 ? 0x8F : 0xBF;
+  if (!within(s[1], min, max) || !within(s[2], 0x80, 0xBF)) return 0;
   if (three) return 3;
   return within(s[3], 0x80, 0xBF) ? 4 : 0;
 }
@@ -78,8 +78,8 @@ hr2d_status hr2di_message_fail(hr2di_message *message, hr2d_status status, const
 
 hr2di_message_quoted hr2di_message_quote(const char *name) {
   hr2di_message_quoted quote;
-  const size_t most = 60, length = strlen(name);
-  size_t cut = length < most ? length : most;
+  const size_t max = 60, length = strlen(name);
+  size_t cut = length < max ? length : max;
   while (cut < length && ((unsigned char)name[cut] & 0xC0) == 0x80) cut--;
   char *at = quote.text;
   *at++ = '"';

@@ -104,9 +104,9 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
   w->work = hr2di_alloc(alloc, 2 * HR2DI_RULE_POINTS * HR2DI_RULE_POINTS, sizeof *w->work);
   int room = w->phi_far && w->phi_exact && w->work;
   if (room && scene->effect[HR2D_EFFECT_OCCLUSION].on) {
-    w->sight = hr2di_alloc(alloc, 1, sizeof *w->sight);
-    if (w->sight) hr2di_visibility_init(w->sight, &scene->walls, alloc);
-    room = w->sight != NULL;
+    w->visibility = hr2di_alloc(alloc, 1, sizeof *w->visibility);
+    if (w->visibility) hr2di_visibility_init(w->visibility, &scene->walls, alloc);
+    room = w->visibility != NULL;
   }
   return room ? HR2D_OK : HR2D_ENOMEM;
 }
@@ -115,8 +115,8 @@ void hr2di_integrator_clear(hr2di_integrator *w) {
   hr2di_alloc_free(&w->alloc, w->phi_far);
   hr2di_alloc_free(&w->alloc, w->phi_exact);
   hr2di_alloc_free(&w->alloc, w->work);
-  if (w->sight) hr2di_visibility_clear(w->sight);
-  hr2di_alloc_free(&w->alloc, w->sight);
+  if (w->visibility) hr2di_visibility_clear(w->visibility);
+  hr2di_alloc_free(&w->alloc, w->visibility);
   hr2di_alloc_free(&w->alloc, w->found.wall);
   hr2di_alloc_free(&w->alloc, w->screen);
   hr2di_alloc_free(&w->alloc, w->point);
@@ -164,10 +164,10 @@ static hr2d_status look(hr2di_integrator *w, hr2d_pair pair, hr2di_facing facing
   *view = HR2DI_CLEAR;
   w->found.count = 0;
   const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
-  if (!w->sight || !hr2di_shaft_init(shaft, facing, s, t, h->scene->patch[i->patch].scaled,
-                                     h->scene->patch[j->patch].scaled))
+  if (!w->visibility || !hr2di_shaft_init(shaft, facing, s, t, h->scene->patch[i->patch].scaled,
+                                          h->scene->patch[j->patch].scaled))
     return HR2D_OK;
-  return hr2di_visibility_collect(w->sight, shaft, &w->found, view);
+  return hr2di_visibility_collect(w->visibility, shaft, &w->found, view);
 }
 
 hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double *block, int *distant) {

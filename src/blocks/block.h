@@ -37,10 +37,10 @@ typedef struct hr2di_integrator {
   hr2d_allocator alloc;
   size_t order;
   hr2di_basis basis;
-  hr2di_rule far, near, exact; /* the last integrates φ_l φ_m */
-  double *phi_far, *phi_exact; /* of the rules' points */
-  double *work;                /* 2 × HR2DI_RULE_POINTS × order, and more */
-  hr2di_visibility *sight;     /* NULL where nothing is in the way */
+  hr2di_rule far, near, exact;  /* the last integrates φ_l φ_m */
+  double *phi_far, *phi_exact;  /* of the rules' points */
+  double *work;                 /* 2 × HR2DI_RULE_POINTS × order, and more */
+  hr2di_visibility *visibility; /* NULL where nothing is in the way */
   hr2di_wall_list found;
   hr2di_screen *screen;
   size_t screen_capacity;
@@ -95,8 +95,8 @@ enum { HR2DI_PARTS = 64 };
 void hr2di_block_add_strip(hr2di_integrator *work, const hr2di_pair_frame *f,
                            const hr2di_strip *strip, double *block);
 
-static inline hr2d_point hr2di_block_along(hr2d_point from, hr2d_point way, double part) {
-  return (hr2d_point){from.x + part * way.x, from.y + part * way.y};
+static inline hr2d_point hr2di_block_along(hr2d_point from, hr2d_point direction, double part) {
+  return (hr2d_point){from.x + part * direction.x, from.y + part * direction.y};
 }
 
 static inline double hr2di_block_mix(const double end[2], double part) {

@@ -68,12 +68,14 @@ static bound project(const view *v, double s, uint32_t point) {
   const bound start = {f->front_j.from, START}, end = {f->front_j.to, END};
   if (point < FIRST) return point == START ? start : end;
   const hr2d_point x = hr2di_block_along(f->i.a, f->along_i, s), p = v->work->point[point];
-  const hr2d_point way = hr2di_point_minus(p, x);
-  if (is_foot(f, p)) return f->along_i.x * way.x + f->along_i.y * way.y > 0 ? start : end;
-  if (hr2di_point_cross(hr2di_point_minus(v->work->point[START], x), way) <= 0) return start;
-  if (hr2di_point_cross(hr2di_point_minus(v->work->point[END], x), way) >= 0) return end;
-  const double t =
-      hr2di_point_cross(hr2di_point_minus(f->j.a, x), way) / hr2di_point_cross(way, f->along_j);
+  const hr2d_point direction = hr2di_point_minus(p, x);
+  if (is_foot(f, p))
+    return f->along_i.x * direction.x + f->along_i.y * direction.y > 0 ? start : end;
+  if (hr2di_point_cross(hr2di_point_minus(v->work->point[START], x), direction) <= 0)
+    return start;
+  if (hr2di_point_cross(hr2di_point_minus(v->work->point[END], x), direction) >= 0) return end;
+  const double t = hr2di_point_cross(hr2di_point_minus(f->j.a, x), direction) /
+                   hr2di_point_cross(direction, f->along_j);
   return (bound){fmin(fmax(t, start.at), end.at), point};
 }
 
@@ -133,19 +135,18 @@ static uint32_t number(hr2di_integrator *w, size_t *points, hr2d_point p) {
 /* Screens, and all points that may bound a part. */
 static hr2d_status make_screens(hr2di_integrator *w, const hr2di_shaft *shaft, view *v) {
   const hr2di_pair_frame *f = v->f;
-  const size_t most = w->found.count;
-  if (hr2di_alloc_reserve(&w->alloc, &w->screen, &w->screen_capacity, most,
-                          sizeof *w->screen) ||
-      hr2di_alloc_reserve(&w->alloc, &w->point, &w->point_capacity, FIRST + 2 * most,
+  const size_t max = w->found.count;
+  if (hr2di_alloc_reserve(&w->alloc, &w->screen, &w->screen_capacity, max, sizeof *w->screen) ||
+      hr2di_alloc_reserve(&w->alloc, &w->point, &w->point_capacity, FIRST + 2 * max,
                           sizeof *w->point) ||
-      hr2di_alloc_reserve(&w->alloc, &w->shadow, &w->shadow_capacity, most, sizeof *w->shadow))
+      hr2di_alloc_reserve(&w->alloc, &w->shadow, &w->shadow_capacity, max, sizeof *w->shadow))
     return HR2D_ENOMEM;
   w->point[START] = hr2di_block_along(f->j.a, f->along_j, f->front_j.from);
   w->point[END] = hr2di_block_along(f->j.a, f->along_j, f->front_j.to);
   v->points = FIRST;
-  for (size_t k = 0; k < most; k++) {
+  for (size_t k = 0; k < max; k++) {
     hr2di_obstacle o;
-    const hr2d_segment wall = w->sight->walls->wall[w->found.wall[k]].at;
+    const hr2d_segment wall = w->visibility->walls->wall[w->found.wall[k]].at;
     if (hr2di_shaft_test(shaft, wall, &o) == HR2DI_ASIDE) continue;
     w->screen[v->screens].end[0] = number(w, &v->points, o.end[0].at);
     w->screen[v->screens++].end[1] = number(w, &v->points, o.end[1].at);
@@ -161,8 +162,8 @@ static int rising(const void *a, const void *b) {
 /* Cuts i where it meets the lines through two points, of which one is a screen's. */
 static hr2d_status make_cuts(hr2di_integrator *w, const view *v, size_t *cuts) {
   const hr2di_pair_frame *f = v->f;
-  const size_t most = v->points * v->points + 2;
-  if (hr2di_alloc_reserve(&w->alloc, &w->cut, &w->cut_capacity, most, sizeof *w->cut))
+  const size_t max = v->points * v->points + 2;
+  if (hr2di_alloc_reserve(&w->alloc, &w->cut, &w->cut_capacity, max, sizeof *w->cut))
     return HR2D_ENOMEM;
   *cuts = 0;
   w->cut[(*cuts)++] = f->front_i.from;

@@ -81,8 +81,8 @@ static double width_of(const hr2di_shaft *s, hr2d_segment end) {
 
 /* Whether all of a box is hidden.  Coordinates lie in [-2,2], of the screen in [-3,3]. */
 static int hides(const cut *c, double x0, double x1, double y0, double y1) {
-  const double least = c->nx * (c->nx > 0 ? x0 : x1) + c->ny * (c->ny > 0 ? y0 : y1);
-  return least > c->offset + 0x1p-46 * (fabs(c->nx) + fabs(c->ny));
+  const double min = c->nx * (c->nx > 0 ? x0 : x1) + c->ny * (c->ny > 0 ? y0 : y1);
+  return min > c->offset + 0x1p-46 * (fabs(c->nx) + fabs(c->ny));
 }
 
 static void hide(cut *c, const hr2di_shaft *shaft, double nx, double ny, double offset) {
@@ -204,12 +204,12 @@ static hr2d_status put_met(hr2di_beams *b, const hr2di_shaft *shaft, const cut *
     const uint32_t top = stack[--count];
     const hr2di_cluster *c = &b->tree->cluster[top];
     if (!may_meet(shaft, hidden, c)) continue;
-    if (!c->below || (c->x1 - c->x0) + (c->y1 - c->y0) < width) {
+    if (!c->child || (c->x1 - c->x0) + (c->y1 - c->y0) < width) {
       if (put_target(b, top)) return HR2D_ENOMEM;
       continue;
     }
-    stack[count++] = c->below;
-    stack[count++] = c->below + 1;
+    stack[count++] = c->child;
+    stack[count++] = c->child + 1;
   }
   return HR2D_OK;
 }

@@ -10,8 +10,8 @@
 
 typedef struct hr2di_linked {
   hr2di_expansion far;
-  uint32_t above; /* the least that holds it, before it; or HR2DI_NO_CLUSTER */
-  size_t first;   /* of hr2di_clusters::point */
+  uint32_t parent; /* the least that holds it, before it; or HR2DI_NO_CLUSTER */
+  size_t first;    /* of hr2di_clusters::point */
 } hr2di_linked;
 
 typedef struct hr2di_cluster_link {
@@ -21,7 +21,7 @@ typedef struct hr2di_cluster_link {
 struct hr2di_clusters {
   hr2d_allocator alloc;
   const hr2d_scene *scene;
-  double digits;
+  double accuracy;
   hr2di_linked *linked; /* those that hold others before them */
   size_t linked_count;
   uint32_t *home; /* of each patch: the least that holds it, or HR2DI_NO_CLUSTER */

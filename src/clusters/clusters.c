@@ -62,22 +62,22 @@ static hr2d_status push(walk *w, two at, uint32_t i, uint32_t j) {
 }
 
 static double size_of(const hr2di_cluster *c) {
-  return c->below ? hypot(c->x1 - c->x0, c->y1 - c->y0) : -1;
+  return c->child ? hypot(c->x1 - c->x0, c->y1 - c->y0) : -1;
 }
 
 static hr2d_status part(walk *w, two at) {
   const hr2di_cluster *i = &w->tree.cluster[at.i], *j = &w->tree.cluster[at.j];
   hr2d_status status;
   if (at.i == at.j) {
-    if (!i->below) return HR2D_OK;
-    status = push(w, at, i->below, i->below + 1);
-    if (!status) status = push(w, at, i->below, i->below);
-    return status ? status : push(w, at, i->below + 1, i->below + 1);
+    if (!i->child) return HR2D_OK;
+    status = push(w, at, i->child, i->child + 1);
+    if (!status) status = push(w, at, i->child, i->child);
+    return status ? status : push(w, at, i->child + 1, i->child + 1);
   }
   const int first = size_of(i) >= size_of(j);
-  status = first ? push(w, at, i->below, at.j) : push(w, at, at.i, j->below);
+  status = first ? push(w, at, i->child, at.j) : push(w, at, at.i, j->child);
   if (status) return status;
-  return first ? push(w, at, i->below + 1, at.j) : push(w, at, at.i, j->below + 1);
+  return first ? push(w, at, i->child + 1, at.j) : push(w, at, at.i, j->child + 1);
 }
 
 static hr2d_status link(walk *w, const two *at) {
@@ -104,7 +104,7 @@ static int link_pays(const walk *w, const two *at) {
 static int may_link(const walk *w, const two *at) {
   return link_pays(w, at) &&
          hr2di_expansion_apart(&w->tree.cluster[at->i], &w->far[at->i], &w->tree.cluster[at->j],
-                               &w->far[at->j], w->made->digits);
+                               &w->far[at->j], w->made->accuracy);
 }
 
 /* Completes what is known of a pair that may be linked, until it is known not to be. */
@@ -144,7 +144,7 @@ static hr2d_status settle(walk *w, two at) {
     if (few && !is_clear(w, &at)) return put_off(w, at);
     if (!few && hr2di_clusters_blocked(w->walls, i, j)) return HR2D_OK;
   }
-  if (i->below || j->below) return part(w, at);
+  if (i->child || j->child) return part(w, at);
   return hand_over(w, w->tree.patch[i->first], w->tree.patch[j->first]);
 }
 
@@ -159,9 +159,9 @@ static hr2d_status cast(walk *w, hr2di_beams *beams, uint32_t place, const size_
                         uint32_t *target) {
   const hr2di_cluster *all = w->tree.cluster;
   size_t targets = 0;
-  for (uint32_t k = 0;; k = all[k].below + (place >= all[all[k].below].last)) {
+  for (uint32_t k = 0;; k = all[k].child + (place >= all[all[k].child].last)) {
     for (size_t m = start[k]; m < start[k + 1]; m++) target[targets++] = w->later[m].j;
-    if (!all[k].below) break;
+    if (!all[k].child) break;
   }
   const uint32_t patch = w->tree.patch[place];
   hr2d_status status = hr2di_beams_cast(beams, patch, target, targets);
@@ -190,13 +190,13 @@ static hr2d_status settle_later(walk *w, const hr2d_scene *scene) {
 }
 
 static hr2d_status make_far(walk *w) {
-  const double digits = w->made->digits;
-  if (!(digits > 0)) return HR2D_OK;
-  w->tree.slack = digits / SLACK;
+  const double accuracy = w->made->accuracy;
+  if (!(accuracy > 0)) return HR2D_OK;
+  w->tree.slack = accuracy / SLACK;
   w->far = hr2di_alloc(&w->tree.alloc, w->tree.clusters, sizeof *w->far);
   if (!w->far) return HR2D_ENOMEM;
   for (size_t k = 0; k < w->tree.clusters; k++)
-    w->far[k] = hr2di_expansion_of(&w->tree.cluster[k], digits);
+    w->far[k] = hr2di_expansion_of(&w->tree.cluster[k], accuracy);
   return HR2D_OK;
 }
 
@@ -215,11 +215,11 @@ static hr2d_status sort_pairs(walk *w, const hr2d_scene *scene) {
 }
 
 hr2d_status hr2di_clusters_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
-                                  double digits, hr2di_near_fn near, void *ctx,
+                                  double accuracy, hr2di_near_fn near, void *ctx,
                                   hr2di_clusters **clusters) {
   hr2di_clusters *made = hr2di_alloc_zero(alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
-  *made = (hr2di_clusters){.alloc = *alloc, .scene = scene, .digits = digits};
+  *made = (hr2di_clusters){.alloc = *alloc, .scene = scene, .accuracy = accuracy};
   walk w = {.made = made, .near = near, .ctx = ctx};
   hr2d_status status = sort_pairs(&w, scene);
   if (!status) status = hr2di_clusters_keep(made, &w.tree, w.far);

@@ -14,12 +14,12 @@ typedef hr2d_status (*hr2di_near_fn)(void *ctx, const hr2d_pair *pairs, size_t c
 
 /* Sorts all pairs of patches of a committed scene into three: those that surely cannot see
    each other, those that clusters exchange for them, and the rest, which go to `near`.  All
-   of a pair that has a link is seen, but for rounding.  `digits` is the accuracy asked of
+   of a pair that has a link is seen, but for rounding.  `accuracy` is the accuracy asked of
    cluster links, as 1e-6: of the irradiance that comes over them where B ≤ 1; 0 for none of
    them.  The scene must outlive the clusters.  HR2D_OK, HR2D_ENOMEM, or the status of
    `near`. */
 hr2d_status hr2di_clusters_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
-                                  double digits, hr2di_near_fn near, void *ctx,
+                                  double accuracy, hr2di_near_fn near, void *ctx,
                                   hr2di_clusters **clusters);
 void hr2di_clusters_destroy(hr2di_clusters *clusters);
 

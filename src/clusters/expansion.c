@@ -15,13 +15,13 @@
 
 /* The constant in front of the bound grows with 1/r³ towards the ellipse, but m is seldom as
    small as it may be: the errors measured are a fifth of what is asked for, and less. */
-double hr2di_expansion_degree(double digits, double m) {
-  return log(1 / digits) / log(m + sqrt(m * m - 1));
+double hr2di_expansion_degree(double accuracy, double m) {
+  return log(1 / accuracy) / log(m + sqrt(m * m - 1));
 }
 
 /* What is APART along the longer direction of half h is (APART−1)·h away from the cluster,
    so that along a shorter one m ≥ (APART−1)·h/half. */
-hr2di_expansion hr2di_expansion_of(const hr2di_cluster *c, double digits) {
+hr2di_expansion hr2di_expansion_of(const hr2di_cluster *c, double accuracy) {
   const hr2di_extent *e = &c->nested;
   hr2di_expansion far = {.u = c->u,
                          .at = {0.5 * (e->u0 + e->u1), 0.5 * (e->v0 + e->v1)},
@@ -31,7 +31,7 @@ hr2di_expansion hr2di_expansion_of(const hr2di_cluster *c, double digits) {
     far.reach[k] = fmax(APART * far.half[k], (APART - 1) * longer);
     if (far.half[k] == longer) far.reach[k] = APART * longer;
     const double degree =
-        far.half[k] > 0 ? hr2di_expansion_degree(digits, far.reach[k] / far.half[k]) : 0;
+        far.half[k] > 0 ? hr2di_expansion_degree(accuracy, far.reach[k] / far.half[k]) : 0;
     far.count[k] = (unsigned)fmin(fmax(ceil(degree), 1), HR2DI_EXPANSION_POINTS);
   }
   return far;
@@ -52,29 +52,30 @@ static double around(double half, double along, double aside) {
 }
 
 static int apart(const hr2di_cluster *c, const hr2di_expansion *far, const hr2di_cluster *other,
-                 double least) {
+                 double min) {
   const hr2di_extent e = hr2di_cluster_extent_of(c, other, &other->nested);
   const double u0 = e.u0 - far->at[0], u1 = e.u1 - far->at[0];
   const double v0 = e.v0 - far->at[1], v1 = e.v1 - far->at[1];
   const double du = beyond(u0, u1, far->half[0]), dv = beyond(v0, v1, far->half[1]);
-  return hypot(du, dv) >= least &&
+  return hypot(du, dv) >= min &&
          around(far->half[0], nearest(u0, u1), dv) >= 2 * far->reach[0] &&
          around(far->half[1], nearest(v0, v1), du) >= 2 * far->reach[1];
 }
 
 /* What is HR2DI_CLUSTER_TOUCH behind a patch at the distance r has a cosine of −TOUCH/r. */
 int hr2di_expansion_apart(const hr2di_cluster *i, const hr2di_expansion *far_i,
-                          const hr2di_cluster *j, const hr2di_expansion *far_j, double digits) {
-  const double least = 8 * HR2DI_CLUSTER_TOUCH / digits;
-  return apart(i, far_i, j, least) && apart(j, far_j, i, least);
+                          const hr2di_cluster *j, const hr2di_expansion *far_j,
+                          double accuracy) {
+  const double min = 8 * HR2DI_CLUSTER_TOUCH / accuracy;
+  return apart(i, far_i, j, min) && apart(j, far_j, i, min);
 }
 
 size_t hr2di_expansion_gauss(const hr2di_expansion *far, double length, size_t order,
-                             double digits) {
+                             double accuracy) {
   const double gap = (APART - 1) * fmax(far->half[0], far->half[1]);
-  const double degree = hr2di_expansion_degree(digits, hypot(2 * gap / length, 1));
-  const double most = far->count[0] + far->count[1] - 2;
-  return (size_t)ceil(0.5 * ((double)order + fmin(ceil(degree), most)));
+  const double degree = hr2di_expansion_degree(accuracy, hypot(2 * gap / length, 1));
+  const double max = far->count[0] + far->count[1] - 2;
+  return (size_t)ceil(0.5 * ((double)order + fmin(ceil(degree), max)));
 }
 
 static hr2d_status reserve(hr2di_clusters *made, size_t linked, size_t points) {

@@ -27,16 +27,17 @@ static inline size_t hr2di_expansion_points(const hr2di_expansion *far) {
 }
 
 /* The degree that interpolates to a relative accuracy what is analytic within m. */
-double hr2di_expansion_degree(double digits, double m);
+double hr2di_expansion_degree(double accuracy, double m);
 
-hr2di_expansion hr2di_expansion_of(const hr2di_cluster *cluster, double digits);
+hr2di_expansion hr2di_expansion_of(const hr2di_cluster *cluster, double accuracy);
 
 /* Whether two clusters are far enough from each other. */
 int hr2di_expansion_apart(const hr2di_cluster *i, const hr2di_expansion *far_i,
-                          const hr2di_cluster *j, const hr2di_expansion *far_j, double digits);
+                          const hr2di_cluster *j, const hr2di_expansion *far_j,
+                          double accuracy);
 
 /* The Gauss points a patch of a cluster needs for what is of this degree along it. */
 size_t hr2di_expansion_gauss(const hr2di_expansion *far, double length, size_t order,
-                             double digits);
+                             double accuracy);
 
 #endif

@@ -48,7 +48,7 @@ unsigned hr2di_cluster_glance(const hr2di_cluster_tree *tree, const hr2di_cluste
 }
 
 static double size_of(const hr2di_cluster *c) {
-  return c->below ? (c->x1 - c->x0) + (c->y1 - c->y0) : 0;
+  return c->child ? (c->x1 - c->x0) + (c->y1 - c->y0) : 0;
 }
 
 typedef struct two {
@@ -59,11 +59,11 @@ typedef struct two {
    part the first; 0 if neither has halves. */
 static int halve(const hr2di_cluster_tree *tree, two at, int keep, two *stack, size_t *count) {
   const hr2di_cluster *c = &tree->cluster[at.c], *d = &tree->cluster[at.d];
-  const int may_c = c->below && !(keep && d->below);
-  if (!may_c && !d->below) return 0;
+  const int may_c = c->child && !(keep && d->child);
+  if (!may_c && !d->child) return 0;
   const int first = may_c && size_of(c) >= size_of(d);
   for (uint32_t k = 0; k < 2; k++)
-    stack[(*count)++] = first ? (two){c->below + k, at.d} : (two){at.c, d->below + k};
+    stack[(*count)++] = first ? (two){c->child + k, at.d} : (two){at.c, d->child + k};
   return 1;
 }
 
@@ -120,7 +120,7 @@ static int none_hides(const hr2di_cluster_tree *tree, two at) {
 void hr2di_clusters_order(hr2di_cluster_tree *tree) {
   for (uint32_t k = (uint32_t)tree->clusters; k-- > 0;) {
     hr2di_cluster *c = &tree->cluster[k];
-    const uint32_t half = c->below;
+    const uint32_t half = c->child;
     c->orderly =
         !half || c->run != HR2DI_NO_RUN ||
         (tree->cluster[half].orderly && tree->cluster[half + 1].orderly &&

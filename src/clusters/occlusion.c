@@ -47,8 +47,8 @@ static int outside(const hull *h, const hr2di_cluster *c) {
   if (c->x0 > h->x1 || c->x1 < h->x0 || c->y0 > h->y1 || c->y1 < h->y0) return 1;
   for (int k = 0; k < h->cuts; k++) {
     const double nx = h->cut[k].nx, ny = h->cut[k].ny;
-    const double least = nx * (nx > 0 ? c->x0 : c->x1) + ny * (ny > 0 ? c->y0 : c->y1);
-    if (least > h->cut[k].offset + h->cut[k].margin) return 1;
+    const double min = nx * (nx > 0 ? c->x0 : c->x1) + ny * (ny > 0 ? c->y0 : c->y1);
+    if (min > h->cut[k].offset + h->cut[k].margin) return 1;
   }
   return 0;
 }
@@ -60,7 +60,7 @@ static int harmless(const hr2di_cluster_tree *tree, uint32_t w, uint32_t i, uint
   if ((hr2di_cluster_glance(tree, p, c) | hr2di_cluster_glance(tree, y, c)) & HR2DI_SIDE_BEHIND)
     return 1;
   if (hr2di_cluster_glance(tree, c, p) & hr2di_cluster_glance(tree, c, y)) return 1;
-  if (c->below) return 0;
+  if (c->child) return 0;
   static const hr2di_side_of side[] = {HR2DI_SIDE_FRONT, HR2DI_SIDE_BEHIND};
   for (int k = 0; k < 2; k++)
     if (hr2di_cluster_on(tree, w, i, side[k]) && hr2di_cluster_on(tree, w, j, side[k]))
@@ -80,12 +80,12 @@ int hr2di_clusters_clear(const hr2di_cluster_tree *tree, uint32_t i, uint32_t j,
   for (int turns = PATIENCE; count > 0 && turns > 0; turns--) {
     const uint32_t top = stack[--count];
     if (top == i || top == j || outside(&h, &all[top]) || harmless(tree, top, i, j)) continue;
-    if (!all[top].below) {
+    if (!all[top].child) {
       *suspect = top;
       return 0;
     }
-    stack[count++] = all[top].below;
-    stack[count++] = all[top].below + 1;
+    stack[count++] = all[top].child;
+    stack[count++] = all[top].child + 1;
   }
   return count == 0;
 }
@@ -150,12 +150,12 @@ int hr2di_clusters_blocked(const hr2di_walls *walls, const hr2di_cluster *i,
   if (!find_doors(i, j, door) ||
       !hr2di_shaft_init(&shaft, HR2DI_FACING_FULL, door[0], door[1], door[0], door[1]))
     return 0;
-  const double least = fmin(length_of(door[0]), length_of(door[1]));
+  const double min = fmin(length_of(door[0]), length_of(door[1]));
   uint32_t stack[STACK], count = 0;
   stack[count++] = 0;
   for (int turns = PATIENCE; count > 0 && turns > 0; turns--) {
     const hr2di_box *box = &walls->box[stack[--count]];
-    if ((box->x1 - box->x0) + (box->y1 - box->y0) < least ||
+    if ((box->x1 - box->x0) + (box->y1 - box->y0) < min ||
         !hr2di_shaft_meets_box(&shaft, box->x0, box->x1, box->y0, box->y1))
       continue;
     if (box->wall == HR2DI_NO_WALL) {

@@ -51,11 +51,11 @@ static hr2d_status sort_pairs(hr2di_roots *r, size_t patches, const hr2d_allocat
 }
 
 hr2d_status hr2di_roots_init(hr2di_roots *roots, const hr2d_scene *scene,
-                             const hr2d_allocator *alloc, double digits) {
+                             const hr2d_allocator *alloc, double accuracy) {
   collector c = {roots, alloc};
-  *roots = (hr2di_roots){.digits = digits};
+  *roots = (hr2di_roots){.accuracy = accuracy};
   hr2d_status status =
-      hr2di_clusters_create(scene, alloc, digits, collect, &c, &roots->clusters);
+      hr2di_clusters_create(scene, alloc, accuracy, collect, &c, &roots->clusters);
   if (!status) status = sort_pairs(roots, scene->patches, alloc);
   return status;
 }

@@ -7,7 +7,7 @@
 
 typedef struct hr2di_roots {
   hr2di_clusters *clusters; /* NULL: all pairs of patches are roots */
-  double digits;            /* relative accuracy of cluster links; 0: there are none */
+  double accuracy;          /* relative accuracy of cluster links; 0: there are none */
   hr2d_pair *pair;          /* of patches, first below second; sorted */
   size_t count, capacity;
   size_t *row; /* where the pairs of each patch begin; one more */
@@ -15,7 +15,7 @@ typedef struct hr2di_roots {
 
 /* Finds the pairs of a scene; HR2D_OK or HR2D_ENOMEM.  To be cleared in either case. */
 hr2d_status hr2di_roots_init(hr2di_roots *roots, const hr2d_scene *scene,
-                             const hr2d_allocator *alloc, double digits);
+                             const hr2d_allocator *alloc, double accuracy);
 void hr2di_roots_clear(hr2di_roots *roots, const hr2d_allocator *alloc);
 
 #endif

@@ -121,7 +121,7 @@ static void send_patch(const gather *g, size_t patch, const double *radiosity) {
   const hr2di_patch *p = &g->c->scene->patch[patch];
   const hr2d_segment s = p->scaled;
   const hr2di_rule *rule =
-      rule_of(g, hr2di_expansion_gauss(&c->far, p->length, g->order, g->c->digits));
+      rule_of(g, hr2di_expansion_gauss(&c->far, p->length, g->order, g->c->accuracy));
   for (size_t k = 0; k < rule->points; k++) {
     for (size_t band = 0; band < g->bands; band++) {
       const double b =
@@ -138,7 +138,7 @@ static void receive_patch(const gather *g, size_t patch, double *power) {
   const hr2di_patch *p = &g->c->scene->patch[patch];
   const hr2d_segment s = p->scaled;
   const hr2di_rule *rule =
-      rule_of(g, hr2di_expansion_gauss(&c->far, p->length, g->order, g->c->digits));
+      rule_of(g, hr2di_expansion_gauss(&c->far, p->length, g->order, g->c->accuracy));
   double phi[HR2D_MAX_ORDER];
   for (size_t k = 0; k < rule->points; k++) {
     receive(g, c, point_of(s, rule->at[k]));
@@ -153,21 +153,21 @@ static void receive_patch(const gather *g, size_t patch, double *power) {
 
 /* From the points of a cluster to the one above it, as if they were patches. */
 static void send_up(const gather *g, const hr2di_linked *c) {
-  const hr2di_linked *above = &g->c->linked[c->above];
+  const hr2di_linked *parent = &g->c->linked[c->parent];
   const size_t points = hr2di_expansion_points(&c->far);
   const double *plane = planes_of(g, g->sent, c);
   for (size_t k = 0; k < points; k++) {
     for (size_t m = 0; m < g->planes; m++) g->vector[m] = plane[m * points + k];
-    send(g, above, g->c->point[c->first + k]);
+    send(g, parent, g->c->point[c->first + k]);
   }
 }
 
 static void receive_down(const gather *g, const hr2di_linked *c) {
-  const hr2di_linked *above = &g->c->linked[c->above];
+  const hr2di_linked *parent = &g->c->linked[c->parent];
   const size_t points = hr2di_expansion_points(&c->far);
   double *plane = planes_of(g, g->received, c);
   for (size_t k = 0; k < points; k++) {
-    receive(g, above, g->c->point[c->first + k]);
+    receive(g, parent, g->c->point[c->first + k]);
     for (size_t m = 0; m < g->planes; m++) plane[m * points + k] += g->vector[m];
   }
 }
@@ -228,12 +228,12 @@ static void run(const gather *g, const double *radiosity, double *power) {
     if (c->home[k] != HR2DI_NO_CLUSTER) send_patch(g, k, radiosity + k * stride);
   for (size_t k = c->linked_count; k-- > 0;) {
     turn_planes(g, g->sent, &c->linked[k], 1);
-    if (c->linked[k].above != HR2DI_NO_CLUSTER) send_up(g, &c->linked[k]);
+    if (c->linked[k].parent != HR2DI_NO_CLUSTER) send_up(g, &c->linked[k]);
   }
   for (size_t k = 0; k < c->links; k++)
     exchange(g, &c->linked[c->link[k].first], &c->linked[c->link[k].second]);
   for (size_t k = 0; k < c->linked_count; k++) {
-    if (c->linked[k].above != HR2DI_NO_CLUSTER) receive_down(g, &c->linked[k]);
+    if (c->linked[k].parent != HR2DI_NO_CLUSTER) receive_down(g, &c->linked[k]);
     turn_planes(g, g->received, &c->linked[k], 0);
   }
   for (size_t k = 0; k < patches; k++)

@@ -99,15 +99,15 @@ static int find_cone(const maker *m, const item *items, size_t count, hr2d_point
   *sine = 1;
   if (!(length > 0)) return 0;
   *axis = (hr2d_point){sum.x / length, sum.y / length};
-  double least = 1, most = 0;
+  double min = 1, max = 0;
   for (size_t k = 0; k < count; k++) {
     const hr2d_point d = direction(m, items[k].patch);
-    least = fmin(least, hr2di_point_dot(*axis, d));
-    most = fmax(most, fabs(hr2di_point_cross(*axis, d)));
+    min = fmin(min, hr2di_point_dot(*axis, d));
+    max = fmax(max, fabs(hr2di_point_cross(*axis, d)));
   }
-  *cosine = least;
-  if (least > 0) *sine = most;
-  return least > 0;
+  *cosine = min;
+  if (min > 0) *sine = max;
+  return min > 0;
 }
 
 /* Sets what follows from the patches of a cluster. */
@@ -193,13 +193,13 @@ static void divide(maker *m, task t) {
   if (t.depth < PARTED && c->cosine < COS_EIGHTH) low = part_by_normal(m, items, count);
   if (t.depth < PARTED && low == 0) low = part_by_length(m, c, items, count);
   if (low == 0) low = part_by_place(m, c, items, count);
-  c->below = (uint32_t)m->tree->clusters;
+  c->child = (uint32_t)m->tree->clusters;
   m->tree->clusters += 2;
   const uint32_t middle = c->first + (uint32_t)low;
-  m->tree->cluster[c->below] = (hr2di_cluster){.first = c->first, .last = middle};
-  m->tree->cluster[c->below + 1] = (hr2di_cluster){.first = middle, .last = c->last};
-  m->task[m->tasks++] = (task){c->below + 1, t.depth + 1};
-  m->task[m->tasks++] = (task){c->below, t.depth + 1};
+  m->tree->cluster[c->child] = (hr2di_cluster){.first = c->first, .last = middle};
+  m->tree->cluster[c->child + 1] = (hr2di_cluster){.first = middle, .last = c->last};
+  m->task[m->tasks++] = (task){c->child + 1, t.depth + 1};
+  m->task[m->tasks++] = (task){c->child, t.depth + 1};
 }
 
 static void include(hr2di_extent *e, hr2di_extent more) {
@@ -213,8 +213,8 @@ static void nest(hr2di_cluster_tree *tree) {
   for (size_t k = tree->clusters; k-- > 0;) {
     hr2di_cluster *c = &tree->cluster[k];
     c->nested = c->tight;
-    if (!c->below) continue;
-    for (const hr2di_cluster *child = tree->cluster + c->below, *end = child + 2; child < end;
+    if (!c->child) continue;
+    for (const hr2di_cluster *child = tree->cluster + c->child, *end = child + 2; child < end;
          child++)
       include(&c->nested, hr2di_cluster_extent_of(c, child, &child->nested));
   }

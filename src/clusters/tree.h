@@ -27,7 +27,7 @@ typedef struct hr2di_cluster {
   hr2d_segment span;    /* from end to end of its patches, if they are of one run */
   uint32_t run;         /* the wall of all its patches and their side of it, or HR2DI_NO_RUN */
   uint32_t first, last; /* of hr2di_cluster_tree::patch */
-  uint32_t below;       /* its children, this and the one behind it; 0 for a patch */
+  uint32_t child;       /* its children, this and the one behind it; 0 for a patch */
   int orderly;          /* none of its patches hides another from what is in front of all;
                            set by hr2di_clusters_order() */
 } hr2di_cluster;

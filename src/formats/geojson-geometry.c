@@ -45,15 +45,15 @@ static int same_point(hr2d_point a, hr2d_point b) {
 }
 
 static hr2d_status read_points(hr2di_geojson *reader, const path *p, size_t *count) {
-  const size_t least = p->role == LINE ? 2 : 4;
+  const size_t min = p->role == LINE ? 2 : 4;
   const size_t n = *count = json_array_size(p->positions);
   if (!json_is_array(p->positions))
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "%s: coordinates: must be an array of positions, not %s",
                               p->place, hr2di_geojson_kind(p->positions));
-  if (n < least)
+  if (n < min)
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
-                              "%s: needs %zu positions or more, has %zu", p->place, least, n);
+                              "%s: needs %zu positions or more, has %zu", p->place, min, n);
   if (hr2di_alloc_reserve(reader->alloc, &reader->point, &reader->point_capacity, n,
                           sizeof *reader->point))
     return hr2di_message_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", p->place);

@@ -106,11 +106,11 @@ static int lie_together(const pair *p, hr2di_meeting *m) {
   end from, to;
   const double stretch = find_stretch(p, &from, &to);
   const int collinear = p->ja.side.m == 0 && p->jb.side.m == 0;
-  const double least = collinear ? fmin(p->rounding, fmin(length(p->i), length(p->j)) / 2)
-                                 : LONG_STRETCH * p->rounding;
+  const double min = collinear ? fmin(p->rounding, fmin(length(p->i), length(p->j)) / 2)
+                               : LONG_STRETCH * p->rounding;
   /* Visibility takes what is so near for lying on a wall's line, or on that of its run. */
   const double near = 2 * p->rounding;
-  if (stretch <= least || from.distance >= near || to.distance >= near) return 0;
+  if (stretch <= min || from.distance >= near || to.distance >= near) return 0;
   const hr2d_segment *i = p->i, *j = p->j;
   const double dot = (i->b.x - i->a.x) * ((j->b.x - j->a.x) / length(j)) +
                      (i->b.y - i->a.y) * ((j->b.y - j->a.y) / length(j));

@@ -45,13 +45,13 @@ double hr2di_det(const hr2di_vector *u, const hr2di_vector *v) {
 /* Then a difference is a multiple of 2^-852 of the largest, and scaled to 2^499 each of its
    parts is one of 2^-355 at least: products and their tails stay above 2^-710. */
 int hr2di_points_near_in_scale(const hr2d_point *points, int count) {
-  double least = INFINITY, most = 0;
+  double min = INFINITY, max = 0;
   for (int k = 0; k < 2 * count; k++) {
     const double x = fabs(k & 1 ? points[k / 2].y : points[k / 2].x);
-    if (x > most) most = x;
-    if (x > 0 && x < least) least = x;
+    if (x > max) max = x;
+    if (x > 0 && x < min) min = x;
   }
-  return least >= most * 0x1p-800;
+  return min >= max * 0x1p-800;
 }
 
 hr2di_vector hr2di_vector_difference_scaled(hr2d_point to, hr2d_point from) {

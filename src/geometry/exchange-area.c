@@ -39,8 +39,8 @@ static inline double facing_area(determinants o, double p, double q, double e, d
   const double at_ad = (p * o.abd + q * o.cda) + k * ad;
   const double at_bc = (q * o.abc + p * o.cdb) + k * bc;
   const double terms = (o.abd * o.cda) * at_bc + (o.abc * o.cdb) * at_ad;
-  const double above = e >= 0 ? k : p * q - e, below = e >= 0 ? p * q + e : k;
-  return above * terms / ((at_ad * at_bc) * below);
+  const double numerator = e >= 0 ? k : p * q - e, denominator = e >= 0 ? p * q + e : k;
+  return numerator * terms / ((at_ad * at_bc) * denominator);
 }
 
 /* A plain determinant and the sum of its products' sizes, of which its rounding

@@ -23,7 +23,7 @@ typedef struct hr2di_incident_point {
 typedef struct hr2di_axis {
   hr2d_point a, b;
   int by_x;
-  double way;
+  double direction;
 } hr2di_axis;
 
 typedef struct hr2di_pair_lines {
@@ -38,7 +38,7 @@ static inline hr2di_axis hr2di_axis_of(hr2d_segment s) {
 
 /* How q lies to p along a line: 1 ahead, −1 behind. */
 static inline int hr2di_axis_order(const hr2di_axis *axis, hr2d_point p, hr2d_point q) {
-  return hr2di_sign_of(axis->way * (axis->by_x ? q.x - p.x : q.y - p.y));
+  return hr2di_sign_of(axis->direction * (axis->by_x ? q.x - p.x : q.y - p.y));
 }
 
 /* Both lie where the two lines meet. */

@@ -81,10 +81,10 @@ uint64_t hr2di_hierarchy_clone_bytes(const hr2d_hierarchy *from);
 
 /* Grows by every element that one of `count` clones has, numbered patch by patch, a
    parent's children before its right neighbour's.  HR2D_OK, or HR2D_ENOMEM or
-   HR2D_EMAX_ELEMENTS, or HR2D_EMAX_BYTES for more room than for `most` elements, with the
+   HR2D_EMAX_ELEMENTS, or HR2D_EMAX_BYTES for more room than for `max` elements, with the
    hierarchy as it was. */
 hr2d_status hr2di_hierarchy_unite(hr2d_hierarchy *hierarchy, hr2d_hierarchy *const *clone,
-                                  size_t count, size_t most);
+                                  size_t count, size_t max);
 
 /* Takes back all but the first `elements` elements, and their room. */
 void hr2di_hierarchy_truncate(hr2d_hierarchy *hierarchy, size_t elements);

@@ -152,10 +152,10 @@ uint32_t hr2d_hierarchy_leaf(const hr2d_hierarchy *hierarchy, size_t patch, doub
 
 double hr2di_element_start(const hr2d_hierarchy *h, uint32_t element) {
   double start = 0;
-  for (uint32_t above = h->parent[element]; above != element; above = h->parent[element]) {
-    const double left = hr2di_element_left_part(h->element, above);
-    start = element == h->element[above].child ? left * start : left + (1 - left) * start;
-    element = above;
+  for (uint32_t parent = h->parent[element]; parent != element; parent = h->parent[element]) {
+    const double left = hr2di_element_left_part(h->element, parent);
+    start = element == h->element[parent].child ? left * start : left + (1 - left) * start;
+    element = parent;
   }
   return start;
 }

@@ -115,12 +115,12 @@ void hr2di_push_pull_down(const hr2di_push_pull *p, double *field) {
     const uint32_t parent = p->hierarchy->parent[e];
     if (parent == e) continue;
     double *here = field + e * width;
-    const double *above = field + parent * width;
+    const double *from = field + parent * width;
     if (width == bands) {
-      for (size_t b = 0; b < bands; b++) here[b] += above[b];
+      for (size_t b = 0; b < bands; b++) here[b] += from[b];
       continue;
     }
     const int right = e == element[parent].child + 1;
-    add_down(p, relation_of(p, parent) + (right ? square : 0), above, here);
+    add_down(p, relation_of(p, parent) + (right ? square : 0), from, here);
   }
 }

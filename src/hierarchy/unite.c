@@ -38,7 +38,7 @@ hr2d_status hr2di_hierarchy_clone(const hr2d_hierarchy *from, hr2d_hierarchy **c
 typedef struct walk {
   uint32_t *column;
   size_t width, columns;
-  size_t most; /* elements there may be room for */
+  size_t max; /* elements there may be room for */
 } walk;
 
 /* Pushes the columns of the children, the right one first. */
@@ -73,7 +73,7 @@ static hr2d_status unite_patch(hr2d_hierarchy *h, hr2d_hierarchy *const *clone, 
     if (!h->element[top[0]].child) {
       const int full = h->elements + 2 > h->capacity;
       const hr2d_status status =
-          full && h->capacity > w->most / 2 ? HR2D_EMAX_BYTES : hr2di_hierarchy_reserve(h);
+          full && h->capacity > w->max / 2 ? HR2D_EMAX_BYTES : hr2di_hierarchy_reserve(h);
       if (status) return status;
       hr2di_element_halve(h, top[0]);
     }
@@ -83,11 +83,11 @@ static hr2d_status unite_patch(hr2d_hierarchy *h, hr2d_hierarchy *const *clone, 
 }
 
 hr2d_status hr2di_hierarchy_unite(hr2d_hierarchy *h, hr2d_hierarchy *const *clone, size_t count,
-                                  size_t most) {
+                                  size_t max) {
   unsigned levels = h->levels;
   for (size_t k = 0; k < count; k++)
     levels = clone[k]->levels > levels ? clone[k]->levels : levels;
-  walk w = {.width = count + 1, .most = most};
+  walk w = {.width = count + 1, .max = max};
   /* A level leaves at most a sibling behind, and the last holds two. */
   w.column = hr2di_alloc(&h->alloc, (size_t)levels + 3, w.width * sizeof *w.column);
   uint32_t *top = hr2di_alloc(&h->alloc, w.width, sizeof *top);

@@ -23,8 +23,8 @@ static void join_clusters(hr2di_components *c, const hr2di_clusters *clusters, s
   for (size_t k = 0; k < patches; k++)
     if (clusters->home[k] != HR2DI_NO_CLUSTER) join(c, k, patches + clusters->home[k]);
   for (size_t k = 0; k < clusters->linked_count; k++)
-    if (clusters->linked[k].above != HR2DI_NO_CLUSTER)
-      join(c, patches + k, patches + clusters->linked[k].above);
+    if (clusters->linked[k].parent != HR2DI_NO_CLUSTER)
+      join(c, patches + k, patches + clusters->linked[k].parent);
   for (size_t k = 0; k < clusters->links; k++)
     join(c, patches + clusters->link[k].first, patches + clusters->link[k].second);
 }
@@ -39,9 +39,9 @@ hr2d_status hr2di_components_init(hr2di_components *c, const hr2d_linkset *links
   if (!c->parent) return HR2D_ENOMEM;
   for (size_t k = 0; k < count; k++) c->parent[k] = (uint32_t)k;
   if (clusters) join_clusters(c, clusters, patches);
-  for (size_t block = 0; block < links->store.blocks; block++)
+  for (size_t block = 0; block < links->store.chunks; block++)
     for (size_t k = 0; k < hr2di_store_chunk_size(&links->store, block); k++) {
-      const hr2d_pair pair = links->store.block[block][k].pair;
+      const hr2d_pair pair = links->store.chunk[block][k].pair;
       join(c, element[pair.first].patch, element[pair.second].patch);
     }
   return HR2D_OK;

@@ -86,8 +86,8 @@ static hr2d_status make_all(const maker *m, const hr2di_link_blocks_plan *plan) 
 static size_t count_threads(unsigned asked, uint64_t links) {
 #ifdef _OPENMP
   const size_t threads = asked ? asked : (size_t)omp_get_max_threads();
-  const size_t most = (size_t)(1 + links / ROUND);
-  return threads < most ? threads : most;
+  const size_t max = (size_t)(1 + links / ROUND);
+  return threads < max ? threads : max;
 #else
   (void)asked;
   (void)links;

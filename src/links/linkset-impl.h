@@ -9,13 +9,13 @@
 #include "clusters/root-pairs.h"
 #include "links/link-blocks.h"
 
-/* Links are kept in blocks, so that a growing store never copies them. */
+/* Links are kept in chunks, so that a growing store never copies them. */
 enum { HR2DI_CHUNK_LINKS = 4096 };
 
 /* Exchange areas are in units of the scene here, not in scene lengths. */
 typedef struct hr2di_store {
-  hr2d_link **block;
-  size_t blocks, capacity;
+  hr2d_link **chunk;
+  size_t chunks, capacity;
   uint64_t count;
 } hr2di_store;
 
@@ -45,10 +45,10 @@ void hr2di_store_clear(hr2di_store *store, const hr2d_allocator *alloc);
 uint64_t hr2di_store_bytes(const hr2di_store *store);
 
 static inline const hr2d_link *hr2di_store_at(const hr2di_store *store, uint64_t index) {
-  return &store->block[index / HR2DI_CHUNK_LINKS][index % HR2DI_CHUNK_LINKS];
+  return &store->chunk[index / HR2DI_CHUNK_LINKS][index % HR2DI_CHUNK_LINKS];
 }
 
-/* How many links block k holds. */
+/* The number of links in chunk k. */
 static inline size_t hr2di_store_chunk_size(const hr2di_store *store, size_t k) {
   const uint64_t rest = store->count - (uint64_t)k * HR2DI_CHUNK_LINKS;
   return rest < HR2DI_CHUNK_LINKS ? (size_t)rest : HR2DI_CHUNK_LINKS;

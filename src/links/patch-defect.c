@@ -9,9 +9,9 @@ void hr2di_defect_sum(const hr2d_linkset *links, hr2di_sum *defect) {
   const hr2di_store *store = &links->store;
   for (size_t k = 0; k < links->hierarchy->scene->patches; k++)
     defect[k] = (hr2di_sum){element[k].length, 0};
-  for (size_t block = 0; block < store->blocks; block++)
+  for (size_t block = 0; block < store->chunks; block++)
     for (size_t k = 0; k < hr2di_store_chunk_size(store, block); k++) {
-      const hr2d_link *link = &store->block[block][k];
+      const hr2d_link *link = &store->chunk[block][k];
       hr2di_sum_add(&defect[element[link->pair.first].patch], -link->exchange_area);
       if (!links->directed)
         hr2di_sum_add(&defect[element[link->pair.second].patch], -link->exchange_area);

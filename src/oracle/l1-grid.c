@@ -74,9 +74,9 @@ double hr2di_l1_grid(const hr2d_batch *batch, hr2d_pair pair, double enough) {
       kernel(cx.x[0] - cy.x[0], cx.y[0] - cy.y[0], cx.before[0], cy.before[0]);
   /* in units of 2^exponent */
   const double cell = (i->length * scale / x.count) * (j->length * scale / y.count);
-  const double most = enough * scale / cell;
+  const double max = enough * scale / cell;
   double sum = 0;
-  for (int l = 0; l < y.count && sum <= most; l++) {
+  for (int l = 0; l < y.count && sum <= max; l++) {
     double row = 0;
     for (int k = 0; k < x.count; k++)
       row += fabs(centre - kernel(x.x[k] - y.x[l], x.y[k] - y.y[l], x.before[k], y.before[l]));

@@ -183,10 +183,10 @@ static void split_range(pieces *p, double low, double high) {
 /* Whether a pole is close to an end of the range. */
 static int is_steep(const hr2di_l1_frame *f, double tau, double range) {
   const hr2di_l1_direction d = hr2di_l1_direction_at(f, tau);
-  const double least = NEAREST * range, most = 0.1 * range;
+  const double min = NEAREST * range, max = 0.1 * range;
   const double a = d.above_a / (1 + fabs(f->x.tangent)),
                b = d.above_b / (1 + fabs(f->y.tangent));
-  return (a > least && a < most) || (b > least && b < most);
+  return (a > min && a < max) || (b > min && b < max);
 }
 
 static void measure_pieces(pieces *p) {
@@ -247,9 +247,9 @@ static double integrate(pieces *p, const hr2d_segment *i, const hr2d_segment *j,
   /* Where one point is behind the other, |G − Gc| = Gc. */
   const double hidden = whole - (f->x.high - f->x.low) * (f->y.high - f->y.low);
   const double outside = f->x.cosine * hidden * f->per_length * f->per_range;
-  const double factor = unit / f->per_length / f->per_range, most = epsilon / factor;
+  const double factor = unit / f->per_length / f->per_range, max = epsilon / factor;
   const double rough = outside + p->sum;
-  if (epsilon >= 0 && is_square(f) && decided(rough, p->error, most)) return factor * rough;
+  if (epsilon >= 0 && is_square(f) && decided(rough, p->error, max)) return factor * rough;
   double area;
   if (is_large(i, j, f, factor * rough, spread, &area))
     return from_area(p, area, outside, factor, spread,

@@ -39,7 +39,7 @@ typedef struct team {
   hr2d_hierarchy **clone; /* of each worker */
 
   hr2di_stack stack[STACKS]; /* the pairs to share out */
-  hr2di_occluded_pairs shaded;
+  hr2di_occluded_pairs occluded;
   size_t next_patch; /* the first not yet projected */
 
   atomic_ullong links_told; /* by all workers */
@@ -54,18 +54,19 @@ static size_t shares(size_t pairs) {
 static unsigned long long task_count(const team *t) {
   unsigned long long tasks = t->links->hierarchy->scene->patches - t->next_patch;
   for (int k = 0; k < STACKS; k++) tasks += shares(t->stack[k].count);
-  return tasks + shares(t->shaded.stack.count);
+  return tasks + shares(t->occluded.stack.count);
 }
 
 /* The stacks of a projector but the one in the shade. */
 static hr2di_stack *stack_of(hr2di_projector *p, int k) {
-  hr2di_stack *const stack[STACKS] = {&p->open, &p->guarded, &p->fresh[0], &p->fresh[1]};
+  hr2di_stack *const stack[STACKS] = {&p->facing, &p->clipped, &p->unoccluded[0],
+                                      &p->unoccluded[1]};
   return stack[k];
 }
 
 /* Every worker looks whether another has failed; the calling thread tells progress. */
-static hr2d_status tell(hr2di_projector *p) {
-  team *t = p->tell_ctx;
+static hr2d_status report(hr2di_projector *p) {
+  team *t = p->report_ctx;
   if (atomic_load(&t->stop)) return HR2D_STOPPED;
   if (p != t->worker[0].projector || !p->options.progress) return HR2D_OK;
   const unsigned long long tasks = task_count(t);
@@ -121,8 +122,8 @@ static hr2d_status hire(team *t, size_t k, const hr2d_hierarchy *from) {
     return hr2di_projector_fail_budget(&w->links, t->options.max_bytes, 0);
   if (status) return status;
   w->projector->budget = t->options.max_bytes;
-  if (t->count > 1) w->projector->tell = tell;
-  w->projector->tell_ctx = t;
+  if (t->count > 1) w->projector->report = report;
+  w->projector->report_ctx = t;
   return HR2D_OK;
 }
 
@@ -147,8 +148,8 @@ static hr2d_status take_share(hr2di_projector *p, hr2di_stack *to, const hr2di_s
   return status;
 }
 
-static hr2d_status take_shaded(hr2di_projector *p, const hr2di_occluded_pairs *from,
-                               size_t share) {
+static hr2d_status take_occluded(hr2di_projector *p, const hr2di_occluded_pairs *from,
+                                 size_t share) {
   hr2d_status status = HR2D_OK;
   for (size_t k = share * SHARE; k < from->stack.count && k < (share + 1) * SHARE && !status;
        k++)
@@ -163,14 +164,14 @@ static hr2d_status take(team *t, hr2di_projector *p, size_t task) {
     if (task < some) return take_share(p, stack_of(p, k), &t->stack[k], task);
     task -= some;
   }
-  const size_t shaded = shares(t->shaded.stack.count);
-  if (task < shaded) return take_shaded(p, &t->shaded, task);
-  return hr2di_projector_row(p, t->next_patch + (task - shaded));
+  const size_t occluded = shares(t->occluded.stack.count);
+  if (task < occluded) return take_occluded(p, &t->occluded, task);
+  return hr2di_projector_row(p, t->next_patch + (task - occluded));
 }
 
 static hr2d_status do_task(team *t, hr2di_projector *p, size_t task) {
   const uint64_t before = p->counts.links;
-  hr2d_status status = tell(p);
+  hr2d_status status = report(p);
   if (!status) status = take(t, p, task);
   if (!status) status = hr2di_rounds_run(p, SIZE_MAX);
   if (p != t->worker[0].projector) atomic_fetch_add(&t->links_told, p->counts.links - before);
@@ -183,7 +184,7 @@ static hr2d_status do_task(team *t, hr2di_projector *p, size_t task) {
 static void work(team *t) {
   const long long tasks = (long long)task_count(t);
   worker *first = &t->worker[0];
-  first->status = tell(first->projector);
+  first->status = report(first->projector);
   if (first->status) return;
 #ifdef _OPENMP
 #pragma omp parallel for num_threads((int)t->count) schedule(dynamic)
@@ -198,14 +199,14 @@ static void work(team *t) {
     w->status = do_task(t, w->projector, (size_t)task);
     if (w->status) atomic_store(&t->stop, 1);
   }
-  if (!atomic_load(&t->stop)) first->status = tell(first->projector);
+  if (!atomic_load(&t->stop)) first->status = report(first->projector);
 }
 
 static uint64_t shared_bytes(const team *t) {
-  uint64_t pairs = t->shaded.stack.capacity;
+  uint64_t pairs = t->occluded.stack.capacity;
   for (int k = 0; k < STACKS; k++) pairs += t->stack[k].capacity;
-  return pairs * sizeof(hr2d_pair) + t->shaded.first_capacity * sizeof *t->shaded.first +
-         t->shaded.list.capacity * sizeof *t->shaded.list.wall;
+  return pairs * sizeof(hr2d_pair) + t->occluded.first_capacity * sizeof *t->occluded.first +
+         t->occluded.list.capacity * sizeof *t->occluded.list.wall;
 }
 
 /* The pairs on the first worker's stacks become everybody's, at the first one's cost. */
@@ -215,8 +216,8 @@ static void share_out(team *t) {
     t->stack[k] = *stack_of(p, k);
     *stack_of(p, k) = (hr2di_stack){0};
   }
-  t->shaded = p->shaded;
-  p->shaded = (hr2di_occluded_pairs){0};
+  t->occluded = p->occluded;
+  p->occluded = (hr2di_occluded_pairs){0};
   p->bytes += shared_bytes(t);
   hr2d_status status = HR2D_OK;
   for (size_t k = 1; k < t->count && !status; k++) {
@@ -255,8 +256,8 @@ static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
     sum.limited_links += part->limited_links;
     sum.oracle_calls += part->oracle_calls;
     sum.facing_tests += part->facing_tests;
-    const hr2di_visibility *sight = t->worker[k].projector->sight;
-    sum.visibility_tests += sight ? sight->tests : 0;
+    const hr2di_visibility *visibility = t->worker[k].projector->visibility;
+    sum.visibility_tests += visibility ? visibility->tests : 0;
     sum.blocked_pairs += part->blocked_pairs;
     sum.partial_links += part->partial_links;
     sum.dark_pairs += part->dark_pairs;
@@ -322,9 +323,9 @@ hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *op
     hr2d_hierarchy_destroy(t.clone[k]);
   }
   for (int k = 0; k < STACKS; k++) hr2di_alloc_free(&links->alloc, t.stack[k].pair);
-  hr2di_alloc_free(&links->alloc, t.shaded.stack.pair);
-  hr2di_alloc_free(&links->alloc, t.shaded.first);
-  hr2di_alloc_free(&links->alloc, t.shaded.list.wall);
+  hr2di_alloc_free(&links->alloc, t.occluded.stack.pair);
+  hr2di_alloc_free(&links->alloc, t.occluded.first);
+  hr2di_alloc_free(&links->alloc, t.occluded.list.wall);
   hr2di_alloc_free(&links->alloc, t.worker);
   hr2di_alloc_free(&links->alloc, t.clone);
   return status;

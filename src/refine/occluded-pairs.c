@@ -33,13 +33,13 @@ static int make_shaft(const hr2d_hierarchy *h, hr2d_pair pair, hr2di_facing *fac
 }
 
 /* Looks once more where several walls might block a pair together. */
-static hr2d_status look_closer(hr2di_visibility *sight, const hr2di_shaft *shaft,
+static hr2d_status look_closer(hr2di_visibility *visibility, const hr2di_shaft *shaft,
                                hr2di_wall_list *found, size_t first,
                                hr2di_visibility_class *view) {
   int blocked = 0;
   hr2d_status status = HR2D_OK;
   if (*view == HR2DI_PARTIAL)
-    status = hr2di_visibility_blocked(sight, shaft, hr2di_wall_list_from(found, first),
+    status = hr2di_visibility_blocked(visibility, shaft, hr2di_wall_list_from(found, first),
                                       found->count - first, &blocked);
   if (blocked) {
     *view = HR2DI_BLOCKED;
@@ -55,15 +55,15 @@ hr2d_status hr2di_occluded_collect(hr2di_projector *p, hr2d_pair pair,
   const size_t first = p->found.count;
   *view = HR2DI_CLEAR;
   if (!make_shaft(p->hierarchy, pair, &facing, &shaft)) return HR2D_OK;
-  hr2d_status status = hr2di_visibility_collect(p->sight, &shaft, &p->found, view);
-  if (!status) status = look_closer(p->sight, &shaft, &p->found, first, view);
+  hr2d_status status = hr2di_visibility_collect(p->visibility, &shaft, &p->found, view);
+  if (!status) status = look_closer(p->visibility, &shaft, &p->found, first, view);
   return status ? out_of_memory(p) : HR2D_OK;
 }
 
 /* Puts a pair on the stack with its walls. */
 static hr2d_status push(hr2di_projector *p, hr2d_pair pair, const uint32_t *wall,
                         size_t count) {
-  hr2di_occluded_pairs *s = &p->shaded;
+  hr2di_occluded_pairs *s = &p->occluded;
   const hr2d_allocator *alloc = &p->links->alloc;
   const size_t pairs = s->stack.count + 1, walls = s->list.count + count;
   hr2d_status status = hr2di_projector_check_budget(
@@ -90,8 +90,8 @@ static hr2d_status link_pair(hr2di_projector *p, hr2d_pair pair, const uint32_t 
   int open = 0;
   if (!make_shaft(p->hierarchy, pair, &facing, &shaft)) return HR2D_OK;
   const hr2d_status status =
-      p->sink ? hr2di_visibility_area(p->sight, &shaft, wall, count, &area, &open)
-              : hr2di_visibility_any(p->sight, &shaft, wall, count, &open);
+      p->sink ? hr2di_visibility_area(p->visibility, &shaft, wall, count, &area, &open)
+              : hr2di_visibility_any(p->visibility, &shaft, wall, count, &open);
   if (status) return out_of_memory(p);
   if (!open) {
     p->counts.blocked_pairs++;
@@ -135,14 +135,15 @@ static hr2d_status sort_out(hr2di_projector *p, hr2d_pair pair, hr2di_visibility
                             hr2di_facing facing, size_t first, candidate *c, size_t *count) {
   p->counts.blocked_pairs += view == HR2DI_BLOCKED;
   if (view == HR2DI_CLEAR)
-    return hr2di_projector_push(p, &p->fresh[facing == HR2DI_FACING_PART || p->test_all], pair);
+    return hr2di_projector_push(p, &p->unoccluded[facing == HR2DI_FACING_PART || p->test_all],
+                                pair);
   if (view == HR2DI_PARTIAL) c[(*count)++] = (candidate){pair, first, p->found.count - first};
   return HR2D_OK;
 }
 
 hr2d_status hr2di_occluded_propose_roots(hr2di_projector *p, const hr2d_pair *pairs,
                                          size_t count) {
-  if (!p->sight) return hr2di_projector_propose_clipped(p, pairs, count);
+  if (!p->visibility) return hr2di_projector_propose_clipped(p, pairs, count);
   hr2d_pair clear[HR2DI_CANDIDATES];
   size_t kept = 0;
   hr2d_status status = HR2D_OK;
@@ -179,7 +180,7 @@ hr2d_status hr2di_occluded_share(hr2di_projector *p, const hr2di_occluded_pairs 
 }
 
 hr2d_status hr2di_occluded_round(hr2di_projector *p) {
-  hr2di_occluded_pairs *s = &p->shaded;
+  hr2di_occluded_pairs *s = &p->occluded;
   const hr2d_pair pair = s->stack.pair[--s->stack.count];
   const size_t from = s->first[s->stack.count], walls = s->list.count - from;
   candidate c[MOST];
@@ -196,11 +197,11 @@ hr2d_status hr2di_occluded_round(hr2di_projector *p) {
     hr2di_facing facing;
     hr2di_visibility_class view = HR2DI_CLEAR;
     const size_t first = p->found.count;
-    const int shaded = make_shaft(p->hierarchy, p->candidate[k], &facing, &shaft);
+    const int occluded = make_shaft(p->hierarchy, p->candidate[k], &facing, &shaft);
     if (facing == HR2DI_FACING_NONE) continue;
-    if (shaded &&
-        (hr2di_visibility_shrink(p->sight, &shaft, &s->list, from, walls, &p->found, &view) ||
-         look_closer(p->sight, &shaft, &p->found, first, &view)))
+    if (occluded && (hr2di_visibility_shrink(p->visibility, &shaft, &s->list, from, walls,
+                                             &p->found, &view) ||
+                     look_closer(p->visibility, &shaft, &p->found, first, &view)))
       return out_of_memory(p);
     status = sort_out(p, p->candidate[k], view, facing, first, c, &count);
   }
@@ -208,7 +209,7 @@ hr2d_status hr2di_occluded_round(hr2di_projector *p) {
   return status ? status : propose(p, c, count);
 }
 
-hr2d_status hr2di_occluded_area(hr2di_visibility *sight, const hr2d_hierarchy *hierarchy,
+hr2d_status hr2di_occluded_area(hr2di_visibility *visibility, const hr2d_hierarchy *hierarchy,
                                 hr2d_pair pair, double *area, hr2di_visibility_class *view) {
   hr2di_shaft shaft;
   hr2di_facing facing;
@@ -218,12 +219,12 @@ hr2d_status hr2di_occluded_area(hr2di_visibility *sight, const hr2d_hierarchy *h
   hr2d_status status = HR2D_OK;
   *view = HR2DI_CLEAR;
   if (make_shaft(hierarchy, pair, &facing, &shaft))
-    status = hr2di_visibility_collect(sight, &shaft, &found, view);
+    status = hr2di_visibility_collect(visibility, &shaft, &found, view);
   if (!status && *view == HR2DI_CLEAR) hr2di_exchange_areas(hierarchy->element, &pair, 1, area);
   if (!status && *view == HR2DI_PARTIAL) {
-    status = hr2di_visibility_area(sight, &shaft, found.wall, found.count, area, &open);
+    status = hr2di_visibility_area(visibility, &shaft, found.wall, found.count, area, &open);
     if (!open) *view = HR2DI_BLOCKED;
   }
-  hr2di_alloc_free(&sight->alloc, found.wall);
+  hr2di_alloc_free(&visibility->alloc, found.wall);
   return status;
 }

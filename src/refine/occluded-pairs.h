@@ -25,7 +25,7 @@ hr2d_status hr2di_occluded_round(hr2di_projector *p);
 
 /* The exchange area of a pair with walls in the way, in units of the scene, its walls
    found anew; *view is HR2DI_BLOCKED where nothing passes.  HR2D_OK or HR2D_ENOMEM. */
-hr2d_status hr2di_occluded_area(hr2di_visibility *sight, const hr2d_hierarchy *hierarchy,
+hr2d_status hr2di_occluded_area(hr2di_visibility *visibility, const hr2d_hierarchy *hierarchy,
                                 hr2d_pair pair, double *area, hr2di_visibility_class *view);
 
 #endif

@@ -47,7 +47,7 @@ static hr2d_status set_brightness(hr2di_projector *p) {
   if (hr2di_alloc_reserve(&h->alloc, &p->brightness, &p->brightness_capacity, h->elements,
                           sizeof *p->brightness))
     return hr2di_message_fail(&p->links->message, HR2D_ENOMEM, "out of memory for brightness");
-  double most = 0;
+  double max = 0;
   for (size_t e = 0; e < h->elements; e++) {
     const int root = h->parent[e] == e;
     const int solved = solution && e < solution->elements;
@@ -56,25 +56,25 @@ static hr2d_status set_brightness(hr2di_projector *p) {
       value = fmax(value, solved ? hr2d_solution_element(solution, (uint32_t)e, band)
                                  : hr2d_scene_emission(h->scene, e, band));
     p->brightness[e] = value;
-    most = fmax(most, value);
+    max = fmax(max, value);
   }
-  for (size_t e = 0; e < h->elements && most > 0; e++) p->brightness[e] /= most;
+  for (size_t e = 0; e < h->elements && max > 0; e++) p->brightness[e] /= max;
   return HR2D_OK;
 }
 
-static hr2d_status set_sight(hr2di_projector *p) {
+static hr2d_status set_visibility(hr2di_projector *p) {
   const hr2d_scene *scene = p->hierarchy->scene;
   p->test_all =
       !scene->effect[HR2D_EFFECT_FACING].called_for && scene->effect[HR2D_EFFECT_FACING].forced;
   if (!scene->effect[HR2D_EFFECT_OCCLUSION].on) return HR2D_OK;
-  p->bytes += sizeof *p->sight;
+  p->bytes += sizeof *p->visibility;
   const hr2d_status status = hr2di_projector_check_budget(p, 0);
   if (status) return status;
-  p->sight = hr2di_alloc(&p->links->alloc, 1, sizeof *p->sight);
-  if (!p->sight)
+  p->visibility = hr2di_alloc(&p->links->alloc, 1, sizeof *p->visibility);
+  if (!p->visibility)
     return hr2di_message_fail(&p->links->message, HR2D_ENOMEM,
                               "out of memory for the refinement");
-  hr2di_visibility_init(p->sight, &scene->walls, &p->links->alloc);
+  hr2di_visibility_init(p->visibility, &scene->walls, &p->links->alloc);
   return HR2D_OK;
 }
 
@@ -98,7 +98,7 @@ hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_option
              (p->directed ? 1 : 2);
   if (links->roots.clusters) p->roots = (double)links->roots.count;
   hr2d_status status = set_brightness(p);
-  if (!status) status = set_sight(p);
+  if (!status) status = set_visibility(p);
   if (status)
     hr2di_projector_destroy(p);
   else
@@ -108,15 +108,15 @@ hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_option
 
 void hr2di_projector_destroy(hr2di_projector *p) {
   const hr2d_allocator *alloc = &p->links->alloc;
-  hr2di_alloc_free(alloc, p->open.pair);
-  hr2di_alloc_free(alloc, p->guarded.pair);
-  for (int k = 0; k < 2; k++) hr2di_alloc_free(alloc, p->fresh[k].pair);
-  hr2di_alloc_free(alloc, p->shaded.stack.pair);
-  hr2di_alloc_free(alloc, p->shaded.first);
-  hr2di_alloc_free(alloc, p->shaded.list.wall);
+  hr2di_alloc_free(alloc, p->facing.pair);
+  hr2di_alloc_free(alloc, p->clipped.pair);
+  for (int k = 0; k < 2; k++) hr2di_alloc_free(alloc, p->unoccluded[k].pair);
+  hr2di_alloc_free(alloc, p->occluded.stack.pair);
+  hr2di_alloc_free(alloc, p->occluded.first);
+  hr2di_alloc_free(alloc, p->occluded.list.wall);
   hr2di_alloc_free(alloc, p->found.wall);
-  if (p->sight) hr2di_visibility_clear(p->sight);
-  hr2di_alloc_free(alloc, p->sight);
+  if (p->visibility) hr2di_visibility_clear(p->visibility);
+  hr2di_alloc_free(alloc, p->visibility);
   hr2di_alloc_free(alloc, p->brightness);
   hr2di_alloc_free(alloc, p);
 }

@@ -16,11 +16,11 @@ static hr2d_status fail(hr2di_projector *p, hr2d_status status, const char *what
 }
 
 static uint64_t stack_bytes(const hr2di_projector *p) {
-  const uint64_t pairs = p->open.capacity + p->guarded.capacity + p->fresh[0].capacity +
-                         p->fresh[1].capacity + p->shaded.stack.capacity;
-  const uint64_t walls =
-      p->shaded.list.capacity + p->found.capacity + (p->sight ? p->sight->list.capacity : 0);
-  return pairs * sizeof(hr2d_pair) + p->shaded.first_capacity * sizeof *p->shaded.first +
+  const uint64_t pairs = p->facing.capacity + p->clipped.capacity + p->unoccluded[0].capacity +
+                         p->unoccluded[1].capacity + p->occluded.stack.capacity;
+  const uint64_t walls = p->occluded.list.capacity + p->found.capacity +
+                         (p->visibility ? p->visibility->list.capacity : 0);
+  return pairs * sizeof(hr2d_pair) + p->occluded.first_capacity * sizeof *p->occluded.first +
          walls * sizeof *p->found.wall + p->brightness_capacity * sizeof *p->brightness;
 }
 
@@ -153,8 +153,8 @@ hr2d_status hr2di_projector_propose_clipped(hr2di_projector *p, const hr2d_pair 
     else
       p->sorted[0][full++] = pairs[k];
   }
-  const hr2d_status status = hr2di_projector_propose(p, p->sorted[0], full, &p->open);
-  return status ? status : hr2di_projector_propose(p, p->sorted[1], part, &p->guarded);
+  const hr2d_status status = hr2di_projector_propose(p, p->sorted[0], full, &p->facing);
+  return status ? status : hr2di_projector_propose(p, p->sorted[1], part, &p->clipped);
 }
 
 /* Halves a leaf within the budgets. */
@@ -194,12 +194,12 @@ hr2d_status hr2di_projector_choose_split(hr2di_projector *p, const hr2d_pair *pa
     status = policy->recursion_limit(links->policy_ctx, &batch, p->flag);
   if (status) return hr2di_projector_check_callback(p, status, "policy", policy->name);
   /* What is left of earlier batches was checked then; all 256 go faster than some. */
-  unsigned char most = 0;
-  for (size_t k = 0; k < HR2DI_BATCH; k++) most = p->split[k] > most ? p->split[k] : most;
-  if (most > HR2D_SPLIT_BOTH)
+  unsigned char max = 0;
+  for (size_t k = 0; k < HR2DI_BATCH; k++) max = p->split[k] > max ? p->split[k] : max;
+  if (max > HR2D_SPLIT_BOTH)
     return hr2di_message_fail(&p->links->message, HR2D_ECALLBACK,
                               "policy \"%s\": a subdivision of %u has no meaning", policy->name,
-                              (unsigned)most);
+                              (unsigned)max);
   return HR2D_OK;
 }
 

@@ -49,20 +49,20 @@ struct hr2di_projector {
   uint64_t bytes;           /* held by others than the hierarchy and the stacks */
   uint64_t budget;          /* of bytes, of which options.max_bytes may be a part */
   double roots, roots_done; /* pairs of patches, for progress */
-  unsigned ticks;           /* rounds since progress was told */
-  hr2d_status (*tell)(hr2di_projector *p); /* tells progress; NULL: hr2di_rounds_report() */
-  void *tell_ctx;
+  unsigned ticks;           /* rounds since the last progress report */
+  hr2d_status (*report)(hr2di_projector *p); /* reports progress; NULL: hr2di_rounds_report() */
+  void *report_ctx;
 
-  hr2di_stack open;    /* refused pairs that face each other fully */
-  hr2di_stack guarded; /* refused pairs that one horizon still cuts */
+  hr2di_stack facing;  /* refused pairs that face each other fully */
+  hr2di_stack clipped; /* refused pairs that one horizon still cuts */
 
   /* Where the scene calls for occlusion, else all empty. */
-  hr2di_visibility *sight;
-  hr2di_occluded_pairs shaded;  /* refused pairs with walls in the way */
-  hr2di_stack fresh[2];         /* pairs that have come out of them, facing fully and in
-                                   part, not yet proposed */
-  hr2di_wall_list found;        /* of pairs not yet judged */
-  const unsigned char *partial; /* of the pairs to be judged; NULL: nothing in the way */
+  hr2di_visibility *visibility;
+  hr2di_occluded_pairs occluded; /* refused pairs with walls in the way */
+  hr2di_stack unoccluded[2];     /* pairs that have come out of them, facing fully and in
+                               part, not yet proposed */
+  hr2di_wall_list found;         /* of pairs not yet judged */
+  const unsigned char *partial;  /* of the pairs to be judged; NULL: nothing in the way */
 
   /* the round under way */
   hr2d_pair candidate[HR2DI_CANDIDATES];
@@ -90,7 +90,7 @@ hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch);
 hr2d_status hr2di_projector_all(hr2di_projector *p);
 
 /* Proposes up to HR2DI_CANDIDATES pairs of which some may not see each other, or only
-   in part: these are dropped, and guarded. */
+   in part: these are dropped, and clipped. */
 hr2d_status hr2di_projector_propose_clipped(hr2di_projector *p, const hr2d_pair *pairs,
                                             size_t count);
 

@@ -20,7 +20,7 @@ static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
   h->refining = 1;
   const hr2d_status status = project(p);
   h->refining = 0;
-  if (p->sight) p->counts.visibility_tests = p->sight->tests;
+  if (p->visibility) p->counts.visibility_tests = p->visibility->tests;
   if (status) hr2di_hierarchy_truncate(h, elements);
   return status;
 }
@@ -33,11 +33,11 @@ typedef struct storing {
 
 /* The blocks that `count` more links will need are paid for before, and the list of blocks. */
 static hr2d_status afford_links(hr2di_projector *p, const hr2di_store *store, size_t count) {
-  const uint64_t room = (uint64_t)store->blocks * HR2DI_CHUNK_LINKS - store->count;
+  const uint64_t room = (uint64_t)store->chunks * HR2DI_CHUNK_LINKS - store->count;
   if (count <= room) return HR2D_OK;
   uint64_t more = HR2DI_CHUNK_LINKS * sizeof(hr2d_link);
-  if (store->blocks == store->capacity)
-    more += (store->capacity ? store->capacity : 8) * sizeof *store->block;
+  if (store->chunks == store->capacity)
+    more += (store->capacity ? store->capacity : 8) * sizeof *store->chunk;
   const hr2d_status status = hr2di_projector_check_budget(p, more);
   if (!status) p->bytes += more;
   return status;
@@ -98,7 +98,7 @@ static hr2d_status refuse_link(hr2di_projector *p, hr2d_pair pair, int partial) 
   if (partial) return hr2di_occluded_push(p, pair);
   const int clipped = p->hierarchy->scene->effect[HR2D_EFFECT_FACING].on;
   const int open = !p->test_all && (!clipped || faces_fully(p->hierarchy, pair));
-  return hr2di_projector_push(p, open ? &p->open : &p->guarded, pair);
+  return hr2di_projector_push(p, open ? &p->facing : &p->clipped, pair);
 }
 
 /* Proposes the links of a set again: acceptable ones are kept with their exchange
@@ -115,7 +115,7 @@ static hr2d_status project_links(hr2di_projector *p) {
     const uint64_t rest = old->count - first;
     const size_t count = rest < HR2DI_BATCH ? (size_t)rest : HR2DI_BATCH;
     for (size_t k = 0; k < count; k++) pairs[k] = hr2di_store_at(old, first + k)->pair;
-    if (p->sight) status = look_again(p, pairs, count, partial);
+    if (p->visibility) status = look_again(p, pairs, count, partial);
     if (!status) status = hr2di_projector_estimate(p, pairs, count);
     p->partial = NULL;
     size_t kept = 0;

@@ -8,7 +8,7 @@
    current one leaves at most a batch behind.
 
    Pairs that face each other fully have only descendants that do.  A pair cut by a
-   horizon is guarded: its descendants are tested and, once they face each other
+   horizon is clipped: its descendants are tested and, once they face each other
    fully, join the rest. */
 #include "refine/rounds.h"
 
@@ -32,33 +32,34 @@ static hr2d_status play(hr2di_projector *p, hr2di_stack *stack) {
     if (status) return status;
     candidates = hr2di_projector_children(p, pairs, count);
   }
-  if (stack == &p->open) return hr2di_projector_propose(p, p->candidate, candidates, &p->open);
+  if (stack == &p->facing)
+    return hr2di_projector_propose(p, p->candidate, candidates, &p->facing);
   p->counts.facing_tests += candidates;
   return hr2di_projector_propose_clipped(p, p->candidate, candidates);
 }
 
 size_t hr2di_rounds_waiting(const hr2di_projector *p) {
-  return p->open.count + p->guarded.count + p->shaded.stack.count + p->fresh[0].count +
-         p->fresh[1].count;
+  return p->facing.count + p->clipped.count + p->occluded.stack.count + p->unoccluded[0].count +
+         p->unoccluded[1].count;
 }
 
 /* Proposes the topmost pairs that have come out of the shade. */
-static hr2d_status propose_fresh(hr2di_projector *p) {
-  hr2di_stack *fresh = &p->fresh[p->fresh[0].count == 0];
-  const size_t count = fresh->count < HR2DI_BATCH ? fresh->count : HR2DI_BATCH;
-  fresh->count -= count;
-  return hr2di_projector_propose(p, fresh->pair + fresh->count, count,
-                                 fresh == &p->fresh[0] ? &p->open : &p->guarded);
+static hr2d_status propose_unoccluded(hr2di_projector *p) {
+  hr2di_stack *unoccluded = &p->unoccluded[p->unoccluded[0].count == 0];
+  const size_t count = unoccluded->count < HR2DI_BATCH ? unoccluded->count : HR2DI_BATCH;
+  unoccluded->count -= count;
+  return hr2di_projector_propose(p, unoccluded->pair + unoccluded->count, count,
+                                 unoccluded == &p->unoccluded[0] ? &p->facing : &p->clipped);
 }
 
 /* Full rounds first; pairs in the shade while there are none. */
 static hr2d_status play_next(hr2di_projector *p) {
-  if (p->open.count >= HR2DI_BATCH) return play(p, &p->open);
-  if (p->guarded.count >= HR2DI_BATCH) return play(p, &p->guarded);
-  const size_t fresh = p->fresh[0].count + p->fresh[1].count;
-  if (p->shaded.stack.count > 0 && fresh < HR2DI_BATCH) return hr2di_occluded_round(p);
-  if (fresh > 0) return propose_fresh(p);
-  return play(p, p->open.count > 0 ? &p->open : &p->guarded);
+  if (p->facing.count >= HR2DI_BATCH) return play(p, &p->facing);
+  if (p->clipped.count >= HR2DI_BATCH) return play(p, &p->clipped);
+  const size_t unoccluded = p->unoccluded[0].count + p->unoccluded[1].count;
+  if (p->occluded.stack.count > 0 && unoccluded < HR2DI_BATCH) return hr2di_occluded_round(p);
+  if (unoccluded > 0) return propose_unoccluded(p);
+  return play(p, p->facing.count > 0 ? &p->facing : &p->clipped);
 }
 
 hr2d_status hr2di_rounds_run(hr2di_projector *p, size_t enough) {
@@ -69,7 +70,7 @@ hr2d_status hr2di_rounds_run(hr2di_projector *p, size_t enough) {
     status = play_next(p);
     if (status || ++p->ticks < TICKS) continue;
     p->ticks = 0;
-    status = p->tell ? p->tell(p) : hr2di_rounds_report(p);
+    status = p->report ? p->report(p) : hr2di_rounds_report(p);
   }
 }
 
@@ -86,9 +87,9 @@ static double unfinished(const hr2di_projector *p, const hr2di_stack *stack) {
 
 hr2d_status hr2di_rounds_report(hr2di_projector *p) {
   if (!p->options.progress) return HR2D_OK;
-  const double done = p->roots_done - unfinished(p, &p->open) - unfinished(p, &p->guarded) -
-                      unfinished(p, &p->fresh[0]) - unfinished(p, &p->fresh[1]) -
-                      unfinished(p, &p->shaded.stack);
+  const double done = p->roots_done - unfinished(p, &p->facing) - unfinished(p, &p->clipped) -
+                      unfinished(p, &p->unoccluded[0]) - unfinished(p, &p->unoccluded[1]) -
+                      unfinished(p, &p->occluded.stack);
   const hr2d_progress progress = {.struct_size = sizeof progress,
                                   .phase = "refine",
                                   .elements = p->hierarchy->elements,

@@ -78,19 +78,19 @@ static size_t distinct_sizes(const hr2d_study_row *rows, size_t count) {
 /* N = middle + half·x with x in [−1,1], so that the columns 1, x, x² are far from
    parallel however close the N are. */
 typedef struct scale {
-  uint64_t least;
+  uint64_t min;
   double middle, half;
 } scale;
 
 static scale scale_of(const hr2d_study_row *rows, size_t count) {
-  uint64_t least = UINT64_MAX, most = 0;
+  uint64_t min = UINT64_MAX, max = 0;
   for (size_t k = 0; k < count; k++) {
     const uint64_t n = rows[k].counts.elements;
-    if (n < least) least = n;
-    if (n > most) most = n;
+    if (n < min) min = n;
+    if (n > max) max = n;
   }
-  const double half = 0.5 * (double)(most - least);
-  return (scale){least, (double)least + half, half};
+  const double half = 0.5 * (double)(max - min);
+  return (scale){min, (double)min + half, half};
 }
 
 /* n − m, of integers that doubles may not tell apart. */
@@ -102,7 +102,7 @@ static double difference(uint64_t n, uint64_t m) {
 static void fill(const hr2d_study_row *rows, size_t count, scale n, gsl_matrix *powers,
                  gsl_vector *links) {
   for (size_t k = 0; k < count; k++) {
-    const double x = ((double)(rows[k].counts.elements - n.least) - n.half) / n.half;
+    const double x = ((double)(rows[k].counts.elements - n.min) - n.half) / n.half;
     gsl_matrix_set(powers, k, 0, 1);
     gsl_matrix_set(powers, k, 1, x);
     gsl_matrix_set(powers, k, 2, x * x);
@@ -115,7 +115,7 @@ static void fill(const hr2d_study_row *rows, size_t count, scale n, gsl_matrix *
 static int are_spread(const hr2d_study_row *rows, size_t count, scale n) {
   const double margin = 0x1p-23 * n.half;
   for (size_t k = 0; k < count; k++) {
-    const double above = (double)(rows[k].counts.elements - n.least);
+    const double above = (double)(rows[k].counts.elements - n.min);
     if (above > margin && 2 * n.half - above > margin) return 1;
   }
   return 0;

@@ -41,7 +41,7 @@ typedef struct validator {
   node *node;
   hr2d_pair *stack;
   size_t capacity;
-  hr2di_visibility *sight; /* NULL where nothing can be in the way */
+  hr2di_visibility *visibility; /* NULL where nothing can be in the way */
 } validator;
 
 static hr2d_status fail(validator *v, hr2d_pair pair, const char *what) {
@@ -83,10 +83,11 @@ static hr2d_status out_of_memory(validator *v) {
 /* The exchange areas that links should have. */
 static hr2d_status integrate(validator *v, const hr2d_pair *pair, size_t count, double *area) {
   hr2d_status status = HR2D_OK;
-  if (!v->sight) hr2di_exchange_areas(v->h->element, pair, count, area);
-  for (size_t k = 0; k < count && v->sight && !status; k++) {
+  if (!v->visibility) hr2di_exchange_areas(v->h->element, pair, count, area);
+  for (size_t k = 0; k < count && v->visibility && !status; k++) {
     hr2di_visibility_class view;
-    if (hr2di_occluded_area(v->sight, v->h, pair[k], &area[k], &view)) return out_of_memory(v);
+    if (hr2di_occluded_area(v->visibility, v->h, pair[k], &area[k], &view))
+      return out_of_memory(v);
     if (view == HR2DI_BLOCKED)
       status = fail(v, pair[k], "are linked, but are hidden from each other");
   }
@@ -226,11 +227,11 @@ static int inherits(const validator *v, hr2d_pair pair, uint32_t top, hr2di_faci
 static hr2d_status look(validator *v, hr2d_pair pair, int *hidden) {
   hr2di_visibility_class view = HR2DI_CLEAR;
   double area = 0;
-  if (v->sight && hr2di_occluded_area(v->sight, v->h, pair, &area, &view))
+  if (v->visibility && hr2di_occluded_area(v->visibility, v->h, pair, &area, &view))
     return out_of_memory(v);
   const hr2d_element *e = v->h->element;
   const double length = fmin(e[pair.first].length, e[pair.second].length);
-  *hidden = view == HR2DI_BLOCKED || (v->sight && area <= NEGLIGIBLE * length);
+  *hidden = view == HR2DI_BLOCKED || (v->visibility && area <= NEGLIGIBLE * length);
   return HR2D_OK;
 }
 
@@ -279,7 +280,7 @@ static hr2d_status check_filled(validator *v, uint32_t e, uint32_t q, hr2di_faci
     }
     if (!v->node[f].whole) {
       const hr2d_status status =
-          facing == HR2DI_FACING_FULL && !v->sight
+          facing == HR2DI_FACING_FULL && !v->visibility
               ? fail(v, (hr2d_pair){e, f}, "see each other, but no link joins them")
               : check_unseen(v, e, f);
       if (status) return status;
@@ -374,11 +375,11 @@ hr2d_status hr2d_linkset_validate(hr2d_linkset *links) {
     status = out_of_memory(&v);
   } else {
     for (size_t e = 0; e < h->elements; e++) v.node[e] = (node){.links = NO_LINK, .by = NOBODY};
-    hr2di_visibility sight;
-    hr2di_visibility_init(&sight, &h->scene->walls, alloc);
-    if (h->scene->effect[HR2D_EFFECT_OCCLUSION].on) v.sight = &sight;
+    hr2di_visibility visibility;
+    hr2di_visibility_init(&visibility, &h->scene->walls, alloc);
+    if (h->scene->effect[HR2D_EFFECT_OCCLUSION].on) v.visibility = &visibility;
     status = check_all(&v);
-    hr2di_visibility_clear(&sight);
+    hr2di_visibility_clear(&visibility);
   }
   hr2di_alloc_free(alloc, v.pair);
   hr2di_alloc_free(alloc, v.spare);

@@ -35,12 +35,12 @@ static int scale_point(hr2d_point given, int exponent, hr2d_point *scaled) {
 }
 
 static double largest_coordinate(const hr2d_scene *scene) {
-  double most = 0;
+  double max = 0;
   for (size_t k = 0; k < scene->patches; k++) {
     const hr2d_segment s = scene->patch[k].given;
-    most = fmax(most, fmax(fmax(fabs(s.a.x), fabs(s.a.y)), fmax(fabs(s.b.x), fabs(s.b.y))));
+    max = fmax(max, fmax(fmax(fabs(s.a.x), fabs(s.a.y)), fmax(fabs(s.b.x), fabs(s.b.y))));
   }
-  return most;
+  return max;
 }
 
 /* So few roundings across a scene leave nothing to decide what touches a line. */

@@ -38,29 +38,30 @@ static size_t patch_in_way(const hr2d_scene *scene, const hr2di_shaft *shaft, ui
   return 0;
 }
 
-static hr2d_status look_between(const hr2d_scene *scene, hr2di_visibility *sight, size_t i,
+static hr2d_status look_between(const hr2d_scene *scene, hr2di_visibility *visibility, size_t i,
                                 size_t j, hr2di_occlusion *found) {
   const hr2d_segment s = scene->patch[i].scaled, t = scene->patch[j].scaled;
   hr2di_shaft shaft;
   hr2di_visibility_class view;
   if (!hr2di_shaft_init(&shaft, hr2di_facing_of(&s, &t), s, t, s, t)) return HR2D_OK;
-  sight->list.count = 0;
-  const hr2d_status status = hr2di_visibility_collect(sight, &shaft, &sight->list, &view);
+  visibility->list.count = 0;
+  const hr2d_status status =
+      hr2di_visibility_collect(visibility, &shaft, &visibility->list, &view);
   if (!status && view != HR2DI_CLEAR)
-    *found = (hr2di_occlusion){1, i, j, patch_in_way(scene, &shaft, sight->last)};
+    *found = (hr2di_occlusion){1, i, j, patch_in_way(scene, &shaft, visibility->last)};
   return status;
 }
 
 hr2d_status hr2di_occluder_find(hr2d_scene *scene, hr2di_occlusion *found) {
   *found = (hr2di_occlusion){0};
   if (all_on_hull(scene)) return HR2D_OK;
-  hr2di_visibility sight;
-  hr2di_visibility_init(&sight, &scene->walls, &scene->alloc);
+  hr2di_visibility visibility;
+  hr2di_visibility_init(&visibility, &scene->walls, &scene->alloc);
   hr2d_status status = HR2D_OK;
   for (size_t i = 0; i < scene->patches && !found->exists && !status; i++)
     for (size_t j = i + 1; j < scene->patches && !found->exists && !status; j++)
-      status = look_between(scene, &sight, i, j, found);
-  hr2di_visibility_clear(&sight);
+      status = look_between(scene, &visibility, i, j, found);
+  hr2di_visibility_clear(&visibility);
   return status ? hr2di_message_fail(&scene->message, status, "out of memory for the analysis")
                 : HR2D_OK;
 }

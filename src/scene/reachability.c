@@ -8,7 +8,7 @@
 /* A search that goes out from the sources. */
 typedef struct search {
   hr2d_scene *scene;
-  hr2di_visibility sight;
+  hr2di_visibility visibility;
   uint32_t *reached; /* patches, in the order in which light comes to them */
   size_t count;
 } search;
@@ -28,13 +28,13 @@ static hr2d_status sees(search *s, size_t i, size_t j, int exactly, int *seen) {
   if (!s->scene->effect[HR2D_EFFECT_OCCLUSION].on ||
       !hr2di_shaft_init(&shaft, facing, p, q, p, q))
     return HR2D_OK;
-  if (!exactly) return hr2di_visibility_quick(&s->sight, &shaft, seen);
+  if (!exactly) return hr2di_visibility_quick(&s->visibility, &shaft, seen);
   hr2di_wall_list found = {0};
   hr2di_visibility_class view;
-  hr2d_status status = hr2di_visibility_collect(&s->sight, &shaft, &found, &view);
+  hr2d_status status = hr2di_visibility_collect(&s->visibility, &shaft, &found, &view);
   if (!status && view == HR2DI_BLOCKED) *seen = 0;
   if (!status && view == HR2DI_PARTIAL)
-    status = hr2di_visibility_any(&s->sight, &shaft, found.wall, found.count, seen);
+    status = hr2di_visibility_any(&s->visibility, &shaft, found.wall, found.count, seen);
   hr2di_alloc_free(&s->scene->alloc, found.wall);
   return status;
 }
@@ -89,7 +89,7 @@ hr2d_status hr2di_scene_find_light(hr2d_scene *scene) {
   search s = {.scene = scene};
   s.reached = hr2di_alloc(&scene->alloc, n, sizeof *s.reached);
   scene->dark = hr2di_alloc_zero(&scene->alloc, n, 1);
-  hr2di_visibility_init(&s.sight, &scene->walls, &scene->alloc);
+  hr2di_visibility_init(&s.visibility, &scene->walls, &scene->alloc);
   hr2d_status status = s.reached && scene->dark ? HR2D_OK : HR2D_ENOMEM;
   for (size_t k = 0; k < n && !status; k++)
     if (emits(scene, k))
@@ -98,7 +98,7 @@ hr2d_status hr2di_scene_find_light(hr2d_scene *scene) {
       scene->dark[k] = 1;
   if (!status) status = spread(&s);
   const int none_dark = s.count == n;
-  hr2di_visibility_clear(&s.sight);
+  hr2di_visibility_clear(&s.visibility);
   hr2di_alloc_free(&scene->alloc, s.reached);
   if (status || none_dark) {
     hr2di_alloc_free(&scene->alloc, scene->dark);

@@ -139,7 +139,7 @@ hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch) {
 }
 
 static hr2d_status check_values(hr2d_scene *scene, const char *label, const char *what,
-                                const double *value, size_t count, double most) {
+                                const double *value, size_t count, double max) {
   if (count > 0 && !value)
     return hr2di_message_fail(&scene->message, HR2D_EINVAL, "%s: %s: %zu bands but no values",
                               label, what, count);
@@ -150,9 +150,9 @@ static hr2d_status check_values(hr2d_scene *scene, const char *label, const char
     if (value[k] < 0)
       return hr2di_message_fail(&scene->message, HR2D_ESCENE, "%s: %s %g is negative", label,
                                 what, value[k]);
-    if (value[k] > most)
+    if (value[k] > max)
       return hr2di_message_fail(&scene->message, HR2D_ESCENE, "%s: %s %.17g is above %g", label,
-                                what, value[k], most);
+                                what, value[k], max);
   }
   return HR2D_OK;
 }

@@ -148,9 +148,9 @@ static int is_whole(const splitter *p, size_t k) {
 static int is_short(const splitter *p, const piece *part) {
   const hr2d_segment *s = &part->s, *whole = &p->scene->patch[part->patch].scaled;
   /* Far from the origin roundings are large, and what they are of a patch is not. */
-  const double most = fmin(HR2DI_SHORT_STRETCH * hr2di_crossings_rounding(whole, whole),
-                           hypot(whole->b.x - whole->a.x, whole->b.y - whole->a.y) * 0x1p-20);
-  return hypot(s->b.x - s->a.x, s->b.y - s->a.y) <= most;
+  const double max = fmin(HR2DI_SHORT_STRETCH * hr2di_crossings_rounding(whole, whole),
+                          hypot(whole->b.x - whole->a.x, whole->b.y - whole->a.y) * 0x1p-20);
+  return hypot(s->b.x - s->a.x, s->b.y - s->a.y) <= max;
 }
 
 /* Two patches that pass two points within roundings have the stretch between these in

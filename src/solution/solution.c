@@ -72,13 +72,13 @@ static void restrict_to(const hr2d_solution *from, const hr2d_hierarchy *h, uint
   double start = 0, size = 1, phi[HR2D_MAX_ORDER];
   uint32_t e = leaf;
   while (e >= from->elements) {
-    const uint32_t above = h->parent[e];
-    const double left = hr2di_element_left_part(h->element, above);
-    const int right = e != h->element[above].child;
+    const uint32_t parent = h->parent[e];
+    const double left = hr2di_element_left_part(h->element, parent);
+    const int right = e != h->element[parent].child;
     const double part = right ? 1 - left : left;
     start = (right ? left : 0) + part * start;
     size *= part;
-    e = above;
+    e = parent;
   }
   for (size_t q = 0; q < rule->points; q++) {
     const double t = start + size * (0.5 + 0.5 * rule->at[q]);

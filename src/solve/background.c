@@ -84,9 +84,9 @@ static hr2d_status take_rows(hr2di_transport *t) {
 /* A closed room has no sky, whatever rounding makes of its rows. */
 static void clear_closed(hr2di_transport *t) {
   for (size_t k = 0; k < t->leaves; k++) {
-    double *sky = t->sky + k * t->order, most = 0;
-    for (size_t l = 0; l < t->order; l++) most = fmax(most, fabs(sky[l]));
-    for (size_t l = 0; l < t->order && most <= NONE; l++) sky[l] = 0;
+    double *sky = t->sky + k * t->order, max = 0;
+    for (size_t l = 0; l < t->order; l++) max = fmax(max, fabs(sky[l]));
+    for (size_t l = 0; l < t->order && max <= NONE; l++) sky[l] = 0;
   }
 }
 

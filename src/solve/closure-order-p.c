@@ -83,7 +83,7 @@ static void find_closed(rows *r) {
 /* The same where clusters have part of the rows, to a known accuracy: smaller openings are
    none. */
 static void find_closed_by_rows(rows *r, hr2di_transport *t) {
-  const double none = 10 * t->links->roots.digits;
+  const double none = 10 * t->links->roots.accuracy;
   hr2di_transport_pull(t, r->all);
   for (size_t k = 0; k < t->hierarchy->scene->patches; k++)
     r->closed[k] = fabs(1 - t->up[k * t->width]) <= none;

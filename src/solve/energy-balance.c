@@ -187,9 +187,9 @@ void hr2di_balance_release(const hr2di_balance *b, const hr2di_transport *t, dou
 }
 
 double hr2di_balance_doubt(const hr2di_balance *b, size_t bands) {
-  double most = 0;
+  double max = 0;
   for (size_t k = 0; k < b->count * bands; k++)
     if (b->escape[k / bands] > 0 && b->level[k] != 0)
-      most = fmax(most, DBL_EPSILON * b->length[k / bands] / b->loss[k]);
-  return most;
+      max = fmax(max, DBL_EPSILON * b->length[k / bands] / b->loss[k]);
+  return max;
 }

@@ -67,10 +67,10 @@ static hr2d_status integrate_blocks(hr2di_equation *s) {
 static void set_exponents(hr2di_equation *s) {
   const hr2d_scene *scene = s->links->hierarchy->scene;
   for (size_t b = 0; b < scene->bands; b++) {
-    double most = hr2d_scene_background(scene, b);
+    double max = hr2d_scene_background(scene, b);
     for (size_t k = 0; k < scene->patches; k++)
-      most = fmax(most, hr2d_scene_emission(scene, k, b));
-    s->exponent[b] = most > 0 ? ilogb(most) : 0;
+      max = fmax(max, hr2d_scene_emission(scene, k, b));
+    s->exponent[b] = max > 0 ? ilogb(max) : 0;
     s->light[b] = ldexp(hr2d_scene_background(scene, b), -s->exponent[b]);
   }
 }
@@ -266,10 +266,10 @@ double hr2di_equation_residual(hr2di_equation *s) {
           s->source[k] + s->root_rho[k] * s->root_rho[k] * s->irradiance[k] - s->radiosity[k];
   hr2di_krylov_dot(&system, s->y, s->y, s->norm[0]);
   hr2di_krylov_dot(&system, s->radiosity, s->radiosity, s->norm[1]);
-  double most = 0;
+  double max = 0;
   for (size_t b = 0; b < system.bands; b++)
-    if (s->norm[0][b] > 0) most = fmax(most, sqrt(s->norm[0][b] / s->norm[1][b]));
-  return most;
+    if (s->norm[0][b] > 0) max = fmax(max, sqrt(s->norm[0][b] / s->norm[1][b]));
+  return max;
 }
 
 void hr2di_equation_clear(hr2di_equation *s) {

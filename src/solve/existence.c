@@ -46,7 +46,7 @@ static void sum_up(const hr2d_scene *scene, exchange *e) {
 static hr2d_status check_band(hr2d_linkset *links, exchange *e, size_t band,
                               unsigned char *absorbs) {
   const hr2d_scene *scene = links->hierarchy->scene;
-  const double by_clusters = links->roots.clusters ? 10 * links->roots.digits : 0;
+  const double by_clusters = links->roots.clusters ? 10 * links->roots.accuracy : 0;
   const double closed = fmax(HR2DI_DEFECT_NO_ESCAPE, by_clusters);
   for (size_t k = 0; k < scene->patches; k++) absorbs[k] = 0;
   for (size_t k = 0; k < scene->patches; k++)

@@ -31,7 +31,7 @@ typedef struct walker {
   hr2d_segment line;        /* of the patch */
   hr2d_segment source;      /* what its leaves see: a patch, the back of one, or an element */
   hr2d_segment source_line; /* of which that is a part */
-  hr2di_visibility *sight;  /* NULL where nothing is in the way */
+  hr2di_visibility *visibility; /* NULL where nothing is in the way */
   hr2di_wall_list list;
   waiting stack[DEPTH];
   hr2di_sum *sum; /* per element, set for leaves */
@@ -59,13 +59,13 @@ static hr2d_status look(walker *w, uint32_t element, const waiting *parent, size
   const hr2di_facing facing = hr2di_facing_of(&s, &w->source);
   if (facing == HR2DI_FACING_NONE) return HR2D_OK;
   const int shaded =
-      w->sight && hr2di_shaft_init(&shaft, facing, s, w->source, w->line, w->source_line);
+      w->visibility && hr2di_shaft_init(&shaft, facing, s, w->source, w->line, w->source_line);
   hr2d_status status = HR2D_OK;
   if (shaded && parent)
-    status = hr2di_visibility_shrink(w->sight, &shaft, &w->list, parent->first, parent->count,
-                                     &w->list, &view);
+    status = hr2di_visibility_shrink(w->visibility, &shaft, &w->list, parent->first,
+                                     parent->count, &w->list, &view);
   else if (shaded)
-    status = hr2di_visibility_collect(w->sight, &shaft, &w->list, &view);
+    status = hr2di_visibility_collect(w->visibility, &shaft, &w->list, &view);
   if (status) return status;
   if (view == HR2DI_CLEAR) add_clear(w, element);
   if (view != HR2DI_PARTIAL) return HR2D_OK;
@@ -75,7 +75,7 @@ static hr2d_status look(walker *w, uint32_t element, const waiting *parent, size
   }
   double area;
   int open;
-  status = hr2di_visibility_area(w->sight, &shaft, hr2di_wall_list_from(&w->list, first),
+  status = hr2di_visibility_area(w->visibility, &shaft, hr2di_wall_list_from(&w->list, first),
                                  w->list.count - first, &area, &open);
   if (!status) hr2di_sum_add(&w->sum[element], area);
   w->list.count = first;
@@ -187,14 +187,14 @@ hr2d_status hr2di_row_sums_init(hr2di_row_sums *rows, const hr2di_transport *t, 
   walker *w = hr2di_alloc_zero(&t->alloc, 1, sizeof *w);
   hr2d_status status = HR2D_ENOMEM;
   if (rows->front && rows->closed && defect && front && w && (!backs || (rows->back && back))) {
-    hr2di_visibility sight;
-    hr2di_visibility_init(&sight, &scene->walls, &t->alloc);
+    hr2di_visibility visibility;
+    hr2di_visibility_init(&visibility, &scene->walls, &t->alloc);
     w->h = t->hierarchy;
-    w->sight = scene->effect[HR2D_EFFECT_OCCLUSION].on || backs ? &sight : NULL;
+    w->visibility = scene->effect[HR2D_EFFECT_OCCLUSION].on || backs ? &visibility : NULL;
     hr2di_defect_sum(t->links, defect);
     status = backs ? hr2di_backs_init(scene, &w->backs) : HR2D_OK;
     if (!status) status = walk_rows(rows, t, w, defect, front, back);
-    hr2di_visibility_clear(&sight);
+    hr2di_visibility_clear(&visibility);
     hr2di_alloc_free(&t->alloc, w->list.wall);
     hr2di_alloc_free(&t->alloc, w->backs.back);
   }

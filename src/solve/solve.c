@@ -139,14 +139,14 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
    order above 1 a little of it may come of other things. */
 static hr2d_status check_sign(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
-  const double least = t->order > 1 ? 1e-2 : 1e-6;
+  const double min = t->order > 1 ? 1e-2 : 1e-6;
   for (size_t b = 0; b < t->bands; b++) {
     double low = 0, high = 0;
     for (size_t k = 0; k < t->leaves; k++) {
       low = fmin(low, s->radiosity[k * t->width + b]);
       high = fmax(high, s->radiosity[k * t->width + b]);
     }
-    if (low < -least * high || (low < 0 && high == 0))
+    if (low < -min * high || (low < 0 && high == 0))
       return hr2di_message_fail(
           &s->links->message, HR2D_ENOT_CONVERGED,
           "in band %zu the links reflect more light than falls on them, so that "

@@ -18,7 +18,7 @@
 enum { MOST_SLICES = 16, SLICE_BLOCKS = 64 };
 
 static size_t count_slices(const hr2d_linkset *links) {
-  const size_t slices = 1 + links->store.blocks / SLICE_BLOCKS;
+  const size_t slices = 1 + links->store.chunks / SLICE_BLOCKS;
   return slices < MOST_SLICES ? slices : MOST_SLICES;
 }
 
@@ -152,8 +152,8 @@ static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, u
 
 static void gather_slice(hr2di_transport *t, hr2di_transport_part part, size_t slice) {
   const hr2di_store *store = &t->links->store;
-  const size_t from = slice * store->blocks / t->slices;
-  const size_t to = (slice + 1) * store->blocks / t->slices;
+  const size_t from = slice * store->chunks / t->slices;
+  const size_t to = (slice + 1) * store->chunks / t->slices;
   double *down = t->down + slice * t->elements * t->width;
   memset(down, 0, t->elements * t->width * sizeof *down);
   const int plain = !t->hierarchy->scene->effect[HR2D_EFFECT_BANDS].on;
@@ -162,7 +162,7 @@ static void gather_slice(hr2di_transport *t, hr2di_transport_part part, size_t s
     if (t->order > 1)
       gather_orders(t, part, (uint64_t)k * HR2DI_CHUNK_LINKS, count, down);
     else
-      gather_block(store->block[k], count, t->bands, plain, t->links->directed, t->up, down);
+      gather_block(store->chunk[k], count, t->bands, plain, t->links->directed, t->up, down);
   }
 }
 

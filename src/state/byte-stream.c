@@ -135,7 +135,7 @@ double hr2di_reader_double(hr2di_reader *r) {
 
 hr2d_status hr2di_reader_end(hr2di_reader *r) {
   const hr2di_hash hash = r->hash;
-  const uint64_t told = get(r, 8);
-  if (!r->status && told != hash) r->status = HR2D_ESYNTAX;
+  const uint64_t stored = get(r, 8);
+  if (!r->status && stored != hash) r->status = HR2D_ESYNTAX;
   return r->status;
 }

@@ -25,7 +25,7 @@ typedef struct candidate {
 typedef struct finder {
   const hr2d_scene *scene;
   hr2d_allocator alloc;
-  size_t most;
+  size_t max;
   hr2di_vertices vertices;
   hr2di_origin *origin; /* of one generation */
   size_t origins, origin_capacity;
@@ -55,14 +55,14 @@ static hr2d_status settle(finder *f) {
       *last = c;
   }
   f->count = kept;
-  return kept > f->most ? HR2D_EMAX_ELEMENTS : HR2D_OK;
+  return kept > f->max ? HR2D_EMAX_ELEMENTS : HR2D_OK;
 }
 
 static hr2d_status add(finder *f, uint32_t patch, double at, unsigned generation,
                        uint32_t via) {
   if (!(at >= ALIKE && 1 - at >= ALIKE) || !hr2di_scene_lit(f->scene, patch)) return HR2D_OK;
   /* Half of them are more than there may be: some must be alike. */
-  if (f->count / 2 > f->most) {
+  if (f->count / 2 > f->max) {
     const hr2d_status status = settle(f);
     if (status) return status;
   }
@@ -240,13 +240,13 @@ static hr2d_status find(finder *f, unsigned generations) {
 }
 
 hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
-                              const hr2d_allocator *alloc, unsigned generations, size_t most) {
+                              const hr2d_allocator *alloc, unsigned generations, size_t max) {
   *events = (hr2di_events){.alloc = *alloc};
   if (generations == 0 || !(scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
                             scene->effect[HR2D_EFFECT_FACING].called_for ||
                             scene->effect[HR2D_EFFECT_BACKGROUND].called_for))
     return HR2D_OK;
-  finder f = {.scene = scene, .alloc = *alloc, .most = most};
+  finder f = {.scene = scene, .alloc = *alloc, .max = max};
   hr2d_status status = find(&f, generations);
   if (!status && hr2di_alloc_reserve(alloc, &events->event, &events->capacity, f.count,
                                      sizeof *events->event))

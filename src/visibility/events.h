@@ -27,7 +27,7 @@ typedef struct hr2di_events {
   size_t count, capacity;
 } hr2di_events;
 
-/* All events up to `generations` of a committed scene, at most `most` of them: HR2D_OK,
+/* All events up to `generations` of a committed scene, at most `max` of them: HR2D_OK,
    HR2D_ENOMEM, or HR2D_EMAX_ELEMENTS where there would be more.  None where the scene calls
    neither for occlusion nor for facing nor for a background; forcing does not count.  To be
    ended by hr2di_events_clear() in either case.  Generation 1 takes O(n²) walks through the
@@ -35,7 +35,7 @@ typedef struct hr2di_events {
    vertex.
  */
 hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
-                              const hr2d_allocator *alloc, unsigned generations, size_t most);
+                              const hr2d_allocator *alloc, unsigned generations, size_t max);
 void hr2di_events_clear(hr2di_events *events);
 
 #endif

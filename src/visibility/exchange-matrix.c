@@ -47,7 +47,7 @@ typedef struct filler {
   matrix *m;
   hr2d_status status;
   hr2d_matrix_counts counts;
-  hr2di_visibility sight;
+  hr2di_visibility visibility;
   hr2di_wall_list list;
   hr2d_pair pair[BATCH];
   double value[BATCH];
@@ -101,8 +101,9 @@ static hr2d_status fill_partial(filler *f, const node *at) {
     return HR2D_OK;
   double area;
   int open;
-  const hr2d_status status = hr2di_visibility_area(
-      &f->sight, &shaft, hr2di_wall_list_from(&f->list, at->first), at->count, &area, &open);
+  const hr2d_status status =
+      hr2di_visibility_area(&f->visibility, &shaft, hr2di_wall_list_from(&f->list, at->first),
+                            at->count, &area, &open);
   if (status) return status;
   put(f, i, j, area);
   f->counts.exchange_areas += (unsigned)open;
@@ -144,9 +145,9 @@ static hr2d_status look(filler *f, node *at, const node *parent, int *keep) {
     return HR2D_OK;
   }
   const hr2d_status status =
-      parent ? hr2di_visibility_shrink(&f->sight, &shaft, &f->list, parent->first,
+      parent ? hr2di_visibility_shrink(&f->visibility, &shaft, &f->list, parent->first,
                                        parent->count, &f->list, &view)
-             : hr2di_visibility_collect(&f->sight, &shaft, &f->list, &view);
+             : hr2di_visibility_collect(&f->visibility, &shaft, &f->list, &view);
   at->count = f->list.count - at->first;
   if (status) return status;
   if (view == HR2DI_CLEAR) fill_clear(f, at->i, at->j);
@@ -237,8 +238,8 @@ static void mirror(double *area, size_t n) {
 static size_t count_threads(const matrix *m) {
 #ifdef _OPENMP
   const size_t wanted = m->options.threads ? m->options.threads : (size_t)omp_get_max_threads();
-  const size_t most = wanted < MOST_THREADS ? wanted : MOST_THREADS;
-  return most < m->runs.runs ? most : m->runs.runs;
+  const size_t max = wanted < MOST_THREADS ? wanted : MOST_THREADS;
+  return max < m->runs.runs ? max : m->runs.runs;
 #else
   (void)m;
   return 1;
@@ -263,7 +264,7 @@ static hr2d_status hire(matrix *m, filler **team, size_t count) {
     team[k] = hr2di_alloc_zero(&m->scene->alloc, 1, sizeof **team);
     if (!team[k]) return HR2D_ENOMEM;
     team[k]->m = m;
-    hr2di_visibility_init(&team[k]->sight, &m->scene->walls, &m->scene->alloc);
+    hr2di_visibility_init(&team[k]->visibility, &m->scene->walls, &m->scene->alloc);
   }
   return HR2D_OK;
 }
@@ -276,9 +277,9 @@ static hr2d_status dismiss(matrix *m, filler **team, size_t count, hr2d_matrix_c
     sum->exchange_areas += f->counts.exchange_areas;
     sum->partial_pairs += f->counts.partial_pairs;
     sum->blocked_pairs += f->counts.blocked_pairs;
-    sum->visibility_tests += f->sight.tests;
+    sum->visibility_tests += f->visibility.tests;
     if (f->status && (!status || status == HR2D_STOPPED)) status = f->status;
-    hr2di_visibility_clear(&f->sight);
+    hr2di_visibility_clear(&f->visibility);
     hr2di_alloc_free(&m->scene->alloc, f->list.wall);
     hr2di_alloc_free(&m->scene->alloc, f);
   }
