@@ -6,6 +6,7 @@
 
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
+#include "oracle/built-in.h"
 
 /* On an element with children radiosity is not smooth: of the product of its rough part and the
    kernel's, which a link drops, only the kernel's is small, and so it must be smaller. */
@@ -45,12 +46,8 @@ static hr2d_status estimate(void *ctx, const hr2d_batch *batch, double *error) {
   return HR2D_OK;
 }
 
-static const hr2d_oracle separation = {
-    .struct_size = sizeof(hr2d_oracle),
-    .name = "separation",
-    .flags = HR2D_ORACLE_SYMMETRIC | HR2D_ORACLE_THREAD_SAFE,
-    .estimate = estimate,
-};
+static const hr2d_oracle separation = {HR2DI_BUILT_IN("separation", HR2D_ORACLE_SYMMETRIC),
+                                       .estimate = estimate};
 
 const hr2d_oracle *hr2di_admissibility_oracle(void) {
   return &separation;

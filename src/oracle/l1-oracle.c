@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "geometry/exchange-area.h"
+#include "oracle/built-in.h"
 #include "oracle/l1-grid.h"
 #include "oracle/l1.h"
 
@@ -71,21 +72,11 @@ static hr2d_status accept_grid(void *ctx, const hr2d_batch *batch, double epsilo
   return HR2D_OK;
 }
 
-static const hr2d_oracle oracle_l1 = {
-    .struct_size = sizeof(hr2d_oracle),
-    .name = "l1",
-    .flags = HR2D_ORACLE_SYMMETRIC | HR2D_ORACLE_THREAD_SAFE,
-    .estimate = estimate_l1,
-    .accept = accept_l1,
-};
+static const hr2d_oracle oracle_l1 = {HR2DI_BUILT_IN("l1", HR2D_ORACLE_SYMMETRIC),
+                                      .estimate = estimate_l1, .accept = accept_l1};
 
-static const hr2d_oracle oracle_l1_grid = {
-    .struct_size = sizeof(hr2d_oracle),
-    .name = "l1-grid",
-    .flags = HR2D_ORACLE_SYMMETRIC | HR2D_ORACLE_THREAD_SAFE,
-    .estimate = estimate_grid,
-    .accept = accept_grid,
-};
+static const hr2d_oracle oracle_l1_grid = {HR2DI_BUILT_IN("l1-grid", HR2D_ORACLE_SYMMETRIC),
+                                           .estimate = estimate_grid, .accept = accept_grid};
 
 const hr2d_oracle *hr2d_oracle_l1(void) {
   return &oracle_l1;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "geometry/determinant.h"
+#include "oracle/built-in.h"
 
 /* Below this a sum of two squares, or its product with another such number, may have
    lost digits to underflow. */
@@ -175,28 +176,14 @@ static hr2d_status estimate_bf(void *ctx, const hr2d_batch *batch, double *error
   return HR2D_OK;
 }
 
-static const hr2d_oracle oracle_size = {
-    .struct_size = sizeof(hr2d_oracle),
-    .name = "size",
-    .flags = HR2D_ORACLE_SYMMETRIC | HR2D_ORACLE_THREAD_SAFE,
-    .estimate = estimate_size,
-    .accept = accept_size,
-};
+static const hr2d_oracle oracle_size = {HR2DI_BUILT_IN("size", HR2D_ORACLE_SYMMETRIC),
+                                        .estimate = estimate_size, .accept = accept_size};
 
-static const hr2d_oracle oracle_size2 = {
-    .struct_size = sizeof(hr2d_oracle),
-    .name = "size2",
-    .flags = HR2D_ORACLE_SYMMETRIC | HR2D_ORACLE_THREAD_SAFE,
-    .estimate = estimate_size2,
-    .accept = accept_size2,
-};
+static const hr2d_oracle oracle_size2 = {HR2DI_BUILT_IN("size2", HR2D_ORACLE_SYMMETRIC),
+                                         .estimate = estimate_size2, .accept = accept_size2};
 
-static const hr2d_oracle oracle_bf = {
-    .struct_size = sizeof(hr2d_oracle),
-    .name = "bf",
-    .flags = HR2D_ORACLE_THREAD_SAFE | HR2D_ORACLE_NEEDS_BRIGHTNESS,
-    .estimate = estimate_bf,
-};
+static const hr2d_oracle oracle_bf = {HR2DI_BUILT_IN("bf", HR2D_ORACLE_NEEDS_BRIGHTNESS),
+                                      .estimate = estimate_bf};
 
 const hr2d_oracle *hr2d_oracle_size(void) {
   return &oracle_size;
