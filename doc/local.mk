@@ -1,11 +1,40 @@
-# `make doxygen` writes html/ from the headers and doc/*.md.
-EXTRA_DIST += doc/accuracy.md doc/cost.md doc/fuzzing.md doc/hard-cases.md doc/occlusion.md \
-	doc/scene-files.md doc/testing.md doc/theorem.md doc/figures.sh doc/figures
+# `make doc` writes html/, the site of the headers, the pages of doc/ and the examples.
+EXTRA_DIST += \
+	doc/README.md \
+	doc/accuracy.md \
+	doc/architecture.md \
+	doc/compatibility.md \
+	doc/cost.md \
+	doc/fuzzing.md \
+	doc/hard-cases.md \
+	doc/occlusion.md \
+	doc/scene-files.md \
+	doc/testing.md \
+	doc/theorem.md \
+	doc/architecture-figure.sh \
+	doc/figures.sh \
+	doc/figures \
+	doc/site.awk \
+	doc/site.css
 
-doxygen: doc/Doxyfile
+doc: doc/Doxyfile doc/examples.dox include/hr2d/version.h
 	@test -n '$(DOXYGEN)' || { echo "doxygen was not found by configure" >&2; exit 1; }
+	rm -rf html
 	$(DOXYGEN) doc/Doxyfile
-.PHONY: doxygen
+doxygen: doc
+.PHONY: doc doxygen
+
+# Each example as a page: its first comment, what it prints, its text.
+doc/examples.dox: doc/local.mk $(EXAMPLES:=.c)
+	@$(MKDIR_P) doc
+	@for example in $(EXAMPLES); do \
+	  name=$${example##*/}; \
+	  echo "/** @example $$name.c"; \
+	  $(AWK) '!/SPDX/ { last = sub(/ *\*\/ *$$/, ""); sub(/^\/\*/, ""); print } last { exit }' \
+	    "$(srcdir)/$$example.c"; \
+	  echo; echo " It prints"; echo " @verbinclude $$name.expected"; echo "*/"; \
+	done >$@
+CLEANFILES += doc/examples.dox
 
 # `make figures` draws the figures of doc/theorem.md and doc/cost.md into the source tree, from
 # sweeps that a second run resumes.
@@ -14,7 +43,12 @@ figures: tools/hr2d$(EXEEXT)
 	HR2D_SCENES='$(abs_top_srcdir)/examples/scenes' \
 	HR2D_SRCDIR='$(abs_top_srcdir)' \
 	$(SHELL) $(srcdir)/doc/figures.sh '$(srcdir)/doc/figures' doc/figures-data
-.PHONY: figures
+
+# `make architecture-figure` draws the storeys of src/ for doc/architecture.md, from the tree.
+architecture-figure: libhr2d-core.la
+	NM='$(NM)' $(SHELL) $(srcdir)/doc/architecture-figure.sh '$(srcdir)/src' src >doc/architecture.svg
+	mv doc/architecture.svg '$(srcdir)/doc/figures/architecture.svg'
+.PHONY: figures architecture-figure
 
 clean-local:
 	rm -rf html doc/figures-data
