@@ -53,7 +53,7 @@ tested() {
 
 # What ThreadSanitizer makes of a program with RACE=1 or 0 races: it finds it, and invents none.
 control() {
-  clang -g -O1 -fopenmp -fsanitize=thread -DRACE="$1" "$source/tests/race.c" \
+  clang -g -O1 -fopenmp -fsanitize=thread -DRACE="$1" "$source/tests/threads/race.c" \
     -o matrix/thread/race || return 1
   matrix/thread/race >matrix/thread/race.log 2>&1
   if [ $? = 0 ] && [ "$1" = 0 ]; then return 0; fi
