@@ -1,7 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file memory.h
- * @brief Where a scene, and all that is made from it, gets its memory.
+ * @brief Allocator hooks.
+ *
+ * @defgroup memory Memory
+ * The allocator hooks of a scene and of every object made from it.
+ *
+ * Three kinds of memory do not come from the hooks:
+ * - jansson's, while a GeoJSON file is parsed. These allocations may fail as well.
+ * - OpenMP's, in a call that asks for more than one thread. The OpenMP runtime ends the program
+ *   if it gets no memory. With one thread it allocates nothing, except that clang's runtime
+ *   allocates when it starts.
+ * - The work space of hr2d_study_fit_rows(), from malloc().
+ * @{
  */
 #ifndef HR2D_MEMORY_H
 #define HR2D_MEMORY_H
@@ -9,19 +20,19 @@
 #include <stddef.h>
 
 /**
- * Allocator hooks, given to hr2d_scene_create() and inherited by every object
- * made from that scene.  Each function behaves as its C namesake and may fail.
- * The hooks must be callable from every thread that uses such an object.
- * What jansson allocates while a file is parsed does not come through here; it may fail as
- * well.  Nor does what OpenMP takes where more than one thread is asked for: its runtime ends
- * the program if it cannot have it.  With one thread it takes nothing, but for clang's when
- * it starts.
+ * Allocator hooks. hr2d_scene_create() copies them, and every object made from the scene
+ * inherits them.
+ *
+ * The functions behave like malloc(), realloc() and free(), and the first two may fail. They
+ * must be callable from every thread that uses such an object, and from the threads of a call
+ * that asks for several.
  */
 typedef struct hr2d_allocator {
   void *(*allocate)(void *ctx, size_t bytes);                /**< required */
   void *(*reallocate)(void *ctx, void *block, size_t bytes); /**< required */
-  void (*release)(void *ctx, void *block);                   /**< required; NULL is no-op */
-  void *ctx;                                                 /**< passed through */
+  void (*release)(void *ctx, void *block);                   /**< required; accepts NULL */
+  void *ctx;                                                 /**< passed to each function */
 } hr2d_allocator;
 
+/** @} */
 #endif

@@ -1,16 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file status.h
- * @brief What every fallible call returns.
+ * @brief The status that a call returns.
  *
- * The library never aborts, exits, prints or keeps global state.  A call that
- * fails leaves its objects as they were.  A status says what kind of thing went
- * wrong; the object that was worked on keeps a sentence that says where
- * (hr2d_scene_message(), hr2d_linkset_message()).
+ * @defgroup status Status
+ * Every call that can fail returns an hr2d_status.
+ *
+ * The status gives the kind of the error. The object of the call keeps a sentence with the
+ * place and the reason: hr2d_scene_message(), hr2d_linkset_message().
+ *
+ * A call that fails leaves its objects unchanged. The library never aborts, exits or prints,
+ * and it has no global state.
+ * @{
  */
 #ifndef HR2D_STATUS_H
 #define HR2D_STATUS_H
 
+/** Marks an exported function. */
 #if defined HR2D_BUILDING && defined __GNUC__
 #define HR2D_API __attribute__((visibility("default")))
 #else
@@ -21,30 +27,32 @@
 extern "C" {
 #endif
 
-/** The outcome of a call.  Success is 0; new values are only ever appended. */
+/** The outcome of a call. Success is 0. New values are only added at the end. */
 typedef enum hr2d_status {
-  HR2D_OK = 0,         /**< done */
-  HR2D_STOPPED,        /**< a callback asked to stop; not a failure of the library */
+  HR2D_OK = 0,         /**< success */
+  HR2D_STOPPED,        /**< a callback asked to stop; this is no failure of the library */
   HR2D_ENOMEM,         /**< an allocation failed */
-  HR2D_EINVAL,         /**< an argument or option has no meaning */
-  HR2D_ESTATE,         /**< the object is not in the state the call needs */
-  HR2D_ERANGE,         /**< beyond what a double can represent */
+  HR2D_EINVAL,         /**< an argument or option is not valid */
+  HR2D_ESTATE,         /**< the object is not in the state that the call needs */
+  HR2D_ERANGE,         /**< doubles cannot represent a value */
   HR2D_EIO,            /**< a file could not be read */
-  HR2D_ESYNTAX,        /**< a file is not what it should be */
+  HR2D_ESYNTAX,        /**< a file does not have the expected format */
   HR2D_ESCENE,         /**< the scene is not valid */
-  HR2D_EUNSUPPORTED,   /**< the scene calls for an effect this version lacks */
-  HR2D_ECALLBACK,      /**< a callback failed or returned a value without meaning */
-  HR2D_EMAX_ELEMENTS,  /**< the budget `max_elements` is spent */
-  HR2D_EMAX_LINKS,     /**< the budget `max_links` is spent */
-  HR2D_EMAX_BYTES,     /**< the budget `max_bytes` is spent */
+  HR2D_EUNSUPPORTED,   /**< this version does not support an effect or an object */
+  HR2D_ECALLBACK,      /**< a callback failed or returned an invalid value */
+  HR2D_EMAX_ELEMENTS,  /**< the budget `max_elements` is exhausted */
+  HR2D_EMAX_LINKS,     /**< the budget `max_links` is exhausted */
+  HR2D_EMAX_BYTES,     /**< the budget `max_bytes` is exhausted */
   HR2D_ENO_SOLUTION,   /**< the radiosity equation of this scene has no solution */
-  HR2D_ENOT_CONVERGED, /**< the iteration limit came before the tolerance */
-  HR2D_EACCURACY       /**< the accuracy asked for was not reached; what was is returned */
+  HR2D_ENOT_CONVERGED, /**< the iteration ended before it reached the tolerance */
+  HR2D_EACCURACY       /**< the target error was not reached; the best result is returned */
 } hr2d_status;
 
 /**
- * A short English phrase for a status, without full stop.
- * @return a static string, never NULL, also for values outside the enumeration
+ * Describes a status by a short English phrase without a full stop.
+ * @param status  any value, also outside of the enumeration
+ * @return a static string, never NULL
+ *
  * Thread-safe.
  */
 HR2D_API const char *hr2d_strerror(hr2d_status status);
@@ -52,4 +60,5 @@ HR2D_API const char *hr2d_strerror(hr2d_status status);
 #ifdef __cplusplus
 }
 #endif
+/** @} */
 #endif
