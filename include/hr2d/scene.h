@@ -3,9 +3,15 @@
  * @file scene.h
  * @brief The patches of a scene, their emission and reflectance.
  *
- * A scene is filled (hr2d_scene_add(), hr2d_scene_read()), committed once
- * (hr2d_scene_commit()) and from then on only read.  While it is filled it must
- * be used from one thread at a time; a committed scene may be read from many.
+ * @defgroup scene Scene
+ * The patches of a scene, their emission and reflectance.
+ *
+ * A scene is filled (hr2d_scene_add(), hr2d_scene_read()) and then committed once
+ * (hr2d_scene_commit()). From then on it is only read.
+ *
+ * Only one thread at a time may use a scene that is not committed. Several threads may read a
+ * committed scene.
+ * @{
  */
 #ifndef HR2D_SCENE_H
 #define HR2D_SCENE_H
@@ -22,219 +28,319 @@ extern "C" {
 /** A set of patches; opaque. */
 typedef struct hr2d_scene hr2d_scene;
 
-/** Which sides of a patch take part. */
+/** The sides of a segment that are patches. */
 typedef enum hr2d_sides {
   HR2D_SIDES_FRONT = 0, /**< the left of a→b */
   HR2D_SIDES_BOTH       /**< left and right: two patches back to back */
 } hr2d_sides;
 
 /**
- * A patch to be added.  Start from #HR2D_PATCH_INIT and write what differs.
- * Emission and reflectance are arrays with one value per band; a single value
- * holds for every band, no value means 0.  All is copied.
+ * A patch to be added. Start from #HR2D_PATCH_INIT and set the members that differ.
+ *
+ * Emission and reflectance are arrays with one value per band. A single value holds for every
+ * band; no value means 0. hr2d_scene_add() copies everything.
  */
 typedef struct hr2d_patch {
-  hr2d_point a, b;           /**< end points; the front is the left of a→b */
+  /** start; the front is the left of a→b */
+  hr2d_point a, b;           /**< end */
   const char *name;          /**< UTF-8, or NULL: "patch K", with K its index */
   const double *emission;    /**< E ≥ 0, power per scene length */
-  size_t emission_bands;     /**< how many values `emission` has */
+  size_t emission_bands;     /**< number of values in `emission` */
   const double *reflectance; /**< 0 ≤ ρ ≤ 1, dimensionless */
-  size_t reflectance_bands;  /**< how many values `reflectance` has */
+  size_t reflectance_bands;  /**< number of values in `reflectance` */
   hr2d_sides sides;          /**< HR2D_SIDES_BOTH adds two patches */
 } hr2d_patch;
 
-/** A black patch that emits nothing. */
+/** A black patch without emission. */
 #define HR2D_PATCH_INIT                                                                        \
   { {0, 0}, {0, 0}, NULL, NULL, 0, NULL, 0, HR2D_SIDES_FRONT }
 
-/** What can change the answer in some scenes and cannot in others. */
+/**
+ * Effects that change the answer in some scenes only. The library works on an effect only if
+ * the scene calls for it.
+ */
 typedef enum hr2d_effect {
   HR2D_EFFECT_OCCLUSION = 0,   /**< a patch can stand between two others */
-  HR2D_EFFECT_INTERREFLECTION, /**< light is reflected at all */
-  HR2D_EFFECT_EMISSION,        /**< something emits, or light comes in; patches that no
-                                    light can reach get no links */
-  HR2D_EFFECT_BANDS,           /**< more than one band */
-  HR2D_EFFECT_TWO_SIDED,       /**< patches back to back */
+  HR2D_EFFECT_INTERREFLECTION, /**< a patch reflects light */
+  HR2D_EFFECT_EMISSION,        /**< a patch emits, or light comes in; patches that no light can
+                                    reach get no links */
+  HR2D_EFFECT_BANDS,           /**< there is more than one band */
+  HR2D_EFFECT_TWO_SIDED,       /**< patches stand back to back */
   HR2D_EFFECT_FACING,          /**< some patches see each other only in part: clipping */
   HR2D_EFFECT_BACKGROUND,      /**< light comes in through the openings of the scene */
   HR2D_EFFECT_CORNER,          /**< patches touch: the kernel is singular there */
-  HR2D_EFFECT_COUNT            /**< how many there are */
+  HR2D_EFFECT_COUNT            /**< the number of effects */
 } hr2d_effect;
 
 /**
  * Makes an empty scene.
- * @param allocator  hooks, copied; NULL for malloc
+ * @param allocator  hooks, copied; NULL for malloc()
  * @param scene      receives the scene; the caller destroys it
- * @return HR2D_OK, HR2D_ENOMEM, or HR2D_EINVAL for hooks that are missing
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  a hook is missing
  */
 HR2D_API hr2d_status hr2d_scene_create(const hr2d_allocator *allocator, hr2d_scene **scene);
 
-/** Destroys a scene; NULL is allowed.  What was made from it must be gone. */
+/**
+ * Destroys a scene. Destroy all objects that are made from it first.
+ * @param scene  may be NULL
+ */
 HR2D_API void hr2d_scene_destroy(hr2d_scene *scene);
 
 /**
- * Adds one patch, or two for HR2D_SIDES_BOTH: `index`, and `index + 1` for the
- * back, named with " (back)" behind.
+ * Adds one patch, or two if `sides` is HR2D_SIDES_BOTH.
+ *
+ * The back of a two-sided patch has the index `index` + 1 and the name of its front followed by
+ * " (back)".
  *
  * @param scene  not yet committed
- * @param patch  what to add; copied
+ * @param patch  the patch; copied
  * @param index  receives the index of the (front) patch; may be NULL
- * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE after commit, or HR2D_ESCENE for zero
- *         length, a coordinate, E or ρ that is not finite, E < 0 or ρ outside
- *         [0,1], with a message that names the patch; HR2D_EINVAL for bands without
- *         values and for `sides` outside its enumeration
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  a number of bands without values, or `sides` outside of its enumeration
+ * @retval HR2D_ESTATE  the scene is committed
+ * @retval HR2D_ESCENE  the length is 0, a coordinate, E or ρ is not finite, E < 0, or ρ is
+ *                      outside of [0,1]; the message names the patch
+ *
  * Amortised constant cost.
  */
 HR2D_API hr2d_status hr2d_scene_add(hr2d_scene *scene, const hr2d_patch *patch, size_t *index);
 
 /**
- * Adds the patches of a scene file: GeoJSON (RFC 7946 structure, planar coordinates in
- * scene lengths) or View2D's .vs2, which the text itself tells; see doc/scene-files.md.
- * A background in a GeoJSON file takes the place of the scene's; a file without one leaves
- * it alone.  A .vs2 file has no emission; its obs, bas and cmb are checked to be integers
- * and not used.  Numbers have a decimal point in any locale.
+ * Adds the patches of a scene file: GeoJSON or View2D's .vs2; see doc/scene-files.md.
  *
- * @param scene  not yet committed; unchanged on failure, its background too
+ * The text of the file shows which format it has. GeoJSON has the structure of RFC 7946, with
+ * planar coordinates in scene lengths. A background in a GeoJSON file replaces the background
+ * of the scene; a file without a background does not change it. A .vs2 file has no emission.
+ * Its values obs, bas and cmb must be integers and are not used. Numbers have a decimal point
+ * in any locale.
+ *
+ * @param scene  not yet committed; unchanged on failure, including its background
  * @param path   a file name
- * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL without a path, HR2D_ESTATE after commit,
- *         HR2D_EIO, HR2D_ESYNTAX for what is not such a file, HR2D_ESCENE for a value or
- *         patch that makes no sense, and HR2D_EUNSUPPORTED for an effect this version
- *         lacks; the message names the line or the feature
- * Cost linear in the size of the file, in time and memory: see hr2d_scene_parse().
+ * @retval HR2D_OK            success
+ * @retval HR2D_ENOMEM        an allocation failed
+ * @retval HR2D_EINVAL        `scene` or `path` is NULL
+ * @retval HR2D_ESTATE        the scene is committed
+ * @retval HR2D_EIO           the file cannot be opened or read
+ * @retval HR2D_ESYNTAX       the text has neither of the formats
+ * @retval HR2D_ESCENE        a value or a patch is not valid
+ * @retval HR2D_EUNSUPPORTED  the file asks for an effect that this version lacks
+ *
+ * The message names the line or the feature. Cost linear in the size of the file, in time and
+ * memory; see hr2d_scene_parse().
  */
 HR2D_API hr2d_status hr2d_scene_read(hr2d_scene *scene, const char *path);
 
 /**
- * As hr2d_scene_read(), from `size` bytes of memory, which need not be terminated.
- * Beside the text it takes at most 256 bytes of memory for each byte of it, and 32 kB, whatever
- * the text is and with what jansson takes; most is for short segments with long names.
+ * Adds the patches of a scene file that is in memory; otherwise like hr2d_scene_read().
+ * @param scene  as in hr2d_scene_read()
+ * @param text   the text; it need not be terminated
+ * @param size   number of bytes of the text
+ * @return as hr2d_scene_read(), except HR2D_EIO
+ *
+ * Memory besides the text: at most 32 kB and 256 bytes for each byte of the text, whatever the
+ * text is. This includes jansson's memory. Short segments with long names take most.
  */
 HR2D_API hr2d_status hr2d_scene_parse(hr2d_scene *scene, const char *text, size_t size);
 
 /**
- * Sets the light that comes in from the surroundings: what a point sees between the
- * patches, to infinity, has this radiosity.  The back of a patch that has a front only
- * is black and lets nothing through.
+ * Sets the light from the surroundings: a point that looks between the patches to infinity sees
+ * this radiosity.
+ *
+ * The back of a patch that has only a front is black and opaque.
  *
  * @param scene       not yet committed
- * @param background  ≥ 0, one value per band or one for all, in the unit of emission;
- *                    copied
- * @param bands       how many values; 0 for no light, as before the first call
- * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE after commit, HR2D_ESCENE for a value that is
- *         negative or not finite, HR2D_EINVAL for bands without values
+ * @param background  values ≥ 0 in the unit of E, one per band or one for all bands; copied
+ * @param bands       number of values; 0 for no light, as before the first call
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  a number of bands without values
+ * @retval HR2D_ESTATE  the scene is committed
+ * @retval HR2D_ESCENE  a value is negative or not finite
  */
 HR2D_API hr2d_status hr2d_scene_set_background(hr2d_scene *scene, const double *background,
                                                size_t bands);
 
 /**
- * Turns an effect on whether or not the scene calls for it.  That costs time and changes
- * no bit of the answer where the effect is not called for: a means to test just this.
- * Forcing HR2D_EFFECT_EMISSION also gives links to patches that no light can reach; from
- * 262,144 links on that may change in which order the others are summed up.
+ * Turns an effect on, even if the scene does not call for it. This tests the analysis of
+ * effects: an effect that is not called for costs time, but changes no bit of the answer.
  *
- * @param scene  not yet committed
- * @return HR2D_OK, HR2D_ESTATE after commit, HR2D_EINVAL outside the enumeration
+ * Exception: HR2D_EFFECT_EMISSION gives links to patches that no light can reach. From 262,144
+ * links on, these may change the order in which the other links are summed.
+ *
+ * @param scene   not yet committed
+ * @param effect  the effect
+ * @retval HR2D_OK      success
+ * @retval HR2D_EINVAL  `effect` is outside of the enumeration
+ * @retval HR2D_ESTATE  the scene is committed
  */
 HR2D_API hr2d_status hr2d_scene_force(hr2d_scene *scene, hr2d_effect effect);
 
 /**
- * Cuts patches that cross each other properly at their crossings, so that commit does
- * not refuse them.  The pieces of a patch take its place, in the order of its direction,
- * named with " [1]", " [2]", … behind, and share the crossing bit for bit with those of
- * the other; indices behind them move up.  Where patches meet again in a rounded piece
- * they are cut there, too; two that lie on one another within rounding are cut at each
- * other's ends, and of copies no longer than 1e-9 of the largest coordinate and 1e-6 of the
- * patch, which such cuts can leave, one is dropped.
+ * Cuts patches that cross properly at their crossings, so that hr2d_scene_commit() does not
+ * refuse them.
+ *
+ * The pieces of a patch take its place, in the order of its direction. Its name gets the
+ * suffixes " [1]", " [2]", …; the indices of later patches increase. The pieces of both patches
+ * share the crossing, bit for bit.
+ *
+ * A crossing is rounded. If its pieces meet other patches again, they are cut there, too. Two
+ * patches that lie on one another within rounding are cut at each other's ends. Such cuts can
+ * leave copies. One of two copies is dropped if it is no longer than 1e-9 of the largest
+ * coordinate and no longer than 1e-6 of the patch.
  *
  * @param scene  not yet committed; unchanged on failure
  * @param cuts   receives the number of places where patches were cut; may be NULL
- * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE after commit, HR2D_ERANGE as
- *         hr2d_scene_commit(), HR2D_ESCENE if crossings are left after 32 rounds
- * Cost O(n log n + pairs whose extents in x meet).
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_ESTATE  the scene is committed
+ * @retval HR2D_ERANGE  as for hr2d_scene_commit()
+ * @retval HR2D_ESCENE  crossings are left after 32 rounds
+ *
+ * Cost O(n log n + k), with k the number of pairs whose extents in x overlap.
  */
 HR2D_API hr2d_status hr2d_scene_split_crossings(hr2d_scene *scene, size_t *cuts);
 
 /**
- * Checks the patches against each other, scales their coordinates by a power of
- * two and analyses which effects the scene calls for.
+ * Checks the patches against each other, scales their coordinates by a power of two and finds
+ * the effects that the scene calls for.
  *
- * A rounding is four units in the last place of 1, in units of hr2d_scene_unit(): ends that
- * were computed to lie on a patch are within that, so that one that goes through by no more
- * ends there, and patches closer than two roundings along a stretch lie on one another.  An
- * end that is through by a rounding at so flat an angle that 2⁻³⁰ of the scene or 2⁻²⁰ of the
- * patch is beyond crosses: what stays allowed can change the answer by as much, and no more.
- * Far from the origin roundings are those of the coordinates: 1e8 patch lengths away eight
- * digits of what is between patches are not there any more, and from 1e12 on (2⁴⁰ times what
- * the scene is across) the scene is refused, unless it is a pair of patches or all of them are
- * in front of each other, so that nothing has to be decided.
+ * A *rounding* is four units in the last place of 1, in units of hr2d_scene_unit(). A computed
+ * end that should lie on a patch is off by at most one rounding.
+ * - An end that passes through a patch by at most one rounding counts as ending there. But if
+ *   the angle is so flat that 2⁻³⁰ of the scene or 2⁻²⁰ of the patch lies beyond, the patches
+ *   cross. The accepted rest can change the answer by that much, and by no more.
+ * - Patches that are closer than two roundings along a stretch lie on one another.
  *
- * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE if committed before, HR2D_ESCENE for
- *         an empty scene, differing band counts, patches that cross, patches
- *         that overlap with their fronts on the same side, and patches that face each
- *         other with no more than a rounding between them; HR2D_ERANGE for coordinates
- *         whose scales lie so far apart that scaling would lose digits, a scene too far from
- *         the origin, or a length beyond a double; the message names the patches
- * Cost O(n²) comparisons; in a scene with dark patches and occluders a search for the
- * patches that light can reach, O(n²) looks between two patches at worst.
+ * Far from the origin, the coordinates themselves are rounded. At a distance of 1e8 patch
+ * lengths, eight digits of the distances between patches are lost. From 1e12 on (2⁴⁰ times the
+ * extent of the scene) the scene is refused. Exceptions, because nothing has to be decided: a
+ * pair of patches, and patches that are all in front of each other.
+ *
+ * @param scene  not yet committed; not committed on failure
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_ESTATE  the scene is already committed
+ * @retval HR2D_ESCENE  the scene is empty; numbers of bands differ; patches cross; patches
+ *                      overlap with their fronts on the same side; or patches face each other
+ *                      with at most one rounding between them
+ * @retval HR2D_ERANGE  the scales of the coordinates are so far apart that scaling would lose
+ *                      digits; the scene is too far from the origin; or doubles cannot
+ *                      represent a length
+ *
+ * The message names the patches. Cost O(n²) comparisons. In a scene with dark patches and
+ * occluders, the search for patches that light can reach adds at most O(n²) visibility queries.
  */
 HR2D_API hr2d_status hr2d_scene_commit(hr2d_scene *scene);
 
-/** What went wrong in the last call that failed on this scene; "" if none did. */
+/**
+ * The reason of the last call that failed on this scene.
+ * @param scene  a scene
+ * @return a sentence, owned by the scene and overwritten by the next failure; "" if no call
+ *         failed
+ */
 HR2D_API const char *hr2d_scene_message(const hr2d_scene *scene);
 
-/** The number of patches; a two-sided patch counts twice. */
+/**
+ * The number n of patches. A two-sided patch counts twice.
+ * @param scene  a scene
+ * @return n
+ */
 HR2D_API size_t hr2d_scene_patches(const hr2d_scene *scene);
 
-/** The number of bands, known once the scene is committed; 1 for a grey scene. */
+/**
+ * The number of bands.
+ * @param scene  committed; the number is not known before
+ * @return at least 1; 1 for a grey scene
+ */
 HR2D_API size_t hr2d_scene_bands(const hr2d_scene *scene);
 
-/** The segment of patch `patch` as it was given; `patch` must be in range. */
+/**
+ * The segment of a patch, as it was given.
+ * @param scene,patch  a scene and the index of a patch
+ * @return the segment in scene lengths
+ */
 HR2D_API hr2d_segment hr2d_scene_segment(const hr2d_scene *scene, size_t patch);
 
 /**
- * The length A of patch `patch`, in scene lengths: the hypotenuse of the differences, to a
- * relative 3·2^-53 where hypot() is good to a unit in the last place.
+ * The length A of a patch: the hypotenuse of the differences of its coordinates.
+ * @param scene,patch  a scene and the index of a patch
+ * @return A in scene lengths; the relative error is at most 3·2^-53 if hypot() is accurate to
+ *         one unit in the last place
  */
 HR2D_API double hr2d_scene_length(const hr2d_scene *scene, size_t patch);
 
-/** The name of patch `patch`; owned by the scene. */
+/**
+ * The name of a patch.
+ * @param scene,patch  a scene and the index of a patch
+ * @return the name, owned by the scene
+ */
 HR2D_API const char *hr2d_scene_name(const hr2d_scene *scene, size_t patch);
 
 /**
- * The index of the first patch called `name`.
- * @return HR2D_OK, or HR2D_EINVAL if there is none
- * Cost O(n).
+ * Finds the first patch with a given name. Cost O(n).
+ * @param scene  a scene
+ * @param name   the name
+ * @param patch  receives the index of the patch
+ * @retval HR2D_OK      success
+ * @retval HR2D_EINVAL  no patch has this name
  */
 HR2D_API hr2d_status hr2d_scene_find(const hr2d_scene *scene, const char *name, size_t *patch);
 
-/** E of patch `patch` in band `band` < hr2d_scene_bands(). */
+/**
+ * The emission of a patch in one band.
+ * @param scene,patch  a scene and the index of a patch
+ * @param band         below hr2d_scene_bands()
+ * @return E, power per scene length
+ */
 HR2D_API double hr2d_scene_emission(const hr2d_scene *scene, size_t patch, size_t band);
 
-/** ρ of patch `patch` in band `band` < hr2d_scene_bands(). */
+/**
+ * The reflectance of a patch in one band.
+ * @param scene,patch  a scene and the index of a patch
+ * @param band         below hr2d_scene_bands()
+ * @return ρ, dimensionless
+ */
 HR2D_API double hr2d_scene_reflectance(const hr2d_scene *scene, size_t patch, size_t band);
 
-/** The light from the surroundings in band `band` < hr2d_scene_bands(). */
+/**
+ * The light from the surroundings in one band.
+ * @param scene  a scene
+ * @param band   below hr2d_scene_bands()
+ * @return the radiosity of the background, in the unit of E
+ */
 HR2D_API double hr2d_scene_background(const hr2d_scene *scene, size_t band);
 
 /**
- * The power of two by which committed coordinates are divided, so that the
- * largest lies in [1,2): exact, and nothing is lost by it.  An element's coordinates times this
- * are scene lengths.
+ * The power of two by which commit divides the coordinates, so that the largest is in [1,2).
+ * The division is exact.
+ * @param scene  committed
+ * @return scene lengths per unit of the coordinates of elements
  */
 HR2D_API double hr2d_scene_unit(const hr2d_scene *scene);
 
 /**
- * Whether a committed scene calls for an effect, and why.
- * @param reason  receives a phrase owned by the scene; may be NULL
- * @return 1 or 0
+ * Tests whether a committed scene calls for an effect, and gives the reason.
+ * @param scene   committed
+ * @param effect  the effect
+ * @param reason  receives a phrase, owned by the scene; may be NULL
+ * @retval 1  the scene calls for the effect, or it was forced
+ * @retval 0  otherwise, also if `effect` is outside of the enumeration
  */
 HR2D_API int hr2d_scene_effect(const hr2d_scene *scene, hr2d_effect effect,
                                const char **reason);
 
-/** The name of an effect, as "occlusion"; NULL outside the enumeration. */
+/**
+ * The name of an effect.
+ * @param effect  the effect
+ * @return a static string, for example "occlusion"; NULL outside of the enumeration
+ */
 HR2D_API const char *hr2d_effect_name(hr2d_effect effect);
 
 #ifdef __cplusplus
 }
 #endif
+/** @} */
 #endif
