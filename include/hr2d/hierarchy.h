@@ -3,9 +3,13 @@
  * @file hierarchy.h
  * @brief The binary trees of elements that refinement grows on the patches.
  *
- * The root of patch k is element k.  Children are made in adjacent pairs, only
- * when a refinement asks for them, and always after their parent, so that a loop
- * over rising indices meets parents before children.
+ * @defgroup hierarchy Hierarchy of elements
+ * The binary trees of elements that refinement grows on the patches.
+ *
+ * Element k is the root of patch k. Children are made in adjacent pairs, only when a refinement
+ * needs them, and always after their parent. A loop over rising indices therefore meets parents
+ * before children.
+ * @{
  */
 #ifndef HR2D_HIERARCHY_H
 #define HR2D_HIERARCHY_H
@@ -23,22 +27,28 @@ extern "C" {
 typedef struct hr2d_hierarchy hr2d_hierarchy;
 
 /**
- * A node of a patch's tree.  Coordinates and length are in units of
- * hr2d_scene_unit(), so that no callback needs to fear overflow.  One cache
- * line; the layout does not change within a library version number.
+ * A node of the tree of a patch.
  *
- * Refinement halves: each midpoint is rounded once, and so on level k coordinates are off those
- * of exact halving by at most k roundings, of 2^-53, of the patch's largest coordinate.  Where
- * that is as much as the element, as in patches far from the origin, the centre, which is
- * rounded, may lie off its line; an element whose midpoint is one of its ends is not halved.
- * Lengths carry the error of the patch's, 3 roundings, and no other above 2^-1000.
+ * Coordinates and length are in units of hr2d_scene_unit(), so that callbacks need not expect
+ * overflow. An element fills one cache line. Its layout does not change within a version number
+ * of the shared library.
+ *
+ * Refinement halves elements, and each midpoint is rounded once. On level k, coordinates
+ * therefore differ from exact halving by at most k roundings of the largest coordinate of the
+ * patch, 2^-53 each. In patches far from the origin this can be as much as the element; the
+ * rounded centre can then lie off the line of the element. An element whose midpoint is one of
+ * its ends is not halved. Lengths have the error of the patch length, 3 roundings, and no other
+ * error above 2^-1000.
+ *
+ * hr2d_solve_to() also divides elements at points that are not the midpoint.
  */
 typedef struct hr2d_element {
-  hr2d_point a, b;   /**< end points, shared bit for bit with the neighbours */
+  /** start, shared bit for bit with the neighbour */
+  hr2d_point a, b;   /**< end, shared bit for bit with the neighbour */
   hr2d_point centre; /**< midpoint of a and b */
-  double length;     /**< the patch's length halved once per level, exactly */
-  uint32_t child;    /**< the left child, the right one is child + 1; 0 for a leaf */
-  uint32_t patch;    /**< the patch it belongs to */
+  double length;     /**< the patch length, halved once per level, exactly */
+  uint32_t child;    /**< the left child; the right child is child + 1; 0 for a leaf */
+  uint32_t patch;    /**< the patch of the element */
 } hr2d_element;
 
 /** The sizes of a hierarchy. */
@@ -49,12 +59,14 @@ typedef struct hr2d_hierarchy_counts {
 } hr2d_hierarchy_counts;
 
 /**
- * Makes a hierarchy of n roots and nothing else.
- *
+ * Makes a hierarchy that consists of n roots.
  * @param scene      committed; must outlive the hierarchy
  * @param hierarchy  receives the hierarchy; the caller destroys it
- * @return HR2D_OK, HR2D_ENOMEM, or HR2D_ESTATE if the scene is not committed
- * Hierarchies of one scene may be made and used from different threads.  Cost O(n).
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_ESTATE  the scene is not committed
+ *
+ * Hierarchies of one scene may be made and used from different threads. Cost O(n).
  */
 HR2D_API hr2d_status hr2d_hierarchy_create(const hr2d_scene *scene, hr2d_hierarchy **hierarchy);
 
@@ -62,50 +74,80 @@ HR2D_API hr2d_status hr2d_hierarchy_create(const hr2d_scene *scene, hr2d_hierarc
 #define HR2D_MAX_ORDER 32
 
 /**
- * Lets each element carry `order` Legendre coefficients of radiosity in place of one
- * constant; a link then transports order × order of them.  Order 1, as at first, is the
- * paper's algorithm.  Refinement does not depend on it: elements as large as B is smooth
- * and links as large as G is smooth are what a high order wants, as max(A)/r ≤ 1/2.
- * Solutions made before keep the order they were made with.
+ * Sets the order p: each element carries p Legendre coefficients of radiosity.
  *
- * @param order  1 to #HR2D_MAX_ORDER
- * @return HR2D_OK, HR2D_EINVAL, or HR2D_ESTATE from a callback of a refinement or a solve
+ * Each link then transports p × p coefficients. Order 1, the initial order, is the paper's
+ * algorithm with one constant per element. Refinement does not depend on the order. A high
+ * order suits elements as large as B is smooth and links as large as G is smooth, for example
+ * max(A)/r ≤ 1/2. Existing solutions keep their order.
+ *
+ * @param hierarchy  a hierarchy
+ * @param order      1 to #HR2D_MAX_ORDER
+ * @retval HR2D_OK      success
+ * @retval HR2D_EINVAL  `order` is out of range
+ * @retval HR2D_ESTATE  called back from a refinement or a solve on this hierarchy
  */
 HR2D_API hr2d_status hr2d_hierarchy_set_order(hr2d_hierarchy *hierarchy, unsigned order);
 
-/** How many coefficients each element carries. */
+/**
+ * The order p: the number of coefficients that each element carries.
+ * @param hierarchy  a hierarchy
+ * @return 1 to #HR2D_MAX_ORDER
+ */
 HR2D_API unsigned hr2d_hierarchy_order(const hr2d_hierarchy *hierarchy);
 
-/** Destroys a hierarchy; NULL is allowed.  Link sets on it must be gone. */
+/**
+ * Destroys a hierarchy. Destroy all link sets on it first.
+ * @param hierarchy  may be NULL
+ */
 HR2D_API void hr2d_hierarchy_destroy(hr2d_hierarchy *hierarchy);
 
-/** The scene a hierarchy stands on. */
+/**
+ * The scene of a hierarchy.
+ * @param hierarchy  a hierarchy
+ * @return the scene given to hr2d_hierarchy_create()
+ */
 HR2D_API const hr2d_scene *hr2d_hierarchy_scene(const hr2d_hierarchy *hierarchy);
 
-/** N, leaves and depth.  Constant cost. */
+/**
+ * The number of elements, the number of leaves and the depth.
+ * @param hierarchy  a hierarchy
+ * @return the sizes; constant cost
+ */
 HR2D_API hr2d_hierarchy_counts hr2d_hierarchy_count(const hr2d_hierarchy *hierarchy);
 
 /**
- * All elements, indexed by element number.
- * Valid until the hierarchy is refined or destroyed.
+ * All elements.
+ * @param hierarchy  a hierarchy
+ * @return an array indexed by element number, owned by the hierarchy; valid until the hierarchy
+ *         is refined or destroyed
  */
 HR2D_API const hr2d_element *hr2d_hierarchy_elements(const hr2d_hierarchy *hierarchy);
 
-/** The level of an element; a root is on level 0. */
+/**
+ * The level of an element.
+ * @param hierarchy,element  a hierarchy and the number of an element
+ * @return the level; a root is on level 0
+ */
 HR2D_API unsigned hr2d_element_level(const hr2d_hierarchy *hierarchy, uint32_t element);
 
-/** The parent of an element; a root is its own. */
+/**
+ * The parent of an element.
+ * @param hierarchy,element  a hierarchy and the number of an element
+ * @return the number of the parent; a root is its own parent
+ */
 HR2D_API uint32_t hr2d_element_parent(const hr2d_hierarchy *hierarchy, uint32_t element);
 
 /**
- * The leaf that holds the point at fraction t of a patch, counted from its start.
- * A point on the border of two leaves belongs to the one behind it.
- * @param t  in [0,1]
- * Cost: one step per level.
+ * Finds the leaf that contains a point of a patch. Cost: one step per level.
+ * @param hierarchy,patch  a hierarchy and the index of a patch
+ * @param t                fraction of the patch in [0,1], counted from its start
+ * @return the number of the leaf; for the border of two leaves, the leaf behind the border
  */
 HR2D_API uint32_t hr2d_hierarchy_leaf(const hr2d_hierarchy *hierarchy, size_t patch, double t);
 
 #ifdef __cplusplus
 }
 #endif
+/** @} */
 #endif

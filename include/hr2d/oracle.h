@@ -1,25 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file oracle.h
- * @brief Oracles estimate the error across a link (paper, section 2).
+ * @brief Oracles estimate the error of a link (paper, section 2).
  *
- * An oracle is a constant table and a context of its own.  The built-in ones are
- * ordinary instances of the same table.  Oracles answer for batches of pairs, so
- * that the price of a call is shared.
+ * @defgroup oracle Oracles
+ * Oracles estimate the error of a link (paper, section 2).
  *
- * Exchange areas are exact whatever is in the way, but where a pair sees each other only
- * in part a link spreads over its elements what falls on parts of them.  An oracle learns
- * of that from hr2d_batch::partial, and the built-in ones do not accept such a pair as if
- * it were clear: `size` and `bf` count it twice and `size2`, the square, four times, so
- * that elements are half as long there.  `l1` and `l1-grid` add the most that an occluder
- * can change, the unoccluded exchange area.
+ * An oracle is a constant table of functions with its own context. The built-in oracles are
+ * ordinary instances of the same table. An oracle answers for a batch of pairs, so that the
+ * pairs share the price of the call.
  *
- * Estimates are functions of what stands in the elements: ends, centres and lengths, each taken
- * as exact.  Bounds of their errors are relative, for coordinates below 2 and, those that are
- * not 0, within 2^800 of each other; of a value below DBL_MIN, relative to that, and a step of
- * the subnormal numbers.  Decisions are those of the estimates, bit for bit.  The tests hold
- * the bounds against MPFR, also where hill climbing finds the worst
- * (tests/bounds/check-bounds-oracles.c, tests/bounds/check-bounds-l1.c).
+ * Exchange areas are exact with any occluders. But if two elements see each other only in part,
+ * their link spreads over whole elements the light that falls on parts of them. An oracle finds
+ * these pairs in hr2d_batch::partial. The built-in oracles increase the estimate of such a
+ * pair:
+ * - `size` and `bf` double it, and `size2`, the square, multiplies it by four, so that elements
+ *   are half as long there.
+ * - `l1` and `l1-grid` add the unoccluded exchange area. An occluder cannot change more.
+ *
+ * Estimates are functions of the ends, centres and lengths that the elements hold, each taken
+ * as exact. Error bounds are relative. They hold if coordinates are below 2 and if the
+ * coordinates that are not 0 are within a factor of 2^800 of each other. A value below DBL_MIN
+ * has an error relative to DBL_MIN, plus one step of the subnormal numbers. Decisions follow
+ * the estimates, bit for bit. The tests check the bounds against MPFR, also where hill climbing
+ * finds the worst case (tests/bounds/check-bounds-oracles.c, tests/bounds/check-bounds-l1.c).
+ * @{
  */
 #ifndef HR2D_ORACLE_H
 #define HR2D_ORACLE_H
@@ -33,15 +38,15 @@
 extern "C" {
 #endif
 
-/** Two elements between which a link is proposed. */
+/** Two elements for which a link is proposed. */
 typedef struct hr2d_pair {
-  uint32_t first;  /**< the receiver where links are directed */
-  uint32_t second; /**< the source where links are directed */
+  uint32_t first;  /**< the receiver, if links are directed */
+  uint32_t second; /**< the source, if links are directed */
 } hr2d_pair;
 
 /**
- * A batch of pairs, as callbacks get it.  It can gain members; nothing in it
- * may be kept beyond the call.
+ * A batch of pairs, as a callback receives it. It can gain members. Nothing in it is valid
+ * after the call.
  */
 typedef struct hr2d_batch {
   size_t struct_size;              /**< sizeof (hr2d_batch) of the library */
@@ -51,15 +56,15 @@ typedef struct hr2d_batch {
   size_t count;                    /**< at least 1 */
   double unit;                     /**< scene lengths per unit of the elements' coordinates */
   double epsilon;                  /**< the ε of this refinement */
-  const unsigned char *partial;    /**< for each pair 1 where an occluder reaches into the
-                                        pair's shaft, so that the elements may see each other
-                                        only in part; NULL where that is so for none of them */
-  const double *brightness;        /**< average B of each element relative to the brightest,
-                                        the largest over the bands; NULL unless the oracle
-                                        has HR2D_ORACLE_NEEDS_BRIGHTNESS */
+  const unsigned char *partial;    /**< per pair: 1 if an occluder reaches into the shaft of the
+                                        pair, so that its elements may see each other only in
+                                        part, otherwise 0; NULL if there is no such pair */
+  const double *brightness;        /**< per element: average B relative to the brightest one,
+                                        the largest over the bands; NULL unless the oracle has
+                                        HR2D_ORACLE_NEEDS_BRIGHTNESS */
 } hr2d_batch;
 
-/** What the library may assume of an oracle. */
+/** Properties of an oracle on which the library relies. */
 enum {
   HR2D_ORACLE_SYMMETRIC = 1,       /**< (i,j) and (j,i) get the same estimate: each
                                         unordered pair of patches is projected once */
@@ -67,80 +72,102 @@ enum {
   HR2D_ORACLE_NEEDS_BRIGHTNESS = 4 /**< reads hr2d_batch::brightness */
 };
 
-/** An oracle: set struct_size to sizeof (hr2d_oracle), and what is not used to NULL. */
+/** An oracle. Set struct_size to sizeof (hr2d_oracle), and unused members to NULL. */
 typedef struct hr2d_oracle {
   size_t struct_size; /**< so that the table can grow */
   const char *name;   /**< required; for messages */
   unsigned flags;     /**< HR2D_ORACLE_… */
 
   /**
-   * Required.  Writes the estimated error of each pair, ≥ 0.  NaN, and nothing written,
-   * is an error of the callback (HR2D_ECALLBACK), infinity refuses for every ε.
+   * Required. Writes the estimated error of each pair, ≥ 0. Infinity refuses the pair for every
+   * ε. If a value is NaN, negative or not written, the refinement fails with HR2D_ECALLBACK.
    * Returns HR2D_OK, HR2D_STOPPED to end the refinement, or any other status.
    */
   hr2d_status (*estimate)(void *ctx, const hr2d_batch *batch, double *error);
 
   /**
-   * Optional, for speed.  Writes 1 where the estimate is ≤ epsilon, else 0 or nothing: the
-   * same decision as from `estimate`, which bounds may reach more cheaply.
-   * Used where the policy does not bring its own `acceptable`.
+   * Optional, for speed. Writes 1 if the estimate is ≤ epsilon, otherwise 0 or nothing. The
+   * decision must be the same as from `estimate`; bounds may reach it at a lower cost. Used if
+   * the policy has no `acceptable`. Returns a status like `estimate`.
    */
   hr2d_status (*accept)(void *ctx, const hr2d_batch *batch, double epsilon,
                         unsigned char *accepted);
 
-  /** Optional.  Called once when the owner of ctx, a link set, is destroyed. */
+  /** Optional. Called once when the owner of ctx, a link set, is destroyed. */
   void (*destroy)(void *ctx);
 } hr2d_oracle;
 
 /**
- * max(A_x, A_y)/r, the oracle of the paper's analysis (section 3.1); r is the
- * distance of the centres.  Dimensionless, symmetric.  The relative error is at most 5·2^-53;
- * infinity where the centres coincide.
+ * The oracle `size` of the paper's analysis (section 3.1): max(A_x, A_y)/r.
+ *
+ * r is the distance of the centres. Dimensionless, symmetric. The relative error is at most
+ * 5·2^-53. The value is infinite if the centres coincide.
+ *
+ * @return a static table
  */
 HR2D_API const hr2d_oracle *hr2d_oracle_size(void);
 
 /**
- * (max(A_x, A_y)/r)², the stronger bound of the paper's footnote 3.  The relative error is at
- * most 10·2^-53; infinity where the centres coincide.
+ * The oracle `size2`: (max(A_x, A_y)/r)², the stronger bound of the paper's footnote 3.
+ *
+ * Dimensionless, symmetric. The relative error is at most 10·2^-53. The value is infinite if
+ * the centres coincide.
+ *
+ * @return a static table
  */
 HR2D_API const hr2d_oracle *hr2d_oracle_size2(void);
 
 /**
- * Hanrahan's form factor × brightness: G(x_c,y_c)·max(A_x,A_y)·B_y, with B
- * relative to the brightest element and the cosines of G by absolute value.
- * Dimensionless, directed: (i,j) asks for light from j to i.  0 where B_y is 0, else infinity
- * where the centres coincide.  The relative error is at most 24·2^-53, at grazing angles, too.
+ * The oracle `bf`, Hanrahan's form factor × brightness: G(x_c,y_c)·max(A_x,A_y)·B_y.
+ *
+ * B_y is relative to the brightest element. The cosines of G are taken by absolute value.
+ * Dimensionless, directed: (i,j) asks for the light from j to i. The value is 0 if B_y is 0;
+ * otherwise it is infinite if the centres coincide. The relative error is at most 24·2^-53,
+ * also at grazing angles.
+ *
+ * @return a static table
  */
 HR2D_API const hr2d_oracle *hr2d_oracle_bf(void);
 
 /**
- * The exact L¹ error of the geometry term (section 4),
- *   ∫_{A_x} ∫_{A_y} |G(x_c,y_c) − G(x,y)| dy dx,
- * a length, with G = 0 where one point lies behind the other element.  Symmetric.
- * The relative error is at most 1e-10, and G(x_c,y_c) is that of the unrounded midpoints of
- * the ends; where a cosine there is below 1e-140, the value is AF + G(x_c,y_c) A_x A_y, which
- * is above the error.  Decisions are those of the value, mostly from bounds.  Infinite where
- * the centres coincide.
+ * The oracle `l1`: the exact L¹ error of the geometry term (section 4).
+ *
+ *     ∫_{A_x} ∫_{A_y} |G(x_c,y_c) − G(x,y)| dy dx
+ *
+ * G = 0 if one point lies behind the other element. A length, in scene lengths; symmetric. The
+ * relative error is at most 1e-10. G(x_c,y_c) is taken at the unrounded midpoints of the ends.
+ * If a cosine there is below 1e-140, the value is AF + G(x_c,y_c) A_x A_y, which is above the
+ * error. Decisions are those of the value, but mostly come from bounds. It is infinite if the
+ * elements see each other and their centres coincide.
+ *
+ * @return a static table
  */
 HR2D_API const hr2d_oracle *hr2d_oracle_l1(void);
 
 /**
- * The same on the paper's 1024×1024 grid: G is sampled at 1024 midpoints of each patch,
- * and a pair's error is the sum over its samples.  An element of one cell or less has its
- * centre as sample, so that patches of one length are never subdivided below level 10.
- * A length, symmetric.  In plain doubles, as the paper's: of each sampled G the error is at
- * most 2^-48·D/r², with r the distance of its points and D the extent of the pair, so that
- * nearly coplanar pairs keep no relative accuracy.
+ * The oracle `l1-grid`: the error of `l1` on the paper's 1024×1024 grid.
+ *
+ * G is sampled at 1024 midpoints of each patch, and the error of a pair is the sum over its
+ * samples. An element of one cell or less has one sample, its centre: patches of equal length
+ * are never subdivided below level 10. A length, in scene lengths; symmetric.
+ *
+ * The sums are in plain doubles, as in the paper. The error of each sampled G is at most
+ * 2^-48·D/r², with r the distance of its points and D the extent of the pair: nearly coplanar
+ * pairs keep no relative accuracy.
+ *
+ * @return a static table
  */
 HR2D_API const hr2d_oracle *hr2d_oracle_l1_grid(void);
 
 /**
- * A built-in oracle by name: "size", "size2", "bf", "l1", "l1-grid".
- * @return NULL if there is none of that name
+ * Finds a built-in oracle by its name.
+ * @param name  "size", "size2", "bf", "l1" or "l1-grid"
+ * @return a static table, or NULL if no oracle has this name
  */
 HR2D_API const hr2d_oracle *hr2d_oracle_find(const char *name);
 
 #ifdef __cplusplus
 }
 #endif
+/** @} */
 #endif
