@@ -3,9 +3,13 @@
  * @file linkset.h
  * @brief Links: accepted pairs of elements with their exchange areas.
  *
- * A link set joins a hierarchy with an oracle and a policy.  It starts empty, is
- * filled by hr2d_refine() and read from then on.  One link serves both directions
- * of transport, because A_i F_ij = A_j F_ji, unless the set is directed.
+ * @defgroup linkset Link set
+ * Links: accepted pairs of elements with their exchange areas.
+ *
+ * A link set joins a hierarchy with an oracle and a policy. It starts empty; hr2d_refine()
+ * fills it, and can refine it further. One link serves both directions of transport, because
+ * A_i F_ij = A_j F_ji, unless the set is directed.
+ * @{
  */
 #ifndef HR2D_LINKSET_H
 #define HR2D_LINKSET_H
@@ -20,7 +24,7 @@
 extern "C" {
 #endif
 
-/** The links of a hierarchy under an oracle and a policy; opaque. */
+/** The links of a hierarchy, chosen by an oracle and a policy; opaque. */
 typedef struct hr2d_linkset hr2d_linkset;
 
 /** An accepted pair. */
@@ -29,16 +33,16 @@ typedef struct hr2d_link {
   double exchange_area; /**< AF, in scene lengths */
 } hr2d_link;
 
-/** What refinement made and what it took. */
+/** The result and the work of a refinement. */
 typedef struct hr2d_refine_counts {
   uint64_t elements;         /**< N: all nodes of all trees, roots included */
   uint64_t leaves;           /**< elements without children */
   uint64_t links;            /**< L: accepted pairs */
-  uint64_t limited_links;    /**< of these, how many only a recursion limit accepted */
-  uint64_t oracle_calls;     /**< pairs the oracle was asked about */
-  uint64_t facing_tests;     /**< pairs tested for facing each other below the roots */
+  uint64_t limited_links;    /**< links that only a recursion limit accepted */
+  uint64_t oracle_calls;     /**< pairs that the oracle was asked about */
+  uint64_t facing_tests;     /**< pairs below the roots, tested for facing each other */
   uint64_t visibility_tests; /**< walls, and boxes of walls, tested against a shaft */
-  uint64_t exchange_areas;   /**< exchange areas computed */
+  uint64_t exchange_areas;   /**< exchange areas that were computed */
   uint64_t partial_links;    /**< links whose exchange area was integrated around occluders */
   uint64_t blocked_pairs;    /**< pairs dropped because occluders hide them from each other */
   uint64_t dark_pairs;       /**< pairs of patches dropped because no light reaches them */
@@ -47,67 +51,113 @@ typedef struct hr2d_refine_counts {
 
 /**
  * Makes an empty link set.
- *
  * @param hierarchy   must outlive the link set
  * @param oracle      NULL for hr2d_oracle_size(); the table is copied
- * @param oracle_ctx  given to the oracle's functions
+ * @param oracle_ctx  given to the functions of the oracle
  * @param policy      NULL for hr2d_policy_original(); the table is copied
- * @param policy_ctx  given to the policy's functions
+ * @param policy_ctx  given to the functions of the policy
  * @param links       receives the link set; the caller destroys it
- * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL for a table without its required members
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  a table lacks a required member
  *
- * On success the link set owns both contexts and hands each to its table's
- * `destroy` exactly once; on failure the caller keeps them.
+ * On success the link set owns both contexts: it gives each to the `destroy` of its table,
+ * exactly once. On failure the caller keeps them.
  */
 HR2D_API hr2d_status hr2d_linkset_create(hr2d_hierarchy *hierarchy, const hr2d_oracle *oracle,
                                          void *oracle_ctx, const hr2d_policy *policy,
                                          void *policy_ctx, hr2d_linkset **links);
 
-/** Destroys a link set; NULL is allowed.  Solutions made from it must be gone. */
+/**
+ * Destroys a link set. Destroy all solutions that are made from it first.
+ * @param links  may be NULL
+ */
 HR2D_API void hr2d_linkset_destroy(hr2d_linkset *links);
 
-/** The hierarchy a link set stands on. */
+/**
+ * The hierarchy of a link set.
+ * @param links  a link set
+ * @return the hierarchy given to hr2d_linkset_create()
+ */
 HR2D_API const hr2d_hierarchy *hr2d_linkset_hierarchy(const hr2d_linkset *links);
 
-/** What went wrong in the last call that failed on this link set; "" if none did. */
+/**
+ * The reason of the last call that failed on this link set.
+ * @param links  a link set
+ * @return a sentence, owned by the link set and overwritten by the next failure; "" if no call
+ *         failed
+ */
 HR2D_API const char *hr2d_linkset_message(const hr2d_linkset *links);
 
-/** L, the number of links stored.  Constant cost. */
+/**
+ * The number L of stored links.
+ * @param links  a link set
+ * @return L; constant cost
+ */
 HR2D_API uint64_t hr2d_linkset_size(const hr2d_linkset *links);
 
-/** Link `index` < hr2d_linkset_size().  Constant cost. */
+/**
+ * One link.
+ * @param links  a link set
+ * @param index  below hr2d_linkset_size()
+ * @return the link; constant cost
+ */
 HR2D_API hr2d_link hr2d_linkset_get(const hr2d_linkset *links, uint64_t index);
 
 /**
- * Whether links carry light only from `second` to `first`: after a refinement with
- * an oracle that is not symmetric, or with hr2d_refine_options::ordered.
+ * Tests whether links carry light only from `second` to `first`.
+ *
+ * They do so after a refinement with an oracle that is not symmetric, or with
+ * hr2d_refine_options::ordered.
+ *
+ * @param links  a link set
+ * @retval 1  links carry one direction
+ * @retval 0  links carry both directions
  */
 HR2D_API int hr2d_linkset_directed(const hr2d_linkset *links);
 
-/** ε of the last refinement that filled the set; infinity before the first. */
+/**
+ * The ε of the last refinement that filled the set.
+ * @param links  a link set
+ * @return ε; infinity before the first refinement
+ */
 HR2D_API double hr2d_linkset_epsilon(const hr2d_linkset *links);
 
-/** What the refinements that filled the set made and took, summed up. */
+/**
+ * The result and the work of the refinements that filled the set.
+ * @param links  a link set
+ * @return elements, leaves, levels, links, limited_links and partial_links as they are now; the
+ *         other members as sums over all refinements
+ */
 HR2D_API hr2d_refine_counts hr2d_linkset_counts(const hr2d_linkset *links);
 
 /**
- * Bytes held by the links: 16 each, in chunks of 4096; and once they were solved at an order p
- * above 1, 8p² + 1 each besides.
+ * The memory of the links.
+ * @param links  a link set
+ * @return bytes: 16 per link, allocated in chunks of 4096 links; plus 8p² + 1 per link after a
+ *         solve at an order p > 1; plus the links between clusters of hr2d_solve_to()
  */
 HR2D_API uint64_t hr2d_linkset_bytes(const hr2d_linkset *links);
 
 /**
- * Checks that every transport is accounted for exactly once (paper, section 2): each
- * pair of leaves that see each other lies below exactly one link, per direction if
- * the set is directed; no link joins what cannot see each other; and every exchange
- * area is that of its elements.
+ * Checks that every transport is accounted for exactly once (paper, section 2).
  *
- * @return HR2D_OK, HR2D_ENOMEM, or HR2D_EINVAL with a message that names the elements
- * Exact: nothing is sampled.  Cost O(n² + L·levels²), memory O(N + L).
+ * - Each pair of leaves that see each other lies below exactly one link, per direction if the
+ *   set is directed.
+ * - No link joins elements that cannot see each other.
+ * - Every exchange area is the exchange area of its elements.
+ *
+ * @param links  a link set
+ * @retval HR2D_OK      all of this holds
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  something does not hold; the message names the elements
+ *
+ * Exact: nothing is sampled. Cost O(n² + L·levels²), memory O(N + L).
  */
 HR2D_API hr2d_status hr2d_linkset_validate(hr2d_linkset *links);
 
 #ifdef __cplusplus
 }
 #endif
+/** @} */
 #endif

@@ -1,21 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file refine.h
- * @brief ProjectKernel (paper, section 2): from root pairs to links.
+ * @brief ProjectKernel (paper, section 2): from pairs of patches to links.
  *
- * Each pair of patches that see each other is proposed to the oracle.  A pair is
- * linked if its error is acceptable or a limit holds; otherwise the policy says
- * which element to subdivide and the new pairs are proposed.  The order is depth
- * first, the result the same for every run, and nothing recurs on the C stack.
- * It ends on any input.  With an ε that no pair meets, be it 0, and with any policy, elements
- * end at `max_level` or where their midpoint is no longer a double between their ends: 53
- * levels below the size of their coordinates, 1075 at a corner on the origin.  Pairs of such
- * elements may be more than anyone can wait for, unless a budget ends it, or a callback.
- * Elements are numbered with 32 bits; beyond 2³² − 2 it is HR2D_EMAX_ELEMENTS.
+ * @defgroup refine Refinement
+ * ProjectKernel (paper, section 2): from pairs of patches to links.
  *
- * A pair that cannot see each other is dropped; so is one that occluders hide, and what
- * no light can reach (HR2D_EFFECT_EMISSION, which can be forced).  A pair that sees each
- * other in part is linked with what is left of its exchange area.
+ * Each pair of patches that see each other is proposed to the oracle. A pair is linked if its
+ * error is acceptable or a limit holds. Otherwise the policy chooses the element to subdivide,
+ * and the new pairs are proposed. The order is depth first, the result is the same in every
+ * run, and there is no recursion on the C stack.
+ *
+ * A pair gets no link if its elements do not see each other, if occluders hide them from each
+ * other, or if no light can reach them (unless HR2D_EFFECT_EMISSION is forced). If they see
+ * each other in part, the link has the visible part of their exchange area.
+ *
+ * Refinement terminates on any input, even with ε = 0, and with any policy: subdivision stops
+ * at `max_level`, or when the midpoint of an element is not a double between its ends. This is
+ * 53 levels below the size of its coordinates, or 1075 levels at a corner on the origin. The
+ * number of pairs of such elements can be enormous; a budget or a callback ends the refinement
+ * earlier. Elements are numbered with 32 bits; more than 2³² − 2 give HR2D_EMAX_ELEMENTS.
+ * @{
  */
 #ifndef HR2D_REFINE_H
 #define HR2D_REFINE_H
@@ -31,57 +36,68 @@ extern "C" {
 
 struct hr2d_solution;
 
-/** How far a long call has come. */
+/** The progress of a long call. */
 typedef struct hr2d_progress {
   size_t struct_size; /**< sizeof (hr2d_progress) of the library */
   const char *phase;  /**< "refine", "coefficients", "solve" or "factors" */
   uint64_t elements;  /**< N so far */
   uint64_t links;     /**< L so far */
-  double fraction;    /**< of the root pairs done, or of the digits gained; in [0,1] */
-  double residual;    /**< relative residual while solving, else 0 */
+  double fraction;    /**< part that is done, in [0,1]: of root pairs, of links to integrate, of
+                           digits to gain, or of factors */
+  double residual;    /**< relative residual during a solve, otherwise 0 */
 } hr2d_progress;
 
 /**
- * Called every few thousand links and at every iteration.
+ * Receives the progress of a call.
  *
- * Like every callback it may call the library on other objects, and read those that the call
- * works on.  What would change them, a refinement or another order of a hierarchy, a solve of
- * links that are refined or solved on, returns HR2D_ESTATE there.  It must not destroy them,
- * nor leave by longjmp() or an exception.
+ * It is called from the thread of the caller: after every 64 batches of a refinement (tens of
+ * thousands of links), after every 256 links whose coefficients are integrated, after every
+ * iteration of a solve, and for every run of patches in hr2d_exchange_matrix().
  *
- * @return HR2D_OK to go on; anything else ends the call with that status, be it in the
- *         enumeration or not, and leaves its objects as they were
+ * This holds for every callback:
+ * - It may call the library on other objects, and read the objects of the running call.
+ * - A call that would change these objects returns HR2D_ESTATE. Such calls are a refinement or
+ *   another order of their hierarchy, and a solve of links that are being refined or solved.
+ * - It must not destroy these objects, and must not leave by longjmp() or an exception.
+ *
+ * @param ctx       the `progress_ctx` of the options
+ * @param progress  valid during the call only
+ * @return HR2D_OK to continue. Any other value stops the call. It is returned as it is, even if
+ *         it is not a member of hr2d_status, and the objects are unchanged.
  */
 typedef hr2d_status (*hr2d_progress_fn)(void *ctx, const hr2d_progress *progress);
 
-/** Where a refinement stops.  Start from #HR2D_REFINE_OPTIONS_INIT. */
+/** Options of a refinement. Start from #HR2D_REFINE_OPTIONS_INIT. */
 typedef struct hr2d_refine_options {
   size_t struct_size;    /**< so that the options can grow */
-  double epsilon;        /**< ε ≥ 0, in the oracle's unit */
-  unsigned max_level;    /**< elements on this level are not subdivided; see below */
-  int ordered;           /**< 1: project every ordered pair of patches, as the paper's wording
-                              has it; each link then carries one direction */
+  double epsilon;        /**< ε ≥ 0, in the unit of the oracle */
+  unsigned max_level;    /**< elements on this level are not subdivided; see
+                              #HR2D_DEFAULT_MAX_LEVEL */
+  int ordered;           /**< 1: project every ordered pair of patches, as the paper words it;
+                              each link then carries one direction */
   uint64_t max_elements; /**< budget for N; 0 for none */
   uint64_t max_links;    /**< budget for L; 0 for none */
-  uint64_t max_bytes;    /**< budget for elements, links and work space, these of about 60 KiB
-                              at least; 0 for none.  Kept at every moment, but for what realloc
-                              holds twice while it moves an array, and a few words per wall
-                              that is looked past */
-  unsigned threads;      /**< for hr2d_refine_count(): 0 for all; the counts do not depend
-                              on it.  An oracle or a policy that is not flagged thread-safe
-                              is asked from one thread only */
-  const struct hr2d_solution *brightness; /**< for an oracle that needs brightness: the B to
-                                               weight with; NULL: emission alone */
+  uint64_t max_bytes;    /**< budget for elements, links and work space; 0 for none. The work
+                              space takes about 60 KiB at least. Never exceeded, except by the
+                              second copy that realloc may hold while it moves an array, and
+                              by a few words per occluding wall */
+  unsigned threads;      /**< for hr2d_refine_count(): 0 for all; the counts do not depend on
+                              it. An oracle or a policy that is not flagged thread-safe is
+                              called from one thread only */
+  const struct hr2d_solution *brightness; /**< for an oracle that needs brightness: a solution
+                                               on the same hierarchy, whose B is the weight;
+                                               NULL: emission alone */
   hr2d_progress_fn progress;              /**< optional */
   void *progress_ctx;                     /**< given to `progress` */
 } hr2d_refine_options;
 
 /**
- * The default of `max_level`.  Elements of touching patches never satisfy
- * max(A)/r ≤ ε for ε < √2, so a limit must end that recursion.  A pair at a
- * corner that is still refused at level 24 carries at most 2⁻²⁴ of a patch's
- * exchange, exactly integrated.  hr2d_refine_counts::limited_links says how many
- * links exist because of a limit.
+ * The default of hr2d_refine_options::max_level.
+ *
+ * Elements of touching patches never satisfy max(A)/r ≤ ε if ε < √2, so that a limit must end
+ * this recursion. A pair at a corner that is still refused at level 24 carries at most 2⁻²⁴ of
+ * the exchange of its patches, and this is integrated exactly.
+ * hr2d_refine_counts::limited_links counts the links that exist because of a limit.
  */
 #define HR2D_DEFAULT_MAX_LEVEL 24
 
@@ -92,51 +108,69 @@ typedef struct hr2d_refine_options {
 /**
  * Fills a link set, or refines it further.
  *
- * An empty set is filled by projecting all root pairs.  A set that has links is
- * refined from these (multigridding): a link stays where it is still acceptable
- * and is subdivided elsewhere, so that falling ε give in the end what the last ε
- * alone would give.
+ * An empty set is filled by projecting all root pairs. A set with links is refined from these
+ * links (multigridding): a link that is still acceptable stays, any other is subdivided. A
+ * sequence of falling ε therefore ends with the same links as its last ε alone.
  *
- * @param links    on failure it and its hierarchy are as before
+ * @param links    the link set; on failure it and its hierarchy are unchanged
  * @param options  NULL for the defaults
- * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL (ε negative or NaN; `ordered` changed
- *         between refinements), HR2D_EMAX_ELEMENTS, HR2D_EMAX_LINKS, HR2D_EMAX_BYTES,
- *         HR2D_ECALLBACK for an estimate that is NaN or negative or a subdivision
- *         without meaning, HR2D_ESTATE from a callback of a call that works on the
- *         hierarchy, or the status of a callback
+ * @retval HR2D_OK             success
+ * @retval HR2D_ENOMEM         an allocation failed
+ * @retval HR2D_EINVAL         ε is negative or NaN; `ordered` differs from the last refinement;
+ *                             or `brightness` is a solution on another hierarchy
+ * @retval HR2D_ESTATE         called back from a call that works on the hierarchy
+ * @retval HR2D_ECALLBACK      an estimate is NaN or negative, or a subdivision is not a
+ *                             HR2D_SPLIT_…
+ * @retval HR2D_EMAX_ELEMENTS  the budget `max_elements` is exhausted
+ * @retval HR2D_EMAX_LINKS     the budget `max_links` is exhausted
+ * @retval HR2D_EMAX_BYTES     the budget `max_bytes` is exhausted
+ * @retval other               the status of a callback
  *
- * One hierarchy is refined by one thread at a time.  Cost O(n² + L), and where the scene
- * calls for occlusion a test per wall in the shaft of each pair that has any; memory 64
- * bytes per element and 16 per link, twice that for the links while a set that
- * has links is refined further.
+ * Only one thread at a time may refine a hierarchy. Cost O(n² + L). If the scene calls for
+ * occlusion, each pair with walls in its shaft costs one test per such wall. Memory: 70 bytes
+ * per element and 16 per link; while a set with links is refined further, old and new links are
+ * held.
  */
 HR2D_API hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options);
 
 /**
- * Counts what hr2d_refine() would make of an empty set, without storing or
- * integrating a link, and on several threads if wanted.  The hierarchy grows by the
- * elements it would grow by, numbered patch by patch.
+ * Counts the elements and links that hr2d_refine() would make from an empty set.
  *
- * @param links   an empty set; it stays empty
- * @param counts  receives N, L and the rest
- * @return as hr2d_refine(), and HR2D_ESTATE if the set has links
- * Memory O(N) per thread, of which each has its part of `max_bytes`, so that only this budget
- * may be spent sooner on more threads.  Progress is told from the calling thread.
+ * Links are neither stored nor integrated. Several threads can work
+ * (hr2d_refine_options::threads). The hierarchy gets the same elements, but numbered patch by
+ * patch.
+ *
+ * @param links    an empty set; it stays empty. On failure its hierarchy is unchanged
+ * @param options  NULL for the defaults
+ * @param counts   receives N, L and the rest; `exchange_areas` is 0
+ * @retval HR2D_ESTATE  the set has links
+ * @retval other        as hr2d_refine()
+ *
+ * Memory O(N) per thread. Each thread has its part of `max_bytes`: with more threads this
+ * budget, but no other, can be exhausted earlier.
  */
 HR2D_API hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *options,
                                        hr2d_refine_counts *counts);
 
 /**
- * Gets links as they are made, in batches, in the order hr2d_refine() would store
+ * Receives links in batches as they are made, in the order in which hr2d_refine() would store
  * them.
- * @param links  valid during the call only
- * @return HR2D_OK to go on; anything else ends the refinement with that status
+ * @param ctx    the `visit_ctx` of hr2d_refine_visit()
+ * @param links  `count` links, valid during the call only
+ * @param count  the number of links
+ * @return HR2D_OK to continue; any other value ends the refinement with this status
  */
 typedef hr2d_status (*hr2d_visitor)(void *ctx, const hr2d_link *links, size_t count);
 
 /**
- * Streams the links to a visitor instead of storing them; otherwise as
- * hr2d_refine_count().
+ * Gives the links to a visitor instead of storing them; otherwise like hr2d_refine_count(), but
+ * on one thread.
+ * @param links      an empty set; it stays empty
+ * @param options    NULL for the defaults
+ * @param visit      receives the links
+ * @param visit_ctx  given to `visit`
+ * @param counts     receives N, L and the rest
+ * @return as hr2d_refine_count(), or the status of `visit`
  */
 HR2D_API hr2d_status hr2d_refine_visit(hr2d_linkset *links, const hr2d_refine_options *options,
                                        hr2d_visitor visit, void *visit_ctx,
@@ -145,4 +179,5 @@ HR2D_API hr2d_status hr2d_refine_visit(hr2d_linkset *links, const hr2d_refine_op
 #ifdef __cplusplus
 }
 #endif
+/** @} */
 #endif
