@@ -3,36 +3,50 @@
  * @file solve.h
  * @brief From links to radiosity: B = E + ρ ∫ G V B (paper, equations 1 and 2).
  *
- * Light is gathered over the links of all levels, pushed down to the leaves and
- * pulled up as averages.  With one link for both directions the operator is
- * symmetric and conjugate gradients solve it for every ρ; directed links take
- * BiCGSTAB.  All bands are solved at once.  Where every ρ is 0 nothing is iterated.
- * At an order p above 1 (hr2d_hierarchy_set_order()) each link first gets its p × p block
- * ∫∫ G V φ_l φ_m, with Legendre polynomials φ: exact where elements are near, touch or see
- * each other in part; blocks are kept for the next solve.
+ * @defgroup solve Solve
+ * From links to radiosity: B = E + ρ ∫ G V B (paper, equations 1 and 2).
  *
- * Closure adds d·B on each leaf, d being what its row of the discrete kernel misses
- * of the exact ∫ G.  A closed room of E = 1−ρ then has B = 1 exactly, no light is
- * lost or made, and at order 1 the discrete equation has one solution wherever ρ < 1;
- * without it rows may exceed 1 and a coarse solve with ρ near 1 need not converge.  At a
- * low order above 1 that may happen in narrow corners in spite of it: HR2D_ENOT_CONVERGED.
+ * **Method.** Light is gathered over the links of all levels, pushed down to the leaves and
+ * pulled up as averages. If each link serves both directions, the operator is symmetric, and
+ * conjugate gradients solve it for every ρ. Directed links take BiCGSTAB. All bands are solved
+ * at once. If every ρ is 0, nothing is iterated.
  *
- * How many digits: let λ be the part of its light that a component of patches that exchange
- * light loses at each reflection, (∫(1−ρ) + what escapes)/∫1.  What roundings do to B grows
- * like 1/λ, unless they are balanced: with closure and one link for both directions,
- *  - where nothing escapes, ∫(1−ρ)H = ∫E to 1e-14 and B is good to 1e-13, however small λ is:
- *    1−ρ is exact in a double, from ρ = ½ to 1 − 2⁻⁵³;
- *  - where something escapes, to 1e-13 + 2⁻⁵²/λ, since that is how well exchange areas tell
- *    what does.  Less than 1e-13 of all light is told to be none.
- * Without closure or with directed links it is 1e-13/λ.  All this is rounding; the error of
- * finite elements and links comes besides, see accuracy.h.  E may be as small or as large as a
- * double can be, also in one band beside another.
+ * **Order.** At an order p above 1 (hr2d_hierarchy_set_order()) each link first gets its p × p
+ * block ∫∫ G V φ_l φ_m, with Legendre polynomials φ. Blocks are exact if elements are near,
+ * touch or see each other in part. They are kept for the next solve.
  *
- * Of its own discrete equation a solution B differs from the exact one, B_d, in the norm ∫B² by
- * no more than (tolerance + 1e-15) ‖B_d‖ / (1 − max ρ), in a closed room at order 1 with
- * closure (tests/bounds/check-bounds-solution.c); averages share that, and hr2d_solution_at()
- * on leaves. hr2d_solution_gather() adds the roundings of one gather to the error of B_h, times
- * ρ.
+ * **Closure** adds d·B on each leaf. d is the part of the exact ∫ G that the leaf's row of the
+ * discrete kernel lacks. With closure
+ * - a closed room with E = 1−ρ has B = 1 exactly;
+ * - no light is lost or created;
+ * - at order 1 the discrete equation has one solution if ρ < 1.
+ *
+ * Without closure rows may exceed 1, and a coarse solve with ρ near 1 need not converge. At a
+ * low order above 1 this can happen in narrow corners even with closure: HR2D_ENOT_CONVERGED.
+ *
+ * **Rounding.** A component is a set of patches that exchange light. Let λ be the part of its
+ * light that a component loses at each reflection: λ = (∫(1−ρ) + escape)/∫1. The effect of
+ * roundings on B grows like 1/λ unless they are balanced. They are balanced with closure if
+ * links serve both directions:
+ * - If nothing escapes, ∫(1−ρ)H = ∫E to 1e-14 and B is accurate to 1e-13 for any λ. The reason
+ *   is that 1−ρ is exact in a double, from ρ = ½ to 1 − 2⁻⁵³.
+ * - If something escapes, B is accurate to 1e-13 + 2⁻⁵²/λ. Exchange areas do not give the
+ *   escape more accurately. An escape of less than 1e-14 of all light counts as zero; the check
+ *   for HR2D_ENO_SOLUTION counts less than 1e-13 as zero.
+ *
+ * Without closure or with directed links B is accurate to 1e-13/λ. All this is rounding only;
+ * the error of finite elements and links adds to it, see accuracy.h. E may have any magnitude
+ * of a double, and different magnitudes in different bands.
+ *
+ * **Error of the discrete solution.** In a closed room at order 1 with closure, B differs from
+ * the exact solution B_d of the discrete equation, in the norm ∫B², by
+ *
+ *     ‖B − B_d‖ ≤ (tolerance + 1e-15) ‖B_d‖ / (1 − max ρ)
+ *
+ * (tests/bounds/check-bounds-solution.c). Averages, and hr2d_solution_at() on leaves, have the
+ * same error. hr2d_solution_gather() has this error of B_h plus the roundings of one gather,
+ * times ρ.
+ * @{
  */
 #ifndef HR2D_SOLVE_H
 #define HR2D_SOLVE_H
@@ -50,18 +64,18 @@ extern "C" {
 /** Radiosity on every element of a hierarchy; opaque. */
 typedef struct hr2d_solution hr2d_solution;
 
-/** How to solve.  Start from #HR2D_SOLVE_OPTIONS_INIT. */
+/** Options of a solve. Start from #HR2D_SOLVE_OPTIONS_INIT. */
 typedef struct hr2d_solve_options {
   size_t struct_size; /**< so that the options can grow */
-  double tolerance;   /**< stop when ‖residual‖ ≤ tolerance·‖B‖, in each band, in
-                           the norm ∫B²; at least 1e-15, and finite */
-  unsigned max_iterations;    /**< give up with HR2D_ENOT_CONVERGED after so many */
+  double tolerance;   /**< stop when ‖residual‖ ≤ tolerance·‖B‖ in each band, in the
+                           norm ∫B²; at least 1e-15, and finite */
+  unsigned max_iterations;    /**< after this number stop with HR2D_ENOT_CONVERGED */
   unsigned threads;           /**< 0 for all; the result does not depend on it, bit for bit */
   int closure;                /**< 1: the exchange of every leaf with all others is exact; 0:
-                                   the paper's algorithm as it stands, whose coarse links
-                                   spread their exchange evenly over the leaves below */
-  const hr2d_solution *start; /**< warm start: a solution on the same hierarchy, perhaps
-                                   before it was refined further; NULL: none */
+                                   the paper's algorithm unchanged, whose coarse links spread
+                                   their exchange evenly over the leaves below */
+  const hr2d_solution *start; /**< warm start: a solution on the same hierarchy, perhaps older
+                                   than its last refinement; NULL: none */
   hr2d_progress_fn progress;  /**< optional */
   void *progress_ctx;         /**< given to `progress` */
 } hr2d_solve_options;
@@ -70,109 +84,169 @@ typedef struct hr2d_solve_options {
 #define HR2D_SOLVE_OPTIONS_INIT                                                                \
   { sizeof(hr2d_solve_options), 1e-15, 10000, 1, 1, NULL, NULL, NULL }
 
-/** Where the power of one band goes; power per length across the plane; infinite where that is
-    beyond a double. */
+/**
+ * The balance of the power of one band, per length perpendicular to the plane. A sum beyond the
+ * range of a double is infinite.
+ */
 typedef struct hr2d_power {
   double emitted;  /**< ∫ E */
-  double received; /**< what comes in from the background */
+  double received; /**< power that comes in from the background */
   double absorbed; /**< ∫ (1−ρ) H, with H the irradiance */
-  double escaped;  /**< what leaves through the openings of the scene, or meets the back of
-                        a patch that has a front only: B·(A − Σ AF) */
+  double escaped;  /**< power that leaves through the openings of the scene, or meets the back
+                        of a patch that has only a front: B·(A − Σ AF) */
 } hr2d_power;
 
-/** What a solve took. */
+/** The work of a solve. */
 typedef struct hr2d_solve_work {
   uint64_t gathers;         /**< gathers over all links; one serves all bands */
-  uint64_t iterations;      /**< of the Krylov method; 0 where nothing reflects */
-  uint64_t row_sums;        /**< leaves whose exchange with all patches was summed: for
-                                 closure in open scenes, and for the background */
+  uint64_t iterations;      /**< iterations of the Krylov method; 0 if nothing reflects */
+  uint64_t row_sums;        /**< leaves whose exchange with all patches was summed: for closure
+                                 in open scenes, and for the background */
   uint64_t background_rows; /**< of these, leaves whose view of the background was needed */
-  uint64_t kernels;         /**< values of G it took to integrate blocks, at an order above 1 */
-  double coefficients_seconds; /**< wall time of that */
+  uint64_t kernels;         /**< values of G to integrate blocks, at an order above 1 */
+  double coefficients_seconds; /**< wall time of this integration */
 } hr2d_solve_work;
 
 /**
  * Solves for B.
- *
- * @param links     filled by hr2d_refine()
+ * @param links     filled by hr2d_refine(); must outlive the solution
  * @param options   NULL for the defaults
  * @param solution  receives the solution; the caller destroys it
- * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL, HR2D_ESTATE for an empty set of a scene whose
- *         patches do see each other, and from a callback of a call that refines or solves on
- *         these links, HR2D_ENO_SOLUTION where light is emitted in a
- *         closed part of the scene in which nothing absorbs (the message names the
- *         patch; without light B is 0 there), HR2D_ENOT_CONVERGED after max_iterations or
- *         where rows of links exceed 1 so far that light would grow for ever, HR2D_ERANGE
- *         where B is beyond a double, or the status of the progress callback
+ * @retval HR2D_OK             success
+ * @retval HR2D_ENOMEM         an allocation failed
+ * @retval HR2D_EINVAL         `tolerance` is out of range, or `start` is on another hierarchy
+ * @retval HR2D_ESTATE         the set was never refined, or the call comes from a callback of a
+ *                             call that refines or solves these links
+ * @retval HR2D_ENO_SOLUTION   light is emitted in a closed part of the scene in which nothing
+ *                             absorbs; the message names the patch. Without light B is 0 there
+ * @retval HR2D_ENOT_CONVERGED `max_iterations` are done, or rows of links exceed 1 so far that
+ *                             light would grow for ever
+ * @retval HR2D_ERANGE         B is beyond the range of a double
+ * @retval other               the status of the progress callback
  *
- * Cost O((N + L)·bands) per iteration.  Different link sets may be solved from
- * different threads.
+ * The solution stays valid if its links are refined or solved again. Different link sets may be
+ * solved from different threads. Cost O((N + L)·p²·bands) per iteration.
  */
 HR2D_API hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *options,
                                 hr2d_solution **solution);
 
-/** Destroys a solution; NULL is allowed. */
+/**
+ * Destroys a solution.
+ * @param solution  may be NULL
+ */
 HR2D_API void hr2d_solution_destroy(hr2d_solution *solution);
 
-/** The average of B over patch `patch` in band `band`, in the unit of E. */
+/**
+ * The average of B over a patch.
+ * @param solution,patch,band  a solution, the index of a patch and a band
+ * @return the average, in the unit of E
+ */
 HR2D_API double hr2d_solution_average(const hr2d_solution *solution, size_t patch, size_t band);
 
 /**
- * B at fraction t of a patch, counted from its start: the constant of the leaf
- * that holds the point, and on the border of two leaves the straight line between the
- * values at their centres; at an order above 1 the leaf's polynomial.  The back of a two-sided
- * patch starts where its front ends.
- * @param t  in [0,1]
+ * B at a point of a patch.
+ *
+ * At order 1 it is the constant of the leaf that contains the point; on the border of two
+ * leaves it is on the straight line between the values at their centres. At an order above 1 it
+ * is the polynomial of the leaf, on a border the mean of both. The back of a two-sided patch
+ * starts where its front ends.
+ *
+ * @param solution,patch  a solution and the index of a patch
+ * @param t               fraction of the patch in [0,1], counted from its start
+ * @param band            the band
+ * @return B in the unit of E; cost: one step per level
  */
 HR2D_API double hr2d_solution_at(const hr2d_solution *solution, size_t patch, double t,
                                  size_t band);
 
 /**
- * B at points of a patch after one more gather, B' = E + ρ ∫ G V B_h, with G and V exact: far
- * better than hr2d_solution_at(), in which B jumps from leaf to leaf, and dearer.
+ * B at points of a patch after one more gather: B' = E + ρ ∫ G V B_h, with G and V exact.
  *
- * @param t       `count` fractions of the patch in [0,1], counted from its start; where the
- *                end of another stands there B is that of one side of it
- * @param value   receives count × bands values
- * @return HR2D_OK or HR2D_ENOMEM
- * Several threads may ask one solution at once.  Cost O(N) per point, and where the scene calls
- * for occlusion O(n log n).
+ * Far more accurate than hr2d_solution_at(), in which B jumps from leaf to leaf, and more
+ * expensive.
+ *
+ * @param solution,patch  a solution and the index of a patch
+ * @param t               `count` fractions of the patch in [0,1], counted from its start; where
+ *                        another patch ends, B is taken on the side of the patch's middle
+ * @param count           number of points
+ * @param value           receives `count` × bands values in the unit of E, point by point
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ *
+ * Several threads may ask one solution at once. Cost per point: O(N), plus O(n log n) if the
+ * scene calls for occlusion.
  */
 HR2D_API hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t patch,
                                           const double *t, size_t count, double *value);
 
-/** The links a solution was made from, and through them its elements. */
+/**
+ * The links from which a solution was made, and through them its elements.
+ * @param solution  a solution
+ * @return the link set; a solution of hr2d_solve_to() owns it, and with many patches the set
+ *         lacks the links between clusters
+ */
 HR2D_API const hr2d_linkset *hr2d_solution_links(const hr2d_solution *solution);
 
-/** The average of B over an element. */
+/**
+ * The average of B over an element.
+ * @param solution  a solution
+ * @param element   number of an element that existed at the solve
+ * @param band      the band
+ * @return the average, in the unit of E
+ */
 HR2D_API double hr2d_solution_element(const hr2d_solution *solution, uint32_t element,
                                       size_t band);
 
 /**
- * The average irradiance H over patch `patch`: what arrives per length, from other
- * patches and from the background, in the unit of E.
+ * The average over a patch of the irradiance H, which arrives from other patches and from the
+ * background.
+ * @param solution,patch,band  a solution, the index of a patch and a band
+ * @return H, power per length, in the unit of E
  */
 HR2D_API double hr2d_solution_irradiance(const hr2d_solution *solution, size_t patch,
                                          size_t band);
 
-/** H at fraction t of a patch, as hr2d_solution_at(). */
+/**
+ * H at a point of a patch, computed as in hr2d_solution_at().
+ * @param solution,patch  a solution and the index of a patch
+ * @param t               fraction of the patch in [0,1], counted from its start
+ * @param band            the band
+ * @return H in the unit of E
+ */
 HR2D_API double hr2d_solution_irradiance_at(const hr2d_solution *solution, size_t patch,
                                             double t, size_t band);
 
-/** The net flux B − H that leaves patch `patch`, per length; negative where it gains. */
+/**
+ * The average net flux B − H that leaves a patch.
+ * @param solution,patch,band  a solution, the index of a patch and a band
+ * @return B − H, power per length, in the unit of E; negative if the patch gains power
+ */
 HR2D_API double hr2d_solution_net_flux(const hr2d_solution *solution, size_t patch,
                                        size_t band);
 
-/** Where the power of a band goes; emitted + received = absorbed + escaped. */
+/**
+ * The balance of the power of a band.
+ * @param solution,band  a solution and a band
+ * @return the balance: emitted + received = absorbed + escaped
+ */
 HR2D_API hr2d_power hr2d_solution_power(const hr2d_solution *solution, size_t band);
 
-/** What the solve took. */
+/**
+ * The work of the solve.
+ * @param solution  a solution
+ * @return counts and times
+ */
 HR2D_API hr2d_solve_work hr2d_solution_work(const hr2d_solution *solution);
 
-/** The largest relative residual over the bands, computed from B itself. */
+/**
+ * The largest relative residual over the bands, computed from B itself.
+ * @param solution  a solution
+ * @return the residual, dimensionless
+ */
 HR2D_API double hr2d_solution_residual(const hr2d_solution *solution);
 
 #ifdef __cplusplus
 }
 #endif
+/** @} */
 #endif
