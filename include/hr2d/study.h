@@ -2,6 +2,10 @@
 /**
  * @file study.h
  * @brief L against N over a sequence of ε (paper, section 4).
+ *
+ * @defgroup study Study of L against N
+ * L against N over a sequence of ε (paper, section 4).
+ * @{
  */
 #ifndef HR2D_STUDY_H
 #define HR2D_STUDY_H
@@ -26,22 +30,22 @@ typedef struct hr2d_study_row {
 /** A least-squares fit L ≈ a + bN + cN², and the slope of log L on log N. */
 typedef struct hr2d_study_fit {
   double a;     /**< the constant */
-  double b;     /**< of N */
-  double c;     /**< of N² */
+  double b;     /**< the coefficient of N */
+  double c;     /**< the coefficient of N² */
   double r2;    /**< 1 − (sum of squared residuals)/(sum of squares about the mean) */
-  double slope; /**< of the least-squares line through (log N, log L) */
+  double slope; /**< slope of the least-squares line through (log N, log L) */
 } hr2d_study_fit;
 
 /**
  * Counts N and L for each ε, each time on a fresh hierarchy of the same scene.
- *
- * @param links    an empty set; it gives the scene, the oracle and the policy, and
- *                 keeps the message.  Its own hierarchy does not grow.
- * @param options  limits and budgets; its `epsilon` and `brightness` are not used; NULL for
- *                 the defaults
+ * @param links    an empty set; gives the scene, the oracle and the policy, and keeps the
+ *                 message. Its own hierarchy does not grow
+ * @param options  limits and budgets; its `epsilon` and `brightness` are not used; NULL for the
+ *                 defaults
  * @param epsilon  `count` values
+ * @param count    number of values
  * @param rows     receives `count` rows; on failure the rows before the failing one
- * @param done     receives the number of rows that are complete; may be NULL
+ * @param done     receives the number of complete rows; may be NULL
  * @return as hr2d_refine_count()
  */
 HR2D_API hr2d_status hr2d_study_run(hr2d_linkset *links, const hr2d_refine_options *options,
@@ -49,20 +53,28 @@ HR2D_API hr2d_status hr2d_study_run(hr2d_linkset *links, const hr2d_refine_optio
                                     size_t *done);
 
 /**
- * Fits L against N.  Least squares by GSL's QR decomposition, unweighted, as in
- * the paper's figures.
+ * Fits L against N by unweighted least squares (GSL's QR decomposition), as in the paper's
+ * figures.
+ * @param rows   at least 3 rows with different N
+ * @param count  number of rows
+ * @param fit    receives the fit; unchanged on failure
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  some N or L is 0; fewer than 3 different N; all N lie within 2^-24 of
+ *                      their range from its ends; or a coefficient is beyond the range of a
+ *                      double
  *
- * @param rows  at least 3 rows with different N
- * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL for N or L of 0, too few different N, or none that
- *         lies 2^-24 of their range away from its ends
+ * The fit is made in x = (N − M)/h, with M the middle and 2h the range of the N, taken from the
+ * integers: N of 10^18 that differ by 1 are distinguished. It is the exact fit of L − L_0,
+ * except for some roundings of S = max |L − L_0|. If the N fill their range,
  *
- * The fit is made in x = (N − M)/h, with M and 2h the middle and the range of the N, taken from
- * the integers: N of 10^18 that differ by 1 are told apart.  It is the exact one of L − L_0 off
- * by some roundings of S = max |L − L_0|, so that where the N fill their range
  *     |δc| ≤ 1e-14 S/h²,  |δb| ≤ 1e-14 S (1 + 2M/h)/h,  |δa| ≤ 1e-14 (S (1 + M/h)² + L_0),
- * and the slope is off by 1e-14 of max |log L/L_0| / max |log N/N_0|; with all inner N within a
- * fraction w of an end of the range, by 1/w² as much (tests/bounds/check-bounds-study.c).
- * Thread-safe.  Cost O(count).
+ *
+ * and the error of the slope is at most 1e-14 of max |log L/L_0| / max |log N/N_0|. If all
+ * inner N lie within a fraction w of an end of the range, the errors are up to 1/w² times as
+ * large (tests/bounds/check-bounds-study.c).
+ *
+ * Thread-safe. Cost O(count); takes 40 bytes per row from malloc().
  */
 HR2D_API hr2d_status hr2d_study_fit_rows(const hr2d_study_row *rows, size_t count,
                                          hr2d_study_fit *fit);
@@ -70,4 +82,5 @@ HR2D_API hr2d_status hr2d_study_fit_rows(const hr2d_study_row *rows, size_t coun
 #ifdef __cplusplus
 }
 #endif
+/** @} */
 #endif

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file visibility.h
- * @brief What is exchanged when there are things in the way.
+ * @brief Exchange areas with occluders, and of all patches of a scene.
  *
- * In the plane the lines from a segment i to a segment j that miss every occluder fall
- * into finitely many classes, by which occluders they leave on their right and which on
- * their left.  The lines of one class are those that separate two convex chains, and
- * their measure is a sum of unoccluded exchange areas, none negative.  The sum over the
- * classes is exact: nothing is sampled and there is no tolerance to choose.
+ * @defgroup visibility Visibility
+ * Exchange areas with occluders, and of all patches of a scene.
+ *
+ * In the plane, the lines from a segment i to a segment j that miss every occluder fall into
+ * finitely many classes. The lines of one class have the same occluders on their right and the
+ * same on their left. They are the lines that separate two convex chains, and their measure is
+ * a sum of unoccluded exchange areas, none negative. The sum over the classes is exact: nothing
+ * is sampled, and there is no tolerance to choose.
+ * @{
  */
 #ifndef HR2D_VISIBILITY_H
 #define HR2D_VISIBILITY_H
@@ -26,40 +30,45 @@ extern "C" {
 
 /**
  * The exchange area AF = ∫i∫j G V of two segments with occluders between them.
- *
  * @param i,j       two segments
- * @param occluder  `count` segments that block light from either side, in any position:
- *                  what is behind i or j, or outside of the pair's shaft, does nothing; nor
- *                  does what lies along i or j; occluders may touch, overlap and cross
- * @param alloc     hooks for work space; NULL for malloc
+ * @param occluder  `count` segments that block light from either side. They may have any
+ *                  position, and may touch, overlap and cross. A segment has no effect if it is
+ *                  behind i or j, outside of the shaft of the pair, or along i or j
+ * @param count     number of occluders
+ * @param alloc     hooks for work space; NULL for malloc()
  * @param area      receives AF in scene lengths
- * @return HR2D_OK, HR2D_ENOMEM, HR2D_EINVAL for a coordinate that is not finite,
- *         HR2D_ERANGE for coordinates whose scales lie too far apart to be scaled alike
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  a coordinate is not finite
+ * @retval HR2D_ERANGE  the scales of the coordinates are too far apart for a common scale
  *
- * Swapping i and j changes no bit.  Without an occluder in the way the value is
- * hr2d_exchange_area(i, j).  Whether AF is 0 is decided by exact signs; an end of an
- * occluder that lies within four units in the last place of the line of i or of j counts as
- * lying on it, as one does that was computed to.
+ * Swapping i and j changes no bit. Without an occluder in the way the value is
+ * hr2d_exchange_area(i, j). Exact signs decide whether AF is 0. An end of an occluder that lies
+ * within four units in the last place of the line of i or j counts as lying on it, because an
+ * end that was computed to lie there is that far off.
  *
- * With D the extent of all that is given, the error is below 2^-46 D on rooms of every kind
- * that the tests draw at random, and below 1e-11 D for the worst that hill climbing finds among
- * segments whose ends lie on the lines of others exactly or at least 1e-6 D off them; where the
- * view is bounded by two points alone it is relative to AF itself.  Ends nearer than that, but
- * not on the line, cost digits in proportion; with patches whose ends miss each other or an
- * occluder's line by 1e-13 D and less, what is in the way may be taken wrongly, and AF with it:
- * let ends that are to meet have the same coordinates (hr2d_scene_split_crossings() sees to
- * it). Cost O(count) and what the classes of lines cost that are not blocked.
+ * Let D be the extent of all segments. The error is
+ * - below 2^-46 D in rooms of every kind that the tests draw at random;
+ * - below 1e-11 D in the worst case that hill climbing finds, if ends lie on the lines of other
+ *   segments exactly or at least 1e-6 D off them;
+ * - relative to AF itself if two points alone bound the view.
+ *
+ * Ends nearer to a line, but not on it, cost digits in proportion. If ends of i or j miss each
+ * other or the line of an occluder by 1e-13 D or less, the library may judge an occluder
+ * wrongly, and AF is then wrong, too. Give the same coordinates to ends that should meet, as
+ * hr2d_scene_split_crossings() does.
+ *
+ * Thread-safe. Cost O(count), plus the cost of the classes of lines that are not blocked.
  */
 HR2D_API hr2d_status hr2d_exchange_area_occluded(const hr2d_segment *i, const hr2d_segment *j,
                                                  const hr2d_segment *occluder, size_t count,
                                                  const hr2d_allocator *alloc, double *area);
 
-/** How to integrate all exchange areas.  Start from #HR2D_MATRIX_OPTIONS_INIT. */
+/** Options of hr2d_exchange_matrix(). Start from #HR2D_MATRIX_OPTIONS_INIT. */
 typedef struct hr2d_matrix_options {
   size_t struct_size;        /**< so that the options can grow */
   unsigned threads;          /**< 0 for all; no bit depends on it */
-  hr2d_progress_fn progress; /**< optional; with the phase "factors", from the calling
-                                  thread */
+  hr2d_progress_fn progress; /**< optional; with the phase "factors", from the calling thread */
   void *progress_ctx;        /**< given to `progress` */
 } hr2d_matrix_options;
 
@@ -67,7 +76,7 @@ typedef struct hr2d_matrix_options {
 #define HR2D_MATRIX_OPTIONS_INIT                                                               \
   { sizeof(hr2d_matrix_options), 1, NULL, NULL }
 
-/** What hr2d_exchange_matrix() took. */
+/** The work of hr2d_exchange_matrix(). */
 typedef struct hr2d_matrix_counts {
   uint64_t exchange_areas;   /**< pairs of patches whose exchange area was computed */
   uint64_t partial_pairs;    /**< of these, pairs integrated around occluders */
@@ -76,26 +85,27 @@ typedef struct hr2d_matrix_counts {
 } hr2d_matrix_counts;
 
 /**
- * The exchange areas of all pairs of patches: row i, divided by hr2d_scene_length(i), has
- * the view factors F_ij.
- *
+ * The exchange areas of all pairs of patches. Row i, divided by hr2d_scene_length(i), has the
+ * view factors F_ij.
  * @param scene    committed
  * @param options  NULL for the defaults
- * @param area     receives n × n exchange areas in scene lengths, row by row, n being
- *                 hr2d_scene_patches(); symmetric bit for bit
- * @param counts   receives what it took; may be NULL
- * @return HR2D_OK, HR2D_ENOMEM, HR2D_ESTATE if the scene is not committed, or the status of
- *         the progress callback
+ * @param area     receives n × n exchange areas in scene lengths, row by row, with n =
+ *                 hr2d_scene_patches(); symmetric bit for bit; undefined on failure
+ * @param counts   receives the work; may be NULL
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_ESTATE  the scene is not committed
+ * @retval other        the status of the progress callback
  *
- * Errors are those of hr2d_exchange_area_occluded().  In a closed room each row sums to its
- * patch's length A within 1e-13·A and 64 units in the last place of the largest coordinate; and
- * within 2⁻²⁸ of that coordinate where ends go through other patches by a rounding
- * (hr2d_scene_commit(), which refuses what would cost more).
+ * Errors are those of hr2d_exchange_area_occluded(). In a closed room each row sums to the
+ * length A of its patch within 1e-13·A and 64 units in the last place of the largest
+ * coordinate. If ends pass through other patches by a rounding, the sum is within 2⁻²⁸ of that
+ * coordinate; hr2d_scene_commit() refuses scenes that would lose more.
  *
- * Runs of patches on one line are treated as one wall as long as what they see is wholly
- * clear or wholly blocked.  Several calls may run on one scene at once; with several
- * threads the scene's hooks are called from all of them.  Cost O(n²), and a test per wall in
- * the shaft of each two runs of which one is in the other's way.
+ * A run of patches on one line is treated as one wall as long as its view is completely clear
+ * or completely blocked. Several calls may run on one scene at once. With several threads the
+ * hooks of the scene are called from all of them. Cost O(n²), plus, for each pair of runs, one
+ * test per wall in their shaft.
  */
 HR2D_API hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene,
                                           const hr2d_matrix_options *options, double *area,
@@ -104,4 +114,5 @@ HR2D_API hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene,
 #ifdef __cplusplus
 }
 #endif
+/** @} */
 #endif
