@@ -3,22 +3,70 @@
  * @file hr2d.h
  * @brief libhr2d: the radiosity equation in the plane by hierarchical radiosity.
  *
- * After Garmann & Müller, "On the Computational Complexity of Hierarchical
- * Radiosity".  The objects, in the order in which they are made:
+ * "The paper" is R. Garmann and H. Müller, "On the Computational Complexity of Hierarchical
+ * Radiosity". The objects, in the order in which they are made:
  *
- *   hr2d_scene      patches with emission and reflectance    scene.h
- *   hr2d_hierarchy  a binary tree of elements per patch      hierarchy.h
- *   hr2d_linkset    accepted pairs, chosen by an oracle and  linkset.h, refine.h
- *                   a policy (oracle.h, policy.h)
- *   hr2d_solution   radiosity on every element               solve.h
+ * | object         | contents                              | header      |
+ * |----------------|---------------------------------------|-------------|
+ * | hr2d_scene     | patches with emission and reflectance | scene.h     |
+ * | hr2d_hierarchy | a binary tree of elements per patch   | hierarchy.h |
+ * | hr2d_linkset   | pairs of elements that exchange light | linkset.h   |
+ * | hr2d_solution  | radiosity on every element            | solve.h     |
  *
- * Objects are destroyed in the opposite order.  Who wants digits rather than links asks
- * hr2d_solve_to(), which makes the lot (accuracy.h).  What a long solve has reached
- * is kept by hr2d_state_write() (state.h).  Beside them are exchange areas of
- * segments (geometry.h), those with occluders and of all patches (visibility.h), and the
- * study of L against N (study.h).
+ * hr2d_refine() fills the link set (refine.h). An oracle (oracle.h) and a policy (policy.h)
+ * decide which pairs are linked. Each object must outlive the objects that are made from it:
+ * destroy them in the opposite order.
+ *
+ * More calls:
+ * - hr2d_solve_to() makes hierarchy, links and solution for a target error (accuracy.h).
+ * - hr2d_state_write() saves a stage of a long solve (state.h).
+ * - hr2d_exchange_area() computes the exchange of two segments (geometry.h).
+ * - hr2d_exchange_matrix() does it for all patches, with occluders (visibility.h).
+ * - hr2d_study_run() measures L against N (study.h).
+ *
+ * A whole program:
+ *
+ * @code{.c}
+ * #include <hr2d/hr2d.h>
+ * #include <stdio.h>
+ *
+ * int main(void) {
+ *   hr2d_scene *scene = NULL;
+ *   hr2d_hierarchy *hierarchy = NULL;
+ *   hr2d_linkset *links = NULL;
+ *   hr2d_solution *solution = NULL;
+ *   hr2d_status status = hr2d_scene_create(NULL, &scene);
+ *   if (!status) status = hr2d_scene_read(scene, "room.geojson");
+ *   if (!status) status = hr2d_scene_commit(scene);
+ *   if (!status) status = hr2d_hierarchy_create(scene, &hierarchy);
+ *   if (!status) status = hr2d_linkset_create(hierarchy, NULL, NULL, NULL, NULL, &links);
+ *   if (!status) status = hr2d_refine(links, NULL);
+ *   if (!status) status = hr2d_solve(links, NULL, &solution);
+ *   if (!status) printf("patch 0: B = %.4f\n", hr2d_solution_average(solution, 0, 0));
+ *   hr2d_solution_destroy(solution);
+ *   hr2d_linkset_destroy(links);
+ *   hr2d_hierarchy_destroy(hierarchy);
+ *   hr2d_scene_destroy(scene);
+ *   return status;
+ * }
+ * @endcode
+ *
+ * examples/tour.c makes its patches itself:
  *
  * @include tour.c
+ *
+ * Conventions:
+ * - Errors: a call that can fail returns HR2D_OK or the kind of its error, and then its objects
+ *   are unchanged (status.h). Memory comes from hooks (memory.h).
+ * - Units: coordinates and lengths are in scene lengths. Emission E, radiosity B and irradiance
+ *   H are power per scene length, called the unit of E. Reflectance is dimensionless.
+ * - Letters in costs: n patches, N elements, L links, p the order. A getter without a stated
+ *   cost takes constant time.
+ * - Pointers must not be NULL, and indices must be in range, unless the comment says otherwise.
+ * - Structs of options and tables of functions begin with `struct_size`. It tells the library
+ *   which members the caller knows, so that the struct can grow. Start from the macro …_INIT.
+ * - Threads: different objects may be used from different threads. Only one thread at a time
+ *   may change an object; several threads may read an object that no thread changes.
  */
 #ifndef HR2D_H
 #define HR2D_H
