@@ -96,7 +96,7 @@ typedef struct hr2d_refine_options {
  *
  * Elements of touching patches never satisfy max(A)/r ≤ ε if ε < √2, so that a limit must end
  * this recursion. A pair at a corner that is still refused at level 24 carries at most 2⁻²⁴ of
- * the exchange of its patches, and this is integrated exactly.
+ * the exchange of a patch, and this is integrated exactly.
  * hr2d_refine_counts::limited_links counts the links that exist because of a limit.
  */
 #define HR2D_DEFAULT_MAX_LEVEL 24
