@@ -9,6 +9,7 @@ EXTRA_DIST += \
 	doc/hard-cases.md \
 	doc/occlusion.md \
 	doc/scene-files.md \
+	doc/speed.md \
 	doc/testing.md \
 	doc/theorem.md \
 	doc/architecture-figure.sh \
@@ -36,8 +37,8 @@ doc/examples.dox: doc/local.mk $(EXAMPLES:=.c)
 	done >$@
 CLEANFILES += doc/examples.dox
 
-# `make figures` draws the figures of doc/theorem.md and doc/cost.md into the source tree, from
-# sweeps that a second run resumes.
+# `make figures` draws the figures of README.md, doc/theorem.md and doc/cost.md into the source
+# tree, from sweeps that a second run resumes.
 figures: tools/hr2d$(EXEEXT)
 	HR2D_PROGRAM='$(abs_top_builddir)/tools/hr2d$(EXEEXT)' \
 	HR2D_SCENES='$(abs_top_srcdir)/examples/scenes' \
