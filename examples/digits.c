@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Asking for digits: a square room to nine of them. */
+/* How to ask for a number of digits.  You learn to set a target error, to read averages and
+   values at points, and to check the error that was reached.
+
+   The scene is a square room with a lit floor, the target is nine digits. */
 #include <hr2d/hr2d.h>
 #include <stdio.h>
 

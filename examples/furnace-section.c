@@ -1,8 +1,13 @@
-/* Heat transfer across long furnaces: a grey wall of known temperature has E = εσT⁴ and
-   ρ = 1 − ε, one that is well insulated sends back all that it gets, ρ = 1.
+/* Heat transfer across long furnaces.  You learn to turn temperatures and emissivities into
+   emission and reflectance, to read net fluxes and the balance of power, and how far a
+   textbook formula is off.
 
-   The textbook's network of resistances takes the radiosity of each wall as uniform.  It
-   is what hr2d_solve() makes of one element per wall; refinement shows what that misses. */
+   A grey wall of known temperature has E = εσT⁴ and ρ = 1 − ε.  A well insulated wall sends
+   back all the heat that it receives: E = 0, ρ = 1.
+
+   The textbook's network of resistances assumes that the radiosity of each wall is uniform.
+   hr2d_solve() makes the same assumption with one element per wall.  Refinement shows the
+   error of this assumption. */
 #include <hr2d/hr2d.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +17,7 @@ static const double pi = 3.14159265358979324;
 
 typedef struct surface {
   const char *name;
-  double kelvin, emissivity; /* both 0 where no net heat goes in */
+  double kelvin, emissivity; /* both 0 for a wall without net heat flux */
 } surface;
 
 static const surface roof = {"roof", 1500, 0.6};
@@ -26,7 +31,7 @@ typedef struct model {
   hr2d_solution *solution;
 } model;
 
-/* Says what went wrong, if anything did, and destroys all that was made. */
+/* Reports a failure, if there was one, and destroys all objects of the model. */
 static hr2d_status finish(model *m, hr2d_status status) {
   if (status)
     fprintf(stderr, "furnace-section: %s: %s%s\n", hr2d_strerror(status),
@@ -54,7 +59,7 @@ static hr2d_status add(hr2d_scene *scene, const surface *s, hr2d_point a, hr2d_p
   return hr2d_scene_add(scene, &wall, NULL);
 }
 
-/* The load below, the roof above it, insulation at either side. */
+/* The load below, the roof above it, insulation on both sides. */
 static hr2d_status add_box(hr2d_scene *scene, double width, double height) {
   const hr2d_point corner[] = {{0, 0}, {width, 0}, {width, height}, {0, height}};
   const surface *const wall[] = {&load, &insulation, &roof, &insulation};
@@ -69,7 +74,7 @@ static hr2d_point on_circle(double radius, int k, int n) {
   return (hr2d_point){radius * cos(angle), radius * sin(angle)};
 }
 
-/* A regular n-gon of load, seen from outside, in one of roof, seen from inside. */
+/* A regular n-gon of load with its front outside, in an n-gon of roof with its front inside. */
 static hr2d_status add_tubes(hr2d_scene *scene, double inner, double outer, int n) {
   hr2d_status status = HR2D_OK;
   for (int k = 0; k < n && !status; k++)
@@ -98,21 +103,21 @@ static hr2d_status solve_box(model *m, double width, double height, double epsil
   return status ? status : solve(m, epsilon, max_level);
 }
 
-/* Heat into the load over the resistances 1/ε − 1 of both surfaces and that between
-   them, times the load's area, in kW/m². */
+/* Heat into the load in kW/m²: the potential σT⁴ drops over the resistances 1/ε − 1 of both
+   surfaces and the resistance between them, each times the area of the load. */
 static double network(double load_to_roof, double between) {
   const double drop = sigma * (pow(roof.kelvin, 4) - pow(load.kelvin, 4)) / 1000;
   return drop / (1 / load.emissivity - 1 + between + load_to_roof * (1 / roof.emissivity - 1));
 }
 
-/* From plate to plate goes F, by crossed strings, and beside it what takes the way over the
-   insulation: two resistances 1/(1 − F) in series. */
+/* Between the plates there are two paths in parallel: the view factor F, by crossed strings,
+   and the path over the insulation, two resistances 1/(1 − F) in series. */
 static double box_network(double width, double height) {
   const double direct = (hypot(width, height) - height) / width;
   return network(1, 1 / (direct + (1 - direct) / 2));
 }
 
-/* W in kW with two decimals, and no −0. */
+/* W in kW, rounded to two decimals, without −0. */
 static double kilo(double watts) {
   return round(watts / 10) / 100 + 0.;
 }

@@ -1,16 +1,17 @@
-/* An oracle of one's own: a bound of the error, after Lischinski, Smits and Greenberg
-   (1994), from an interval that holds the kernel over both elements.
+/* How to write an oracle of your own.  You learn to fill in the table hr2d_oracle, to answer
+   for a batch of pairs, and to keep data of your own in a context.
 
-   G = h_x h_y / (2r³) with h_x, h_y the distance of one point from the other's line.
-   Distances from a line are largest and smallest at the ends, r is at least the
-   distance of the segments, so that Gmin ≤ G ≤ Gmax and
-   ∫∫ |G(x_c,y_c) − G| ≤ A_x A_y (Gmax − Gmin). */
+   This oracle bounds the error, after Lischinski, Smits and Greenberg (1994), by an interval
+   that contains the kernel over both elements.  G = h_x h_y / (2r³), where h_x and h_y are the
+   distance of one point from the line of the other.  Distances from a line are largest and
+   smallest at the ends, and r is at least the distance of the segments.  So Gmin ≤ G ≤ Gmax
+   and ∫∫ |G(x_c,y_c) − G| ≤ A_x A_y (Gmax − Gmin). */
 #include <float.h>
 #include <hr2d/hr2d.h>
 #include <math.h>
 #include <stdio.h>
 
-/* The context: what the oracle wants to remember. */
+/* The context: data that the oracle keeps between calls. */
 typedef struct tally {
   unsigned long long asked;
 } tally;
@@ -57,7 +58,7 @@ static hr2d_status estimate(void *ctx, const hr2d_batch *batch, double *error) {
   t->asked += batch->count;
   for (size_t k = 0; k < batch->count; k++) {
     const hr2d_pair pair = batch->pairs[k];
-    /* a length, and so in scene lengths */
+    /* the L¹ error is a length, so it is given in scene lengths */
     error[k] = batch->unit * bound(&batch->elements[pair.first], &batch->elements[pair.second]);
   }
   return HR2D_OK;

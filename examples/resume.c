@@ -1,13 +1,15 @@
-/* A long solve in stages that outlives its process: the state after the second of three
-   stages is kept in a file, and fresh objects go on from it to the bits of an uninterrupted
-   run. */
+/* How to save a long solve and to resume it later.  You learn to solve in stages of falling ε,
+   to write the state of a stage to a file, and to read it back.
+
+   The state after the second of three stages goes to a file.  New objects resume from it and
+   reach the same bits as an uninterrupted run. */
 #include <hr2d/hr2d.h>
 #include <stdio.h>
 
 static const double epsilon[] = {0.5, 0.1, 0.02};
 enum { STAGES = sizeof epsilon / sizeof *epsilon };
 
-/* What a run consists of; the scene is made elsewhere. */
+/* The objects of a run, without the scene. */
 typedef struct work {
   hr2d_hierarchy *hierarchy;
   hr2d_linkset *links;
@@ -34,7 +36,7 @@ static void end(work *w) {
   hr2d_hierarchy_destroy(w->hierarchy);
 }
 
-/* The stages that are finer than what there is already, as far as `stages`. */
+/* Runs those of the first `stages` stages that are finer than the links so far. */
 static hr2d_status go_on(work *w, int stages) {
   hr2d_status status = HR2D_OK;
   for (int k = 0; k < stages && !status; k++) {

@@ -1,16 +1,19 @@
-/* Rows of tilted panels over ground, cut across, under a sky of radiosity 1: what the front
-   and the back of a panel of the inner row get.  They are black; the ground is black first,
-   so that what a point gets is its view of the sky, and then of albedo 0.2.
+/* The irradiance on the front and on the back of solar panels.  You learn to set a sky as
+   background, to use two-sided patches, and to read the irradiance along a patch.
 
-   Along a panel of direction u (up the slope), light from the directions between the unit
-   vectors d and e gives |(d − e)·u|/2.  The front sees the sky from u to the top edge of
-   the row before it, the back from u to the top edge of the row behind.  Below those is
-   ground, if it reaches far enough. */
+   Rows of tilted black panels stand over ground, in cross-section, under a sky of radiosity 1.
+   The results are for a panel of the inner row.  First the ground is black, so that the
+   irradiance of a point is its view factor of the sky.  Then the ground has albedo 0.2.
+
+   On a panel of direction u (up the slope), light from the directions between the unit vectors
+   d and e gives the irradiance |(d − e)·u|/2.  The front sees the sky from u to the top edge of
+   the row before it, the back from u to the top edge of the row behind it.  Below these edges
+   is the ground, if it reaches far enough. */
 #include <hr2d/hr2d.h>
 #include <math.h>
 #include <stdio.h>
 
-enum { ROWS = 2 }; /* at either side of the inner one */
+enum { ROWS = 2 }; /* on each side of the inner row */
 
 static const double pi = 3.14159265358979324;
 static const double tilt = 30, length = 2, clearance = 0.5, pitch = 4; /* degrees; m */
@@ -21,10 +24,10 @@ typedef struct model {
   hr2d_hierarchy *hierarchy;
   hr2d_linkset *links;
   hr2d_solution *solution;
-  size_t panel; /* the front of the inner one; its back is behind it */
+  size_t panel; /* the front of the inner panel; its back is the next patch */
 } model;
 
-/* Says what went wrong, if anything did, and destroys all that was made. */
+/* Reports a failure, if there was one, and destroys all objects of the model. */
 static hr2d_status finish(model *m, hr2d_status status) {
   if (status)
     fprintf(stderr, "solar-panels: %s: %s%s\n", hr2d_strerror(status),
@@ -41,7 +44,7 @@ static hr2d_point along_slope(double distance) {
   return (hr2d_point){distance * cos(tilt * pi / 180), distance * sin(tilt * pi / 180)};
 }
 
-/* The point at fraction t of the panel of a row; row 0 is the inner one. */
+/* The point at fraction t of the panel of a row; row 0 is the inner row. */
 static hr2d_point on_panel(int row, double t) {
   const hr2d_point up = along_slope(t * length);
   return (hr2d_point){row * pitch + up.x, clearance + up.y};
@@ -81,13 +84,13 @@ static hr2d_status solve(model *m, int side, double albedo, double epsilon) {
   return status ? status : hr2d_solve(m->links, NULL, &m->solution);
 }
 
-/* How far the direction from p to q goes up the slope: the cosine of their angle. */
+/* The cosine of the angle between the slope and the direction from p to q. */
 static double up_slope(hr2d_point p, hr2d_point q) {
   const hr2d_point u = along_slope(1), d = {q.x - p.x, q.y - p.y};
   return (d.x * u.x + d.y * u.y) / hypot(d.x, d.y);
 }
 
-/* The skyline before or behind is the top of the next row, or the ground's end. */
+/* The skyline before or behind a panel: the top of the next row, or the end of the ground. */
 static hr2d_point skyline(int side, int direction) {
   return side ? on_panel(direction, 1) : (hr2d_point){direction * ground_end, 0};
 }
@@ -104,7 +107,7 @@ static double front_at(const model *m, double t) {
   return hr2d_solution_irradiance_at(m->solution, m->panel, t, 0);
 }
 
-/* The back is a patch of its own and runs down the slope. */
+/* The back is a separate patch and runs down the slope. */
 static double back_at(const model *m, double t) {
   return hr2d_solution_irradiance_at(m->solution, m->panel + 1, 1 - t, 0);
 }
@@ -124,12 +127,12 @@ static hr2d_status show_black(int side) {
   return finish(&m, status);
 }
 
-/* Beside the rows: a panel high over ground that is all in the open. */
+/* For comparison it also prints a panel that stands alone, high over ground under open sky. */
 static hr2d_status show_albedo(double albedo) {
   model m = {0};
   const hr2d_status status = solve(&m, ROWS, albedo, 1. / 128);
   if (!status) {
-    const double down = (1 - cos(tilt * pi / 180)) / 2; /* how much of its view is ground */
+    const double down = (1 - cos(tilt * pi / 180)) / 2; /* the ground's part of its view */
     const double front = hr2d_solution_irradiance(m.solution, m.panel, 0);
     const double back = hr2d_solution_irradiance(m.solution, m.panel + 1, 0);
     printf("Albedo %.1f, %d rows\n   t   front   back\n", albedo, 2 * ROWS + 1);

@@ -1,10 +1,13 @@
-/* How much of the sky streets, walls and roofs see.  Everything is black and the sky has
-   radiosity 1, so that the irradiance of a point is its sky view factor; that of a patch is
-   also what its row of view factors leaves of 1.
+/* Sky view factors of streets, walls and roofs.  You learn two ways to compute them: as the
+   irradiance under a sky of radiosity 1, and from the sums of the matrix of view factors.
 
-   A street section is one line from left to right: its front, on the left of the way, is
-   the outside.  A point on a patch of direction u sees the sky between the unit vectors d
-   and e to the highest points of the section left and right of it: (e − d)·u/2. */
+   All patches are black, so that the irradiance of a point is its sky view factor.  The sky
+   view factor of a patch is also 1 − Σ F, the rest of its row of view factors.
+
+   A street section is one line from left to right.  Its front is on the left of this line,
+   which is the outside.  A point on a patch of direction u sees the sky between the unit
+   vectors d and e to the highest points of the section on its left and on its right: (e −
+   d)·u/2. */
 #include <hr2d/hr2d.h>
 #include <math.h>
 #include <stdio.h>
@@ -25,7 +28,7 @@ typedef struct model {
   double unseen[MOST]; /* per patch: 1 − Σ F */
 } model;
 
-/* Says what went wrong, if anything did, and destroys all that was made. */
+/* Reports a failure, if there was one, and destroys all objects of the model. */
 static hr2d_status finish(model *m, hr2d_status status) {
   if (status)
     fprintf(stderr, "street-canyon: %s: %s%s\n", hr2d_strerror(status),
@@ -99,7 +102,7 @@ static double sky_view(const section *s, size_t k, double t) {
   return ((right.x - left.x) * u.x + (right.y - left.y) * u.y) / 2;
 }
 
-/* Walls of height h at either side of a street 1 wide, by crossed strings. */
+/* Walls of height h on both sides of a street 1 wide, by crossed strings. */
 static double street_average(double h) {
   return hypot(1, h) - h;
 }
@@ -125,8 +128,8 @@ static hr2d_status show_canyons(void) {
   return status;
 }
 
-/* A tower on a podium, a street, a house, a yard and a block, of which the street sees the
-   upper floors over the house. */
+/* A tower on a podium, a street, a house, a yard and a block.  The street sees the upper floors
+   of the block over the house. */
 static hr2d_status show_quarter(void) {
   static const section quarter = {12,
                                   {{0, 30},

@@ -1,4 +1,7 @@
-/* The shortest whole program: a lit floor under a ceiling. */
+/* The shortest whole program, with the paper's algorithm step by step: scene, hierarchy, link
+   set, refinement, solution.  You learn the objects and the order in which they are made.
+
+   The scene is a lit floor under a ceiling. */
 #include <hr2d/hr2d.h>
 #include <stdio.h>
 
