@@ -36,7 +36,7 @@ static void end(work *w) {
   hr2d_hierarchy_destroy(w->hierarchy);
 }
 
-/* Runs those of the first `stages` stages that are finer than the links so far. */
+/* Runs the stages, of the first `stages`, that are finer than the links so far. */
 static hr2d_status go_on(work *w, int stages) {
   hr2d_status status = HR2D_OK;
   for (int k = 0; k < stages && !status; k++) {
