@@ -5,9 +5,9 @@
    view factor of a patch is also 1 − Σ F, the rest of its row of view factors.
 
    A street section is one line from left to right.  Its front is on the left of this line,
-   which is the outside.  A point on a patch of direction u sees the sky between the unit
-   vectors d and e to the highest points of the section on its left and on its right: (e −
-   d)·u/2. */
+   which is the outside.  Let d and e be the unit vectors from a point to the highest points of
+   the section on its left and on its right.  On a patch of direction u the point sees the sky
+   between them: (e − d)·u/2. */
 #include <hr2d/hr2d.h>
 #include <math.h>
 #include <stdio.h>
