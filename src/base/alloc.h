@@ -6,17 +6,18 @@
 #include <hr2d/memory.h>
 #include <stddef.h>
 
-/* The hooks of malloc. */
+/* Hooks that call malloc(), realloc() and free(). */
 hr2d_allocator hr2di_alloc_default(void);
 
-/* An array of count items, or NULL if it cannot be had; count may be 0. */
+/* Returns an array of `count` items of `size` bytes, or NULL if there is no memory or the size
+   overflows.  `count` may be 0. */
 void *hr2di_alloc(const hr2d_allocator *alloc, size_t count, size_t size);
 
 /* As hr2di_alloc(), filled with zero bytes. */
 void *hr2di_alloc_zero(const hr2d_allocator *alloc, size_t count, size_t size);
 
-/* Makes room for `needed` items in *array, whose capacity is *capacity, by
-   doubling.  Returns 0, or -1 with *array and *capacity unchanged. */
+/* Makes room for `needed` items of `size` bytes in *array.  *capacity is its capacity in items,
+   which grows by doubling.  Returns 0, or -1 with *array and *capacity unchanged. */
 int hr2di_alloc_reserve(const hr2d_allocator *alloc, void *array, size_t *capacity,
                         size_t needed, size_t size);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Conjugate gradients, and BiCGSTAB (van der Vorst 1992) where links are directed.
-   Scalars are kept per band; a band that has converged gets step 0 from then on. */
+/* Conjugate gradients for symmetric systems, and BiCGSTAB (van der Vorst 1992) for the others,
+   which directed links make.  Scalars are kept per band; a band that has converged gets step 0
+   from then on. */
 #include "base/krylov.h"
 
 #include <float.h>
@@ -59,7 +60,8 @@ typedef struct state {
   int done;        /* every band has converged */
 } state;
 
-/* Looks at the residual r: which bands still need work goes to `active`. */
+/* Measures the residual r and passes it to `tell`.  active[b] becomes 1 if band b still needs
+   work, else 0. */
 static hr2d_status look(state *s, const double *r, double *active) {
   double *square = s->scalar[1], *norm = s->scalar[2];
   hr2di_krylov_dot(s->system, r, r, square);

@@ -11,13 +11,14 @@ typedef struct hr2di_krylov_system {
   const hr2d_allocator *alloc;
   size_t size, bands;   /* fields are size × bands */
   const double *weight; /* of the inner product, per item: Σ weight x y */
-  int symmetric;        /* S is self-adjoint in that product */
+  int symmetric;        /* S is self-adjoint in this product */
 
   /* out = S in */
   void (*apply)(void *ctx, const double *in, double *out);
-  /* The norm, per band, to which residuals are compared when y is reached. */
+  /* Writes the norms, per band, with which the residuals of y are compared. */
   void (*scale)(void *ctx, const double *y, double *norm);
-  /* Called after each iteration with the largest relative residual. */
+  /* Called at the start and after each iteration with the largest relative residual; any status
+     but HR2D_OK ends the iteration. */
   hr2d_status (*tell)(void *ctx, double residual);
   void *ctx;
 
@@ -25,10 +26,10 @@ typedef struct hr2di_krylov_system {
   unsigned max_iterations;
 } hr2di_krylov_system;
 
-/* Improves y until ‖b − (I − S) y‖ ≤ tolerance·scale in every band.  HR2D_OK,
-   HR2D_ENOMEM, HR2D_ENOT_CONVERGED (also where a symmetric I − S turns out not to
-   be positive definite), or the status of `tell`.  *residual is the largest one
-   reached, relative to the scale. */
+/* Improves y until ‖b − (I − S) y‖ ≤ tolerance·scale in every band.  *residual becomes the last
+   residual relative to the scale, the largest over the bands.  Returns HR2D_OK, HR2D_ENOMEM,
+   HR2D_ENOT_CONVERGED or the status of `tell`.  HR2D_ENOT_CONVERGED is also returned if a
+   symmetric I − S turns out not to be positive definite. */
 hr2d_status hr2di_krylov(const hr2di_krylov_system *system, const double *b, double *y,
                          double *residual);
 

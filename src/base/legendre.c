@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gauss rules by Newton's method on the three-term recurrence.  GSL has them, too, but its
-   tables come from malloc through its error handler, which would abort for want of memory. */
+/* Gauss rules by Newton's method on the three-term recurrence.  GSL has Gauss rules, too, but
+   it allocates their tables by malloc(), and its error handler aborts if there is no memory. */
 #include "base/legendre.h"
 
 #include <math.h>
@@ -18,8 +18,8 @@ static void evaluate(size_t n, double x, double *value, double *slope) {
   *slope = (double)n * (before - x * here) / (1 - x * x);
 }
 
-/* Newton's method converges from the asymptotic places, x ≈ cos(π(k + 3/4)/(n + 1/2)), and
-   the weights 2/((1−x²)P'²) are insensitive to what is left, as their derivative is 0. */
+/* Newton's method converges from the asymptotic nodes, x ≈ cos(π(k + 3/4)/(n + 1/2)).  The
+   weights 2/((1−x²)P'²) are insensitive to the error that is left, as their derivative is 0. */
 void hr2di_rule_init(hr2di_rule *rule, size_t points) {
   const double pi = 3.14159265358979323846;
   const size_t n = points;
@@ -49,7 +49,8 @@ void hr2di_basis_init(hr2di_basis *basis, size_t order) {
   }
 }
 
-/* Means of φ_l(parent) φ_k(child) over the child, of degree l + k ≤ 2·order − 2. */
+/* The means of φ_l(parent) φ_k(child) over the child, by a rule that is exact: the degree is
+   l + k ≤ 2·order − 2. */
 void hr2di_legendre_two_scale(double low, double high, size_t order, double *relation) {
   hr2di_rule rule;
   hr2di_basis basis;

@@ -12,7 +12,7 @@ enum { HR2DI_RULE_POINTS = 64 };
 /* A mean over [-1,1], exact for polynomials of degree 2·points − 1. */
 typedef struct hr2di_rule {
   size_t points;
-  double at[HR2DI_RULE_POINTS];     /* rising */
+  double at[HR2DI_RULE_POINTS];     /* in rising order */
   double weight[HR2DI_RULE_POINTS]; /* their sum is 1 */
 } hr2di_rule;
 
@@ -38,7 +38,7 @@ static inline void hr2di_basis_at(const hr2di_basis *basis, double xi, double *p
   }
 }
 
-/* Σ coefficient_l φ_l(ξ), of coefficients `stride` apart. */
+/* Σ coefficient_l φ_l(ξ); the coefficients lie `stride` apart. */
 static inline double hr2di_basis_sum(const hr2di_basis *basis, double xi,
                                      const double *coefficient, size_t stride) {
   double before = 0, here = 1, sum = 0;
@@ -51,7 +51,7 @@ static inline double hr2di_basis_sum(const hr2di_basis *basis, double xi,
   return sum;
 }
 
-/* The two-scale relation: with a child that spans [low, high] of its parent's [-1,1],
+/* The two-scale relation: for a child that spans [low, high] of its parent's [-1,1],
    φ_l(parent) = Σ_k relation[l·order + k] φ_k(child). */
 void hr2di_legendre_two_scale(double low, double high, size_t order, double *relation);
 

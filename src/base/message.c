@@ -47,8 +47,8 @@ static int is_control(const unsigned char *c) {
   return *c < 0x20 || *c == 0x7F || (c[0] == 0xC2 && c[1] < 0xA0);
 }
 
-/* Texts quoted from files may be cut within a character, and a terminal would obey what
-   else is in them. */
+/* Replaces broken UTF-8 and control characters by '?': texts quoted from files may be cut
+   within a character, and a terminal would obey control characters. */
 static void make_readable(char *text) {
   unsigned char *c = (unsigned char *)text;
   while (*c) {

@@ -15,11 +15,12 @@ typedef struct hr2di_message {
 __attribute__((format(printf, 3, 4))) hr2d_status
 hr2di_message_fail(hr2di_message *message, hr2d_status status, const char *format, ...);
 
-/* The length of the UTF-8 character at `s`, the start of a string; 0 if it is none. */
+/* The length of the UTF-8 character at `s`, in a terminated string; 0 if there is no valid
+   character. */
 size_t hr2di_message_utf8(const unsigned char *s);
 
-/* A name for messages: in quotes, short enough to leave room for what is said about
-   it, and without control characters, which a terminal would obey. */
+/* A name as messages quote it: in quotation marks, cut so that the rest of the message has
+   room, and without control characters, which a terminal would obey. */
 typedef struct hr2di_message_quoted {
   char text[72];
 } hr2di_message_quoted;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A scalar product of which four sums run side by side, in vectors of two or of four.  Who adds
-   to whom is written down, so that no bit depends on the compiler, on its level of optimisation
-   or on the processor, as it would if the compiler were free to split the sum. */
+/* A scalar product in four partial sums side by side, which fit vectors of two or of four.  The
+   order of all additions is written down.  If the compiler were free to split the sum, its bits
+   would depend on the compiler, on the level of optimisation and on the processor. */
 #ifndef HR2D_SRC_BASE_ORDERED_DOT_H
 #define HR2D_SRC_BASE_ORDERED_DOT_H
 

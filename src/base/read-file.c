@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A whole file in memory, read in growing blocks: its size is not to be known
-   beforehand for a pipe, and not to be trusted for anything else. */
+/* Reads a whole file into memory, in growing blocks: the size of a pipe is not known
+   beforehand, and the size of any other file cannot be trusted. */
 #ifndef _POSIX_C_SOURCE
 #define _POSIX_C_SOURCE 200809L
 #endif
@@ -56,7 +56,7 @@ hr2d_status hr2di_file_read(const hr2d_allocator *alloc, const char *path, char 
   errno = 0;
   FILE *stream = fopen(path, "rb");
   if (!stream) return fail_errno(message, "cannot open", errno);
-  /* The blocks are large already, and a stream's buffer would not come from the hooks. */
+  /* Unbuffered: the blocks are large, and a stream's buffer would not come from the hooks. */
   setvbuf(stream, NULL, _IONBF, 0);
   hr2d_status status = read_stream(alloc, stream, text, size, message);
   fclose(stream);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A whole file in memory. */
+/* Reads a whole file into memory. */
 #ifndef HR2D_SRC_BASE_READ_FILE_H
 #define HR2D_SRC_BASE_READ_FILE_H
 
@@ -9,9 +9,9 @@
 
 #include "base/message.h"
 
-/* Reads `path` into *text, `*size` bytes without a terminator, to be given back with
+/* Reads the file `path` into *text: *size bytes without a terminator, which the caller frees by
    hr2di_alloc_free().  Returns HR2D_OK, HR2D_EIO with the system's reason as message, or
-   HR2D_ENOMEM; on failure there is nothing to free. */
+   HR2D_ENOMEM.  On failure there is nothing to free. */
 hr2d_status hr2di_file_read(const hr2d_allocator *alloc, const char *path, char **text,
                             size_t *size, hr2di_message *message);
 

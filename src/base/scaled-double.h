@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers m·2^e with the exponent of an int: nothing under- or overflows before
-   the result does.  m is 0 or |m| in [½,1). */
+/* Numbers m·2^e whose exponent e is an int: only the final double can under- or overflow, no
+   number on the way to it.  m is 0 or |m| is in [½,1). */
 #ifndef HR2D_SRC_BASE_SCALED_DOUBLE_H
 #define HR2D_SRC_BASE_SCALED_DOUBLE_H
 

@@ -6,7 +6,8 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Overwrites `to`, of `known` bytes, with what the caller's struct has of it. */
+/* Copies the caller's struct `from` over `to`, a struct of `known` bytes.  Members of `to` that
+   the caller's struct does not have keep their values. */
 static inline void hr2di_sized_copy(void *to, size_t known, const void *from) {
   size_t given;
   memcpy(&given, from, sizeof given);

@@ -24,7 +24,7 @@ static const char *const phrases[] = {
 };
 
 const char *hr2d_strerror(hr2d_status status) {
-  /* An enumeration may be signed or not; as size_t a negative value is large. */
+  /* The enumeration may be signed; a negative value becomes a large size_t. */
   const size_t index = (size_t)status;
   const size_t count = sizeof phrases / sizeof *phrases;
   return index < count && phrases[index] ? phrases[index] : "unknown status";

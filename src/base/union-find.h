@@ -15,8 +15,8 @@ static inline uint32_t hr2di_union_find(uint32_t *parent, uint32_t k) {
   return k;
 }
 
-/* Joins the sets that hold i and j.  Returns the root that gave way, whose parent is now the
-   root of both, or the common root if they were one set before. */
+/* Joins the sets that hold i and j.  Returns the former root whose parent is now the root of
+   both; or the common root, if i and j were in one set before. */
 static inline uint32_t hr2di_union_join(uint32_t *parent, uint32_t i, uint32_t j) {
   i = hr2di_union_find(parent, i);
   j = hr2di_union_find(parent, j);

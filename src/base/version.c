@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The version of the library linked, which may differ from that of the header. */
+/* The version of the linked library, which may differ from the version of the header. */
 #include <hr2d/version.h>
 
 const char *hr2d_version(void) {
