@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-/* Never 0 between two points: ellipses about panels would be NaN, and halved for ever. */
+/* Not 0 unless the points are equal: otherwise ellipses of panels would be NaN, and the panels
+   would be halved for ever. */
 static double distance(hr2d_point p, hr2d_point q) {
   const double dx = p.x - q.x, dy = p.y - q.y, square = dx * dx + dy * dy;
   return square > 0x1p-900 ? sqrt(square) : hypot(dx, dy);
@@ -13,8 +14,8 @@ double hr2di_ellipse(hr2d_segment s, hr2d_point v) {
   return (distance(s.a, v) + distance(s.b, v)) / distance(s.a, s.b);
 }
 
-/* The sum of distances from a and b is convex along a line, and least where the line meets
-   the segment from a to the mirror image of b. */
+/* The sum of the distances from a and b is convex along a line.  It is least where the line
+   meets the segment from a to the mirror image of b. */
 double hr2di_ellipse_least(hr2d_segment s, hr2d_segment of) {
   const double dx = of.b.x - of.a.x, dy = of.b.y - of.a.y, square = dx * dx + dy * dy;
   const hr2d_point a = {s.a.x - of.a.x, s.a.y - of.a.y};

@@ -5,18 +5,20 @@
 
 #include <hr2d/geometry.h>
 
-/* How far v is from a segment in terms of its length: (|va| + |vb|)/|ab|, the sum of the half
-   axes of the ellipse with foci a and b through v.  A function with a singularity at v is
-   approximated on ab by polynomials of degree n to within ρ^−n, ρ = m + √(m²−1). */
+/* How far v is from a segment ab, relative to its length: m = (|va| + |vb|)/|ab|.  This is the
+   major half axis, in units of |ab|/2, of the ellipse with foci a and b through v; the sum of
+   the half axes is ρ = m + √(m²−1).  A function with a singularity at v is approximated on ab
+   by polynomials of degree n to within ρ^−n. */
 double hr2di_ellipse(hr2d_segment s, hr2d_point v);
 
-/* The least of it over the points of a segment. */
+/* The least hr2di_ellipse(s, v) over the points v of the segment `of`. */
 double hr2di_ellipse_least(hr2d_segment s, hr2d_segment of);
 
-/* Pairs at least so far apart, both ways, are distant. */
+/* A pair is distant if hr2di_ellipse_least() is at least this, from either segment. */
 #define HR2DI_ELLIPSE_DISTANT 1.8
 
-/* The ellipse at which ρ^−2p is an error, at most HR2DI_ELLIPSE_DISTANT: as far as need be. */
+/* The m at which ρ^−2p is `error`, p being `order`: a singularity need not be farther away for
+   this error.  At most HR2DI_ELLIPSE_DISTANT. */
 double hr2di_ellipse_for(double error, unsigned order);
 
 #endif

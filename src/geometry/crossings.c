@@ -9,16 +9,18 @@
 #include "geometry/determinant.h"
 #include "geometry/predicates.h"
 
-/* Above every rounding, and above the error of a plain determinant of coordinates below
-   2: 2^-50·|u||w| with |w| below 4. */
+/* Above every rounding.  Times |u| it is also above the error of a plain determinant of
+   coordinates below 2, which is 2^-50·|u||w| with |w| below 4. */
 #define MARGIN 0x1p-46
 
-/* Two segments that share more than a point within a rounding share a stretch that is
-   longer than this many roundings; what is shorter is a touch at a flat angle. */
+/* Two segments lie on one another if they share, within a rounding, a stretch that is longer
+   than this many roundings.  A shorter stretch is a touch at a flat angle. */
 #define LONG_STRETCH 16
 
-/* What is through a segment by a rounding, and longer than this many or than this part of
-   the shorter one, crosses it: visibility takes its end for a foot, and is off by as much. */
+/* An end that is through the other segment by no more than a rounding crosses it all the same
+   if the part beyond is longer than this many roundings, or than this part of the shorter
+   segment.  Visibility takes such an end as the point where the segments meet, and is off by
+   the length of the part beyond. */
 #define LONG_TAIL 0x1p+20
 #define LONG_PART 0x1p-20
 
@@ -36,7 +38,7 @@ double hr2di_crossings_rounding(const hr2d_segment *i, const hr2d_segment *j) {
   return 4 * 0x1p-52 * fmax(fmax(largest(i), largest(j)), scene);
 }
 
-/* Both ends of t are on one side of the line of s, well beyond a rounding. */
+/* Both ends of t are on one side of the line of s, much farther from it than a rounding. */
 static int clear_of(const hr2d_segment *s, const hr2d_segment *t) {
   const double ux = s->b.x - s->a.x, uy = s->b.y - s->a.y;
   const double a = ux * (t->a.y - s->a.y) - uy * (t->a.x - s->a.x);
@@ -45,7 +47,7 @@ static int clear_of(const hr2d_segment *s, const hr2d_segment *t) {
   return (a > margin && b > margin) || (a < -margin && b < -margin);
 }
 
-/* An end of one segment against the other's line. */
+/* An end of one segment, and where it is from the other's line. */
 typedef struct end {
   hr2d_point at;
   hr2di_scaled side; /* twice the signed area; its sign is exact */
@@ -85,8 +87,9 @@ static double along(hr2d_point p, int by_x) {
   return by_x ? p.x : p.y;
 }
 
-/* What the segments share when both are projected on the main axis of the longer one;
-   each end of that is an end of one of them, measured against the other. */
+/* Returns the length of the stretch that the segments share when both are projected on the main
+   axis of the longer one; negative if they share none.  *from and *to become the ends of the
+   stretch; each of them is an end of one segment, measured against the other. */
 static double find_stretch(const pair *p, end *from, end *to) {
   const hr2d_segment *longer = length(p->i) >= length(p->j) ? p->i : p->j;
   const int by_x = fabs(longer->b.x - longer->a.x) >= fabs(longer->b.y - longer->a.y);
@@ -99,16 +102,16 @@ static double find_stretch(const pair *p, end *from, end *to) {
   return along(to->at, by_x) - along(from->at, by_x);
 }
 
-/* Whether the segments lie on one another.  Opposite fronts that touch exactly, or from
-   behind, are back to back, and neither hides anything that the other should see.  The
-   other way round each would see nothing but the other. */
+/* Whether the segments lie on one another.  Two with opposite fronts that touch exactly, or
+   back against back, are back to back: neither hides anything that the other should see.  If
+   they touch front against front, each would see nothing but the other. */
 static int lie_together(const pair *p, hr2di_meeting *m) {
   end from, to;
   const double stretch = find_stretch(p, &from, &to);
   const int collinear = p->ja.side.m == 0 && p->jb.side.m == 0;
   const double min = collinear ? fmin(p->rounding, fmin(length(p->i), length(p->j)) / 2)
                                : LONG_STRETCH * p->rounding;
-  /* Visibility takes what is so near for lying on a wall's line, or on that of its run. */
+  /* Visibility takes points so near as lying on the line of a wall, or of its run. */
   const double near = 2 * p->rounding;
   if (stretch <= min || from.distance >= near || to.distance >= near) return 0;
   const hr2d_segment *i = p->i, *j = p->j;
@@ -134,7 +137,7 @@ static hr2d_point into_box(hr2d_point p, const hr2d_segment *s) {
 }
 
 /* The ends of i are on different sides of j, so that no digit is lost in the fraction.
-   The boxes keep a crossing with a level or upright segment exactly on it. */
+   Clamping to the boxes keeps the crossing exactly on a horizontal or vertical segment. */
 static hr2d_point crossing(const pair *p) {
   const hr2di_scaled a = {fabs(p->ia.side.m), p->ia.side.e},
                      b = {fabs(p->ib.side.m), p->ib.side.e};
@@ -146,8 +149,8 @@ static hr2d_point crossing(const pair *p) {
   return into_box(into_box(x, p->i), p->j);
 }
 
-/* Whether an end of s was meant to lie on the other segment: it is through by no more than
-   a rounding, and what is through is not so long, at an angle so flat, that it matters. */
+/* Whether the end `near` of s was meant to lie on the other segment: it is through by no more
+   than a rounding, and the part beyond, which is long at a flat angle, is not too long. */
 static int pokes(const pair *p, const hr2d_segment *s, const end *near, const end *far) {
   const double through = length(s) * (near->distance / (near->distance + far->distance));
   const double part = LONG_PART * fmin(length(p->i), length(p->j));

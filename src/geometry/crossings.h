@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How two segments of a scaled scene lie to each other where they should not: they
-   cross, or lie on one another.  Signs are exact; what is within a rounding of
-   touching touches.
+/* Finds segments of a scaled scene that cross or lie on one another, which they should not.
+   Signs are exact; segments within a rounding of touching count as touching.
 
-   A rounding is 4·2^-52·M.  With M the largest coordinate of two segments that covers
-   an end p = a + t(b − a) computed in doubles: t(b − a) is off by t·2·2^-53·2M, the sum
-   by 2^-53·M more, hence p from the line by √2·5·2^-53·M < 4·2^-52·M.  Scenes are also
-   moved after that, which leaves errors of the size of the whole scene: M is at least
-   1, the scene's scale, unless that were more than 2^-20 of the shorter segment. */
+   A rounding is 4·2^-52·M, where M is the largest coordinate of the two segments.  It covers
+   the error of an end p = a + t(b − a) that was computed in doubles: t(b − a) is off by
+   t·2·2^-53·2M, the sum by 2^-53·M more, hence p is off the line by √2·5·2^-53·M < 4·2^-52·M.
+   A scene may be moved after that, which leaves errors of the size of the whole scene.  So M is
+   at least min(1, 2^30·s), where 1 is the scale of the scene and s the length of the shorter
+   segment; this lower bound makes a rounding of at most 2^-20·s. */
 #ifndef HR2D_SRC_GEOMETRY_CROSSINGS_H
 #define HR2D_SRC_GEOMETRY_CROSSINGS_H
 
@@ -16,32 +16,32 @@
 #include <stddef.h>
 
 typedef enum hr2di_meeting_kind {
-  HR2DI_MEET_FREE,  /* apart, or a touch, or back to back: nothing is wrong */
-  HR2DI_MEET_CROSS, /* properly, every end beyond a rounding */
+  HR2DI_MEET_FREE,  /* apart, touching, or back to back: nothing is wrong */
+  HR2DI_MEET_CROSS, /* properly: no end counts as touching the other segment */
   HR2DI_MEET_LIE,   /* on one another, fronts on the same side */
-  HR2DI_MEET_FACE   /* with opposite fronts and no more than a rounding between them */
+  HR2DI_MEET_FACE   /* on one another up to rounding, fronts towards each other */
 } hr2di_meeting_kind;
 
 typedef struct hr2di_meeting {
   hr2di_meeting_kind kind;
-  int together;        /* sharing a stretch, back to back as well */
+  int together;        /* they share a stretch; also if back to back */
   int collinear;       /* together, and exactly on one line */
-  hr2d_point from, to; /* the ends of what they share; twice the crossing */
+  hr2d_point from, to; /* the ends of the shared stretch; both are the crossing if they cross */
   double sine;         /* of the angle at which they cross */
 } hr2di_meeting;
 
-/* What is called a rounding for these two; below 2^-48. */
+/* The length of a rounding, as defined above, for these two segments; below 2^-48. */
 double hr2di_crossings_rounding(const hr2d_segment *i, const hr2d_segment *j);
 
-/* Coordinates are below 2. */
+/* How two segments meet.  Coordinates are below 2. */
 hr2di_meeting hr2di_crossings_meet(const hr2d_segment *i, const hr2d_segment *j);
 
 /* How far p is from the line of s, to a few units in the last place. */
 double hr2di_crossings_distance(hr2d_point p, const hr2d_segment *s);
 
-/* Calls `visit` with i < j for each two segments whose boxes are within a rounding of
-   meeting, until it returns other than HR2D_OK, and returns that; HR2D_ENOMEM if there
-   is no memory.  Segments lie `stride` bytes apart. */
+/* Calls `visit` with i < j for each pair of segments whose bounding boxes meet or are within a
+   rounding of meeting.  Stops as soon as `visit` returns anything but HR2D_OK.  Returns
+   HR2D_OK, that status, or HR2D_ENOMEM.  Segments lie `stride` bytes apart. */
 hr2d_status hr2di_crossings_sweep(const hr2d_allocator *alloc, const hr2d_segment *first,
                                   size_t count, size_t stride,
                                   hr2d_status (*visit)(void *ctx, size_t i, size_t j),

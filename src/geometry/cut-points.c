@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Chooses one point for each crossing of two walls, and the same one for crossings that
-   are one place.
+/* Chooses one point for each crossing of two walls, and the same point for crossings at one
+   place.
 
-   A point P serves walls i and j if it is within two roundings of both lines: cut there,
-   both bend by no more than that and meet in P exactly, so that they cross no more.  A
-   crossing takes the nearest point that serves it among the ends and cuts of its walls,
-   else among the ends and cuts of others within two roundings, else its own.  The steeper
-   a crossing, the better its own point is known: three lines through one place take the
-   point of the two that cross most steeply, whichever way the others miss it. */
+   A point P serves walls i and j if it is within two roundings of both lines.  Walls that are
+   cut at P bend by no more than that and meet in P exactly, so that they no longer cross.  A
+   crossing takes the nearest point that serves it: first among the ends and cuts of its own
+   walls, then among the ends and cuts of other walls within two roundings; if there is none,
+   its own point.  The steeper a crossing is, the better its own point is known, so steep
+   crossings come first: three lines through one place take the point of the two that cross most
+   steeply, on whichever side of it the third line passes. */
 #include "geometry/cut-points.h"
 
 #include <math.h>
@@ -26,12 +27,12 @@ typedef struct crossing {
   double sine;
   size_t node;
   double reach;  /* two roundings */
-  double window; /* no point is within reach of both lines and further from `at` */
+  double window; /* points within reach of both lines are no farther from `at` */
 } crossing;
 
-typedef struct partners { /* that share a stretch */
+typedef struct partners { /* two walls that share a stretch */
   size_t i, j;
-  int part; /* in any case, not only if one of them is cut */
+  int part; /* cut at each other's ends even if no crossing cuts them */
 } partners;
 
 /* A point that may serve crossings nearby: an end, or a crossing once it is settled. */
@@ -51,8 +52,8 @@ typedef struct finder {
   size_t crossings, crossing_capacity;
   partners *partners;
   size_t pairs, pair_capacity;
-  int parted; /* some partners must part */
-  node *node; /* by key */
+  int parted; /* `part` of some partners is set */
+  node *node; /* sorted by key */
   size_t nodes;
 } finder;
 
@@ -60,8 +61,8 @@ static hr2d_segment directed(const hr2di_cut_wall *w, int side) {
   return side == HR2DI_FORWARD ? w->s : (hr2d_segment){w->s.b, w->s.a};
 }
 
-/* Whether patches on two walls that share a stretch hide each other, or overlap so
-   little that one of them can do without. */
+/* Whether two walls that share a stretch must be cut at each other's ends: patches on them hide
+   each other, or overlap so little that one of them can do without the stretch. */
 static int must_part(const hr2di_cut_wall *i, const hr2di_cut_wall *j) {
   for (int a = HR2DI_FORWARD; a <= HR2DI_BACKWARD; a++)
     for (int b = HR2DI_FORWARD; b <= HR2DI_BACKWARD; b++) {
@@ -110,7 +111,7 @@ static int steepest_first(const void *left, const void *right) {
   return (l->j > r->j) - (l->j < r->j);
 }
 
-/* Across a direction in which points of a lattice rarely coincide. */
+/* The position along a direction in which the points of a lattice rarely coincide. */
 static double key_of(hr2d_point p) {
   return 0.8251 * p.x + 0.5650 * p.y;
 }
@@ -160,8 +161,8 @@ static int serves(const finder *f, size_t wall, hr2d_point p, double reach) {
                                hr2di_crossings_distance(p, &f->wall[wall].s) <= reach);
 }
 
-/* The point chosen so far, and how far it is from the crossing; below 0 if both walls
-   are cut there already. */
+/* The best point so far and its distance from the crossing; the distance is SHARED if both
+   walls end or are cut there already. */
 typedef struct choice {
   hr2d_point at;
   double distance;
@@ -206,7 +207,7 @@ static void offer_neighbours(const finder *f, const crossing *c, choice *best) {
       offer(f, c, f->node[k].at, best);
 }
 
-/* Room for one cut of each wall at each crossing and each end of a partner. */
+/* Makes room for one cut of a wall at each of its crossings and at both ends of a partner. */
 static hr2d_status make_room(finder *f) {
   hr2di_cuts *cuts = f->cuts;
   const size_t room = 2 * f->crossings + 4 * f->pairs;
@@ -253,8 +254,8 @@ static void settle(finder *f, const crossing *c) {
   cut(f, c->j, best.at);
 }
 
-/* A wall that is cut bends by a rounding, away from what lay along it: where two shared
-   a stretch, that becomes a wall of its own first. */
+/* A wall that is cut bends by a rounding, away from a partner along it.  So partners are cut at
+   the ends of the stretch that they share, which makes it a wall of its own. */
 static void cut_partners(finder *f) {
   for (size_t k = 0; k < f->pairs; k++)
     f->partners[k].part |= is_cut(f, f->partners[k].i) || is_cut(f, f->partners[k].j);

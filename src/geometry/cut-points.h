@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The points at which walls are to be cut lest they cross: segments without direction,
-   of which patches use one side or both. */
+/* Where to cut walls so that no two cross.  A wall is an undirected segment; patches lie on one
+   or both of its sides. */
 #ifndef HR2D_SRC_GEOMETRY_CUT_POINTS_H
 #define HR2D_SRC_GEOMETRY_CUT_POINTS_H
 
@@ -15,8 +15,8 @@ typedef struct hr2di_cut_wall {
 
 enum { HR2DI_FORWARD = 1, HR2DI_BACKWARD = 2 };
 
-/* A stretch of up to so many roundings, a billionth of the scene, that two patches have
-   in common is an accident: at an angle of 2^-20 a rounding shifts a crossing as far. */
+/* A stretch of at most this many roundings, a billionth of the scene, that two patches share is
+   an accident: at an angle of 2^-20 a rounding shifts a crossing by as much. */
 #define HR2DI_SHORT_STRETCH 0x1p+20
 
 typedef struct hr2di_cut {
@@ -39,9 +39,9 @@ typedef struct hr2di_cuts {
   size_t places, place_capacity;
 } hr2di_cuts;
 
-/* Replaces the cuts by those of `walls` walls, no two of which have the same segment,
-   and adds to the places.  Coordinates are below 2.  HR2D_OK or HR2D_ENOMEM; without cuts
-   there is no `of`. */
+/* Replaces the cuts by the cuts of `walls` walls, and appends to `place` the points where these
+   cross.  No two walls may have the same segment.  Coordinates are below 2.  `of` may be NULL
+   if `count` is 0.  Returns HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_cuts_init(hr2di_cuts *cuts, const hr2di_cut_wall *wall, size_t walls);
 
 void hr2di_cuts_clear(hr2di_cuts *cuts);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Exact determinants where those with corrections lose digits, by Shewchuk's
-   expansions: sums of doubles that do not overlap. */
+/* Exact determinants, used where corrected ones lose digits, by Shewchuk's expansions: sums of
+   doubles that do not overlap. */
 #include "geometry/determinant.h"
 
 static double sum_tail(double x, double y, double s) {
@@ -42,8 +42,9 @@ double hr2di_det(const hr2di_vector *u, const hr2di_vector *v) {
   return sure ? det : exact_det(u, v);
 }
 
-/* Then a difference is a multiple of 2^-852 of the largest, and scaled to 2^499 each of its
-   parts is one of 2^-355 at least: products and their tails stay above 2^-710. */
+/* If they are, a difference is a multiple of 2^-852 times the largest coordinate.  Scaled to
+   2^499, each of its parts is a multiple of 2^-355, so products and their tails stay above
+   2^-710. */
 int hr2di_points_near_in_scale(const hr2d_point *points, int count) {
   double min = INFINITY, max = 0;
   for (int k = 0; k < 2 * count; k++) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Determinants of exact differences of points, to a few units in the last place.
 
-   A difference of doubles is exactly the sum of two doubles, and so is a product;
-   a 2×2 determinant of differences is the sum of at most sixteen. */
+   A difference of two doubles is exactly the sum of two doubles, and so is a product;
+   a 2×2 determinant of differences is exactly the sum of at most sixteen doubles. */
 #ifndef HR2D_SRC_GEOMETRY_DETERMINANT_H
 #define HR2D_SRC_GEOMETRY_DETERMINANT_H
 
@@ -43,8 +43,8 @@ static inline int hr2di_point_finite(hr2d_point a) {
   return isfinite(a.x) && isfinite(a.y);
 }
 
-/* Whether points, other than 0, lie within 2^800 of each other: then scaled differences lose
-   no bit, and their determinants are exact in sign. */
+/* Whether all coordinates that are not 0 are within a factor of 2^800 of each other.  If so,
+   scaled differences lose no bit, and the signs of their determinants are exact. */
 int hr2di_points_near_in_scale(const hr2d_point *points, int count);
 
 /* The rounding error of s = x − y (Knuth). */
@@ -80,18 +80,18 @@ static inline hr2di_vector hr2di_vector_difference(hr2d_point to, hr2d_point fro
   return v;
 }
 
-/* to − from for any finite points, its larger component in [2^499, 2^500).
-   Exact unless the points' last bits lie more than 2^1000 below. */
+/* to − from for any finite points; its larger component is in [2^499, 2^500).  Exact unless
+   last bits of the points are smaller than the difference by a factor above 2^1000. */
 hr2di_vector hr2di_vector_difference_scaled(hr2d_point to, hr2d_point from);
 
-/* u × v without the exponents of the vectors: exact sign, and relative error
-   below 2·2^-53.  det(−u,v) = det(u,−v) = −det(u,v) bit for bit. */
+/* u × v without the exponents of the vectors.  The sign is exact and the relative error below
+   2·2^-53.  det(−u,v) = det(u,−v) = −det(u,v) bit for bit. */
 double hr2di_det(const hr2di_vector *u, const hr2di_vector *v);
 
-/* u × v with its rounding errors of first order.  What is left out or rounded in
-   the corrections stays below 16·2^-106·size, size = |u.x v.y| + |u.y v.x|; *sure is
-   cleared where that is more than 2^-55 of the determinant.  Has no branches, and
-   changes its sign with u or v. */
+/* u × v, corrected by its rounding errors of first order.  The terms that are left out and the
+   rounding of the corrections stay below 16·2^-106·size, size = |u.x v.y| + |u.y v.x|.  *sure
+   is cleared if that is more than 2^-55 of the determinant.  Has no branches; if u or v changes
+   its sign, the result does, too, bit for bit. */
 static inline double hr2di_det_corrected(const hr2di_vector *u, const hr2di_vector *v,
                                          int *sure) {
   const double p = u->x * v->y, q = u->y * v->x, plain = p - q;
@@ -109,7 +109,7 @@ static inline hr2di_scaled hr2di_det_scaled(const hr2di_vector *u, const hr2di_v
   return hr2di_scaled_of(hr2di_det(u, v), u->e + v->e);
 }
 
-/* u · v, its error small against |u||v|. */
+/* u · v; the error is small beside |u||v|. */
 static inline double hr2di_vector_dot(const hr2di_vector *u, const hr2di_vector *v) {
   return u->x * v->x + u->y * v->y;
 }

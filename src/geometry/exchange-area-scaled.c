@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Exchange areas in numbers of unbounded exponent.
+/* Exchange areas in numbers whose exponent is an int, see base/scaled-double.h.
 
    The formulas are derived in exchange-area.c.  Every difference vector and every
    determinant has an exponent of its own, so that a denormal segment beside one of

@@ -32,7 +32,8 @@ typedef struct determinants {
   double abc, abd, cda, cdb;
 } determinants;
 
-/* K/(pq+E) or its equal without cancellation, times T over one denominator. */
+/* K/(pq+E) or (pq−E)/K, which are equal, whichever does not cancel; times T over a common
+   denominator. */
 static inline double facing_area(determinants o, double p, double q, double e, double ad,
                                  double bc) {
   const double k = o.abc + o.cda;
@@ -43,8 +44,8 @@ static inline double facing_area(determinants o, double p, double q, double e, d
   return numerator * terms / ((at_ad * at_bc) * denominator);
 }
 
-/* A plain determinant and the sum of its products' sizes, of which its rounding
-   error is at most 3·2^-53, and another 2^-53 of itself. */
+/* A plain determinant and the sum of the sizes of its products.  Its rounding error is at most
+   3·2^-53 of `size`, plus 2^-53 of itself. */
 typedef struct plain {
   double det, size;
 } plain;
@@ -61,10 +62,9 @@ static inline int surely_negative(plain x) {
   return x.det <= -0x1p-50 * x.size - 0x1p-900;
 }
 
-/* AF of a well-conditioned facing pair with coordinate differences below 2^50, so
-   that no product here leaves 2^±900; 0 if one segment is plainly behind the other;
-   −1 for every other pair.  Without branches, so that the compiler can do several
-   pairs at once. */
+/* Returns AF of a well-conditioned facing pair with coordinate differences below 2^50, so that
+   no product here leaves 2^±900; 0 if one segment is clearly behind the other; −1 for every
+   other pair.  Has no branches, so that the compiler can do several pairs at once. */
 static inline double plain_area(hr2d_point a, hr2d_point b, hr2d_point c, hr2d_point d) {
   const double ux = b.x - a.x, uy = b.y - a.y, vx = d.x - c.x, vy = d.y - c.y;
   const double wx = c.x - a.x, wy = c.y - a.y, zx = d.x - b.x, zy = d.y - b.y;
@@ -84,7 +84,7 @@ static inline double plain_area(hr2d_point a, hr2d_point b, hr2d_point c, hr2d_p
   return good ? area : none ? 0 : -1;
 }
 
-/* Differences of the end points, rounded; lengths need no more. */
+/* The rounded differences of the end points, which are good enough for lengths. */
 typedef struct quadrilateral {
   hr2d_point ab, cd, ac, bd, ad, bc;
 } quadrilateral;
@@ -115,10 +115,10 @@ static double crossing_area(double length_i, double length_j, double dot, double
   return less * (more / sum) * ((product - dot) / product);
 }
 
-/* Where j dips behind i at d', the points d', a, b lie on one line in this order:
-   |bd'| − |ad'| = |ab|, and of the strings the excess of the triangle abc at a is
-   left; likewise for the other ends.  If j crosses i itself, both are cut at X.  No
-   other two determinants of a visible pair are negative, since A + C = B + D. */
+/* If j dips behind i at d', the points d', a, b lie on one line in this order, so that
+   |bd'| − |ad'| = |ab|, and the strings reduce to the excess of the triangle abc at a; likewise
+   for the other ends.  If j crosses i itself, both are cut at X.  No other two determinants of
+   a visible pair are negative, since A + C = B + D. */
 static double clipped_area(const quadrilateral *s, determinants o) {
   const double u = length(s->ab), v = length(s->cd), uv = hr2di_point_dot(s->ab, s->cd);
   if (o.abd < 0 && o.cda < 0)
@@ -134,7 +134,7 @@ static double clipped_area(const quadrilateral *s, determinants o) {
   return corner_area(v, length(s->ac), -hr2di_point_dot(s->ac, s->cd), o.cda, length(s->ad));
 }
 
-/* AF from determinants that have all their digits; plain coordinates. */
+/* AF from determinants that have all their digits, for plain coordinates. */
 static double area_of(const hr2d_segment *i, const hr2d_segment *j, determinants o) {
   if ((o.abc <= 0 && o.abd <= 0) || (o.cda <= 0 && o.cdb <= 0)) return 0;
   const quadrilateral s = {hr2di_point_minus(i->b, i->a), hr2di_point_minus(j->b, j->a),
@@ -151,8 +151,8 @@ static double area_of(const hr2d_segment *i, const hr2d_segment *j, determinants
   return e >= 0 ? k / (p * q + e) * t : (p * q - e) / k * t;
 }
 
-/* The determinants with corrections of first order, abc = NaN if that is not
-   enough.  Plain coordinates; without branches. */
+/* The determinants with corrections of first order; abc is NaN if these are not enough.  For
+   plain coordinates.  Has no branches. */
 static inline determinants corrected(hr2d_point a, hr2d_point b, hr2d_point c, hr2d_point d) {
   const hr2di_vector ab = hr2di_vector_difference(b, a), cd = hr2di_vector_difference(d, c);
   const hr2di_vector ac = hr2di_vector_difference(c, a), bd = hr2di_vector_difference(d, b);
@@ -191,7 +191,7 @@ double hr2d_exchange_area(const hr2d_segment *i, const hr2d_segment *j) {
   return careful_area(i, j, corrected(i->a, i->b, j->a, j->b));
 }
 
-/* Pairs per block: all a block needs stays in the first-level cache. */
+/* Pairs per block: the data of a block stay in the first-level cache. */
 enum { BLOCK = 128 };
 
 /* The end points of a block of pairs, as arrays for the compiler to vectorise. */
@@ -213,7 +213,8 @@ static inline hr2d_segment second(const block *p, size_t k) {
   return (hr2d_segment){{p->cx[k], p->cy[k]}, {p->dx[k], p->dy[k]}};
 }
 
-/* Moves the pairs that plain_area() left to the front; returns how many. */
+/* Takes the pairs that plain_area() did not decide.  Those with plain coordinates move to the
+   front: returns how many, with their old positions in `place`.  The others are done here. */
 static size_t collect(block *p, size_t n, double *area, size_t *place) {
   size_t left = 0;
   for (size_t k = 0; k < n; k++) {

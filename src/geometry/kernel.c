@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The kernel G of equation (1), without ever forming r³.
 
-   With h_y the distance of y from the line of i and h_x that of x from the line
-   of j, cosθx = h_y/r and cosθy = h_x/r.  The distances come from the end points of
-   the segments, so that a point rounded off its own segment does no harm.
+   Let h_y be the distance of y from the line of i, and h_x the distance of x from the line
+   of j.  Then cosθx = h_y/r and cosθy = h_x/r.  The distances are computed from the end points
+   of the segments, so it does no harm if a point is rounded off its own segment.
 
-   In roundings of 2^-53 a determinant is good to 2, a length to 3, and so a cosine to
-   2 + 3 + 3 and 2 divisions, and G to 10 + 10 + 3 and 2 operations. */
+   Errors in units of 2^-53: a determinant has 2, a length 3, hence a cosine 2 + 3 + 3 and 2
+   divisions, and G 10 + 10 + 3 and 2 operations. */
 #include <hr2d/geometry.h>
 #include <math.h>
 
 #include "geometry/determinant.h"
 #include "geometry/predicates.h"
 
-/* cosθ = orient(abp)/(|ab| r); negative behind the segment. */
+/* cosθ = orient(abp)/(|ab| r); 0 if p is not in front of the segment. */
 static hr2di_scaled cosine(const hr2d_segment *s, hr2d_point p, hr2di_scaled r) {
   const hr2di_vector ab = hr2di_vector_difference_scaled(s->b, s->a);
   const hr2di_scaled det = hr2di_orient_scaled(s->a, s->b, p);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Orientations of any three finite points, in fixed point.
 
-   (b−a)×(c−a) = a×b + b×c + c×a is a sum of six products of doubles.  Each is an integer
-   below 2^106 times a power of two from −2148 to 1942, so that all of them are integers of
-   4200 bits in one unit. */
+   (b−a)×(c−a) = a×b + b×c + c×a is a sum of six products of doubles.  Each product is an
+   integer below 2^106 times 2^k with k from −2148 to 1942, so that all of them are integers of
+   4200 bits in units of 2^-2148. */
 #include "geometry/orient-exact.h"
 
 #include <stdint.h>
@@ -58,7 +58,8 @@ static int carry(fixed *f) {
   return f->limb[LIMBS - 1] < 0 ? -1 : 1;
 }
 
-/* Of three limbs at least 65 bits count: a relative error of 2^-53 and 2^-64. */
+/* The top three limbs have at least 65 significant bits: the relative error is 2^-53 for
+   rounding and 2^-64 for the other limbs. */
 static hr2di_scaled value_of(fixed *f) {
   const int sign = carry(f);
   if (sign < 0) {

@@ -7,7 +7,7 @@
 
 #include "base/scaled-double.h"
 
-/* (b−a)×(c−a) for any finite points: its sign is exact, and its relative error below
+/* (b−a)×(c−a) for any finite points.  The sign is exact, and the relative error is below
    1.001·2^-53. */
 hr2di_scaled hr2di_orient_exact(hr2d_point a, hr2d_point b, hr2d_point c);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Turns of points that lie on the line of i or of j. */
+/* Orientation of points that lie on the line of i or of j. */
 #include "geometry/orient-incident.h"
 
-/* Two of the three lie on one line. */
+/* Two of the three points lie on the line of `bit`; their order on it decides. */
 static int turn_on_line(const hr2di_axis *axis, unsigned bit, hr2di_incident_point p,
                         hr2di_incident_point q, hr2di_incident_point r) {
   if (!(p.on & bit)) return hr2di_axis_order(axis, q.at, r.at);

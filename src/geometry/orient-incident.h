@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Points about a pair of segments, and the turns they make.
+/* Points around a pair of segments i and j, and how three of them turn: left, right or not.
 
-   Feet of walls, clipped ends, midpoints and rounded T-junctions lie on the line of i or
-   of j but for rounding, and among points on one line rounding would decide.  So each
-   point knows on which of the two lines it lies; two on a line and a third in front of it
-   turn as their order on the line says, and three on a line do not turn. */
+   Points where walls meet the line of i or of j, clipped ends, midpoints and rounded
+   T-junctions lie on that line only up to rounding, and rounding would decide how points on
+   one line turn.  So each point records on which of the two lines it lies.  If two points lie
+   on a line and the third in front of it, the order of the two on the line decides the turn.
+   Three points on one line do not turn. */
 #ifndef HR2D_SRC_GEOMETRY_ORIENT_INCIDENT_H
 #define HR2D_SRC_GEOMETRY_ORIENT_INCIDENT_H
 
@@ -16,10 +17,11 @@ enum { HR2DI_ON_I = 1, HR2DI_ON_J = 2, HR2DI_ON_BOTH = 3 };
 
 typedef struct hr2di_incident_point {
   hr2d_point at;
-  unsigned on; /* lines on which it lies; it is in front of the other */
+  unsigned on; /* HR2DI_ON_…: the lines on which it lies; it is in front of the others */
 } hr2di_incident_point;
 
-/* A line, with its front on the left, and the coordinate that grows along it. */
+/* A line with its front on the left, and the coordinate (x if by_x) that orders its points:
+   it grows along the line if `direction` is 1 and falls if it is −1. */
 typedef struct hr2di_axis {
   hr2d_point a, b;
   int by_x;
@@ -36,17 +38,17 @@ static inline hr2di_axis hr2di_axis_of(hr2d_segment s) {
   return (hr2di_axis){s.a, s.b, by_x, (by_x ? dx : dy) > 0 ? 1 : -1};
 }
 
-/* How q lies to p along a line: 1 ahead, −1 behind. */
+/* Where q lies from p along a line: 1 ahead, −1 behind, 0 at p. */
 static inline int hr2di_axis_order(const hr2di_axis *axis, hr2d_point p, hr2d_point q) {
   return hr2di_sign_of(axis->direction * (axis->by_x ? q.x - p.x : q.y - p.y));
 }
 
-/* Both lie where the two lines meet. */
+/* Whether both points lie where the two lines meet. */
 static inline int hr2di_incident_corners(hr2di_incident_point p, hr2di_incident_point q) {
   return (p.on & q.on) == HR2DI_ON_BOTH;
 }
 
-/* The turn of points of which two lie on one line. */
+/* hr2di_orient_incident() if at least two of the points lie on one of the lines. */
 int hr2di_orient_incident_on_line(const hr2di_pair_lines *frame, const hr2di_incident_point *p,
                                   const hr2di_incident_point *q, const hr2di_incident_point *r);
 
@@ -58,7 +60,7 @@ static inline int hr2di_orient_incident(const hr2di_pair_lines *frame, hr2di_inc
   return hr2di_orient_sign(p.at, q.at, r.at);
 }
 
-/* One place, but for rounding across a line. */
+/* Whether two points are one place, up to rounding across a line. */
 static inline int hr2di_incident_same(const hr2di_pair_lines *frame, hr2di_incident_point p,
                                       hr2di_incident_point q) {
   if (hr2di_point_same(p.at, q.at) || hr2di_incident_corners(p, q)) return 1;

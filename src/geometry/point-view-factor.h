@@ -6,11 +6,11 @@
 #include <hr2d/geometry.h>
 #include <math.h>
 
-/* ½(sin θ_d − sin θ_c) for a point with this unit normal that sees c at C and d at D from it, d
-   on the left of c.  With M = C/|C| + D/|D| halving the angle δ between them this is
-   sin(δ/2) cos θ_M = (C×D)/(|C||D||M|) · n·M/|M|, and |M|² = 2(1 + C·D/(|C||D|)): nothing
-   cancels.  A segment that begins at the point covers all up to the horizon on that side, as
-   from a point just before it. */
+/* ½(sin θ_d − sin θ_c) for a point with this unit normal.  The ends of the segment lie at C and
+   D from the point, D on the left of C.  M = C/|C| + D/|D| halves the angle δ between them, so
+   this is sin(δ/2) cos θ_M = (C×D)/(|C||D||M|) · n·M/|M| with |M|² = 2(1 + C·D/(|C||D|)):
+   nothing cancels.  A segment with an end at the point itself covers everything up to the
+   horizon on that side, as it does from a point just before it. */
 static inline double hr2di_point_view_factor(hr2d_point normal, hr2d_point c, hr2d_point d) {
   if (c.x == 0 && c.y == 0) c = (hr2d_point){normal.y, -normal.x};
   if (d.x == 0 && d.y == 0) d = (hr2d_point){-normal.y, normal.x};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* On which side, and whether at all: decisions from exact signs. */
+/* Sides, crossings and facing, decided by exact signs. */
 #include "geometry/predicates.h"
 
 #include "geometry/determinant.h"
@@ -40,8 +40,9 @@ int hr2d_orientation(hr2d_point a, hr2d_point b, hr2d_point c) {
   return (det > 0) - (det < 0);
 }
 
-/* A difference has the sign of the exact one, and so has a product of which the other is
-   0: that is how it is with lines along an axis, and where c is a or b. */
+/* A rounded difference has the sign of the exact difference.  So if one of the two products of
+   the determinant is 0, the signs of the factors of the other decide.  This is the case for
+   lines along an axis and for c = a; c = b is tested by itself. */
 int hr2di_orient_sign_exact(hr2d_point a, hr2d_point b, hr2d_point c) {
   const double ux = b.x - a.x, uy = b.y - a.y, wx = c.x - a.x, wy = c.y - a.y;
   if (ux == 0 || wy == 0) return -hr2di_sign_of(uy) * hr2di_sign_of(wx);

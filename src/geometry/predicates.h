@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Determinants with full relative accuracy, and what follows from their signs. */
+/* Determinants with full relative accuracy, and decisions by their signs. */
 #ifndef HR2D_SRC_GEOMETRY_PREDICATES_H
 #define HR2D_SRC_GEOMETRY_PREDICATES_H
 
@@ -7,16 +7,16 @@
 
 #include "base/scaled-double.h"
 
-/* (b−a)×(c−a) for any finite points, to 2·2^-53 of itself and with its exact sign; m is not
-   brought into [½,1). */
+/* (b−a)×(c−a) for any finite points.  The sign is exact and the relative error at most 2·2^-53.
+   m is not normalised to [½,1). */
 hr2di_scaled hr2di_orient_scaled(hr2d_point a, hr2d_point b, hr2d_point c);
 
 /* (b−a)×(c−a), twice the signed area of the triangle, to a few units in the last
-   place.  It may underflow: where only the sign matters, hr2d_orientation() has it. */
+   place.  It may underflow; use hr2d_orientation() where only the sign matters. */
 double hr2di_orient(hr2d_point a, hr2d_point b, hr2d_point c);
 
 /* Where p→q meets the line through a and b, as a fraction of p→q, to a few units in the
-   last place; nothing under- or overflows.  NaN if it runs along the line. */
+   last place; nothing under- or overflows.  NaN if p and q lie on the line. */
 double hr2di_line_crossing(hr2d_point a, hr2d_point b, hr2d_point p, hr2d_point q);
 
 /* How two segments see each other's fronts, exactly. */

@@ -23,7 +23,8 @@ static inline double hr2di_point_cross(hr2d_point u, hr2d_point v) {
   return u.x * v.y - u.y * v.x;
 }
 
-/* The coordinate of p that grows from s.a to s.b, or its negative: orders points of a line. */
+/* A coordinate of p, or its negative, that grows from s.a to s.b: it orders points on the line
+   of s. */
 static inline double hr2di_point_along(hr2d_segment s, hr2d_point p) {
   const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
   if (fabs(dx) >= fabs(dy)) return dx > 0 ? p.x : -p.x;
