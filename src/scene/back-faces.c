@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Backs, less what other patches cover: those of two-sided patches, and of such as lie
-   back to back in part. */
+/* The parts of patch backs that no other patch covers. */
 #include "scene/back-faces.h"
 
 #include "base/alloc.h"
 #include "geometry/orient-sign.h"
 #include "scene/scene-impl.h"
 
-/* Whether t lies along s, on its line and in its direction. */
+/* Whether t shares a stretch with s, on one line and in the same direction. */
 static int lies_along(hr2d_segment s, hr2d_segment t) {
   return hr2di_orient_sign(s.a, s.b, t.a) == 0 && hr2di_orient_sign(s.a, s.b, t.b) == 0 &&
          hr2di_point_along(s, t.a) < hr2di_point_along(s, t.b) &&
@@ -24,7 +23,7 @@ static hr2d_status add(const hr2d_scene *scene, hr2di_backs *backs, uint32_t pat
   return HR2D_OK;
 }
 
-/* Takes t away from the parts of a back that begin at `first`. */
+/* Removes t from the parts of one back, which are the items from `first` on. */
 static hr2d_status cover(const hr2d_scene *scene, hr2di_backs *backs, size_t first,
                          hr2d_segment t) {
   hr2d_status status = HR2D_OK;

@@ -17,8 +17,8 @@ typedef struct hr2di_backs {
   size_t count, capacity;
 } hr2di_backs;
 
-/* Appends the parts of backs that no patch covers with its front; HR2D_OK or HR2D_ENOMEM,
-   with some of them appended.  O(n²). */
+/* Appends the parts of backs that no patch covers with its front.  Returns HR2D_OK, or
+   HR2D_ENOMEM with some of the parts appended.  Cost O(n²). */
 hr2d_status hr2di_backs_init(const hr2d_scene *scene, hr2di_backs *backs);
 
 #endif

@@ -27,7 +27,7 @@ hr2d_status hr2di_scene_check_bands(hr2d_scene *scene) {
   return HR2D_OK;
 }
 
-/* Divides by 2^exponent; 0 if that loses a digit. */
+/* Divides by 2^exponent.  Returns 0 if that loses a digit, else 1. */
 static int scale_point(hr2d_point given, int exponent, hr2d_point *scaled) {
   scaled->x = ldexp(given.x, -exponent);
   scaled->y = ldexp(given.y, -exponent);
@@ -43,7 +43,8 @@ static double largest_coordinate(const hr2d_scene *scene) {
   return max;
 }
 
-/* So few roundings across a scene leave nothing to decide what touches a line. */
+/* A scene that is fewer roundings across than this has too few digits to decide which points
+   touch a line. */
 #define FEWEST_ROUNDINGS 0x1p+10
 
 static double extent(const hr2d_scene *scene) {
@@ -56,8 +57,8 @@ static double extent(const hr2d_scene *scene) {
   return fmax(high.x - low.x, high.y - low.y);
 }
 
-/* Whether no patch has an end of another behind it, by exact signs; two cannot be in each
-   other's way anyhow. */
+/* Whether no patch has an end of another behind it, by exact signs.  One or two patches always
+   count as convex: nothing can stand between them. */
 static int is_convex(const hr2d_scene *scene) {
   for (size_t k = 0; k < scene->patches && scene->patches > 2; k++) {
     const hr2d_segment s = scene->patch[k].scaled;
@@ -119,7 +120,7 @@ static hr2d_status fail_crossing(hr2d_scene *scene, size_t i, size_t j, hr2d_poi
                             at.x, at.y);
 }
 
-/* Where, and along which length, two patches lie on one another. */
+/* The stretch on which two patches lie on one another, and its length. */
 static hr2di_label describe_stretch(const hr2d_scene *scene, const hr2di_meeting *m) {
   const hr2d_point p = in_scene_lengths(scene, m->from), q = in_scene_lengths(scene, m->to);
   hr2di_label label;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commit: what is found out once about a scene, and from then on only read. */
+/* Commit: checks and analyses a scene once; from then on the scene is only read. */
 #include "base/alloc.h"
 #include "scene/scene-impl.h"
 

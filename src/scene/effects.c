@@ -85,7 +85,7 @@ static void set_pair(hr2d_scene *scene, hr2d_effect effect, const char *what, si
   set(scene, effect, 1, "%s and %s %s", first.text, second.text, what);
 }
 
-/* Returns how many pairs see each other. */
+/* Returns how many pairs face each other. */
 static size_t analyse_pairs(hr2d_scene *scene) {
   set(scene, HR2D_EFFECT_TWO_SIDED, 0, "no two patches stand back to back, end to end");
   set(scene, HR2D_EFFECT_FACING, 0, "patches see each other wholly or not at all");
@@ -107,7 +107,7 @@ static size_t analyse_pairs(hr2d_scene *scene) {
   return seen;
 }
 
-/* A forced effect is on for that reason alone where the scene does not call for it. */
+/* Turns on the forced effects that the scene does not call for; their reasons say so. */
 static void force(hr2d_scene *scene) {
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
     scene->effect[e].called_for = scene->effect[e].on;

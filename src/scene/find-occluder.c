@@ -6,7 +6,7 @@
 #include "occlusion/pair-visibility.h"
 #include "scene/scene-impl.h"
 
-/* A patch with the whole scene on one side of its line can stand between nothing. */
+/* A patch whose line has the whole scene on one side cannot stand between two patches. */
 static int on_hull(const hr2d_scene *scene, size_t k) {
   const hr2d_segment w = scene->patch[k].scaled;
   int left = 0, right = 0;
@@ -26,7 +26,7 @@ static int all_on_hull(const hr2d_scene *scene) {
   return 1;
 }
 
-/* The first patch of a wall's body that is in the way itself. */
+/* The first patch in the body of `wall` that reaches into the shaft itself. */
 static size_t patch_in_way(const hr2d_scene *scene, const hr2di_shaft *shaft, uint32_t wall) {
   const hr2di_walls *walls = &scene->walls;
   for (size_t k = 0; k < scene->patches; k++) {

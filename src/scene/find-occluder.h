@@ -11,8 +11,9 @@ typedef struct hr2di_occlusion {
   size_t i, j, occluder; /* the first found */
 } hr2di_occlusion;
 
-/* Looks for a patch that reaches into the shaft of two others.  O(n²) where all
-   patches lie on the hull of the scene, else O(n³) until one is found. */
+/* Searches for a patch that reaches into the shaft of two others.  Returns HR2D_OK, or
+   HR2D_ENOMEM with a message.  Cost O(n²) if all patches lie on the hull of the scene, else up
+   to O(n³), until one is found. */
 hr2d_status hr2di_occluder_find(hr2d_scene *scene, hr2di_occlusion *found);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Patches to runs, by sorting them along their walls. */
+/* Makes runs of patches by sorting the patches along their walls. */
 #include "scene/patch-runs.h"
 
 #include <math.h>
@@ -10,8 +10,8 @@
 
 typedef struct place {
   uint32_t wall;
-  int forward;  /* the patch points the way of its wall */
-  double along; /* where it starts, growing the way it points */
+  int forward;  /* the coordinate along the wall grows along the patch */
+  double along; /* the coordinate of its start, negative if it falls along the patch */
   uint32_t patch;
 } place;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs: the patches along one side of a wall, in the order of its direction. */
+/* Runs: the patches along one side of a wall, in the order of their common direction. */
 #ifndef HR2D_SRC_SCENE_PATCH_RUNS_H
 #define HR2D_SRC_SCENE_PATCH_RUNS_H
 
@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 typedef struct hr2di_run {
-  uint32_t first, last; /* of hr2di_runs::patch */
+  uint32_t first, last; /* items [first, last) of hr2di_runs::patch */
 } hr2di_run;
 
 typedef struct hr2di_runs {
@@ -18,8 +18,8 @@ typedef struct hr2di_runs {
   size_t runs;
 } hr2di_runs;
 
-/* The runs of a committed scene; HR2D_OK or HR2D_ENOMEM.  To be ended by
-   hr2di_runs_clear() in either case. */
+/* Makes the runs of a committed scene.  Returns HR2D_OK or HR2D_ENOMEM; in either case the
+   caller calls hr2di_runs_clear(). */
 hr2d_status hr2di_runs_init(hr2di_runs *runs, const hr2d_scene *scene);
 void hr2di_runs_clear(hr2di_runs *runs);
 

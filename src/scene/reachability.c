@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which patches light can reach at all: those that are joined to a source by a way from
-   patch to patch that see each other.  No other patch needs a link. */
+/* Finds the patches that light can reach: from a source over a chain of patches, each of which
+   sees the next.  No other patch needs a link. */
 #include "base/alloc.h"
 #include "occlusion/pair-visibility.h"
 #include "scene/scene-impl.h"
 
-/* A search that goes out from the sources. */
+/* A search that starts from the sources. */
 typedef struct search {
   hr2d_scene *scene;
   hr2di_visibility visibility;
-  uint32_t *reached; /* patches, in the order in which light comes to them */
+  uint32_t *reached; /* lit patches: sources, then others in the order of the search */
   size_t count;
 } search;
 
@@ -19,7 +19,8 @@ static int emits(const hr2d_scene *scene, size_t patch) {
   return 0;
 }
 
-/* Whether j surely sees i; or, `exactly`, whether it does. */
+/* *seen becomes 1 if i and j see each other, else 0.  Without `exactly` it may be 0 though they
+   do. */
 static hr2d_status sees(search *s, size_t i, size_t j, int exactly, int *seen) {
   const hr2d_segment p = s->scene->patch[i].scaled, q = s->scene->patch[j].scaled;
   hr2di_shaft shaft;
@@ -39,7 +40,7 @@ static hr2d_status sees(search *s, size_t i, size_t j, int exactly, int *seen) {
   return status;
 }
 
-/* Light goes on from one patch that it has reached to all that are still dark. */
+/* Lights all dark patches that see reached[from]. */
 static hr2d_status spread_from(search *s, size_t from, int exactly) {
   unsigned char *dark = s->scene->dark;
   for (size_t k = 0; k < s->scene->patches; k++) {
@@ -53,7 +54,7 @@ static hr2d_status spread_from(search *s, size_t from, int exactly) {
   return HR2D_OK;
 }
 
-/* From number `from` on to all that surely see one that it has reached. */
+/* Lights all dark patches that surely see reached[from] or a patch reached after it. */
 static hr2d_status spread_surely(search *s, size_t from) {
   hr2d_status status = HR2D_OK;
   for (size_t k = from; k < s->count && s->count < s->scene->patches && !status; k++)
@@ -61,8 +62,8 @@ static hr2d_status spread_surely(search *s, size_t from) {
   return status;
 }
 
-/* Most patches see some lit one without much in the way.  For the others each lit one is
-   looked at exactly. */
+/* Most patches see some lit patch with little in the way.  The others are tested exactly
+   against each lit patch. */
 static hr2d_status spread(search *s) {
   hr2d_status status = spread_surely(s, 0);
   for (size_t k = 0; k < s->count && s->count < s->scene->patches && !status; k++) {
@@ -73,7 +74,8 @@ static hr2d_status spread(search *s) {
   return status;
 }
 
-/* Light from the background may come to any patch. */
+/* Whether no search is needed: every patch emits, light from the background may come to any
+   patch, or the effect of emission is forced. */
 static int all_lit(const hr2d_scene *scene) {
   if (scene->effect[HR2D_EFFECT_EMISSION].forced ||
       scene->effect[HR2D_EFFECT_BACKGROUND].called_for)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a scene is made of, for the modules that build, check and read it. */
+/* The struct of a scene, for the modules that build, check and read it. */
 #ifndef HR2D_SRC_SCENE_SCENE_IMPL_H
 #define HR2D_SRC_SCENE_SCENE_IMPL_H
 
@@ -8,9 +8,9 @@
 #include "base/message.h"
 #include "occlusion/walls.h"
 
-/* What a patch emits and reflects: shared by the segments of a feature, by both sides of a
-   patch and by the pieces of one, lest a file of many values and many segments take their
-   product. */
+/* Emission and reflectance of a patch.  The segments of a feature, both sides of a patch and
+   the pieces of a patch share one: otherwise a file of many values and many segments would take
+   memory for the product of their numbers. */
 typedef struct hr2di_light {
   size_t users;
   double value[]; /* emission, then reflectance */
@@ -36,8 +36,8 @@ struct hr2d_scene {
   double *background; /* background_bands values; NULL for none */
   size_t background_bands;
   int exponent;        /* the unit is 2^exponent */
-  hr2di_walls walls;   /* what can be in the way; made by commit */
-  unsigned char *dark; /* per patch: no light reaches it; NULL where none is */
+  hr2di_walls walls;   /* the occluders; made by commit */
+  unsigned char *dark; /* per patch: 1 if no light reaches it; NULL if light reaches all */
   struct {
     int on;
     int called_for; /* on although not forced */
@@ -51,26 +51,26 @@ const hr2d_allocator *hr2di_scene_allocator(const hr2d_scene *scene);
 hr2di_message *hr2di_scene_message(hr2d_scene *scene);
 int hr2di_scene_committed(const hr2d_scene *scene);
 
-/* As hr2d_scene_add(), with the E and ρ of the patch added last. */
+/* As hr2d_scene_add(), but with the E and ρ of the patch that was added last. */
 hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch);
 
-/* One user less. */
+/* Ends one use of a light; the last frees it.  NULL is allowed. */
 void hr2di_light_release(const hr2d_allocator *alloc, hr2di_light *light);
 
-/* Takes back all but the first `patches` patches. */
+/* Removes all patches but the first `patches`. */
 void hr2di_scene_truncate(hr2d_scene *scene, size_t patches);
 
-/* How messages name a patch: patch 3 ("wall"). */
+/* A patch as messages name it: patch 3 ("wall"). */
 typedef struct hr2di_label {
   char text[112];
 } hr2di_label;
 
 hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch);
 
-/* Takes back what commit has made. */
+/* Removes the results of commit. */
 void hr2di_scene_clear_commit(hr2d_scene *scene);
 
-/* The parts of commit, in their order: each leaves a message if it fails. */
+/* Parts of commit, in the order of their calls.  Each leaves a message if it fails. */
 hr2d_status hr2di_scene_check_bands(hr2d_scene *scene);
 hr2d_status hr2di_scene_scale(hr2d_scene *scene);
 hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene);

@@ -68,7 +68,7 @@ int hr2di_scene_committed(const hr2d_scene *scene) {
   return scene->committed;
 }
 
-/* The name of a patch to be added, or of its back. */
+/* Allocates the name of a patch to be added, or of its back. */
 static char *make_name(hr2d_scene *scene, const char *name, size_t index, int back) {
   char numbered[32];
   snprintf(numbered, sizeof numbered, "patch %zu", index);
@@ -80,7 +80,8 @@ static char *make_name(hr2d_scene *scene, const char *name, size_t index, int ba
   return made;
 }
 
-/* One user, and room for its value besides: a light begins with no more than a double. */
+/* Makes a light with one user.  The part before its values takes no more room than a double, so
+   one double more than there are values is enough. */
 static hr2di_light *make_light(const hr2d_scene *scene, const hr2d_patch *patch) {
   static_assert(offsetof(hr2di_light, value) <= sizeof(double), "counts of users are small");
   const size_t e = patch->emission_bands, r = patch->reflectance_bands;
@@ -110,7 +111,8 @@ static hr2d_status add_side(hr2d_scene *scene, const hr2d_patch *patch, size_t i
   return HR2D_OK;
 }
 
-/* Takes the caller's share of the light; NULL where it could not be made. */
+/* Ends the caller's use of the light, also on failure.  `light` is NULL if there was no memory
+   for it. */
 static hr2d_status add_sides(hr2d_scene *scene, const hr2d_patch *patch, hr2di_light *light) {
   const size_t front = scene->patches;
   hr2d_status status = light ? add_side(scene, patch, front, 0, light) : HR2D_ENOMEM;
@@ -269,7 +271,7 @@ hr2d_status hr2d_scene_find(const hr2d_scene *scene, const char *name, size_t *p
   return HR2D_EINVAL;
 }
 
-/* The value of a band among `bands` values, of which one holds for every band. */
+/* The value of a band: a single value holds for every band, no value means 0. */
 static double band_value(const double *value, size_t bands, size_t band) {
   return bands == 0 ? 0 : value[bands == 1 ? 0 : band];
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cuts patches that cross into pieces that touch; and patches that share a stretch within
-   rounding, where it begins and ends, lest cuts bend them apart: patches back to back are
-   then exactly so. */
+/* Cuts patches that cross into pieces that touch.  Patches that share a stretch within rounding
+   are cut at its ends, too, so that other cuts do not bend them apart: patches back to back are
+   then exactly back to back. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,10 +12,10 @@
 #include "geometry/cut-points.h"
 #include "scene/scene-impl.h"
 
-/* Points that are rounded bend the pieces, which may then meet others by a rounding
-   more than before; those are cut there in the next round, at the points that are there
-   already.  Two or three rounds do, up to ten in bundles of patches a few roundings
-   apart; that this always ends is not proved. */
+/* Rounded points bend the pieces, so that a piece may go through others by a rounding more than
+   before.  The next round cuts them there, at points that exist already.  Two or three rounds
+   are enough, up to ten for bundles of patches a few roundings apart.  It is not proved that
+   this always ends. */
 #define MOST_ROUNDS 32
 
 typedef struct piece {
@@ -27,12 +27,12 @@ typedef struct piece {
 typedef struct splitter {
   hr2d_scene *scene;
   const hr2d_allocator *alloc;
-  piece *piece; /* by patch, in its direction */
+  piece *piece; /* ordered by patch, then along its direction */
   size_t pieces, capacity;
-  piece *cut_piece; /* those of the next round */
+  piece *cut_piece; /* the pieces of the next round */
   size_t cut_pieces, cut_capacity;
-  hr2di_cut_wall *wall; /* the segments without direction, each once */
-  size_t *wall_of;      /* of a piece */
+  hr2di_cut_wall *wall; /* the undirected segments of pieces, each once */
+  size_t *wall_of;      /* per piece: its wall */
   size_t walls;
   hr2di_cuts cuts;
 } splitter;
@@ -62,7 +62,7 @@ static int by_segment(const void *left, const void *right) {
   return (l->piece > r->piece) - (l->piece < r->piece);
 }
 
-/* Patches back to back are one wall, lest they be cut at different points. */
+/* Patches back to back are one wall, so that both are cut at the same points. */
 static hr2d_status make_walls(splitter *p) {
   place *sorted = hr2di_alloc(p->alloc, p->pieces, sizeof *sorted);
   hr2di_alloc_free(p->alloc, p->wall);
@@ -147,14 +147,14 @@ static int is_whole(const splitter *p, size_t k) {
 
 static int is_short(const splitter *p, const piece *part) {
   const hr2d_segment *s = &part->s, *whole = &p->scene->patch[part->patch].scaled;
-  /* Far from the origin roundings are large, and what they are of a patch is not. */
+  /* Far from the origin roundings are large, so it must also be short beside the patch. */
   const double max = fmin(HR2DI_SHORT_STRETCH * hr2di_crossings_rounding(whole, whole),
                           hypot(whole->b.x - whole->a.x, whole->b.y - whole->a.y) * 0x1p-20);
   return hypot(s->b.x - s->a.x, s->b.y - s->a.y) <= max;
 }
 
-/* Two patches that pass two points within roundings have the stretch between these in
-   common.  One piece is left out, if it is that short. */
+/* Two patches that pass the same two points within roundings share the stretch between these
+   points.  If the stretch is short, one of the two pieces is left out. */
 static hr2d_status leave_copies_out(splitter *p) {
   char *seen = hr2di_alloc_zero(p->alloc, p->walls, 1);
   if (!seen) return HR2D_ENOMEM;
@@ -168,7 +168,8 @@ static hr2d_status leave_copies_out(splitter *p) {
   return HR2D_OK;
 }
 
-/* Takes over nothing from `whole`. */
+/* Makes a patch of a piece of `whole`.  It has its own name and its own use of the light, so
+   that `whole` can be freed. */
 static hr2d_status make_piece(splitter *p, const hr2di_patch *whole, const piece *part,
                               size_t number, hr2di_patch *made) {
   const int e = p->scene->exponent;
@@ -188,7 +189,7 @@ static void free_patch(const hr2d_allocator *alloc, const hr2di_patch *patch) {
   hr2di_light_release(alloc, patch->light);
 }
 
-/* Frees those of the first `count` patches made that are pieces. */
+/* Frees the pieces among the first `count` patches made, but not the whole patches. */
 static void free_pieces(const splitter *p, const hr2di_patch *made, size_t count) {
   for (size_t k = 0, m = 0; m < count; k++) {
     if (p->piece[k].left_out) continue;
@@ -197,7 +198,7 @@ static void free_pieces(const splitter *p, const hr2di_patch *made, size_t count
   }
 }
 
-/* Fills `made` with the patches that are whole, as they are, and pieces of the others. */
+/* Fills `made` with the whole patches as they are and with the pieces of the others. */
 static hr2d_status make_patches(splitter *p, hr2di_patch *made, size_t *count) {
   size_t number = 0;
   *count = 0;
