@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A GeoJSON feature: what its properties say about all of its patches. */
+/* A GeoJSON feature: its properties, which hold for all of its patches. */
 #include <float.h>
 #include <jansson.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@ static void set_label(hr2di_geojson *reader, size_t number, const char *name) {
     snprintf(reader->label, sizeof reader->label, "feature %zu", number);
 }
 
-/* A property with two words to choose from; *is_second tells which. */
+/* Reads a property that is one of two words; *is_second becomes 1 for the second, else 0. */
 static hr2d_status read_choice(hr2di_geojson *reader, const json_t *properties, const char *key,
                                const char *first, const char *second, int *is_second) {
   const json_t *json = hr2di_geojson_member(properties, key);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A GeoJSON geometry: from lines and rings to patches whose fronts are where they
-   should be. */
+/* A GeoJSON geometry: makes patches of lines and rings, and turns the fronts of rings in or out
+   as they should be. */
 #include <float.h>
 #include <jansson.h>
 #include <math.h>
@@ -12,14 +12,14 @@
 #include "geometry/predicates.h"
 #include "scene/scene-impl.h"
 
-/* Of a name that each segment gets, lest a file take the product of its names' length and
-   their number. */
+/* Bytes of a name that several segments share.  Each segment gets a copy: without this limit a
+   file could take memory for the product of the length of a name and the number of segments. */
 enum { MOST_NAME = 255 };
 
-/* A line keeps its direction; rings get theirs from what they enclose. */
+/* A line keeps its direction; a ring is reversed if its fronts look to the wrong side. */
 typedef enum role { LINE, OUTER, HOLE } role;
 
-/* A run of positions and where it stands: feature 3 ("hall"): polygon 2, ring 1. */
+/* A list of positions, and its place for messages: feature 3 ("hall"): polygon 2, ring 1. */
 typedef struct path {
   const json_t *positions;
   role role;
@@ -73,10 +73,11 @@ static hr2d_status read_points(hr2di_geojson *reader, const path *p, size_t *cou
   return HR2D_OK;
 }
 
-/* Twice the signed area of a ring, as a fan of triangles around its first point; 0
-   where rounding leaves the sign open.  Each triangle has full relative accuracy, so
-   that a convex ring has too, however thin and far from the origin it is; others lose
-   at most their count times the sum of magnitudes.  Scaled against overflow. */
+/* Twice the signed area of a ring, as a fan of triangles around its first point; 0 if rounding
+   leaves the sign open.  Each triangle has full relative accuracy, so a convex ring has it,
+   too, however thin and far from the origin it is.  For other rings the error, in
+   roundings, is at most the number of triangles times the sum of their magnitudes.  Coordinates
+   are scaled against overflow. */
 static double ring_area(const hr2d_point *point, size_t n) {
   double largest = 0, area = 0, magnitude = 0;
   int exponent;
@@ -96,7 +97,7 @@ static double ring_area(const hr2d_point *point, size_t n) {
   return fabs(area) > 8 * (double)n * DBL_EPSILON * magnitude ? area : 0;
 }
 
-/* Writes NAME, or NAME/k where the feature has several segments. */
+/* Names a patch NAME, or NAME/k if the feature has several segments. */
 static hr2d_status set_name(hr2di_geojson *reader, hr2d_patch *patch) {
   if (!patch->name || reader->segments == 1) return HR2D_OK;
   const size_t digits = 24;
@@ -175,7 +176,7 @@ typedef struct shape {
 static const shape shapes[] = {
     {"LineString", 0, 0}, {"MultiLineString", 1, 0}, {"Polygon", 0, 1}, {"MultiPolygon", 1, 1}};
 
-/* Only whether there is more than one matters, and only for lines. */
+/* 1 for a single segment; for more than one any number above 1, as only this matters. */
 static size_t count_segments(const json_t *coordinates, const shape *s) {
   if (s->polygon) return 3;
   const json_t *line = s->multi ? json_array_get(coordinates, 0) : coordinates;

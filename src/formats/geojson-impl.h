@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the parts of the GeoJSON reader share: file, feature, geometry. */
+/* Shared by the parts of the GeoJSON reader: file, feature, geometry, values. */
 #ifndef HR2D_SRC_FORMATS_GEOJSON_IMPL_H
 #define HR2D_SRC_FORMATS_GEOJSON_IMPL_H
 
@@ -23,13 +23,13 @@ typedef struct hr2di_geojson {
   const hr2d_allocator *alloc;
   hr2di_message *message;
 
-  /* The feature at hand. */
+  /* The current feature. */
   char label[HR2DI_LABEL_SIZE]; /* feature 3 ("north wall") */
-  hr2d_patch patch;             /* what its segments have in common */
-  int faces_out;                /* of its polygons */
+  hr2d_patch patch;             /* the members that its segments have in common */
+  int faces_out;                /* fronts of its polygons look out */
   size_t segments, added;
 
-  /* Room that is kept from feature to feature. */
+  /* Buffers that are kept from feature to feature. */
   hr2di_values background, emission, reflectance;
   hr2d_point *point;
   size_t point_capacity;
@@ -37,20 +37,21 @@ typedef struct hr2di_geojson {
   size_t name_capacity;
 } hr2di_geojson;
 
-/* Adds the patches of one member of "features"; numbers begin with 1. */
+/* Adds the patches of one member of "features"; `number` counts from 1. */
 hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, size_t number);
 
-/* Adds the patches of the feature at hand. */
+/* Adds the patches of the current feature. */
 hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry);
 
-/* Checks that `value` is a number, or an array of at least one, each in [0,max].
-   *count is 0 for NULL, 1 for a number, and `value` is copied only if it is given.
-   `place` and `key` say in messages where it stands. */
+/* Reads a number or a non-empty array of numbers, each in [0,max], from `json` into `values`.
+   *count becomes the number of values; 0 if `json` is NULL, which leaves `values` unchanged.
+   Returns HR2D_OK; or HR2D_ESYNTAX, HR2D_ESCENE or HR2D_ENOMEM with a message that names
+   `place` and `key`. */
 hr2d_status hr2di_geojson_values(hr2di_geojson *reader, const char *place, const char *key,
                                  const json_t *json, double max, hr2di_values *values,
                                  size_t *count);
 
-/* A member of an object; NULL where it is absent or null, as tools write an empty
+/* A member of an object.  NULL if it is absent, or null, which tools write for an empty
    attribute. */
 const json_t *hr2di_geojson_member(const json_t *object, const char *key);
 

@@ -1,46 +1,45 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From text to jansson's tree, so that a failed allocation is nothing worse than that.
+/* Parses text into jansson's tree, so that a failed allocation leads to HR2D_ENOMEM alone.
 
-   jansson's lexer collects a token in a buffer that doubles, and drops a byte in silence when
-   it cannot.  A dropped digit changes a number; a dropped quote sends the lexer beyond the
-   buffer; and a dropped byte behind a number, which is put back, ends the program by an
-   assertion.  So the text is not given as it is but as
+   jansson's lexer collects each token in a buffer that doubles.  If the buffer cannot grow, the
+   lexer drops a byte and reports nothing.  A dropped digit changes a number.  A dropped quote
+   sends the lexer beyond the buffer.  A dropped byte behind a number, which the lexer puts
+   back, ends the program by an assertion.  So jansson does not get the text itself but
 
        ["ooo…",TEXT]
 
-   with a string that makes the buffer as large as the longest token of the text will need it.
-   That is fed byte by byte, so that errno tells of a growth that failed before anything else
-   is done. */
+   The string makes the buffer as large as the longest token of the text needs it.  The string
+   is fed byte by byte, so that errno shows a failed growth before anything else is done. */
 #include "formats/geojson-text.h"
 
 #include <errno.h>
 #include <string.h>
 
-/* What is to be known of a text before it is parsed. */
+/* Facts about a text that the parser needs beforehand. */
 typedef struct outline {
-  const char *start; /* its first bracket, or another byte, which no scene begins with */
+  const char *start; /* its first byte that is no space; a bracket, or the text is no scene */
   const char *end;   /* behind the bracket that closes the first one; NULL if there is none */
-  size_t longest;    /* token */
+  size_t longest;    /* length of the longest token */
 } outline;
 
 static int is_space(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
-/* Behind the string that begins at `at`. */
+/* The position behind the string that begins at `at`. */
 static const char *skip_string(const char *at, const char *end) {
   for (at++; at < end && *at != '"'; at++)
     if (*at == '\\' && at + 1 < end) at++;
   return at < end ? at + 1 : end;
 }
 
-/* Behind a number or a word; whatever else is no part of JSON. */
+/* The position behind a number or a word; anything else here is not JSON. */
 static const char *skip_word(const char *at, const char *end) {
   while (at < end && !is_space(*at) && !strchr("{}[]:,\"", *at)) at++;
   return at;
 }
 
-/* Where jansson stops at an error there may be more tokens here, but none is shorter. */
+/* Behind an error, where jansson stops, this may see more tokens, but never shorter ones. */
 static outline survey(const char *text, size_t size) {
   const char *const last = text + size;
   outline o = {.start = text};
@@ -62,26 +61,27 @@ static outline survey(const char *text, size_t size) {
   return o;
 }
 
-/* What jansson reads. */
+/* The input of jansson. */
 typedef struct source {
   const char *next, *end; /* of the text */
-  size_t pad;             /* length of the string before it */
-  size_t fed;             /* bytes of what stands before the text */
-  int close;              /* the bracket behind the text is still to be fed */
+  size_t pad;             /* length of the string before the text */
+  size_t fed;             /* bytes fed so far of those before the text */
+  int close;              /* the bracket behind the text is not yet fed */
   int starved;            /* a byte may have been dropped */
 } source;
 
-/* The buffer has 2^k bytes, 16 at first, and grows for a byte at the index 2^k − 1.  With
-   2^k − 1 bytes and two quotes it ends up at 2^(k+1), not growing for the last quote: there
-   would be no byte behind it in which errno is looked at, and the lexer has no end of string.
-   That holds a token of 2^(k+1) − 2 bytes and the one behind it. */
+/* The buffer has 2^k bytes, 16 at first, and grows for a byte at index 2^k − 1.  A string of
+   2^k − 1 bytes and two quotes makes it grow to 2^(k+1) bytes.  It does not grow for the last
+   quote: if that growth failed, the lexer would miss the end of the string, and no further byte
+   would be fed at which errno is checked.  The buffer then holds a token of 2^(k+1) − 2 bytes
+   and the byte behind it. */
 static size_t pad_for(size_t longest) {
   size_t size = 16;
   while (2 * size - 2 < longest) size *= 2;
   return size - 1;
 }
 
-enum { AROUND = 4 }; /* bytes before the text that are not of the string itself */
+enum { AROUND = 4 }; /* bytes before the text that are not in the string: ["", */
 
 static char byte_before(const source *s, size_t k) {
   if (k == 0) return '[';
@@ -108,7 +108,7 @@ static size_t feed(void *buffer, size_t size, void *data) {
   return some;
 }
 
-/* In characters, as jansson counts them. */
+/* Counts columns in characters, as jansson does. */
 static hr2d_status fail_at(hr2di_message *message, const char *text, const char *at,
                            const char *what) {
   unsigned long line = 1, column = 1;
@@ -124,14 +124,14 @@ static hr2d_status fail_at(hr2di_message *message, const char *text, const char 
 static hr2d_status fail_error(hr2di_message *message, const source *s,
                               const json_error_t *error) {
   const int before = error->line == 1 ? (int)s->pad + AROUND : 0;
-  /* jansson's own text names a flag of its interface. */
+  /* jansson's own text for this error names a flag of its interface. */
   const int nul = json_error_code(error) == json_error_null_character;
   return hr2di_message_fail(message, HR2D_ESYNTAX, "line %d, column %d: %s", error->line,
                             error->column - before,
                             nul ? "a string must not contain \\u0000" : error->text);
 }
 
-/* The text within the array that holds it, as a reference of its own. */
+/* Takes the tree of the text out of the array around it; the caller owns the reference. */
 static json_t *unwrap(json_t *wrapped) {
   json_t *root = json_incref(json_array_get(wrapped, 1));
   json_decref(wrapped);
@@ -160,7 +160,7 @@ hr2d_status hr2di_geojson_load(const char *text, size_t size, json_t **root,
   if (!*root && !starved && error.text[0] &&
       json_error_code(&error) != json_error_out_of_memory)
     return fail_error(message, &s, &error);
-  /* There is no text either for some of the allocations that can fail. */
+  /* Some allocations that fail leave no text in `error`. */
   if (!*root || starved) {
     json_decref(*root);
     *root = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The text of a GeoJSON file as jansson's tree. */
+/* Parses the text of a GeoJSON file into jansson's tree. */
 #ifndef HR2D_SRC_FORMATS_GEOJSON_TEXT_H
 #define HR2D_SRC_FORMATS_GEOJSON_TEXT_H
 
@@ -8,8 +8,8 @@
 
 #include "base/message.h"
 
-/* HR2D_OK with a reference to an object or an array; HR2D_ENOMEM; or HR2D_ESYNTAX with a
-   message that names line and column. */
+/* *root becomes an object or an array, a reference that the caller owns; NULL on failure.
+   Returns HR2D_OK, HR2D_ENOMEM, or HR2D_ESYNTAX with a message that names line and column. */
 hr2d_status hr2di_geojson_load(const char *text, size_t size, json_t **root,
                                hr2di_message *message);
 

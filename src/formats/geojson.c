@@ -11,8 +11,7 @@
 #include "formats/scene-file.h"
 #include "scene/scene-impl.h"
 
-/* Checked although this version has none: a zero is then a statement that the scene does
-   without. */
+/* This version has no absorbing medium, but 0 is allowed: it states that the scene has none. */
 static hr2d_status read_medium(hr2di_geojson *reader, const json_t *members) {
   const json_t *json = hr2di_geojson_member(members, "medium");
   size_t count;
@@ -62,7 +61,8 @@ static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
   hr2d_status status = read_scene_effects(reader, root, &background_bands);
   for (size_t k = 0; !status && k < json_array_size(features); k++)
     status = hr2di_geojson_feature(reader, json_array_get(features, k), k + 1);
-  /* Last, so that there is nothing to take back; a file that says nothing changes nothing. */
+  /* The background is set last, so that no failure has to take it back.  A file without one
+     leaves the background of the scene as it is. */
   if (status || !background_bands) return status;
   return hr2d_scene_set_background(reader->scene, reader->background.value, background_bands);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reading scene files: the text itself tells its format, and a failure leaves the scene
+/* Reads scene files.  The format is recognised from the text itself; a failure leaves the scene
    as it was. */
 #include "formats/scene-file.h"
 
@@ -23,7 +23,7 @@ static hr2d_status add_text(hr2d_scene *scene, const char *text, size_t size) {
   return status;
 }
 
-/* What both entries refuse before they look at their source. */
+/* Checks the arguments of both entry points before anything is read. */
 static hr2d_status check_call(hr2d_scene *scene, int source_given) {
   if (!scene) return HR2D_EINVAL;
   hr2di_message *message = hr2di_scene_message(scene);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The formats of scene files: a reader adds the patches that a text describes.  Of one
-   that fails, hr2d_scene_read() and hr2d_scene_parse() take the patches back. */
+/* The readers of scene files: each adds the patches that a text describes.  If one fails,
+   hr2d_scene_read() and hr2d_scene_parse() remove the patches that it has added. */
 #ifndef HR2D_SRC_FORMATS_SCENE_FILE_H
 #define HR2D_SRC_FORMATS_SCENE_FILE_H
 
@@ -10,7 +10,7 @@
 /* GeoJSON: sets the background last, once nothing else can fail. */
 hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size);
 
-/* View2D's .vs2, and whether a text is meant as such. */
+/* View2D's .vs2; and whether a text seems to be in this format. */
 hr2d_status hr2di_vs2_read(hr2d_scene *scene, const char *text, size_t size);
 int hr2di_vs2_recognise(const char *text, size_t size);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the parts of the .vs2 reader share: the text in lines and words, the records. */
+/* Shared by the parts of the .vs2 reader: lines and words of the text, fields of records. */
 #ifndef HR2D_SRC_FORMATS_VS2_IMPL_H
 #define HR2D_SRC_FORMATS_VS2_IMPL_H
 
@@ -16,20 +16,22 @@ typedef struct hr2di_vs2_span {
   const char *at, *end;
 } hr2di_vs2_span;
 
-/* Takes the next line off `text`, without its end: LF, CR LF, or CR.  0 if there is none. */
+/* Moves the next line from `text` to `line`, without its end (LF, CR LF or CR).  Returns 0 if
+   there is none, else 1. */
 int hr2di_vs2_line(hr2di_vs2_span *text, hr2di_vs2_span *line);
 
-/* Takes the next word off `line`; 0 if there is none before its end or a comment. */
+/* Moves the next word from `line` to `word`.  Returns 0 if there is none before the end of the
+   line or a comment, else 1. */
 int hr2di_vs2_word(hr2di_vs2_span *line, hr2di_vs2_span *word);
 
 typedef struct hr2di_vs2 {
   hr2d_scene *scene;
   const hr2d_allocator *alloc;
   hr2di_message *message;
-  locale_t numbers; /* in which the decimal sign is a point */
-  size_t line;      /* the number of the line at hand, from 1 */
+  locale_t numbers; /* a locale whose decimal sign is a point */
+  size_t line;      /* the number of the current line, from 1 */
 
-  char *word; /* the field at hand, terminated */
+  char *word; /* the current field, terminated */
   size_t word_capacity;
 
   hr2d_point *vertex;
@@ -37,18 +39,19 @@ typedef struct hr2di_vs2 {
   size_t surfaces;
 } hr2di_vs2;
 
-/* Each takes the next field off `line`; `what` is its name in messages.  A number is finite;
-   of an integer beyond a long long the nearest is taken, which no vertex or surface has. */
+/* Each takes the next field off `line`; `what` is its name in messages.  A number must be
+   finite.  An integer beyond a long long becomes the nearest long long, which is the number of
+   no vertex or surface.  Returns HR2D_OK; or HR2D_ESYNTAX or HR2D_ENOMEM with a message. */
 hr2d_status hr2di_vs2_field(hr2di_vs2 *reader, hr2di_vs2_span *line, const char *what);
 hr2d_status hr2di_vs2_number(hr2di_vs2 *reader, hr2di_vs2_span *line, const char *what,
                              double *value);
 hr2d_status hr2di_vs2_integer(hr2di_vs2 *reader, hr2di_vs2_span *line, const char *what,
                               long long *value);
 
-/* A name: UTF-8, as names of patches are. */
+/* Takes a name off `line`, which must be UTF-8, as all names of patches. */
 hr2d_status hr2di_vs2_name(hr2di_vs2 *reader, hr2di_vs2_span *line);
 
-/* The field at hand for messages. */
+/* The current field, quoted for messages. */
 hr2di_message_quoted hr2di_vs2_quote(hr2di_vs2 *reader);
 
 #endif

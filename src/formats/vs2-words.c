@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The text of a .vs2 file in lines, words and numbers.  Words are parts of the text until
-   they are fields, so that memory beyond it is that of the longest field. */
+/* Splits the text of a .vs2 file into lines, words and numbers.  Words point into the text and
+   are copied only as fields, so that memory beside the text is needed for the longest field
+   alone. */
 #ifndef _POSIX_C_SOURCE
 #define _POSIX_C_SOURCE 200809L
 #endif
@@ -60,7 +61,7 @@ hr2d_status hr2di_vs2_number(hr2di_vs2 *reader, hr2di_vs2_span *line, const char
   const locale_t former = uselocale(reader->numbers);
   *value = strtod(word, &end);
   uselocale(former);
-  /* strtod() also knows words and hexadecimal digits, which the format does not. */
+  /* strtod() also accepts words and hexadecimal digits, which the format does not have. */
   if (end == word || *end || word[strspn(word, "0123456789+-.eE")])
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "line %zu: %s must be a number, not %s", reader->line, what,
@@ -100,7 +101,7 @@ hr2d_status hr2di_vs2_name(hr2di_vs2 *reader, hr2di_vs2_span *line) {
                             hr2di_vs2_quote(reader).text);
 }
 
-/* Messages are UTF-8 whatever the file is. */
+/* Messages are UTF-8, even if the file is not. */
 hr2di_message_quoted hr2di_vs2_quote(hr2di_vs2 *reader) {
   if (!is_utf8(reader->word))
     for (char *c = reader->word; *c; c++)

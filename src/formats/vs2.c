@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes from View2D's .vs2 files: one record per line, known by the letter it begins
-   with.  As there, vertices and surfaces are numbered from 1 in the order of the file, and
-   a vertex stands before the surfaces that it ends. */
+/* Scenes from View2D's .vs2 files: one record per line, whose first letter says its kind.  As
+   in View2D, vertices and surfaces are numbered from 1 in the order of the file, and a vertex
+   comes before the surfaces that end at it. */
 #ifndef _POSIX_C_SOURCE
 #define _POSIX_C_SOURCE 200809L
 #endif
@@ -12,15 +12,15 @@
 #include "formats/vs2-impl.h"
 #include "scene/scene-impl.h"
 
-/* The letter of a record in upper case; E for every word that begins with it, as in "End
-   of data", '*' and '/' for what begins with them; 0 for any other word. */
+/* The letter of a record in upper case.  E, '*' or '/' for any word that begins with it, as in
+   "End of data"; 0 for any other word of more than one letter. */
 static char record_letter(hr2di_vs2_span word) {
   const char c = *word.at, upper = c >= 'a' && c <= 'z' ? (char)(c - 'a' + 'A') : c;
   if (upper == 'E' || upper == '*' || upper == '/') return upper;
   return word.end - word.at == 1 ? upper : '\0';
 }
 
-/* Comments do not decide: JSON is commented too, against its rules. */
+/* Comments do not decide the format: some JSON has comments, too, against its rules. */
 int hr2di_vs2_recognise(const char *text, size_t size) {
   hr2di_vs2_span rest = {text, text + size}, line, word;
   while (hr2di_vs2_line(&rest, &line)) {
@@ -41,7 +41,7 @@ static hr2d_status end_of_record(hr2di_vs2 *reader, hr2di_vs2_span *line) {
                             hr2di_vs2_quote(reader).text);
 }
 
-/* The number of a vertex or surface, of which there were `before`. */
+/* Reads the number of a vertex or surface, which must be before + 1. */
 static hr2d_status read_sequence(hr2di_vs2 *reader, hr2di_vs2_span *line, const char *what,
                                  size_t before) {
   long long number;
@@ -94,8 +94,8 @@ static hr2d_status read_end(hr2di_vs2 *reader, hr2di_vs2_span *line, const char 
   return HR2D_OK;
 }
 
-/* obs, bas and cmb say what View2D is to leave out or to add up; here they have to be
-   integers, and that is all. */
+/* obs, bas and cmb tell View2D what to leave out or to add up.  Here they must be integers, and
+   are not used. */
 static hr2d_status skip_integers(hr2di_vs2 *reader, hr2di_vs2_span *line) {
   static const char *const names[] = {"obs", "bas", "cmb"};
   hr2d_status status = HR2D_OK;
@@ -142,7 +142,7 @@ static hr2d_status read_record(hr2di_vs2 *reader, hr2di_vs2_span line, char lett
   hr2d_status status = hr2di_vs2_field(reader, &line, "the record");
   if (status) return status;
   switch (letter) {
-  case 'T': /* the title, and how View2D is to compute */
+  case 'T': /* T: the title; C: how View2D computes */
   case 'C':
     return HR2D_OK;
   case 'G':
@@ -188,7 +188,7 @@ hr2d_status hr2di_vs2_read(hr2d_scene *scene, const char *text, size_t size) {
   hr2di_vs2 reader = {.scene = scene,
                       .alloc = hr2di_scene_allocator(scene),
                       .message = hr2di_scene_message(scene)};
-  /* Of this thread only, and only around strtod(): others may print meanwhile. */
+  /* Set for this thread alone, and only around strtod(): other code may print meanwhile. */
   reader.numbers = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
   if (!reader.numbers)
     return hr2di_message_fail(reader.message, HR2D_ENOMEM, "out of memory for a locale");
