@@ -19,7 +19,8 @@ struct hr2d_hierarchy {
   atomic_int readers; /* solves that are under way: callbacks may not refine */
 };
 
-/* Whether a call that has called back, or another thread, stands on the hierarchy as it is. */
+/* Whether the hierarchy must not change: a refinement or a solve on it is under way, whose
+   callback makes this call, or which runs in another thread. */
 static inline int hr2di_hierarchy_busy(const hr2d_hierarchy *hierarchy) {
   return hierarchy->refining || atomic_load(&hierarchy->readers) > 0;
 }
@@ -27,7 +28,7 @@ static inline int hr2di_hierarchy_busy(const hr2d_hierarchy *hierarchy) {
 /* The size of one element in all arrays together. */
 enum { HR2DI_ELEMENT_BYTES = sizeof(hr2d_element) + sizeof(uint32_t) + sizeof(uint16_t) };
 
-/* The room made for so many elements that are to become more. */
+/* The capacity for a hierarchy of this many elements that is going to grow. */
 static inline size_t hr2di_hierarchy_first_capacity(size_t elements) {
   return elements + elements / 2 + 16;
 }
@@ -35,27 +36,28 @@ static inline size_t hr2di_hierarchy_first_capacity(size_t elements) {
 /* Whether an element's midpoint is a point of its own, so that it can be halved. */
 int hr2di_element_divisible(const hr2d_hierarchy *hierarchy, uint32_t element);
 
-/* Makes room for two more elements; HR2D_OK, HR2D_ENOMEM or HR2D_EMAX_ELEMENTS
-   where their numbers would not fit. */
+/* Makes room for two more elements.  Returns HR2D_OK, HR2D_ENOMEM, or HR2D_EMAX_ELEMENTS if
+   their numbers would be too large for 32 bits. */
 hr2d_status hr2di_hierarchy_reserve(hr2d_hierarchy *hierarchy);
 
-/* Halves a divisible leaf, with room reserved; returns the left child. */
+/* Halves a divisible leaf; room must be reserved.  Returns the left child. */
 uint32_t hr2di_element_halve(hr2d_hierarchy *hierarchy, uint32_t element);
 
-/* Divides a leaf at a point inside, `part` of its length from its start, with room reserved;
-   returns the left child. */
+/* Divides a leaf at the point `at` inside it, which is `part` of its length from its start;
+   room must be reserved.  Returns the left child. */
 uint32_t hr2di_element_divide(hr2d_hierarchy *hierarchy, uint32_t element, double part,
                               hr2d_point at);
 
-/* How much of an element its left child is; ½ where it was halved. */
+/* The length of an element's left child as a fraction of the element; ½ if it was halved. */
 static inline double hr2di_element_left_part(const hr2d_element *element, uint32_t at) {
   const double left = element[element[at].child].length;
   const double right = element[element[at].child + 1].length;
   return left == right ? 0.5 : left / (left + right);
 }
 
-/* The child that holds fraction *t of an element, and the fraction that this is of the
-   child, exact for halves.  On the border it is the child before, or the one behind. */
+/* Returns the child that holds the point at fraction *t of an element; *t becomes the fraction
+   of this child, exact for halves.  A point on the border of the children belongs to the left
+   one if `before` is set, else to the right one. */
 static inline uint32_t hr2di_element_child_at(const hr2d_element *element, uint32_t at,
                                               double *t, int before) {
   const double left = hr2di_element_left_part(element, at);
@@ -64,29 +66,29 @@ static inline uint32_t hr2di_element_child_at(const hr2d_element *element, uint3
   return element[at].child + (uint32_t)right;
 }
 
-/* Where an element begins, a fraction of its patch, exact for halves of halves. */
+/* The start of an element as a fraction of its patch; exact if all divisions were halvings. */
 double hr2di_element_start(const hr2d_hierarchy *hierarchy, uint32_t element);
 
-/* The leaves below an element, as the tree is walked: the first, and the one behind a leaf, or
-   0 behind the last. */
+/* Walks the leaves below the element `top` in their order on the patch: the first leaf, and the
+   leaf after `leaf`, or 0 if that was the last. */
 uint32_t hr2di_hierarchy_first_leaf(const hr2d_hierarchy *hierarchy, uint32_t top);
 uint32_t hr2di_hierarchy_next_leaf(const hr2d_hierarchy *hierarchy, uint32_t leaf,
                                    uint32_t top);
 
-/* A copy on the same scene; HR2D_OK or HR2D_ENOMEM. */
+/* Makes a copy on the same scene.  Returns HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_hierarchy_clone(const hr2d_hierarchy *from, hr2d_hierarchy **clone);
 
-/* The bytes of a clone. */
+/* The bytes that the arrays of a clone take. */
 uint64_t hr2di_hierarchy_clone_bytes(const hr2d_hierarchy *from);
 
-/* Grows by every element that one of `count` clones has, numbered patch by patch, a
-   parent's children before its right neighbour's.  HR2D_OK, or HR2D_ENOMEM or
-   HR2D_EMAX_ELEMENTS, or HR2D_EMAX_BYTES for more room than for `max` elements, with the
-   hierarchy as it was. */
+/* Adds every element that at least one of `count` clones has.  New elements are numbered patch
+   by patch, the children of a parent before the children of its right neighbour.  Returns
+   HR2D_OK; or, with the hierarchy unchanged, HR2D_ENOMEM, HR2D_EMAX_ELEMENTS, or
+   HR2D_EMAX_BYTES if room for more than `max` elements is needed. */
 hr2d_status hr2di_hierarchy_unite(hr2d_hierarchy *hierarchy, hr2d_hierarchy *const *clone,
                                   size_t count, size_t max);
 
-/* Takes back all but the first `elements` elements, and their room. */
+/* Removes all elements but the first `elements`, and frees their room. */
 void hr2di_hierarchy_truncate(hr2d_hierarchy *hierarchy, size_t elements);
 
 #endif

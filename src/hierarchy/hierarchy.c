@@ -6,7 +6,7 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 
-/* Element numbers have 32 bits, and stay below the capacity that doubling reaches. */
+/* Element numbers have 32 bits; doubling stops at this capacity. */
 #define MOST_ELEMENTS ((size_t)UINT32_MAX - 1)
 
 /* Coordinates lie in [-2,2), so that the sum does not overflow. */
@@ -18,7 +18,7 @@ static hr2d_element make_element(hr2d_point a, hr2d_point b, double length, uint
   return (hr2d_element){a, b, midpoint(a, b), length, 0, patch};
 }
 
-/* Moves one array to a block of `capacity` items. */
+/* Reallocates one array to `capacity` items.  Returns 0 or -1. */
 static int grow(const hr2d_allocator *alloc, void *array, size_t capacity, size_t size) {
   void *block;
   memcpy(&block, array, sizeof block);
@@ -101,7 +101,7 @@ uint32_t hr2di_element_divide(hr2d_hierarchy *h, uint32_t element, double part, 
   return left;
 }
 
-/* What cannot be moved stays larger than is said. */
+/* An array that cannot be reallocated stays larger than `capacity`, which does no harm. */
 static void shrink(hr2d_hierarchy *h, size_t capacity) {
   if (capacity >= h->capacity) return;
   h->capacity = capacity;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The two-scale relation along whole trees: children come after their parents, so that a
-   falling loop meets them first, and a rising one their parents. */
+/* The two-scale relation along whole trees.  Children have higher numbers than their parents: a
+   loop over falling numbers meets children first, a loop over rising numbers parents. */
 #include "hierarchy/push-pull.h"
 
 #include "base/alloc.h"
@@ -53,7 +53,7 @@ static const double *relation_of(const hr2di_push_pull *p, uint32_t element) {
   return p->relation + 2 * pair * p->order * p->order;
 }
 
-/* parent_l += part Σ_k relation_lk child_k.  A stride that is known makes a loop of vectors. */
+/* parent_l += part Σ_k relation_lk child_k.  A constant stride lets the compiler vectorise. */
 static inline void add_up_bands(const double *relation, size_t order, size_t bands, double part,
                                 const double *child, double *parent) {
   for (size_t l = 0; l < order; l++)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Copies of a hierarchy that grow apart, and the union of what they grew. */
+/* Copies of a hierarchy that grow independently, and the union of their elements. */
 #include <string.h>
 
 #include "base/alloc.h"
@@ -38,7 +38,7 @@ hr2d_status hr2di_hierarchy_clone(const hr2d_hierarchy *from, hr2d_hierarchy **c
 typedef struct walk {
   uint32_t *column;
   size_t width, columns;
-  size_t max; /* elements there may be room for */
+  size_t max; /* elements that room may be made for */
 } walk;
 
 /* Pushes the columns of the children, the right one first. */
@@ -88,7 +88,7 @@ hr2d_status hr2di_hierarchy_unite(hr2d_hierarchy *h, hr2d_hierarchy *const *clon
   for (size_t k = 0; k < count; k++)
     levels = clone[k]->levels > levels ? clone[k]->levels : levels;
   walk w = {.width = count + 1, .max = max};
-  /* A level leaves at most a sibling behind, and the last holds two. */
+  /* Each level leaves at most one sibling on the stack, and the last level two. */
   w.column = hr2di_alloc(&h->alloc, (size_t)levels + 3, w.width * sizeof *w.column);
   uint32_t *top = hr2di_alloc(&h->alloc, w.width, sizeof *top);
   const size_t elements = h->elements;

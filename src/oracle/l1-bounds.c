@@ -10,13 +10,12 @@ static double mean_of_linear(double p, double q) {
   return more > 0 ? 0.5 * more + less * less / (6 * more) : 0;
 }
 
-/* D = G/Gc − 1 = (1+x)(1+y)/r³ − 1 with x and y the relative changes of the distances
-   from the other's line; 1/r³ = 1 − 3l + e where l is the change of r along the
-   line of the centres.  For a point moved by m, |e| ≤ ½(3m² + 9l²) + 10m³/(1−m)⁶,
-   as the derivatives of r⁻³ along a line are 3(5c²−1)m²/r⁵ and (45c − 105c³)m³/r⁶ with
-   c a cosine.  What is left of D beside the linear x + y − 3l is bounded by the
-   means of its terms.  Each mean over a grid of midpoints is at most that over
-   the rectangle, all terms being convex. */
+/* D = G/Gc − 1 = (1+x)(1+y)/r³ − 1, where x and y are the relative changes of the distances
+   from the other's line; 1/r³ = 1 − 3l + e, where l is the change of r along the line of the
+   centres.  For a point moved by m, |e| ≤ ½(3m² + 9l²) + 10m³/(1−m)⁶, as the derivatives of
+   r⁻³ along a line are 3(5c²−1)m²/r⁵ and (45c − 105c³)m³/r⁶ with c a cosine.  The rest of D
+   beside the linear part x + y − 3l is bounded by the means of its terms.  Each mean over a
+   grid of midpoints is at most the mean over the rectangle, as all terms are convex. */
 hr2di_l1_range hr2di_l1_bounds(const hr2d_segment *i, const hr2d_segment *j) {
   const hr2di_l1_range unknown = {0, INFINITY};
   const double ux = i->b.x - i->a.x, uy = i->b.y - i->a.y;

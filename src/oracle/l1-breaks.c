@@ -7,11 +7,10 @@
 
 enum { STEPS = 60 };
 
-#define ROOT 1e-8 /* of the range; the integral's error is its cube */
+#define ROOT 1e-8 /* relative to the range; the error of the integral is its cube */
 
-/* Where G = Gc on an edge of the rectangle of s and t: (1+p)²(1+q) = 1 + level, with
-   p and q belonging to the side that varies and to the other.  On an edge of fixed
-   t these are α and β. */
+/* An edge of the rectangle of s and t.  On it G = Gc where (1+p)²(1+q) = 1 + level; p belongs
+   to the side that varies and q to the other.  On an edge of fixed t they are α and β. */
 typedef struct edge {
   const hr2di_l1_frame *f;
   int fixed_x;
@@ -64,7 +63,7 @@ static int add_root(const edge *e, double low, double high, double at_low, doubl
   return 1;
 }
 
-/* Adds the up to two roots on an edge; returns how many. */
+/* Writes the roots on an edge, at most two; returns how many. */
 static int edge_roots(const edge *e, double low, double high, double *root) {
   double up, down, flat;
   const double at_low = edge_excess(e, low, &up), at_high = edge_excess(e, high, &down);
@@ -75,7 +74,7 @@ static int edge_roots(const edge *e, double low, double high, double *root) {
   return found + add_root(e, peak, high, at_peak, at_high, root + found);
 }
 
-/* δ rises with s and with t. */
+/* The first and the last τ are at opposite corners, as δ rises with s and with t. */
 int hr2di_l1_breaks(const hr2di_l1_frame *f, double *at) {
   const hr2di_l1_side *x = &f->x, *y = &f->y;
   const double low = hr2di_l1_tau(f, x->low, y->low), high = hr2di_l1_tau(f, x->high, y->high);

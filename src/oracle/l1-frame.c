@@ -11,13 +11,13 @@ static hr2di_vector turned(hr2di_vector v) {
   return (hr2di_vector){-v.y, v.x, -v.ty, v.tx, v.e};
 }
 
-/* The exponent moved into the components. */
+/* The same vector with exponent e; its components are scaled. */
 static hr2di_vector shifted(hr2di_vector v, int e) {
   const int by = v.e - e;
   return (hr2di_vector){ldexp(v.x, by), ldexp(v.y, by), ldexp(v.tx, by), ldexp(v.ty, by), e};
 }
 
-/* p + q + tail as head and tail. */
+/* p + q + tail as *head + *rest. */
 static void add_exactly(double p, double q, double tail, double *head, double *rest) {
   const double sum = p + q, error = hr2di_tail_of_difference(p, -q, sum) + tail;
   *head = sum + error;
@@ -39,13 +39,13 @@ static hr2di_vector sum_of(hr2di_vector p, hr2di_vector q) {
 static void clip(hr2di_l1_side *s, double half) {
   s->low = -half;
   s->high = half;
-  /* low < 0 < high, since the centre is before the front. */
+  /* low < 0 < high, since the centre is in front of the other segment. */
   if (s->slope * half > 1) s->low = -1 / s->slope;
   if (s->slope * half < -1) s->high = -1 / s->slope;
 }
 
-/* Twice the difference of the centres is the sum of those of two pairs of end points,
-   which are close to each other where the segments face each other squarely. */
+/* Twice the difference of the centres is the sum of two differences of end points, which are
+   nearly equal where the segments face each other squarely. */
 int hr2di_l1_frame_init(const hr2d_segment *i, const hr2d_segment *j, hr2di_l1_frame *f) {
   const int plain = hr2di_point_plain(i->a) && hr2di_point_plain(i->b) &&
                     hr2di_point_plain(j->a) && hr2di_point_plain(j->b);
@@ -79,7 +79,7 @@ int hr2di_l1_frame_init(const hr2d_segment *i, const hr2d_segment *j, hr2di_l1_f
   return 1;
 }
 
-/* From y at t to x at s, with its components along the line of the centres and across. */
+/* The vector from y at t to x at s: along the line of the centres, across it, its length. */
 typedef struct line {
   double ahead, aside, r;
 } line;
@@ -101,8 +101,8 @@ static hr2di_l1_origin origin_at(const hr2di_l1_frame *f, double sine, double co
   return o;
 }
 
-/* 1+α is the distance of y from the line of i, over that of y_c, over r; near a horizon
-   the slope knows it better than the angle does. */
+/* 1+α is the distance of y from the line of i, divided by the distance of y_c from it and by r.
+   Near a horizon the slope gives it more accurately than the angle does. */
 void hr2di_l1_turn_to_line(hr2di_l1_frame *f, double s, double t) {
   const line v = line_through(f, s, t);
   if (!(v.r > 0)) return;

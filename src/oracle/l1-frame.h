@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A pair of segments as the L¹ error sees it; the notation of l1.c. */
+/* A pair of segments in the coordinates of the L¹ error, with the notation of l1.c. */
 #ifndef HR2D_SRC_ORACLE_L1_FRAME_H
 #define HR2D_SRC_ORACLE_L1_FRAME_H
 
@@ -8,14 +8,14 @@
 /* One of the segments as seen from the other's centre. */
 typedef struct hr2di_l1_side {
   double cosine, tangent; /* at the centre; cosθ(δ) = cosine (cos δ − tangent sin δ) */
-  double along;           /* its direction times that from y_c to x_c */
-  double slope;           /* the relative change, along it, of the distance to the other */
-  double low, high;       /* the part before the other's front */
+  double along;     /* scalar product of its direction and the direction from y_c to x_c */
+  double slope;     /* relative change, along it, of its distance from the other's line */
+  double low, high; /* the part in front of the other segment */
 } hr2di_l1_side;
 
 /* The direction from which τ is measured. */
 typedef struct hr2di_l1_origin {
-  double sine, cosine;               /* of its δ */
+  double sine, cosine;               /* of the direction's δ */
   double a, b;                       /* α and β */
   double above_a, above_b;           /* 1+α and 1+β, without cancellation */
   double derivative_a, derivative_b; /* with respect to δ */
@@ -24,17 +24,17 @@ typedef struct hr2di_l1_origin {
 typedef struct hr2di_l1_frame {
   double distance; /* ρ */
   double length_x, length_y;
-  double per_length, per_range; /* keep the integrand of small pairs from underflow */
+  double per_length, per_range; /* factors that keep small integrands from underflow */
   hr2di_l1_side x, y;
   hr2di_l1_origin origin;
 } hr2di_l1_frame;
 
-/* What belongs to δ at τ; dδ = weight dτ. */
+/* The direction δ at τ: sin δ, α, β, 1+α and 1+β; dδ = weight dτ. */
 typedef struct hr2di_l1_direction {
   double weight, sine, a, b, above_a, above_b;
 } hr2di_l1_direction;
 
-/* A function f of sin δ and cos δ is, at an angle ε from the origin,
+/* A linear combination f of sin δ and cos δ has, at an angle ε from the origin, the value
    f cos ε + f' sin ε = f + sin ε (f' − τ f). */
 static inline hr2di_l1_direction hr2di_l1_direction_at(const hr2di_l1_frame *f, double tau) {
   const hr2di_l1_origin *o = &f->origin;
@@ -54,8 +54,8 @@ static inline double hr2di_l1_cubic(double p, double q) {
   return p * (2 + p) + q * (1 + p) * (1 + p);
 }
 
-/* Returns 0 if Gc is 0 or the centres coincide; then only the distance is set.  The
-   origin is the line of the centres. */
+/* Makes the frame with the line of the centres as origin.  Returns 1; or 0 if Gc is 0 or the
+   centres coincide, and then only the distance is set. */
 int hr2di_l1_frame_init(const hr2d_segment *i, const hr2d_segment *j, hr2di_l1_frame *f);
 
 /* Moves the origin to the line from y at t to x at s, or to an angle. */
@@ -67,8 +67,8 @@ double hr2di_l1_tau(const hr2di_l1_frame *f, double s, double t);
 
 enum { HR2DI_L1_BREAKS = 16 }; /* at most 2 ends, 2 corners, 8 roots on the edges */
 
-/* The ends of the range of τ and, in between, where the integrand is not smooth; in
-   rising order; at most HR2DI_L1_BREAKS.  Returns their number. */
+/* Writes the ends of the range of τ and, between them, the places where the integrand is not
+   smooth, in rising order.  Returns their number, at most HR2DI_L1_BREAKS. */
 int hr2di_l1_breaks(const hr2di_l1_frame *f, double *at);
 
 #endif

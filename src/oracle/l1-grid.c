@@ -2,17 +2,17 @@
 /* The paper's approximation of the L¹ error (section 4): G is sampled at 1024
    midpoints on each patch.
 
-   An element on level k has the 1024/2^k samples of its cells.  One of a single cell, on
-   level 10, has its centre; one smaller than a cell has its centre, too, since on
-   the grid G is constant there.  A pair of such elements has no error, and so
-   patches that are of one length are never subdivided below level 10. */
+   An element on level k has 1024/2^k samples, one per cell.  On level 10 it has a single cell,
+   and its centre is the sample.  An element smaller than a cell has its centre as sample, too,
+   since G is constant on a cell of the grid.  A pair of such elements has no error, so patches
+   of the same length are never subdivided below level 10. */
 #include "oracle/l1-grid.h"
 
 #include <math.h>
 
 enum { SAMPLES = 1024, LEVELS = 10 };
 
-/* The samples of an element relative to some origin: place and distance from the line
+/* The samples of an element: their places relative to some origin, and their distances in front
    of the other element. */
 typedef struct samples {
   int count;
@@ -46,8 +46,8 @@ static inline double kernel(double dx, double dy, double hx, double hy) {
   return r2 > 0 ? 0.5 * hx * hy / (r2 * sqrt(r2)) : 0;
 }
 
-/* Whether i comes first in the sum, whatever the order of the arguments and the
-   numbers of the elements. */
+/* Whether i comes first in the sum.  This does not depend on the order of the arguments or on
+   the numbers of the elements. */
 static int comes_first(const hr2d_element *i, const hr2d_element *j) {
   if (i->length != j->length) return i->length > j->length;
   if (i->centre.x != j->centre.x) return i->centre.x < j->centre.x;

@@ -6,8 +6,8 @@
 #include <hr2d/oracle.h>
 
 /* Σ |G(x_c,y_c) − G(x,y)|·(area of a cell) over the samples in a pair, in the unit
-   of the elements; any number above `enough` if the sum is.  The order of the pair
-   changes no bit. */
+   of the elements.  If the sum is above `enough`, any number above `enough` may be returned.
+   The order of the pair changes no bit. */
 double hr2di_l1_grid(const hr2d_batch *batch, hr2d_pair pair, double enough);
 
 #endif

@@ -12,8 +12,8 @@ static hr2d_segment segment_of(const hr2d_element *e) {
   return (hr2d_segment){e->a, e->b};
 }
 
-/* What an occluder can add: |G(x_c,y_c) − G V| ≤ |G(x_c,y_c) − G| + (1 − V) G, whose last
-   term is at most the unoccluded exchange area. */
+/* A bound on the error that occluders add: |G(x_c,y_c) − G V| ≤ |G(x_c,y_c) − G| + (1 − V) G,
+   and the integral of the last term is at most the unoccluded exchange area. */
 static double shadow(const hr2d_batch *batch, size_t k) {
   double area = 0;
   if (batch->partial && batch->partial[k])

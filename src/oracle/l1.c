@@ -2,7 +2,7 @@
 /* The L¹ error of a pair as one integral over directions.
 
    Lengths are in units of the distance ρ of the centres.  Let x = x_c + s u and
-   y = y_c + t v, and let the line from y to x make the angle δ with that from y_c to
+   y = y_c + t v, and let the line from y to x make the angle δ with the line from y_c to
    x_c.  With θx, θy the angles at x and y, which only depend on δ,
 
      s cosθx + t cosθy = sin δ,   r dδ = cosθx ds  at fixed t,
@@ -20,9 +20,9 @@
 
      sin δ = 2τ/(1+τ²),   α = −(τ + tanθx_c) sin δ,   β = −(τ + tanθy_c) sin δ.
 
-   Where the directions span more than a right angle, one half of τ is measured from
-   either end, since an integrand with a pole close to its end needs places
-   close to it. */
+   Where directions are far from the line of the centres or a pole is close to an end of the
+   range, the range is split in two and τ is measured from the end of each half: an integrand
+   with a pole close to an end needs nodes close to it. */
 #include "oracle/l1.h"
 
 #include <gsl/gsl_integration.h>
@@ -34,31 +34,31 @@
 
 enum {
   PIECES = 80,
-  GRADING = 5, /* a 15-point rule is good to 1e-11 where the pole's distance grows so */
+  GRADING = 5, /* growth of pieces away from a pole; a 15-point rule is then good to 1e-11 */
   DEPTH = 60,  /* of bisection */
-  MOST = 2000  /* intervals of one piece, where noise keeps the estimates up */
+  MOST = 2000  /* intervals of one piece, where noise keeps the error estimates high */
 };
 
 #define TOLERANCE 1e-12  /* of one interval, relative to the whole */
-#define NEAREST   1e-15  /* a pole that can be told from the end */
-#define NEAR      0.05   /* of AF + Gc A_x A_y: an error that is not small */
-#define FLAT      1e-140 /* cosines below get the bound AF + Gc A_x A_y */
+#define NEAREST   1e-15  /* a pole nearer to the end cannot be told from it */
+#define NEAR      0.05   /* of AF + Gc A_x A_y; an error above it is not small */
+#define FLAT      1e-140 /* a pair with a cosine below it gets the bound AF + Gc A_x A_y */
 
-/* The mean of |linear| over an interval at whose ends it is p and q. */
+/* The mean of |f| over an interval, where f is linear with values p and q at the ends. */
 static inline double mean_absolute(double p, double q) {
   if ((p >= 0) == (q >= 0)) return 0.5 * fabs(p + q);
   const double part = p / (p - q);
   return 0.5 * fabs(p * part + q * (part - 1));
 }
 
-/* The mean of its negative part, without sign. */
+/* The mean of max(−f, 0) for the same f. */
 static inline double mean_below(double p, double q) {
   if (p >= 0 && q >= 0) return 0;
   if (p <= 0 && q <= 0) return -0.5 * (p + q);
   return p < 0 ? 0.5 * p * (p / (q - p)) : 0.5 * q * (q / (p - q));
 }
 
-/* The integral over t, of |G − Gc| or of the part of Gc − G that is positive. */
+/* The integral over t of |G − Gc| (mean_absolute) or of (Gc − G)⁺ (mean_below). */
 static inline double integral_over_t(const hr2di_l1_frame *f, double tau,
                                      double (*mean_of)(double, double)) {
   const hr2di_l1_direction d = hr2di_l1_direction_at(f, tau);
@@ -114,13 +114,13 @@ static double refine(gsl_function function, interval whole, double tolerance) {
   return sum;
 }
 
-/* What a sum of 15-point rules is worth as a bound: GSL's estimate of their error is
-   a generous one. */
+/* Whether a sum of 15-point rules decides on which side of epsilon the integral is.  GSL's
+   estimate of the error of these rules is a generous one. */
 static int decided(double value, double error, double epsilon) {
   return fabs(value - epsilon) > 10 * error + 1e-10 * value;
 }
 
-/* The pieces between the breaks of one or two ranges, each with its own origin. */
+/* The pieces between the breaks of one or two ranges; each range has its own origin. */
 typedef struct pieces {
   hr2di_l1_frame frame[2];
   interval piece[PIECES];
@@ -138,8 +138,8 @@ static void add_piece(pieces *p, hr2di_l1_frame *f, double low, double high) {
   p->error += s.error;
 }
 
-/* How far beyond the end of the range, in τ, the integrand's next pole is: 0 for none
-   nearby, and at a horizon, where the integrand vanishes with the range of t. */
+/* The distance, in τ, from the end of the range to the next pole of the integrand beyond it.  0
+   if none is near, and at a horizon, where the integrand vanishes with the range of t. */
 static double pole_beyond(const hr2di_l1_origin *o) {
   const double a = 0.5 * o->above_a / fabs(o->derivative_a);
   const double b = 0.5 * o->above_b / fabs(o->derivative_b);
@@ -148,7 +148,7 @@ static double pole_beyond(const hr2di_l1_origin *o) {
   return pole < 0.25 ? pole : 0;
 }
 
-/* Pieces that grow away from an end at τ = 0, as their distance from the pole does. */
+/* Adds pieces that grow with their distance from the pole, away from the end at τ = 0. */
 static void add_graded(pieces *p, hr2di_l1_frame *f, double low, double high) {
   const double pole = pole_beyond(&f->origin), sign = high > 0 ? 1 : -1;
   double near = sign > 0 ? low : -high, far = sign > 0 ? high : -low;
@@ -160,7 +160,7 @@ static void add_graded(pieces *p, hr2di_l1_frame *f, double low, double high) {
   }
 }
 
-/* Splits at the middle and measures τ from the ends. */
+/* Splits the range at its middle and measures τ from the end of each half. */
 static void split_range(pieces *p, double low, double high) {
   hr2di_l1_frame *f = p->frame, middle = p->frame[0];
   hr2di_l1_turn_to_angle(&middle, atan(low) + atan(high));
@@ -204,14 +204,14 @@ static void measure_pieces(pieces *p) {
   for (int k = 0; k + 1 < count; k++) add_piece(p, f, at[k], at[k + 1]);
 }
 
-/* Where x is much longer than y, or the angles are flat, what is near a corner is seen at all
-   angles between bounds of t that come from s, and cancel: there G is above Gc.  Since
+/* Where x is much longer than y, or the angles are flat, places near a corner are seen at all
+   angles, between bounds of t that come from s and cancel.  There G is above Gc.  Since
    ∫∫ G = AF is known to all its digits,
 
      ∫∫ |G − Gc| = AF − Gc A_x A_y + 2 ∫∫ (Gc − G)⁺,
 
-   whose last term comes from elsewhere.  Nothing cancels in the sum unless the error is small
-   beside AF + Gc A_x A_y, as it is for small and distant pairs. */
+   and such places add nothing to the last term.  Nothing cancels in the sum unless the error is
+   small beside AF + Gc A_x A_y, as it is for small and distant pairs. */
 static double from_area(pieces *p, double area, double outside, double factor, double spread,
                         double tolerance) {
   double below = outside;
@@ -223,13 +223,13 @@ static double from_area(pieces *p, double area, double outside, double factor, d
   return (area - spread) + 2 * factor * below;
 }
 
-/* Whether bounds from s keep their digits. */
+/* Whether bounds of t that come from s keep their digits. */
 static int is_square(const hr2di_l1_frame *f) {
   return f->length_x < 64 * f->length_y && f->x.cosine > 0.05 && f->y.cosine > 0.05;
 }
 
-/* Whether the error is not small beside AF + Gc A_x A_y; *area becomes AF where it is so, by
-   formulas whose bits do not depend on the scale. */
+/* Whether the error is not small beside AF + Gc A_x A_y.  If so, *area becomes AF, by formulas
+   whose bits do not depend on the scale. */
 static int is_large(const hr2d_segment *i, const hr2d_segment *j, const hr2di_l1_frame *f,
                     double rough, double spread, double *area) {
   if (is_square(f) && !(rough > 2 * NEAR * spread)) return 0;
@@ -237,14 +237,14 @@ static int is_large(const hr2d_segment *i, const hr2d_segment *j, const hr2di_l1
   return fmax(rough, fabs(*area - spread)) > NEAR * (*area + spread);
 }
 
-/* The error, or, with epsilon ≥ 0, anything on the same side of it. */
+/* The error; with epsilon ≥ 0, any value on the same side of epsilon as the error. */
 static double integrate(pieces *p, const hr2d_segment *i, const hr2d_segment *j,
                         double epsilon) {
   const hr2di_l1_frame *f = p->frame;
   const double unit = 0.5 * f->y.cosine * f->distance, whole = f->length_x * f->length_y;
   const double spread = unit * f->x.cosine * whole;
   measure_pieces(p);
-  /* Where one point is behind the other, |G − Gc| = Gc. */
+  /* Where one point is behind the other segment, |G − Gc| = Gc. */
   const double hidden = whole - (f->x.high - f->x.low) * (f->y.high - f->y.low);
   const double outside = f->x.cosine * hidden * f->per_length * f->per_range;
   const double factor = unit / f->per_length / f->per_range, max = epsilon / factor;
@@ -266,9 +266,9 @@ static double extent(const hr2d_segment *s) {
   return fabs(s->b.x - s->a.x) + fabs(s->b.y - s->a.y);
 }
 
-/* y is the shorter one, whose ends then bound t for most directions: bounds that
-   come from s cancel.  Between segments of one extent any order will do that
-   does not depend on that of the arguments. */
+/* Whether j is the shorter segment and so can be y: its ends then bound t for most directions,
+   while bounds that come from s cancel.  For segments of the same extent any order will do that
+   does not depend on the order of the arguments. */
 static int in_order(const hr2d_segment *i, const hr2d_segment *j) {
   const double p[] = {extent(j), i->a.x, i->a.y, i->b.x, i->b.y};
   const double q[] = {extent(i), j->a.x, j->a.y, j->b.x, j->b.y};

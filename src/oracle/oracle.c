@@ -66,14 +66,14 @@ static hr2d_status estimate_size2(void *ctx, const hr2d_batch *batch, double *er
 
 /* A² ≤ ε²r² decides without root or division.  Each side, and the estimate's own
    square, is off by at most 5 roundings, so that the two can only disagree where
-   the difference is within 16 units in the last place of A²; there the estimate
-   itself decides.  So it does where underflow might have eaten digits: with
-   1e-300 < ε² < 1e20 that shows in a difference below 1e-280. */
+   the difference is within 16 units in the last place of A².  There the estimate
+   itself decides.  The estimate also decides where underflow may have lost digits: with
+   1e-300 < ε² < 1e20 this shows in a difference below 1e-280. */
 static int doubtful(double excess, double a2) {
   return !(fabs(excess) - 16 * DBL_EPSILON * a2 > 1e-280);
 }
 
-/* The first loop has no branches; a doubt anywhere in the batch is looked into then. */
+/* The first loop has no branches; if a pair of the batch is doubtful, the second settles it. */
 static hr2d_status accept_squares(const hr2d_batch *batch, double epsilon2, double epsilon,
                                   double (*estimate)(const hr2d_element *,
                                                      const hr2d_element *),
@@ -126,7 +126,7 @@ static hr2d_status accept_size2(void *ctx, const hr2d_batch *batch, double epsil
   return accept_squares(batch, epsilon, epsilon, size2_of_pair, accepted);
 }
 
-/* An element against the centre of another, d away from its own. */
+/* The cosine at an element's centre towards another's, by absolute value; they are d apart. */
 static hr2di_scaled wide_cosine(const hr2d_element *e, const hr2di_vector *d, hr2di_scaled r) {
   const hr2di_vector along = hr2di_vector_difference_scaled(e->b, e->a);
   hr2di_scaled det = hr2di_det_scaled(&along, d);
@@ -146,8 +146,8 @@ static double wide_bf(const hr2d_element *i, const hr2d_element *j, double brigh
 }
 
 /* G(x_c,y_c)·max(A_x,A_y)·B_y; lengths cancel, so that only ratios are formed.  Determinants
-   have 2 roundings, r has 3, a cosine 7 and the product 21; the shortcut is for what can
-   neither lose bits of a difference nor leave the range of a double on the way. */
+   have 2 roundings, r has 3, a cosine 7 and the product 21.  Pairs that could lose bits of a
+   difference, or leave the range of a double on the way, go to wide_bf(). */
 static double bf_of_pair(const hr2d_element *i, const hr2d_element *j, double brightness) {
   if (!(brightness > 0)) return 0;
   if (!hr2di_point_plain(i->a) || !hr2di_point_plain(i->b) || !hr2di_point_plain(i->centre) ||
