@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Exchange areas of many element pairs at once; the values are those of
-   hr2d_exchange_area(), bit for bit. */
+/* Exchange areas of many element pairs at once, bit for bit as from hr2d_exchange_area(). */
 #ifndef HR2D_SRC_GEOMETRY_EXCHANGE_AREA_H
 #define HR2D_SRC_GEOMETRY_EXCHANGE_AREA_H
 

@@ -19,8 +19,8 @@ struct hr2d_hierarchy {
   atomic_int readers; /* solves that are under way: callbacks may not refine */
 };
 
-/* Whether the hierarchy must not change: a refinement or a solve on it is under way, whose
-   callback makes this call, or which runs in another thread. */
+/* Whether the hierarchy must not change, because a refinement or a solve on it is under way:
+   the call comes from its callback, or from another thread. */
 static inline int hr2di_hierarchy_busy(const hr2d_hierarchy *hierarchy) {
   return hierarchy->refining || atomic_load(&hierarchy->readers) > 0;
 }

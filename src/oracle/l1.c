@@ -40,7 +40,7 @@ enum {
 };
 
 #define TOLERANCE 1e-12  /* of one interval, relative to the whole */
-#define NEAREST   1e-15  /* a pole nearer to the end cannot be told from it */
+#define NEAREST   1e-15  /* a nearer pole cannot be distinguished from the end */
 #define NEAR      0.05   /* of AF + Gc A_x A_y; an error above it is not small */
 #define FLAT      1e-140 /* a pair with a cosine below it gets the bound AF + Gc A_x A_y */
 
