@@ -60,7 +60,7 @@ typedef struct state {
   int done;        /* every band has converged */
 } state;
 
-/* Measures the residual r and passes it to `tell`.  active[b] becomes 1 if band b still needs
+/* Measures the residual r and passes it to `report`.  active[b] becomes 1 if band b still needs
    work, else 0. */
 static hr2d_status look(state *s, const double *r, double *active) {
   double *square = s->scalar[1], *norm = s->scalar[2];
@@ -75,7 +75,7 @@ static hr2d_status look(state *s, const double *r, double *active) {
     if (!(size <= DBL_MAX)) return HR2D_ENOT_CONVERGED;
     if (size > 0) s->residual = fmax(s->residual, size / norm[b]);
   }
-  return s->system->tell(s->system->ctx, s->residual);
+  return s->system->report(s->system->ctx, s->residual);
 }
 
 static hr2d_status conjugate_gradients(state *s, const double *b) {

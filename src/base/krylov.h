@@ -19,7 +19,7 @@ typedef struct hr2di_krylov_system {
   void (*scale)(void *ctx, const double *y, double *norm);
   /* Called at the start and after each iteration with the largest relative residual; any status
      but HR2D_OK ends the iteration. */
-  hr2d_status (*tell)(void *ctx, double residual);
+  hr2d_status (*report)(void *ctx, double residual);
   void *ctx;
 
   double tolerance;
@@ -28,7 +28,7 @@ typedef struct hr2di_krylov_system {
 
 /* Improves y until ‖b − (I − S) y‖ ≤ tolerance·scale in every band.  *residual becomes the last
    residual relative to the scale, the largest over the bands.  Returns HR2D_OK, HR2D_ENOMEM,
-   HR2D_ENOT_CONVERGED or the status of `tell`.  HR2D_ENOT_CONVERGED is also returned if a
+   HR2D_ENOT_CONVERGED or the status of `report`.  HR2D_ENOT_CONVERGED is also returned if a
    symmetric I − S turns out not to be positive definite. */
 hr2d_status hr2di_krylov(const hr2di_krylov_system *system, const double *b, double *y,
                          double *residual);

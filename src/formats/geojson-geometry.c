@@ -10,6 +10,7 @@
 #include "base/alloc.h"
 #include "formats/geojson-impl.h"
 #include "geometry/predicates.h"
+#include "geometry/vector.h"
 #include "scene/scene-impl.h"
 
 /* Bytes of a name that several segments share.  Each segment gets a copy: without this limit a
@@ -40,10 +41,6 @@ static hr2d_status read_position(hr2di_geojson *reader, const path *p, size_t k)
   return HR2D_OK;
 }
 
-static int same_point(hr2d_point a, hr2d_point b) {
-  return a.x == b.x && a.y == b.y;
-}
-
 static hr2d_status read_points(hr2di_geojson *reader, const path *p, size_t *count) {
   const size_t min = p->role == LINE ? 2 : 4;
   const size_t n = *count = json_array_size(p->positions);
@@ -60,13 +57,13 @@ static hr2d_status read_points(hr2di_geojson *reader, const path *p, size_t *cou
   for (size_t k = 0; k < n; k++) {
     hr2d_status status = read_position(reader, p, k);
     if (status) return status;
-    if (k && same_point(reader->point[k - 1], reader->point[k]))
+    if (k && hr2di_point_same(reader->point[k - 1], reader->point[k]))
       return hr2di_message_fail(
           reader->message, HR2D_ESCENE,
           "%s: segment %zu has no length: positions %zu and %zu are the same", p->place, k, k,
           k + 1);
   }
-  if (p->role != LINE && !same_point(reader->point[0], reader->point[n - 1]))
+  if (p->role != LINE && !hr2di_point_same(reader->point[0], reader->point[n - 1]))
     return hr2di_message_fail(
         reader->message, HR2D_ESYNTAX,
         "%s: a ring must be closed: its last position must repeat the first", p->place);

@@ -17,33 +17,35 @@
 #define DIV hr2di_scaled_div
 #define NEG hr2di_scaled_neg
 
-typedef hr2di_scaled wide;
+typedef hr2di_scaled scaled;
 
 typedef struct pair {
   hr2di_vector ab, cd, ac, bd, ad, bc;
-  wide abc, abd, cda, cdb;
+  scaled abc, abd, cda, cdb;
 } pair;
 
-static wide corner_area(wide length_y, wide length_z, wide dot, wide det, wide opposite) {
-  const wide product = MUL(length_y, length_z);
-  const wide sum = ADD(ADD(length_y, length_z), opposite);
+static scaled corner_area(scaled length_y, scaled length_z, scaled dot, scaled det,
+                          scaled opposite) {
+  const scaled product = MUL(length_y, length_z);
+  const scaled sum = ADD(ADD(length_y, length_z), opposite);
   if (dot.m >= 0) return DIV(ADD(product, dot), sum);
   return MUL(DIV(det, sum), DIV(det, SUB(product, dot)));
 }
 
-static wide crossing_area(const pair *s, wide on_i, wide on_j, wide m, wide opposite) {
-  const wide u = hr2di_vector_length_scaled(&s->ab), v = hr2di_vector_length_scaled(&s->cd);
-  const wide dot = hr2di_vector_dot_scaled(&s->ab, &s->cd), product = MUL(u, v);
-  const wide part_i = MUL(u, DIV(on_i, m)), part_j = MUL(v, DIV(on_j, m));
-  const wide sum = ADD(ADD(part_i, part_j), opposite);
+static scaled crossing_area(const pair *s, scaled on_i, scaled on_j, scaled m,
+                            scaled opposite) {
+  const scaled u = hr2di_vector_length_scaled(&s->ab), v = hr2di_vector_length_scaled(&s->cd);
+  const scaled dot = hr2di_vector_dot_scaled(&s->ab, &s->cd), product = MUL(u, v);
+  const scaled part_i = MUL(u, DIV(on_i, m)), part_j = MUL(v, DIV(on_j, m));
+  const scaled sum = ADD(ADD(part_i, part_j), opposite);
   if (dot.m > 0) return DIV(MUL(on_i, on_j), MUL(sum, ADD(product, dot)));
   return MUL(DIV(MUL(part_i, part_j), sum), DIV(SUB(product, dot), product));
 }
 
-static wide clipped_area(const pair *s) {
-  const wide u = hr2di_vector_length_scaled(&s->ab), v = hr2di_vector_length_scaled(&s->cd);
-  const wide ac = hr2di_vector_length_scaled(&s->ac), bd = hr2di_vector_length_scaled(&s->bd);
-  const wide ad = hr2di_vector_length_scaled(&s->ad), bc = hr2di_vector_length_scaled(&s->bc);
+static scaled clipped_area(const pair *s) {
+  const scaled u = hr2di_vector_length_scaled(&s->ab), v = hr2di_vector_length_scaled(&s->cd);
+  const scaled ac = hr2di_vector_length_scaled(&s->ac), bd = hr2di_vector_length_scaled(&s->bd);
+  const scaled ad = hr2di_vector_length_scaled(&s->ad), bc = hr2di_vector_length_scaled(&s->bc);
   if (s->abd.m < 0 && s->cda.m < 0)
     return crossing_area(s, s->cdb, s->abc, SUB(s->abc, s->abd), bc);
   if (s->abc.m < 0 && s->cdb.m < 0)
@@ -57,15 +59,15 @@ static wide clipped_area(const pair *s) {
   return corner_area(v, ac, NEG(hr2di_vector_dot_scaled(&s->ac, &s->cd)), s->cda, ad);
 }
 
-static wide facing_area(const pair *s) {
-  const wide p = hr2di_vector_length_scaled(&s->ac), q = hr2di_vector_length_scaled(&s->bd);
-  const wide k = ADD(s->abc, s->cda), pq = MUL(p, q),
-             e = hr2di_vector_dot_scaled(&s->ac, &s->bd);
-  const wide at_ad =
+static scaled facing_area(const pair *s) {
+  const scaled p = hr2di_vector_length_scaled(&s->ac), q = hr2di_vector_length_scaled(&s->bd);
+  const scaled k = ADD(s->abc, s->cda), pq = MUL(p, q),
+               e = hr2di_vector_dot_scaled(&s->ac, &s->bd);
+  const scaled at_ad =
       ADD(ADD(MUL(p, s->abd), MUL(q, s->cda)), MUL(k, hr2di_vector_length_scaled(&s->ad)));
-  const wide at_bc =
+  const scaled at_bc =
       ADD(ADD(MUL(q, s->abc), MUL(p, s->cdb)), MUL(k, hr2di_vector_length_scaled(&s->bc)));
-  wide t = {0, 0};
+  scaled t = {0, 0};
   if (at_ad.m > 0) t = DIV(MUL(s->abd, s->cda), at_ad);
   if (at_bc.m > 0) t = ADD(t, DIV(MUL(s->abc, s->cdb), at_bc));
   return MUL(t, e.m >= 0 ? DIV(k, ADD(pq, e)) : DIV(SUB(pq, e), k));

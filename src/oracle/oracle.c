@@ -127,18 +127,20 @@ static hr2d_status accept_size2(void *ctx, const hr2d_batch *batch, double epsil
 }
 
 /* The cosine at an element's centre towards another's, by absolute value; they are d apart. */
-static hr2di_scaled wide_cosine(const hr2d_element *e, const hr2di_vector *d, hr2di_scaled r) {
+static hr2di_scaled scaled_cosine(const hr2d_element *e, const hr2di_vector *d,
+                                  hr2di_scaled r) {
   const hr2di_vector along = hr2di_vector_difference_scaled(e->b, e->a);
   hr2di_scaled det = hr2di_det_scaled(&along, d);
   det.m = fabs(det.m);
   return hr2di_scaled_div(hr2di_scaled_div(det, hr2di_scaled_of(e->length, 0)), r);
 }
 
-static double wide_bf(const hr2d_element *i, const hr2d_element *j, double brightness) {
+static double scaled_bf(const hr2d_element *i, const hr2d_element *j, double brightness) {
   const hr2di_vector d = hr2di_vector_difference_scaled(j->centre, i->centre);
   const hr2di_scaled r = hr2di_vector_length_scaled(&d);
   if (r.m == 0) return HUGE_VAL;
-  const hr2di_scaled cosines = hr2di_scaled_mul(wide_cosine(i, &d, r), wide_cosine(j, &d, r));
+  const hr2di_scaled cosines =
+      hr2di_scaled_mul(scaled_cosine(i, &d, r), scaled_cosine(j, &d, r));
   const hr2di_scaled size =
       hr2di_scaled_div(hr2di_scaled_of(larger(i->length, j->length), -1), r);
   return hr2di_scaled_value(
@@ -147,12 +149,12 @@ static double wide_bf(const hr2d_element *i, const hr2d_element *j, double brigh
 
 /* G(x_c,y_c)·max(A_x,A_y)·B_y; lengths cancel, so that only ratios are formed.  Determinants
    have 2 roundings, r has 3, a cosine 7 and the product 21.  Pairs that could lose bits of a
-   difference, or leave the range of a double on the way, go to wide_bf(). */
+   difference, or leave the range of a double on the way, go to scaled_bf(). */
 static double bf_of_pair(const hr2d_element *i, const hr2d_element *j, double brightness) {
   if (!(brightness > 0)) return 0;
   if (!hr2di_point_plain(i->a) || !hr2di_point_plain(i->b) || !hr2di_point_plain(i->centre) ||
       !hr2di_point_plain(j->a) || !hr2di_point_plain(j->b) || !hr2di_point_plain(j->centre))
-    return wide_bf(i, j, brightness);
+    return scaled_bf(i, j, brightness);
   const hr2di_vector along_i = hr2di_vector_difference(i->b, i->a);
   const hr2di_vector along_j = hr2di_vector_difference(j->b, j->a);
   const hr2di_vector d = hr2di_vector_difference(j->centre, i->centre);
@@ -161,7 +163,7 @@ static double bf_of_pair(const hr2d_element *i, const hr2d_element *j, double br
   const double cos_i = fabs(hr2di_det(&along_i, &d)) / (i->length * r);
   const double cos_j = fabs(hr2di_det(&along_j, &d)) / (j->length * r);
   const double cosines = 0.5 * cos_i * cos_j;
-  if (!(cosines > 1e-250 && cosines < 1e250)) return wide_bf(i, j, brightness);
+  if (!(cosines > 1e-250 && cosines < 1e250)) return scaled_bf(i, j, brightness);
   return cosines * (larger(i->length, j->length) / r) * brightness;
 }
 

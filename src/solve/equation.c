@@ -150,7 +150,7 @@ static void scale(void *ctx, const double *y, double *norm) {
   for (size_t b = 0; b < system.bands; b++) norm[b] = sqrt(norm[b]);
 }
 
-static hr2d_status tell(void *ctx, double residual) {
+static hr2d_status report(void *ctx, double residual) {
   hr2di_equation *s = ctx;
   s->looks++;
   if (!s->options.progress) return HR2D_OK;
@@ -172,7 +172,7 @@ static hr2di_krylov_system make_system(hr2di_equation *s) {
                                .symmetric = !s->links->directed,
                                .apply = apply,
                                .scale = scale,
-                               .tell = tell,
+                               .report = report,
                                .ctx = s,
                                .tolerance = s->options.tolerance,
                                .max_iterations = s->options.max_iterations};
