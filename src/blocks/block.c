@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which way a block is integrated, and the plain one for distant pairs. */
+/* Chooses how a block is integrated, and integrates the blocks of distant pairs. */
 #include "blocks/block.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
 
-/* Where a linear function with these end values is positive. */
+/* The part of [0,1] where a linear function with these end values is positive. */
 static hr2di_span positive(const double end[2]) {
   hr2di_span span = {0, 1};
   if (!(end[0] > 0)) span.from = end[1] > 0 ? end[0] / (end[0] - end[1]) : 1;
@@ -19,7 +19,7 @@ static hr2di_span positive(const double end[2]) {
   return span;
 }
 
-/* The vector of an element, from that of its patch, which has more digits. */
+/* The vector b − a of an element, from the vector of its patch, which has more digits. */
 static hr2d_point along(const hr2di_patch *p, const hr2d_element *e) {
   const double part = e->length / p->length;
   return (hr2d_point){part * (p->scaled.b.x - p->scaled.a.x),
@@ -46,9 +46,8 @@ static void make_frame(hr2di_pair_frame *f, const hr2d_scene *scene, const hr2d_
   }
 }
 
-/* Elements next to a corner of their patches may be so small that coordinates do not tell them
-   apart.  Their distances from the corner do, as fractions of the patches, exactly; `far` is
-   the other end of each patch. */
+/* Elements next to a corner of their patches may be so small that their coordinates are equal.
+   Their distances from the corner, as fractions of the patches, are exact and differ. */
 static void measure_from_corner(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pair pair,
                                 int at_end) {
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
@@ -59,7 +58,7 @@ static void measure_from_corner(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr
   const hr2d_point v = {q->scaled.b.x - q->scaled.a.x, q->scaled.b.y - q->scaled.a.y};
   const double sine =
       hr2di_orient(p->scaled.a, p->scaled.b, at_end ? q->scaled.b : q->scaled.a);
-  /* Places along the patches, with the corner at 0. */
+  /* Fractions of the patches, with the corner at 0. */
   const double a = at_end ? from_i - 1 : from_i, c = at_end ? from_j : from_j - 1;
   f->apart = (hr2d_point){c * v.x - a * u.x, c * v.y - a * u.y};
   f->above_i[0] = fabs(c) * sine / p->length;
@@ -77,8 +76,8 @@ void hr2di_pair_frame_init(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pa
     measure_from_corner(f, h, pair, hr2di_point_same(p.b, q.a));
 }
 
-/* Digits a block is worth at order p: B is approximated to 3.3^−2p in the mean, and a rule of
-   q points on panels as far off as block-near.c makes them is good to 3.19^−(2q−p). */
+/* The number of points that the accuracy of order p needs: B is approximated to 3.3^−2p in the
+   mean, and a rule of q points is accurate to 3.19^−(2q−p) on the panels of near.c. */
 static size_t near_points(size_t order) {
   const double p = (double)order, digits = fmin(2 * p * log(3.3) + 5, 35);
   return (size_t)ceil(0.5 * (digits / log(3.19) + p));
@@ -124,7 +123,7 @@ void hr2di_integrator_clear(hr2di_integrator *w) {
   hr2di_alloc_free(&w->alloc, w->shadow);
 }
 
-/* One tensor rule: G is smooth on both. */
+/* One tensor rule is enough, because G is smooth on both elements. */
 void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, double *block) {
   const size_t p = w->order, n = w->far.points;
   const double scale = 0.5 * f->length_i * f->length_j;
@@ -150,8 +149,8 @@ void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, double 
   }
 }
 
-/* The walls in the way, into w->found; the patch with the lower number comes first, as where
-   links are made. */
+/* Collects the walls in the way into w->found.  The patch with the lower number comes first,
+   as it does in refinement. */
 static hr2d_status look(hr2di_integrator *w, hr2d_pair pair, hr2di_facing facing,
                         hr2di_shaft *shaft, hr2di_visibility_class *view) {
   const hr2d_hierarchy *h = w->hierarchy;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blocks of near pairs: Gauss rules on panels that shrink towards what they are near to.
+/* Blocks of near pairs: Gauss rules on panels that shrink towards near points.
 
-   A rule of q points is good to 3.19^−2q on a panel that is far enough (panels.h), or
-   3.19^−(2q−p) with a factor φ_p. */
+   On a panel that is far enough (panels.h), a rule of q points is accurate to 3.19^−2q, or to
+   3.19^−(2q−p) if the integrand has a factor φ_p. */
 #include <math.h>
 #include <string.h>
 
@@ -26,7 +26,7 @@ void hr2di_block_add_moments(hr2di_integrator *w, const hr2di_pair_frame *f, dou
       const double t = middle + 0.5 * size * w->near.at[q];
       const hr2d_point r = hr2di_block_along(x, f->along_j, t);
       const double square = r.x * r.x + r.y * r.y;
-      if (!(square > 0)) continue; /* rounded to one point, where the heights are 0, too */
+      if (!(square > 0)) continue; /* x and y round to one point: the heights are 0, too */
       const double g = size * w->near.weight[q] * height * hr2di_block_mix(f->above_i, t) /
                        (square * sqrt(square));
       hr2di_basis_at(&w->basis, 2 * t - 1, phi);
@@ -72,7 +72,7 @@ void hr2di_block_add_strip(hr2di_integrator *w, const hr2di_pair_frame *f,
   }
 }
 
-/* Everywhere the part of j that is in front of i. */
+/* Every point of i sees the part of j that is in front of i. */
 static size_t see_front(const void *ctx, double s, hr2di_span *part) {
   const hr2di_pair_frame *f = ctx;
   (void)s;

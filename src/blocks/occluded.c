@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blocks of pairs with walls in the way.
 
-   What of a wall is in front of both elements is a screen; from x it hides the part of j
-   between the projections of its ends.  Which points bound the visible parts changes only
-   where x lies on a line through two ends of screens or of j.  Between such cuts the parts are
-   smooth functions of x, but near their bounding points, near where a projection runs to
-   infinity, and near the line of j.  Neighbouring cells with the same bounding points are
-   one. */
+   A screen is the part of a wall that is in front of both elements.  From x it hides the part
+   of j between the projections of its ends.  The points that bound the visible parts change
+   only where x lies on a line through two ends of screens or of j.  Such lines cut i into
+   cells.  In a cell the visible parts are smooth functions of x, except near their bounding
+   points, near an x whose projection runs to infinity, and near the line of j.  Neighbouring
+   cells with the same bounding points are joined. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,13 +16,14 @@
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
 
-/* Parts of j narrower than this are none, and cuts of i closer than this one. */
+/* Fractions: parts of j narrower than this are dropped; cuts of i closer than this count as
+   one. */
 #define SLIVER 1e-14
 
-/* Sine of the angle below which a point is on the line of i. */
+/* Sine of the angle to i below which a point counts as on the line of i. */
 #define FOOT 1e-15
 
-/* Points 0 and 1 are the ends of what of j is in front of i. */
+/* Points 0 and 1 are the ends of the part of j in front of i; ends of screens follow. */
 enum { START = 0, END = 1, FIRST = 2 };
 
 typedef struct bound {
@@ -30,7 +31,7 @@ typedef struct bound {
   uint32_t point;
 } bound;
 
-/* What a screen hides. */
+/* The part of j that a screen hides. */
 struct hr2di_shadow {
   bound low, high;
 };
@@ -54,15 +55,15 @@ static double height(const hr2di_pair_frame *f, hr2d_point p) {
   return hr2di_point_cross(f->along_j, hr2di_point_minus(p, f->j.a)) / f->length_j;
 }
 
-/* Whether a point is on the line of i but for rounding: then it is seen along i, on the side of
-   the start of j or on the other. */
+/* Whether a point is on the line of i, within rounding.  Such a point is seen in the direction
+   of i or in the opposite one: towards the start of j or towards its end. */
 static int is_foot(const hr2di_pair_frame *f, hr2d_point p) {
   const hr2d_point from = hr2di_point_minus(p, f->i.a);
   const double size = fabs(from.x) + fabs(from.y) + f->length_i;
   return hr2di_point_cross(f->along_i, from) <= FOOT * f->length_i * size;
 }
 
-/* Where x sees a point on the line of j; an end of what is in front if that is nearer. */
+/* The place on the line of j where x sees a point, limited to the part of j in front of i. */
 static bound project(const view *v, double s, uint32_t point) {
   const hr2di_pair_frame *f = v->f;
   const bound start = {f->front_j.from, START}, end = {f->front_j.to, END};
@@ -92,7 +93,7 @@ static void append(signature *seen, bound low, bound high) {
   seen->high[seen->parts++] = high.point;
 }
 
-/* What of j is left between the shadows, from x. */
+/* The parts of j between the shadows, as the point at s sees them. */
 static void look(const view *v, double s, signature *seen) {
   const hr2di_span front = v->f->front_j;
   shadow *shade = v->work->shadow;
@@ -124,7 +125,7 @@ static size_t see(const void *ctx, double s, hr2di_span *part) {
   return v->seen.parts;
 }
 
-/* The number of a point, which is added if it is new. */
+/* Returns the number of a point; adds the point if it is new. */
 static uint32_t number(hr2di_integrator *w, size_t *points, hr2d_point p) {
   for (size_t k = FIRST; k < *points; k++)
     if (w->point[k].x == p.x && w->point[k].y == p.y) return (uint32_t)k;
@@ -132,7 +133,7 @@ static uint32_t number(hr2di_integrator *w, size_t *points, hr2d_point p) {
   return (uint32_t)(*points)++;
 }
 
-/* Screens, and all points that may bound a part. */
+/* Makes the screens, and all points that may bound a visible part. */
 static hr2d_status make_screens(hr2di_integrator *w, const hr2di_shaft *shaft, view *v) {
   const hr2di_pair_frame *f = v->f;
   const size_t max = w->found.count;
@@ -159,7 +160,7 @@ static int rising(const void *a, const void *b) {
   return (p > q) - (p < q);
 }
 
-/* Cuts i where it meets the lines through two points, of which one is a screen's. */
+/* Cuts i where it meets the lines through two points, at least one of them a screen's end. */
 static hr2d_status make_cuts(hr2di_integrator *w, const view *v, size_t *cuts) {
   const hr2di_pair_frame *f = v->f;
   const size_t max = v->points * v->points + 2;
@@ -180,7 +181,8 @@ static hr2d_status make_cuts(hr2di_integrator *w, const view *v, size_t *cuts) {
   return HR2D_OK;
 }
 
-/* Where the integrand over the cell may be singular: `singular` has room. */
+/* The points where the integrand over the cell may be singular; returns their number, at most
+   six for each visible part. */
 static size_t find_singular(const view *v, hr2d_point *singular) {
   const hr2di_pair_frame *f = v->f;
   const double slope = f->above_j[1] - f->above_j[0];

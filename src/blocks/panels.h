@@ -1,26 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Panels of a segment that shrink towards what they are near to. */
+/* Panels: parts of a segment that shrink towards a near point. */
 #ifndef HR2D_SRC_BLOCKS_PANELS_H
 #define HR2D_SRC_BLOCKS_PANELS_H
 
 #include "blocks/block.h"
 #include "geometry/bernstein-ellipse.h"
 
-/* A panel is far enough from a point v at an ellipse of m = 1.75, ρ = 3.19 (see block.h). */
+/* A panel is far enough from a point v at an ellipse of m = 1.75, ρ = 3.19 (see
+   geometry/bernstein-ellipse.h). */
 #define HR2DI_NEAR_ELLIPSE 1.75
 
-/* Of an element; G integrates to at most 1, so that less is lost. */
+/* A fraction of the element.  G integrates to at most 1, so less than this is lost. */
 #define HR2DI_SMALLEST_PANEL 0x1p-46
 
 enum { HR2DI_PANELS = 128 };
 
-/* Those not yet looked at, the next one last. */
+/* The panels still to be treated; the next one is last. */
 typedef struct hr2di_panels {
   hr2di_span stack[HR2DI_PANELS];
   size_t count;
 } hr2di_panels;
 
-/* Puts back the halves of a panel that can still be halved; 0 if it cannot. */
+/* Pushes the halves of a panel.  Returns 0 if it cannot be halved any more. */
 static inline int hr2di_panel_halved(hr2di_panels *panels, hr2di_span panel) {
   const double middle = 0.5 * (panel.from + panel.to);
   if (!(panel.to - panel.from > HR2DI_SMALLEST_PANEL) || panels->count >= HR2DI_PANELS - 2)

@@ -41,8 +41,8 @@ static void add_panel(hr2di_integrator *w, const corner *c, double lambda, hr2di
   w->kernels += w->near.points;
 }
 
-/* One side, with `row` as work space: `inner` holds φ(uv), `outer` φ(u); for the outer element
-   the corner is at its end, or at its start. */
+/* The integrals over v of one side: row_km = ∫₀¹ k(1, λv) φ_m(u_k v) dv, φ_m on the inner
+   element.  The corner is at the end of the inner element, or at its start. */
 static void add_side(hr2di_integrator *w, const corner *c, double lambda, int inner_at_end,
                      double *row) {
   hr2di_span stack[128];
@@ -66,7 +66,7 @@ static void add_side(hr2di_integrator *w, const corner *c, double lambda, int in
 void hr2di_block_touching(hr2di_integrator *w, const hr2di_pair_frame *f, int at_end,
                           double *block) {
   const size_t p = w->order;
-  /* In units of which neither product is too small for a double; no digit changes. */
+  /* Scaled by powers of 2, so that no product underflows; no digit changes. */
   const int e_i = -ilogb(f->length_i), e_j = -ilogb(f->length_j);
   const hr2d_point u = {ldexp(f->along_i.x, e_i), ldexp(f->along_i.y, e_i)};
   const hr2d_point v = {ldexp(f->along_j.x, e_j), ldexp(f->along_j.y, e_j)};
