@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Joined by links, and where clusters spare most of these, by theirs. */
+/* Links join patches; where clusters replace most links, the links of clusters do. */
 #include "links/components.h"
 
 #include "base/alloc.h"
@@ -16,8 +16,8 @@ static void join(hr2di_components *c, size_t i, size_t j) {
   hr2di_union_join(c->parent, (uint32_t)i, (uint32_t)j);
 }
 
-/* All patches of a cluster see all of any that it has a link with.  Without links no patch has
-   a home. */
+/* A link of two clusters means that all patches of one see all patches of the other.  Without
+   such links no patch has a home. */
 static void join_clusters(hr2di_components *c, const hr2di_clusters *clusters, size_t patches) {
   if (clusters->links == 0) return;
   for (size_t k = 0; k < patches; k++)

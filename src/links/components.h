@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Components: patches that exchange light with each other, over however many others. */
+/* Components: patches that exchange light with each other, directly or over other patches. */
 #ifndef HR2D_SRC_LINKS_COMPONENTS_H
 #define HR2D_SRC_LINKS_COMPONENTS_H
 
@@ -7,10 +7,11 @@
 
 typedef struct hr2di_components {
   hr2d_allocator alloc;
-  uint32_t *parent; /* union-find: over patches, and behind them over clusters */
+  uint32_t *parent; /* union-find over the patches, followed by the clusters */
 } hr2di_components;
 
-/* Joins what links of a set join; HR2D_OK or HR2D_ENOMEM.  To be cleared in either case. */
+/* Finds the components of a link set.  Returns HR2D_OK or HR2D_ENOMEM.  Call
+   hr2di_components_clear() in either case. */
 hr2d_status hr2di_components_init(hr2di_components *c, const hr2d_linkset *links);
 void hr2di_components_clear(hr2di_components *c);
 

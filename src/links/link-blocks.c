@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Each block has a place of its own, so that threads leave no trace. */
+/* Each block has a place of its own in memory, so the result does not depend on threads. */
 #include "links/link-blocks.h"
 
 #ifdef _OPENMP
@@ -10,7 +10,7 @@
 #include "blocks/block.h"
 #include "links/linkset-impl.h"
 
-/* Links are done in rounds, and progress is told between them. */
+/* Blocks are made in rounds, and progress is reported between them. */
 enum { CHUNK = 16, ROUND = 256 };
 
 typedef struct maker {
@@ -42,7 +42,7 @@ static hr2d_status make_chunk(const maker *m, size_t worker, uint64_t from, uint
   return make_some(m, &m->work[worker], first, last);
 }
 
-/* One thread takes none of OpenMP, whose runtime ends the program where it has no memory. */
+/* One thread does not use OpenMP, whose runtime ends the program if it has no memory. */
 static hr2d_status make_round(const maker *m, uint64_t from, uint64_t to) {
   const long chunks = (long)((to - from + CHUNK - 1) / CHUNK);
   hr2d_status worst = HR2D_OK;
@@ -82,7 +82,7 @@ static hr2d_status make_all(const maker *m, const hr2di_link_blocks_plan *plan) 
   return status;
 }
 
-/* Few links are done before a thread has woken up. */
+/* Few links get few threads: their blocks are made before another thread wakes up. */
 static size_t count_threads(unsigned asked, uint64_t links) {
 #ifdef _OPENMP
   const size_t threads = asked ? asked : (size_t)omp_get_max_threads();

@@ -8,21 +8,21 @@
 
 typedef struct hr2di_link_blocks {
   size_t order;
-  uint64_t links;         /* of the set when they were made; 0: there are none */
+  uint64_t links;         /* the number of links when the blocks were made; 0: no blocks */
   double *value;          /* links × order × order */
-  unsigned char *distant; /* per link: integrated by one rule, as good as the order asks */
+  unsigned char *distant; /* per link: integrated by one rule, as accurate as the order needs */
   uint64_t kernels;       /* evaluations of G it took */
 } hr2di_link_blocks;
 
-/* How to make them. */
+/* Options of hr2di_link_blocks_init(). */
 typedef struct hr2di_link_blocks_plan {
-  unsigned threads; /* 0 for all; no bit depends on it */
+  unsigned threads; /* 0 for all; the result does not depend on it, bit for bit */
   hr2d_progress_fn progress;
   void *progress_ctx;
 } hr2di_link_blocks_plan;
 
-/* Makes the blocks of a set's links anew; HR2D_OK, HR2D_ENOMEM, or the status of the progress
-   callback.  On failure there are none. */
+/* Makes new blocks for all links of a set.  Returns HR2D_OK, HR2D_ENOMEM, or the status of the
+   progress callback.  On failure the set has no blocks. */
 hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order,
                                    const hr2di_link_blocks_plan *plan);
 

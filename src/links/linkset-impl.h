@@ -29,14 +29,14 @@ struct hr2d_linkset {
   hr2di_message message;
   hr2di_store store;
   hr2di_link_blocks blocks; /* of links that were solved at an order above 1 */
-  hr2di_roots roots;        /* where a refinement begins; empty: with all pairs of patches */
+  hr2di_roots roots;        /* where a refinement begins; empty: at all pairs of patches */
   int directed;
   int solving;    /* a solve is under way, and may make blocks */
   double epsilon; /* of the last refinement; infinite before */
   hr2d_refine_counts counts;
 };
 
-/* Adds links; HR2D_OK or HR2D_ENOMEM, with some of them added. */
+/* Adds links.  Returns HR2D_OK, or HR2D_ENOMEM when only some of them are added. */
 hr2d_status hr2di_store_add(hr2di_store *store, const hr2d_allocator *alloc,
                             const hr2d_pair *pair, const double *area, size_t count);
 

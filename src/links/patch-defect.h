@@ -7,19 +7,20 @@
 #include "base/neumaier-sum.h"
 #include "links/linkset-impl.h"
 
-/* A patch, or a component of patches, whose defect is at most this part of its length is
-   closed: the sum is compensated, each exchange area is good to 4e-15 of itself, and the areas
-   add up to the length. */
+/* A patch, or a component of patches, is closed if its defect is at most this fraction of its
+   length.  Rounding alone stays below that: the sum is compensated, each exchange area is
+   accurate to 4e-15 of itself, and the areas add up to the length. */
 #define HR2DI_DEFECT_CLOSED 1e-14
 
-/* The same for the question whether light can escape at all.  It is coarser, as a solution
-   beside an opening of 1e-14 would be roundings times 1e14; solve.h states it. */
+/* The same fraction for the question whether light can escape at all.  It is coarser, because
+   with an opening of 1e-14 the solution would be rounding errors times 1e14; solve.h states
+   it. */
 #define HR2DI_DEFECT_NO_ESCAPE 1e-13
 
 /* Sets the defect of every patch.  Links of clusters do not count. */
 void hr2di_defect_sum(const hr2d_linkset *links, hr2di_sum *defect);
 
-/* Marks the patches that are closed by their defects. */
+/* Sets closed[k] to 1 for each patch k that is closed by its defect, else to 0. */
 void hr2di_defect_closed(const hr2d_linkset *links, const hr2di_sum *defect,
                          unsigned char *closed);
 

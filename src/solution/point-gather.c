@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One more gather at single points: B' = E + ρ ∫ G V B_h, with G and V exact.
 
-   A point of the patch sees parts of other patches; over what a leaf has of such a part B_h is
-   a polynomial, and panels shrink towards the point as those of near blocks do. */
+   A point of a patch sees parts of other patches.  On each leaf of such a part B_h is a
+   polynomial, and panels shrink towards the point as they do in near blocks. */
 #include "blocks/panels.h"
 #include "geometry/point-view-factor.h"
 #include "hierarchy/hierarchy-impl.h"
@@ -10,7 +10,7 @@
 #include "solution/solution-impl.h"
 #include "visibility/point-view.h"
 
-/* Points of a rule on a panel that far: good to 3.19^−(2·24 − order). */
+/* On a panel that is far enough a rule is accurate to 3.19^−(2·POINTS − order). */
 enum { POINTS = 32, STACK = 128 };
 
 typedef struct gatherer {
@@ -21,7 +21,7 @@ typedef struct gatherer {
   double *value; /* per band: H */
 } gatherer;
 
-/* At order 1 a leaf's part has the form factor of a segment. */
+/* At order 1 B is constant on a leaf: its part sends B times the form factor of a segment. */
 static void add_constant(gatherer *g, const hr2d_element *e, const double *coefficient,
                          hr2di_span part) {
   const hr2d_point along = {e->b.x - e->a.x, e->b.y - e->a.y};
@@ -32,7 +32,6 @@ static void add_constant(gatherer *g, const hr2d_element *e, const double *coeff
   for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += factor * coefficient[b];
 }
 
-/* Factors of small panels are exact; their B is that of a rule's points. */
 static void add_panel(gatherer *g, hr2d_point from, hr2d_point along, hr2di_span panel,
                       const double *coefficient) {
   const double size = panel.to - panel.from;
@@ -41,7 +40,7 @@ static void add_panel(gatherer *g, hr2d_point from, hr2d_point along, hr2di_span
     const double t = panel.from + size * (0.5 + 0.5 * g->rule.at[q]);
     const hr2d_point r = hr2di_block_along(from, along, t);
     const double square = r.x * r.x + r.y * r.y;
-    if (!(square > 0)) continue; /* x is a corner, and the panel as small as rounding */
+    if (!(square > 0)) continue; /* x is a corner, and the panel no larger than rounding */
     const double cos_x = g->normal.x * r.x + g->normal.y * r.y;
     const double turn = r.x * along.y - r.y * along.x;
     const double kernel =
@@ -51,7 +50,7 @@ static void add_panel(gatherer *g, hr2d_point from, hr2d_point along, hr2di_span
   }
 }
 
-/* Adds what a part of a leaf sends. */
+/* Adds the light that a part of a leaf sends. */
 static void add_leaf(gatherer *g, uint32_t leaf, hr2di_span part) {
   const hr2d_solution *s = g->solution;
   const hr2d_element *e = &s->hierarchy->element[leaf];
@@ -72,13 +71,13 @@ static void add_leaf(gatherer *g, uint32_t leaf, hr2di_span part) {
   }
 }
 
-/* An element of a patch, and what a glimpse has of it. */
+/* An element, and the part of its patch that it covers. */
 typedef struct piece {
   uint32_t element;
   double from, to; /* fractions of the patch */
 } piece;
 
-/* Adds the leaves of a part of a patch. */
+/* Adds the light of the part of a patch that the point sees. */
 static void add_glimpse(gatherer *g, const hr2di_glimpse *seen) {
   const hr2d_element *element = g->solution->hierarchy->element;
   piece stack[STACK];

@@ -9,9 +9,9 @@ struct hr2d_solution {
   hr2d_allocator alloc;
   const hr2d_linkset *links;
   const hr2d_hierarchy *hierarchy;
-  hr2d_hierarchy *own_hierarchy; /* of hr2d_solve_to(): destroyed with the solution, as are */
-  hr2d_linkset *own_links;
-  size_t elements; /* of the hierarchy when this was solved */
+  hr2d_hierarchy *own_hierarchy; /* made by hr2d_solve_to(), destroyed with the solution */
+  hr2d_linkset *own_links;       /* likewise */
+  size_t elements;               /* of the hierarchy when this was solved */
   size_t order, bands;
   double *value;      /* elements × order × bands, Legendre coefficients of B */
   double *irradiance; /* likewise of H */
@@ -20,8 +20,8 @@ struct hr2d_solution {
   double residual;
 };
 
-/* Its B on leaves of a hierarchy that has grown from its own, at another order perhaps: count ×
-   order × bands coefficients. */
+/* Writes B of a solution to `field`: count × order × bands coefficients, on leaves of a
+   hierarchy that has grown from its own, and at another order perhaps. */
 void hr2di_solution_restrict(const hr2d_solution *from, const hr2d_hierarchy *hierarchy,
                              const uint32_t *leaf, size_t count, size_t order, double *field);
 

@@ -29,8 +29,8 @@ double hr2d_solution_average(const hr2d_solution *solution, size_t patch, size_t
   return average(solution, solution->value, patch, band);
 }
 
-/* The leaf of the solution at *t of a patch, and the fraction that is of the leaf; on a border
-   the one before it or behind it. */
+/* The leaf of the solution at fraction *t of a patch; sets *t to the fraction of that leaf.  On
+   a border of two leaves it is the one before it if `before` is set, else the one behind. */
 static uint32_t leaf_at(const hr2d_solution *solution, size_t patch, double *t, int before) {
   const hr2d_element *element = solution->hierarchy->element;
   uint32_t at = (uint32_t)patch;
@@ -48,8 +48,8 @@ static double leaf_value(const hr2d_solution *s, const double *value, uint32_t l
                          s->bands);
 }
 
-/* On a border the straight line between the values at the leaves' centres, or at an order above
-   1 the mean of what they have there. */
+/* The value at fraction t of a patch.  On the border of two leaves: at order 1 the straight
+   line between the values at their centres, at an order above 1 the mean of their values. */
 static double value_at(const hr2d_solution *s, const double *value, size_t patch, double t,
                        size_t band) {
   double t_before = t, t_behind = t;
@@ -65,8 +65,8 @@ static double value_at(const hr2d_solution *s, const double *value, size_t patch
   return here + part * (there - here);
 }
 
-/* The youngest ancestor that the solution knows has a polynomial, whose values at the points of
-   a rule give the coefficients on the leaf. */
+/* The youngest ancestor that the solution has carries a polynomial.  Its values at the points
+   of a rule give the coefficients on the leaf. */
 static void restrict_to(const hr2d_solution *from, const hr2d_hierarchy *h, uint32_t leaf,
                         const hr2di_rule *rule, const hr2di_basis *to, double *field) {
   double start = 0, size = 1, phi[HR2D_MAX_ORDER];
@@ -90,7 +90,7 @@ static void restrict_to(const hr2d_solution *from, const hr2d_hierarchy *h, uint
   }
 }
 
-/* Legendre coefficients are nested, so that on leaves both know they are copied. */
+/* Legendre coefficients are nested: on leaves that the solution has, they are copied. */
 void hr2di_solution_restrict(const hr2d_solution *from, const hr2d_hierarchy *hierarchy,
                              const uint32_t *leaf, size_t count, size_t order, double *field) {
   const size_t bands = from->bands, width = order * bands, known = from->order * bands;
@@ -120,7 +120,7 @@ double hr2d_solution_irradiance_at(const hr2d_solution *solution, size_t patch, 
 }
 
 double hr2d_solution_net_flux(const hr2d_solution *solution, size_t patch, size_t band) {
-  /* B − H of B = E + ρH, without the digits they have in common. */
+  /* B − H = E − (1−ρ)H, without the loss of the digits that B and H have in common. */
   const hr2d_scene *scene = solution->hierarchy->scene;
   return hr2d_scene_emission(scene, patch, band) -
          (1 - hr2d_scene_reflectance(scene, patch, band)) *
