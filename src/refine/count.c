@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Counting N and L without links, on several threads.
 
-   Each worker has a copy of the hierarchy that it grows alone.  The first refines
-   until there is work for all: refused pairs on its stacks, and patches not yet
-   projected.  What a pair leads to does not depend on who works on it or when, so
-   that sums and the union of the trees are those of one thread. */
+   Each worker grows a copy of the hierarchy of its own.  The first worker refines until
+   there is work for all: refused pairs on its stacks, and patches not yet projected.  The
+   links and elements that a pair leads to do not depend on which worker refines it or when,
+   so the sums and the union of the trees are the same as with one thread. */
 #include <hr2d/refine.h>
 #include <stdatomic.h>
 
@@ -26,7 +26,7 @@ enum {
 };
 
 typedef struct worker {
-  hr2d_linkset links; /* a view: its own hierarchy, message, and no links */
+  hr2d_linkset links; /* a copy with a hierarchy and a message of its own, without links */
   hr2di_projector *projector;
   hr2d_status status;
 } worker;
@@ -42,7 +42,7 @@ typedef struct team {
   hr2di_occluded_pairs occluded;
   size_t next_patch; /* the first not yet projected */
 
-  atomic_ullong links_told; /* by all workers */
+  atomic_ullong links_told; /* L of all workers but the first */
   atomic_ullong tasks_done;
   atomic_int stop;
 } team;
@@ -57,14 +57,14 @@ static unsigned long long task_count(const team *t) {
   return tasks + shares(t->occluded.stack.count);
 }
 
-/* The stacks of a projector but the one in the shade. */
+/* Stack k of a projector; p->occluded is not among them. */
 static hr2di_stack *stack_of(hr2di_projector *p, int k) {
   hr2di_stack *const stack[STACKS] = {&p->facing, &p->clipped, &p->unoccluded[0],
                                       &p->unoccluded[1]};
   return stack[k];
 }
 
-/* Every worker looks whether another has failed; the calling thread tells progress. */
+/* Every worker checks whether another has failed; the calling thread reports progress. */
 static hr2d_status report(hr2di_projector *p) {
   team *t = p->report_ctx;
   if (atomic_load(&t->stop)) return HR2D_STOPPED;
@@ -96,13 +96,14 @@ static size_t wanted_workers(const hr2d_linkset *links, const hr2d_refine_option
 #endif
 }
 
-/* Each worker has a part of the budget, and one is for their union; 0 stays 0. */
+/* The budget of bytes has an equal part for each worker and one for the union of their trees;
+   0 if there is no budget. */
 static uint64_t part_of_budget(const team *t) {
   const uint64_t budget = t->options.max_bytes, part = budget / (t->count + 1);
   return budget && !part ? 1 : part;
 }
 
-/* A worker begins with a copy of what `from` has become by then. */
+/* Worker k begins with a copy of `from` as it is now. */
 static hr2d_status hire(team *t, size_t k, const hr2d_hierarchy *from) {
   worker *w = &t->worker[k];
   w->links = *t->links;
@@ -127,8 +128,8 @@ static hr2d_status hire(team *t, size_t k, const hr2d_hierarchy *from) {
   return HR2D_OK;
 }
 
-/* The first worker alone, until there are pairs enough for all; alone to the end if
-   there is no other. */
+/* Lets the first worker refine alone: until there are enough pairs for all, or to the end if
+   there is no other worker. */
 static hr2d_status begin(team *t) {
   hr2di_projector *p = t->worker[0].projector;
   const size_t n = t->links->hierarchy->scene->patches;
@@ -157,7 +158,7 @@ static hr2d_status take_occluded(hr2di_projector *p, const hr2di_occluded_pairs 
   return status;
 }
 
-/* Pairs of some stack, or a patch not yet projected. */
+/* Gives a worker the pairs of a task: a share of a stack, or a patch not yet projected. */
 static hr2d_status take(team *t, hr2di_projector *p, size_t task) {
   for (int k = 0; k < STACKS; k++) {
     const size_t some = shares(t->stack[k].count);
@@ -179,8 +180,7 @@ static hr2d_status do_task(team *t, hr2di_projector *p, size_t task) {
   return status;
 }
 
-/* The calling thread tells progress before and after, lest it find nothing to do
-   between. */
+/* The calling thread reports progress before and after, because it may get no task. */
 static void work(team *t) {
   const long long tasks = (long long)task_count(t);
   worker *first = &t->worker[0];
@@ -209,7 +209,8 @@ static uint64_t shared_bytes(const team *t) {
          t->occluded.list.capacity * sizeof *t->occluded.list.wall;
 }
 
-/* The pairs on the first worker's stacks become everybody's, at the first one's cost. */
+/* Shares the pairs on the first worker's stacks among all.  The first worker's budget keeps
+   paying for their memory. */
 static void share_out(team *t) {
   hr2di_projector *p = t->worker[0].projector;
   for (int k = 0; k < STACKS; k++) {
@@ -227,7 +228,8 @@ static void share_out(team *t) {
   if (!status) work(t);
 }
 
-/* The first worker that failed, and was not merely told to stop, gives the reason. */
+/* The reason is that of the first worker with a message.  A worker that stopped because
+   another one failed has none. */
 static hr2d_status gather_status(team *t) {
   const worker *reason = NULL;
   for (size_t k = 0; k < t->count; k++) {
@@ -239,7 +241,7 @@ static hr2d_status gather_status(team *t) {
                             reason->links.message.text);
 }
 
-/* How many elements the union may have room for. */
+/* The number of elements that the budget leaves for the union of the trees. */
 static size_t union_room(const team *t, size_t hired) {
   if (!t->options.max_bytes) return SIZE_MAX;
   const uint64_t rest = t->options.max_bytes - hired * part_of_budget(t);
@@ -250,7 +252,7 @@ static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
   hr2d_linkset *links = t->links;
   hr2d_refine_counts sum = {0};
   for (size_t k = 0; k < t->count; k++) {
-    if (!t->clone[k]) continue; /* the first was done before the others began */
+    if (!t->clone[k]) continue; /* not hired: the first worker finished before */
     const hr2d_refine_counts *part = &t->worker[k].projector->counts;
     sum.links += part->links;
     sum.limited_links += part->limited_links;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pairs in the shade: each carries the walls that reach into its shaft, and hands to the
-   pairs that come of it those that reach into theirs.
+/* Occluded pairs: each carries the walls that reach into its shaft, and hands each child pair
+   the walls that reach into the child's shaft.
 
-   Where none is left a pair comes out of the shade, and nothing below it is tested again.
-   Where nothing passes it is dropped: one wall that cuts the shaft is noticed at once,
-   several together by the widest of them, or else when the pair would be linked. */
+   A pair without walls is unoccluded, and no pair below it is tested again.  A pair that
+   nothing passes is dropped: one wall that cuts the shaft is noticed at once; walls that
+   block it together are noticed by a test of the widest of them, or else when the pair would
+   be linked. */
 #include "refine/occluded-pairs.h"
 
 #include "base/alloc.h"
@@ -32,7 +33,7 @@ static int make_shaft(const hr2d_hierarchy *h, hr2d_pair pair, hr2di_facing *fac
                           h->scene->patch[j->patch].scaled);
 }
 
-/* Looks once more where several walls might block a pair together. */
+/* Tests a partly visible pair again, as several walls may block it together. */
 static hr2d_status look_closer(hr2di_visibility *visibility, const hr2di_shaft *shaft,
                                hr2di_wall_list *found, size_t first,
                                hr2di_visibility_class *view) {
@@ -103,7 +104,7 @@ static hr2d_status link_pair(hr2di_projector *p, hr2d_pair pair, const uint32_t 
   return hr2di_projector_accept(p, &area, 1);
 }
 
-/* A pair to be proposed, with walls of p->found. */
+/* A pair to be proposed, with its walls in p->found. */
 typedef struct candidate {
   hr2d_pair pair;
   size_t first, count;
@@ -129,8 +130,8 @@ static hr2d_status propose(hr2di_projector *p, const candidate *c, size_t count)
   return status;
 }
 
-/* Puts what has come out of the shade where it is proposed with others, drops what is
-   blocked, and adds the rest to the candidates. */
+/* Puts a clear pair on a stack of unoccluded pairs, drops a blocked pair, and adds a partly
+   visible one to the candidates. */
 static hr2d_status sort_out(hr2di_projector *p, hr2d_pair pair, hr2di_visibility_class view,
                             hr2di_facing facing, size_t first, candidate *c, size_t *count) {
   p->counts.blocked_pairs += view == HR2DI_BLOCKED;

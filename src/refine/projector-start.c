@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Setting a projector up, and the pairs of patches it begins with. */
+/* Creates a projector, and proposes the pairs of patches that it begins with. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -36,8 +36,8 @@ hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine
   return HR2D_OK;
 }
 
-/* B of each element relative to the brightest, or E where nothing is solved yet.
-   Elements younger than the solution take their parent's. */
+/* Sets the brightness of each element: its B, or its E if there is no solution, relative to the
+   brightest element.  Elements younger than the solution get the brightness of their parent. */
 static hr2d_status set_brightness(hr2di_projector *p) {
   if (!(p->links->oracle.flags & HR2D_ORACLE_NEEDS_BRIGHTNESS)) return HR2D_OK;
   const hr2d_hierarchy *h = p->hierarchy;
@@ -121,7 +121,7 @@ void hr2di_projector_destroy(hr2di_projector *p) {
   hr2di_alloc_free(alloc, p);
 }
 
-/* Collects pairs to be proposed. */
+/* Pairs of patches collected for the next proposal. */
 typedef struct proposals {
   hr2d_pair pair[HR2DI_CANDIDATES];
   size_t count;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The steps of ProjectKernel on many pairs at once: propose them to the oracle, let the policy
-   choose what to subdivide, halve elements, make the pairs that come of it; and the budgets. */
+   choose which elements to subdivide, halve these, make the child pairs; and the budgets. */
 #include "refine/projector.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "base/alloc.h"
 #include "geometry/predicates.h"
 
-enum { UNWRITTEN = 255 /* what a callback does not write has no meaning */ };
+enum { UNWRITTEN = 255 /* no subdivision: marks entries that a callback did not write */ };
 
 static hr2d_status fail(hr2di_projector *p, hr2d_status status, const char *what) {
   return hr2di_message_fail(&p->links->message, status, "%s", what);
@@ -125,7 +125,7 @@ hr2d_status hr2di_projector_propose(hr2di_projector *p, const hr2d_pair *pairs, 
   hr2d_status status = reserve(p, refused, count);
   if (!status) status = hr2di_projector_estimate(p, pairs, count);
   if (status) return status;
-  /* Without branches, which would be mispredicted: each pair is written to both. */
+  /* No branches, as they would be mispredicted: each pair is written to both arrays. */
   hr2d_pair *accepted = p->accepted, *stack = refused->pair + refused->count;
   for (size_t k = 0; k < count; k++) {
     const hr2d_pair pair = pairs[k];
@@ -193,7 +193,8 @@ hr2d_status hr2di_projector_choose_split(hr2di_projector *p, const hr2d_pair *pa
   if (!status && policy->recursion_limit)
     status = policy->recursion_limit(links->policy_ctx, &batch, p->flag);
   if (status) return hr2di_projector_check_callback(p, status, "policy", policy->name);
-  /* What is left of earlier batches was checked then; all 256 go faster than some. */
+  /* Entries behind `count` are from earlier batches and were checked then; a loop over all
+     HR2DI_BATCH is faster. */
   unsigned char max = 0;
   for (size_t k = 0; k < HR2DI_BATCH; k++) max = p->split[k] > max ? p->split[k] : max;
   if (max > HR2D_SPLIT_BOTH)
@@ -243,8 +244,8 @@ hr2d_status hr2di_projector_prepare(hr2di_projector *p, hr2d_pair *pairs, size_t
   return HR2D_OK;
 }
 
-/* The two pairs that come of splitting one element of a pair, chosen without a branch,
-   which would be mispredicted: as words, with the first element in the low half.
+/* The two child pairs of a pair of which one element is split.  The pair is a word with the
+   first element in the low half, so that no branch is needed, which would be mispredicted.
    Returns 0 if the element has no children yet. */
 static inline int split_one(const hr2d_element *element, hr2d_pair pair, unsigned split,
                             hr2d_pair out[2]) {

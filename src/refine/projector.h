@@ -14,8 +14,8 @@ enum {
   HR2DI_CANDIDATES = 4 * HR2DI_BATCH /* pairs proposed at a time: both elements split */
 };
 
-/* Where accepted pairs go.  Pairs see each other at least in part; `area` is NULL unless
-   their exchange areas were integrated already, around what is in the way. */
+/* Receives accepted pairs, which see each other at least in part.  `area` is NULL, unless their
+   exchange areas are integrated already, past the walls in the way. */
 typedef hr2d_status (*hr2di_sink)(void *ctx, const hr2d_pair *pairs, const double *area,
                                   size_t count);
 
@@ -24,10 +24,11 @@ typedef struct hr2di_stack {
   size_t count, capacity;
 } hr2di_stack;
 
-/* Pairs with walls in the way: each with its own, behind those of the pair below. */
+/* A stack of pairs with walls in the way.  The walls of a pair are in `list`, behind the walls
+   of the pair below it on the stack. */
 typedef struct hr2di_occluded_pairs {
   hr2di_stack stack;
-  size_t *first; /* where a pair's walls begin in `list` */
+  size_t *first; /* per pair: where its walls begin in `list` */
   size_t first_capacity;
   hr2di_wall_list list;
 } hr2di_occluded_pairs;
@@ -38,17 +39,17 @@ struct hr2di_projector {
   hr2d_linkset *links;
   hr2d_hierarchy *hierarchy;
   hr2d_refine_options options;
-  hr2di_sink sink; /* NULL: only counted */
+  hr2di_sink sink; /* NULL: links are only counted */
   void *sink_ctx;
   hr2d_refine_counts counts; /* of this refinement alone; elements and levels unused */
   int directed;              /* links carry light from second to first only */
-  int check_levels;          /* elements below max_level exist already */
+  int check_levels;          /* elements deeper than max_level exist already */
   int test_all;              /* facing is tested although no horizon cuts a pair */
   double *brightness;        /* per element, or NULL; as long as brightness_capacity */
   size_t brightness_capacity;
-  uint64_t bytes;           /* held by others than the hierarchy and the stacks */
-  uint64_t budget;          /* of bytes, of which options.max_bytes may be a part */
-  double roots, roots_done; /* pairs of patches, for progress */
+  uint64_t bytes;           /* memory held besides the hierarchy and the stacks */
+  uint64_t budget;          /* bytes, for messages; options.max_bytes may be a part of it */
+  double roots, roots_done; /* root pairs, all and done so far, for progress */
   unsigned ticks;           /* rounds since the last progress report */
   hr2d_status (*report)(hr2di_projector *p); /* reports progress; NULL: hr2di_rounds_report() */
   void *report_ctx;
@@ -56,13 +57,14 @@ struct hr2di_projector {
   hr2di_stack facing;  /* refused pairs that face each other fully */
   hr2di_stack clipped; /* refused pairs that one horizon still cuts */
 
-  /* Where the scene calls for occlusion, else all empty. */
+  /* Empty unless the scene calls for occlusion. */
   hr2di_visibility *visibility;
   hr2di_occluded_pairs occluded; /* refused pairs with walls in the way */
-  hr2di_stack unoccluded[2];     /* pairs that have come out of them, facing fully and in
-                               part, not yet proposed */
-  hr2di_wall_list found;         /* of pairs not yet judged */
-  const unsigned char *partial;  /* of the pairs to be judged; NULL: nothing in the way */
+  hr2di_stack unoccluded[2];     /* child pairs without walls, not yet proposed: facing fully,
+                                    and in part */
+  hr2di_wall_list found;         /* walls of pairs that are not yet estimated */
+  const unsigned char *partial;  /* per pair to be estimated: it has walls in the way; NULL: no
+                                    pair has any */
 
   /* the round under way */
   hr2d_pair candidate[HR2DI_CANDIDATES];
@@ -73,49 +75,51 @@ struct hr2di_projector {
   unsigned char split[HR2DI_BATCH];
 };
 
-/* Completes the options and checks them against the set. */
+/* Fills in default options and checks the options against the set.  Returns HR2D_OK,
+   HR2D_EINVAL or HR2D_ESTATE. */
 hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine_options *given,
                                           hr2d_refine_options *options);
 
-/* Makes a projector for checked options; to be ended by hr2di_projector_destroy(). */
+/* Creates a projector for checked options; the caller destroys it. */
 hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_options *options,
                                    hr2di_projector **made);
 void hr2di_projector_destroy(hr2di_projector *p);
 
-/* Proposes a patch with those behind it, or with all where links are directed, and
-   leaves what is refused on the stacks. */
+/* Proposes a patch with all later patches, or with all others if links are directed.  Refused
+   pairs are left on the stacks. */
 hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch);
 
-/* Proposes all pairs of patches, and all that comes of them. */
+/* Proposes all pairs of patches, and subdivides until no refused pair is left. */
 hr2d_status hr2di_projector_all(hr2di_projector *p);
 
-/* Proposes up to HR2DI_CANDIDATES pairs of which some may not see each other, or only
-   in part: these are dropped, and clipped. */
+/* Proposes up to HR2DI_CANDIDATES pairs.  Drops pairs that do not face each other; refused
+   pairs that do so in part are pushed on p->clipped, the other refused ones on p->facing. */
 hr2d_status hr2di_projector_propose_clipped(hr2di_projector *p, const hr2d_pair *pairs,
                                             size_t count);
 
-/* Asks the oracle about pairs, with p->partial; sets p->flag to 1 where they are
-   acceptable. */
+/* Asks the oracle about pairs; p->partial says which have walls in the way.  Sets p->flag to 1
+   for pairs that are acceptable, else to 0. */
 hr2d_status hr2di_projector_estimate(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
 
-/* Proposes pairs: links those that are accepted, pushes the others on a stack. */
+/* Proposes pairs: links the accepted ones, pushes the others on the stack `refused`. */
 hr2d_status hr2di_projector_propose(hr2di_projector *p, const hr2d_pair *pairs, size_t count,
                                     hr2di_stack *refused);
 
-/* Asks the policy about refused pairs: sets p->split, and p->flag where its own limit holds. */
+/* Asks the policy about refused pairs: sets p->split, and p->flag to 1 for pairs that the
+   policy's own limit stops. */
 hr2d_status hr2di_projector_choose_split(hr2di_projector *p, const hr2d_pair *pairs,
                                          size_t count);
 
-/* Halves the elements that are to be split and have no children yet.  Pairs that a limit holds
-   for go to p->accepted; the others stay in `pairs`, and *count is their number. */
+/* Halves the elements that are to be split and have no children yet.  Pairs that a limit stops
+   go to p->accepted; the others stay in `pairs`, and *count is their number. */
 hr2d_status hr2di_projector_prepare(hr2di_projector *p, hr2d_pair *pairs, size_t *count,
                                     size_t *limited);
 
-/* Writes the pairs that come of subdividing to p->candidate and returns their number, or 0 if
-   some element to be split has no children yet. */
+/* Writes the child pairs of `pairs` to p->candidate.  Returns their number, or 0 if some
+   element to be split has no children yet. */
 size_t hr2di_projector_children(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
 
-/* Leaves a message if a callback has failed; returns its status. */
+/* Leaves a message if a callback has failed; returns the status of the callback. */
 hr2d_status hr2di_projector_check_callback(hr2di_projector *p, hr2d_status status,
                                            const char *kind, const char *name);
 
@@ -125,17 +129,18 @@ hr2d_status hr2di_projector_push(hr2di_projector *p, hr2di_stack *stack, hr2d_pa
 /* Hands the first `count` of p->accepted to the sink. */
 hr2d_status hr2di_projector_accept(hr2di_projector *p, const double *area, size_t count);
 
-/* Subdivides one pair, into p->candidate; none if a limit holds, and then *limited. */
+/* Subdivides one pair into p->candidate.  If a limit holds, there are 0 candidates, and
+   `limited` receives 1. */
 hr2d_status hr2di_projector_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidates,
                                       int *limited);
 
-/* Counts links, HR2D_EMAX_LINKS if that breaks the budget. */
+/* Counts `more` links.  Returns HR2D_OK, or HR2D_EMAX_LINKS if that exceeds the budget. */
 hr2d_status hr2di_projector_count_links(hr2di_projector *p, size_t more);
 
-/* HR2D_EMAX_BYTES if `more` bytes would break the budget. */
+/* Returns HR2D_OK, or HR2D_EMAX_BYTES if `more` bytes would exceed the budget. */
 hr2d_status hr2di_projector_check_budget(hr2di_projector *p, uint64_t more);
 
-/* HR2D_EMAX_BYTES, with a message. */
+/* Leaves a message; returns HR2D_EMAX_BYTES. */
 hr2d_status hr2di_projector_fail_budget(hr2d_linkset *links, uint64_t budget, uint64_t made);
 
 /* Sets the counts of elements. */

@@ -10,7 +10,7 @@
 #include "refine/rounds.h"
 #include "scene/scene-impl.h"
 
-/* Runs a projector that is set up.  On failure the hierarchy gets its former size. */
+/* Runs a projector.  On failure the hierarchy gets its former size. */
 static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
                        hr2d_status (*project)(hr2di_projector *)) {
   hr2d_hierarchy *h = p->hierarchy;
@@ -31,7 +31,8 @@ typedef struct storing {
   double area[HR2DI_CANDIDATES];
 } storing;
 
-/* The blocks that `count` more links will need are paid for before, and the list of blocks. */
+/* Takes from the budget, before it is allocated, the chunk that `count` more links need, and a
+   longer list of chunks. */
 static hr2d_status afford_links(hr2di_projector *p, const hr2di_store *store, size_t count) {
   const uint64_t room = (uint64_t)store->chunks * HR2DI_CHUNK_LINKS - store->count;
   if (count <= room) return HR2D_OK;
@@ -63,8 +64,8 @@ static hr2d_status store_links(void *ctx, const hr2d_pair *pairs, const double *
   return add_links(s, pairs, s->area, count);
 }
 
-/* Whether a pair, or one that it is part of, faces fully.  Then all below it does,
-   whatever rounding makes of the elements, and nothing there is tested again. */
+/* Whether the elements of a pair, or ancestors of these, face each other fully.  Then so do all
+   pairs below, whatever rounding does to their elements, and they are not tested again. */
 static int faces_fully(const hr2d_hierarchy *h, hr2d_pair pair) {
   for (uint32_t i = pair.first, above_i;; i = above_i) {
     above_i = h->parent[i];
@@ -80,7 +81,7 @@ static int faces_fully(const hr2d_hierarchy *h, hr2d_pair pair) {
   }
 }
 
-/* Which links have walls in the way, into p->partial. */
+/* Sets partial[k] for links with walls in the way, and p->partial if there are any. */
 static hr2d_status look_again(hr2di_projector *p, const hr2d_pair *pairs, size_t count,
                               unsigned char *partial) {
   hr2d_status status = HR2D_OK;
@@ -136,7 +137,8 @@ static hr2d_status project_links(hr2di_projector *p) {
   return status;
 }
 
-/* What the set holds now, and what all its refinements took. */
+/* Sets the counts: elements and links as the set has them now, and the work of all its
+   refinements. */
 static void sum_counts(hr2d_linkset *links, const hr2di_projector *p) {
   hr2d_refine_counts *counts = &links->counts;
   hr2di_projector_count_elements(p->hierarchy, counts);

@@ -2,21 +2,21 @@
 /* ProjectKernel without recursion: rounds of pairs between two stacks.
 
    A round takes up to HR2DI_BATCH refused pairs from the top of a stack, lets the
-   policy choose what to subdivide, and proposes the pairs that come of it to the
-   oracle at once.  Accepted ones go to the sink, refused ones back to the stack, so
-   that the order is depth first and the stacks stay short: each level above the
-   current one leaves at most a batch behind.
+   policy choose which elements to subdivide, and proposes the child pairs to the oracle
+   at once.  Accepted pairs go to the sink, refused pairs back to the stack.  So the
+   order is depth first and the stacks stay short: each level above the current one
+   leaves at most a batch behind.
 
-   Pairs that face each other fully have only descendants that do.  A pair cut by a
-   horizon is clipped: its descendants are tested and, once they face each other
-   fully, join the rest. */
+   If the elements of a pair face each other fully, so do those of all its descendants.  A
+   pair cut by a horizon is clipped: its descendants are tested, and join the others once
+   they face each other fully. */
 #include "refine/rounds.h"
 
 #include "refine/occluded-pairs.h"
 
 enum { TICKS = 64 /* rounds between two reports of progress */ };
 
-/* One round: the topmost refused pairs are subdivided, or linked where a limit holds. */
+/* One round: subdivides the topmost refused pairs, or links them if a limit holds. */
 static hr2d_status play(hr2di_projector *p, hr2di_stack *stack) {
   size_t count = stack->count < HR2DI_BATCH ? stack->count : HR2DI_BATCH, limited = 0;
   hr2d_pair *pairs = stack->pair + stack->count - count;
@@ -43,7 +43,7 @@ size_t hr2di_rounds_waiting(const hr2di_projector *p) {
          p->unoccluded[1].count;
 }
 
-/* Proposes the topmost pairs that have come out of the shade. */
+/* Proposes the topmost child pairs that no longer have walls in the way. */
 static hr2d_status propose_unoccluded(hr2di_projector *p) {
   hr2di_stack *unoccluded = &p->unoccluded[p->unoccluded[0].count == 0];
   const size_t count = unoccluded->count < HR2DI_BATCH ? unoccluded->count : HR2DI_BATCH;
@@ -52,7 +52,7 @@ static hr2d_status propose_unoccluded(hr2di_projector *p) {
                                  unoccluded == &p->unoccluded[0] ? &p->facing : &p->clipped);
 }
 
-/* Full rounds first; pairs in the shade while there are none. */
+/* Full batches first; then occluded pairs, until these have made a batch of unoccluded ones. */
 static hr2d_status play_next(hr2di_projector *p) {
   if (p->facing.count >= HR2DI_BATCH) return play(p, &p->facing);
   if (p->clipped.count >= HR2DI_BATCH) return play(p, &p->clipped);
@@ -74,7 +74,7 @@ hr2d_status hr2di_rounds_run(hr2di_projector *p, size_t enough) {
   }
 }
 
-/* The part of its root pair that a pair on a stack stands for, summed up. */
+/* The sum, over the pairs on a stack, of the part that each is of its root pair. */
 static double unfinished(const hr2di_projector *p, const hr2di_stack *stack) {
   const hr2d_element *e = p->hierarchy->element;
   double sum = 0;

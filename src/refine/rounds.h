@@ -8,7 +8,7 @@
 /* The number of pairs on the stacks. */
 size_t hr2di_rounds_waiting(const hr2di_projector *p);
 
-/* Subdivides until no refused pair is left, or `enough` of them are. */
+/* Subdivides until no refused pair is left, or until at least `enough` are. */
 hr2d_status hr2di_rounds_run(hr2di_projector *p, size_t enough);
 
 /* Reports progress; returns the status of the callback. */

@@ -50,7 +50,7 @@ hr2d_status hr2d_study_run(hr2d_linkset *links, const hr2d_refine_options *optio
   hr2d_refine_options used = HR2D_REFINE_OPTIONS_INIT;
   if (options) hr2di_sized_copy(&used, sizeof used, options);
   used.struct_size = sizeof used;
-  used.brightness = NULL; /* every count begins on a fresh hierarchy */
+  used.brightness = NULL; /* every count begins on a new hierarchy */
   hr2d_status status = HR2D_OK;
   size_t k = 0;
   if (done) *done = 0;
@@ -75,8 +75,8 @@ static size_t distinct_sizes(const hr2d_study_row *rows, size_t count) {
   return distinct;
 }
 
-/* N = middle + half·x with x in [−1,1], so that the columns 1, x, x² are far from
-   parallel however close the N are. */
+/* N = middle + half·x with x in [−1,1].  So the columns 1, x, x² are far from parallel, no
+   matter how close the N are. */
 typedef struct scale {
   uint64_t min;
   double middle, half;
@@ -93,12 +93,12 @@ static scale scale_of(const hr2d_study_row *rows, size_t count) {
   return (scale){min, (double)min + half, half};
 }
 
-/* n − m, of integers that doubles may not tell apart. */
+/* n − m, for integers that may be equal as doubles. */
 static double difference(uint64_t n, uint64_t m) {
   return n >= m ? (double)(n - m) : -(double)(m - n);
 }
 
-/* Links are taken from the first row's, lest equal ones seem to spread. */
+/* L is counted from the L of the first row, so that equal L have no spread by rounding. */
 static void fill(const hr2d_study_row *rows, size_t count, scale n, gsl_matrix *powers,
                  gsl_vector *links) {
   for (size_t k = 0; k < count; k++) {
@@ -110,8 +110,8 @@ static void fill(const hr2d_study_row *rows, size_t count, scale n, gsl_matrix *
   }
 }
 
-/* Whether some three N are so far apart that rounding x, to 2^-53, leaves nine digits: of
-   1, 2 and 10^18 the first two are one. */
+/* Whether three N are so far apart that x, rounded to 2^-53, keeps nine digits of their
+   distances.  Of 1, 2 and 10^18 the first two count as one. */
 static int are_spread(const hr2d_study_row *rows, size_t count, scale n) {
   const double margin = 0x1p-23 * n.half;
   for (size_t k = 0; k < count; k++) {
@@ -134,7 +134,7 @@ static double determination(const gsl_vector *links, const gsl_vector *residual)
   return spread > 0 ? 1 - errors / spread : 1;
 }
 
-/* log(n/m), with all its digits where they are close. */
+/* log(n/m), accurate also where n and m are close. */
 static double log_ratio(uint64_t n, uint64_t m) {
   const double ratio = (double)n / (double)m;
   return ratio > 0.5 && ratio < 2 ? log1p(difference(n, m) / (double)m) : log(ratio);
@@ -150,7 +150,7 @@ static double slope_of_logs(const hr2d_study_row *rows, size_t count, double *x,
   return c1;
 }
 
-/* GSL's routines here work on views of our memory: its own allocation would call
+/* GSL's routines work on views of our memory here: if GSL allocated and failed, it would call
    its error handler, which aborts. */
 hr2d_status hr2d_study_fit_rows(const hr2d_study_row *rows, size_t count, hr2d_study_fit *fit) {
   if (distinct_sizes(rows, count) < 3) return HR2D_EINVAL;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whether the links of a set account for every transport exactly once.
+/* Checks that the links of a set account for every transport exactly once.
 
    Links between two patches P and Q are rectangles in the product of their trees.  P's
-   tree is walked depth first; at an element e the links of e and of its ancestors lie
-   spread over Q's tree.  All that e exchanges with Q is accounted for exactly once if
-   none of them lies below another and they fill Q, but for what e cannot see.  A link
-   is spread and taken away once, a step per level each; nothing is rounded. */
+   tree is walked depth first; at an element e the links of e and of its ancestors are
+   spread over Q's tree.  The exchange of e with Q is accounted for exactly once if none
+   of these links lies below another and they fill Q, except what e cannot see.  A link
+   is spread once and taken away once, with one step per level; nothing is rounded. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -23,12 +23,12 @@ enum { AREAS = 256 };
 #define NOBODY  UINT32_MAX
 #define NO_LINK UINT64_MAX
 
-/* What is known of an element while the links of P and Q are looked at. */
+/* The state of an element while the links between P and Q are checked. */
 typedef struct node {
   uint64_t links;      /* in P: where its links begin */
-  uint32_t by;         /* in Q: who is linked with it, or NOBODY */
+  uint32_t by;         /* in Q: the element of P that is linked with it, or NOBODY */
   uint32_t inside;     /* in Q: links spread on it and below */
-  unsigned char whole; /* in Q: filled by these links, or by those above */
+  unsigned char whole; /* in Q: these links fill it */
   unsigned char above; /* in P: an element below it has links */
 } node;
 
@@ -41,7 +41,7 @@ typedef struct validator {
   node *node;
   hr2d_pair *stack;
   size_t capacity;
-  hr2di_visibility *visibility; /* NULL where nothing can be in the way */
+  hr2di_visibility *visibility; /* NULL if the scene needs no occlusion */
 } validator;
 
 static hr2d_status fail(validator *v, hr2d_pair pair, const char *what) {
@@ -80,7 +80,7 @@ static hr2d_status out_of_memory(validator *v) {
   return hr2di_message_fail(&v->links->message, HR2D_ENOMEM, "out of memory");
 }
 
-/* The exchange areas that links should have. */
+/* The exchange areas that the links of pairs should have. */
 static hr2d_status integrate(validator *v, const hr2d_pair *pair, size_t count, double *area) {
   hr2d_status status = HR2D_OK;
   if (!v->visibility) hr2di_exchange_areas(v->h->element, pair, count, area);
@@ -121,14 +121,14 @@ static hr2d_status check_areas(validator *v, const hr2d_link *link, size_t count
   return HR2D_OK;
 }
 
-/* Checks the links one by one and copies their elements; where a link serves both
-   directions the element of the patch with the lower number comes first. */
+/* Checks the links one by one and copies their elements.  If links serve both directions, the
+   element of the patch with the lower number comes first. */
 static hr2d_status take_links(validator *v) {
   const hr2di_store *store = &v->links->store;
   for (uint64_t first = 0; first < store->count; first += AREAS) {
     const uint64_t rest = store->count - first;
     const size_t count = rest < AREAS ? (size_t)rest : AREAS;
-    const hr2d_link *link = hr2di_store_at(store, first); /* AREAS divides a block */
+    const hr2d_link *link = hr2di_store_at(store, first); /* AREAS divides a chunk */
     const hr2d_status status = check_areas(v, link, count);
     if (status) return status;
     for (size_t k = 0; k < count; k++) {
@@ -167,7 +167,8 @@ static void sort(validator *v, key by) {
   v->pair = sorted;
 }
 
-/* Spreads the link of e and f.  Links of e's ancestors and of e itself lie there. */
+/* Spreads the link of e and f over Q's tree, where links of e's ancestors and other links of
+   e are already. */
 static hr2d_status spread(validator *v, uint32_t e, uint32_t f) {
   const hr2d_element *element = v->h->element;
   node *at = v->node;
@@ -206,9 +207,9 @@ static void take_away(validator *v, uint32_t e) {
   }
 }
 
-/* Whether a pair, or one it is part of, faces each other as asked; its second elements
-   go up to `top`.  Larger pairs matter only where midpoints are off the line of their
-   patch by a rounding error that decides on which side of it something lies. */
+/* Whether the elements of a pair, or ancestors of these, face each other as `facing` says;
+   ancestors of the second go up to `top`.  Ancestors matter only where a midpoint is off the
+   line of its patch by a rounding error that decides on which side of it something lies. */
 static int inherits(const validator *v, hr2d_pair pair, uint32_t top, hr2di_facing facing) {
   for (uint32_t i = pair.first;; i = v->h->parent[i]) {
     for (uint32_t j = pair.second;; j = v->h->parent[j]) {
@@ -219,11 +220,11 @@ static int inherits(const validator *v, hr2d_pair pair, uint32_t top, hr2di_faci
   }
 }
 
-/* What is exchanged through gaps that rounding leaves between walls, relative to the
-   shorter element. */
+/* Exchange areas up to this, relative to the shorter element, pass through gaps that rounding
+   leaves between walls; they count as none. */
 #define NEGLIGIBLE 0x1p-90
 
-/* Whether walls hide a pair; *hidden is 0 where there are none. */
+/* Sets *hidden to 1 if walls hide the elements of a pair from each other, else to 0. */
 static hr2d_status look(validator *v, hr2d_pair pair, int *hidden) {
   hr2di_visibility_class view = HR2DI_CLEAR;
   double area = 0;
@@ -235,8 +236,8 @@ static hr2d_status look(validator *v, hr2d_pair pair, int *hidden) {
   return HR2D_OK;
 }
 
-/* Whether walls hide e, or something that it is part of, from f: that may be clearer of
-   them than its part, for midpoints are rounded. */
+/* Sets *hidden to 1 if walls hide e, or an ancestor of e, from f.  Because midpoints are
+   rounded, walls that hide an ancestor may leave a gap to e. */
 static hr2d_status look_above(validator *v, uint32_t e, uint32_t f, int *hidden) {
   for (;; e = v->h->parent[e]) {
     const hr2d_status status = look(v, (hr2d_pair){e, f}, hidden);
@@ -244,7 +245,7 @@ static hr2d_status look_above(validator *v, uint32_t e, uint32_t f, int *hidden)
   }
 }
 
-/* Checks that no leaves below e and f, which no link joins, see each other. */
+/* Checks, for e and f that no link joins, that no leaves below them see each other. */
 static hr2d_status check_unseen(validator *v, uint32_t e, uint32_t f) {
   const hr2d_element *element = v->h->element;
   size_t count = 0;
@@ -270,7 +271,7 @@ static hr2d_status check_unseen(validator *v, uint32_t e, uint32_t f) {
   }
 }
 
-/* Checks that what no link of e fills of the tree of q cannot be seen. */
+/* Checks that e cannot see the parts of q's tree that no link of e or its ancestors fills. */
 static hr2d_status check_filled(validator *v, uint32_t e, uint32_t q, hr2di_facing facing) {
   uint32_t f = q;
   for (;;) {
@@ -291,7 +292,7 @@ static hr2d_status check_filled(validator *v, uint32_t e, uint32_t q, hr2di_faci
   }
 }
 
-/* Walks the tree of p as far down as there are links to q. */
+/* Walks the tree of p, as far down as there are links to q. */
 static hr2d_status walk(validator *v, uint32_t p, uint32_t q, hr2di_facing facing) {
   uint32_t e = p;
   for (;;) {
@@ -311,7 +312,8 @@ static hr2d_status walk(validator *v, uint32_t p, uint32_t q, hr2di_facing facin
   }
 }
 
-/* Enters the links between two patches at their first elements, or clears them. */
+/* Sets `links` and `above` of the elements of P for the links between P and Q, or clears
+   them. */
 static void mark(validator *v, int clear) {
   for (uint64_t k = v->end; k-- > v->begin;) {
     uint32_t u = v->pair[k].first;
@@ -324,7 +326,7 @@ static void mark(validator *v, int clear) {
   }
 }
 
-/* Checks all between two patches; their links are the next in v->pair. */
+/* Checks all links between two patches; they are the next ones in v->pair. */
 static hr2d_status check_patches(validator *v, uint32_t p, uint32_t q) {
   const uint64_t count = v->links->store.count;
   const hr2d_element *element = v->h->element;
