@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The background's part of the irradiance: what is missing of each row, less backs. */
+/* The form factor of the background: 1 less the row sum, less the form factor of backs. */
 #include "solve/background.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 #include "scene/scene-impl.h"
 #include "visibility/point-view.h"
 
-/* Sky that cannot be told from rounding. */
+/* A form factor up to this cannot be told from rounding. */
 #define NONE 1e-14
 
 hr2d_status hr2di_background_set(hr2di_transport *t, const hr2di_row_sums *rows) {
@@ -31,7 +31,8 @@ typedef struct looker {
   hr2di_rule rule;
 } looker;
 
-/* Backs that a leaf sees, which begins at fraction `from` of its patch. */
+/* Subtracts the backs that a leaf sees.  The leaf begins at fraction `from` of its patch and
+   has `size` of its length. */
 static hr2d_status take_backs(looker *l, size_t leaf, double from, double size) {
   hr2di_transport *t = l->t;
   const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
@@ -62,7 +63,7 @@ static hr2d_status take_all_backs(hr2di_transport *t) {
   return status;
 }
 
-/* 1 − K1 where light comes to. */
+/* Sets t->sky to 1 − K1 on patches that light reaches. */
 static hr2d_status take_rows(hr2di_transport *t) {
   const size_t field = t->leaves * t->width;
   double *one = hr2di_alloc_zero(&t->alloc, 2 * field, sizeof *one);
@@ -81,7 +82,7 @@ static hr2d_status take_rows(hr2di_transport *t) {
   return HR2D_OK;
 }
 
-/* A closed room has no sky, whatever rounding makes of its rows. */
+/* A closed room does not see the background, whatever rounding does to its row sums. */
 static void clear_closed(hr2di_transport *t) {
   for (size_t k = 0; k < t->leaves; k++) {
     double *sky = t->sky + k * t->order, max = 0;

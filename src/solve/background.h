@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How much of all directions the leaves see the background in. */
+/* The form factor from the leaves to the background: the part of all directions in which they
+   see it. */
 #ifndef HR2D_SRC_SOLVE_BACKGROUND_H
 #define HR2D_SRC_SOLVE_BACKGROUND_H
 
 #include "solve/row-sums.h"
 #include "solve/transport.h"
 
-/* Sets t->sky from row sums, which know backs: what each leaf sees besides patches and their
-   backs.  HR2D_OK or HR2D_ENOMEM. */
+/* Sets t->sky to 1 less the row sums over patches and over their backs.  Returns HR2D_OK or
+   HR2D_ENOMEM. */
 hr2d_status hr2di_background_set(hr2di_transport *t, const hr2di_row_sums *rows);
 
-/* The same at an order above 1, from the rows of the operator; from points of each leaf it is
-   looked for backs. */
+/* The same at an order above 1, from the rows of the operator, and from the backs that points
+   of each leaf see. */
 hr2d_status hr2di_background_set_order_p(hr2di_transport *t);
 
 #endif

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Closure at an order p above 1.
 
-   Near, touching and shaded pairs are linked exactly.  A link between distant pairs i and j
-   drops what is beyond degree p−1 on i, and so its part of a leaf's row sum is off by some
-   3.3^−p of it.  The exact part is the point form factor F(x → j), which is elementary, as
-   nothing is in the way, and smooth.  On each leaf d = Π(Σ F(x → j) − K_distant 1) multiplies
-   B, with Π onto degree p−1, as (1/A)∫ d φ_l φ_m: symmetric, so that the operator stays so. */
+   Near, touching and occluded pairs are linked exactly.  A link of a distant pair i, j drops
+   the terms beyond degree p−1 on i; so its part of a leaf's row sum is off by some 3.3^−p of
+   that part.  The exact part is the form factor F(x → j) of a point, which is smooth, and
+   elementary because nothing is in the way.  On each leaf d = Π(Σ F(x → j) − K_distant 1)
+   multiplies B, where Π projects onto degree p−1.  The matrix of that, (1/A)∫ d φ_l φ_m, is
+   symmetric, so that the operator stays symmetric. */
 #include <math.h>
 #include <string.h>
 
@@ -17,8 +18,8 @@
 #include "scene/scene-impl.h"
 #include "solve/closure.h"
 
-/* Points beyond the order, for form factors of elements at an ellipse of 1.8 or more: good to
-   3.3^−2p−32 of them. */
+/* The rule for form factors has this many points more than the order: accurate to a relative
+   3.3^−(2p+32) for elements at an ellipse of 1.8 or more. */
 enum { MORE_POINTS = 16 };
 
 typedef struct rows {
@@ -30,14 +31,14 @@ typedef struct rows {
   hr2di_sum *defect;                             /* per patch */
   uint32_t *number;                              /* of each leaf among the leaves */
   double *one;                                   /* leaves × width: B = 1 */
-  double *row;                                   /* what distant links make of it */
-  double *all;                                   /* what all do */
-  double *exact;                                 /* leaves × order */
+  double *row;                                   /* its irradiance over distant links */
+  double *all;                                   /* its irradiance over all links */
+  double *exact;                                 /* leaves × order: Σ F(x → j) */
   double phi[HR2DI_RULE_POINTS][HR2D_MAX_ORDER]; /* at the points of `rule` */
   double product_phi[HR2DI_RULE_POINTS][HR2D_MAX_ORDER];
 } rows;
 
-/* What the leaves below an element see of another, by degree. */
+/* Adds the form factor of `source` to the leaves below `receiver`, by degree. */
 static void add_exact(rows *r, uint32_t receiver, uint32_t source) {
   const hr2d_hierarchy *h = r->t->hierarchy;
   const size_t order = r->t->order;
@@ -74,14 +75,14 @@ static void add_links(rows *r) {
   }
 }
 
-/* Which patches see patches in every direction. */
+/* Marks the patches that see patches in every direction. */
 static void find_closed(rows *r) {
   hr2di_defect_sum(r->t->links, r->defect);
   hr2di_defect_closed(r->t->links, r->defect, r->closed);
 }
 
-/* The same where clusters have part of the rows, to a known accuracy: smaller openings are
-   none. */
+/* The same if links of clusters carry a part of the rows.  Their accuracy is known; openings up
+   to ten times that count as none. */
 static void find_closed_by_rows(rows *r, hr2di_transport *t) {
   const double none = 10 * t->links->roots.accuracy;
   hr2di_transport_pull(t, r->all);
@@ -89,7 +90,7 @@ static void find_closed_by_rows(rows *r, hr2di_transport *t) {
     r->closed[k] = fabs(1 - t->up[k * t->width]) <= none;
 }
 
-/* (1/A)∫ d φ_l φ_m of d = Σ missing_k φ_k, symmetric. */
+/* closure_lm = (1/A)∫ d φ_l φ_m for d = Σ missing_k φ_k; symmetric. */
 static void multiply(const rows *r, const double *missing, double *closure) {
   const size_t order = r->t->order;
   memset(closure, 0, order * order * sizeof *closure);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A coarse link spreads its exchange evenly over all leaves below it, so that the
-   row sum K·1 of a leaf is off although that of the patch is exact.  Adding d(x)·B(x)
-   on each leaf, with d = σ − K·1 and σ the leaf's exact row sum, makes rows exact.
+/* A coarse link spreads its exchange evenly over all leaves below it.  So the row sum K·1 of
+   a leaf is off, although the row sum of the patch is exact.  Adding d(x)·B(x) on each leaf,
+   with d = σ − K·1 and σ the leaf's exact row sum, makes rows exact.
 
-   It keeps the operator symmetric, as d is on the diagonal, and makes it positive:
-     Σ A B (I − K − D) B = Σ A (1−σ) B² + ½ Σ AF_ij (B_i − B_j)² ≥ 0,
-   so that the discrete equation has one solution wherever ρ < 1, for every ε.  Its
-   matrix I − ρ(K + D) is an M-matrix with row sums 1 − ρσ, and so B ≥ 0. */
+   It keeps the operator symmetric, because d is on the diagonal, and makes it positive:
+     Σ A B (I − K − D) B = Σ A (1−σ) B² + ½ Σ AF_ij (B_i − B_j)² ≥ 0.
+   So the discrete equation has one solution wherever ρ < 1, for every ε.  Its matrix
+   I − ρ(K + D) is an M-matrix with row sums 1 − ρσ, and so B ≥ 0. */
 #include "solve/closure.h"
 
 #include "base/alloc.h"

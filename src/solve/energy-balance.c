@@ -10,8 +10,8 @@
 #include "links/patch-defect.h"
 #include "scene/scene-impl.h"
 
-/* A component misses nothing if it misses less than HR2DI_DEFECT_CLOSED of its rows, which are
-   1 on leaves of closed patches.  One that misses less than this part is balanced. */
+/* A component is closed if its row sums miss at most HR2DI_DEFECT_CLOSED of 1; they are 1 on
+   leaves of closed patches.  A component is balanced if they miss at most this part. */
 #define LITTLE (1. / 64)
 
 static const hr2d_element *leaf_of(const hr2di_transport *t, size_t leaf) {
@@ -36,13 +36,13 @@ static hr2d_status set_missing(hr2di_balance *b, hr2di_transport *t) {
   return t->failed ? HR2D_ENOMEM : HR2D_OK;
 }
 
-/* What is known of a component while they are numbered, at its first patch. */
+/* Sums of a component, kept at its first patch while components are numbered. */
 typedef struct tally {
   hr2di_sum length, missing;
   uint32_t number; /* from 1; 0: not numbered yet */
 } tally;
 
-/* Numbers the components that miss nothing or little. */
+/* Numbers the balanced components; clears m on leaves of closed components and of others. */
 static void number(hr2di_balance *b, const hr2di_transport *t, hr2di_components *c, tally *of) {
   for (size_t k = 0; k < t->leaves; k++) {
     tally *mine = &of[hr2di_component(c, leaf_of(t, k)->patch)];
@@ -85,7 +85,7 @@ static void clear_sums(const hr2di_balance *b, const hr2di_transport *t) {
   for (size_t k = 0; k < b->count * t->bands; k++) b->sum[k] = (hr2di_sum){0, 0};
 }
 
-/* ∫m, ∫(1−ρ) + ∫m, and this less ∫(1−ρ)m. */
+/* Sets ∫m, ∫(1−ρ) + ∫m, and this less ∫(1−ρ)m. */
 static void set_losses(hr2di_balance *b, const hr2di_transport *t) {
   clear_sums(b, t);
   for (size_t k = 0; k < t->leaves; k++) {

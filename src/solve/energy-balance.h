@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The balance of components from which little escapes, to digits that (I − ρK)⁻¹ would lose.
+/* The energy balance of components from which little escapes, with the digits that (I − ρK)⁻¹
+   would lose.
 
    With m = 1 − K1, which is 0 where a component is closed, write B = c + z and H = c + h.  Then
      h = Kz + S − mc,   z = Q − (1−ρ)c + ρh
-   for a source Q and irradiance S from the background.  As K is symmetric, what is absorbed and
-   what escapes is all that comes in,
+   for a source Q and irradiance S from the background.  As K is symmetric, the power that is
+   absorbed and the power that escapes add up to the power that comes in,
      ∫(1−ρ)H + ∫mB = ∫Q + ∫S,   and   c = (∫Q + ∫S)/(∫(1−ρ) + ∫m)   makes   ∫(1−ρ)h + ∫mz = 0.
-   c carries what grows like 1/(∫(1−ρ) + ∫m), and is as good as that is; 1−ρ is exact for ρ ≥ ½.
-   z does not grow, so that the roundings of Kz become roundings of c. */
+   c is the part that grows like 1/(∫(1−ρ) + ∫m), and it is as accurate as this denominator;
+   1−ρ is exact for ρ ≥ ½.  z does not grow, so the roundings of Kz become roundings of c. */
 #ifndef HR2D_SRC_SOLVE_ENERGY_BALANCE_H
 #define HR2D_SRC_SOLVE_ENERGY_BALANCE_H
 
@@ -18,9 +19,9 @@
 
 typedef struct hr2di_balance {
   hr2d_allocator alloc;
-  size_t count;        /* of balanced components; 0: there is nothing to do */
+  size_t count;        /* the number of balanced components; 0: there is nothing to do */
   uint32_t *component; /* of each leaf, or HR2DI_OPEN */
-  double *missing;     /* m: leaves × order, 0 elsewhere */
+  double *missing;     /* m: leaves × order; 0 on leaves that are closed or not balanced */
   double *length;      /* of each component */
   double *escape;      /* ∫m of each component; 0 for a closed one */
   double *loss;        /* count × bands: ∫(1−ρ) + ∫m */
@@ -29,20 +30,22 @@ typedef struct hr2di_balance {
   hr2di_sum *sum;      /* count × bands, work space */
 } hr2di_balance;
 
-/* Finds the components of a symmetric K with closure.  HR2D_OK or HR2D_ENOMEM; to be cleared
-   in either case. */
+/* Finds the components of a symmetric K with closure.  Returns HR2D_OK or HR2D_ENOMEM.  Call
+   hr2di_balance_clear() in either case. */
 hr2d_status hr2di_balance_init(hr2di_balance *b, hr2di_transport *t);
 void hr2di_balance_clear(hr2di_balance *b);
 
-/* Sets c to that of a source and the background, or NULL; to 0 where nothing is lost. */
+/* Sets c from a source and the light of the background per band, or NULL; c is 0 where nothing
+   is lost. */
 void hr2di_balance_set(hr2di_balance *b, const hr2di_transport *t, const double *source,
                        const double *background);
 
-/* Changes c by what ∫(1−ρ)h + ∫mz is off 0, for h = Kz + S − mc and z = Q − (1−ρ)c + ρh. */
+/* Corrects c by the amount that ∫(1−ρ)h + ∫mz is off 0, for h = Kz + S − mc and
+   z = Q − (1−ρ)c + ρh. */
 void hr2di_balance_correct(hr2di_balance *b, const hr2di_transport *t, const double *source,
                            const double *h);
 
-/* Whether a leaf is of a balanced component, and of a closed one. */
+/* Whether a leaf belongs to a balanced component, and to a closed one. */
 static inline int hr2di_balance_holds(const hr2di_balance *b, size_t leaf) {
   return b->count > 0 && b->component[leaf] != HR2DI_OPEN;
 }
@@ -60,7 +63,8 @@ void hr2di_balance_add(const hr2di_balance *b, const hr2di_transport *t, double 
 void hr2di_balance_absorb(const hr2di_balance *b, const hr2di_transport *t, double *field);
 void hr2di_balance_release(const hr2di_balance *b, const hr2di_transport *t, double *field);
 
-/* What an unknown rounding of ∫m does to the level of the band that it hurts most, relative. */
+/* The relative error of c that a rounding of ∫m may cause, the largest over components and
+   bands. */
 double hr2di_balance_doubt(const hr2di_balance *b, size_t bands);
 
 #endif

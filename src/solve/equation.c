@@ -3,8 +3,8 @@
 
    With B = Q + √ρ y the equation becomes (I − √ρ K √ρ) y = √ρ K Q.  Its operator is
    self-adjoint in Σ A x y, because A_i K_ij = AF_ij = A_j K_ji, and positive definite
-   where light is lost; patches with ρ = 0 drop out by themselves.  In closed components Q' and
-   z stand for Q and B, see balance.h. */
+   where light is lost; patches with ρ = 0 drop out by themselves.  In balanced components
+   Q' = Q − (1−ρ)c and z stand for Q and B, see energy-balance.h. */
 #include "solve/equation.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@
 #include "solve/closure.h"
 #include "solve/row-sums.h"
 
-/* Where nothing reflects there is nothing to close. */
+/* Whether a patch reflects; if none does, closure has nothing to correct. */
 static int reflects(const hr2d_scene *scene) {
   for (size_t k = 0; k < scene->patches; k++)
     for (size_t band = 0; band < scene->bands; band++)
@@ -25,7 +25,7 @@ static int reflects(const hr2d_scene *scene) {
   return 0;
 }
 
-/* Closure, and the view of the background, need what leaves see of all patches. */
+/* Sets closure and the form factor of the background, which need the rows of all leaves. */
 static hr2d_status integrate_rows(hr2di_equation *s) {
   const int closure = s->options.closure && reflects(s->links->hierarchy->scene);
   const int background = s->links->hierarchy->scene->effect[HR2D_EFFECT_BACKGROUND].on;
@@ -44,7 +44,7 @@ static hr2d_status integrate_rows(hr2di_equation *s) {
   return status;
 }
 
-/* An order above 1 needs blocks, unless a former solve has made them. */
+/* Makes the blocks that an order above 1 needs, unless a former solve has made them. */
 static hr2d_status integrate_blocks(hr2di_equation *s) {
   hr2d_linkset *links = s->links;
   const unsigned order = links->hierarchy->order;
@@ -62,8 +62,8 @@ static hr2d_status integrate_blocks(hr2di_equation *s) {
              : status;
 }
 
-/* The powers of two that bring the light of each band near 1: neither squares nor what comes of
-   B after many reflections then leave the range of a double, and denormals have all digits. */
+/* Sets powers of two that bring the light of each band near 1.  Then neither squares nor B
+   after many reflections leave the range of a double, and denormals have all digits. */
 static void set_exponents(hr2di_equation *s) {
   const hr2d_scene *scene = s->links->hierarchy->scene;
   for (size_t b = 0; b < scene->bands; b++) {
@@ -75,7 +75,7 @@ static void set_exponents(hr2di_equation *s) {
   }
 }
 
-/* Coefficients of leaves are numbered as the items of the system. */
+/* Item k of the system is coefficient k % order of leaf k / order. */
 static void set_surfaces(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   const hr2d_scene *scene = t->hierarchy->scene;
@@ -127,7 +127,7 @@ static void apply(void *ctx, const double *in, double *out) {
   for (size_t k = 0; k < s->field; k++) out[k] *= s->root_rho[k];
 }
 
-/* out = Q' + √ρ y, which is z, with Q' = Q where nothing is closed. */
+/* out = z = Q' + √ρ y, with Q' = Q outside balanced components. */
 static void set_fluctuation(hr2di_equation *s, const double *y, double *out) {
   for (size_t k = 0; k < s->field; k++) out[k] = s->source[k];
   hr2di_balance_absorb(&s->balance, &s->transport, out);
@@ -178,13 +178,13 @@ static hr2di_krylov_system make_system(hr2di_equation *s) {
                                .max_iterations = s->options.max_iterations};
 }
 
-/* H = K B, and what comes from the background. */
+/* H = KB + S */
 void hr2di_equation_gather(hr2di_equation *s, const double *radiosity) {
   hr2di_transport_apply(&s->transport, radiosity, s->irradiance);
   if (s->background) hr2di_transport_add_background(&s->transport, s->light, s->irradiance);
 }
 
-/* h = Kz, what comes from the background, and what balance takes off. */
+/* h = Kz + S − mc */
 static void gather_rest(hr2di_equation *s, const double *z, double *out) {
   hr2di_transport_apply(&s->transport, z, out);
   if (s->background) hr2di_transport_add_background(&s->transport, s->light, out);
@@ -239,14 +239,14 @@ hr2d_status hr2di_equation_take(hr2di_equation *s) {
   return s->transport.failed ? HR2D_ENOMEM : HR2D_OK;
 }
 
-/* c where item k is the constant of a leaf. */
+/* c if entry k of a field is the constant coefficient of a leaf, else 0. */
 static double constant_of(const hr2di_equation *s, size_t k) {
   const hr2di_transport *t = &s->transport;
   const size_t m = k % t->width;
   return m < t->bands ? hr2di_balance_at(&s->balance, t, k / t->width, m) : 0;
 }
 
-/* With B = c + z it is Q − (1−ρ)c + ρ(Kz + S − mc) − z. */
+/* With B = c + z the defect is Q − (1−ρ)c + ρ(Kz + S − mc) − z. */
 void hr2di_equation_defect(hr2di_equation *s, const double *radiosity, double *out) {
   for (size_t k = 0; k < s->field; k++) s->work[k] = radiosity[k] - constant_of(s, k);
   gather_rest(s, s->work, out);

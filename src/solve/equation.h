@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The discrete radiosity equation, with everything it takes: fields on leaves, Legendre
-   coefficients × bands each. */
+/* The discrete radiosity equation.  Its fields have order × bands Legendre coefficients on each
+   leaf. */
 #ifndef HR2D_SRC_SOLVE_EQUATION_H
 #define HR2D_SRC_SOLVE_EQUATION_H
 
@@ -16,10 +16,10 @@ typedef struct hr2di_equation {
   hr2di_transport transport;
   hr2di_balance balance;
   int background;   /* light comes in from the surroundings */
-  int *exponent;    /* per band: E, B and H are 2^exponent times what is held here */
+  int *exponent;    /* per band: E, B and H are 2^exponent times the values held here */
   size_t items;     /* leaves × order */
   size_t field;     /* items × bands */
-  double *space;    /* holds what follows */
+  double *space;    /* holds all arrays below */
   double *weight;   /* A of each item's leaf */
   double *source;   /* E at first */
   double *light;    /* per band: of the background */
@@ -30,30 +30,32 @@ typedef struct hr2di_equation {
   double *norm[2]; /* per band */
   uint64_t row_sums, kernels;
   double coefficients_seconds;
-  uint64_t looks; /* at the residual: one before the first iteration, one after each */
+  uint64_t looks; /* residuals seen: one before the first iteration, one after each */
 } hr2di_equation;
 
-/* Integrates blocks where links have none, and row sums where they are called for; HR2D_OK,
-   HR2D_ENOMEM, or the status of the progress callback.  To be cleared in either case. */
+/* Integrates blocks if the links have none, and row sums if they are called for.  Returns
+   HR2D_OK, HR2D_ENOMEM, or the status of the progress callback.  Call hr2di_equation_clear() in
+   either case. */
 hr2d_status hr2di_equation_init(hr2di_equation *eq, hr2d_linkset *links,
                                 const hr2d_solve_options *options);
 void hr2di_equation_clear(hr2di_equation *eq);
 
-/* irradiance = K radiosity, and what comes from the background. */
+/* eq->irradiance = K radiosity + the irradiance from the background. */
 void hr2di_equation_gather(hr2di_equation *eq, const double *radiosity);
 
-/* Solves for radiosity and irradiance, from y as it is; leaves a message if it fails. */
+/* Solves for radiosity and irradiance, starting from y.  Returns HR2D_OK, HR2D_ENOMEM,
+   HR2D_ENOT_CONVERGED or the status of the progress callback; the last two leave a message. */
 hr2d_status hr2di_equation_solve(hr2di_equation *eq);
 
-/* B = Q + √ρ y and its irradiance; all there is to do where nothing reflects.  HR2D_OK or
-   HR2D_ENOMEM. */
+/* Sets B = Q + √ρ y and its irradiance; this is the whole solve where nothing reflects.
+   Returns HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_equation_take(hr2di_equation *eq);
 
-/* Balances the source, so that y is that of h from then on; hr2di_equation_solve() does. */
+/* Sets c from the source, so that y = √ρ h from then on; hr2di_equation_solve() does it. */
 void hr2di_equation_balance(hr2di_equation *eq);
 
-/* out = Q + ρKB − B, with the digits that balance leaves of it; changes eq->work.  `out` may
-   not be that, nor the irradiance, which it keeps. */
+/* out = Q + ρKB − B, with the digits that the energy balance keeps; changes eq->work.  `out`
+   must be neither eq->work nor eq->irradiance; the latter is unchanged. */
 void hr2di_equation_defect(hr2di_equation *eq, const double *radiosity, double *out);
 
 /* ‖Q + ρKB − B‖/‖B‖, the largest over the bands; changes y. */

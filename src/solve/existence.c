@@ -18,7 +18,7 @@ typedef struct exchange {
   double *length;
 } exchange;
 
-/* What clusters exchange for the patches in them. */
+/* Subtracts from the defect of each patch what links of clusters exchange for it. */
 static hr2d_status add_clusters(const hr2d_linkset *links, exchange *e) {
   const size_t n = links->hierarchy->scene->patches;
   if (!links->roots.clusters) return HR2D_OK;
@@ -41,8 +41,8 @@ static void sum_up(const hr2d_scene *scene, exchange *e) {
   }
 }
 
-/* Judges one band: a component is in doubt if it is closed and nothing absorbs.  What clusters
-   exchange is known to their accuracy only. */
+/* Checks one band: no patch may emit in a component that is closed and absorbs nothing.
+   Exchange over links of clusters is known to their accuracy only. */
 static hr2d_status check_band(hr2d_linkset *links, exchange *e, size_t band,
                               unsigned char *absorbs) {
   const hr2d_scene *scene = links->hierarchy->scene;

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Row sums of leaves.
 
-   A patch that sees patches wherever it looks has leaves that do: their sums are 1.  The
-   leaves of others are asked for what they exchange with every patch that theirs sees; or,
-   where things are in the way of whole patches, with the elements that they are linked
-   with, themselves or what they are part of.  A tree is walked down as far as something in
-   the way of its elements asks for. */
+   If a patch sees patches in every direction, so do its leaves: their sums are 1.  Other leaves
+   sum their exchange areas with every patch that their patch sees, or, if the scene calls for
+   occlusion, with every element that the leaf or an ancestor of it is linked with.  A tree is
+   walked down only as far as walls are in the way of its elements. */
 #include "solve/row-sums.h"
 
 #include "base/alloc.h"
@@ -16,7 +15,7 @@
 #include "scene/back-faces.h"
 #include "scene/scene-impl.h"
 
-/* Elements wait on a stack: one per level and their walls. */
+/* Elements wait on a stack with their walls, one per level. */
 enum { DEPTH = 1100 };
 
 typedef struct waiting {
@@ -27,17 +26,18 @@ typedef struct waiting {
 /* The row of one patch. */
 typedef struct walker {
   const hr2d_hierarchy *h;
-  hr2di_backs backs;        /* empty if not asked for */
-  hr2d_segment line;        /* of the patch */
-  hr2d_segment source;      /* what its leaves see: a patch, the back of one, or an element */
-  hr2d_segment source_line; /* of which that is a part */
-  hr2di_visibility *visibility; /* NULL where nothing is in the way */
+  hr2di_backs backs;            /* empty if not asked for */
+  hr2d_segment line;            /* of the patch */
+  hr2d_segment source;          /* its leaves look at this: a patch, a back or an element */
+  hr2d_segment source_line;     /* the patch of which `source` is a part */
+  hr2di_visibility *visibility; /* NULL if nothing can be in the way */
   hr2di_wall_list list;
   waiting stack[DEPTH];
   hr2di_sum *sum; /* per element, set for leaves */
 } walker;
 
-/* All leaves below an element see the source without anything in the way. */
+/* Adds the exchange areas of the source with all leaves below an element, with nothing in the
+   way. */
 static void add_clear(walker *w, uint32_t top) {
   const hr2d_element *element = w->h->element;
   uint32_t leaf = hr2di_hierarchy_first_leaf(w->h, top);
@@ -48,8 +48,9 @@ static void add_clear(walker *w, uint32_t top) {
   } while (leaf);
 }
 
-/* Looks at an element: adds what its leaves see if that is clear, else puts it on the
-   stack; `parent` is NULL for a patch. */
+/* Looks from an element at the source.  If the view is clear, adds the exchange areas of all
+   leaves below.  If walls are in the way, adds the exchange area of a leaf, and puts an element
+   with children on the stack.  `parent` is NULL where a walk begins. */
 static hr2d_status look(walker *w, uint32_t element, const waiting *parent, size_t *count) {
   const hr2d_element *e = &w->h->element[element];
   const hr2d_segment s = {e->a, e->b};
@@ -82,7 +83,7 @@ static hr2d_status look(walker *w, uint32_t element, const waiting *parent, size
   return status;
 }
 
-/* What the leaves of a patch, or of a part of it, see of the source. */
+/* Adds the exchange areas of the source with the leaves of a patch, or of an element. */
 static hr2d_status walk(walker *w, uint32_t patch) {
   size_t count = 0;
   w->list.count = 0;
@@ -96,7 +97,8 @@ static hr2d_status walk(walker *w, uint32_t patch) {
   return status;
 }
 
-/* All that the leaves of a patch see of patches, and of their backs if asked for. */
+/* Adds the exchange areas of the leaves of a patch with all patches, and with all backs if
+   asked for. */
 static hr2d_status walk_row(walker *w, uint32_t patch, hr2di_sum *front, hr2di_sum *back) {
   const hr2d_scene *scene = w->h->scene;
   hr2d_status status = HR2D_OK;
@@ -117,8 +119,8 @@ static hr2d_status walk_row(walker *w, uint32_t patch, hr2di_sum *front, hr2di_s
   return status;
 }
 
-/* What the leaves of an element see of another that it is linked with.  A shadow that
-   changes no bit of the link is none for its leaves. */
+/* Adds the exchange areas of the leaves of an element with another one that it is linked with.
+   If walls change no bit of the link's exchange area, they count as none for the leaves. */
 static hr2d_status walk_link(walker *w, uint32_t receiver, uint32_t source, double area) {
   const hr2d_element *e = &w->h->element[receiver], *f = &w->h->element[source];
   const hr2d_segment s = {e->a, e->b};
@@ -145,7 +147,7 @@ static hr2d_status walk_links(walker *w, const hr2di_transport *t,
   return status;
 }
 
-/* Sums to rows; 1 for the leaves of closed patches. */
+/* Sets the row sums of the leaves of a patch: 1 if it is closed, else the sums over length. */
 static void finish(hr2di_row_sums *rows, uint32_t patch, const hr2di_sum *front,
                    const hr2di_sum *back) {
   const hr2d_hierarchy *h = rows->hierarchy;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solving on a set of links: from a former solution perhaps, to a solution and its powers. */
+/* hr2d_solve(): from links, and perhaps a former solution, to a solution and its powers. */
 #include <hr2d/solve.h>
 #include <math.h>
 
@@ -27,8 +27,8 @@ static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *
   return HR2D_OK;
 }
 
-/* y = (B − E)/√ρ of a former solution, perhaps of another order and on younger leaves; with c
-   for closed components taken off. */
+/* y = (B − E)/√ρ of a former solution, which may have another order and older leaves; less √ρ c
+   in balanced components. */
 static void warm_start(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   hr2di_solution_restrict(s->options.start, t->hierarchy, t->leaf, t->leaves, t->order,
@@ -45,8 +45,9 @@ static void warm_start(hr2di_equation *s) {
     }
 }
 
-/* What escapes of B = c + … in balanced components is ∫mB; elsewhere everything that arrives
-   was sent, so that what is sent and does not arrive has escaped. */
+/* Adds the escaped power of a leaf.  In balanced components it is ∫mB.  Elsewhere it is the
+   power that the leaf sends less the power that it gets from patches: summed over all leaves,
+   the power that is sent and does not arrive. */
 static void add_escape(const hr2di_equation *s, size_t leaf, size_t band, hr2di_sum *escaped) {
   const hr2di_transport *t = &s->transport;
   const size_t at = leaf * t->width + band;
@@ -83,8 +84,8 @@ static hr2d_power sum_power(const hr2di_equation *s, size_t band) {
       ldexp(unit * hr2di_sum_total(&absorbed), e), ldexp(unit * hr2di_sum_total(&escaped), e)};
 }
 
-/* A field of the leaves on every element, in the unit of E; whether no double is too small for
-   it. */
+/* Pulls a leaf field up to every element, in the unit of E.  Returns 1 if all values are
+   finite, else 0. */
 static int take_raised(hr2di_equation *s, const double *leaf_field, double *field) {
   hr2di_transport *t = &s->transport;
   int finite = 1;
@@ -136,7 +137,7 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
 
 /* If B = Q + ρKB and neither K nor Q is negative, then B is negative somewhere if and only if
    ΣK^kρ^kQ diverges: with the positive left eigenvector v of the radius λ, (1−λ)vB = vQ.  At an
-   order above 1 a little of it may come of other things. */
+   order above 1 B may be slightly negative for other reasons. */
 static hr2d_status check_sign(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   const double min = t->order > 1 ? 1e-2 : 1e-6;
@@ -172,7 +173,7 @@ static hr2d_status solve(hr2d_linkset *links, const hr2d_solve_options *options,
   return status;
 }
 
-/* Callbacks may not change what is solved on. */
+/* During the solve callbacks may change neither the links nor the hierarchy. */
 hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *given,
                        hr2d_solution **solution) {
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;

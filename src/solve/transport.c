@@ -14,7 +14,7 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 
-/* A slice needs its own copy of `down`, so there are few, and each has many links. */
+/* A slice needs its own copy of `down`, so there are few slices, with many links each. */
 enum { MOST_SLICES = 16, SLICE_BLOCKS = 64 };
 
 static size_t count_slices(const hr2d_linkset *links) {
@@ -34,8 +34,8 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
                          .elements = h->elements,
                          .slices = count_slices(links),
                          .threads = threads};
-  /* With 32 bits the width of a field can be too much for a size_t; all fields are smaller than
-     those below. */
+  /* The width of a field may overflow a size_t of 32 bits.  No field is larger than those
+     below. */
   if (t->bands > PTRDIFF_MAX / sizeof(double) / t->order) return HR2D_ENOMEM;
   const size_t field = t->width * sizeof(double);
   if (hr2di_push_pull_init(&t->trees, h, &t->alloc, t->order, t->bands)) return HR2D_ENOMEM;
@@ -63,7 +63,7 @@ void hr2di_transport_pull(hr2di_transport *t, const double *leaf_field) {
   hr2di_push_pull_up(&t->trees, t->up);
 }
 
-/* Power received over the links of one block, both ways unless directed. */
+/* Adds the power received over the links of one chunk, both ways unless directed. */
 static void gather_block(const hr2d_link *link, size_t count, size_t bands, int plain,
                          int directed, const double *up, double *down) {
   if (plain && !directed) {
@@ -108,7 +108,7 @@ static void add_transposed(const double *c, size_t order, size_t bands, const do
         to[m * bands + b] += c[l * order + m] * from[l * bands + b];
 }
 
-/* Both, in one pass over the block of a grey scene; sums as those of hr2di_dot_strided(). */
+/* Both in one pass over the block, for one band; adds in the order of hr2di_dot_strided(). */
 void hr2di_transport_multiply(const double *restrict c, size_t order,
                               const double *restrict up_i, const double *restrict up_j,
                               double *restrict down_i, double *restrict down_j) {
@@ -131,7 +131,7 @@ void hr2di_transport_multiply(const double *restrict c, size_t order,
   }
 }
 
-/* The same with blocks, for links from number `first` on. */
+/* The same with blocks, for `count` links from number `first` on. */
 static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, uint64_t first,
                           size_t count, double *down) {
   const hr2di_link_blocks *blocks = &t->links->blocks;
@@ -166,7 +166,7 @@ static void gather_slice(hr2di_transport *t, hr2di_transport_part part, size_t s
   }
 }
 
-/* Sums the slices in their order, so that the threads leave no trace. */
+/* Sums the slices in their order, so that the result does not depend on threads. */
 static void sum_slices(hr2di_transport *t) {
   const size_t field = t->elements * t->width;
   for (size_t s = 1; s < t->slices; s++) {
@@ -175,13 +175,13 @@ static void sum_slices(hr2di_transport *t) {
   }
 }
 
-/* Roots are the first elements, so that their fields are those of the patches. */
+/* Roots are the first elements, so their part of a field is a field of the patches. */
 static void gather_clusters(hr2di_transport *t) {
   if (hr2di_clusters_gather(t->links->roots.clusters, t->order, t->bands, t->up, t->down))
     t->failed = 1;
 }
 
-/* Power to irradiance, and every element's to its children. */
+/* Divides power by length to get irradiance, and pushes it down to the leaves. */
 static void lower(hr2di_transport *t, double *irradiance) {
   const size_t width = t->width;
   const hr2d_element *element = t->hierarchy->element;
@@ -192,7 +192,7 @@ static void lower(hr2di_transport *t, double *irradiance) {
     memcpy(irradiance + k * width, t->down + t->leaf[k] * width, width * sizeof(double));
 }
 
-/* One thread takes none of OpenMP, whose runtime ends the program where it has no memory. */
+/* One thread does not use OpenMP, whose runtime ends the program if it has no memory. */
 static void gather_slices(hr2di_transport *t, hr2di_transport_part part) {
 #ifdef _OPENMP
   const int threads = t->threads ? (int)t->threads : omp_get_max_threads();

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The transport operator: irradiance from radiosity, over the links of all levels.
 
-   Fields on leaves are arrays of leaves × order × bands; the operator takes them up the
-   trees, gathers over the links, and brings what is gathered down. */
+   Fields on leaves are arrays of leaves × order × bands.  The operator pulls them up the
+   trees, gathers over the links, and pushes the result down to the leaves. */
 #ifndef HR2D_SRC_SOLVE_TRANSPORT_H
 #define HR2D_SRC_SOLVE_TRANSPORT_H
 
@@ -20,28 +20,27 @@ typedef struct hr2di_transport {
   double *up;       /* elements × width: radiosity */
   double *down;     /* slices × elements × width: power received, then irradiance */
   double *closure;  /* leaves × order × order, added to the diagonal; NULL for none */
-  double *sky;      /* leaves × order: how much of all directions the background is seen in;
-                       NULL: none */
-  size_t slices;    /* the links are cut into so many parts, whatever the threads */
+  double *sky;      /* leaves × order: form factor of the background; NULL: none */
+  size_t slices;    /* parts into which the links are cut, whatever the number of threads */
   unsigned threads; /* 0 for all */
   uint64_t sweeps;  /* gathers so far */
-  int failed;       /* a gather lacked memory; what it made is not to be used */
+  int failed;       /* a gather lacked memory; its result must not be used */
 } hr2di_transport;
 
-/* For the order of the hierarchy, and links that have blocks if that is above 1; HR2D_OK or
-   HR2D_ENOMEM; to be cleared in either case. */
+/* Sets up the operator at the order of the hierarchy; above 1 the links must have blocks.
+   Returns HR2D_OK or HR2D_ENOMEM.  Call hr2di_transport_clear() in either case. */
 hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
                                  unsigned threads);
 
 void hr2di_transport_clear(hr2di_transport *t);
 
-/* A leaf field on every element, into t->up. */
+/* Pulls a leaf field up to every element, into t->up. */
 void hr2di_transport_pull(hr2di_transport *t, const double *leaf_field);
 
 /* irradiance = K radiosity: H_i = Σ_j AF_ij B_j / A_i on leaves. */
 void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *irradiance);
 
-/* What `part` of the links carries alone: those between distant pairs, or all. */
+/* The same over a part of the links, without closure: links of distant pairs, or all links. */
 typedef enum hr2di_transport_part { HR2DI_ALL_LINKS, HR2DI_DISTANT_LINKS } hr2di_transport_part;
 void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
                                 const double *radiosity, double *irradiance);
@@ -50,7 +49,7 @@ void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
 void hr2di_transport_multiply(const double *block, size_t order, const double *up_i,
                               const double *up_j, double *down_i, double *down_j);
 
-/* Adds what arrives from a background of so much light per band. */
+/* Adds the irradiance from a background with `light` per band. */
 void hr2di_transport_add_background(const hr2di_transport *t, const double *light,
                                     double *irradiance);
 
