@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Links as large as the kernel is smooth, on elements as large as radiosity is. */
+/* Links as large as the kernel is smooth, on elements as large as radiosity is smooth. */
 #include "accuracy/admissibility.h"
 
 #include <math.h>
@@ -8,18 +8,21 @@
 #include "geometry/predicates.h"
 #include "oracle/built-in.h"
 
-/* On an element with children radiosity is not smooth: of the product of its rough part and the
-   kernel's, which a link drops, only the kernel's is small, and so it must be smaller. */
+/* The ellipse for elements with children.  Radiosity is not smooth on these.  A link drops the
+   product of the rough parts of radiosity and kernel; only the kernel's is small here, so it
+   must be smaller than on leaves. */
 #define ROUGH 3.0
 
-/* Light that passes between two patches weighs no more than what either sends in all. */
+/* The relative error that a link may have; 0 without weights.  The light between two patches
+   weighs no more than all the light that either of them sends. */
 static double error_for(const hr2di_admissibility *s, const hr2d_element *i,
                         const hr2d_element *j) {
   if (!s || !s->weight) return 0;
   return s->target / fmin(s->weight[i->patch], s->weight[j->patch]);
 }
 
-/* Links drop ρ^−2p of what is smooth, ρ^−p of what is rough. */
+/* The ellipse that an element needs.  A link drops ρ^−2p where radiosity is smooth, ρ^−p where
+   it is rough. */
 static double distance_for(const hr2di_admissibility *s, const hr2d_element *e, double error) {
   const double max = e->child ? ROUGH : HR2DI_ELLIPSE_DISTANT;
   if (!(error > 0)) return max;
@@ -61,7 +64,7 @@ static hr2d_status both_leaves(void *ctx, const hr2d_batch *batch, unsigned char
   return HR2D_OK;
 }
 
-/* The longer one, of those that have children. */
+/* Splits the longer one of the elements that have children. */
 static hr2d_status split_parent(void *ctx, const hr2d_batch *batch, unsigned char *split) {
   (void)ctx;
   for (size_t k = 0; k < batch->count; k++) {

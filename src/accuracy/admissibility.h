@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The oracle and the policy of trees that were graded before: a pair is acceptable where the
-   kernel is smooth on it, and elements are as they are. */
+/* Admissibility: the oracle and the policy for trees that are graded already.  A pair is
+   acceptable if the kernel is smooth on it; leaves are not divided. */
 #ifndef HR2D_SRC_ACCURACY_ADMISSIBILITY_H
 #define HR2D_SRC_ACCURACY_ADMISSIBILITY_H
 
@@ -11,14 +11,14 @@
 typedef struct hr2di_admissibility {
   unsigned order;
   double target;
-  const double *weight; /* per patch, see graded.h; NULL: 1 */
+  const double *weight; /* per patch, see hr2di_resolution; NULL: 1 */
 } hr2di_admissibility;
 
-/* 0 for pairs that are distant, both ways, see each other's fronts wholly and have nothing in
-   the way; and for what is too unimportant to ask for that; else 1. */
+/* Its estimate is 0 for pairs that are distant both ways, face each other fully and have no
+   walls in the way; 0 also for pairs of too little weight to need that; else 1. */
 const hr2d_oracle *hr2di_admissibility_oracle(void);
 
-/* Never divides a leaf: leaves are linked as they are. */
+/* Never divides a leaf: pairs of leaves are linked. */
 const hr2d_policy *hr2di_admissibility_fixed_leaves(void);
 
 #endif

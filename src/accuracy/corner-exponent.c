@@ -5,14 +5,14 @@
 
      K̂(γ) = ½ sinα Γ(2+γ) Γ(1−γ) P_γ⁻¹(−cosα) = z Γ(2+γ) Γ(1−γ) F(−γ, 1+γ; 2; z),
 
-   from 0 to 1 with a pole at γ = 1.  F is a power series in z, or, since 2 = −γ + 1+γ + 1,
-   one in δ with ln δ (DLMF 15.8.10),
+   for γ from 0 to 1, with a pole at γ = 1.  F is a power series in z, or, since
+   2 = −γ + 1+γ + 1, one in δ with ln δ (DLMF 15.8.10),
 
      K̂(γ) = z (1 − γ(1+γ) δ Σ_k (1−γ)_k (2+γ)_k / (k! (k+1)!) δ^k L_k),
      L_k = ln δ − ψ(k+1) − ψ(k+2) + ψ(1−γ+k) + ψ(2+γ+k).
 
-   K̂ − 1 is of the size of δ, which may be 1e-17, and so may 1/√(ρ1ρ2) − 1 be: both are
-   had without the 1.  The unknown is η = 1−γ, by which the pole is multiplied away. */
+   K̂ − 1 is of the size of δ.  It may be 1e-17, and so may 1/√(ρ1ρ2) − 1: both are computed
+   without the 1.  The unknown is η = 1−γ, and a factor η removes the pole. */
 #include "accuracy/corner-exponent.h"
 
 #include <gsl/gsl_math.h>
@@ -53,7 +53,7 @@ static double excess_at_narrow(const corner *c, double eta) {
   double sum = eta * psi - 1;
   double factor = eta; /* η (1−γ)_k (2+γ)_k / (k! (k+1)!) δ^k */
   for (int k = 0; k < TERMS; k++) {
-    /* L_k+1 − L_k, of whose poles that of 1/(k+η) at k = 0 is in psi already. */
+    /* L_k+1 − L_k; its term 1/(k+η) has a pole at k = 0, which is in psi already. */
     const double step = (k > 0 ? 1 / (k + eta) : 0) + 1 / (k + 2 + gamma);
     psi += step - 1 / (k + 1.0) - 1 / (k + 2.0);
     factor *= (k + eta) * (k + 2 + gamma) / ((k + 1.0) * (k + 2.0)) * c->delta;
@@ -69,7 +69,7 @@ static double residual(const corner *c, double eta) {
   return transform_at_wide(c, eta) - eta * (1 + c->missing);
 }
 
-/* By regula falsi, where an end that stays has its value halved (Illinois). */
+/* Regula falsi; the value at an end that stays is halved (Illinois). */
 static double find_root(const corner *c) {
   double low = 0, high = 1, at_low = residual(c, low), at_high = residual(c, high);
   if (!(at_high < 0)) return high;
@@ -96,7 +96,7 @@ static double find_root(const corner *c) {
 double hr2di_corner_exponent(double angle, double rho1, double rho2) {
   const double sine = sin(0.5 * angle), cosine = cos(0.5 * angle);
   const double mean = sqrt(rho1) * sqrt(rho2);
-  /* 1 − ρ1ρ2 without the 1 where both are close to it. */
+  /* 1 − ρ1ρ2, without cancellation where both are close to 1. */
   const double lost = (1 - rho1) + rho1 * (1 - rho2);
   const corner c = {cosine * cosine, fmax(sine * sine, GSL_DBL_MIN),
                     lost / (mean * (1 + mean))};

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* With K⁺ on finer elements and r = E + ρK⁺B_h − B_h the error is
      B − B_h = (I − ρK)⁻¹ r = r + ρKr + … + (ρK)^(n−1) r + (I − ρK)⁻¹ s,   s = (ρK)^n r;
-   that of B' = E + ρKB_h lacks the first term.  Solving for the last one is the estimate.
-   (I − ρK)⁻¹ = Σ (ρK)^k is positive, so that its last term is at most (I − ρK)⁻¹ S for S ≥ |s|:
-   the bound.  r is orthogonal to what elements carry, so that each term is much smaller than
-   the one before, and the bound close.  To S is added what roundings of B may be, which (I −
-   ρK)⁻¹ carries on as it does light; of the level of a closed component they are no more than
-   that. */
+   the error of B' = E + ρKB_h lacks the first term.  The estimate solves for the last term.
+   (I − ρK)⁻¹ = Σ (ρK)^k is positive, so the last term is at most (I − ρK)⁻¹ S for S ≥ |s|: the
+   bound.  r is orthogonal to the polynomials on elements.  So each term is much smaller than
+   the one before, and the bound is close.  S includes possible rounding errors of B, which
+   (I − ρK)⁻¹ carries on as it does light.  It does not carry on those of the level of a closed
+   component: they are added to the bound. */
 #include "accuracy/error-estimate.h"
 
 #include <float.h>
@@ -18,12 +18,12 @@
 #include "solution/solution-impl.h"
 #include "solve/equation.h"
 
-/* s is sampled at the points of a rule and the ends; between them it may be a little more, and
-   K a little more than K⁺. */
+/* s is sampled at the points of a rule and at the ends.  Between them it may be a little
+   larger, and K may be a little larger than K⁺. */
 #define BETWEEN  1.25
 #define ROUNDING (16 * DBL_EPSILON)
 
-/* Averages below this part of the largest are what rounding leaves of others' light. */
+/* Averages below this part of the largest may be rounding errors of other patches' light. */
 #define DARK (256 * DBL_EPSILON)
 
 enum { TERMS = 4 };
@@ -34,15 +34,15 @@ typedef struct estimator {
   hr2di_basis basis;
   hr2di_rule rule;
   double *kept;     /* the field of B_h */
-  double *rest;     /* of B_h less the level of closed components, see balance.h */
-  double doubt;     /* of the levels of others */
+  double *rest;     /* B_h less the level of closed components, see energy-balance.h */
+  double doubt;     /* relative error of the levels of other balanced components */
   double *head;     /* r + … + (ρK)^(n−1) r */
   double *residual; /* r */
   int *exponent;    /* per band, see solve() */
 } estimator;
 
-/* A generation of events more where that may be told from rounding; where elements end at none,
-   the order has to tell. */
+/* Adds a generation of events if elements end at none, or if the target is so small that one
+   more may matter. */
 hr2di_resolution hr2di_resolution_finer(const hr2di_resolution *f) {
   hr2di_resolution finer = *f;
   const unsigned order = f->order + (f->order < 4 ? 3 : 2);
@@ -95,7 +95,7 @@ static void set_source(estimator *e) {
   }
 }
 
-/* The source S, constant on each leaf. */
+/* Replaces the source s by S, constant on each leaf. */
 static void set_majorant(estimator *e) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
@@ -109,8 +109,8 @@ static void set_majorant(estimator *e) {
   for (size_t k = 0; k < eq->field; k++) eq->y[k] = 0;
 }
 
-/* Squares of what is to be solved for would underflow where the error is tiny: bands are scaled
-   to a source of about 1, by powers of two. */
+/* Solves with the source of each band scaled to about 1, by a power of two: squares of the
+   unknowns would underflow where the error is tiny. */
 static hr2d_status solve(estimator *e, double tolerance) {
   hr2di_equation *eq = &e->eq;
   const size_t bands = eq->transport.bands;
@@ -130,7 +130,7 @@ static hr2d_status solve(estimator *e, double tolerance) {
   return status;
 }
 
-/* |average| of a field over each patch; 0 where only another one counts. */
+/* |average| of a field over each patch; 0 for patches that do not count. */
 static void average_errors(estimator *e, const double *field, size_t only, double *error) {
   hr2di_transport *t = &e->eq.transport;
   hr2di_transport_pull(t, field);
@@ -141,12 +141,12 @@ static void average_errors(estimator *e, const double *field, size_t only, doubl
     }
 }
 
-/* In the unit of the equation, where nothing is denormal. */
+/* |average| of B_h over a patch, in the unit of the equation, where nothing is denormal. */
 static double average_of(const estimator *e, size_t patch, size_t band) {
   return fabs(ldexp(hr2d_solution_average(e->coarse, patch, band), -e->eq.exponent[band]));
 }
 
-/* What is darker than this is dark, and has no relative error. */
+/* A patch of a smaller average than this is dark, and has no relative error. */
 static double least_average(const estimator *e, size_t band) {
   double max = 0;
   for (size_t k = 0; k < e->eq.transport.hierarchy->scene->patches; k++)
@@ -154,7 +154,7 @@ static double least_average(const estimator *e, size_t band) {
   return DARK * max;
 }
 
-/* The largest of Σ factor·error, relative to the averages of B. */
+/* The largest factor·error + more over the patches, relative to their averages of B. */
 static double worst_average(const estimator *e, double factor, const double *error,
                             const double *more) {
   const hr2di_transport *t = &e->eq.transport;
@@ -171,7 +171,7 @@ static double worst_average(const estimator *e, double factor, const double *err
   return worst;
 }
 
-/* The largest Σ factor·|field|, relative to the largest B of the band. */
+/* The largest factor·|field| + |more|, relative to the largest B of the band. */
 static double worst_point(const estimator *e, double factor, const double *field,
                           const double *more) {
   const hr2di_transport *t = &e->eq.transport;
@@ -246,7 +246,7 @@ static hr2d_status run(const hr2di_graded *finer, const hr2d_solution *coarse,
   return status;
 }
 
-/* Where nothing reflects B = E, without error. */
+/* If nothing reflects, B = E is without error. */
 hr2d_status hr2di_error_estimate(const hr2di_graded *answer, const hr2di_resolution *fineness,
                                  const hr2d_target *target, hr2di_error_pair *errors,
                                  hr2di_message *message) {

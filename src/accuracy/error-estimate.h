@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The error of a solution on graded trees, from a finer operator. */
+/* The error of a graded solve, from a finer operator. */
 #ifndef HR2D_SRC_ACCURACY_ERROR_ESTIMATE_H
 #define HR2D_SRC_ACCURACY_ERROR_ESTIMATE_H
 
 #include "accuracy/graded-solve.h"
 
 typedef struct hr2di_error_pair {
-  hr2d_error average; /* of the worst patch, or of the one asked for */
+  hr2d_error average; /* of the worst patch, or of the one that importance is asked for */
   hr2d_error sup;
   uint64_t kernels; /* values of G it took */
   uint64_t bytes;   /* of the finer trees, links and blocks */
 } hr2di_error_pair;
 
-/* Estimates the error of an answer of this fineness; HR2D_OK, or a status with a reason in
-   `message`. */
+/* Estimates the error of a graded solve of this resolution.  Returns HR2D_OK, or a status with
+   a reason in `message`. */
 hr2d_status hr2di_error_estimate(const hr2di_graded *answer, const hr2di_resolution *fineness,
                                  const hr2d_target *target, hr2di_error_pair *errors,
                                  hr2di_message *message);
 
-/* The fineness of the operator that an answer is held against. */
+/* The resolution of the finer operator with which a graded solve is compared. */
 hr2di_resolution hr2di_resolution_finer(const hr2di_resolution *fineness);
 
 #endif

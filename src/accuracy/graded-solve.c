@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a fineness to trees, links and a solution. */
+/* From a resolution to trees, links and a solution. */
 #include "accuracy/graded-solve.h"
 
 #include "accuracy/admissibility.h"
@@ -8,11 +8,11 @@
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 
-/* Beyond so many events they cost more than they bring; from so many patches on clusters spare
-   more pairs than they cost. */
+/* More than MOST_EVENTS events cost more than they gain; from MANY patches on clusters save
+   more than they cost. */
 enum { MOST_EVENTS = 30000, MANY = 256 };
 
-/* As many generations as there is room for. */
+/* Finds the events of `generations` generations, or of as many as MOST_EVENTS has room for. */
 static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
                                unsigned generations) {
   hr2d_status status = HR2D_OK;
@@ -26,7 +26,7 @@ static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
   return status;
 }
 
-/* Trees that have grown before have been halved. */
+/* Divides the elements.  Copies of graded trees have had their additional halvings. */
 static hr2d_status grade(hr2di_graded *a, const hr2d_hierarchy *from,
                          const hr2di_resolution *fineness, const hr2d_target *target) {
   hr2d_hierarchy *h = a->hierarchy;
@@ -64,7 +64,7 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_resolution *finene
     status = hr2di_roots_init(&a->links->roots, a->hierarchy->scene, &a->links->alloc,
                               fineness->cluster_accuracy);
   if (!status) status = hr2d_refine(a->links, &options);
-  a->links->oracle_ctx = NULL; /* which is not asked again */
+  a->links->oracle_ctx = NULL; /* the oracle is not asked again */
   return status;
 }
 

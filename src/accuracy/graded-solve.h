@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A solve on graded trees: elements as radiosity is smooth, links as the kernel is. */
+/* A graded solve: elements as large as radiosity is smooth, links as large as the kernel is
+   smooth. */
 #ifndef HR2D_SRC_ACCURACY_GRADED_SOLVE_H
 #define HR2D_SRC_ACCURACY_GRADED_SOLVE_H
 
@@ -8,19 +9,19 @@
 #include "accuracy/mesh-grading.h"
 #include "base/message.h"
 
-/* How fine. */
+/* How fine a graded solve is. */
 typedef struct hr2di_resolution {
   unsigned order;
   double target;           /* relative error that corners are graded for */
   double cluster_accuracy; /* relative accuracy of links between clusters of patches */
   hr2d_norm norm;
   unsigned corner_levels; /* levels at corners beyond what the target asks for */
-  int hidden;             /* the scene has visibility events, */
-  int crowded;            /* and very many */
-  unsigned generations;   /* of these, at which elements end */
-  unsigned halvings;      /* of every element besides, where there are too many events */
-  const double *weight;   /* per patch: what a relative error of its radiosity does to what is
-                             asked for; NULL: 1 */
+  int hidden;             /* the scene has visibility events */
+  int crowded;            /* it has very many */
+  unsigned generations;   /* elements end at events of so many generations */
+  unsigned halvings;      /* additional ones of every element, if there are too many events */
+  const double *weight;   /* per patch: the factor from a relative error of its radiosity to
+                             one of the value asked for; NULL: 1 */
 } hr2di_resolution;
 
 typedef struct hr2di_graded {
@@ -33,19 +34,19 @@ typedef struct hr2di_graded {
   double refine_seconds, coefficients_seconds, solve_seconds;
 } hr2di_graded;
 
-/* Makes the trees and the links, on a copy of `from` if that is not NULL; HR2D_OK or a status,
-   then with a reason in `message`.  To be ended by hr2di_graded_clear() in either case. */
+/* Makes trees and links, starting from a copy of `from` if that is not NULL.  Returns HR2D_OK,
+   or a status with a reason in `message`.  Call hr2di_graded_clear() in either case. */
 hr2d_status hr2di_graded_refine(hr2di_graded *answer, const hr2d_scene *scene,
                                 const hr2d_hierarchy *from, const hr2di_resolution *fineness,
                                 const hr2d_target *target, hr2di_message *message);
 
-/* And solves. */
+/* Solves on them; returns likewise. */
 hr2d_status hr2di_graded_solve(hr2di_graded *answer, const hr2d_target *target,
                                hr2di_message *message);
 
 void hr2di_graded_clear(hr2di_graded *answer);
 
-/* Bytes of its elements, links and blocks. */
+/* Bytes of the elements, links and blocks. */
 uint64_t hr2di_graded_bytes(const hr2di_graded *answer);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The adjoint equation (Smits, Arvo, Salesin 1992).  An error r in B = E + ρKB changes
    B̄ = (1/A)∫ B over a patch by ∫ ψ r, ψ = χ/A + Kφ, where χ is 1 on the patch and φ = ρψ is the
-   radiosity of a source ρχ/A: light sent back from where it is looked at. */
+   radiosity of a source ρχ/A: light sent back from the patch that is asked for. */
 #include "accuracy/importance.h"
 
 #include <math.h>
@@ -11,10 +11,10 @@
 #include "solution/solution-impl.h"
 #include "solve/equation.h"
 
-/* No less than this, so that nothing is quite unimportant. */
+/* The least weight, so that no patch is entirely unimportant. */
 #define LEAST 1e-12
 
-/* φ, from which eq->irradiance becomes Kφ. */
+/* Solves for φ; eq->irradiance becomes Kφ. */
 static hr2d_status solve_adjoint(hr2di_equation *eq, size_t patch) {
   const hr2di_transport *t = &eq->transport;
   const double area = t->hierarchy->element[patch].length;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A function that is analytic but for points v is approximated on an element by polynomials of
-   degree p−1 to within ρ^−p, if no v lies within the ellipse m of the element,
-   ρ = m + √(m²−1) (see block.h).  Radiosity is singular at the ends of patches in front.  Where
-   an end touches the patch no element is far enough: there B ~ x^γ, and an element of relative
-   size 2^−D adds an error of about (2^−D/p²)^(1+2γ) to averages, and of (2^−D/p²)^γ to B
-   itself. */
+/* A function that is analytic except at points v is approximated on an element by polynomials
+   of degree p−1 to within ρ^−p, ρ = m + √(m²−1), if no v lies within the ellipse m of the
+   element (see geometry/bernstein-ellipse.h).  Radiosity is singular at the ends of patches in
+   front.  Where an end touches the patch no element is far enough: there B ~ x^γ, and an
+   element of relative size 2^−D adds an error of about (2^−D/p²)^(1+2γ) to averages, and of
+   (2^−D/p²)^γ to B itself. */
 #include "accuracy/mesh-grading.h"
 
 #include <float.h>
@@ -18,12 +18,13 @@
 #include "geometry/predicates.h"
 #include "scene/scene-impl.h"
 
-/* Ends nearer to the line of a patch, in terms of its length, stand on it. */
+/* An end stands on a patch if it is nearer than this part of the patch's length to its line. */
 #define ON_LINE 1e-13
 /* Elements no shorter than this part of their patch have distinct ends. */
 #define SHORTEST 0x1p-44
 
-/* Elements that are graded towards an end lie 3 from it. */
+/* Elements that are graded towards an end have it at an ellipse of 3; ends farther than that
+   are not near. */
 #define FAR 3.0
 
 enum { DEEPEST = 40, STACK = 256 };
@@ -47,15 +48,15 @@ typedef struct grader {
   const hr2di_grading *grading;
   vertex *vertex; /* by x */
   size_t vertices;
-  uint32_t *under;         /* of each patch's start and end: 1 + the patch within whose front it
-                              stands, or 0 */
-  hr2di_image_points near; /* in front of the patch under way, and near to it: ends of others,
-                        and mirror images */
-  mark *mark;              /* of the patch under way, by place */
+  uint32_t *under;         /* for the start and the end of each patch: 1 + the patch on whose
+                              front, between its ends, it stands, or 0 */
+  hr2di_image_points near; /* points in front of the current patch, and near to it: ends of
+                              other patches, and mirror images */
+  mark *mark;              /* of the current patch, by place */
   size_t marks, mark_capacity;
   hr2di_survey survey;
-  double target;   /* of the patch under way */
-  double distance; /* and how far ends must be from its elements */
+  double target;   /* of the current patch */
+  double distance; /* the ellipse at which ends must be from its elements */
   double last[3];  /* angle and ρ of the last corner, and its exponent */
 } grader;
 
@@ -93,7 +94,7 @@ static double reflectance(const hr2d_scene *scene, uint32_t patch) {
   return max;
 }
 
-/* Corners alike often follow each other. */
+/* Equal corners often follow each other, so the last exponent is kept. */
 static double exponent_of(grader *g, double angle, double rho) {
   if (g->last[0] != angle || g->last[1] != rho) {
     g->last[0] = angle;
@@ -103,9 +104,9 @@ static double exponent_of(grader *g, double angle, double rho) {
   return g->last[2];
 }
 
-/* How deep elements are graded where two patches meet at angle α, with light that goes to and
-   fro.  A flat corner has a weak singularity: its strength is about what the patches see of
-   each other, ½(1 + cos α). */
+/* How deep elements are graded where two patches meet at angle α and reflect light to and fro.
+   A flat corner has a weak singularity: its strength is about the form factor between the
+   patches, ½(1 + cos α). */
 static unsigned corner_depth(grader *g, double cosine, double sine, double rho) {
   const double p = g->grading->order, strength = fmin(1, 2 * rho * (1 + cosine));
   const double gamma = exponent_of(g, atan2(sine, cosine), rho);
@@ -117,8 +118,8 @@ static unsigned corner_depth(grader *g, double cosine, double sine, double rho) 
   return (unsigned)fmin(fmax(depth, 2), DEEPEST) + g->grading->corner_levels;
 }
 
-/* The deepest grading that a patch standing on this one asks for: it may lie on either side of
-   its foot, or on both. */
+/* The depth of grading that a patch standing on this one needs at its foot.  The corner is on
+   the side of the foot to which its front looks. */
 static unsigned depth_at(grader *g, uint32_t patch, const vertex *v, double at) {
   const hr2d_scene *scene = g->h->scene;
   const hr2d_segment s = scene->patch[patch].scaled, other = scene->patch[v->patch].scaled;
@@ -130,7 +131,7 @@ static unsigned depth_at(grader *g, uint32_t patch, const vertex *v, double at) 
   const double along = (u.x * w.x + u.y * w.y) / scale, up = (u.x * w.y - u.y * w.x) / scale;
   if (!(rho > 0) || !(up > 0)) return 0;
   unsigned depth = 0;
-  /* Its front looks along u where it is traversed downwards. */
+  /* Its front looks along u if it leads downwards. */
   if (v->last && at < 1) depth = corner_depth(g, along, up, rho);
   if (!v->last && at > 0) {
     const unsigned back = corner_depth(g, -along, up, rho);
@@ -147,20 +148,20 @@ static hr2d_status add_mark(grader *g, double at, hr2d_point point, unsigned dep
   return HR2D_OK;
 }
 
-/* Whether the patch of an end that stands on another is in front of that. */
+/* Whether a patch with an end that stands on another patch is in front of that patch. */
 static int rises(const hr2d_scene *scene, uint32_t patch, const vertex *v) {
   const hr2d_segment s = scene->patch[patch].scaled, other = scene->patch[v->patch].scaled;
   return hr2di_orient(s.a, s.b, v->last ? other.a : other.b) > 0;
 }
 
-/* Sorts a vertex into the marks if it is on the patch, into the near ones if in front. */
+/* Adds a vertex to the marks if it is on the patch, to the near points if it is in front. */
 static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
   const hr2di_patch *p = &g->h->scene->patch[patch];
   const vertex *v = &g->vertex[number];
   const hr2d_segment s = p->scaled;
   if (v->patch == patch) return HR2D_OK;
   const double square = p->length * p->length;
-  if (square < DBL_MIN) return HR2D_OK; /* dust, of which no part is to be told from another */
+  if (square < DBL_MIN) return HR2D_OK; /* dust: its parts cannot be told apart */
   const double above = hr2di_orient(s.a, s.b, v->at) / square;
   const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y;
   const double at = ((v->at.x - s.a.x) * ux + (v->at.y - s.a.y) * uy) / square;
@@ -180,7 +181,7 @@ static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
   return add_mark(g, at, v->at, depth);
 }
 
-/* The vertices that may be near a patch are in a window of x. */
+/* Places the vertices that may be near a patch: those in a window of x. */
 static hr2d_status look_around(grader *g, uint32_t patch) {
   const hr2di_patch *p = &g->h->scene->patch[patch];
   const double middle = 0.5 * (p->scaled.a.x + p->scaled.b.x);
@@ -199,7 +200,7 @@ static hr2d_status look_around(grader *g, uint32_t patch) {
   return status;
 }
 
-/* What an end stands on has no end there that would be found. */
+/* Adds a mark where an end of the patch stands on another one, which has no end there. */
 static hr2d_status add_foot(grader *g, uint32_t patch, int last) {
   const hr2d_segment s = g->h->scene->patch[patch].scaled;
   const vertex foot = {last ? s.b : s.a, patch, last};
@@ -234,7 +235,7 @@ static hr2d_status add_events(grader *g, uint32_t patch) {
   return status;
 }
 
-/* One mark of those that are alike, with the deepest grading. */
+/* Sorts the marks; of equal ones keeps one, with the deepest grading. */
 static void sort_marks(grader *g) {
   size_t kept = 0;
   if (g->marks > 0) qsort(g->mark, g->marks, sizeof *g->mark, by_place);
@@ -249,14 +250,14 @@ static void sort_marks(grader *g) {
   g->marks = kept;
 }
 
-/* An element under way: what it is of its patch. */
+/* An element still to be divided, as a part of its patch. */
 typedef struct part {
   uint32_t element;
   double from, to;
-  unsigned halvings; /* done besides */
+  unsigned halvings; /* additional ones done */
 } part;
 
-/* The mark inside that is nearest to the middle, or NULL. */
+/* The mark inside an element that is nearest to its middle, or NULL. */
 static const mark *mark_inside(const grader *g, const part *e) {
   const double margin = 4 * SHORTEST, middle = 0.5 * (e->from + e->to);
   const mark *best = NULL;
@@ -286,7 +287,7 @@ static int wants_halves(const grader *g, const part *e) {
   return 0;
 }
 
-/* How far a leaf is from the ends in front of it. */
+/* Enters into the survey how far a leaf is from the near points. */
 static void survey_leaf(grader *g, const part *e) {
   const hr2d_element *element = &g->h->element[e->element];
   const hr2d_segment s = {element->a, element->b};
@@ -351,7 +352,7 @@ hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *
   grader g = {.h = hierarchy, .grading = grading, .survey = {1, FAR}, .target = 1};
   hr2d_status status = list_vertices(&g);
   for (uint32_t k = 0; k < scene->patches && !status; k++) {
-    status = look_around(&g, k); /* for what stands on it */
+    status = look_around(&g, k); /* finds the patches that stand on it, into g.under */
     g.near.count = g.marks = 0;
   }
   for (uint32_t k = 0; k < scene->patches && !status; k++)

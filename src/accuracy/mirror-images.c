@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Walls near a patch are found by the tree of boxes. */
+/* Finds the walls near a patch in the tree of boxes. */
 #include "accuracy/mirror-images.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ typedef struct mirror {
   size_t count;
 } mirror;
 
-/* Whether a box comes nearer to the patch than its length. */
+/* Whether a box is nearer to the patch than the patch is long. */
 static int is_near(const hr2di_patch *p, const hr2di_box *box) {
   const hr2d_segment s = p->scaled;
   const double reach = p->length;
@@ -26,12 +26,14 @@ static int is_near(const hr2di_patch *p, const hr2di_box *box) {
          box->y0 <= fmax(s.a.y, s.b.y) + reach && box->y1 >= fmin(s.a.y, s.b.y) - reach;
 }
 
-/* Images on the patch itself are behind a wall that stands on it. */
+/* Images within this ellipse are on the patch itself, behind a wall that stands on it. */
 #define ON_PATCH (1 + 1e-9)
 
-/* An image counts if the foot is on the wall, else the wall's own end is what is near; if the
-   patch is on the same side of the wall: `side` is how far it reaches to the left and right;
-   and if some of the wall is in front of the patch, though the image need not be. */
+/* Adds the image of v in a wall if
+   - the foot of v is on the wall; if not, the wall's own end is the near point;
+   - the patch reaches to v's side of the wall; `side` is how far it reaches to the left and to
+     the right;
+   - a part of the wall is in front of the patch; the image itself need not be. */
 static hr2d_status add_image(mirror *m, hr2d_segment wall, const double side[2], hr2d_point v) {
   const hr2d_segment s = m->patch->scaled;
   const double ux = wall.b.x - wall.a.x, uy = wall.b.y - wall.a.y, square = ux * ux + uy * uy;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Mirror images: where radiosity is nearly singular on account of a wall close by.
+/* Mirror images: points where radiosity is nearly singular because of a wall close by.
 
-   At height δ above a wall an end of a patch makes the wall's radiosity singular at its foot ±
-   iδ. From there, another δ away, it comes back: to the patch it is as if the end's mirror
-   image behind the wall were an end, too. */
+   An end of a patch at height δ above a wall makes the wall's radiosity singular at its
+   foot ± iδ.  The wall's light comes back over another δ: for the patch, the mirror image of
+   the end behind the wall acts as one more end. */
 #ifndef HR2D_SRC_ACCURACY_MIRROR_IMAGES_H
 #define HR2D_SRC_ACCURACY_MIRROR_IMAGES_H
 
@@ -16,8 +16,8 @@ typedef struct hr2di_image_points {
 } hr2di_image_points;
 
 /* Appends to `points` the images of its first `count` points, and of the patch's ends, in walls
-   near to the patch, as far as they are in front of it and within an ellipse of `max`; HR2D_OK
-   or HR2D_ENOMEM. */
+   that are near the patch and in front of it at least in part.  Images at an ellipse of `max`
+   or more are left out.  Returns HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max,
                              hr2di_image_points *points, size_t count);
 

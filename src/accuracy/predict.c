@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a target will cost: elements and links are made, a few blocks integrated, a few products
-   timed, and the rest is counting. */
+/* Predicts the cost of a target: makes the elements and links, integrates a few blocks, times a
+   few products, and computes the rest from counts. */
 #include <hr2d/accuracy.h>
 #include <math.h>
 #include <stdint.h>
@@ -17,23 +17,23 @@
 enum { SAMPLES = 48, PRODUCTS = 64, RUNS = 5 };
 #define SHORT 0.02
 
-/* Gathers of an account of the error: terms of the series, and two solves that are not to full
-   precision (see estimate.c). */
+/* The gathers of an error estimate: for terms of the series, and for two solves that are not to
+   full precision (see error-estimate.c). */
 #define ERROR_GATHERS    8
 #define ERROR_ITERATIONS 0.7
 
 #define CLOSURE     0.5  /* of the time for blocks, on one thread */
 #define PER_ELEMENT 4.0  /* products of a block */
-#define CALLS       2.5  /* of the coarse solve: what is done whatever the order */
-#define REST        1.75 /* what is not counted: fields set up, sampled, and copied */
+#define CALLS       2.5  /* times the coarse solve: work that does not depend on the order */
+#define REST        1.75 /* for work that is not counted: fields set up, sampled, and copied */
 
-/* Seconds of an operator: its links and blocks, and one gather. */
+/* The cost of an operator: seconds to make its links and blocks, and seconds of one gather. */
 typedef struct cost {
   uint64_t elements, leaves, links, bytes;
   double make, gather;
 } cost;
 
-/* Every k-th block is integrated. */
+/* The time for all blocks, from every k-th block. */
 static hr2d_status time_blocks(const hr2di_graded *a, size_t order, double *seconds) {
   const hr2d_allocator *alloc = &a->hierarchy->alloc;
   const uint64_t links = hr2d_linkset_size(a->links);
@@ -52,7 +52,7 @@ static hr2d_status time_blocks(const hr2di_graded *a, size_t order, double *seco
   return status;
 }
 
-/* Of one block's product, both ways. */
+/* The time for one block's product, both ways. */
 static double time_product(size_t order) {
   double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER] = {0}, field[4][HR2D_MAX_ORDER] = {{0}};
   double min = HUGE_VAL;
@@ -65,9 +65,8 @@ static double time_product(size_t order) {
   return min / PRODUCTS;
 }
 
-/* A gather multiplies each block.  What push and pull, closure and the Krylov method do per
-   element was measured to take four products, and closure to make about as much as distant
-   blocks; such shares hardly depend on the machine. */
+/* A gather multiplies each block.  The work per element of push and pull, closure and the
+   Krylov method counts as 1.5 products; such shares hardly depend on the machine. */
 static hr2d_status measure(const hr2d_scene *scene, const hr2d_hierarchy *from,
                            const hr2di_resolution *fineness, const hr2d_target *target,
                            hr2di_graded *a, cost *c) {
@@ -88,8 +87,8 @@ static hr2d_status measure(const hr2d_scene *scene, const hr2d_hierarchy *from,
   return status;
 }
 
-/* Iterations hardly depend on the order: a coarse solve tells, and what calls take where there
-   is little to do. */
+/* A coarse solve measures the number of iterations, which hardly depends on the order, and the
+   time of calls that have little to do. */
 static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target,
                               double *iterations, double *seconds) {
   const double start = hr2di_clock_now();
@@ -143,7 +142,7 @@ hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *target,
   if (!(used.error >= 0)) return HR2D_EINVAL;
   const double start = hr2di_clock_now();
   hr2d_status status = predict(scene, &used, prediction);
-  /* Short times are disturbed by what else the machine does: the least of several. */
+  /* Other work of the machine disturbs short times: take the least of several. */
   for (int run = 1; run < RUNS && !status && hr2di_clock_now() - start < SHORT; run++) {
     const double min = prediction->seconds;
     status = predict(scene, &used, prediction);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* With ellipses of at least m about the elements, ρ* = m + √(m²−1), averages converge like
-   ρ*^−2p, if not for what links between elements that are not leaves drop, which is e^−2.8p;
-   and radiosity after a gather at a rate between ρ*^−2p and ρ*^−p.  Measured errors are below
-   EASY times that, but for narrow corners (see below). */
+/* With ellipses of at least m about the elements and ρ* = m + √(m²−1), averages converge like
+   ρ*^−2p, but no faster than e^−2.8p, which links between elements with children drop.
+   Radiosity after a gather converges at a rate between ρ*^−2p and ρ*^−p.  Measured errors are
+   below EASY times that, except in narrow corners (see below). */
 #include "accuracy/resolution.h"
 
 #include <math.h>
@@ -25,8 +25,9 @@ hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, hr2di_survey *surve
   return status;
 }
 
-/* Many patches have so many events that to halve all elements is cheaper, as long as not much
-   is asked for: what a kink inside an element does falls like the square of its length. */
+/* More than CROWD patches have so many events that halving all elements is cheaper, if the
+   target is no smaller than CROWDED_AIM: the error from a kink inside an element falls like the
+   square of the element's length. */
 enum { CROWD = 64, MOST_HALVINGS = 3 };
 #define CROWDED_AIM 1e-3
 
@@ -34,14 +35,15 @@ static int is_crowded(const hr2d_scene *scene, int hidden) {
   return hidden && scene->patches > CROWD;
 }
 
-/* A kink of radiosity inside an element is felt at points more than in averages. */
+/* A kink of radiosity inside an element changes values at points more than averages. */
 static unsigned generations_for(double aim, hr2d_norm norm) {
   if (norm == HR2D_NORM_AVERAGE) return hr2di_grading_generations(aim);
   return aim >= 0.05 ? 1 : aim >= 1e-4 ? 2 : aim >= 1e-7 ? 3 : 4;
 }
 
-/* In narrow corners with much reflection light goes to and fro often, and errors with it: γ² is
-   what that asks for in excess, from measurements at 10° to 150° and ρ up to 0.999. */
+/* In narrow corners with much reflection light is reflected to and fro often, and errors with
+   it.  So the error must be smaller there by γ², from measurements at 10° to 150° and ρ up to
+   0.999. */
 hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_survey *survey,
                                       double aim, hr2d_norm norm) {
   const double error = aim * fmax(survey->exponent * survey->exponent, 1e-3);
@@ -64,7 +66,7 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
   return f;
 }
 
-/* There are no more digits than that; an error that overflowed asks for more. */
+/* Doubles have no more digits than that; after an overflow the factor may be larger. */
 #define MOST_FACTOR 1e16
 
 int hr2di_resolution_raise(hr2di_resolution *f, const hr2di_survey *survey, double factor) {

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How fine a target wants a solve to be. */
+/* The resolution that a target needs. */
 #ifndef HR2D_SRC_ACCURACY_RESOLUTION_H
 #define HR2D_SRC_ACCURACY_RESOLUTION_H
 
 #include "accuracy/graded-solve.h"
 
-/* Looks at the corners and ends of a scene; HR2D_OK or HR2D_ENOMEM. */
+/* Surveys the corners and ends of a scene.  Returns HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, hr2di_survey *survey);
 
-/* A first guess. */
+/* A first guess at the resolution for an error. */
 hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_survey *survey,
                                       double error, hr2d_norm norm);
 
-/* Makes it finer, so that the error may fall by a factor; 0, or -1 if it is as fine as can be.
- */
+/* Raises the resolution, so that the error may fall by `factor`.  Returns 0, or -1 if it cannot
+   be finer. */
 int hr2di_resolution_raise(hr2di_resolution *fineness, const hr2di_survey *survey,
                            double factor);
 

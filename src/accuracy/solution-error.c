@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The error of any solution, by one that is known to be much better. */
+/* The error of any solution, by comparison with one that is known to be much better. */
 #include <hr2d/accuracy.h>
 #include <math.h>
 
@@ -8,12 +8,12 @@
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 
-/* A reference is good enough if its bound is this part of the distance. */
+/* A reference is good enough if its bound is at most this part of the distance. */
 #define ENOUGH 0.05
 #define FIRST  1e-4
 #define FINEST 1e-14
 
-/* Points of each leaf: its ends, just inside, and between. */
+/* Points of each leaf: just inside its ends, and between them. */
 static const double place[] = {1e-9, 0.25, 0.5, 0.75, 1 - 1e-9};
 enum { PLACES = sizeof place / sizeof *place };
 
@@ -55,8 +55,9 @@ static int is_enough(const hr2d_error *error, const hr2d_error *reference) {
   return !error || reference->bound <= ENOUGH * error->estimate;
 }
 
-/* Compares with a reference; *enough is 1 if that was good enough, or all that could be had.
-   HR2D_EACCURACY if there was none to be had. */
+/* Compares with a reference.  `enough` receives 1 if the reference is good enough, or the best
+   that can be made.  Returns HR2D_OK, HR2D_EACCURACY if no reference could be made, or another
+   status of hr2d_solve_to(). */
 static hr2d_status compare(const hr2d_solution *solution, const hr2d_target *target,
                            hr2d_error *average, hr2d_error *sup, int *enough) {
   hr2d_solution *reference = NULL;
@@ -77,7 +78,7 @@ static hr2d_status compare(const hr2d_solution *solution, const hr2d_target *tar
   return HR2D_OK;
 }
 
-/* The caller's progress, and what it said. */
+/* The caller's progress callback, and the last status that it returned. */
 typedef struct listener {
   hr2d_progress_fn progress;
   void *ctx;
@@ -90,7 +91,7 @@ static hr2d_status listen(void *ctx, const hr2d_progress *progress) {
   return l->progress_status;
 }
 
-/* Budgets that do not suffice for a better comparison leave the last one. */
+/* If the budgets do not suffice for a better comparison, the last one stands. */
 hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target *how,
                                 hr2d_error *average, hr2d_error *sup) {
   hr2d_target target = HR2D_TARGET_INIT;

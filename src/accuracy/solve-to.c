@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solving to a target: guess how fine, solve, measure the error, and go finer where it is above
-   the target. */
+/* Solves to a target: guesses a resolution, solves, estimates the error, and raises the
+   resolution while the error is above the target. */
 #include <hr2d/accuracy.h>
 #include <math.h>
 #include <stdio.h>
@@ -21,18 +21,18 @@
 
 enum { ATTEMPTS = 8, LEAST_SAFE = 6 };
 
-/* What is best so far, and all that was spent. */
+/* The best graded solve so far, and the time and work of all. */
 typedef struct search {
   const hr2d_scene *scene;
-  hr2d_target target;          /* its progress is watch() */
+  hr2d_target target;          /* the caller's, with watch() as progress callback */
   hr2d_target given;           /* the caller's */
-  double start, deadline;      /* 0 for none */
+  double start, deadline;      /* deadline 0: none */
   int late;                    /* a call was ended because the time was up */
-  hr2d_status progress_status; /* by the caller's progress, to stop */
+  hr2d_status progress_status; /* of the caller's progress callback */
   hr2di_survey survey;
   hr2di_graded best;
   double *weight;       /* per patch, where importance is asked for */
-  hr2d_account account; /* of the best, with all times */
+  hr2d_account account; /* of the best, with the times of all */
   hr2di_message message;
 } search;
 
@@ -63,7 +63,7 @@ static void add_times(hr2d_account *sum, const hr2di_graded *answer) {
   sum->solves += answer->solution != NULL;
 }
 
-/* Takes an answer with its errors as the best one. */
+/* Keeps a graded solve, with its errors, as the best one. */
 static void keep(search *s, hr2di_graded *answer, const hr2di_error_pair *errors) {
   hr2di_graded_clear(&s->best);
   s->best = *answer;
@@ -82,7 +82,7 @@ static void keep(search *s, hr2di_graded *answer, const hr2di_error_pair *errors
   a->bytes = hr2di_graded_bytes(&s->best);
 }
 
-/* Solves once, measures the error, and keeps the better one of this and the best. */
+/* Solves once, estimates the error, and keeps the graded solve if it is the best so far. */
 static hr2d_status attempt(search *s, const hr2di_resolution *fineness) {
   hr2di_graded answer;
   hr2di_error_pair errors;
@@ -111,7 +111,8 @@ static void give_reason(search *s, const char *reason) {
   snprintf(s->account.reason, sizeof s->account.reason, "%.150s", reason);
 }
 
-/* Goes finer until the error is below `error`; HR2D_EACCURACY if it does not come down. */
+/* Raises the resolution until the error is below `error`.  Returns HR2D_OK, HR2D_EACCURACY if
+   the error does not come down to that, or the status of an attempt. */
 static hr2d_status reach(search *s, double error) {
   hr2di_resolution fineness = hr2di_resolution_for(s->scene, &s->survey, error, s->target.norm);
   double before = HUGE_VAL;
@@ -119,7 +120,7 @@ static hr2d_status reach(search *s, double error) {
   fineness.weight = s->weight;
   for (int k = 0; k < ATTEMPTS && stuck < 2; k++) {
     const hr2d_status status = attempt(s, &fineness);
-    /* Of a low order K may exceed 1 at narrow corners, closure or not. */
+    /* At a low order rows of K may exceed 1 in narrow corners, even with closure. */
     if (status == HR2D_ENOT_CONVERGED && !s->progress_status && k + 1 < ATTEMPTS &&
         fineness.order < LEAST_SAFE) {
       fineness.order++;
@@ -139,7 +140,8 @@ static int is_budget(hr2d_status status) {
   return status == HR2D_EMAX_ELEMENTS || status == HR2D_EMAX_LINKS || status == HR2D_EMAX_BYTES;
 }
 
-/* Falling targets, as long as there seems to be time for the next and no budget is spent. */
+/* Reaches falling targets one by one, while the time seems to suffice for the next and no
+   budget is spent. */
 static hr2d_status reach_step_by_step(search *s) {
   hr2d_status status = HR2D_OK;
   for (double error = 1e-1; !status; error *= 1e-2) {
@@ -152,7 +154,9 @@ static hr2d_status reach_step_by_step(search *s) {
   return !status && s->late ? HR2D_STOPPED : status;
 }
 
-/* A budget that is spent is not a failure, with a solution or without one. */
+/* The status of the whole search, with a reason if the target was not reached.  A spent budget
+   is HR2D_EACCURACY, with a solution or without one; HR2D_OK if there is a solution and the
+   target error is 0. */
 static hr2d_status settle(search *s, hr2d_status status) {
   if (s->progress_status) {
     give_reason(s, "stopped by the callback");
@@ -182,7 +186,7 @@ static hr2d_status weigh_patches(search *s) {
   return hr2di_importance(s->scene, s->given.importance, &s->target, s->weight, &s->message);
 }
 
-/* Makes the solution own what it stands on. */
+/* Hands the best solution over; it owns its hierarchy and its links from then on. */
 static void hand_over(search *s, hr2d_solution **solution) {
   *solution = s->best.solution;
   if (!*solution) return;
