@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers are put together from bytes, so that no machine's order of them matters. */
+/* Numbers are put together from bytes, so that the byte order of the machine does not matter.
+ */
 #include "state/byte-stream.h"
 
 #include <string.h>
@@ -91,7 +92,7 @@ void hr2di_reader_expect(hr2di_reader *r, uint64_t bytes) {
   r->expected += bytes;
 }
 
-/* Puts what is left in the buffer in front and fills it up. */
+/* Moves the unread bytes to the front of the buffer and fills it up. */
 static void fill(hr2di_reader *r) {
   const size_t left = r->held - r->at, room = sizeof r->buffer - left;
   const size_t some = r->expected < room ? (size_t)r->expected : room;

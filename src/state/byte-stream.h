@@ -8,8 +8,8 @@
 
 enum { HR2DI_BYTES_AT_ONCE = 4096 };
 
-/* FNV-1a of 64 bits.  Each step maps hashes one to one, so that a change within any one byte
-   never goes unseen. */
+/* FNV-1a of 64 bits.  Each step maps hashes one to one, so a change within one byte always
+   changes the hash. */
 typedef uint64_t hr2di_hash;
 
 #define HR2DI_HASH_INIT UINT64_C(0xcbf29ce484222325)
@@ -34,23 +34,24 @@ void hr2di_writer_half(hr2di_writer *w, uint32_t word);
 void hr2di_writer_word(hr2di_writer *w, uint64_t word);
 void hr2di_writer_double(hr2di_writer *w, double value);
 
-/* Writes the hash, and what is still in the buffer. */
+/* Writes the hash and the rest of the buffer.  Returns HR2D_OK, or the status of the first
+   write that failed. */
 hr2d_status hr2di_writer_end(hr2di_writer *w);
 
-/* Once it has failed, everything is 0. */
+/* Once it has failed, every number is read as 0. */
 typedef struct hr2di_reader {
   hr2d_read_fn read;
   void *ctx;
   hr2di_hash hash;
   hr2d_status status;
-  uint64_t expected; /* bytes that are known to come and not yet in the buffer */
+  uint64_t expected; /* announced bytes that are not yet in the buffer */
   size_t at, held;
   unsigned char buffer[HR2DI_BYTES_AT_ONCE];
 } hr2di_reader;
 
 void hr2di_reader_init(hr2di_reader *r, hr2d_read_fn read, void *ctx);
 
-/* That so many bytes more will be asked for, so that they can be read in blocks. */
+/* Announces `bytes` more bytes that will be asked for, so that they can be read in blocks. */
 void hr2di_reader_expect(hr2di_reader *r, uint64_t bytes);
 
 void hr2di_reader_text(hr2di_reader *r, char *text, size_t size);
@@ -58,7 +59,8 @@ uint32_t hr2di_reader_half(hr2di_reader *r);
 uint64_t hr2di_reader_word(hr2di_reader *r);
 double hr2di_reader_double(hr2di_reader *r);
 
-/* Reads the hash; HR2D_ESYNTAX if it is not that of what was read. */
+/* Reads the hash.  Returns HR2D_OK, HR2D_ESYNTAX if it is not the hash of the bytes that were
+   read, or the status of the first read that failed. */
 hr2d_status hr2di_reader_end(hr2di_reader *r);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reading the state of a solve.  Memory grows with the bytes that have come, whatever the head
-   may claim. */
+/* Reads the state of a solve.  Memory grows with the bytes that were read, not with the sizes
+   that the head claims. */
 #include <math.h>
 #include <string.h>
 
@@ -59,7 +59,7 @@ static hr2d_status check_head(loading *l) {
   return head->epsilon >= 0 && head->residual >= 0 ? HR2D_OK : damaged(l, "its epsilon");
 }
 
-/* Whether it begins as one; also where its beginning cannot be read. */
+/* Whether the input begins like a state; 1 also if its beginning cannot be read. */
 static int is_state(hr2di_reader *r) {
   char title[HR2DI_STATE_TITLE_BYTES];
   hr2di_reader_expect(r, sizeof title);
@@ -99,7 +99,7 @@ static hr2d_status read_elements(loading *l) {
   return HR2D_OK;
 }
 
-/* Exchange areas stay below the shorter element's length, but for rounding. */
+/* An exchange area is at most the length of the shorter element, within rounding. */
 static int is_link(const hr2d_hierarchy *h, hr2d_pair pair, double area) {
   if (pair.first >= h->elements || pair.second >= h->elements) return 0;
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
@@ -131,7 +131,7 @@ static hr2d_status read_doubles(loading *l, double *value, size_t count) {
   return HR2D_OK;
 }
 
-/* Sums, which may be beyond a double. */
+/* Powers are sums, which may be beyond a double: infinity is allowed. */
 static hr2d_status read_power(loading *l, hr2d_power *power) {
   double *part[] = {&power->emitted, &power->received, &power->absorbed, &power->escaped};
   for (int k = 0; k < 4; k++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writing the state of a solve. */
+/* Writes the state of a solve. */
 #include <string.h>
 
 #include "hierarchy/hierarchy-impl.h"
