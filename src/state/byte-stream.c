@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers are put together from bytes, so that the byte order of the machine does not matter.
- */
+/* Numbers are put together from bytes, so the byte order of the machine does not matter. */
 #include "state/byte-stream.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rays through vertices, by walks in the tree of boxes.  Signs are exact; distances, by
-   which what a ray meets is put in order, are rounded. */
+/* Rays through vertices, by walks in the tree of boxes.  Signs are exact; the distances that
+   order the walls which a ray meets are rounded. */
 #include <math.h>
 
 #include "base/alloc.h"

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Discontinuity meshing (Lischinski, Tampieri, Greenberg 1992) in the plane: every line
-   through two vertices between which light passes, and on beyond one of them.  A foot, where
-   a wall ends on a patch, is an event, too: light of one side does not reach the other. */
+/* Discontinuity meshing (Lischinski, Tampieri, Greenberg 1992) in the plane: finds every line
+   through two vertices on which light passes between them, and on beyond one of them.  A foot,
+   where a wall ends on a patch, is an event, too: light of one side does not reach the other
+   side. */
 #include "visibility/events.h"
 
 #include <math.h>

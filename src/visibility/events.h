@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Visibility events: where radiosity along a patch is not smooth because something comes
-   into view or goes out of it.
+/* Visibility events: points where radiosity along a patch is not smooth, because something
+   comes into view or goes out of view.
 
-   An event is a point where the line through two vertices meets the patch: from it one
-   vertex, the end of a source, is seen just at another, that of something in the way; or
-   both are the ends of one patch, whose horizon it is.  So is the foot of a patch that ends
-   on the front.  Between two events of generation 1 the same things are seen in the same
-   order.  There are none on patches that no light reaches, and those on patches that do not
-   reflect have no successors. */
+   An event is a point where the line through two vertices meets the patch.  Seen from it, one
+   vertex, the end of a source, is exactly behind the other, the end of something in the way;
+   or both are the ends of one patch, and the line is its horizon.  The foot of a patch that
+   ends on the front is an event, too.  Between two events of generation 1 the same things are
+   seen in the same order.  There are no events on patches that no light reaches; events on
+   patches that do not reflect have no successors. */
 #ifndef HR2D_SRC_VISIBILITY_EVENTS_H
 #define HR2D_SRC_VISIBILITY_EVENTS_H
 
@@ -17,23 +17,22 @@
 typedef struct hr2di_event {
   uint32_t patch;
   double at;           /* fraction of the patch, inside (0,1) */
-  unsigned generation; /* 1: of vertices of the scene alone; 2: an event of generation 1 takes
-                          the part of the source's end; … */
+  unsigned generation; /* 1: both vertices are of the scene; 2: an event of generation 1 takes
+                          the place of the source's end; … */
 } hr2di_event;
 
 typedef struct hr2di_events {
   hr2d_allocator alloc;
-  hr2di_event *event; /* sorted by patch, then by fraction; no two alike within rounding */
+  hr2di_event *event; /* sorted by patch, then by fraction; no two equal within rounding */
   size_t count, capacity;
 } hr2di_events;
 
-/* All events up to `generations` of a committed scene, at most `max` of them: HR2D_OK,
-   HR2D_ENOMEM, or HR2D_EMAX_ELEMENTS where there would be more.  None where the scene calls
-   neither for occlusion nor for facing nor for a background; forcing does not count.  To be
-   ended by hr2di_events_clear() in either case.  Generation 1 takes O(n²) walks through the
-   tree of walls, 0.1 to 0.6 µs each; generation g+1 one for each event of generation g and each
-   vertex.
- */
+/* Finds all events up to `generations` of a committed scene, at most `max` of them.  There are
+   none if the scene calls neither for occlusion nor for facing nor for a background; forced
+   effects do not count.  Returns HR2D_OK, HR2D_ENOMEM, or HR2D_EMAX_ELEMENTS if there are more
+   than `max`.  Call hr2di_events_clear() in either case.  Generation 1 takes O(n²) walks
+   through the tree of walls, 0.1 to 0.6 µs each; generation g+1 takes one walk for each event
+   of generation g and each vertex. */
 hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
                               const hr2d_allocator *alloc, unsigned generations, size_t max);
 void hr2di_events_clear(hr2di_events *events);

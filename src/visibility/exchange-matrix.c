@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The exchange areas of all pairs of patches.
 
-   Pairs of runs are halved until nothing is in the way of a part, or nothing passes, or
-   it is one pair of patches.  Where nothing is in the way all pairs below get the
-   unoccluded exchange area without a further test. */
+   Pairs of runs are halved until a pair of parts is clear, or blocked, or one pair of
+   patches.  If it is clear, all pairs of patches below get the unoccluded exchange area
+   without a further test. */
 #include <hr2d/visibility.h>
 #include <stdatomic.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the looks of a point are made of: vertices in their directions, and the arcs of
-   directions under which patches lie. */
+/* The parts of a point's view: the directions of vertices, and the arcs of directions that
+   patches cover. */
 #ifndef HR2D_SRC_VISIBILITY_POINT_VIEW_IMPL_H
 #define HR2D_SRC_VISIBILITY_POINT_VIEW_IMPL_H
 
@@ -8,11 +8,12 @@
 #include "geometry/determinant.h"
 #include "visibility/point-view.h"
 
-/* The end of an arc where a patch goes on behind the patch of the point, and no patch. */
+/* HR2DI_HORIZON: the end of an arc whose patch goes on behind the patch of the point.
+   HR2DI_NO_ARC: no arc. */
 #define HR2DI_HORIZON UINT32_MAX
 #define HR2DI_NO_ARC  UINT32_MAX
 
-/* A vertex as the point sees it; what is below `height` is set where that is positive. */
+/* A vertex as the point sees it.  Members below `height` are set only if that is positive. */
 typedef struct hr2di_bearing {
   hr2di_vector to;     /* from the point */
   double height;       /* over the line of the patch, its sign exact; 0 at the point itself */
@@ -40,7 +41,7 @@ struct hr2di_viewer {
   hr2d_allocator alloc;
   const hr2d_scene *scene;
   size_t patches, vertices;
-  hr2d_point *vertex;  /* different ones, times HR2DI_VIEW_SCALE */
+  hr2d_point *vertex;  /* each vertex once, times HR2DI_VIEW_SCALE */
   uint32_t (*end)[2];  /* the vertices of each patch's a and b */
   unsigned char *twin; /* per patch: another one stands back to back with it, end to end */
 
@@ -65,7 +66,7 @@ struct hr2di_viewer {
   hr2di_sum back;
 };
 
-/* Coordinates are at most 2, and this much more of them neither over- nor underflows. */
+/* Coordinates are at most 2; times this, they neither overflow nor underflow. */
 #define HR2DI_VIEW_SCALE 0x1p+400
 
 /* u → v turns left as seen from the point: 1; right: -1; exact for the vectors `to`. */
@@ -77,7 +78,7 @@ static inline int hr2di_view_turn(const hr2di_viewer *w, uint32_t u, uint32_t v)
 /* Notes that the point sees an arc's patch between two directions. */
 void hr2di_view_note(hr2di_viewer *w, const hr2di_arc *arc, uint32_t right, uint32_t left);
 
-/* Notes all that the point sees of the arcs, in the order of directions. */
+/* Notes all parts of arcs that the point sees, in the order of directions. */
 void hr2di_view_sweep(hr2di_viewer *w);
 
 #endif

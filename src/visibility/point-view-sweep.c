@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A ray turns from the right horizon to the left one; what it meets first is seen.
+/* A ray turns from the right horizon to the left one; the patch that it meets first is seen.
 
-   Directions are ranked once, by exact determinants, and from then on only ranks count: two
-   arcs overlap if their ranks do.  Which of two patches is nearer follows from the sides of
-   their lines on which their ends lie, which is exact, too: patches do not cross. */
+   Directions are ranked once, by exact determinants.  From then on only ranks count: two arcs
+   overlap if their ranks do.  The sides of their lines on which the ends of two patches lie
+   tell which patch is nearer.  This is exact, too: patches do not cross. */
 #include "geometry/orient-sign.h"
 #include "visibility/point-view-impl.h"
 

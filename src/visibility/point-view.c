@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a point of a patch sees: the bearings of all vertices, the arcs of the patches, and
-   what is left of these once nearer ones are in front of them.
+/* The view from a point of a patch: the bearings of all vertices, the arcs of the patches, and
+   the parts of arcs that no nearer patch hides.
 
    The point x = a + t(b−a) need not be a double: vectors from it keep their rounding errors,
    measured from the nearer end of the patch. */
