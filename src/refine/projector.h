@@ -80,7 +80,8 @@ struct hr2di_projector {
 hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine_options *given,
                                           hr2d_refine_options *options);
 
-/* Creates a projector for checked options; the caller destroys it. */
+/* Creates a projector for checked options; the caller destroys it.  Returns HR2D_OK,
+   HR2D_ENOMEM or HR2D_EMAX_BYTES, and leaves a message on failure. */
 hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_options *options,
                                    hr2di_projector **made);
 void hr2di_projector_destroy(hr2di_projector *p);
