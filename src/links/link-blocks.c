@@ -60,8 +60,8 @@ static hr2d_status make_round(const maker *m, uint64_t from, uint64_t to) {
   return worst;
 }
 
-static hr2d_status tell(const hr2d_linkset *links, const hr2di_link_blocks_plan *plan,
-                        uint64_t done) {
+static hr2d_status report(const hr2d_linkset *links, const hr2di_link_blocks_plan *plan,
+                          uint64_t done) {
   if (!plan->progress) return HR2D_OK;
   const hr2d_progress progress = {.struct_size = sizeof progress,
                                   .phase = "coefficients",
@@ -77,7 +77,7 @@ static hr2d_status make_all(const maker *m, const hr2di_link_blocks_plan *plan) 
   for (uint64_t from = 0; from < count && !status; from += ROUND) {
     const uint64_t to = from + ROUND < count ? from + ROUND : count;
     status = make_round(m, from, to);
-    if (!status) status = tell(m->links, plan, to);
+    if (!status) status = report(m->links, plan, to);
   }
   return status;
 }

@@ -47,7 +47,7 @@ void hr2d_linkset_destroy(hr2d_linkset *links) {
   hr2di_alloc_free(&alloc, links);
 }
 
-static hr2d_status add_block(hr2di_store *store, const hr2d_allocator *alloc) {
+static hr2d_status add_chunk(hr2di_store *store, const hr2d_allocator *alloc) {
   if (hr2di_alloc_reserve(alloc, &store->chunk, &store->capacity, store->chunks + 1,
                           sizeof *store->chunk))
     return HR2D_ENOMEM;
@@ -61,7 +61,7 @@ hr2d_status hr2di_store_add(hr2di_store *store, const hr2d_allocator *alloc,
                             const hr2d_pair *pair, const double *area, size_t count) {
   while (count > 0) {
     const size_t at = (size_t)(store->count % HR2DI_CHUNK_LINKS);
-    if (at == 0 && add_block(store, alloc)) return HR2D_ENOMEM;
+    if (at == 0 && add_chunk(store, alloc)) return HR2D_ENOMEM;
     hr2d_link *link = store->chunk[store->chunks - 1] + at;
     const size_t room = HR2DI_CHUNK_LINKS - at, some = count < room ? count : room;
     for (size_t k = 0; k < some; k++) link[k] = (hr2d_link){pair[k], area[k]};

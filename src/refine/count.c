@@ -42,7 +42,7 @@ typedef struct team {
   hr2di_occluded_pairs occluded;
   size_t next_patch; /* the first not yet projected */
 
-  atomic_ullong links_told; /* L of all workers but the first */
+  atomic_ullong links_reported; /* L of all workers but the first */
   atomic_ullong tasks_done;
   atomic_int stop;
 } team;
@@ -74,7 +74,7 @@ static hr2d_status report(hr2di_projector *p) {
       .struct_size = sizeof progress,
       .phase = "refine",
       .elements = p->hierarchy->elements,
-      .links = atomic_load(&t->links_told) + p->counts.links,
+      .links = atomic_load(&t->links_reported) + p->counts.links,
       .fraction = tasks ? (double)atomic_load(&t->tasks_done) / (double)tasks : 0};
   const hr2d_status status = p->options.progress(p->options.progress_ctx, &progress);
   return status ? hr2di_message_fail(&p->links->message, status, "callback \"progress\": %s",
@@ -175,7 +175,8 @@ static hr2d_status do_task(team *t, hr2di_projector *p, size_t task) {
   hr2d_status status = report(p);
   if (!status) status = take(t, p, task);
   if (!status) status = hr2di_rounds_run(p, SIZE_MAX);
-  if (p != t->worker[0].projector) atomic_fetch_add(&t->links_told, p->counts.links - before);
+  if (p != t->worker[0].projector)
+    atomic_fetch_add(&t->links_reported, p->counts.links - before);
   atomic_fetch_add(&t->tasks_done, 1);
   return status;
 }

@@ -17,7 +17,7 @@
 static hr2d_status count_once(hr2d_linkset *links, const hr2d_refine_options *options,
                               hr2d_study_row *row) {
   hr2d_hierarchy *hierarchy = NULL;
-  hr2d_linkset *fresh = NULL;
+  hr2d_linkset *empty = NULL;
   hr2d_oracle oracle = links->oracle;
   hr2d_policy policy = links->policy;
   oracle.struct_size = sizeof oracle;
@@ -27,19 +27,19 @@ static hr2d_status count_once(hr2d_linkset *links, const hr2d_refine_options *op
   hr2d_status status = hr2d_hierarchy_create(links->hierarchy->scene, &hierarchy);
   if (!status)
     status = hr2d_linkset_create(hierarchy, &oracle, links->oracle_ctx, &policy,
-                                 links->policy_ctx, &fresh);
+                                 links->policy_ctx, &empty);
   if (status) {
     hr2di_message_fail(&links->message, status, "out of memory for the study");
   } else {
     const double start = hr2di_clock_now();
-    status = hr2d_refine_count(fresh, options, &row->counts);
+    status = hr2d_refine_count(empty, options, &row->counts);
     row->seconds = hr2di_clock_now() - start;
     row->epsilon = options->epsilon;
     if (status)
       hr2di_message_fail(&links->message, status, "at epsilon %g: %s", options->epsilon,
-                         hr2d_linkset_message(fresh));
+                         hr2d_linkset_message(empty));
   }
-  hr2d_linkset_destroy(fresh);
+  hr2d_linkset_destroy(empty);
   hr2d_hierarchy_destroy(hierarchy);
   return status;
 }
