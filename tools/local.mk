@@ -4,9 +4,8 @@ tools_hr2d_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(PUBLIC_CPPFLAGS) -I$(srcdir)/t
 	$(GSL_CFLAGS) $(JANSSON_CFLAGS) $(CAIRO_CFLAGS)
 tools_hr2d_LDADD = libhr2d.la $(GSL_LIBS) $(JANSSON_LIBS) $(CAIRO_LIBS) -lm
 tools_hr2d_SOURCES = \
-	tools/help.c tools/help.h \
-	tools/info.c \
 	tools/main.c \
+	tools/output/clock.c tools/output/clock.h \
 	tools/output/complain.c tools/output/complain.h \
 	tools/output/csv.c tools/output/csv.h \
 	tools/output/gnuplot.c tools/output/gnuplot.h \
@@ -15,13 +14,18 @@ tools_hr2d_SOURCES = \
 	tools/output/palette.c tools/output/palette.h \
 	tools/output/progress.c tools/output/progress.h \
 	tools/output/suffix.c tools/output/suffix.h \
+	tools/output/table.c tools/output/table.h \
 	tools/output/ticks.c tools/output/ticks.h \
-	tools/cli/commands.h \
-	tools/cli/load.c tools/cli/load.h \
+	tools/cli/commands.c tools/cli/commands.h \
+	tools/cli/help.c tools/cli/help.h \
+	tools/cli/names.c tools/cli/names.h \
 	tools/cli/numbers.c tools/cli/numbers.h \
+	tools/cli/option-table.c tools/cli/option-table.h \
 	tools/cli/options.c tools/cli/options.h \
 	tools/cli/options-check.c \
+	tools/cli/scene.c tools/cli/scene.h \
 	tools/cli/values.c tools/cli/values.h \
+	tools/info/command.c \
 	tools/run/leaves.c tools/run/leaves.h \
 	tools/run/run.c tools/run/run.h \
 	tools/run/state.c tools/run/state.h \
@@ -34,12 +38,16 @@ tools_hr2d_SOURCES = \
 	tools/draw/legend.c \
 	tools/draw/links.c \
 	tools/draw/neighbours.c \
+	tools/draw/obstacles.c \
+	tools/draw/pen.c \
 	tools/draw/picture.h \
+	tools/draw/scale.c \
 	tools/solve/command.c \
 	tools/solve/csv.c \
 	tools/solve/json.c \
+	tools/solve/solve.h \
 	tools/solve/table.c \
-	tools/study/chart.c tools/study/chart.h \
+	tools/study/chart.c \
 	tools/study/command.c \
 	tools/study/csv.c \
 	tools/study/json.c \
@@ -54,7 +62,10 @@ tools_hr2d_SOURCES = \
 	tools/cost/files.c \
 	tools/cost/fit.c \
 	tools/cost/methods.c \
+	tools/cost/pace.c tools/cost/pace.h \
+	tools/cost/reference.c \
 	tools/cost/refine.c \
+	tools/cost/rows.c \
 	tools/cost/table.c \
 	tools/factors/command.c \
 	tools/factors/csv.c \

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* hr2d: one command per run, its outcome as the exit status. */
+/* hr2d runs one command; the exit status is its result. */
 #include <fcntl.h>
 #include <gsl/gsl_errno.h>
 #include <signal.h>
 #include <unistd.h>
 
 #include "cli/commands.h"
-#include "help.h"
+#include "cli/help.h"
 #include "output/complain.h"
 #include "output/output.h"
 
-/* A closed standard stream would lend its number to the next file opened.  The wrong
-   mode makes every use of it fail, as it should. */
+/* If a standard stream is closed, the next file that is opened would take its number.  A stream
+   that is opened in the wrong mode makes every use fail, as a closed one does. */
 static void occupy_standard_streams(void) {
   for (int fd = 0; fd < 3; fd++)
     if (fcntl(fd, F_GETFD) < 0) open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
@@ -19,11 +19,11 @@ static void occupy_standard_streams(void) {
 
 static int run(const options *o) {
   if (o->version) {
-    print_version();
+    help_print_version();
     return EXIT_DONE;
   }
   if (o->help) {
-    print_help(o->command);
+    help_print(o->command);
     return EXIT_DONE;
   }
   switch (o->command) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* strtod and strtoull without their leniency towards blanks, signs and remainders. */
+/* strtod() and strtoull(), but leading blanks, signs of counts and text behind a number are
+   refused. */
 #include "cli/numbers.h"
 
 #include <ctype.h>
@@ -7,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-int read_real(const char *text, double *value) {
+int number_real(const char *text, double *value) {
   if (*text == '\0' || isspace((unsigned char)*text)) return -1;
   char *end = NULL;
   double x = strtod(text, &end);
@@ -16,7 +17,7 @@ int read_real(const char *text, double *value) {
   return 0;
 }
 
-int read_count(const char *text, uint64_t limit, uint64_t *value) {
+int number_count(const char *text, uint64_t limit, uint64_t *value) {
   if (!isdigit((unsigned char)*text)) return -1;
   char *end = NULL;
   errno = 0;

@@ -2,84 +2,108 @@
 /* Options that contradict each other, or need another one. */
 #include <string.h>
 
-#include "cli/options.h"
+#include "cli/option-table.h"
 #include "output/complain.h"
+#include "output/output.h"
+
+/* The name of the first option that was given and has this rule, or NULL. */
+static const char *first_given(const given_options *given, unsigned rule) {
+  const option_entry *x;
+  for (size_t k = 0; (x = option_at(k)); k++)
+    if (given->is[k] && x->rules & rule) return x->name;
+  return NULL;
+}
+
+static int is_given(const given_options *given, const char *name) {
+  const option_entry *x;
+  for (size_t k = 0; (x = option_at(k)); k++)
+    if (!strcmp(x->name, name)) return given->is[k];
+  return 0;
+}
+
+/* The file of an output; NULL: it is not given, or the option is no output. */
+static const char *output_of(const options *o, const option_entry *x) {
+  const void *member = (const char *)o + x->member;
+  return x->rules & IS_OUTPUT ? *(const char *const *)member : NULL;
+}
 
 static int check_outputs(const options *o) {
-  const char *outputs[] = {o->json, o->csv, o->draw, o->plot, o->state};
-  for (int i = 0; i < 5; i++)
-    for (int j = 0; j < i; j++)
-      if (outputs[i] && outputs[j] && !strcmp(outputs[i], outputs[j]))
-        return usage_error("two outputs go to '%s'", outputs[i]);
+  const option_entry *x, *y;
+  for (size_t i = 0; (x = option_at(i)); i++)
+    for (size_t j = 0; j < i; j++) {
+      y = option_at(j);
+      const char *file = output_of(o, x), *other = output_of(o, y);
+      if (file && other && !strcmp(file, other))
+        return complain_usage("two outputs go to '%s'", file);
+    }
   return 0;
 }
 
-/* A target or a budget leaves nothing to choose of how to solve. */
-static int check_target(const options *o, uint64_t given) {
-  static const struct {
-    uint64_t bit;
-    const char *name;
-  } choice[] = {{GIVEN(ORACLE), "oracle"},
-                {GIVEN(EPS), "eps"},
-                {GIVEN(VARIANT), "variant"},
-                {GIVEN(MULTIGRID), "multigrid"},
-                {GIVEN(ORDER), "order"},
-                {GIVEN(LEVEL), "max-level"},
-                {GIVEN(NO_CLOSURE), "no-closure"},
-                {GIVEN(NO_ERROR), "no-error"},
-                {GIVEN(STATE), "state"}};
-  const char *target = o->target_error > 0 ? "target-error" : "time-budget";
-  for (size_t k = 0; is_targeted(o) && k < sizeof choice / sizeof *choice; k++)
-    if (given & choice[k].bit)
-      return usage_error("--%s and --%s exclude each other", target, choice[k].name);
-  if (!is_targeted(o) && given & (GIVEN(NORM) | GIVEN(IMPORTANCE)))
-    return usage_error("--%s needs --target-error or --time-budget",
-                       given & GIVEN(NORM) ? "norm" : "importance");
-  if (given & GIVEN(IMPORTANCE) && o->norm == HR2D_NORM_SUP)
-    return usage_error("--importance is for averages and excludes --norm sup");
-  if (o->error && o->no_error) return usage_error("--error and --no-error exclude each other");
+/* A target or a budget leaves no choice of the method. */
+static int check_target(const options *o, const given_options *given) {
+  const char *chosen = first_given(given, NOT_WITH_TARGET);
+  const char *detail = first_given(given, ONLY_WITH_TARGET);
+  if (options_targeted(o) && chosen)
+    return complain_usage("--%s and --%s exclude each other",
+                          o->target_error > 0 ? "target-error" : "time-budget", chosen);
+  if (!options_targeted(o) && detail)
+    return complain_usage("--%s needs --target-error or --time-budget", detail);
+  if (o->importance.patch && o->norm == HR2D_NORM_SUP)
+    return complain_usage("--importance is for averages and excludes --norm sup");
+  if (o->error && o->no_error)
+    return complain_usage("--error and --no-error exclude each other");
   return 0;
 }
 
-static int check_links(const options *o) {
-  if (o->links_of.patch && !o->draw) return usage_error("--links-of needs --draw");
-  if (o->one_level && !o->links_of.patch) return usage_error("--link-level needs --links-of");
-  if (o->link_parents && !o->link_level)
-    return usage_error("--link-parents needs --link-level with at least 1");
-  if (o->link_parents && o->policy != hr2d_policy_modified())
-    return usage_error("--link-parents needs --variant modified");
+static int check_predict(const options *o, const given_options *given) {
+  const char *measured = first_given(given, NOT_WITH_PREDICT);
+  return o->predict && measured
+             ? complain_usage("--predict and --%s exclude each other", measured)
+             : 0;
+}
+
+static int check_needs(const given_options *given) {
+  const option_entry *x;
+  for (size_t k = 0; (x = option_at(k)); k++)
+    if (given->is[k] && x->needs && !is_given(given, x->needs))
+      return complain_usage("--%s needs --%s", x->name, x->needs);
   return 0;
 }
 
-static int check_cost(const options *o, uint64_t given) {
-  static const struct {
-    uint64_t bit;
-    const char *name;
-  } measured[] = {{GIVEN(CSV), "csv"},
-                  {GIVEN(PLOT), "plot"},
-                  {GIVEN(METHODS), "methods"},
-                  {GIVEN(LEVEL), "max-level"},
-                  {GIVEN(MAX_SECONDS), "max-seconds"}};
-  for (size_t k = 0; o->predict && k < sizeof measured / sizeof *measured; k++)
-    if (given & measured[k].bit)
-      return usage_error("--predict and --%s exclude each other", measured[k].name);
-  if (given & GIVEN(AGAINST) && !o->plot) return usage_error("--against needs --plot");
+static int check_parents(const options *o) {
+  if (!o->link_parents) return 0;
+  if (o->link_level == NO_LEVEL || !o->link_level)
+    return complain_usage("--link-parents needs --link-level with at least 1");
+  if (o->policy != hr2d_policy_modified())
+    return complain_usage("--link-parents needs --variant modified");
   return 0;
 }
 
-int options_check(const options *o, uint64_t given) {
+int options_check(const options *o, const given_options *given) {
   int status = check_outputs(o);
   if (!status) status = check_target(o, given);
-  if (!status) status = check_links(o);
-  if (!status) status = check_cost(o, given);
+  if (!status) status = check_predict(o, given);
+  if (!status) status = check_needs(given);
+  if (!status) status = check_parents(o);
   if (status) return status;
-  if (o->plot_log && !o->plot) return usage_error("--plot-log needs --plot");
-  if (o->resume && (!o->csv || to_stdout(o->csv)))
-    return usage_error("--resume needs --csv with a file");
-  if (o->multigrid_ratio > 0 && o->multigrid_from <= o->epsilon)
-    return usage_error("--multigrid: %g is not greater than --eps %g", o->multigrid_from,
-                       o->epsilon);
+  if (o->resume && (!o->csv || output_is_stdout(o->csv)))
+    return complain_usage("--resume needs --csv with a file");
+  if (o->multigrid.ratio > 0 && o->multigrid.from <= o->epsilon)
+    return complain_usage("--multigrid: %g is not greater than --eps %g", o->multigrid.from,
+                          o->epsilon);
   if (o->from > 0 && o->to >= o->from)
-    return usage_error("--from %g is not greater than --to %g", o->from, o->to);
+    return complain_usage("--from %g is not greater than --to %g", o->from, o->to);
   return 0;
+}
+
+int options_check_outputs(const options *o) {
+  int status = output_check(o->json);
+  if (!status) status = output_check(o->csv);
+  if (!status) status = output_check(o->state);
+  if (!status) status = output_check(o->draw);
+  return status ? status : output_check(o->plot);
+}
+
+int options_want_table(const options *o) {
+  return !o->quiet && !output_is_stdout(o->json) && !output_is_stdout(o->csv);
 }

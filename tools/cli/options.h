@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The command line as one struct. */
+/* The command line as one struct.  Its members are set by the options in option-table.c. */
 #ifndef HR2D_TOOLS_CLI_OPTIONS_H
 #define HR2D_TOOLS_CLI_OPTIONS_H
 
 #include <hr2d/hr2d.h>
+#include <limits.h>
 #include <stddef.h>
 #include <stdint.h>
 
-/* One bit each, so that an option can name the commands it belongs to. */
+/* One bit each, so that an option can name the commands that it belongs to. */
 enum { INFO = 1, SOLVE = 2, STUDY = 4, FACTORS = 8, PAIR = 16, COST = 32 };
 
 /* PATCH:T, a point at fraction t of the patch with this index or name. */
@@ -16,102 +17,93 @@ typedef struct place {
   double t;
 } place;
 
-/* The quantity a chart of errors has upwards. */
+typedef struct place_list {
+  place *items; /* in the order given */
+  size_t count;
+} place_list;
+
+/* FROM:RATIO, a geometric sequence that falls. */
+typedef struct sequence {
+  double from, ratio; /* 0: not given */
+} sequence;
+
+/* The quantity on the vertical axis of a chart of errors. */
 typedef enum against { AGAINST_SECONDS, AGAINST_LINKS, AGAINST_BYTES, AGAINST_COUNT } against;
+
+/* One panel of the chart for each. */
+typedef struct against_list {
+  against items[AGAINST_COUNT];
+  size_t count;
+} against_list;
+
+/* The methods that `cost` compares, in the order in which they run. */
+typedef enum method {
+  METHOD_SIZE,
+  METHOD_SIZE2,
+  METHOD_BF,
+  METHOD_L1,
+  METHOD_L1_GRID,
+  METHOD_MULTIGRID,
+  METHOD_ORDER_2,
+  METHOD_ORDER_4,
+  METHOD_ORDER_8,
+  METHOD_ORDER_16,
+  METHOD_AUTO,
+  METHOD_AUTO_SOLVE,
+  METHOD_DENSE,
+  METHOD_COUNT
+} method;
+
+/* As link_level: --link-level is not given. */
+#define NO_LEVEL UINT_MAX
 
 typedef struct options {
   int command;
   int help, version, quiet;
-  int closure;       /* 0: the paper's algorithm as it stands */
+  int no_closure;
   const char *scene; /* file name; NULL for `pair` */
   int split_crossings;
   unsigned force; /* bit 1 << e for each effect e */
   const hr2d_oracle *oracle;
   const hr2d_policy *policy;
   double epsilon;
-  double multigrid_from, multigrid_ratio; /* 0: not given */
+  sequence multigrid;
   unsigned order;
   double target_error, time_budget; /* 0: not given */
   hr2d_norm norm;
-  place importance;    /* its t means nothing */
-  int error, no_error; /* whether the error is to be measured at any price, or not at all */
+  place importance;    /* without a t */
+  int error, no_error; /* measure the error of any scene, of none */
   double max_seconds;  /* of `cost` */
-  const char *methods; /* of `cost`, separated by commas; NULL: all */
-  against against[AGAINST_COUNT]; /* upwards in each panel of a chart */
-  size_t panels;
+  unsigned methods;    /* of `cost`, bit 1 << m for each method m */
+  against_list against;
   int predict;
   double from, to; /* of a study; 0: not given */
   unsigned steps, max_level, threads;
-  uint64_t max_links, max_elements;
-  const char *state; /* file name; NULL: not given */
-  place *at;         /* at_count of them, in the order given */
-  size_t at_count;
+  uint64_t max_links, max_elements; /* 0: no limit */
+  const char *state;                /* file name; NULL: not given */
+  place_list at;
   place links_of;
-  int one_level; /* link_level was given */
   unsigned link_level;
   int link_parents, plot_log, resume;
-  const char *json, *csv, *draw, *plot; /* file names; NULL: not wanted */
+  const char *json, *csv, *draw, *plot; /* file names; NULL: not given */
 } options;
 
-/* Reads the command line.  Returns 0, or the exit status after complaining.  The
-   strings of argv are split in place and must outlive the options. */
+/* Reads the command line.  Returns 0, or the exit status after an error message.  The strings
+   of argv are split in place and must outlive the options. */
 int options_read(int argc, char **argv, options *o);
 
 void options_release(options *o);
 
-/* options-check.c: refuses what contradicts itself, as options_read(). */
-int options_check(const options *o, uint64_t given);
+/* Checks, before the work starts, that the outputs can be written.  Returns 0 or EXIT_FAILED.
+ */
+int options_check_outputs(const options *o);
 
-/* The bit of `given` for an option's number. */
-#define GIVEN(id) ((uint64_t)1 << ((id)-HELP))
-
-/* Numbers of options, beyond those of characters. */
-enum {
-  HELP = 256,
-  SHOW_VERSION,
-  QUIET,
-  ORACLE,
-  EPS,
-  VARIANT,
-  MULTIGRID,
-  STATE,
-  ORDER,
-  TARGET_ERROR,
-  TIME_BUDGET,
-  NORM,
-  IMPORTANCE,
-  MEASURE_ERROR,
-  NO_ERROR,
-  LEVEL,
-  LINKS,
-  ELEMENTS,
-  THREADS,
-  NO_CLOSURE,
-  AT,
-  JSON,
-  CSV,
-  DRAW,
-  LINKS_OF,
-  LINK_LEVEL,
-  LINK_PARENTS,
-  PLOT,
-  PLOT_LOG,
-  RESUME,
-  FROM,
-  TO,
-  STEPS,
-  METHODS,
-  MAX_SECONDS,
-  AGAINST,
-  PREDICT,
-  SPLIT_CROSSINGS,
-  FORCE
-};
+/* Whether a command prints its table on standard output. */
+int options_want_table(const options *o);
 
 /* Whether a target or a budget decides how to solve. */
-int is_targeted(const options *o);
-
-/* Whether an output goes to standard output. */
-int to_stdout(const char *path);
+static inline int options_targeted(const options *o) {
+  return o->target_error > 0 || o->time_budget > 0;
+}
 
 #endif

@@ -1,138 +1,190 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From the word of an option to its value. */
+/* One reader for each kind of value. */
 #include "cli/values.h"
 
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/names.h"
 #include "cli/numbers.h"
-#include "cost/cost.h"
 #include "output/complain.h"
+#include "output/output.h"
 #include "output/suffix.h"
 
-int read_positive(const char *option, const char *text, double *value) {
-  if (read_real(text, value) || *value <= 0)
-    return usage_error("--%s: '%s' is not a number greater than 0", option, text);
+int value_flag(const char *option, char *text, value_range range, void *value) {
+  (void)option, (void)text, (void)range;
+  *(int *)value = 1;
   return 0;
 }
 
-int read_range(const char *option, const char *text, uint64_t least, uint64_t most,
-               uint64_t *value) {
-  if (read_count(text, most, value) || *value < least)
-    return usage_error("--%s: '%s' is not a whole number from %llu to %llu", option, text,
-                       (unsigned long long)least, (unsigned long long)most);
+int value_positive(const char *option, char *text, value_range range, void *value) {
+  double *x = value;
+  (void)range;
+  if (number_real(text, x) || *x <= 0)
+    return complain_usage("--%s: '%s' is not a number greater than 0", option, text);
   return 0;
 }
 
-int read_unsigned(const char *option, const char *text, unsigned least, unsigned most,
-                  unsigned *value) {
+int value_count(const char *option, char *text, value_range range, void *value) {
+  uint64_t *n = value;
+  if (number_count(text, range.most, n) || *n < range.least)
+    return complain_usage("--%s: '%s' is not a whole number from %llu to %llu", option, text,
+                          (unsigned long long)range.least, (unsigned long long)range.most);
+  return 0;
+}
+
+int value_unsigned(const char *option, char *text, value_range range, void *value) {
   uint64_t n = 0;
-  if (read_range(option, text, least, most, &n)) return EXIT_USAGE;
-  *value = (unsigned)n;
+  if (value_count(option, text, range, &n)) return EXIT_USAGE;
+  *(unsigned *)value = (unsigned)n;
   return 0;
+}
+
+int value_path(const char *option, char *text, value_range range, void *value) {
+  (void)range;
+  *(const char **)value = text;
+  return *text ? 0 : complain_usage("--%s: the file name is empty", option);
+}
+
+int value_file(const char *option, char *text, value_range range, void *value) {
+  if (output_is_stdout(text))
+    return complain_usage("--%s wants a file that can be read back", option);
+  return value_path(option, text, range, value);
+}
+
+int value_picture(const char *option, char *text, value_range range, void *value) {
+  (void)range;
+  *(const char **)value = text;
+  if (suffix_of(text) == SUFFIX_OTHER)
+    return complain_usage("--%s: '%s' does not end in .svg, .png or .pdf", option, text);
+  return 0;
+}
+
+int value_patch(const char *option, char *text, value_range range, void *value) {
+  (void)range;
+  *(place *)value = (place){text, 0};
+  return *text ? 0 : complain_usage("--%s: the name is empty", option);
 }
 
 /* The last colon separates, because names may contain others. */
-int read_place(const char *option, char *text, place *p) {
+int value_place(const char *option, char *text, value_range range, void *value) {
+  place *p = value;
   char *colon = strrchr(text, ':');
-  if (!colon || colon == text) return usage_error("--%s: '%s' is not PATCH:T", option, text);
-  if (read_real(colon + 1, &p->t) || p->t < 0 || p->t > 1)
-    return usage_error("--%s: '%s' does not end in a number from 0 to 1", option, text);
+  (void)range;
+  if (!colon || colon == text) return complain_usage("--%s: '%s' is not PATCH:T", option, text);
+  if (number_real(colon + 1, &p->t) || p->t < 0 || p->t > 1)
+    return complain_usage("--%s: '%s' does not end in a number from 0 to 1", option, text);
   *colon = '\0';
   p->patch = text;
   return 0;
 }
 
-int read_multigrid(const char *option, char *text, double *from, double *ratio) {
+int value_places(const char *option, char *text, value_range range, void *value) {
+  place_list *list = value;
+  return value_place(option, text, range, &list->items[list->count++]);
+}
+
+int value_sequence(const char *option, char *text, value_range range, void *value) {
+  sequence *s = value;
   char *colon = strchr(text, ':');
-  if (!colon) return usage_error("--%s: '%s' is not FROM:RATIO", option, text);
+  if (!colon) return complain_usage("--%s: '%s' is not FROM:RATIO", option, text);
   *colon = '\0';
-  if (read_positive(option, text, from)) return EXIT_USAGE;
-  if (read_real(colon + 1, ratio) || *ratio < 0.01 || *ratio > 0.99)
-    return usage_error("--%s: the ratio '%s' is not a number from 0.01 to 0.99", option,
-                       colon + 1);
+  if (value_positive(option, text, range, &s->from)) return EXIT_USAGE;
+  if (number_real(colon + 1, &s->ratio) || s->ratio < 0.01 || s->ratio > 0.99)
+    return complain_usage("--%s: the ratio '%s' is not a number from 0.01 to 0.99", option,
+                          colon + 1);
   return 0;
 }
 
-int read_oracle(const char *option, const char *text, const hr2d_oracle **oracle) {
+/* Appends a name to a list of them. */
+static void add_name(char *list, size_t size, const char *name) {
+  const size_t used = strlen(list);
+  snprintf(list + used, size - used, "%s%s", used ? ", " : "", name);
+}
+
+int value_oracle(const char *option, char *text, value_range range, void *value) {
   static const char *const known[] = {"size", "size2", "bf", "l1", "l1-grid"};
+  const hr2d_oracle **oracle = value;
   char list[64] = "";
+  (void)range;
   *oracle = hr2d_oracle_find(text);
   if (*oracle) return 0;
-  for (size_t k = 0, used = 0; k < sizeof known / sizeof *known; k++)
-    if (hr2d_oracle_find(known[k]))
-      used +=
-          (size_t)snprintf(list + used, sizeof list - used, "%s%s", k ? ", " : "", known[k]);
-  return usage_error("--%s: '%s' is none of %s", option, text, list);
+  for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+    if (hr2d_oracle_find(known[k])) add_name(list, sizeof list, known[k]);
+  return complain_usage("--%s: '%s' is none of %s", option, text, list);
 }
 
-int read_variant(const char *option, const char *text, const hr2d_policy **policy) {
+int value_policy(const char *option, char *text, value_range range, void *value) {
+  const hr2d_policy **policy = value;
+  (void)range;
   *policy = hr2d_policy_find(text);
-  return *policy ? 0 : usage_error("--%s: '%s' is neither original nor modified", option, text);
+  return *policy ? 0
+                 : complain_usage("--%s: '%s' is neither original nor modified", option, text);
 }
 
-int read_norm(const char *option, const char *text, hr2d_norm *norm) {
+int value_norm(const char *option, char *text, value_range range, void *value) {
   const int average = !strcmp(text, "average");
+  (void)range;
   if (!average && strcmp(text, "sup"))
-    return usage_error("--%s: '%s' is neither average nor sup", option, text);
-  *norm = average ? HR2D_NORM_AVERAGE : HR2D_NORM_SUP;
+    return complain_usage("--%s: '%s' is neither average nor sup", option, text);
+  *(hr2d_norm *)value = average ? HR2D_NORM_AVERAGE : HR2D_NORM_SUP;
   return 0;
 }
 
-/* Some of the quantities, each once, separated by commas. */
-int read_against(const char *option, const char *text, against *quantity, size_t *count) {
-  static const char *const known[AGAINST_COUNT] = {"seconds", "links", "bytes"};
-  unsigned seen = 0;
-  *count = 0;
+int value_effect(const char *option, char *text, value_range range, void *value) {
+  char list[512] = "";
+  (void)range;
+  for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
+    const char *name = hr2d_effect_name((hr2d_effect)e);
+    if (!strcmp(text, name)) {
+      *(unsigned *)value |= 1U << e;
+      return 0;
+    }
+    add_name(list, sizeof list, name);
+  }
+  return complain_usage("--%s: '%s' is none of %s", option, text, list);
+}
+
+/* Which name the first `size` bytes of a word are; `count` if none. */
+static size_t find_name(const char *const *names, size_t count, const char *word, size_t size) {
+  size_t k = 0;
+  while (k < count && (strlen(names[k]) != size || strncmp(word, names[k], size))) k++;
+  return k;
+}
+
+int value_methods(const char *option, char *text, value_range range, void *value) {
+  unsigned *methods = value;
+  (void)range;
+  *methods = 0;
   for (const char *word = text;; word++) {
     const size_t size = strcspn(word, ",");
-    unsigned k = 0;
-    while (k < AGAINST_COUNT && (strlen(known[k]) != size || strncmp(word, known[k], size)))
-      k++;
-    if (k == AGAINST_COUNT || seen >> k & 1)
-      return usage_error("--%s: '%s' does not list some of seconds, links, bytes", option,
-                         text);
-    seen |= 1U << k;
-    quantity[(*count)++] = (against)k;
+    const size_t m = find_name(name_of_method, METHOD_COUNT, word, size);
+    if (m == METHOD_COUNT) {
+      char list[128] = "";
+      for (size_t k = 0; k < METHOD_COUNT; k++) add_name(list, sizeof list, name_of_method[k]);
+      return complain_usage("--%s: '%.*s' is none of %s", option, (int)size, word, list);
+    }
+    *methods |= 1U << m;
     word += size;
     if (!*word) return 0;
   }
 }
 
-/* Each word of a list that commas separate has to be a method. */
-int read_methods(const char *option, const char *text, const char **methods) {
-  *methods = text;
-  for (const char *word = text;;) {
+/* Each quantity once. */
+int value_against(const char *option, char *text, value_range range, void *value) {
+  against_list *list = value;
+  unsigned seen = 0;
+  (void)range;
+  list->count = 0;
+  for (const char *word = text;; word++) {
     const size_t size = strcspn(word, ",");
-    if (!cost_method_find(word, size))
-      return usage_error("--%s: '%.*s' is none of %s", option, (int)size, word,
-                         COST_METHOD_NAMES);
-    if (!word[size]) return 0;
-    word += size + 1;
+    const size_t k = find_name(name_of_against, AGAINST_COUNT, word, size);
+    if (k == AGAINST_COUNT || seen >> k & 1)
+      return complain_usage("--%s: '%s' does not list some of seconds, links, bytes", option,
+                            text);
+    seen |= 1U << k;
+    list->items[list->count++] = (against)k;
+    word += size;
+    if (!*word) return 0;
   }
-}
-
-int read_effect(const char *option, const char *text, unsigned *effects) {
-  char list[512] = "";
-  for (int e = 0, used = 0; e < HR2D_EFFECT_COUNT; e++) {
-    const char *name = hr2d_effect_name((hr2d_effect)e);
-    if (!strcmp(text, name)) {
-      *effects |= 1U << e;
-      return 0;
-    }
-    used += snprintf(list + used, sizeof list - (size_t)used, "%s%s", e ? ", " : "", name);
-  }
-  return usage_error("--%s: '%s' is none of %s", option, text, list);
-}
-
-int read_picture(const char *option, const char *text, const char **path) {
-  *path = text;
-  if (suffix_of(text) == SUFFIX_OTHER)
-    return usage_error("--%s: '%s' does not end in .svg, .png or .pdf", option, text);
-  return 0;
-}
-
-int read_path(const char *option, const char *text, const char **path) {
-  *path = text;
-  return *text ? 0 : usage_error("--%s: the file name is empty", option);
 }

@@ -1,31 +1,42 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an option's argument means.  Each reader returns 0, or EXIT_USAGE after a complaint
-   that names the option. */
+/* From the argument of an option to its value. */
 #ifndef HR2D_TOOLS_CLI_VALUES_H
 #define HR2D_TOOLS_CLI_VALUES_H
 
+#include <stdint.h>
+
 #include "cli/options.h"
 
-int read_positive(const char *option, const char *text, double *value);
-int read_range(const char *option, const char *text, uint64_t least, uint64_t most,
-               uint64_t *value);
-int read_unsigned(const char *option, const char *text, unsigned least, unsigned most,
-                  unsigned *value);
+/* What a whole number may be. */
+typedef struct value_range {
+  uint64_t least, most;
+} value_range;
 
-/* PATCH:T and FROM:RATIO, split in place. */
-int read_place(const char *option, char *text, place *p);
-int read_multigrid(const char *option, char *text, double *from, double *ratio);
+/* Reads `text`, which it may split in place, into a value whose type depends on the reader.
+   Returns 0, or EXIT_USAGE after an error message that names the option. */
+typedef int value_reader(const char *option, char *text, value_range range, void *value);
 
-/* Names that the library knows. */
-int read_oracle(const char *option, const char *text, const hr2d_oracle **oracle);
-int read_variant(const char *option, const char *text, const hr2d_policy **policy);
-int read_norm(const char *option, const char *text, hr2d_norm *norm);
-int read_methods(const char *option, const char *text, const char **methods);
-int read_against(const char *option, const char *text, against *quantity, size_t *count);
-int read_effect(const char *option, const char *text, unsigned *effects);
+value_reader value_flag, value_positive, value_unsigned, value_count, value_path, value_file,
+    value_picture, value_patch, value_place, value_places, value_sequence, value_oracle,
+    value_policy, value_norm, value_effect, value_methods, value_against;
 
-/* A file name, for pictures with a suffix that says the format. */
-int read_picture(const char *option, const char *text, const char **path);
-int read_path(const char *option, const char *text, const char **path);
+/* The types of the values. */
+typedef int type_of_flag;                  /* set to 1; there is no text */
+typedef double type_of_positive;           /* greater than 0 */
+typedef unsigned type_of_unsigned;         /* in the range */
+typedef uint64_t type_of_count;            /* in the range */
+typedef const char *type_of_path;          /* a file, or - for standard output */
+typedef const char *type_of_file;          /* a file that can be read back */
+typedef const char *type_of_picture;       /* a file with the suffix of a picture format */
+typedef place type_of_patch;               /* its patch only */
+typedef place type_of_place;               /* PATCH:T */
+typedef place_list type_of_places;         /* PATCH:T is appended; there is room for it */
+typedef sequence type_of_sequence;         /* FROM:RATIO */
+typedef const hr2d_oracle *type_of_oracle; /* by its name, as those below */
+typedef const hr2d_policy *type_of_policy;
+typedef hr2d_norm type_of_norm;
+typedef unsigned type_of_effect;      /* the bit of the effect is set */
+typedef unsigned type_of_methods;     /* a bit for each method of a list with commas */
+typedef against_list type_of_against; /* a list with commas */
 
 #endif

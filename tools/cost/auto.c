@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* hr2d_solve_to() for falling targets, timed with the account of its error (auto) and without
-   it (auto-solve). */
+/* hr2d_solve_to() for falling targets.  The time of `auto` includes the account of the error,
+   that of `auto-solve` does not. */
 #include <math.h>
-#include <string.h>
 
 #include "cost/cost.h"
+#include "cost/pace.h"
+#include "output/clock.h"
 
 enum { DECADES = 13 };
 
@@ -13,7 +14,7 @@ static double average(const void *ctx, size_t patch, size_t band) {
 }
 
 static double spent(const cost_method *m, const hr2d_account *a) {
-  if (!strcmp(m->name, "auto")) return a->seconds;
+  if (m->id == METHOD_AUTO) return a->seconds;
   return a->refine_seconds + a->coefficients_seconds + a->solve_seconds;
 }
 
@@ -36,10 +37,10 @@ static hr2d_status solve_to(cost *c, const cost_method *m, double error, cost_ro
 static hr2d_status time_row(cost *c, const cost_method *m, double target, cost_row *row) {
   double best = INFINITY;
   for (int run = 0, runs = 1; run < runs; run++) {
-    const double start = seconds();
+    const double start = clock_seconds();
     const hr2d_status status = solve_to(c, m, target, row);
     if (status) return status;
-    if (!run) runs = pace_repeats(seconds() - start);
+    if (!run) runs = pace_repeats(clock_seconds() - start);
     best = fmin(best, row->seconds);
   }
   row->seconds = best;
@@ -47,14 +48,14 @@ static hr2d_status time_row(cost *c, const cost_method *m, double target, cost_r
 }
 
 hr2d_status cost_auto(cost *c, const cost_method *m) {
-  pace p = pace_start();
-  for (int digits = 1; digits <= DECADES && pace_allows(c, &p); digits++) {
+  pace p = pace_start(c->share);
+  for (int digits = 1; digits <= DECADES && pace_allows(&p); digits++) {
     cost_row row;
-    const double start = seconds();
+    const double start = clock_seconds();
     hr2d_status status = time_row(c, m, pow(10, -digits), &row);
     if (!status) status = cost_add(c, &row);
     if (status) return status;
-    pace_note(&p, row.seconds, seconds() - start);
+    pace_note(&p, row.seconds, clock_seconds() - start);
   }
   return HR2D_OK;
 }

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The script for the chart of costs: a curve for each method, its name and its slope at its
+/* The script for the chart of costs: a curve for each method, with its name and slope at the
    end. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/scene.h"
 #include "cost/cost.h"
 #include "output/complain.h"
 #include "output/gnuplot.h"
 
 enum { MOST_CURVES = 16, WIDTH = 900, HEIGHT = 640 };
 
-/* Part of the width that is kept for names, and what a character and a line of them take. */
+/* Parts of the width: kept for names, of a character; of the height: of a line; and the gap
+   between a curve and its name. */
 #define LABELS    0.27
 #define CHARACTER 0.0095
 #define LINE      0.034
@@ -27,26 +29,22 @@ typedef struct curve {
 typedef struct chart {
   const cost *cost;
   against quantity;
-  double worst, best, least, most; /* decades of error and of what is drawn upwards */
+  double worst, best, least, most; /* decades of error and of the quantity */
   curve curves[MOST_CURVES];
   size_t count;
 } chart;
 
-/* The paper's oracles, orders from light to dark, the automatic ones, the baseline. */
-static const char *colour_of(const char *method) {
-  static const struct {
-    const char *method, *colour;
-  } colours[] = {{"size", "#d95f02"},     {"size2", "#f0a850"},   {"bf", "#a6761d"},
-                 {"l1", "#e7298a"},       {"l1-grid", "#f4a6cf"}, {"multigrid", "#8c2d04"},
-                 {"order-2", "#a6cee3"},  {"order-4", "#6baed6"}, {"order-8", "#3182bd"},
-                 {"order-16", "#08519c"}, {"auto", "#006d2c"},    {"auto-solve", "#66c2a4"},
-                 {"dense", "#737373"}};
-  for (size_t k = 0; k < sizeof colours / sizeof *colours; k++)
-    if (!strcmp(colours[k].method, method)) return colours[k].colour;
-  return "#000000";
-}
+/* The paper's oracles, orders from light to dark, the automatic methods, the baseline. */
+static const char *const colours[METHOD_COUNT] = {
+    [METHOD_SIZE] = "#d95f02",    [METHOD_SIZE2] = "#f0a850",
+    [METHOD_BF] = "#a6761d",      [METHOD_L1] = "#e7298a",
+    [METHOD_L1_GRID] = "#f4a6cf", [METHOD_MULTIGRID] = "#8c2d04",
+    [METHOD_ORDER_2] = "#a6cee3", [METHOD_ORDER_4] = "#6baed6",
+    [METHOD_ORDER_8] = "#3182bd", [METHOD_ORDER_16] = "#08519c",
+    [METHOD_AUTO] = "#006d2c",    [METHOD_AUTO_SOLVE] = "#66c2a4",
+    [METHOD_DENSE] = "#737373"};
 
-/* What is less than the error of the reference is drawn as that. */
+/* An error below that of the reference is drawn as that of the reference. */
 static double decade_of_error(const chart *d, const cost_row *row) {
   return log10(fmax(row->error, cost_floor(d->cost)));
 }
@@ -75,13 +73,13 @@ static void describe(const chart *d, curve *v) {
   cost_fit fit;
   const int size = (int)sizeof v->text;
   if (cost_fit_rows(d->cost, v->method, d->quantity, &fit))
-    snprintf(v->text, size, "%s", v->method->name);
+    snprintf(v->text, size, "%s", cost_method_name(v->method));
   else if (!fit.is_digital)
-    snprintf(v->text, size, "%s  %.2f", v->method->name, fit.slope);
+    snprintf(v->text, size, "%s  %.2f", cost_method_name(v->method), fit.slope);
   else if (d->quantity == AGAINST_SECONDS)
-    snprintf(v->text, size, "%s  %.2g ms/digit", v->method->name, 1e3 * fit.digit);
+    snprintf(v->text, size, "%s  %.2g ms/digit", cost_method_name(v->method), 1e3 * fit.digit);
   else
-    snprintf(v->text, size, "%s  %.3g/digit", v->method->name, fit.digit);
+    snprintf(v->text, size, "%s  %.3g/digit", cost_method_name(v->method), fit.digit);
 }
 
 static hr2d_point on_chart(const chart *d, const cost_row *row) {
@@ -105,7 +103,7 @@ static double width_of(const curve *v) {
   return CHARACTER * (double)strlen(v->text);
 }
 
-/* Whether a line passes through a name at some place. */
+/* Whether the line from a to b passes through the name at `label`. */
 static int crosses(const curve *v, hr2d_point label, hr2d_point a, hr2d_point b) {
   for (int k = 0; k <= 40; k++) {
     const double x = a.x + k * (b.x - a.x) / 40, y = a.y + k * (b.y - a.y) / 40;
@@ -123,7 +121,7 @@ static int is_clear_of_curves(const chart *d, const curve *v, hr2d_point label) 
   return 1;
 }
 
-/* Of the first k names. */
+/* Whether name k at `label` is inside the chart and free of the names before it. */
 static int is_clear_of_names(const chart *d, size_t k, hr2d_point label) {
   const double right = label.x + width_of(&d->curves[k]);
   for (size_t j = 0; j < k; j++) {
@@ -135,8 +133,8 @@ static int is_clear_of_names(const chart *d, size_t k, hr2d_point label) {
   return label.x > 0 && right < 1 && label.y > 0.5 * LINE && label.y < 1 - 0.5 * LINE;
 }
 
-/* The nearest place beside the end of a curve, right or left of it, that is free of the names
-   before it, and if possible of all curves. */
+/* The nearest place beside the end of a curve, right or left, that is free of the names before
+   it, and if possible also of all curves. */
 static void place_label(chart *d, size_t k) {
   curve *v = &d->curves[k];
   v->label = (hr2d_point){v->end.x + GAP, v->end.y};
@@ -151,7 +149,7 @@ static void place_label(chart *d, size_t k) {
     }
 }
 
-/* At every decade, or at every other where there are many. */
+/* At every decade, or at every second one if there are many. */
 static void write_tics(FILE *script, const chart *d) {
   const double end = d->best + LABELS * (d->worst - d->best);
   const int step = d->worst - end > 7 ? 2 : 1;
@@ -165,28 +163,22 @@ static void write_tics(FILE *script, const chart *d) {
 
 static void write_axes(FILE *script, const chart *d) {
   static const char *const name[] = {"seconds", "links L", "bytes"};
-  static const char *const law[] = {"seconds", "links", "bytes"};
   fprintf(script,
           "set logscale xy\nset xrange [%.17g:%.17g]\nset yrange [%.17g:%.17g]\n"
           "set xlabel \"relative error of average B\\n{/*0.8 a number s beside a curve: %s ∝ "
           "error^{−s}}\"\nset ylabel '%s'\n",
           pow(10, d->worst), pow(10, d->best), pow(10, d->least), pow(10, d->most),
-          law[d->quantity], name[d->quantity]);
+          name_of_against[d->quantity], name[d->quantity]);
   write_tics(script, d);
   fputs("set border 3 linecolor rgb '#404040'\nset grid linecolor rgb '#dcdcdc'\nunset key\n",
         script);
 }
 
 static void write_title(FILE *script, const chart *d) {
-  const char *scene = d->cost->options->scene, *slash = strrchr(scene, '/');
   char title[512];
-  snprintf(title, sizeof title, "%s: %s against error", slash ? slash + 1 : scene,
-           d->quantity == AGAINST_SECONDS ? "seconds"
-           : d->quantity == AGAINST_LINKS ? "links"
-                                          : "bytes");
-  fputs("set title ", script);
-  gnuplot_quote(script, title);
-  fputs(" noenhanced\n", script);
+  snprintf(title, sizeof title, "%s: %s against error", scene_file_name(d->cost->options),
+           name_of_against[d->quantity]);
+  gnuplot_title(script, title);
 }
 
 static void write_labels(FILE *script, const chart *d) {
@@ -196,11 +188,11 @@ static void write_labels(FILE *script, const chart *d) {
     gnuplot_quote(script, v->text);
     fprintf(script,
             " at graph %.4f, graph %.4f left noenhanced textcolor rgb '%s' font ',12'\n",
-            v->label.x, v->label.y, colour_of(v->method->name));
+            v->label.x, v->label.y, colours[v->method->id]);
   }
 }
 
-/* Data blocks of panel number `panel`, which have to be there before the first plot. */
+/* The data blocks of a panel.  gnuplot needs all of them before the first plot. */
 static void write_data(FILE *script, const chart *d, size_t panel) {
   size_t k = 0;
   for (size_t j = 0; j < d->count; j++) {
@@ -214,12 +206,12 @@ static void write_data(FILE *script, const chart *d, size_t panel) {
 
 static void write_curves(FILE *script, const chart *d, size_t panel) {
   for (size_t j = 0; j < d->count; j++) {
-    const char *method = d->curves[j].method->name;
+    const method m = d->curves[j].method->id;
     fprintf(script,
             "%s$curve%zu_%zu using 1:2 with linespoints pointtype %d pointsize 0.6 "
             "linewidth %g linecolor rgb '%s'",
-            j ? ", " : "plot ", panel, j, strcmp(method, "dense") ? 7 : 5,
-            strncmp(method, "auto", 4) ? 1.2 : 2.2, colour_of(method));
+            j ? ", " : "plot ", panel, j, m == METHOD_DENSE ? 5 : 7,
+            m == METHOD_AUTO || m == METHOD_AUTO_SOLVE ? 2.2 : 1.2, colours[m]);
   }
   fputs("\n", script);
 }
@@ -236,13 +228,13 @@ static void write_script(FILE *script, const void *ctx) {
   const options *o = c->options;
   chart d[AGAINST_COUNT];
   fputs("set encoding utf8\n", script);
-  gnuplot_terminal(script, o->plot, WIDTH, HEIGHT * (int)o->panels);
-  for (size_t k = 0; k < o->panels; k++) {
-    make_panel(&d[k], c, o->against[k]);
+  gnuplot_terminal(script, o->plot, WIDTH, HEIGHT * (int)o->against.count);
+  for (size_t k = 0; k < o->against.count; k++) {
+    make_panel(&d[k], c, o->against.items[k]);
     write_data(script, &d[k], k);
   }
-  fprintf(script, "set multiplot layout %zu,1\n", o->panels);
-  for (size_t k = 0; k < o->panels; k++) {
+  fprintf(script, "set multiplot layout %zu,1\n", o->against.count);
+  for (size_t k = 0; k < o->against.count; k++) {
     fputs("unset label\n", script);
     write_title(script, &d[k]);
     write_axes(script, &d[k]);
@@ -253,5 +245,5 @@ static void write_script(FILE *script, const void *ctx) {
 
 int cost_draw(const cost *c) {
   return c->count ? gnuplot_draw(c->options->plot, write_script, c)
-                  : fail(c->options->plot, "there is nothing to plot");
+                  : complain(c->options->plot, "there is nothing to plot");
 }

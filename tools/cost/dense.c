@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The plain way: patches in equal pieces, the full matrix of their view factors, and
+/* The plain method: patches in equal pieces, the full matrix F of their view factors, and
    (I − ρF) B = E by LU decomposition. */
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "cli/scene.h"
 #include "cost/cost.h"
+#include "cost/pace.h"
+#include "output/clock.h"
 
 enum { MOST_PIECES = 1 << 14 };
 
@@ -18,7 +21,7 @@ typedef struct dense {
   double *area;   /* pieces × pieces */
   double *matrix; /* likewise, I − ρF and its factors */
   double *b;      /* pieces × bands */
-  double *column; /* right side, then solution, of one band */
+  double *column; /* right-hand side, then solution, of one band */
   gsl_permutation *order;
 } dense;
 
@@ -32,11 +35,11 @@ static void clear(dense *d) {
   hr2d_scene_destroy(d->scene);
 }
 
-/* How many pieces no longer than `length`, a part of the longest patch. */
+/* The number of pieces of each patch.  No piece is longer than `length` times the longest
+ * patch. */
 static void divide(dense *d, double length) {
   const hr2d_scene *scene = d->cost->scene;
-  double longest = 0;
-  for (size_t k = 0; k < d->patches; k++) longest = fmax(longest, hr2d_scene_length(scene, k));
+  const double longest = scene_longest_patch(scene);
   for (size_t k = 0; k < d->patches; k++) {
     const double count = ceil(hr2d_scene_length(scene, k) / (length * longest) - 1e-9);
     d->first[k + 1] = d->first[k] + (size_t)fmin(MOST_PIECES, fmax(1, count));
@@ -44,7 +47,8 @@ static void divide(dense *d, double length) {
   d->pieces = d->first[d->patches];
 }
 
-/* The same from either end, bit for bit: patches back to back stay so. */
+/* The point is the same to the last bit from either end: patches back to back stay back to
+ * back. */
 static hr2d_point between(hr2d_segment s, size_t k, size_t count) {
   if (s.b.x < s.a.x || (s.b.x == s.a.x && s.b.y < s.a.y))
     return between((hr2d_segment){s.b, s.a}, count - k, count);
@@ -142,9 +146,9 @@ static hr2d_status time_row(cost *c, const cost_method *m, double length, cost_r
     dense d = {.cost = c,
                .patches = hr2d_scene_patches(c->scene),
                .bands = hr2d_scene_bands(c->scene)};
-    const double start = seconds();
+    const double start = clock_seconds();
     const hr2d_status status = run(&d, length);
-    const double time = seconds() - start;
+    const double time = clock_seconds() - start;
     if (!k) runs = pace_repeats(time);
     best = fmin(best, time);
     const uint64_t n = d.pieces;
@@ -159,18 +163,18 @@ static hr2d_status time_row(cost *c, const cost_method *m, double length, cost_r
 
 hr2d_status cost_dense(cost *c, const cost_method *m) {
   double length = m->first;
-  pace p = pace_start();
+  pace p = pace_start(c->share);
   if (hr2d_scene_effect(c->scene, HR2D_EFFECT_BACKGROUND, NULL)) {
     snprintf(c->message, sizeof c->message, "a full matrix does not know the background");
     return HR2D_EUNSUPPORTED;
   }
-  while (pace_allows(c, &p) && length * MOST_PIECES >= 1) {
+  while (pace_allows(&p) && length * MOST_PIECES >= 1) {
     cost_row row;
-    const double start = seconds();
+    const double start = clock_seconds();
     hr2d_status status = time_row(c, m, length, &row);
     if (!status) status = cost_add(c, &row);
     if (status) return status;
-    pace_note(&p, row.seconds, seconds() - start);
+    pace_note(&p, row.seconds, clock_seconds() - start);
     length *= m->ratio;
   }
   return HR2D_OK;

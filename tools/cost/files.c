@@ -14,10 +14,10 @@ int cost_write_csv(const cost *c) {
   fputs("method,parameter,order,elements,links,bytes,seconds,error\n", out.stream);
   for (size_t k = 0; k < c->count; k++) {
     const cost_row *row = &c->rows[k];
-    fprintf(out.stream, "%s,%.17g,%u,%llu,%llu,%llu,%.17g,%.17g\n", row->method->name,
-            row->parameter, row->order, (unsigned long long)row->elements,
-            (unsigned long long)row->links, (unsigned long long)row->bytes, row->seconds,
-            row->error);
+    fprintf(out.stream, "%s,%.17g,%u,%llu,%llu,%llu,%.17g,%.17g\n",
+            cost_method_name(row->method), row->parameter, row->order,
+            (unsigned long long)row->elements, (unsigned long long)row->links,
+            (unsigned long long)row->bytes, row->seconds, row->error);
   }
   return output_close(&out, 0);
 }
@@ -48,7 +48,7 @@ static json_t *reference_entry(const hr2d_account *a) {
 
 static json_t *row_entry(const cost_row *row) {
   json_t *entry = json_object();
-  json_put(&entry, "method", json_text(row->method->name));
+  json_put(&entry, "method", json_text(cost_method_name(row->method)));
   json_put(&entry, row->method->parameter, json_number(row->parameter));
   json_put(&entry, "order", json_count(row->order));
   json_put(&entry, "elements", json_count(row->elements));
@@ -65,7 +65,7 @@ static json_t *fit_entry(const cost *c, const cost_method *m) {
   if (cost_fit_rows(c, m, AGAINST_SECONDS, &time) || cost_fit_rows(c, m, AGAINST_LINKS, &links))
     return json_null();
   json_t *entry = json_object();
-  json_put(&entry, "method", json_text(m->name));
+  json_put(&entry, "method", json_text(cost_method_name(m)));
   json_put(&entry, time.is_digital ? "seconds_per_digit" : "seconds_slope",
            json_number(time.is_digital ? time.digit : time.slope));
   json_put(&entry, time.is_digital ? "links_per_digit" : "links_slope",

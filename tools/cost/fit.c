@@ -1,26 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Least squares: a power of the error for all methods but the automatic ones, whose cost grows
-   with the digits. */
+/* Least squares.  The cost is a power of the error; that of the automatic methods is a linear
+   function of the digits. */
 #include <gsl/gsl_fit.h>
 #include <math.h>
-#include <string.h>
 
 #include "cost/cost.h"
 
 enum { MOST = 64, LEAST = 3 };
 
-double cost_quantity(const cost_row *row, against quantity) {
-  switch (quantity) {
-  case AGAINST_LINKS:
-    return (double)row->links;
-  case AGAINST_BYTES:
-    return (double)row->bytes;
-  default:
-    return row->seconds;
-  }
-}
-
-/* Rows whose error can be told from that of the reference. */
+/* The rows whose error is clearly above that of the reference. */
 static size_t collect(const cost *c, const cost_method *m, against quantity, double *digits,
                       double *value) {
   size_t count = 0;
@@ -33,7 +21,7 @@ static size_t collect(const cost *c, const cost_method *m, against quantity, dou
   return count;
 }
 
-/* The finer half of the digits: coarse runs take what any run takes. */
+/* Keeps the finer half of the digits: the cost of coarse runs is mostly that of any run. */
 static size_t keep_fine(double *digits, double *value, size_t count) {
   double most = 0, least = INFINITY;
   size_t kept = 0;
@@ -53,7 +41,7 @@ static size_t keep_fine(double *digits, double *value, size_t count) {
   return kept;
 }
 
-/* Over less than a decade of error a slope says nothing. */
+/* A slope over less than a decade of error means nothing. */
 static int is_wide(const double *digits, size_t count) {
   double most = -INFINITY, least = INFINITY;
   for (size_t k = 0; k < count; k++) {
@@ -72,7 +60,7 @@ static double line(const double *x, const double *y, size_t count) {
 int cost_fit_rows(const cost *c, const cost_method *m, against quantity, cost_fit *fit) {
   double digits[MOST], value[MOST];
   size_t count = collect(c, m, quantity, digits, value);
-  fit->is_digital = !m->oracle && strcmp(m->name, "dense") != 0;
+  fit->is_digital = !m->oracle && m->id != METHOD_DENSE;
   if (!fit->is_digital) count = keep_fine(digits, value, count);
   if (count < LEAST || !is_wide(digits, count)) return -1;
   fit->digit = line(digits, value, count);

@@ -3,11 +3,14 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "cli/scene.h"
 #include "cost/cost.h"
+#include "cost/pace.h"
+#include "output/clock.h"
 
 enum { MOST_STEPS = 64, ELEMENT_BYTES = sizeof(hr2d_element) + 6 };
 
-/* What one row may hold in memory. */
+/* The limit of memory of one row. */
 #define MOST_BYTES ((uint64_t)1 << 30)
 
 typedef struct trial {
@@ -33,7 +36,7 @@ static hr2d_status begin(const cost *c, const cost_method *m, trial *t) {
   return status;
 }
 
-/* Starts from what the trial has. */
+/* Starts from the links and the solution of the trial. */
 static hr2d_status solve(cost *c, trial *t, double epsilon) {
   hr2d_refine_options refine = HR2D_REFINE_OPTIONS_INIT;
   hr2d_solve_options solve = HR2D_SOLVE_OPTIONS_INIT;
@@ -43,7 +46,7 @@ static hr2d_status solve(cost *c, trial *t, double epsilon) {
   refine.max_bytes = MOST_BYTES;
   refine.brightness = solve.start = t->solution;
   refine.threads = solve.threads = c->options->threads;
-  solve.closure = c->options->closure;
+  solve.closure = !c->options->no_closure;
   refine.progress = solve.progress = progress_show;
   refine.progress_ctx = solve.progress_ctx = &c->line;
   hr2d_status status = hr2d_refine(t->links, &refine);
@@ -71,28 +74,25 @@ static cost_row make_row(const cost *c, const cost_method *m, const trial *t, do
 }
 
 static double first_epsilon(const cost *c, const cost_method *m) {
-  double longest = 0;
-  for (size_t k = 0; k < hr2d_scene_patches(c->scene); k++)
-    longest = fmax(longest, hr2d_scene_length(c->scene, k));
-  return m->first > 0 ? m->first : longest;
+  return m->first > 0 ? m->first : scene_longest_patch(c->scene);
 }
 
-/* Memory that is used up ends a method as time does. */
+/* The limit of memory ends a method without an error, like the limit of time. */
 static hr2d_status forgive(cost *c, hr2d_status status) {
   if (status != HR2D_EMAX_BYTES) return status;
   *c->message = '\0';
   return HR2D_OK;
 }
 
-/* The shortest of several runs where one is too short to be timed. */
+/* The shortest of several runs, if one is too short to be timed. */
 static hr2d_status time_single(cost *c, const cost_method *m, double epsilon, cost_row *row) {
   double best = INFINITY;
   for (int run = 0, runs = 1; run < runs; run++) {
     trial t;
-    const double start = seconds();
+    const double start = clock_seconds();
     hr2d_status status = begin(c, m, &t);
     if (!status) status = solve(c, &t, epsilon);
-    const double time = seconds() - start;
+    const double time = clock_seconds() - start;
     if (!run) runs = pace_repeats(time);
     best = fmin(best, time);
     if (!status && run + 1 == runs) *row = make_row(c, m, &t, epsilon, best);
@@ -110,13 +110,13 @@ static int repeats_last(const cost *c, const cost_row *row) {
 
 hr2d_status cost_single(cost *c, const cost_method *m) {
   double epsilon = first_epsilon(c, m);
-  pace p = pace_start();
-  for (int step = 0; step < MOST_STEPS && pace_allows(c, &p); step++, epsilon *= m->ratio) {
+  pace p = pace_start(c->share);
+  for (int step = 0; step < MOST_STEPS && pace_allows(&p); step++, epsilon *= m->ratio) {
     cost_row row;
-    const double start = seconds();
+    const double start = clock_seconds();
     hr2d_status status = time_single(c, m, epsilon, &row);
     if (status) return forgive(c, status);
-    pace_note(&p, row.seconds, seconds() - start);
+    pace_note(&p, row.seconds, clock_seconds() - start);
     if (!repeats_last(c, &row)) status = cost_add(c, &row);
     if (status) return status;
     if (row.error < cost_floor(c)) break;
@@ -124,39 +124,38 @@ hr2d_status cost_single(cost *c, const cost_method *m) {
   return HR2D_OK;
 }
 
-/* The first time a row is made, each further time its seconds may become less. */
+/* Adds a row, or keeps the shortest time of one that is there. */
 static hr2d_status note_row(cost *c, size_t at, const cost_row *row) {
   if (at == c->count) return cost_add(c, row);
   c->rows[at].seconds = fmin(c->rows[at].seconds, row->seconds);
   return HR2D_OK;
 }
 
-/* One pass over falling ε, its times summed up.  The first one goes as far as time allows, the
-   others over what is too short to be timed once. */
+/* One pass over falling ε; the time of a row is the sum up to it.  The first pass goes on as
+   long as time allows.  The others repeat the rows that are too short to be timed once. */
 static hr2d_status pass(cost *c, const cost_method *m, size_t first, pace *p) {
   const int timing = c->count > first;
   const size_t last = c->count;
-  double epsilon = first_epsilon(c, m), start = seconds(), total = 0;
+  double epsilon = first_epsilon(c, m), start = clock_seconds(), total = 0;
   trial t;
   hr2d_status status = begin(c, m, &t);
   for (size_t at = first; !status && at < first + MOST_STEPS; at++, epsilon *= m->ratio) {
-    if (timing ? at == last || pace_repeats(c->rows[at].seconds) == 1 : !pace_allows(c, p))
-      break;
+    if (timing ? at == last || pace_repeats(c->rows[at].seconds) == 1 : !pace_allows(p)) break;
     status = solve(c, &t, epsilon);
     if (status) break;
-    const double once = seconds() - start;
+    const double once = clock_seconds() - start;
     total += once;
     const cost_row row = make_row(c, m, &t, epsilon, total);
     status = note_row(c, at, &row);
     if (!timing) pace_note(p, once, once);
     if (!timing && row.error < cost_floor(c)) break;
-    start = seconds();
+    start = clock_seconds();
   }
   end(&t);
   return forgive(c, status);
 }
 
-/* Keeps the first of rows with the same links; the last ones with their brightness. */
+/* Of rows with the same elements and links only the first stays. */
 static void drop_repeats(cost *c, size_t first) {
   const size_t count = c->count;
   c->count = first;
@@ -166,7 +165,7 @@ static void drop_repeats(cost *c, size_t first) {
 
 hr2d_status cost_progressive(cost *c, const cost_method *m) {
   const size_t first = c->count;
-  pace p = pace_start();
+  pace p = pace_start(c->share);
   hr2d_status status = HR2D_OK;
   for (int k = 0; k < pace_repeats(0) && !status; k++) status = pass(c, m, first, &p);
   drop_repeats(c, first);

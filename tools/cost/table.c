@@ -2,10 +2,10 @@
 /* The table of `hr2d cost`, method after method. */
 #include <stdio.h>
 
+#include "cli/scene.h"
 #include "cost/cost.h"
-#include "output/json.h"
 
-/* Seconds as one would say them. */
+/* A time with its unit and two digits. */
 static const char *say(double seconds, char *text, size_t size) {
   if (seconds < 1e-3)
     snprintf(text, size, "%.2g ms", 1e3 * seconds);
@@ -26,7 +26,7 @@ static void print_prediction_table(const cost *c) {
   }
 }
 
-void cost_print_predictions(const cost *c) {
+static void print_predictions(const cost *c) {
   char text[32];
   printf("predicted  ");
   for (int k = 0; k < c->predictions; k++)
@@ -37,8 +37,8 @@ void cost_print_predictions(const cost *c) {
 
 void cost_print_head(const cost *c) {
   const hr2d_account *a = &c->reference;
-  print_scene(c->options, 11, c->cuts);
-  cost_print_predictions(c);
+  scene_print(c->options, 11, c->cuts);
+  print_predictions(c);
   if (c->options->predict) {
     print_prediction_table(c);
     return;
@@ -51,10 +51,10 @@ void cost_print_head(const cost *c) {
   fflush(stdout);
 }
 
-/* An error that is less than the reference's own can only be said to be so. */
+/* An error below that of the reference is printed as "less than" that. */
 static void print_row(const cost *c, const cost_row *row) {
   const int below = row->error < cost_floor(c);
-  printf("%-10s %10.3g %10llu %12llu %13llu %11.6f %s%9.1e\n", row->method->name,
+  printf("%-10s %10.3g %10llu %12llu %13llu %11.6f %s%9.1e\n", cost_method_name(row->method),
          row->parameter, (unsigned long long)row->elements, (unsigned long long)row->links,
          (unsigned long long)row->bytes, row->seconds, below ? "<" : " ",
          below ? cost_floor(c) : row->error);
@@ -66,18 +66,18 @@ void cost_print_rows(const cost *c, size_t first) {
   fflush(stdout);
 }
 
-/* The steeper, the dearer the next digit: 10^s times what the last one took. */
+/* With the slope s the next digit costs 10^s times as much as the last one. */
 static void print_fit(const cost *c, const cost_method *m) {
   cost_fit time, links;
   char text[32];
   if (cost_fit_rows(c, m, AGAINST_SECONDS, &time) || cost_fit_rows(c, m, AGAINST_LINKS, &links))
     return;
   if (time.is_digital)
-    printf("%-10s %s and %.3g links for each digit\n", m->name,
+    printf("%-10s %s and %.3g links for each digit\n", cost_method_name(m),
            say(time.digit, text, sizeof text), links.digit);
   else
-    printf("%-10s seconds ~ error^-%.2f, links ~ error^-%.2f\n", m->name, time.slope,
-           links.slope);
+    printf("%-10s seconds ~ error^-%.2f, links ~ error^-%.2f\n", cost_method_name(m),
+           time.slope, links.slope);
 }
 
 void cost_print_fits(const cost *c) {

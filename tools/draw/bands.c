@@ -14,7 +14,7 @@
 
 enum { MOST_STOPS = 200 };
 
-/* Thin bands have thin lines, or these would be all one sees. */
+/* The lines of thin bands are thin, so that the bands stay visible. */
 static double fine(const picture *p, double width) {
   return width * fmin(1, fmax(0.2, p->band / 5));
 }
@@ -30,7 +30,7 @@ static hr2d_point beside(const stroke *s, double t, double off) {
                       s->a.y + t * (s->b.y - s->a.y) + off * s->front.y};
 }
 
-/* The point of the inner edge over fraction t, lower where the band is cut. */
+/* The point of the inner edge at fraction t; the edge is lower where the band is cut. */
 static hr2d_point inner(const picture *p, const stroke *s, double t) {
   double height = p->band;
   if (s->cut_a > 0) height = fmin(height, p->band * (t * s->length / s->cut_a));
@@ -38,7 +38,7 @@ static hr2d_point inner(const picture *p, const stroke *s, double t) {
   return beside(s, t, height);
 }
 
-/* The part of a band between two fractions; the inner edge bends at its cuts. */
+/* Adds the outline of a part of a band to the path; its inner edge bends at the cuts. */
 static void outline(const picture *p, const stroke *s, double t0, double t1) {
   const double bend[] = {1 - s->cut_b / s->length, s->cut_a / s->length};
   const hr2d_point a = beside(s, t0, 0), b = beside(s, t1, 0);
@@ -55,7 +55,7 @@ static void outline(const picture *p, const stroke *s, double t0, double t1) {
   cairo_close_path(p->cr);
 }
 
-/* Along a leaf of a high order B is a polynomial: the colour follows it from stop to stop. */
+/* On a leaf of a high order B is a polynomial, which the stops of a gradient follow. */
 static void set_gradient(const picture *p, const stroke *s, const piece *e) {
   const uint32_t patch = hr2d_hierarchy_elements(p->run->hierarchy)[e->element].patch;
   const hr2d_point a = beside(s, e->t0, 0), b = beside(s, e->t1, 0);
@@ -64,7 +64,8 @@ static void set_gradient(const picture *p, const stroke *s, const piece *e) {
   cairo_pattern_t *pattern = cairo_pattern_create_linear(a.x, a.y, b.x, b.y);
   for (int k = 0; k <= stops; k++) {
     const double at = (double)k / stops;
-    const colour c = viridis(on_scale(p, run_mean_at(p->run, patch, inside(e, at))));
+    const colour c =
+        palette_viridis(scale_position(p, run_mean_at(p->run, patch, leaves_at(e, at))));
     cairo_pattern_add_color_stop_rgb(pattern, at, c.r, c.g, c.b);
   }
   cairo_set_source(p->cr, pattern);
@@ -78,13 +79,13 @@ static int fill_piece(void *ctx, const piece *e) {
   if (p->run->account.order > 1 && leaf)
     set_gradient(p, b->stroke, e);
   else
-    set_colour(p->cr, viridis(on_scale(p, run_mean(p->run, e->element))));
+    pen_colour(p->cr, palette_viridis(scale_position(p, run_mean(p->run, e->element))));
   outline(p, b->stroke, e->t0, fmin(1, e->t1 + OVERLAP / b->stroke->length));
   cairo_fill(p->cr);
   return 0;
 }
 
-/* The level on which the point was made at which an element starts. */
+/* The level of the subdivision that made the start point of an element. */
 static unsigned level_of_start(const hr2d_hierarchy *h, uint32_t element) {
   const hr2d_element *elements = hr2d_hierarchy_elements(h);
   unsigned level = hr2d_element_level(h, element);
@@ -95,8 +96,8 @@ static unsigned level_of_start(const hr2d_hierarchy *h, uint32_t element) {
   return level;
 }
 
-/* The tick at the start of an element: the coarser the level it divides, the longer, as on a
-   ruler. */
+/* The tick at the start of an element.  As on a ruler, it is the longer the coarser the level
+   that it divides. */
 static int tick_piece(void *ctx, const piece *e) {
   const band *b = ctx;
   const picture *p = b->picture;
@@ -114,9 +115,9 @@ static int draw_band(picture *p, size_t patch) {
   const stroke *s = &p->strokes[patch];
   band b = {p, s};
   if (!(s->length > 0)) return 0;
-  const int status = walk_leaves(p->run->hierarchy, patch, FINEST / p->scale, fill_piece, &b);
+  const int status = leaves_walk(p->run->hierarchy, patch, FINEST / p->scale, fill_piece, &b);
   outline(p, s, 0, 1);
-  set_grey(p->cr, 0.25);
+  pen_grey(p->cr, 0.25);
   cairo_set_line_width(p->cr, fine(p, 0.5));
   cairo_stroke(p->cr);
   return status;
@@ -124,9 +125,9 @@ static int draw_band(picture *p, size_t patch) {
 
 static int draw_ticks(picture *p, size_t patch) {
   band b = {p, &p->strokes[patch]};
-  set_grey(p->cr, 0.3);
+  pen_grey(p->cr, 0.3);
   cairo_set_line_width(p->cr, fine(p, 0.45));
-  const int status = walk_leaves(p->run->hierarchy, patch, FINEST / p->scale, tick_piece, &b);
+  const int status = leaves_walk(p->run->hierarchy, patch, FINEST / p->scale, tick_piece, &b);
   cairo_stroke(p->cr);
   return status;
 }
@@ -134,15 +135,15 @@ static int draw_ticks(picture *p, size_t patch) {
 static int draw_wall(picture *p, const stroke *s) {
   cairo_move_to(p->cr, s->a.x, s->a.y);
   cairo_line_to(p->cr, s->b.x, s->b.y);
-  set_grey(p->cr, 0.1);
+  pen_grey(p->cr, 0.1);
   cairo_set_line_width(p->cr, fine(p, 1.2));
   cairo_stroke(p->cr);
   const hr2d_point a = beside(s, 0, p->band + 4), b = beside(s, 1, p->band + 4);
-  const int status = add_obstacle(p, s->a, s->b);
-  return status ? status : add_obstacle(p, a, b);
+  const int status = obstacles_add(p, s->a, s->b);
+  return status ? status : obstacles_add(p, a, b);
 }
 
-int draw_bands(picture *p) {
+int bands_draw(picture *p) {
   const size_t count = hr2d_scene_patches(p->run->scene);
   int status = 0;
   for (size_t k = 0; !status && k < count; k++) status = draw_band(p, k);

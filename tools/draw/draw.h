@@ -5,11 +5,12 @@
 
 #include "run/run.h"
 
-/* Whether this program can draw such a file at all.  Returns 0, or EXIT_FAILED after
-   complaining. */
+/* Whether this program can draw: it may be built without cairo.  Returns 0, or EXIT_FAILED
+   after an error message. */
 int draw_check(const char *path);
 
-/* Draws the scene coloured by B, and the links of --links-of if that was given. */
+/* Draws the scene coloured by B, and the links of --links-of if that is given.  Returns 0 or
+   the exit status. */
 int draw_run(const run *r, const char *path);
 
 #endif

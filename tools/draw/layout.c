@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where everything goes: a page of fixed width, as high as the scene needs. */
+/* The page: its width is fixed, its height depends on the scene. */
 #include "draw/picture.h"
 
 #if HAVE_CAIRO
@@ -20,16 +20,16 @@ typedef struct margins {
   double left, right, top, bottom;
 } margins;
 
-hr2d_point on_page(const picture *p, hr2d_point e) {
+hr2d_point layout_point(const picture *p, hr2d_point e) {
   return (hr2d_point){p->origin.x + (e.x - p->low.x) * p->scale,
                       p->origin.y - (e.y - p->low.y) * p->scale};
 }
 
-double tree_height(const picture *p) {
+double layout_tree_height(const picture *p) {
   return p->path_count ? TREE_GAP + p->tree_step * (p->tree_levels + 1) : 0;
 }
 
-/* End points of a patch in element units, its root's own. */
+/* The root element of a patch, which has its end points in element units. */
 static const hr2d_element *root(const picture *p, size_t patch) {
   return &hr2d_hierarchy_elements(p->run->hierarchy)[patch];
 }
@@ -47,31 +47,31 @@ static hr2d_point bounds(picture *p) {
   return (hr2d_point){high.x - low.x, high.y - low.y};
 }
 
-/* Room for names beside patches that stand upright, on the side of their backs. */
+/* Room for the names of upright patches, on the side of their backs. */
 static margins choose_margins(const picture *p) {
   margins m = {MARGIN, MARGIN, 12, 12};
   if (p->name_count) m.top = m.bottom = 24;
-  set_font(p->cr, 10, 0);
+  pen_font(p->cr, 10, 0);
   for (size_t k = 0; k < p->name_count; k++) {
     const hr2d_element *e = root(p, p->name[k].patch);
     const double back = (e->b.y - e->a.y) / hypot(e->b.x - e->a.x, e->b.y - e->a.y);
-    const double width = fmin(140, text_width(p->cr, p->name[k].text) + 22);
+    const double width = fmin(140, pen_text_width(p->cr, p->name[k].text) + 22);
     if (back < -0.5) m.left = fmax(m.left, width);
     if (back > 0.5) m.right = fmax(m.right, width);
   }
-  const double tree = tree_height(p);
+  const double tree = layout_tree_height(p);
   return (margins){m.left + tree, m.right + tree, m.top + tree, m.bottom + tree};
 }
 
 static int make_strokes(picture *p) {
   const size_t count = hr2d_scene_patches(p->run->scene);
   p->strokes = calloc(count, sizeof *p->strokes);
-  if (!p->strokes) return fail_memory();
+  if (!p->strokes) return complain_memory();
   for (size_t k = 0; k < count; k++) {
     stroke *s = &p->strokes[k];
-    s->a = on_page(p, root(p, k)->a);
-    s->b = on_page(p, root(p, k)->b);
-    /* Left in the plane; on the page y points the other way. */
+    s->a = layout_point(p, root(p, k)->a);
+    s->b = layout_point(p, root(p, k)->b);
+    /* The front is on the left in the plane; on the page y points downwards. */
     const double dx = s->b.x - s->a.x, dy = s->b.y - s->a.y;
     s->length = hypot(dx, dy);
     s->front =
@@ -80,19 +80,20 @@ static int make_strokes(picture *p) {
   return EXIT_DONE;
 }
 
-int layout(picture *p) {
+int layout_make(picture *p) {
   const hr2d_point size = bounds(p);
   const margins m = choose_margins(p);
   const double room = PAGE_WIDTH - m.left - m.right - LEGEND;
   p->scale = fmin(room / size.x, MOST_SCENE / size.y);
-  if (!isfinite(p->scale)) return fail(p->run->options->draw, "the scene is too small to draw");
+  if (!isfinite(p->scale))
+    return complain(p->run->options->draw, "the scene is too small to draw");
   const double height = TITLE + m.top + size.y * p->scale + m.bottom + FOOT;
   p->width = PAGE_WIDTH;
   p->height = ceil(fmax(LEAST_HEIGHT, height));
   p->origin.x = m.left + 0.5 * (room - size.x * p->scale);
   p->origin.y = p->height - FOOT - m.bottom - 0.5 * (p->height - height);
   const int status = make_strokes(p);
-  if (!status) join_strokes(p);
+  if (!status) joints_make(p);
   return status;
 }
 #endif

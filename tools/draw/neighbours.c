@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The region of neighbours of one element (paper, Figure 3), and the pairs that had to
-   be refused for its links to come about (Figure 4). */
+/* The region of neighbours of one element (paper, Figure 3), and the refused pairs of parents
+   that its links come from (Figure 4). */
 #include "draw/picture.h"
 
 #if HAVE_CAIRO
@@ -23,11 +23,11 @@ static double separation(hr2d_point a, hr2d_point b) {
   return hypot(b.x - a.x, b.y - a.y);
 }
 
-int note_neighbour(picture *p, uint32_t far) {
+int neighbours_note(picture *p, uint32_t far) {
   region *r = &p->region;
   const hr2d_element *e = element(p, far);
   neighbour *grown = realloc(r->far, (r->count + 1) * sizeof *grown);
-  if (!grown) return fail_memory();
+  if (!grown) return complain_memory();
   r->far = grown;
   r->far[r->count++] = (neighbour){far, e->patch, separation(element(p, e->patch)->a, e->a)};
   return EXIT_DONE;
@@ -39,8 +39,8 @@ static int along_patches(const void *a, const void *b) {
   return (x->start > y->start) - (x->start < y->start);
 }
 
-/* Where links have a direction, an element may be linked to both ways. */
-void measure_region(picture *p) {
+/* Links with a direction may lead to the same element twice. */
+void neighbours_measure(picture *p) {
   region *r = &p->region;
   size_t kept = 0;
   if (!r->count) return;
@@ -60,28 +60,25 @@ void measure_region(picture *p) {
 
 /* Text on white, centred. */
 static int write_label(picture *p, hr2d_point q, const char *text) {
-  set_font(p->cr, FONT, 0);
-  const double half = 0.5 * text_width(p->cr, text), high = 0.5 * FONT;
+  pen_font(p->cr, FONT, 0);
+  const double half = 0.5 * pen_text_width(p->cr, text), high = 0.5 * FONT;
   cairo_rectangle(p->cr, q.x - half - 2, q.y - high, 2 * half + 4, 2 * high);
-  set_grey(p->cr, 1);
+  pen_grey(p->cr, 1);
   cairo_fill(p->cr);
-  cairo_move_to(p->cr, q.x - half, q.y + 0.7 * high);
-  set_grey(p->cr, 0.15);
-  cairo_show_text(p->cr, text);
-  const hr2d_point a = {q.x - half, q.y - high}, b = {q.x + half, q.y + high};
-  const int status = add_obstacle(p, a, b);
-  return status ? status : add_obstacle(p, (hr2d_point){a.x, b.y}, (hr2d_point){b.x, a.y});
+  pen_grey(p->cr, 0.15);
+  pen_write(p->cr, q.x - half, q.y + 0.7 * high, text);
+  return obstacles_add_box(p, &(box){q.x - half, q.y - high, q.x + half, q.y + high});
 }
 
 static void set_dashes(const picture *p) {
   cairo_set_dash(p->cr, (double[]){4, 3}, 2, 0);
   cairo_set_line_width(p->cr, 0.8);
-  set_grey(p->cr, 0.35);
+  pen_grey(p->cr, 0.35);
 }
 
-/* An arc about the element's centre, as far as it crosses the scene. */
+/* The part of a circle about the centre of the element that lies in the box of the scene. */
 static void draw_arc(const picture *p, double radius) {
-  const hr2d_point centre = on_page(p, element(p, p->path[0])->centre);
+  const hr2d_point centre = layout_point(p, element(p, p->path[0])->centre);
   hr2d_point low = centre, high = centre;
   for (size_t k = 0; k < hr2d_scene_patches(p->run->scene); k++) {
     const stroke *s = &p->strokes[k];
@@ -99,19 +96,19 @@ static void draw_arc(const picture *p, double radius) {
   cairo_restore(p->cr);
 }
 
-/* The paper's bounds hold for its oracle and its modification only. */
+/* The bounds of the paper hold for its oracle and its modification only. */
 static int has_bounds(const picture *p) {
   const options *o = p->run->options;
-  return !is_targeted(o) && o->oracle == hr2d_oracle_size() &&
+  return !options_targeted(o) && o->oracle == hr2d_oracle_size() &&
          o->policy == hr2d_policy_modified();
 }
 
-/* A dimension line behind neighbours that adjoin, with its length. */
+/* A dimension line behind a row of neighbours, with its length. */
 static int draw_dimension(picture *p, const neighbour *first, const neighbour *last) {
   const hr2d_element *e = element(p, first->element), *f = element(p, last->element);
   const stroke *s = &p->strokes[first->patch];
   const double off = TREE_GAP + p->tree_step * (p->tree_levels + 1) - ARM;
-  const hr2d_point a = on_page(p, e->a), b = on_page(p, f->b), n = s->front;
+  const hr2d_point a = layout_point(p, e->a), b = layout_point(p, f->b), n = s->front;
   const hr2d_point from = {a.x - off * n.x, a.y - off * n.y},
                    to = {b.x - off * n.x, b.y - off * n.y};
   const double x = 0.5 * ARM * n.x, y = 0.5 * ARM * n.y;
@@ -123,11 +120,11 @@ static int draw_dimension(picture *p, const neighbour *first, const neighbour *l
   cairo_move_to(p->cr, to.x - x, to.y - y);
   cairo_line_to(p->cr, to.x + x, to.y + y);
   cairo_set_line_width(p->cr, 0.8);
-  set_grey(p->cr, 0.15);
+  pen_grey(p->cr, 0.15);
   cairo_stroke(p->cr);
   snprintf(label, sizeof label, "%.4g",
            separation(e->a, f->b) * hr2d_scene_unit(p->run->scene));
-  const int status = add_obstacle(p, from, to);
+  const int status = obstacles_add(p, from, to);
   const double out = 1.6 * ARM;
   return status ? status
                 : write_label(p,
@@ -141,7 +138,7 @@ static int adjoins(const picture *p, const neighbour *x, const neighbour *y) {
   return x->patch == y->patch && fabs(x->start + length - y->start) < 1e-6 * length;
 }
 
-int draw_region(picture *p) {
+int neighbours_draw(picture *p) {
   const region *r = &p->region;
   const options *o = p->run->options;
   int status = 0;
@@ -161,14 +158,14 @@ int draw_region(picture *p) {
 
 static int label_distance(picture *p, hr2d_point a, hr2d_point b, double at, const char *name) {
   char label[48];
-  const hr2d_point from = on_page(p, a), to = on_page(p, b);
+  const hr2d_point from = layout_point(p, a), to = layout_point(p, b);
   snprintf(label, sizeof label, "%s = %.4g", name,
            separation(a, b) * hr2d_scene_unit(p->run->scene));
   return write_label(
       p, (hr2d_point){from.x + at * (to.x - from.x), from.y + at * (to.y - from.y)}, label);
 }
 
-int draw_parents(picture *p) {
+int neighbours_draw_parents(picture *p) {
   const hr2d_hierarchy *h = p->run->hierarchy;
   const hr2d_point a = element(p, hr2d_element_parent(h, p->path[0]))->centre;
   const int labelled = p->region.count <= MOST_LABELS;
@@ -179,7 +176,7 @@ int draw_parents(picture *p) {
     if (parent == last) continue;
     last = parent;
     const hr2d_point b = element(p, parent)->centre;
-    const hr2d_point from = on_page(p, a), to = on_page(p, b);
+    const hr2d_point from = layout_point(p, a), to = layout_point(p, b);
     cairo_save(p->cr);
     set_dashes(p);
     cairo_move_to(p->cr, from.x, from.y);
@@ -194,14 +191,14 @@ int draw_parents(picture *p) {
   return status;
 }
 
-void draw_region_key(const picture *p) {
+void neighbours_draw_key(const picture *p) {
   const region *r = &p->region;
   const options *o = p->run->options;
   const double unit = hr2d_scene_unit(p->run->scene);
   const double size = element(p, p->path[0])->length;
   char text[160];
-  set_font(p->cr, FONT, 0);
-  set_grey(p->cr, 0.2);
+  pen_font(p->cr, FONT, 0);
+  pen_grey(p->cr, 0.2);
   if (r->count)
     snprintf(text, sizeof text,
              "level %u: A = %.4g, %zu neighbours, D = %.4g = %.4g A, r = %.4g to %.4g",
@@ -210,15 +207,13 @@ void draw_region_key(const picture *p) {
   else
     snprintf(text, sizeof text, "level %u: A = %.4g, no neighbours", o->link_level,
              size * unit);
-  cairo_move_to(p->cr, 200, p->height - 27);
-  cairo_show_text(p->cr, text);
+  pen_write(p->cr, 200, p->height - 27, text);
   *text = '\0';
   if (o->link_parents)
     snprintf(text, sizeof text, "dashed: the refused pairs of parents, at distance r′");
   else if (has_bounds(p))
     snprintf(text, sizeof text, "dashed: r = A/ε = %.4g and r = 2A/ε + A = %.4g",
              size / o->epsilon * unit, (2 * size / o->epsilon + size) * unit);
-  cairo_move_to(p->cr, 200, p->height - 12);
-  cairo_show_text(p->cr, text);
+  pen_write(p->cr, 200, p->height - 12, text);
 }
 #endif

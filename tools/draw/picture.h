@@ -16,13 +16,13 @@
 #if HAVE_CAIRO
 #include <cairo.h>
 
-/* A patch on the page: the coloured band lies between a→b and the same line moved by
-   `band` along the front normal, mitred where patches meet. */
+/* A patch on the page.  Its coloured band lies between the line a→b and the same line moved by
+   `band` along the front normal; where patches meet, the bands are mitred. */
 typedef struct stroke {
   hr2d_point a, b;
   hr2d_point front; /* unit normal */
   double length;
-  double cut_a, cut_b; /* by how much the inner edge is shorter at either end */
+  double cut_a, cut_b; /* how much shorter the inner edge is at each end */
   int twin;            /* another patch lies behind it, back to back */
 } stroke;
 
@@ -30,7 +30,11 @@ typedef struct line {
   hr2d_point a, b;
 } line;
 
-/* What labels must keep clear of. */
+typedef struct box {
+  double x0, y0, x1, y1;
+} box;
+
+/* The lines that labels must keep clear of. */
 typedef struct obstacles {
   line *lines;
   size_t count, capacity;
@@ -82,46 +86,65 @@ typedef struct picture {
 
 #define TREE_GAP 5.0 /* between a patch and the tree behind it */
 
-/* layout.c: page size, scale and strokes.  Returns 0 or EXIT_FAILED. */
-int layout(picture *p);
-hr2d_point on_page(const picture *p, hr2d_point element);
-double tree_height(const picture *p);
+/* Functions that return an int return 0, or the exit status after an error message. */
 
-/* joints.c: the thickness of the bands, cuts and twins. */
-void join_strokes(picture *p);
-
-/* The distance of a point from a stroke. */
-double to_stroke(hr2d_point q, const stroke *s);
-
-/* labels.c: which names are written; the texts are to be freed. */
-int choose_names(picture *p);
-
-/* bands.c, draw-links.c, labels.c, legend.c: onto the page. */
-int draw_bands(picture *p);
-int find_links(picture *p);
-int draw_links(picture *p);
-void draw_point(const picture *p);
-int draw_names(picture *p);
-void draw_title(const picture *p);
-void draw_legend(const picture *p);
-
-/* draw-neighbours.c: with --link-level. */
-int note_neighbour(picture *p, uint32_t far);
-void measure_region(picture *p);
-int draw_region(picture *p);
-int draw_parents(picture *p);
-void draw_region_key(const picture *p);
+/* scale.c: the range of B over the leaves, and whether the colour scale is logarithmic. */
+int scale_choose(picture *p);
 
 /* The place of a value on the colour scale, in [0,1]. */
-double on_scale(const picture *p, double value);
+double scale_position(const picture *p, double value);
 
-/* Remembers a line that labels must not cross; returns 0 or EXIT_FAILED. */
-int add_obstacle(picture *p, hr2d_point a, hr2d_point b);
+/* layout.c: page size, scale and strokes. */
+int layout_make(picture *p);
 
-void set_colour(cairo_t *cr, colour c);
-void set_grey(cairo_t *cr, double grey);
-void set_font(cairo_t *cr, double size, int bold);
-double text_width(cairo_t *cr, const char *text);
+/* A point in element units, on the page. */
+hr2d_point layout_point(const picture *p, hr2d_point element);
+
+/* The height of the trees behind patches; 0 if no links are drawn. */
+double layout_tree_height(const picture *p);
+
+/* joints.c: the thickness of the bands, cuts and twins. */
+void joints_make(picture *p);
+
+/* The distance of a point from a stroke. */
+double joints_distance(hr2d_point q, const stroke *s);
+
+/* bands.c */
+int bands_draw(picture *p);
+
+/* labels.c: chooses the names to be written; the caller frees their texts. */
+int labels_choose(picture *p);
+int labels_draw(picture *p);
+
+/* links.c: the links that serve the point of --links-of, and the point. */
+int links_find(picture *p);
+int links_draw(picture *p);
+void links_draw_point(const picture *p);
+
+/* neighbours.c: with --link-level, the elements that are linked to the one of this level. */
+int neighbours_note(picture *p, uint32_t far);
+void neighbours_measure(picture *p);
+int neighbours_draw(picture *p);
+int neighbours_draw_parents(picture *p);
+void neighbours_draw_key(const picture *p);
+
+/* legend.c */
+void legend_draw_title(const picture *p);
+void legend_draw(const picture *p);
+
+/* obstacles.c: adds a line that labels must not cross, or the diagonals of a box. */
+int obstacles_add(picture *p, hr2d_point a, hr2d_point b);
+int obstacles_add_box(picture *p, const box *b);
+
+/* Whether any obstacle meets a box. */
+int obstacles_meet(const picture *p, const box *b);
+
+/* pen.c: colours and text. */
+void pen_colour(cairo_t *cr, colour c);
+void pen_grey(cairo_t *cr, double grey);
+void pen_font(cairo_t *cr, double size, int bold);
+double pen_text_width(cairo_t *cr, const char *text);
+void pen_write(cairo_t *cr, double x, double y, const char *text);
 
 #endif
 #endif

@@ -6,22 +6,22 @@
 #include <stdlib.h>
 
 #include "cli/commands.h"
-#include "cli/load.h"
+#include "cli/scene.h"
 #include "factors/factors.h"
+#include "output/clock.h"
 #include "output/complain.h"
-#include "output/json.h"
-#include "output/output.h"
 #include "output/progress.h"
+#include "output/table.h"
 
-/* Two rows more than the matrix, for the sums. */
+/* The matrix, and two rows more for the sums. */
 static int make_room(factors *f) {
   const size_t n = f->patches;
   const double bytes = (double)n * ((double)n + 2) * sizeof *f->factor;
   if (n + 2 <= SIZE_MAX / sizeof *f->factor / n)
     f->factor = malloc(n * (n + 2) * sizeof *f->factor);
   if (!f->factor)
-    return fail(f->options->scene, "out of memory: the factors of %zu patches take %.3g MB", n,
-                bytes / 1e6);
+    return complain(f->options->scene, "out of memory: the factors of %zu patches take %.3g MB",
+                    n, bytes / 1e6);
   f->row_sum = f->factor + n * n;
   f->missing = f->row_sum + n;
   return 0;
@@ -34,16 +34,16 @@ static int integrate(factors *f) {
   matrix.threads = f->options->threads;
   matrix.progress = progress_show;
   matrix.progress_ctx = &p;
-  const double start = seconds();
+  const double start = clock_seconds();
   const hr2d_status status = hr2d_exchange_matrix(f->scene, &matrix, f->factor, &f->counts);
-  f->seconds = seconds() - start;
+  f->seconds = clock_seconds() - start;
   progress_clear(&p);
   progress_end();
-  return status ? fail_call(f->options->scene, "", status) : 0;
+  return status ? complain_call(f->options->scene, "", status) : 0;
 }
 
-/* From AF to F.  What a row misses of its patch is a small difference in a closed scene:
-   the part that rounding takes from the sum is carried along (Neumaier). */
+/* From AF to F.  In a closed scene 1 − Σ F_ij is a small difference: the rounding errors of the
+   sum are summed, too (Neumaier). */
 static void divide(factors *f) {
   const size_t n = f->patches;
   for (size_t i = 0; i < n; i++) {
@@ -61,17 +61,12 @@ static void divide(factors *f) {
 }
 
 static void print_patches(const factors *f) {
-  const int width = name_width(f->scene);
-  printf("\npatch  ");
-  print_padded(stdout, "name", width);
-  printf("  %12s  %12s  %12s\n", "length", "row sum", "1 - row sum");
-  for (size_t k = 0; k < f->patches; k++) {
-    if (is_skipped(k, f->patches)) continue;
-    printf("%5zu  ", k);
-    print_padded(stdout, hr2d_scene_name(f->scene, k), width);
-    printf("  %12.6g  %12.9f  %12.3e\n", hr2d_scene_length(f->scene, k), f->row_sum[k],
-           f->missing[k]);
-  }
+  const int width = table_name_width(f->scene);
+  table_patch_titles(width);
+  printf("  %12s  %12s\n", "row sum", "1 - row sum");
+  for (size_t k = 0; k < f->patches; k++)
+    if (table_patch(f->scene, k, width))
+      printf("  %12.9f  %12.3e\n", f->row_sum[k], f->missing[k]);
   puts("");
 }
 
@@ -87,7 +82,7 @@ static void print_factors(const factors *f, double total_seconds) {
   const size_t worst = find_worst(f);
   const effort list[] = {{"exchange areas", n->exchange_areas},
                          {"visibility tests", n->visibility_tests}};
-  print_scene(f->options, 10, f->cuts);
+  scene_print(f->options, 10, f->cuts);
   printf("patches   %zu\n", f->patches);
   printf("pairs     %llu clear, %llu partly visible, %llu blocked\n",
          (unsigned long long)(n->exchange_areas - n->partial_pairs),
@@ -95,27 +90,25 @@ static void print_factors(const factors *f, double total_seconds) {
   print_patches(f);
   printf("worst     |1 - row sum| = %.3e, of patch %zu (%s)\n", fabs(f->missing[worst]), worst,
          hr2d_scene_name(f->scene, worst));
-  print_work(list, sizeof list / sizeof *list);
+  table_print_work(list, sizeof list / sizeof *list);
   printf("seconds   factors %.3f, total %.3f\n", f->seconds, total_seconds);
 }
 
 static int report(const factors *f, double start) {
   const options *o = f->options;
   int status = 0;
-  if (!o->quiet && !to_stdout(o->json) && !to_stdout(o->csv))
-    print_factors(f, seconds() - start);
+  if (options_want_table(o)) print_factors(f, clock_seconds() - start);
   if (o->csv) status = factors_write_csv(f);
   if (o->json && !status) status = factors_write_json(f, o->json);
   return status;
 }
 
 int factors_command(const options *o) {
-  const double start = seconds();
+  const double start = clock_seconds();
   hr2d_scene *scene = NULL;
   factors f = {.options = o};
-  int status = output_check(o->json);
-  if (!status) status = output_check(o->csv);
-  if (!status) status = load_scene(o, o->force, &scene, &f.cuts);
+  int status = options_check_outputs(o);
+  if (!status) status = scene_load(o, o->force, &scene, &f.cuts);
   if (status) return status;
   f.scene = scene;
   f.patches = hr2d_scene_patches(scene);

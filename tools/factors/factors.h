@@ -14,15 +14,15 @@ typedef struct factors {
   size_t patches;
   double *factor;  /* patches × patches, row by row */
   double *row_sum; /* Σ F_ij */
-  double *missing; /* 1 − Σ F_ij, summed without the rounding of the row sum */
+  double *missing; /* 1 − Σ F_ij, without the rounding errors of the row sum */
   hr2d_matrix_counts counts;
   double seconds; /* for all exchange areas */
 } factors;
 
-/* factors-csv.c: a line of names, then a row of F_ij for each patch. */
+/* csv.c: a line of names, then a row of F_ij for each patch. */
 int factors_write_csv(const factors *f);
 
-/* factors-json.c */
+/* json.c */
 int factors_write_json(const factors *f, const char *path);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The matrix as JSON, written row by row: as a document it would take ten times its memory. */
+/* The matrix as JSON, written row by row: a document of jansson would take ten times the memory
+   of the matrix. */
 #include "output/json.h"
 
 #include <stdio.h>
@@ -8,13 +9,13 @@
 #include "output/complain.h"
 #include "output/output.h"
 
-/* Writes a value on one line and takes it over; NULL is a failed allocation. */
+/* Writes a value on one line and takes it over; NULL means that an allocation failed. */
 static int write_value(FILE *stream, json_t *value) {
-  if (!value) return fail_memory();
+  if (!value) return complain_memory();
   const size_t flags = JSON_ENCODE_ANY | JSON_REAL_PRECISION(17);
   const int bad = json_dumpf(value, stream, flags) && !ferror(stream);
   json_decref(value);
-  return bad ? fail_memory() : 0;
+  return bad ? complain_memory() : 0;
 }
 
 static int write_member(FILE *stream, const char *key, json_t *value) {
@@ -23,20 +24,14 @@ static int write_member(FILE *stream, const char *key, json_t *value) {
 }
 
 static json_t *patch_entry(const factors *f, size_t k) {
-  json_t *patch = json_object();
-  json_put(&patch, "index", json_count(k));
-  json_put(&patch, "name", json_text(hr2d_scene_name(f->scene, k)));
-  json_put(&patch, "length", json_number(hr2d_scene_length(f->scene, k)));
+  json_t *patch = json_patch(f->scene, k);
   json_put(&patch, "row_sum", json_number(f->row_sum[k]));
   json_put(&patch, "missing", json_number(f->missing[k]));
   return patch;
 }
 
 static json_t *row(const factors *f, size_t k) {
-  json_t *list = json_array();
-  for (size_t j = 0; j < f->patches; j++)
-    json_push(&list, json_number(f->factor[k * f->patches + j]));
-  return list;
+  return json_numbers(f->factor + k * f->patches, f->patches);
 }
 
 /* An array with an item per patch, each on its own line. */

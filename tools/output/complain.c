@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One line per complaint, whatever the names in it contain. */
+/* Each message is one line: control characters in file names become question marks. */
 #include "output/complain.h"
 
 #include <stdarg.h>
@@ -12,7 +12,7 @@ static void one_line(char *text) {
     if ((unsigned char)*text < ' ' || *text == 127) *text = '?';
 }
 
-int fail(const char *where, const char *format, ...) {
+int complain(const char *where, const char *format, ...) {
   char place[LINE], line[LINE];
   va_list arguments;
   va_start(arguments, format);
@@ -25,7 +25,7 @@ int fail(const char *where, const char *format, ...) {
   return EXIT_FAILED;
 }
 
-int usage_error(const char *format, ...) {
+int complain_usage(const char *format, ...) {
   char line[LINE];
   va_list arguments;
   va_start(arguments, format);
@@ -36,6 +36,14 @@ int usage_error(const char *format, ...) {
   return EXIT_USAGE;
 }
 
-int fail_memory(void) {
-  return fail(NULL, "out of memory");
+int complain_memory(void) {
+  return complain(NULL, "out of memory");
+}
+
+int complain_call(const char *path, const char *message, hr2d_status status) {
+  if (status == HR2D_STOPPED) {
+    complain(path, "interrupted");
+    return EXIT_INTERRUPTED;
+  }
+  return complain(path, "%s", *message ? message : hr2d_strerror(status));
 }

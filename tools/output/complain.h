@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the program says when something is wrong, and the exit status that goes with it. */
+/* Error messages, and the exit status that goes with each. */
 #ifndef HR2D_TOOLS_OUTPUT_COMPLAIN_H
 #define HR2D_TOOLS_OUTPUT_COMPLAIN_H
+
+#include <hr2d/status.h>
 
 enum {
   EXIT_DONE = 0,
@@ -11,12 +13,17 @@ enum {
 };
 
 /* Prints "hr2d: WHERE: …" on stderr and returns EXIT_FAILED; `where` may be NULL. */
-__attribute__((format(printf, 2, 3))) int fail(const char *where, const char *format, ...);
+__attribute__((format(printf, 2, 3))) int complain(const char *where, const char *format, ...);
 
-/* As fail(), with a pointer to the help, and returns EXIT_USAGE. */
-__attribute__((format(printf, 1, 2))) int usage_error(const char *format, ...);
+/* Prints "hr2d: …; try 'hr2d --help'" on stderr and returns EXIT_USAGE. */
+__attribute__((format(printf, 1, 2))) int complain_usage(const char *format, ...);
 
 /* Out of memory; returns EXIT_FAILED. */
-int fail_memory(void);
+int complain_memory(void);
+
+/* A library call failed while the program worked on a file.  Prints the message of the library
+   object, or the meaning of the status if `message` is empty.  Returns EXIT_INTERRUPTED for
+   HR2D_STOPPED, else EXIT_FAILED. */
+int complain_call(const char *path, const char *message, hr2d_status status);
 
 #endif

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* RFC 4180: quotes around what has a separator in it, and quotes doubled. */
+/* RFC 4180: a field with a separator in it stands in quotes, and its own quotes are doubled. */
 #include "output/csv.h"
 
 #include <string.h>
 
 void csv_text(FILE *stream, const char *text) {
-  /* Quoted, an empty field that is alone on its line is not taken for an empty line. */
+  /* An empty field is quoted: alone on its line it would look like an empty line. */
   if (*text && !text[strcspn(text, ",\"\r\n")]) {
     fputs(text, stream);
     return;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* gnuplot reads the script from its standard input and draws to its standard output,
-   so that no file name has to pass through its syntax.  That output is a pipe: gnuplot
-   itself does not notice when a disk is full. */
+/* gnuplot reads the script from its standard input and draws to its standard output, so that
+   its syntax never sees a file name.  The output is a pipe that this program copies to the
+   file, because gnuplot does not notice when a disk is full. */
 #include "output/gnuplot.h"
 
 #include <errno.h>
@@ -25,6 +25,12 @@ void gnuplot_quote(FILE *script, const char *text) {
     fputc((unsigned char)*text < ' ' ? ' ' : *text, script);
   }
   fputc('\'', script);
+}
+
+void gnuplot_title(FILE *script, const char *title) {
+  fputs("set title ", script);
+  gnuplot_quote(script, title);
+  fputs(" noenhanced\n", script);
 }
 
 void gnuplot_terminal(FILE *script, const char *path, int width, int height) {
@@ -70,17 +76,18 @@ static int start(pid_t *child, int script, int picture, int complaints) {
   return error;
 }
 
-/* The first line that says something. */
+/* Complains with the first line of gnuplot's messages that holds any text. */
 static int fail_gnuplot(const char *path, FILE *complaints) {
   char line[256] = "";
   rewind(complaints);
   while (fgets(line, sizeof line, complaints))
     if (line[strspn(line, " \t\r\n^")]) break;
   line[strcspn(line, "\n")] = '\0';
-  return fail(path, "gnuplot failed: %s", *line ? line : "no reason given");
+  return complain(path, "gnuplot failed: %s", *line ? line : "no reason given");
 }
 
-/* Both ends are closed in the child, lest it keep the pipe open that it writes to. */
+/* Both ends are closed in the child, whose standard output is a copy of one.  A child that held
+   the reading end would wait forever after this program has stopped reading. */
 static int open_pipe(int ends[2]) {
   if (pipe(ends)) return -1;
   if (fcntl(ends[0], F_SETFD, FD_CLOEXEC) >= 0 && fcntl(ends[1], F_SETFD, FD_CLOEXEC) >= 0)
@@ -90,8 +97,8 @@ static int open_pipe(int ends[2]) {
   return -1;
 }
 
-/* Copies until the pipe ends or the picture takes no more; returns whether it was read to its
-   end and something was in it. */
+/* Copies until the pipe ends or the picture cannot be written.  Returns 1 if the pipe was read
+   to its end and was not empty. */
 static int copy(int from, FILE *picture) {
   char block[16384];
   size_t total = 0;
@@ -108,18 +115,18 @@ static int run_gnuplot(const char *path, FILE *script, FILE *picture, FILE *comp
   pid_t child = 0;
   int status = 0, ends[2];
   rewind(script);
-  if (open_pipe(ends)) return fail(path, "cannot run gnuplot: %s", strerror(errno));
+  if (open_pipe(ends)) return complain(path, "cannot run gnuplot: %s", strerror(errno));
   const int error = start(&child, fileno(script), ends[1], fileno(complaints));
   close(ends[1]);
   const int drawn = !error && copy(ends[0], picture);
   close(ends[0]);
-  if (error == ENOENT) return fail(path, "cannot be plotted: gnuplot is not installed");
-  if (error) return fail(path, "cannot run gnuplot: %s", strerror(error));
+  if (error == ENOENT) return complain(path, "cannot be plotted: gnuplot is not installed");
+  if (error) return complain(path, "cannot run gnuplot: %s", strerror(error));
   while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return fail(path, "cannot wait for gnuplot: %s", strerror(errno));
-  if (ferror(picture)) return EXIT_DONE; /* output_close() tells why */
+    if (errno != EINTR) return complain(path, "cannot wait for gnuplot: %s", strerror(errno));
+  if (ferror(picture)) return EXIT_DONE; /* output_close() prints the reason */
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
-    return fail(path, "cannot be plotted: gnuplot is not installed");
+    return complain(path, "cannot be plotted: gnuplot is not installed");
   return status || !drawn ? fail_gnuplot(path, complaints) : EXIT_DONE;
 }
 
@@ -132,11 +139,11 @@ int gnuplot_draw(const char *path, void (*write_script)(FILE *script, const void
   if (script && complaints) {
     write_script(script, ctx);
     if (fflush(script) || ferror(script))
-      status = fail(path, "cannot write the script for gnuplot");
+      status = complain(path, "cannot write the script for gnuplot");
     else
       status = run_gnuplot(path, script, out.stream, complaints);
   } else
-    status = fail(path, "cannot make a temporary file: %s", strerror(errno));
+    status = complain(path, "cannot make a temporary file: %s", strerror(errno));
   if (script) fclose(script);
   if (complaints) fclose(complaints);
   return output_close(&out, status);

@@ -5,13 +5,17 @@
 
 #include <stdio.h>
 
-/* A string in single quotes, in which only the quote itself is special. */
+/* Writes text as a string of gnuplot's language, in single quotes. */
 void gnuplot_quote(FILE *script, const char *text);
 
-/* The terminal for a file by its suffix; sizes in pixels of a screen. */
+/* Writes the title of a chart. */
+void gnuplot_title(FILE *script, const char *title);
+
+/* Chooses gnuplot's terminal by the suffix of the file; sizes in pixels of a screen. */
 void gnuplot_terminal(FILE *script, const char *path, int width, int height);
 
-/* Draws what a script says into a file.  Returns 0 or EXIT_FAILED. */
+/* Runs the script that write_script() writes; its picture becomes the file.  Returns 0 or
+   EXIT_FAILED. */
 int gnuplot_draw(const char *path, void (*write_script)(FILE *script, const void *ctx),
                  const void *ctx);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A temporary file beside the target, renamed once every byte is known to be there. */
+/* Output goes to a temporary file beside the target, which is renamed when all of it is on the
+   disk. */
 #include "output/output.h"
 
 #include <errno.h>
@@ -9,26 +10,25 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/options.h"
 #include "output/complain.h"
 
 enum { MOST_LINKS = 40, LINK_SIZE = 4096 };
 
-/* One output is open at a time; a signal handler must be able to find it. */
+/* The temporary file, for the signal handler.  Only one output is open at a time. */
 static const char *volatile pending;
 
 static int failed(const char *path, const char *what) {
-  return errno ? fail(path, "%s: %s", what, strerror(errno)) : fail(path, "%s", what);
+  return errno ? complain(path, "%s: %s", what, strerror(errno)) : complain(path, "%s", what);
 }
 
-/* The directory part of a path, for the caller to free; "." if there is none. */
+/* The directory part of a path, "." if there is none.  The caller frees it. */
 static char *directory_of(const char *path) {
   const char *slash = strrchr(path, '/');
   if (!slash) return strdup(".");
   return strndup(path, slash == path ? 1 : (size_t)(slash - path));
 }
 
-/* directory/name, for the caller to free. */
+/* DIRECTORY/name with the directory of the path.  The caller frees it. */
 static char *inside_directory_of(const char *path, const char *name) {
   char *directory = directory_of(path);
   const size_t size = directory ? strlen(directory) + strlen(name) + 2 : 0;
@@ -38,8 +38,8 @@ static char *inside_directory_of(const char *path, const char *name) {
   return joined;
 }
 
-/* Follows links, also to what is not there yet, so that a rename replaces the file and not
-   the link to it; for the caller to free. */
+/* The end of a chain of links, even if no file is there yet: the rename has to replace the file
+   and not the link to it.  The caller frees it. */
 static char *target_of(const char *path) {
   char link[LINK_SIZE], *at = strdup(path);
   for (int k = 0; at && k < MOST_LINKS; k++) {
@@ -53,7 +53,7 @@ static char *target_of(const char *path) {
   return at;
 }
 
-/* As fopen() would give: what the umask leaves, or what the old file had. */
+/* The mode of the old file, or as fopen() sets it: 0666 without the bits of the umask. */
 static mode_t permissions(const char *target) {
   struct stat old;
   if (!stat(target, &old)) return old.st_mode & 07777;
@@ -62,10 +62,10 @@ static mode_t permissions(const char *target) {
   return 0666 & ~mask;
 }
 
-/* The name is pending before there is such a file: an interrupt between would leave it. */
+/* The name is pending before the file exists: an interrupt between the two would leave it. */
 static int open_temporary(output *out) {
   out->temporary = inside_directory_of(out->target, ".hr2d-XXXXXX");
-  if (!out->temporary) return fail_memory();
+  if (!out->temporary) return complain_memory();
   pending = out->temporary;
   const int fd = mkstemp(out->temporary);
   if (fd < 0) {
@@ -91,35 +91,39 @@ static void release(output *out) {
   *out = (output){0};
 }
 
-/* A file that is there but protected is not replaced either. */
+/* A file that is protected against writing is not replaced, although a rename could do it. */
 static int check_place(const char *path, const char *target) {
   struct stat old;
   if (!stat(path, &old)) {
-    if (S_ISDIR(old.st_mode)) return fail(path, "cannot be written: is a directory");
+    if (S_ISDIR(old.st_mode)) return complain(path, "cannot be written: is a directory");
     if (!S_ISREG(old.st_mode)) return 0;
     if (access(path, W_OK)) return failed(path, "cannot be written");
   } else if (errno != ENOENT) {
     return failed(path, "cannot be written");
   }
   char *directory = directory_of(target);
-  if (!directory) return fail_memory();
+  if (!directory) return complain_memory();
   const int bad = access(directory, W_OK | X_OK);
   const int status = bad ? failed(path, "cannot be written") : 0;
   free(directory);
   return status;
 }
 
+int output_is_stdout(const char *path) {
+  return path && !strcmp(path, "-");
+}
+
 int output_check(const char *path) {
-  if (!path || to_stdout(path)) return 0;
+  if (!path || output_is_stdout(path)) return 0;
   char *target = target_of(path);
-  const int status = target ? check_place(path, target) : fail_memory();
+  const int status = target ? check_place(path, target) : complain_memory();
   free(target);
   return status;
 }
 
 int output_open(output *out, const char *path) {
   *out = (output){.path = path};
-  if (to_stdout(path)) {
+  if (output_is_stdout(path)) {
     out->stream = stdout;
     return 0;
   }
@@ -129,19 +133,19 @@ int output_open(output *out, const char *path) {
     return out->stream ? 0 : failed(path, "cannot be written");
   }
   out->target = target_of(path);
-  int status = out->target ? check_place(path, out->target) : fail_memory();
+  int status = out->target ? check_place(path, out->target) : complain_memory();
   if (!status) status = open_temporary(out);
   if (status) release(out);
   return status;
 }
 
-/* Bytes that are only in the cache when the name is there could be lost with the power; some
-   file systems cannot tell. */
+/* The rename must not come before the bytes are on the disk: a power failure could lose them.
+   Some file systems do not support fsync(). */
 static int is_on_disk(FILE *stream) {
   return !fsync(fileno(stream)) || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
 }
 
-/* A write that failed has kept its reason to itself; another one tells. */
+/* The reason of an earlier failed write is no longer in errno: another write sets it again. */
 static int is_complete(const output *out) {
   const int lost = ferror(out->stream);
   errno = 0;

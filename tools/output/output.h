@@ -7,25 +7,28 @@
 
 typedef struct output {
   const char *path; /* as the user gave it */
-  char *target;     /* what is replaced at the end; NULL: written in place */
+  char *target;     /* the file to replace at the end; NULL: written in place */
   char *temporary;  /* beside the target */
   FILE *stream;
 } output;
 
-/* Opens an output; "-" is standard output.  Devices and pipes are written in place,
-   everything else under a temporary name in the same directory.  Returns 0, or
-   EXIT_FAILED after complaining. */
+/* Whether a path, which may be NULL, is "-" for standard output. */
+int output_is_stdout(const char *path);
+
+/* Opens an output.  Devices and pipes are written in place, files under a temporary name in the
+   same directory.  Returns 0, or EXIT_FAILED after an error message. */
 int output_open(output *out, const char *path);
 
-/* Ends the output: all of it takes the place of the file, or nothing does and a
-   complaint is printed.  `status` is that of the writing so far; it is returned
-   unless closing fails. */
+/* Ends the output.  `status` is the result of the writing so far.  If it is 0 and all bytes
+   could be written, they replace the file; otherwise the old file stays.  Returns `status`, or
+   EXIT_FAILED after an error message if closing fails. */
 int output_close(output *out, int status);
 
-/* Whether an output could be made there, before the work starts; NULL is fine. */
+/* Checks, before the work starts, that an output can be written; NULL is no output.  Returns 0,
+   or EXIT_FAILED after an error message. */
 int output_check(const char *path);
 
-/* Removes the temporary file that is open, if any; may be called from a signal handler. */
+/* Removes the temporary file that is open, if any.  A signal handler may call it. */
 void output_abandon(void);
 
 /* Writes out standard output; returns `status`, or EXIT_FAILED if that fails. */

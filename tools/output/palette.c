@@ -12,7 +12,7 @@ static double polynomial(const double c[7], double t) {
   return clamp(value);
 }
 
-colour viridis(double t) {
+colour palette_viridis(double t) {
   static const double red[] = {0.2777273272234177, 0.1050930431085774, -0.3308618287255563,
                                -4.634230498983486, 6.228269936347081,  4.776384997670288,
                                -5.435455855934631};
@@ -26,7 +26,7 @@ colour viridis(double t) {
   return (colour){polynomial(red, t), polynomial(green, t), polynomial(blue, t)};
 }
 
-colour ember(double t) {
+colour palette_ember(double t) {
   t = clamp(t);
   return (colour){0.97 - 0.50 * t, 0.62 * (1 - t) * (1 - t) + 0.02, 0.28 * (1 - t) + 0.10 * t};
 }

@@ -8,9 +8,9 @@ typedef struct colour {
 } colour;
 
 /* The perceptually uniform scale viridis, dark to light. */
-colour viridis(double t);
+colour palette_viridis(double t);
 
-/* Orange to dark red, which viridis lacks; for lines on white. */
-colour ember(double t);
+/* Orange to dark red, for lines on white: viridis has no such colours. */
+colour palette_ember(double t);
 
 #endif

@@ -1,27 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The terminal is touched ten times a second at most, and never before a second is over. */
+/* A line appears after a second at the earliest, and at most ten times a second. */
 #include "output/progress.h"
 
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "output/clock.h"
 #include "output/complain.h"
 #include "output/output.h"
 
 static volatile sig_atomic_t stopped;
-static volatile sig_atomic_t heeded;   /* whether progress_show() is going to be called */
-static volatile sig_atomic_t terminal; /* whether a line may stand there */
+static volatile sig_atomic_t heeded;   /* progress_show() will be called */
+static volatile sig_atomic_t terminal; /* a line may stand on it */
 
-double seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-/* Said at once where nobody is going to look at `stopped`, or nobody did. */
+/* If no progress_show() will look at `stopped`, or none has looked since the first interrupt,
+   the program ends here. */
 static void on_interrupt(int number) {
   static const char line[] = "\nhr2d: interrupted\n";
   (void)number;
@@ -37,8 +32,8 @@ static void on_interrupt(int number) {
   _exit(EXIT_INTERRUPTED);
 }
 
-/* What is ignored, as under nohup(1), stays so.  Without SA_RESTART a line on its way to a
-   slow pipe would be lost. */
+/* A signal that is ignored, as under nohup(1), stays ignored.  Without SA_RESTART a line that
+   is being written to a slow pipe would be lost. */
 static void catch_interrupts(void) {
   static const int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
   struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = SA_RESTART};
@@ -51,7 +46,7 @@ static void catch_interrupts(void) {
 }
 
 void progress_start(progress *p, int quiet) {
-  *p = (progress){.wanted = !quiet && isatty(STDERR_FILENO), .start = seconds()};
+  *p = (progress){.wanted = !quiet && isatty(STDERR_FILENO), .start = clock_seconds()};
   p->last = p->start;
   terminal = p->wanted;
   heeded = 1;
@@ -60,6 +55,20 @@ void progress_start(progress *p, int quiet) {
 
 void progress_end(void) {
   heeded = 0;
+}
+
+int progress_due(progress *p) {
+  const double time = clock_seconds();
+  if (time - p->start <= 1 || time - p->last <= 0.1) return 0;
+  p->last = time;
+  return 1;
+}
+
+void progress_line(progress *p, const char *line) {
+  const int width = (int)strlen(line);
+  fprintf(stderr, "\r%-*s", p->width > width ? p->width : width, line);
+  fflush(stderr);
+  p->width = width;
 }
 
 static void show(progress *p, const hr2d_progress *now) {
@@ -74,22 +83,14 @@ static void show(progress *p, const hr2d_progress *now) {
              100 * now->fraction, now->residual);
   else
     snprintf(line, sizeof line, "%s%s %3.0f %%", step, now->phase, 100 * now->fraction);
-  const int width = (int)strlen(line);
-  fprintf(stderr, "\r%-*s", p->width > width ? p->width : width, line);
-  fflush(stderr);
-  p->width = width;
+  progress_line(p, line);
 }
 
 hr2d_status progress_show(void *ctx, const hr2d_progress *now) {
   progress *p = ctx;
-  if (!strcmp(now->phase, "coefficients")) p->coefficients = seconds();
+  if (!strcmp(now->phase, "coefficients")) p->coefficients = clock_seconds();
   if (stopped) return HR2D_STOPPED;
-  if (!p->wanted) return HR2D_OK;
-  const double time = seconds();
-  if (time - p->start > 1 && time - p->last > 0.1) {
-    p->last = time;
-    show(p, now);
-  }
+  if (p->wanted && progress_due(p)) show(p, now);
   return HR2D_OK;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* .svg, .png or .pdf, in either case of letters, behind at least one character. */
+/* .svg, .png or .pdf, in lower or upper case, after at least one character. */
 #include "output/suffix.h"
 
 #include <string.h>

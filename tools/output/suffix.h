@@ -5,6 +5,7 @@
 
 typedef enum suffix { SUFFIX_OTHER, SUFFIX_SVG, SUFFIX_PNG, SUFFIX_PDF } suffix;
 
+/* The format of a picture with this file name. */
 suffix suffix_of(const char *path);
 
 #endif

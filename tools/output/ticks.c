@@ -7,7 +7,7 @@
 
 enum { MOST = sizeof((ticks *)0)->value / sizeof(double) };
 
-double round_below(double x) {
+double ticks_round_below(double x) {
   const double power = pow(10, floor(log10(x)));
   const double lead = x / power * (1 + 1e-12);
   return power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
@@ -18,15 +18,15 @@ static void add(ticks *t, double x) {
 }
 
 static void make_linear(ticks *t, double lo, double hi, int wanted) {
-  double step = round_below((hi - lo) / wanted);
-  if ((hi - lo) / step > 1.6 * wanted) step = round_below(2.6 * step);
+  double step = ticks_round_below((hi - lo) / wanted);
+  if ((hi - lo) / step > 1.6 * wanted) step = ticks_round_below(2.6 * step);
   t->step = step;
   const double slack = 1e-9 * (hi - lo);
   for (double k = ceil((lo - slack) / step); k * step <= hi + slack && t->count < MOST; k++)
     add(t, k * step == 0 ? 0 : k * step);
 }
 
-/* 1, 2, 5 in each decade, or only the decades where there are many. */
+/* 1, 2 and 5 in each decade, or only powers of ten if there are many decades. */
 static void make_logarithmic(ticks *t, double lo, double hi, int wanted) {
   const double decades = log10(hi / lo);
   const int sparse = 3 * decades > 1.6 * wanted;
@@ -46,7 +46,7 @@ void ticks_make(ticks *t, double lo, double hi, int logarithmic, int wanted) {
     make_linear(t, lo, hi, wanted);
 }
 
-void tick_label(const ticks *t, int k, char *text, size_t size) {
+void ticks_label(const ticks *t, int k, char *text, size_t size) {
   if (!(t->step > 0)) {
     snprintf(text, size, "%g", t->value[k]);
     return;

@@ -12,12 +12,12 @@ typedef struct ticks {
 } ticks;
 
 /* The largest of 1, 2 and 5 times a power of ten that is at most x > 0. */
-double round_below(double x);
+double ticks_round_below(double x);
 
 /* About `wanted` ticks in [lo, hi]; on a logarithmic axis 0 < lo. */
 void ticks_make(ticks *t, double lo, double hi, int logarithmic, int wanted);
 
-/* Writes a tick's number with just the digits that its neighbours call for. */
-void tick_label(const ticks *t, int k, char *text, size_t size);
+/* Writes the number of tick k with as many digits as tell it from its neighbours. */
+void ticks_label(const ticks *t, int k, char *text, size_t size);
 
 #endif

@@ -8,14 +8,14 @@
 #include <sys/types.h>
 
 #include "cli/commands.h"
-#include "cli/load.h"
+#include "cli/scene.h"
 #include "output/complain.h"
 #include "pair/line.h"
 
 #define INPUT "standard input"
 
-/* The oracle's estimate for element 0 of a hierarchy as receiver and 1 as source, both
-   as bright as can be. */
+/* The oracle's estimate for element 0 of a hierarchy as receiver and 1 as source, both as
+   bright as the brightest element. */
 static hr2d_status ask(const hr2d_oracle *oracle, const hr2d_hierarchy *hierarchy,
                        double *error) {
   const hr2d_pair pair = {0, 1};
@@ -30,7 +30,7 @@ static hr2d_status ask(const hr2d_oracle *oracle, const hr2d_hierarchy *hierarch
   return oracle->estimate(NULL, &batch, error);
 }
 
-/* NaN where the two segments make no valid scene. */
+/* The estimate is NaN if the two segments are no valid scene. */
 static hr2d_status estimate(const hr2d_oracle *oracle, const hr2d_segment *i,
                             const hr2d_segment *j, double *error) {
   hr2d_scene *scene = NULL;
@@ -53,8 +53,8 @@ static double length(const hr2d_segment *s) {
 }
 
 static int complain_of_line(const pair_line *line, const char *where) {
-  return line->word ? fail(INPUT, "%s: '%s' is not a finite number", where, line->word)
-                    : fail(INPUT, "%s: expected 8 numbers, found %d", where, line->found);
+  return line->word ? complain(INPUT, "%s: '%s' is not a finite number", where, line->word)
+                    : complain(INPUT, "%s: expected 8 numbers, found %d", where, line->found);
 }
 
 static int print_pair(const options *o, pair_line *line, const char *where) {
@@ -62,13 +62,13 @@ static int print_pair(const options *o, pair_line *line, const char *where) {
   const int exponent = pair_grow(x);
   const hr2d_segment i = {{x[0], x[1]}, {x[2], x[3]}}, j = {{x[4], x[5]}, {x[6], x[7]}};
   const double li = length(&i), lj = length(&j);
-  if (!(li > 0)) return fail(INPUT, "%s: the first segment has length 0", where);
-  if (!(lj > 0)) return fail(INPUT, "%s: the second segment has length 0", where);
+  if (!(li > 0)) return complain(INPUT, "%s: the first segment has length 0", where);
+  if (!(lj > 0)) return complain(INPUT, "%s: the second segment has length 0", where);
   const double area = hr2d_exchange_area(&i, &j);
   if (!isfinite(li + lj) || isnan(area))
-    return fail(INPUT, "%s: the coordinates are too large", where);
+    return complain(INPUT, "%s: the coordinates are too large", where);
   const hr2d_status status = estimate(o->oracle, &i, &j, &error);
-  if (status) return fail(INPUT, "%s: %s", where, hr2d_strerror(status));
+  if (status) return complain(INPUT, "%s: %s", where, hr2d_strerror(status));
   printf("%.17g %.17g %.17g ", ldexp(area, exponent), area / li, area / lj);
   if (isnan(error))
     puts("nan");
@@ -89,12 +89,12 @@ int pair_command(const options *o) {
     if (size < 0) break;
     snprintf(where, sizeof where, "line %llu", number);
     if (memchr(line, '\0', (size_t)size))
-      status = fail(INPUT, "%s: contains a NUL byte", where);
+      status = complain(INPUT, "%s: contains a NUL byte", where);
     else if (!pair_is_empty(line))
       status = pair_read(line, &numbers) ? complain_of_line(&numbers, where)
                                          : print_pair(o, &numbers, where);
   }
-  if (!status && !feof(stdin)) status = fail(INPUT, "%s", strerror(errno));
+  if (!status && !feof(stdin)) status = complain(INPUT, "%s", strerror(errno));
   free(line);
   return status;
 }

@@ -20,7 +20,7 @@ int pair_read(char *line, pair_line *numbers) {
   numbers->word = NULL;
   for (char *word = strtok_r(line, blanks, &rest); word; word = strtok_r(NULL, blanks, &rest)) {
     double value = 0;
-    if (read_real(word, &value)) {
+    if (number_real(word, &value)) {
       numbers->word = word;
       return -1;
     }

@@ -5,19 +5,19 @@
 
 typedef struct pair_line {
   double x[8];
-  int found;        /* how many numbers there are */
-  const char *word; /* what is no number, within the line; or NULL */
+  int found;        /* the number of numbers in the line */
+  const char *word; /* the first word that is no number, within the line; or NULL */
 } pair_line;
 
-/* Blank lines and comments hold no pair. */
+/* Whether a line holds no pair: it is blank or a comment. */
 int pair_is_empty(const char *line);
 
-/* Reads 8 numbers and nothing else; returns 0, or -1.  Cuts the line in words. */
+/* Reads a line of exactly 8 numbers, which it cuts in words.  Returns 0, or -1. */
 int pair_read(char *line, pair_line *numbers);
 
-/* Makes tiny segments ordinary ones, because a view factor has more digits than an exchange
-   area that is denormal.  Returns the exponent of the power of two that x was divided by,
-   exactly; 0 for others, which are left alone. */
+/* Scales tiny segments up: a view factor has more digits than an exchange area that is
+   denormal. Returns the exponent e of the exact division by 2^e; other segments stay as they
+   are, e = 0. */
 int pair_grow(double x[8]);
 
 #endif

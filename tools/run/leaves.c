@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A depth-first walk; of each level only the right sibling waits. */
+/* A depth-first walk, in which only the right sibling of each level waits. */
 #include "run/leaves.h"
 
 #include <stdlib.h>
 
 #include "output/complain.h"
 
-/* How much of an element its left child is: a half, unless it was divided where light
-   changes. */
+/* The fraction of an element that is its left child: a half, unless the element was divided
+   where light changes. */
 static double left_part(const hr2d_element *elements, const hr2d_element *e) {
   const double left = elements[e->child].length, right = elements[e->child + 1].length;
   return left == right ? 0.5 : left / (left + right);
 }
 
-int walk_leaves(const hr2d_hierarchy *hierarchy, size_t patch, double finest, piece_fn visit,
+int leaves_walk(const hr2d_hierarchy *hierarchy, size_t patch, double finest, piece_fn visit,
                 void *ctx) {
   const hr2d_element *elements = hr2d_hierarchy_elements(hierarchy);
   piece *waiting = malloc((hr2d_hierarchy_count(hierarchy).levels + 2) * sizeof *waiting);
-  if (!waiting) return fail_memory();
+  if (!waiting) return complain_memory();
   size_t count = 1;
   int status = 0;
   waiting[0] = (piece){(uint32_t)patch, 0, 0, 1};

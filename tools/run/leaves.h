@@ -12,18 +12,19 @@ typedef struct piece {
   double t0, t1;
 } piece;
 
-/* The fraction of the patch at a fraction of the piece.  Its ends stay inside, where a value
-   belongs to this element alone. */
-static inline double inside(const piece *p, double at) {
+/* The fraction of the patch at a fraction of the piece.  For the ends of the piece it is
+   slightly inside, where a value belongs to this element only. */
+static inline double leaves_at(const piece *p, double at) {
   return p->t0 + (1e-9 + (1 - 2e-9) * at) * (p->t1 - p->t0);
 }
 
-/* Is called for each piece; anything but 0 ends the walk. */
+/* Is called for each piece; a value other than 0 ends the walk. */
 typedef int (*piece_fn)(void *ctx, const piece *p);
 
-/* Walks over the leaves of a patch, taking elements no longer than `finest` (in element
-   units; 0 for none) as if they were leaves.  Returns 0, EXIT_FAILED, or what visit did. */
-int walk_leaves(const hr2d_hierarchy *hierarchy, size_t patch, double finest, piece_fn visit,
+/* Walks over the leaves of a patch.  Elements no longer than `finest` count as leaves; `finest`
+   is in element units, 0 for none.  Returns 0, EXIT_FAILED, or the value of visit that ended
+   the walk. */
+int leaves_walk(const hr2d_hierarchy *hierarchy, size_t patch, double finest, piece_fn visit,
                 void *ctx);
 
 #endif

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Refine and solve once, or for falling ε, each stage starting from the last. */
+/* Refines and solves once, or for falling ε in stages, each of which starts from the last. */
 #include "run/run.h"
 
 #include <math.h>
 #include <sys/resource.h>
 
-#include "cli/load.h"
+#include "cli/scene.h"
+#include "output/clock.h"
 #include "output/complain.h"
 #include "run/state.h"
 
-hr2d_refine_options refine_options(const options *o) {
+hr2d_refine_options run_refine_options(const options *o) {
   hr2d_refine_options refine = HR2D_REFINE_OPTIONS_INIT;
   refine.epsilon = o->epsilon;
   refine.max_level = o->max_level;
@@ -20,8 +21,8 @@ hr2d_refine_options refine_options(const options *o) {
 
 /* The ε of a stage, FROM·RATIO^stage; the last one is --eps itself. */
 static double stage_epsilon(const options *o, unsigned stage) {
-  if (!(o->multigrid_ratio > 0)) return o->epsilon;
-  const double epsilon = o->multigrid_from * pow(o->multigrid_ratio, stage);
+  if (!(o->multigrid.ratio > 0)) return o->epsilon;
+  const double epsilon = o->multigrid.from * pow(o->multigrid.ratio, stage);
   return epsilon > o->epsilon * (1 + 1e-12) ? epsilon : o->epsilon;
 }
 
@@ -31,8 +32,8 @@ static unsigned count_stages(const options *o) {
   return stages;
 }
 
-/* The first one that is finer than the state at hand; the last is made again in any case, with
-   what the options now say. */
+/* The first stage that is finer than the state in the file.  The last stage is always made
+   again, because the other options may have changed. */
 static unsigned first_stage(const run *r, unsigned stages) {
   unsigned stage = 0;
   while (r->resumed > 0 && stage + 1 < stages && stage_epsilon(r->options, stage) >= r->resumed)
@@ -41,14 +42,14 @@ static unsigned first_stage(const run *r, unsigned stages) {
 }
 
 static hr2d_status refine_stage(run *r, double epsilon, progress *p) {
-  hr2d_refine_options refine = refine_options(r->options);
+  hr2d_refine_options refine = run_refine_options(r->options);
   refine.epsilon = epsilon;
   refine.brightness = r->solution;
   refine.progress = progress_show;
   refine.progress_ctx = p;
-  const double start = seconds();
+  const double start = clock_seconds();
   const hr2d_status status = hr2d_refine(r->own_links, &refine);
-  r->account.refine_seconds += seconds() - start;
+  r->account.refine_seconds += clock_seconds() - start;
   return status;
 }
 
@@ -64,16 +65,16 @@ static void add_work(run *r, hr2d_solve_work stage) {
 static hr2d_status solve_stage(run *r, progress *p) {
   hr2d_solve_options solve = HR2D_SOLVE_OPTIONS_INIT;
   solve.threads = r->options->threads;
-  solve.closure = r->options->closure;
+  solve.closure = !r->options->no_closure;
   solve.start = r->solution;
   solve.progress = progress_show;
   solve.progress_ctx = p;
   hr2d_solution *next = NULL;
-  const double start = seconds();
+  const double start = clock_seconds();
   p->coefficients = start;
   const hr2d_status status = hr2d_solve(r->own_links, &solve, &next);
   r->account.coefficients_seconds += p->coefficients - start;
-  r->account.solve_seconds += seconds() - p->coefficients;
+  r->account.solve_seconds += clock_seconds() - p->coefficients;
   if (status) return status;
   hr2d_solution_destroy(r->solution);
   r->solution = next;
@@ -88,7 +89,7 @@ static int run_stages(run *r, progress *p) {
   if (!status)
     status =
         hr2d_linkset_create(r->own_hierarchy, o->oracle, NULL, o->policy, NULL, &r->own_links);
-  if (status) return fail_call(o->scene, "", status);
+  if (status) return complain_call(o->scene, "", status);
   r->hierarchy = r->own_hierarchy;
   r->links = r->own_links;
   r->account.order = o->order;
@@ -104,7 +105,7 @@ static int run_stages(run *r, progress *p) {
   r->account.links = hr2d_linkset_size(r->links);
   progress_clear(p);
   if (!status) return code;
-  code = fail_call(o->scene, hr2d_linkset_message(r->links), status);
+  code = complain_call(o->scene, hr2d_linkset_message(r->links), status);
   state_mention(r);
   return code;
 }
@@ -112,7 +113,7 @@ static int run_stages(run *r, progress *p) {
 int run_solve(run *r) {
   progress p;
   progress_start(&p, r->options->quiet);
-  if (is_targeted(r->options)) return run_target(r, &p);
+  if (options_targeted(r->options)) return run_target(r, &p);
   const int status = run_stages(r, &p);
   return status ? status : run_error(r, &p);
 }
@@ -138,12 +139,12 @@ double run_mean_at(const run *r, size_t patch, double t) {
   return sum / (double)bands;
 }
 
-double power_error(const hr2d_power *p) {
+double run_power_error(const hr2d_power *p) {
   const double in = p->emitted + p->received;
   return in > 0 ? fabs(in - p->absorbed - p->escaped) / in : 0;
 }
 
-uint64_t peak_bytes(void) {
+uint64_t run_peak_bytes(void) {
   struct rusage usage;
   return getrusage(RUSAGE_SELF, &usage) ? 0 : 1024 * (uint64_t)usage.ru_maxrss;
 }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The library brings bytes, here is where they go. */
+/* The library makes the bytes of a state; here they go to a file and come from it. */
 #include "run/state.h"
 
 #include <errno.h>
 #include <string.h>
 
-#include "cli/load.h"
+#include "cli/scene.h"
 #include "output/complain.h"
 #include "output/output.h"
 
@@ -22,13 +22,13 @@ static int load_stream(run *r, FILE *stream) {
   const char *path = r->options->state;
   errno = 0;
   const hr2d_status status = hr2d_state_read(r->own_links, read_bytes, stream, &r->solution);
-  if (status == HR2D_EIO) return fail(path, "cannot be read: %s", strerror(errno));
-  if (status) return fail_call(path, hr2d_linkset_message(r->own_links), status);
-  if (getc(stream) != EOF) return fail(path, "something follows the state");
+  if (status == HR2D_EIO) return complain(path, "cannot be read: %s", strerror(errno));
+  if (status) return complain_call(path, hr2d_linkset_message(r->own_links), status);
+  if (getc(stream) != EOF) return complain(path, "something follows the state");
   const double epsilon = hr2d_linkset_epsilon(r->own_links);
   if (epsilon < r->options->epsilon)
-    return fail(path, "is the state of epsilon %g, which is finer than --eps %g", epsilon,
-                r->options->epsilon);
+    return complain(path, "is the state of epsilon %g, which is finer than --eps %g", epsilon,
+                    r->options->epsilon);
   r->resumed = r->kept = epsilon;
   return 0;
 }
@@ -37,7 +37,8 @@ int state_load(run *r) {
   const char *path = r->options->state;
   if (!path) return 0;
   FILE *stream = fopen(path, "rb");
-  if (!stream) return errno == ENOENT ? 0 : fail(path, "cannot be read: %s", strerror(errno));
+  if (!stream)
+    return errno == ENOENT ? 0 : complain(path, "cannot be read: %s", strerror(errno));
   const int status = load_stream(r, stream);
   fclose(stream);
   return status;
@@ -50,7 +51,7 @@ int state_save(run *r) {
   if (status) return status;
   const hr2d_status written = hr2d_state_write(r->solution, write_bytes, out.stream);
   if (written && written != HR2D_EIO)
-    status = fail(r->options->state, "%s", hr2d_strerror(written));
+    status = complain(r->options->state, "%s", hr2d_strerror(written));
   status = output_close(&out, status);
   if (!status) r->kept = hr2d_linkset_epsilon(r->own_links);
   return status;
@@ -58,5 +59,5 @@ int state_save(run *r) {
 
 void state_mention(const run *r) {
   if (r->kept > 0)
-    fail(r->options->state, "has the state of epsilon %g, to go on from", r->kept);
+    complain(r->options->state, "has the state of epsilon %g, to go on from", r->kept);
 }

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The file of --state: what a run in stages has reached, to go on from. */
+/* The file of --state: the last stage of a run in stages, from which another run can go on. */
 #ifndef HR2D_TOOLS_RUN_STATE_H
 #define HR2D_TOOLS_RUN_STATE_H
 
 #include "run/run.h"
 
-/* Takes up the state in the file of --state, if there is one.  Returns 0, or EXIT_FAILED after
-   complaining. */
+/* Reads the state in the file of --state, if there is one.  Returns 0 or EXIT_FAILED. */
 int state_load(run *r);
 
-/* Writes what the run has reached into that file, if one is wanted; as state_load(). */
+/* Writes the last stage of the run to the file of --state, if that is given.  Returns 0 or
+   EXIT_FAILED. */
 int state_save(run *r);
 
-/* After a failure: says where what was reached is, if it is anywhere. */
+/* After a failure: prints which file has the last stage, if any has it. */
 void state_mention(const run *r);
 
 #endif

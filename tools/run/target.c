@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs to a target error or a time budget, errors of the others, and points. */
+/* Runs to a target error or a time budget; the errors of other runs; B and H at points. */
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/load.h"
+#include "cli/scene.h"
+#include "output/clock.h"
 #include "output/complain.h"
 #include "run/run.h"
 
-/* Up to so many patches the error is measured without being asked for. */
+/* Up to so many patches the error is measured by default. */
 enum { FEW_PATCHES = 200 };
 
 static hr2d_target make_target(const run *r, progress *p) {
@@ -15,25 +16,26 @@ static hr2d_target make_target(const run *r, progress *p) {
   hr2d_target target = HR2D_TARGET_INIT;
   target.error = o->target_error;
   target.norm = o->norm;
-  if (o->importance.patch) target.importance = r->places[o->at_count + 1];
+  if (o->importance.patch) target.importance = r->places[o->at.count + 1];
   target.threads = o->threads;
   target.max_elements = o->max_elements;
   target.max_links = o->max_links;
   target.progress = progress_show;
   target.progress_ctx = p;
-  /* Reading the scene has had its part; a budget of nothing would be none at all. */
-  if (o->time_budget > 0) target.seconds = fmax(1e-3, o->time_budget - (seconds() - r->start));
+  /* The scene was read within the budget.  What is left must not be 0, which means no limit. */
+  if (o->time_budget > 0)
+    target.seconds = fmax(1e-3, o->time_budget - (clock_seconds() - r->start));
   return target;
 }
 
-/* What was reached, in the norm that was asked for. */
+/* Reports the error that was reached, in the norm of the target. */
 static int complain_of_error(const run *r) {
   const hr2d_account *a = &r->account;
   const int sup = r->options->norm == HR2D_NORM_SUP;
   const hr2d_error *e = sup ? &a->sup : &a->average;
-  return fail(r->options->scene, "%s; the error is about %.1e, at most %.1e",
-              *a->reason ? a->reason : "the target error was not reached", e->estimate,
-              e->bound);
+  return complain(r->options->scene, "%s; the error is about %.1e, at most %.1e",
+                  *a->reason ? a->reason : "the target error was not reached", e->estimate,
+                  e->bound);
 }
 
 int run_target(run *r, progress *p) {
@@ -42,8 +44,8 @@ int run_target(run *r, progress *p) {
   progress_clear(p);
   r->inaccurate = status == HR2D_EACCURACY && r->solution;
   if (status && status != HR2D_EACCURACY)
-    return fail_call(r->options->scene, r->account.reason, status);
-  if (!r->solution) return fail(r->options->scene, "%s", r->account.reason);
+    return complain_call(r->options->scene, r->account.reason, status);
+  if (!r->solution) return complain(r->options->scene, "%s", r->account.reason);
   r->links = hr2d_solution_links(r->solution);
   r->hierarchy = hr2d_linkset_hierarchy(r->links);
   r->work = hr2d_solution_work(r->solution);
@@ -51,8 +53,8 @@ int run_target(run *r, progress *p) {
   return r->inaccurate ? complain_of_error(r) : EXIT_DONE;
 }
 
-/* The bound holds the error of what the solution is compared with, which is made better until
-   the difference can be told from it. */
+/* The bound includes the error of the finer solution that this one is compared with.  The finer
+   one is improved until its error is small against the difference. */
 static hr2d_status compare(run *r, progress *p) {
   hr2d_target how = HR2D_TARGET_INIT;
   hr2d_account *a = &r->account;
@@ -75,17 +77,17 @@ int run_error(run *r, progress *p) {
   const options *o = r->options;
   r->account.average = r->account.sup = (hr2d_error){NAN, NAN};
   if (o->no_error || (!o->error && hr2d_scene_patches(r->scene) > FEW_PATCHES)) return 0;
-  const double start = seconds();
+  const double start = clock_seconds();
   const hr2d_status status = compare(r, p);
-  r->account.error_seconds = seconds() - start;
+  r->account.error_seconds = clock_seconds() - start;
   progress_clear(p);
   if (!status) return EXIT_DONE;
-  if (status == HR2D_STOPPED) return fail_call(o->scene, "", status);
+  if (status == HR2D_STOPPED) return complain_call(o->scene, "", status);
   r->inaccurate = 1;
-  return fail(o->scene, "the error is not known: %s", hr2d_strerror(status));
+  return complain(o->scene, "the error is not known: %s", hr2d_strerror(status));
 }
 
-/* H from B = E + ρH where that loses no digits worth having, so that both are as good. */
+/* H from B = E + ρH, so that H is as exact as B, unless the difference B − E loses digits. */
 static double irradiance(const run *r, size_t patch, double t, size_t band, double radiosity) {
   const double emission = hr2d_scene_emission(r->scene, patch, band);
   const double reflected = radiosity - emission;
@@ -95,10 +97,10 @@ static double irradiance(const run *r, size_t patch, double t, size_t band, doub
 }
 
 int run_place(const run *r, size_t k, double *b, double *h) {
-  const double t = r->options->at[k].t;
+  const double t = r->options->at.items[k].t;
   const size_t patch = r->places[k], bands = hr2d_scene_bands(r->scene);
-  const int gather = r->account.order > 1 || is_targeted(r->options);
-  if (gather && hr2d_solution_gather(r->solution, patch, &t, 1, b)) return fail_memory();
+  const int gather = r->account.order > 1 || options_targeted(r->options);
+  if (gather && hr2d_solution_gather(r->solution, patch, &t, 1, b)) return complain_memory();
   for (size_t band = 0; band < bands; band++) {
     if (!gather) b[band] = hr2d_solution_at(r->solution, patch, t, band);
     h[band] = gather ? irradiance(r, patch, t, band, b[band])

@@ -1,44 +1,37 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* `hr2d solve`: what is asked for is checked before the work starts. */
+/* `hr2d solve`: the outputs are checked before the work starts. */
 #include <stdlib.h>
 
 #include "cli/commands.h"
-#include "cli/load.h"
+#include "cli/scene.h"
 #include "draw/draw.h"
+#include "output/clock.h"
 #include "output/complain.h"
-#include "output/output.h"
 #include "output/progress.h"
 #include "run/run.h"
+#include "solve/solve.h"
 
 /* The patches that --at, --links-of and --importance name, in this order. */
 static int find_places(const options *o, const hr2d_scene *scene, size_t *patches) {
   int status = 0;
-  for (size_t k = 0; !status && k < o->at_count; k++)
-    status = find_place(scene, "at", &o->at[k], &patches[k]);
+  for (size_t k = 0; !status && k < o->at.count; k++)
+    status = scene_find_place(scene, "at", &o->at.items[k], &patches[k]);
   if (!status && o->links_of.patch)
-    status = find_place(scene, "links-of", &o->links_of, &patches[o->at_count]);
+    status = scene_find_place(scene, "links-of", &o->links_of, &patches[o->at.count]);
   if (!status && o->importance.patch)
-    status = find_place(scene, "importance", &o->importance, &patches[o->at_count + 1]);
+    status = scene_find_place(scene, "importance", &o->importance, &patches[o->at.count + 1]);
   return status;
-}
-
-static int check_outputs(const options *o) {
-  int status = o->draw ? draw_check(o->draw) : 0;
-  if (!status) status = output_check(o->json);
-  if (!status) status = output_check(o->csv);
-  if (!status) status = output_check(o->state);
-  return status ? status : output_check(o->draw);
 }
 
 static int report(const run *r) {
   const options *o = r->options;
   int status = 0;
-  const double total = seconds() - r->start;
+  const double total = clock_seconds() - r->start;
   progress_end();
-  if (!o->quiet && !to_stdout(o->json) && !to_stdout(o->csv)) status = print_run(r, total);
-  if (o->csv && !status) status = write_leaves(r, o->csv);
+  if (options_want_table(o)) status = solve_print(r, total);
+  if (o->csv && !status) status = solve_write_csv(r, o->csv);
   if (o->draw && !status) status = draw_run(r, o->draw);
-  if (o->json && !status) status = write_run(r, total, o->json);
+  if (o->json && !status) status = solve_write_json(r, total, o->json);
   return status;
 }
 
@@ -57,14 +50,15 @@ static int solve_scene(const options *o, const hr2d_scene *scene, size_t cuts, d
 }
 
 int solve_command(const options *o) {
-  const double start = seconds();
+  const double start = clock_seconds();
   hr2d_scene *scene = NULL;
   size_t cuts = 0;
-  int status = check_outputs(o);
-  if (!status) status = load_scene(o, o->force, &scene, &cuts);
+  int status = o->draw ? draw_check(o->draw) : 0;
+  if (!status) status = options_check_outputs(o);
+  if (!status) status = scene_load(o, o->force, &scene, &cuts);
   if (status) return status;
-  size_t *patches = calloc(o->at_count + 2, sizeof *patches);
-  status = patches ? solve_scene(o, scene, cuts, start, patches) : fail_memory();
+  size_t *patches = calloc(o->at.count + 2, sizeof *patches);
+  status = patches ? solve_scene(o, scene, cuts, start, patches) : complain_memory();
   free(patches);
   hr2d_scene_destroy(scene);
   return status;

@@ -9,19 +9,20 @@
 #include "output/complain.h"
 #include "output/output.h"
 #include "run/leaves.h"
-#include "run/run.h"
+#include "solve/solve.h"
 
 typedef struct writer {
   const run *run;
   FILE *stream;
   size_t patch, order, bands;
-  gsl_integration_glfixed_table *rule; /* of as many points as a leaf has coefficients */
+  gsl_integration_glfixed_table *rule; /* with a point for each coefficient of a leaf */
 } writer;
 
 typedef double (*field_fn)(const hr2d_solution *, size_t, double, size_t);
 
-/* The first `count` coefficients of a polynomial of the leaf in Legendre's P_l: a rule of
-   `order` points is exact up to the degree 2·order − 1 of its product with P_l. */
+/* The first `count` coefficients of a field, a polynomial on the leaf, in Legendre's P_l.  A
+   rule of `order` points is exact up to degree 2·order − 1, which its product with P_l has at
+   most. */
 static void expand(const writer *w, const piece *p, field_fn field, size_t band, size_t count,
                    double *c) {
   for (size_t l = 0; l < count; l++) c[l] = 0;
@@ -71,7 +72,7 @@ static void write_header(const writer *w) {
   fputc('\n', w->stream);
 }
 
-int write_leaves(const run *r, const char *path) {
+int solve_write_csv(const run *r, const char *path) {
   output out;
   int status = output_open(&out, path);
   if (status) return status;
@@ -80,10 +81,10 @@ int write_leaves(const run *r, const char *path) {
               .order = r->account.order,
               .bands = hr2d_scene_bands(r->scene)};
   w.rule = gsl_integration_glfixed_table_alloc(w.order);
-  if (!w.rule) return output_close(&out, fail_memory());
+  if (!w.rule) return output_close(&out, complain_memory());
   write_header(&w);
   for (; !status && w.patch < hr2d_scene_patches(r->scene); w.patch++)
-    status = walk_leaves(r->hierarchy, w.patch, 0, write_leaf, &w);
+    status = leaves_walk(r->hierarchy, w.patch, 0, write_leaf, &w);
   gsl_integration_glfixed_table_free(w.rule);
   return output_close(&out, ferror(out.stream) ? 0 : status);
 }

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "run/run.h"
+#include "solve/solve.h"
 
 static json_t *per_band(const run *r, size_t patch,
                         double (*get)(const hr2d_solution *, size_t, size_t)) {
@@ -18,10 +18,7 @@ static json_t *per_band(const run *r, size_t patch,
 static json_t *patches(const run *r) {
   json_t *list = json_array();
   for (size_t k = 0; k < hr2d_scene_patches(r->scene); k++) {
-    json_t *patch = json_object();
-    json_put(&patch, "index", json_count(k));
-    json_put(&patch, "name", json_text(hr2d_scene_name(r->scene, k)));
-    json_put(&patch, "length", json_number(hr2d_scene_length(r->scene, k)));
+    json_t *patch = json_patch(r->scene, k);
     json_put(&patch, "average", per_band(r, k, hr2d_solution_average));
     json_put(&patch, "irradiance", per_band(r, k, hr2d_solution_irradiance));
     json_put(&patch, "net_flux", per_band(r, k, hr2d_solution_net_flux));
@@ -30,27 +27,21 @@ static json_t *patches(const run *r) {
   return list;
 }
 
-static json_t *numbers(const double *value, size_t count) {
-  json_t *array = json_array();
-  for (size_t k = 0; k < count; k++) json_push(&array, json_number(value[k]));
-  return array;
-}
-
 static json_t *place_entry(const run *r, size_t k) {
   const size_t bands = hr2d_scene_bands(r->scene);
   double *value = malloc(2 * bands * sizeof *value);
   json_t *entry = value && !run_place(r, k, value, value + bands) ? json_object() : NULL;
   json_put(&entry, "patch", json_count(r->places[k]));
-  json_put(&entry, "t", json_number(r->options->at[k].t));
-  json_put(&entry, "value", entry ? numbers(value, bands) : NULL);
-  json_put(&entry, "irradiance", entry ? numbers(value + bands, bands) : NULL);
+  json_put(&entry, "t", json_number(r->options->at.items[k].t));
+  json_put(&entry, "value", entry ? json_numbers(value, bands) : NULL);
+  json_put(&entry, "irradiance", entry ? json_numbers(value + bands, bands) : NULL);
   free(value);
   return entry;
 }
 
 static json_t *places(const run *r) {
   json_t *list = json_array();
-  for (size_t k = 0; k < r->options->at_count; k++) json_push(&list, place_entry(r, k));
+  for (size_t k = 0; k < r->options->at.count; k++) json_push(&list, place_entry(r, k));
   return list;
 }
 
@@ -71,7 +62,7 @@ static json_t *work(const run *r, const hr2d_refine_counts *n) {
   return object;
 }
 
-/* At order 1 exchange areas are computed while refining and have no time of their own. */
+/* At order 1 exchange areas are computed during refinement and have no time of their own. */
 static json_t *times(const run *r, double total_seconds) {
   const hr2d_account *a = &r->account;
   json_t *object = json_object();
@@ -92,7 +83,7 @@ static json_t *power(const run *r) {
     json_put(&band, "received", json_number(p.received));
     json_put(&band, "absorbed", json_number(p.absorbed));
     json_put(&band, "escaped", json_number(p.escaped));
-    json_put(&band, "relative_error", json_number(power_error(&p)));
+    json_put(&band, "relative_error", json_number(run_power_error(&p)));
     json_push(&list, band);
   }
   return list;
@@ -111,24 +102,24 @@ static json_t *optional(double x) {
   return x > 0 ? json_number(x) : json_null();
 }
 
-/* What was asked for; null where the method was given instead. */
+/* The target or budget; null if the options choose the method instead. */
 static json_t *target(const run *r) {
   const options *o = r->options;
-  if (!is_targeted(o)) return json_null();
+  if (!options_targeted(o)) return json_null();
   json_t *object = json_object();
   json_put(&object, "error", optional(o->target_error));
   json_put(&object, "norm", json_text(o->norm == HR2D_NORM_SUP ? "sup" : "average"));
   json_put(&object, "seconds", optional(o->time_budget));
   json_put(&object, "importance",
-           o->importance.patch ? json_count(r->places[o->at_count + 1]) : json_null());
+           o->importance.patch ? json_count(r->places[o->at.count + 1]) : json_null());
   json_put(&object, "reason", json_text(r->account.reason));
   return object;
 }
 
-/* The keys that every solve has, null where there is no such thing. */
+/* The keys of the method, which every solve has; null if they mean nothing to it. */
 static void put_method(json_t **root, const run *r) {
   const options *o = r->options;
-  const int free_choice = !is_targeted(o);
+  const int free_choice = !options_targeted(o);
   json_put(root, "order", json_count(r->account.order));
   json_put(root, "epsilon", free_choice ? json_number(o->epsilon) : json_null());
   json_put(root, "oracle", json_text(free_choice ? o->oracle->name : "separation"));
@@ -144,7 +135,7 @@ static void put_counts(json_t **root, const run *r, const hr2d_refine_counts *n)
   json_put(root, "levels", json_count(n->levels));
 }
 
-int write_run(const run *r, double total_seconds, const char *path) {
+int solve_write_json(const run *r, double total_seconds, const char *path) {
   const options *o = r->options;
   const hr2d_refine_counts counts = hr2d_linkset_counts(r->links);
   json_t *root = json_object();
@@ -157,7 +148,7 @@ int write_run(const run *r, double total_seconds, const char *path) {
   json_put(&root, "effects", json_effects(r->scene));
   json_put(&root, "work", work(r, &counts));
   json_put(&root, "seconds", times(r, total_seconds));
-  json_put(&root, "peak_bytes", json_count(peak_bytes()));
+  json_put(&root, "peak_bytes", json_count(run_peak_bytes()));
   json_put(&root, "power", power(r));
   json_put(&root, "residual", json_number(hr2d_solution_residual(r->solution)));
   json_put(&root, "error", errors(&r->account));

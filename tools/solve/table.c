@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The summary of a run for people. */
+#include "output/table.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "cli/scene.h"
 #include "output/complain.h"
-#include "output/json.h"
-#include "run/run.h"
+#include "solve/solve.h"
 
-/* Of many bands each has a line. */
+/* A line for each band; lines after the first are indented. */
 static void print_values(const run *r, size_t patch, int indent) {
   const size_t bands = hr2d_scene_bands(r->scene);
   for (size_t b = 0; b < bands; b++) {
@@ -21,46 +23,39 @@ static void print_values(const run *r, size_t patch, int indent) {
 }
 
 static void print_patches(const run *r) {
-  const size_t count = hr2d_scene_patches(r->scene);
-  const int width = name_width(r->scene);
-  printf("\npatch  ");
-  print_padded(stdout, "name", width);
-  printf("  %12s%s  %12s  %12s  %12s\n", "length",
-         hr2d_scene_bands(r->scene) > 1 ? "  band" : "", "average B", "average H", "B - H");
-  for (size_t k = 0; k < count; k++) {
-    if (is_skipped(k, count)) continue;
-    printf("%5zu  ", k);
-    print_padded(stdout, hr2d_scene_name(r->scene, k), width);
-    printf("  %12.6g", hr2d_scene_length(r->scene, k));
-    print_values(r, k, 7 + width + 14);
-  }
+  const int width = table_name_width(r->scene);
+  table_patch_titles(width);
+  printf("%s  %12s  %12s  %12s\n", hr2d_scene_bands(r->scene) > 1 ? "  band" : "", "average B",
+         "average H", "B - H");
+  for (size_t k = 0; k < hr2d_scene_patches(r->scene); k++)
+    if (table_patch(r->scene, k, width)) print_values(r, k, 7 + width + 14);
   puts("");
 }
 
-/* Points of a high order are good for more digits than those of constants. */
+/* B and H at the points of --at.  Values of a high order have more digits than constants. */
 static int print_places(const run *r) {
   const options *o = r->options;
   const size_t bands = hr2d_scene_bands(r->scene);
   const int digits = r->account.order > 1 ? 12 : 9;
-  double *value = o->at_count ? malloc(2 * bands * sizeof *value) : NULL;
-  int status = o->at_count && !value ? fail_memory() : EXIT_DONE;
-  for (size_t k = 0; !status && k < o->at_count; k++) {
+  double *value = o->at.count ? malloc(2 * bands * sizeof *value) : NULL;
+  int status = o->at.count && !value ? complain_memory() : EXIT_DONE;
+  for (size_t k = 0; !status && k < o->at.count; k++) {
     status = run_place(r, k, value, value + bands);
     if (status) break;
-    printf("at %s:%g ", o->at[k].patch, o->at[k].t);
+    printf("at %s:%g ", o->at.items[k].patch, o->at.items[k].t);
     for (size_t b = 0; b < bands; b++) printf(" %.*g", digits, value[b]);
     printf("  H");
     for (size_t b = 0; b < bands; b++) printf(" %.*g", digits, value[bands + b]);
     puts("");
   }
-  if (o->at_count) puts("");
+  if (o->at.count) puts("");
   free(value);
   return status;
 }
 
 static void print_method(const run *r) {
   const options *o = r->options;
-  if (!is_targeted(o)) {
+  if (!options_targeted(o)) {
     printf("method    oracle %s, variant %s, epsilon %g\n", o->oracle->name, o->policy->name,
            o->epsilon);
     if (r->resumed > 0) printf("          from epsilon %g in %s\n", r->resumed, o->state);
@@ -76,7 +71,7 @@ static void print_method(const run *r) {
   puts("");
 }
 
-/* Relative errors, of averages first. */
+/* Relative errors: of averages, then at points. */
 static void print_error(const run *r) {
   const hr2d_account *a = &r->account;
   if (isnan(a->average.estimate)) return;
@@ -107,15 +102,16 @@ static void print_counts(const run *r, const hr2d_refine_counts *n) {
            (unsigned long long)(r->account.links - n->links));
   if (n->partial_links)
     printf("          %llu of them around occluders\n", (unsigned long long)n->partial_links);
-  /* To a target, elements are there before links. */
-  if (!n->limited_links || is_targeted(r->options)) return;
+  /* With a target all elements exist before the links, and no limit acts. */
+  if (!n->limited_links || options_targeted(r->options)) return;
   const int corner = hr2d_scene_effect(r->scene, HR2D_EFFECT_CORNER, NULL);
   printf("          recursion limit acted on %llu links at level %u%s\n",
          (unsigned long long)n->limited_links, r->options->max_level,
          corner ? " (touching patches)" : "");
 }
 
-/* Nothing escapes from a closed scene but rounding, of many coefficients at a high order. */
+/* From a closed scene no power escapes: a tiny number is rounding, which is larger at a high
+   order with its many coefficients. */
 static double beyond_rounding(double power, double in) {
   return fabs(power) > 1e-13 * in ? power : 0;
 }
@@ -130,7 +126,8 @@ static void print_power(const run *r) {
     printf("%-9s emitted %.6g", title, p.emitted);
     if (p.received > 0) printf(" + received %.6g", p.received);
     printf(" = absorbed %.6g + escaped %.6g (relative error %.1e)\n",
-           beyond_rounding(p.absorbed, in), beyond_rounding(p.escaped, in), power_error(&p));
+           beyond_rounding(p.absorbed, in), beyond_rounding(p.escaped, in),
+           run_power_error(&p));
   }
 }
 
@@ -140,12 +137,12 @@ static void print_effort(const run *r, const hr2d_refine_counts *n) {
       {"facing tests", n->facing_tests},   {"visibility tests", n->visibility_tests},
       {"blocked pairs", n->blocked_pairs}, {"dark pairs", n->dark_pairs},
       {"row sums", r->work.row_sums},      {"kernels", r->work.kernels}};
-  print_work(list, sizeof list / sizeof *list);
+  table_print_work(list, sizeof list / sizeof *list);
 }
 
-int print_run(const run *r, double total_seconds) {
+int solve_print(const run *r, double total_seconds) {
   const hr2d_refine_counts counts = hr2d_linkset_counts(r->links);
-  print_scene(r->options, 10, r->cuts);
+  scene_print(r->options, 10, r->cuts);
   print_method(r);
   print_patches(r);
   const int status = print_places(r);
@@ -158,6 +155,6 @@ int print_run(const run *r, double total_seconds) {
          (unsigned long long)r->work.gathers, (unsigned long long)r->work.iterations,
          hr2d_solution_residual(r->solution));
   print_seconds(r, total_seconds);
-  printf("memory    %.1f MB at the peak\n", (double)peak_bytes() / 1e6);
+  printf("memory    %.1f MB at the peak\n", (double)run_peak_bytes() / 1e6);
   return status;
 }

@@ -1,24 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The script for the chart of a study. */
-#include "study/chart.h"
-
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
+#include "cli/scene.h"
 #include "output/gnuplot.h"
+#include "study/study.h"
 
 static void write_title(FILE *script, const options *o) {
-  const char *slash = strrchr(o->scene, '/');
   char title[512];
-  snprintf(title, sizeof title, "%s: oracle %s, variant %s", slash ? slash + 1 : o->scene,
+  snprintf(title, sizeof title, "%s: oracle %s, variant %s", scene_file_name(o),
            o->oracle->name, o->policy->name);
-  fputs("set title ", script);
-  gnuplot_quote(script, title);
-  fputs(" noenhanced\n", script);
+  gnuplot_title(script, title);
 }
 
-/* An axis that counts thousands or millions rather than write their zeros. */
+/* An axis counts thousands or millions, so that its numbers are short. */
 typedef struct axis {
   const char *quantity, *unit;
   double divisor;
@@ -60,16 +56,16 @@ static void write_quadratic(FILE *script, const hr2d_study_fit *fit, const axis 
 }
 
 /* The least-squares line through (log N, log L) goes through their means. */
-static void write_power(FILE *script, const hr2d_study_row *rows, size_t count,
-                        const hr2d_study_fit *fit) {
+static void write_power(FILE *script, const study *s) {
   char key[64];
   double x = 0, y = 0;
-  for (size_t k = 0; k < count; k++) {
-    x += log((double)rows[k].counts.elements) / (double)count;
-    y += log((double)rows[k].counts.links) / (double)count;
+  for (size_t k = 0; k < s->count; k++) {
+    x += log((double)s->rows[k].counts.elements) / (double)s->count;
+    y += log((double)s->rows[k].counts.links) / (double)s->count;
   }
-  fprintf(script, "f(x) = exp(%.17g + %.17g*log(x))\n", y - fit->slope * x, fit->slope);
-  snprintf(key, sizeof key, "L ∝ N^{%.3f}", fit->slope);
+  const double slope = s->fit.slope;
+  fprintf(script, "f(x) = exp(%.17g + %.17g*log(x))\n", y - slope * x, slope);
+  snprintf(key, sizeof key, "L ∝ N^{%.3f}", slope);
   write_curve(script, key);
 }
 
@@ -91,23 +87,13 @@ static void write_axes(FILE *script, const axis *n, const axis *l, double most,
         script);
 }
 
-typedef struct chart {
-  const options *options;
-  const hr2d_study_row *rows;
-  size_t count;
-  const hr2d_study_fit *fit;
-} chart;
-
 static void write_script(FILE *script, const void *ctx) {
-  const chart *drawn = ctx;
-  const options *o = drawn->options;
-  const hr2d_study_row *rows = drawn->rows;
-  const hr2d_study_fit *fit = drawn->fit;
-  const size_t count = drawn->count;
+  const study *s = ctx;
+  const options *o = s->options;
   double most_n = 0, most_l = 0;
   fputs("set encoding utf8\n$rows << END\n", script);
-  for (size_t k = 0; k < count; k++) {
-    const hr2d_refine_counts *c = &rows[k].counts;
+  for (size_t k = 0; k < s->count; k++) {
+    const hr2d_refine_counts *c = &s->rows[k].counts;
     most_n = fmax(most_n, (double)c->elements);
     most_l = fmax(most_l, (double)c->links);
     fprintf(script, "%.17g %.17g\n", (double)c->elements, (double)c->links);
@@ -118,20 +104,18 @@ static void write_script(FILE *script, const void *ctx) {
   gnuplot_terminal(script, o->plot, 800, 560);
   write_title(script, o);
   write_axes(script, &n, &l, most_n, o->plot_log);
-  if (!fit)
+  if (!s->fitted)
     fputs("plot ", script);
   else if (o->plot_log)
-    write_power(script, rows, count, fit);
+    write_power(script, s);
   else
-    write_quadratic(script, fit, &n, &l);
+    write_quadratic(script, &s->fit, &n, &l);
   fprintf(script,
           "$rows using ($1/%g):($2/%g) with points pointtype 7 pointsize %g"
           " linecolor rgb '#440154' title '%zu values of ε'\n",
-          n.divisor, l.divisor, count > 60 ? 0.6 : 1.1, count);
+          n.divisor, l.divisor, s->count > 60 ? 0.6 : 1.1, s->count);
 }
 
-int chart_study(const options *o, const hr2d_study_row *rows, size_t count,
-                const hr2d_study_fit *fit) {
-  const chart drawn = {o, rows, count, fit};
-  return gnuplot_draw(o->plot, write_script, &drawn);
+int study_draw(const study *s) {
+  return gnuplot_draw(s->options->plot, write_script, s);
 }

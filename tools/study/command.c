@@ -5,17 +5,17 @@
 #include <stdlib.h>
 
 #include "cli/commands.h"
-#include "cli/load.h"
+#include "cli/scene.h"
+#include "output/clock.h"
 #include "output/complain.h"
 #include "output/output.h"
 #include "run/run.h"
-#include "study/chart.h"
 #include "study/study.h"
 
-/* Links that are counted again in a moment. */
+/* Up to so many links a row is counted again in a moment. */
 enum { FEW_LINKS = 10000 };
 
-/* A CSV on disk lags behind the sweep by no more than this, in seconds, and a row. */
+/* A CSV on disk lags behind the sweep by at most so many seconds and one row. */
 #define CSV_EVERY 1.0
 
 static void print_row(const hr2d_study_row *row) {
@@ -28,7 +28,7 @@ static void print_row(const hr2d_study_row *row) {
 
 static hr2d_status count(const study *s, hr2d_linkset *links, sweep *w, size_t step,
                          hr2d_study_row *row) {
-  hr2d_refine_options refine = refine_options(s->options);
+  hr2d_refine_options refine = run_refine_options(s->options);
   refine.threads = s->options->threads;
   refine.progress = sweep_show;
   refine.progress_ctx = w;
@@ -38,33 +38,34 @@ static hr2d_status count(const study *s, hr2d_linkset *links, sweep *w, size_t s
   return status;
 }
 
-/* Complains about a failed count. */
+/* The error message of a failed count; returns the exit status. */
 static int fail_count(const study *s, const hr2d_linkset *links, hr2d_status status) {
   size_t done = 0;
   for (size_t k = 0; k < s->count; k++) done += s->rows[k].counts.elements > 0;
   if (status != HR2D_STOPPED || !done)
-    return fail_call(s->options->scene, hr2d_linkset_message(links), status);
-  fail(s->options->scene, "%zu of %zu steps done when interrupted", done, s->count);
+    return complain_call(s->options->scene, hr2d_linkset_message(links), status);
+  complain(s->options->scene, "%zu of %zu steps done when interrupted", done, s->count);
   return EXIT_INTERRUPTED;
 }
 
-/* Whether a row of the CSV is what this study counts.  Rows that are cheap are all
-   tried, and the cheapest in any case. */
+/* Counts a row of the CSV again: its numbers must be those of this study.  Only cheap rows and
+   the first one are tried.  Returns 0 or the exit status. */
 static int verify_row(const study *s, hr2d_linkset *links, sweep *w, size_t step, int first) {
   const hr2d_study_row *known = &s->rows[step];
   const hr2d_refine_counts *was = &known->counts;
   hr2d_study_row row;
   if (!was->elements || (!first && was->links > FEW_LINKS)) return 0;
   const hr2d_status status = count(s, links, w, step, &row);
-  if (status) return fail_call(s->options->scene, hr2d_linkset_message(links), status);
+  if (status) return complain_call(s->options->scene, hr2d_linkset_message(links), status);
   const hr2d_refine_counts *is = &row.counts;
   if (is->elements == was->elements && is->leaves == was->leaves && is->links == was->links)
     return 0;
-  return fail(s->options->csv,
-              "cannot be resumed: it has N = %llu and L = %llu at epsilon %.17g, where this "
-              "study counts %llu and %llu",
-              (unsigned long long)was->elements, (unsigned long long)was->links, known->epsilon,
-              (unsigned long long)is->elements, (unsigned long long)is->links);
+  return complain(
+      s->options->csv,
+      "cannot be resumed: it has N = %llu and L = %llu at epsilon %.17g, where this "
+      "study counts %llu and %llu",
+      (unsigned long long)was->elements, (unsigned long long)was->links, known->epsilon,
+      (unsigned long long)is->elements, (unsigned long long)is->links);
 }
 
 static int verify(study *s, hr2d_linkset *links, sweep *w) {
@@ -79,7 +80,7 @@ static int verify(study *s, hr2d_linkset *links, sweep *w) {
 
 static int measure(study *s, hr2d_linkset *links, sweep *w) {
   const int rewrites = study_can_rewrite_csv(s);
-  double written = seconds();
+  double written = clock_seconds();
   int code = 0;
   if (!s->quiet && s->options->split_crossings) printf("crossings %zu cut\n", s->cuts);
   if (!s->quiet)
@@ -94,10 +95,10 @@ static int measure(study *s, hr2d_linkset *links, sweep *w) {
         *row = (hr2d_study_row){.epsilon = epsilon};
         return fail_count(s, links, status);
       }
-      if (rewrites && seconds() - written > CSV_EVERY) {
+      if (rewrites && clock_seconds() - written > CSV_EVERY) {
         code = study_write_csv(s);
-        if (code) s->count = 0; /* what failed once would fail again */
-        written = seconds();
+        if (code) s->count = 0; /* the next write would fail, too */
+        written = clock_seconds();
       }
     }
     if (!s->quiet) print_row(row);
@@ -114,7 +115,7 @@ static int run_study(study *s, const hr2d_scene *scene) {
   hr2d_status status = hr2d_hierarchy_create(scene, &hierarchy);
   if (!status)
     status = hr2d_linkset_create(hierarchy, o->oracle, NULL, o->policy, NULL, &links);
-  int code = status ? fail_call(o->scene, "", status) : 0;
+  int code = status ? complain_call(o->scene, "", status) : 0;
   sweep_start(&w, s);
   if (!code) code = verify(s, links, &w);
   if (!code) code = measure(s, links, &w);
@@ -134,34 +135,30 @@ static void print_fit(const study *s) {
   printf("R² = %.9f, slope of log L on log N = %.4f\n", f->r2, f->slope);
 }
 
-/* Everything that was asked for, of the rows that are there. */
+/* Prints and writes the rows that are there. */
 static int report(study *s) {
   const options *o = s->options;
   int status = 0;
   progress_end();
   const hr2d_status fitting = hr2d_study_fit_rows(s->rows, s->count, &s->fit);
-  if (fitting && fitting != HR2D_EINVAL) return fail_call(o->scene, "", fitting);
+  if (fitting && fitting != HR2D_EINVAL) return complain_call(o->scene, "", fitting);
   s->fitted = !fitting;
   if (!s->quiet) print_fit(s);
   if (o->csv) status = study_write_csv(s);
   if (o->json && !status) status = study_write_json(s);
-  if (o->plot && !status)
-    status = chart_study(o, s->rows, s->count, s->fitted ? &s->fit : NULL);
+  if (o->plot && !status) status = study_draw(s);
   return status;
 }
 
 int study_command(const options *o) {
-  /* Links are counted whether or not a patch emits; dark ones would have none. */
+  /* Patches that no light reaches would have no links; a study counts theirs, too. */
   const unsigned force = o->force | 1U << HR2D_EFFECT_EMISSION;
   hr2d_scene *scene = NULL;
   size_t cuts = 0;
-  int status = output_check(o->json);
-  if (!status) status = output_check(o->csv);
-  if (!status) status = output_check(o->plot);
-  if (!status) status = load_scene(o, force, &scene, &cuts);
+  int status = options_check_outputs(o);
+  if (!status) status = scene_load(o, force, &scene, &cuts);
   if (status) return status;
-  study s = {
-      .options = o, .cuts = cuts, .quiet = o->quiet || to_stdout(o->json) || to_stdout(o->csv)};
+  study s = {.options = o, .cuts = cuts, .quiet = !options_want_table(o)};
   status = study_plan(&s, scene);
   if (!status) {
     status = run_study(&s, scene);

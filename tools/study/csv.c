@@ -37,11 +37,12 @@ int study_write_csv(const study *s) {
 int study_can_rewrite_csv(const study *s) {
   struct stat old;
   const char *path = s->options->csv;
-  if (!path || to_stdout(path)) return 0;
+  if (!path || output_is_stdout(path)) return 0;
   return stat(path, &old) ? errno == ENOENT : S_ISREG(old.st_mode);
 }
 
-/* Splits a line in place; returns how many fields it has, FIELDS + 1 if more. */
+/* Splits a line in place.  Returns the number of fields, FIELDS + 1 if there are more than
+   FIELDS. */
 static int split(char *line, char *field[FIELDS]) {
   int count = 1;
   field[0] = line;
@@ -61,19 +62,19 @@ static int is_header(char *field[FIELDS]) {
 }
 
 static int refuse(const char *path, size_t number, const char *what) {
-  return fail(path, "cannot be resumed: line %zu %s", number, what);
+  return complain(path, "cannot be resumed: line %zu %s", number, what);
 }
 
 static int read_row(const char *path, size_t number, char *field[FIELDS], hr2d_study_row *row) {
   uint64_t count[FIELDS] = {0};
   *row = (hr2d_study_row){0};
-  if (read_real(field[0], &row->epsilon) || row->epsilon <= 0)
+  if (number_real(field[0], &row->epsilon) || row->epsilon <= 0)
     return refuse(path, number, "does not begin with an epsilon");
   for (int k = 1; k < FIELDS - 1; k++)
-    if (read_count(field[k], UINT64_MAX, &count[k]) || !count[k])
-      return fail(path, "cannot be resumed: line %zu: '%s' is no number of %s", number,
-                  field[k], k == 4 ? "oracle calls" : columns_of_study[k]);
-  if (read_real(field[FIELDS - 1], &row->seconds) || row->seconds < 0)
+    if (number_count(field[k], UINT64_MAX, &count[k]) || !count[k])
+      return complain(path, "cannot be resumed: line %zu: '%s' is no number of %s", number,
+                      field[k], k == 4 ? "oracle calls" : columns_of_study[k]);
+  if (number_real(field[FIELDS - 1], &row->seconds) || row->seconds < 0)
     return refuse(path, number, "does not end with seconds");
   row->counts.elements = count[1];
   row->counts.leaves = count[2];
@@ -82,7 +83,7 @@ static int read_row(const char *path, size_t number, char *field[FIELDS], hr2d_s
   return 0;
 }
 
-/* The header for line 1, a row for any other. */
+/* Line 1 has to be the header; other lines are rows. */
 static int read_line(const char *path, size_t number, char *line, size_t size,
                      hr2d_study_row *row) {
   char *field[FIELDS];
@@ -96,17 +97,17 @@ static int read_line(const char *path, size_t number, char *line, size_t size,
                ? 0
                : refuse(path, number, "is not the header of a study");
   if (count != FIELDS)
-    return fail(path, "cannot be resumed: line %zu has %s fields, not %d", number,
-                count < FIELDS ? "fewer" : "more", FIELDS);
+    return complain(path, "cannot be resumed: line %zu has %s fields, not %d", number,
+                    count < FIELDS ? "fewer" : "more", FIELDS);
   return read_row(path, number, field, row);
 }
 
 static int append(hr2d_study_row **rows, size_t *count, const hr2d_study_row *row) {
-  /* Grown at each power of two. */
+  /* The array grows at each power of two. */
   if (!(*count & (*count - 1))) {
     const size_t capacity = *count ? 2 * *count : 1;
     hr2d_study_row *grown = realloc(*rows, capacity * sizeof *grown);
-    if (!grown) return fail_memory();
+    if (!grown) return complain_memory();
     *rows = grown;
   }
   (*rows)[(*count)++] = *row;
@@ -123,18 +124,18 @@ static int read_lines(const char *path, FILE *stream, hr2d_study_row **rows, siz
     if (!status && number > 1) status = append(rows, count, &row);
   }
   free(line);
-  if (!status && !feof(stream)) status = fail(path, "cannot be read: %s", strerror(errno));
-  return !status && !number ? fail(path, "cannot be resumed: it is empty") : status;
+  if (!status && !feof(stream)) status = complain(path, "cannot be read: %s", strerror(errno));
+  return !status && !number ? complain(path, "cannot be resumed: it is empty") : status;
 }
 
 int study_read_csv(const char *path, hr2d_study_row **rows, size_t *count) {
   struct stat old;
   *rows = NULL;
   *count = 0;
-  if (stat(path, &old)) return errno == ENOENT ? 0 : fail(path, "%s", strerror(errno));
-  if (!S_ISREG(old.st_mode)) return fail(path, "cannot be resumed: it is not a file");
+  if (stat(path, &old)) return errno == ENOENT ? 0 : complain(path, "%s", strerror(errno));
+  if (!S_ISREG(old.st_mode)) return complain(path, "cannot be resumed: it is not a file");
   FILE *stream = fopen(path, "rb");
-  if (!stream) return fail(path, "cannot be read: %s", strerror(errno));
+  if (!stream) return complain(path, "cannot be read: %s", strerror(errno));
   const int status = read_lines(path, stream, rows, count);
   fclose(stream);
   return status;

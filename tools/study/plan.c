@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which ε: a geometric sequence, and with --resume whatever the CSV has already. */
+/* The ε of a study: a geometric sequence, and with --resume also those of the CSV. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/scene.h"
 #include "output/complain.h"
 #include "study/study.h"
 
@@ -11,16 +12,9 @@ typedef struct range {
   double from, to;
 } range;
 
-static double longest_patch(const hr2d_scene *scene) {
-  double longest = 0;
-  for (size_t k = 0; k < hr2d_scene_patches(scene); k++)
-    longest = fmax(longest, hr2d_scene_length(scene, k));
-  return longest;
-}
-
-/* Sequences that take N through about six doublings.  Where max(A)/r reaches ε, its
-   square reaches ε²; estimates of bf are smaller.  The L¹ error is a length, and at a
-   given distance it falls like A³. */
+/* The default sequences take N through about six doublings.  Where max(A)/r reaches ε, its
+   square reaches ε²; estimates of bf are smaller.  The L¹ error is a length; at a given
+   distance it falls like A³. */
 static void choose_usual(const hr2d_oracle *oracle, const hr2d_scene *scene, double *from,
                          double *ratio) {
   *from = 1;
@@ -31,7 +25,7 @@ static void choose_usual(const hr2d_oracle *oracle, const hr2d_scene *scene, dou
     *from = 0.25;
     *ratio = 256;
   } else if (!strncmp(oracle->name, "l1", 2)) {
-    *from = longest_patch(scene) / 64;
+    *from = scene_longest_patch(scene) / 64;
     *ratio = 64 * 64 * 64;
   }
 }
@@ -42,7 +36,7 @@ static int choose_range(const options *o, const hr2d_scene *scene, range *r) {
   r->from = o->from > 0 ? o->from : from;
   r->to = o->to > 0 ? o->to : r->from / ratio;
   if (r->to < r->from) return 0;
-  return usage_error("--from %g is not greater than --to %g", r->from, r->to);
+  return complain_usage("--from %g is not greater than --to %g", r->from, r->to);
 }
 
 /* Through logarithms to base 2, so that powers of two are exact. */
@@ -63,29 +57,30 @@ static void sort(hr2d_study_row *rows, size_t count) {
   if (count) qsort(rows, count, sizeof *rows, by_falling_epsilon);
 }
 
-/* What no study of this scene can have written: a split adds two elements and one leaf. */
+/* Refuses rows that no study of this scene can have written: a split adds two elements and one
+   leaf. */
 static int check_known(const study *s, const hr2d_scene *scene) {
   const char *path = s->options->csv;
   const uint64_t patches = hr2d_scene_patches(scene);
   for (size_t k = 0; k < s->known; k++) {
     const hr2d_study_row *row = &s->rows[k];
     if (k && row->epsilon == row[-1].epsilon)
-      return fail(path, "cannot be resumed: epsilon %.17g is there twice", row->epsilon);
+      return complain(path, "cannot be resumed: epsilon %.17g is there twice", row->epsilon);
     if (row->counts.leaves - patches != row->counts.elements - row->counts.leaves)
-      return fail(path,
-                  "cannot be resumed: at epsilon %.17g, N = %llu and %llu leaves do not "
-                  "belong to a scene of %llu patches",
-                  row->epsilon, (unsigned long long)row->counts.elements,
-                  (unsigned long long)row->counts.leaves, (unsigned long long)patches);
+      return complain(path,
+                      "cannot be resumed: at epsilon %.17g, N = %llu and %llu leaves do not "
+                      "belong to a scene of %llu patches",
+                      row->epsilon, (unsigned long long)row->counts.elements,
+                      (unsigned long long)row->counts.leaves, (unsigned long long)patches);
   }
   return 0;
 }
 
-/* Appends the ε that are not known. */
+/* Appends the ε that the CSV does not have. */
 static int add_sequence(study *s, const range *r) {
   const unsigned steps = s->options->steps;
   hr2d_study_row *rows = realloc(s->rows, (s->count + steps) * sizeof *rows);
-  if (!rows) return fail_memory();
+  if (!rows) return complain_memory();
   s->rows = rows;
   for (unsigned k = 0; k < steps; k++) {
     const hr2d_study_row row = {.epsilon = step_epsilon(r, k, steps)};

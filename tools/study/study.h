@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A study under way: which ε are wanted, what is counted, the fit. */
+/* A study under way: the ε to count for, the counts, the fit. */
 #ifndef HR2D_TOOLS_STUDY_STUDY_H
 #define HR2D_TOOLS_STUDY_STUDY_H
 
@@ -21,28 +21,31 @@ typedef struct study {
   int complete; /* nothing ended the sweep early */
 } study;
 
-/* study-plan.c: the rows of the CSV with --resume, and those that are still to be
-   counted.  Returns 0 or the exit status after complaining; either way the rows are
-   to be freed. */
+/* plan.c: the rows of the CSV with --resume, and those that are still to be counted.  Returns
+   0, or the exit status after an error message; in both cases the rows have to be freed. */
 int study_plan(study *s, const hr2d_scene *scene);
 
 /* Keeps the rows that are counted. */
 void study_drop_uncounted(study *s);
 
-/* study-csv.c: the rows that are counted, written whole. */
+/* csv.c: the rows that are counted, written as a whole.  Returns 0 or EXIT_FAILED. */
 int study_write_csv(const study *s);
 
-/* Reads what that wrote, into memory that the caller frees; a file that does not exist
+/* Reads the rows of such a CSV into memory that the caller frees; a file that does not exist
    has no rows.  Returns 0 or EXIT_FAILED. */
 int study_read_csv(const char *path, hr2d_study_row **rows, size_t *count);
 
-/* Whether a CSV can be replaced again and again, as a pipe or device cannot. */
+/* Whether the CSV can be replaced again and again; a pipe or a device cannot. */
 int study_can_rewrite_csv(const study *s);
 
-/* study-json.c */
+/* json.c; returns 0 or EXIT_FAILED. */
 int study_write_json(const study *s);
 
-/* study-sweep.c: the progress line of a sweep, and the interrupt key. */
+/* chart.c: dots of L against N, with the fitted curve if there is one.  On logarithmic axes the
+   curve is the power law of the fitted slope.  Returns 0 or EXIT_FAILED. */
+int study_draw(const study *s);
+
+/* sweep.c: the progress line of a sweep, and the interrupt key. */
 typedef struct sweep {
   progress line;
   int wanted;

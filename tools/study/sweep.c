@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a sweep is: its fraction by steps, and ε, N and L of the count under way. */
+/* The line of a sweep: the fraction of its steps, and ε, N and L of the count under way. */
 #include <stdio.h>
-#include <string.h>
 
 #include "study/study.h"
 
-/* progress_show() then only listens for the interrupt. */
+/* `line.wanted` is off, so that progress_show() only looks for the interrupt. */
 void sweep_start(sweep *w, const study *s) {
   *w = (sweep){.steps = s->count};
   progress_start(&w->line, s->options->quiet);
@@ -21,27 +20,17 @@ hr2d_status sweep_next(sweep *w, const study *s, size_t step) {
 }
 
 static void show(sweep *w, const hr2d_progress *now) {
-  progress *p = &w->line;
   char line[128];
   const double fraction = ((double)w->step + now->fraction) / (double)w->steps;
   snprintf(line, sizeof line, "%5.1f %%  %zu/%zu  epsilon %.4g  N %llu  L %llu", 100 * fraction,
            w->step + 1, w->steps, w->epsilon, (unsigned long long)now->elements,
            (unsigned long long)now->links);
-  const int width = (int)strlen(line);
-  fprintf(stderr, "\r%-*s", p->width > width ? p->width : width, line);
-  fflush(stderr);
-  p->width = width;
+  progress_line(&w->line, line);
 }
 
 hr2d_status sweep_show(void *ctx, const hr2d_progress *now) {
   sweep *w = ctx;
-  progress *p = &w->line;
-  const hr2d_status status = progress_show(p, now);
-  if (status || !w->wanted) return status;
-  const double time = seconds();
-  if (time - p->start > 1 && time - p->last > 0.1) {
-    p->last = time;
-    show(w, now);
-  }
-  return HR2D_OK;
+  const hr2d_status status = progress_show(&w->line, now);
+  if (!status && w->wanted && progress_due(&w->line)) show(w, now);
+  return status;
 }

@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* `hr2d info`: what is in a scene and which effects it calls for. */
+/* `hr2d info`: the patches of a scene and the effects that it calls for. */
 #include <math.h>
 #include <stdio.h>
 
 #include "cli/commands.h"
-#include "cli/load.h"
-#include "output/complain.h"
+#include "cli/scene.h"
 #include "output/json.h"
-#include "output/output.h"
 
 typedef struct summary {
   double length;                      /* of all patches */
@@ -81,12 +79,6 @@ static void print_summary(const hr2d_scene *scene, const summary *s) {
   }
 }
 
-static json_t *numbers(const double *x, size_t count) {
-  json_t *array = json_array();
-  for (size_t k = 0; k < count; k++) json_push(&array, json_number(x[k]));
-  return array;
-}
-
 static json_t *bands(const hr2d_scene *scene, size_t patch,
                      double (*get)(const hr2d_scene *, size_t, size_t)) {
   json_t *array = json_array();
@@ -97,12 +89,9 @@ static json_t *bands(const hr2d_scene *scene, size_t patch,
 
 static json_t *patch_entry(const hr2d_scene *scene, size_t k) {
   const hr2d_segment s = hr2d_scene_segment(scene, k);
-  json_t *patch = json_object();
-  json_put(&patch, "index", json_count(k));
-  json_put(&patch, "name", json_text(hr2d_scene_name(scene, k)));
-  json_put(&patch, "length", json_number(hr2d_scene_length(scene, k)));
-  json_put(&patch, "a", numbers((double[]){s.a.x, s.a.y}, 2));
-  json_put(&patch, "b", numbers((double[]){s.b.x, s.b.y}, 2));
+  json_t *patch = json_patch(scene, k);
+  json_put(&patch, "a", json_numbers((double[]){s.a.x, s.a.y}, 2));
+  json_put(&patch, "b", json_numbers((double[]){s.b.x, s.b.y}, 2));
   json_put(&patch, "emission", bands(scene, k, hr2d_scene_emission));
   json_put(&patch, "reflectance", bands(scene, k, hr2d_scene_reflectance));
   return patch;
@@ -125,9 +114,9 @@ static json_t *document(const options *o, const hr2d_scene *scene, size_t cuts,
   json_put(&root, "length", json_number(s->length));
   json_put(&root, "bands", json_count(hr2d_scene_bands(scene)));
   json_put(&root, "bounding_box",
-           numbers((double[]){s->low[0], s->low[1], s->high[0], s->high[1]}, 4));
-  json_put(&root, "reflectance", numbers(s->reflectance, 2));
-  json_put(&root, "emission", numbers(s->emission, 2));
+           json_numbers((double[]){s->low[0], s->low[1], s->high[0], s->high[1]}, 4));
+  json_put(&root, "reflectance", json_numbers(s->reflectance, 2));
+  json_put(&root, "emission", json_numbers(s->emission, 2));
   for (size_t b = 0; b < hr2d_scene_bands(scene); b++)
     json_push(&background, json_number(hr2d_scene_background(scene, b)));
   json_put(&root, "background", background);
@@ -140,11 +129,11 @@ static json_t *document(const options *o, const hr2d_scene *scene, size_t cuts,
 int info_command(const options *o) {
   hr2d_scene *scene = NULL;
   size_t cuts = 0;
-  int status = load_scene(o, o->force, &scene, &cuts);
+  int status = scene_load(o, o->force, &scene, &cuts);
   if (status) return status;
   const summary s = summarise(scene);
-  if (!o->quiet && !to_stdout(o->json)) {
-    print_scene(o, 14, cuts);
+  if (options_want_table(o)) {
+    scene_print(o, 14, cuts);
     print_summary(scene, &s);
   }
   if (o->json) status = json_write(document(o, scene, cuts, &s), o->json);

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Each option with its reader, its member of `options` and its help.  The compiler refuses a
+   member that does not have the type of its reader.
+
+   Within a group the order is that of --help.  Of several options that break a rule the first
+   one is reported. */
+#include "cli/option-table.h"
+
+enum { MAX_LEVEL = 1000, MAX_THREADS = 1024, MAX_STEPS = 10000 };
+
+/* clang-format off */
+#define MEMBER(reader, m)     _Generic(((options *)0)->m, type_of_##reader: offsetof(options, m))
+#define VALUE(reader, m)      value_##reader, MEMBER(reader, m), {0, 0}
+#define WHOLE(m, least, most) value_unsigned, MEMBER(unsigned, m), {least, most}
+#define COUNT(m)              value_count, MEMBER(count, m), {1, UINT64_MAX}
+
+enum { WITH_SCENE = INFO | SOLVE | STUDY | COST | FACTORS, ALL = WITH_SCENE | PAIR };
+
+static const option_entry table[] = {
+  {"help", NULL, GROUP_OUTPUT, VALUE(flag, help), .help = {{ALL, NULL}}},
+  {"version", NULL, GROUP_OUTPUT, VALUE(flag, version), .help = {{ALL, NULL}}},
+
+  {"at", "PATCH:T", GROUP_OUTPUT, VALUE(places, at),
+   .help = {{SOLVE, "B and H at fraction T of a patch (index or name)"}}},
+  {"json", "FILE|-", GROUP_OUTPUT, VALUE(path, json),
+   .help = {{INFO, "write the same as JSON"},
+            {SOLVE, "the result as JSON; - is standard output"},
+            {STUDY, "rows and fit as JSON; - is standard output"},
+            {COST, "rows and fits as JSON; - is standard output"},
+            {FACTORS, "factors and sums as JSON; - is standard output"}},
+   .rules = IS_OUTPUT},
+  {"csv", "FILE|-", GROUP_OUTPUT, VALUE(path, csv),
+   .help = {{SOLVE, "one row per leaf element"},
+            {STUDY, "one row per epsilon, kept up to date during the sweep"},
+            {COST, "one row per method and parameter"},
+            {FACTORS, "a line of patch names, then a row of F_ij for each i"}},
+   .rules = IS_OUTPUT | NOT_WITH_PREDICT},
+  {"resume", NULL, GROUP_OUTPUT, VALUE(flag, resume),
+   .help = {{STUDY, "count only what the file of --csv does not have yet"}}},
+  {"draw", "FILE", GROUP_OUTPUT, VALUE(picture, draw),
+   .help = {{SOLVE, "the scene coloured by B, as .svg, .png or .pdf"}},
+   .rules = IS_OUTPUT},
+  {"links-of", "PATCH:T", GROUP_OUTPUT, VALUE(place, links_of),
+   .help = {{SOLVE, "draw the links that serve this point, too"}}, .needs = "draw"},
+  {"link-level", "K", GROUP_OUTPUT, WHOLE(link_level, 0, MAX_LEVEL),
+   .help = {{SOLVE, "of these only those of the element on level K"}}, .needs = "links-of"},
+  {"link-parents", NULL, GROUP_OUTPUT, VALUE(flag, link_parents),
+   .help = {{SOLVE, "with the refused pairs that these come from"}}},
+  {"plot", "FILE", GROUP_OUTPUT, VALUE(picture, plot),
+   .help = {{STUDY, "dots and fitted curve by gnuplot, as .svg, .png or .pdf"},
+            {COST, "a curve per method by gnuplot, as .svg, .png or .pdf"}},
+   .rules = IS_OUTPUT | NOT_WITH_PREDICT},
+  {"plot-log", NULL, GROUP_OUTPUT, VALUE(flag, plot_log),
+   .help = {{STUDY, "on logarithmic axes, with the slope of log L on log N"}},
+   .needs = "plot"},
+  {"against", "LIST", GROUP_OUTPUT, VALUE(against, against),
+   .help = {{COST, "of seconds (default), links, bytes; a panel for each"}},
+   .needs = "plot"},
+  {"quiet", NULL, GROUP_OUTPUT, VALUE(flag, quiet),
+   .help = {{INFO, "print no table"},
+            {SOLVE | STUDY | COST | FACTORS, "no table, no progress"}}},
+
+  {"target-error", "R", GROUP_QUESTION, VALUE(positive, target_error),
+   .help = {{SOLVE, "solve until averages of B are known to R, relative"}}},
+  {"norm", "NAME", GROUP_QUESTION, VALUE(norm, norm),
+   .help = {{SOLVE, "to R in averages (default) or, with sup, at all points"}},
+   .rules = ONLY_WITH_TARGET},
+  {"time-budget", "S", GROUP_QUESTION, VALUE(positive, time_budget),
+   .help = {{SOLVE, "the best that S seconds allow"}}},
+  {"importance", "PATCH", GROUP_QUESTION, VALUE(patch, importance),
+   .help = {{SOLVE, "only the average of this patch matters"}}, .rules = ONLY_WITH_TARGET},
+  {"from", "E", GROUP_QUESTION, VALUE(positive, from),
+   .help = {{STUDY, "first epsilon (1; bf: 0.25; l1: longest patch/64)"}}},
+  {"to", "E", GROUP_QUESTION, VALUE(positive, to),
+   .help = {{STUDY, "last epsilon (--from/64; size2: /4096; bf: /256;\n"
+                    "l1: /262144)"}}},
+  {"steps", "K", GROUP_QUESTION, WHOLE(steps, 2, MAX_STEPS),
+   .help = {{STUDY, "how many of them (13)"}}},
+  {"methods", "LIST", GROUP_QUESTION, VALUE(methods, methods),
+   .help = {{COST, "some of these, separated by commas"}}, .rules = NOT_WITH_PREDICT},
+  {"predict", NULL, GROUP_QUESTION, VALUE(flag, predict),
+   .help = {{COST, "print what a target error will cost, and no more"}}},
+
+  {"oracle", "NAME", GROUP_METHOD, VALUE(oracle, oracle),
+   .help = {{SOLVE | STUDY | PAIR, "size (default), size2, bf, l1 or l1-grid"}},
+   .rules = NOT_WITH_TARGET},
+  {"eps", "E", GROUP_METHOD, VALUE(positive, epsilon),
+   .help = {{SOLVE, "accept links whose estimated error is <= E (0.1)"}},
+   .rules = NOT_WITH_TARGET},
+  {"variant", "NAME", GROUP_METHOD, VALUE(policy, policy),
+   .help = {{SOLVE | STUDY, "original (default) or modified: what a refusal splits"}},
+   .rules = NOT_WITH_TARGET},
+  {"multigrid", "FROM:R", GROUP_METHOD, VALUE(sequence, multigrid),
+   .help = {{SOLVE, "solve for FROM, FROM*R, ... --eps, each from the last"}},
+   .rules = NOT_WITH_TARGET},
+  {"order", "P", GROUP_METHOD, WHOLE(order, 1, HR2D_MAX_ORDER),
+   .help = {{SOLVE, "Legendre coefficients of each element, 1 (default) to 32"}},
+   .rules = NOT_WITH_TARGET},
+  {"max-level", "K", GROUP_METHOD, WHOLE(max_level, 0, MAX_LEVEL),
+   .help = {{SOLVE | STUDY | COST, "elements on level K are not subdivided (24)"}},
+   .rules = NOT_WITH_TARGET | NOT_WITH_PREDICT},
+  {"no-closure", NULL, GROUP_METHOD, VALUE(flag, no_closure),
+   .help = {{SOLVE | COST, "leave rows of the kernel as coarse links make them"}},
+   .rules = NOT_WITH_TARGET},
+  {"error", NULL, GROUP_METHOD, VALUE(flag, error),
+   .help = {{SOLVE, "measure the error (default for up to 200 patches)"}}},
+  {"no-error", NULL, GROUP_METHOD, VALUE(flag, no_error),
+   .help = {{SOLVE, "do not measure it (default for more)"}}, .rules = NOT_WITH_TARGET},
+  {"state", "FILE", GROUP_METHOD, VALUE(file, state),
+   .help = {{SOLVE, "keep each stage in FILE, or go on from there"}},
+   .rules = IS_OUTPUT | NOT_WITH_TARGET},
+
+  {"max-links", "M", GROUP_WORK, COUNT(max_links),
+   .help = {{SOLVE | STUDY, "give up beyond M links"}}},
+  {"max-elements", "M", GROUP_WORK, COUNT(max_elements),
+   .help = {{SOLVE | STUDY, "give up beyond M elements"}}},
+  {"max-seconds", "S", GROUP_WORK, VALUE(positive, max_seconds),
+   .help = {{COST, "for all methods together (10), in equal shares"}},
+   .rules = NOT_WITH_PREDICT},
+  {"threads", "T", GROUP_WORK, WHOLE(threads, 0, MAX_THREADS),
+   .help = {{SOLVE | FACTORS, "threads; 0 (default) for all processors"},
+            {STUDY, "threads for a count; 0 (default) for all processors"},
+            {COST, "threads; 1 by default, 0 for all processors"}}},
+  {"split-crossings", NULL, GROUP_WORK, VALUE(flag, split_crossings),
+   .help = {{WITH_SCENE, "cut patches where they cross each other"}}},
+  {"force", "EFFECT", GROUP_WORK, VALUE(effect, force),
+   .help = {{WITH_SCENE, "turn an effect on that the scene does not call for"}}},
+};
+/* clang-format on */
+
+#define OPTIONS (sizeof table / sizeof *table)
+
+_Static_assert(OPTIONS <= MOST_OPTIONS, "given_options has no room");
+
+const option_entry *option_at(size_t k) {
+  return k < OPTIONS ? &table[k] : NULL;
+}
+
+const option_text *option_text_of(const option_entry *x, int command) {
+  for (size_t k = 0; k < sizeof x->help / sizeof *x->help; k++)
+    if (x->help[k].commands & (unsigned)command) return &x->help[k];
+  return NULL;
+}

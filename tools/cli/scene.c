@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scene files, and patches by index or name. */
+#include "cli/scene.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/numbers.h"
+#include "output/complain.h"
+
+int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cuts) {
+  *scene = NULL;
+  *cuts = 0;
+  hr2d_status status = hr2d_scene_create(NULL, scene);
+  if (!status) status = hr2d_scene_read(*scene, o->scene);
+  if (!status && o->split_crossings) status = hr2d_scene_split_crossings(*scene, cuts);
+  for (int e = 0; !status && e < HR2D_EFFECT_COUNT; e++)
+    if (force >> e & 1) status = hr2d_scene_force(*scene, (hr2d_effect)e);
+  if (!status) status = hr2d_scene_commit(*scene);
+  if (!status) return 0;
+  const int code = complain_call(o->scene, *scene ? hr2d_scene_message(*scene) : "", status);
+  hr2d_scene_destroy(*scene);
+  *scene = NULL;
+  return code;
+}
+
+void scene_print(const options *o, int width, size_t cuts) {
+  printf("%-*s%s\n", width, "scene", o->scene);
+  if (o->split_crossings) printf("%-*s%zu cut\n", width, "crossings", cuts);
+}
+
+int scene_find_place(const hr2d_scene *scene, const char *option, const place *p,
+                     size_t *patch) {
+  uint64_t index = 0;
+  if (p->patch[strspn(p->patch, "0123456789")] == '\0') {
+    if (number_count(p->patch, hr2d_scene_patches(scene) - 1, &index))
+      return complain_usage("--%s: the scene has no patch %s, only 0 to %zu", option, p->patch,
+                            hr2d_scene_patches(scene) - 1);
+    *patch = (size_t)index;
+    return 0;
+  }
+  if (hr2d_scene_find(scene, p->patch, patch))
+    return complain_usage("--%s: the scene has no patch called '%s'", option, p->patch);
+  return 0;
+}
+
+const char *scene_file_name(const options *o) {
+  const char *slash = strrchr(o->scene, '/');
+  return slash ? slash + 1 : o->scene;
+}
+
+double scene_longest_patch(const hr2d_scene *scene) {
+  double longest = 0;
+  for (size_t k = 0; k < hr2d_scene_patches(scene); k++)
+    longest = fmax(longest, hr2d_scene_length(scene, k));
+  return longest;
+}

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Colours and text. */
+#include "draw/picture.h"
+
+#if HAVE_CAIRO
+
+void pen_colour(cairo_t *cr, colour c) {
+  cairo_set_source_rgb(cr, c.r, c.g, c.b);
+}
+
+void pen_grey(cairo_t *cr, double grey) {
+  cairo_set_source_rgb(cr, grey, grey, grey);
+}
+
+void pen_font(cairo_t *cr, double size, int bold) {
+  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cr, size);
+}
+
+double pen_text_width(cairo_t *cr, const char *text) {
+  cairo_text_extents_t extents;
+  cairo_text_extents(cr, text, &extents);
+  return extents.x_advance;
+}
+
+void pen_write(cairo_t *cr, double x, double y, const char *text) {
+  cairo_move_to(cr, x, y);
+  cairo_show_text(cr, text);
+}
+#endif

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The result of `hr2d solve`, in three forms. */
+#ifndef HR2D_TOOLS_SOLVE_SOLVE_H
+#define HR2D_TOOLS_SOLVE_SOLVE_H
+
+#include "run/run.h"
+
+/* table.c: the summary on standard output.  Returns 0 or the exit status, as the others do. */
+int solve_print(const run *r, double total_seconds);
+
+/* csv.c: a row for each leaf: patch,name,t0,t1,ax,ay,bx,by,B0,…,H0,…, and at an order p above 1
+   B0c1,…,B0c(p-1),B1c1,…: B = Σ c_l P_l(2s − 1) at fraction s of the leaf, c_0 = B0. */
+int solve_write_csv(const run *r, const char *path);
+
+/* json.c */
+int solve_write_json(const run *r, double total_seconds, const char *path);
+
+#endif
