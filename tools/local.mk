@@ -75,3 +75,4 @@ tools_hr2d_SOURCES = \
 	tools/pair/line.c tools/pair/line.h
 
 dist_man_MANS = tools/hr2d.1
+EXTRA_DIST += tools/LAYERS

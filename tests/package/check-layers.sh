@@ -1,83 +1,128 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The storeys of src/LAYERS hold.  A file of src/ includes headers of its own folder, of those
-# before it, and public ones; its object calls nothing that a later folder defines.  Planted
-# faults show that each rule is checked.
+# The storeys of src/ and tools/ hold; src/LAYERS and tools/LAYERS name them.
+#
+# - A file includes headers of its own folder, of the folders before it in LAYERS, and public ones.
+# - Its object calls no function of a later folder.
+# - No two files call each other in a circle.
+#
+# Each rule has a negative control: a planted fault has to be found.
 set -eu
+acyclic="tools" # the trees whose files are free of circles
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-layers=$HR2D_SRCDIR/src/LAYERS
 
-# includes SRC: the includes that break the rule, a line each.
-includes() {
-  find "$1" -mindepth 2 -name '*.[ch]' | sort | xargs awk '
-    FILENAME == layers { if (!/^#/ && NF) storey[$1] = ++n; next }
-    FNR == 1 { k = split(FILENAME, part, "/"); own = part[k - 1]; file = own "/" part[k]
-               if (!(own in storey)) print file ": its folder is not in LAYERS" }
+# includes TREE: the includes that break the rule, a line each.
+includes() (
+  cd "$1"
+  find . -name '*.[ch]' | sort | xargs awk '
+    FILENAME == "LAYERS" { if (!/^#/ && NF) storey[$1] = ++n; next }
+    FNR == 1 {
+      file = own = substr(FILENAME, 3)
+      if (!sub("/[^/]*$", "", own)) own = "."
+      if (!(own in storey)) print file ": its folder is not in LAYERS"
+    }
     /^ *# *include *"/ {
-      split($0, quoted, "\""); header = to = quoted[2]; sub("/.*", "", to)
+      split($0, quoted, "\"")
+      header = to = quoted[2]
+      sub("/.*", "", to)
       if (header == "config.h") next
       if (header !~ "/") print file ": \"" header "\" names no folder"
       else if (!(to in storey) || storey[to] > storey[own]) print file ": may not include " header
-    }' layers="$layers" "$layers"
-}
+      else if ((getline line < header) < 0) print file ": this tree has no " header
+      close(header)
+    }' LAYERS
+)
 
-# calls SRC: a line "CALLER CALLED SYMBOL" for what an object in SRC takes from another one.
-# Objects lie in .libs/ where no static library is built.
-calls() {
-  objects=$(find "$1" -name '*.o' ! -path '*/.libs/*' | sort)
-  [ -n "$objects" ] || objects=$(find "$1" -name '*.o' | sort)
+# calls FOLDER: a line "CALLER CALLED SYMBOL" for each symbol that an object in the folder takes
+# from another one.  Objects lie in .libs/ if no static library is built.
+calls() (
+  cd "$1"
+  objects=$(find . -name '*.o' ! -path '*/.libs/*' | sort)
+  [ -n "$objects" ] || objects=$(find . -name '*.o' | sort)
   for object in $objects; do
     echo "FILE $(echo "$object" |
-      sed 's|/\.libs/|/|; s|libhr2d_core_la-||; s|\.o$||; s|.*/\([^/]*/[^/]*\)$|\1|')"
+      sed 's|/\.libs/|/|; s|/[^/-]*hr2d[^/-]*-\([^/]*\)\.o$|/\1|; s|\.o$||; s|^\./\(.*/\)|\1|')"
     ${NM:-nm} "$object" | sed 's/^[0-9a-f]* *//'
   done | awk '
     $1 == "FILE" { file = $2; next }
     $1 ~ /^[TDBRC]$/ { home[$2] = file }
     $1 == "U" { n++; caller[n] = file; symbol[n] = $2 }
-    END { for (k = 1; k <= n; k++) if (symbol[k] in home)
-            print caller[k], home[symbol[k]], symbol[k] }'
-}
+    END {
+      for (k = 1; k <= n; k++)
+        if (symbol[k] in home) print caller[k], home[symbol[k]], symbol[k]
+    }'
+)
 
-# upward CALLS: the calls that go to a later folder.
+# upward LAYERS CALLS: the calls that go to a later folder.
 upward() {
-  awk -v layers="$layers" '
+  awk -v layers="$1" '
     BEGIN { while ((getline line < layers) > 0) if (line !~ /^#/) storey[line] = ++n }
     { split($1, from, "/"); split($2, to, "/") }
-    storey[to[1]] > storey[from[1]] { print $1 " calls " $3 "() of " $2 }' "$1"
+    storey[to[1]] > storey[from[1]] { print $1 " calls " $3 "() of " $2 }' "$2"
+}
+
+# circles CALLS: the files that call each other in a circle.
+circles() {
+  cut -d ' ' -f 1,2 "$1" | { tsort >/dev/null || true; } 2>&1
 }
 
 status=0
 # none WHAT FILE: the file is empty.
 none() {
-  [ ! -s "$2" ] || { sed "s/^/$1: /" "$2" >&2; status=1; }
+  [ ! -s "$2" ] || { sed "s|^|$1: |" "$2" >&2; status=1; }
 }
-# some WHAT FILE: the file is not empty, as a fault was planted.
+# some WHAT TEXT FILE: the file has the text, as a fault was planted.
 some() {
-  [ -s "$2" ] || { echo "$1 was planted and not found" >&2; status=1; }
+  grep -q -e "$2" "$3" || { echo "$1 was planted and not found" >&2; status=1; }
 }
 
-includes "$HR2D_SRCDIR/src" >"$work/includes"
-none "include" "$work/includes"
-calls "$HR2D_BUILDDIR/src" >"$work/calls"
-upward "$work/calls" >"$work/upward"
-none "call" "$work/upward"
-some "a call between files" "$work/calls"
+for tree in src tools; do
+  layers=$HR2D_SRCDIR/$tree/LAYERS calls=$work/$tree-calls
+  includes "$HR2D_SRCDIR/$tree" >"$work/found"
+  none "include in $tree" "$work/found"
+  calls "$HR2D_BUILDDIR/$tree" >"$calls"
+  upward "$layers" "$calls" >"$work/found"
+  none "call in $tree" "$work/found"
+  [ "$(wc -l <"$calls")" -gt 100 ] || { echo "$tree has too few calls" >&2; status=1; }
+  echo "$tree: $(grep -c '^[^#]' "$layers") storeys, $(wc -l <"$calls") calls between files"
+done
+for tree in $acyclic; do
+  circles "$work/$tree-calls" >"$work/found"
+  none "circle in $tree" "$work/found"
+done
 
-mkdir -p "$work/src/geometry" "$work/src/solve"
-echo '#include "solve/equation.h"' >"$work/src/geometry/planted.c"
-includes "$work/src" >"$work/planted"
-some "an include of a later folder" "$work/planted"
-echo '#include "alloc.h"' >"$work/src/geometry/planted.c"
-includes "$work/src" >"$work/planted"
-some "an include without a folder" "$work/planted"
-echo 'void later(void); void sooner(void); void sooner(void) { later(); }' |
-  $CC -x c -c -o "$work/src/geometry/sooner.o" -
-echo 'void later(void); void sooner(void); void later(void) { sooner(); }' |
-  $CC -x c -c -o "$work/src/solve/later.o" -
-calls "$work/src" >"$work/calls-planted"
-upward "$work/calls-planted" >"$work/planted"
-some "a call of a later folder" "$work/planted"
+# plant FILE TEXT: one file with one include in a tree of its own.
+plant() {
+  rm -rf "$work/planted"
+  mkdir -p "$work/planted/${1%/*}"
+  cp "$HR2D_SRCDIR/tools/LAYERS" "$work/planted"
+  echo "#include \"$2\"" >"$work/planted/$1"
+  includes "$work/planted" >"$work/found"
+}
+plant output/planted.c run/run.h
+some "an include of a later folder" "output/planted.c: may not include run/run.h" "$work/found"
+plant run/planted.c alloc.h
+some "an include without a folder" "names no folder" "$work/found"
+plant run/planted.c base/alloc.h
+some "an include of a folder of src/" "may not include base/alloc.h" "$work/found"
+plant cost/planted.c solve/equation.h
+some "a header of src/ in a folder of the same name" "has no solve/equation.h" "$work/found"
+plant other/planted.c output/csv.h
+some "a folder that is not in LAYERS" "not in LAYERS" "$work/found"
 
-echo "$(wc -l <"$layers") lines of LAYERS, $(wc -l <"$work/calls") calls between files"
+# object FILE CALLED: an object with one function, which is called like the file and calls another.
+object() {
+  mkdir -p "$work/planted/${1%/*}"
+  echo "void $2(void); void ${1#*/}(void); void ${1#*/}(void) { $2(); }" |
+    $CC -x c -c -o "$work/planted/${1%/*}/hr2d-${1#*/}.o" -
+}
+object output/sooner later
+object pair/later sooner
+calls "$work/planted" >"$work/calls"
+upward "$HR2D_SRCDIR/tools/LAYERS" "$work/calls" >"$work/found"
+some "a call of a later folder" "output/sooner calls later() of pair/later" "$work/found"
+circles "$work/calls" >"$work/found"
+some "a circle" "pair/later" "$work/found"
+
 exit $status
