@@ -53,6 +53,7 @@ SUITES = \
 
 OUTSIDE = \
 	tests/program/check-cli.sh \
+	tests/program/check-help.sh \
 	tests/program/check-program-faults.sh \
 	tests/program/check-digits.sh \
 	tests/program/check-resume.sh \
