@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The names of the methods of `hr2d cost`, and of what its chart can show. */
+/* The names of the methods of `hr2d cost`, and of the quantities in its chart. */
 #ifndef HR2D_TOOLS_CLI_NAMES_H
 #define HR2D_TOOLS_CLI_NAMES_H
 

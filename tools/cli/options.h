@@ -94,8 +94,7 @@ int options_read(int argc, char **argv, options *o);
 
 void options_release(options *o);
 
-/* Checks, before the work starts, that the outputs can be written.  Returns 0 or EXIT_FAILED.
- */
+/* Checks before the work starts that the outputs can be written.  Returns 0 or EXIT_FAILED. */
 int options_check_outputs(const options *o);
 
 /* Whether a command prints its table on standard output. */

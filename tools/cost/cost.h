@@ -65,7 +65,7 @@ static inline const char *cost_method_name(const cost_method *m) {
   return name_of_method[m->id];
 }
 
-/* rows.c: a smaller error cannot be told from that of the reference. */
+/* rows.c: the error of the reference; smaller errors of the methods mean nothing. */
 double cost_floor(const cost *c);
 
 /* The largest relative distance of averages from the reference; get(ctx, patch, band). */

@@ -35,8 +35,7 @@ static void clear(dense *d) {
   hr2d_scene_destroy(d->scene);
 }
 
-/* The number of pieces of each patch.  No piece is longer than `length` times the longest
- * patch. */
+/* The number of pieces of each patch.  No piece is longer than `length` longest patches. */
 static void divide(dense *d, double length) {
   const hr2d_scene *scene = d->cost->scene;
   const double longest = scene_longest_patch(scene);
@@ -47,8 +46,8 @@ static void divide(dense *d, double length) {
   d->pieces = d->first[d->patches];
 }
 
-/* The point is the same to the last bit from either end: patches back to back stay back to
- * back. */
+/* The point is the same to the last bit from either end of the segment, so that the pieces of
+   patches back to back also lie back to back. */
 static hr2d_point between(hr2d_segment s, size_t k, size_t count) {
   if (s.b.x < s.a.x || (s.b.x == s.a.x && s.b.y < s.a.y))
     return between((hr2d_segment){s.b, s.a}, count - k, count);

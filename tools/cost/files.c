@@ -3,7 +3,6 @@
 #include <stdio.h>
 
 #include "cost/cost.h"
-#include "output/complain.h"
 #include "output/json.h"
 #include "output/output.h"
 
@@ -59,7 +58,7 @@ static json_t *row_entry(const cost_row *row) {
   return entry;
 }
 
-/* Powers of 1/error, or what each digit takes. */
+/* The exponents of 1/error, or the cost of each digit. */
 static json_t *fit_entry(const cost *c, const cost_method *m) {
   cost_fit time, links;
   if (cost_fit_rows(c, m, AGAINST_SECONDS, &time) || cost_fit_rows(c, m, AGAINST_LINKS, &links))

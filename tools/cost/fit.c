@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Least squares.  The cost is a power of the error; that of the automatic methods is a linear
-   function of the digits. */
+/* Least squares.  The cost of a method is a power of the error; the cost of an automatic method
+   is a linear function of the digits. */
 #include <gsl/gsl_fit.h>
 #include <math.h>
 
@@ -21,7 +21,7 @@ static size_t collect(const cost *c, const cost_method *m, against quantity, dou
   return count;
 }
 
-/* Keeps the finer half of the digits: the cost of coarse runs is mostly that of any run. */
+/* Keeps the finer half of the digits: coarse runs take as long as any run takes at least. */
 static size_t keep_fine(double *digits, double *value, size_t count) {
   double most = 0, least = INFINITY;
   size_t kept = 0;

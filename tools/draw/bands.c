@@ -96,8 +96,7 @@ static unsigned level_of_start(const hr2d_hierarchy *h, uint32_t element) {
   return level;
 }
 
-/* The tick at the start of an element.  As on a ruler, it is the longer the coarser the level
-   that it divides. */
+/* The tick at the start of an element.  As on a ruler, coarse levels have long ticks. */
 static int tick_piece(void *ctx, const piece *e) {
   const band *b = ctx;
   const picture *p = b->picture;

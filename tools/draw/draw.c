@@ -71,7 +71,7 @@ static int draw_file(picture *p, const char *path) {
   return output_close(&out, status);
 }
 
-/* The size of the page depends on that of its text, which needs a surface to be measured. */
+/* The size of the page depends on the size of its text, which is measured on a surface. */
 static int measure(picture *p) {
   cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
   p->cr = cairo_create(surface);

@@ -31,8 +31,7 @@ static size_t feature_length(const char *name) {
   return size;
 }
 
-/* The number of the name that consists of the first `size` bytes of text; name_count if none.
- */
+/* The number of the name that is the first `size` bytes of text; name_count if none. */
 static size_t find_name(const picture *p, const char *text, size_t size) {
   size_t k = 0;
   while (k < p->name_count && (strncmp(p->name[k].text, text, size) || p->name[k].text[size]))
@@ -85,7 +84,7 @@ static double gap(const box *b, const stroke *s) {
   return least;
 }
 
-/* Whether no other patch is nearer to the name: a reader takes the nearest for its owner. */
+/* Whether no other patch is nearer to a name than its own. */
 static int is_own(const picture *p, const box *b, const stroke *s) {
   const double own = gap(b, s);
   for (size_t k = 0; k < hr2d_scene_patches(p->run->scene); k++)

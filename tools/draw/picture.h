@@ -40,7 +40,7 @@ typedef struct obstacles {
   size_t count, capacity;
 } obstacles;
 
-/* A linked element, and where it starts on its patch, in element units. */
+/* A linked element, and its start on its patch in element units. */
 typedef struct neighbour {
   uint32_t element, patch;
   double start;
@@ -56,7 +56,7 @@ typedef struct region {
 
 enum { MAX_NAMES = 24 };
 
-/* A name, and the patch it is written beside. */
+/* A name, and the patch beside which it is written. */
 typedef struct caption {
   size_t patch;
   char *text;

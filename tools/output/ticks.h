@@ -17,7 +17,7 @@ double ticks_round_below(double x);
 /* About `wanted` ticks in [lo, hi]; on a logarithmic axis 0 < lo. */
 void ticks_make(ticks *t, double lo, double hi, int logarithmic, int wanted);
 
-/* Writes the number of tick k with as many digits as tell it from its neighbours. */
+/* Writes the number of tick k, with as many digits as distinguish it from its neighbours. */
 void ticks_label(const ticks *t, int k, char *text, size_t size);
 
 #endif

@@ -8,7 +8,6 @@
 #include <sys/types.h>
 
 #include "cli/commands.h"
-#include "cli/scene.h"
 #include "output/complain.h"
 #include "pair/line.h"
 

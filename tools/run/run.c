@@ -5,7 +5,6 @@
 #include <math.h>
 #include <sys/resource.h>
 
-#include "cli/scene.h"
 #include "output/clock.h"
 #include "output/complain.h"
 #include "run/state.h"

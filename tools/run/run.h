@@ -53,8 +53,7 @@ double run_mean_at(const run *r, size_t patch, double t);
 /* B and H at the point of --at number k, in all bands.  Returns 0 or the exit status. */
 int run_place(const run *r, size_t k, double *radiosity, double *irradiance);
 
-/* The difference between incoming and outgoing power of a band, relative to the incoming one.
- */
+/* The difference of incoming and outgoing power of a band, relative to the incoming power. */
 double run_power_error(const hr2d_power *p);
 
 /* The peak memory of the process. */

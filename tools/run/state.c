@@ -5,7 +5,6 @@
 #include <errno.h>
 #include <string.h>
 
-#include "cli/scene.h"
 #include "output/complain.h"
 #include "output/output.h"
 

@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs to a target error or a time budget; the errors of other runs; B and H at points. */
 #include <math.h>
-#include <stdio.h>
 
-#include "cli/scene.h"
 #include "output/clock.h"
 #include "output/complain.h"
 #include "run/run.h"
 
-/* Up to so many patches the error is measured by default. */
+/* Up to this many patches the error is measured by default. */
 enum { FEW_PATCHES = 200 };
 
 static hr2d_target make_target(const run *r, progress *p) {

@@ -8,14 +8,13 @@
 #include "cli/scene.h"
 #include "output/clock.h"
 #include "output/complain.h"
-#include "output/output.h"
 #include "run/run.h"
 #include "study/study.h"
 
-/* Up to so many links a row is counted again in a moment. */
+/* A row with at most this many links is counted again in a moment. */
 enum { FEW_LINKS = 10000 };
 
-/* A CSV on disk lags behind the sweep by at most so many seconds and one row. */
+/* A CSV on disk lags behind the sweep by at most this many seconds and one row. */
 #define CSV_EVERY 1.0
 
 static void print_row(const hr2d_study_row *row) {
