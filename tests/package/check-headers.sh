@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Each public header compiles alone, as C11 and as C++11, is reached through hr2d.h,
-# and shows nothing of GSL, of jansson or of config.h.
+# and shows nothing of GSL, of jansson or of config.h.  The programs in hr2d.h and README.md
+# compile, too.
 set -eu
 status=0
 flags="-I$HR2D_BUILDDIR/include -I$HR2D_SRCDIR/include -Wall -Wextra -Wpedantic -Werror"
@@ -35,4 +36,17 @@ for path in "$HR2D_SRCDIR"/include/hr2d/*.h "$HR2D_BUILDDIR/include/hr2d/version
     status=1
   fi
 done
+
+# program NAME FROM TO FILE: the text between two lines is a program that compiles.
+program() {
+  text=$(sed -n "/$2/,/$3/p" "$4" | sed '1d;$d; s/^ \* \{0,1\}//')
+  case $text in *main*) ;; *) echo "$1 has no program" >&2; status=1 ;; esac
+  # shellcheck disable=SC2086
+  if ! echo "$text" | $CC -std=c11 $flags -fsyntax-only -x c -; then
+    echo "the program in $1 does not compile" >&2
+    status=1
+  fi
+}
+program hr2d.h '@code' '@endcode' "$HR2D_SRCDIR/include/hr2d/hr2d.h"
+program README.md '^```c' '^```$' "$HR2D_SRCDIR/README.md"
 exit $status

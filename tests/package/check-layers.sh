@@ -5,10 +5,10 @@
 # - A file includes headers of its own folder, of the folders before it in LAYERS, and public ones.
 # - Its object calls no function of a later folder.
 # - No two files call each other in a circle.
+# - No two headers of src/ declare a function of the same name.
 #
 # Each rule has a negative control: a planted fault has to be found.
 set -eu
-acyclic="tools" # the trees whose files are free of circles
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -34,15 +34,18 @@ includes() (
     }' LAYERS
 )
 
-# calls FOLDER: a line "CALLER CALLED SYMBOL" for each symbol that an object in the folder takes
-# from another one.  Objects lie in .libs/ if no static library is built.
+# calls FOLDER SOURCES: a line "CALLER CALLED SYMBOL" for each symbol that an object in the folder
+# takes from another one.  Objects lie in .libs/ if no static library is built; those without a
+# source are left over from before a move.
 calls() (
   cd "$1"
   objects=$(find . -name '*.o' ! -path '*/.libs/*' | sort)
   [ -n "$objects" ] || objects=$(find . -name '*.o' | sort)
   for object in $objects; do
-    echo "FILE $(echo "$object" |
-      sed 's|/\.libs/|/|; s|/[^/-]*hr2d[^/-]*-\([^/]*\)\.o$|/\1|; s|\.o$||; s|^\./\(.*/\)|\1|')"
+    file=$(echo "$object" |
+      sed 's|/\.libs/|/|; s|/[^/-]*hr2d[^/-]*-\([^/]*\)\.o$|/\1|; s|\.o$||; s|^\./\(.*/\)|\1|')
+    [ -f "$2/$file.c" ] || continue
+    echo "FILE $file"
     ${NM:-nm} "$object" | sed 's/^[0-9a-f]* *//'
   done | awk '
     $1 == "FILE" { file = $2; next }
@@ -67,6 +70,13 @@ circles() {
   cut -d ' ' -f 1,2 "$1" | { tsort >/dev/null || true; } 2>&1
 }
 
+# homonyms TREE: the functions that more than one header declares.
+homonyms() {
+  find "$1" -name '*.h' | while read -r header; do
+    sed -n 's/^[a-z].*[ *]\(hr2di_[a-z0-9_]*\)(.*/\1/p' "$header" | sort -u
+  done | sort | uniq -d
+}
+
 status=0
 # none WHAT FILE: the file is empty.
 none() {
@@ -81,16 +91,16 @@ for tree in src tools; do
   layers=$HR2D_SRCDIR/$tree/LAYERS calls=$work/$tree-calls
   includes "$HR2D_SRCDIR/$tree" >"$work/found"
   none "include in $tree" "$work/found"
-  calls "$HR2D_BUILDDIR/$tree" >"$calls"
+  calls "$HR2D_BUILDDIR/$tree" "$HR2D_SRCDIR/$tree" >"$calls"
   upward "$layers" "$calls" >"$work/found"
   none "call in $tree" "$work/found"
+  circles "$calls" >"$work/found"
+  none "circle in $tree" "$work/found"
   [ "$(wc -l <"$calls")" -gt 100 ] || { echo "$tree has too few calls" >&2; status=1; }
   echo "$tree: $(grep -c '^[^#]' "$layers") storeys, $(wc -l <"$calls") calls between files"
 done
-for tree in $acyclic; do
-  circles "$work/$tree-calls" >"$work/found"
-  none "circle in $tree" "$work/found"
-done
+homonyms "$HR2D_SRCDIR/src" >"$work/found"
+none "function of two headers" "$work/found"
 
 # plant FILE TEXT: one file with one include in a tree of its own.
 plant() {
@@ -114,15 +124,19 @@ some "a folder that is not in LAYERS" "not in LAYERS" "$work/found"
 # object FILE CALLED: an object with one function, which is called like the file and calls another.
 object() {
   mkdir -p "$work/planted/${1%/*}"
-  echo "void $2(void); void ${1#*/}(void); void ${1#*/}(void) { $2(); }" |
-    $CC -x c -c -o "$work/planted/${1%/*}/hr2d-${1#*/}.o" -
+  echo "void $2(void); void ${1#*/}(void); void ${1#*/}(void) { $2(); }" >"$work/planted/$1.c"
+  $CC -c -o "$work/planted/${1%/*}/hr2d-${1#*/}.o" "$work/planted/$1.c"
 }
 object output/sooner later
 object pair/later sooner
-calls "$work/planted" >"$work/calls"
+calls "$work/planted" "$work/planted" >"$work/calls"
 upward "$HR2D_SRCDIR/tools/LAYERS" "$work/calls" >"$work/found"
 some "a call of a later folder" "output/sooner calls later() of pair/later" "$work/found"
 circles "$work/calls" >"$work/found"
 some "a circle" "pair/later" "$work/found"
+echo "double hr2di_dot(const double *u);" >"$work/planted/output/sooner.h"
+echo "static inline int hr2di_dot(int u) { return u; }" >"$work/planted/pair/later.h"
+homonyms "$work/planted" >"$work/found"
+some "a function of two headers" "hr2di_dot" "$work/found"
 
 exit $status
