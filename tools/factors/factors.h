@@ -10,12 +10,12 @@
 typedef struct factors {
   const options *options;
   const hr2d_scene *scene;
-  size_t cuts; /* of --split-crossings */
   size_t patches;
   double *factor;  /* patches × patches, row by row */
   double *row_sum; /* Σ F_ij */
   double *missing; /* 1 − Σ F_ij, without the rounding errors of the row sum */
   hr2d_matrix_counts counts;
+  size_t cuts;    /* of --split-crossings */
   double seconds; /* for all exchange areas */
 } factors;
 
