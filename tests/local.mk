@@ -16,7 +16,9 @@ SUITES = \
 	tests/bounds/check-bounds-solution \
 	tests/hard/check-hard-geometry \
 	tests/hard/check-hard-oracles \
-	tests/unit/scene/check-scene \
+	tests/unit/scene/check-patches \
+	tests/unit/scene/check-positions \
+	tests/unit/scene/check-effect-reasons \
 	tests/unit/scene/check-crossings \
 	tests/unit/formats/check-geojson \
 	tests/unit/formats/check-memory \
@@ -36,7 +38,9 @@ SUITES = \
 	tests/unit/visibility/check-exchange-matrix \
 	tests/unit/blocks/check-blocks \
 	tests/unit/solve/check-order \
-	tests/unit/accuracy/check-accuracy \
+	tests/unit/accuracy/check-known-radiosities \
+	tests/unit/accuracy/check-random-accuracy \
+	tests/unit/accuracy/check-target-calls \
 	tests/unit/clusters/check-clusters \
 	tests/unit/accuracy/check-corner \
 	tests/unit/visibility/check-events \
@@ -69,21 +73,36 @@ if HAVE_TESTS
 check_LTLIBRARIES += tests/libsupport.la
 tests_threads_check_threads_LDFLAGS = -pthread
 tests_libsupport_la_SOURCES = \
+	tests/support/accuracy-tally.c tests/support/accuracy-tally.h \
 	tests/support/accuracy-scenes.c tests/support/accuracy-scenes.h \
+	tests/support/elements.c tests/support/elements.h \
+	tests/support/fault-calls.c tests/support/fault-calls.h \
 	tests/support/fault-stage.c tests/support/fault-stage.h \
 	tests/support/hard.c tests/support/hard.h \
 	tests/support/hard-rooms.c tests/support/hard-rooms.h \
 	tests/support/hill-climb.c tests/support/hill-climb.h \
+	tests/support/lattice-scenes.c tests/support/lattice-scenes.h \
+	tests/support/links.c tests/support/links.h \
+	tests/support/memory.c tests/support/memory.h \
+	tests/support/plane.h \
 	tests/support/pair-classes.c tests/support/pair-classes.h \
 	tests/support/radiosity-scenes.c tests/support/radiosity-scenes.h \
 	tests/support/room-plans.c tests/support/room-plans.h \
-	tests/support/support.c tests/support/support.h \
+	tests/support/random.c tests/support/random.h \
+	tests/support/order.h \
+	tests/support/scene-files.c tests/support/scene-files.h \
+	tests/support/scenes.c tests/support/scenes.h \
+	tests/support/settings.c tests/support/settings.h \
+	tests/support/suite.c tests/support/suite.h \
+	tests/support/support.h \
+	tests/support/tables.c tests/support/tables.h \
 	tests/support/visibility-cases.c tests/support/visibility-cases.h \
 	tests/independent/accuracy-nystrom.c tests/independent/accuracy-nystrom.h \
 	tests/independent/brute-block.c tests/independent/brute-block.h \
 	tests/independent/brute-visibility.c tests/independent/brute-visibility.h \
 	tests/independent/mpfr-exchange.c tests/independent/mpfr-exchange.h \
-	tests/independent/mpfr-l1.c tests/independent/mpfr-l1.h
+	tests/independent/mpfr-l1.c tests/independent/mpfr-l1.h \
+	tests/independent/pair-frame.c tests/independent/pair-frame.h
 check_PROGRAMS += $(SUITES)
 TESTS += $(SUITES) $(OUTSIDE)
 else

@@ -18,12 +18,8 @@
 #define KERNEL 3e-15
 #define LENGTH (3 * ROUNDING)
 
-static hr2d_point point_at(const double *x, int k) {
-  return (hr2d_point){x[2 * k], x[2 * k + 1]};
-}
-
 static hr2d_segment segment_at(const double *x, int k) {
-  return (hr2d_segment){point_at(x, 2 * k), point_at(x, 2 * k + 1)};
+  return (hr2d_segment){hill_point(x, 2 * k), hill_point(x, 2 * k + 1)};
 }
 
 static void put_pair(double *x, pair p) {
@@ -67,7 +63,7 @@ static const char *title(const char *what, const pair_class *class) {
 /* How near to a wrong sign: 2 for one, else below 1 the more digits of the products cancel. */
 static double orientation_risk(const void *ctx, const double *x) {
   (void)ctx;
-  const hr2d_point a = point_at(x, 0), b = point_at(x, 1), c = point_at(x, 2);
+  const hr2d_point a = hill_point(x, 0), b = hill_point(x, 1), c = hill_point(x, 2);
   mpfr_t det, size;
   mpfr_inits2(MPFR_PREC_MIN, det, size, (mpfr_ptr)0);
   mpfr_orient(det, a, b, c);
@@ -128,7 +124,7 @@ static void draw_places(const void *ctx, randoms *r, double *x) {
 static double kernel_error(const void *ctx, const double *at) {
   (void)ctx;
   const hr2d_segment i = segment_at(at, 0), j = segment_at(at, 1);
-  const hr2d_point x = point_at(at, 4), y = point_at(at, 5);
+  const hr2d_point x = hill_point(at, 4), y = hill_point(at, 5);
   const double g = hr2d_kernel(&i, x, &j, y);
   if (!isfinite(x.x) || !isfinite(x.y) || !isfinite(y.x) || !isfinite(y.y))
     return isnan(g) ? 0 : INFINITY;
@@ -167,14 +163,14 @@ static hr2d_scene *scene_of(hr2d_point a, hr2d_point b) {
 /* The unit's own rule is checked on the way: nothing else may come from hr2d_scene_unit(). */
 static double length_error(const void *ctx, const double *x) {
   (void)ctx;
-  hr2d_scene *scene = scene_of(point_at(x, 0), point_at(x, 1));
+  hr2d_scene *scene = scene_of(hill_point(x, 0), hill_point(x, 1));
   if (!scene) return -1;
   double most = 0;
   for (int k = 0; k < 4; k++) most = fmax(most, fabs(x[k]));
   ck_assert_double_eq(hr2d_scene_unit(scene), ldexp(1, ilogb(most)));
   mpfr_t exact;
   mpfr_init2(exact, MPFR_PREC_MIN);
-  mpfr_distance(exact, point_at(x, 0), point_at(x, 1));
+  mpfr_distance(exact, hill_point(x, 0), hill_point(x, 1));
   const double error = mpfr_double_error(hr2d_scene_length(scene, 0), exact);
   mpfr_clear(exact);
   hr2d_scene_destroy(scene);
@@ -314,7 +310,7 @@ END_TEST
 
 /* Negative controls: the climber finds what textbook code loses, from harmless starts. */
 static double plain_orientation_risk(const void *ctx, const double *x) {
-  const hr2d_point a = point_at(x, 0), b = point_at(x, 1), c = point_at(x, 2);
+  const hr2d_point a = hill_point(x, 0), b = hill_point(x, 1), c = hill_point(x, 2);
   const double det = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   const int sign = (det > 0) - (det < 0);
   const double risk = orientation_risk(ctx, x);
@@ -332,7 +328,7 @@ static double plain_kernel_error(const void *ctx, const double *at) {
   if (kernel_error(ctx, at) != 0 && r > 0) {
     mpfr_t exact;
     mpfr_init2(exact, MPFR_PREC_MIN);
-    mpfr_kernel_of_lines(exact, &i, point_at(at, 4), &j, point_at(at, 5));
+    mpfr_kernel_of_lines(exact, &i, hill_point(at, 4), &j, hill_point(at, 5));
     const double error = mpfr_zero_p(exact) ? -1 : mpfr_double_error(g, exact);
     mpfr_clear(exact);
     return error;
@@ -349,18 +345,10 @@ START_TEST(the_climber_finds_what_textbooks_lose) {
 }
 END_TEST
 
-int main(void) {
-  printf("seed %lu\n", test_seed());
-  fflush(stdout);
-  Suite *suite = suite_create("bounds of geometry");
-  TCase *tc = tcase_create("geometry");
+TEST_SUITE("bounds of geometry") {
   const int all = pair_class_count + 1;
-  tcase_add_loop_test(tc, orientations_have_exact_signs, 0, all);
-  tcase_add_loop_test(tc, exchange_areas_hold_their_bound, 0, all);
-  tcase_add_loop_test(tc, kernels_hold_their_bound, 0, all);
-  tcase_add_loop_test(tc, lengths_hold_their_bound, 0, all);
-  tcase_add_loop_test(tc, midpoints_hold_their_bound, 0, pair_class_count);
-  tcase_add_test(tc, the_climber_finds_what_textbooks_lose);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+  REPEAT_TESTS(all, "geometry", orientations_have_exact_signs, exchange_areas_hold_their_bound,
+               kernels_hold_their_bound, lengths_hold_their_bound);
+  REPEAT_TESTS(pair_class_count, "geometry", midpoints_hold_their_bound);
+  ADD_TESTS("geometry", the_climber_finds_what_textbooks_lose);
 }

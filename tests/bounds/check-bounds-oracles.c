@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 #include "independent/mpfr-exchange.h"
+#include "support/elements.h"
 #include "support/hill-climb.h"
 #include "support/support.h"
 
@@ -21,26 +22,15 @@ enum { PRECISION = 2400 };
 /* Ends and centres of two elements, their lengths, and the brightness of the second. */
 enum { LENGTHS = 12, BRIGHTNESS = 14, NUMBERS = 15 };
 
-static hr2d_point point_at(const double *x, int k) {
-  return (hr2d_point){x[2 * k], x[2 * k + 1]};
-}
-
 static hr2d_element element_at(const double *x, int k) {
-  return (hr2d_element){.a = point_at(x, 2 * k),
-                        .b = point_at(x, 2 * k + 1),
-                        .centre = point_at(x, 4 + k),
+  return (hr2d_element){.a = hill_point(x, 2 * k),
+                        .b = hill_point(x, 2 * k + 1),
+                        .centre = hill_point(x, 4 + k),
                         .length = x[LENGTHS + k]};
 }
 
 static void draw_elements(const void *ctx, randoms *r, double *x) {
-  const pair p = draw_pair(ctx, r);
-  const hr2d_point point[4] = {p.i.a, p.i.b, p.j.a, p.j.b};
-  double most = DBL_TRUE_MIN;
-  for (int k = 0; k < 4; k++) most = fmax(most, fmax(fabs(point[k].x), fabs(point[k].y)));
-  for (int k = 0; k < 4; k++) {
-    x[2 * k] = ldexp(point[k].x, -ilogb(most));
-    x[2 * k + 1] = ldexp(point[k].y, -ilogb(most));
-  }
+  element_draw(ctx, r, x);
   for (int k = 0; k < 2; k++) {
     const double *a = x + 4 * k, *b = a + 2;
     x[8 + 2 * k] = 0.5 * (a[0] + b[0]);
@@ -52,42 +42,25 @@ static void draw_elements(const void *ctx, randoms *r, double *x) {
 
 /* In units of a scene, and within 2^800 of each other, as the header has it. */
 static int are_elements(const double *x) {
-  double least = INFINITY, most = 0;
-  for (int k = 0; k < LENGTHS; k++) {
-    const double size = fabs(x[k]);
-    most = fmax(most, size);
-    if (size > 0) least = fmin(least, size);
-  }
-  return most < 2 && least >= 0x1p-800 * most && x[LENGTHS] > 0 && x[LENGTHS] < 6 &&
+  return element_in_range(x, LENGTHS, 800) && x[LENGTHS] > 0 && x[LENGTHS] < 6 &&
          x[LENGTHS + 1] > 0 && x[LENGTHS + 1] < 6;
 }
 
 /* The estimate; negative where decisions disagree with it. */
 static double ask(const hr2d_oracle *oracle, const double *x) {
-  const hr2d_element element[2] = {element_at(x, 0), element_at(x, 1)};
   const double brightness[2] = {0, x[BRIGHTNESS]};
-  const hr2d_pair asked = {0, 1};
-  hr2d_batch batch = {.struct_size = sizeof batch,
-                      .elements = element,
-                      .pairs = &asked,
-                      .count = 1,
-                      .unit = 1,
-                      .brightness = brightness};
-  double error;
-  ck_assert_int_eq(oracle->estimate(NULL, &batch, &error), HR2D_OK);
-  ck_assert(!isnan(error));
+  const element_pair p = {{element_at(x, 0), element_at(x, 1)}, brightness};
+  const hr2d_batch batch = element_batch(&p);
+  const double error = element_estimate(oracle, &batch);
   const double steps[] = {error, nextafter(error, 0), nextafter(error, INFINITY), error * 0.7};
-  for (int k = 0; k < 4 && oracle->accept; k++) {
-    unsigned char accepted = 7;
-    ck_assert_int_eq(oracle->accept(NULL, &batch, steps[k], &accepted), HR2D_OK);
-    if (accepted != (error <= steps[k])) return -1;
-  }
+  for (int k = 0; k < 4 && oracle->accept; k++)
+    if (element_accepted(oracle, &batch, steps[k]) != (error <= steps[k])) return -1;
   return error;
 }
 
 /* r of the centres; 0 where they coincide. */
 static void distance_of(mpfr_t r, const double *x) {
-  mpfr_distance(r, point_at(x, 4), point_at(x, 5));
+  mpfr_distance(r, hill_point(x, 4), hill_point(x, 5));
   mpfr_prec_round(r, 300, RN);
 }
 
@@ -216,13 +189,7 @@ START_TEST(rounded_cosines_fail) {
 }
 END_TEST
 
-int main(void) {
-  printf("seed %lu\n", test_seed());
-  fflush(stdout);
-  Suite *suite = suite_create("bounds of oracles");
-  TCase *tc = tcase_create("oracles");
-  tcase_add_loop_test(tc, estimates_hold_their_bound, 0, ORACLES * pair_class_count);
-  tcase_add_test(tc, rounded_cosines_fail);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+TEST_SUITE("bounds of oracles") {
+  REPEAT_TESTS(ORACLES * pair_class_count, "oracles", estimates_hold_their_bound);
+  ADD_TESTS("oracles", rounded_cosines_fail);
 }

@@ -183,12 +183,6 @@ START_TEST(solutions_hold_their_bound) {
 }
 END_TEST
 
-int main(void) {
-  printf("seed %lu\n", test_seed());
-  fflush(stdout);
-  Suite *suite = suite_create("bounds of solutions");
-  TCase *tc = tcase_create("solutions");
-  tcase_add_test(tc, solutions_hold_their_bound);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+TEST_SUITE("bounds of solutions") {
+  ADD_TESTS("solutions", solutions_hold_their_bound);
 }

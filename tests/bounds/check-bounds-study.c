@@ -214,13 +214,6 @@ START_TEST(close_and_uneven_counts) {
 }
 END_TEST
 
-int main(void) {
-  printf("seed %lu\n", test_seed());
-  fflush(stdout);
-  Suite *suite = suite_create("bounds of fits");
-  TCase *tc = tcase_create("fits");
-  tcase_add_test(tc, fits_hold_their_bounds);
-  tcase_add_test(tc, close_and_uneven_counts);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+TEST_SUITE("bounds of fits") {
+  ADD_TESTS("fits", fits_hold_their_bounds, close_and_uneven_counts);
 }

@@ -69,12 +69,6 @@ START_TEST(occluded_areas_hold_their_bound) {
 }
 END_TEST
 
-int main(void) {
-  printf("seed %lu\n", test_seed());
-  fflush(stdout);
-  Suite *suite = suite_create("bounds of visibility");
-  TCase *tc = tcase_create("visibility");
-  tcase_add_loop_test(tc, occluded_areas_hold_their_bound, 0, occluded_class_count);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+TEST_SUITE("bounds of visibility") {
+  REPEAT_TESTS(occluded_class_count, "visibility", occluded_areas_hold_their_bound);
 }

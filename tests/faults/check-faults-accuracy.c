@@ -129,14 +129,6 @@ START_TEST(predictions) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("faults of targets");
-  TCase *memory = tcase_create("memory");
-  tcase_set_timeout(memory, 600);
-  tcase_add_test(memory, targets);
-  tcase_add_test(memory, clusters);
-  tcase_add_test(memory, clusters_without_links_are_solved);
-  tcase_add_test(memory, predictions);
-  suite_add_tcase(suite, memory);
-  return test_run(suite);
+TEST_SUITE("faults of targets") {
+  ADD_TESTS("memory", targets, clusters, clusters_without_links_are_solved, predictions);
 }

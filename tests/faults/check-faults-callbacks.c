@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "support/fault-stage.h"
+#include "support/fault-calls.h"
 
 /* What callback number `at` of a kind does. */
 typedef struct puppet {
@@ -110,70 +110,45 @@ static hr2d_refine_options fine(double epsilon, unsigned threads) {
   return o;
 }
 
-static hr2d_status with(fault_stage *s, uint64_t *sum, hr2d_status status) {
-  if (!status) *sum = fault_mix_count(*sum, fault_stage_sum(s));
-  return status;
-}
-
 static hr2d_status refine(fault_stage *s, uint64_t *sum) {
   const hr2d_refine_options o = fine(0.02, 1);
-  return with(s, sum, hr2d_refine(s->links, &o));
-}
-
-static hr2d_status count_on(fault_stage *s, uint64_t *sum, unsigned threads) {
-  hr2d_refine_options o = fine(threads > 1 ? 0.005 : 0.02, threads);
-  hr2d_refine_counts counts;
-  o.max_level = threads > 1 ? 9 : o.max_level;
-  const hr2d_status status = hr2d_refine_count(s->links, &o, &counts);
-  if (!status) *sum = fault_mix_count(*sum, fault_counts_sum(&counts));
-  return with(s, sum, status);
+  return fault_mix_stage(s, sum, hr2d_refine(s->links, &o));
 }
 
 static hr2d_status count(fault_stage *s, uint64_t *sum) {
-  return count_on(s, sum, 1);
+  const hr2d_refine_options o = fine(0.02, 1);
+  return fault_count(s, sum, &o);
 }
 
 static hr2d_status count_by_three(fault_stage *s, uint64_t *sum) {
-  return count_on(s, sum, 3);
+  hr2d_refine_options o = fine(0.005, 3);
+  o.max_level = 9;
+  return fault_count(s, sum, &o);
 }
 
 static hr2d_status visit(fault_stage *s, uint64_t *sum) {
   const hr2d_refine_options o = fine(0.02, 1);
   hr2d_refine_counts counts;
-  return with(s, sum, hr2d_refine_visit(s->links, &o, seen, sum, &counts));
+  return fault_mix_stage(s, sum, hr2d_refine_visit(s->links, &o, seen, sum, &counts));
 }
 
 static hr2d_status study(fault_stage *s, uint64_t *sum) {
   static const double epsilon[] = {0.3, 0.02};
   const hr2d_refine_options o = fine(1, 1);
-  hr2d_study_row row[2];
-  size_t done = 99;
-  const hr2d_status status = hr2d_study_run(s->links, &o, epsilon, 2, row, &done);
-  ck_assert(status ? done < 2 : done == 2);
-  for (size_t k = 0; !status && k < 2; k++)
-    *sum = fault_mix_count(*sum, fault_counts_sum(&row[k].counts));
-  return with(s, sum, status);
+  return fault_study(s, sum, &o, epsilon, 2);
 }
 
 static hr2d_status solve(fault_stage *s, uint64_t *sum) {
   hr2d_solve_options how = HR2D_SOLVE_OPTIONS_INIT;
   how.progress = told;
-  hr2d_solution_destroy(s->result);
-  s->result = NULL;
-  const hr2d_status status = hr2d_solve(s->links, &how, &s->result);
-  if (!status) *sum = fault_mix_count(*sum, fault_solution_sum(s->result));
-  return status;
+  return fault_solve(s, sum, &how);
 }
 
 static hr2d_status matrix_on(fault_stage *s, uint64_t *sum, unsigned threads) {
   hr2d_matrix_options how = HR2D_MATRIX_OPTIONS_INIT;
-  double area[64];
-  const size_t n = hr2d_scene_patches(s->scene);
   how.threads = threads;
   how.progress = told;
-  const hr2d_status status = hr2d_exchange_matrix(s->scene, &how, area, NULL);
-  if (!status) *sum = fault_mix(*sum, area, n * n * sizeof *area);
-  return status;
+  return fault_matrix(s, sum, &how);
 }
 
 static hr2d_status matrix(fault_stage *s, uint64_t *sum) {
@@ -587,19 +562,10 @@ START_TEST(an_error_that_no_budget_suffices_for_is_not_known) {
 }
 END_TEST
 
-int main(void) {
-  const TTest *const tests[] = {progress_ends_every_long_call,
-                                oracles_policies_and_visitors_end_a_call,
-                                estimates_without_meaning_are_refused,
-                                any_byte_but_0_is_a_yes_and_none_is_a_no,
-                                subdivisions_without_meaning_are_refused,
-                                what_is_worked_on_cannot_be_changed_from_within,
-                                other_objects_can_be_used_from_within,
-                                an_error_that_no_budget_suffices_for_is_not_known};
-  Suite *suite = suite_create("faults of callbacks");
-  TCase *callbacks = tcase_create("callbacks");
-  tcase_set_timeout(callbacks, 600);
-  for (size_t k = 0; k < sizeof tests / sizeof *tests; k++) tcase_add_test(callbacks, tests[k]);
-  suite_add_tcase(suite, callbacks);
-  return test_run(suite);
+TEST_SUITE("faults of callbacks") {
+  ADD_TESTS(
+      "callbacks", progress_ends_every_long_call, oracles_policies_and_visitors_end_a_call,
+      estimates_without_meaning_are_refused, any_byte_but_0_is_a_yes_and_none_is_a_no,
+      subdivisions_without_meaning_are_refused, what_is_worked_on_cannot_be_changed_from_within,
+      other_objects_can_be_used_from_within, an_error_that_no_budget_suffices_for_is_not_known);
 }

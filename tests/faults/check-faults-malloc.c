@@ -144,11 +144,9 @@ static hr2d_status read_scene(void *ctx) {
 
 START_TEST(scenes) {
   static const char *const files[] = {"furnace.geojson", "square-room.geojson", "blk1.vs2"};
-  const char *folder = getenv("HR2D_SCENES");
-  ck_assert_msg(folder != NULL, "HR2D_SCENES is not set");
   for (int k = 0; k < 3 && is_replaced(); k++) {
     char path[4096];
-    snprintf(path, sizeof path, "%s/%s", folder, files[k]);
+    snprintf(path, sizeof path, "%s", test_scene_path(files[k]));
     ck_assert_int_gt(starve(files[k], read_scene, path), 5);
   }
 }
@@ -206,13 +204,6 @@ START_TEST(solutions) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("faults of malloc");
-  TCase *tests = tcase_create("malloc");
-  tcase_set_timeout(tests, 600);
-  tcase_add_test(tests, fits);
-  tcase_add_test(tests, scenes);
-  tcase_add_test(tests, solutions);
-  suite_add_tcase(suite, tests);
-  return test_run(suite);
+TEST_SUITE("faults of malloc") {
+  ADD_TESTS("malloc", fits, scenes, solutions);
 }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "support/fault-stage.h"
+#include "support/fault-calls.h"
 
 static const char *of_scene(const fault_stage *s) {
   return hr2d_scene_message(s->scene);
@@ -20,12 +20,6 @@ static hr2d_status create_scene(fault_stage *s, uint64_t *sum) {
   return hr2d_scene_create(&hooks, &s->scene);
 }
 
-/* A call whose outcome is the scene itself. */
-static hr2d_status with_scene(fault_stage *s, uint64_t *sum, hr2d_status status) {
-  if (!status) *sum = fault_mix_count(*sum, fault_stage_sum(s));
-  return status;
-}
-
 static hr2d_status add_patch(fault_stage *s, uint64_t *sum) {
   static const double e[] = {1, 2, 3}, rho[] = {.5, .25, .125};
   const hr2d_patch patch = {.a = {3, 3},
@@ -38,26 +32,26 @@ static hr2d_status add_patch(fault_stage *s, uint64_t *sum) {
                             .sides = HR2D_SIDES_BOTH};
   size_t index = 99;
   const hr2d_status status = hr2d_scene_add(s->scene, &patch, &index);
-  return with_scene(s, sum, status);
+  return fault_mix_stage(s, sum, status);
 }
 
 static hr2d_status set_background(fault_stage *s, uint64_t *sum) {
   static const double sky[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
-  return with_scene(s, sum, hr2d_scene_set_background(s->scene, sky, 10));
+  return fault_mix_stage(s, sum, hr2d_scene_set_background(s->scene, sky, 10));
 }
 
 static hr2d_status split_crossings(fault_stage *s, uint64_t *sum) {
   size_t cuts = 0;
   const hr2d_status status = hr2d_scene_split_crossings(s->scene, &cuts);
   if (!status) ck_assert_uint_eq(cuts, 1);
-  return with_scene(s, sum, status);
+  return fault_mix_stage(s, sum, status);
 }
 
 static hr2d_status commit(fault_stage *s, uint64_t *sum) {
   const hr2d_status status = hr2d_scene_commit(s->scene);
   for (int e = 0; !status && e < HR2D_EFFECT_COUNT; e++)
     *sum = fault_mix_count(*sum, (uint64_t)hr2d_scene_effect(s->scene, (hr2d_effect)e, NULL));
-  return with_scene(s, sum, status);
+  return fault_mix_stage(s, sum, status);
 }
 
 static hr2d_status force_and_commit(fault_stage *s, uint64_t *sum) {
@@ -74,15 +68,11 @@ static const char geojson[] =
     "[2,1],[0,1],[0,0]],[[0.5,0.5],[1,0.5],[1,0.75],[0.5,0.5]]]]}}]}";
 
 static hr2d_status parse_geojson(fault_stage *s, uint64_t *sum) {
-  return with_scene(s, sum, hr2d_scene_parse(s->scene, geojson, sizeof geojson - 1));
+  return fault_mix_stage(s, sum, hr2d_scene_parse(s->scene, geojson, sizeof geojson - 1));
 }
 
 static hr2d_status read_file(fault_stage *s, uint64_t *sum, const char *name) {
-  const char *folder = getenv("HR2D_SCENES");
-  char path[4096];
-  ck_assert_msg(folder != NULL, "HR2D_SCENES is not set");
-  snprintf(path, sizeof path, "%s/%s", folder, name);
-  return with_scene(s, sum, hr2d_scene_read(s->scene, path));
+  return fault_mix_stage(s, sum, hr2d_scene_read(s->scene, test_scene_path(name)));
 }
 
 static hr2d_status read_geojson(fault_stage *s, uint64_t *sum) {
@@ -123,57 +113,38 @@ static hr2d_status create_links(fault_stage *s, uint64_t *sum) {
   return status;
 }
 
-static hr2d_refine_options options(double epsilon) {
-  hr2d_refine_options o = HR2D_REFINE_OPTIONS_INIT;
-  o.epsilon = epsilon;
-  o.max_level = 5;
-  return o;
-}
-
-static hr2d_status with_links(fault_stage *s, uint64_t *sum, hr2d_status status) {
-  if (!status) *sum = fault_mix_count(*sum, fault_stage_sum(s));
-  return status;
-}
-
 static hr2d_status refine(fault_stage *s, uint64_t *sum) {
-  const hr2d_refine_options o = options(0.15);
-  return with_links(s, sum, hr2d_refine(s->links, &o));
+  const hr2d_refine_options o = test_options(0.15, 5);
+  return fault_mix_stage(s, sum, hr2d_refine(s->links, &o));
 }
 
 /* The error is a length. */
 static hr2d_status refine_finely(fault_stage *s, uint64_t *sum) {
-  const hr2d_refine_options o = options(0.001);
-  return with_links(s, sum, hr2d_refine(s->links, &o));
+  const hr2d_refine_options o = test_options(0.001, 5);
+  return fault_mix_stage(s, sum, hr2d_refine(s->links, &o));
 }
 
 static hr2d_status refine_ordered(fault_stage *s, uint64_t *sum) {
-  hr2d_refine_options o = options(0.15);
+  hr2d_refine_options o = test_options(0.15, 5);
   o.ordered = 1;
-  return with_links(s, sum, hr2d_refine(s->links, &o));
+  return fault_mix_stage(s, sum, hr2d_refine(s->links, &o));
 }
 
 static hr2d_status refine_by_brightness(fault_stage *s, uint64_t *sum) {
-  hr2d_refine_options o = options(0.02);
+  hr2d_refine_options o = test_options(0.02, 5);
   o.brightness = s->solution;
-  return with_links(s, sum, hr2d_refine(s->links, &o));
-}
-
-static hr2d_status count_on(fault_stage *s, uint64_t *sum, unsigned threads) {
-  hr2d_refine_options o = options(threads > 1 ? 0.005 : 0.05);
-  hr2d_refine_counts counts;
-  o.max_level = threads > 1 ? 9 : 8;
-  o.threads = threads;
-  const hr2d_status status = hr2d_refine_count(s->links, &o, &counts);
-  if (!status) *sum = fault_mix_count(*sum, fault_counts_sum(&counts));
-  return with_links(s, sum, status);
+  return fault_mix_stage(s, sum, hr2d_refine(s->links, &o));
 }
 
 static hr2d_status count(fault_stage *s, uint64_t *sum) {
-  return count_on(s, sum, 1);
+  const hr2d_refine_options o = test_options(0.05, 8);
+  return fault_count(s, sum, &o);
 }
 
 static hr2d_status count_by_three(fault_stage *s, uint64_t *sum) {
-  return count_on(s, sum, 3);
+  hr2d_refine_options o = test_options(0.005, 9);
+  o.threads = 3;
+  return fault_count(s, sum, &o);
 }
 
 static hr2d_status look(void *ctx, const hr2d_link *links, size_t count_of_links) {
@@ -182,37 +153,23 @@ static hr2d_status look(void *ctx, const hr2d_link *links, size_t count_of_links
 }
 
 static hr2d_status visit(fault_stage *s, uint64_t *sum) {
-  const hr2d_refine_options o = options(0.15);
+  const hr2d_refine_options o = test_options(0.15, 5);
   hr2d_refine_counts counts;
-  return with_links(s, sum, hr2d_refine_visit(s->links, &o, look, sum, &counts));
+  return fault_mix_stage(s, sum, hr2d_refine_visit(s->links, &o, look, sum, &counts));
 }
 
 static hr2d_status study(fault_stage *s, uint64_t *sum) {
   static const double epsilon[] = {0.7, 0.3, 0.15};
-  const hr2d_refine_options o = options(1);
-  hr2d_study_row row[3];
-  size_t done = 99;
-  const hr2d_status status = hr2d_study_run(s->links, &o, epsilon, 3, row, &done);
-  ck_assert(status ? done < 3 : done == 3);
-  for (size_t k = 0; !status && k < 3; k++)
-    *sum = fault_mix_count(*sum, fault_counts_sum(&row[k].counts));
-  return with_links(s, sum, status);
+  const hr2d_refine_options o = test_options(1, 5);
+  return fault_study(s, sum, &o, epsilon, 3);
 }
 
 static hr2d_status validate(fault_stage *s, uint64_t *sum) {
-  return with_links(s, sum, hr2d_linkset_validate(s->links));
-}
-
-static hr2d_status solve_as(fault_stage *s, uint64_t *sum, const hr2d_solve_options *how) {
-  hr2d_solution_destroy(s->result);
-  s->result = NULL;
-  const hr2d_status status = hr2d_solve(s->links, how, &s->result);
-  if (!status) *sum = fault_mix_count(*sum, fault_solution_sum(s->result));
-  return status;
+  return fault_mix_stage(s, sum, hr2d_linkset_validate(s->links));
 }
 
 static hr2d_status solve(fault_stage *s, uint64_t *sum) {
-  return solve_as(s, sum, NULL);
+  return fault_solve(s, sum, NULL);
 }
 
 static hr2d_status solve_otherwise(fault_stage *s, uint64_t *sum) {
@@ -220,7 +177,7 @@ static hr2d_status solve_otherwise(fault_stage *s, uint64_t *sum) {
   how.closure = 0;
   how.start = s->solution;
   how.threads = 2;
-  return solve_as(s, sum, &how);
+  return fault_solve(s, sum, &how);
 }
 
 static hr2d_status gather(fault_stage *s, uint64_t *sum) {
@@ -231,23 +188,16 @@ static hr2d_status gather(fault_stage *s, uint64_t *sum) {
   return status;
 }
 
-static hr2d_status matrix_on(fault_stage *s, uint64_t *sum, unsigned threads) {
-  hr2d_matrix_options how = HR2D_MATRIX_OPTIONS_INIT;
-  double area[64];
-  const size_t n = hr2d_scene_patches(s->scene);
-  ck_assert_uint_le(n * n, sizeof area / sizeof *area);
-  how.threads = threads;
-  const hr2d_status status = hr2d_exchange_matrix(s->scene, &how, area, NULL);
-  if (!status) *sum = fault_mix(*sum, area, n * n * sizeof *area);
-  return status;
-}
-
 static hr2d_status matrix(fault_stage *s, uint64_t *sum) {
-  return matrix_on(s, sum, 1);
+  hr2d_matrix_options how = HR2D_MATRIX_OPTIONS_INIT;
+  how.threads = 1;
+  return fault_matrix(s, sum, &how);
 }
 
 static hr2d_status matrix_by_three(fault_stage *s, uint64_t *sum) {
-  return matrix_on(s, sum, 3);
+  hr2d_matrix_options how = HR2D_MATRIX_OPTIONS_INIT;
+  how.threads = 3;
+  return fault_matrix(s, sum, &how);
 }
 
 static hr2d_status area(fault_stage *s, uint64_t *sum) {
@@ -383,13 +333,6 @@ START_TEST(failures_are_seen) {
 }
 END_TEST
 
-int main(void) {
-  const TTest *const tests[] = {scenes,    refinements, counts,
-                                solutions, exchanges,   failures_are_seen};
-  Suite *suite = suite_create("faults");
-  TCase *memory = tcase_create("memory");
-  tcase_set_timeout(memory, 600);
-  for (size_t k = 0; k < sizeof tests / sizeof *tests; k++) tcase_add_test(memory, tests[k]);
-  suite_add_tcase(suite, memory);
-  return test_run(suite);
+TEST_SUITE("faults") {
+  ADD_TESTS("memory", scenes, refinements, counts, solutions, exchanges, failures_are_seen);
 }

@@ -7,6 +7,7 @@
 #include "independent/mpfr-exchange.h"
 #include "support/hard.h"
 #include "support/pair-classes.h"
+#include "support/plane.h"
 #include "support/support.h"
 
 /* The bounds of geometry.h, and what a textbook formula is wrong by at least. */
@@ -46,19 +47,8 @@ static double crossed_strings(hr2d_segment i, hr2d_segment j) {
   return 0.5 * (length(i.a, j.a) + length(i.b, j.b) - length(i.a, j.b) - length(i.b, j.a));
 }
 
-/* The part of s on the left of `by`. */
-static hr2d_segment clipped(hr2d_segment s, hr2d_segment by) {
-  const double x = by.b.x - by.a.x, y = by.b.y - by.a.y;
-  const double ha = x * (s.a.y - by.a.y) - y * (s.a.x - by.a.x);
-  const double hb = x * (s.b.y - by.a.y) - y * (s.b.x - by.a.x);
-  const double t = ha / (ha - hb);
-  const hr2d_point at = {s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)};
-  if (ha <= 0 && hb <= 0) return (hr2d_segment){s.a, s.a};
-  return (hr2d_segment){ha < 0 ? at : s.a, hb < 0 ? at : s.b};
-}
-
 static double clipped_strings(hr2d_segment i, hr2d_segment j) {
-  return crossed_strings(clipped(i, j), clipped(j, i));
+  return crossed_strings(plane_clipped(i, j), plane_clipped(j, i));
 }
 
 typedef struct area_case {
@@ -234,14 +224,9 @@ START_TEST(kernels_at_one_point) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("hard geometry");
-  TCase *tc = tcase_create("hard");
-  tcase_add_loop_test(tc, exchange_areas, 0, sizeof area_cases / sizeof *area_cases);
-  tcase_add_test(tc, subnormal_lengths);
-  tcase_add_test(tc, closed_forms);
-  tcase_add_loop_test(tc, kernels, 0, sizeof kernel_cases / sizeof *kernel_cases);
-  tcase_add_test(tc, kernels_at_one_point);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+TEST_SUITE("hard geometry") {
+  REPEAT_TESTS(sizeof area_cases / sizeof *area_cases, "hard", exchange_areas);
+  ADD_TESTS("hard", subnormal_lengths, closed_forms);
+  REPEAT_TESTS(sizeof kernel_cases / sizeof *kernel_cases, "hard", kernels);
+  ADD_TESTS("hard", kernels_at_one_point);
 }

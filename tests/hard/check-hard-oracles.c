@@ -8,73 +8,55 @@
 #include <string.h>
 
 #include "independent/mpfr-l1.h"
+#include "support/elements.h"
 #include "support/hard.h"
 #include "support/pair-classes.h"
+#include "support/plane.h"
 #include "support/support.h"
 
 #define WRONG 1e-8
 
-static double length(hr2d_segment s) {
-  return hypot(s.b.x - s.a.x, s.b.y - s.a.y);
-}
-
-static hr2d_point middle(hr2d_segment s) {
-  return (hr2d_point){0.5 * (s.a.x + s.b.x), 0.5 * (s.a.y + s.b.y)};
-}
-
-static hr2d_element element_of(hr2d_segment s) {
-  return (hr2d_element){.a = s.a, .b = s.b, .centre = middle(s), .length = length(s)};
-}
-
 /* The estimate of an oracle, in whose unit the segments are. */
 static double ask(const hr2d_oracle *oracle, hr2d_segment i, hr2d_segment j,
                   double brightness) {
-  const hr2d_element element[2] = {element_of(i), element_of(j)};
   const double bright[2] = {1, brightness};
-  const hr2d_pair asked = {0, 1};
-  const hr2d_batch batch = {.struct_size = sizeof batch,
-                            .elements = element,
-                            .pairs = &asked,
-                            .count = 1,
-                            .unit = 1,
-                            .brightness = bright};
-  double error;
-  ck_assert_int_eq(oracle->estimate(NULL, &batch, &error), HR2D_OK);
-  return error;
+  const element_pair p = {{element_of(i), element_of(j)}, bright};
+  const hr2d_batch batch = element_batch(&p);
+  return element_estimate(oracle, &batch);
 }
 
 /* Textbooks. */
 
 static double textbook_r2(hr2d_segment i, hr2d_segment j) {
-  const hr2d_point p = middle(i), q = middle(j);
+  const hr2d_point p = plane_middle(i), q = plane_middle(j);
   return (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y);
 }
 
 static double textbook_size(hr2d_segment i, hr2d_segment j) {
-  return fmax(length(i), length(j)) / sqrt(textbook_r2(i, j));
+  return fmax(plane_length(i), plane_length(j)) / sqrt(textbook_r2(i, j));
 }
 
 static double textbook_size2(hr2d_segment i, hr2d_segment j) {
-  const double a = fmax(length(i), length(j));
+  const double a = fmax(plane_length(i), plane_length(j));
   return a * a / textbook_r2(i, j);
 }
 
 static double textbook_kernel(hr2d_segment i, hr2d_point x, hr2d_segment j, hr2d_point y) {
   const double dx = y.x - x.x, dy = y.y - x.y, r = sqrt(dx * dx + dy * dy);
-  const double hx = ((i.b.x - i.a.x) * dy - (i.b.y - i.a.y) * dx) / length(i);
-  const double hy = ((j.b.y - j.a.y) * dx - (j.b.x - j.a.x) * dy) / length(j);
+  const double hx = ((i.b.x - i.a.x) * dy - (i.b.y - i.a.y) * dx) / plane_length(i);
+  const double hy = ((j.b.y - j.a.y) * dx - (j.b.x - j.a.x) * dy) / plane_length(j);
   return hx * hy / (2 * r * r * r);
 }
 
 static double textbook_bf(hr2d_segment i, hr2d_segment j, double brightness) {
-  return fabs(textbook_kernel(i, middle(i), j, middle(j))) * fmax(length(i), length(j)) *
-         brightness;
+  return fabs(textbook_kernel(i, plane_middle(i), j, plane_middle(j))) *
+         fmax(plane_length(i), plane_length(j)) * brightness;
 }
 
 /* The midpoint rule on a grid. */
 static double textbook_l1(hr2d_segment i, hr2d_segment j) {
   enum { SAMPLES = 256 };
-  const double centre = textbook_kernel(i, middle(i), j, middle(j));
+  const double centre = textbook_kernel(i, plane_middle(i), j, plane_middle(j));
   double sum = 0;
   for (int k = 0; k < SAMPLES; k++)
     for (int l = 0; l < SAMPLES; l++) {
@@ -83,7 +65,7 @@ static double textbook_l1(hr2d_segment i, hr2d_segment j) {
       const hr2d_point y = {j.a.x + t * (j.b.x - j.a.x), j.a.y + t * (j.b.y - j.a.y)};
       sum += fabs(centre - fmax(textbook_kernel(i, x, j, y), 0));
     }
-  return sum * (length(i) / SAMPLES) * (length(j) / SAMPLES);
+  return sum * (plane_length(i) / SAMPLES) * (plane_length(j) / SAMPLES);
 }
 
 /* Cells. */
@@ -172,10 +154,10 @@ static double det_of(hr2d_segment s, hr2d_point p, hr2d_point q) {
 START_TEST(grazing_form_factors) {
   const double slope = 1. / 3, h = 0x1p-40;
   const hr2d_segment i = {{0, 0}, {1, slope}}, j = {{7, 7 * slope + h}, {8, 8 * slope + h}};
-  const hr2d_point p = middle(i), q = middle(j);
-  const double r = hypot(q.x - p.x, q.y - p.y), most = fmax(length(i), length(j));
+  const hr2d_point p = plane_middle(i), q = plane_middle(j);
+  const double r = hypot(q.x - p.x, q.y - p.y), most = fmax(plane_length(i), plane_length(j));
   const double cosines =
-      det_of(i, p, q) / (length(i) * r) * (det_of(j, p, q) / (length(j) * r));
+      det_of(i, p, q) / (plane_length(i) * r) * (det_of(j, p, q) / (plane_length(j) * r));
   report("bf, cosines of 1e-13", textbook_bf(i, j, 1), ask(hr2d_oracle_bf(), i, j, 1),
          0.5 * cosines * most / r, 48 * ROUNDING);
   const hr2d_segment far = {{1e160, 1e160}, {0, 1e160}}, near = {{0, 0}, {1e160, 0}};
@@ -198,19 +180,13 @@ START_TEST(ties) {
                             {random_unit(&r), random_unit(&r)}};
     const hr2d_segment j = {{random_unit(&r), random_unit(&r)},
                             {random_unit(&r), random_unit(&r)}};
-    const hr2d_element element[2] = {element_of(i), element_of(j)};
-    const hr2d_pair asked = {0, 1};
-    const hr2d_batch batch = {.struct_size = sizeof batch,
-                              .elements = element,
-                              .pairs = &asked,
-                              .count = 1,
-                              .unit = 1};
-    const double value = ask(hr2d_oracle_size(), i, j, 1), a = fmax(length(i), length(j));
+    const element_pair p = {{element_of(i), element_of(j)}, NULL};
+    const hr2d_batch batch = element_batch(&p);
+    const double value = ask(hr2d_oracle_size(), i, j, 1),
+                 a = fmax(plane_length(i), plane_length(j));
     for (int m = 0; m < 2; m++) {
       const double epsilon = m ? nextafter(value, 0) : value;
-      unsigned char accepted;
-      ck_assert_int_eq(hr2d_oracle_size()->accept(NULL, &batch, epsilon, &accepted), HR2D_OK);
-      ours += accepted != (m == 0);
+      ours += element_accepted(hr2d_oracle_size(), &batch, epsilon) != (m == 0);
       textbook += (a * a <= epsilon * epsilon * textbook_r2(i, j)) != (m == 0);
     }
   }
@@ -278,15 +254,7 @@ START_TEST(l1_errors) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("hard oracles");
-  TCase *tc = tcase_create("hard");
-  tcase_add_test(tc, sizes);
-  tcase_add_test(tc, centres_that_coincide);
-  tcase_add_test(tc, grazing_form_factors);
-  tcase_add_test(tc, ties);
-  tcase_add_test(tc, touching_pairs);
-  tcase_add_loop_test(tc, l1_errors, 0, sizeof l1_cases / sizeof *l1_cases);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+TEST_SUITE("hard oracles") {
+  ADD_TESTS("hard", sizes, centres_that_coincide, grazing_form_factors, ties, touching_pairs);
+  REPEAT_TESTS(sizeof l1_cases / sizeof *l1_cases, "hard", l1_errors);
 }

@@ -66,13 +66,6 @@ static recursion textbook_corner(double at, double epsilon) {
   return made;
 }
 
-static hr2d_refine_options deep(double epsilon) {
-  hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
-  options.epsilon = epsilon;
-  options.max_level = UINT32_MAX;
-  return options;
-}
-
 /* Leaves are halves of halves: lengths exact, ends shared. */
 static void check_elements(const test_links *t) {
   const hr2d_element *e = hr2d_hierarchy_elements(t->hierarchy);
@@ -94,7 +87,7 @@ START_TEST(corners_to_the_last_bit) {
   for (size_t k = 0; k < 5; k++)
     for (double epsilon = 1; epsilon > .2; epsilon /= 2) {
       test_links t = touching(places[k]);
-      const hr2d_refine_options options = deep(epsilon);
+      const hr2d_refine_options options = test_options(epsilon, UINT32_MAX);
       ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
       const hr2d_refine_counts c = hr2d_linkset_counts(t.links);
       check_elements(&t);
@@ -138,7 +131,7 @@ START_TEST(patches_of_few_doubles) {
     const double patch[][6] = {
         {x, 0, x + size, 0, 1, .5}, {x + size, 4096, x, 4096, 0, .5}, {0, 0, 0, 1, 0, 0}};
     test_links t = test_make_links(test_scene(patch, 3), NULL, NULL, NULL, NULL);
-    hr2d_refine_options options = deep(1e-6);
+    hr2d_refine_options options = test_options(1e-6, UINT32_MAX);
     ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
     const hr2d_refine_counts c = hr2d_linkset_counts(t.links);
     check_elements(&t);
@@ -178,7 +171,7 @@ START_TEST(epsilon_at_its_ends) {
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
     for (int count = 0; count < 2; count++) {
       test_links t = touching(0);
-      hr2d_refine_options options = deep(cases[k].epsilon);
+      hr2d_refine_options options = test_options(cases[k].epsilon, UINT32_MAX);
       options.max_links = 20000;
       hr2d_refine_counts counts;
       const hr2d_status status = count ? hr2d_refine_count(t.links, &options, &counts)
@@ -224,70 +217,16 @@ START_TEST(ties_do_not_depend_on_the_order) {
 }
 END_TEST
 
-/* Hooks that know how much is held: the ctx. */
-typedef struct meter {
-  atomic_llong held, most;
-} meter;
-
-enum { HEADER = 16 };
-
-static void take(meter *m, long long bytes) {
-  const long long held = atomic_fetch_add(&m->held, bytes) + bytes;
-  long long most = atomic_load(&m->most);
-  while (held > most && !atomic_compare_exchange_weak(&m->most, &most, held)) continue;
-}
-
-static void *metered_allocate(void *ctx, size_t bytes) {
-  char *block = malloc(bytes + HEADER);
-  if (!block) return NULL;
-  memcpy(block, &bytes, sizeof bytes);
-  take(ctx, (long long)bytes);
-  return block + HEADER;
-}
-
-static void metered_release(void *ctx, void *block) {
-  size_t bytes;
-  if (!block) return;
-  memcpy(&bytes, (char *)block - HEADER, sizeof bytes);
-  take(ctx, -(long long)bytes);
-  free((char *)block - HEADER);
-}
-
-static void *metered_reallocate(void *ctx, void *block, size_t bytes) {
-  size_t before;
-  if (!block) return metered_allocate(ctx, bytes);
-  memcpy(&before, (char *)block - HEADER, sizeof before);
-  char *moved = realloc((char *)block - HEADER, bytes + HEADER);
-  if (!moved) return NULL;
-  memcpy(moved, &bytes, sizeof bytes);
-  take(ctx, (long long)bytes - (long long)before);
-  return moved + HEADER;
-}
-
 /* A furnished room, or two parallel patches at a distance of 0.1. */
-static test_links metered_links(meter *m, int shaded, const hr2d_oracle *oracle) {
+static test_links metered_links(test_meter *m, int shaded, const hr2d_oracle *oracle) {
   static const double patch[][6] = {{0, 0, 1, 0, 1, .5},
                                     {1, .1, 0, .1, 0, .5},
                                     {.3, .04, .5, .04, 0, .5},
                                     {.5, .041, .3, .041, 0, .5},
                                     {.7, .03, .75, .06, 0, .5}};
-  const hr2d_allocator hooks = {metered_allocate, metered_reallocate, metered_release, m};
-  test_links t = {NULL, NULL, NULL};
-  ck_assert_int_eq(hr2d_scene_create(&hooks, &t.scene), HR2D_OK);
-  for (int k = 0; k < (shaded ? 5 : 2); k++) {
-    hr2d_patch p = HR2D_PATCH_INIT;
-    p.a = (hr2d_point){patch[k][0], patch[k][1]};
-    p.b = (hr2d_point){patch[k][2], patch[k][3]};
-    p.emission = &patch[k][4];
-    p.reflectance = &patch[k][5];
-    p.emission_bands = p.reflectance_bands = 1;
-    ck_assert_int_eq(hr2d_scene_add(t.scene, &p, NULL), HR2D_OK);
-  }
-  ck_assert_int_eq(hr2d_scene_commit(t.scene), HR2D_OK);
-  ck_assert_int_eq(hr2d_hierarchy_create(t.scene, &t.hierarchy), HR2D_OK);
-  ck_assert_int_eq(hr2d_linkset_create(t.hierarchy, oracle, NULL, NULL, NULL, &t.links),
-                   HR2D_OK);
-  return t;
+  const hr2d_allocator hooks = test_metered(m);
+  return test_make_links(test_scene_hooked(patch, shaded ? 5 : 2, &hooks), oracle, NULL, NULL,
+                         NULL);
 }
 
 static hr2d_status nothing(void *ctx, const hr2d_link *links, size_t count) {
@@ -311,10 +250,10 @@ static hr2d_status run(const test_links *t, const hr2d_refine_options *options, 
    moment, and after a failure it is gone. */
 static void check_bytes(int shaded, const hr2d_oracle *oracle, int how, unsigned threads,
                         uint64_t budget, int *refused) {
-  meter m = {0, 0};
+  test_meter m = {0, 0};
   test_links t = metered_links(&m, shaded, oracle);
   const long long before = atomic_load(&m.held);
-  atomic_store(&m.most, before);
+  atomic_store(&m.peak, before);
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
   options.epsilon = 1. / 128;
   options.max_level = 16;
@@ -322,7 +261,7 @@ static void check_bytes(int shaded, const hr2d_oracle *oracle, int how, unsigned
   options.threads = threads;
   hr2d_refine_counts counts;
   const hr2d_status status = run(&t, &options, how, &counts);
-  const long long most = atomic_load(&m.most) - before;
+  const long long most = atomic_load(&m.peak) - before;
   ck_assert_msg(most <= (long long)budget + (shaded ? 1024 : 0),
                 "%d, %s, how %d, threads %u: %lld of %llu bytes", shaded, oracle->name, how,
                 threads, most, (unsigned long long)budget);
@@ -358,7 +297,7 @@ END_TEST
 
 START_TEST(a_budget_remembers_nothing) {
   /* What a failure has held once does not count against the next call. */
-  meter m = {0, 0};
+  test_meter m = {0, 0};
   test_links t = metered_links(&m, 0, hr2d_oracle_size());
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
   hr2d_refine_counts counts;
@@ -388,7 +327,7 @@ START_TEST(budgets_end_what_is_endless) {
   for (int kind = 0; kind < 3; kind++)
     for (int how = 0; how < 3; how++)
       for (unsigned threads = 1; threads <= 4; threads += how == 1 ? 3 : 9) {
-        meter m = {0, 0};
+        test_meter m = {0, 0};
         test_links t = metered_links(&m, 0, hr2d_oracle_size());
         hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
         options.epsilon = kind == 1 ? 1e-4 : 0; /* about 10¹⁰ links, or no end */
@@ -423,7 +362,7 @@ START_TEST(counts_are_those_of_a_refinement) {
   static const unsigned levels[] = {3, 9, 24, UINT32_MAX};
   for (int k = 0; k < 4; k++)
     for (int shaded = 0; shaded < 2; shaded++) {
-      meter m = {0, 0};
+      test_meter m = {0, 0};
       test_links t = metered_links(&m, shaded, hr2d_oracle_size());
       hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
       options.epsilon = .05;
@@ -485,7 +424,7 @@ START_TEST(policies_that_never_accept) {
     patch[0][2] = patch[1][1] = 0x1p52 + 8;
     test_links t = test_make_links(test_scene((const double(*)[6])patch, 3), NULL, NULL, &never,
                                    &splits[k]);
-    const hr2d_refine_options options = deep(HUGE_VAL);
+    const hr2d_refine_options options = test_options(HUGE_VAL, UINT32_MAX);
     ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
     const hr2d_refine_counts c = hr2d_linkset_counts(t.links);
     ck_assert_uint_eq(c.links, k == 2 ? 64 : 8);
@@ -498,7 +437,7 @@ START_TEST(policies_that_never_accept) {
     hr2d_linkset *endless;
     ck_assert_int_eq(hr2d_linkset_create(t.hierarchy, NULL, NULL, &never, &splits[k], &endless),
                      HR2D_OK);
-    hr2d_refine_options budget = deep(HUGE_VAL);
+    hr2d_refine_options budget = test_options(HUGE_VAL, UINT32_MAX);
     budget.max_elements = 10000;
     ck_assert_int_eq(hr2d_refine(endless, &budget), HR2D_EMAX_ELEMENTS);
     hr2d_linkset_destroy(endless);
@@ -532,24 +471,11 @@ START_TEST(many_patches) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("hard cases of refinement");
-  TCase *depth = tcase_create("depth");
-  tcase_add_test(depth, corners_to_the_last_bit);
-  tcase_add_test(depth, patches_of_few_doubles);
-  tcase_add_test(depth, policies_that_never_accept);
-  suite_add_tcase(suite, depth);
-  TCase *epsilon = tcase_create("epsilon");
-  tcase_add_test(epsilon, errors_equal_to_epsilon);
-  tcase_add_test(epsilon, epsilon_at_its_ends);
-  tcase_add_test(epsilon, ties_do_not_depend_on_the_order);
-  suite_add_tcase(suite, epsilon);
-  TCase *budgets = tcase_create("budgets");
-  tcase_add_test(budgets, bytes_stay_within_their_budget);
-  tcase_add_test(budgets, a_budget_remembers_nothing);
-  tcase_add_test(budgets, budgets_end_what_is_endless);
-  tcase_add_test(budgets, counts_are_those_of_a_refinement);
-  tcase_add_test(budgets, many_patches);
-  suite_add_tcase(suite, budgets);
-  return test_run(suite);
+TEST_SUITE("hard cases of refinement") {
+  ADD_TESTS("depth", corners_to_the_last_bit, patches_of_few_doubles,
+            policies_that_never_accept);
+  ADD_TESTS("epsilon", errors_equal_to_epsilon, epsilon_at_its_ends,
+            ties_do_not_depend_on_the_order);
+  ADD_TESTS("budgets", bytes_stay_within_their_budget, a_budget_remembers_nothing,
+            budgets_end_what_is_endless, counts_are_those_of_a_refinement, many_patches);
 }

@@ -21,11 +21,6 @@
 /* The first plans, without walls that end on others; those of few patches. */
 enum { ROOMS = 4, ASYMMETRIC = 3, SMALL = 1, MOST = 400 };
 
-static int scaled_count(int count) {
-  const double scaled = test_multiplier() * count;
-  return scaled < 1 ? 1 : (int)scaled;
-}
-
 /* A room with a screen in it. */
 static const double box[6][6] = {{0, 0, 1, 0, 1, .5},     {1, 0, 1, 1, 0, RHO},
                                  {1, 1, 0, 1, 0, RHO},    {0, 1, 0, 0, 0, .3},
@@ -35,13 +30,8 @@ static hr2d_status make(const double (*patch)[6], size_t count, hr2d_scene **sce
   hr2d_status status = hr2d_scene_create(NULL, scene);
   for (size_t k = 0; k < count && !status; k++) {
     const double *p = patch[k];
-    const hr2d_patch added = {.a = {p[0], p[1]},
-                              .b = {p[2], p[3]},
-                              .emission = &p[4],
-                              .emission_bands = 1,
-                              .reflectance = &p[5],
-                              .reflectance_bands = 1};
-    status = hr2d_scene_add(*scene, &added, NULL);
+    const hr2d_segment at = {{p[0], p[1]}, {p[2], p[3]}};
+    status = test_add_patch(*scene, at, p[4], p[5], HR2D_SIDES_FRONT);
   }
   return status ? status : hr2d_scene_commit(*scene);
 }
@@ -326,14 +316,14 @@ static hr2d_scene *painted(const plan *p, const size_t *as, const int *reversed)
                               .sides = p->sides[m]};
     ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
   }
-  ck_assert_msg(hr2d_scene_commit(scene) == HR2D_OK, "%s", hr2d_scene_message(scene));
+  test_commit(scene);
   return scene;
 }
 
 /* Every power of two that leaves coordinates and exchange areas normal doubles. */
 START_TEST(powers_of_two_change_no_bit) {
   rooms s = {.r = randoms_stream(test_seed(), 7000 + _i)};
-  for (int k = scaled_count(6); k > 0; k--) {
+  for (int k = test_count(6); k > 0; k--) {
     draw_room(&s, _i);
     answer one = solve(painted(&s.plan, NULL, NULL), 1, k == 1 && _i < SMALL);
     double least = HUGE_VAL;
@@ -403,7 +393,7 @@ START_TEST(turns_and_moves_change_little) {
   for (int kind = 0; kind < 4; kind++) {
     rooms s = {.r = randoms_stream(test_seed(), 7100 + 10 * _i + kind)};
     moves m = {0};
-    for (int k = scaled_count(6); k > 0; k--) {
+    for (int k = test_count(6); k > 0; k--) {
       draw_room(&s, _i);
       const int accurate = k == 1 && kind == 1 && _i <= SMALL;
       answer one = solve(painted(&s.plan, NULL, NULL), 1, accurate);
@@ -432,7 +422,7 @@ END_TEST
 START_TEST(order_and_direction_change_little) {
   rooms s = {.r = randoms_stream(test_seed(), 7200 + _i)};
   moves m = {0};
-  for (int k = scaled_count(6); k > 0; k--) {
+  for (int k = test_count(6); k > 0; k--) {
     draw_room(&s, _i);
     size_t as[MOST], first[MOST], next = 0;
     int reversed[MOST];
@@ -523,22 +513,12 @@ START_TEST(bands_are_solved_alike) {
 }
 END_TEST
 
-int main(void) {
-  printf("seed %lu\n", test_seed());
-  fflush(stdout);
-  Suite *suite = suite_create("hard scenes");
-  TCase *tc = tcase_create("scales");
-  tcase_add_loop_test(tc, ends_of_the_range, 0, 6);
-  tcase_add_loop_test(tc, far_from_the_origin, 0, 5);
-  tcase_add_test(tc, mixed_scales);
-  tcase_add_loop_test(tc, the_program_says_so, 0, 4);
-  suite_add_tcase(suite, tc);
-  tc = tcase_create("invariances");
-  tcase_add_loop_test(tc, powers_of_two_change_no_bit, 0, ROOMS);
-  tcase_add_loop_test(tc, turns_and_moves_change_little, 0, ROOMS);
-  tcase_add_loop_test(tc, order_and_direction_change_little, 0, ROOMS);
-  tcase_add_loop_test(tc, threads_change_no_bit, 0, ROOMS);
-  tcase_add_test(tc, bands_are_solved_alike);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+TEST_SUITE("hard scenes") {
+  REPEAT_TESTS(6, "scales", ends_of_the_range);
+  REPEAT_TESTS(5, "scales", far_from_the_origin);
+  ADD_TESTS("scales", mixed_scales);
+  REPEAT_TESTS(4, "scales", the_program_says_so);
+  REPEAT_TESTS(ROOMS, "invariances", powers_of_two_change_no_bit, turns_and_moves_change_little,
+               order_and_direction_change_little, threads_change_no_bit);
+  ADD_TESTS("invariances", bands_are_solved_alike);
 }

@@ -126,8 +126,7 @@ END_TEST
 
 START_TEST(any_reflectances_balance) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
-  const int rounds = 4 + (int)(60 * test_multiplier());
+  const int rounds = (int)test_rounds(60, 4);
   for (int round = 0; round < rounds; round++) {
     hard_room room = rooms[round % 3](0);
     for (size_t k = 0; k < room.walls; k++) {
@@ -492,8 +491,7 @@ START_TEST(senseless_callbacks) {
                                      .name = "senseless",
                                      .preferred_subdivision = senseless_split};
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
-  const int rounds = 6 + (int)(100 * test_multiplier());
+  const int rounds = (int)test_rounds(100, 6);
   for (int round = 0; round < rounds; round++) {
     const hr2d_oracle oracle = {.struct_size = sizeof oracle,
                                 .name = "senseless",
@@ -667,33 +665,13 @@ START_TEST(nasty_rooms_agree_with_another_method) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("hard cases of the solve");
-  TCase *balance = tcase_create("balance");
-  tcase_add_test(balance, totals_of_bright_rooms);
-  tcase_add_test(balance, targets_in_bright_rooms);
-  tcase_add_test(balance, any_reflectances_balance);
-  tcase_add_test(balance, hardly_a_way_out);
-  tcase_add_test(balance, leaks_have_honest_bounds);
-  tcase_add_test(balance, nothing_absorbs);
-  suite_add_tcase(suite, balance);
-  TCase *range = tcase_create("range");
-  tcase_add_test(range, light_of_any_size);
-  tcase_add_test(range, light_beyond_doubles);
-  tcase_add_test(range, background_of_any_size);
-  suite_add_tcase(suite, range);
-  TCase *rows = tcase_create("rows");
-  tcase_add_test(rows, rows_above_one);
-  tcase_add_test(rows, narrow_wedges_at_all_orders);
-  tcase_add_test(rows, targets_in_narrow_wedges);
-  tcase_add_test(rows, senseless_callbacks);
-  suite_add_tcase(suite, rows);
-  TCase *ends = tcase_create("ends");
-  tcase_add_test(ends, options_at_their_ends);
-  tcase_add_test(ends, targets_at_their_ends);
-  suite_add_tcase(suite, ends);
-  TCase *method = tcase_create("another method");
-  tcase_add_test(method, nasty_rooms_agree_with_another_method);
-  suite_add_tcase(suite, method);
-  return test_run(suite);
+TEST_SUITE("hard cases of the solve") {
+  ADD_TESTS("balance", totals_of_bright_rooms, targets_in_bright_rooms,
+            any_reflectances_balance, hardly_a_way_out, leaks_have_honest_bounds,
+            nothing_absorbs);
+  ADD_TESTS("range", light_of_any_size, light_beyond_doubles, background_of_any_size);
+  ADD_TESTS("rows", rows_above_one, narrow_wedges_at_all_orders, targets_in_narrow_wedges,
+            senseless_callbacks);
+  ADD_TESTS("ends", options_at_their_ends, targets_at_their_ends);
+  ADD_TESTS("another method", nasty_rooms_agree_with_another_method);
 }

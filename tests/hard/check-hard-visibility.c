@@ -13,6 +13,7 @@
 #include "independent/brute-visibility.h"
 #include "independent/mpfr-exchange.h"
 #include "support/hard.h"
+#include "support/plane.h"
 #include "support/room-plans.h"
 #include "support/support.h"
 
@@ -21,39 +22,6 @@
 #define ROW_RELATIVE   1e-13
 #define ROW_COORDINATE (64 * DBL_EPSILON)
 #define ROW_THROUGH    0x1p-28
-
-static int scaled_count(int count) {
-  const double scaled = test_multiplier() * count;
-  return scaled < 1 ? 1 : scaled > 1e9 ? 1000000000 : (int)scaled;
-}
-
-static double length_of(hr2d_segment s) {
-  return hypot(s.b.x - s.a.x, s.b.y - s.a.y);
-}
-
-static double distance(hr2d_point p, hr2d_point q) {
-  return hypot(q.x - p.x, q.y - p.y);
-}
-
-static hr2d_point along(hr2d_segment s, double t) {
-  return (hr2d_point){s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)};
-}
-
-static double area_among(hr2d_segment i, hr2d_segment j, const hr2d_segment *occluder,
-                         size_t count) {
-  double area = -7;
-  ck_assert_int_eq(hr2d_exchange_area_occluded(&i, &j, occluder, count, NULL, &area), HR2D_OK);
-  return area;
-}
-
-static double plain_det(hr2d_point a, hr2d_point b, hr2d_point c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-static int plain_hit(hr2d_segment w, hr2d_point x, hr2d_point y) {
-  return plain_det(x, y, w.a) * plain_det(x, y, w.b) < 0 &&
-         plain_det(w.a, w.b, x) * plain_det(w.a, w.b, y) < 0;
-}
 
 /* G with its cosines and a shadow ray that starts and ends 1e-9 off the patches. */
 static double shadow_ray(hr2d_segment i, hr2d_segment j, hr2d_point x, hr2d_point y,
@@ -65,7 +33,7 @@ static double shadow_ray(hr2d_segment i, hr2d_segment j, hr2d_point x, hr2d_poin
   const hr2d_point p = {x.x + eps * dx / r, x.y + eps * dy / r};
   const hr2d_point q = {y.x - eps * dx / r, y.y - eps * dy / r};
   for (size_t k = 0; k < count; k++)
-    if (plain_hit(occluder[k], p, q)) return 0;
+    if (plane_crosses(occluder[k], p, q)) return 0;
   return at_x * at_y / (2 * r * r * r);
 }
 
@@ -74,13 +42,14 @@ static double shadow_rays(hr2d_segment i, hr2d_segment j, const hr2d_segment *oc
   double sum = 0;
   for (int k = 0; k < samples; k++)
     for (int m = 0; m < samples; m++)
-      sum += shadow_ray(i, j, along(i, (k + .5) / samples), along(j, (m + .5) / samples),
-                        occluder, count);
+      sum += shadow_ray(i, j, plane_along(i, (k + .5) / samples),
+                        plane_along(j, (m + .5) / samples), occluder, count);
   return sum / samples / samples;
 }
 
 static double crossed_strings(hr2d_segment i, hr2d_segment j) {
-  return (distance(i.a, j.a) + distance(i.b, j.b) - distance(i.a, j.b) - distance(i.b, j.a)) /
+  return (plane_distance(i.a, j.a) + plane_distance(i.b, j.b) - plane_distance(i.a, j.b) -
+          plane_distance(i.b, j.a)) /
          2;
 }
 
@@ -174,11 +143,6 @@ static double checked_rows(const char *name, const room *r, double through) {
   return worst.relative;
 }
 
-static void add_square(plan *p) {
-  const hr2d_point corner[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  for (int k = 0; k < 4; k++) plan_add(p, corner[k], corner[(k + 1) % 4], HR2D_SIDES_FRONT);
-}
-
 static const hr2d_segment ground = {{0, 0}, {1, 0}}, roof = {{1, 1}, {0, 1}};
 
 /* Through the point at .5 + δ go the lines from 2δ to 1 on the ground: the slit lets through
@@ -193,7 +157,7 @@ START_TEST(slits_let_through_their_width) {
   const hr2d_segment screen[] = {{{-1, .5}, {left, .5}}, {{right, .5}, {2, .5}}};
   const double width = right - left, rest = .5 - width;
   const double expected = width * (1 - width) / (sqrt(.5) + sqrt(rest * rest + .25));
-  const double area = area_among(ground, roof, screen, 2);
+  const double area = exchange_among(ground, roof, screen, 2);
   const double rays = shadow_rays(ground, roof, screen, 2, 65);
   const hr2d_segment gap = {{right, .5}, {left, .5}};
   const double strings = crossed_strings(ground, gap);
@@ -228,25 +192,26 @@ START_TEST(grazing_ends_are_on_their_side) {
   randoms r = randoms_stream(test_seed(), 6000);
   int wrong = 0, ours = 0, count = 0;
   double worst = 0;
-  for (int k = scaled_count(3000); k > 0; k--) {
+  for (int k = test_count(3000); k > 0; k--) {
     const similarity s = {random_between(&r, .2, 1), random_between(&r, -1, 1),
                           random_between(&r, -1, 1), random_between(&r, -1, 1)};
     const hr2d_segment i = similar_segment(s, ground), j = similar_segment(s, roof);
     const hr2d_segment line[] = {i, j, {i.b, j.a}, {j.b, i.a}};
     const hr2d_segment on = line[random_below(&r, 4)];
-    const hr2d_point end = ulps_off(along(on, random_between(&r, -.5, 1.5)),
+    const hr2d_point end = ulps_off(plane_along(on, random_between(&r, -.5, 1.5)),
                                     random_below(&r, 3) - 1, random_below(&r, 3) - 1);
-    const hr2d_segment w = {along((hr2d_segment){along(i, .5), along(j, .5)}, .5), end};
+    const hr2d_segment w = {
+        plane_along((hr2d_segment){plane_along(i, .5), plane_along(j, .5)}, .5), end};
     mpfr_t det;
     mpfr_init2(det, MPFR_PREC_MIN);
     mpfr_orient(det, on.a, on.b, end);
     const int side = mpfr_sgn(det);
     mpfr_clear(det);
-    const double plain = plain_det(on.a, on.b, end);
+    const double plain = plane_det(on.a, on.b, end);
     wrong += (plain > 0) - (plain < 0) != side;
     ours += hr2d_orientation(on.a, on.b, end) != side;
-    worst = fmax(worst,
-                 fabs(area_among(i, j, &w, 1) - brute_strings(&i, &j, &w, 1)) / length_of(i));
+    worst = fmax(worst, fabs(exchange_among(i, j, &w, 1) - brute_strings(&i, &j, &w, 1)) /
+                            plane_length(i));
     count++;
   }
   printf("grazing: %d of %d plain signs wrong, %d of ours, areas to %.2e\n", wrong, count, ours,
@@ -270,9 +235,9 @@ static plan divided_room(randoms *r, double scale) {
     corner[k] = similar_point(s, (hr2d_point){k == 1 || k == 2, k > 1});
   for (int k = 0; k < 4; k++) plan_add(&p, corner[k], corner[(k + 1) % 4], HR2D_SIDES_FRONT);
   const hr2d_segment floor = p.wall[0], ceiling = p.wall[2];
-  const hr2d_point from = along(floor, random_between(r, .2, .8));
-  const hr2d_point to = along(ceiling, random_between(r, .2, .8));
-  const hr2d_point half = along((hr2d_segment){from, to}, .5);
+  const hr2d_point from = plane_along(floor, random_between(r, .2, .8));
+  const hr2d_point to = plane_along(ceiling, random_between(r, .2, .8));
+  const hr2d_point half = plane_along((hr2d_segment){from, to}, .5);
   plan_add(&p, from, half, HR2D_SIDES_BOTH);
   plan_add(&p, ulps_off(half, random_below(r, 2), 0), to, HR2D_SIDES_BOTH);
   /* A stub across the joint closes what an ulp leaves open. */
@@ -286,7 +251,7 @@ START_TEST(junctions_are_tight) {
   randoms r = randoms_stream(test_seed(), 6100 + _i);
   row_error worst = {0};
   double leak = 0, textbook = 0;
-  for (int k = scaled_count(100); k > 0; k--) {
+  for (int k = test_count(100); k > 0; k--) {
     plan p = divided_room(&r, scale);
     room t = open_room(&p);
     worst_row(&t, 0, &worst);
@@ -312,14 +277,8 @@ END_TEST
 
 START_TEST(fans_are_fast) {
   plan p = {.walls = 0};
-  const int spokes = scaled_count(1000);
-  const hr2d_point hub = {.4375, .5625};
-  add_square(&p);
-  for (int k = 0; k < spokes; k++) {
-    const double angle = 6.283185307179586 * k / spokes, reach = .3 + .1 * (k % 7) / 7;
-    plan_add(&p, hub, (hr2d_point){hub.x + reach * cos(angle), hub.y + reach * sin(angle)},
-             HR2D_SIDES_BOTH);
-  }
+  const int spokes = test_count(1000);
+  plan_fan(&p, spokes);
   room t = open_room(&p);
   const double error = checked_rows("fan", &t, 0);
   const double pairs = (double)(t.counts.exchange_areas + t.counts.blocked_pairs);
@@ -335,9 +294,9 @@ END_TEST
 
 START_TEST(combs_close_their_rows) {
   plan p = {.walls = 0};
-  const int teeth = scaled_count(1000);
+  const int teeth = test_count(1000);
   randoms r = randoms_stream(test_seed(), 6200);
-  add_square(&p);
+  plan_room(&p, 1, 1);
   for (int k = 1; k <= teeth; k++) {
     const double x = (double)k / (teeth + 1), reach = random_between(&r, .2, .45);
     plan_add(&p, (hr2d_point){x, k % 2}, (hr2d_point){x, k % 2 ? 1 - reach : reach},
@@ -361,9 +320,9 @@ END_TEST
 
 START_TEST(spirals_close_their_rows) {
   plan p = {.walls = 0};
-  const int turns = 2 + scaled_count(18), steps = 24;
+  const int turns = 2 + test_count(18), steps = 24;
   hr2d_point last = {.5, .5};
-  add_square(&p);
+  plan_room(&p, 1, 1);
   for (int k = 1; k <= turns * steps; k++) {
     const double angle = 6.283185307179586 * k / steps, reach = .45 * k / (turns * steps);
     const hr2d_point next = {.5 + reach * cos(angle), .5 + reach * sin(angle)};
@@ -398,7 +357,7 @@ START_TEST(rings_hide_their_hull) {
   }
   for (int k = 0; k < CORNERS; k++)
     ring[k] = (hr2d_segment){corner[k], corner[(k + 1) % CORNERS]};
-  const double area = area_among(ground, roof, ring, CORNERS);
+  const double area = exchange_among(ground, roof, ring, CORNERS);
   const double expected = brute_strings(&ground, &roof, ring, CORNERS);
   const double rays = shadow_rays(ground, roof, ring, CORNERS, 32);
   printf("ring: %.17g, error %.2e, rays %.2e\n", area, fabs(area - expected),
@@ -424,9 +383,9 @@ START_TEST(shadows_are_not_added_up) {
     const double from = k == 0 ? .3 : random_between(&r, .3, .5);
     const double to = k == 1 ? .7 : random_between(&r, .5, .7);
     w[k] = (hr2d_segment){{from, .5}, {k % 3 == 2 ? from : to, .5}};
-    if (k < 20) textbook -= clear - area_among(ground, roof, &w[k], 1);
+    if (k < 20) textbook -= clear - exchange_among(ground, roof, &w[k], 1);
   }
-  const double area = area_among(ground, roof, w, COUNT);
+  const double area = exchange_among(ground, roof, w, COUNT);
   printf("a thousand overlapping: off by %.2e; shadows of 20 added up leave %.3g\n",
          fabs(area - expected), textbook);
   ck_assert_double_lt(textbook, 0);
@@ -443,7 +402,7 @@ static plan plates(randoms *r, double gap, int kind) {
   const double y = random_between(r, .3, .7), angle = random_between(r, 0, 6.28);
   const hr2d_segment low = {{.2, y}, {.8, y}}, high = {{.8, y + gap}, {.2, y + gap}};
   const hr2d_segment back = {high.b, high.a};
-  add_square(&p);
+  plan_room(&p, 1, 1);
   if (kind < 2) {
     plan_add(&p, low.a, low.b, HR2D_SIDES_BOTH);
     plan_add(&p, kind ? high.a : back.a, kind ? high.b : back.b, HR2D_SIDES_BOTH);
@@ -467,7 +426,7 @@ START_TEST(plates_are_apart_or_refused) {
   int fine = 0, refused = 0;
   row_error worst = {0};
   double textbook = 0, least = 1;
-  for (int k = scaled_count(3000); k > 0; k--) {
+  for (int k = test_count(3000); k > 0; k--) {
     const double gap = k % 4 ? random_power(&r, -16.5, -13) : ldexp(k % 32, -53);
     plan p = plates(&r, gap, random_below(&r, 3));
     hr2d_scene *scene;
@@ -506,11 +465,12 @@ static plan bundle(randoms *r) {
   const hr2d_point from = {.2, random_between(r, .3, .7)}, to = {.8, random_between(r, .3, .7)};
   const double gap = random_power(r, -17, -11), angle = random_between(r, 0, 6.28);
   const int walls = 2 + random_below(r, 12);
-  add_square(&p);
+  plan_room(&p, 1, 1);
   for (int k = 0; k < walls; k++) {
     const double t = random_below(r, 2) ? 0 : random_between(r, 0, .4);
     const double u = random_below(r, 2) ? 1 : random_between(r, .6, 1);
-    hr2d_point a = along((hr2d_segment){from, to}, t), b = along((hr2d_segment){from, to}, u);
+    hr2d_point a = plane_along((hr2d_segment){from, to}, t),
+               b = plane_along((hr2d_segment){from, to}, u);
     a.y += gap * (random_below(r, 2) ? k : random_between(r, -1, 1));
     b.y += gap * (random_below(r, 2) ? k : random_between(r, -2, 2));
     const int back = random_below(r, 2);
@@ -525,7 +485,7 @@ START_TEST(bundles_are_right_or_refused) {
   randoms r = randoms_stream(test_seed(), 6500);
   int fine = 0, refused = 0, through = 0;
   row_error worst = {0};
-  for (int k = scaled_count(3000); k > 0; k--) {
+  for (int k = test_count(3000); k > 0; k--) {
     plan p = bundle(&r);
     hr2d_scene *scene;
     const hr2d_status status = open_scene(&p, k % 2, &scene);
@@ -558,17 +518,18 @@ END_TEST
 static plan hugged_room(randoms *r) {
   plan p = {.walls = 0};
   const double angle = random_between(r, 0, 6.28);
-  add_square(&p);
+  plan_room(&p, 1, 1);
   for (size_t k = 0; k < p.walls; k++)
     p.wall[k] = similar_segment((similarity){cos(angle), sin(angle), 0, 0}, p.wall[k]);
-  const hr2d_point centre = along((hr2d_segment){p.wall[0].a, p.wall[2].a}, .5);
+  const hr2d_point centre = plane_along((hr2d_segment){p.wall[0].a, p.wall[2].a}, .5);
   for (int k = 1 + random_below(r, 6); k > 0; k--) {
     const hr2d_segment w = p.wall[random_below(r, 4)];
     const double off = random_power(r, -16, -9);
-    const hr2d_point a = along(w, random_unit(r)), b = along(w, random_unit(r));
-    plan_add(&p, along((hr2d_segment){a, centre}, off),
-             along((hr2d_segment){b, centre}, random_below(r, 2) ? off : off * random_unit(r)),
-             HR2D_SIDES_BOTH);
+    const hr2d_point a = plane_along(w, random_unit(r)), b = plane_along(w, random_unit(r));
+    plan_add(
+        &p, plane_along((hr2d_segment){a, centre}, off),
+        plane_along((hr2d_segment){b, centre}, random_below(r, 2) ? off : off * random_unit(r)),
+        HR2D_SIDES_BOTH);
   }
   return p;
 }
@@ -578,7 +539,7 @@ START_TEST(walls_along_walls_are_right_or_refused) {
   int fine = 0, refused = 0;
   row_error worst = {0};
   double entries = 0;
-  for (int k = scaled_count(3000); k > 0; k--) {
+  for (int k = test_count(3000); k > 0; k--) {
     plan p = hugged_room(&r);
     hr2d_scene *scene;
     const hr2d_status status = open_scene(&p, k % 4 != 0, &scene);
@@ -607,24 +568,12 @@ START_TEST(walls_along_walls_are_right_or_refused) {
 }
 END_TEST
 
-int main(void) {
-  printf("seed %lu\n", test_seed());
-  fflush(stdout);
-  Suite *suite = suite_create("hard visibility");
-  TCase *tc = tcase_create("pairs");
-  tcase_add_loop_test(tc, slits_let_through_their_width, 0, 3);
-  tcase_add_test(tc, grazing_ends_are_on_their_side);
-  tcase_add_test(tc, rings_hide_their_hull);
-  tcase_add_test(tc, shadows_are_not_added_up);
-  suite_add_tcase(suite, tc);
-  tc = tcase_create("rooms");
-  tcase_add_loop_test(tc, junctions_are_tight, 0, 3);
-  tcase_add_test(tc, fans_are_fast);
-  tcase_add_test(tc, combs_close_their_rows);
-  tcase_add_test(tc, spirals_close_their_rows);
-  tcase_add_test(tc, plates_are_apart_or_refused);
-  tcase_add_test(tc, bundles_are_right_or_refused);
-  tcase_add_test(tc, walls_along_walls_are_right_or_refused);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+TEST_SUITE("hard visibility") {
+  REPEAT_TESTS(3, "pairs", slits_let_through_their_width);
+  ADD_TESTS("pairs", grazing_ends_are_on_their_side, rings_hide_their_hull,
+            shadows_are_not_added_up);
+  REPEAT_TESTS(3, "rooms", junctions_are_tight);
+  ADD_TESTS("rooms", fans_are_fast, combs_close_their_rows, spirals_close_their_rows,
+            plates_are_apart_or_refused, bundles_are_right_or_refused,
+            walls_along_walls_are_right_or_refused);
 }

@@ -9,27 +9,19 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "independent/mpfr-exchange.h"
-
-typedef long double real;
+#include "independent/pair-frame.h"
 
 enum { LIMIT = 400 };
-
-/* A point in the frame of i, which runs along the axis from 0. */
-typedef struct spot {
-  real along, height;
-  real above; /* on which side of the line of j, and how far up to a factor */
-} spot;
 
 typedef struct arc {
   real from, to; /* directions, from the normal of i */
 } arc;
 
 struct brute_view {
-  real length;   /* of i */
-  real from, to; /* the part of i in front of j */
-  spot c, d;     /* all of j */
-  spot *end;     /* of what of j is in front of i, then of each occluder */
+  real length;      /* of i */
+  real from, to;    /* the part of i in front of j */
+  frame_point c, d; /* all of j */
+  frame_point *end; /* of what of j is in front of i, then of each occluder */
   size_t ends;
   real *cut;
   size_t cuts;
@@ -40,68 +32,6 @@ struct brute_view {
   real sine, cosine; /* of the middle of the arc under way */
 };
 
-/* Exact in its sign. */
-static real area_of(hr2d_point a, hr2d_point b, hr2d_point p) {
-  mpfr_t det;
-  mpfr_init2(det, MPFR_PREC_MIN);
-  mpfr_orient(det, a, b, p);
-  const real area = mpfr_get_ld(det, MPFR_RNDN);
-  mpfr_clear(det);
-  return area == 0 ? 0 : area;
-}
-
-static spot spot_of(const hr2d_segment *i, const hr2d_segment *j, hr2d_point p) {
-  const real x = (real)i->b.x - i->a.x, y = (real)i->b.y - i->a.y, length = hypotl(x, y);
-  return (spot){(x * ((real)p.x - i->a.x) + y * ((real)p.y - i->a.y)) / length,
-                area_of(i->a, i->b, p) / length, area_of(j->a, j->b, p)};
-}
-
-static spot between(spot p, spot q, real t) {
-  return (spot){p.along + t * (q.along - p.along), p.height + t * (q.height - p.height),
-                p.above + t * (q.above - p.above)};
-}
-
-/* Cuts pq to what is in front of i, and of j where `both`; 0 if nothing is left. */
-static int clip(spot *p, spot *q, int both) {
-  if (fmaxl(p->height, q->height) <= 0) return 0;
-  spot *low = p->height < q->height ? p : q;
-  if (low->height < 0) {
-    *low = between(*p, *q, p->height / (p->height - q->height));
-    low->height = 0;
-  }
-  if (!both) return 1;
-  if (fmaxl(p->above, q->above) <= 0) return 0;
-  low = p->above < q->above ? p : q;
-  if (low->above < 0) *low = between(*p, *q, p->above / (p->above - q->above));
-  return 1;
-}
-
-static int rising(const void *left, const void *right) {
-  const real l = *(const real *)left, r = *(const real *)right;
-  return (l > r) - (l < r);
-}
-
-static void add_cut(brute_view *v, real x) {
-  if (x > v->from && x < v->to) v->cut[v->cuts++] = x;
-}
-
-/* Also at the feet of ends, near which the integrand may change fast. */
-static void make_cuts(brute_view *v) {
-  v->cut = malloc((v->ends * (v->ends + 1) / 2 + 2) * sizeof *v->cut);
-  for (size_t k = 0; k < v->ends; k++) {
-    const spot p = v->end[k];
-    add_cut(v, p.along);
-    for (size_t n = 0; n < k; n++) {
-      const spot q = v->end[n];
-      if (p.height != q.height)
-        add_cut(v, p.along - p.height * (q.along - p.along) / (q.height - p.height));
-    }
-  }
-  v->cut[v->cuts++] = v->from;
-  v->cut[v->cuts++] = v->to;
-  qsort(v->cut, v->cuts, sizeof *v->cut, rising);
-}
-
 brute_view *brute_view_open(const hr2d_segment *i, const hr2d_segment *j,
                             const hr2d_segment *occluder, size_t count) {
   brute_view *v = calloc(1, sizeof *v);
@@ -110,24 +40,22 @@ brute_view *brute_view_open(const hr2d_segment *i, const hr2d_segment *j,
   v->open = malloc((count + 1) * sizeof *v->open);
   v->inner = gsl_integration_cquad_workspace_alloc(LIMIT);
   v->outer = gsl_integration_cquad_workspace_alloc(LIMIT);
-  const spot a = spot_of(i, j, i->a), b = spot_of(i, j, i->b);
-  v->c = spot_of(i, j, j->a);
-  v->d = spot_of(i, j, j->b);
-  v->length = v->to = b.along;
-  if (a.above <= 0 && b.above <= 0) v->to = 0;
-  const real edge = b.along * a.above / (a.above - b.above);
-  if (a.above < 0) v->from = edge;
-  if (b.above < 0) v->to = edge;
+  v->c = frame_of(i, j, j->a);
+  v->d = frame_of(i, j, j->b);
+  v->length = frame_of(i, j, i->b).along;
+  if (!frame_front(i, j, &v->from, &v->to)) v->to = v->from;
   v->end[0] = v->c;
   v->end[1] = v->d;
-  if (!clip(&v->end[0], &v->end[1], 0)) v->to = v->from;
+  if (!frame_clip(&v->end[0], &v->end[1], 0)) v->to = v->from;
   v->ends = 2;
   for (size_t k = 0; k < count; k++) {
-    v->end[v->ends] = spot_of(i, j, occluder[k].a);
-    v->end[v->ends + 1] = spot_of(i, j, occluder[k].b);
-    if (clip(&v->end[v->ends], &v->end[v->ends + 1], 1)) v->ends += 2;
+    v->end[v->ends] = frame_of(i, j, occluder[k].a);
+    v->end[v->ends + 1] = frame_of(i, j, occluder[k].b);
+    if (frame_clip(&v->end[v->ends], &v->end[v->ends + 1], 1)) v->ends += 2;
   }
-  make_cuts(v);
+  v->cut = malloc((v->ends * (v->ends + 1) / 2 + 2) * sizeof *v->cut);
+  /* Near the feet of ends the integrand may change fast. */
+  v->cuts = frame_events(v->end, v->ends, v->from, v->to, 1, v->cut);
   return v;
 }
 
@@ -141,7 +69,7 @@ void brute_view_close(brute_view *v) {
   free(v);
 }
 
-static arc seen(const brute_view *v, const spot *p, const spot *q) {
+static arc seen(const brute_view *v, const frame_point *p, const frame_point *q) {
   const real s = atan2l(p->along - v->x, p->height), t = atan2l(q->along - v->x, q->height);
   return s < t ? (arc){s, t} : (arc){t, s};
 }

@@ -10,23 +10,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "independent/mpfr-exchange.h"
-
-typedef long double real;
-
-typedef struct vertex {
-  real along, height; /* in the frame of i */
-  real above;         /* height over the line of j, up to a factor */
-} vertex;
+#include "independent/pair-frame.h"
+#include "support/plane.h"
 
 typedef struct interval {
   real low, high; /* slopes, (along − x)/height */
-  const vertex *at_low, *at_high;
+  const frame_point *at_low, *at_high;
 } interval;
 
 typedef struct view {
-  real from, to; /* the part of i in front of j */
-  vertex *end;   /* j's two, then two per occluder */
+  real from, to;    /* the part of i in front of j */
+  frame_point *end; /* j's two, then two per occluder */
   size_t ends;
   real *event;
   size_t events;
@@ -34,93 +28,27 @@ typedef struct view {
   interval *gap;    /* one more than that */
 } view;
 
-/* Twice the area of a, b, p: exact in its sign, which decides what is in front. */
-static real area_of(hr2d_point a, hr2d_point b, hr2d_point p) {
-  mpfr_t det;
-  mpfr_init2(det, MPFR_PREC_MIN);
-  mpfr_orient(det, a, b, p);
-  const real area = mpfr_get_ld(det, MPFR_RNDN);
-  mpfr_clear(det);
-  return area == 0 ? 0 : area; /* slopes are divided by it: no −0 */
-}
-
-static vertex vertex_of(const hr2d_segment *i, const hr2d_segment *j, hr2d_point p) {
-  const real x = (real)i->b.x - i->a.x, y = (real)i->b.y - i->a.y, length = hypotl(x, y);
-  return (vertex){(x * ((real)p.x - i->a.x) + y * ((real)p.y - i->a.y)) / length,
-                  area_of(i->a, i->b, p) / length, area_of(j->a, j->b, p)};
-}
-
-static vertex between(vertex p, vertex q, real t) {
-  return (vertex){p.along + t * (q.along - p.along), p.height + t * (q.height - p.height),
-                  p.above + t * (q.above - p.above)};
-}
-
-/* Cuts pq to what lies in front of i and of j; 0 if there is nothing. */
-static int clip(vertex *p, vertex *q) {
-  if (fmaxl(p->height, q->height) <= 0 || fmaxl(p->above, q->above) <= 0) return 0;
-  if (p->height < 0 || q->height < 0) {
-    vertex *behind = p->height < 0 ? p : q;
-    *behind = between(*p, *q, p->height / (p->height - q->height));
-    behind->height = 0;
-  }
-  if (p->above < 0 || q->above < 0) {
-    vertex *behind = p->above < 0 ? p : q;
-    *behind = between(*p, *q, p->above / (p->above - q->above));
-    behind->above = 0;
-  }
-  return fmaxl(p->height, q->height) > 0 && fmaxl(p->above, q->above) > 0;
-}
-
-static int ascending(const void *left, const void *right) {
-  const real l = *(const real *)left, r = *(const real *)right;
-  return (l > r) - (l < r);
-}
-
-static void note_event(view *v, real x) {
-  if (x > v->from && x < v->to) v->event[v->events++] = x;
-}
-
-static void find_events(view *v) {
-  v->event = malloc((v->ends * (v->ends + 1) / 2 + 2) * sizeof *v->event);
-  v->events = 0;
-  for (size_t k = 0; k < v->ends; k++) {
-    const vertex p = v->end[k];
-    if (p.height == 0) note_event(v, p.along);
-    for (size_t m = 0; m < k; m++) {
-      const vertex q = v->end[m];
-      if (p.height != q.height)
-        note_event(v, p.along - p.height * (q.along - p.along) / (q.height - p.height));
-    }
-  }
-  v->event[v->events++] = v->from;
-  v->event[v->events++] = v->to;
-  qsort(v->event, v->events, sizeof *v->event, ascending);
-}
-
 /* 0 if i and j do not face each other. */
 static int open_view(view *v, const hr2d_segment *i, const hr2d_segment *j,
                      const hr2d_segment *occluder, size_t count) {
-  const vertex a = vertex_of(i, j, i->a), b = vertex_of(i, j, i->b);
-  *v = (view){.to = b.along};
-  if (a.above <= 0 && b.above <= 0) return 0;
-  const real cut = b.along * a.above / (a.above - b.above);
-  if (a.above < 0) v->from = cut;
-  if (b.above < 0) v->to = cut;
+  *v = (view){.ends = 0};
+  if (!frame_front(i, j, &v->from, &v->to)) return 0;
   v->end = malloc((2 * count + 2) * sizeof *v->end);
   v->hidden = malloc((count + 1) * sizeof *v->hidden);
   v->gap = malloc((count + 1) * sizeof *v->gap);
-  vertex *end = v->end;
-  end[0] = vertex_of(i, j, j->a);
-  end[1] = vertex_of(i, j, j->b);
+  frame_point *end = v->end;
+  end[0] = frame_of(i, j, j->a);
+  end[1] = frame_of(i, j, j->b);
   end[0].above = end[1].above = 1; /* on j's own line: not to be clipped there */
-  if (!clip(&end[0], &end[1])) return 0;
+  if (!frame_clip(&end[0], &end[1], 1)) return 0;
   v->ends = 2;
   for (size_t k = 0; k < count; k++) {
-    end[v->ends] = vertex_of(i, j, occluder[k].a);
-    end[v->ends + 1] = vertex_of(i, j, occluder[k].b);
-    if (clip(&end[v->ends], &end[v->ends + 1])) v->ends += 2;
+    end[v->ends] = frame_of(i, j, occluder[k].a);
+    end[v->ends + 1] = frame_of(i, j, occluder[k].b);
+    if (frame_clip(&end[v->ends], &end[v->ends + 1], 1)) v->ends += 2;
   }
-  find_events(v);
+  v->event = malloc((v->ends * (v->ends + 1) / 2 + 2) * sizeof *v->event);
+  v->events = frame_events(end, v->ends, v->from, v->to, 0, v->event);
   return 1;
 }
 
@@ -131,7 +59,7 @@ static void close_view(view *v) {
   free(v->gap);
 }
 
-static interval seen_from(real x, const vertex *p, const vertex *q) {
+static interval seen_from(real x, const frame_point *p, const frame_point *q) {
   const real s = (p->along - x) / p->height, t = (q->along - x) / q->height;
   return s < t ? (interval){s, t, p, q} : (interval){t, s, q, p};
 }
@@ -165,7 +93,7 @@ static size_t find_gaps(view *v, real x) {
 }
 
 /* ∫ sinθ dx from x0 to x1, where θ is the direction to v: |x₀v| − |x₁v|. */
-static real strings(const vertex *v, real x0, real x1) {
+static real strings(const frame_point *v, real x0, real x1) {
   const real from = v->along - x0, to = v->along - x1;
   return (x1 - x0) * (from + to) / (hypotl(from, v->height) + hypotl(to, v->height));
 }
@@ -193,7 +121,7 @@ typedef struct piece {
 
 /* sin t − sin s for the slopes' angles: the sine of a difference keeps small gaps. */
 static real sine_difference(const interval *gap, real x) {
-  const vertex *p = gap->at_low, *q = gap->at_high;
+  const frame_point *p = gap->at_low, *q = gap->at_high;
   const real px = p->along - x, qx = q->along - x;
   const real lp = hypotl(px, p->height), lq = hypotl(qx, q->height);
   const real cross = qx * p->height - px * q->height, dot = px * qx + p->height * q->height;
@@ -239,16 +167,6 @@ double brute_quadrature(const hr2d_segment *i, const hr2d_segment *j,
   return (double)sum;
 }
 
-static double cross(hr2d_point a, hr2d_point b, hr2d_point p) {
-  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-}
-
-/* Whether the open segments xy and w meet. */
-static int hides(const hr2d_segment *w, hr2d_point x, hr2d_point y) {
-  return cross(x, y, w->a) * cross(x, y, w->b) < 0 &&
-         cross(w->a, w->b, x) * cross(w->a, w->b, y) < 0;
-}
-
 double brute_lines(const hr2d_segment *i, const hr2d_segment *j, const hr2d_segment *occluder,
                    size_t count, randoms *r, int lines, double *sigma) {
   const double ix = i->b.x - i->a.x, iy = i->b.y - i->a.y, length = hypot(ix, iy);
@@ -268,7 +186,7 @@ double brute_lines(const hr2d_segment *i, const hr2d_segment *j, const hr2d_segm
     const hr2d_point y = {j->a.x + at * jx - margin * ux, j->a.y + at * jy - margin * uy};
     x = (hr2d_point){x.x + margin * ux, x.y + margin * uy};
     size_t w = 0;
-    while (w < count && !hides(&occluder[w], x, y)) w++;
+    while (w < count && !plane_crosses(occluder[w], x, y)) w++;
     through += w == count;
   }
   const double part = (double)through / lines;

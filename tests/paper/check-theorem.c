@@ -16,12 +16,6 @@ static const hr2d_policy *variant(int modified) {
   return modified ? hr2d_policy_modified() : hr2d_policy_original();
 }
 
-static hr2d_refine_options with_epsilon(double epsilon) {
-  hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
-  options.epsilon = epsilon;
-  return options;
-}
-
 /* Two patches that face each other, of lengths l and m, at distance d. */
 static hr2d_scene *facing(double l, double m, double d) {
   return test_scene((const double[][6]){{0, 0, l, 0, 1, .5}, {m, d, 0, d, 0, .5}}, 2);
@@ -36,7 +30,7 @@ static hr2d_scene *corner(double l, double m, double d) {
 static hr2d_refine_counts count(hr2d_scene *scene, const hr2d_oracle *oracle, int modified,
                                 double epsilon) {
   test_links t = test_make_links(scene, oracle, NULL, variant(modified), NULL);
-  const hr2d_refine_options options = with_epsilon(epsilon);
+  const hr2d_refine_options options = test_epsilon(epsilon);
   hr2d_refine_counts counts;
   ck_assert_int_eq(hr2d_refine_count(t.links, &options, &counts), HR2D_OK);
   ck_assert_uint_eq(counts.limited_links, 0);
@@ -47,7 +41,7 @@ static hr2d_refine_counts count(hr2d_scene *scene, const hr2d_oracle *oracle, in
 static test_links refined(hr2d_scene *scene, const hr2d_oracle *oracle, int modified,
                           double epsilon) {
   test_links t = test_make_links(scene, oracle, NULL, variant(modified), NULL);
-  const hr2d_refine_options options = with_epsilon(epsilon);
+  const hr2d_refine_options options = test_epsilon(epsilon);
   ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
   return t;
 }
@@ -292,14 +286,13 @@ END_TEST
    N = 2(2 N_leaf − 1), N_leaf = l/A_leaf gives 4g/ε − 2 ≤ N < 8g/ε − 2. */
 START_TEST(elements_are_g_over_epsilon) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
   double least = HUGE_VAL, most = 0, low = HUGE_VAL, high = 0;
-  for (int k = 0; k < 20 + (int)(400 * test_multiplier()); k++) {
+  for (int k = 0; k < (int)test_rounds(400, 20); k++) {
     const double g = pow(2, 10 * test_random(&state)), d = pow(10, 6 * test_random(&state) - 3);
     const double epsilon = g * pow(2, -11 * test_random(&state));
     if (g / epsilon / epsilon > 1e5) continue; /* of links, some ten times as many */
     test_links t = test_make_links(facing(g * d, g * d, d), NULL, NULL, variant(1), NULL);
-    const hr2d_refine_options options = with_epsilon(epsilon);
+    const hr2d_refine_options options = test_epsilon(epsilon);
     hr2d_refine_counts c;
     ck_assert_int_eq(hr2d_refine_count(t.links, &options, &c), HR2D_OK);
     const double n = (double)c.elements, leaves = (double)c.leaves / 2;
@@ -611,7 +604,7 @@ START_TEST(multigridding_ends_where_one_step_does) {
     const char *scene = four_scenes[k / 2];
     test_links t = test_make_links(test_named_scene(scene), NULL, NULL, variant(k % 2), NULL);
     for (double epsilon = 1; epsilon >= finest; epsilon /= 2) {
-      const hr2d_refine_options options = with_epsilon(epsilon);
+      const hr2d_refine_options options = test_epsilon(epsilon);
       ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
       const hr2d_refine_counts steps = hr2d_linkset_counts(t.links),
                                once = count(test_named_scene(scene), NULL, k % 2, epsilon);
@@ -630,7 +623,7 @@ START_TEST(multigridding_by_brightness_is_quadratic) {
   for (int k = 0; k < 8; k++) {
     test_links t = test_make_links(test_named_scene(four_scenes[k / 2]), hr2d_oracle_bf(), NULL,
                                    variant(k % 2), NULL);
-    hr2d_refine_options options = with_epsilon(k / 2 == 3 ? 0.03125 : 0.125);
+    hr2d_refine_options options = test_epsilon(k / 2 == 3 ? 0.03125 : 0.125);
     hr2d_solution *solution = NULL;
     double x[STEPS], y[STEPS], c0, slope, c00, c01, c11, squares;
     for (int step = 0; step < STEPS; step++, options.epsilon /= 2) {
@@ -674,36 +667,17 @@ START_TEST(every_transport_is_accounted_for_once) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("theorem");
-  TCase *theorem = tcase_create("Theorem 1");
-  tcase_set_timeout(theorem, 600);
-  tcase_add_test(theorem, links_are_quadratic_in_elements);
-  tcase_add_test(theorem, links_are_quadratic_for_the_squared_oracle);
-  tcase_add_test(theorem, links_are_quadratic_where_brightness_weighs);
-  tcase_add_test(theorem, links_are_quadratic_for_the_exact_oracle);
-  tcase_add_test(theorem, links_are_linear_for_a_fixed_epsilon);
-  tcase_add_test(theorem, other_laws_are_refused);
-  suite_add_tcase(suite, theorem);
-  TCase *analysis = tcase_create("equations and inequalities");
-  tcase_set_timeout(analysis, 600);
-  tcase_add_test(analysis, elements_are_g_over_epsilon);
-  tcase_add_test(analysis, links_are_elements_over_epsilon);
-  tcase_add_test(analysis, every_link_obeys_the_inequalities);
-  tcase_add_test(analysis, regions_of_leaves_break_the_bounds);
-  suite_add_tcase(suite, analysis);
-  TCase *modification = tcase_create("the modified algorithm");
-  tcase_set_timeout(modification, 600);
-  tcase_add_test(modification, modified_costs_less_than_twice);
-  tcase_add_test(modification, modified_costs_more_for_a_large_epsilon);
-  tcase_add_test(modification, modified_costs_more_for_unequal_lengths);
-  suite_add_tcase(suite, modification);
-  TCase *others = tcase_create("oracles and multigridding");
-  tcase_set_timeout(others, 600);
-  tcase_add_test(others, squares_change_nothing);
-  tcase_add_test(others, multigridding_ends_where_one_step_does);
-  tcase_add_test(others, multigridding_by_brightness_is_quadratic);
-  tcase_add_test(others, every_transport_is_accounted_for_once);
-  suite_add_tcase(suite, others);
-  return test_run(suite);
+TEST_SUITE("theorem") {
+  ADD_TESTS(
+      "Theorem 1", links_are_quadratic_in_elements, links_are_quadratic_for_the_squared_oracle,
+      links_are_quadratic_where_brightness_weighs, links_are_quadratic_for_the_exact_oracle,
+      links_are_linear_for_a_fixed_epsilon, other_laws_are_refused);
+  ADD_TESTS("equations and inequalities", elements_are_g_over_epsilon,
+            links_are_elements_over_epsilon, every_link_obeys_the_inequalities,
+            regions_of_leaves_break_the_bounds);
+  ADD_TESTS("the modified algorithm", modified_costs_less_than_twice,
+            modified_costs_more_for_a_large_epsilon, modified_costs_more_for_unequal_lengths);
+  ADD_TESTS("oracles and multigridding", squares_change_nothing,
+            multigridding_ends_where_one_step_does, multigridding_by_brightness_is_quadratic,
+            every_transport_is_accounted_for_once);
 }

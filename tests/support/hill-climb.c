@@ -10,11 +10,6 @@
 
 #include "support/support.h"
 
-static int scaled(int count) {
-  const double work = test_multiplier() * count;
-  return work < 1 ? 1 : work > 1e9 ? 1000000000 : (int)work;
-}
-
 /* Puts a point near the line through two others: on it, at their middle, or at one of them. */
 static void align(size_t points, randoms *r, double *x) {
   const int n = (int)points;
@@ -104,12 +99,12 @@ summit hill_climb(const hill *h, hill_effort effort, int stream) {
   ck_assert_uint_le(h->count, HILL_MOST);
   ck_assert_uint_le(2 * h->points, h->count);
   randoms r = randoms_stream(test_seed(), 7000 + stream);
-  for (int k = scaled(effort.draws); k > 0; k--) {
+  for (int k = test_count(effort.draws); k > 0; k--) {
     double x[HILL_MOST] = {0};
     h->draw(h->ctx, &r, x);
     look(h, x, &top);
   }
-  for (int k = effort.climbs ? scaled(effort.climbs) : 0; k > 0; k--)
+  for (int k = effort.climbs ? test_count(effort.climbs) : 0; k > 0; k--)
     climb(h, &r, effort.steps, &top);
   return top;
 }

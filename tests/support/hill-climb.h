@@ -31,6 +31,11 @@ typedef struct summit {
   long tried; /* inputs that the bound speaks of */
 } summit;
 
+/* Point k of an input. */
+static inline hr2d_point hill_point(const double *x, int k) {
+  return (hr2d_point){x[2 * k], x[2 * k + 1]};
+}
+
 /* `stream` tells searches of one seed apart; draws and climbs are scaled by
    test_multiplier(). */
 summit hill_climb(const hill *hill, hill_effort effort, int stream);

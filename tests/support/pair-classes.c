@@ -6,57 +6,13 @@
 #include <math.h>
 
 #include "geometry/predicates.h"
+#include "support/plane.h"
 
 #define PI 3.14159265358979323846
-
-uint64_t random_bits(randoms *r) {
-  uint64_t z = r->state += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
-randoms randoms_stream(uint64_t seed, int k) {
-  randoms r = {seed};
-  r.state = random_bits(&r) + (uint64_t)k;
-  r.state = random_bits(&r);
-  return r;
-}
-
-double random_unit(randoms *r) {
-  return (double)(random_bits(r) >> 11) * 0x1p-53;
-}
-
-double random_between(randoms *r, double low, double high) {
-  return low + (high - low) * random_unit(r);
-}
-
-double random_power(randoms *r, double low, double high) {
-  return pow(10, random_between(r, low, high));
-}
-
-int random_below(randoms *r, int n) {
-  return (int)(random_unit(r) * n);
-}
-
-double random_nudge(randoms *r, double x, int n) {
-  int steps = random_below(r, 2 * n + 1) - n;
-  for (; steps > 0; steps--) x = nextafter(x, INFINITY);
-  for (; steps < 0; steps++) x = nextafter(x, -INFINITY);
-  return x;
-}
 
 static hr2d_point random_point(randoms *r) {
   const double x = random_unit(r), y = random_unit(r);
   return (hr2d_point){x, y};
-}
-
-static hr2d_point along(hr2d_segment s, double t) {
-  return (hr2d_point){s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)};
-}
-
-static hr2d_point polar(hr2d_point from, double length, double angle) {
-  return (hr2d_point){from.x + length * cos(angle), from.y + length * sin(angle)};
 }
 
 static hr2d_point nudged(randoms *r, hr2d_point p, int n) {
@@ -102,7 +58,7 @@ static pair generic(randoms *r) {
 /* A point 10^low to 10^high from another, in any direction. */
 static hr2d_point step(randoms *r, hr2d_point from, double low, double high) {
   const double length = random_power(r, low, high);
-  return polar(from, length, random_between(r, 0, 2 * PI));
+  return plane_polar(from, length, random_between(r, 0, 2 * PI));
 }
 
 static pair far(randoms *r) {
@@ -152,7 +108,7 @@ static pair corner(randoms *r) {
   const double angle = random_below(r, 2) ? random_between(r, 0, PI) : random_power(r, -15, 0);
   const double first = random_between(r, 0, 2 * PI);
   const double s = random_power(r, -4, 4), t = random_power(r, -4, 4);
-  return (pair){{x, polar(x, s, first)}, {polar(x, t, first + angle), x}};
+  return (pair){{x, plane_polar(x, s, first)}, {plane_polar(x, t, first + angle), x}};
 }
 
 static pair clipped(randoms *r) {
@@ -165,7 +121,7 @@ static pair clipped(randoms *r) {
 static pair clipped_by_ulps(randoms *r) {
   pair p = generic(r);
   if (random_below(r, 2)) p.i = (hr2d_segment){{0, 0}, {1, 0}};
-  p.j.b = nudged(r, along(p.i, random_between(r, -2, 3)), 1);
+  p.j.b = nudged(r, plane_along(p.i, random_between(r, -2, 3)), 1);
   return p;
 }
 
@@ -175,8 +131,8 @@ static pair crossing(randoms *r) {
   const double angle = random_below(r, 2) ? random_between(r, 0, PI) : random_power(r, -15, 0);
   const double s = random_power(r, -4, 0), t = random_power(r, -4, 0);
   const double back = -s * random_unit(r), beyond = -t * random_unit(r);
-  return (pair){{polar(x, back, first), polar(x, s, first)},
-                {polar(x, t, first + angle), polar(x, beyond, first + angle)}};
+  return (pair){{plane_polar(x, back, first), plane_polar(x, s, first)},
+                {plane_polar(x, t, first + angle), plane_polar(x, beyond, first + angle)}};
 }
 
 static pair denormal(randoms *r) {
@@ -191,17 +147,17 @@ static pair denormal(randoms *r) {
 
 static pair collinear(randoms *r) {
   pair p = generic(r);
-  p.j.a = nudged(r, along(p.i, random_between(r, -2, 3)), 1);
+  p.j.a = nudged(r, plane_along(p.i, random_between(r, -2, 3)), 1);
   if (random_below(r, 2))
-    p.j.b = nudged(r, along(p.i, random_between(r, -2, 3)), 1);
+    p.j.b = nudged(r, plane_along(p.i, random_between(r, -2, 3)), 1);
   else if (random_below(r, 2))
-    p.j.b = nudged(r, along((hr2d_segment){p.j.a, p.i.a}, 0.3), 1);
+    p.j.b = nudged(r, plane_along((hr2d_segment){p.j.a, p.i.a}, 0.3), 1);
   return p;
 }
 
-static hr2d_segment child(randoms *r, hr2d_segment s, int levels) {
+hr2d_segment random_descendant(randoms *r, hr2d_segment s, int levels) {
   for (; levels > 0; levels--) {
-    const hr2d_point m = {0.5 * (s.a.x + s.b.x), 0.5 * (s.a.y + s.b.y)};
+    const hr2d_point m = plane_middle(s);
     if (random_below(r, 2))
       s.a = m;
     else
@@ -217,16 +173,16 @@ static pair children(randoms *r) {
   if (random_below(r, 3) == 0) p = (pair){{{0, 0}, {1, 0}}, {{1, d}, {0, d}}};
   if (random_below(r, 3) == 0) p = (pair){{{0, 0}, {1, 0}}, {{0, 1}, {0, 0}}};
   const int levels = random_below(r, 31);
-  p.i = child(r, p.i, levels);
-  p.j = child(r, p.j, levels);
+  p.i = random_descendant(r, p.i, levels);
+  p.j = random_descendant(r, p.j, levels);
   return p;
 }
 
 static pair slit(randoms *r) {
   const double d = 1e-12 * random_between(r, 0.5, 2);
   pair p = perhaps_turned(r, (pair){{{0, 0}, {1, 0}}, {{1, d}, {0, d}}});
-  p.i = child(r, p.i, random_below(r, 25));
-  p.j = child(r, p.j, random_below(r, 25));
+  p.i = random_descendant(r, p.i, random_below(r, 25));
+  p.j = random_descendant(r, p.j, random_below(r, 25));
   return p;
 }
 

@@ -20,19 +20,27 @@ static void set_square(radiosity_scene *s, double bottom, double others, double 
   set_patch(s, 0, 1, 0, 0, others, rho);
 }
 
-static int set_patches(radiosity_scene *s) {
+int radiosity_scene_name(radiosity_scene *s, const char *name) {
   double d, rho;
-  if (sscanf(s->name, "par_d%lf_rho%lf", &d, &rho) == 2) {
+  *s = (radiosity_scene){.patches = 0};
+  snprintf(s->name, sizeof s->name, "%s", name);
+  if (sscanf(name, "par_d%lf_rho%lf", &d, &rho) == 2) {
     set_patch(s, 0, 0, 1, 0, 1, rho);
     set_patch(s, 1, d, 0, d, 0, rho);
-  } else if (sscanf(s->name, "orth_touch_rho%lf", &rho) == 1) {
+  } else if (sscanf(name, "par%lf", &d) == 1) {
+    set_patch(s, 0, 0, 1, 0, 1, .5);
+    set_patch(s, 1, d, 0, d, 0, .5);
+  } else if (sscanf(name, "orth_touch_rho%lf", &rho) == 1) {
     set_patch(s, 0, 0, 1, 0, 1, rho);
     set_patch(s, 0, 1, 0, 0, 0, rho);
-  } else if (sscanf(s->name, "square_rho%lf", &rho) == 1) {
+  } else if (sscanf(name, "orth%lf", &d) == 1) {
+    set_patch(s, d, 0, 1 + d, 0, 1, .5);
+    set_patch(s, 0, 1 + d, 0, d, 0, .5);
+  } else if (sscanf(name, "square_rho%lf", &rho) == 1) {
     set_square(s, 1, 0, rho);
-  } else if (sscanf(s->name, "square_furnace_rho%lf", &rho) == 1) {
+  } else if (sscanf(name, "square_furnace_rho%lf", &rho) == 1) {
     set_square(s, 1 - rho, 1 - rho, rho);
-  } else if (sscanf(s->name, "occ_square_walls%lf_occ%lf", &rho, &d) == 2) {
+  } else if (sscanf(name, "occ_square_walls%lf_occ%lf", &rho, &d) == 2) {
     set_square(s, 1, 0, rho);
     set_patch(s, .3, .5, .7, .5, 0, d);
     set_patch(s, .7, .5, .3, .5, 0, d);
@@ -49,8 +57,7 @@ static int add_line(radiosity_scenes *all, const char *line, size_t *row) {
   if (all->count == 0 || strcmp(all->scene[all->count - 1].name, name) != 0) {
     if (all->count == RADIOSITY_MOST_SCENES) return -1;
     radiosity_scene *fresh = &all->scene[all->count++];
-    memcpy(fresh->name, name, sizeof name);
-    if (set_patches(fresh)) return -1;
+    if (radiosity_scene_name(fresh, name)) return -1;
     *row = 0;
   }
   radiosity_scene *s = &all->scene[all->count - 1];

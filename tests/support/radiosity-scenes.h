@@ -22,9 +22,13 @@ typedef struct radiosity_scenes {
   radiosity_scene scene[RADIOSITY_MOST_SCENES];
 } radiosity_scenes;
 
-/* Reads a table with the columns scene, patch, avgB, B_quarter and B_half, of which the scene's
-   name tells its patches, as "par_d0.1_rho0.5", "orth_touch_rho0.7", "square_rho0.9",
-   "square_furnace_rho0.9", "occ_square_walls0.5_occ0.5".  0, or −1 for what cannot be read. */
+/* Sets the name and the patches of a scene: "par0.1", "orth10", "par_d0.1_rho0.5",
+   "orth_touch_rho0.7", "square_rho0.9", "square_furnace_rho0.9", "occ_square_walls0.5_occ0.5".
+   0, or −1 for a name of another form. */
+int radiosity_scene_name(radiosity_scene *scene, const char *name);
+
+/* Reads a table with the columns scene, patch, avgB, B_quarter and B_half; the name of a scene
+   gives its patches.  0, or −1 if the table cannot be read. */
 int radiosity_scenes_read(const char *path, radiosity_scenes *scenes);
 
 /* The scene of that name, or NULL. */

@@ -7,6 +7,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "support/order.h"
+#include "support/plane.h"
+
 #define PI 3.14159265358979323846
 
 void plan_add(plan *p, hr2d_point a, hr2d_point b, hr2d_sides sides) {
@@ -80,16 +83,13 @@ static int touches(hr2d_segment w, hr2d_point p) {
   return orientation(w, p) == 0 && in_box(w, p);
 }
 
-static int same(hr2d_point p, hr2d_point q) {
-  return p.x == q.x && p.y == q.y;
-}
-
 /* CROSS also where the two share more than a point. */
 static meeting meet(hr2d_segment s, hr2d_segment t) {
   if (cross(s, t)) return CROSS;
   const int ends = touches(s, t.a) + touches(s, t.b) + touches(t, s.a) + touches(t, s.b);
   if (ends == 0) return APART;
-  const int joined = same(s.a, t.a) || same(s.a, t.b) || same(s.b, t.a) || same(s.b, t.b);
+  const int joined = plane_same(s.a, t.a) || plane_same(s.a, t.b) || plane_same(s.b, t.a) ||
+                     plane_same(s.b, t.b);
   const int parallel = orientation(s, t.a) == 0 && orientation(s, t.b) == 0;
   return parallel && !(joined && ends == 2) ? CROSS : TOUCH;
 }
@@ -108,13 +108,17 @@ static void polygon(plan *p, const hr2d_point *corner, int corners) {
     plan_add(p, corner[k], corner[(k + 1) % corners], HR2D_SIDES_FRONT);
 }
 
-static void square_room(plan *p, double width, double height) {
+void plan_room(plan *p, double width, double height) {
   polygon(p, (hr2d_point[]){{0, 0}, {width, 0}, {width, height}, {0, height}}, 4);
 }
 
-static int ascending(const void *left, const void *right) {
-  const double l = *(const double *)left, r = *(const double *)right;
-  return (l > r) - (l < r);
+void plan_fan(plan *p, int spokes) {
+  const hr2d_point hub = {.4375, .5625};
+  plan_room(p, 1, 1);
+  for (int k = 0; k < spokes; k++) {
+    const double angle = 2 * PI * k / spokes, reach = .3 + .1 * (k % 7) / 7;
+    plan_add(p, hub, plane_polar(hub, reach, angle), HR2D_SIDES_BOTH);
+  }
 }
 
 /* Corners on a circle, or nearer to its centre. */
@@ -122,7 +126,7 @@ static int round_room(randoms *r, plan *p, hr2d_point *corner, double least) {
   double angle[12];
   const int corners = 3 + random_below(r, 10);
   for (int k = 0; k < corners; k++) angle[k] = 2 * PI * (k + .8 * random_unit(r)) / corners;
-  qsort(angle, (size_t)corners, sizeof *angle, ascending);
+  qsort(angle, (size_t)corners, sizeof *angle, order_doubles);
   for (int k = 0; k < corners; k++) {
     const double radius = random_between(r, least, 1);
     corner[k] = (hr2d_point){radius * cos(angle[k]), radius * sin(angle[k])};
@@ -169,7 +173,7 @@ static void short_walls(randoms *r, int size, plan *p) {
 static void obstacles(randoms *r, int size, plan *p, int sides, int most) {
   double at[64][3];
   int placed = 0;
-  square_room(p, 1, 1);
+  plan_room(p, 1, 1);
   for (int k = 0; k < 10 * size && placed < size && placed < 64; k++) {
     const double radius = random_between(r, .1, .5) / sqrt(size);
     const double x = random_between(r, radius, 1 - radius),
@@ -204,7 +208,7 @@ static hr2d_point at_point(double x, double y) {
 /* Courses of bricks: a T at each joint. */
 static void bricks(randoms *r, int size, plan *p) {
   const int courses = 1 + (int)sqrt(size), width = 2 * courses;
-  square_room(p, width, courses);
+  plan_room(p, width, courses);
   for (int y = 0; y < courses; y++) {
     for (int x = 1 + y % 2; x < width; x += 2)
       if (random_below(r, 4)) put(p, at_point(x, y), at_point(x, y + 1), TOUCH);
@@ -223,7 +227,7 @@ static void lattice_edges(randoms *r, int size, plan *p, int directions) {
   static const int dx[] = {1, 0, 1}, dy[] = {0, 1, 1};
   const int cells = 1 + (int)sqrt(size / directions);
   const double part = random_between(r, .2, 1);
-  square_room(p, cells, cells);
+  plan_room(p, cells, cells);
   for (int y = 0; y < cells; y++)
     for (int x = 0; x < cells; x++)
       for (int k = 0; k < directions; k++)
@@ -261,7 +265,7 @@ static void stairs(randoms *r, int size, plan *p) {
 /* Rooms in rooms, some with doors; each stands free or reaches the next by a wall. */
 static void nested(randoms *r, int size, plan *p) {
   const int rooms = 1 + size / 8, width = 4 * rooms + 8;
-  square_room(p, width, width);
+  plan_room(p, width, width);
   for (int k = 1; k <= rooms; k++) {
     const double low = 2 * k, high = width - low;
     const hr2d_point corner[] = {{low, low}, {high, low}, {high, high}, {low, high}};
@@ -296,7 +300,7 @@ static void divide(randoms *r, plan *p, double x0, double y0, double x1, double 
 
 /* Partitions from wall to wall, of which half have a door. */
 static void partitions(randoms *r, int size, plan *p) {
-  square_room(p, 64, 32);
+  plan_room(p, 64, 32);
   divide(r, p, 0, 0, 64, 32, size);
 }
 
@@ -319,7 +323,7 @@ static void chords(randoms *r, int size, plan *p) {
 
 /* Branches from ends, and from sixteenths of the length, of other walls. */
 static void trees(randoms *r, int size, plan *p) {
-  square_room(p, 1024, 1024);
+  plan_room(p, 1024, 1024);
   put(p, at_point(512, 512), at_point(512 + 16 * random_below(r, 9), 640), TOUCH);
   for (int k = 0; k < 3 * size && p->walls < (size_t)size + 4; k++) {
     const hr2d_segment w = p->wall[random_below(r, (int)p->walls)];
@@ -334,7 +338,7 @@ static void trees(randoms *r, int size, plan *p) {
 /* Teeth from the floor and from the ceiling. */
 static void comb(randoms *r, int size, plan *p) {
   const int teeth = 1 + size / 2, height = 2 + random_below(r, 16);
-  square_room(p, teeth + 1, height);
+  plan_room(p, teeth + 1, height);
   for (int x = 1; x <= teeth; x++) {
     const int length = 1 + random_below(r, height - 1);
     if (random_below(r, 2))
@@ -347,7 +351,7 @@ static void comb(randoms *r, int size, plan *p) {
 /* Spokes from one hub, some of which reach the walls. */
 static void fan(randoms *r, int size, plan *p) {
   const hr2d_point hub = {4 + random_below(r, 8), 4 + random_below(r, 8)};
-  square_room(p, 16, 16);
+  plan_room(p, 16, 16);
   for (int k = 0; k < size; k++) {
     const double angle = random_between(r, 0, 2 * PI), length = random_between(r, .5, 4);
     hr2d_point end = {hub.x + length * cos(angle), hub.y + length * sin(angle)};
@@ -357,7 +361,7 @@ static void fan(randoms *r, int size, plan *p) {
 }
 
 static void crossings(randoms *r, int size, plan *p) {
-  square_room(p, 1, 1);
+  plan_room(p, 1, 1);
   for (int k = 0; k < size / 4 + 1; k++) {
     const hr2d_point a = {random_between(r, .01, .99), random_between(r, .01, .99)};
     const hr2d_point b = {random_between(r, .01, .99), random_between(r, .01, .99)};

@@ -28,6 +28,12 @@ extern const int plan_class_count;
 void plan_add(plan *p, hr2d_point a, hr2d_point b, hr2d_sides sides);
 void plan_free(plan *p);
 
+/* A rectangular room with a corner at the origin. */
+void plan_room(plan *p, double width, double height);
+
+/* A unit square with walls in it that meet in one point, each next to the last. */
+void plan_fan(plan *p, int spokes);
+
 /* Moves all walls; where rounding made a wall's end pass through another wall, it is
    pulled back again. */
 void plan_transform(plan *p, similarity s);

@@ -3,8 +3,12 @@
    own, general position, being in front, being short, leaving room between. */
 #include "support/visibility-cases.h"
 
+#include <check.h>
+#include <hr2d/visibility.h>
 #include <math.h>
 #include <stdio.h>
+
+#include "support/plane.h"
 
 #define PI 3.14159265358979323846
 
@@ -23,8 +27,7 @@ static hr2d_point point_between(randoms *r, double step) {
 
 /* A sixteenth of a grid step is on the grid of all the coordinates. */
 static hr2d_point foot(randoms *r, hr2d_segment w) {
-  const double t = (1 + random_below(r, 15)) / 16.0;
-  return (hr2d_point){w.a.x + t * (w.b.x - w.a.x), w.a.y + t * (w.b.y - w.a.y)};
+  return plane_along(w, (1 + random_below(r, 15)) / 16.0);
 }
 
 static hr2d_point end_of(randoms *r, hr2d_segment w) {
@@ -76,15 +79,18 @@ static void chains(randoms *r, double step, occluded_pair *p) {
   }
 }
 
+/* i, j or an occluder; i with a probability of 1/n, and likewise j. */
+static hr2d_segment one_of(randoms *r, const occluded_pair *p, int n) {
+  const int on = random_below(r, n);
+  if (on < 2) return on == 0 ? p->i : p->j;
+  return p->occluder[random_below(r, (int)p->count)];
+}
+
 static void feet(randoms *r, double step, occluded_pair *p) {
   face(r, step, p);
   short_ones(r, step, p, 1 + random_below(r, 3));
   for (int k = 1 + random_below(r, 6); k > 0; k--) {
-    const int on = random_below(r, 3);
-    const hr2d_segment w = on == 0   ? p->i
-                           : on == 1 ? p->j
-                                     : p->occluder[random_below(r, (int)p->count)];
-    const hr2d_point at = foot(r, w);
+    const hr2d_point at = foot(r, one_of(r, p, 3));
     add(p, at, point_near(r, step, at.x, at.y, .5));
   }
 }
@@ -182,10 +188,7 @@ static void collinear(randoms *r, double step, occluded_pair *p) {
   face(r, step, p);
   short_ones(r, step, p, 1 + random_below(r, 3));
   for (int k = 1 + random_below(r, 6); k > 0; k--) {
-    const int on = random_below(r, 4);
-    const hr2d_segment w = on == 0   ? p->i
-                           : on == 1 ? p->j
-                                     : p->occluder[random_below(r, (int)p->count)];
+    const hr2d_segment w = one_of(r, p, 4);
     const int from = random_below(r, 33) - 8, to = random_below(r, 33) - 8;
     const double x = w.b.x - w.a.x, y = w.b.y - w.a.y;
     add(p, (hr2d_point){w.a.x + from * x / 16, w.a.y + from * y / 16},
@@ -237,6 +240,13 @@ void draw_occluded(const occluded_class *class, randoms *r, occluded_pair *p) {
     p->i = p->j;
     p->j = i;
   }
+}
+
+double exchange_among(hr2d_segment i, hr2d_segment j, const hr2d_segment *occluder,
+                      size_t count) {
+  double area = -7;
+  ck_assert_int_eq(hr2d_exchange_area_occluded(&i, &j, occluder, count, NULL, &area), HR2D_OK);
+  return area;
 }
 
 static void print_segment(const char *name, hr2d_segment s) {

@@ -29,6 +29,10 @@ extern const int occluded_class_count;
    there, also turned: by (p + qi)/4, which leaves no angle as it was and rounds nothing. */
 void draw_occluded(const occluded_class *class, randoms *r, occluded_pair *p);
 
+/* The exchange area of a pair around its occluders, by the library. */
+double exchange_among(hr2d_segment i, hr2d_segment j, const hr2d_segment *occluder,
+                      size_t count);
+
 /* A pair as numbers that compile. */
 void print_occluded(const occluded_pair *p);
 

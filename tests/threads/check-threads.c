@@ -25,7 +25,7 @@ typedef struct common {
   hr2d_hierarchy *hierarchy;
   hr2d_linkset *links[SETS];
   hr2d_solution *solution;
-  atomic_long live; /* blocks of memory */
+  test_memory memory;
 } common;
 
 /* Does the work number `kind` and mixes all that came out of it into `*digest`. */
@@ -76,23 +76,6 @@ static void mix_solution(uint64_t *digest, const hr2d_solution *solution) {
   mix_number(digest, hr2d_solution_residual(solution));
 }
 
-static void *count_allocate(void *ctx, size_t bytes) {
-  void *block = malloc(bytes);
-  if (block) atomic_fetch_add((atomic_long *)ctx, 1);
-  return block;
-}
-
-static void *count_reallocate(void *ctx, void *block, size_t bytes) {
-  void *moved = realloc(block, bytes);
-  if (moved && !block) atomic_fetch_add((atomic_long *)ctx, 1);
-  return moved;
-}
-
-static void count_release(void *ctx, void *block) {
-  if (block) atomic_fetch_sub((atomic_long *)ctx, 1);
-  free(block);
-}
-
 /* Two rooms with an opening between them and furniture, under a sky, in two bands: every effect
    is on. */
 static const double wall[][4] = {
@@ -116,32 +99,23 @@ static void fill(hr2d_scene *scene) {
     ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
   }
   ck_assert_int_eq(hr2d_scene_set_background(scene, sky, BANDS), HR2D_OK);
-  ck_assert_msg(hr2d_scene_commit(scene) == HR2D_OK, "%s", hr2d_scene_message(scene));
+  test_commit(scene);
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++)
     ck_assert_msg(hr2d_scene_effect(scene, (hr2d_effect)e, NULL), "%s",
                   hr2d_effect_name((hr2d_effect)e));
 }
 
-static hr2d_refine_options up_to(double epsilon, unsigned max_level) {
-  hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
-  options.epsilon = epsilon;
-  options.max_level = max_level;
-  return options;
-}
-
 /* Three link sets on one hierarchy, of order 1 or more, none of them solved. */
 static void set_up(common *c, unsigned order) {
-  *c = (common){.live = 0};
-  const hr2d_allocator hooks = {.allocate = count_allocate,
-                                .reallocate = count_reallocate,
-                                .release = count_release,
-                                .ctx = &c->live};
+  *c = (common){.memory.until_failure = -1};
+  const hr2d_allocator hooks = test_hooks(&c->memory);
   ck_assert_int_eq(hr2d_scene_create(&hooks, &c->scene), HR2D_OK);
   fill(c->scene);
   ck_assert_int_eq(hr2d_hierarchy_create(c->scene, &c->hierarchy), HR2D_OK);
   for (unsigned k = 0; k < SETS; k++) {
     const hr2d_oracle *oracle = k == 1 ? hr2d_oracle_bf() : hr2d_oracle_size();
-    const hr2d_refine_options options = up_to((k == 1 ? .02 : .6) * (k == 2 ? .5 : 1), 4);
+    const hr2d_refine_options options =
+        test_options((k == 1 ? .02 : .6) * (k == 2 ? .5 : 1), 4);
     ck_assert_int_eq(hr2d_linkset_create(c->hierarchy, oracle, NULL, NULL, NULL, &c->links[k]),
                      HR2D_OK);
     ck_assert_int_eq(hr2d_refine(c->links[k], &options), HR2D_OK);
@@ -154,7 +128,7 @@ static void tear_down(common *c) {
   for (unsigned k = 0; k < SETS; k++) hr2d_linkset_destroy(c->links[k]);
   hr2d_hierarchy_destroy(c->hierarchy);
   hr2d_scene_destroy(c->scene);
-  ck_assert_int_eq(atomic_load(&c->live), 0);
+  ck_assert_int_eq(c->memory.live, 0);
 }
 
 typedef struct thread {
@@ -198,7 +172,7 @@ static void together(const common *c, job work, unsigned kinds, const char *name
 }
 
 static void repeat(unsigned order, job work, unsigned kinds, const char *name) {
-  const int rounds = 1 + (int)(5 * test_multiplier());
+  const int rounds = (int)test_rounds(5, 1);
   for (int k = 0; k < rounds; k++) {
     common c;
     set_up(&c, order);
@@ -213,7 +187,7 @@ static hr2d_status tell(const common *c, unsigned kind, uint64_t *digest) {
   const hr2d_oracle *oracle[] = {hr2d_oracle_size(), hr2d_oracle_bf(), hr2d_oracle_size2(),
                                  hr2d_oracle_l1()};
   const hr2d_policy *policy = kind == 2 ? hr2d_policy_modified() : hr2d_policy_original();
-  hr2d_refine_options options = up_to(kind == 1 || kind == 3 ? .05 : .7, 5);
+  hr2d_refine_options options = test_options(kind == 1 || kind == 3 ? .05 : .7, 5);
   hr2d_solve_options how = HR2D_SOLVE_OPTIONS_INIT;
   hr2d_refine_counts counts;
   hr2d_hierarchy *h = NULL;
@@ -302,7 +276,7 @@ static hr2d_status solve_target(const common *c, unsigned kind, uint64_t *digest
 }
 
 START_TEST(targets_on_one_scene) {
-  const int rounds = 1 + (int)(2 * test_multiplier());
+  const int rounds = (int)test_rounds(2, 1);
   for (int k = 0; k < rounds; k++) {
     common c;
     set_up(&c, 1);
@@ -334,12 +308,17 @@ static hr2d_status ask(const common *c, unsigned kind, uint64_t *digest) {
   return HR2D_OK;
 }
 
-START_TEST(one_solution) {
+/* Many threads work on one solution. */
+static void share_solution(unsigned order, job work, const char *name) {
   common c;
-  set_up(&c, 3);
+  set_up(&c, order);
   ck_assert_int_eq(hr2d_solve(c.links[0], NULL, &c.solution), HR2D_OK);
-  together(&c, ask, 1, "one solution");
+  together(&c, work, 1, name);
   tear_down(&c);
+}
+
+START_TEST(one_solution) {
+  share_solution(3, ask, "one solution");
 }
 END_TEST
 
@@ -355,11 +334,7 @@ static hr2d_status measure_error(const common *c, unsigned kind, uint64_t *diges
 }
 
 START_TEST(errors_of_one_solution) {
-  common c;
-  set_up(&c, 1);
-  ck_assert_int_eq(hr2d_solve(c.links[0], NULL, &c.solution), HR2D_OK);
-  together(&c, measure_error, 1, "errors of one solution");
-  tear_down(&c);
+  share_solution(1, measure_error, "errors of one solution");
 }
 END_TEST
 
@@ -393,7 +368,7 @@ static hr2d_status read_text(const common *c, unsigned kind, uint64_t *digest) {
 /* Exchange areas of hard pairs, around occluders too. */
 static hr2d_status exchange(const common *c, unsigned kind, uint64_t *digest) {
   randoms r = {.state = test_seed() + kind};
-  const int pairs = 1 + (int)(40 * test_multiplier());
+  const int pairs = (int)test_rounds(40, 1);
   (void)c;
   for (int class = 0; class < occluded_class_count; class ++)
     for (int k = 0; k < pairs; k++) {
@@ -411,22 +386,12 @@ static hr2d_status exchange(const common *c, unsigned kind, uint64_t *digest) {
 }
 
 START_TEST(nothing_in_common) {
-  printf("seed %lu\n", test_seed());
   repeat(1, read_text, 3, "scenes");
   repeat(1, exchange, THREADS, "exchange areas");
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("threads");
-  TCase *tc = tcase_create("threads");
-  suite_add_tcase(suite, tc);
-  tcase_add_test(tc, hierarchies_of_one_scene);
-  tcase_add_test(tc, sets_of_one_hierarchy);
-  tcase_add_test(tc, matrices_of_one_scene);
-  tcase_add_test(tc, targets_on_one_scene);
-  tcase_add_test(tc, one_solution);
-  tcase_add_test(tc, errors_of_one_solution);
-  tcase_add_test(tc, nothing_in_common);
-  return test_run(suite);
+TEST_SUITE("threads") {
+  ADD_TESTS("threads", hierarchies_of_one_scene, sets_of_one_hierarchy, matrices_of_one_scene,
+            targets_on_one_scene, one_solution, errors_of_one_solution, nothing_in_common);
 }

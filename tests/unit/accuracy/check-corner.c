@@ -156,18 +156,6 @@ START_TEST(test_monotonic) {
 }
 END_TEST
 
-Suite *suite(void);
-Suite *suite(void) {
-  Suite *s = suite_create("corner");
-  TCase *c = tcase_create("exponent");
-  tcase_add_test(c, test_reference);
-  tcase_add_test(c, test_root);
-  tcase_add_test(c, test_dark);
-  tcase_add_test(c, test_monotonic);
-  suite_add_tcase(s, c);
-  return s;
-}
-
-int main(void) {
-  return test_run(suite());
+TEST_SUITE("corner") {
+  ADD_TESTS("exponent", test_reference, test_root, test_dark, test_monotonic);
 }

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What everything else stands on: statuses, the version, memory and messages. */
-#include <check.h>
 #include <hr2d/hr2d.h>
 #include <limits.h>
 #include <stdint.h>
@@ -10,6 +9,7 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
+#include "support/suite.h"
 
 START_TEST(every_status_has_its_own_phrase) {
   for (int i = HR2D_OK; i <= HR2D_EACCURACY; i++) {
@@ -232,32 +232,13 @@ START_TEST(a_message_that_just_fits_is_whole) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("status");
-  TCase *statuses = tcase_create("status and version");
-  tcase_add_test(statuses, every_status_has_its_own_phrase);
-  tcase_add_test(statuses, a_value_outside_the_enumeration_has_a_phrase);
-  tcase_add_test(statuses, the_version_is_that_of_the_header);
-  suite_add_tcase(suite, statuses);
-
-  TCase *memory = tcase_create("memory");
-  tcase_add_test(memory, sizes_that_overflow_never_reach_the_hooks);
-  tcase_add_test(memory, an_array_of_nothing_is_not_a_failure);
-  tcase_add_test(memory, calloc_fills_with_zero);
-  tcase_add_test(memory, reserve_keeps_what_is_there_and_doubles);
-  tcase_add_test(memory, a_refused_reserve_changes_nothing);
-  tcase_add_test(memory, reserve_does_not_double_beyond_the_largest_size);
-  suite_add_tcase(suite, memory);
-
-  TCase *messages = tcase_create("messages");
-  tcase_add_test(messages, fail_writes_and_returns);
-  tcase_add_test(messages, a_long_message_is_cut_between_characters);
-  tcase_add_test(messages, a_message_that_just_fits_is_whole);
-  suite_add_tcase(suite, messages);
-
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  const int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed != 0;
+TEST_SUITE("status") {
+  ADD_TESTS("status and version", every_status_has_its_own_phrase,
+            a_value_outside_the_enumeration_has_a_phrase, the_version_is_that_of_the_header);
+  ADD_TESTS("memory", sizes_that_overflow_never_reach_the_hooks,
+            an_array_of_nothing_is_not_a_failure, calloc_fills_with_zero,
+            reserve_keeps_what_is_there_and_doubles, a_refused_reserve_changes_nothing,
+            reserve_does_not_double_beyond_the_largest_size);
+  ADD_TESTS("messages", fail_writes_and_returns, a_long_message_is_cut_between_characters,
+            a_message_that_just_fits_is_whole);
 }

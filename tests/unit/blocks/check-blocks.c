@@ -200,7 +200,6 @@ static void check_pull(const hr2d_hierarchy *h, unsigned long *state, size_t ord
 
 START_TEST(push_and_pull) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
   for (size_t order = 1; order <= 16; order++) {
     test_links t = random_tree(&state, 40);
     check_pull_of_push(t.hierarchy, &state, order, 1);
@@ -587,32 +586,14 @@ START_TEST(areas_are_those_of_links) {
 }
 END_TEST
 
-static Suite *make_suite(void) {
-  Suite *suite = suite_create("blocks");
-  TCase *legendre = tcase_create("legendre");
-  tcase_add_test(legendre, rules_are_those_of_gsl);
-  tcase_add_test(legendre, rules_are_exact_to_their_degree);
-  tcase_add_test(legendre, polynomials_are_those_of_gsl);
-  tcase_add_test(legendre, polynomials_are_orthonormal);
-  tcase_add_test(legendre, two_scale_relation);
-  tcase_add_test(legendre, push_and_pull);
-  suite_add_tcase(suite, legendre);
-  TCase *blocks = tcase_create("blocks");
-  tcase_set_timeout(blocks, 600);
-  tcase_add_test(blocks, blocks_of_distant_pairs);
-  tcase_add_test(blocks, blocks_of_near_pairs);
-  tcase_add_test(blocks, blocks_of_clipped_pairs);
+TEST_SUITE("blocks") {
+  ADD_TESTS("legendre", rules_are_those_of_gsl, rules_are_exact_to_their_degree,
+            polynomials_are_those_of_gsl, polynomials_are_orthonormal, two_scale_relation,
+            push_and_pull);
+  ADD_TESTS("blocks", blocks_of_distant_pairs, blocks_of_near_pairs, blocks_of_clipped_pairs);
   /* Where GSL has the excess precision of an x87, as Debian's has with 32 bits, the CQUAD of
      the reference does not end. */
-  if (SIZE_MAX > UINT32_MAX) tcase_add_test(blocks, blocks_of_touching_pairs);
-  tcase_add_test(blocks, blocks_of_shaded_pairs);
-  tcase_add_test(blocks, swapped_pairs_have_transposed_blocks);
-  tcase_add_test(blocks, blocks_scale_like_lengths);
-  tcase_add_test(blocks, areas_are_those_of_links);
-  suite_add_tcase(suite, blocks);
-  return suite;
-}
-
-int main(void) {
-  return test_run(make_suite());
+  if (SIZE_MAX > UINT32_MAX) ADD_TESTS("blocks", blocks_of_touching_pairs);
+  ADD_TESTS("blocks", blocks_of_shaded_pairs, swapped_pairs_have_transposed_blocks,
+            blocks_scale_like_lengths, areas_are_those_of_links);
 }

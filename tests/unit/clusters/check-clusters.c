@@ -538,28 +538,16 @@ START_TEST(allocations_fail_one_by_one) {
 }
 END_TEST
 
-int main(void) {
-  printf("seed %lu\n", test_seed());
-  fflush(stdout);
-  Suite *suite = suite_create("clusters");
-  TCase *tc = tcase_create("pairs");
-  tcase_add_loop_test(tc, pairs_are_covered_once, 0, plan_class_count);
-  tcase_add_loop_test(tc, links_are_exact_enough, 0, SHAPES);
-  tcase_add_loop_test(tc, what_is_clear_is_linked, 0, 1);
-  tcase_add_test(tc, faults_are_found);
-  tcase_add_test(tc, links_mind_the_pillar);
-  tcase_add_loop_test(tc, no_square_of_patches, 0, SHAPES - 1);
-  tcase_add_test(tc, hidden_pairs_are_not_near);
-  suite_add_tcase(suite, tc);
-  tc = tcase_create("gathers");
-  tcase_add_loop_test(tc, orders_are_exact_enough, 0, 2);
-  tcase_add_loop_test(tc, gathers_are_symmetric, 0, SHAPES);
-  tcase_add_test(tc, bands_are_gathers);
-  suite_add_tcase(suite, tc);
-  tc = tcase_create("calls");
-  tcase_add_loop_test(tc, near_may_stop, 0, 2);
-  tcase_add_test(tc, one_patch_has_no_pairs);
-  tcase_add_loop_test(tc, allocations_fail_one_by_one, 0, 2);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+TEST_SUITE("clusters") {
+  REPEAT_TESTS(plan_class_count, "pairs", pairs_are_covered_once);
+  REPEAT_TESTS(SHAPES, "pairs", links_are_exact_enough);
+  ADD_TESTS("pairs", what_is_clear_is_linked, faults_are_found, links_mind_the_pillar);
+  REPEAT_TESTS(SHAPES - 1, "pairs", no_square_of_patches);
+  ADD_TESTS("pairs", hidden_pairs_are_not_near);
+  REPEAT_TESTS(2, "gathers", orders_are_exact_enough);
+  REPEAT_TESTS(SHAPES, "gathers", gathers_are_symmetric);
+  ADD_TESTS("gathers", bands_are_gathers);
+  REPEAT_TESTS(2, "calls", near_may_stop);
+  ADD_TESTS("calls", one_patch_has_no_pairs);
+  REPEAT_TESTS(2, "calls", allocations_fail_one_by_one);
 }

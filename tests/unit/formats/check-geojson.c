@@ -3,12 +3,9 @@
 #ifndef _POSIX_C_SOURCE
 #define _POSIX_C_SOURCE 200809L
 #endif
-#include <check.h>
 #include <dirent.h>
 #include <errno.h>
 #include <float.h>
-#include <hr2d/hr2d.h>
-#include <inttypes.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdint.h>
@@ -18,111 +15,20 @@
 #include <unistd.h>
 
 #include "data/malformed/expected.h"
+#include "support/scene-files.h"
 
 enum { TEXT = 8192 };
 
-static const char *data_path(const char *variable, const char *fallback, const char *rest) {
-  static char path[4096];
-  const char *directory = getenv(variable);
-  snprintf(path, sizeof path, "%s%s", directory ? directory : fallback, rest);
-  return path;
-}
-
-static const char *scene_path(const char *file) {
-  char rest[300];
-  snprintf(rest, sizeof rest, "/%s", file);
-  return data_path("HR2D_SCENES", "examples/scenes", rest);
-}
-
 static const char *malformed_path(const char *file) {
-  char rest[300];
-  snprintf(rest, sizeof rest, "/tests/data/malformed/%s", file);
-  return data_path("HR2D_SRCDIR", ".", rest);
-}
-
-/* SplitMix64: small, and the same everywhere. */
-static uint64_t random_state;
-
-static uint64_t random_bits(void) {
-  uint64_t z = random_state += 0x9E3779B97F4A7C15u;
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return z ^ (z >> 31);
-}
-
-static size_t random_below(size_t n) {
-  return (size_t)(random_bits() % n);
-}
-
-static double random_unit(void) {
-  return (double)(random_bits() >> 11) * 0x1p-53;
-}
-
-/* A double of any size, also subnormal, by its bits. */
-static double random_double(void) {
-  for (;;) {
-    const uint64_t bits = random_bits();
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    if (isfinite(value)) return value;
-  }
-}
-
-static void seed_random(void) {
-  const char *given = getenv("HR2D_TEST_SEED");
-  random_state = given ? strtoull(given, NULL, 0) : 20240229;
-  printf("HR2D_TEST_SEED=%" PRIu64 "\n", random_state);
-  fflush(stdout);
-}
-
-static size_t times(size_t count) {
-  const char *given = getenv("HR2D_TEST_MULTIPLIER");
-  const double scaled = (double)count * (given ? strtod(given, NULL) : 1);
-  return scaled < 1 ? 1 : (size_t)scaled;
-}
-
-static hr2d_scene *new_scene(void) {
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
-  return scene;
-}
-
-/* From a block of just that size, so that a byte too many is seen by a sanitizer. */
-static hr2d_status parse_bytes(hr2d_scene *scene, const char *text, size_t size) {
-  char *exact = malloc(size ? size : 1);
-  ck_assert_ptr_nonnull(exact);
-  memcpy(exact, text, size);
-  hr2d_status status = hr2d_scene_parse(scene, exact, size);
-  free(exact);
-  return status;
-}
-
-static hr2d_status parse(hr2d_scene *scene, const char *text) {
-  return parse_bytes(scene, text, strlen(text));
+  char path[300];
+  snprintf(path, sizeof path, "tests/data/malformed/%s", file);
+  return test_source_path(path);
 }
 
 #define COLLECTION(features) "{\"type\":\"FeatureCollection\",\"features\":[" features "]}"
 #define FEATURE(properties, type, coordinates)                                                 \
   "{\"type\":\"Feature\",\"properties\":{" properties "},\"geometry\":{\"type\":\"" type       \
   "\",\"coordinates\":" coordinates "}}"
-
-static hr2d_scene *parsed(const char *text) {
-  hr2d_scene *scene = new_scene();
-  hr2d_status status = parse(scene, text);
-  ck_assert_msg(status == HR2D_OK, "%s: %s", hr2d_scene_message(scene), text);
-  return scene;
-}
-
-static void expect_segment(const hr2d_scene *scene, size_t patch, double ax, double ay,
-                           double bx, double by) {
-  const hr2d_segment s = hr2d_scene_segment(scene, patch), expected = {{ax, ay}, {bx, by}};
-  ck_assert_msg(memcmp(&s, &expected, sizeof s) == 0, "patch %zu: (%g %g)-(%g %g)", patch,
-                s.a.x, s.a.y, s.b.x, s.b.y);
-}
-
-static void expect_name(const hr2d_scene *scene, size_t patch, const char *name) {
-  ck_assert_str_eq(hr2d_scene_name(scene, patch), name);
-}
 
 /* The shipped scenes. */
 
@@ -131,22 +37,13 @@ static int is_scene(const char *file) {
   return length > 8 && strcmp(file + length - 8, ".geojson") == 0;
 }
 
-static hr2d_scene *shipped(const char *file) {
-  hr2d_scene *scene = new_scene();
-  hr2d_status status = hr2d_scene_read(scene, scene_path(file));
-  ck_assert_msg(status == HR2D_OK, "%s: %s", file, hr2d_scene_message(scene));
-  status = hr2d_scene_commit(scene);
-  ck_assert_msg(status == HR2D_OK, "%s: %s", file, hr2d_scene_message(scene));
-  return scene;
-}
-
 START_TEST(every_shipped_scene_commits_and_has_light) {
-  DIR *directory = opendir(data_path("HR2D_SCENES", "examples/scenes", ""));
+  DIR *directory = opendir(test_scene_path(""));
   ck_assert_ptr_nonnull(directory);
   int count = 0;
   for (struct dirent *entry; (entry = readdir(directory));) {
     if (!is_scene(entry->d_name)) continue;
-    hr2d_scene *scene = shipped(entry->d_name);
+    hr2d_scene *scene = test_shipped_scene(entry->d_name);
     ck_assert_msg(hr2d_scene_effect(scene, HR2D_EFFECT_EMISSION, NULL), "%s is dark",
                   entry->d_name);
     hr2d_scene_destroy(scene);
@@ -172,17 +69,11 @@ START_TEST(shipped_rooms_are_closed_and_face_inwards) {
       {"castel-del-monte.geojson", 17.86 * 17.86 - 4 * 5.23 * 5.23 / 2},
   };
   for (size_t r = 0; r < sizeof rooms / sizeof *rooms; r++) {
-    hr2d_scene *scene = shipped(rooms[r].file);
-    double x = 0, y = 0, area = 0;
-    for (size_t k = 0; k < hr2d_scene_patches(scene); k++) {
-      const hr2d_segment s = hr2d_scene_segment(scene, k);
-      x += s.b.x - s.a.x;
-      y += s.b.y - s.a.y;
-      area += (s.a.x * s.b.y - s.a.y * s.b.x) / 2;
-    }
-    ck_assert_msg(fabs(x) < 1e-13 && fabs(y) < 1e-13, "%s is open", rooms[r].file);
-    ck_assert_msg(fabs(area / rooms[r].area - 1) < 1e-13, "%s: area %.17g", rooms[r].file,
-                  area);
+    hr2d_scene *scene = test_shipped_scene(rooms[r].file);
+    const file_outline o = file_outline_of(scene);
+    ck_assert_msg(fabs(o.x) < 1e-13 && fabs(o.y) < 1e-13, "%s is open", rooms[r].file);
+    ck_assert_msg(fabs(o.area / rooms[r].area - 1) < 1e-13, "%s: area %.17g", rooms[r].file,
+                  o.area);
     hr2d_scene_destroy(scene);
   }
 }
@@ -200,11 +91,11 @@ START_TEST(the_scenes_of_the_paper_are_as_drawn) {
       {"corner.geojson", {0, 0, 1, 0, 0, 1, 0, 0}},
   };
   for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
-    hr2d_scene *scene = shipped(scenes[k].file);
+    hr2d_scene *scene = test_shipped_scene(scenes[k].file);
     const double *s = scenes[k].s;
     ck_assert_uint_eq(hr2d_scene_patches(scene), 2);
-    expect_segment(scene, 0, s[0], s[1], s[2], s[3]);
-    expect_segment(scene, 1, s[4], s[5], s[6], s[7]);
+    file_expect_segment(scene, 0, s[0], s[1], s[2], s[3]);
+    file_expect_segment(scene, 1, s[4], s[5], s[6], s[7]);
     hr2d_scene_destroy(scene);
   }
 }
@@ -213,7 +104,7 @@ END_TEST
 /* E = εσT⁴ and ρ = 1 − ε, with the properties that the reader ignores. */
 START_TEST(the_furnace_emits_as_its_temperatures_say) {
   const double sigma = 5.670374419e-8; /* CODATA 2018, W/(m² K⁴) */
-  json_t *root = json_load_file(scene_path("furnace.geojson"), 0, NULL);
+  json_t *root = json_load_file(test_scene_path("furnace.geojson"), 0, NULL);
   ck_assert_ptr_nonnull(root);
   const json_t *features = json_object_get(root, "features");
   ck_assert_uint_gt(json_array_size(features), 0);
@@ -234,7 +125,7 @@ END_TEST
 /* What is read. */
 
 START_TEST(properties_reach_every_patch_of_a_feature) {
-  hr2d_scene *scene = parsed(COLLECTION(
+  hr2d_scene *scene = file_parsed(COLLECTION(
       FEATURE("\"name\":\"w\u00e4nde\",\"emission\":[1,2,3],\"reflectance\":0.5,\"colour\":{}", "LineString", "[[0,0],[1,0],[1,1,7.5]]") "," FEATURE(
           "\"reflectance\":[0,0.25,1]", "MultiLineString",
           "[[[5,5],[6,5]]]") "," FEATURE("\"name\":\"\",\"emission\":null,\"sides\":null,"
@@ -247,14 +138,14 @@ START_TEST(properties_reach_every_patch_of_a_feature) {
                                                                                                     "MultiLineString",
                                                                                                     "[[[0,7],[0,8]],[[1,7],[1,8]]]")));
   ck_assert_uint_eq(hr2d_scene_patches(scene), 7);
-  expect_name(scene, 0, "w\u00e4nde/1");
-  expect_name(scene, 1, "w\u00e4nde/2");
-  expect_name(scene, 2, "patch 2");
-  expect_name(scene, 3, "patch 3");
-  expect_name(scene, 4, "one");
-  expect_name(scene, 5, "two/1");
-  expect_name(scene, 6, "two/2");
-  expect_segment(scene, 1, 1, 0, 1, 1);
+  file_expect_name(scene, 0, "w\u00e4nde/1");
+  file_expect_name(scene, 1, "w\u00e4nde/2");
+  file_expect_name(scene, 2, "patch 2");
+  file_expect_name(scene, 3, "patch 3");
+  file_expect_name(scene, 4, "one");
+  file_expect_name(scene, 5, "two/1");
+  file_expect_name(scene, 6, "two/2");
+  file_expect_segment(scene, 1, 1, 0, 1, 1);
   ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
   ck_assert_uint_eq(hr2d_scene_bands(scene), 3);
   const double reflectance[5][3] = {{.5, .5, .5}, {.5, .5, .5}, {0, .25, 1}};
@@ -268,14 +159,14 @@ START_TEST(properties_reach_every_patch_of_a_feature) {
 END_TEST
 
 START_TEST(both_sides_are_two_patches) {
-  hr2d_scene *scene = parsed(COLLECTION(
+  hr2d_scene *scene = file_parsed(COLLECTION(
       FEATURE("\"name\":\"fin\",\"sides\":\"both\"", "LineString", "[[0,0],[1,0],[1,1]]")));
   ck_assert_uint_eq(hr2d_scene_patches(scene), 4);
   static const char *const names[] = {"fin/1", "fin/1 (back)", "fin/2", "fin/2 (back)"};
-  for (size_t k = 0; k < 4; k++) expect_name(scene, k, names[k]);
-  expect_segment(scene, 0, 0, 0, 1, 0);
-  expect_segment(scene, 1, 1, 0, 0, 0);
-  expect_segment(scene, 3, 1, 1, 1, 0);
+  for (size_t k = 0; k < 4; k++) file_expect_name(scene, k, names[k]);
+  file_expect_segment(scene, 0, 0, 0, 1, 0);
+  file_expect_segment(scene, 1, 1, 0, 0, 0);
+  file_expect_segment(scene, 3, 1, 1, 1, 0);
   hr2d_scene_destroy(scene);
 }
 END_TEST
@@ -292,7 +183,7 @@ START_TEST(what_says_nothing_adds_nothing) {
       "{\"type\":\"FeatureCollection\",\"features\":[],\"hr2d\":null}",
   };
   for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
-    hr2d_scene *scene = parsed(texts[k]);
+    hr2d_scene *scene = file_parsed(texts[k]);
     ck_assert_uint_eq(hr2d_scene_patches(scene), 0);
     hr2d_scene_destroy(scene);
   }
@@ -330,38 +221,31 @@ START_TEST(the_background_is_that_of_the_last_file_that_has_one) {
       {WITH_BACKGROUND("0.75,\"medium\":1", ""), HR2D_EUNSUPPORTED, {1, 0.25}},
   };
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-    hr2d_scene *scene = parsed(WITH_BACKGROUND("[1,0.25]", WALL));
-    const hr2d_status status = parse(scene, cases[k].second);
+    hr2d_scene *scene = file_parsed(WITH_BACKGROUND("[1,0.25]", WALL));
+    const hr2d_status status = file_parse(scene, cases[k].second);
     ck_assert_msg(status == cases[k].status, "%zu: %d, %s", k, (int)status,
                   hr2d_scene_message(scene));
     expect_background(scene, cases[k].background[0], cases[k].background[1]);
     hr2d_scene_destroy(scene);
   }
-  hr2d_scene *none = parsed(COLLECTION(WALL));
+  hr2d_scene *none = file_parsed(COLLECTION(WALL));
   expect_background(none, 0, 0);
   hr2d_scene_destroy(none);
 }
 END_TEST
 
-START_TEST(coordinates_keep_every_bit) {
-  char text[512];
-  for (size_t n = times(20000); n > 0; n--) {
-    double c[4];
-    for (int k = 0; k < 4; k++) {
-      c[k] = random_double();
-      /* Integers beyond 2^63 too, which other readers keep in 64 bits. */
-      if (n % 4 == 0) c[k] = trunc(fmod(c[k], 0x1p70));
-    }
-    if (c[0] == c[2] && c[1] == c[3]) continue;
-    snprintf(text, sizeof text,
-             n % 4 == 0
-                 ? COLLECTION(FEATURE("", "LineString", "[[%.0f,%.0f],[%.0f,%.0f]]"))
+/* Every fourth text has integers, also beyond 2⁶³, where other readers keep 64 bits. */
+static void write_line(char *text, size_t size, int k, double c[4]) {
+  const int whole = k % 4 == 0;
+  for (int m = 0; m < 4 && whole; m++) c[m] = trunc(fmod(c[m], 0x1p70));
+  snprintf(text, size,
+           whole ? COLLECTION(FEATURE("", "LineString", "[[%.0f,%.0f],[%.0f,%.0f]]"))
                  : COLLECTION(FEATURE("", "LineString", "[[%.17g,%.17g],[%.17g,%.17g]]")),
-             c[0], c[1], c[2], c[3]);
-    hr2d_scene *scene = parsed(text);
-    expect_segment(scene, 0, c[0], c[1], c[2], c[3]);
-    hr2d_scene_destroy(scene);
-  }
+           c[0], c[1], c[2], c[3]);
+}
+
+START_TEST(coordinates_keep_every_bit) {
+  file_expect_bits(write_line);
 }
 END_TEST
 
@@ -394,21 +278,24 @@ START_TEST(ring_order_does_not_matter) {
   enum { MOST = 24 };
   const double pi = acos(-1);
   char ring[TEXT], text[TEXT + 256];
-  for (size_t n = times(3000); n > 0; n--) {
-    const size_t corners = 3 + random_below(MOST - 2);
-    const double size = ldexp(1, (int)random_below(1000) - 500);
-    const hr2d_point centre = {size * 1e6 * random_unit(), -size * 1e6 * random_unit()};
+  randoms r = randoms_stream(test_seed(), 3);
+  for (int n = test_count(3000); n > 0; n--) {
+    const size_t corners = 3 + (size_t)random_below(&r, MOST - 2);
+    const double size = ldexp(1, random_below(&r, 1000) - 500);
+    const double x = size * 1e6 * random_unit(&r), y = -size * 1e6 * random_unit(&r);
+    const hr2d_point centre = {x, y};
     hr2d_point p[MOST];
     for (size_t k = 0; k < corners; k++) {
-      const double turn = 2 * pi * ((double)k + 0.2 * random_unit()) / (double)corners;
-      const double radius = size * (0.1 + random_unit());
+      const double turn = 2 * pi * ((double)k + 0.2 * random_unit(&r)) / (double)corners;
+      const double radius = size * (0.1 + random_unit(&r));
       p[k] = (hr2d_point){centre.x + radius * cos(turn), centre.y + radius * sin(turn)};
     }
-    const int backwards = (int)random_below(2), out = (int)random_below(2);
-    write_ring(ring, sizeof ring, p, corners, random_below(corners), backwards);
+    const int backwards = random_below(&r, 2), out = random_below(&r, 2);
+    write_ring(ring, sizeof ring, p, corners, (size_t)random_below(&r, (int)corners),
+               backwards);
     snprintf(text, sizeof text, COLLECTION(FEATURE("\"faces\":\"%s\"", "Polygon", "[%s]")),
              out ? "out" : "in", ring);
-    hr2d_scene *scene = parsed(text);
+    hr2d_scene *scene = file_parsed(text);
     ck_assert_uint_eq(hr2d_scene_patches(scene), corners);
     expect_side(scene, centre, out ? -1 : 1);
     hr2d_scene_destroy(scene);
@@ -436,7 +323,7 @@ START_TEST(extreme_rings_have_an_inside) {
       for (int backwards = 0; backwards < 2; backwards++) {
         write_ring(ring, sizeof ring, rings[r], 4, first, backwards);
         snprintf(text, sizeof text, COLLECTION(FEATURE("", "Polygon", "[%s]")), ring);
-        hr2d_scene *scene = parsed(text);
+        hr2d_scene *scene = file_parsed(text);
         for (size_t k = 0; k < 4; k++) {
           const hr2d_segment s = hr2d_scene_segment(scene, k);
           for (size_t m = 0; m < 4; m++)
@@ -462,14 +349,14 @@ START_TEST(holes_face_the_inside_of_their_polygon) {
         COLLECTION(FEATURE("\"name\":\"hall\",\"faces\":\"%s\"", "%sPolygon", "%s[%s,%s]%s")),
         out ? "out" : "in", multi ? "Multi" : "", multi ? "[" : "", outer[variant & 1],
         hole[(variant & 2) / 2], multi ? "]" : "");
-    hr2d_scene *scene = parsed(text);
+    hr2d_scene *scene = file_parsed(text);
     ck_assert_uint_eq(hr2d_scene_patches(scene), 8);
     for (size_t k = 0; k < 8; k++) {
       const hr2d_segment s = hr2d_scene_segment(scene, k);
       ck_assert_int_eq(hr2d_orientation(s.a, s.b, middle), (k < 4) == !out ? 1 : -1);
     }
-    expect_name(scene, 0, "hall/1");
-    expect_name(scene, 7, "hall/8");
+    file_expect_name(scene, 0, "hall/1");
+    file_expect_name(scene, 7, "hall/8");
     const int reversed = out ? !(variant & 1) : variant & 1;
     const hr2d_segment s = hr2d_scene_segment(scene, 0);
     const hr2d_point start = reversed ? s.b : s.a;
@@ -492,20 +379,6 @@ static const char good[] =
     "     \"geometry\": {\"type\": \"Polygon\",\n"
     "       \"coordinates\": [[[0, 2], [3, 2], [3, 4], [0, 2]]]}}\n  ]\n}";
 
-/* A scene with one patch, to see that it is left alone. */
-static hr2d_scene *occupied_scene(void) {
-  hr2d_scene *scene = new_scene();
-  hr2d_patch patch = {.a = {-1, 0}, .b = {-2, 3}, .name = "before"};
-  ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
-  return scene;
-}
-
-static void expect_unchanged(hr2d_scene *scene) {
-  ck_assert_uint_eq(hr2d_scene_patches(scene), 1);
-  expect_segment(scene, 0, -1, 0, -2, 3);
-  expect_name(scene, 0, "before");
-}
-
 /* A terminal obeys control characters, be they of ASCII or, as C2 80 to C2 9F, of Latin-1; and
    a text that is cut within a character is not UTF-8. */
 START_TEST(messages_have_nothing_that_a_terminal_obeys) {
@@ -520,8 +393,8 @@ START_TEST(messages_have_nothing_that_a_terminal_obeys) {
                          "LineString", "[[0,0],[1,0]]")),
   };
   for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
-    hr2d_scene *scene = new_scene();
-    ck_assert_int_eq(parse(scene, texts[k]), HR2D_ESYNTAX);
+    hr2d_scene *scene = test_new_scene(NULL);
+    ck_assert_int_eq(file_parse(scene, texts[k]), HR2D_ESYNTAX);
     const char *message = hr2d_scene_message(scene);
     for (const char *c = message; *c; c++) {
       ck_assert_msg((unsigned char)*c >= 0x20 && *c != 0x7F, "text %zu: %s", k, message);
@@ -534,18 +407,14 @@ START_TEST(messages_have_nothing_that_a_terminal_obeys) {
 END_TEST
 
 START_TEST(every_malformed_file_is_refused_with_its_reason) {
-  hr2d_scene *scene = occupied_scene();
+  hr2d_scene *scene = file_occupied_scene();
   for (size_t k = 0; k < sizeof malformed / sizeof *malformed; k++) {
     const struct malformed *m = &malformed[k];
     hr2d_status status = hr2d_scene_read(scene, malformed_path(m->file));
-    const char *message = hr2d_scene_message(scene);
-    ck_assert_msg(status == m->status, "%s: status %d, %s", m->file, (int)status, message);
-    ck_assert_msg(strstr(message, m->phrase) == message, "%s: \"%s\" is not \"%s\"", m->file,
-                  message, m->phrase);
-    expect_unchanged(scene);
+    file_expect_refused(scene, m->file, status, m->status, m->phrase);
   }
   /* It is still of use. */
-  ck_assert_int_eq(parse(scene, good), HR2D_OK);
+  ck_assert_int_eq(file_parse(scene, good), HR2D_OK);
   ck_assert_uint_eq(hr2d_scene_patches(scene), 6);
   ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
   hr2d_scene_destroy(scene);
@@ -564,7 +433,7 @@ START_TEST(every_malformed_file_is_in_the_table) {
 END_TEST
 
 START_TEST(what_is_no_file_is_an_io_error) {
-  hr2d_scene *scene = occupied_scene();
+  hr2d_scene *scene = file_occupied_scene();
   ck_assert_int_eq(hr2d_scene_read(scene, malformed_path("")), HR2D_EIO);
   ck_assert_ptr_nonnull(strstr(hr2d_scene_message(scene), strerror(EISDIR)));
   ck_assert_int_eq(hr2d_scene_read(scene, malformed_path("missing.geojson")), HR2D_EIO);
@@ -575,12 +444,12 @@ START_TEST(what_is_no_file_is_an_io_error) {
   ck_assert_int_eq(hr2d_scene_read(scene, NULL), HR2D_EINVAL);
   ck_assert_int_eq(hr2d_scene_parse(scene, NULL, 1), HR2D_EINVAL);
   ck_assert_int_eq(hr2d_scene_parse(scene, NULL, 0), HR2D_ESYNTAX);
-  expect_unchanged(scene);
+  file_expect_unchanged(scene);
   ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
-  ck_assert_int_eq(parse(scene, good), HR2D_ESTATE);
-  ck_assert_int_eq(parse(scene, COLLECTION("")), HR2D_ESTATE);
-  ck_assert_int_eq(hr2d_scene_read(scene, scene_path("par-near.geojson")), HR2D_ESTATE);
-  expect_unchanged(scene);
+  ck_assert_int_eq(file_parse(scene, good), HR2D_ESTATE);
+  ck_assert_int_eq(file_parse(scene, COLLECTION("")), HR2D_ESTATE);
+  ck_assert_int_eq(hr2d_scene_read(scene, test_scene_path("par-near.geojson")), HR2D_ESTATE);
+  file_expect_unchanged(scene);
   hr2d_scene_destroy(scene);
 }
 END_TEST
@@ -589,176 +458,113 @@ END_TEST
 START_TEST(a_long_file_is_read_whole) {
   enum { SEGMENTS = 20000 };
   char path[] = "/tmp/check_geojson_XXXXXX";
-  const int descriptor = mkstemp(path);
-  ck_assert_int_ge(descriptor, 0);
-  FILE *file = fdopen(descriptor, "w");
+  FILE *file = file_temporary(path);
   fputs("{\"type\":\"FeatureCollection\",\"features\":[{\"type\":\"Feature\",\"properties\":"
         "{\"name\":\"long\"},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[[0,0]",
         file);
   for (int k = 1; k <= SEGMENTS; k++) fprintf(file, ",[%d,%d.5]", k, k * (k % 7));
   fputs("]}}]}", file);
   ck_assert_int_eq(fclose(file), 0);
-  hr2d_scene *scene = new_scene();
+  hr2d_scene *scene = test_new_scene(NULL);
   ck_assert_int_eq(hr2d_scene_read(scene, path), HR2D_OK);
   unlink(path);
   ck_assert_uint_eq(hr2d_scene_patches(scene), SEGMENTS);
   for (int k = 1; k < SEGMENTS; k++)
-    expect_segment(scene, (size_t)k, k, k * (k % 7) + .5, k + 1, (k + 1) * ((k + 1) % 7) + .5);
-  expect_name(scene, SEGMENTS - 1, "long/20000");
+    file_expect_segment(scene, (size_t)k, k, k * (k % 7) + .5, k + 1,
+                        (k + 1) * ((k + 1) % 7) + .5);
+  file_expect_name(scene, SEGMENTS - 1, "long/20000");
   hr2d_scene_destroy(scene);
 }
 END_TEST
 
 START_TEST(every_truncation_is_refused) {
   const size_t size = sizeof good - 1;
-  hr2d_scene *scene = occupied_scene();
+  hr2d_scene *scene = file_occupied_scene();
   for (size_t k = 0; k < size; k++) {
-    hr2d_status status = parse_bytes(scene, good, k);
+    hr2d_status status = file_parse_bytes(scene, good, k);
     ck_assert_msg(status == HR2D_ESYNTAX, "%zu bytes: %d", k, (int)status);
     ck_assert_int_eq(strncmp(hr2d_scene_message(scene), "line ", 5), 0);
-    expect_unchanged(scene);
+    file_expect_unchanged(scene);
   }
-  ck_assert_int_eq(parse_bytes(scene, good, size), HR2D_OK);
+  ck_assert_int_eq(file_parse_bytes(scene, good, size), HR2D_OK);
   hr2d_scene_destroy(scene);
 }
 END_TEST
 
-/* Whatever the bytes: a refusal that says why and changes nothing, or a valid scene. */
 START_TEST(random_damage_is_refused_or_read) {
-  static const char spice[] = "\"\\[]{}:,.-+eE019 \n\0\x80\xFF";
-  const size_t size = sizeof good - 1;
-  size_t refused = 0, accepted = 0;
-  char text[sizeof good];
-  for (size_t n = times(20000); n > 0; n--) {
-    memcpy(text, good, size);
-    for (size_t k = 1 + random_below(4); k > 0; k--)
-      text[random_below(size)] =
-          random_below(2) ? spice[random_below(sizeof spice - 1)] : (char)random_below(256);
-    hr2d_scene *scene = occupied_scene();
-    hr2d_status status = parse_bytes(scene, text, size);
-    if (status) {
-      ck_assert(status == HR2D_ESYNTAX || status == HR2D_ESCENE || status == HR2D_EUNSUPPORTED);
-      ck_assert_str_ne(hr2d_scene_message(scene), "");
-      expect_unchanged(scene);
-      refused++;
-    } else {
-      for (size_t k = 0; k < hr2d_scene_patches(scene); k++)
-        ck_assert_double_gt(hr2d_scene_length(scene, k), 0);
-      accepted++;
-    }
-    hr2d_scene_destroy(scene);
-  }
-  ck_assert_uint_gt(refused + accepted, 0);
+  FILE_EXPECT_DAMAGE(good, "\"\\[]{}:,.-+eE019 \n\0\x80\xFF", "");
 }
 END_TEST
 
-/* Fails allocation number `left` of the hooks, or all from there on. */
-typedef struct fault {
-  size_t left;
-  int for_good, failed;
-} fault;
-
-static int fails(fault *f) {
-  const int now = f->left == 0 && (f->for_good || !f->failed);
-  if (f->left > 0) f->left--;
-  f->failed |= now;
-  return now;
+static hr2d_status read_enclosure(hr2d_scene *scene) {
+  return hr2d_scene_read(scene, test_scene_path("furnace-enclosure.geojson"));
 }
 
-static void *fault_allocate(void *ctx, size_t bytes) {
-  return fails(ctx) ? NULL : malloc(bytes);
-}
-
-static void *fault_reallocate(void *ctx, void *block, size_t bytes) {
-  return fails(ctx) ? NULL : realloc(block, bytes);
-}
-
-static void fault_release(void *ctx, void *block) {
-  (void)ctx;
-  free(block);
-}
-
+/* At least the file, the bands, the points, a name, and what the scene keeps. */
 START_TEST(every_failed_allocation_is_reported) {
-  for (int for_good = 0; for_good < 2; for_good++) {
-    size_t k = 0;
-    for (int done = 0; !done; k++) {
-      fault f = {SIZE_MAX, for_good, 0};
-      const hr2d_allocator hooks = {fault_allocate, fault_reallocate, fault_release, &f};
-      hr2d_scene *scene = NULL;
-      ck_assert_int_eq(hr2d_scene_create(&hooks, &scene), HR2D_OK);
-      f.left = k;
-      hr2d_status status = hr2d_scene_read(scene, scene_path("furnace-enclosure.geojson"));
-      done = !f.failed;
-      ck_assert_int_eq(status, done ? HR2D_OK : HR2D_ENOMEM);
-      ck_assert_uint_eq(hr2d_scene_patches(scene), done ? 4 : 0);
-      if (!done) ck_assert_ptr_nonnull(strstr(hr2d_scene_message(scene), "out of memory"));
-      hr2d_scene_destroy(scene);
-    }
-    /* At least the file, the bands, the points, a name, and what the scene keeps. */
-    ck_assert_uint_gt(k, 10);
-  }
+  ck_assert_int_ge(file_starve(read_enclosure, 4), 10);
 }
 END_TEST
 
 START_TEST(a_read_that_runs_out_of_memory_keeps_the_background) {
   for (int for_good = 0; for_good < 2; for_good++) {
-    size_t k = 0;
-    for (int done = 0; !done; k++) {
-      fault f = {SIZE_MAX, for_good, 0};
-      const hr2d_allocator hooks = {fault_allocate, fault_reallocate, fault_release, &f};
-      hr2d_scene *scene = NULL;
-      ck_assert_int_eq(hr2d_scene_create(&hooks, &scene), HR2D_OK);
-      ck_assert_int_eq(parse(scene, WITH_BACKGROUND("[1,0.25]", WALL)), HR2D_OK);
-      f = (fault){k, for_good, 0};
-      const hr2d_status status =
-          parse(scene, WITH_BACKGROUND("[3,4]", FEATURE("", "LineString", "[[0,1],[1,1]]")));
-      done = !f.failed;
-      f = (fault){SIZE_MAX, 0, 0};
-      ck_assert_int_eq(status, done ? HR2D_OK : HR2D_ENOMEM);
-      ck_assert_uint_eq(hr2d_scene_patches(scene), done ? 2 : 1);
-      expect_background(scene, done ? 3 : 1, done ? 4 : 0.25);
+    long k = 0;
+    for (int failed = 1; failed; k++) {
+      test_memory memory = {.until_failure = -1};
+      const hr2d_allocator hooks = test_hooks(&memory);
+      hr2d_scene *scene = test_new_scene(&hooks);
+      ck_assert_int_eq(file_parse(scene, WITH_BACKGROUND("[1,0.25]", WALL)), HR2D_OK);
+      memory.for_good = for_good;
+      memory.until_failure = k;
+      const hr2d_status status = file_parse(
+          scene, WITH_BACKGROUND("[3,4]", FEATURE("", "LineString", "[[0,1],[1,1]]")));
+      failed = memory.failures > 0;
+      memory.until_failure = -1;
+      ck_assert_int_eq(status, failed ? HR2D_ENOMEM : HR2D_OK);
+      ck_assert_uint_eq(hr2d_scene_patches(scene), failed ? 1 : 2);
+      expect_background(scene, failed ? 1 : 3, failed ? 0.25 : 4);
       hr2d_scene_destroy(scene);
     }
     /* The values, the points, the patch, and what the scene keeps of the background. */
-    ck_assert_uint_gt(k, 4);
+    ck_assert_int_gt(k, 4);
   }
 }
 END_TEST
 
 /* The allocations of jansson, which do not come through the hooks: no byte may be lost,
    neither of a token nor behind it, where its lexer would end the process. */
-static fault parser_fault;
+static test_memory parser_memory;
 
 static void *parser_allocate(size_t size) {
-  if (!fails(&parser_fault)) return malloc(size);
+  if (!test_runs_out(&parser_memory)) return malloc(size);
   errno = ENOMEM;
   return NULL;
 }
 
 /* Parses with each allocation of jansson failing, and returns how many there are. */
-static size_t starve_parser(const char *text, size_t size) {
-  hr2d_scene *whole = new_scene();
+static long starve_parser(const char *text, size_t size) {
+  hr2d_scene *whole = test_new_scene(NULL);
   const hr2d_status wanted = hr2d_scene_parse(whole, text, size);
   char message[512];
   snprintf(message, sizeof message, "%s", hr2d_scene_message(whole));
-  size_t k = 0;
+  long k = 0;
   for (int for_good = 0; for_good < 2; for_good++) {
     k = 0;
     for (int done = 0; !done; k++) {
-      parser_fault = (fault){k, for_good, 0};
-      hr2d_scene *scene = new_scene();
+      parser_memory = (test_memory){.until_failure = k, .for_good = for_good};
+      hr2d_scene *scene = test_new_scene(NULL);
       json_set_alloc_funcs(parser_allocate, free);
       hr2d_status status = hr2d_scene_parse(scene, text, size);
       json_set_alloc_funcs(malloc, free);
-      done = !parser_fault.failed;
+      done = parser_memory.failures == 0;
       ck_assert_int_eq(status, done ? wanted : HR2D_ENOMEM);
       ck_assert_uint_eq(hr2d_scene_patches(scene), done ? hr2d_scene_patches(whole) : 0);
       if (!done) ck_assert_str_eq(hr2d_scene_message(scene), "out of memory while parsing");
       if (done && status) ck_assert_str_eq(hr2d_scene_message(scene), message);
       for (size_t m = 0; done && m < hr2d_scene_patches(whole); m++) {
         const hr2d_segment one = hr2d_scene_segment(whole, m);
-        expect_segment(scene, m, one.a.x, one.a.y, one.b.x, one.b.y);
-        expect_name(scene, m, hr2d_scene_name(whole, m));
+        file_expect_segment(scene, m, one.a.x, one.a.y, one.b.x, one.b.y);
+        file_expect_name(scene, m, hr2d_scene_name(whole, m));
       }
       hr2d_scene_destroy(scene);
     }
@@ -772,7 +578,7 @@ START_TEST(no_failed_allocation_of_the_parser_is_lost) {
       COLLECTION(FEATURE("\"name\":\"long enough to outgrow the buffer of the lexer twice and "
                          "more\",\"reflectance\":[0.5]",
                          "LineString", "[[-1.2345678901234567e-300,0],[1,1]]"));
-  ck_assert_uint_gt(starve_parser(text, sizeof text - 1), 20);
+  ck_assert_int_gt(starve_parser(text, sizeof text - 1), 20);
 }
 END_TEST
 
@@ -797,7 +603,7 @@ START_TEST(no_length_of_a_token_is_fatal) {
       "00000000000000000000000000000000000000000000000000000000000000000";
   for (size_t form = 0; form < sizeof forms / sizeof *forms; form++)
     for (int length = 0; length < 2 * 64 + 2;
-         length += times(100) < 10 && length % 16 == 2 ? 9 : 1) {
+         length += test_count(100) < 10 && length % 16 == 2 ? 9 : 1) {
       char text[1024];
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
@@ -808,42 +614,20 @@ START_TEST(no_length_of_a_token_is_fatal) {
 }
 END_TEST
 
-static void add_case(Suite *suite, const char *name, const TTest *const *tests, size_t count) {
-  TCase *tcase = tcase_create(name);
-  tcase_add_unchecked_fixture(tcase, seed_random, NULL);
-  for (size_t k = 0; k < count; k++) tcase_add_test(tcase, tests[k]);
-  suite_add_tcase(suite, tcase);
-}
-
-int main(void) {
-  const TTest *const scenes[] = {
-      every_shipped_scene_commits_and_has_light, shipped_rooms_are_closed_and_face_inwards,
-      the_scenes_of_the_paper_are_as_drawn, the_furnace_emits_as_its_temperatures_say};
-  const TTest *const content[] = {properties_reach_every_patch_of_a_feature,
-                                  both_sides_are_two_patches, what_says_nothing_adds_nothing,
-                                  the_background_is_that_of_the_last_file_that_has_one,
-                                  coordinates_keep_every_bit};
-  const TTest *const rings[] = {ring_order_does_not_matter, extreme_rings_have_an_inside,
-                                holes_face_the_inside_of_their_polygon};
-  const TTest *const refusals[] = {every_malformed_file_is_refused_with_its_reason,
-                                   messages_have_nothing_that_a_terminal_obeys,
-                                   every_malformed_file_is_in_the_table,
-                                   what_is_no_file_is_an_io_error,
-                                   a_long_file_is_read_whole,
-                                   every_truncation_is_refused,
-                                   random_damage_is_refused_or_read,
-                                   every_failed_allocation_is_reported,
-                                   a_read_that_runs_out_of_memory_keeps_the_background,
-                                   no_failed_allocation_of_the_parser_is_lost,
-                                   no_length_of_a_token_is_fatal};
-  Suite *suite = suite_create("geojson");
-  add_case(suite, "shipped scenes", scenes, sizeof scenes / sizeof *scenes);
-  add_case(suite, "content", content, sizeof content / sizeof *content);
-  add_case(suite, "rings", rings, sizeof rings / sizeof *rings);
-  add_case(suite, "refusals", refusals, sizeof refusals / sizeof *refusals);
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  const int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed != 0;
+TEST_SUITE("geojson") {
+  ADD_TESTS("shipped scenes", every_shipped_scene_commits_and_has_light,
+            shipped_rooms_are_closed_and_face_inwards, the_scenes_of_the_paper_are_as_drawn,
+            the_furnace_emits_as_its_temperatures_say);
+  ADD_TESTS("content", properties_reach_every_patch_of_a_feature, both_sides_are_two_patches,
+            what_says_nothing_adds_nothing,
+            the_background_is_that_of_the_last_file_that_has_one, coordinates_keep_every_bit);
+  ADD_TESTS("rings", ring_order_does_not_matter, extreme_rings_have_an_inside,
+            holes_face_the_inside_of_their_polygon);
+  ADD_TESTS("refusals", every_malformed_file_is_refused_with_its_reason,
+            messages_have_nothing_that_a_terminal_obeys, every_malformed_file_is_in_the_table,
+            what_is_no_file_is_an_io_error, a_long_file_is_read_whole,
+            every_truncation_is_refused, random_damage_is_refused_or_read,
+            every_failed_allocation_is_reported,
+            a_read_that_runs_out_of_memory_keeps_the_background,
+            no_failed_allocation_of_the_parser_is_lost, no_length_of_a_token_is_fatal);
 }

@@ -217,13 +217,7 @@ START_TEST(memory_is_counted) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("memory");
-  TCase *tcase = tcase_create("files");
-  tcase_add_test(tcase, memory_is_a_multiple_of_the_file);
-  tcase_add_test(tcase, names_of_segments_are_bounded);
-  tcase_add_test(tcase, vs2_takes_less);
-  tcase_add_test(tcase, memory_is_counted);
-  suite_add_tcase(suite, tcase);
-  return test_run(suite);
+TEST_SUITE("memory") {
+  ADD_TESTS("files", memory_is_a_multiple_of_the_file, names_of_segments_are_bounded,
+            vs2_takes_less, memory_is_counted);
 }

@@ -13,81 +13,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "support/support.h"
+#include "support/scene-files.h"
 
 enum { TEXT = 4096 };
-
-static unsigned long random_state;
-
-static void seed_random(void) {
-  random_state = test_seed();
-  printf("HR2D_TEST_SEED=%lu\n", random_state);
-  fflush(stdout);
-}
-
-static size_t random_below(size_t n) {
-  return (size_t)(test_random(&random_state) * (double)n);
-}
-
-static size_t times(size_t count) {
-  const double scaled = (double)count * test_multiplier();
-  return scaled < 1 ? 1 : (size_t)scaled;
-}
-
-/* A double of any size, also subnormal, by its bits. */
-static double random_double(void) {
-  for (;;) {
-    const uint64_t bits = (uint64_t)(test_random(&random_state) * 0x1p32) << 32 |
-                          (uint64_t)(test_random(&random_state) * 0x1p32);
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    if (isfinite(value)) return value;
-  }
-}
-
-/* From a block of just that size, so that a byte too many is seen by a sanitizer. */
-static hr2d_status parse_bytes(hr2d_scene *scene, const char *text, size_t size) {
-  char *exact = malloc(size ? size : 1);
-  ck_assert_ptr_nonnull(exact);
-  memcpy(exact, text, size);
-  hr2d_status status = hr2d_scene_parse(scene, exact, size);
-  free(exact);
-  return status;
-}
-
-static hr2d_scene *new_scene(void) {
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
-  return scene;
-}
-
-static hr2d_scene *parsed(const char *text) {
-  hr2d_scene *scene = new_scene();
-  hr2d_status status = parse_bytes(scene, text, strlen(text));
-  ck_assert_msg(status == HR2D_OK, "%s: %s", hr2d_scene_message(scene), text);
-  return scene;
-}
-
-static void expect_segment(const hr2d_scene *scene, size_t patch, double ax, double ay,
-                           double bx, double by) {
-  const hr2d_segment s = hr2d_scene_segment(scene, patch), expected = {{ax, ay}, {bx, by}};
-  ck_assert_msg(memcmp(&s, &expected, sizeof s) == 0, "patch %zu: (%g %g)-(%g %g)", patch,
-                s.a.x, s.a.y, s.b.x, s.b.y);
-}
-
-/* A scene with one patch, to see that it is left alone. */
-static hr2d_scene *occupied_scene(void) {
-  hr2d_scene *scene = new_scene();
-  hr2d_patch patch = {.a = {-1, 0}, .b = {-2, 3}, .name = "before"};
-  ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
-  return scene;
-}
-
-static void expect_unchanged(const hr2d_scene *scene) {
-  ck_assert_uint_eq(hr2d_scene_patches(scene), 1);
-  expect_segment(scene, 0, -1, 0, -2, 3);
-  ck_assert_str_eq(hr2d_scene_name(scene, 0), "before");
-}
 
 /* A triangular room. */
 #define VERTICES "V 1 0 0\nV 2 4 0\nV 3 0 3\n"
@@ -99,9 +27,9 @@ static void expect_room(const hr2d_scene *scene, size_t first) {
   static const double corner[4][2] = {{0, 0}, {4, 0}, {0, 3}, {0, 0}};
   static const double reflectance[] = {0.25, 0.5, 0};
   for (size_t k = 0; k < 3; k++) {
-    expect_segment(scene, first + k, corner[k][0], corner[k][1], corner[k + 1][0],
-                   corner[k + 1][1]);
-    ck_assert_str_eq(hr2d_scene_name(scene, first + k), names[k]);
+    file_expect_segment(scene, first + k, corner[k][0], corner[k][1], corner[k + 1][0],
+                        corner[k + 1][1]);
+    file_expect_name(scene, first + k, names[k]);
     ck_assert_double_eq(hr2d_scene_reflectance(scene, first + k, 0), reflectance[k]);
     ck_assert_double_eq(hr2d_scene_emission(scene, first + k, 0), 0);
   }
@@ -125,45 +53,33 @@ static void scan_line(const char *line, scanned *s, const hr2d_scene *scene) {
   }
   if (sscanf(line, "S %zu %zu %zu %*d %*d %*d %lf %31s", &n, &v1, &v2, &emittance, name) == 5) {
     ck_assert_uint_le(n, hr2d_scene_patches(scene));
-    expect_segment(scene, n - 1, s->x[v1], s->y[v1], s->x[v2], s->y[v2]);
+    file_expect_segment(scene, n - 1, s->x[v1], s->y[v1], s->x[v2], s->y[v2]);
     ck_assert_double_eq(hr2d_scene_reflectance(scene, n - 1, 0), 1 - emittance);
-    ck_assert_str_eq(hr2d_scene_name(scene, n - 1), name);
+    file_expect_name(scene, n - 1, name);
     s->surfaces++;
   }
 }
 
 static hr2d_scene *shipped(const char *file, size_t surfaces) {
-  const char *directory = getenv("HR2D_SCENES");
-  char path[TEXT], line[256];
-  snprintf(path, sizeof path, "%s/%s", directory ? directory : "examples/scenes", file);
-  hr2d_scene *scene = new_scene();
-  hr2d_status status = hr2d_scene_read(scene, path);
-  ck_assert_msg(status == HR2D_OK, "%s: %s", path, hr2d_scene_message(scene));
-  FILE *stream = fopen(path, "r");
+  char line[256];
+  hr2d_scene *scene = test_shipped_scene(file);
+  FILE *stream = fopen(test_scene_path(file), "r");
   ck_assert_ptr_nonnull(stream);
   scanned s = {.vertices = 0};
   while (fgets(line, sizeof line, stream)) scan_line(line, &s, scene);
   fclose(stream);
   ck_assert_uint_eq(s.surfaces, surfaces);
   ck_assert_uint_eq(hr2d_scene_patches(scene), surfaces);
-  status = hr2d_scene_commit(scene);
-  ck_assert_msg(status == HR2D_OK, "%s: %s", path, hr2d_scene_message(scene));
   return scene;
 }
 
 START_TEST(shipped_scenes_are_read_as_written) {
   hr2d_scene *scene = shipped("occ128.vs2", 128);
   /* All fronts look into the unit square around the obstacles, so that they sum to 0. */
-  double x = 0, y = 0, area = 0;
-  for (size_t k = 0; k < 128; k++) {
-    const hr2d_segment s = hr2d_scene_segment(scene, k);
-    x += s.b.x - s.a.x;
-    y += s.b.y - s.a.y;
-    area += (s.a.x * s.b.y - s.a.y * s.b.x) / 2;
-  }
-  ck_assert_double_lt(fabs(x) + fabs(y), 1e-8);
-  ck_assert_double_lt(area, 1);
-  ck_assert_double_gt(area, 0.5);
+  const file_outline o = file_outline_of(scene);
+  ck_assert_double_lt(fabs(o.x) + fabs(o.y), 1e-8);
+  ck_assert_double_lt(o.area, 1);
+  ck_assert_double_gt(o.area, 0.5);
   ck_assert_int_eq(hr2d_scene_effect(scene, HR2D_EFFECT_OCCLUSION, NULL), 1);
   hr2d_scene_destroy(scene);
 
@@ -190,8 +106,8 @@ START_TEST(layout_does_not_matter) {
        "s 2 +2 3 0 0 0 0.5 roof !comment\nS 03 3 1 -5 17 999999999999999999999 1. wall\n"),
   };
   for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
-    hr2d_scene *scene = new_scene();
-    const hr2d_status status = parse_bytes(scene, texts[k], strlen(texts[k]));
+    hr2d_scene *scene = test_new_scene(NULL);
+    const hr2d_status status = file_parse(scene, texts[k]);
     ck_assert_msg(status == HR2D_OK, "%zu: %s", k, hr2d_scene_message(scene));
     expect_room(scene, 0);
     hr2d_scene_destroy(scene);
@@ -200,9 +116,9 @@ START_TEST(layout_does_not_matter) {
 END_TEST
 
 START_TEST(a_comment_begins_with_a_word_of_its_own) {
-  hr2d_scene *scene = parsed(VERTICES "S 1 1 2 0 0 0 1 a!b\nS 2 2 3 0 0 0 1 /c !d\n");
-  ck_assert_str_eq(hr2d_scene_name(scene, 0), "a!b");
-  ck_assert_str_eq(hr2d_scene_name(scene, 1), "/c");
+  hr2d_scene *scene = file_parsed(VERTICES "S 1 1 2 0 0 0 1 a!b\nS 2 2 3 0 0 0 1 /c !d\n");
+  file_expect_name(scene, 0, "a!b");
+  file_expect_name(scene, 1, "/c");
   hr2d_scene_destroy(scene);
 }
 END_TEST
@@ -216,7 +132,7 @@ START_TEST(lines_end_as_in_any_system) {
       const char same[] = {*c, '\0'};
       strcat(converted, *c == '\n' ? ends[e] : same);
     }
-    hr2d_scene *scene = parsed(converted);
+    hr2d_scene *scene = file_parsed(converted);
     expect_room(scene, 0);
     hr2d_scene_destroy(scene);
   }
@@ -225,19 +141,19 @@ END_TEST
 
 /* Each file numbers its vertices and surfaces by itself. */
 START_TEST(files_add_up) {
-  hr2d_scene *scene = occupied_scene();
+  hr2d_scene *scene = file_occupied_scene();
   for (size_t k = 0; k < 3; k++) {
     ck_assert_int_eq(hr2d_scene_parse(scene, VERTICES SURFACES, strlen(VERTICES SURFACES)),
                      HR2D_OK);
     expect_room(scene, 1 + 3 * k);
   }
-  ck_assert_str_eq(hr2d_scene_name(scene, 0), "before");
+  file_expect_name(scene, 0, "before");
   hr2d_scene_destroy(scene);
 }
 END_TEST
 
 START_TEST(free_space_is_on_the_left) {
-  hr2d_scene *scene = parsed(VERTICES SURFACES);
+  hr2d_scene *scene = file_parsed(VERTICES SURFACES);
   const hr2d_point inside = {1, 1};
   for (size_t k = 0; k < 3; k++) {
     const hr2d_segment s = hr2d_scene_segment(scene, k);
@@ -268,13 +184,10 @@ START_TEST(the_text_tells_its_format) {
       {"X 1", "line 1: unknown record \"X\"", HR2D_ESYNTAX},
       {"T\nfurther words", "line 2: unknown record \"further\"", HR2D_ESYNTAX},
   };
-  hr2d_scene *scene = occupied_scene();
+  hr2d_scene *scene = file_occupied_scene();
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-    const hr2d_status status = parse_bytes(scene, cases[k].text, strlen(cases[k].text));
-    const char *message = hr2d_scene_message(scene);
-    ck_assert_msg(status == cases[k].status && strstr(message, cases[k].phrase) == message,
-                  "%zu: %d, %s", k, (int)status, message);
-    expect_unchanged(scene);
+    const hr2d_status status = file_parse(scene, cases[k].text);
+    file_expect_refused(scene, cases[k].text, status, cases[k].status, cases[k].phrase);
   }
   hr2d_scene_destroy(scene);
 }
@@ -282,18 +195,14 @@ END_TEST
 
 /* Numbers. */
 
+static void write_wall(char *text, size_t size, int k, double c[4]) {
+  (void)k;
+  snprintf(text, size, "V 1 %.17g %.17g\nV 2 %.17g %.17g\nS 1 1 2 0 0 0 0 a", c[0], c[1], c[2],
+           c[3]);
+}
+
 START_TEST(coordinates_keep_every_bit) {
-  char text[TEXT];
-  for (size_t n = times(20000); n > 0; n--) {
-    double c[4];
-    for (int k = 0; k < 4; k++) c[k] = random_double();
-    if (c[0] == c[2] && c[1] == c[3]) continue;
-    snprintf(text, sizeof text, "V 1 %.17g %.17g\nV 2 %.17g %.17g\nS 1 1 2 0 0 0 0 a", c[0],
-             c[1], c[2], c[3]);
-    hr2d_scene *scene = parsed(text);
-    expect_segment(scene, 0, c[0], c[1], c[2], c[3]);
-    hr2d_scene_destroy(scene);
-  }
+  file_expect_bits(write_wall);
 }
 END_TEST
 
@@ -307,20 +216,20 @@ START_TEST(numbers_have_many_forms) {
   char text[TEXT];
   for (size_t k = 0; k < sizeof forms / sizeof *forms; k++) {
     snprintf(text, sizeof text, "V 1 %s 1\nV 2 77 -77\nS 1 1 2 0 0 0 .9 a\n", forms[k].word);
-    hr2d_scene *scene = parsed(text);
-    expect_segment(scene, 0, forms[k].value, 1, 77, -77);
+    hr2d_scene *scene = file_parsed(text);
+    file_expect_segment(scene, 0, forms[k].value, 1, 77, -77);
     hr2d_scene_destroy(scene);
   }
   static const char *const words[] = {"1e",    "e5",  ".",     "+",       "--1", "1d0",
                                       "1.0.0", "nan", "NAN()", "Inf",     "0x1", "0x1p3",
                                       "1e5e",  "1_0", "1;",    "\xC2\xBD"};
-  hr2d_scene *scene = occupied_scene();
+  hr2d_scene *scene = file_occupied_scene();
   for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
     snprintf(text, sizeof text, "V 1 %s 1\n", words[k]);
-    const hr2d_status status = parse_bytes(scene, text, strlen(text));
+    const hr2d_status status = file_parse(scene, text);
     ck_assert_msg(status == HR2D_ESYNTAX, "%s: %d", words[k], (int)status);
     ck_assert_ptr_nonnull(strstr(hr2d_scene_message(scene), "line 1: x must be a number, not"));
-    expect_unchanged(scene);
+    file_expect_unchanged(scene);
   }
   hr2d_scene_destroy(scene);
 }
@@ -361,8 +270,8 @@ START_TEST(the_locale_does_not_matter_and_is_kept) {
   for (int of_thread = 0; of_thread < 2; of_thread++) {
     const locale_t expected = of_thread ? mine : LC_GLOBAL_LOCALE;
     uselocale(expected);
-    hr2d_scene *scene = parsed("V 1 .5 1.25e1\nV 2 -7.5 2\nS 1 1 2 0 0 0 0.75 a\n");
-    expect_segment(scene, 0, 0.5, 12.5, -7.5, 2);
+    hr2d_scene *scene = file_parsed("V 1 .5 1.25e1\nV 2 -7.5 2\nS 1 1 2 0 0 0 0.75 a\n");
+    file_expect_segment(scene, 0, 0.5, 12.5, -7.5, 2);
     ck_assert_double_eq(hr2d_scene_reflectance(scene, 0, 0), 0.25);
     ck_assert_int_eq(hr2d_scene_parse(scene, "V 1 zero", 8), HR2D_ESYNTAX);
     ck_assert(uselocale((locale_t)0) == expected);
@@ -385,22 +294,8 @@ static const char good[] = "T  a room\nC  1 0 1.e-5 6 0 0\nG  2\n!  # x y\n" VER
                            "S 1 1 2 0 0 0 0.90 d\xC3\xA9j\xC3\xA0\n/\n"
                            "S 2 2 3 0 0 1 .5 roof ! above\nEnd of data\n";
 
-/* Whatever the bytes: a refusal that names the line and changes nothing, or a scene. */
 static int read_or_refused(const char *text, size_t size) {
-  hr2d_scene *scene = occupied_scene();
-  const hr2d_status status = parse_bytes(scene, text, size);
-  if (status) {
-    ck_assert(status == HR2D_ESYNTAX || status == HR2D_ESCENE || status == HR2D_EUNSUPPORTED);
-    ck_assert_int_eq(strncmp(hr2d_scene_message(scene), "line ", 5), 0);
-    expect_unchanged(scene);
-  }
-  for (size_t k = 0; k < hr2d_scene_patches(scene); k++) {
-    ck_assert_double_gt(hr2d_scene_length(scene, k), 0);
-    ck_assert(hr2d_scene_reflectance(scene, k, 0) >= 0);
-    ck_assert(hr2d_scene_reflectance(scene, k, 0) <= 1);
-  }
-  hr2d_scene_destroy(scene);
-  return status == HR2D_OK;
+  return file_read_or_refused(text, size, "line ");
 }
 
 /* A file may end without saying so, but not before its first surface has a name. */
@@ -415,63 +310,9 @@ START_TEST(every_truncation_is_read_or_refused) {
 END_TEST
 
 START_TEST(random_damage_is_refused_or_read) {
-  static const char spice[] = "!/*,.-+eE019 \t\n\r\0\x80\xFFTCGVSOX";
-  const size_t size = sizeof good - 1;
-  char text[sizeof good];
-  size_t accepted = 0, count = times(20000);
-  for (size_t n = 0; n < count; n++) {
-    memcpy(text, good, size);
-    for (size_t k = 1 + random_below(4); k > 0; k--)
-      text[random_below(size)] =
-          random_below(2) ? spice[random_below(sizeof spice - 1)] : (char)random_below(256);
-    accepted += (size_t)read_or_refused(text, size);
-  }
-  if (count >= 1000) ck_assert(accepted > 0 && accepted < count);
+  FILE_EXPECT_DAMAGE(good, "!/*,.-+eE019 \t\n\r\0\x80\xFFTCGVSOX", "line ");
 }
 END_TEST
-
-/* Counts the bytes that are held, each block with its size in front; fails allocation
-   number `left`, or all from there on. */
-typedef struct meter {
-  size_t held, peak, left;
-  int for_good, failed;
-} meter;
-
-enum { HEAD = 32 };
-
-static void *meter_reallocate(void *ctx, void *block, size_t bytes) {
-  meter *m = ctx;
-  const int fails = m->left == 0 && (m->for_good || !m->failed);
-  if (m->left > 0) m->left--;
-  m->failed |= fails;
-  if (fails) return NULL;
-  size_t *old = block ? (size_t *)(void *)((char *)block - HEAD) : NULL;
-  m->held -= old ? *old : 0;
-  size_t *made = realloc(old, bytes + HEAD);
-  ck_assert_ptr_nonnull(made);
-  *made = bytes;
-  m->held += bytes;
-  if (m->held > m->peak) m->peak = m->held;
-  return (char *)made + HEAD;
-}
-
-static void *meter_allocate(void *ctx, size_t bytes) {
-  return meter_reallocate(ctx, NULL, bytes);
-}
-
-static void meter_release(void *ctx, void *block) {
-  size_t *old = (size_t *)(void *)((char *)block - HEAD);
-  ((meter *)ctx)->held -= *old;
-  free(old);
-}
-
-static hr2d_scene *metered_scene(meter *m) {
-  const hr2d_allocator hooks = {meter_allocate, meter_reallocate, meter_release, m};
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(&hooks, &scene), HR2D_OK);
-  m->peak = m->held;
-  return scene;
-}
 
 /* `head`, a million of `middle`, `tail`: read in a few times its size of memory. */
 static void expect_huge(const char *head, char middle, const char *tail, hr2d_status expected,
@@ -483,15 +324,16 @@ static void expect_huge(const char *head, char middle, const char *tail, hr2d_st
   strcpy(text, head);
   memset(text + before, middle, SIZE);
   strcpy(text + before + SIZE, tail);
-  meter m = {.left = SIZE_MAX};
-  hr2d_scene *scene = metered_scene(&m);
-  const hr2d_status status = parse_bytes(scene, text, size);
+  test_meter m = {0, 0};
+  const hr2d_allocator hooks = test_metered(&m);
+  hr2d_scene *scene = test_new_scene(&hooks);
+  const hr2d_status status = file_parse_bytes(scene, text, size);
   ck_assert_msg(status == expected, "%s: %d, %s", phrase, (int)status,
                 hr2d_scene_message(scene));
   if (status) ck_assert_ptr_nonnull(strstr(hr2d_scene_message(scene), phrase));
-  ck_assert_uint_lt(m.peak, 8 * size);
+  ck_assert_int_lt(m.peak, 8 * (long long)size);
   hr2d_scene_destroy(scene);
-  ck_assert_uint_eq(m.held, 0);
+  ck_assert_int_eq(m.held, 0);
   free(text);
 }
 
@@ -517,74 +359,42 @@ END_TEST
 START_TEST(a_long_file_is_read_whole) {
   enum { COUNT = 20000 };
   char path[] = "/tmp/check_vs2_XXXXXX";
-  const int descriptor = mkstemp(path);
-  ck_assert_int_ge(descriptor, 0);
-  FILE *file = fdopen(descriptor, "w");
+  FILE *file = file_temporary(path);
   for (int k = 1; k <= COUNT; k++) fprintf(file, "V %d %d.5 %d\n", k, k, k * (k % 7));
   for (int k = 1; k < COUNT; k++) fprintf(file, "S %d %d %d 0 0 0 .5 s\n", k, k, k + 1);
   const long size = ftell(file);
   ck_assert_int_eq(fclose(file), 0);
-  meter m = {.left = SIZE_MAX};
-  hr2d_scene *scene = metered_scene(&m);
+  test_meter m = {0, 0};
+  const hr2d_allocator hooks = test_metered(&m);
+  hr2d_scene *scene = test_new_scene(&hooks);
   ck_assert_int_eq(hr2d_scene_read(scene, path), HR2D_OK);
   unlink(path);
   ck_assert_uint_eq(hr2d_scene_patches(scene), COUNT - 1);
   for (int k = 1; k < COUNT; k++)
-    expect_segment(scene, (size_t)k - 1, k + .5, k * (k % 7), k + 1.5, (k + 1) * ((k + 1) % 7));
-  ck_assert_uint_lt(m.peak, 16 * (size_t)size);
+    file_expect_segment(scene, (size_t)k - 1, k + .5, k * (k % 7), k + 1.5,
+                        (k + 1) * ((k + 1) % 7));
+  ck_assert_int_lt(m.peak, 16 * size);
   hr2d_scene_destroy(scene);
 }
 END_TEST
 
+static hr2d_status read_good(hr2d_scene *scene) {
+  return hr2d_scene_parse(scene, good, sizeof good - 1);
+}
+
+/* At least the words, the vertices, the patches, two names and two reflectances. */
 START_TEST(every_failed_allocation_is_reported) {
-  for (int for_good = 0; for_good < 2; for_good++) {
-    size_t k = 0;
-    for (int done = 0; !done; k++) {
-      meter m = {.left = SIZE_MAX};
-      hr2d_scene *scene = metered_scene(&m);
-      m.left = k;
-      m.for_good = for_good;
-      const hr2d_status status = hr2d_scene_parse(scene, good, sizeof good - 1);
-      done = !m.failed;
-      m.left = SIZE_MAX;
-      m.for_good = 0;
-      ck_assert_int_eq(status, done ? HR2D_OK : HR2D_ENOMEM);
-      ck_assert_uint_eq(hr2d_scene_patches(scene), done ? 2 : 0);
-      if (!done) ck_assert_ptr_nonnull(strstr(hr2d_scene_message(scene), "out of memory"));
-      if (!done) ck_assert_int_eq(hr2d_scene_parse(scene, good, sizeof good - 1), HR2D_OK);
-      hr2d_scene_destroy(scene);
-      ck_assert_uint_eq(m.held, 0);
-    }
-    /* At least the words, the vertices, the patches, two names and two reflectances. */
-    ck_assert_uint_gt(k, 6);
-  }
+  ck_assert_int_ge(file_starve(read_good, 2), 6);
 }
 END_TEST
 
-static void add_case(Suite *suite, const char *name, const TTest *const *tests, size_t count) {
-  TCase *tcase = tcase_create(name);
-  tcase_add_unchecked_fixture(tcase, seed_random, NULL);
-  for (size_t k = 0; k < count; k++) tcase_add_test(tcase, tests[k]);
-  suite_add_tcase(suite, tcase);
-}
-
-int main(void) {
-  const TTest *const content[] = {shipped_scenes_are_read_as_written,
-                                  layout_does_not_matter,
-                                  a_comment_begins_with_a_word_of_its_own,
-                                  lines_end_as_in_any_system,
-                                  files_add_up,
-                                  free_space_is_on_the_left,
-                                  the_text_tells_its_format};
-  const TTest *const numbers[] = {coordinates_keep_every_bit, numbers_have_many_forms,
-                                  the_locale_does_not_matter_and_is_kept};
-  const TTest *const damage[] = {every_truncation_is_read_or_refused,
-                                 random_damage_is_refused_or_read,
-                                 huge_lines_and_words_are_no_trouble, a_long_file_is_read_whole,
-                                 every_failed_allocation_is_reported};
-  Suite *suite = suite_create("vs2");
-  add_case(suite, "content", content, sizeof content / sizeof *content);
-  add_case(suite, "numbers", numbers, sizeof numbers / sizeof *numbers);
-  add_case(suite, "damage", damage, sizeof damage / sizeof *damage);
-  return test_run(suite);
+TEST_SUITE("vs2") {
+  ADD_TESTS("content", shipped_scenes_are_read_as_written, layout_does_not_matter,
+            a_comment_begins_with_a_word_of_its_own, lines_end_as_in_any_system, files_add_up,
+            free_space_is_on_the_left, the_text_tells_its_format);
+  ADD_TESTS("numbers", coordinates_keep_every_bit, numbers_have_many_forms,
+            the_locale_does_not_matter_and_is_kept);
+  ADD_TESTS("damage", every_truncation_is_read_or_refused, random_damage_is_refused_or_read,
+            huge_lines_and_words_are_no_trouble, a_long_file_is_read_whole,
+            every_failed_allocation_is_reported);
 }

@@ -12,17 +12,13 @@
 #include "geometry/exchange-area.h"
 #include "independent/mpfr-exchange.h"
 #include "support/pair-classes.h"
+#include "support/plane.h"
 #include "support/support.h"
 
 /* The bar of hr2d_exchange_area()'s documentation, and where AF is below DBL_MIN
    the steps of the denormal numbers besides. */
 #define BAR            4e-15
 #define DENORMAL_STEPS 2
-
-static int scaled_count(int count) {
-  const double scaled = test_multiplier() * count;
-  return scaled < 1 ? 1 : scaled > 1e9 ? 1000000000 : (int)scaled;
-}
 
 typedef double area_fn(const hr2d_segment *i, const hr2d_segment *j);
 
@@ -82,7 +78,7 @@ static worst sample(area_fn *area, const pair_class *class, randoms r, int count
 
 START_TEST(every_class_holds_the_bar) {
   const pair_class *class = &pair_classes[_i];
-  const int count = scaled_count(11500 * class->share);
+  const int count = test_count(11500 * class->share);
   const worst w = sample(hr2d_exchange_area, class, randoms_stream(test_seed(), _i), count);
   printf("%-22s %8d pairs, %8d with AF > 0, worst error %.2e\n", class->name, count, w.seen,
          w.error);
@@ -129,32 +125,17 @@ static worst climb(area_fn *area, const pair_class *class, randoms *r, int climb
 START_TEST(hill_climbing_holds_the_bar) {
   const pair_class *class = &pair_classes[_i];
   randoms r = randoms_stream(test_seed(), 1000 + _i);
-  const worst w = climb(hr2d_exchange_area, class, &r, scaled_count(10), 400);
+  const worst w = climb(hr2d_exchange_area, class, &r, test_count(10), 400);
   printf("%-22s hill climbing, worst error %.2e\n", class->name, w.error);
   if (w.failures) print_pair(class->name, &w);
   ck_assert_int_eq(w.failures, 0);
 }
 END_TEST
 
-static double distance(hr2d_point a, hr2d_point b) {
-  return hypot(a.x - b.x, a.y - b.y);
-}
-
-/* The part of s on the left of `by`, formed in doubles. */
-static hr2d_segment clipped(hr2d_segment s, hr2d_segment by) {
-  const double x = by.b.x - by.a.x, y = by.b.y - by.a.y;
-  const double ha = x * (s.a.y - by.a.y) - y * (s.a.x - by.a.x);
-  const double hb = x * (s.b.y - by.a.y) - y * (s.b.x - by.a.x);
-  const double t = ha / (ha - hb);
-  const hr2d_point at = {s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)};
-  if (ha <= 0 && hb <= 0) return (hr2d_segment){s.a, s.a};
-  return (hr2d_segment){ha < 0 ? at : s.a, hb < 0 ? at : s.b};
-}
-
 static double strings(const hr2d_segment *i, const hr2d_segment *j) {
-  const hr2d_segment f = clipped(*i, *j), g = clipped(*j, *i);
-  return 0.5 *
-         (distance(f.a, g.a) + distance(f.b, g.b) - distance(f.a, g.b) - distance(f.b, g.a));
+  const hr2d_segment f = plane_clipped(*i, *j), g = plane_clipped(*j, *i);
+  return 0.5 * (plane_distance(f.a, g.a) + plane_distance(f.b, g.b) - plane_distance(f.a, g.b) -
+                plane_distance(f.b, g.a));
 }
 
 /* Negative control: the harness finds the digits that crossed strings lose. */
@@ -169,7 +150,7 @@ END_TEST
 START_TEST(swapping_changes_no_bit) {
   const pair_class *class = &pair_classes[_i];
   randoms r = randoms_stream(test_seed(), 2000 + _i);
-  for (int k = scaled_count(20000); k > 0; k--) {
+  for (int k = test_count(20000); k > 0; k--) {
     const pair p = draw_pair(class, &r);
     const double ij = hr2d_exchange_area(&p.i, &p.j), ji = hr2d_exchange_area(&p.j, &p.i);
     if (ij == ji && signbit(ij) == signbit(ji)) continue;
@@ -205,23 +186,9 @@ START_TEST(a_batch_has_the_same_bits) {
 }
 END_TEST
 
-int main(void) {
-  printf("seed %llu\n", (unsigned long long)test_seed());
-  fflush(stdout);
-  Suite *suite = suite_create("exchange area");
-  TCase *tc = tcase_create("sampling");
-  tcase_set_timeout(tc, 1800);
-  tcase_add_loop_test(tc, every_class_holds_the_bar, 0, pair_class_count);
-  tcase_add_loop_test(tc, crossed_strings_fail_the_bar, 0, pair_class_count);
-  suite_add_tcase(suite, tc);
-  tc = tcase_create("climbing");
-  tcase_set_timeout(tc, 1800);
-  tcase_add_loop_test(tc, hill_climbing_holds_the_bar, 0, pair_class_count);
-  suite_add_tcase(suite, tc);
-  tc = tcase_create("bits");
-  tcase_set_timeout(tc, 1800);
-  tcase_add_loop_test(tc, swapping_changes_no_bit, 0, pair_class_count);
-  tcase_add_loop_test(tc, a_batch_has_the_same_bits, 0, pair_class_count);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+TEST_SUITE("exchange area") {
+  REPEAT_TESTS(pair_class_count, "sampling", every_class_holds_the_bar,
+               crossed_strings_fail_the_bar);
+  REPEAT_TESTS(pair_class_count, "climbing", hill_climbing_holds_the_bar);
+  REPEAT_TESTS(pair_class_count, "bits", swapping_changes_no_bit, a_batch_has_the_same_bits);
 }

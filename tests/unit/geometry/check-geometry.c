@@ -9,21 +9,13 @@
 #include "geometry/predicates.h"
 #include "independent/mpfr-exchange.h"
 #include "support/pair-classes.h"
+#include "support/plane.h"
 #include "support/support.h"
 
 #define BAR 4e-15
 
-static int scaled_count(int count) {
-  const double scaled = test_multiplier() * count;
-  return scaled < 1 ? 1 : scaled > 1e9 ? 1000000000 : (int)scaled;
-}
-
 static int sign(double x) {
   return (x > 0) - (x < 0);
-}
-
-static double length(hr2d_segment s) {
-  return hypot(s.b.x - s.a.x, s.b.y - s.a.y);
 }
 
 static double area(hr2d_segment i, hr2d_segment j) {
@@ -69,7 +61,7 @@ static void check_orientation(const pair_class *class, hr2d_point a, hr2d_point 
 START_TEST(orientations_are_exact) {
   const pair_class *class = &pair_classes[_i];
   randoms r = randoms_stream(test_seed(), 4000 + _i);
-  for (int k = scaled_count(10000); k > 0; k--) {
+  for (int k = test_count(10000); k > 0; k--) {
     const pair p = draw_pair(class, &r);
     check_orientation(class, p.i.a, p.i.b, p.j.a);
     check_orientation(class, p.j.a, p.j.b, p.i.b);
@@ -109,7 +101,7 @@ static int is_below_the_doubles(const pair *p) {
 START_TEST(facing_is_exact_and_agrees_with_the_area) {
   const pair_class *class = &pair_classes[_i];
   randoms r = randoms_stream(test_seed(), 5000 + _i);
-  for (int k = scaled_count(10000); k > 0; k--) {
+  for (int k = test_count(10000); k > 0; k--) {
     const pair p = draw_pair(class, &r);
     if (!near_in_scale((const hr2d_point[]){p.i.a, p.i.b, p.j.a, p.j.b}, 4)) continue;
     const hr2di_facing facing = hr2di_facing_of(&p.i, &p.j);
@@ -186,8 +178,8 @@ START_TEST(reference_rows) {
       continue;
     }
     assert_close(af, expected, BAR);
-    assert_close(af / length(i), test_number(&table, row, "F_ij"), BAR + 2 * DBL_EPSILON);
-    assert_close(af / length(j), test_number(&table, row, "F_ji"), BAR + 2 * DBL_EPSILON);
+    assert_close(af / plane_length(i), test_number(&table, row, "F_ij"), BAR + 2 * DBL_EPSILON);
+    assert_close(af / plane_length(j), test_number(&table, row, "F_ji"), BAR + 2 * DBL_EPSILON);
     /* The arithmetic of the other tests stands on the same rows. */
     mpfr_t exact;
     mpfr_init2(exact, MPFR_PREC_MIN);
@@ -201,7 +193,7 @@ END_TEST
 
 START_TEST(scaling_by_a_power_of_two_changes_no_bit) {
   randoms r = randoms_stream(test_seed(), 6000);
-  for (int k = scaled_count(20000); k > 0; k--) {
+  for (int k = test_count(20000); k > 0; k--) {
     const pair p = draw_pair(&pair_classes[k % 3 ? 0 : 8], &r);
     const int e = random_below(&r, 90) - 45;
     const hr2d_point q[4] = {p.i.a, p.i.b, p.j.a, p.j.b};
@@ -222,7 +214,7 @@ static hr2d_segment lattice_segment(randoms *r) {
 
 START_TEST(children_add_up_to_their_parent) {
   randoms r = randoms_stream(test_seed(), 7000);
-  for (int k = scaled_count(50000); k > 0; k--) {
+  for (int k = test_count(50000); k > 0; k--) {
     const hr2d_segment i = lattice_segment(&r), j = lattice_segment(&r);
     const hr2d_point m = {0.5 * (i.a.x + i.b.x), 0.5 * (i.a.y + i.b.y)};
     const double left = area((hr2d_segment){i.a, m}, j),
@@ -237,31 +229,27 @@ END_TEST
 START_TEST(no_more_than_a_length_is_exchanged) {
   const pair_class *class = &pair_classes[_i];
   randoms r = randoms_stream(test_seed(), 8000 + _i);
-  for (int k = scaled_count(20000); k > 0; k--) {
+  for (int k = test_count(20000); k > 0; k--) {
     const pair p = draw_pair(class, &r);
-    const double af = area(p.i, p.j), most = fmin(length(p.i), length(p.j));
+    const double af = area(p.i, p.j), most = fmin(plane_length(p.i), plane_length(p.j));
     ck_assert(af >= 0 && af <= most * (1 + BAR) + DBL_TRUE_MIN);
   }
 }
 END_TEST
-
-static hr2d_point along(hr2d_segment s, double t) {
-  return (hr2d_point){s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)};
-}
 
 /* Ends and points of dyadic segments, so that the points lie on them exactly. */
 START_TEST(kernel_is_what_it_is_defined_to_be) {
   randoms r = randoms_stream(test_seed(), 9000);
   mpfr_t exact;
   mpfr_init2(exact, MPFR_PREC_MIN);
-  for (int k = scaled_count(20000); k > 0; k--) {
+  for (int k = test_count(20000); k > 0; k--) {
     static const double scales[] = {1, 0x1p-498, 0x1p+498};
     hr2d_segment i = lattice_segment(&r), j = lattice_segment(&r);
     const double s = scales[random_below(&r, 3)];
     i = (hr2d_segment){{s * i.a.x, s * i.a.y}, {s * i.b.x, s * i.b.y}};
     j = (hr2d_segment){{s * j.a.x, s * j.a.y}, {s * j.b.x, s * j.b.y}};
-    const hr2d_point x = along(i, ldexp(random_below(&r, 257), -8));
-    const hr2d_point y = along(j, ldexp(random_below(&r, 257), -8));
+    const hr2d_point x = plane_along(i, ldexp(random_below(&r, 257), -8));
+    const hr2d_point y = plane_along(j, ldexp(random_below(&r, 257), -8));
     if (x.x == y.x && x.y == y.y) continue;
     mpfr_kernel(exact, &i, x, &j, y);
     const double g = hr2d_kernel(&i, x, &j, y);
@@ -292,29 +280,12 @@ START_TEST(kernel_at_its_borders) {
 }
 END_TEST
 
-int main(void) {
-  printf("seed %lu\n", test_seed());
-  fflush(stdout);
-  Suite *suite = suite_create("geometry");
-  TCase *tc = tcase_create("predicates");
-  tcase_set_timeout(tc, 600);
-  tcase_add_loop_test(tc, orientations_are_exact, 0, pair_class_count);
-  tcase_add_loop_test(tc, facing_is_exact_and_agrees_with_the_area, 0, pair_class_count);
-  suite_add_tcase(suite, tc);
-  tc = tcase_create("exchange area");
-  tcase_set_timeout(tc, 600);
-  tcase_add_test(tc, closed_forms);
-  tcase_add_test(tc, nothing_is_exchanged_with_a_back);
-  tcase_add_test(tc, what_is_not_finite_is_not_a_number);
-  tcase_add_test(tc, reference_rows);
-  tcase_add_test(tc, scaling_by_a_power_of_two_changes_no_bit);
-  tcase_add_test(tc, children_add_up_to_their_parent);
-  tcase_add_loop_test(tc, no_more_than_a_length_is_exchanged, 0, pair_class_count);
-  suite_add_tcase(suite, tc);
-  tc = tcase_create("kernel");
-  tcase_set_timeout(tc, 600);
-  tcase_add_test(tc, kernel_is_what_it_is_defined_to_be);
-  tcase_add_test(tc, kernel_at_its_borders);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+TEST_SUITE("geometry") {
+  REPEAT_TESTS(pair_class_count, "predicates", orientations_are_exact,
+               facing_is_exact_and_agrees_with_the_area);
+  ADD_TESTS("exchange area", closed_forms, nothing_is_exchanged_with_a_back,
+            what_is_not_finite_is_not_a_number, reference_rows,
+            scaling_by_a_power_of_two_changes_no_bit, children_add_up_to_their_parent);
+  REPEAT_TESTS(pair_class_count, "exchange area", no_more_than_a_length_is_exchanged);
+  ADD_TESTS("kernel", kernel_is_what_it_is_defined_to_be, kernel_at_its_borders);
 }

@@ -7,11 +7,6 @@
 
 #include "support/support.h"
 
-/* How often to repeat what is repeated `most` times at a multiplier of 1. */
-static size_t rounds(double most, size_t least) {
-  return (size_t)(most * test_multiplier()) + least;
-}
-
 static hr2d_hierarchy *hierarchy_on(const hr2d_scene *scene) {
   hr2d_hierarchy *hierarchy = NULL;
   ck_assert_int_eq(hr2d_hierarchy_create(scene, &hierarchy), HR2D_OK);
@@ -193,7 +188,6 @@ static uint32_t search_leaf(const hr2d_hierarchy *h, size_t patch, const double 
 
 START_TEST(points_are_in_their_leaves) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
   hr2d_scene *scene = odd_room(1);
   hr2d_hierarchy *h = hierarchy_on(scene);
   hr2d_linkset *links = links_on(h, NULL, NULL);
@@ -201,7 +195,7 @@ START_TEST(points_are_in_their_leaves) {
   const uint64_t n = hr2d_hierarchy_count(h).elements;
   double *start = calloc((size_t)n, sizeof *start);
   for (uint32_t k = 0; k < n; k++) start[k] = start_of(h, k);
-  for (size_t round = 0; round < rounds(3000, 50); round++) {
+  for (size_t round = 0; round < test_rounds(3000, 50); round++) {
     const size_t patch = round % 5;
     double t = test_random(&state);
     const int bits = (int)(21 * test_random(&state));
@@ -350,20 +344,9 @@ START_TEST(link_sets_share_a_hierarchy) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("hierarchy");
-  TCase *trees = tcase_create("trees");
-  tcase_set_timeout(trees, 600);
-  tcase_add_test(trees, a_new_hierarchy_is_its_roots);
-  tcase_add_test(trees, a_scene_must_be_committed);
-  tcase_add_test(trees, trees_hold_together);
-  tcase_add_test(trees, hierarchies_of_a_scene_are_independent);
-  tcase_add_test(trees, link_sets_share_a_hierarchy);
-  suite_add_tcase(suite, trees);
-  TCase *leaves = tcase_create("leaves");
-  tcase_set_timeout(leaves, 600);
-  tcase_add_test(leaves, points_are_in_their_leaves);
-  tcase_add_test(leaves, every_leaf_holds_its_start_and_its_middle);
-  suite_add_tcase(suite, leaves);
-  return test_run(suite);
+TEST_SUITE("hierarchy") {
+  ADD_TESTS("trees", a_new_hierarchy_is_its_roots, a_scene_must_be_committed,
+            trees_hold_together, hierarchies_of_a_scene_are_independent,
+            link_sets_share_a_hierarchy);
+  ADD_TESTS("leaves", points_are_in_their_leaves, every_leaf_holds_its_start_and_its_middle);
 }

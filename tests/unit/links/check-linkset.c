@@ -244,53 +244,32 @@ START_TEST(longer_tables_are_taken) {
 }
 END_TEST
 
-typedef struct meter { /* of an allocator that fails when told to */
-  int fail;
-  long blocks;
-} meter;
-
-static void *metered_reallocate(void *ctx, void *block, size_t bytes) {
-  meter *m = ctx;
-  if (m->fail) return NULL;
-  m->blocks += block == NULL;
-  return realloc(block, bytes);
-}
-
-static void *metered_allocate(void *ctx, size_t bytes) {
-  return metered_reallocate(ctx, NULL, bytes);
-}
-
-static void metered_release(void *ctx, void *block) {
-  ((meter *)ctx)->blocks -= block != NULL;
-  free(block);
-}
-
 START_TEST(without_memory_the_caller_keeps_the_contexts) {
-  meter m = {0};
-  const hr2d_allocator allocator = {metered_allocate, metered_reallocate, metered_release, &m};
+  test_memory m = {.until_failure = -1, .for_good = 1};
+  const hr2d_allocator hooks = test_hooks(&m);
   hr2d_scene *scene = NULL;
   hr2d_hierarchy *hierarchy = NULL;
   hr2d_linkset *links = NULL;
-  ck_assert_int_eq(hr2d_scene_create(&allocator, &scene), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_create(&hooks, &scene), HR2D_OK);
   hr2d_patch patch = HR2D_PATCH_INIT;
   patch.b.x = 1;
   ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
   ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
   ck_assert_int_eq(hr2d_hierarchy_create(scene, &hierarchy), HR2D_OK);
   witness w = {0};
-  m.fail = 1;
+  m.until_failure = 0;
   ck_assert_int_eq(hr2d_linkset_create(hierarchy, &whole_oracle, &w, &whole_policy, &w, &links),
                    HR2D_ENOMEM);
   ck_assert_ptr_null(links);
   ck_assert_int_eq(w.destroyed, 0);
-  m.fail = 0;
+  m.until_failure = -1;
   ck_assert_int_eq(hr2d_linkset_create(hierarchy, &whole_oracle, &w, &whole_policy, &w, &links),
                    HR2D_OK);
   hr2d_linkset_destroy(links);
   ck_assert_int_eq(w.destroyed, 2);
   hr2d_hierarchy_destroy(hierarchy);
   hr2d_scene_destroy(scene);
-  ck_assert_int_eq(m.blocks, 0);
+  ck_assert_int_eq(m.live, 0);
 }
 END_TEST
 
@@ -393,25 +372,12 @@ START_TEST(messages_stay_with_their_set) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("linkset");
-  TCase *tables = tcase_create("tables");
-  tcase_add_test(tables, defaults_are_size_and_original);
-  tcase_add_test(tables, contexts_are_destroyed_once);
-  tcase_add_test(tables, unused_contexts_are_destroyed_too);
-  tcase_add_test(tables, tables_without_required_members_are_refused);
-  tcase_add_test(tables, shorter_tables_are_taken);
-  tcase_add_test(tables, least_tables_work_as_the_defaults);
-  tcase_add_test(tables, longer_tables_are_taken);
-  tcase_add_test(tables, without_memory_the_caller_keeps_the_contexts);
-  suite_add_tcase(suite, tables);
-  TCase *reading = tcase_create("reading");
-  tcase_add_test(reading, a_new_set_is_empty);
-  tcase_add_test(reading, links_are_elements_and_their_exchange);
-  tcase_add_test(reading, bytes_are_those_of_blocks);
-  tcase_add_test(reading, direction_is_that_of_the_oracle_or_the_options);
-  tcase_add_test(reading, counts_sum_up_what_was_done);
-  tcase_add_test(reading, messages_stay_with_their_set);
-  suite_add_tcase(suite, reading);
-  return test_run(suite);
+TEST_SUITE("linkset") {
+  ADD_TESTS("tables", defaults_are_size_and_original, contexts_are_destroyed_once,
+            unused_contexts_are_destroyed_too, tables_without_required_members_are_refused,
+            shorter_tables_are_taken, least_tables_work_as_the_defaults,
+            longer_tables_are_taken, without_memory_the_caller_keeps_the_contexts);
+  ADD_TESTS("reading", a_new_set_is_empty, links_are_elements_and_their_exchange,
+            bytes_are_those_of_blocks, direction_is_that_of_the_oracle_or_the_options,
+            counts_sum_up_what_was_done, messages_stay_with_their_set);
 }

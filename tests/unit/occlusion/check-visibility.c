@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "independent/brute-visibility.h"
+#include "support/plane.h"
 #include "support/support.h"
 #include "support/visibility-cases.h"
 
@@ -19,35 +20,19 @@
    place of a line counts as lying on it, and lines may meet at shallow angles. */
 #define ROUNDINGS 0x1p-46
 
-static int scaled_count(int count) {
-  const double scaled = test_multiplier() * count;
-  return scaled < 1 ? 1 : scaled > 1e9 ? 1000000000 : (int)scaled;
-}
-
-static double length(hr2d_segment s) {
-  return hypot(s.b.x - s.a.x, s.b.y - s.a.y);
-}
-
 static double shorter(const occluded_pair *p) {
-  return fmin(length(p->i), length(p->j));
+  return fmin(plane_length(p->i), plane_length(p->j));
 }
 
 static double longest(const occluded_pair *p) {
-  double most = fmax(length(p->i), length(p->j));
+  double most = fmax(plane_length(p->i), plane_length(p->j));
   most = fmax(most, hypot(p->i.a.x - p->j.a.x, p->i.a.y - p->j.a.y));
-  for (size_t k = 0; k < p->count; k++) most = fmax(most, length(p->occluder[k]));
+  for (size_t k = 0; k < p->count; k++) most = fmax(most, plane_length(p->occluder[k]));
   return most;
 }
 
-static double area_among(hr2d_segment i, hr2d_segment j, const hr2d_segment *occluder,
-                         size_t count) {
-  double area = -7;
-  ck_assert_int_eq(hr2d_exchange_area_occluded(&i, &j, occluder, count, NULL, &area), HR2D_OK);
-  return area;
-}
-
 static double area_of(const occluded_pair *p) {
-  return area_among(p->i, p->j, p->occluder, p->count);
+  return exchange_among(p->i, p->j, p->occluder, p->count);
 }
 
 static double strings_of(const occluded_pair *p) {
@@ -67,7 +52,7 @@ typedef struct draws {
 static draws start(int class, int test, int count) {
   return (draws){.class = &occluded_classes[class],
                  .r = randoms_stream(test_seed(), 100 * test + class),
-                 .left = scaled_count(count)};
+                 .left = test_count(count)};
 }
 
 static int draw(draws *d) {
@@ -158,7 +143,7 @@ START_TEST(swapping_changes_no_bit) {
   draws d = start(_i, 4, 5000);
   while (draw(&d)) {
     const occluded_pair *p = &d.pair;
-    note(&d, fabs(area_of(p) - area_among(p->j, p->i, p->occluder, p->count)));
+    note(&d, fabs(area_of(p) - exchange_among(p->j, p->i, p->occluder, p->count)));
   }
   finish(&d, "swap", 0);
 }
@@ -265,8 +250,8 @@ static double area_turned(int turn, hr2d_segment i, hr2d_segment j,
                           const hr2d_segment *occluder, size_t count) {
   hr2d_segment turned[MOST_OCCLUDERS];
   for (size_t k = 0; k < count; k++) turned[k] = similar_segment(turns[turn], occluder[k]);
-  return area_among(similar_segment(turns[turn], i), similar_segment(turns[turn], j), turned,
-                    count);
+  return exchange_among(similar_segment(turns[turn], i), similar_segment(turns[turn], j),
+                        turned, count);
 }
 
 /* Crossed strings past either end e of the occluder: |ae| + |ec| for both strings that
@@ -276,7 +261,7 @@ START_TEST(blk1) {
   const double by_strings = 2 * sqrt(0.3 * 0.3 + 0.5 * 0.5) - 1;
   ck_assert_double_eq_tol(by_strings, 0.16619037896906, 1e-14);
   ck_assert_double_eq_tol(brute_quadrature(&ground, &roof, &w, 1, NULL), by_strings, 1e-15);
-  ck_assert_double_eq_tol(area_among(ground, roof, &w, 1), by_strings, 1e-15);
+  ck_assert_double_eq_tol(exchange_among(ground, roof, &w, 1), by_strings, 1e-15);
 }
 END_TEST
 
@@ -316,13 +301,13 @@ END_TEST
 START_TEST(points_and_nothing_hide_nothing) {
   const hr2d_segment point = {{.5, .5}, {.5, .5}};
   const double clear = hr2d_exchange_area(&ground, &roof);
-  ck_assert_double_eq(area_among(ground, roof, NULL, 0), clear);
-  ck_assert_double_eq_tol(area_among(ground, roof, &point, 1), clear, 1e-15);
+  ck_assert_double_eq(exchange_among(ground, roof, NULL, 0), clear);
+  ck_assert_double_eq_tol(exchange_among(ground, roof, &point, 1), clear, 1e-15);
   /* Nor does one join two walls to a straight one. */
   const hr2d_segment bent[] = {{{.25, .5}, {.5, .5}}, point, {{.5, .5}, {.5, .75}}};
   const hr2d_segment plain[] = {bent[0], bent[2]};
-  ck_assert_double_eq_tol(area_among(ground, roof, bent, 3), area_among(ground, roof, plain, 2),
-                          1e-15);
+  ck_assert_double_eq_tol(exchange_among(ground, roof, bent, 3),
+                          exchange_among(ground, roof, plain, 2), 1e-15);
 }
 END_TEST
 
@@ -381,7 +366,7 @@ START_TEST(touching_occluders_do_not_leak) {
     hr2d_segment left[8];
     for (size_t m = 0; m < b->count; m++) left[m] = b->occluder[m];
     left[k] = b->occluder[b->count - 1];
-    open += area_among(ground, roof, left, b->count - 1) > 0;
+    open += exchange_among(ground, roof, left, b->count - 1) > 0;
   }
   ck_assert_int_gt(open, 0);
 }
@@ -411,7 +396,7 @@ START_TEST(slits_have_their_width) {
   if (!test_has_long_double()) return;
   randoms r = randoms_stream(test_seed(), 5000);
   double worst = 0;
-  for (int k = scaled_count(3000), seen = 0; k > 0 || !seen; k--) {
+  for (int k = test_count(3000), seen = 0; k > 0 || !seen; k--) {
     const double width = k % 2 ? 1e-12 : random_power(&r, -12, -7);
     const hr2d_segment i = {{random_between(&r, -.5, .2), random_between(&r, 0, .2)},
                             {random_between(&r, .5, 1.2), random_between(&r, 0, .2)}};
@@ -426,7 +411,7 @@ START_TEST(slits_have_their_width) {
     const double expected = slit_area(i, j, middle, gap);
     if (expected == 0) continue;
     seen++;
-    const double area = area_among(i, j, screen, 2);
+    const double area = exchange_among(i, j, screen, 2);
     worst = fmax(worst, fabs(area - expected) / expected);
     const double brute = brute_quadrature(&i, &j, screen, 2, NULL);
     ck_assert_double_lt(fabs(brute - expected), 1e-5 * expected);
@@ -524,7 +509,7 @@ START_TEST(a_thousand_slits_add_up) {
     const hr2d_segment around[] = {{{-9, .5}, w[k].b}, {next, {9, .5}}};
     sum += brute_strings(&ground, &roof, around, 2);
   }
-  const double area = area_among(ground, roof, w, COUNT);
+  const double area = exchange_among(ground, roof, w, COUNT);
   printf("a thousand slits: %.17g, error %.2e\n", area, fabs(area - sum));
   ck_assert_double_lt(fabs(area - sum), 1e-13);
 }
@@ -545,7 +530,7 @@ START_TEST(a_fan_of_a_thousand_hides_its_hull) {
     w[k] = (hr2d_segment){hub, {hub.x + reach * cos(angle), hub.y + reach * sin(angle)}};
   }
   for (int k = 0; k < CORNERS; k++) hull[k] = (hr2d_segment){w[k].b, w[(k + 1) % CORNERS].b};
-  const double area = area_among(ground, roof, w, COUNT);
+  const double area = exchange_among(ground, roof, w, COUNT);
   const double expected = brute_strings(&ground, &roof, hull, CORNERS);
   printf("a fan of a thousand: %.17g, error %.2e\n", area, fabs(area - expected));
   ck_assert_double_lt(fabs(area - expected), 1e-13);
@@ -558,14 +543,14 @@ START_TEST(crowds) {
   static hr2d_segment w[MOST];
   randoms r = randoms_stream(test_seed(), 5003);
   for (int size = 25; size <= MOST; size = size < 100 ? 2 * size : 10 * size)
-    for (int k = scaled_count(4); k > 0; k--) {
+    for (int k = test_count(4); k > 0; k--) {
       for (int m = 0; m < size; m++) {
         const double x = random_unit(&r), y = random_unit(&r), reach = random_between(&r, 0, 2);
         w[m] = (hr2d_segment){{x, y},
                               {x + reach * random_between(&r, -1, 1) / size,
                                y + reach * random_between(&r, -1, 1) / size}};
       }
-      const double area = area_among(ground, roof, w, (size_t)size);
+      const double area = exchange_among(ground, roof, w, (size_t)size);
       double bar = 1e-13, expected;
       if (size <= 100)
         expected = brute_strings(&ground, &roof, w, (size_t)size);
@@ -598,7 +583,7 @@ START_TEST(occluders_only_take) {
       const hr2d_segment j = other[k][0];
       const double all = hr2d_exchange_area(&i, &j);
       ck_assert_double_gt(all, 0);
-      ck_assert_double_le(area_among(i, j, other[k] + 1, count), all);
+      ck_assert_double_le(exchange_among(i, j, other[k] + 1, count), all);
     }
 }
 END_TEST
@@ -625,7 +610,7 @@ START_TEST(allocations_fail_one_by_one) {
     const double x = random_unit(&r), y = random_unit(&r);
     w[k] = (hr2d_segment){{x, y}, {x + .01, y + .01 * random_unit(&r)}};
   }
-  const double expected = area_among(ground, roof, w, COUNT);
+  const double expected = exchange_among(ground, roof, w, COUNT);
   long k = 0;
   for (int failed = 1; failed; k++) {
     test_memory f = {.until_failure = k, .for_good = _i};
@@ -643,38 +628,19 @@ START_TEST(allocations_fail_one_by_one) {
 }
 END_TEST
 
-int main(void) {
-  printf("seed %lu\n", test_seed());
-  fflush(stdout);
-  Suite *suite = suite_create("visibility");
-  TCase *tc = tcase_create("classes");
-  tcase_add_loop_test(tc, references_agree, 0, occluded_class_count);
-  tcase_add_loop_test(tc, agrees_with_quadrature, 0, occluded_class_count);
-  tcase_add_loop_test(tc, agrees_with_strings, 0, occluded_class_count);
-  tcase_add_test(tc, a_shift_is_noticed);
-  tcase_add_loop_test(tc, swapping_changes_no_bit, 0, occluded_class_count);
-  tcase_add_loop_test(tc, powers_of_two_change_no_bit, 0, occluded_class_count);
-  tcase_add_loop_test(tc, moving_changes_little, 0, occluded_class_count);
-  tcase_add_loop_test(tc, occluders_are_a_set, 0, occluded_class_count);
-  tcase_add_loop_test(tc, more_occluders_hide_more, 0, occluded_class_count);
-  tcase_add_loop_test(tc, cutting_changes_nothing, 0, occluded_class_count);
-  suite_add_tcase(suite, tc);
-  tc = tcase_create("cases");
-  tcase_add_test(tc, blk1);
-  tcase_add_test(tc, what_is_not_in_the_way_changes_no_bit);
-  tcase_add_test(tc, points_and_nothing_hide_nothing);
-  tcase_add_loop_test(tc, touching_occluders_do_not_leak, 0, BARRIERS);
-  tcase_add_test(tc, slits_have_their_width);
-  tcase_add_test(tc, zero_is_decided_exactly);
-  tcase_add_loop_test(tc, walls_that_hug_a_line_are_seen, 0, 4);
-  tcase_add_test(tc, a_thousand_slits_add_up);
-  tcase_add_test(tc, a_fan_of_a_thousand_hides_its_hull);
-  tcase_add_test(tc, crowds);
-  suite_add_tcase(suite, tc);
-  tc = tcase_create("refusals");
-  tcase_add_test(tc, occluders_only_take);
-  tcase_add_test(tc, what_is_not_finite_is_refused);
-  tcase_add_loop_test(tc, allocations_fail_one_by_one, 0, 2);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+TEST_SUITE("visibility") {
+  REPEAT_TESTS(occluded_class_count, "classes", references_agree, agrees_with_quadrature,
+               agrees_with_strings);
+  ADD_TESTS("classes", a_shift_is_noticed);
+  REPEAT_TESTS(occluded_class_count, "classes", swapping_changes_no_bit,
+               powers_of_two_change_no_bit, moving_changes_little, occluders_are_a_set,
+               more_occluders_hide_more, cutting_changes_nothing);
+  ADD_TESTS("cases", blk1, what_is_not_in_the_way_changes_no_bit,
+            points_and_nothing_hide_nothing);
+  REPEAT_TESTS(BARRIERS, "cases", touching_occluders_do_not_leak);
+  ADD_TESTS("cases", slits_have_their_width, zero_is_decided_exactly);
+  REPEAT_TESTS(4, "cases", walls_that_hug_a_line_are_seen);
+  ADD_TESTS("cases", a_thousand_slits_add_up, a_fan_of_a_thousand_hides_its_hull, crowds);
+  ADD_TESTS("refusals", occluders_only_take, what_is_not_finite_is_refused);
+  REPEAT_TESTS(2, "refusals", allocations_fail_one_by_one);
 }

@@ -10,7 +10,10 @@
 #include "geometry/predicates.h"
 #include "oracle/l1-grid.h"
 #include "oracle/l1.h"
+#include "support/elements.h"
+#include "support/order.h"
 #include "support/pair-classes.h"
+#include "support/plane.h"
 #include "support/support.h"
 
 /* Nested quadrature: G/Gc − 1 in long double, each line split where it changes its
@@ -69,11 +72,6 @@ static double deviation(double s, void *params) {
   return (double)fabsl(kernel_at(n, s, n->t) / n->centre - 1);
 }
 
-static int compare_reals(const void *left, const void *right) {
-  const double l = *(const double *)left, r = *(const double *)right;
-  return (l > r) - (l < r);
-}
-
 static int sign_change(const nested *n, double low, double high, double *root) {
   const int sign = kernel_at(n, low, n->t) > n->centre;
   if ((kernel_at(n, high, n->t) > n->centre) == sign) return 0;
@@ -116,7 +114,7 @@ static int add_maxima(const nested *n, double *found, int count) {
     if (value[1] > value[0] && value[1] >= value[2])
       found[count++] = find_maximum(n, at[0], at[2]);
   }
-  qsort(found, (size_t)count, sizeof *found, compare_reals);
+  qsort(found, (size_t)count, sizeof *found, order_doubles);
   return count;
 }
 
@@ -136,14 +134,14 @@ static int find_splits(const nested *n, double *at) {
     if (foot + step > 0 && foot + step < 1) found[count++] = (double)(foot + step);
     if (foot - step > 0 && foot - step < 1) found[count++] = (double)(foot - step);
   }
-  qsort(found, (size_t)count, sizeof *found, compare_reals);
+  qsort(found, (size_t)count, sizeof *found, order_doubles);
   sorted = count = add_maxima(n, found, count);
   for (int k = 0; k + 1 < sorted; k++)
     for (int m = 0; m < 3; m++) {
       const double step = (found[k + 1] - found[k]) / 3, low = found[k] + m * step;
       count += sign_change(n, low, m < 2 ? low + step : found[k + 1], &found[count]);
     }
-  qsort(found, (size_t)count, sizeof *found, compare_reals);
+  qsort(found, (size_t)count, sizeof *found, order_doubles);
   memcpy(at, found, (size_t)count * sizeof *found);
   return count;
 }
@@ -217,25 +215,21 @@ static double settled_l1(const hr2d_segment *i, const hr2d_segment *j) {
 
 /* Pairs whose centres see each other. */
 
-static hr2d_point polar(hr2d_point from, double length, double angle) {
-  return (hr2d_point){from.x + length * cos(angle), from.y + length * sin(angle)};
-}
-
 #define PI 3.14159265358979323846
 
 static pair any_pair(randoms *r) {
   const double x = random_unit(r), y = random_unit(r), a = random_between(r, 0, 2 * PI);
   const double s = random_power(r, -1, 0), t = random_power(r, -1, 0);
-  const hr2d_point p = {x, y}, q = polar(p, 1.5, a);
+  const hr2d_point p = {x, y}, q = plane_polar(p, 1.5, a);
   const double b = random_between(r, 0, 2 * PI), c = random_between(r, 0, 2 * PI);
-  return (pair){{p, polar(p, s, b)}, {q, polar(q, t, c)}};
+  return (pair){{p, plane_polar(p, s, b)}, {q, plane_polar(q, t, c)}};
 }
 
 static pair corner_pair(randoms *r) {
   const hr2d_point p = {random_unit(r), random_unit(r)};
   const double first = random_between(r, 0, 2 * PI), angle = random_between(r, 0.05, 3);
   const double s = random_power(r, -1, 0), t = random_power(r, -1, 0);
-  return (pair){{p, polar(p, s, first)}, {polar(p, t, first + angle), p}};
+  return (pair){{p, plane_polar(p, s, first)}, {plane_polar(p, t, first + angle), p}};
 }
 
 static pair half_pair(randoms *r) {
@@ -245,30 +239,20 @@ static pair half_pair(randoms *r) {
   }
 }
 
-static hr2d_segment descend(randoms *r, hr2d_segment s, int levels) {
-  for (; levels > 0; levels--) {
-    const hr2d_point m = {0.5 * (s.a.x + s.b.x), 0.5 * (s.a.y + s.b.y)};
-    if (random_below(r, 2))
-      s.a = m;
-    else
-      s.b = m;
-  }
-  return s;
-}
-
 static pair tiny_pair(randoms *r) {
   static const double distances[] = {0.1, 1, 10};
   const double d = distances[random_below(r, 3)];
   pair p = random_below(r, 2) ? any_pair(r) : (pair){{{0, 0}, {1, 0}}, {{1, d}, {0, d}}};
   const int levels = random_below(r, 25);
-  return (pair){descend(r, p.i, levels), descend(r, p.j, levels + random_below(r, 2))};
+  return (pair){random_descendant(r, p.i, levels),
+                random_descendant(r, p.j, levels + random_below(r, 2))};
 }
 
 static pair far_pair(randoms *r) {
   const hr2d_point p = {random_unit(r), random_unit(r)};
-  const hr2d_point q = polar(p, random_power(r, 1, 6), random_between(r, 0, 2 * PI));
+  const hr2d_point q = plane_polar(p, random_power(r, 1, 6), random_between(r, 0, 2 * PI));
   const double b = random_between(r, 0, 2 * PI), c = random_between(r, 0, 2 * PI);
-  return (pair){{p, polar(p, 1, b)}, {q, polar(q, random_power(r, -3, 0), c)}};
+  return (pair){{p, plane_polar(p, 1, b)}, {q, plane_polar(q, random_power(r, -3, 0), c)}};
 }
 
 static pair thin_pair(randoms *r) {
@@ -297,28 +281,19 @@ static pair draw_kind(int kind, randoms *r) {
   }
 }
 
-static int count_of(int most) {
-  const int count = (int)(most * test_multiplier());
-  return count > 1 ? count : 1;
-}
-
 #define assert_close(x, y, bar)                                                                \
   ck_assert_msg(fabs((x) - (y)) <= (bar)*fabs(y), "%.17g is not %.17g: off by %.2g", x, y,     \
                 fabs((x) / (y)-1))
 
-static double length_of(const hr2d_segment *s) {
-  return hypot(s->b.x - s->a.x, s->b.y - s->a.y);
-}
-
 /* The error without its absolute value: what a sign lost would give. */
 static double signed_error(const pair *p) {
   return fabs(hr2d_exchange_area(&p->i, &p->j) -
-              centre_kernel(p) * length_of(&p->i) * length_of(&p->j));
+              centre_kernel(p) * plane_length(p->i) * plane_length(p->j));
 }
 
 START_TEST(nested_quadrature) {
   randoms r = randoms_stream(test_seed(), _i);
-  const int count = count_of(170);
+  const int count = test_count(170);
   double worst = 0;
   int told_apart = 0;
   for (int k = 0; k < count; k++) {
@@ -373,7 +348,7 @@ static hr2d_segment scaled(hr2d_segment s, double by) {
 
 START_TEST(symmetry_and_scale) {
   randoms r = randoms_stream(test_seed(), 10 + _i);
-  for (int k = 0; k < count_of(2000); k++) {
+  for (int k = 0; k < test_count(2000); k++) {
     const pair p = draw_kind(_i, &r);
     const double value = hr2di_l1(&p.i, &p.j), by = ldexp(1, random_below(&r, 120) - 60);
     ck_assert_double_eq(value, hr2di_l1(&p.j, &p.i));
@@ -386,10 +361,10 @@ END_TEST
 /* Also by a factor that rounds, at a corner that stays one. */
 START_TEST(scale_at_corner) {
   randoms r = randoms_stream(test_seed(), 20);
-  for (int k = 0; k < count_of(1000); k++) {
+  for (int k = 0; k < test_count(1000); k++) {
     const double angle = random_between(&r, 0.1, 3), by = random_power(&r, -6, 6);
     const hr2d_point o = {0, 0};
-    const hr2d_segment i = {o, {random_unit(&r) + 0.1, 0}}, j = {polar(o, 1, angle), o};
+    const hr2d_segment i = {o, {random_unit(&r) + 0.1, 0}}, j = {plane_polar(o, 1, angle), o};
     const hr2d_segment si = scaled(i, by), sj = scaled(j, by);
     assert_close(hr2di_l1(&si, &sj), by * hr2di_l1(&i, &j), 1e-10);
   }
@@ -410,7 +385,7 @@ static double spread_of(const pair *p) {
    error of at most AF + Gc A_x A_y and at least |AF − Gc A_x A_y|. */
 START_TEST(hard_pairs) {
   randoms r = randoms_stream(test_seed(), 30 + _i);
-  for (int k = 0; k < count_of(2000); k++) {
+  for (int k = 0; k < test_count(2000); k++) {
     const pair p = draw_pair(&pair_classes[_i], &r);
     const double value = hr2di_l1(&p.i, &p.j);
     ck_assert(value >= 0);
@@ -444,7 +419,7 @@ START_TEST(decisions) {
                                  1e-3, 0.01,  0.03,  0.1,   0.3,  0.7};
   randoms r = randoms_stream(test_seed(), 60 + _i);
   long asked = 0;
-  for (int k = 0; k < count_of(700); k++) {
+  for (int k = 0; k < test_count(700); k++) {
     const pair p = draw_kind(_i, &r);
     const double value = hr2di_l1(&p.i, &p.j);
     for (size_t m = 0; m < sizeof steps / sizeof *steps; m++)
@@ -524,14 +499,11 @@ static double ask(const hr2d_oracle *oracle, const test_links *t, hr2d_pair aske
                             .pairs = &asked,
                             .count = 1,
                             .unit = hr2d_scene_unit(t->scene)};
-  double error;
-  ck_assert_int_eq(oracle->estimate(NULL, &batch, &error), HR2D_OK);
+  const double error = element_estimate(oracle, &batch);
   static const double factors[] = {0, 0.3, 0.9, 1 - 1e-12, 1, 1 + 1e-12, 1.1, 3};
-  for (size_t k = 0; k < sizeof factors / sizeof *factors; k++) {
-    unsigned char accepted = 2;
-    ck_assert_int_eq(oracle->accept(NULL, &batch, error * factors[k], &accepted), HR2D_OK);
-    ck_assert_int_eq(accepted, error <= error * factors[k]);
-  }
+  for (size_t k = 0; k < sizeof factors / sizeof *factors; k++)
+    ck_assert_int_eq(element_accepted(oracle, &batch, error * factors[k]),
+                     error <= error * factors[k]);
   return error;
 }
 
@@ -562,7 +534,7 @@ static double plain_grid(const hr2d_segment *i, const hr2d_segment *j, int m, in
       const hr2d_point y = {j->a.x + t * (j->b.x - j->a.x), j->a.y + t * (j->b.y - j->a.y)};
       sum += fabs(hr2d_kernel(i, x, j, y) - centre);
     }
-  return sum * length_of(i) / m * length_of(j) / n;
+  return sum * plane_length(*i) / m * plane_length(*j) / n;
 }
 
 /* Elements of all levels, of patches of different lengths, in a scene with a unit. */
@@ -598,28 +570,14 @@ START_TEST(grid_on_elements) {
 }
 END_TEST
 
-static Suite *make_suite(void) {
-  Suite *suite = suite_create("l1");
-  TCase *exact = tcase_create("exact");
-  tcase_add_test(exact, reference_values);
-  tcase_add_test(exact, facing_parallel);
-  tcase_add_loop_test(exact, nested_quadrature, 0, KINDS);
-  tcase_add_loop_test(exact, symmetry_and_scale, 0, KINDS);
-  tcase_add_test(exact, scale_at_corner);
-  tcase_add_loop_test(exact, hard_pairs, 0, pair_class_count);
-  tcase_add_test(exact, one_behind_the_other);
-  tcase_add_loop_test(exact, decisions, 0, KINDS);
-  tcase_add_test(exact, counts_of_l1);
-  suite_add_tcase(suite, exact);
-  TCase *grid = tcase_create("grid");
-  tcase_add_test(grid, counts_of_grid);
-  tcase_add_test(grid, grid_on_reference_pairs);
-  tcase_add_test(grid, grid_on_elements);
-  suite_add_tcase(suite, grid);
-  return suite;
-}
-
-int main(void) {
+TEST_SUITE("l1") {
   gsl_set_error_handler_off(); /* rounding may keep the nested quadrature from its goal */
-  return test_run(make_suite());
+  ADD_TESTS("exact", reference_values, facing_parallel);
+  REPEAT_TESTS(KINDS, "exact", nested_quadrature, symmetry_and_scale);
+  ADD_TESTS("exact", scale_at_corner);
+  REPEAT_TESTS(pair_class_count, "exact", hard_pairs);
+  ADD_TESTS("exact", one_behind_the_other);
+  REPEAT_TESTS(KINDS, "exact", decisions);
+  ADD_TESTS("exact", counts_of_l1);
+  ADD_TESTS("grid", counts_of_grid, grid_on_reference_pairs, grid_on_elements);
 }

@@ -16,13 +16,6 @@ static const hr2d_oracle *oracle_of(int k) {
   return hr2d_oracle_find(name[k]);
 }
 
-static hr2d_refine_options with_epsilon(double epsilon) {
-  hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
-  options.epsilon = epsilon;
-  options.max_level = 6;
-  return options;
-}
-
 /* Rooms for every test: classes of plans in turn, of which every other one is turned off
    the axes, and one in three is opened by taking a wall away. */
 typedef struct rooms {
@@ -56,7 +49,6 @@ static int room_count(void) {
 /* Calls `check` with many rooms. */
 static void for_rooms(int size, void (*check)(rooms *s, const char *class, int k)) {
   rooms s = {.r = randoms_stream(test_seed(), size)};
-  printf("seed %lu\n", test_seed());
   for (int k = 0; k < room_count(); k++) {
     draw_room(&s, k, size);
     check(&s, plan_classes[k % plan_class_count].name, k);
@@ -75,12 +67,7 @@ static double average_error(const test_table *table, size_t row, int oracle, dou
   const hr2d_power p = hr2d_solution_power(solution, 0);
   ck_assert_double_eq_tol(p.absorbed + p.escaped, p.emitted, 1e-13);
   if (closure) ck_assert_double_eq_tol(p.escaped, 0, 1e-13);
-  double worst = 0;
-  for (size_t k = 0; k < hr2d_scene_patches(t.scene); k++) {
-    ck_assert_str_eq(test_cell(table, row + k, "scene"), name);
-    const double expected = test_number(table, row + k, "avgB");
-    worst = fmax(worst, fabs(hr2d_solution_average(solution, k, 0) / expected - 1));
-  }
+  const double worst = test_average_error(&t, solution, table, row);
   hr2d_solution_destroy(solution);
   test_free_links(&t);
   return worst;
@@ -200,7 +187,7 @@ static void check_links(rooms *s, const char *class, int k) {
   snprintf(what, sizeof what, "%s, room %d, oracle %s", class, k, oracle_of(oracle)->name);
   test_links t = test_make_links(grey_room(s), oracle_of(oracle), NULL,
                                  k / 2 % 2 ? hr2d_policy_modified() : NULL, NULL);
-  hr2d_refine_options options = with_epsilon(epsilon);
+  hr2d_refine_options options = test_options(epsilon, 6);
   options.ordered = k % 5 == 4;
   ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
   const hr2d_refine_counts counts = hr2d_linkset_counts(t.links);
@@ -262,12 +249,8 @@ END_TEST
 
 /* A room of 128 patches and a wall across it, made for another program: nothing emits. */
 static hr2d_scene *occ128(void) {
-  const char *folder = getenv("HR2D_SCENES");
-  char path[4096];
-  hr2d_scene *scene = NULL;
-  snprintf(path, sizeof path, "%s/occ128.vs2", folder ? folder : "examples/scenes");
-  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
-  ck_assert_int_eq(hr2d_scene_read(scene, path), HR2D_OK);
+  hr2d_scene *scene = test_new_scene(NULL);
+  ck_assert_int_eq(hr2d_scene_read(scene, test_scene_path("occ128.vs2")), HR2D_OK);
   ck_assert_int_eq(hr2d_scene_force(scene, HR2D_EFFECT_EMISSION), HR2D_OK);
   ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
   return scene;
@@ -287,19 +270,6 @@ START_TEST(occ128_is_valid) {
 }
 END_TEST
 
-typedef struct collected {
-  hr2d_link *link;
-  uint64_t count;
-} collected;
-
-static hr2d_status collect(void *ctx, const hr2d_link *links, size_t count) {
-  collected *c = ctx;
-  c->link = realloc(c->link, (size_t)(c->count + count) * sizeof *c->link);
-  memcpy(c->link + c->count, links, count * sizeof *links);
-  c->count += count;
-  return HR2D_OK;
-}
-
 static void check_streams(rooms *s, const char *class, int k) {
   const int oracle = k % 3;
   const randoms kept = s->r;
@@ -308,17 +278,14 @@ static void check_streams(rooms *s, const char *class, int k) {
     s->r = kept;
     t[m] = test_make_links(grey_room(s), oracle_of(oracle), NULL, NULL, NULL);
   }
-  const hr2d_refine_options options = with_epsilon(.3);
+  const hr2d_refine_options options = test_options(.3, 6);
   hr2d_refine_counts streamed;
-  collected c = {0};
+  test_collected c = {0};
   (void)class;
   ck_assert_int_eq(hr2d_refine(t[0].links, &options), HR2D_OK);
-  ck_assert_int_eq(hr2d_refine_visit(t[1].links, &options, collect, &c, &streamed), HR2D_OK);
-  ck_assert_uint_eq(c.count, hr2d_linkset_size(t[0].links));
-  for (uint64_t m = 0; m < c.count; m++) {
-    const hr2d_link link = hr2d_linkset_get(t[0].links, m);
-    ck_assert_mem_eq(&link, &c.link[m], sizeof link);
-  }
+  ck_assert_int_eq(hr2d_refine_visit(t[1].links, &options, test_collect, &c, &streamed),
+                   HR2D_OK);
+  test_expect_collected(&t[0], &c);
   const hr2d_refine_counts stored = hr2d_linkset_counts(t[0].links);
   test_same_counts(&streamed, &stored);
   free(c.link);
@@ -336,7 +303,7 @@ static void check_threads(rooms *s, const char *class, int k) {
   static const unsigned threads[] = {1, 2, 5};
   const int oracle = k % 3;
   const randoms kept = s->r;
-  const hr2d_refine_options once = with_epsilon(.25);
+  const hr2d_refine_options once = test_options(.25, 6);
   (void)class;
   test_links stored = test_make_links(grey_room(s), oracle_of(oracle), NULL, NULL, NULL);
   ck_assert_int_eq(hr2d_refine(stored.links, &once), HR2D_OK);
@@ -385,19 +352,6 @@ START_TEST(multigrid_ends_where_one_step_does) {
 }
 END_TEST
 
-static void check_refused(test_links *t, const hr2d_refine_options *options,
-                          hr2d_status expected) {
-  const hr2d_hierarchy_counts before = hr2d_hierarchy_count(t->hierarchy);
-  const uint64_t links = hr2d_linkset_size(t->links);
-  ck_assert_int_eq(hr2d_refine(t->links, options), expected);
-  ck_assert_str_ne(hr2d_linkset_message(t->links), "");
-  const hr2d_hierarchy_counts after = hr2d_hierarchy_count(t->hierarchy);
-  ck_assert_uint_eq(before.elements, after.elements);
-  ck_assert_uint_eq(before.leaves, after.leaves);
-  ck_assert_uint_eq(before.levels, after.levels);
-  ck_assert_uint_eq(links, hr2d_linkset_size(t->links));
-}
-
 /* From an empty set and from links that are there already. */
 START_TEST(budgets_are_kept) {
   test_links ideal =
@@ -408,20 +362,20 @@ START_TEST(budgets_are_kept) {
       test_make_links(test_named_scene("occ_square_walls0.5_occ0.5"), NULL, NULL, NULL, NULL);
   for (int again = 0; again < 2; again++) {
     for (int tenth = 0; tenth < 10; tenth++) {
-      hr2d_refine_options options = with_epsilon(.05);
+      hr2d_refine_options options = test_options(.05, 6);
       options.max_links = all.links * (unsigned)tenth / 10 + (tenth ? 0 : 1);
-      check_refused(&t, &options, HR2D_EMAX_LINKS);
+      test_refuse(&t, &options, HR2D_EMAX_LINKS, "");
       options.max_links = 0;
       options.max_elements = all.elements * (unsigned)tenth / 10 + (tenth ? 0 : 1);
       if (options.max_elements > hr2d_hierarchy_count(t.hierarchy).elements)
-        check_refused(&t, &options, HR2D_EMAX_ELEMENTS);
+        test_refuse(&t, &options, HR2D_EMAX_ELEMENTS, "");
       options.max_elements = 0;
       options.max_bytes = 16 * all.links * (unsigned)tenth / 10 + (tenth ? 0 : 1);
-      check_refused(&t, &options, HR2D_EMAX_BYTES);
+      test_refuse(&t, &options, HR2D_EMAX_BYTES, "");
     }
     test_refine(&t, .5, 6);
   }
-  hr2d_refine_options exact = with_epsilon(.05);
+  hr2d_refine_options exact = test_options(.05, 6);
   exact.max_links = all.links;
   exact.max_elements = all.elements;
   ck_assert_int_eq(hr2d_refine(t.links, &exact), HR2D_OK);
@@ -455,17 +409,11 @@ typedef struct story {
 
 static void tell(story *s, const plan *p) {
   const hr2d_allocator hooks = test_hooks(&s->memory);
-  const double rho = .5, one = 1;
-  hr2d_refine_options options = with_epsilon(.4);
+  const double one = 1;
+  hr2d_refine_options options = test_options(.4, 6);
   STEP(s, hr2d_scene_create(&hooks, &s->scene));
-  for (size_t k = 0; k < p->walls; k++) {
-    const hr2d_patch patch = {.a = p->wall[k].a,
-                              .b = p->wall[k].b,
-                              .reflectance = &rho,
-                              .reflectance_bands = 1,
-                              .sides = p->sides[k]};
-    STEP(s, hr2d_scene_add(s->scene, &patch, NULL));
-  }
+  for (size_t k = 0; k < p->walls; k++)
+    STEP(s, test_add_patch(s->scene, p->wall[k], 0, .5, p->sides[k]));
   STEP(s, hr2d_scene_set_background(s->scene, &one, 1));
   STEP(s, hr2d_scene_commit(s->scene));
   STEP(s, hr2d_hierarchy_create(s->scene, &s->hierarchy));
@@ -643,30 +591,12 @@ START_TEST(what_is_hidden_has_no_link) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("occlusion");
-  TCase *light = tcase_create("light");
-  tcase_set_timeout(light, 600);
-  tcase_add_test(light, averages_converge);
-  tcase_add_test(light, power_is_balanced);
-  tcase_add_test(light, furnace_is_exact);
-  suite_add_tcase(suite, light);
-  TCase *links = tcase_create("links");
-  tcase_set_timeout(links, 600);
-  tcase_add_test(links, links_are_valid_and_exchange_what_patches_do);
-  tcase_add_test(links, elements_may_end_where_walls_do);
-  tcase_add_test(links, occ128_is_valid);
-  tcase_add_test(links, what_is_hidden_has_no_link);
-  tcase_add_test(links, stored_and_streamed_agree);
-  tcase_add_test(links, threads_count_the_same);
-  tcase_add_test(links, multigrid_ends_where_one_step_does);
-  suite_add_tcase(suite, links);
-  TCase *callers = tcase_create("callers");
-  tcase_set_timeout(callers, 600);
-  tcase_add_test(callers, oracles_are_told_what_is_in_the_way);
-  tcase_add_test(callers, partial_pairs_count_for_more);
-  tcase_add_test(callers, budgets_are_kept);
-  tcase_add_test(callers, allocations_fail_one_by_one);
-  suite_add_tcase(suite, callers);
-  return test_run(suite);
+TEST_SUITE("occlusion") {
+  ADD_TESTS("light", averages_converge, power_is_balanced, furnace_is_exact);
+  ADD_TESTS("links", links_are_valid_and_exchange_what_patches_do,
+            elements_may_end_where_walls_do, occ128_is_valid, what_is_hidden_has_no_link,
+            stored_and_streamed_agree, threads_count_the_same,
+            multigrid_ends_where_one_step_does);
+  ADD_TESTS("callers", oracles_are_told_what_is_in_the_way, partial_pairs_count_for_more,
+            budgets_are_kept, allocations_fail_one_by_one);
 }

@@ -7,13 +7,8 @@
 #include <string.h>
 
 #include "base/neumaier-sum.h"
+#include "support/elements.h"
 #include "support/support.h"
-
-static hr2d_refine_options with_epsilon(double epsilon) {
-  hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
-  options.epsilon = epsilon;
-  return options;
-}
 
 static uint64_t leaves_of_patch(const hr2d_hierarchy *hierarchy, uint32_t patch) {
   const hr2d_element *element = hr2d_hierarchy_elements(hierarchy);
@@ -29,7 +24,7 @@ static void check_row(const test_table *table, size_t row, int ordered) {
       test_make_links(test_named_scene(test_cell(table, row, "scene")),
                       strcmp(oracle, "maxA/r") == 0 ? hr2d_oracle_size() : hr2d_oracle_size2(),
                       NULL, hr2d_policy_find(test_cell(table, row, "algorithm")), NULL);
-  hr2d_refine_options options = with_epsilon(test_number(table, row, "eps"));
+  hr2d_refine_options options = test_epsilon(test_number(table, row, "eps"));
   options.ordered = ordered;
   hr2d_refine_counts counts;
   ck_assert_int_eq(hr2d_refine_count(t.links, &options, &counts), HR2D_OK);
@@ -108,7 +103,7 @@ START_TEST(links_exchange_what_patches_do) {
   for (size_t k = 0; k < 8; k++) {
     test_links t =
         test_make_links(test_named_scene(name[k / 2]), NULL, NULL, policy[k % 2], NULL);
-    hr2d_refine_options options = with_epsilon(0.1);
+    hr2d_refine_options options = test_epsilon(0.1);
     options.max_level = 12;
     ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
     check_transport(&t);
@@ -119,7 +114,7 @@ END_TEST
 
 START_TEST(clipped_links_exchange_what_patches_do) {
   test_links t = test_make_links(test_scene(clipped_pair, 2), NULL, NULL, NULL, NULL);
-  const hr2d_refine_options options = with_epsilon(0.01);
+  const hr2d_refine_options options = test_epsilon(0.01);
   ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
   check_transport(&t);
   const hr2d_refine_counts counts = hr2d_linkset_counts(t.links);
@@ -150,7 +145,7 @@ static void check_threads(hr2d_scene *(*make)(void), const hr2d_oracle *oracle,
   const unsigned threads[] = {1, 2, 5};
   for (size_t k = 0; k < 3; k++) {
     t[k] = test_make_links(make(), oracle, NULL, policy, NULL);
-    hr2d_refine_options options = with_epsilon(epsilon);
+    hr2d_refine_options options = test_epsilon(epsilon);
     options.threads = threads[k];
     options.max_level = 12;
     ck_assert_int_eq(hr2d_refine_count(t[k].links, &options, &counts[k]), HR2D_OK);
@@ -165,7 +160,7 @@ static void check_threads(hr2d_scene *(*make)(void), const hr2d_oracle *oracle,
   }
   /* The plain refinement is the measure. */
   test_links stored = test_make_links(make(), oracle, NULL, policy, NULL);
-  hr2d_refine_options options = with_epsilon(epsilon);
+  hr2d_refine_options options = test_epsilon(epsilon);
   options.max_level = 12;
   ck_assert_int_eq(hr2d_refine(stored.links, &options), HR2D_OK);
   counts[0].exchange_areas = hr2d_linkset_size(stored.links);
@@ -194,7 +189,7 @@ END_TEST
 
 START_TEST(facing_pairs_are_never_tested_again) {
   test_links t = test_make_links(test_named_scene("par0.1"), NULL, NULL, NULL, NULL);
-  const hr2d_refine_options options = with_epsilon(0.05);
+  const hr2d_refine_options options = test_epsilon(0.05);
   ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
   ck_assert_uint_eq(hr2d_linkset_counts(t.links).facing_tests, 0);
   ck_assert_uint_eq(hr2d_linkset_counts(t.links).exchange_areas, hr2d_linkset_size(t.links));
@@ -204,8 +199,8 @@ END_TEST
 
 START_TEST(patches_that_see_nothing_have_no_links) {
   /* back to back */
-  const double pair[][6] = {{0, 0, 1, 0, 1, .5}, {1, 0, 0, 0, 1, .5}};
-  test_links t = test_make_links(test_scene(pair, 2), NULL, NULL, NULL, NULL);
+  const double backs[][6] = {{0, 0, 1, 0, 1, .5}, {1, 0, 0, 0, 1, .5}};
+  test_links t = test_make_links(test_scene(backs, 2), NULL, NULL, NULL, NULL);
   ck_assert_int_eq(hr2d_refine(t.links, NULL), HR2D_OK);
   ck_assert_uint_eq(hr2d_linkset_size(t.links), 0);
   ck_assert_uint_eq(hr2d_linkset_counts(t.links).oracle_calls, 0);
@@ -214,35 +209,19 @@ START_TEST(patches_that_see_nothing_have_no_links) {
 }
 END_TEST
 
-typedef struct collected {
-  hr2d_link *link;
-  uint64_t count, stop_at;
-} collected;
-
-static hr2d_status collect(void *ctx, const hr2d_link *links, size_t count) {
-  collected *c = ctx;
-  c->link = realloc(c->link, (size_t)(c->count + count) * sizeof *c->link);
-  memcpy(c->link + c->count, links, count * sizeof *links);
-  c->count += count;
-  return c->stop_at && c->count >= c->stop_at ? HR2D_STOPPED : HR2D_OK;
-}
-
 START_TEST(stored_streamed_and_counted_agree) {
-  const hr2d_refine_options options = with_epsilon(0.03);
+  const hr2d_refine_options options = test_epsilon(0.03);
   test_links stored =
       test_make_links(test_named_scene("square_rho0.9"), NULL, NULL, NULL, NULL);
   test_links other = test_make_links(test_named_scene("square_rho0.9"), NULL, NULL, NULL, NULL);
   hr2d_refine_counts streamed, counted;
-  collected c = {0};
+  test_collected c = {0};
   ck_assert_int_eq(hr2d_refine(stored.links, &options), HR2D_OK);
-  ck_assert_int_eq(hr2d_refine_visit(other.links, &options, collect, &c, &streamed), HR2D_OK);
+  ck_assert_int_eq(hr2d_refine_visit(other.links, &options, test_collect, &c, &streamed),
+                   HR2D_OK);
   ck_assert_int_eq(hr2d_refine_count(other.links, &options, &counted), HR2D_OK);
   const hr2d_refine_counts of_set = hr2d_linkset_counts(stored.links);
-  ck_assert_uint_eq(c.count, hr2d_linkset_size(stored.links));
-  for (uint64_t k = 0; k < c.count; k++) {
-    const hr2d_link link = hr2d_linkset_get(stored.links, k);
-    ck_assert_mem_eq(&link, &c.link[k], sizeof link);
-  }
+  test_expect_collected(&stored, &c);
   test_same_counts(&streamed, &of_set);
   ck_assert_uint_eq(counted.exchange_areas, 0);
   counted.exchange_areas = of_set.exchange_areas;
@@ -280,7 +259,7 @@ START_TEST(multigrid_ends_where_one_step_does) {
   for (size_t k = 0; k < 3; k++) {
     test_links once = test_make_links(test_named_scene(name[k]), NULL, NULL, NULL, NULL);
     test_links grid = test_make_links(test_named_scene(name[k]), NULL, NULL, NULL, NULL);
-    hr2d_refine_options options = with_epsilon(1);
+    hr2d_refine_options options = test_epsilon(1);
     options.max_level = 12;
     uint64_t areas = 0;
     for (; options.epsilon >= 1. / 32; options.epsilon /= 2) {
@@ -311,7 +290,7 @@ END_TEST
 
 START_TEST(level_limit_acts_and_says_so) {
   test_links t = test_make_links(test_named_scene("orth_touch_rho0.7"), NULL, NULL, NULL, NULL);
-  hr2d_refine_options options = with_epsilon(0.25);
+  hr2d_refine_options options = test_epsilon(0.25);
   options.max_level = 6;
   ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
   ck_assert_uint_eq(hr2d_linkset_counts(t.links).levels, 6);
@@ -340,7 +319,7 @@ START_TEST(elements_end_where_doubles_do) {
   const double far[][6] = {
       {1e15, 0, 1e15 + 1, 0, 1, .5}, {1e15 + 1, .1, 1e15, .1, 0, .5}, {0, 0, 0, 1, 0, 0}};
   test_links t = test_make_links(test_scene(far, 3), NULL, NULL, NULL, NULL);
-  hr2d_refine_options options = with_epsilon(0.01);
+  hr2d_refine_options options = test_epsilon(0.01);
   options.max_level = 1000;
   ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
   ck_assert_uint_eq(hr2d_linkset_counts(t.links).levels, 3);
@@ -350,37 +329,23 @@ START_TEST(elements_end_where_doubles_do) {
 }
 END_TEST
 
-/* A refinement that fails leaves the objects as they were. */
-static void check_refused(test_links *t, const hr2d_refine_options *options,
-                          hr2d_status expected, const char *phrase) {
-  const hr2d_hierarchy_counts before = hr2d_hierarchy_count(t->hierarchy);
-  const uint64_t links = hr2d_linkset_size(t->links);
-  ck_assert_int_eq(hr2d_refine(t->links, options), expected);
-  ck_assert_ptr_nonnull(strstr(hr2d_linkset_message(t->links), phrase));
-  const hr2d_hierarchy_counts after = hr2d_hierarchy_count(t->hierarchy);
-  ck_assert_uint_eq(before.elements, after.elements);
-  ck_assert_uint_eq(before.leaves, after.leaves);
-  ck_assert_uint_eq(before.levels, after.levels);
-  ck_assert_uint_eq(links, hr2d_linkset_size(t->links));
-}
-
 START_TEST(budgets_are_kept) {
   test_links t = test_make_links(test_named_scene("par0.1"), NULL, NULL, NULL, NULL);
   for (int again = 0; again < 2; again++) {
-    hr2d_refine_options options = with_epsilon(1. / 64);
+    hr2d_refine_options options = test_epsilon(1. / 64);
     options.max_links = 200000;
-    check_refused(&t, &options, HR2D_EMAX_LINKS, "200000 links");
+    test_refuse(&t, &options, HR2D_EMAX_LINKS, "200000 links");
     options.max_links = 0;
     options.max_elements = 4093;
-    check_refused(&t, &options, HR2D_EMAX_ELEMENTS, "4093 elements");
+    test_refuse(&t, &options, HR2D_EMAX_ELEMENTS, "4093 elements");
     options.max_elements = 0;
     options.max_bytes = 3000000;
-    check_refused(&t, &options, HR2D_EMAX_BYTES, "3000000 bytes");
+    test_refuse(&t, &options, HR2D_EMAX_BYTES, "3000000 bytes");
     /* From links that are there already it must hold, too. */
-    options = with_epsilon(0.5);
+    options = test_epsilon(0.5);
     ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
   }
-  hr2d_refine_options exact = with_epsilon(1. / 64);
+  hr2d_refine_options exact = test_epsilon(1. / 64);
   exact.max_links = 246082;
   exact.max_elements = 4094;
   exact.max_bytes = 6000000;
@@ -392,15 +357,15 @@ END_TEST
 
 START_TEST(options_without_meaning_are_refused) {
   test_links t = test_make_links(test_named_scene("par1"), NULL, NULL, NULL, NULL);
-  hr2d_refine_options options = with_epsilon(NAN);
-  check_refused(&t, &options, HR2D_EINVAL, "epsilon");
+  hr2d_refine_options options = test_epsilon(NAN);
+  test_refuse(&t, &options, HR2D_EINVAL, "epsilon");
   options.epsilon = -1;
-  check_refused(&t, &options, HR2D_EINVAL, "epsilon");
+  test_refuse(&t, &options, HR2D_EINVAL, "epsilon");
   options.epsilon = INFINITY;
   ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
   ck_assert_uint_eq(hr2d_linkset_size(t.links), 1);
   options.ordered = 1;
-  check_refused(&t, &options, HR2D_EINVAL, "directed");
+  test_refuse(&t, &options, HR2D_EINVAL, "directed");
   hr2d_refine_counts counts;
   ck_assert_int_eq(hr2d_refine_count(t.links, NULL, &counts), HR2D_ESTATE);
   test_free_links(&t);
@@ -467,7 +432,7 @@ START_TEST(estimates_without_meaning_end_the_refinement) {
   for (size_t k = 0; k < 3; k++) {
     script s = {.value = bad[k]};
     test_links t = test_make_links(test_named_scene("par1"), &scripted_oracle, &s, NULL, NULL);
-    check_refused(&t, NULL, HR2D_ECALLBACK, "oracle \"scripted\"");
+    test_refuse(&t, NULL, HR2D_ECALLBACK, "oracle \"scripted\"");
     s.value = 0;
     ck_assert_int_eq(hr2d_refine(t.links, NULL), HR2D_OK);
     test_free_links(&t);
@@ -481,13 +446,13 @@ START_TEST(callbacks_end_the_refinement) {
     script s = {.value = 0, .status = end[k]}, p = {.status = end[k]};
     test_links t =
         test_make_links(test_named_scene("par1"), &scripted_oracle, &s, &scripted_policy, &p);
-    check_refused(&t, NULL, end[k], "oracle");
+    test_refuse(&t, NULL, end[k], "oracle");
     s.status = HR2D_OK;
     s.value = HUGE_VAL;
-    check_refused(&t, NULL, end[k], "policy");
+    test_refuse(&t, NULL, end[k], "policy");
     p.status = HR2D_OK;
     p.split = 3;
-    check_refused(&t, NULL, HR2D_ECALLBACK, "a subdivision of 3");
+    test_refuse(&t, NULL, HR2D_ECALLBACK, "a subdivision of 3");
     test_free_links(&t);
     ck_assert_int_eq(s.destroyed, 1);
     ck_assert_int_eq(p.destroyed, 1);
@@ -501,7 +466,7 @@ START_TEST(policies_decide) {
   script s = {.value = 1}, p = {.split = HR2D_SPLIT_SECOND, .limit_level = 1};
   test_links t =
       test_make_links(test_named_scene("par1"), &scripted_oracle, &s, &scripted_policy, &p);
-  hr2d_refine_options options = with_epsilon(0.5);
+  hr2d_refine_options options = test_epsilon(0.5);
   options.max_level = 5;
   ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
   ck_assert_uint_eq(hr2d_linkset_size(t.links), 32);
@@ -540,7 +505,7 @@ START_TEST(a_team_ends_as_one) {
     for (unsigned batches = 0; batches < 500; batches += 99) {
       atomic_uint left = batches;
       test_links t = test_make_links(test_named_scene("par0.1"), &oracle, &left, NULL, NULL);
-      hr2d_refine_options options = with_epsilon(1. / 64);
+      hr2d_refine_options options = test_epsilon(1. / 64);
       hr2d_refine_counts counts;
       options.threads = threads;
       ck_assert_int_eq(hr2d_refine_count(t.links, &options, &counts), HR2D_ERANGE);
@@ -563,10 +528,11 @@ END_TEST
 
 START_TEST(visitors_and_progress_can_stop) {
   test_links t = test_make_links(test_named_scene("par0.1"), NULL, NULL, NULL, NULL);
-  const hr2d_refine_options options = with_epsilon(0.01);
+  const hr2d_refine_options options = test_epsilon(0.01);
   hr2d_refine_counts counts;
-  collected c = {.stop_at = 1000};
-  ck_assert_int_eq(hr2d_refine_visit(t.links, &options, collect, &c, &counts), HR2D_STOPPED);
+  test_collected c = {.stop_at = 1000};
+  ck_assert_int_eq(hr2d_refine_visit(t.links, &options, test_collect, &c, &counts),
+                   HR2D_STOPPED);
   ck_assert_uint_eq(hr2d_hierarchy_count(t.hierarchy).elements, 2);
   free(c.link);
   test_free_links(&t);
@@ -589,7 +555,7 @@ static hr2d_status watch_progress(void *ctx, const hr2d_progress *progress) {
 START_TEST(progress_rises) {
   test_links t = test_make_links(test_named_scene("par0.1"), NULL, NULL, NULL, NULL);
   watch w = {0};
-  hr2d_refine_options options = with_epsilon(1. / 128);
+  hr2d_refine_options options = test_epsilon(1. / 128);
   options.progress = watch_progress;
   options.progress_ctx = &w;
   ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
@@ -598,7 +564,7 @@ START_TEST(progress_rises) {
   test_free_links(&t);
   t = test_make_links(test_named_scene("par0.1"), NULL, NULL, NULL, NULL);
   w = (watch){.stop_after = 2};
-  check_refused(&t, &options, HR2D_STOPPED, "progress");
+  test_refuse(&t, &options, HR2D_STOPPED, "progress");
   hr2d_refine_counts counts;
   for (options.threads = 1; options.threads < 4; options.threads++) {
     w = (watch){0};
@@ -615,7 +581,7 @@ END_TEST
 START_TEST(brightness_directs_refinement) {
   test_links t =
       test_make_links(test_named_scene("par0.1"), hr2d_oracle_bf(), NULL, NULL, NULL);
-  const hr2d_refine_options options = with_epsilon(0.01);
+  const hr2d_refine_options options = test_epsilon(0.01);
   ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
   ck_assert(hr2d_linkset_directed(t.links));
   check_transport(&t);
@@ -646,68 +612,38 @@ START_TEST(shortcut_decides_as_the_estimate) {
   /* `accept` against `estimate`, also at equality and one unit to either side. */
   const hr2d_oracle *const oracle[] = {hr2d_oracle_size(), hr2d_oracle_size2()};
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
-  for (int round = 0; round < (int)(20000 * test_multiplier()) + 100; round++) {
+  for (int round = 0; round < (int)test_rounds(20000, 100); round++) {
     double scale = pow(10, 40 * test_random(&state) - 20), p[2][6] = {{0}};
     for (int k = 0; k < 8; k++) p[k / 4][k % 4] = scale * test_random(&state);
     if (round % 3 == 0) /* tiny, and far from the origin's digits */
       for (int k = 4; k < 8; k++) p[1][k % 4] *= 1e-200;
-    hr2d_element e[2];
+    element_pair e = {.brightness = NULL};
     for (int k = 0; k < 2; k++)
-      e[k] = (hr2d_element){.centre = {p[k][0], p[k][1]}, .length = hypot(p[k][2], p[k][3])};
-    const hr2d_pair pair = {0, 1};
-    const hr2d_batch batch = {
-        .struct_size = sizeof batch, .elements = e, .pairs = &pair, .count = 1};
+      e.element[k] =
+          (hr2d_element){.centre = {p[k][0], p[k][1]}, .length = hypot(p[k][2], p[k][3])};
+    const hr2d_batch batch = element_batch(&e);
     for (int o = 0; o < 2; o++) {
-      double error;
-      unsigned char yes;
-      ck_assert_int_eq(oracle[o]->estimate(NULL, &batch, &error), HR2D_OK);
+      const double error = element_estimate(oracle[o], &batch);
       const double epsilon[] = {error, nextafter(error, 0), nextafter(error, HUGE_VAL),
                                 error * test_random(&state), error / test_random(&state)};
-      for (int k = 0; k < 5; k++) {
-        ck_assert_int_eq(oracle[o]->accept(NULL, &batch, epsilon[k], &yes), HR2D_OK);
-        ck_assert_msg(yes == (error <= epsilon[k]), "estimate %a, epsilon %a", error,
-                      epsilon[k]);
-      }
+      for (int k = 0; k < 5; k++)
+        ck_assert_msg(element_accepted(oracle[o], &batch, epsilon[k]) == (error <= epsilon[k]),
+                      "estimate %a, epsilon %a", error, epsilon[k]);
     }
   }
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("refine");
-  TCase *tables = tcase_create("reference tables");
-  tcase_set_timeout(tables, 600);
-  tcase_add_test(tables, counts_of_size);
-  tcase_add_test(tables, counts_of_size2);
-  tcase_add_test(tables, counts_of_both_orders);
-  suite_add_tcase(suite, tables);
-  TCase *links = tcase_create("links");
-  tcase_add_test(links, links_exchange_what_patches_do);
-  tcase_add_test(links, clipped_links_exchange_what_patches_do);
-  tcase_add_test(links, facing_pairs_are_never_tested_again);
-  tcase_add_test(links, patches_that_see_nothing_have_no_links);
-  tcase_add_test(links, stored_streamed_and_counted_agree);
-  tcase_set_timeout(links, 300);
-  tcase_add_test(links, threads_count_the_same);
-  tcase_add_test(links, multigrid_ends_where_one_step_does);
-  suite_add_tcase(suite, links);
-  TCase *limits = tcase_create("limits");
-  tcase_add_test(limits, level_limit_acts_and_says_so);
-  tcase_add_test(limits, elements_end_where_doubles_do);
-  tcase_add_test(limits, budgets_are_kept);
-  tcase_add_test(limits, options_without_meaning_are_refused);
-  suite_add_tcase(suite, limits);
-  TCase *callbacks = tcase_create("callbacks");
-  tcase_add_test(callbacks, estimates_without_meaning_end_the_refinement);
-  tcase_add_test(callbacks, callbacks_end_the_refinement);
-  tcase_add_test(callbacks, policies_decide);
-  tcase_add_test(callbacks, a_team_ends_as_one);
-  tcase_add_test(callbacks, callbacks_cannot_refine_what_is_being_refined);
-  tcase_add_test(callbacks, visitors_and_progress_can_stop);
-  tcase_add_test(callbacks, progress_rises);
-  tcase_add_test(callbacks, brightness_directs_refinement);
-  tcase_add_test(callbacks, shortcut_decides_as_the_estimate);
-  suite_add_tcase(suite, callbacks);
-  return test_run(suite);
+TEST_SUITE("refine") {
+  ADD_TESTS("reference tables", counts_of_size, counts_of_size2, counts_of_both_orders);
+  ADD_TESTS("links", links_exchange_what_patches_do, clipped_links_exchange_what_patches_do,
+            facing_pairs_are_never_tested_again, patches_that_see_nothing_have_no_links,
+            stored_streamed_and_counted_agree, threads_count_the_same,
+            multigrid_ends_where_one_step_does);
+  ADD_TESTS("limits", level_limit_acts_and_says_so, elements_end_where_doubles_do,
+            budgets_are_kept, options_without_meaning_are_refused);
+  ADD_TESTS("callbacks", estimates_without_meaning_end_the_refinement,
+            callbacks_end_the_refinement, policies_decide, a_team_ends_as_one,
+            callbacks_cannot_refine_what_is_being_refined, visitors_and_progress_can_stop,
+            progress_rises, brightness_directs_refinement, shortcut_decides_as_the_estimate);
 }

@@ -253,7 +253,6 @@ END_TEST
 
 START_TEST(noisy_data_is_fitted_as_by_gsl) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
   enum { COUNT = 30 };
   for (int round = 0; round < 20; round++) {
     hr2d_study_row rows[COUNT];
@@ -374,25 +373,12 @@ START_TEST(links_grow_quadratically) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("study");
-  TCase *rows = tcase_create("rows");
-  tcase_set_timeout(rows, 600);
-  tcase_add_test(rows, rows_are_those_of_the_reference);
-  tcase_add_test(rows, rows_before_a_failure_are_kept);
-  tcase_add_test(rows, callbacks_are_used_and_not_destroyed);
-  tcase_add_test(rows, options_are_respected);
-  tcase_add_test(rows, links_grow_quadratically);
-  suite_add_tcase(suite, rows);
-  TCase *fits = tcase_create("fits");
-  tcase_add_test(fits, quadratic_data_is_recovered);
-  tcase_add_test(fits, all_coefficients_are_recovered);
-  tcase_add_test(fits, slopes_are_exponents);
-  tcase_add_test(fits, noisy_data_is_fitted_as_by_gsl);
-  tcase_add_test(fits, too_few_sizes_are_refused);
-  tcase_add_test(fits, three_rows_are_met_exactly);
-  tcase_add_test(fits, rows_without_logarithm_are_refused);
-  tcase_add_test(fits, equal_links_are_met_exactly);
-  suite_add_tcase(suite, fits);
-  return test_run(suite);
+TEST_SUITE("study") {
+  ADD_TESTS("rows", rows_are_those_of_the_reference, rows_before_a_failure_are_kept,
+            callbacks_are_used_and_not_destroyed, options_are_respected,
+            links_grow_quadratically);
+  ADD_TESTS("fits", quadratic_data_is_recovered, all_coefficients_are_recovered,
+            slopes_are_exponents, noisy_data_is_fitted_as_by_gsl, too_few_sizes_are_refused,
+            three_rows_are_met_exactly, rows_without_logarithm_are_refused,
+            equal_links_are_met_exactly);
 }

@@ -31,13 +31,6 @@ static hr2d_scene *scene_number(size_t k) {
   return test_scene(apart, 2);
 }
 
-static hr2d_refine_options with_epsilon(double epsilon, unsigned max_level) {
-  hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
-  options.epsilon = epsilon;
-  options.max_level = max_level;
-  return options;
-}
-
 static void check_valid(const test_links *t) {
   const hr2d_status status = hr2d_linkset_validate(t->links);
   ck_assert_msg(status == HR2D_OK, "%s: %s", hr2d_strerror(status),
@@ -67,7 +60,7 @@ START_TEST(refinements_are_valid) {
   for (int k = 0; k < SCENES * 3 * 2 * 3 * 3 * 2; k++, sets++) {
     const int o = k / SCENES, p = o / 3, e = p / 2, l = e / 3;
     const double eps = epsilon[e % 3] * (o % 3 == 1 ? epsilon[e % 3] : 1);
-    hr2d_refine_options options = with_epsilon(eps, level[l % 3]);
+    hr2d_refine_options options = test_options(eps, level[l % 3]);
     options.ordered = l / 3;
     test_links t =
         refined(scene_number((size_t)(k % SCENES)), oracle[o % 3], policy[p % 2], &options);
@@ -86,7 +79,7 @@ START_TEST(refinements_by_the_exact_oracle_are_valid) {
   ck_assert_ptr_nonnull(oracle);
   for (size_t k = 0; k < 2 * SCENES; k++)
     for (double epsilon = 0.1; epsilon > 1e-5; epsilon /= 10) {
-      const hr2d_refine_options options = with_epsilon(epsilon, 12);
+      const hr2d_refine_options options = test_options(epsilon, 12);
       test_links t = refined(scene_number(k / 2), oracle,
                              k % 2 ? hr2d_policy_modified() : hr2d_policy_original(), &options);
       check_valid(&t);
@@ -98,7 +91,7 @@ END_TEST
 START_TEST(multigrid_steps_are_valid) {
   for (size_t k = 0; k < SCENES; k++) {
     test_links t = test_make_links(scene_number(k), NULL, NULL, NULL, NULL);
-    hr2d_refine_options options = with_epsilon(2, 10);
+    hr2d_refine_options options = test_options(2, 10);
     for (; options.epsilon > 0.02; options.epsilon /= 1.7) {
       ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
       check_valid(&t);
@@ -110,7 +103,7 @@ END_TEST
 
 START_TEST(deep_and_lopsided_sets_are_valid) {
   /* Level 60 at a corner: 2^-120 of the product of the patches. */
-  const hr2d_refine_options deep = with_epsilon(0.5, 60);
+  const hr2d_refine_options deep = test_options(0.5, 60);
   test_links t = refined(scene_number(2), NULL, NULL, &deep);
   ck_assert_uint_eq(hr2d_linkset_counts(t.links).levels, 60);
   check_valid(&t);
@@ -120,7 +113,7 @@ START_TEST(deep_and_lopsided_sets_are_valid) {
   store->count++;
   test_free_links(&t);
   /* A hierarchy that another set has refined further. */
-  const hr2d_refine_options coarse = with_epsilon(0.5, 4), fine = with_epsilon(0.02, 6);
+  const hr2d_refine_options coarse = test_options(0.5, 4), fine = test_options(0.02, 6);
   t = refined(scene_number(3), NULL, NULL, &coarse);
   test_links other = {t.scene, t.hierarchy, NULL};
   ck_assert_int_eq(hr2d_linkset_create(t.hierarchy, NULL, NULL, NULL, NULL, &other.links),
@@ -149,9 +142,8 @@ static hr2d_scene *turned(const double (*patch)[6], size_t count, double angle, 
 
 START_TEST(rounded_midpoints_are_forgiven) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
   const double shift[] = {0, 1, 1e6, 1e12};
-  for (int k = 0; k < 40 + (int)(400 * test_multiplier()); k++) {
+  for (int k = 0; k < (int)test_rounds(400, 40); k++) {
     const double angle = 6.3 * test_random(&state), by = shift[k % 4];
     double cut[2][6];
     memcpy(cut, clipped, sizeof cut);
@@ -164,7 +156,7 @@ START_TEST(rounded_midpoints_are_forgiven) {
                                   : turned(spokes, 6, angle, by);
     test_links t = test_make_links(
         scene, NULL, NULL, k % 3 ? hr2d_policy_original() : hr2d_policy_modified(), NULL);
-    hr2d_refine_options options = with_epsilon(1, 10);
+    hr2d_refine_options options = test_options(1, 10);
     for (; options.epsilon > 0.04; options.epsilon *= 0.3 + 0.2 * test_random(&state)) {
       ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
       check_valid(&t);
@@ -179,7 +171,7 @@ END_TEST
 START_TEST(multigrid_keeps_what_faces_fully) {
   unsigned long state = test_seed();
   int compared = 0;
-  const int enough = 21 + (int)(100 * test_multiplier());
+  const int enough = (int)test_rounds(100, 21);
   for (int k = 0; k < 20000 && compared < enough; k++) {
     const double tiny = pow(2, -20 - 34 * test_random(&state));
     const double flat[][6] = {{0, 0, 1, 0, 1, .5},
@@ -196,7 +188,7 @@ START_TEST(multigrid_keeps_what_faces_fully) {
     }
     compared++;
     test_links grid = test_make_links(turned(flat, 4, angle, 0), NULL, NULL, NULL, NULL);
-    hr2d_refine_options options = with_epsilon(1, 10);
+    hr2d_refine_options options = test_options(1, 10);
     for (; options.epsilon > 0.05; options.epsilon /= 3) {
       ck_assert_int_eq(hr2d_refine(grid.links, &options), HR2D_OK);
       check_valid(&grid);
@@ -262,7 +254,7 @@ static void check_named(const test_links *t, hr2d_pair expected) {
 
 /* Scenes whose patches see each other wholly, so that no damage can be harmless. */
 static test_links small_set(size_t k) {
-  hr2d_refine_options options = with_epsilon(0.3, 5);
+  hr2d_refine_options options = test_options(0.3, 5);
   options.ordered = k == 1;
   test_links t =
       refined(scene_number(k), NULL, k == 3 ? hr2d_policy_modified() : NULL, &options);
@@ -434,11 +426,10 @@ static int is_valid_by_count(const test_links *t, const hr2d_link *link, uint64_
 
 START_TEST(verdicts_are_those_of_counting) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
-  int valid = 0, rounds = 100 + (int)(2000 * test_multiplier());
+  int valid = 0, rounds = (int)test_rounds(2000, 100);
   for (int round = 0; round < rounds; round++) {
     const size_t s = (size_t)(round % (SCENES - 1));
-    hr2d_refine_options options = with_epsilon(2 * test_random(&state), s == 6 ? 2 : 3);
+    hr2d_refine_options options = test_options(2 * test_random(&state), s == 6 ? 2 : 3);
     test_links t =
         refined(scene_number(s), NULL,
                 round % 3 ? hr2d_policy_original() : hr2d_policy_modified(), &options);
@@ -487,32 +478,18 @@ START_TEST(verdicts_are_those_of_counting) {
 }
 END_TEST
 
-/* Memory that fails once, after a number of allocations; all else is malloc. */
-static void *failing_reallocate(void *ctx, void *block, size_t bytes) {
-  long *left = ctx;
-  return (*left)-- == 0 ? NULL : realloc(block, bytes);
-}
-
-static void *failing_allocate(void *ctx, size_t bytes) {
-  return failing_reallocate(ctx, NULL, bytes);
-}
-
-static void failing_release(void *ctx, void *block) {
-  (void)ctx;
-  free(block);
-}
-
 START_TEST(any_allocation_may_fail) {
-  const hr2d_refine_options options = with_epsilon(0.3, 5);
+  const hr2d_refine_options options = test_options(0.3, 5);
   test_links t = refined(scene_number(4), NULL, NULL, &options);
   const hr2d_allocator before = t.links->alloc;
-  long failing = 0, left = 0;
-  t.links->alloc =
-      (hr2d_allocator){failing_allocate, failing_reallocate, failing_release, &left};
+  test_memory memory = {.until_failure = -1};
+  t.links->alloc = test_hooks(&memory);
+  long failing = 0;
   for (;; failing++) {
-    left = failing;
+    memory.failures = 0;
+    memory.until_failure = failing;
     const hr2d_status status = hr2d_linkset_validate(t.links);
-    if (left >= 0) {
+    if (memory.failures == 0) {
       ck_assert_int_eq(status, HR2D_OK);
       break;
     }
@@ -525,23 +502,12 @@ START_TEST(any_allocation_may_fail) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("validate");
-  TCase *good = tcase_create("valid sets");
-  tcase_add_test(good, refinements_are_valid);
-  tcase_add_test(good, refinements_by_the_exact_oracle_are_valid);
-  tcase_add_test(good, multigrid_steps_are_valid);
-  tcase_add_test(good, deep_and_lopsided_sets_are_valid);
-  tcase_add_test(good, rounded_midpoints_are_forgiven);
-  tcase_add_test(good, multigrid_keeps_what_faces_fully);
-  suite_add_tcase(suite, good);
-  TCase *bad = tcase_create("damaged sets");
-  tcase_add_test(bad, missing_and_double_links_are_refused);
-  tcase_add_test(bad, links_above_and_below_others_are_refused);
-  tcase_add_test(bad, wrong_exchange_areas_are_refused);
-  tcase_add_test(bad, elements_of_other_patches_are_refused);
-  tcase_add_test(bad, verdicts_are_those_of_counting);
-  tcase_add_test(bad, any_allocation_may_fail);
-  suite_add_tcase(suite, bad);
-  return test_run(suite);
+TEST_SUITE("validate") {
+  ADD_TESTS("valid sets", refinements_are_valid, refinements_by_the_exact_oracle_are_valid,
+            multigrid_steps_are_valid, deep_and_lopsided_sets_are_valid,
+            rounded_midpoints_are_forgiven, multigrid_keeps_what_faces_fully);
+  ADD_TESTS("damaged sets", missing_and_double_links_are_refused,
+            links_above_and_below_others_are_refused, wrong_exchange_areas_are_refused,
+            elements_of_other_patches_are_refused, verdicts_are_those_of_counting,
+            any_allocation_may_fail);
 }

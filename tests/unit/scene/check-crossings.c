@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "scene/scene-impl.h"
+#include "support/plane.h"
 #include "support/support.h"
 
 #define MOST 512
@@ -27,10 +28,6 @@ typedef struct drawing {
   hr2d_sides sides[MOST];
   size_t count;
 } drawing;
-
-static size_t rounds(double most, size_t least) {
-  return (size_t)(most * test_multiplier()) + least;
-}
 
 static double uniform(unsigned long *state, double low, double high) {
   return low + (high - low) * test_random(state);
@@ -77,8 +74,7 @@ static hr2d_patch patch_of(const drawing *d, size_t k, char *name) {
 }
 
 static hr2d_scene *scene_of(const drawing *d, const hr2d_allocator *hooks) {
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(hooks, &scene), HR2D_OK);
+  hr2d_scene *scene = test_new_scene(hooks);
   for (size_t k = 0; k < d->count; k++) {
     char name[32];
     const hr2d_patch p = patch_of(d, k, name);
@@ -128,10 +124,6 @@ static real poke(const hr2d_segment *s, const hr2d_segment *t) {
   return fminl(fminl(fabsl(a), fabsl(b)), fminl(fabsl(c), fabsl(d)));
 }
 
-static int same(hr2d_point p, hr2d_point q) {
-  return p.x == q.x && p.y == q.y;
-}
-
 /* The pieces of one patch after the cut: [first, end). */
 typedef struct chain {
   size_t first, end;
@@ -167,10 +159,10 @@ static chain check_chain(const hr2d_scene *scene, const drawing *d, size_t patch
   char name[64], number[128];
   sprintf(name, "w%zu%s", patch, back ? " (back)" : "");
   real total = 0;
-  while (!same(from, whole.b)) {
+  while (!plane_same(from, whole.b)) {
     DEMAND(c.end < hr2d_scene_patches(scene), "%s does not end", name);
     const hr2d_segment s = hr2d_scene_segment(scene, c.end);
-    DEMAND(same(s.a, from), "%s has a gap", name);
+    DEMAND(plane_same(s.a, from), "%s has a gap", name);
     from = s.b;
     total += length(&s);
     c.end++;
@@ -191,7 +183,7 @@ static int share_a_point(const hr2d_scene *scene, chain c, chain e) {
                                      : hr2d_scene_segment(scene, k - 1).b,
                        q = m < e.end ? hr2d_scene_segment(scene, m).a
                                      : hr2d_scene_segment(scene, m - 1).b;
-      if (same(p, q)) return 1;
+      if (plane_same(p, q)) return 1;
     }
   return 0;
 }
@@ -265,8 +257,8 @@ static outcome check_split(const drawing *d) {
     for (size_t m = 0; m < back.end - back.first; m++) {
       const hr2d_segment s = hr2d_scene_segment(scene, c[k].first + m),
                          t = hr2d_scene_segment(scene, back.end - 1 - m);
-      DEMAND(same(s.a, t.b) && same(s.b, t.a), "w%zu is cut differently in front and behind",
-             k);
+      DEMAND(plane_same(s.a, t.b) && plane_same(s.b, t.a),
+             "w%zu is cut differently in front and behind", k);
     }
     next = back.end;
   }
@@ -291,10 +283,9 @@ static outcome check_split(const drawing *d) {
 
 START_TEST(random_segments_are_cut) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
   size_t crossings = 0;
   real shortest = 1;
-  for (size_t round = 0; round < rounds(300, 6); round++) {
+  for (size_t round = 0; round < test_rounds(300, 6); round++) {
     drawing d = {.count = 0};
     const size_t n = 2 + (size_t)(test_random(&state) * test_random(&state) * 199);
     const double reach = uniform(&state, 0.1, 1);
@@ -308,7 +299,7 @@ START_TEST(random_segments_are_cut) {
     crossings += o.crossings;
     shortest = fminl(shortest, o.shortest);
   }
-  ck_assert_uint_gt(crossings, 1000 * (rounds(300, 6) > 100));
+  ck_assert_uint_gt(crossings, 1000 * (test_rounds(300, 6) > 100));
   printf("%zu crossings, shortest piece %Lg\n", crossings, shortest);
 }
 END_TEST
@@ -341,9 +332,8 @@ static size_t lattice_places(int n) {
 
 START_TEST(lattices_are_cut_where_they_cross) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
   for (int n = 2; n <= 30; n += n < 8 ? 1 : 11)
-    for (size_t round = 0; round < rounds(10, 3); round++)
+    for (size_t round = 0; round < test_rounds(10, 3); round++)
       for (int diagonals = 0; diagonals < 2; diagonals++) {
         const double scale = pow(10, uniform(&state, -3, 3));
         const motion still = {1, 0, 1, 0, 0}, moved = turned(uniform(&state, 0, 6.3), scale,
@@ -363,8 +353,7 @@ END_TEST
 
 START_TEST(stars_are_cut_in_one_point) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
-  for (size_t round = 0; round < rounds(200, 10); round++) {
+  for (size_t round = 0; round < test_rounds(200, 10); round++) {
     drawing d = {.count = 0};
     const size_t n = 2 + (size_t)(test_random(&state) * (round % 10 ? 40. : 198.));
     const double x = uniform(&state, -3, 3), y = uniform(&state, -3, 3);
@@ -385,8 +374,7 @@ END_TEST
 /* Lines through pairs of points of a lattice: many cross in one place, at any angle. */
 START_TEST(lines_through_lattice_points_are_cut) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
-  for (size_t round = 0; round < rounds(30, 4); round++) {
+  for (size_t round = 0; round < test_rounds(30, 4); round++) {
     const int n = 3 + (int)(round % 2);
     const double scale = pow(10, uniform(&state, -3, 3));
     const motion m = turned(uniform(&state, 0, 6.3), scale, uniform(&state, -9, 9) * scale,
@@ -418,10 +406,9 @@ END_TEST
 
 START_TEST(scales_and_offsets_change_little) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
   const double scale[] = {1e-150, 1e150, 1e-300, 1e300, 1, 1},
                offset[] = {0, 0, 0, 0, 1e8, -1e12};
-  for (size_t round = 0; round < rounds(60, 12); round++) {
+  for (size_t round = 0; round < test_rounds(60, 12); round++) {
     const motion m = turned(uniform(&state, 0, 6.3), scale[round % 6], offset[round % 6],
                             offset[round % 6] / 3);
     drawing d = {.count = 0};
@@ -461,10 +448,9 @@ static hr2d_point point_on(unsigned long *state, const hr2d_segment *s) {
    and there is nothing to cut. */
 START_TEST(rounded_junctions_are_allowed) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
   size_t through = 0;
   real deepest = 0;
-  const size_t most = rounds(20000, 500);
+  const size_t most = test_rounds(20000, 500);
   for (size_t round = 0; round < most; round++) {
     const double scale = pow(10, uniform(&state, -6, 6));
     const double offset = round % 3 ? 0 : scale * pow(10, uniform(&state, -1, 5));
@@ -544,8 +530,7 @@ static const refusal refusals[] = {
 };
 
 static hr2d_scene *scene_of_two(const refusal *r, int swapped) {
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  hr2d_scene *scene = test_new_scene(NULL);
   for (int k = 0; k < 2; k++) {
     const double *c = r->patch[swapped ? 1 - k : k];
     hr2d_patch p = HR2D_PATCH_INIT;
@@ -579,9 +564,8 @@ END_TEST
    refused can be cut at the ends, and is then back to back exactly. */
 START_TEST(slanted_walls_back_to_back_are_never_wrong) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
   size_t fine = 0, refused = 0;
-  for (size_t round = 0; round < rounds(4000, 200); round++) {
+  for (size_t round = 0; round < test_rounds(4000, 200); round++) {
     const hr2d_segment line = {{uniform(&state, -1, 1), uniform(&state, -1, 1)},
                                {uniform(&state, -1, 1), uniform(&state, -1, 1)}};
     const hr2d_point p = point_on(&state, &line);
@@ -605,7 +589,7 @@ START_TEST(slanted_walls_back_to_back_are_never_wrong) {
     ck_assert_int_eq(hr2d_scene_split_crossings(scene, &cuts), HR2D_OK);
     ck_assert_uint_eq(cuts, 0);
     ck_assert_uint_eq(hr2d_scene_patches(scene), status ? 4 : 2);
-    ck_assert_msg(hr2d_scene_commit(scene) == HR2D_OK, "%s", hr2d_scene_message(scene));
+    test_commit(scene);
     hr2d_scene_destroy(scene);
   }
   ck_assert_uint_gt(fine, 10);
@@ -631,10 +615,9 @@ END_TEST
    leave anything to be refused. */
 START_TEST(blurred_stars_are_cut) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
   size_t left_out = 0;
   real most = 0;
-  for (size_t round = 0; round < rounds(600, 40); round++) {
+  for (size_t round = 0; round < test_rounds(600, 40); round++) {
     drawing d = {.count = 0};
     const double blur = ULP * pow(10, uniform(&state, 0, 4));
     const int arms = 3 + (int)uniform(&state, 0, 30);
@@ -702,8 +685,7 @@ END_TEST
 /* Triangles as thin as 1e-14, and patches far shorter than others. */
 START_TEST(slivers_are_legal) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
-  for (size_t round = 0; round < rounds(2000, 100); round++) {
+  for (size_t round = 0; round < test_rounds(2000, 100); round++) {
     const double thin = pow(10, uniform(&state, -14, -1)),
                  small = pow(10, uniform(&state, -9, 0)), t = uniform(&state, .01, .99);
     drawing d = {.count = 0};
@@ -724,8 +706,7 @@ START_TEST(slivers_are_legal) {
 END_TEST
 
 START_TEST(scenes_without_crossings_stay_as_they_are) {
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  hr2d_scene *scene = test_new_scene(NULL);
   size_t cuts = 77;
   ck_assert_int_eq(hr2d_scene_split_crossings(scene, &cuts), HR2D_OK);
   ck_assert_uint_eq(cuts, 0);
@@ -738,7 +719,7 @@ START_TEST(scenes_without_crossings_stay_as_they_are) {
   ck_assert_int_eq(hr2d_scene_split_crossings(scene, NULL), HR2D_OK);
   for (size_t k = 0; k < 3; k++) {
     const hr2d_segment s = hr2d_scene_segment(scene, k);
-    ck_assert(same(s.a, d.s[k].a) && same(s.b, d.s[k].b));
+    ck_assert(plane_same(s.a, d.s[k].a) && plane_same(s.b, d.s[k].b));
   }
   ck_assert_str_eq(hr2d_scene_name(scene, 1), "w1");
   ck_assert_double_eq(hr2d_scene_unit(scene), 1);
@@ -749,36 +730,14 @@ START_TEST(scenes_without_crossings_stay_as_they_are) {
 }
 END_TEST
 
-typedef struct faulty {
-  long until_failure; /* allocations that still succeed; negative: no failure */
-  long live;          /* blocks not yet released */
-} faulty;
-
-static void *faulty_reallocate(void *ctx, void *block, size_t bytes) {
-  faulty *f = ctx;
-  if (f->until_failure == 0) return NULL;
-  if (f->until_failure > 0) f->until_failure--;
-  if (!block) f->live++;
-  return realloc(block, bytes);
-}
-
-static void *faulty_allocate(void *ctx, size_t bytes) {
-  return faulty_reallocate(ctx, NULL, bytes);
-}
-
-static void faulty_release(void *ctx, void *block) {
-  if (block) ((faulty *)ctx)->live--;
-  free(block);
-}
-
 START_TEST(failed_allocations_change_nothing) {
   drawing d = {.count = 0};
   const motion m = turned(1, 1, .1, .2);
   lattice(&d, &m, 4, 1);
   d.sides[0] = d.sides[3] = HR2D_SIDES_BOTH;
   draw(&d, 9, 9, 10, 10); /* is not cut */
-  faulty fault = {.until_failure = -1};
-  const hr2d_allocator hooks = {faulty_allocate, faulty_reallocate, faulty_release, &fault};
+  test_memory fault = {.until_failure = -1, .for_good = 1};
+  const hr2d_allocator hooks = test_hooks(&fault);
   hr2d_scene *scene = scene_of(&d, &hooks);
   const size_t n = hr2d_scene_patches(scene);
   const long live = fault.live;
@@ -799,7 +758,7 @@ START_TEST(failed_allocations_change_nothing) {
       char name[32];
       const hr2d_patch whole = patch_of(&d, w, name);
       const hr2d_segment s = hr2d_scene_segment(scene, p);
-      ck_assert(same(s.a, whole.a) && same(s.b, whole.b));
+      ck_assert(plane_same(s.a, whole.a) && plane_same(s.b, whole.b));
       ck_assert_str_eq(hr2d_scene_name(scene, p), name);
       p += whole.sides == HR2D_SIDES_BOTH;
     }
@@ -807,35 +766,19 @@ START_TEST(failed_allocations_change_nothing) {
   ck_assert_int_eq(status, HR2D_OK);
   ck_assert_int_gt(k, 100);
   printf("%ld allocations failed\n", k);
-  ck_assert_msg(hr2d_scene_commit(scene) == HR2D_OK, "%s", hr2d_scene_message(scene));
+  test_commit(scene);
   hr2d_scene_destroy(scene);
   ck_assert_int_eq(fault.live, 0);
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("crossings");
-  TCase *refused = tcase_create("refused");
-  tcase_set_timeout(refused, 600);
-  tcase_add_test(refused, rounded_junctions_are_allowed);
-  tcase_add_test(refused, patches_on_one_another_are_refused);
-  tcase_add_test(refused, slanted_walls_back_to_back_are_never_wrong);
-  tcase_add_test(refused, flat_crossings_are_refused);
-  tcase_add_test(refused, copies_far_off_are_refused);
-  tcase_add_test(refused, slivers_are_legal);
-  suite_add_tcase(suite, refused);
-  TCase *cuts = tcase_create("cuts");
-  tcase_set_timeout(cuts, 600);
-  tcase_add_test(cuts, random_segments_are_cut);
-  tcase_add_test(cuts, lattices_are_cut_where_they_cross);
-  tcase_add_test(cuts, lines_through_lattice_points_are_cut);
-  tcase_add_test(cuts, stars_are_cut_in_one_point);
-  tcase_add_test(cuts, blurred_stars_are_cut);
-  tcase_add_test(cuts, scales_and_offsets_change_little);
-  tcase_add_test(cuts, two_sided_crosses_are_cut);
-  tcase_add_test(cuts, shared_stretches_are_cut_alike);
-  tcase_add_test(cuts, scenes_without_crossings_stay_as_they_are);
-  tcase_add_test(cuts, failed_allocations_change_nothing);
-  suite_add_tcase(suite, cuts);
-  return test_run(suite);
+TEST_SUITE("crossings") {
+  ADD_TESTS("refused", rounded_junctions_are_allowed, patches_on_one_another_are_refused,
+            slanted_walls_back_to_back_are_never_wrong, flat_crossings_are_refused,
+            copies_far_off_are_refused, slivers_are_legal);
+  ADD_TESTS("cuts", random_segments_are_cut, lattices_are_cut_where_they_cross,
+            lines_through_lattice_points_are_cut, stars_are_cut_in_one_point,
+            blurred_stars_are_cut, scales_and_offsets_change_little, two_sided_crosses_are_cut,
+            shared_stretches_are_cut_alike, scenes_without_crossings_stay_as_they_are,
+            failed_allocations_change_nothing);
 }

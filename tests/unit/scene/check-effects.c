@@ -93,8 +93,7 @@ static const char *effect_of(int e) {
 }
 
 static hr2d_scene *scene_of(const sample *s, unsigned forced) {
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  hr2d_scene *scene = test_new_scene(NULL);
   for (size_t k = 0; k < s->patches; k++) {
     const double *p = s->patch[k];
     const size_t bands = s->bands ? s->bands : 1;
@@ -452,7 +451,6 @@ END_TEST
 START_TEST(nothing_shows_in_an_isothermal_enclosure) {
   randoms r = randoms_stream(test_seed(), 77);
   const int rooms = test_multiplier() < 1 ? plan_class_count : 3 * plan_class_count;
-  printf("seed %lu\n", test_seed());
   for (int k = 0; k < rooms; k++) {
     plan p = {.walls = 0};
     plan_classes[k % plan_class_count].draw(&r, 12, &p);
@@ -489,8 +487,7 @@ START_TEST(backgrounds_have_bands) {
   const double sky[BANDS] = {1, 0, .25}, rho = .5;
   double average[BANDS + 1][BANDS];
   for (size_t k = 0; k <= BANDS; k++) {
-    hr2d_scene *scene = NULL;
-    ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+    hr2d_scene *scene = test_new_scene(NULL);
     for (int w = 0; w < 2; w++) {
       const hr2d_patch patch = {.a = {w ? .5 : 0, w ? 1 : 0},
                                 .b = {w ? .5 : 1, w ? .25 : 0},
@@ -523,8 +520,7 @@ END_TEST
 
 START_TEST(backgrounds_without_meaning_are_refused) {
   const double wrong[] = {-1e-300, NAN, INFINITY, -INFINITY}, right[] = {0, 1, 2};
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  hr2d_scene *scene = test_new_scene(NULL);
   for (int k = 0; k < 4; k++) {
     const double values[] = {1, wrong[k]};
     ck_assert_int_eq(hr2d_scene_set_background(scene, values, 2), HR2D_ESCENE);
@@ -546,27 +542,14 @@ START_TEST(backgrounds_without_meaning_are_refused) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("effects");
-  TCase *effects = tcase_create("effects");
-  tcase_set_timeout(effects, 600);
-  tcase_add_test(effects, scenes_say_what_they_call_for_and_why);
-  tcase_add_test(effects, work_is_done_where_it_is_called_for);
-  tcase_add_loop_test(effects, forcing_changes_no_bit, 0, SAMPLES);
-  tcase_add_test(effects, dark_rooms_do_not_disturb);
-  tcase_add_test(effects, no_light_no_links);
-  suite_add_tcase(suite, effects);
-  TCase *background = tcase_create("background");
-  tcase_set_timeout(background, 600);
-  tcase_add_test(background, a_lone_patch_receives_all_of_the_sky);
-  tcase_add_test(background, plates_hide_the_sky_from_each_other);
-  tcase_add_test(background, backs_hide_the_sky);
-  tcase_add_test(background, sides_hide_the_sky_once);
-  tcase_add_test(background, closed_rooms_receive_nothing);
-  tcase_add_test(background, light_goes_to_and_fro);
-  tcase_add_test(background, nothing_shows_in_an_isothermal_enclosure);
-  tcase_add_test(background, backgrounds_have_bands);
-  tcase_add_test(background, backgrounds_without_meaning_are_refused);
-  suite_add_tcase(suite, background);
-  return test_run(suite);
+TEST_SUITE("effects") {
+  ADD_TESTS("effects", scenes_say_what_they_call_for_and_why,
+            work_is_done_where_it_is_called_for);
+  REPEAT_TESTS(SAMPLES, "effects", forcing_changes_no_bit);
+  ADD_TESTS("effects", dark_rooms_do_not_disturb, no_light_no_links);
+  ADD_TESTS("background", a_lone_patch_receives_all_of_the_sky,
+            plates_hide_the_sky_from_each_other, backs_hide_the_sky, sides_hide_the_sky_once,
+            closed_rooms_receive_nothing, light_goes_to_and_fro,
+            nothing_shows_in_an_isothermal_enclosure, backgrounds_have_bands,
+            backgrounds_without_meaning_are_refused);
 }

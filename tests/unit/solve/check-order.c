@@ -14,10 +14,7 @@
 static radiosity_scenes reference;
 
 static const radiosity_scene *named(const char *name) {
-  const char *folder = getenv("HR2D_TEST_DATA");
-  char path[4096];
-  snprintf(path, sizeof path, "%s/radiosity_fine.csv",
-           folder ? folder : "tests/data/reference");
+  const char *path = test_data_path("radiosity_fine.csv");
   if (reference.count == 0) ck_assert_int_eq(radiosity_scenes_read(path, &reference), 0);
   const radiosity_scene *scene = radiosity_scenes_find(&reference, name);
   ck_assert_msg(scene != NULL, "%s has no scene %s", path, name);
@@ -330,18 +327,8 @@ START_TEST(bands_are_independent) {
   enum { BANDS = 3 };
   const double emission[2][BANDS] = {{1, 0.25, 3}, {0, 0, 0.5}};
   const double reflectance[2][BANDS] = {{.5, .9, 0}, {.25, .9, 1}};
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
-  for (size_t k = 0; k < 2; k++) {
-    const hr2d_patch patch = {.a = {k ? 1. : 0, k ? .5 : 0},
-                              .b = {k ? 0 : 1., k ? .5 : 0},
-                              .emission = emission[k],
-                              .emission_bands = BANDS,
-                              .reflectance = reflectance[k],
-                              .reflectance_bands = BANDS};
-    ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
-  }
-  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  const hr2d_segment wall[] = {{{0, 0}, {1, 0}}, {{1, .5}, {0, .5}}};
+  hr2d_scene *scene = test_coloured_scene(wall, emission, reflectance, 2);
   test_links colour = refined(scene, 5, 0.5, 24);
   hr2d_solution *all = test_solve(&colour, 1);
   for (size_t b = 0; b < BANDS; b++) {
@@ -491,17 +478,11 @@ END_TEST
 static hr2d_scene *open_scene(double background) {
   const double wall[][6] = {
       {0, 0, 2, 0, 0, .6}, {2, 0, 2, 1, .3, .5}, {0, 1, 0, 0, 0, .8}, {.7, .4, 1.2, .5, 0, .2}};
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  hr2d_scene *scene = test_new_scene(NULL);
   for (size_t k = 0; k < 4; k++) {
-    const hr2d_patch patch = {.a = {wall[k][0], wall[k][1]},
-                              .b = {wall[k][2], wall[k][3]},
-                              .emission = &wall[k][4],
-                              .emission_bands = 1,
-                              .reflectance = &wall[k][5],
-                              .reflectance_bands = 1,
-                              .sides = k == 3 ? HR2D_SIDES_BOTH : HR2D_SIDES_FRONT};
-    ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
+    const hr2d_segment at = {{wall[k][0], wall[k][1]}, {wall[k][2], wall[k][3]}};
+    const hr2d_sides sides = k == 3 ? HR2D_SIDES_BOTH : HR2D_SIDES_FRONT;
+    ck_assert_int_eq(test_add_patch(scene, at, wall[k][4], wall[k][5], sides), HR2D_OK);
   }
   ck_assert_int_eq(hr2d_scene_set_background(scene, &background, 1), HR2D_OK);
   ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
@@ -533,19 +514,10 @@ END_TEST
 /* With E = 1−ρ under a sky of 1 there is nothing to see. */
 START_TEST(isothermal_under_a_sky) {
   const double rho = 0.7, e = 1 - rho, sky = 1;
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  hr2d_scene *scene = test_new_scene(NULL);
   const hr2d_segment wall[] = {{{0, 0}, {2, 0}}, {{2, 0}, {2, 1}}, {{.5, .3}, {1, .4}}};
-  for (size_t k = 0; k < 3; k++) {
-    const hr2d_patch patch = {.a = wall[k].a,
-                              .b = wall[k].b,
-                              .emission = &e,
-                              .emission_bands = 1,
-                              .reflectance = &rho,
-                              .reflectance_bands = 1,
-                              .sides = HR2D_SIDES_BOTH};
-    ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
-  }
+  for (size_t k = 0; k < 3; k++)
+    ck_assert_int_eq(test_add_patch(scene, wall[k], e, rho, HR2D_SIDES_BOTH), HR2D_OK);
   ck_assert_int_eq(hr2d_scene_set_background(scene, &sky, 1), HR2D_OK);
   ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
   test_links t = graded(scene, 16, 1e-12);
@@ -652,43 +624,17 @@ START_TEST(every_allocation_may_fail) {
 }
 END_TEST
 
-static Suite *make_suite(void) {
-  Suite *suite = suite_create("order");
-  TCase *same = tcase_create("same at every order");
-  tcase_set_timeout(same, 600);
-  tcase_add_test(same, orders_are_checked);
-  tcase_add_test(same, order_one_is_as_it_was);
-  tcase_add_test(same, bands_are_independent);
-  tcase_add_test(same, directed_links_give_the_same_light);
-  tcase_add_test(same, brightness_weighting_converges);
-  tcase_add_test(same, warm_start_across_orders);
-  tcase_add_test(same, threads_leave_no_trace);
-  tcase_add_test(same, background_at_any_order);
-  tcase_add_test(same, isothermal_under_a_sky);
-  tcase_add_test(same, every_allocation_may_fail);
+TEST_SUITE("order") {
+  ADD_TESTS("same at every order", orders_are_checked, order_one_is_as_it_was,
+            bands_are_independent, directed_links_give_the_same_light,
+            brightness_weighting_converges, warm_start_across_orders, threads_leave_no_trace,
+            background_at_any_order, isothermal_under_a_sky, every_allocation_may_fail);
 #if SIZE_MAX == UINT32_MAX
-  tcase_add_test(same, bands_may_be_too_many);
+  ADD_TESTS("same at every order", bands_may_be_too_many);
 #endif
-  suite_add_tcase(suite, same);
-  TCase *furnaces = tcase_create("furnaces");
-  tcase_add_test(furnaces, rows_before_closure);
-  tcase_add_test(furnaces, furnace_with_closure);
-  suite_add_tcase(suite, furnaces);
-  TCase *convergence = tcase_create("convergence");
-  tcase_set_timeout(convergence, 600);
-  tcase_add_test(convergence, error_falls_exponentially_with_the_order);
-  tcase_add_test(convergence, error_falls_on_any_elements);
-  tcase_add_test(convergence, error_falls_slowly_at_order_one);
-  tcase_add_test(convergence, error_falls_with_size);
-  tcase_add_test(convergence, occluded_averages_converge);
-  suite_add_tcase(suite, convergence);
-  TCase *growth = tcase_create("growth");
-  tcase_add_test(growth, links_grow_like_elements);
-  tcase_add_test(growth, links_grow_like_squares_at_order_one);
-  suite_add_tcase(suite, growth);
-  return suite;
-}
-
-int main(void) {
-  return test_run(make_suite());
+  ADD_TESTS("furnaces", rows_before_closure, furnace_with_closure);
+  ADD_TESTS("convergence", error_falls_exponentially_with_the_order,
+            error_falls_on_any_elements, error_falls_slowly_at_order_one, error_falls_with_size,
+            occluded_averages_converge);
+  ADD_TESTS("growth", links_grow_like_elements, links_grow_like_squares_at_order_one);
 }

@@ -6,39 +6,17 @@
 
 #include "support/support.h"
 
-static hr2d_refine_options with_epsilon(double epsilon) {
-  hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
-  options.epsilon = epsilon;
-  return options;
-}
-
-static hr2d_solution *solve(test_links *t, const hr2d_solve_options *options) {
-  hr2d_solution *solution = NULL;
-  ck_assert_msg(hr2d_solve(t->links, options, &solution) == HR2D_OK, "%s",
-                hr2d_linkset_message(t->links));
-  return solution;
-}
-
 static test_links refined(hr2d_scene *scene, double epsilon) {
   test_links t = test_make_links(scene, NULL, NULL, NULL, NULL);
-  const hr2d_refine_options options = with_epsilon(epsilon);
-  ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
+  test_refine(&t, epsilon, HR2D_DEFAULT_MAX_LEVEL);
   return t;
 }
 
 /* The largest relative error of patch averages, of a scene whose rows begin at `row`. */
 static double average_error(const test_table *table, size_t row, double epsilon, int closure) {
-  const char *name = test_cell(table, row, "scene");
-  test_links t = refined(test_named_scene(name), epsilon);
-  hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
-  options.closure = closure;
-  hr2d_solution *solution = solve(&t, &options);
-  double worst = 0;
-  for (size_t k = 0; k < hr2d_scene_patches(t.scene); k++) {
-    ck_assert_str_eq(test_cell(table, row + k, "scene"), name);
-    const double expected = test_number(table, row + k, "avgB");
-    worst = fmax(worst, fabs(hr2d_solution_average(solution, k, 0) / expected - 1));
-  }
+  test_links t = refined(test_named_scene(test_cell(table, row, "scene")), epsilon);
+  hr2d_solution *solution = test_solve(&t, closure);
+  const double worst = test_average_error(&t, solution, table, row);
   hr2d_solution_destroy(solution);
   test_free_links(&t);
   return worst;
@@ -87,13 +65,13 @@ END_TEST
 START_TEST(furnace_is_exact) {
   for (double epsilon = 1; epsilon >= 1. / 64; epsilon /= 2) {
     test_links t = refined(test_named_scene("square_furnace_rho0.9"), epsilon);
-    hr2d_solution *solution = solve(&t, NULL);
+    hr2d_solution *solution = test_solve_by(&t, NULL);
     for (uint32_t e = 0; e < hr2d_hierarchy_count(t.hierarchy).elements; e++)
       ck_assert_double_eq_tol(hr2d_solution_element(solution, e, 0), 1, 1e-13);
     /* Negative control: without closure the rows are off. */
     hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
     options.closure = 0;
-    hr2d_solution *open = solve(&t, &options);
+    hr2d_solution *open = test_solve_by(&t, &options);
     ck_assert_double_gt(fabs(hr2d_solution_average(open, 0, 0) - 1), 1e-7);
     hr2d_solution_destroy(open);
     hr2d_solution_destroy(solution);
@@ -120,15 +98,12 @@ static hr2d_scene *random_room(unsigned long *state, size_t n, double rho, int o
 
 START_TEST(power_is_balanced) {
   unsigned long state = test_seed();
-  printf("seed %lu\n", state);
   for (int round = 0; round < 20; round++) {
     const int open = round % 2;
     const size_t walls = 3 + (size_t)(8 * test_random(&state));
     test_links t = refined(random_room(&state, walls, 0.9, open), 0.2);
     for (int closure = 0; closure < 2; closure++) {
-      hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
-      options.closure = closure;
-      hr2d_solution *solution = solve(&t, &options);
+      hr2d_solution *solution = test_solve(&t, closure);
       const hr2d_power p = hr2d_solution_power(solution, 0);
       ck_assert_double_gt(p.emitted, 0);
       ck_assert_double_eq_tol((p.absorbed + p.escaped) / p.emitted, 1, 1e-13);
@@ -149,7 +124,7 @@ START_TEST(total_of_a_closed_room) {
     char name[64];
     snprintf(name, sizeof name, "square_rho%.7g", rho[k]);
     test_links t = refined(test_named_scene(name), 0.25);
-    hr2d_solution *solution = solve(&t, NULL);
+    hr2d_solution *solution = test_solve_by(&t, NULL);
     double total = 0;
     for (size_t p = 0; p < 4; p++) total += hr2d_solution_average(solution, p, 0);
     /* Rounding is amplified by 1/(1−ρ). */
@@ -178,7 +153,7 @@ START_TEST(no_light_has_nowhere_to_go) {
                        refined(test_scene(absorbing, 4), 0.1),
                        refined(test_scene(dark, 4), 0.1)};
   for (size_t k = 0; k < 3; k++) {
-    solution = solve(&fine[k], NULL);
+    solution = test_solve_by(&fine[k], NULL);
     const hr2d_power p = hr2d_solution_power(solution, 0);
     ck_assert_double_eq_tol(p.absorbed + p.escaped, p.emitted, 1e-13);
     ck_assert_double_eq_tol(k == 0 ? p.escaped : p.absorbed, k == 2 ? 0 : 1, 1e-13);
@@ -196,7 +171,7 @@ START_TEST(disconnected_parts_do_not_mix) {
                              {-1, -2, -1, -1, 0, .9},
                              {3, 0, 2, 0, 7, .3}};
   test_links t = refined(test_scene(scene, 5), 0.1);
-  hr2d_solution *solution = solve(&t, NULL);
+  hr2d_solution *solution = test_solve_by(&t, NULL);
   ck_assert_double_eq(hr2d_solution_average(solution, 4, 0), 7);
   ck_assert_double_gt(hr2d_solution_average(solution, 1, 0), 0);
   ck_assert_double_eq(hr2d_solution_average(solution, 2, 0), 0);
@@ -208,7 +183,7 @@ END_TEST
 
 START_TEST(black_scenes_are_not_iterated) {
   test_links t = refined(test_named_scene("par_d1_rho0"), 0.01);
-  hr2d_solution *solution = solve(&t, NULL);
+  hr2d_solution *solution = test_solve_by(&t, NULL);
   ck_assert_uint_eq(hr2d_solution_work(solution).gathers, 1);
   ck_assert_double_eq(hr2d_solution_average(solution, 0, 0), 1);
   ck_assert_double_eq(hr2d_solution_average(solution, 1, 0), 0);
@@ -232,9 +207,7 @@ START_TEST(backs_stay_apart) {
   double average[2][6];
   for (int closure = 0; closure < 2; closure++) {
     test_links t = refined(test_scene((const double(*)[6])fin, 6), 0.02);
-    hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
-    options.closure = closure;
-    hr2d_solution *solution = solve(&t, &options);
+    hr2d_solution *solution = test_solve(&t, closure);
     for (size_t k = 0; k < 6; k++) average[closure][k] = hr2d_solution_average(solution, k, 0);
     hr2d_solution_destroy(solution);
     test_free_links(&t);
@@ -248,25 +221,15 @@ END_TEST
 START_TEST(bands_are_independent) {
   const double emission[2][3] = {{1, 0.25, 3}, {0, 0, 0.5}};
   const double reflectance[2][3] = {{.5, .9, 0}, {.25, .9, 1}};
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
-  for (size_t k = 0; k < 2; k++) {
-    const hr2d_patch patch = {.a = {k ? 1. : 0, k ? .5 : 0},
-                              .b = {k ? 0 : 1., k ? .5 : 0},
-                              .emission = emission[k],
-                              .emission_bands = 3,
-                              .reflectance = reflectance[k],
-                              .reflectance_bands = 3};
-    ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
-  }
-  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  const hr2d_segment wall[] = {{{0, 0}, {1, 0}}, {{1, .5}, {0, .5}}};
+  hr2d_scene *scene = test_coloured_scene(wall, emission, reflectance, 2);
   test_links colour = refined(scene, 0.05);
-  hr2d_solution *all = solve(&colour, NULL);
+  hr2d_solution *all = test_solve_by(&colour, NULL);
   for (size_t b = 0; b < 3; b++) {
     const double grey[][6] = {{0, 0, 1, 0, emission[0][b], reflectance[0][b]},
                               {1, .5, 0, .5, emission[1][b], reflectance[1][b]}};
     test_links t = refined(test_scene(grey, 2), 0.05);
-    hr2d_solution *one = solve(&t, NULL);
+    hr2d_solution *one = test_solve_by(&t, NULL);
     for (uint32_t e = 0; e < hr2d_hierarchy_count(t.hierarchy).elements; e++) {
       const double expected = hr2d_solution_element(one, e, 0);
       ck_assert_double_eq_tol(hr2d_solution_element(all, e, b), expected, 1e-14 * expected);
@@ -286,7 +249,7 @@ START_TEST(threads_leave_no_trace) {
   for (unsigned k = 0; k < 3; k++) {
     hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
     options.threads = (unsigned[]){1, 2, 5}[k];
-    solution[k] = solve(&t, &options);
+    solution[k] = test_solve_by(&t, &options);
   }
   for (uint32_t e = 0; e < hr2d_hierarchy_count(t.hierarchy).elements; e++)
     for (size_t k = 1; k < 3; k++)
@@ -301,18 +264,18 @@ START_TEST(warm_start_saves_gathers) {
   test_links t = test_make_links(test_named_scene("square_rho0.9"), NULL, NULL, NULL, NULL);
   hr2d_solution *before = NULL, *warm = NULL, *cold = NULL;
   for (double epsilon = 0.5; epsilon >= 1. / 32; epsilon /= 2) {
-    const hr2d_refine_options options = with_epsilon(epsilon);
+    const hr2d_refine_options options = test_epsilon(epsilon);
     ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
     hr2d_solve_options start = HR2D_SOLVE_OPTIONS_INIT;
     start.tolerance = 1e-6;
     start.start = before;
-    warm = solve(&t, &start);
+    warm = test_solve_by(&t, &start);
     hr2d_solution_destroy(before);
     before = warm;
   }
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   options.tolerance = 1e-6;
-  cold = solve(&t, &options);
+  cold = test_solve_by(&t, &options);
   ck_assert_uint_lt(hr2d_solution_work(warm).gathers, hr2d_solution_work(cold).gathers);
   for (size_t k = 0; k < 4; k++)
     ck_assert_double_eq_tol(hr2d_solution_average(warm, k, 0),
@@ -329,11 +292,11 @@ START_TEST(directed_links_give_the_same_light) {
                                     hr2d_policy_modified(), NULL);
   test_links both = test_make_links(test_named_scene("square_rho0.9"), NULL, NULL,
                                     hr2d_policy_modified(), NULL);
-  hr2d_refine_options options = with_epsilon(0.1);
+  hr2d_refine_options options = test_epsilon(0.1);
   ck_assert_int_eq(hr2d_refine(once.links, &options), HR2D_OK);
   options.ordered = 1;
   ck_assert_int_eq(hr2d_refine(both.links, &options), HR2D_OK);
-  hr2d_solution *first = solve(&once, NULL), *second = solve(&both, NULL);
+  hr2d_solution *first = test_solve_by(&once, NULL), *second = test_solve_by(&both, NULL);
   for (size_t k = 0; k < 4; k++)
     ck_assert_double_eq_tol(hr2d_solution_average(first, k, 0),
                             hr2d_solution_average(second, k, 0), 1e-12);
@@ -350,12 +313,12 @@ START_TEST(brightness_weighting_converges) {
       test_make_links(test_named_scene("square_rho0.9"), hr2d_oracle_bf(), NULL, NULL, NULL);
   hr2d_solution *solution = NULL;
   for (double epsilon = 0.1; epsilon >= 1e-4; epsilon /= 4) {
-    hr2d_refine_options options = with_epsilon(epsilon);
+    hr2d_refine_options options = test_epsilon(epsilon);
     options.max_level = 12;
     options.brightness = solution;
     ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
     hr2d_solution_destroy(solution);
-    solution = solve(&t, NULL);
+    solution = test_solve_by(&t, NULL);
   }
   for (size_t row = 1; row < table.rows; row++)
     for (size_t k = 0; k < 4; k++)
@@ -373,7 +336,7 @@ END_TEST
 START_TEST(points_lie_between_leaves) {
   test_table table = test_read_table("radiosity_fine.csv");
   test_links t = refined(test_named_scene("par_d0.1_rho0.5"), 1. / 64);
-  hr2d_solution *solution = solve(&t, NULL);
+  hr2d_solution *solution = test_solve_by(&t, NULL);
   for (size_t k = 0; k < 2; k++) {
     ck_assert_str_eq(test_cell(&table, 1 + k, "scene"), "par_d0.1_rho0.5");
     ck_assert_double_eq_tol(hr2d_solution_at(solution, k, 0.25, 0),
@@ -405,7 +368,7 @@ START_TEST(solves_end_early) {
   test_links t = test_make_links(test_named_scene("square_rho0.9"), NULL, NULL, NULL, NULL);
   hr2d_solution *solution = NULL;
   ck_assert_int_eq(hr2d_solve(t.links, NULL, &solution), HR2D_ESTATE);
-  const hr2d_refine_options refine = with_epsilon(0.1);
+  const hr2d_refine_options refine = test_epsilon(0.1);
   ck_assert_int_eq(hr2d_refine(t.links, &refine), HR2D_OK);
   int calls = 0;
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
@@ -427,14 +390,14 @@ START_TEST(scale_changes_no_digit) {
   /* Scaled by a power of two, the answer keeps its bits. */
   const double patch[][6] = {{0, 0, 1, 0, 1, .7}, {0, 1, 0, 0, 0, .7}};
   test_links unit = refined(test_scene(patch, 2), 0.1);
-  hr2d_solution *first = solve(&unit, NULL);
+  hr2d_solution *first = test_solve_by(&unit, NULL);
   const double factor[] = {0x1p+40, 0x1p-500, 0x1p+900};
   for (size_t f = 0; f < 3; f++) {
     double scaled[2][6];
     for (int k = 0; k < 12; k++)
       scaled[k / 6][k % 6] = patch[k / 6][k % 6] * (k % 6 < 4 ? factor[f] : 1);
     test_links t = refined(test_scene((const double(*)[6])scaled, 2), 0.1);
-    hr2d_solution *second = solve(&t, NULL);
+    hr2d_solution *second = test_solve_by(&t, NULL);
     for (uint32_t e = 0; e < hr2d_hierarchy_count(t.hierarchy).elements; e++)
       ck_assert_double_eq(hr2d_solution_element(first, e, 0),
                           hr2d_solution_element(second, e, 0));
@@ -477,34 +440,14 @@ START_TEST(corners_are_gathered_as_what_is_just_before) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("solve");
-  TCase *reference = tcase_create("reference values");
-  tcase_set_timeout(reference, 600);
-  tcase_add_test(reference, averages_converge);
-  tcase_add_test(reference, averages_converge_without_closure);
-  tcase_add_test(reference, points_lie_between_leaves);
-  tcase_add_test(reference, brightness_weighting_converges);
-  suite_add_tcase(suite, reference);
-  TCase *laws = tcase_create("laws");
-  tcase_set_timeout(laws, 600);
-  tcase_add_test(laws, furnace_is_exact);
-  tcase_add_test(laws, power_is_balanced);
-  tcase_add_test(laws, total_of_a_closed_room);
-  tcase_add_test(laws, no_light_has_nowhere_to_go);
-  tcase_add_test(laws, disconnected_parts_do_not_mix);
-  tcase_add_test(laws, black_scenes_are_not_iterated);
-  tcase_add_test(laws, backs_stay_apart);
-  tcase_add_test(laws, bands_are_independent);
-  tcase_add_test(laws, scale_changes_no_digit);
-  suite_add_tcase(suite, laws);
-  TCase *ways = tcase_create("ways to solve");
-  tcase_set_timeout(ways, 600);
-  tcase_add_test(ways, threads_leave_no_trace);
-  tcase_add_test(ways, warm_start_saves_gathers);
-  tcase_add_test(ways, directed_links_give_the_same_light);
-  tcase_add_test(ways, solves_end_early);
-  tcase_add_test(ways, corners_are_gathered_as_what_is_just_before);
-  suite_add_tcase(suite, ways);
-  return test_run(suite);
+TEST_SUITE("solve") {
+  ADD_TESTS("reference values", averages_converge, averages_converge_without_closure,
+            points_lie_between_leaves, brightness_weighting_converges);
+  ADD_TESTS("laws", furnace_is_exact, power_is_balanced, total_of_a_closed_room,
+            no_light_has_nowhere_to_go, disconnected_parts_do_not_mix,
+            black_scenes_are_not_iterated, backs_stay_apart, bands_are_independent,
+            scale_changes_no_digit);
+  ADD_TESTS("ways to solve", threads_leave_no_trace, warm_start_saves_gathers,
+            directed_links_give_the_same_light, solves_end_early,
+            corners_are_gathered_as_what_is_just_before);
 }

@@ -160,13 +160,17 @@ static hr2d_status read_fresh(tape *t, const setup *s) {
   return status;
 }
 
-static tape plain_tape(void) {
-  test_links t = make(&plain);
-  hr2d_solution *solution = stage(&t, 0.7, NULL);
+/* The state of a fresh set after a stage; destroys the set. */
+static tape tape_of(test_links t, double epsilon) {
+  hr2d_solution *solution = stage(&t, epsilon, NULL);
   tape made = write_tape(solution);
   hr2d_solution_destroy(solution);
   test_free_links(&t);
   return made;
+}
+
+static tape plain_tape(void) {
+  return tape_of(make(&plain), 0.7);
 }
 
 START_TEST(a_damaged_state_is_refused) {
@@ -235,9 +239,8 @@ START_TEST(a_state_that_was_made_up_does_no_harm) {
   tape forged = t;
   unsigned long random = test_seed();
   int refused = 0, taken = 0;
-  printf("seed %lu\n", random);
   forged.byte = malloc(t.size);
-  for (int k = 0; k < 200 + (int)(5000 * test_multiplier()); k++) {
+  for (int k = 0; k < (int)test_rounds(5000, 200); k++) {
     memcpy(forged.byte, t.byte, t.size);
     const size_t words = (t.size - 16) / 4 - 3;
     const size_t at = 16 + 4 * (size_t)(test_random(&random) * (double)(k % 2 ? words : 60));
@@ -325,34 +328,6 @@ START_TEST(a_solution_to_a_target_has_no_state) {
 }
 END_TEST
 
-/* Memory that is counted. */
-typedef struct meter {
-  size_t held, most;
-} meter;
-
-static void *meter_reallocate(void *ctx, void *block, size_t bytes) {
-  meter *m = ctx;
-  size_t *old = block ? (size_t *)block - 2 : NULL;
-  const size_t before = old ? old[0] : 0;
-  size_t *made = realloc(old, bytes + 2 * sizeof *made);
-  if (!made) return NULL;
-  made[0] = bytes;
-  m->held += bytes - before;
-  if (m->held > m->most) m->most = m->held;
-  return made + 2;
-}
-
-static void *meter_allocate(void *ctx, size_t bytes) {
-  return meter_reallocate(ctx, NULL, bytes);
-}
-
-static void meter_release(void *ctx, void *block) {
-  if (!block) return;
-  size_t *old = (size_t *)block - 2;
-  ((meter *)ctx)->held -= old[0];
-  free(old);
-}
-
 /* Two plates, and an empty set on them. */
 static test_links make_plates(const hr2d_allocator *hooks) {
   const double one = 1, half = 0.5;
@@ -371,29 +346,24 @@ static test_links make_plates(const hr2d_allocator *hooks) {
 }
 
 static tape plates_tape(void) {
-  test_links t = make_plates(NULL);
-  hr2d_solution *solution = stage(&t, 0.1, NULL);
-  tape made = write_tape(solution);
-  hr2d_solution_destroy(solution);
-  test_free_links(&t);
-  return made;
+  return tape_of(make_plates(NULL), 0.1);
 }
 
 START_TEST(claims_take_no_memory) {
-  meter m = {0, 0};
-  const hr2d_allocator hooks = {meter_allocate, meter_reallocate, meter_release, &m};
+  test_meter m = {0, 0};
+  const hr2d_allocator hooks = test_metered(&m);
   tape t = plates_tape();
   test_links links = make_plates(&hooks);
   hr2d_solution *solution = NULL;
-  const size_t before = m.most = m.held;
+  const long long before = m.peak = m.held;
   /* 4·10⁹ elements, all solved for, and 2⁵⁷ links of 32 coefficients. */
   const uint64_t claim[] = {4000000000, UINT64_C(1) << 57, 4000000000, 32};
   for (size_t k = 0; k < 4; k++)
     for (size_t b = 0; b < 8; b++) t.byte[32 + 8 * k + b] = (unsigned char)(claim[k] >> 8 * b);
   ck_assert_int_eq(hr2d_state_read(links.links, play, &t, &solution), HR2D_ESYNTAX);
-  ck_assert_uint_le(m.most - before, 64 * t.size);
+  ck_assert_int_le(m.peak - before, 64 * (long long)t.size);
   test_free_links(&links);
-  ck_assert_uint_eq(m.held, 0);
+  ck_assert_int_eq(m.held, 0);
   free(t.byte);
 }
 END_TEST
@@ -436,18 +406,10 @@ START_TEST(any_allocation_may_fail) {
 }
 END_TEST
 
-int main(void) {
-  Suite *suite = suite_create("state");
-  TCase *all = tcase_create("all");
-  tcase_add_loop_test(all, going_on_from_a_state_gives_the_same_bits, 0,
-                      sizeof names / sizeof *names);
-  tcase_add_test(all, a_damaged_state_is_refused);
-  tcase_add_test(all, a_state_that_was_made_up_does_no_harm);
-  tcase_add_test(all, a_state_belongs_to_its_scene_and_method);
-  tcase_add_test(all, callbacks_may_fail_and_may_not_interfere);
-  tcase_add_test(all, a_solution_to_a_target_has_no_state);
-  tcase_add_test(all, claims_take_no_memory);
-  tcase_add_test(all, any_allocation_may_fail);
-  suite_add_tcase(suite, all);
-  return test_run(suite);
+TEST_SUITE("state") {
+  REPEAT_TESTS(sizeof names / sizeof *names, "all", going_on_from_a_state_gives_the_same_bits);
+  ADD_TESTS("all", a_damaged_state_is_refused, a_state_that_was_made_up_does_no_harm,
+            a_state_belongs_to_its_scene_and_method, callbacks_may_fail_and_may_not_interfere,
+            a_solution_to_a_target_has_no_state, claims_take_no_memory,
+            any_allocation_may_fail);
 }

@@ -429,8 +429,7 @@ static void add_piece(hr2d_scene *scene, hr2d_segment s, double from, double to)
 }
 
 static hr2d_scene *cut_up(const hr2d_scene *whole, const hr2di_events *e) {
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  hr2d_scene *scene = test_new_scene(NULL);
   for (size_t k = 0, next = 0; k < hr2d_scene_patches(whole); k++) {
     double from = 0;
     for (; next < e->count && e->event[next].patch == k; next++) {
@@ -439,7 +438,7 @@ static hr2d_scene *cut_up(const hr2d_scene *whole, const hr2di_events *e) {
     }
     add_piece(scene, hr2d_scene_segment(whole, k), from, 1);
   }
-  ck_assert_msg(hr2d_scene_commit(scene) == HR2D_OK, "%s", hr2d_scene_message(scene));
+  test_commit(scene);
   return scene;
 }
 
@@ -541,8 +540,7 @@ END_TEST
 START_TEST(test_failures) {
   test_memory memory = {.until_failure = -1};
   const hr2d_allocator hooks = test_hooks(&memory);
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(&hooks, &scene), HR2D_OK);
+  hr2d_scene *scene = test_new_scene(&hooks);
   for (size_t k = 0; k < ROWS(screen); k++)
     add_piece(scene, (hr2d_segment){{screen[k][0], screen[k][1]}, {screen[k][2], screen[k][3]}},
               0, 1);
@@ -566,26 +564,9 @@ START_TEST(test_failures) {
 }
 END_TEST
 
-Suite *suite(void);
-Suite *suite(void) {
-  Suite *s = suite_create("events");
-  TCase *c = tcase_create("known");
-  tcase_add_test(c, test_known);
-  tcase_add_test(c, test_none);
-  tcase_add_test(c, test_unlit);
-  tcase_add_test(c, test_black);
-  suite_add_tcase(s, c);
-  c = tcase_create("random");
-  tcase_add_loop_test(c, test_complete, 0, plan_class_count);
-  tcase_add_loop_test(c, test_generations, 0, 6);
-  suite_add_tcase(s, c);
-  c = tcase_create("limits");
-  tcase_add_test(c, test_most);
-  tcase_add_test(c, test_failures);
-  suite_add_tcase(s, c);
-  return s;
-}
-
-int main(void) {
-  return test_run(suite());
+TEST_SUITE("events") {
+  ADD_TESTS("known", test_known, test_none, test_unlit, test_black);
+  REPEAT_TESTS(plan_class_count, "random", test_complete);
+  REPEAT_TESTS(6, "random", test_generations);
+  ADD_TESTS("limits", test_most, test_failures);
 }

@@ -16,21 +16,15 @@
 
 #define ROW_BAR 1e-13
 
-static int scaled_count(int count) {
-  const double scaled = test_multiplier() * count;
-  return scaled < 1 ? 1 : scaled > 1e9 ? 1000000000 : (int)scaled;
-}
-
 /* A committed scene. */
 static hr2d_scene *scene_of(const plan *p, const hr2d_allocator *hooks) {
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(hooks, &scene), HR2D_OK);
+  hr2d_scene *scene = test_new_scene(hooks);
   for (size_t k = 0; k < p->walls; k++) {
     const hr2d_patch patch = {.a = p->wall[k].a, .b = p->wall[k].b, .sides = p->sides[k]};
     ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
   }
   if (p->crossing) ck_assert_int_eq(hr2d_scene_split_crossings(scene, NULL), HR2D_OK);
-  ck_assert_msg(hr2d_scene_commit(scene) == HR2D_OK, "%s", hr2d_scene_message(scene));
+  test_commit(scene);
   return scene;
 }
 
@@ -119,7 +113,7 @@ START_TEST(rows_sum_to_one) {
   rooms s = {.r = randoms_stream(test_seed(), 100 + _i)};
   double worst = 0;
   size_t patches = 0;
-  for (int k = 0; k < scaled_count(10 * POSITIONS); k++) {
+  for (int k = 0; k < test_count(10 * POSITIONS); k++) {
     draw_room(&s, class, k);
     hr2d_scene *scene = scene_of(&s.plan, NULL);
     const size_t n = hr2d_scene_patches(scene);
@@ -150,7 +144,7 @@ START_TEST(entries_are_those_of_pairs) {
   const plan_class *class = &plan_classes[_i];
   rooms s = {.r = randoms_stream(test_seed(), 200 + _i)};
   double worst = 0, worst_pair = 0;
-  for (int k = 0; k < scaled_count(2 * POSITIONS); k++) {
+  for (int k = 0; k < test_count(2 * POSITIONS); k++) {
     draw_room(&s, class, k);
     hr2d_scene *scene = scene_of(&s.plan, NULL);
     const size_t n = hr2d_scene_patches(scene);
@@ -231,7 +225,7 @@ END_TEST
 START_TEST(powers_of_two_change_no_bit) {
   const plan_class *class = &plan_classes[_i];
   rooms s = {.r = randoms_stream(test_seed(), 300 + _i)};
-  for (int k = 0; k < scaled_count(10); k++) {
+  for (int k = 0; k < test_count(10); k++) {
     draw_room(&s, class, k % 3);
     hr2d_scene *scene = scene_of(&s.plan, NULL);
     const size_t n = hr2d_scene_patches(scene);
@@ -251,22 +245,11 @@ START_TEST(powers_of_two_change_no_bit) {
 }
 END_TEST
 
-static void add_square(plan *p) {
-  const hr2d_point corner[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  for (int k = 0; k < 4; k++) plan_add(p, corner[k], corner[(k + 1) % 4], HR2D_SIDES_FRONT);
-}
-
 /* Spokes around a hub, each next to the last. */
 START_TEST(a_fan) {
   plan p = {.walls = 0};
-  const int spokes = scaled_count(300);
-  add_square(&p);
-  const hr2d_point hub = {.4375, .5625};
-  for (int k = 0; k < spokes; k++) {
-    const double angle = 6.283185307179586 * k / spokes, reach = .3 + .1 * (k % 7) / 7;
-    plan_add(&p, hub, (hr2d_point){hub.x + reach * cos(angle), hub.y + reach * sin(angle)},
-             HR2D_SIDES_BOTH);
-  }
+  const int spokes = test_count(300);
+  plan_fan(&p, spokes);
   hr2d_scene *scene = scene_of(&p, NULL);
   hr2d_matrix_counts counts;
   double *area = matrix_of(scene, &counts);
@@ -287,9 +270,9 @@ END_TEST
 
 START_TEST(many_screens) {
   plan p = {.walls = 0};
-  const int screens = scaled_count(300);
+  const int screens = test_count(300);
   randoms r = randoms_stream(test_seed(), 400);
-  add_square(&p);
+  plan_room(&p, 1, 1);
   for (int k = 0; k < screens; k++) {
     const double x = (k + random_between(&r, 0, .3)) / screens, y = random_between(&r, .4, .6);
     plan_add(&p, (hr2d_point){x, y}, (hr2d_point){x + .6 / screens, y + .3 / screens},
@@ -311,7 +294,7 @@ END_TEST
 START_TEST(counts_tell_the_work) {
   plan p = {.walls = 0};
   hr2d_matrix_counts counts;
-  add_square(&p);
+  plan_room(&p, 1, 1);
   hr2d_scene *scene = scene_of(&p, NULL);
   free(matrix_of(scene, &counts));
   ck_assert_uint_eq(counts.exchange_areas, 6);
@@ -328,7 +311,7 @@ START_TEST(counts_tell_the_work) {
   hr2d_scene_destroy(scene);
   plan_free(&p);
   /* From wall to wall: 0 and 2 are hidden from each other. */
-  add_square(&p);
+  plan_room(&p, 1, 1);
   plan_add(&p, (hr2d_point){0, .5}, (hr2d_point){1, .5}, HR2D_SIDES_BOTH);
   scene = scene_of(&p, NULL);
   free(matrix_of(scene, &counts));
@@ -450,24 +433,12 @@ START_TEST(allocations_fail_one_by_one) {
 }
 END_TEST
 
-int main(void) {
-  printf("seed %lu\n", test_seed());
-  fflush(stdout);
-  Suite *suite = suite_create("exchange matrix");
-  TCase *tc = tcase_create("rooms");
-  tcase_add_loop_test(tc, rows_sum_to_one, 0, plan_class_count);
-  tcase_add_loop_test(tc, entries_are_those_of_pairs, 0, plan_class_count);
-  tcase_add_loop_test(tc, partitions_are_tight, 0, DIVISIONS);
-  tcase_add_loop_test(tc, powers_of_two_change_no_bit, 0, plan_class_count);
-  tcase_add_test(tc, a_fan);
-  tcase_add_test(tc, many_screens);
-  suite_add_tcase(suite, tc);
-  tc = tcase_create("calls");
-  tcase_add_test(tc, counts_tell_the_work);
-  tcase_add_test(tc, threads_change_no_bit);
-  tcase_add_test(tc, progress_is_told_and_may_stop);
-  tcase_add_test(tc, only_committed_scenes);
-  tcase_add_loop_test(tc, allocations_fail_one_by_one, 0, 2);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+TEST_SUITE("exchange matrix") {
+  REPEAT_TESTS(plan_class_count, "rooms", rows_sum_to_one, entries_are_those_of_pairs);
+  REPEAT_TESTS(DIVISIONS, "rooms", partitions_are_tight);
+  REPEAT_TESTS(plan_class_count, "rooms", powers_of_two_change_no_bit);
+  ADD_TESTS("rooms", a_fan, many_screens);
+  ADD_TESTS("calls", counts_tell_the_work, threads_change_no_bit, progress_is_told_and_may_stop,
+            only_committed_scenes);
+  REPEAT_TESTS(2, "calls", allocations_fail_one_by_one);
 }

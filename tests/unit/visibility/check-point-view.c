@@ -15,6 +15,7 @@
 #include "base/alloc.h"
 #include "independent/mpfr-exchange.h"
 #include "scene/scene-impl.h"
+#include "support/order.h"
 #include "support/room-plans.h"
 #include "support/support.h"
 #include "visibility/point-view.h"
@@ -22,11 +23,6 @@
 #define PI 3.14159265358979323846
 
 typedef long double real;
-
-static int scaled_count(int count) {
-  const double scaled = test_multiplier() * count;
-  return scaled < 1 ? 1 : scaled > 1e9 ? 1000000000 : (int)scaled;
-}
 
 static hr2di_viewer *viewer_of(const hr2d_scene *scene) {
   const hr2d_allocator alloc = hr2di_alloc_default();
@@ -85,11 +81,6 @@ static place place_of(hr2d_segment own, real t, hr2d_point v) {
                  area / length};
 }
 
-static int ascending(const void *left, const void *right) {
-  const real l = *(const real *)left, r = *(const real *)right;
-  return (l > r) - (l < r);
-}
-
 static real crossed(place p, place q) {
   return p.s * q.h - p.h * q.s;
 }
@@ -134,7 +125,7 @@ static brute brute_look(const hr2d_scene *scene, size_t patch, double t, size_t 
     for (int e = 0; e < 2; e++)
       if (b.end[k][e].h > 0) b.direction[b.directions++] = atan2l(b.end[k][e].s, b.end[k][e].h);
   }
-  qsort(b.direction, b.directions, sizeof *b.direction, ascending);
+  qsort(b.direction, b.directions, sizeof *b.direction, order_long_doubles);
   for (size_t k = 1; k < b.directions; k++) {
     const real middle = (b.direction[k - 1] + b.direction[k]) / 2;
     const real sine = cosl(middle) * sinl((b.direction[k] - b.direction[k - 1]) / 2);
@@ -256,7 +247,7 @@ START_TEST(rays_see_the_same) {
   const plan_class *class = &plan_classes[_i];
   rooms s = {.r = randoms_stream(test_seed(), 600 + _i)};
   double worst = 0;
-  for (int k = 0; k < scaled_count(24); k++) {
+  for (int k = 0; k < test_count(24); k++) {
     hr2d_scene *scene = draw_scene(&s, class, 40, k % 3, k % 2, 0);
     hr2di_viewer *viewer = viewer_of(scene);
     for (int m = 0; m < 40; m++) {
@@ -312,7 +303,7 @@ START_TEST(rooms_are_closed) {
   const plan_class *class = &plan_classes[_i];
   rooms s = {.r = randoms_stream(test_seed(), 800 + _i)};
   double worst = 0;
-  for (int k = 0; k < scaled_count(30); k++) {
+  for (int k = 0; k < test_count(30); k++) {
     hr2d_scene *scene = draw_scene(&s, class, 60, 0, k % 2, 0);
     hr2di_viewer *viewer = viewer_of(scene);
     for (size_t patch = 0; patch < hr2d_scene_patches(scene) && area_of(&s.plan) > 0; patch++)
@@ -346,11 +337,6 @@ static double weighed(double t, void *params) {
   return sum;
 }
 
-static int by_value(const void *left, const void *right) {
-  const double l = *(const double *)left, r = *(const double *)right;
-  return (l > r) - (l < r);
-}
-
 /* Where lines through two vertices meet a patch, sorted, with its ends. */
 static double *find_events(const hr2d_scene *scene, size_t patch, size_t *count) {
   const size_t n = hr2d_scene_patches(scene);
@@ -371,7 +357,7 @@ static double *find_events(const hr2d_scene *scene, size_t patch, size_t *count)
       const real t = (p.s - p.h * (q.s - p.s) / (q.h - p.h)) / length;
       if (t > 0 && t < 1) event[(*count)++] = (double)t;
     }
-  qsort(event, *count, sizeof *event, by_value);
+  qsort(event, *count, sizeof *event, order_doubles);
   free(end);
   return event;
 }
@@ -397,7 +383,7 @@ START_TEST(views_integrate_to_exchange_areas) {
   rooms s = {.r = randoms_stream(test_seed(), 900 + _i)};
   gsl_error_handler_t *handler = gsl_set_error_handler_off();
   double worst = 0;
-  for (int k = 0; k < scaled_count(3); k++) {
+  for (int k = 0; k < test_count(3); k++) {
     hr2d_scene *scene = draw_scene(&s, class, 8, k % 3, 1, 0);
     const size_t n = hr2d_scene_patches(scene), patch = (size_t)(random_bits(&s.r) % n);
     double *area = malloc(n * n * sizeof *area), *weight = malloc(n * sizeof *weight);
@@ -425,7 +411,7 @@ START_TEST(views_integrate_to_exchange_areas) {
 END_TEST
 
 START_TEST(forced_occlusion_changes_no_bit) {
-  for (int k = 0; k < scaled_count(20); k++) {
+  for (int k = 0; k < test_count(20); k++) {
     rooms plain = {.r = randoms_stream(test_seed(), 1000 + k)}, forced = plain;
     hr2d_scene *one = draw_scene(&plain, &plan_classes[0], 10, k % 2, 1, 0);
     hr2d_scene *other =
@@ -527,7 +513,7 @@ START_TEST(sines_keep_their_digits) {
   mpfr_init2(sine, DIGITS);
   double worst = 0;
   int compared = 0;
-  for (int k = 0; k < scaled_count(500); k++) {
+  for (int k = 0; k < test_count(500); k++) {
     const pair p = draw_pair(class, &r);
     hr2d_scene *scene = scene_of_pair(p);
     if (!scene) continue;
@@ -560,11 +546,10 @@ START_TEST(sines_keep_their_digits) {
 END_TEST
 
 static hr2d_scene *scene_of(const hr2d_patch *patch, size_t count) {
-  hr2d_scene *scene = NULL;
-  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  hr2d_scene *scene = test_new_scene(NULL);
   for (size_t k = 0; k < count; k++)
     ck_assert_int_eq(hr2d_scene_add(scene, &patch[k], NULL), HR2D_OK);
-  ck_assert_msg(hr2d_scene_commit(scene) == HR2D_OK, "%s", hr2d_scene_message(scene));
+  test_commit(scene);
   return scene;
 }
 
@@ -685,17 +670,11 @@ static const char *const open_scenes[] = {"street-canyon.geojson", "solar-panels
                                           "castel-del-monte.geojson", "occluders-200.geojson"};
 
 START_TEST(examples_are_seen_by_rays) {
-  const char *folder = getenv("HR2D_SCENES");
-  char path[4096];
-  hr2d_scene *scene = NULL;
   randoms r = randoms_stream(test_seed(), 1200);
-  snprintf(path, sizeof path, "%s/%s", folder ? folder : "examples/scenes", open_scenes[_i]);
-  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
-  ck_assert_msg(hr2d_scene_read(scene, path) == HR2D_OK, "%s", hr2d_scene_message(scene));
-  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  hr2d_scene *scene = test_shipped_scene(open_scenes[_i]);
   hr2di_viewer *viewer = viewer_of(scene);
   double worst = 0, sky = 0, back = 0;
-  for (int k = 0; k < scaled_count(200); k++) {
+  for (int k = 0; k < test_count(200); k++) {
     const size_t patch = (size_t)(random_bits(&r) % hr2d_scene_patches(scene));
     const double t = random_unit(&r);
     const hr2di_view_from seen = look(viewer, patch, t);
@@ -740,30 +719,12 @@ START_TEST(allocations_fail_one_by_one) {
 }
 END_TEST
 
-int main(void) {
-  printf("seed %lu\n", test_seed());
-  fflush(stdout);
-  Suite *suite = suite_create("point view");
-  TCase *tc = tcase_create("rays");
-  tcase_add_loop_test(tc, rays_see_the_same, 0, plan_class_count);
-  tcase_add_loop_test(tc, a_missing_patch_is_noticed, 0, plan_class_count);
-  tcase_add_loop_test(tc, examples_are_seen_by_rays, 0, 4);
-  suite_add_tcase(suite, tc);
-  tc = tcase_create("sums");
-  tcase_add_loop_test(tc, rooms_are_closed, 0, plan_class_count);
-  tcase_add_loop_test(tc, views_integrate_to_exchange_areas, 0, plan_class_count);
-  tcase_add_loop_test(tc, sines_keep_their_digits, 0, pair_class_count);
-  suite_add_tcase(suite, tc);
-  tc = tcase_create("closed forms");
-  tcase_add_test(tc, corners);
-  tcase_add_test(tc, fans);
-  tcase_add_test(tc, feet);
-  tcase_add_test(tc, things_overhead);
-  tcase_add_test(tc, parts_are_where_rays_end);
-  suite_add_tcase(suite, tc);
-  tc = tcase_create("calls");
-  tcase_add_test(tc, forced_occlusion_changes_no_bit);
-  tcase_add_loop_test(tc, allocations_fail_one_by_one, 0, 2);
-  suite_add_tcase(suite, tc);
-  return test_run(suite);
+TEST_SUITE("point view") {
+  REPEAT_TESTS(plan_class_count, "rays", rays_see_the_same, a_missing_patch_is_noticed);
+  REPEAT_TESTS(4, "rays", examples_are_seen_by_rays);
+  REPEAT_TESTS(plan_class_count, "sums", rooms_are_closed, views_integrate_to_exchange_areas);
+  REPEAT_TESTS(pair_class_count, "sums", sines_keep_their_digits);
+  ADD_TESTS("closed forms", corners, fans, feet, things_overhead, parts_are_where_rays_end);
+  ADD_TESTS("calls", forced_occlusion_changes_no_bit);
+  REPEAT_TESTS(2, "calls", allocations_fail_one_by_one);
 }
