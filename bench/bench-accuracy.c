@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "accuracy/graded-solve.h"
+#include "base/clock.h"
 #include "dense.h"
 #include "many.h"
 #include "plain.h"
@@ -48,9 +49,9 @@ static double time_solve_to(const radiosity_scene *known, double target_error, i
     hr2d_target target = HR2D_TARGET_INIT;
     hr2d_solution *solution = NULL;
     target.error = target_error;
-    const double start = seconds_now();
+    const double start = hr2di_clock_now();
     const hr2d_status status = hr2d_solve_to(scene, &target, &solution, account);
-    time[k] = seconds_now() - start;
+    time[k] = hr2di_clock_now() - start;
     if (!solution) die("hr2d_solve_to", status);
     *error = radiosity_average_error(known, solution);
     hr2d_solution_destroy(solution);
@@ -71,12 +72,12 @@ static double time_paper(const radiosity_scene *known, double epsilon, int closu
   refine.epsilon = epsilon;
   solve.closure = closure;
   solve.tolerance = 1e-7;
-  const double start = seconds_now();
+  const double start = hr2di_clock_now();
   hr2d_status status = hr2d_hierarchy_create(scene, &hierarchy);
   if (!status) status = hr2d_linkset_create(hierarchy, NULL, NULL, NULL, NULL, &set);
   if (!status) status = hr2d_refine(set, &refine);
   if (!status) status = hr2d_solve(set, &solve, &solution);
-  const double seconds = seconds_now() - start;
+  const double seconds = hr2di_clock_now() - start;
   if (status) die("the paper's algorithm", status);
   *error = radiosity_average_error(known, solution);
   *links = hr2d_linkset_size(set);
@@ -188,11 +189,11 @@ static void print_order(const radiosity_scene *known, unsigned order) {
     const hr2d_target target = HR2D_TARGET_INIT;
     hr2di_graded answer = {0};
     hr2di_message message = {0};
-    const double start = seconds_now();
+    const double start = hr2di_clock_now();
     hr2d_status status =
         hr2di_graded_refine(&answer, scene, NULL, &fineness, &target, &message);
     if (!status) status = hr2di_graded_solve(&answer, &target, &message);
-    time[k] = seconds_now() - start;
+    time[k] = hr2di_clock_now() - start;
     if (status) die(known->name, status);
     error = radiosity_average_error(known, answer.solution);
     unknowns = (double)(order * hr2d_hierarchy_count(answer.hierarchy).leaves);
@@ -225,9 +226,9 @@ static void print_predictions(void) {
       hr2d_account account;
       double error;
       target.error = target_error;
-      const double start = seconds_now();
+      const double start = hr2di_clock_now();
       const hr2d_status status = hr2d_predict(scene, &target, &prediction);
-      const double telling = seconds_now() - start;
+      const double telling = hr2di_clock_now() - start;
       if (status) die("hr2d_predict", status);
       hr2d_scene_destroy(scene);
       const double taken = time_solve_to(&scenes.scene[k], target_error, FEW, &error, &account);
@@ -245,26 +246,26 @@ static void print_predictions(void) {
 
 static hr2d_status stop_late(void *ctx, const hr2d_progress *progress) {
   (void)progress;
-  return seconds_now() > *(const double *)ctx ? HR2D_STOPPED : HR2D_OK;
+  return hr2di_clock_now() > *(const double *)ctx ? HR2D_STOPPED : HR2D_OK;
 }
 
 /* 0 if it took longer than the limit. */
 static int print_many(const many_kind *kind, size_t patches, double target_error,
                       double limit) {
-  const double start = seconds_now();
+  const double start = hr2di_clock_now();
   hr2d_scene *scene = kind->make(patches);
-  const double made = seconds_now() - start;
+  const double made = hr2di_clock_now() - start;
   if (!scene) die(kind->name, HR2D_ESCENE);
   hr2d_target target = HR2D_TARGET_INIT;
   hr2d_solution *solution = NULL;
   hr2d_account account = {0};
-  const double begin = seconds_now();
+  const double begin = hr2di_clock_now();
   double end = begin + limit;
   target.error = target_error;
   target.progress = stop_late;
   target.progress_ctx = &end;
   const hr2d_status status = hr2d_solve_to(scene, &target, &solution, &account);
-  const double seconds = seconds_now() - begin;
+  const double seconds = hr2di_clock_now() - begin;
   printf("  %-20s%8zu%8.0e%10llu%12llu%8.1f%10.0f%10.0f%10.1e%10.1e  %s %s\n", kind->name,
          hr2d_scene_patches(scene), target_error, (unsigned long long)account.leaves,
          (unsigned long long)account.links,

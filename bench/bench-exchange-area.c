@@ -8,9 +8,10 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "geometry/exchange-area.h"
+#include "timing.h"
 
 enum { ELEMENTS = 256, PAIRS = 16384, METHODS = 3, MAX_ROUNDS = 101 };
 
@@ -94,32 +95,19 @@ static void draw_pairs(int facing) {
   }
 }
 
-static int ascending(const void *x, const void *y) {
-  const double a = *(const double *)x, b = *(const double *)y;
-  return (a > b) - (a < b);
-}
-
-static double now(void) {
-  struct timespec t;
-  timespec_get(&t, TIME_UTC);
-  return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
-}
-
 static void measure(const char *what, int rounds) {
   static void (*const run[METHODS])(void) = {by_strings, one_by_one, batched};
   enum { REPEAT = 8 };
   double ns[METHODS][MAX_ROUNDS];
   for (int round = -1; round < rounds; round++)
     for (int m = 0; m < METHODS; m++) {
-      const double start = now();
+      const double start = hr2di_clock_now();
       for (int k = 0; k < REPEAT; k++) run[m]();
-      if (round >= 0) ns[m][round] = (now() - start) / (REPEAT * (double)PAIRS);
+      if (round >= 0)
+        ns[m][round] = 1e9 * (hr2di_clock_now() - start) / (REPEAT * (double)PAIRS);
     }
   double median[METHODS];
-  for (int m = 0; m < METHODS; m++) {
-    qsort(ns[m], (size_t)rounds, sizeof ns[m][0], ascending);
-    median[m] = ns[m][rounds / 2];
-  }
+  for (int m = 0; m < METHODS; m++) median[m] = median_of(ns[m], rounds);
   printf("%-22s %8.1f %8.1f %8.1f %10.2f %8.2f\n", what, median[0], median[1], median[2],
          median[1] / median[0], median[2] / median[0]);
 }

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/clock.h"
 #include "oracle/l1.h"
 #include "timing.h"
 
@@ -96,16 +97,16 @@ static void compare_pairs(const char *name, int level, hr2d_segment i, hr2d_segm
   draw(p, level, &i, &j);
   double ours[ROUNDS], theirs[ROUNDS], off = 0;
   for (int round = 0; round < ROUNDS; round++) {
-    double value[PAIRS] = {0}, start = seconds_now();
+    double value[PAIRS] = {0}, start = hr2di_clock_now();
     for (int m = 0; m < 20; m++)
       for (int k = 0; k < PAIRS; k++) value[k] = hr2di_l1(&p[k].i, &p[k].j);
-    ours[round] = (seconds_now() - start) / 20 / PAIRS;
-    start = seconds_now();
+    ours[round] = (hr2di_clock_now() - start) / 20 / PAIRS;
+    start = hr2di_clock_now();
     for (int k = 0; k < PAIRS; k++) {
       const double expected = nested_l1(&p[k].i, &p[k].j);
       off = fmax(off, fabs(value[k] / expected - 1));
     }
-    theirs[round] = (seconds_now() - start) / PAIRS;
+    theirs[round] = (hr2di_clock_now() - start) / PAIRS;
   }
   const double fast = median_of(ours, ROUNDS), slow = median_of(theirs, ROUNDS);
   printf("%-10s level %d: %6.2f us a pair, nested QAG at 1e-8 %8.1f us: %6.0f times; within "
@@ -128,9 +129,9 @@ static double refine(const hr2d_oracle *oracle, double epsilon, hr2d_refine_coun
       hr2d_scene_commit(scene) || hr2d_hierarchy_create(scene, &hierarchy) ||
       hr2d_linkset_create(hierarchy, oracle, NULL, NULL, NULL, &links))
     exit(EXIT_FAILURE);
-  const double start = seconds_now();
+  const double start = hr2di_clock_now();
   if (hr2d_refine_count(links, &options, counts)) exit(EXIT_FAILURE);
-  const double seconds = seconds_now() - start;
+  const double seconds = hr2di_clock_now() - start;
   hr2d_linkset_destroy(links);
   hr2d_hierarchy_destroy(hierarchy);
   hr2d_scene_destroy(scene);

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "plain.h"
 #include "timing.h"
 
@@ -19,7 +20,7 @@ enum { ROUNDS = 7 };
 
 static double run_library(hr2d_scene *scene, double epsilon, int stored, uint64_t *links,
                           double *bytes) {
-  const double start = seconds_now();
+  const double start = hr2di_clock_now();
   hr2d_hierarchy *hierarchy = NULL;
   hr2d_linkset *set = NULL;
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
@@ -29,7 +30,7 @@ static double run_library(hr2d_scene *scene, double epsilon, int stored, uint64_
       hr2d_linkset_create(hierarchy, NULL, NULL, NULL, NULL, &set) ||
       (stored ? hr2d_refine(set, &options) : hr2d_refine_count(set, &options, &counts)))
     exit(EXIT_FAILURE);
-  const double seconds = seconds_now() - start;
+  const double seconds = hr2di_clock_now() - start;
   *links = stored ? hr2d_linkset_size(set) : counts.links;
   *bytes = (double)hr2d_linkset_bytes(set) / (double)*links;
   hr2d_linkset_destroy(set);
@@ -48,9 +49,9 @@ static double run_sweeps(hr2d_scene *scene, double epsilon, uint64_t *links) {
       hr2d_linkset_create(hierarchy, NULL, NULL, NULL, NULL, &set) ||
       hr2d_refine(set, &options))
     exit(EXIT_FAILURE);
-  const double start = seconds_now();
+  const double start = hr2di_clock_now();
   if (hr2d_solve(set, NULL, &solution)) exit(EXIT_FAILURE);
-  const double seconds = seconds_now() - start;
+  const double seconds = hr2di_clock_now() - start;
   *links = hr2d_linkset_size(set) * hr2d_solution_work(solution).gathers;
   hr2d_solution_destroy(solution);
   hr2d_linkset_destroy(set);

@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
+#include "support/plane.h"
 #include "timing.h"
 
 enum { MOST_ROUNDS = 15, BLOCKERS = 16, SIZES = 5 };
@@ -202,11 +204,6 @@ static hr2d_scene *scene_of(void (*draw)(plan *, int), int n, int forced) {
   return scene;
 }
 
-static double distance(hr2d_point a, hr2d_point b) {
-  const double x = a.x - b.x, y = a.y - b.y;
-  return sqrt(x * x + y * y);
-}
-
 /* Half of the matrix is enough for a comparison.  As gcc -O2 compiles it, without vectors. */
 #if defined __GNUC__ && !defined __clang__
 __attribute__((optimize("O2", "no-tree-vectorize")))
@@ -215,8 +212,9 @@ static void
 fill_strings(const hr2d_segment *s, size_t n, double *area) {
   for (size_t i = 0; i < n; i++)
     for (size_t j = i + 1; j < n; j++)
-      area[i * n + j] = 0.5 * ((distance(s[i].a, s[j].a) + distance(s[i].b, s[j].b)) -
-                               (distance(s[i].a, s[j].b) + distance(s[i].b, s[j].a)));
+      area[i * n + j] =
+          0.5 * ((plane_distance(s[i].a, s[j].a) + plane_distance(s[i].b, s[j].b)) -
+                 (plane_distance(s[i].a, s[j].b) + plane_distance(s[i].b, s[j].a)));
 }
 
 static double worst_row(const hr2d_scene *scene, const double *area) {
@@ -247,12 +245,12 @@ static measured measure_matrix(void (*draw)(plan *, int), int n) {
   double strings[MOST_ROUNDS], exact[MOST_ROUNDS];
   measured m = {0};
   for (int k = -1; k < rounds; k++) {
-    double start = seconds_now();
+    double start = hr2di_clock_now();
     fill_strings(segment, patches, area);
-    if (k >= 0) strings[k] = seconds_now() - start;
-    start = seconds_now();
+    if (k >= 0) strings[k] = hr2di_clock_now() - start;
+    start = hr2di_clock_now();
     if (hr2d_exchange_matrix(scene, NULL, area, &m.counts)) fail("no matrix");
-    if (k >= 0) exact[k] = seconds_now() - start;
+    if (k >= 0) exact[k] = hr2di_clock_now() - start;
   }
   m.row = worst_row(scene, area);
   m.seconds = median_of(exact, rounds);
@@ -320,17 +318,17 @@ static void refine(hr2d_scene *scene, double epsilon, refined *r) {
   if (hr2d_hierarchy_create(scene, &hierarchy) ||
       hr2d_linkset_create(hierarchy, NULL, NULL, NULL, NULL, &set))
     fail("no link set");
-  double start = seconds_now();
+  double start = hr2di_clock_now();
   options.epsilon = 1e9;
   options.max_level = 12;
   if (hr2d_refine(set, &options)) fail(hr2d_linkset_message(set));
-  r->roots = seconds_now() - start;
+  r->roots = hr2di_clock_now() - start;
   r->pairs = n * (n - 1) / 2;
   const hr2d_refine_counts roots = hr2d_linkset_counts(set);
-  start = seconds_now();
+  start = hr2di_clock_now();
   options.epsilon = epsilon;
   if (hr2d_refine(set, &options)) fail(hr2d_linkset_message(set));
-  r->links = seconds_now() - start;
+  r->links = hr2di_clock_now() - start;
   const hr2d_refine_counts all = hr2d_linkset_counts(set);
   r->root_links = roots.links;
   r->made = all.exchange_areas - roots.exchange_areas;

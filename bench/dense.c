@@ -5,7 +5,7 @@
 #include <hr2d/geometry.h>
 #include <stdlib.h>
 
-#include "timing.h"
+#include "base/clock.h"
 
 int dense_has(dense_solver solver) {
 #ifdef BENCH_LAPACK
@@ -87,16 +87,16 @@ int dense_radiosity(const hr2d_scene *scene, size_t elements, dense_solver solve
   double *matrix = malloc(size * size * sizeof *matrix), *b = malloc(size * sizeof *b);
   int failed = !matrix || !b || !dense_has(solver);
   if (!failed) {
-    const double start = seconds_now();
+    const double start = hr2di_clock_now();
     fill(scene, elements, solver == DENSE_LAPACK, matrix, b);
-    const double filled = seconds_now();
+    const double filled = hr2di_clock_now();
 #ifdef BENCH_LAPACK
     failed =
         solver == DENSE_LAPACK ? solve_lapack(matrix, b, size) : solve_gsl(matrix, b, size);
 #else
     failed = solve_gsl(matrix, b, size);
 #endif
-    *times = (dense_times){filled - start, seconds_now() - filled};
+    *times = (dense_times){filled - start, hr2di_clock_now() - filled};
   }
   for (size_t k = 0; k < patches && !failed; k++) {
     average[k] = 0;

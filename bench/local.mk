@@ -14,7 +14,8 @@ bench_bench_l1_CPPFLAGS = $(AM_CPPFLAGS)
 bench_bench_l1_LDADD = libhr2d-core.la $(GSL_LIBS) $(OPENMP_CFLAGS) -lm
 bench_bench_accuracy_SOURCES = bench/bench-accuracy.c bench/dense.c bench/dense.h bench/many.c \
 	bench/many.h bench/plain.c bench/plain.h bench/timing.h \
-	tests/support/radiosity-scenes.c tests/support/radiosity-scenes.h
+	tests/support/radiosity-scenes.c tests/support/radiosity-scenes.h \
+	tests/support/random.c tests/support/random.h
 bench_bench_accuracy_CPPFLAGS = $(AM_CPPFLAGS) $(LAPACK_CFLAGS) \
 	-DBENCH_DATA='"$(abs_top_srcdir)/tests/data/reference"'
 bench_bench_accuracy_LDADD = libhr2d-core.la $(LAPACK_LIBS) $(GSL_LIBS) $(OPENMP_CFLAGS) -lm

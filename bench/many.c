@@ -2,8 +2,9 @@
 #include "many.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
+
+#include "support/random.h"
 
 #define PI 3.14159265358979323846
 
@@ -76,25 +77,18 @@ static hr2d_scene *make_squares(size_t patches) {
   return commit(scene, status);
 }
 
-/* SplitMix64. */
-static double draw(uint64_t *state) {
-  uint64_t z = *state += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
 /* Two-sided walls in a square room, each anywhere in its own cell. */
 static hr2d_scene *make_walls(size_t patches) {
   const size_t walls = (patches - 4) / 2, side = side_of(walls);
   const double cell = 1 / (double)side;
-  uint64_t state = 20240229;
+  randoms state = {20240229};
   hr2d_scene *scene = NULL;
   if (hr2d_scene_create(NULL, &scene)) return NULL;
   hr2d_status status = add_box(scene, 0, 0, 1, 0, 1);
   for (size_t k = 0; k < walls && !status; k++) {
     const double x = cell * (double)(k % side), y = cell * (double)(k / side);
-    const double u[] = {draw(&state), draw(&state), draw(&state), draw(&state)};
+    const double u[] = {random_unit(&state), random_unit(&state), random_unit(&state),
+                        random_unit(&state)};
     const hr2d_point a = {x + cell * (0.05 + 0.9 * u[0]), y + cell * (0.05 + 0.9 * u[1])};
     const hr2d_point b = {x + cell * (0.05 + 0.9 * u[2]), y + cell * (0.05 + 0.9 * u[3])};
     status = add(scene, a, b, 0, HR2D_SIDES_BOTH);

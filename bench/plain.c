@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "timing.h"
+#include "base/clock.h"
 
 typedef struct node {
   double ax, ay, bx, by, length;
@@ -72,7 +72,7 @@ static void project(plain *p, uint32_t i, uint32_t j) {
 }
 
 double plain_run(double distance, double epsilon, int stored, uint64_t *links) {
-  const double start = seconds_now();
+  const double start = hr2di_clock_now();
   plain p = {.node_capacity = 1024, .link_capacity = 1024, .epsilon2 = epsilon * epsilon};
   p.store = stored;
   p.node = malloc(p.node_capacity * sizeof *p.node);
@@ -81,7 +81,7 @@ double plain_run(double distance, double epsilon, int stored, uint64_t *links) {
   p.node[1] = (node){1, distance, 0, distance, 1, 0};
   p.nodes = 2;
   project(&p, 0, 1);
-  const double seconds = seconds_now() - start;
+  const double seconds = hr2di_clock_now() - start;
   *links = p.links;
   free(p.node);
   free(p.link);
@@ -100,7 +100,7 @@ static uint64_t count_in_registers(double xi, double ai, double xj, double aj, d
 }
 
 double plain_count(double distance, double epsilon, uint64_t *links) {
-  const double start = seconds_now();
+  const double start = hr2di_clock_now();
   *links = count_in_registers(0.5, 1, 0.5, 1, distance * distance, epsilon * epsilon);
-  return seconds_now() - start;
+  return hr2di_clock_now() - start;
 }

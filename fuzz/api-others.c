@@ -20,10 +20,6 @@ void api_matrix(api_run *r, api_slot *s) {
   free(area);
 }
 
-static int same_bits(double x, double y) {
-  return memcmp(&x, &y, sizeof x) == 0;
-}
-
 /* Two patches and some of the others in their way. */
 void api_occluded(api_run *r, api_slot *s) {
   hr2d_segment other[8];
@@ -43,9 +39,9 @@ void api_occluded(api_run *r, api_slot *s) {
   REQUIRE(hr2d_exchange_area_occluded(&j, &i, other, count, &hooks, &swapped) == status);
   if (status) return;
   const double all = hr2d_exchange_area(&i, &j);
-  REQUIRE(isfinite(one) && one >= 0 && same_bits(one, swapped));
+  REQUIRE(isfinite(one) && one >= 0 && fuzz_same_bits(one, swapped));
   REQUIRE(one <= all * (1 + 1e-12));
-  if (!count) REQUIRE(same_bits(one, all));
+  if (!count) REQUIRE(fuzz_same_bits(one, all));
 }
 
 void api_study(api_run *r, api_slot *s) {

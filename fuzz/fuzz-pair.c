@@ -22,10 +22,6 @@ typedef struct pair {
   hr2d_segment i, j;
 } pair;
 
-static int same_bits(double x, double y) {
-  return memcmp(&x, &y, sizeof x) == 0;
-}
-
 static double length(hr2d_segment s) {
   return hypot(s.b.x - s.a.x, s.b.y - s.a.y);
 }
@@ -106,11 +102,11 @@ static void check_area(const pair *p, int exponent) {
   int least, most;
   exponents(&p->i.a.x, 8, &least, &most);
   const double area = area_of(*p), shorter = fmin(length(p->i), length(p->j));
-  REQUIRE(same_bits(area, area_of((pair){p->j, p->i})));
+  REQUIRE(fuzz_same_bits(area, area_of((pair){p->j, p->i})));
   REQUIRE(isfinite(area) && area >= 0);
   REQUIRE(area <= shorter * (1 + 1e-14) + DBL_TRUE_MIN);
   const double by_quarter = area_of((pair){turned(p->i), turned(p->j)});
-  if (-PLAIN < least && most < PLAIN) REQUIRE(same_bits(area, by_quarter));
+  if (-PLAIN < least && most < PLAIN) REQUIRE(fuzz_same_bits(area, by_quarter));
   if (most - least >= MOST_SCALES) return;
   REQUIRE(fabs(by_quarter - area) <= 2 * AREA_BOUND * fmax(area, DBL_MIN) + 4 * DBL_TRUE_MIN);
   const double other = area_of((pair){mirrored(p->i), mirrored(p->j)});
@@ -124,7 +120,7 @@ static void check_kernel(const pair *p) {
   for (int k = 0; k < 4; k++) {
     const double g = hr2d_kernel(&p->i, x[k & 1], &p->j, y[k >> 1]);
     REQUIRE(g >= 0);
-    REQUIRE(same_bits(g, hr2d_kernel(&p->j, y[k >> 1], &p->i, x[k & 1])));
+    REQUIRE(fuzz_same_bits(g, hr2d_kernel(&p->j, y[k >> 1], &p->i, x[k & 1])));
   }
 }
 
@@ -151,7 +147,7 @@ static void check_occluded(const pair *p, const hr2d_segment *other, size_t coun
     REQUIRE(status == HR2D_ERANGE && count > 0);
     return;
   }
-  REQUIRE(same_bits(one, swapped));
+  REQUIRE(fuzz_same_bits(one, swapped));
   /* Coordinates are divided by the largest, and exchange areas may be denormal then. */
   int least, most;
   exponents(&p->i.a.x, 8, &least, &most);
@@ -167,7 +163,7 @@ static void check_occluded(const pair *p, const hr2d_segment *other, size_t coun
     fuzz_fail(__FILE__, __LINE__, "0 <= AF <= AF without occluders", text);
   }
   REQUIRE(hr2d_exchange_area_occluded(&p->i, &p->j, NULL, 0, &hooks, &fewer) == HR2D_OK);
-  REQUIRE(same_bits(fewer, all));
+  REQUIRE(fuzz_same_bits(fewer, all));
 }
 
 /* Where lengths and their squares exist. */

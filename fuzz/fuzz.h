@@ -7,6 +7,7 @@
 #include <hr2d/hr2d.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 /* The harness itself, as libFuzzer calls it. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -36,6 +37,10 @@ uint64_t fuzz_word(fuzz_input *in);
 double fuzz_raw(fuzz_input *in);    /* any double, by its bits */
 double fuzz_finite(fuzz_input *in); /* the same, but 0 for what is not finite */
 double fuzz_unit(fuzz_input *in);   /* [0,1], its ends among the likely values */
+
+static inline int fuzz_same_bits(double x, double y) {
+  return memcmp(&x, &y, sizeof x) == 0;
+}
 
 /* A mixing function, for decisions that depend on nothing else than their arguments. */
 uint64_t fuzz_hash(uint64_t x);
