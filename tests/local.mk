@@ -110,8 +110,10 @@ check-local:
 	@echo "make check needs Check and MPFR; configure did not find them" >&2; exit 1
 endif
 
-# A test may take 600 s before Check ends it, on a busy machine too.
+# A tenth of the random cases; `make check-long` runs all of them.  A test may take 600 s before
+# Check ends it, on a busy machine too.
 AM_TESTS_ENVIRONMENT = \
+	HR2D_TEST_MULTIPLIER="$${HR2D_TEST_MULTIPLIER-0.1}"; export HR2D_TEST_MULTIPLIER; \
 	LSAN_OPTIONS='suppressions=$(abs_top_srcdir)/tests/lsan.supp:print_suppressions=0'; \
 	export LSAN_OPTIONS; \
 	CK_DEFAULT_TIMEOUT="$${CK_DEFAULT_TIMEOUT-600}"; export CK_DEFAULT_TIMEOUT; \
@@ -123,9 +125,14 @@ AM_TESTS_ENVIRONMENT = \
 	HR2D_EXAMPLES='$(EXAMPLES)'; export HR2D_EXAMPLES; \
 	CC='$(CC)'; export CC; CXX='$(CXX)'; export CXX; NM='$(NM)'; export NM;
 
+check-long:
+	HR2D_TEST_MULTIPLIER="$${HR2D_TEST_MULTIPLIER-1}" $(MAKE) check
+.PHONY: check-long
+
 # Check programs alone, unforked and in one thread: libgomp's threads show as leaks.
 # Without the suites that take too long: the sanitizers run these.
-TOO_LONG = tests/unit/accuracy/check-accuracy tests/unit/blocks/check-blocks \
+TOO_LONG = tests/unit/accuracy/check-known-radiosities \
+	tests/unit/accuracy/check-target-calls tests/unit/blocks/check-blocks \
 	tests/unit/clusters/check-clusters tests/unit/refine/check-occlusion \
 	tests/paper/check-theorem tests/faults/check-faults-accuracy \
 	tests/faults/check-faults-callbacks
@@ -147,7 +154,8 @@ hard-cases: $(HARD)
 	@rm -f hard-cases.md
 	@for suite in $(HARD); do \
 	  $(AM_TESTS_ENVIRONMENT) \
-	  HR2D_HARD_CASES='$(abs_top_builddir)/hard-cases.md' CK_FORK=no ./$$suite >&2 || exit; \
+	  HR2D_TEST_MULTIPLIER=1 HR2D_HARD_CASES='$(abs_top_builddir)/hard-cases.md' CK_FORK=no \
+	    ./$$suite >&2 || exit; \
 	done
 	@cat hard-cases.md
 .PHONY: hard-cases

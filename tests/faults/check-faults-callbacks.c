@@ -288,8 +288,10 @@ static const hr2d_status sayings[] = {HR2D_STOPPED,    HR2D_ENOMEM,        HR2D_
                                       HR2D_EACCURACY,  (hr2d_status)99,    (hr2d_status)-1};
 enum { SAYINGS = sizeof sayings / sizeof *sayings };
 
-/* Stops at calls at equal distances, and says everything in the middle. */
+/* Stops at calls at equal distances, and says everything in the middle: each time all of it, or
+   for short one part of six after the other. */
 static void disturb_everywhere(const act *a, puppet *who, const char *kind) {
+  static int part = 0;
   const uint64_t usual = undisturbed(a, NULL, (puppet){0});
   const long calls = a->sure && a->sure < who->calls ? a->sure : who->calls;
   const double multiplier = test_multiplier(),
@@ -299,7 +301,8 @@ static void disturb_everywhere(const act *a, puppet *who, const char *kind) {
   for (double at = 0; at < (double)calls; at += step)
     disturb(a, who, (long)at, HR2D_STOPPED, usual);
   disturb(a, who, calls - 1, HR2D_STOPPED, usual);
-  for (int k = 0; k < SAYINGS; k += multiplier < 0.1 ? 6 : 1)
+  const int every = multiplier < 1 ? 6 : 1;
+  for (int k = part++ % every; k < SAYINGS; k += every)
     disturb(a, who, calls / 2, sayings[k], usual);
   printf("%-24s %5ld calls of %s\n", a->name, calls, kind);
   fflush(stdout);

@@ -577,7 +577,7 @@ END_TEST
 /* Footnote 3: (max(A)/r)² ≤ ε² where max(A)/r ≤ ε, so that nothing changes but ε. */
 START_TEST(squares_change_nothing) {
   for (int k = 0; k < 8; k++)
-    for (double epsilon = 4; epsilon > (test_multiplier() < 0.5 ? 0.05 : 0.005);
+    for (double epsilon = 4; epsilon > (test_multiplier() < 0.1 ? 0.05 : 0.005);
          epsilon *= 0.835) {
       const char *scene = four_scenes[k / 2];
       const hr2d_refine_counts plain = count(test_named_scene(scene), hr2d_oracle_size(), k % 2,
@@ -599,7 +599,7 @@ START_TEST(squares_change_nothing) {
 END_TEST
 
 START_TEST(multigridding_ends_where_one_step_does) {
-  const double finest = test_multiplier() < 0.5 ? 1. / 16 : 1. / 64;
+  const double finest = test_multiplier() < 0.1 ? 1. / 16 : 1. / 64;
   for (int k = 0; k < 8; k++) {
     const char *scene = four_scenes[k / 2];
     test_links t = test_make_links(test_named_scene(scene), NULL, NULL, variant(k % 2), NULL);
@@ -652,7 +652,7 @@ END_TEST
 START_TEST(every_transport_is_accounted_for_once) {
   const hr2d_oracle *const oracle[] = {hr2d_oracle_size(), hr2d_oracle_size2(),
                                        hr2d_oracle_bf()};
-  const double finest = test_multiplier() < 0.5 ? 0.1 : 0.01;
+  const double finest = test_multiplier() < 0.1 ? 0.1 : 0.01;
   uint64_t links = 0;
   for (int k = 0; k < 3 * 8; k++)
     for (double epsilon = 4; epsilon > finest; epsilon *= 0.61) {

@@ -94,19 +94,25 @@ static void climb(const hill *h, randoms *r, int steps, summit *top) {
   }
 }
 
-summit hill_climb(const hill *h, hill_effort effort, int stream) {
+/* Without the multiplier. */
+static summit search(const hill *h, hill_effort effort, int stream) {
   summit top = {0};
   ck_assert_uint_le(h->count, HILL_MOST);
   ck_assert_uint_le(2 * h->points, h->count);
   randoms r = randoms_stream(test_seed(), 7000 + stream);
-  for (int k = test_count(effort.draws); k > 0; k--) {
+  for (int k = 0; k < effort.draws; k++) {
     double x[HILL_MOST] = {0};
     h->draw(h->ctx, &r, x);
     look(h, x, &top);
   }
-  for (int k = effort.climbs ? test_count(effort.climbs) : 0; k > 0; k--)
-    climb(h, &r, effort.steps, &top);
+  for (int k = 0; k < effort.climbs; k++) climb(h, &r, effort.steps, &top);
   return top;
+}
+
+summit hill_climb(const hill *h, hill_effort effort, int stream) {
+  effort.draws = test_count(effort.draws);
+  if (effort.climbs) effort.climbs = test_count(effort.climbs);
+  return search(h, effort, stream);
 }
 
 void hill_assert(const hill *h, const summit *top, double bound) {
@@ -122,4 +128,9 @@ void hill_assert(const hill *h, const summit *top, double bound) {
 void hill_hold(const hill *h, hill_effort effort, int stream, double bound) {
   const summit top = hill_climb(h, effort, stream);
   hill_assert(h, &top, bound);
+}
+
+void hill_exceed(const hill *h, hill_effort effort, int stream, double least) {
+  const summit top = search(h, effort, stream);
+  ck_assert_msg(top.error >= least, "%s: %g is below %g", h->name, top.error, least);
 }

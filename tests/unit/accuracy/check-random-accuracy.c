@@ -136,6 +136,7 @@ START_TEST(averages_of_random_scenes) {
     hr2d_solution_destroy(solution);
     end_trial(&t);
   }
+  printf("%d of %d estimates are close\n", all.close, all.compared);
   ck_assert_msg(accuracy_is_fair(&all), "HR2D_TEST_SEED=%llu: %d of %d",
                 (unsigned long long)seed, all.close, all.compared);
 }

@@ -427,7 +427,7 @@ static occluded_pair draw_clipped(randoms *r) {
 static void check_class(const char *name, occluded_pair (*draw)(randoms *), int pairs) {
   randoms r = randoms_stream(test_seed(), 0);
   tally t = {.name = name};
-  const int wanted = (int)ceil(pairs * test_multiplier());
+  const int wanted = test_count(pairs);
   for (int n = 0; n < wanted; n++) {
     const occluded_pair p = draw(&r);
     compare(&t, &p);
@@ -456,7 +456,8 @@ START_TEST(blocks_of_touching_pairs) {
   tally t = {.name = "touching"};
   size_t k = 0;
   for (double angle = 1e-3; angle < 3.1; angle = fmin(angle * 2.1, 0.5 * (angle + 3.14)), k++) {
-    if (test_multiplier() < 1 && k % 5) continue;
+    /* The reference takes seconds for pairs 0, 3 and 7. */
+    if (test_multiplier() < 1 && (k == 0 || k % 4 == 3)) continue;
     const occluded_pair p = touching(angle, ratio[k % 5], k & 1);
     compare(&t, &p);
   }
@@ -470,7 +471,7 @@ START_TEST(blocks_of_shaded_pairs) {
   for (int c = 0; c < occluded_class_count; c++) {
     randoms r = randoms_stream(test_seed() + 17, c);
     tally t = {.name = occluded_classes[c].name};
-    const int wanted = (int)ceil(4 * test_multiplier());
+    const int wanted = test_count(4);
     for (int n = 0; n < wanted; n++) {
       occluded_pair p;
       draw_occluded(&occluded_classes[c], &r, &p);

@@ -357,7 +357,7 @@ END_TEST
 START_TEST(links_grow_quadratically) {
   test_links t = test_make_links(test_named_scene("par0.1"), NULL, NULL, NULL, NULL);
   const double epsilon[] = {1. / 16, 1. / 32, 1. / 64, 1. / 128, 1. / 256, 1. / 512};
-  const size_t count = test_multiplier() < 0.5 ? 4 : 6;
+  const size_t count = test_multiplier() < 0.1 ? 4 : 6;
   hr2d_study_row rows[6];
   hr2d_study_fit fit;
   ck_assert_int_eq(hr2d_study_run(t.links, NULL, epsilon, count, rows, NULL), HR2D_OK);

@@ -448,7 +448,7 @@ END_TEST
 
 START_TEST(threads_leave_no_trace) {
   const char *scene[] = {"square_rho0.9", "occ_square_walls0.5_occ0.5", "square_rho0.9"};
-  const double epsilon[] = {0.3, 0.5, test_multiplier() < 1 ? 0.1 : 1. / 64};
+  const double epsilon[] = {0.3, 0.5, test_multiplier() < 0.1 ? 0.1 : 1. / 64};
   const unsigned order[] = {7, 3, 2};
   for (size_t k = 0; k < 3; k++) {
     hr2d_solution *solution[3];

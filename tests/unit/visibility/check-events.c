@@ -396,7 +396,7 @@ static hr2d_scene *draw(randoms *r, const plan_class *class, int size, int turne
 /* And if one of the events is taken away that shows, as a rule. */
 START_TEST(test_complete) {
   randoms r = randoms_stream(test_seed(), 100 + _i);
-  const int count = (int)ceil(12 * test_multiplier());
+  const int count = test_count(12);
   size_t all = 0, used = 0;
   for (int k = 0; k < count; k++) {
     hr2d_scene *scene = draw(&r, &plan_classes[_i], 2 + random_below(&r, 12), k % 2);
@@ -508,7 +508,7 @@ START_TEST(test_generations) {
   /* Walls along the axes, which stay straight where they are cut. */
   static const int upright[] = {5, 6, 8, 9, 10, 13};
   randoms r = randoms_stream(test_seed(), 200 + _i);
-  const int count = (int)ceil(5 * test_multiplier());
+  const int count = test_count(5);
   for (int k = 0; k < count; k++) {
     hr2d_scene *scene = draw(&r, &plan_classes[upright[_i]], 2 + random_below(&r, 5), 0);
     compare_generations(scene, plan_classes[upright[_i]].name);
