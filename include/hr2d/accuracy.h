@@ -153,7 +153,7 @@ typedef struct hr2d_prediction {
  * the blocks.
  *
  * On a machine at rest `seconds` is right within a factor of 2 for most scenes;
- * tests/unit/accuracy/check-accuracy.c has the list.
+ * tests/unit/accuracy/check-target-calls.c has the list.
  *
  * @param scene       committed
  * @param target      NULL for the defaults
