@@ -6,7 +6,7 @@
 #include "occlusion/walls.h"
 
 /* A walk with a stack leaves one box behind per level.  The number of walls is halved at
-   least every third level, see boxes.c. */
+   least every third level, see wall-tree.c. */
 enum { HR2DI_BOX_DEPTH = 100 };
 
 /* Fills walls->box, which has room; HR2D_OK or HR2D_ENOMEM. */
