@@ -355,7 +355,8 @@ START_TEST(claims_take_no_memory) {
   tape t = plates_tape();
   test_links links = make_plates(&hooks);
   hr2d_solution *solution = NULL;
-  const long long before = m.peak = m.held;
+  const long long before = m.held;
+  m.peak = before;
   /* 4·10⁹ elements, all solved for, and 2⁵⁷ links of 32 coefficients. */
   const uint64_t claim[] = {4000000000, UINT64_C(1) << 57, 4000000000, 32};
   for (size_t k = 0; k < 4; k++)
