@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What accuracy costs: hr2d_solve_to() beside the paper's algorithm, beside the dense matrix
-   and beside the plainest refinement; the orders; predictions; and many patches.
+/* Measures the cost of accuracy: hr2d_solve_to() against the paper's algorithm, the dense
+   matrix and the plainest refinement; the cost per order; the predictions; scenes of many
+   patches.
 
    bench_accuracy [--many [SECONDS]]: with --many also scenes of 100 to 10,000 patches, each
    with a time limit, 20 seconds unless given. */

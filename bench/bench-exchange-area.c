@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Nanoseconds per exchange area: one by one, in batches, and by the textbook's
-   crossed strings, which only hold digits where the pair is large and near.
+/* Measures nanoseconds per exchange area: one by one, in batches, and by the crossed strings of
+   textbooks, which keep their digits only for large and near pairs.
 
    Usage: bench_exchange_area [ROUNDS]; the median of interleaved rounds. */
 #include <hr2d/geometry.h>

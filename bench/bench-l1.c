@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the exact oracle costs: a pair beside nested adaptive quadrature, and a
-   refinement beside one with the size oracle. */
+/* Measures the cost of the exact oracle: a pair against nested adaptive quadrature, and a
+   refinement against one by the size oracle. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <hr2d/hr2d.h>

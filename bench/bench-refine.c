@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the public vtables cost beside the plainest recursion for the same work.
+/* Measures the cost of the public vtables against the plainest recursion that does the same
+   work.
 
    Both refine two unit patches at distance 0.1 with max(A)/r ≤ ε, original variant,
    in rounds that alternate; medians and their ratios are printed.  The recursion

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What exact occlusion costs: all exchange areas of a scene beside the textbook's crossed
-   strings, which see no occluder, and a link of a refinement as occluders grow in number.
+/* Measures the cost of exact occlusion: all exchange areas of a scene against crossed strings,
+   which ignore occluders, and a link of a refinement for a growing number of occluders.
 
    Usage: bench_visibility [matrix|links]; without a word, matrix and links.  Times are
    medians of rounds in which both sides of a ratio alternate.  Fails where a bar is missed. */
@@ -342,8 +342,8 @@ static double per_link(const refined *r) {
   return 1e9 * r->links / (double)r->made;
 }
 
-/* What the links cost beyond those of a convex room, by pair that has something in the way:
-   linked in part or blocked. */
+/* The extra cost over the links of a convex room, per pair with an occluder in its shaft: a
+   partial link or a blocked pair. */
 static double per_shaded(const refined *r, double cost, double convex) {
   const double shaded = (double)(r->partial + r->blocked);
   return shaded > 0 ? (cost - convex) * (double)r->made / shaded : 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Dense radiosity, to compare with: uniform elements, one exchange area for every two of them,
+/* Dense radiosity for comparison: uniform elements, one exchange area per pair of elements,
    and LU of the full matrix. */
 #ifndef HR2D_BENCH_DENSE_H
 #define HR2D_BENCH_DENSE_H

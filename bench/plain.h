@@ -6,11 +6,11 @@
 
 #include <stdint.h>
 
-/* Grows the trees, decides by A² ≤ ε²r² and, if `stored`, keeps what a link needs, with the
-   textbook's crossed strings.  Seconds. */
+/* Grows the trees and decides by A² ≤ ε²r²; if `stored`, it stores the data of each link,
+   with exchange areas by crossed strings.  Returns seconds. */
 double plain_run(double distance, double epsilon, int stored, uint64_t *links);
 
-/* The leanest of all: no trees, no N, nothing but two parallel lines in registers. */
+/* Counts links only: no trees and no N, two parallel lines in registers.  Returns seconds. */
 double plain_count(double distance, double epsilon, uint64_t *links);
 
 #endif

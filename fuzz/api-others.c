@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Exchange areas of a whole scene and around occluders, studies, and calls that make no
-   sense. */
+/* Calls of the API fuzzer: exchange areas of a scene and around occluders, studies, and
+   calls with invalid arguments. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Refining, counting and visiting: what each leaves behind, and that they agree. */
+/* Calls of the API fuzzer: refine, count and visit.  The three must agree, and each must
+   leave its objects in a valid state. */
 #include <math.h>
 #include <string.h>
 
@@ -42,7 +43,8 @@ static int is_budget(hr2d_status status) {
   return status == HR2D_EMAX_LINKS || status == HR2D_EMAX_ELEMENTS || status == HR2D_EMAX_BYTES;
 }
 
-/* What a refinement may return, memory and the callbacks being what they are. */
+/* Asserts that a refinement may return this status.  HR2D_ENOMEM is allowed if memory ran
+   out, and the statuses of callbacks if these misbehave on purpose. */
 static void check_status(const api_slot *s, hr2d_status status, int out_of_memory) {
   const int evil = s->owners > 0 && s->callbacks.evil;
   REQUIRE_SAYING(
@@ -81,7 +83,7 @@ void api_refine(api_run *r, api_slot *s) {
   fuzz_check_message(hr2d_linkset_message(s->links));
 }
 
-/* A hierarchy and a set of its own, like those of a slot. */
+/* A second hierarchy and link set, made in the same way as those of a slot. */
 typedef struct twin {
   hr2d_hierarchy *hierarchy;
   hr2d_linkset *links;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solving and reading solutions, to a target and without one. */
+/* Calls of the API fuzzer: solve, with and without a target, and read the solutions. */
 #include <math.h>
 
 #include "api.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The state of a run of fuzz_api and the calls it chooses from. */
+/* The state of a run of fuzz_api, and the calls from which it chooses. */
 #ifndef HR2D_FUZZ_API_H
 #define HR2D_FUZZ_API_H
 
@@ -41,7 +41,7 @@ int api_memory_is_back(api_run *r);
 
 hr2d_hierarchy *api_hierarchy(api_run *r, const api_slot *s);
 
-/* The sequences of calls, by what they work on. */
+/* The calls, grouped by the object on which they work. */
 void api_refine(api_run *r, api_slot *s);
 void api_compare(api_run *r, api_slot *s);
 void api_solve(api_run *r, api_slot *s);
@@ -52,7 +52,7 @@ void api_target(api_run *r, api_slot *s);
 void api_study(api_run *r, api_slot *s);
 void api_misuse(api_run *r, api_slot *s);
 
-/* Options within what a run can pay; the budgets are the input's. */
+/* Options that keep a run short; the input sets the budgets. */
 hr2d_refine_options api_refine_options(api_run *r, const api_slot *s);
 
 #endif

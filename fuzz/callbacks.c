@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A user's oracle and policy: answers drawn from the geometry of a pair. */
+/* An oracle and a policy of the user; the geometry of a pair determines their answers. */
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bytes as a sequence of calls: a scene, hierarchies and sets of links on it, solutions,
-   in any order that the headers allow and in some that they do not; any allocation may
-   fail. */
+/* Takes bytes as a sequence of calls on a scene, on hierarchies and link sets, and on
+   solutions, in any order that the headers allow and in some that they forbid.  Any
+   allocation may fail. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

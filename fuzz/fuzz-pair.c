@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Two segments, and more in their way, from lines as `hr2d pair` reads them and from the
-   bits of doubles: what is exchanged does not depend on which comes first, how long a unit
-   is and where the axes point. */
+/* Two segments with occluders, from lines as `hr2d pair` reads them and from the bits of
+   doubles.  Their exchange area must not depend on the order of the segments, on the unit of
+   length or on the direction of the axes. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
 /* Signs are exact for coordinates whose exponents differ by less than 900. */
 enum { MOST_OCCLUDERS = 6, MOST_SCALES = 900, PLAIN = 40 };
 
-/* Of one exchange area, as geometry.h has it, and of a sum of two. */
+/* The relative error of one exchange area, as geometry.h states it, and of a sum of two. */
 #define AREA_BOUND 4e-15
 #define SUM_BOUND  1.2e-14
 
@@ -132,8 +132,8 @@ static void check_orientation(hr2d_point a, hr2d_point b, hr2d_point c) {
   REQUIRE(hr2d_orientation(turned_point(a), turned_point(b), turned_point(c)) == side);
 }
 
-/* What is in the way takes something or nothing; what is not in a line's way takes nothing
-   of it. */
+/* Occluders reduce the exchange area or leave it as it is; without occluders it is the
+   unoccluded one, bit by bit. */
 static void check_occluded(const pair *p, const hr2d_segment *other, size_t count) {
   fuzz_memory memory = FUZZ_MEMORY_INIT;
   const hr2d_allocator hooks = fuzz_hooks(&memory);
@@ -175,7 +175,8 @@ static int is_moderate(const double *x, size_t count) {
   return most < 1000;
 }
 
-/* What is in the way is scaled with the pair, of which nothing may be left then. */
+/* Whether the scales of the pair and of the occluders are so close that scaling both does
+   not make the pair vanish. */
 static int is_like(const pair *p, const hr2d_segment *other, size_t count) {
   int least, most, others_least, others_most;
   exponents(&p->i.a.x, 8, &least, &most);
@@ -183,7 +184,7 @@ static int is_like(const pair *p, const hr2d_segment *other, size_t count) {
   return fmax(most, others_most) - fmin(least, others_least) < MOST_SCALES;
 }
 
-/* So that a finding can be told in numbers. */
+/* Prints the segments as numbers, to reproduce a finding. */
 static void tell(const pair *p, const hr2d_segment *other, size_t count, int exponent) {
   const hr2d_segment *s[] = {&p->i, &p->j};
   for (size_t k = 0; k < 2 + count; k++) {
@@ -235,7 +236,7 @@ static void check_text(const uint8_t *data, size_t size) {
   free(text);
 }
 
-/* Points are those of before, or moved by a bit, as often as new ones. */
+/* A point is as often new as it is an earlier point, taken as it is or moved by an ulp. */
 static hr2d_point next_point(fuzz_input *in, hr2d_point *known, size_t *count) {
   const unsigned how = fuzz_byte(in);
   hr2d_point p;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Any bytes as a scene file: what is refused leaves the scene as it was and says why, what
-   is taken can be committed, cut, refined and solved; memory stays in proportion. */
+/* Takes any bytes as a scene file.  A refused text leaves the scene unchanged and gives a
+   reason; an accepted one can be committed, split at crossings, refined and solved.  Memory
+   stays in proportion to the file. */
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the harnesses share: bytes read as choices and numbers, memory that is counted and
-   runs out, and what must be true of every result. */
+/* Shared by the harnesses: bytes read as choices and numbers, memory that is counted and
+   runs out, and invariants of every result. */
 #ifndef HR2D_FUZZ_FUZZ_H
 #define HR2D_FUZZ_FUZZ_H
 
@@ -35,7 +35,7 @@ unsigned fuzz_byte(fuzz_input *in);
 unsigned fuzz_below(fuzz_input *in, unsigned n); /* n ≤ 256 */
 uint64_t fuzz_word(fuzz_input *in);
 double fuzz_raw(fuzz_input *in);    /* any double, by its bits */
-double fuzz_finite(fuzz_input *in); /* the same, but 0 for what is not finite */
+double fuzz_finite(fuzz_input *in); /* the same; 0 in place of infinity and NaN */
 double fuzz_unit(fuzz_input *in);   /* [0,1], its ends among the likely values */
 
 static inline int fuzz_same_bits(double x, double y) {
@@ -60,7 +60,8 @@ typedef struct fuzz_memory {
 
 hr2d_allocator fuzz_hooks(fuzz_memory *memory);
 
-/* What is counted of jansson, whose hooks are global: installed once, before all else. */
+/* The memory of jansson.  Its hooks are global: they are installed once, before anything
+   else. */
 fuzz_memory *fuzz_jansson_memory(void);
 
 /* A user's oracle and policy whose answers are drawn from the geometry of a pair, so that
@@ -78,18 +79,18 @@ extern const hr2d_policy fuzz_policy_free;
    scale.  At most `most`. */
 void fuzz_fill_scene(fuzz_input *in, hr2d_scene *scene, size_t most);
 
-/* What holds for every committed scene of `n` patches: exchange areas are finite, not
-   negative, symmetric bit for bit, and no row has more than its patch. */
+/* Checks the matrix of a committed scene: exchange areas are finite, not negative and
+   symmetric bit by bit, and no row exceeds the length of its patch. */
 void fuzz_check_matrix(const hr2d_scene *scene, hr2d_status status, const double *area);
 
-/* Of a set that was refined: coverage, trees, links. */
+/* Checks a refined set: coverage, trees, links. */
 void fuzz_check_links(hr2d_linkset *links);
 
-/* Of a hierarchy, whatever was refused since. */
+/* Checks a hierarchy; refused calls must not have changed it. */
 void fuzz_check_hierarchy(const hr2d_hierarchy *hierarchy);
 
-/* Of a solution: finite, not negative at order 1, power that adds up, nothing brighter than
-   a furnace's walls. */
+/* Checks a solution: it is finite, not negative at order 1, its power is balanced, and no
+   patch is brighter than the walls of a furnace. */
 void fuzz_check_solution(const hr2d_solution *solution, unsigned order, int closure);
 
 /* Whether patches have lengths within 1e4 of each other. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bytes read as choices and numbers, and the end of a run that went wrong. */
+/* Reads bytes as choices and numbers; ends a run whose invariant does not hold. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What must be true of every scene, set of links and solution. */
+/* The invariants of every scene, link set and solution. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 /* The solver stops at a residual that is small beside all light there is. */
 #define DARK 1e-12
 
-/* From there on what is not balanced loses digits. */
+/* Above this reflectance a solution that is not balanced loses digits. */
 #define NEARLY_WHITE 0.999
 
 static int is_continuation(unsigned char byte) {
@@ -176,8 +176,8 @@ static double brightest(const hr2d_scene *scene, size_t band) {
   return most;
 }
 
-/* The norm in which the solver stops, ∫B², sees no patch so long that its light is thin beside
-   that of others; but of its power there is as much. */
+/* The solver stops by the norm ∫B².  It hardly counts a very long patch, whose light is
+   thinly spread, but the power of such a patch is as large as that of others. */
 int fuzz_is_even(const hr2d_scene *scene) {
   double least = HUGE_VAL, most = 0;
   for (size_t k = 0; k < hr2d_scene_patches(scene); k++) {
@@ -188,12 +188,13 @@ int fuzz_is_even(const hr2d_scene *scene) {
   return most < 1e4 * least;
 }
 
-/* `balanced`: with closure and links for both directions, of which solve.h promises most. */
+/* `balanced`: with closure and with links for both directions, for which solve.h gives the
+   strongest promise. */
 static void check_power(const hr2d_solution *solution, size_t band, unsigned order,
                         int balanced) {
   const hr2d_power p = hr2d_solution_power(solution, band);
   const double in = p.emitted + p.received;
-  /* At an order above 1 what is seen of the background is a rule's. */
+  /* Above order 1 a quadrature rule gives the form factor of the background. */
   const double least = order > 1 ? -1e-3 * p.emitted : 0;
   REQUIRE(p.emitted >= 0 && p.received >= least);
   if (!balanced || !(in > 1e-280 && in < 1e300) ||

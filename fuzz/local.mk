@@ -1,5 +1,5 @@
-# Harnesses that take any bytes: replayed on their corpus by `make check`, and with
-# --enable-fuzzers made programs that look for more, which `make fuzz` runs.
+# Harnesses that take any bytes.  `make check` replays them on their corpus; with
+# --enable-fuzzers `make fuzz` runs them to find new inputs.
 check_LTLIBRARIES += fuzz/libfuzz.la
 fuzz_pair_cppflags = $(AM_CPPFLAGS) -I$(srcdir)/tools
 fuzz_libfuzz_la_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(fuzz_pair_cppflags)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Memory that is counted, and fails on demand.  A block's size stands in front of it. */
+/* Memory that is counted and fails on demand.  The size of a block is stored in front of it. */
 #include <errno.h>
 #include <jansson.h>
 #include <stdlib.h>
@@ -29,7 +29,8 @@ static void count(fuzz_memory *m, size_t more, size_t less) {
   m->bytes -= less;
 }
 
-/* A failure sets errno as that of malloc() does: what reads jansson's lexer wants it. */
+/* A failure sets errno, as malloc() does: the reader of GeoJSON learns from errno that
+   jansson's lexer ran out of memory. */
 static void *get(void *ctx, size_t bytes) {
   fuzz_memory *m = ctx;
   if (bytes > SIZE_MAX - sizeof(header) || runs_out(m)) {
@@ -41,7 +42,7 @@ static void *get(void *ctx, size_t bytes) {
   h->bytes = bytes;
   m->live++;
   count(m, bytes, 0);
-  /* What is read before it is written shows. */
+  /* A recognisable pattern, to show reads of memory that was never written. */
   return memset(h + 1, 0xA5, bytes);
 }
 
@@ -54,8 +55,8 @@ static void put(void *ctx, void *block) {
   free(h);
 }
 
-/* Moves always, lest a pointer into the old block live on unseen; old and new are there at
-   once, as with the worst realloc(). */
+/* Always moves the block, so that a stale pointer into the old one is found.  Both blocks
+   exist for a moment, as in the worst realloc(). */
 static void *change(void *ctx, void *block, size_t bytes) {
   void *moved = get(ctx, bytes);
   if (!moved || !block) return moved;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A harness on given files, or on those of its corpus, under any compiler. */
+/* Runs a harness on given files, or on its corpus, under any compiler. */
 #ifndef _POSIX_C_SOURCE
 #define _POSIX_C_SOURCE 200809L
 #endif

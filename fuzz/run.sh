@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# run.sh SECONDS FOLDER: each harness for that long, on its corpus in FOLDER.  What is new of
-# interest goes to fuzz/found, inputs that fail to fuzz/fault-*.
+# run.sh SECONDS FOLDER: runs each harness for that long, on its corpus in FOLDER.  New inputs
+# of interest go to fuzz/found, failing inputs to fuzz/fault-*.
 seconds=$1
 folder=$2
 passed=0

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes from bytes.  Random coordinates would hardly ever touch, align or meet within a
-   rounding: most are those of an earlier point, moved by a little or not at all. */
+/* Makes scenes from bytes.  Random coordinates would hardly ever touch, align or meet within
+   a rounding.  So most points repeat coordinates of an earlier point, sometimes slightly
+   moved. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -77,7 +78,7 @@ static double emission(maker *m, double reflectance) {
   return b & 1 ? most : b & 2 ? 0 : most * fuzz_unit(m->in);
 }
 
-/* Failures are the library's to tell; here it goes on with what it takes. */
+/* Ignores refusals: the scene goes on with the patches that the library accepts. */
 static void add(maker *m, hr2d_scene *scene, hr2d_point a, hr2d_point b) {
   double rho[BANDS], e[BANDS];
   const unsigned how = fuzz_byte(m->in);

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# digits.sh PROGRAM...: do builds of hr2d print the same numbers, to the last digit?  Each
-# solves the example scenes in several ways and integrates their view factors; what it prints is
-# compared with what the first PROGRAM prints, but for seconds and memory.
+# digits.sh PROGRAM...: checks that builds of hr2d print the same numbers, to the last digit.
+# Each solves the example scenes in several ways and integrates their view factors.  Its
+# output, except seconds and memory, is compared with the output of the first PROGRAM.
 set -u
 scenes=$(cd "$(dirname "$0")/../examples/scenes" && pwd)
 work=$(mktemp -d)

@@ -1,5 +1,5 @@
-# The tests: Check programs, and scripts for what is seen from outside.  A program
-# without a list of sources is made from the one file that is called as it is.
+# The tests: Check programs, and scripts for the program and the package.  A program
+# without a list of sources is built from the one file of its name.
 AM_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/src -I$(srcdir)/tests $(GSL_CFLAGS) $(JANSSON_CFLAGS) \
 	$(CHECK_CFLAGS) $(MPFR_CFLAGS)
 LDADD = tests/libsupport.la libhr2d-core.la $(CHECK_LIBS) $(MPFR_LIBS) $(OPENMP_CFLAGS)
@@ -129,8 +129,8 @@ check-long:
 	HR2D_TEST_MULTIPLIER="$${HR2D_TEST_MULTIPLIER-1}" $(MAKE) check
 .PHONY: check-long
 
-# Check programs alone, unforked and in one thread: libgomp's threads show as leaks.
-# Without the suites that take too long: the sanitizers run these.
+# Only Check programs, without fork and in one thread, because valgrind reports libgomp's threads
+# as leaks; and without the suites that take too long, which run under the sanitizers.
 TOO_LONG = tests/unit/accuracy/check-known-radiosities \
 	tests/unit/accuracy/check-target-calls tests/unit/blocks/check-blocks \
 	tests/unit/clusters/check-clusters tests/unit/refine/check-occlusion \
@@ -143,12 +143,12 @@ check-valgrind:
 	HR2D_TEST_MULTIPLIER="$${HR2D_TEST_MULTIPLIER-0.01}" \
 	$(MAKE) check TESTS='$(filter-out $(TOO_LONG),$(SUITES))' LOG_COMPILER='$(MEMCHECK)'
 
-# With all compilers, levels of optimisation and sanitizers: takes an hour.
+# All compilers, levels of optimisation and sanitizers; takes an hour.
 check-matrix:
 	$(SHELL) $(srcdir)/tests/matrix.sh
 .PHONY: check-valgrind check-matrix
 
-# The table of doc/hard-cases.md, as these suites measure it.
+# The table of doc/hard-cases.md, measured by the suites of hard cases.
 HARD = $(filter tests/hard/%,$(SUITES))
 hard-cases: $(HARD)
 	@rm -f hard-cases.md
@@ -161,7 +161,7 @@ hard-cases: $(HARD)
 .PHONY: hard-cases
 CLEANFILES += hard-cases.md
 
-# Lines and branches of src/ and tools/ that the tests reach, by file.
+# The lines and branches of src/ and tools/ that the tests reach, by file.
 if HAVE_COVERAGE
 REPORT = $(GCOVR) --root '$(srcdir)' --exclude-unreachable-branches \
 	--filter '$(srcdir)/src/' --filter '$(srcdir)/tools/'
@@ -179,7 +179,7 @@ coverage:
 endif
 .PHONY: coverage
 
-# An outside program, in C and in C++, against what `make install` left behind.
+# An outside program, in C and in C++, against the files that `make install` installed.
 installcheck-local:
 	DESTDIR='$(DESTDIR)' libdir='$(libdir)' pkgconfigdir='$(pkgconfigdir)' \
 	bindir='$(bindir)' PKG_CONFIG='$(PKG_CONFIG)' CC='$(CC)' CXX='$(CXX)' \

@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # matrix.sh [SETTING...]: builds libhr2d with each setting, in matrix/SETTING below the current
-# directory, and runs its tests; without one all of `every` below.  doc/testing.md says what each
-# is for and what was measured.  The last line is the number of checks that passed and failed.
+# directory, and runs its tests; without a SETTING it takes all of `every` below.  doc/testing.md
+# says what each setting is for and what was measured.  The last line is the number of checks that
+# passed and failed.
 #
 # Environment: HR2D_TEST_MULTIPLIER, 0.1 unless set; HR2D_MATRIX_TESTS, the tests to run instead
 # of those of the setting.

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The bounds that the headers state of orientations, exchange areas, kernels, lengths and
-   elements' coordinates, against MPFR on random and on hill-climbed inputs.
+/* The bounds that the headers state for orientations, exchange areas, kernels, lengths and
+   coordinates of elements, against MPFR, on random and on hill-climbed inputs.
 
    HR2D_TEST_SEED and HR2D_TEST_MULTIPLIER in the environment change the inputs. */
 #include <float.h>
@@ -30,8 +30,8 @@ static void put_pair(double *x, pair p) {
   }
 }
 
-/* What a search draws from: one of the classes of pairs, or with NULL numbers of any exponent
-   that a double has, some of them 0 or equal. */
+/* The inputs of a search: a class of pairs, or, for NULL, numbers of any exponent of a
+   double, some of them 0 or equal. */
 static void draw_any(randoms *r, double *x, int count) {
   const double low = random_between(r, -1074, 1023), high = random_between(r, low, 1024);
   for (int k = 0; k < count; k++) {
@@ -212,8 +212,8 @@ static hr2d_status split_first(void *ctx, const hr2d_batch *batch, unsigned char
   return HR2D_OK;
 }
 
-/* |coordinate − that of exact halving| in roundings of the patch's largest coordinate, over the
-   level.  Exact: a double of magnitude below 2 over 2^60. */
+/* |coordinate − exact coordinate| divided by the largest coordinate of the patch and by the
+   level.  The 1400 bits suffice for an exact one: a double of magnitude below 2 over 2^60. */
 static double off_exact(const hr2d_hierarchy *h, uint32_t e, uint64_t place, unsigned level) {
   const hr2d_element *element = hr2d_hierarchy_elements(h);
   const hr2d_element *patch = &element[element[e].patch];

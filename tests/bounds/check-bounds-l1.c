@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The bound that oracle.h states of l1, against the textbook's integral in MPFR, on random and
+/* The bound that oracle.h states for l1, against the textbook's integral in MPFR, on random and
    on hill-climbed pairs.
 
    HR2D_TEST_SEED and HR2D_TEST_MULTIPLIER in the environment change the inputs. */
@@ -16,7 +16,8 @@
 
 #define BOUND 1e-10
 
-/* As oracle.h has it, and cosines at the centres that are no smaller than it says. */
+/* The range of coordinates for which oracle.h states the bound; it keeps the cosines at the
+   centres large enough, too. */
 static int are_elements(const double *x) {
   return element_in_range(x, 8, 400);
 }
@@ -62,7 +63,7 @@ START_TEST(l1_holds_its_bound) {
 }
 END_TEST
 
-/* The reference against what has a closed form. */
+/* The reference against a closed form. */
 START_TEST(reference_is_right) {
   for (int k = -8; k <= 8; k += 2) {
     const double d = pow(10, k);

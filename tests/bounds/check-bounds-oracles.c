@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The bounds that oracle.h states of size, size2, bf and l1-grid, against MPFR on random and on
-   hill-climbed elements.  Elements need not be what a hierarchy would make: ends, centres and
-   lengths vary by themselves.
+/* The bounds that oracle.h states for size, size2, bf and l1-grid, against MPFR, on random and
+   on hill-climbed elements.  Ends, centres and lengths of these elements vary independently, as
+   in no hierarchy.
 
    HR2D_TEST_SEED and HR2D_TEST_MULTIPLIER in the environment change the inputs. */
 #include <float.h>
@@ -40,7 +40,7 @@ static void draw_elements(const void *ctx, randoms *r, double *x) {
   x[BRIGHTNESS] = random_unit(r);
 }
 
-/* In units of a scene, and within 2^800 of each other, as the header has it. */
+/* In units of a scene, and within a factor 2^800 of each other, as oracle.h requires. */
 static int are_elements(const double *x) {
   return element_in_range(x, LENGTHS, 800) && x[LENGTHS] > 0 && x[LENGTHS] < 6 &&
          x[LENGTHS + 1] > 0 && x[LENGTHS + 1] < 6;

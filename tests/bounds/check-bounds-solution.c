@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The bound that solve.h states of a solution, against the discrete equation, made of the links
-   and their closure and solved in MPFR by elimination.
+/* The bound that solve.h states for a solution, against the discrete equation.  The equation is
+   made from the links and their closure and solved by elimination in MPFR.
 
    HR2D_TEST_SEED and HR2D_TEST_MULTIPLIER in the environment change the rooms. */
 #include <math.h>
@@ -50,7 +50,7 @@ static mpfr_ptr entry(dense *d, int k, int m) {
   return d->row[k * (d->leaves + 1) + m];
 }
 
-/* −K from `to` to `from`: what a link carries is spread evenly. */
+/* Adds −K of a link from `from` to `to`: its transport is spread evenly over the leaves. */
 static void spread_link(dense *d, const hr2d_hierarchy *h, double area, uint32_t to,
                         uint32_t from) {
   mpfr_t part;
@@ -103,7 +103,8 @@ static void eliminate(dense *d) {
   mpfr_clear(part);
 }
 
-/* ‖B − B_d‖/‖B_d‖ on the leaves, and the same of what the patches' averages are. */
+/* The larger of ‖B − B_d‖/‖B_d‖ over the leaves and of the same for the averages of the
+   patches. */
 static double distance(dense *d, const hr2d_solution *solution) {
   double error = 0, size = 0, average[4] = {0}, off = 0;
   mpfr_t difference;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The bounds that study.h states of the fits, against normal equations in MPFR, of so many
-   digits that nothing is lost; on rows that are close, far from 0, or as large as counts get.
+/* The bounds that study.h states for the fits, against normal equations in MPFR with so many
+   digits that none is lost, on rows that are close together, far from 0, or as large as counts
+   can be.
 
    HR2D_TEST_SEED and HR2D_TEST_MULTIPLIER in the environment change the inputs. */
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The bound that visibility.h states of exchange areas around occluders, on random and on
-   hill-climbed ones, against strings between exactly decided events.
+/* The bound that visibility.h states for exchange areas around occluders, on random and on
+   hill-climbed ones, against crossed strings between events that are decided exactly.
 
    HR2D_TEST_SEED and HR2D_TEST_MULTIPLIER in the environment change the inputs. */
 #include <math.h>

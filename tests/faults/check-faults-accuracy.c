@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Allocation k of the calls that choose elements and links themselves fails. */
+/* Allocation k fails in hr2d_solve_to(), hr2d_predict() and hr2d_solution_error(), which
+   choose elements and links themselves. */
 #include <string.h>
 
 #include "clusters/clusters.h"
@@ -61,7 +62,8 @@ static hr2d_status reach_roughly(fault_stage *s, uint64_t *sum) {
   return solve_to(s, sum, &target);
 }
 
-/* Runs that are short are repeated, as time has it. */
+/* The number of allocations varies, because short runs are repeated until their time can be
+   measured. */
 static hr2d_status predict(fault_stage *s, uint64_t *sum) {
   hr2d_target target = HR2D_TARGET_INIT;
   hr2d_prediction p;

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Callbacks that fail, stop, write nonsense or nothing, or call the library: what they say
-   comes back, objects are as they were, and the same call then gives the same bits. */
+/* Callbacks that fail, stop, write nonsense or nothing, or call the library.  The call
+   returns the status of the callback, its objects are unchanged, and the same call then
+   gives the same bits. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "support/fault-calls.h"
 
-/* What callback number `at` of a kind does. */
+/* The behaviour of the callbacks of one kind. */
 typedef struct puppet {
-  long calls, at;                     /* so many calls so far; −1: does nothing special */
-  hr2d_status says;                   /* then */
+  long calls, at;   /* calls so far, and the number of the call that fails; −1: none fails */
+  hr2d_status says; /* then */
   void (*does)(const fault_stage *s); /* at every call */
   const fault_stage *stage;
   int nested; /* calls of `does` */
@@ -44,7 +45,8 @@ static hr2d_status seen(void *ctx, const hr2d_link *links, size_t count) {
   return play(&on_visit);
 }
 
-/* What is written in place of errors and decisions; the usual thing if NULL. */
+/* Writes errors and decisions in place of the correct ones; NULL: the correct ones are
+   written. */
 static void (*write_error)(double *error, size_t count);
 static void (*write_byte)(unsigned char *byte, size_t count);
 
@@ -238,7 +240,8 @@ static const act acts[] = {
 };
 enum { ACTS = sizeof acts / sizeof *acts };
 
-/* Plays to the end with all callbacks at rest but for what `who` does; what came of it. */
+/* Plays to the end; no callback does anything special except `who`.  Returns the digest of
+   the result. */
 static uint64_t undisturbed(const act *a, puppet *who, puppet as) {
   fault_stage s;
   uint64_t sum = 0;
@@ -288,8 +291,8 @@ static const hr2d_status sayings[] = {HR2D_STOPPED,    HR2D_ENOMEM,        HR2D_
                                       HR2D_EACCURACY,  (hr2d_status)99,    (hr2d_status)-1};
 enum { SAYINGS = sizeof sayings / sizeof *sayings };
 
-/* Stops at calls at equal distances, and says everything in the middle: each time all of it, or
-   for short one part of six after the other. */
+/* Stops at calls at equal distances, and returns every status in the middle.  Below a
+   multiplier of 1 each place returns a sixth of the statuses, another sixth each time. */
 static void disturb_everywhere(const act *a, puppet *who, const char *kind) {
   static int part = 0;
   const uint64_t usual = undisturbed(a, NULL, (puppet){0});

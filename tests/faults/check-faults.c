@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Allocation k of a call fails, for every k: once, and from then on.  The call says so,
-   its objects are as they were, the same call then gives the same bits, nothing leaks. */
+/* Allocation k of a call fails, for every k: once, and for good.  The call returns
+   HR2D_ENOMEM, its objects are unchanged, the same call then gives the same bits, and no
+   memory leaks. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Hard cases of the exchange area and of the kernel: textbook formulas in doubles, which must
-   be wrong here, beside the library, which must not; both against MPFR. */
+/* Hard cases of the exchange area and of the kernel.  Textbook formulas in doubles must be
+   wrong here and the library must be right; both are compared with MPFR. */
 #include <float.h>
 #include <math.h>
 
@@ -10,12 +10,12 @@
 #include "support/plane.h"
 #include "support/support.h"
 
-/* The bounds of geometry.h, and what a textbook formula is wrong by at least. */
+/* The bounds of geometry.h, and the least error of a textbook formula. */
 #define AREA   4e-15
 #define KERNEL 3e-15
 #define WRONG  1e-12
 
-/* A value beside the exact one, as a cell of the table. */
+/* The error of a value, as a cell of the table. */
 static hard_text describe(double value, const mpfr_t exact) {
   if (isnan(value)) return hard_format("NaN");
   if (isinf(value)) return hard_format("inf");
@@ -117,7 +117,7 @@ START_TEST(exchange_areas) {
 }
 END_TEST
 
-/* Relative errors say nothing there: AF is the nearest number that there is. */
+/* Relative errors mean nothing here: AF is the nearest subnormal number. */
 START_TEST(subnormal_lengths) {
   const double step = DBL_TRUE_MIN;
   const hr2d_segment i = {{0, 0}, {100 * step, 0}},
@@ -130,7 +130,7 @@ START_TEST(subnormal_lengths) {
 }
 END_TEST
 
-/* The closed forms that MPFR is not needed for: what is reported above means what it says. */
+/* Closed forms that need no MPFR: they confirm the errors reported above. */
 START_TEST(closed_forms) {
   const hr2d_segment unit = {{-0.5, 0}, {0.5, 0}}, wall = {{1e300, 1}, {-1e300, 1}};
   ck_assert_double_eq_tol(hr2d_exchange_area(&unit, &wall), 1, AREA);
@@ -139,7 +139,7 @@ START_TEST(closed_forms) {
   const hr2d_segment under = {above.b, above.a}, below = {{1, -0x1p-1074}, {0, -0x1p-1074}};
   ck_assert_double_eq(hr2d_exchange_area(&floor, &under), 0);
   ck_assert_double_eq(hr2d_exchange_area(&floor, &below), 0);
-  /* Any segment below a wall that hides all of the sky gives it all it has. */
+  /* A wall that covers the whole sky receives all that a segment below it sends. */
   const hr2d_segment small = {{0, 0}, {3 * DBL_TRUE_MIN, 0}};
   ck_assert_double_eq(hr2d_exchange_area(&small, &wall), 3 * DBL_TRUE_MIN);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Hard cases of the oracles: textbook formulas in doubles, which must be wrong here, beside the
-   library's. */
+/* Hard cases of the oracles.  Textbook formulas in doubles must be wrong here, and the
+   library must be right. */
 #include <float.h>
 #include <math.h>
 #include <mpfr.h>
@@ -122,7 +122,7 @@ START_TEST(centres_that_coincide) {
   }
   const hr2d_segment tiny = {{0.5, 0}, {0.5, 0}};
   ck_assert(isnan(textbook_size(tiny, tiny)));
-  /* what does not see the other has no error */
+  /* patches that do not see each other have no error */
   ck_assert(ask(hr2d_oracle_l1(), flat, back, 1) == 0);
   ck_assert(ask(hr2d_oracle_l1(), flat, across, 1) == INFINITY);
   hard_case("oracle", "bf, crossing in the centres", hard_format("NaN"), hard_format("inf"));
@@ -197,8 +197,8 @@ START_TEST(ties) {
 }
 END_TEST
 
-/* Elements that touch never come to max(A)/r ≤ ½, at whatever depth; the library's recursion
-   ends where halving does. */
+/* Elements that touch never reach max(A)/r ≤ ½, at any depth.  The recursion of the library
+   ends where doubles can no longer be halved. */
 START_TEST(touching_pairs) {
   double a = 1, b = 1;
   int halvings = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Refinement where textbook recursion never ends: corners to the last bit of a double, errors
-   that no pair meets, more links than anything holds. */
+/* Hard cases of refinement, in which textbook recursion never ends: corners to the last bit
+   of a double, errors that no pair meets, more links than any memory holds. */
 #include <float.h>
 #include <math.h>
 #include <stdatomic.h>
@@ -13,7 +13,8 @@
 /* No two elements can be halved more often than 2·1075 times before both are 0. */
 enum { ENDLESS = 10000 };
 
-/* ProjectKernel as the paper has it, with midpoints, max(A)/r and the longer one split. */
+/* ProjectKernel of the paper: r is the distance of midpoints, the estimate is max(A)/r, and
+   the longer element is split. */
 typedef struct recursion {
   double epsilon;
   uint64_t links;
@@ -38,8 +39,8 @@ static int project(recursion *p, hr2d_segment i, hr2d_segment j, unsigned depth)
          project(p, i, (hr2d_segment){mj, j.b}, depth + 1);
 }
 
-/* Unit patches, of which two touch at (at, at).  The third, at the origin, turns its back on
-   them: without it a scene far out has too few digits to be taken. */
+/* Unit patches.  Two of them touch at (at, at).  The third, at the origin, turns its back on
+   them: a scene so far from the origin is only accepted with it. */
 static void corner_at(double at, double patch[3][6]) {
   const double made[3][6] = {
       {at, at, at + 1, at, 1, .5}, {at, at + 1, at, at, 0, .5}, {0, 0, 0, 1, 0, 0}};
@@ -92,8 +93,8 @@ START_TEST(corners_to_the_last_bit) {
       const hr2d_refine_counts c = hr2d_linkset_counts(t.links);
       check_elements(&t);
       ck_assert_int_eq(hr2d_linkset_validate(t.links), HR2D_OK);
-      /* Only pairs at the corner itself are never accepted: those of elements that end on it,
-         and for a small ε their neighbours. */
+      /* Only pairs at the corner itself are never accepted: pairs of elements that end on
+         it, and, for a small ε, pairs of their neighbours. */
       ck_assert_uint_ge(c.limited_links, 1);
       if (places[k] < 1e15)
         ck_assert_uint_le(c.limited_links, (uint64_t)(4 / (epsilon * epsilon)));
@@ -296,7 +297,7 @@ START_TEST(bytes_stay_within_their_budget) {
 END_TEST
 
 START_TEST(a_budget_remembers_nothing) {
-  /* What a failure has held once does not count against the next call. */
+  /* The memory that a failed call held does not count against the budget of the next call. */
   test_meter m = {0, 0};
   test_links t = metered_links(&m, 0, hr2d_oracle_size());
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
@@ -447,7 +448,7 @@ START_TEST(policies_that_never_accept) {
 END_TEST
 
 START_TEST(many_patches) {
-  /* A polygon of many walls, none of which needs to be divided: n²/2 pairs. */
+  /* A polygon of many walls; none needs to be divided: n²/2 pairs. */
   const size_t n = test_multiplier() < .1 ? 300 : 4000;
   double(*patch)[6] = calloc(n, sizeof *patch);
   ck_assert_ptr_nonnull(patch);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Hard cases of scenes: at the ends of the doubles' range, far from the origin, of mixed
-   scales; and that the same scene scaled, turned, moved, written in another order or solved by
-   more threads has the same answer.
+/* Hard cases of scenes: at the ends of the range of doubles, far from the origin, of mixed
+   scales.  The same scene must have the same answer if it is scaled, turned, moved, written in
+   another order or solved by more threads.
 
    HR2D_TEST_SEED and HR2D_TEST_MULTIPLIER in the environment change the scenes. */
 #define _POSIX_C_SOURCE 200809L
@@ -18,7 +18,9 @@
 #include "support/support.h"
 
 #define RHO 0.7
-/* The first plans, without walls that end on others; those of few patches. */
+/* The first ROOMS classes of plans have no walls that end on others.  Those below ASYMMETRIC
+   must keep the bound of a rounding; those below SMALL have so few patches that they are
+   solved to a target, too. */
 enum { ROOMS = 4, ASYMMETRIC = 3, SMALL = 1, MOST = 400 };
 
 /* A room with a screen in it. */
@@ -161,7 +163,8 @@ static double shoelace(hr2d_point a, hr2d_point b, hr2d_point c) {
   return (a.x * b.y - b.x * a.y) + (b.x * c.y - c.x * b.y) + (c.x * a.y - a.x * c.y);
 }
 
-/* What is left of the room after its coordinates were rounded is solved as it is. */
+/* Rounding the coordinates changes the room; the library must solve the rounded room
+   exactly. */
 START_TEST(far_from_the_origin) {
   static const double offsets[] = {1e8, 1e10, 1e12, 1e13, 1e15};
   const double offset = offsets[_i];
@@ -190,7 +193,7 @@ START_TEST(far_from_the_origin) {
   ck_assert_int_eq(hr2d_exchange_matrix(scene, NULL, area, NULL), HR2D_OK);
   for (int k = 0; k < 36; k++)
     worst = fmax(worst, fabs(area[k] - brute_strings(&at[k / 6], &at[k % 6], at, 6)));
-  /* Coordinates keep their ulp: feet and corners are not better known than that. */
+  /* Feet and corners are known to an ulp of their coordinates. */
   const double bound = 1e-15 + 4 * DBL_EPSILON * offset;
   printf("offset %g: areas to %.2e of %.2e\n", offset, worst, bound);
   ck_assert_double_le(worst, bound);
@@ -200,7 +203,7 @@ START_TEST(far_from_the_origin) {
 }
 END_TEST
 
-/* A plate of 1e-9 in a room of 2e9: its row is 1, and its B that of a point. */
+/* A plate of 1e-9 in a room of 2e9: its row sums to 1, and its B equals that of a point. */
 START_TEST(mixed_scales) {
   const double s = 1e9, d = 1e-9;
   const double patch[][6] = {{-s, -s, s, -s, 1, .5}, {s, -s, s, s, 0, RHO},
@@ -366,7 +369,7 @@ static double allowed(const answer *a, double rounding) {
 
 typedef struct moves {
   int same, count;
-  double worst, accurate, area; /* of what is allowed */
+  double worst, accurate, area; /* as a part of the allowed error */
 } moves;
 
 static void compare(moves *m, const answer *a, const answer *b, double rounding) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The solve where textbook code is stuck, diverges or is silently wrong: reflectances up to
-   1 − 1e-15, hardly anything to absorb, rows above 1, light of any size. */
+/* Hard cases of the solve, in which textbook code stalls, diverges or is silently wrong:
+   reflectances up to 1 − 1e-15, scenes that absorb hardly anything, rows above 1, light of
+   any size. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -18,7 +19,7 @@ static test_links linked(hr2d_scene *scene, unsigned order, double epsilon) {
   return t;
 }
 
-/* Σ over patches, with 1 − ρ as it is: exact for ρ ≥ ½. */
+/* Σ over patches; 1 − ρ is exact for ρ ≥ ½. */
 typedef struct totals {
   double emitted, absorbed, radiosity;
   double net;   /* what leaves walls less what falls on them */
@@ -57,7 +58,8 @@ static double check_total(const hard_room *room, const hr2d_scene *scene,
   return error;
 }
 
-/* In rooms without narrow corners B is even but for some of what one reflection takes. */
+/* In rooms without narrow corners B varies by at most a multiple of 1 − ρ, the part that one
+   reflection absorbs. */
 static double check_room(hard_room (*make)(double rho), int k, unsigned order) {
   const hard_room room = make(1 - pow(10, -k));
   test_links t = linked(hard_scene(&room), order, 0.5);
@@ -163,15 +165,15 @@ static hard_room gap_room(double gap, int plugged) {
 
 START_TEST(hardly_a_way_out) {
   for (int k = 1; k <= 12; k++) {
-    const double gap = .5 + pow(10, -k) - .5; /* as it is between doubles */
+    const double gap = .5 + pow(10, -k) - .5; /* the gap between the rounded coordinates */
     const hard_room plugged = gap_room(gap, 1), open = gap_room(gap, 0);
     test_links t = linked(hard_scene(&plugged), 12, 0.4),
                u = linked(hard_scene(&open), 12, 0.4);
     hr2d_solution *exact = test_solve(&t, 1), *leaking = test_solve(&u, 1);
-    /* All that is emitted meets the plug, or leaves through the gap. */
+    /* All emitted power is absorbed by the plug, or escapes through the gap. */
     ck_assert_double_eq_tol(hr2d_solution_irradiance(exact, 4, 0) * gap, 1, 1e-14);
     ck_assert_double_eq_tol(hr2d_solution_power(leaking, 0).escaped, 1, 1e-13);
-    /* Rounding of exchange areas may hide 2⁻⁵² of the 4 walls, of which gap escapes. */
+    /* Rounding of exchange areas may lose 2⁻⁵² of the 4 walls; the part `gap` escapes. */
     const double off =
         fabs(hr2d_solution_average(leaking, 0, 0) / hr2d_solution_average(exact, 0, 0) - 1);
     ck_assert_msg(off <= 1e-10 + 8 * DBL_EPSILON / gap, "gap %g: off by %g", gap, off);
@@ -379,7 +381,7 @@ START_TEST(background_of_any_size) {
 }
 END_TEST
 
-/* What comes of a solve is a solution, or the status says why not. */
+/* A solve returns a solution, or a status that says why there is none. */
 static void check_honest(const test_links *t, const hr2d_solve_options *options) {
   hr2d_solution *solution = NULL;
   const hr2d_status status = hr2d_solve(t->links, options, &solution);
@@ -643,8 +645,8 @@ START_TEST(nasty_rooms_agree_with_another_method) {
                   status);
     double error = 0, doubt = 0;
     for (size_t w = 0; w < room.walls; w++) {
-      /* Errors of orders 2 and 4 are extrapolated away; what is left is less than what this
-         changed from one step to the next. */
+      /* Extrapolation removes errors of orders 2 and 4.  The remaining error is less than
+         the last change by extrapolation. */
       for (int order = 1; order < 3; order++)
         for (int m = levels - 1; m >= order; m--)
           average[m][w] += (average[m][w] - average[m - 1][w]) / (order == 1 ? 3 : 15);

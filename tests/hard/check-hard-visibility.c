@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Hard cases of visibility: what grazes, touches, nearly coincides or leaves a slit, beside
-   what shadow rays, plain determinants and crossed strings make of it.
+/* Hard cases of visibility: walls that graze a line of sight, touch, nearly coincide or leave a
+   slit; against shadow rays, plain determinants and crossed strings, which must be wrong here.
 
    HR2D_TEST_SEED and HR2D_TEST_MULTIPLIER in the environment change the scenes. */
 #include <check.h>
@@ -162,8 +162,8 @@ START_TEST(slits_let_through_their_width) {
   const hr2d_segment gap = {{right, .5}, {left, .5}};
   const double strings = crossed_strings(ground, gap);
   printf("%s: %.17g, rays %.3g, strings %.3g\n", slit[_i].name, area, rays, strings);
-  /* Negative control: rays through the middle pass, whatever the width, and the digits of
-     strings cancel. */
+  /* Negative control: rays through the middle pass, however narrow the slit is, and the
+     digits of strings cancel. */
   ck_assert_double_gt(rays, 1e-3);
   if (width > 0) {
     ck_assert_double_gt(fabs(strings - expected), 1e-6 * expected);
@@ -225,7 +225,7 @@ START_TEST(grazing_ends_are_on_their_side) {
 }
 END_TEST
 
-/* A room in two by walls that end on others, at feet rounded or an ulp off. */
+/* A room that is divided by walls which end on others; their feet are rounded or an ulp off. */
 static plan divided_room(randoms *r, double scale) {
   plan p = {.walls = 0};
   const double angle = random_between(r, 0, 6.28);
@@ -240,7 +240,7 @@ static plan divided_room(randoms *r, double scale) {
   const hr2d_point half = plane_along((hr2d_segment){from, to}, .5);
   plan_add(&p, from, half, HR2D_SIDES_BOTH);
   plan_add(&p, ulps_off(half, random_below(r, 2), 0), to, HR2D_SIDES_BOTH);
-  /* A stub across the joint closes what an ulp leaves open. */
+  /* A stub across the joint closes the gap of an ulp. */
   plan_add(&p, similar_point(s, (hr2d_point){.05, .5}), half, HR2D_SIDES_BOTH);
   return p;
 }
@@ -370,8 +370,8 @@ START_TEST(rings_hide_their_hull) {
 }
 END_TEST
 
-/* Walls over each other, and points, hide once what they cover: that of [.3, .7], 2·√.34 − 1
-   by crossed strings. */
+/* Walls that overlap, and points, hide their union only once: the exchange area past [.3,
+   .7] is 2·√.34 − 1 by crossed strings. */
 START_TEST(shadows_are_not_added_up) {
   enum { COUNT = 1000 };
   static hr2d_segment w[COUNT];

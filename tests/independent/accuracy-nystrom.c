@@ -11,7 +11,7 @@
 /* Panels with 20 points each: their poles lie so that the rule is good to 1e-15 or so. */
 enum { POINTS = 20 };
 
-/* What is left of a corner: the last panel resolves nothing. */
+/* The length of the last panel at a corner, which is not graded further. */
 #define SMALLEST 0x1p-46
 
 typedef struct side {

@@ -21,7 +21,8 @@ struct brute_view {
   real length;      /* of i */
   real from, to;    /* the part of i in front of j */
   frame_point c, d; /* all of j */
-  frame_point *end; /* of what of j is in front of i, then of each occluder */
+  frame_point
+      *end; /* the ends of the part of j in front of i, then the ends of each occluder */
   size_t ends;
   real *cut;
   size_t cuts;
@@ -100,8 +101,8 @@ static double basis(unsigned l, real t) {
   return sqrt(2.0 * l + 1) * gsl_sf_legendre_Pl((int)l, xi);
 }
 
-/* Where the ray meets the line of j, and φ_m there.  Angles are counted from the middle of the
-   arc, so that those of a narrow one have all their digits. */
+/* φ_m at the point where the ray meets the line of j.  Angles are counted from the middle of
+   the arc, so that the angles of a narrow arc keep their digits. */
 static double over_directions(double angle, void *ctx) {
   const brute_view *v = ctx;
   const real sine = sin(angle), half = sin(0.5 * angle), versed = 2 * half * half;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blocks of Legendre moments of G V from their definition, by nested adaptive quadrature (GSL)
-   over positions on i and, from each, over directions in which j is seen. */
+/* Blocks of Legendre moments of G V from their definition, by nested adaptive quadrature
+   (GSL) over positions on i and, at each position, over the directions in which j is
+   visible. */
 #ifndef HR2D_TESTS_INDEPENDENT_BRUTE_BLOCK_H
 #define HR2D_TESTS_INDEPENDENT_BRUTE_BLOCK_H
 

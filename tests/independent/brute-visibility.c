@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* In the frame of i, with i on the axis and all else above it, x sees j between two
-   cotangent-like slopes and each occluder hides an interval of slopes: whatever is in
-   front of i and of j and on a ray between their points lies between these points.  The
-   ends of the intervals change places only where a line through two ends meets i. */
+/* In the frame of i, i lies on the axis and everything else above it.  A point x of i sees j
+   between two slopes (cotangents of directions), and each occluder hides an interval of
+   slopes: an occluder in front of i and of j that meets a ray between their points lies
+   between these points.  The ends of the intervals change their order only where a line
+   through two ends meets i. */
 #include "independent/brute-visibility.h"
 
 #include <gsl/gsl_errno.h>
@@ -181,7 +182,8 @@ double brute_lines(const hr2d_segment *i, const hr2d_segment *j, const hr2d_segm
     const double at = (ux * (x.y - j->a.y) - uy * (x.x - j->a.x)) / facing;
     const double far = (jx * (x.y - j->a.y) - jy * (x.x - j->a.x)) / facing;
     if (!(facing > 0) || !(at > 0 && at < 1) || !(far > 0)) continue;
-    /* What lies along i or j is not in the way, whatever the rounding of x and y. */
+    /* Occluders along i or j hide nothing, whatever the rounding of x and y; the margin
+       keeps them out. */
     const double margin = 1e-9 * far;
     const hr2d_point y = {j->a.x + at * jx - margin * ux, j->a.y + at * jy - margin * uy};
     x = (hr2d_point){x.x + margin * ux, x.y + margin * uy};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Exchange areas around occluders, three times from the definition: what each point of i
-   sees of j, found anew on every piece of i between two events. */
+/* Exchange areas around occluders, computed in three ways from the definition: each finds
+   the part of j that a point of i sees, anew on every piece of i between two events. */
 #ifndef HR2D_TESTS_INDEPENDENT_BRUTE_VISIBILITY_H
 #define HR2D_TESTS_INDEPENDENT_BRUTE_VISIBILITY_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Coordinates that are doubles are integers in some unit: so many digits as those
-   have make orientations exact and leave crossed strings more than they lose. */
+/* Doubles are integers in a common unit.  With as many digits as these integers have,
+   orientations are exact, and crossed strings keep enough digits after cancellation. */
 #include "independent/mpfr-exchange.h"
 
 #include <float.h>

@@ -30,9 +30,9 @@ void mpfr_kernel_of_lines(mpfr_t kernel, const hr2d_segment *i, hr2d_point x,
 /* |value − reference|/reference, for a reference other than 0. */
 double mpfr_relative_error(double value, const mpfr_t reference);
 
-/* The same as the headers state bounds: a value below DBL_MIN is measured by that, beside one
-   step of the subnormal numbers; what is beyond the doubles must be infinite.  Infinite for
-   NaN, and for a value other than 0 in place of 0. */
+/* The error as the headers state bounds.  Below DBL_MIN it is relative to DBL_MIN, and one
+   step of the subnormal numbers is free.  A reference beyond the range of doubles requires
+   infinity.  Infinite for NaN, and for any other value where the reference is 0. */
 double mpfr_double_error(double value, const mpfr_t reference);
 
 #endif

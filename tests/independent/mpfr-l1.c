@@ -105,7 +105,7 @@ static void set_excess(work *w, mpfr_t z, const mpfr_t t) {
   mpfr_sub(z, z, w->centre, RN);
 }
 
-/* at[0] ≤ at[1] ≤ …: the ends of what is seen, and the extremes and roots between. */
+/* at[0] ≤ at[1] ≤ …: the ends of the visible part, and the extremes and roots between them. */
 typedef struct places {
   mpfr_t at[8];
   int count;
@@ -140,8 +140,9 @@ static void insert_extremes(work *w, places *s) {
   insert(w, s, w->f);
 }
 
-/* A root between two places, by the false position of the Illinois rule: up to where G − Gc is
-   2^-30 of what it is at both places, which counts with its square. */
+/* A root between two places, by regula falsi with the Illinois rule.  It stops where |G −
+   Gc| is 2^-30 of its smaller value at the two places; the integral feels the square of
+   this. */
 static void insert_root(work *w, places *s, const mpfr_t from, const mpfr_t to) {
   mpfr_ptr low = w->d, high = w->e, at_low = w->f, at_high = w->g;
   mpfr_set(low, from, RN);
@@ -315,7 +316,8 @@ static double length(const hr2d_segment *s) {
   return hypot(s->b.x - s->a.x, s->b.y - s->a.y);
 }
 
-/* y is on the shorter one: then what it sees changes on the scale of that. */
+/* y lies on the shorter segment, so that the view of y changes on the scale of its own
+   segment. */
 double mpfr_l1(const hr2d_segment *i, const hr2d_segment *j, double tolerance) {
   if (length(j) > length(i)) return mpfr_l1(j, i, tolerance);
   work w;

@@ -7,8 +7,9 @@
 
 #include <hr2d/geometry.h>
 
-/* To about `tolerance`, relative, that is to be above 1e-13; NaN where G(x_c,y_c) is 0, and
-   where the rule does not get there.  GSL's error handler must be off. */
+/* To a relative tolerance of about `tolerance`, which must be above 1e-13.  NaN if
+   G(x_c,y_c) is 0 or if the rule does not reach the tolerance.  GSL's error handler must be
+   off. */
 double mpfr_l1(const hr2d_segment *i, const hr2d_segment *j, double tolerance);
 
 #endif

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The statements of the paper, one by one: Theorem 1, equations (3), inequalities (4)
-   and (5), what the modified algorithm costs, footnote 3 and multigridding.  Where a
-   statement holds only under a condition, the test says which, and shows the rest false. */
+/* The statements of the paper, one by one: Theorem 1, equations (3), inequalities (4) and
+   (5), the cost of the modified algorithm, footnote 3 and multigridding.  If a statement
+   holds only under a condition, the test states the condition and shows a counterexample
+   without it. */
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_multifit.h>
 #include <math.h>
@@ -21,12 +22,12 @@ static hr2d_scene *facing(double l, double m, double d) {
   return test_scene((const double[][6]){{0, 0, l, 0, 1, .5}, {m, d, 0, d, 0, .5}}, 2);
 }
 
-/* The same around a corner, of which both keep the distance d. */
+/* The same around a corner; both patches keep the distance d from it. */
 static hr2d_scene *corner(double l, double m, double d) {
   return test_scene((const double[][6]){{d, 0, l + d, 0, 1, .5}, {0, m + d, 0, d, 0, .5}}, 2);
 }
 
-/* Counts on a scene that is used up. */
+/* Counts, and destroys the scene. */
 static hr2d_refine_counts count(hr2d_scene *scene, const hr2d_oracle *oracle, int modified,
                                 double epsilon) {
   test_links t = test_make_links(scene, oracle, NULL, variant(modified), NULL);
@@ -50,8 +51,8 @@ static test_links refined(hr2d_scene *scene, const hr2d_oracle *oracle, int modi
 
 enum { OCTAVES = 6, MOST_PHASES = 8, MOST_ROWS = 11 * MOST_PHASES };
 
-/* What fits say of rows whose ε is 2^-(octave + phase/phases).  N doubles in steps, so
-   that dots are stacked; those of one phase are not. */
+/* Results of fits to rows with ε = 2^-(octave + phase/phases).  N grows in steps, so that
+   several dots share an N; dots of one phase do not. */
 typedef struct growth {
   double least_slope, most_slope; /* of log L on log N, over the phases */
   double certainty;  /* c by its standard error in a + bN + cN², the least of them */
@@ -138,7 +139,7 @@ static void print_law(const char *what, const growth *law) {
   fflush(stdout);
 }
 
-/* Less work by fewer phases and a coarser end; the bounds stay as they are. */
+/* Fewer phases and a coarser end save work; the bounds stay the same. */
 static size_t phases(void) {
   return test_multiplier() < 0.5 ? 4 : MOST_PHASES;
 }
@@ -397,9 +398,9 @@ static void add_neighbour(region *to, const hr2d_element *element,
   to->opposite += offset == 0;
 }
 
-/* Regions of neighbours: neighbours are of one length A, so that D/A is their number.
-   The paper's bounds are those of one side of an element with r_min ≥ d, up to one
-   neighbour more that is cut off at r_min, where it is whole or not at all. */
+/* Regions of neighbours.  All neighbours have one length A, so that D/A is their number.
+   The bounds of the paper hold for one side of an element with r_min ≥ d, except for one
+   more neighbour: at r_min a neighbour is cut off, but links have whole neighbours only. */
 static void check_regions(const test_links *t, const region *regions, double epsilon,
                           extremes *x) {
   const hr2d_element *element = hr2d_hierarchy_elements(t->hierarchy);
@@ -489,7 +490,7 @@ START_TEST(regions_of_leaves_break_the_bounds) {
 }
 END_TEST
 
-/* --- What the modified algorithm costs --- */
+/* --- The cost of the modified algorithm --- */
 
 typedef struct cost {
   double links, elements; /* modified over original */
@@ -556,8 +557,9 @@ START_TEST(modified_costs_more_for_a_large_epsilon) {
 }
 END_TEST
 
-/* Nor does it hold for unequal lengths, not even as ε falls: the modified algorithm
-   splits short elements along with long ones, L grows by about their ratio. */
+/* The statement fails for unequal lengths, too, even for small ε: the modified algorithm
+   splits short elements together with long ones, and L grows by about the ratio of the
+   lengths. */
 START_TEST(modified_costs_more_for_unequal_lengths) {
   for (int k = 0; k < 6; k++) {
     const double ratio = exp2(k / 2 + 2);

@@ -20,17 +20,17 @@ typedef struct accuracy_scene {
   double background[ACCURACY_BANDS];
 } accuracy_scene;
 
-/* Shape and light number k of a seed: rooms, also with things in them, open scenes, patches
-   that touch at any angle or stand on each other; up to three bands; reflectances from 0 to
-   `most`, of which some may be just that. */
+/* Scene number k of a seed: rooms with and without obstacles, open scenes, patches that
+   touch at any angle or stand on each other; up to three bands; reflectances from 0 to
+   `most`, some of them equal to `most`. */
 accuracy_scene accuracy_draw(uint64_t seed, int k, double most);
 void accuracy_free(accuracy_scene *s);
 
 /* The sources for which B = 1; black backs would be colder than all that. */
 void accuracy_set_isothermal(accuracy_scene *s);
 
-/* Sources of 1 in a single band, which has the largest reflectances: B says by how much an
-   error of any source may grow, κ = ‖(I − ρK)⁻¹‖∞. */
+/* Sources of 1 in a single band, with the largest reflectances of all bands.  Then the
+   largest B is κ = ‖(I − ρK)⁻¹‖∞, the factor by which an error of any source may grow. */
 void accuracy_set_uniform(accuracy_scene *s);
 
 /* A committed scene. */

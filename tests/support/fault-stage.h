@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A set of objects, made as far as a call needs them, that the call may fail on: what they
-   are is summed up in a few bits, so that it can be seen that a failure changed nothing and
-   that the same call gives the same again. */
+/* Stages for calls that fail on demand: a set of objects, made as far as the call needs
+   them.  A digest of their contents shows that a failure changed nothing, and that the same
+   call gives the same result again. */
 #ifndef HR2D_TESTS_SUPPORT_FAULT_STAGE_H
 #define HR2D_TESTS_SUPPORT_FAULT_STAGE_H
 
@@ -19,7 +19,7 @@ typedef enum fault_depth {
   DEPTH_SOLVED
 } fault_depth;
 
-/* What is in the scene. */
+/* The patches of the scene. */
 typedef enum fault_plan {
   PLAN_ROOM,     /* a closed room of two bands with a lamp of two sides in it */
   PLAN_OPEN,     /* two walls and an obstacle under a sky, in part dark */
@@ -38,7 +38,7 @@ typedef struct fault_stage {
   hr2d_solution *result; /* of the call itself */
 } fault_stage;
 
-/* What a stage is like before a call. */
+/* The state of a stage before the call. */
 typedef struct fault_setting {
   fault_depth depth;
   fault_plan plan;
@@ -53,17 +53,18 @@ void fault_stage_make(fault_stage *s, const fault_setting *setting);
 /* Destroys everything; nothing may be left. */
 void fault_stage_end(fault_stage *s);
 
-/* Bits are summed up one after the other (FNV). */
+/* Digests (FNV): mix bytes, a count, a double into a sum. */
 uint64_t fault_mix(uint64_t sum, const void *bytes, size_t size);
 uint64_t fault_mix_count(uint64_t sum, uint64_t count);
 uint64_t fault_mix_real(uint64_t sum, double value);
 
-/* The objects of a stage but for its result, and a solution. */
+/* Digests of the objects of a stage without its result, of a solution, and of counts. */
 uint64_t fault_stage_sum(const fault_stage *s);
 uint64_t fault_solution_sum(const hr2d_solution *solution);
 uint64_t fault_counts_sum(const hr2d_refine_counts *counts);
 
-/* A call: its name, where it is played, and itself.  What it gives is mixed into *sum. */
+/* A call: its name, its stage, and the function that makes it.  The function mixes its
+   result into *sum. */
 typedef struct fault_act {
   const char *name;
   fault_setting setting;

@@ -153,7 +153,7 @@ static double distance_to_others(const hard_room *room, size_t wall, double x, d
   return least;
 }
 
-/* Elements as long as it is far to other walls, cut into `parts` each. */
+/* Elements as long as their distance from other walls, each cut into `parts`. */
 static mesh graded(const hard_room *room, size_t parts) {
   mesh m = {.element = NULL};
   for (size_t w = 0; w < room->walls; w++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rooms that are hard to solve in, the ways in which textbooks solve in them, and a way that
-   shares nothing with the library. */
+/* Rooms that are hard to solve, the methods of textbooks for them, and a method that shares
+   nothing with the library. */
 #ifndef HR2D_TESTS_SUPPORT_HARD_ROOMS_H
 #define HR2D_TESTS_SUPPORT_HARD_ROOMS_H
 
@@ -43,9 +43,9 @@ typedef struct hard_sweeps {
 hard_sweeps hard_gauss_seidel(const hard_room *room, hard_factors factors, size_t parts,
                               unsigned limit);
 
-/* Averages of B in a convex closed room: Galerkin with constants on elements as long as it is
-   far to other walls, or `parts` times shorter; exchange areas by strings in long double, rows
-   made 1, and conjugate gradients. */
+/* Averages of B in a convex closed room: Galerkin with constants on elements as long as
+   their distance from other walls, or `parts` times shorter; exchange areas by strings in
+   long double, rows scaled to 1, and conjugate gradients. */
 void hard_averages(const hard_room *room, size_t parts, double *average);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Hard cases: what textbook code makes of them beside what the library does.  The suites that
-   report here are the source of the table in doc/hard-cases.md; see `make hard-cases`. */
+/* Reports hard cases: the result of textbook code beside that of the library.  These reports
+   are the source of the table in doc/hard-cases.md; see `make hard-cases`. */
 #ifndef HR2D_TESTS_SUPPORT_HARD_H
 #define HR2D_TESTS_SUPPORT_HARD_H
 

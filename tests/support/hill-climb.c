@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What makes formulas of the plane lose digits is tried on purpose: neighbours by ulps, other
-   exponents, numbers that occur twice, points that lie nearly on a line with two others. */
+/* Steps try what makes formulas of the plane lose digits: neighbours by ulps, other
+   exponents, equal numbers, points that lie nearly on a line with two others. */
 #include "support/hill-climb.h"
 
 #include <check.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A search for the inputs on which a function of some numbers is worst: random ones first,
-   then from several starts upward in small and in wild steps. */
+/* Searches for the inputs on which the error of a function is largest: random inputs first,
+   then climbs from several starts, in small and in wild steps. */
 #ifndef HR2D_TESTS_SUPPORT_HILL_CLIMB_H
 #define HR2D_TESTS_SUPPORT_HILL_CLIMB_H
 
@@ -15,7 +15,7 @@ typedef struct hill {
   size_t count;  /* numbers of an input, at most HILL_MOST */
   size_t points; /* the first 2·points of them are the x and y of points */
   void (*draw)(const void *ctx, randoms *r, double *x);
-  /* What is to be large; negative for an input that the bound does not speak of. */
+  /* The error to be maximised; negative for an input to which the bound does not apply. */
   double (*error)(const void *ctx, const double *x);
   const void *ctx;
 } hill;
@@ -28,7 +28,7 @@ typedef struct hill_effort {
 typedef struct summit {
   double error;
   double x[HILL_MOST];
-  long tried; /* inputs that the bound speaks of */
+  long tried; /* inputs to which the bound applies */
 } summit;
 
 /* Point k of an input. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Each class takes away something that a formula might lean on: size, distance,
-   angle, a common scale, a common origin, general position. */
+/* Each class removes a property on which a formula might rely: size, distance, angle, a
+   common scale, a common origin, general position. */
 #include "support/pair-classes.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scenes of the radiosity tables, with what is known of their B.  For tests and benchmarks
-   alike, so without Check. */
+/* The scenes of the radiosity tables, with their known B.  Without Check, because benchmarks
+   use it too. */
 #ifndef HR2D_TESTS_SUPPORT_RADIOSITY_SCENES_H
 #define HR2D_TESTS_SUPPORT_RADIOSITY_SCENES_H
 

@@ -298,7 +298,7 @@ static void divide(randoms *r, plan *p, double x0, double y0, double x1, double 
   divide(r, p, upright ? at : x0, upright ? y0 : at, x1, y1, size / 2);
 }
 
-/* Partitions from wall to wall, of which half have a door. */
+/* Partitions from wall to wall; half of them have a door. */
 static void partitions(randoms *r, int size, plan *p) {
   plan_room(p, 64, 32);
   divide(r, p, 0, 0, 64, 32, size);

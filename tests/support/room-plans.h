@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Closed rooms with things standing in them: whatever they are, each row of exchange areas
-   sums to the patch's length. */
+/* Closed rooms with obstacles of many kinds; in all of them each row of exchange areas sums
+   to the length of its patch. */
 #ifndef HR2D_TESTS_SUPPORT_ROOM_PLANS_H
 #define HR2D_TESTS_SUPPORT_ROOM_PLANS_H
 

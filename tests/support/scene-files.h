@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the suites of the two readers share: texts that are parsed, what is then in the scene,
-   and texts that are damaged. */
+/* Shared by the suites of the two readers: parses texts, checks the scene, and damages
+   texts. */
 #ifndef HR2D_TESTS_SUPPORT_SCENE_FILES_H
 #define HR2D_TESTS_SUPPORT_SCENE_FILES_H
 

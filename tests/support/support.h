@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What nearly every test program uses. */
+/* The headers that nearly every test program uses. */
 #ifndef HR2D_TESTS_SUPPORT_SUPPORT_H
 #define HR2D_TESTS_SUPPORT_SUPPORT_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a sweep over occluders might lean on, class by class taken away: ends of their
-   own, general position, being in front, being short, leaving room between. */
+/* Each class removes a property of occluders on which a sweep might rely: separate ends,
+   general position, being in front, being short, leaving room between them. */
 #include "support/visibility-cases.h"
 
 #include <check.h>

@@ -24,9 +24,9 @@ typedef struct occluded_class {
 extern const occluded_class occluded_classes[];
 extern const int occluded_class_count;
 
-/* A pair of a class, in a box of about 1.  A third of them on a coarse grid, where
-   collinear points abound, and a third on a finer one; feet on other segments are exact
-   there, also turned: by (p + qi)/4, which leaves no angle as it was and rounds nothing. */
+/* A pair of a class, in a box of about 1.  A third of the pairs lie on a coarse grid, where
+   many points are collinear, and a third on a finer grid.  There the feet on other segments
+   are exact, even after a turn by (p + qi)/4, which changes every angle and rounds nothing. */
 void draw_occluded(const occluded_class *class, randoms *r, occluded_pair *p);
 
 /* The exchange area of a pair around its occluders, by the library. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the headers promise to threads of the application: they may share a committed scene, a
-   hierarchy that is no longer refined, a solution, and the code.  Each gets the bits that it
-   would get alone, some with threads of the library below.  ThreadSanitizer sees the races that
-   leave no trace; see doc/testing.md. */
+/* The promises of the headers to threads of the application: they may share a committed
+   scene, a hierarchy that is no longer refined, a solution, and the code.  Each thread gets
+   the same bits as it gets alone; some calls start threads of the library, too.
+   ThreadSanitizer finds the races that change no result; see doc/testing.md. */
 #ifndef _POSIX_C_SOURCE
 #define _POSIX_C_SOURCE 200809L /* pthread_barrier_t */
 #endif
@@ -18,8 +18,8 @@
 
 enum { THREADS = 4, SETS = 3, BANDS = 2 };
 
-/* What the threads share.  The parallel run comes first, lest the serial one have made what
-   they would make. */
+/* The objects that the threads share.  The parallel run comes first: after a serial one,
+   data that are made on first use would exist already. */
 typedef struct common {
   hr2d_scene *scene;
   hr2d_hierarchy *hierarchy;
@@ -28,7 +28,7 @@ typedef struct common {
   test_memory memory;
 } common;
 
-/* Does the work number `kind` and mixes all that came out of it into `*digest`. */
+/* Does the work of a kind and mixes all its results into `*digest`. */
 typedef hr2d_status (*job)(const common *c, unsigned kind, uint64_t *digest);
 
 static void mix(uint64_t *digest, const void *bytes, size_t count) {
@@ -182,7 +182,7 @@ static void repeat(unsigned order, job work, unsigned kinds, const char *name) {
 }
 
 /* Hierarchies of one scene: a set is refined, counted on several threads, solved, refined
-   further with what was found, and checked. */
+   further with this solution, and checked. */
 static hr2d_status tell(const common *c, unsigned kind, uint64_t *digest) {
   const hr2d_oracle *oracle[] = {hr2d_oracle_size(), hr2d_oracle_bf(), hr2d_oracle_size2(),
                                  hr2d_oracle_l1()};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A race, for ThreadSanitizer to find, or with -DRACE=0 none: its negative control.  Threads
-   that sleep let each other have a part of so small a loop. */
+/* A race that ThreadSanitizer must find; with -DRACE=0, the negative control, there is none.
+   The threads sleep, so that each gets a part of the small loop. */
 #include <stdio.h>
 #include <time.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What each file beside this one must be answered with: a status, and a phrase of
-   the message.  Of bad JSON that is the line alone: the rest is jansson's wording. */
+/* The expected answer for each file in this folder: a status, and the beginning of the
+   message.  For bad JSON this is the line only, because jansson words the rest. */
 #ifndef HR2D_TESTS_MALFORMED_EXPECTED_H
 #define HR2D_TESTS_MALFORMED_EXPECTED_H
 

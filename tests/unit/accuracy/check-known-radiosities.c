@@ -115,8 +115,8 @@ START_TEST(a_narrow_corner_agrees_with_another_method) {
 }
 END_TEST
 
-/* A floor much wider than the ceiling: what an end does to the floor comes back to its patch.
- */
+/* Gaps.  If the floor is much wider than the ceiling, the effect of an end on the floor
+   returns to the ceiling. */
 START_TEST(gaps_agree_with_another_method) {
   const double gap[][3] = {{.1, 0, 1}, {.01, .3, .7}, {.02, .1, 2}, {1, -.3, .7}, {10, 0, 1}};
   accuracy_tally t = {0, 0};
@@ -268,7 +268,7 @@ START_TEST(errors_of_other_solutions_are_known) {
 }
 END_TEST
 
-/* Against the truth of another scene neither bound nor estimate can stand. */
+/* Negative control: compared with a wrong reference, bound and estimate must fail. */
 START_TEST(a_wrong_truth_is_noticed) {
   const radiosity_scenes all = accuracy_reference();
   const radiosity_scene *s = radiosity_scenes_find(&all, "square_rho0.9");

@@ -8,7 +8,7 @@
 #include "support/accuracy-tally.h"
 #include "support/support.h"
 
-/* A random scene and what is known of it. */
+/* A random scene, and its condition number κ. */
 typedef struct trial {
   accuracy_scene drawn;
   hr2d_scene *scene;
@@ -142,8 +142,8 @@ START_TEST(averages_of_random_scenes) {
 }
 END_TEST
 
-/* Points are few, so that the largest error may lie between them: only what is below an error
-   that was found is wrong. */
+/* There are few points, so that the largest error may lie between them.  Only an estimate or
+   bound below an error that was found is wrong. */
 START_TEST(points_of_random_scenes) {
   const double target[] = {1e-2, 1e-3, 1e-4};
   const uint64_t seed = test_seed();
@@ -183,7 +183,7 @@ static double furnace_error(const hr2d_scene *scene, const hr2d_solution *soluti
   return worst;
 }
 
-/* Closed rooms and open scenes in surroundings of 1, at whatever order. */
+/* Closed rooms and open scenes with a background of 1, at any order. */
 START_TEST(furnaces_are_exact) {
   const double target[] = {1e-1, 1e-3, 1e-6, 1e-9};
   const uint64_t seed = test_seed();

@@ -102,8 +102,8 @@ static void release_some(void *ctx, void *block) {
   free(block);
 }
 
-/* Patches of 2^-1008 of the scene, whose squares no double has; and of 2^-816, one of which
-   touches what is so long. */
+/* Patches of 2^-1008 of the scene, whose squares underflow; and of 2^-816, one of which
+   touches a patch as long as the scene. */
 START_TEST(dust_is_not_divided_for_ever) {
   const hr2d_allocator hooks = {get_some, change_some, release_some, NULL};
   const hr2d_segment wall[] = {{{-1, -1}, {1, -1}}, {{1, -1}, {1, .5}}, {{1, .5}, {-1, -1}}};
@@ -204,7 +204,7 @@ START_TEST(importance_spares_links) {
 }
 END_TEST
 
-/* Elements and links are those of the first solve. */
+/* A prediction gives the elements and links of the first solve. */
 START_TEST(predictions_count_right) {
   const radiosity_scenes all = accuracy_reference();
   int compared = 0;

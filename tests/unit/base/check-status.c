@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What everything else stands on: statuses, the version, memory and messages. */
+/* The base of everything else: statuses, the version, memory and messages. */
 #include <hr2d/hr2d.h>
 #include <limits.h>
 #include <stdint.h>
@@ -157,7 +157,7 @@ START_TEST(a_refused_reserve_changes_nothing) {
 }
 END_TEST
 
-/* Near the largest size doubling would overflow: then what is needed is asked for. */
+/* Near the largest size, doubling would overflow: then exactly the needed size is requested. */
 START_TEST(reserve_does_not_double_beyond_the_largest_size) {
   hook_state hooks = {0, 1, 0};
   const hr2d_allocator alloc = counting(&hooks);

@@ -146,7 +146,7 @@ static int is_leaf(const hr2d_hierarchy *h, size_t e) {
   return h->element[e].child == 0;
 }
 
-/* What is pushed from a root to the leaves is pulled up as it was. */
+/* Pushing from a root to the leaves and pulling back gives the same coefficients. */
 static void check_pull_of_push(const hr2d_hierarchy *h, unsigned long *state, size_t order,
                                size_t bands) {
   const hr2d_allocator alloc = h->alloc;
@@ -165,7 +165,7 @@ static void check_pull_of_push(const hr2d_hierarchy *h, unsigned long *state, si
   hr2di_push_pull_clear(&trees);
 }
 
-/* Averages of parents are those of their leaves; push and pull are adjoint in Σ A x y. */
+/* The average of a parent equals that of its leaves; push and pull are adjoint in Σ A x y. */
 static void check_pull(const hr2d_hierarchy *h, unsigned long *state, size_t order) {
   const size_t size = h->elements * order;
   hr2di_push_pull trees;
@@ -210,7 +210,7 @@ START_TEST(push_and_pull) {
 }
 END_TEST
 
-/* Two patches and what is in their way, as they were committed. */
+/* Two patches and their occluders, after the commit. */
 typedef struct stage {
   hr2d_scene *scene;
   hr2d_hierarchy *hierarchy;
@@ -238,8 +238,8 @@ static void end_stage(stage *s) {
   free(s->occluder);
 }
 
-/* Where patches cross they are cut, and i and j are their first pieces.  0 for what is no
-   scene. */
+/* Patches that cross are split; i and j are the first pieces.  Returns 0 if the scene is
+   refused. */
 static int set_stage(stage *s, const occluded_pair *p) {
   *s = (stage){0};
   ck_assert_int_eq(hr2d_scene_create(NULL, &s->scene), HR2D_OK);
@@ -275,7 +275,7 @@ static int make_block(const stage *s, size_t order, int swapped, double *block) 
   return distant;
 }
 
-/* Of shaded pairs the exact area, else that of a pair. */
+/* The exact exchange area, past the occluders if there are any. */
 static double area_of(const stage *s) {
   double area;
   ck_assert_int_eq(
@@ -315,9 +315,9 @@ static double gap_between(hr2d_segment i, hr2d_segment j) {
   return least;
 }
 
-/* What an error is of what is allowed.  Rounding takes some of the area, and some of the
-   smaller patch; and points have places that are rounded to 1e-16 of a patch, of which the
-   kernel makes 1e-16 in terms of the gap. */
+/* An error divided by the allowed error.  Rounding costs a part of the area and a part of
+   the smaller patch.  The places of points are rounded to 1e-16 of a patch; the kernel
+   changes by this rounding over the gap. */
 static double share_of(const stage *s, double error, double area, double most) {
   const double a = hypot(s->i.b.x - s->i.a.x, s->i.b.y - s->i.a.y);
   const double b = hypot(s->j.b.x - s->j.a.x, s->j.b.y - s->j.a.y);
@@ -328,12 +328,12 @@ static double share_of(const stage *s, double error, double area, double most) {
 static const size_t orders[] = {2, 4, 8, 12, 16};
 enum { ORDERS = sizeof orders / sizeof *orders };
 
-/* What a class of pairs was seen to be wrong by, in terms of what it may be, per order. */
+/* The errors of a class of pairs, per order. */
 typedef struct tally {
   const char *name;
   size_t pairs;
   double worst[ORDERS]; /* error/area of moments as above */
-  double share[ORDERS]; /* of what is allowed */
+  double share[ORDERS]; /* as a part of the allowed error */
 } tally;
 
 static void complain(const tally *t, const occluded_pair *p, const char *what, double value,
@@ -484,8 +484,8 @@ START_TEST(blocks_of_shaded_pairs) {
 }
 END_TEST
 
-/* The first with the second is the second with the first, transposed; in terms of what is
-   allowed. */
+/* The block of (j, i) is the transposed block of (i, j): the difference as a part of the
+   allowed error. */
 static double asymmetry(const stage *s, size_t order) {
   double block[SQUARE], other[SQUARE], worst = 0;
   const double area = area_of(s);
@@ -554,7 +554,7 @@ START_TEST(blocks_scale_like_lengths) {
     const int distant = small_block(&p, same, block[0]);
     ck_assert_int_eq(small_block(&p, large, block[1]), distant);
     const int turned = small_block(&p, turn, block[2]);
-    /* What is lost where a near pair is turned was lost in its coordinates. */
+    /* Turning a near pair rounds its coordinates, which costs digits in proportion to 1/gap. */
     const double gap = n % 3 == 2 ? 1e-2 : fmin(1, fabs(p.j.b.y));
     for (int k = 0; k < SMALL * SMALL; k++) {
       ck_assert_double_eq(block[1][k], 0x1p40 * block[0][k]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Clusters: every pair of patches that see each other is near or linked, once; links are as
-   exact as they were asked to be.
+/* Clusters: every pair of patches that see each other is covered once, as a near pair or by a
+   link, and links are as exact as requested.
 
    HR2D_TEST_SEED and HR2D_TEST_MULTIPLIER in the environment change the rooms. */
 #include <gsl/gsl_integration.h>
@@ -92,9 +92,10 @@ static void free_sorted(sorted *s) {
   free(s->linked);
 }
 
-/* Pairs that are not covered once: those that see each other and are neither near nor
-   linked, and those that are near twice, or near and linked.  Where a gap closes but for
-   rounding, it may do so for one pair of lines and not for another. */
+/* Counts pairs that are not covered exactly once: pairs that see each other and are neither
+   near nor linked, and pairs that are near twice, or near and linked.  A gap that rounding
+   alone keeps open may be open for one pair of lines and closed for another, so that tiny
+   areas do not count. */
 static size_t count_faults(const sorted *s) {
   size_t faults = 0;
   for (size_t i = 0; i < s->n; i++)
@@ -221,7 +222,7 @@ static hr2d_scene *draw(const drawing *shape, int n, unsigned forced) {
   return scene;
 }
 
-/* Whatever stands in a room; with links wherever they may be. */
+/* Rooms with all kinds of obstacles; with links wherever clusters allow them. */
 START_TEST(pairs_are_covered_once) {
   const plan_class *class = &plan_classes[_i];
   randoms r = randoms_stream(test_seed(), 700 + _i);
@@ -280,7 +281,7 @@ START_TEST(what_is_clear_is_linked) {
 }
 END_TEST
 
-/* The checks see what they are for. */
+/* Negative control: the checks notice faults that are planted. */
 START_TEST(faults_are_found) {
   sorted s = sort_scene(draw(&shapes[1], 400, 0), 1e-3);
   size_t near = 0, linked = 0;
@@ -298,7 +299,7 @@ START_TEST(faults_are_found) {
   s.linked[linked] = 0;
   ck_assert_uint_eq(count_faults(&s), 1);
   s.linked[linked] = was;
-  /* Few digits are not many. */
+  /* With few digits the error is not tiny. */
   ck_assert_double_gt(row_error(&s), 1e-8);
   for (size_t j = 0; j < s.n; j++) s.linked[linked / s.n * s.n + j] = 0;
   ck_assert_double_gt(row_error(&s), 1e-3);
@@ -416,7 +417,7 @@ START_TEST(gathers_are_symmetric) {
 }
 END_TEST
 
-/* Bands do not mix; what is gathered is added; nothing depends on the call. */
+/* Bands do not mix, a gather adds to its output, and two calls give the same. */
 START_TEST(bands_are_gathers) {
   enum { ORDER = 3, BANDS = 4 };
   sorted s = sort_scene(draw(&shapes[4], 400, 0), 1e-5);
@@ -457,8 +458,8 @@ static size_t count_near(hr2d_scene *scene, double digits, uint64_t *links, uint
   return s.pairs;
 }
 
-/* Near pairs, links and bytes are few per patch, whatever n is; without links pairs grow
-   like its square. */
+/* Near pairs, links and bytes per patch are bounded for all n; without links the near pairs
+   grow like n². */
 START_TEST(no_square_of_patches) {
   const drawing *shape = &shapes[_i];
   uint64_t links, bytes;
@@ -478,7 +479,7 @@ START_TEST(no_square_of_patches) {
 }
 END_TEST
 
-/* Among many obstacles few more pairs are near than see each other. */
+/* Among many obstacles hardly more pairs are near than see each other. */
 START_TEST(hidden_pairs_are_not_near) {
   sorted s = sort_scene(draw(&shapes[6], many() + 200, 0), 1e-6);
   size_t seen = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scene files: what is read is what was written, and nothing else is accepted. */
+/* GeoJSON scene files: the scene is what the file says, and anything else is refused. */
 #ifndef _POSIX_C_SOURCE
 #define _POSIX_C_SOURCE 200809L
 #endif
@@ -54,7 +54,7 @@ START_TEST(every_shipped_scene_commits_and_has_light) {
 }
 END_TEST
 
-/* The theorem of Gauss: the fronts of a closed room sum to zero, and its area is that
+/* The theorem of Gauss: the vectors of a closed room sum to zero, and its area equals that
    of the drawing, computed here by hand. */
 START_TEST(shipped_rooms_are_closed_and_face_inwards) {
   static const struct {
@@ -122,7 +122,7 @@ START_TEST(the_furnace_emits_as_its_temperatures_say) {
 }
 END_TEST
 
-/* What is read. */
+/* Accepted contents. */
 
 START_TEST(properties_reach_every_patch_of_a_feature) {
   hr2d_scene *scene = file_parsed(COLLECTION(
@@ -367,7 +367,7 @@ START_TEST(holes_face_the_inside_of_their_polygon) {
 }
 END_TEST
 
-/* What is refused. */
+/* Refusals. */
 
 static const char good[] =
     "{\n  \"type\": \"FeatureCollection\",\n  \"hr2d\": {\"background\": 0},\n"
@@ -500,7 +500,7 @@ static hr2d_status read_enclosure(hr2d_scene *scene) {
   return hr2d_scene_read(scene, test_scene_path("furnace-enclosure.geojson"));
 }
 
-/* At least the file, the bands, the points, a name, and what the scene keeps. */
+/* At least the file, the bands, the points, a name, and the data of the scene. */
 START_TEST(every_failed_allocation_is_reported) {
   ck_assert_int_ge(file_starve(read_enclosure, 4), 10);
 }
@@ -525,14 +525,15 @@ START_TEST(a_read_that_runs_out_of_memory_keeps_the_background) {
       expect_background(scene, failed ? 1 : 3, failed ? 0.25 : 4);
       hr2d_scene_destroy(scene);
     }
-    /* The values, the points, the patch, and what the scene keeps of the background. */
+    /* The values, the points, the patch, and the background that the scene keeps. */
     ck_assert_int_gt(k, 4);
   }
 }
 END_TEST
 
-/* The allocations of jansson, which do not come through the hooks: no byte may be lost,
-   neither of a token nor behind it, where its lexer would end the process. */
+/* The allocations of jansson, which do not use the hooks.  If one fails, its lexer may drop
+   a byte within a token or behind it, and would end the process in the second case.  No byte
+   may be lost. */
 static test_memory parser_memory;
 
 static void *parser_allocate(size_t size) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What reading a scene takes of memory: at most 256 bytes for each byte of the file, jansson's
-   tree included, whatever shape the file has. */
+/* The memory that reading a scene takes: at most 256 bytes for each byte of the file, with
+   jansson's tree, for any contents of the file. */
 #include <jansson.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -9,11 +9,11 @@
 
 #include "support/support.h"
 
-/* As hr2d_scene_parse() has it, and what does not depend on the file. */
+/* The bound of hr2d_scene_parse(), and a constant that does not depend on the file. */
 #define PER_BYTE 256
 #define CONSTANT 32768
 
-/* Bytes in use: those asked for, and two words for each block as malloc() has them. */
+/* Bytes in use: the requested ones, and two words for each block, as in malloc(). */
 typedef union header {
   size_t bytes;
   max_align_t align;
@@ -188,7 +188,7 @@ START_TEST(names_of_segments_are_bounded) {
 }
 END_TEST
 
-/* Records of .vs2, of which many are on each of its lines. */
+/* The shortest records of .vs2. */
 START_TEST(vs2_takes_less) {
   text t = {0};
   char line[96];

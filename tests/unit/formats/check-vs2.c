@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View2D's scene files: what is read is what was written, as View2D itself would read it,
-   in any locale, and nothing is lost in silence.  Refusals are in malformed/. */
+/* Scene files of View2D: the scene is what View2D itself would read, in any locale, and
+   nothing is dropped silently.  Files that must be refused are in malformed/. */
 #ifndef _POSIX_C_SOURCE
 #define _POSIX_C_SOURCE 200809L
 #endif

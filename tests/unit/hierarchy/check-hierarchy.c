@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Hierarchies: what must hold of the trees after any refinement, and the way from a
-   point to its leaf. */
+/* Hierarchies: invariants of the trees after any refinement, and the search from a point to
+   its leaf. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -259,7 +259,7 @@ START_TEST(hierarchies_of_a_scene_are_independent) {
 }
 END_TEST
 
-/* The links as geometry: what they are whatever the elements are numbered. */
+/* A link by its geometry, which does not depend on the numbers of elements. */
 typedef struct span {
   double a[4], b[4], area;
 } span;

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Link sets: which tables they take, who owns the contexts, and what can be read. */
+/* Link sets: which callback tables they accept, who owns the contexts, and what can be read
+   from them. */
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "support/support.h"
 
-/* What a context has seen. */
+/* Counts the calls with a context. */
 typedef struct witness {
   int calls, destroyed;
 } witness;
@@ -169,7 +170,8 @@ START_TEST(tables_without_required_members_are_refused) {
 }
 END_TEST
 
-/* Tables of a caller that knows less: missing members are NULL, whatever lies behind. */
+/* Tables of an older caller: members beyond struct_size count as NULL, whatever the memory
+   behind them holds. */
 START_TEST(shorter_tables_are_taken) {
   hr2d_oracle oracle = whole_oracle;
   hr2d_policy policy = whole_policy;

@@ -14,10 +14,10 @@
 #include "support/support.h"
 #include "support/visibility-cases.h"
 
-/* What is asked for, relative to the shorter patch. */
+/* The required accuracy, relative to the shorter patch. */
 #define BAR 1e-11
-/* What is measured, relative to the longest length: what is within four units in the last
-   place of a line counts as lying on it, and lines may meet at shallow angles. */
+/* The measured accuracy, relative to the longest length.  Points within four ulps of a line
+   count as lying on it, and lines may meet at shallow angles. */
 #define ROUNDINGS 0x1p-46
 
 static double shorter(const occluded_pair *p) {
@@ -45,7 +45,7 @@ typedef struct draws {
   randoms r;
   int left;
   occluded_pair pair;
-  double worst; /* of what the test measures */
+  double worst; /* of the errors that the test measures */
   occluded_pair at;
 } draws;
 
@@ -74,8 +74,8 @@ static void finish(const draws *d, const char *what, double bar) {
   ck_abort_msg("%s: %s: %g is above %g", d->class->name, what, d->worst, bar);
 }
 
-/* The references: they share what is seen from a point, but not how it is summed, and
-   the lines share nothing. */
+/* The references against each other.  Two of them share the view from a point, but not the
+   sum over points; the lines share nothing. */
 START_TEST(references_agree) {
   draws d = start(_i, 0, 100);
   double sigmas = 0;
@@ -119,7 +119,7 @@ START_TEST(agrees_with_strings) {
 }
 END_TEST
 
-/* Negative control: brute force notices what is a billionth off. */
+/* Negative control: brute force notices a shift by a billionth. */
 START_TEST(a_shift_is_noticed) {
   draws d = start(0, 3, 500);
   int partly = 0, noticed = 0;
@@ -303,7 +303,7 @@ START_TEST(points_and_nothing_hide_nothing) {
   const double clear = hr2d_exchange_area(&ground, &roof);
   ck_assert_double_eq(exchange_among(ground, roof, NULL, 0), clear);
   ck_assert_double_eq_tol(exchange_among(ground, roof, &point, 1), clear, 1e-15);
-  /* Nor does one join two walls to a straight one. */
+  /* A point between two walls does not join them to a straight one. */
   const hr2d_segment bent[] = {{{.25, .5}, {.5, .5}}, point, {{.5, .5}, {.5, .75}}};
   const hr2d_segment plain[] = {bent[0], bent[2]};
   ck_assert_double_eq_tol(exchange_among(ground, roof, bent, 3),
@@ -564,8 +564,8 @@ START_TEST(crowds) {
 }
 END_TEST
 
-/* A segment of one unit in the last place, beside which all that is in the way is large: what
-   is rounded there is more than all that is exchanged. */
+/* A segment of one ulp, and occluders that are large beside it: their rounding exceeds the
+   whole exchange area. */
 START_TEST(occluders_only_take) {
   static const hr2d_segment i = {{-0x1p+11, 0x1.bp+14}, {-0x1.0000000000001p+11, 0x1.bp+14}};
   static const hr2d_segment other[][4] = {

@@ -285,7 +285,7 @@ static pair draw_kind(int kind, randoms *r) {
   ck_assert_msg(fabs((x) - (y)) <= (bar)*fabs(y), "%.17g is not %.17g: off by %.2g", x, y,     \
                 fabs((x) / (y)-1))
 
-/* The error without its absolute value: what a sign lost would give. */
+/* The integral without its absolute value: the result of code that loses the sign. */
 static double signed_error(const pair *p) {
   return fabs(hr2d_exchange_area(&p->i, &p->j) -
               centre_kernel(p) * plane_length(p->i) * plane_length(p->j));
@@ -436,8 +436,8 @@ START_TEST(decisions) {
 }
 END_TEST
 
-/* Counts.  In the tables the rows of both orders follow those of one, and ε starts
-   again. */
+/* Counts.  In the tables the rows for both orders of a pair follow the rows for one order; ε
+   starts again there. */
 static void check_counts(const char *file, const hr2d_oracle *oracle, size_t least) {
   test_table t = test_read_table(file);
   int ordered = 0;

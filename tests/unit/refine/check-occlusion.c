@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Refinement and solve with things in the way: every transport is accounted for once, with
-   the exact exchange areas of the scene, and the answer is the reference's. */
+/* Refinement and solve with occluders: every transport is counted once, with the exact
+   exchange areas of the scene, and the radiosity agrees with the reference. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,8 +16,8 @@ static const hr2d_oracle *oracle_of(int k) {
   return hr2d_oracle_find(name[k]);
 }
 
-/* Rooms for every test: classes of plans in turn, of which every other one is turned off
-   the axes, and one in three is opened by taking a wall away. */
+/* Rooms for every test: the classes of plans in turn.  Every other round is turned off the
+   axes, and one room in three is opened: it loses a wall. */
 typedef struct rooms {
   randoms r;
   plan plan;
@@ -143,8 +143,9 @@ START_TEST(furnace_is_exact) {
 }
 END_TEST
 
-/* The links between two patches, summed up, exchange what the patches exchange; hidden
-   patches have none, but for what rounding puts in front of a patch on the same line. */
+/* The exchange areas of the links between two patches add up to that of the patches.  Hidden
+   patches have no links, except where rounding puts one patch in front of another on the
+   same line. */
 static void check_transport(const test_links *t, const char *what) {
   const hr2d_element *element = hr2d_hierarchy_elements(t->hierarchy);
   const size_t n = hr2d_scene_patches(t->scene);
@@ -204,7 +205,7 @@ START_TEST(links_are_valid_and_exchange_what_patches_do) {
 }
 END_TEST
 
-/* Walls that end on others but for rounding, just where an element ends too. */
+/* Walls that end on others up to rounding, exactly where an element ends, too. */
 static const hr2d_segment branches[] = {{{-0x1.0ed45f1292178p+9, -0x1.b2817fee9cb73p+9},
                                          {0x1.475a41b8153f6p+8, -0x1.60aaef8097676p+10}},
                                         {{0x1.475a41b8153f6p+8, -0x1.60aaef8097676p+10},
@@ -475,7 +476,7 @@ START_TEST(allocations_fail_one_by_one) {
 }
 END_TEST
 
-/* What an oracle of one's own is told of pairs. */
+/* The pairs that the library reports to an oracle of the user. */
 typedef struct witness {
   uint64_t partial, clear;
 } witness;
@@ -531,8 +532,8 @@ START_TEST(oracles_are_told_what_is_in_the_way) {
 }
 END_TEST
 
-/* What each oracle makes of a pair with something in the way: twice the size; what the
-   occluder may take away. */
+/* The estimate of each oracle for a partial pair: size counts twice; l1 adds the exchange
+   area, which the occluder may hide. */
 START_TEST(partial_pairs_count_for_more) {
   test_links t = test_make_links(test_named_scene("par1"), NULL, NULL, NULL, NULL);
   const hr2d_segment i = hr2d_scene_segment(t.scene, 0), j = hr2d_scene_segment(t.scene, 1);
@@ -565,7 +566,7 @@ START_TEST(partial_pairs_count_for_more) {
 }
 END_TEST
 
-/* A fence that is found to be tight only when what it hides would be linked. */
+/* A fence; that it is tight is found only when the pairs behind it would be linked. */
 START_TEST(what_is_hidden_has_no_link) {
   enum { PALES = 40 };
   plan fence = {.walls = 0};

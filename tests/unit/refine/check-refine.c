@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ProjectKernel: N and L of the reference tables, what must hold of every set of
-   links, and how refinements end early. */
+/* ProjectKernel: N and L of the reference tables, invariants of every link set, and
+   refinements that end early. */
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -69,7 +69,7 @@ START_TEST(counts_of_both_orders) {
 }
 END_TEST
 
-/* The links between two patches, summed up, exchange what the patches exchange. */
+/* The exchange areas of the links between two patches add up to that of the patches. */
 static void check_transport(const test_links *t) {
   const hr2d_element *element = hr2d_hierarchy_elements(t->hierarchy);
   const size_t n = hr2d_scene_patches(t->scene);
@@ -416,7 +416,7 @@ static hr2d_status scripted_limit(void *ctx, const hr2d_batch *batch, unsigned c
 static hr2d_status scripted_accept(void *ctx, const hr2d_batch *batch, const double *error,
                                    unsigned char *accepted) {
   (void)ctx;
-  /* The opposite of the default: what is large is fine. */
+  /* The opposite of the default: large errors are accepted. */
   for (size_t k = 0; k < batch->count; k++) accepted[k] = error[k] > batch->epsilon;
   return HR2D_OK;
 }
@@ -585,7 +585,7 @@ START_TEST(brightness_directs_refinement) {
   ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
   ck_assert(hr2d_linkset_directed(t.links));
   check_transport(&t);
-  /* Patch 1 is dark, so that what it sends needs one link. */
+  /* Patch 1 is dark, so that one link suffices for its light. */
   const hr2d_element *element = hr2d_hierarchy_elements(t.hierarchy);
   uint64_t from_dark = 0;
   for (uint64_t k = 0; k < hr2d_linkset_size(t.links); k++)

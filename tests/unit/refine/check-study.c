@@ -172,7 +172,7 @@ START_TEST(options_are_respected) {
   ck_assert_int_eq(hr2d_study_run(t.links, &options, epsilon, 2, rows, NULL), HR2D_OK);
   ck_assert_uint_eq(rows[0].counts.links, 1916);
   ck_assert_uint_eq(rows[1].counts.links, 30488);
-  /* Of a caller that knows less of the options, what it has. */
+  /* An older caller: the members of its shorter struct are used. */
   options.struct_size = offsetof(hr2d_refine_options, ordered);
   ck_assert_int_eq(hr2d_study_run(t.links, &options, epsilon, 2, rows, NULL), HR2D_OK);
   ck_assert_uint_eq(rows[1].counts.links, 15244);
@@ -241,7 +241,7 @@ START_TEST(slopes_are_exponents) {
     /* A cube is no quadratic polynomial. */
     if (power == 3) ck_assert_double_lt(fit.r2, 0.9999);
     if (power < 3) ck_assert_double_eq_tol(fit.r2, 1, 1e-14);
-    /* Linear data has no quadratic part: what a test of Θ(N²) must tell apart. */
+    /* Linear data has no quadratic part: a test of Θ(N²) must see the difference. */
     if (power == 1) {
       ck_assert_double_lt(fabs(fit.c) * 4412, 1e-12 * 7);
       check_near(fit.b, 7, 1e-12);
@@ -365,7 +365,7 @@ START_TEST(links_grow_quadratically) {
   ck_assert_double_gt(fit.slope, 1.95);
   ck_assert_double_lt(fit.slope, 2.05);
   ck_assert_double_gt(fit.c, 0);
-  /* The quadratic term is what there is at the fine end. */
+  /* At the fine end the quadratic term is nearly everything. */
   const double n = (double)rows[count - 1].counts.elements;
   check_near(fit.c * n * n, (double)rows[count - 1].counts.links, 0.05);
   ck_assert_double_gt(fit.r2, 0.9999);

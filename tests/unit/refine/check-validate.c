@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The validator of link sets: it holds of what refinement makes, refuses each kind of
-   damage by name, and agrees with a count over all pairs of leaves. */
+/* The validator of link sets: it accepts every refinement, names each kind of damage, and
+   agrees with a count over all pairs of leaves. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

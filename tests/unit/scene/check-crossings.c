@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes whose patches cross or lie on one another: what is refused, and what is cut,
-   judged in long double, where a point's distance from a line is known to 2^-60. */
+/* Scenes whose patches cross or lie on one another: which are refused, and where they are
+   split.  Judged in long double, in which the distance of a point from a line is known to
+   2^-60. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -14,7 +15,7 @@
 
 typedef long double real;
 
-/* What is called a rounding where the largest coordinate is 1. */
+/* One rounding, if the largest coordinate is 1. */
 #define ROUNDING 0x1p-50
 
 /* An assertion of Check's writes to a file each time, which is too slow for millions. */
@@ -559,9 +560,9 @@ START_TEST(patches_on_one_another_are_refused) {
 }
 END_TEST
 
-/* Walls of two features each, slanted, that share a part of one line: with ends that are
-   not the same doubles one lies in front of the other by a rounding, or behind.  What is
-   refused can be cut at the ends, and is then back to back exactly. */
+/* Slanted walls of two features that share a part of one line.  If their ends are not the
+   same doubles, one lies in front of the other, or behind it, by a rounding.  Refused scenes
+   can be split at the ends; then the walls stand exactly back to back. */
 START_TEST(slanted_walls_back_to_back_are_never_wrong) {
   unsigned long state = test_seed();
   size_t fine = 0, refused = 0;
@@ -611,8 +612,8 @@ START_TEST(shared_stretches_are_cut_alike) {
 }
 END_TEST
 
-/* The rounding of a star's arms makes it many crossings close by: none of this may
-   leave anything to be refused. */
+/* Rounding turns the centre of a star into many crossings close together.  After the split
+   nothing may be refused. */
 START_TEST(blurred_stars_are_cut) {
   unsigned long state = test_seed();
   size_t left_out = 0;

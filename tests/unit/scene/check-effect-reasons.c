@@ -248,7 +248,7 @@ START_TEST(occlusion_is_what_lines_find) {
     hr2d_scene_destroy(scene);
   }
   printf("%zu scenes with occlusion, %zu without; lines found %zu\n", occluded, clear, drawn);
-  /* What is missed are slivers between 48 × 48 lines. */
+  /* The lines miss slivers that fall between 48 × 48 of them. */
   ck_assert_uint_ge(10 * drawn, 9 * occluded);
 }
 END_TEST

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Effects are on where a scene calls for them; forced elsewhere they cost work and change no
-   bit.  And light from the background, against closed forms. */
+/* Effects: they are on if the scene calls for them; forced in other scenes they cost work
+   and change no bit.  The background, against closed forms. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 
 enum { BANDS = 3, MOST = 16 };
 
-/* A scene as numbers: ax ay bx by E ρ, of which both hold in every band. */
+/* A scene as numbers: ax ay bx by E ρ; E and ρ apply to every band. */
 typedef struct sample {
   const char *name;
   double patch[MOST][6];
@@ -369,7 +369,7 @@ static double strings(const double i[4], const double j[4]) {
          2 / distance(i, i + 2);
 }
 
-/* Black plates: each misses of the sky what it sees of the other. */
+/* Black plates: each loses the part of the sky that the other one covers. */
 START_TEST(plates_hide_the_sky_from_each_other) {
   for (double d = .125; d <= 8; d *= 2) {
     const double plate[][6] = {{0, 0, 1, 0, 0, 0}, {1, d, 0, d, 0, 0}};
@@ -397,8 +397,8 @@ START_TEST(backs_hide_the_sky) {
 }
 END_TEST
 
-/* A panel with two sides, given as two patches that need not be neighbours in the list nor
-   cover each other: each direction is taken once. */
+/* A panel with two sides, given as two patches.  They may stand apart in the list and need
+   not cover each other; each direction counts once. */
 START_TEST(sides_hide_the_sky_once) {
   const double neighbours[][6] = {
       {.25, 1, 1.5, 1, 0, 0}, {1.5, 1, .25, 1, 0, 0}, {0, 0, 1, 0, 0, 0}};
@@ -446,8 +446,8 @@ START_TEST(light_goes_to_and_fro) {
 }
 END_TEST
 
-/* Where all is as bright as the background nothing shows: B = 1, whatever stands in the way
-   and whatever is open. */
+/* If everything is as bright as the background, nothing can be seen: B = 1, with any
+   obstacles and any openings. */
 START_TEST(nothing_shows_in_an_isothermal_enclosure) {
   randoms r = randoms_stream(test_seed(), 77);
   const int rooms = test_multiplier() < 1 ? plan_class_count : 3 * plan_class_count;
@@ -482,7 +482,7 @@ START_TEST(nothing_shows_in_an_isothermal_enclosure) {
 }
 END_TEST
 
-/* Each band of the background is that of a grey scene. */
+/* Each band of the background gives the same as a grey scene. */
 START_TEST(backgrounds_have_bands) {
   const double sky[BANDS] = {1, 0, .25}, rho = .5;
   double average[BANDS + 1][BANDS];

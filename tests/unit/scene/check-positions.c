@@ -59,7 +59,7 @@ START_TEST(meetings_are_told_apart) {
 }
 END_TEST
 
-/* What is wrong with p and q, in words that are part of the message. */
+/* The conflict of p and q, in words that the message contains; NULL if there is none. */
 static const char *collision(const lattice *p, const lattice *q) {
   const int a = lattice_side(p->ax, p->ay, p->bx, p->by, q->ax, q->ay),
             b = lattice_side(p->ax, p->ay, p->bx, p->by, q->bx, q->by),
@@ -67,7 +67,7 @@ static const char *collision(const lattice *p, const lattice *q) {
             d = lattice_side(q->ax, q->ay, q->bx, q->by, p->bx, p->by);
   if (a * b < 0 && c * d < 0) return "cross";
   if (a != 0 || b != 0) return NULL;
-  /* Along p: where its own ends and those of q lie. */
+  /* The places of both ends of p and of q along p. */
   const long long ux = p->bx - p->ax, uy = p->by - p->ay;
   const long long end = ux * ux + uy * uy, from = ux * (q->ax - p->ax) + uy * (q->ay - p->ay),
                   to = ux * (q->bx - p->ax) + uy * (q->by - p->ay);
@@ -205,8 +205,8 @@ START_TEST(lengths_beyond_a_double_are_refused) {
 }
 END_TEST
 
-/* Between 2^40 times what a scene is across, and twice that; a convex room, in which nothing
-   can be in the way, is not. */
+/* The limit lies between 2^40 and 2^41 times the width of the scene.  A convex room, which
+   has no occluders, has no limit. */
 START_TEST(scenes_too_far_off_are_refused) {
   for (int e = 36; e < 50; e++) {
     double far[5][4] = {{0}, {0}, {0}, {0}, {.25, .25, .75, .75}};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Radiosity of order p: against reference values, in furnaces, and what does not depend on p;
-   how the error falls with p and how links grow with elements. */
+/* Radiosity of order p: reference values, furnaces, and properties that hold at every p; the
+   fall of the error with p, and the growth of links with elements. */
 #include <gsl/gsl_fit.h>
 #include <math.h>
 #include <stdlib.h>
@@ -138,7 +138,8 @@ static double furnace_error(const test_links *t, int closure) {
   return worst;
 }
 
-/* Rows sum to 1 within what the order gives; closure hides what is wrong with blocks. */
+/* Rows sum to 1 within the accuracy of the order.  This is checked without closure, which
+   would hide wrong blocks. */
 START_TEST(rows_before_closure) {
   double order[16], error[16];
   size_t count = 0;
@@ -233,7 +234,7 @@ START_TEST(error_falls_slowly_at_order_one) {
 }
 END_TEST
 
-/* With all other things the same, elements half as long are worth p digits and more. */
+/* Halving all elements gains at least a factor 2^p, all else being equal. */
 START_TEST(error_falls_with_size) {
   for (unsigned p = 2; p <= 4; p++) {
     double level[4], error[4];
@@ -262,8 +263,8 @@ static void count(test_links *t, double *n, double *l) {
   test_free_links(t);
 }
 
-/* At fixed admissibility links grow like elements, whatever makes these grow: the depth at a
-   corner, a narrow gap, the digits asked for. */
+/* At fixed admissibility, links grow like elements, for every reason of growth: the depth at
+   a corner, a narrow gap, the requested digits. */
 START_TEST(links_grow_like_elements) {
   double n[32], l[32];
   size_t k = 0;
@@ -555,7 +556,7 @@ START_TEST(bands_may_be_too_many) {
 END_TEST
 #endif
 
-/* A story of which each step may fail for lack of memory and must then succeed. */
+/* A sequence of steps; each may fail once for lack of memory and must then succeed. */
 typedef struct story {
   test_memory fault;
   test_links t;

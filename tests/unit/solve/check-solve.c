@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Radiosity against reference values, and what must hold of every solution. */
+/* Radiosity against reference values, and the laws that every solution obeys. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -411,8 +411,7 @@ START_TEST(scale_changes_no_digit) {
 }
 END_TEST
 
-/* In a furnace B is 1 at its corners as well; at one of an open scene it is what it is just
-   before. */
+/* In a furnace B is 1 at the corners, too; at a corner of an open scene B equals its limit. */
 START_TEST(corners_are_gathered_as_what_is_just_before) {
   const double at[] = {0, 0x1p-50, 1 - 0x1p-50, 1};
   double b[4];

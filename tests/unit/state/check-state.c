@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* States of a solve: going on from one gives the bits of a run that nothing interrupted, and
-   what is damaged, cut off or made up is refused or does no harm. */
+/* Saved states of a solve: resuming from one gives the same bits as a run without
+   interruption; states that are damaged, cut off or forged are refused or do no harm. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Visibility events: those of rooms where they can be told by hand, and in random rooms
-   what they are for: between two of them a point sees the same things in the same order. */
+/* Visibility events: in rooms where they can be computed by hand; and in random rooms, where
+   a point between two events must see the same patches in the same order. */
 #include <check.h>
 #include <math.h>
 #include <stdlib.h>
@@ -24,11 +24,11 @@ static hr2di_events events_of(const hr2d_scene *scene, unsigned generations) {
   return found;
 }
 
-/* What a point sees, found from all patches at once. */
+/* The view of a point, found from all patches at once. */
 
 enum { BLACK = -1, SKY = -2 };
 
-/* What is nearer than this to a line, in a room of about 1, was meant to lie on it. */
+/* A point nearer than this to a line, in a room of about 1, counts as lying on it. */
 #define TOUCH 1e-11
 
 typedef struct room {
@@ -243,7 +243,7 @@ static size_t needed(const hr2d_scene *scene, const hr2di_events *e) {
   return count;
 }
 
-/* Rooms whose events can be told by hand. */
+/* Rooms whose events can be computed by hand. */
 
 typedef struct known {
   uint32_t patch;
@@ -330,7 +330,7 @@ START_TEST(test_known) {
 }
 END_TEST
 
-/* A convex room has none, whatever is forced. */
+/* A convex room has no events, whatever is forced. */
 START_TEST(test_none) {
   randoms r = randoms_stream(test_seed(), 1);
   for (int k = 0; k < 50; k++) {
@@ -348,7 +348,7 @@ START_TEST(test_none) {
 }
 END_TEST
 
-/* Nor are there any where no light comes. */
+/* Patches that no light reaches have no events. */
 START_TEST(test_unlit) {
   double patch[ROWS(square)][6];
   for (size_t k = 0; k < ROWS(square); k++)

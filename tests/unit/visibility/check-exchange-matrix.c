@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* All exchange areas of a scene: rows of closed rooms sum to the patch's length, whatever
-   stands in them, and entries are those of the pairs.
+/* The matrix of all exchange areas of a scene: rows of closed rooms sum to the length of the
+   patch, with any obstacles, and entries equal the exchange areas of the pairs.
 
    HR2D_TEST_SEED and HR2D_TEST_MULTIPLIER in the environment change the rooms. */
 #include <check.h>
@@ -71,7 +71,7 @@ static double worst_row(const hr2d_scene *scene, const double *area, double roun
   return worst;
 }
 
-/* Positions that take away what a plan's own coordinates give: round numbers, the axes,
+/* Positions that remove the advantages of a plan's own coordinates: round numbers, the axes,
    the origin, a scale of about 1. */
 static similarity position(randoms *r, int kind, const plan *p) {
   const double angle = random_between(r, 0, 6.3),

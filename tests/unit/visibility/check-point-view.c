@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a point sees, against rays between all directions of vertices, against MPFR, closed
+/* The view of a point, against rays between all directions of vertices, against MPFR, closed
    forms, and integrals over whole patches.
 
    HR2D_TEST_SEED and HR2D_TEST_MULTIPLIER in the environment change the scenes. */
@@ -31,7 +31,7 @@ static hr2di_viewer *viewer_of(const hr2d_scene *scene) {
   return viewer;
 }
 
-/* Looks, and checks what holds for every look. */
+/* Computes a view and checks the invariants of every view. */
 static hr2di_view_from look(hr2di_viewer *viewer, size_t patch, double t) {
   hr2di_view_from seen;
   double front = 0;
@@ -85,8 +85,8 @@ static real crossed(place p, place q) {
   return p.s * q.h - p.h * q.s;
 }
 
-/* The patch that a ray meets first, or none; *front tells of which side.  Of patches in the
-   same place it is one that shows its front. */
+/* The patch that a ray meets first, or none; *front: whether it meets the front.  Of several
+   patches in the same place it is one that shows its front. */
 static size_t first_hit(const brute *b, real angle, int *front) {
   const place ray = {sinl(angle), cosl(angle)};
   size_t first = SIZE_MAX;
@@ -171,8 +171,8 @@ static real sine_between(const brute *b, size_t patch, real from, real to) {
   return (p.s / hypotl(p.s, p.h) - q.s / hypotl(q.s, q.h)) / 2;
 }
 
-/* The part is as wide as its sine says, up to what a rounding of fractions does, and its
-   inside is seen: not in the middle, where some other patch may end on it. */
+/* The part is as wide as its sine, up to rounding of the fractions, and a ray sees its
+   inside.  The ray does not go to the middle, where another patch may end on it. */
 static void check_part(const brute *b, const hr2di_glimpse *g) {
   const real slack = 4 * DBL_EPSILON, from = g->from, to = g->to;
   int front = 0;
@@ -232,7 +232,7 @@ typedef struct rooms {
   plan plan;
 } rooms;
 
-/* As it is, or turned so that nothing is round. */
+/* As given, or turned, so that no coordinate is a round number. */
 static hr2d_scene *draw_scene(rooms *s, const plan_class *class, int most, int kind, int turned,
                               unsigned forced) {
   const double angle = random_between(&s->r, 0, 6.3);
@@ -320,7 +320,7 @@ START_TEST(rooms_are_closed) {
 }
 END_TEST
 
-/* Σ w_j ½|sinθ| of what a point of a patch sees. */
+/* Σ w_j ½|sinθ| over the patches that a point of a patch sees. */
 typedef struct integrand {
   hr2di_viewer *viewer;
   size_t patch;
@@ -477,7 +477,7 @@ static void exact_sine(mpfr_t sine, const mpfr_t s, const mpfr_t h, int horizon)
   mpfr_div(sine, s, sine, MPFR_RNDN);
 }
 
-/* What a point of i sees of j alone; 0 if that has no answer. */
+/* The view of a point of i in a scene with j alone; 0 if there is no such scene. */
 static int exact_view(mpfr_t sine, hr2d_segment i, double t, hr2d_segment j) {
   mpfr_t s, h, u, v, turn;
   mpfr_inits2(DIGITS, s, h, u, v, turn, (mpfr_ptr)0);
@@ -531,7 +531,7 @@ START_TEST(sines_keep_their_digits) {
         ck_assert_double_eq(seen.front, 0);
         continue;
       }
-      /* Next to nothing of what is seen edge-on may be wrong. */
+      /* For a patch that is nearly edge-on an absolute error of 2^-104 is allowed. */
       const double rounding = 0x1p-104 / mpfr_get_d(sine, MPFR_RNDN);
       worst = fmax(worst, mpfr_relative_error(seen.front, sine) - rounding);
       compared++;
