@@ -73,23 +73,23 @@ if HAVE_TESTS
 check_LTLIBRARIES += tests/libsupport.la
 tests_threads_check_threads_LDFLAGS = -pthread
 tests_libsupport_la_SOURCES = \
-	tests/support/accuracy-tally.c tests/support/accuracy-tally.h \
 	tests/support/accuracy-scenes.c tests/support/accuracy-scenes.h \
+	tests/support/accuracy-tally.c tests/support/accuracy-tally.h \
 	tests/support/elements.c tests/support/elements.h \
 	tests/support/fault-calls.c tests/support/fault-calls.h \
 	tests/support/fault-stage.c tests/support/fault-stage.h \
-	tests/support/hard.c tests/support/hard.h \
 	tests/support/hard-rooms.c tests/support/hard-rooms.h \
+	tests/support/hard.c tests/support/hard.h \
 	tests/support/hill-climb.c tests/support/hill-climb.h \
 	tests/support/lattice-scenes.c tests/support/lattice-scenes.h \
 	tests/support/links.c tests/support/links.h \
 	tests/support/memory.c tests/support/memory.h \
-	tests/support/plane.h \
-	tests/support/pair-classes.c tests/support/pair-classes.h \
-	tests/support/radiosity-scenes.c tests/support/radiosity-scenes.h \
-	tests/support/room-plans.c tests/support/room-plans.h \
-	tests/support/random.c tests/support/random.h \
 	tests/support/order.h \
+	tests/support/pair-classes.c tests/support/pair-classes.h \
+	tests/support/plane.h \
+	tests/support/radiosity-scenes.c tests/support/radiosity-scenes.h \
+	tests/support/random.c tests/support/random.h \
+	tests/support/room-plans.c tests/support/room-plans.h \
 	tests/support/scene-files.c tests/support/scene-files.h \
 	tests/support/scenes.c tests/support/scenes.h \
 	tests/support/settings.c tests/support/settings.h \
