@@ -167,7 +167,8 @@ HR2D_API double hr2d_solution_at(const hr2d_solution *solution, size_t patch, do
  *
  * @param solution,patch  a solution and the index of a patch
  * @param t               `count` fractions of the patch in [0,1], counted from its start; where
- *                        another patch ends, B is taken on the side of the patch's middle
+ *                        another patch touches this point, B is the limit from the inside of
+ *                        this patch, on the side of its middle
  * @param count           number of points
  * @param value           receives `count` × bands values in the unit of E, point by point
  * @retval HR2D_OK      success
@@ -178,6 +179,27 @@ HR2D_API double hr2d_solution_at(const hr2d_solution *solution, size_t patch, do
  */
 HR2D_API hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t patch,
                                           const double *t, size_t count, double *value);
+
+/**
+ * The irradiance H at points of a patch after one more gather: H' = ∫ G V B_h and what arrives
+ * from the background, with G and V exact. Patches that reflect nothing have it, too.
+ * @param solution,patch,t,count  as for hr2d_solution_gather()
+ * @param value                   receives `count` × bands values in the unit of E
+ * @return as hr2d_solution_gather(), with its cost
+ */
+HR2D_API hr2d_status hr2d_solution_gather_irradiance(const hr2d_solution *solution,
+                                                     size_t patch, const double *t,
+                                                     size_t count, double *value);
+
+/**
+ * The net flux B − H = E − (1−ρ) H' at points of a patch; negative where the patch gains.
+ * @param solution,patch,t,count  as for hr2d_solution_gather()
+ * @param value                   receives `count` × bands values in the unit of E
+ * @return as hr2d_solution_gather(), with its cost
+ */
+HR2D_API hr2d_status hr2d_solution_gather_net_flux(const hr2d_solution *solution, size_t patch,
+                                                   const double *t, size_t count,
+                                                   double *value);
 
 /**
  * The links from which a solution was made, and through them its elements.

@@ -1,10 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One more gather at single points: B' = E + ρ ∫ G V B_h, with G and V exact.
+/* One more gather at single points: H' = ∫ G V B_h with G and V exact, and B' = E + ρH'.
 
-   A point of a patch sees parts of other patches.  On each leaf of such a part B_h is a
-   polynomial, and panels shrink towards the point as they do in near blocks. */
+   A point of a patch sees parts of other patches, its glimpses.  On the part of a leaf in a
+   glimpse B_h is a polynomial; panels shrink towards the point, as those of near blocks do. The
+   form factor of a glimpse is known to all digits.  Its share that no panel resolves, since the
+   point touches the patch or nearly does, gets the B_h of the nearest end of the glimpse.
+
+   A point that touches another patch has the limit from the inside of its own patch.  There the
+   two patches p and q form a wedge, and see each other under k = ½(1 + cos α) of all directions
+   whatever the distance from its edge.  With the irradiance r from everything else the limits
+   of B solve
+     b_p = E_p + ρ_p (k b_q + r_p),   b_q = E_q + ρ_q (k b_p + r_q). */
+#include "base/alloc.h"
 #include "blocks/panels.h"
 #include "geometry/point-view-factor.h"
+#include "geometry/vector.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
@@ -13,13 +23,29 @@
 /* On a panel that is far enough a rule is accurate to 3.19^−(2·POINTS − order). */
 enum { POINTS = 32, STACK = 128 };
 
+/* Points nearer than this to a patch touch it: scaled coordinates are at most 1, so that it is
+   a few of their roundings. */
+#define TOUCH 0x1p-50
+
+/* Panels find the form factor of a glimpse to this error where they resolve it. */
+#define RESOLVED 1e-13
+
 typedef struct gatherer {
   const hr2d_solution *solution;
+  hr2di_viewer *viewer;
   hr2di_basis basis;
   hr2di_rule rule;
   hr2d_point x, normal;
   double *value; /* per band: H */
+  double factor; /* the form factor that panels have found of the glimpse under way */
+  double *edge;  /* per band: the irradiance of the other patch of a wedge */
 } gatherer;
+
+/* A patch that touches the point: where it does, and its form factor. */
+typedef struct contact {
+  size_t patch;
+  double at, factor;
+} contact;
 
 /* At order 1 B is constant on a leaf: its part sends B times the form factor of a segment. */
 static void add_constant(gatherer *g, const hr2d_element *e, const double *coefficient,
@@ -29,6 +55,7 @@ static void add_constant(gatherer *g, const hr2d_element *e, const double *coeff
   const double factor =
       hr2di_point_view_factor(g->normal, hr2di_block_along(from, along, part.from),
                               hr2di_block_along(from, along, part.to));
+  g->factor += factor;
   for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += factor * coefficient[b];
 }
 
@@ -45,6 +72,7 @@ static void add_panel(gatherer *g, hr2d_point from, hr2d_point along, hr2di_span
     const double turn = r.x * along.y - r.y * along.x;
     const double kernel =
         0.5 * size * g->rule.weight[q] * cos_x * turn / (square * sqrt(square));
+    g->factor += kernel;
     for (size_t b = 0; b < bands; b++)
       g->value[b] += kernel * hr2di_basis_sum(&g->basis, 2 * t - 1, coefficient + b, bands);
   }
@@ -77,8 +105,8 @@ typedef struct piece {
   double from, to; /* fractions of the patch */
 } piece;
 
-/* Adds the light of the part of a patch that the point sees. */
-static void add_glimpse(gatherer *g, const hr2di_glimpse *seen) {
+/* Adds the light of the leaves of a glimpse. */
+static void add_leaves(gatherer *g, const hr2di_glimpse *seen) {
   const hr2d_element *element = g->solution->hierarchy->element;
   piece stack[STACK];
   size_t count = 0;
@@ -100,40 +128,144 @@ static void add_glimpse(gatherer *g, const hr2di_glimpse *seen) {
   }
 }
 
-static hr2d_status gather_at(gatherer *g, hr2di_viewer *viewer, size_t patch, double t) {
-  const hr2d_scene *scene = g->solution->hierarchy->scene;
-  const hr2di_patch *p = &scene->patch[patch];
+/* Where a patch is nearest to the point, as a fraction of it within a range; *distance may be
+   NULL. */
+static double nearest(const gatherer *g, size_t patch, double from, double to,
+                      double *distance) {
+  const hr2di_patch *p = &g->solution->hierarchy->scene->patch[patch];
+  const hr2d_point a = p->scaled.a, along = hr2di_point_minus(p->scaled.b, a);
+  const double t = hr2di_point_dot(hr2di_point_minus(g->x, a), along) / p->length / p->length;
+  const double at = fmin(fmax(t, from), to);
+  const hr2d_point d = hr2di_point_minus(g->x, hr2di_block_along(a, along, at));
+  if (distance) *distance = hypot(d.x, d.y);
+  return at;
+}
+
+/* Adds a glimpse: what panels resolve of it, and the rest at its nearest point. */
+static void add_glimpse(gatherer *g, const hr2di_glimpse *seen) {
+  g->factor = 0;
+  add_leaves(g, seen);
+  const double rest = seen->sine - g->factor;
+  if (!(fabs(rest) > RESOLVED)) return;
+  const double at = nearest(g, seen->patch, seen->from, seen->to, NULL);
+  for (size_t b = 0; b < g->solution->bands; b++)
+    g->value[b] += rest * hr2d_solution_at(g->solution, seen->patch, at, b);
+}
+
+/* Sets the point at fraction t of a patch, measured from the nearer end, so that it is on the
+   patch at both. */
+static void set_point(gatherer *g, const hr2di_patch *p, double t) {
   const hr2d_segment s = p->scaled;
+  const hr2d_point along = hr2di_point_minus(s.b, s.a);
+  g->x = t <= 0.5 ? hr2di_block_along(s.a, along, t) : hr2di_block_along(s.b, along, t - 1);
+  g->normal = (hr2d_point){-along.y / p->length, along.x / p->length};
+}
+
+/* The irradiance from everything that does not touch the point; a patch that does, if any. */
+static hr2d_status look(gatherer *g, size_t patch, double t, double *irradiance,
+                        contact *touching) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
   const size_t bands = g->solution->bands;
-  hr2di_view_from seen;
-  if (hr2di_view_at(viewer, patch, t, &seen)) return HR2D_ENOMEM;
-  /* Measured from the nearer end, so that the point is on the patch at both. */
-  g->x = t <= 0.5 ? (hr2d_point){s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)}
-                  : (hr2d_point){s.b.x - (1 - t) * (s.b.x - s.a.x),
-                                 s.b.y - (1 - t) * (s.b.y - s.a.y)};
-  g->normal = (hr2d_point){-(s.b.y - s.a.y) / p->length, (s.b.x - s.a.x) / p->length};
   const int background = scene->effect[HR2D_EFFECT_BACKGROUND].on;
+  hr2di_view_from seen;
+  *touching = (contact){0};
+  if (hr2di_view_at(g->viewer, patch, t, &seen)) return HR2D_ENOMEM;
+  set_point(g, &scene->patch[patch], t);
+  g->value = irradiance;
   for (size_t b = 0; b < bands; b++)
     g->value[b] = background ? seen.sky * hr2d_scene_background(scene, b) : 0;
-  for (size_t k = 0; k < seen.count; k++) add_glimpse(g, &seen.glimpse[k]);
-  for (size_t b = 0; b < bands; b++)
-    g->value[b] = hr2d_scene_emission(scene, patch, b) +
-                  hr2d_scene_reflectance(scene, patch, b) * g->value[b];
+  for (size_t k = 0; k < seen.count; k++) {
+    const hr2di_glimpse *part = &seen.glimpse[k];
+    double distance;
+    const double at = nearest(g, part->patch, part->from, part->to, &distance);
+    if (distance > TOUCH)
+      add_glimpse(g, part);
+    else
+      *touching = (contact){part->patch, at, part->sine};
+  }
   return HR2D_OK;
+}
+
+/* The point of the other patch of a wedge: beside the edge, on the side that the point's patch
+   looks at.  An edge at an end of the patch is that end. */
+static double beside(const gatherer *g, const contact *q) {
+  const hr2di_patch *p = &g->solution->hierarchy->scene->patch[q->patch];
+  const double step = 4 * TOUCH / p->length;
+  if (q->at <= step) return 0;
+  if (q->at >= 1 - step) return 1;
+  const hr2d_point along = hr2di_point_minus(p->scaled.b, p->scaled.a);
+  return q->at + (hr2di_point_dot(along, g->normal) > 0 ? step : -step);
+}
+
+/* The factor under which the other patch of a wedge sees this one, and its irradiance from
+   everything else. */
+static hr2d_status look_back(gatherer *g, size_t patch, const contact *q, double *factor) {
+  contact back;
+  const hr2d_status status = look(g, q->patch, beside(g, q), g->edge, &back);
+  *factor = !status && back.patch == patch ? back.factor : 0;
+  return status;
+}
+
+/* Adds to the irradiance what the other patch of a wedge sends. */
+static hr2d_status close_wedge(gatherer *g, size_t patch, const contact *q,
+                               double *irradiance) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  double back;
+  const hr2d_status status = look_back(g, patch, q, &back);
+  for (size_t b = 0; b < g->solution->bands && !status; b++) {
+    const double rho_p = hr2d_scene_reflectance(scene, patch, b);
+    const double rho_q = hr2d_scene_reflectance(scene, q->patch, b);
+    const double alone_p = hr2d_scene_emission(scene, patch, b) + rho_p * irradiance[b];
+    const double alone_q = hr2d_scene_emission(scene, q->patch, b) + rho_q * g->edge[b];
+    const double radiosity_q =
+        (alone_q + rho_q * back * alone_p) / (1 - rho_p * rho_q * q->factor * back);
+    irradiance[b] += q->factor * radiosity_q;
+  }
+  return status;
+}
+
+static hr2d_status gather_at(gatherer *g, size_t patch, double t, double *irradiance) {
+  contact touching;
+  const hr2d_status status = look(g, patch, t, irradiance, &touching);
+  return status || !(touching.factor > 0) ? status
+                                          : close_wedge(g, patch, &touching, irradiance);
+}
+
+hr2d_status hr2d_solution_gather_irradiance(const hr2d_solution *solution, size_t patch,
+                                            const double *t, size_t count, double *value) {
+  gatherer g = {.solution = solution};
+  g.edge = hr2di_alloc(&solution->alloc, solution->bands, sizeof *g.edge);
+  hr2d_status status = g.edge ? HR2D_OK : HR2D_ENOMEM;
+  if (!status)
+    status = hr2di_viewer_create(solution->hierarchy->scene, &solution->alloc, &g.viewer);
+  hr2di_basis_init(&g.basis, solution->order);
+  hr2di_rule_init(&g.rule, POINTS);
+  for (size_t k = 0; k < count && !status; k++)
+    status = gather_at(&g, patch, t[k], value + k * solution->bands);
+  hr2di_viewer_destroy(g.viewer);
+  hr2di_alloc_free(&solution->alloc, g.edge);
+  return status;
+}
+
+/* value = constant + factor·H, per band. */
+static hr2d_status gather_with(const hr2d_solution *solution, size_t patch, const double *t,
+                               size_t count, int net, double *value) {
+  const hr2d_scene *scene = solution->hierarchy->scene;
+  const hr2d_status status = hr2d_solution_gather_irradiance(solution, patch, t, count, value);
+  for (size_t k = 0; k < count * solution->bands && !status; k++) {
+    const size_t band = k % solution->bands;
+    const double rho = hr2d_scene_reflectance(scene, patch, band);
+    value[k] = hr2d_scene_emission(scene, patch, band) + (net ? rho - 1 : rho) * value[k];
+  }
+  return status;
 }
 
 hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t patch, const double *t,
                                  size_t count, double *value) {
-  hr2di_viewer *viewer = NULL;
-  gatherer g = {.solution = solution};
-  hr2d_status status =
-      hr2di_viewer_create(solution->hierarchy->scene, &solution->alloc, &viewer);
-  hr2di_basis_init(&g.basis, solution->order);
-  hr2di_rule_init(&g.rule, POINTS);
-  for (size_t k = 0; k < count && !status; k++) {
-    g.value = value + k * solution->bands;
-    status = gather_at(&g, viewer, patch, t[k]);
-  }
-  hr2di_viewer_destroy(viewer);
-  return status;
+  return gather_with(solution, patch, t, count, 0, value);
+}
+
+hr2d_status hr2d_solution_gather_net_flux(const hr2d_solution *solution, size_t patch,
+                                          const double *t, size_t count, double *value) {
+  return gather_with(solution, patch, t, count, 1, value);
 }
