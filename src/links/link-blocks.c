@@ -29,6 +29,7 @@ static hr2d_status make_some(const maker *m, hr2di_integrator *work, uint64_t fr
     int distant;
     const hr2d_status status = hr2di_block(work, link->pair, block, &distant);
     if (status) return status;
+    block[0] = link->exchange_area; /* to all digits, whatever the rules are worth */
     m->blocks->distant[k] = (unsigned char)distant;
   }
   return HR2D_OK;
