@@ -29,6 +29,7 @@ SUITES = \
 	tests/unit/refine/check-validate \
 	tests/paper/check-theorem \
 	tests/unit/oracle/check-l1 \
+	tests/unit/solution/check-points \
 	tests/unit/solve/check-solve \
 	tests/unit/refine/check-occlusion \
 	tests/unit/scene/check-effects \

@@ -2,6 +2,9 @@
 /* Each block has a place of its own in memory, so the result does not depend on threads. */
 #include "links/link-blocks.h"
 
+#include <float.h>
+#include <math.h>
+
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -9,6 +12,7 @@
 #include "base/alloc.h"
 #include "blocks/block.h"
 #include "links/linkset-impl.h"
+#include "scene/scene-impl.h"
 
 /* Blocks are made in rounds, and progress is reported between them. */
 enum { CHUNK = 16, ROUND = 256 };
@@ -20,6 +24,23 @@ typedef struct maker {
   size_t threads;
 } maker;
 
+/* The relative error that rounded coordinates cause in the length of an element; a whole patch
+   has its own coordinates. */
+static double rounding_of(const hr2d_hierarchy *h, uint32_t element) {
+  return element < h->scene->patches ? 0 : DBL_EPSILON / h->element[element].length;
+}
+
+/* The first coefficient of a block is the exchange area of its elements.  The link knows the
+   area to all digits of their coordinates, whatever the rule of the block is worth.  The block
+   of touching elements knows more digits, as it measures small elements as parts of their
+   patches.  So it stands where both agree to the digits of the coordinates. */
+static double first_coefficient(const hr2d_hierarchy *h, const hr2d_link *link, double block) {
+  const double rounding =
+      rounding_of(h, link->pair.first) + rounding_of(h, link->pair.second) + 4 * DBL_EPSILON;
+  const double area = link->exchange_area;
+  return fabs(block - area) > rounding * fmax(block, area) ? area : block;
+}
+
 static hr2d_status make_some(const maker *m, hr2di_integrator *work, uint64_t from,
                              uint64_t to) {
   const size_t square = m->blocks->order * m->blocks->order;
@@ -29,7 +50,7 @@ static hr2d_status make_some(const maker *m, hr2di_integrator *work, uint64_t fr
     int distant;
     const hr2d_status status = hr2di_block(work, link->pair, block, &distant);
     if (status) return status;
-    block[0] = link->exchange_area; /* to all digits, whatever the rules are worth */
+    block[0] = first_coefficient(m->links->hierarchy, link, block[0]);
     m->blocks->distant[k] = (unsigned char)distant;
   }
   return HR2D_OK;

@@ -85,24 +85,16 @@ int run_error(run *r, progress *p) {
   return complain(o->scene, "the error is not known: %s", hr2d_strerror(status));
 }
 
-/* H from B = E + ρH, so that H is as exact as B, unless the difference B − E loses digits. */
-static double irradiance(const run *r, size_t patch, double t, size_t band, double radiosity) {
-  const double emission = hr2d_scene_emission(r->scene, patch, band);
-  const double reflected = radiosity - emission;
-  if (reflected > 1e-3 * emission)
-    return reflected / hr2d_scene_reflectance(r->scene, patch, band);
-  return hr2d_solution_irradiance_at(r->solution, patch, t, band);
-}
-
 int run_place(const run *r, size_t k, double *b, double *h) {
   const double t = r->options->at.items[k].t;
   const size_t patch = r->places[k], bands = hr2d_scene_bands(r->scene);
   const int gather = r->account.order > 1 || options_targeted(r->options);
-  if (gather && hr2d_solution_gather(r->solution, patch, &t, 1, b)) return complain_memory();
-  for (size_t band = 0; band < bands; band++) {
-    if (!gather) b[band] = hr2d_solution_at(r->solution, patch, t, band);
-    h[band] = gather ? irradiance(r, patch, t, band, b[band])
-                     : hr2d_solution_irradiance_at(r->solution, patch, t, band);
+  if (gather && (hr2d_solution_gather(r->solution, patch, &t, 1, b) ||
+                 hr2d_solution_gather_irradiance(r->solution, patch, &t, 1, h)))
+    return complain_memory();
+  for (size_t band = 0; band < bands && !gather; band++) {
+    b[band] = hr2d_solution_at(r->solution, patch, t, band);
+    h[band] = hr2d_solution_irradiance_at(r->solution, patch, t, band);
   }
   return EXIT_DONE;
 }
