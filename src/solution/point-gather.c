@@ -27,6 +27,10 @@ enum { POINTS = 32, STACK = 128 };
    a few of their roundings. */
 #define TOUCH 0x1p-50
 
+/* The limits at the edge of a wedge are those of points so far beside it.  Roundings of the
+   coordinates of a foot do not matter there. */
+#define BESIDE 0x1p-46
+
 /* Panels find the form factor of a glimpse to this error where they resolve it. */
 #define RESOLVED 1e-13
 
@@ -41,11 +45,13 @@ typedef struct gatherer {
   double *edge;  /* per band: the irradiance of the other patch of a wedge */
 } gatherer;
 
-/* A patch that touches the point: where it does, and its form factor. */
-typedef struct contact {
+/* A patch that touches the point, as one side of a wedge. */
+typedef struct edge {
   size_t patch;
-  double at, factor;
-} contact;
+  double at, step; /* fraction of the patch where the edge is, and how exactly that is known */
+  double beside;   /* fraction of a point near it, which stands for its limit */
+  double inside;   /* 1 if that is ahead along the patch, −1 if behind */
+} edge;
 
 /* At order 1 B is constant on a leaf: its part sends B times the form factor of a segment. */
 static void add_constant(gatherer *g, const hr2d_element *e, const double *coefficient,
@@ -141,7 +147,7 @@ static double nearest(const gatherer *g, size_t patch, double from, double to,
   return at;
 }
 
-/* Adds a glimpse: what panels resolve of it, and the rest at its nearest point. */
+/* Adds a glimpse: the light that panels resolve, and the rest from its nearest point. */
 static void add_glimpse(gatherer *g, const hr2di_glimpse *seen) {
   g->factor = 0;
   add_leaves(g, seen);
@@ -161,74 +167,111 @@ static void set_point(gatherer *g, const hr2di_patch *p, double t) {
   g->normal = (hr2d_point){-along.y / p->length, along.x / p->length};
 }
 
-/* The irradiance from everything that does not touch the point; a patch that does, if any. */
-static hr2d_status look(gatherer *g, size_t patch, double t, double *irradiance,
-                        contact *touching) {
+/* Whether a glimpse is that of a patch at the edge of a wedge. */
+static int is_at_edge(const hr2di_glimpse *seen, const edge *q) {
+  return q && seen->patch == q->patch && seen->from <= q->at + q->step &&
+         seen->to >= q->at - q->step;
+}
+
+/* Sets the irradiance from everything but the patch that makes a wedge, which may be NULL.
+ *wedge is the form factor of that patch, and *others that of everything else. */
+static hr2d_status look(gatherer *g, size_t patch, double t, const edge *without,
+                        double *irradiance, double *wedge, double *others) {
   const hr2d_scene *scene = g->solution->hierarchy->scene;
-  const size_t bands = g->solution->bands;
   const int background = scene->effect[HR2D_EFFECT_BACKGROUND].on;
   hr2di_view_from seen;
-  *touching = (contact){0};
   if (hr2di_view_at(g->viewer, patch, t, &seen)) return HR2D_ENOMEM;
   set_point(g, &scene->patch[patch], t);
   g->value = irradiance;
-  for (size_t b = 0; b < bands; b++)
+  *wedge = 0;
+  *others = seen.sky + seen.back;
+  for (size_t b = 0; b < g->solution->bands; b++)
     g->value[b] = background ? seen.sky * hr2d_scene_background(scene, b) : 0;
   for (size_t k = 0; k < seen.count; k++) {
-    const hr2di_glimpse *part = &seen.glimpse[k];
-    double distance;
-    const double at = nearest(g, part->patch, part->from, part->to, &distance);
-    if (distance > TOUCH)
-      add_glimpse(g, part);
-    else
-      *touching = (contact){part->patch, at, part->sine};
+    const int at_edge = is_at_edge(&seen.glimpse[k], without);
+    *(at_edge ? wedge : others) += seen.glimpse[k].sine;
+    if (!at_edge) add_glimpse(g, &seen.glimpse[k]);
   }
   return HR2D_OK;
 }
 
-/* The point of the other patch of a wedge: beside the edge, on the side that the point's patch
-   looks at.  An edge at an end of the patch is that end. */
-static double beside(const gatherer *g, const contact *q) {
-  const hr2di_patch *p = &g->solution->hierarchy->scene->patch[q->patch];
-  const double step = 4 * TOUCH / p->length;
-  if (q->at <= step) return 0;
-  if (q->at >= 1 - step) return 1;
+/* The point of a patch at the edge of a wedge, and one beside it: inside the patch, or within
+   it on the given side. */
+static edge edge_of(const gatherer *g, size_t patch, double at, double side) {
+  const double step = BESIDE / g->solution->hierarchy->scene->patch[patch].length;
+  const double inside = at <= step ? 1 : at >= 1 - step ? -1 : side;
+  const double beside = fmin(fmax(at + inside * step, 0), 1);
+  return (edge){patch, at, 4 * step, beside, inside};
+}
+
+/* The unit vector along a patch, from the edge to the point beside it. */
+static hr2d_point direction_of(const gatherer *g, const edge *e) {
+  const hr2di_patch *p = &g->solution->hierarchy->scene->patch[e->patch];
   const hr2d_point along = hr2di_point_minus(p->scaled.b, p->scaled.a);
-  return q->at + (hr2di_point_dot(along, g->normal) > 0 ? step : -step);
+  return (hr2d_point){e->inside * along.x / p->length, e->inside * along.y / p->length};
 }
 
-/* The factor under which the other patch of a wedge sees this one, and its irradiance from
-   everything else. */
-static hr2d_status look_back(gatherer *g, size_t patch, const contact *q, double *factor) {
-  contact back;
-  const hr2d_status status = look(g, q->patch, beside(g, q), g->edge, &back);
-  *factor = !status && back.patch == patch ? back.factor : 0;
-  return status;
+/* The form factor of an edge is k = ½(1 + cos α) = ¼|u + w|², and that of everything else
+   1 − k = ¼|u − w|².  A view from beside the edge has neither exactly: irradiances from
+   everything else are scaled by the right one. */
+static void scale(const gatherer *g, double right, double others, double *irradiance) {
+  for (size_t b = 0; b < g->solution->bands; b++)
+    irradiance[b] *= others > 0 ? right / others : 0;
 }
 
-/* Adds to the irradiance what the other patch of a wedge sends. */
-static hr2d_status close_wedge(gatherer *g, size_t patch, const contact *q,
-                               double *irradiance) {
+/* The irradiance at the edge of the wedge that two patches make; *closed is 0 if they do not
+   see each other beside it. */
+static hr2d_status close_wedge(gatherer *g, const edge *p, const edge *q, double *irradiance,
+                               int *closed) {
   const hr2d_scene *scene = g->solution->hierarchy->scene;
-  double back;
-  const hr2d_status status = look_back(g, patch, q, &back);
-  for (size_t b = 0; b < g->solution->bands && !status; b++) {
-    const double rho_p = hr2d_scene_reflectance(scene, patch, b);
+  const hr2d_point u = direction_of(g, p), w = direction_of(g, q);
+  const hr2d_point sum = {u.x + w.x, u.y + w.y}, apart = hr2di_point_minus(u, w);
+  const double k = 0.25 * hr2di_point_dot(sum, sum),
+               rest = 0.25 * hr2di_point_dot(apart, apart);
+  double wedge[2], others[2];
+  hr2d_status status = look(g, p->patch, p->beside, q, irradiance, &wedge[0], &others[0]);
+  if (!status) status = look(g, q->patch, q->beside, p, g->edge, &wedge[1], &others[1]);
+  *closed = !status && wedge[0] > 0 && wedge[1] > 0;
+  if (!*closed) return status;
+  scale(g, rest, others[0], irradiance);
+  scale(g, rest, others[1], g->edge);
+  for (size_t b = 0; b < g->solution->bands; b++) {
+    const double rho_p = hr2d_scene_reflectance(scene, p->patch, b);
     const double rho_q = hr2d_scene_reflectance(scene, q->patch, b);
-    const double alone_p = hr2d_scene_emission(scene, patch, b) + rho_p * irradiance[b];
+    const double alone_p = hr2d_scene_emission(scene, p->patch, b) + rho_p * irradiance[b];
     const double alone_q = hr2d_scene_emission(scene, q->patch, b) + rho_q * g->edge[b];
-    const double radiosity_q =
-        (alone_q + rho_q * back * alone_p) / (1 - rho_p * rho_q * q->factor * back);
-    irradiance[b] += q->factor * radiosity_q;
+    irradiance[b] += k * (alone_q + rho_q * k * alone_p) / (1 - rho_p * rho_q * k * k);
+  }
+  return HR2D_OK;
+}
+
+/* Looks for a patch that makes a wedge with the point's own one, and closes it. */
+static hr2d_status find_wedge(gatherer *g, size_t patch, double t, double *irradiance,
+                              int *closed) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  const edge p = edge_of(g, patch, t, t <= 0.5 ? 1 : -1);
+  hr2d_status status = HR2D_OK;
+  *closed = 0;
+  for (size_t k = 0; k < scene->patches && !*closed && !status; k++) {
+    double distance;
+    set_point(g, &scene->patch[patch], t);
+    const double at = nearest(g, k, 0, 1, &distance);
+    if (k == patch || distance > TOUCH) continue;
+    const hr2d_segment s = scene->patch[k].scaled;
+    const double rises = hr2di_point_dot(hr2di_point_minus(s.b, s.a), g->normal);
+    const edge q = edge_of(g, k, at, rises > 0 ? 1 : -1);
+    if (q.inside * rises > 0) status = close_wedge(g, &p, &q, irradiance, closed);
   }
   return status;
 }
 
 static hr2d_status gather_at(gatherer *g, size_t patch, double t, double *irradiance) {
-  contact touching;
-  const hr2d_status status = look(g, patch, t, irradiance, &touching);
-  return status || !(touching.factor > 0) ? status
-                                          : close_wedge(g, patch, &touching, irradiance);
+  double wedge, others;
+  int closed;
+  const double step = TOUCH / g->solution->hierarchy->scene->patch[patch].length;
+  const double at = t <= step ? 0 : t >= 1 - step ? 1 : t;
+  const hr2d_status status = find_wedge(g, patch, at, irradiance, &closed);
+  return status || closed ? status : look(g, patch, t, NULL, irradiance, &wedge, &others);
 }
 
 hr2d_status hr2d_solution_gather_irradiance(const hr2d_solution *solution, size_t patch,

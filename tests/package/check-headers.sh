@@ -42,7 +42,7 @@ program() {
   text=$(sed -n "/$2/,/$3/p" "$4" | sed '1d;$d; s/^ \* \{0,1\}//')
   case $text in *main*) ;; *) echo "$1 has no program" >&2; status=1 ;; esac
   # shellcheck disable=SC2086
-  if ! echo "$text" | $CC -std=c11 $flags -fsyntax-only -x c -; then
+  if ! printf '%s\n' "$text" | $CC -std=c11 $flags -fsyntax-only -x c -; then
     echo "the program in $1 does not compile" >&2
     status=1
   fi

@@ -86,6 +86,34 @@ START_TEST(edges_of_wedges) {
 }
 END_TEST
 
+/* A wall with two sides stands on a floor under an angle, and all is turned: at its foot each
+   side makes a wedge with the floor, whose part beside the foot sees nothing else. */
+START_TEST(feet_of_walls) {
+  for (int degrees = 15; degrees < 180; degrees += 30) {
+    const double turn = 0.3 * _i, angle = degrees * (acos(-1) / 180);
+    const hr2d_point start = {0.1, 0.2}, end = plane_polar(start, 2, turn);
+    const hr2d_point foot = plane_along((hr2d_segment){start, end}, 0.35);
+    const hr2d_segment wall = {foot, plane_polar(foot, 0.8, turn + angle)};
+    hr2d_scene *scene = test_new_scene(NULL);
+    ck_assert_int_eq(test_add_patch(scene, (hr2d_segment){start, end}, emission[P],
+                                    reflectance[P], HR2D_SIDES_FRONT),
+                     HR2D_OK);
+    ck_assert_int_eq(test_add_patch(scene, wall, emission[Q], reflectance[Q], HR2D_SIDES_BOTH),
+                     HR2D_OK);
+    test_commit(scene);
+    hr2d_solution *solution = solve(scene, 1e-3);
+    for (size_t side = 0; side < 2; side++) {
+      const double k = 0.5 * (1 + (side ? cos(angle) : -cos(angle)));
+      const double h = k * (emission[P] + reflectance[P] * k * emission[Q]) /
+                       (1 - reflectance[P] * reflectance[Q] * k * k);
+      ck_assert_double_eq_tol(irradiance_at(solution, 1 + side, (double)side), h, 1e-11);
+    }
+    hr2d_solution_destroy(solution);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
 /* B changes by no jump towards the edge: the limit is that of points just before it.  Near it
    B − B(0) ~ x^γ with γ above ½ for this wedge. */
 START_TEST(points_beside_an_edge) {
@@ -217,6 +245,7 @@ END_TEST
 
 TEST_SUITE("points") {
   ADD_TESTS("ends", edges_of_wedges, points_beside_an_edge);
+  REPEAT_TESTS(5, "ends", feet_of_walls);
   REPEAT_TESTS(3, "ends", ends_and_feet_in_furnaces);
   ADD_TESTS("irradiance", irradiance_on_black_walls, averages_of_irradiance,
             net_flux_at_points);
