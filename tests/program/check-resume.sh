@@ -97,8 +97,11 @@ for delay in 0.05 0.1 0.2 0.3 0.4 0.5; do
   check "stopped or done; was $status" ended
 done
 check "no temporary file is left" [ -z "$(find "$work" -name '.hr2d-*')" ]
-stages 0.008 --state "$state" --csv "$work/resumed.csv"
+run solve "$room" --no-error --multigrid 1:0.5 --eps 0.008 --state "$state" \
+  --csv "$work/resumed.csv"
 check "goes on; was $status, $(head -n 1 "$work/err")" [ "$status" -eq 0 ]
-[ -e "$work/late.csv" ] || check "the same bits again" cmp -s "$work/through.csv" "$work/resumed.csv"
+# A signal may have come when the last stage was kept already; it is then made once more.
+grep -q "^          from epsilon 0.008 in $state\$" "$work/out" ||
+  check "the same bits again" cmp -s "$work/through.csv" "$work/resumed.csv"
 
 summary check-resume
