@@ -1,6 +1,7 @@
 # `make doc` writes html/, the site of the headers, the pages of doc/ and the examples.
 EXTRA_DIST += \
 	doc/README.md \
+	doc/adversary.md \
 	doc/accuracy.md \
 	doc/architecture.md \
 	doc/compatibility.md \

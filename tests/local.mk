@@ -111,6 +111,36 @@ check-local:
 	@echo "make check needs Check and MPFR; configure did not find them" >&2; exit 1
 endif
 
+# The adversary knows of the library what a user knows: public headers, exported symbols.  `make
+# adversary RUNS=20000` prints the tables of many runs.
+EXTRA_PROGRAMS += tests/adversary/adversary
+tests_adversary_adversary_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(PUBLIC_CPPFLAGS) \
+	-I$(srcdir)/tests
+tests_adversary_adversary_LDADD = libhr2d.la -lm
+tests_adversary_adversary_SOURCES = \
+	tests/adversary/adversary.c \
+	tests/adversary/answer.c tests/adversary/answer.h \
+	tests/adversary/claim.c tests/adversary/claim.h \
+	tests/adversary/corrupt.c \
+	tests/adversary/judge.c tests/adversary/judge.h \
+	tests/adversary/kinds.c tests/adversary/kinds.h \
+	tests/adversary/kinds-extreme.c \
+	tests/adversary/kinds-open.c \
+	tests/adversary/kinds-rooms.c \
+	tests/adversary/law.c tests/adversary/law.h \
+	tests/adversary/random.h \
+	tests/adversary/report.c tests/adversary/report.h \
+	tests/adversary/scene.c tests/adversary/scene.h \
+	tests/adversary/shrink.c tests/adversary/shrink.h \
+	tests/adversary/transform.c tests/adversary/transform.h
+RUNS = 2000
+adversary: tests/adversary/adversary$(EXEEXT)
+	@tests/adversary/adversary$(EXEEXT) --runs $(RUNS) >adversary.md; status=$$?; \
+	cat adversary.md; exit $$status
+.PHONY: adversary
+CLEANFILES += adversary.md tests/adversary/adversary$(EXEEXT)
+EXTRA_DIST += tests/adversary/check-adversary-controls.sh tests/adversary/check-adversary.sh
+
 # A tenth of the random cases; `make check-long` runs all of them.  A test may take 600 s before
 # Check ends it, on a busy machine too.
 AM_TESTS_ENVIRONMENT = \

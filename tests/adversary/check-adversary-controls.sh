@@ -1,0 +1,86 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Negative controls of the adversary: answers and accounts that are falsified by a few times the
+# stated errors are reported, each under its own check.
+set -eu
+adversary=$HR2D_BUILDDIR/tests/adversary/adversary
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+# Copies with the same bounds; for false bounds, copies with other errors.
+transform=mirror,reorder
+
+# run OPTION...: four runs in which the library is right.
+run() {
+  "$adversary" --only convex,star,junctions,soup --runs 4 --error 1e-6 --lines 0 --limit 60 \
+    --law copy --transform "$transform" "$@" >"$work/out" 2>&1 || true
+}
+
+# violations CHECK: the number of runs that violate a check.
+violations() {
+  sed -n "s/^| $1 | \([0-9]*\) |.*/\1/p" "$work/out"
+}
+
+# expect CORRUPTION CHECK...: these checks notice it in most runs.
+expect() {
+  corruption=$1
+  shift
+  run --corrupt "$corruption"
+  for check; do
+    found=$(violations "$check")
+    [ "${found:-0}" -lt 3 ] || continue
+    echo "$corruption: $check is violated in ${found:-no} of 4 runs"
+    failures=$((failures + 1))
+  done
+}
+
+run
+for check in "average B" "average H" "point B" "point H" "end B" "end H" power negative \
+  "estimate or bound" status; do
+  found=$(violations "$check")
+  if [ "$found" != 0 ]; then
+    echo "nothing is falsified, but $check is violated in $found runs"
+    failures=$((failures + 1))
+  fi
+done
+
+expect average-b "average B"
+expect average-h "average H"
+expect point-b "point B"
+expect point-h "point H"
+expect end-b "end B"
+expect end-h "end H"
+expect power power
+expect negative negative
+expect estimate "estimate or bound"
+expect infinite "estimate or bound"
+expect status status
+expect reason status
+transform=split,halve
+expect bound "average B" "average H"
+
+# One falsified value is enough for the exit status.
+for options in "--runs 1 --only convex" "--only convex --case 1"; do
+  # shellcheck disable=SC2086
+  if "$adversary" $options --folder "$work" --corrupt negative >/dev/null 2>&1; then
+    echo "$options: a violation, but exit status 0"
+    failures=$((failures + 1))
+  fi
+done
+
+# What was written is read as the same scene.
+"$adversary" --only bands --case 3 --law copy --folder "$work" >/dev/null 2>&1 || true
+for scene in "$work/bands-3.geojson" "$work/bands-3-copy1.geojson"; do
+  "$HR2D_PROGRAM" info "$scene" >/dev/null || failures=$((failures + 1))
+done
+
+for options in "--only nothing" "--case 1" "--runs x" "--unknown" "stray"; do
+  # shellcheck disable=SC2086
+  "$adversary" $options >/dev/null 2>&1 && status=0 || status=$?
+  if [ "$status" != 2 ]; then
+    echo "$options: exit status $status"
+    failures=$((failures + 1))
+  fi
+done
+[ "$failures" = 0 ]

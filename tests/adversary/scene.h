@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A scene as the adversary keeps it: coordinates are integers times a power of two.  Rotations
+   by Gaussian integers, splits and shifts are then exact, and the library gets the very scene
+   that the transformation means.  A patch knows the part of the original of which it is made.
+ */
+#ifndef HR2D_TESTS_ADVERSARY_SCENE_H
+#define HR2D_TESTS_ADVERSARY_SCENE_H
+
+#include <hr2d/hr2d.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "adversary/random.h"
+
+#define ADV_BANDS   4
+#define ADV_PATCHES 160
+
+typedef struct adv_patch {
+  int64_t x[2], y[2]; /* start and end, in steps of 2^exponent; the front is on the left */
+  double emission[ADV_BANDS], reflectance[ADV_BANDS];
+  int source;      /* the patch of the original of which this is a part; -1: none */
+  double from, to; /* the fractions of the original at which the ends are */
+} adv_patch;
+
+typedef struct adv_scene {
+  adv_patch patch[ADV_PATCHES];
+  size_t count, bands;
+  int exponent;
+  int closed; /* nothing leaves it and nothing comes in: what is outside of its box is hidden */
+  double background[ADV_BANDS];
+  double gain; /* B is this times B of the original */
+} adv_scene;
+
+/* An empty scene with one band, on a grid of 2^exponent. */
+void adv_clear(adv_scene *scene, int exponent);
+
+/* A wall with a front on the left, ends rounded to the grid; no more than ADV_PATCHES. */
+void adv_wall(adv_scene *scene, double ax, double ay, double bx, double by);
+
+/* The same with two fronts. */
+void adv_screen(adv_scene *scene, double ax, double ay, double bx, double by);
+
+/* A ring; counter-clockwise its fronts look inside. */
+void adv_ring(adv_scene *scene, const double (*corner)[2], size_t count);
+
+/* A room from (x0,y0) to (x1,y1); with x1 < x0 it is an obstacle, whose fronts look outside. */
+void adv_box(adv_scene *scene, double x0, double y0, double x1, double y1);
+
+/* Whether a wall with these ends, rounded, would touch no patch that is there. */
+int adv_free(const adv_scene *scene, double ax, double ay, double bx, double by);
+
+/* Draws emissions and reflectances up to `most`; at least one patch emits in each band. */
+void adv_paint(adv_scene *scene, adv_random *r, double most);
+
+/* Sets the reflectance of a patch in all bands. */
+void adv_reflect(adv_patch *patch, double reflectance);
+
+/* The least and largest coordinates, in steps. */
+typedef struct adv_extent {
+  int64_t low[2], high[2];
+} adv_extent;
+adv_extent adv_extent_of(const adv_scene *scene);
+
+/* Bits of the largest coordinate. */
+int adv_bits(const adv_scene *scene);
+
+/* The length of a patch, to 2 roundings. */
+double adv_length(const adv_scene *scene, size_t patch);
+
+/* Makes each patch the whole of its own source. */
+void adv_call_original(adv_scene *scene);
+
+/* Commits it as a scene of the library. */
+hr2d_status adv_build(const adv_scene *scene, hr2d_scene **built);
+
+/* Writes it as GeoJSON; 0 if the file cannot be written. */
+int adv_write(const adv_scene *scene, const char *path);
+
+#endif

@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Exact transformations. */
+#include "adversary/transform.h"
+
+#include <math.h>
+
+/* Coordinates are doubles, with bits to spare for the points at which B is compared. */
+enum { BITS = 44 };
+
+/* (x + iy)(a + bi). */
+static int multiply(adv_scene *scene, int a, int b) {
+  int most = (a < 0 ? -a : a) + (b < 0 ? -b : b), bits = 0;
+  while (most >> bits) bits++;
+  if (adv_bits(scene) + bits > BITS) return 0;
+  for (size_t k = 0; k < scene->count; k++)
+    for (int end = 0; end < 2; end++) {
+      int64_t *x = &scene->patch[k].x[end], *y = &scene->patch[k].y[end], old = *x;
+      *x = a * *x - b * *y;
+      *y = b * old + a * *y;
+    }
+  return 1;
+}
+
+static int rotate(adv_scene *scene, adv_random *r) {
+  int a = adv_int(r, 1, 12), b = adv_int(r, 1, 12);
+  return multiply(scene, a, adv_chance(r, 0.5) ? b : -b);
+}
+
+static int turn(adv_scene *scene, adv_random *r) {
+  int quarters = adv_int(r, 1, 3);
+  return quarters == 2 ? multiply(scene, -1, 0) : multiply(scene, 0, quarters - 2);
+}
+
+static void swap(int64_t *pair) {
+  int64_t first = pair[0];
+  pair[0] = pair[1];
+  pair[1] = first;
+}
+
+/* What was left is right: patches run the other way. */
+static int mirror(adv_scene *scene, adv_random *r) {
+  int axis = adv_int(r, 0, 1);
+  for (size_t k = 0; k < scene->count; k++) {
+    adv_patch *p = &scene->patch[k];
+    for (int end = 0; end < 2; end++)
+      axis ? (p->y[end] = -p->y[end]) : (p->x[end] = -p->x[end]);
+    swap(p->x);
+    swap(p->y);
+    double from = p->from;
+    p->from = p->to;
+    p->to = from;
+  }
+  return 1;
+}
+
+static int scale(adv_scene *scene, adv_random *r) {
+  scene->exponent += adv_int(r, -40, 40);
+  return 1;
+}
+
+static int shift(adv_scene *scene, adv_random *r) {
+  adv_extent e = adv_extent_of(scene);
+  double size = fmax((double)(e.high[0] - e.low[0]), (double)(e.high[1] - e.low[1]));
+  double far = size * ldexp(1, adv_int(r, 0, 18));
+  int64_t by[2] = {llround(adv_real(r, -far, far)), llround(adv_real(r, -far, far))};
+  if (adv_bits(scene) > BITS - 2 || far > 0x1p42) return 0;
+  for (size_t k = 0; k < scene->count; k++)
+    for (int end = 0; end < 2; end++) {
+      scene->patch[k].x[end] += by[0];
+      scene->patch[k].y[end] += by[1];
+    }
+  return 1;
+}
+
+/* Emissions times a power of two. */
+static int brighten(adv_scene *scene, adv_random *r) {
+  double gain = ldexp(1, adv_int(r, -60, 60));
+  for (size_t band = 0; band < scene->bands; band++) {
+    for (size_t k = 0; k < scene->count; k++) scene->patch[k].emission[band] *= gain;
+    scene->background[band] *= gain;
+  }
+  scene->gain *= gain;
+  return 1;
+}
+
+static int finer_grid(adv_scene *scene, int levels) {
+  if (adv_bits(scene) + levels > BITS) return 0;
+  for (size_t k = 0; k < scene->count; k++)
+    for (int end = 0; end < 2; end++) {
+      scene->patch[k].x[end] *= (int64_t)1 << levels;
+      scene->patch[k].y[end] *= (int64_t)1 << levels;
+    }
+  scene->exponent -= levels;
+  return 1;
+}
+
+/* Cuts a patch at `parts` / 2^levels of its length. */
+static int cut(adv_scene *scene, size_t patch, int64_t parts, int levels) {
+  if (scene->count == ADV_PATCHES) return 0;
+  adv_patch *p = &scene->patch[patch], *rest = &scene->patch[scene->count];
+  int64_t odd = (p->x[1] - p->x[0]) | (p->y[1] - p->y[0]);
+  if (odd & ((1 << levels) - 1) && !finer_grid(scene, levels)) return 0;
+  scene->count++;
+  int64_t x = p->x[0] + (p->x[1] - p->x[0]) / ((int64_t)1 << levels) * parts;
+  int64_t y = p->y[0] + (p->y[1] - p->y[0]) / ((int64_t)1 << levels) * parts;
+  double at = p->from + (p->to - p->from) * ldexp((double)parts, -levels);
+  *rest = *p;
+  p->x[1] = rest->x[0] = x;
+  p->y[1] = rest->y[0] = y;
+  p->to = rest->from = at;
+  return 1;
+}
+
+/* Cuts at random places, or towards an end by halves. */
+static int split(adv_scene *scene, adv_random *r) {
+  int done = 0;
+  size_t patches = scene->count;
+  for (int n = adv_int(r, 1, 4); n > 0; n--) {
+    size_t k = (size_t)adv_int(r, 0, (int)patches - 1);
+    int levels = adv_int(r, 1, 4), graded = adv_chance(r, 0.3);
+    done |= cut(scene, k, graded ? 1 : adv_int(r, 1, (1 << levels) - 1), levels);
+  }
+  return done;
+}
+
+/* Every patch in halves. */
+static int halve(adv_scene *scene, adv_random *r) {
+  size_t patches = scene->count;
+  (void)r;
+  if (patches > 24) return 0;
+  for (size_t k = 0; k < patches; k++)
+    if (!cut(scene, k, 1, 1)) return k > 0;
+  return 1;
+}
+
+static int reorder(adv_scene *scene, adv_random *r) {
+  for (int k = (int)scene->count - 1; k > 0; k--) {
+    int other = adv_int(r, 0, k);
+    adv_patch one = scene->patch[k];
+    scene->patch[k] = scene->patch[other];
+    scene->patch[other] = one;
+  }
+  return 1;
+}
+
+/* Room for a few patches more, and for their coordinates. */
+static int has_room(const adv_scene *scene, int bits) {
+  return scene->count + 6 <= ADV_PATCHES && adv_bits(scene) + bits <= BITS;
+}
+
+static int dark_sky(const adv_scene *scene) {
+  for (size_t band = 0; band < scene->bands; band++)
+    if (scene->background[band] > 0) return 0;
+  return 1;
+}
+
+static adv_patch *add(adv_scene *scene, double reflectance, int64_t ax, int64_t ay, int64_t bx,
+                      int64_t by) {
+  adv_patch p = {.x = {ax, bx}, .y = {ay, by}, .source = -1, .to = 1};
+  for (size_t band = 0; band < scene->bands; band++) p.reflectance[band] = reflectance;
+  scene->patch[scene->count] = p;
+  return &scene->patch[scene->count++];
+}
+
+static int64_t reach(adv_extent e) {
+  int64_t w = e.high[0] - e.low[0], h = e.high[1] - e.low[1];
+  return w > h ? w : h;
+}
+
+/* Short absorbing patches outside of the box of the scene: they take light that is lost in any
+   case, and are in nobody's way. */
+static int dust(adv_scene *scene, adv_random *r) {
+  adv_extent e = adv_extent_of(scene);
+  int64_t size = reach(e);
+  if (!dark_sky(scene) || !has_room(scene, 12) || size < 4096) return 0;
+  for (int n = adv_int(r, 1, 3); n > 0; n--) {
+    int64_t away = size << adv_int(r, 0, 8), length = 1 + (size >> adv_int(r, 6, 12));
+    int64_t x = e.high[0] + away * n, y = e.low[1] + llround((double)away * adv_real(r, -1, 1));
+    add(scene, 0, x, y, x + adv_int(r, 0, 1) * length, y + length);
+  }
+  return 1;
+}
+
+/* A wall behind all walls of one side.  In a closed room nobody sees it, else it absorbs. */
+static int hide(adv_scene *scene, adv_random *r) {
+  adv_extent e = adv_extent_of(scene);
+  int64_t away = 1 + (reach(e) >> adv_int(r, 0, 16));
+  double rho = scene->closed ? 0.5 : 0;
+  if (!dark_sky(scene) || !has_room(scene, 2)) return 0;
+  if (adv_chance(r, 0.5)) {
+    int64_t x = adv_chance(r, 0.5) ? e.low[0] - away : e.high[0] + away;
+    add(scene, rho, x, e.low[1], x, e.high[1]);
+    add(scene, rho, x, e.high[1], x, e.low[1]);
+  } else {
+    int64_t y = adv_chance(r, 0.5) ? e.low[1] - away : e.high[1] + away;
+    add(scene, rho, e.low[0], y, e.high[0], y);
+    add(scene, rho, e.high[0], y, e.low[0], y);
+  }
+  return 1;
+}
+
+/* A lit closed triangle outside of a closed room. */
+static int neighbour(adv_scene *scene, adv_random *r) {
+  adv_extent e = adv_extent_of(scene);
+  int64_t size = reach(e) >> adv_int(r, 0, 4), x = e.high[0] + size, y = e.high[1] + size;
+  if (!scene->closed || size < 16 || !has_room(scene, 3)) return 0;
+  add(scene, 0.5, x, y, x + size, y);
+  add(scene, 0.5, x + size, y, x, y + size);
+  adv_patch *lamp = add(scene, 0.5, x, y + size, x, y);
+  for (size_t band = 0; band < scene->bands; band++) lamp->emission[band] = 0.5 * scene->gain;
+  return 1;
+}
+
+/* Another band: dark, or one with other materials.  What was added stays dark: hidden walls are
+   hidden, but what they emit would escape. */
+static int band(adv_scene *scene, adv_random *r) {
+  size_t added = scene->bands;
+  if (added == ADV_BANDS) return 0;
+  int dark = adv_chance(r, 0.5);
+  for (size_t k = 0; k < scene->count; k++) {
+    int lit = adv_int(r, 0, 8);
+    scene->patch[k].emission[added] = dark || scene->patch[k].source < 0 ? 0 : lit / 8.0;
+    scene->patch[k].reflectance[added] = adv_int(r, 0, 7) / 8.0;
+  }
+  scene->bands++;
+  return 1;
+}
+
+const adv_transform adv_transforms[] = {
+    {"rotate", rotate}, {"turn", turn},   {"mirror", mirror},
+    {"scale", scale},   {"shift", shift}, {"brighten", brighten},
+    {"split", split},   {"halve", halve}, {"reorder", reorder},
+    {"dust", dust},     {"hide", hide},   {"neighbour", neighbour},
+    {"band", band},     {NULL, NULL}};
