@@ -122,6 +122,8 @@ libhr2d_core_la_SOURCES = \
 	src/solve/transport.c src/solve/transport.h \
 	src/accuracy/admissibility.c src/accuracy/admissibility.h \
 	src/accuracy/corner-exponent.c src/accuracy/corner-exponent.h \
+	src/accuracy/coordinate-rounding.c src/accuracy/coordinate-rounding.h \
+	src/accuracy/corner-residuals.c src/accuracy/corner-residuals.h \
 	src/accuracy/error-estimate.c src/accuracy/error-estimate.h \
 	src/accuracy/graded-solve.c src/accuracy/graded-solve.h \
 	src/accuracy/importance.c src/accuracy/importance.h \

@@ -42,6 +42,8 @@ SUITES = \
 	tests/unit/accuracy/check-known-radiosities \
 	tests/unit/accuracy/check-random-accuracy \
 	tests/unit/accuracy/check-target-calls \
+	tests/unit/accuracy/check-short-patches \
+	tests/unit/accuracy/check-dark \
 	tests/unit/clusters/check-clusters \
 	tests/unit/accuracy/check-corner \
 	tests/unit/visibility/check-events \
@@ -94,6 +96,7 @@ tests_libsupport_la_SOURCES = \
 	tests/support/scene-files.c tests/support/scene-files.h \
 	tests/support/scenes.c tests/support/scenes.h \
 	tests/support/settings.c tests/support/settings.h \
+	tests/support/short-rooms.c tests/support/short-rooms.h \
 	tests/support/suite.c tests/support/suite.h \
 	tests/support/support.h \
 	tests/support/tables.c tests/support/tables.h \
@@ -101,6 +104,7 @@ tests_libsupport_la_SOURCES = \
 	tests/independent/accuracy-nystrom.c tests/independent/accuracy-nystrom.h \
 	tests/independent/brute-block.c tests/independent/brute-block.h \
 	tests/independent/brute-visibility.c tests/independent/brute-visibility.h \
+	tests/independent/convex-nystrom.c tests/independent/convex-nystrom.h \
 	tests/independent/mpfr-exchange.c tests/independent/mpfr-exchange.h \
 	tests/independent/mpfr-l1.c tests/independent/mpfr-l1.h \
 	tests/independent/pair-frame.c tests/independent/pair-frame.h
@@ -163,6 +167,7 @@ check-long:
 # Only Check programs, without fork and in one thread, because valgrind reports libgomp's threads
 # as leaks; and without the suites that take too long, which run under the sanitizers.
 TOO_LONG = tests/unit/accuracy/check-known-radiosities \
+	tests/unit/accuracy/check-short-patches \
 	tests/unit/accuracy/check-target-calls tests/unit/blocks/check-blocks \
 	tests/unit/clusters/check-clusters tests/unit/refine/check-occlusion \
 	tests/paper/check-theorem tests/faults/check-faults-accuracy \

@@ -48,8 +48,8 @@ extern "C" {
 /** The norm in which an error is measured. */
 typedef enum hr2d_norm {
   HR2D_NORM_AVERAGE = 0, /**< the largest |error| of the average B of a patch, relative to this
-                              average, over patches and bands; averages below 256 roundings of
-                              the largest of the band count as dark */
+                              average, but to no less than hr2d_target::floor times the largest
+                              average of the band; over patches and bands */
   HR2D_NORM_SUP          /**< the largest |error| of B at a point, relative to the largest B of
                               the band, over points and bands */
 } hr2d_norm;
@@ -80,17 +80,30 @@ typedef struct hr2d_target {
                                   without blocks; 0 for none */
   hr2d_progress_fn progress; /**< optional */
   void *progress_ctx;        /**< given to `progress` */
+  double floor;              /**< an average counts as no less than this part of the largest
+                                  average of its band; from 0 to 1; 0 stands for
+                                  #HR2D_FLOOR */
 } hr2d_target;
+
+/** The part of the largest average below which patches count as equally dark. */
+#define HR2D_FLOOR 1e-6
 
 /** 1e-6 in averages, no budget, all patches, one thread, no callback. */
 #define HR2D_TARGET_INIT                                                                       \
-  { sizeof(hr2d_target), 1e-6, HR2D_NORM_AVERAGE, 0, HR2D_ALL_PATCHES, 1, 0, 0, 0, NULL, NULL }
+  {                                                                                            \
+    sizeof(hr2d_target), 1e-6, HR2D_NORM_AVERAGE, 0, HR2D_ALL_PATCHES, 1, 0, 0, 0, NULL, NULL, \
+        HR2D_FLOOR                                                                             \
+  }
 
 /** The result and the work of hr2d_solve_to(). */
 typedef struct hr2d_account {
   hr2d_error average;    /**< error of the solution in #HR2D_NORM_AVERAGE; with `importance`, of
                               that patch */
-  hr2d_error sup;        /**< error in #HR2D_NORM_SUP */
+  hr2d_error sup;        /**< error in #HR2D_NORM_SUP of hr2d_solution_gather() */
+  hr2d_error irradiance; /**< error of hr2d_solution_irradiance(), in the norm of `average` with
+                              H in the place of B */
+  hr2d_error irradiance_sup; /**< error of hr2d_solution_gather_irradiance(), in the norm of
+                                  `sup` with H in the place of B */
   unsigned order;        /**< p of the solution */
   unsigned solves;       /**< solutions that were made, this one included */
   uint64_t elements;     /**< N */

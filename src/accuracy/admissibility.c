@@ -8,10 +8,10 @@
 #include "geometry/predicates.h"
 #include "oracle/built-in.h"
 
-/* The ellipse for elements with children.  Radiosity is not smooth on these.  A link drops the
-   product of the rough parts of radiosity and kernel; only the kernel's is small here, so it
-   must be smaller than on leaves. */
-#define ROUGH 3.0
+/* On an element with children radiosity is not smooth: of the product of its rough part and the
+   kernel's, which a link drops, only the kernel's is small, and so it must be smaller: at 6 the
+   links' part of the error is below that of the elements, for some percent more of them. */
+#define ROUGH 6.0
 
 /* The relative error that a link may have; 0 without weights.  The light between two patches
    weighs no more than all the light that either of them sends. */

@@ -88,6 +88,18 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
   return explain(a, status, message);
 }
 
+hr2d_status hr2di_graded_reorder(hr2di_graded *a, const hr2di_graded *from,
+                                 const hr2di_resolution *fineness, unsigned order,
+                                 const hr2d_target *target, hr2di_message *message) {
+  const double start = hr2di_clock_now();
+  *a = (hr2di_graded){.survey = from->survey, .events = from->events};
+  hr2d_status status = hr2di_hierarchy_clone(from->hierarchy, &a->hierarchy);
+  if (!status) a->hierarchy->order = order;
+  if (!status) status = link_elements(a, fineness, target);
+  a->refine_seconds = hr2di_clock_now() - start;
+  return explain(a, status, message);
+}
+
 hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2d_target *target,
                                hr2di_message *message) {
   const double start = hr2di_clock_now();

@@ -41,6 +41,12 @@ hr2d_status hr2di_graded_refine(hr2di_graded *answer, const hr2d_scene *scene,
                                 const hr2d_target *target, hr2di_message *message);
 
 /* Solves on them; returns likewise. */
+/* The same elements and links at another order. */
+hr2d_status hr2di_graded_reorder(hr2di_graded *answer, const hr2di_graded *from,
+                                 const hr2di_resolution *fineness, unsigned order,
+                                 const hr2d_target *target, hr2di_message *message);
+
+/* And solves. */
 hr2d_status hr2di_graded_solve(hr2di_graded *answer, const hr2d_target *target,
                                hr2di_message *message);
 

@@ -16,6 +16,7 @@
 #include "base/alloc.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
+#include "scene/back-faces.h"
 #include "scene/scene-impl.h"
 
 /* An end stands on a patch if it is nearer than this part of the patch's length to its line. */
@@ -55,8 +56,9 @@ typedef struct grader {
   mark *mark;              /* of the current patch, by place */
   size_t marks, mark_capacity;
   hr2di_survey survey;
-  double target;   /* of the current patch */
-  double distance; /* the ellipse at which ends must be from its elements */
+  int all;         /* patches that reflect nothing are divided, too */
+  double target;   /* of the patch under way */
+  double distance; /* and how far ends must be from its elements */
   double last[3];  /* angle and ρ of the last corner, and its exponent */
 } grader;
 
@@ -118,8 +120,16 @@ static unsigned corner_depth(grader *g, double cosine, double sine, double rho) 
   return (unsigned)fmin(fmax(depth, 2), DEEPEST) + g->grading->corner_levels;
 }
 
-/* The depth of grading that a patch standing on this one needs at its foot.  The corner is on
-   the side of the foot to which its front looks. */
+/* The corner of a shorter patch is as fine on this one as on that, whose average counts as
+ * much.
+ */
+static unsigned levels_to(const hr2d_scene *scene, uint32_t patch, uint32_t other) {
+  const double ratio = scene->patch[patch].length / scene->patch[other].length;
+  return ratio > 1 ? (unsigned)fmin(ceil(log2(ratio)), DEEPEST) : 0;
+}
+
+/* The deepest grading that a patch standing on this one asks for: it may lie on either side of
+   its foot, or on both. */
 static unsigned depth_at(grader *g, uint32_t patch, const vertex *v, double at) {
   const hr2d_scene *scene = g->h->scene;
   const hr2d_segment s = scene->patch[patch].scaled, other = scene->patch[v->patch].scaled;
@@ -137,7 +147,7 @@ static unsigned depth_at(grader *g, uint32_t patch, const vertex *v, double at) 
     const unsigned back = corner_depth(g, -along, up, rho);
     depth = back > depth ? back : depth;
   }
-  return depth;
+  return depth > 0 ? depth + levels_to(scene, patch, v->patch) : 0;
 }
 
 static hr2d_status add_mark(grader *g, double at, hr2d_point point, unsigned depth) {
@@ -155,6 +165,17 @@ static int rises(const hr2d_scene *scene, uint32_t patch, const vertex *v) {
 }
 
 /* Adds a vertex to the marks if it is on the patch, to the near points if it is in front. */
+static hr2d_status add_near(grader *g, hr2d_segment patch, hr2d_point v) {
+  if (hr2di_ellipse(patch, v) >= FAR) return HR2D_OK;
+  if (hr2di_alloc_reserve(&g->h->alloc, &g->near.point, &g->near.capacity, g->near.count + 1,
+                          sizeof *g->near.point))
+    return HR2D_ENOMEM;
+  g->near.point[g->near.count++] = v;
+  return HR2D_OK;
+}
+
+/* Sorts a vertex into the marks if it is on the patch, into the near ones if it is in front, or
+   on the line of the patch with its own patch in front. */
 static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
   const hr2di_patch *p = &g->h->scene->patch[patch];
   const vertex *v = &g->vertex[number];
@@ -165,15 +186,10 @@ static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
   const double above = hr2di_orient(s.a, s.b, v->at) / square;
   const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y;
   const double at = ((v->at.x - s.a.x) * ux + (v->at.y - s.a.y) * uy) / square;
-  if (above > ON_LINE) {
-    if (hr2di_ellipse(s, v->at) >= FAR) return HR2D_OK;
-    if (hr2di_alloc_reserve(&g->h->alloc, &g->near.point, &g->near.capacity, g->near.count + 1,
-                            sizeof *g->near.point))
-      return HR2D_ENOMEM;
-    g->near.point[g->near.count++] = v->at;
-    return HR2D_OK;
-  }
-  if (above < -ON_LINE || at < -ON_LINE || at > 1 + ON_LINE) return HR2D_OK;
+  if (above > ON_LINE) return add_near(g, s, v->at);
+  if (above < -ON_LINE) return HR2D_OK;
+  if (at < -ON_LINE || at > 1 + ON_LINE)
+    return rises(g->h->scene, patch, v) ? add_near(g, s, v->at) : HR2D_OK;
   const unsigned depth = depth_at(g, patch, v, at);
   if (at < ON_LINE) return add_mark(g, 0, s.a, depth);
   if (at > 1 - ON_LINE) return add_mark(g, 1, s.b, depth);
@@ -346,6 +362,19 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
   return status;
 }
 
+/* Patches that reflect nothing have B = E and are not divided; H of their averages comes
+   exactly from the links. Only backs before a background are seen at points of a rule, which
+   kinks disturb. */
+static hr2d_status find_backs(grader *g) {
+  const hr2d_scene *scene = g->h->scene;
+  hr2di_backs backs = {0};
+  if (!scene->effect[HR2D_EFFECT_BACKGROUND].on) return HR2D_OK;
+  const hr2d_status status = hr2di_backs_init(scene, &backs);
+  g->all = backs.count > 0;
+  hr2di_alloc_free(&scene->alloc, backs.back);
+  return status;
+}
+
 hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
                                 hr2di_survey *survey) {
   const hr2d_scene *scene = hierarchy->scene;
@@ -355,8 +384,10 @@ hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *
     status = look_around(&g, k); /* finds the patches that stand on it, into g.under */
     g.near.count = g.marks = 0;
   }
+  if (!status) status = find_backs(&g);
   for (uint32_t k = 0; k < scene->patches && !status; k++)
-    if (hr2di_scene_lit(scene, k) && reflectance(scene, k) > 0) status = grade_patch(&g, k);
+    if (hr2di_scene_lit(scene, k) && (g.all || reflectance(scene, k) > 0))
+      status = grade_patch(&g, k);
   hr2di_alloc_free(&hierarchy->alloc, g.vertex);
   hr2di_alloc_free(&hierarchy->alloc, g.under);
   hr2di_alloc_free(&hierarchy->alloc, g.near.point);

@@ -17,10 +17,10 @@
 enum { SAMPLES = 48, PRODUCTS = 64, RUNS = 5 };
 #define SHORT 0.02
 
-/* The gathers of an error estimate: for terms of the series, and for two solves that are not to
-   full precision (see error-estimate.c). */
-#define ERROR_GATHERS    8
-#define ERROR_ITERATIONS 0.7
+/* Gathers of an account of the error: terms of the series, and solves that are not to full
+   precision, for the error, two sums without signs, and roundings (see error-estimate.c). */
+#define ERROR_GATHERS    12
+#define ERROR_ITERATIONS 1.6
 
 #define CLOSURE     0.5  /* of the time for blocks, on one thread */
 #define PER_ELEMENT 4.0  /* products of a block */
@@ -65,13 +65,16 @@ static double time_product(size_t order) {
   return min / PRODUCTS;
 }
 
-/* A gather multiplies each block.  The work per element of push and pull, closure and the
-   Krylov method counts as 1.5 products; such shares hardly depend on the machine. */
-static hr2d_status measure(const hr2d_scene *scene, const hr2d_hierarchy *from,
+/* A gather multiplies each block.  What push and pull, closure and the Krylov method do per
+   element was measured to take four products, and closure to make about as much as distant
+   blocks; such shares hardly depend on the machine. */
+static hr2d_status measure(const hr2d_scene *scene, const hr2di_graded *from,
                            const hr2di_resolution *fineness, const hr2d_target *target,
                            hr2di_graded *a, cost *c) {
   hr2di_message message;
-  hr2d_status status = hr2di_graded_refine(a, scene, from, fineness, target, &message);
+  hr2d_status status =
+      from ? hr2di_graded_reorder(a, from, fineness, fineness->order, target, &message)
+           : hr2di_graded_refine(a, scene, NULL, fineness, target, &message);
   if (status) return status;
   const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(a->hierarchy);
   const double bands = (double)scene->bands;
@@ -115,9 +118,7 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
   double iterations = 0, coarse = 0;
   hr2d_status status = try_coarse(scene, target, &iterations, &coarse);
   if (!status) status = measure(scene, NULL, &fineness, target, &first, &solve);
-  const int reflects = scene->effect[HR2D_EFFECT_INTERREFLECTION].on;
-  if (!status && reflects)
-    status = measure(scene, first.hierarchy, &finer, target, &second, &error);
+  if (!status) status = measure(scene, &first, &finer, target, &second, &error);
   if (!status) {
     p->order = fineness.order;
     p->elements = solve.elements;

@@ -11,6 +11,9 @@
 
 #define EASY 0.06
 
+/* Two coefficients reach an error below this so seldom that to try takes longer. */
+#define THREE 3e-3
+
 static double digits_per_order(const hr2di_survey *survey, hr2d_norm norm) {
   const double m = survey->ellipse, rate = log(m + sqrt(m * m - 1));
   return norm == HR2D_NORM_SUP ? 1.4 * rate : fmin(2 * rate, 2.8);
@@ -51,7 +54,8 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
   const int hidden = scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
                      scene->effect[HR2D_EFFECT_FACING].called_for ||
                      scene->effect[HR2D_EFFECT_BACKGROUND].called_for;
-  hr2di_resolution f = {.order = (unsigned)fmin(fmax(order, 2), HR2D_MAX_ORDER - 2),
+  const double least = aim < THREE ? 3 : 2;
+  hr2di_resolution f = {.order = (unsigned)fmin(fmax(order, least), HR2D_MAX_ORDER - 2),
                         .target = fmin(0.25 * error, 1),
                         .cluster_accuracy = fmax(0.02 * error, 1e-14),
                         .norm = norm,

@@ -32,7 +32,8 @@ typedef struct search {
   hr2di_survey survey;
   hr2di_graded best;
   double *weight;       /* per patch, where importance is asked for */
-  hr2d_account account; /* of the best, with the times of all */
+  hr2d_account account; /* of the best, with all times */
+  double rounding;      /* what of its bound is rounding */
   hr2di_message message;
 } search;
 
@@ -50,9 +51,16 @@ static hr2d_status watch(void *ctx, const hr2d_progress *progress) {
   return s->progress_status;
 }
 
+static hr2d_error errors_of(const search *s) {
+  return s->target.norm == HR2D_NORM_SUP ? s->account.sup : s->account.average;
+}
+
 static double error_of(const search *s) {
-  return s->target.norm == HR2D_NORM_SUP ? s->account.sup.estimate
-                                         : s->account.average.estimate;
+  return errors_of(s).estimate;
+}
+
+static int is_reached(const search *s, double error) {
+  return error_of(s) <= MARGIN * error || errors_of(s).bound <= error;
 }
 
 static void add_times(hr2d_account *sum, const hr2di_graded *answer) {
@@ -70,8 +78,11 @@ static void keep(search *s, hr2di_graded *answer, const hr2di_error_pair *errors
   *answer = (hr2di_graded){0};
   const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(s->best.hierarchy);
   hr2d_account *a = &s->account;
+  s->rounding = errors->rounding[s->target.norm == HR2D_NORM_SUP];
   a->average = errors->average;
   a->sup = errors->sup;
+  a->irradiance = errors->irradiance;
+  a->irradiance_sup = errors->irradiance_sup;
   a->order = s->best.hierarchy->order;
   a->elements = counts.elements;
   a->leaves = counts.leaves;
@@ -101,7 +112,11 @@ static hr2d_status attempt(search *s, const hr2di_resolution *fineness) {
     if (!s->best.solution || error < error_of(s)) keep(s, &answer, &errors);
   } else if (s->late && answer.solution && !s->best.solution) {
     const hr2d_error unknown = {HUGE_VAL, HUGE_VAL};
-    keep(s, &answer, &(hr2di_error_pair){.average = unknown, .sup = unknown});
+    keep(s, &answer,
+         &(hr2di_error_pair){.average = unknown,
+                             .sup = unknown,
+                             .irradiance = unknown,
+                             .irradiance_sup = unknown});
   }
   hr2di_graded_clear(&answer);
   return status;
@@ -111,14 +126,18 @@ static void give_reason(search *s, const char *reason) {
   snprintf(s->account.reason, sizeof s->account.reason, "%.150s", reason);
 }
 
-/* Raises the resolution until the error is below `error`.  Returns HR2D_OK, HR2D_EACCURACY if
-   the error does not come down to that, or the status of an attempt. */
+/* Whether what is left of the error is rounding. */
+static int is_rounding(const search *s) {
+  return error_of(s) <= s->rounding;
+}
+
+/* Goes finer until the error is below `error`; HR2D_EACCURACY if it does not come down. */
 static hr2d_status reach(search *s, double error) {
   hr2di_resolution fineness = hr2di_resolution_for(s->scene, &s->survey, error, s->target.norm);
   double before = HUGE_VAL;
-  int stuck = 0;
+  int stuck = 0, raised = 1;
   fineness.weight = s->weight;
-  for (int k = 0; k < ATTEMPTS && stuck < 2; k++) {
+  for (int k = 0; k < ATTEMPTS && (stuck < 2 || !is_rounding(s)) && raised; k++) {
     const hr2d_status status = attempt(s, &fineness);
     /* At a low order rows of K may exceed 1 in narrow corners, even with closure. */
     if (status == HR2D_ENOT_CONVERGED && !s->progress_status && k + 1 < ATTEMPTS &&
@@ -126,13 +145,16 @@ static hr2d_status reach(search *s, double error) {
       fineness.order++;
       continue;
     }
-    if (status || error_of(s) <= MARGIN * error) return status;
+    if (status || is_reached(s, error)) return status;
     stuck = error_of(s) > 0.5 * before ? stuck + 1 : 0;
     before = error_of(s);
-    if (hr2di_resolution_raise(&fineness, &s->best.survey, before / (0.5 * error))) break;
+    raised = !hr2di_resolution_raise(&fineness, &s->best.survey, before / (0.5 * error));
   }
   if (error_of(s) <= error) return HR2D_OK;
-  give_reason(s, "finer elements bring the error down no further");
+  give_reason(s, stuck > 0 && is_rounding(s)
+                     ? "finer elements bring the error down no further"
+                     : "the error comes down too slowly: the finest elements that are tried do "
+                       "not suffice");
   return HR2D_EACCURACY;
 }
 
@@ -168,6 +190,10 @@ static hr2d_status settle(search *s, hr2d_status status) {
   else if (status && status != HR2D_EACCURACY)
     give_reason(s, s->message.text);
   if (is_budget(status) || (status == HR2D_STOPPED && s->late)) status = HR2D_EACCURACY;
+  if (!status && s->best.solution && !isfinite(errors_of(s).bound)) {
+    give_reason(s, "the error has no finite bound");
+    status = HR2D_EACCURACY;
+  }
   const int all_there_is = !(s->given.error > 0) && s->best.solution;
   return status == HR2D_EACCURACY && all_there_is ? HR2D_OK : status;
 }
@@ -175,6 +201,7 @@ static hr2d_status settle(search *s, hr2d_status status) {
 static hr2d_status check(const hr2d_scene *scene, const hr2d_target *t) {
   if (!scene->committed) return HR2D_ESTATE;
   if (!(t->error >= 0) || !(t->seconds >= 0)) return HR2D_EINVAL;
+  if (!(t->floor >= 0 && t->floor <= 1)) return HR2D_EINVAL;
   if (t->importance != HR2D_ALL_PATCHES && t->importance >= scene->patches) return HR2D_EINVAL;
   return t->norm == HR2D_NORM_AVERAGE || t->norm == HR2D_NORM_SUP ? HR2D_OK : HR2D_EINVAL;
 }

@@ -192,6 +192,8 @@ static hr2d_status look(gatherer *g, size_t patch, double t, const edge *without
     *(at_edge ? wedge : others) += seen.glimpse[k].sine;
     if (!at_edge) add_glimpse(g, &seen.glimpse[k]);
   }
+  /* Light is never negative; polynomials may be beside a shadow. */
+  for (size_t b = 0; b < g->solution->bands; b++) g->value[b] = fmax(g->value[b], 0);
   return HR2D_OK;
 }
 

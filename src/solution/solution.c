@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The solution object: reading radiosity back. */
+#include <math.h>
+
 #include "base/alloc.h"
 #include "base/legendre.h"
 #include "hierarchy/hierarchy-impl.h"
@@ -21,12 +23,18 @@ static double average(const hr2d_solution *s, const double *value, size_t elemen
   return value[element * s->order * s->bands + band];
 }
 
+/* Light is never negative. In the dark, roundings of others' light may be, and polynomials
+   beside a shadow: what is read is 0 there, and fields keep the balance of power. */
+static double light(double value) {
+  return fmax(value, 0);
+}
+
 double hr2d_solution_element(const hr2d_solution *solution, uint32_t element, size_t band) {
-  return average(solution, solution->value, element, band);
+  return light(average(solution, solution->value, element, band));
 }
 
 double hr2d_solution_average(const hr2d_solution *solution, size_t patch, size_t band) {
-  return average(solution, solution->value, patch, band);
+  return light(average(solution, solution->value, patch, band));
 }
 
 /* The leaf of the solution at fraction *t of a patch; sets *t to the fraction of that leaf.  On
@@ -107,16 +115,16 @@ void hr2di_solution_restrict(const hr2d_solution *from, const hr2d_hierarchy *hi
 }
 
 double hr2d_solution_at(const hr2d_solution *solution, size_t patch, double t, size_t band) {
-  return value_at(solution, solution->value, patch, t, band);
+  return light(value_at(solution, solution->value, patch, t, band));
 }
 
 double hr2d_solution_irradiance(const hr2d_solution *solution, size_t patch, size_t band) {
-  return average(solution, solution->irradiance, patch, band);
+  return light(average(solution, solution->irradiance, patch, band));
 }
 
 double hr2d_solution_irradiance_at(const hr2d_solution *solution, size_t patch, double t,
                                    size_t band) {
-  return value_at(solution, solution->irradiance, patch, t, band);
+  return light(value_at(solution, solution->irradiance, patch, t, band));
 }
 
 double hr2d_solution_net_flux(const hr2d_solution *solution, size_t patch, size_t band) {

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the rounding of elements' coordinates may do to irradiance. */
+#ifndef HR2D_SRC_ACCURACY_COORDINATE_ROUNDING_H
+#define HR2D_SRC_ACCURACY_COORDINATE_ROUNDING_H
+
+#include "solve/transport.h"
+
+/* error += how much the irradiance of leaves may be off, leaves × bands; |B| of elements is at
+   most `most`, elements × bands. HR2D_OK or HR2D_ENOMEM. */
+hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const double *most, double *error);
+
+#endif

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "accuracy/corner-residuals.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/alloc.h"
+#include "base/legendre.h"
+#include "geometry/vector.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "scene/scene-impl.h"
+
+/* Contacts that are gathered at: a gather takes as long as there are patches. */
+enum { MOST = 64, FEW = 8, MANY = 1000 };
+
+/* How far beside a foot, in terms of the leaf: residuals change like x^γ there. */
+#define BESIDE 0x1p-20
+
+static double view_between(const hr2d_scene *scene, const hr2d_element *ends,
+                           const hr2d_element *begins) {
+  const hr2di_patch *p = &scene->patch[ends->patch], *q = &scene->patch[begins->patch];
+  const hr2d_point u = hr2di_point_minus(p->scaled.a, p->scaled.b);
+  const hr2d_point v = hr2di_point_minus(q->scaled.b, q->scaled.a);
+  return 0.5 * (1 + hr2di_point_dot(u, v) / p->length / q->length);
+}
+
+static hr2d_status add(hr2di_contacts *c, const hr2di_transport *t, const uint32_t *number,
+                       uint32_t ends, uint32_t begins) {
+  const hr2d_element *e = t->hierarchy->element;
+  if (hr2di_alloc_reserve(&c->alloc, &c->contact, &c->capacity, c->count + 1,
+                          sizeof *c->contact))
+    return HR2D_ENOMEM;
+  c->contact[c->count++] =
+      (hr2di_contact){.leaf = {number[ends], number[begins]},
+                      .view = view_between(t->hierarchy->scene, &e[ends], &e[begins])};
+  return HR2D_OK;
+}
+
+/* Leaves that touch are linked with each other. */
+hr2d_status hr2di_contacts_init(hr2di_contacts *c, const hr2di_transport *t) {
+  const hr2d_element *element = t->hierarchy->element;
+  *c = (hr2di_contacts){.alloc = t->alloc};
+  uint32_t *number = hr2di_alloc(&t->alloc, t->elements, sizeof *number);
+  if (!number) return HR2D_ENOMEM;
+  for (size_t k = 0; k < t->leaves; k++) number[t->leaf[k]] = (uint32_t)k;
+  hr2d_status status = HR2D_OK;
+  for (uint64_t k = 0; k < t->links->store.count && !status; k++) {
+    const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
+    const hr2d_element *i = &element[pair.first], *j = &element[pair.second];
+    if (i->child || j->child) continue;
+    if (hr2di_point_same(i->b, j->a)) status = add(c, t, number, pair.first, pair.second);
+    if (!status && hr2di_point_same(j->b, i->a))
+      status = add(c, t, number, pair.second, pair.first);
+  }
+  hr2di_alloc_free(&t->alloc, number);
+  return status;
+}
+
+void hr2di_contacts_clear(hr2di_contacts *c) {
+  hr2di_alloc_free(&c->alloc, c->contact);
+  hr2di_alloc_free(&c->alloc, c->residual);
+}
+
+/* A leaf may have contacts at both ends. */
+hr2d_status hr2di_contacts_saturate(const hr2di_contacts *c, const hr2di_transport *t,
+                                    size_t order, double exponent, double *residual) {
+  const double ratio = (double)order / (double)t->order;
+  const double theta = 1 - pow(ratio, 2 * (1 + 2 * exponent));
+  unsigned char *touches = hr2di_alloc_zero(&c->alloc, t->leaves, 1);
+  if (!touches) return HR2D_ENOMEM;
+  for (size_t k = 0; k < c->count; k++)
+    touches[c->contact[k].leaf[0]] = touches[c->contact[k].leaf[1]] = 1;
+  for (size_t k = 0; k < t->leaves; k++)
+    for (size_t m = order * t->bands; m < t->width && touches[k]; m++)
+      residual[k * t->width + m] /= theta;
+  hr2di_alloc_free(&c->alloc, touches);
+  return HR2D_OK;
+}
+
+static int by_key(const void *left, const void *right) {
+  const hr2di_contact *l = left, *r = right;
+  if (l->key != r->key) return l->key > r->key ? -1 : 1;
+  if (l->leaf[0] != r->leaf[0]) return l->leaf[0] < r->leaf[0] ? -1 : 1;
+  return (l->leaf[1] > r->leaf[1]) - (l->leaf[1] < r->leaf[1]);
+}
+
+/* Chooses by the residuals that coefficients have at the vertex. */
+static void choose(hr2di_contacts *c, const hr2di_transport *t, const double *residual) {
+  const size_t most = t->hierarchy->scene->patches > MANY ? FEW : MOST;
+  hr2di_basis basis;
+  hr2di_basis_init(&basis, t->order);
+  for (size_t k = 0; k < c->count; k++) {
+    hr2di_contact *at = &c->contact[k];
+    at->key = 0;
+    for (int side = 0; side < 2; side++)
+      for (size_t b = 0; b < t->bands; b++)
+        at->key = fmax(
+            at->key, fabs(hr2di_basis_sum(&basis, side ? -1 : 1,
+                                          residual + at->leaf[side] * t->width + b, t->bands)));
+  }
+  if (c->count > most) qsort(c->contact, c->count, sizeof *c->contact, by_key);
+  c->gathered = c->count < most ? c->count : most;
+}
+
+/* Where a leaf begins or ends on its patch: 0 and 1 exactly at the ends of that. */
+static double place_of(const hr2di_transport *t, uint32_t leaf, int begins) {
+  const hr2d_element *e = &t->hierarchy->element[t->leaf[leaf]];
+  const hr2d_segment s = t->hierarchy->scene->patch[e->patch].scaled;
+  if (begins && hr2di_point_same(e->a, s.a)) return 0;
+  if (!begins && hr2di_point_same(e->b, s.b)) return 1;
+  const double from = hr2di_element_start(t->hierarchy, t->leaf[leaf]);
+  const double size = e->length / t->hierarchy->scene->patch[e->patch].length;
+  return from + (begins ? BESIDE : 1 - BESIDE) * size;
+}
+
+/* B' − B_h at the vertex. */
+static hr2d_status gather(const hr2di_equation *eq, const hr2d_solution *solution,
+                          const double *field, uint32_t leaf, int begins, double *residual) {
+  const hr2di_transport *t = &eq->transport;
+  const uint32_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
+  const double at = place_of(t, leaf, begins);
+  hr2di_basis basis;
+  hr2di_basis_init(&basis, t->order);
+  const hr2d_status status = hr2d_solution_gather(solution, patch, &at, 1, residual);
+  for (size_t b = 0; b < t->bands && !status; b++)
+    residual[b] =
+        ldexp(residual[b], -eq->exponent[b]) -
+        hr2di_basis_sum(&basis, begins ? -1 : 1, field + leaf * t->width + b, t->bands);
+  return status;
+}
+
+/* At the end of a patch B' is the limit that light to and fro in the corner leads to, and B' −
+   B_h the error of B_h. Beside a foot it is what one gather makes of B_h, and lacks what the
+   error b of the other patch sends, ρvb. One of the two is at its end. */
+static void complete(hr2di_contacts *c, const hr2di_transport *t, size_t k) {
+  const hr2d_scene *scene = t->hierarchy->scene;
+  const hr2di_contact *at = &c->contact[k];
+  for (int side = 0; side < 2; side++) {
+    const double place = place_of(t, at->leaf[side], side);
+    const uint32_t patch = t->hierarchy->element[t->leaf[at->leaf[side]]].patch;
+    for (size_t b = 0; b < t->bands && place > 0 && place < 1; b++)
+      c->residual[(2 * k + (size_t)side) * t->bands + b] +=
+          hr2d_scene_reflectance(scene, patch, b) * at->view *
+          c->residual[(2 * k + 1 - (size_t)side) * t->bands + b];
+  }
+}
+
+hr2d_status hr2di_contacts_gather(hr2di_contacts *c, const hr2di_equation *eq,
+                                  const hr2d_solution *solution, const double *residual,
+                                  const double *field) {
+  const hr2di_transport *t = &eq->transport;
+  choose(c, t, residual);
+  c->residual = hr2di_alloc(&c->alloc, 2 * c->gathered, t->bands * sizeof *c->residual);
+  hr2d_status status = c->residual ? HR2D_OK : HR2D_ENOMEM;
+  for (size_t k = 0; k < 2 * c->gathered && !status; k++) {
+    const hr2d_progress progress = {.struct_size = sizeof progress,
+                                    .phase = "solve",
+                                    .elements = t->elements,
+                                    .links = t->links->store.count,
+                                    .fraction = 1};
+    status = gather(eq, solution, field, c->contact[k / 2].leaf[k % 2], k % 2 != 0,
+                    c->residual + k * t->bands);
+    if (!status && k % 2) complete(c, t, k / 2);
+    if (!status && eq->options.progress)
+      status = eq->options.progress(eq->options.progress_ctx, &progress);
+  }
+  return status;
+}
