@@ -466,7 +466,7 @@ static double *reserve(estimator *e, const hr2d_allocator *alloc) {
 static double margin_of(const hr2di_resolution *f) {
   const double ratio = (double)f->order / (f->order + MORE);
   if (!f->hidden) return MARGIN;
-  return f->generations > 0 ? HIDDEN : HIDDEN / (1 - ratio * ratio * ratio);
+  return HIDDEN / (1 - ratio * ratio * ratio);
 }
 
 static hr2d_status run(const hr2di_graded *finer, const hr2di_graded *answer,

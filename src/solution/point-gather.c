@@ -3,8 +3,9 @@
 
    A point of a patch sees parts of other patches, its glimpses.  On the part of a leaf in a
    glimpse B_h is a polynomial; panels shrink towards the point, as those of near blocks do. The
-   form factor of a glimpse is known to all digits.  Its share that no panel resolves, since the
-   point touches the patch or nearly does, gets the B_h of the nearest end of the glimpse.
+   form factor of a glimpse is known to all digits.  Its share that no panel resolves, by
+   rounding or since the point touches the patch, gets the B_h of the nearest point of the
+   glimpse.
 
    A point that touches another patch has the limit from the inside of its own patch.  There the
    two patches p and q form a wedge, and see each other under k = ½(1 + cos α) of all directions
@@ -27,12 +28,9 @@ enum { POINTS = 32, STACK = 128 };
    a few of their roundings. */
 #define TOUCH 0x1p-50
 
-/* The limits at the edge of a wedge are those of points so far beside it.  Roundings of the
+/* The limits at the edge of a wedge are found from points so far beside it.  Roundings of the
    coordinates of a foot do not matter there. */
 #define BESIDE 0x1p-46
-
-/* Panels find the form factor of a glimpse to this error where they resolve it. */
-#define RESOLVED 1e-13
 
 typedef struct gatherer {
   const hr2d_solution *solution;
@@ -43,13 +41,13 @@ typedef struct gatherer {
   double *value; /* per band: H */
   double factor; /* the form factor that panels have found of the glimpse under way */
   double *edge;  /* per band: the irradiance of the other patch of a wedge */
+  double *far;   /* per band: the irradiance at the farther one of two points */
 } gatherer;
 
 /* A patch that touches the point, as one side of a wedge. */
 typedef struct edge {
   size_t patch;
   double at, step; /* fraction of the patch where the edge is, and how exactly that is known */
-  double beside;   /* fraction of a point near it, which stands for its limit */
   double inside;   /* 1 if that is ahead along the patch, −1 if behind */
 } edge;
 
@@ -147,12 +145,12 @@ static double nearest(const gatherer *g, size_t patch, double from, double to,
   return at;
 }
 
-/* Adds a glimpse: the light that panels resolve, and the rest from its nearest point. */
+/* Adds a glimpse: the light that panels resolve, and the rest from its nearest point.  So
+   roundings of the panels count only where B_h differs from that point's. */
 static void add_glimpse(gatherer *g, const hr2di_glimpse *seen) {
   g->factor = 0;
   add_leaves(g, seen);
   const double rest = seen->sine - g->factor;
-  if (!(fabs(rest) > RESOLVED)) return;
   const double at = nearest(g, seen->patch, seen->from, seen->to, NULL);
   for (size_t b = 0; b < g->solution->bands; b++)
     g->value[b] += rest * hr2d_solution_at(g->solution, seen->patch, at, b);
@@ -197,13 +195,12 @@ static hr2d_status look(gatherer *g, size_t patch, double t, const edge *without
   return HR2D_OK;
 }
 
-/* The point of a patch at the edge of a wedge, and one beside it: inside the patch, or within
-   it on the given side. */
+/* The point of a patch at the edge of a wedge, with the inside of the patch on the given side
+   if both are. */
 static edge edge_of(const gatherer *g, size_t patch, double at, double side) {
   const double step = BESIDE / g->solution->hierarchy->scene->patch[patch].length;
   const double inside = at <= step ? 1 : at >= 1 - step ? -1 : side;
-  const double beside = fmin(fmax(at + inside * step, 0), 1);
-  return (edge){patch, at, 4 * step, beside, inside};
+  return (edge){patch, at, 8 * step, inside};
 }
 
 /* The unit vector along a patch, from the edge to the point beside it. */
@@ -216,9 +213,27 @@ static hr2d_point direction_of(const gatherer *g, const edge *e) {
 /* The form factor of an edge is k = ½(1 + cos α) = ¼|u + w|², and that of everything else
    1 − k = ¼|u − w|².  A view from beside the edge has neither exactly: irradiances from
    everything else are scaled by the right one. */
-static void scale(const gatherer *g, double right, double others, double *irradiance) {
-  for (size_t b = 0; b < g->solution->bands; b++)
+static hr2d_status look_beside(gatherer *g, const edge *p, const edge *q, double steps,
+                               double right, double *irradiance, int *sees) {
+  const double step = steps * BESIDE / g->solution->hierarchy->scene->patch[p->patch].length;
+  const double t = fmin(fmax(p->at + p->inside * step, 0), 1);
+  double wedge, others;
+  const hr2d_status status = look(g, p->patch, t, q, irradiance, &wedge, &others);
+  *sees = !status && wedge > 0;
+  for (size_t b = 0; b < g->solution->bands && !status; b++)
     irradiance[b] *= others > 0 ? right / others : 0;
+  return status;
+}
+
+/* The irradiance from everything but the other patch at the edge of a wedge: 2H(x) − H(2x),
+   which differs from the limit by O(x²). */
+static hr2d_status look_at_edge(gatherer *g, const edge *p, const edge *q, double right,
+                                double *irradiance, int *sees) {
+  hr2d_status status = look_beside(g, p, q, 2, right, g->far, sees);
+  if (!status && *sees) status = look_beside(g, p, q, 1, right, irradiance, sees);
+  for (size_t b = 0; b < g->solution->bands && !status && *sees; b++)
+    irradiance[b] = fmax(2 * irradiance[b] - g->far[b], 0);
+  return status;
 }
 
 /* The irradiance at the edge of the wedge that two patches make; *closed is 0 if they do not
@@ -230,13 +245,9 @@ static hr2d_status close_wedge(gatherer *g, const edge *p, const edge *q, double
   const hr2d_point sum = {u.x + w.x, u.y + w.y}, apart = hr2di_point_minus(u, w);
   const double k = 0.25 * hr2di_point_dot(sum, sum),
                rest = 0.25 * hr2di_point_dot(apart, apart);
-  double wedge[2], others[2];
-  hr2d_status status = look(g, p->patch, p->beside, q, irradiance, &wedge[0], &others[0]);
-  if (!status) status = look(g, q->patch, q->beside, p, g->edge, &wedge[1], &others[1]);
-  *closed = !status && wedge[0] > 0 && wedge[1] > 0;
-  if (!*closed) return status;
-  scale(g, rest, others[0], irradiance);
-  scale(g, rest, others[1], g->edge);
+  hr2d_status status = look_at_edge(g, p, q, rest, irradiance, closed);
+  if (!status && *closed) status = look_at_edge(g, q, p, rest, g->edge, closed);
+  if (status || !*closed) return status;
   for (size_t b = 0; b < g->solution->bands; b++) {
     const double rho_p = hr2d_scene_reflectance(scene, p->patch, b);
     const double rho_q = hr2d_scene_reflectance(scene, q->patch, b);
@@ -279,7 +290,8 @@ static hr2d_status gather_at(gatherer *g, size_t patch, double t, double *irradi
 hr2d_status hr2d_solution_gather_irradiance(const hr2d_solution *solution, size_t patch,
                                             const double *t, size_t count, double *value) {
   gatherer g = {.solution = solution};
-  g.edge = hr2di_alloc(&solution->alloc, solution->bands, sizeof *g.edge);
+  g.edge = hr2di_alloc(&solution->alloc, 2 * solution->bands, sizeof *g.edge);
+  g.far = g.edge + (g.edge ? solution->bands : 0);
   hr2d_status status = g.edge ? HR2D_OK : HR2D_ENOMEM;
   if (!status)
     status = hr2di_viewer_create(solution->hierarchy->scene, &solution->alloc, &g.viewer);
