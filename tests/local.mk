@@ -67,7 +67,9 @@ OUTSIDE = \
 	tests/package/check-exports.sh \
 	tests/package/check-headers.sh \
 	tests/package/check-layers.sh \
-	tests/package/check-examples.sh
+	tests/package/check-examples.sh \
+	tests/adversary/check-adversary.sh \
+	tests/adversary/check-adversary-controls.sh
 
 TEST_EXTENSIONS = .sh
 SH_LOG_COMPILER = $(SHELL)
@@ -117,7 +119,7 @@ endif
 
 # The adversary knows of the library what a user knows: public headers, exported symbols.  `make
 # adversary RUNS=20000` prints the tables of many runs.
-EXTRA_PROGRAMS += tests/adversary/adversary
+check_PROGRAMS += tests/adversary/adversary
 tests_adversary_adversary_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(PUBLIC_CPPFLAGS) \
 	-I$(srcdir)/tests
 tests_adversary_adversary_LDADD = libhr2d.la -lm
@@ -142,8 +144,7 @@ adversary: tests/adversary/adversary$(EXEEXT)
 	@tests/adversary/adversary$(EXEEXT) --runs $(RUNS) >adversary.md; status=$$?; \
 	cat adversary.md; exit $$status
 .PHONY: adversary
-CLEANFILES += adversary.md tests/adversary/adversary$(EXEEXT)
-EXTRA_DIST += tests/adversary/check-adversary-controls.sh tests/adversary/check-adversary.sh
+CLEANFILES += adversary.md
 
 # A tenth of the random cases; `make check-long` runs all of them.  A test may take 600 s before
 # Check ends it, on a busy machine too.

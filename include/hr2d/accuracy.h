@@ -19,16 +19,23 @@
  *     if (!status) printf("%.9g\n", hr2d_solution_average(solution, 0, 0));
  *     hr2d_solution_destroy(solution);
  *
- * Errors are relative. They are errors of the radiosity after one more gather, B' = E + ρKB_h.
- * Its averages are the averages of B_h; hr2d_solution_gather() gives its values at points. Let
- * r = E + ρKB_h − B_h be the residual. Then B − B' = (I − ρK)⁻¹ ρKr. Since (I − ρK)⁻¹ maps
- * nothing positive to anything negative,
+ * Errors are relative: of averages of B and H, and of B' = E + ρKB_h and H' = KB_h at points,
+ * which hr2d_solution_gather() gives. Let K⁺ be the operator with two coefficients more on the
+ * same elements and links, and r = E + ρK⁺B_h − B_h the residual. Then
  *
- *     |B − B'| ≤ (I − ρK)⁻¹ S     for any S ≥ |ρKr|.
+ *     B − B_h = (I − ρK⁺)⁻¹ r,     H − H_h = K⁺B_h − H_h + K⁺(B − B_h).
  *
- * The *bound* is the right side, with S constant on each element. The *estimate* is (I − ρK)⁻¹
- * ρKr itself. Both take K on finer elements with two coefficients more (three below order 4),
- * and S from the points of a rule. Apart from this the bound is rigorous.
+ * The *estimate* solves this equation. Beside corners, where K⁺ shows a known part of the error,
+ * r is divided by that part. The *bound* has three parts:
+ * - a multiple of the estimate: 1.5 times, from 7 to 40 times where views change, 3 times at
+ *   points at least;
+ * - a tenth of the mean over patches of the same errors without signs, because errors with signs
+ *   may cancel by chance;
+ * - a bound of the roundings of B, of H and of coordinates. (I − ρK)⁻¹ = Σ(ρK)^k maps nothing
+ *   positive to anything negative, so it carries a bound on as it carries light.
+ *
+ * The multiples are from measurements; the bound is not proved. doc/adversary.md says how it was
+ * attacked, and with which result.
  * @{
  */
 #ifndef HR2D_ACCURACY_H
