@@ -1,6 +1,6 @@
 # Measurements, built and run by `make bench` alone.
 BENCHES = bench/bench-exchange-area bench/bench-refine bench/bench-l1 bench/bench-visibility \
-	bench/bench-accuracy
+	bench/bench-accuracy bench/bench-prediction
 EXTRA_PROGRAMS += $(BENCHES)
 CLEANFILES += $(BENCHES)
 bench_bench_exchange_area_SOURCES = bench/bench-exchange-area.c bench/timing.h
@@ -19,6 +19,11 @@ bench_bench_accuracy_SOURCES = bench/bench-accuracy.c bench/dense.c bench/dense.
 bench_bench_accuracy_CPPFLAGS = $(AM_CPPFLAGS) $(LAPACK_CFLAGS) \
 	-DBENCH_DATA='"$(abs_top_srcdir)/tests/data/reference"'
 bench_bench_accuracy_LDADD = libhr2d-core.la $(LAPACK_LIBS) $(GSL_LIBS) $(OPENMP_CFLAGS) -lm
+bench_bench_prediction_SOURCES = bench/bench-prediction.c \
+	tests/adversary/kinds.c tests/adversary/kinds.h tests/adversary/kinds-extreme.c \
+	tests/adversary/kinds-open.c tests/adversary/kinds-rooms.c tests/adversary/random.h \
+	tests/adversary/scene.c tests/adversary/scene.h
+bench_bench_prediction_LDADD = libhr2d-core.la $(OPENMP_CFLAGS) -lm
 
 bench: $(BENCHES)
 	@for program in $(BENCHES); do echo "== $$program"; ./$$program || exit 1; done

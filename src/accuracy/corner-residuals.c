@@ -36,6 +36,23 @@ static hr2d_status add(hr2di_contacts *c, const hr2di_transport *t, const uint32
   return HR2D_OK;
 }
 
+static size_t most_for(const hr2d_scene *scene) {
+  return scene->patches > MANY ? FEW : MOST;
+}
+
+uint64_t hr2di_contacts_points(const hr2d_linkset *links) {
+  const hr2d_hierarchy *h = links->hierarchy;
+  const size_t most = most_for(h->scene);
+  size_t contacts = 0;
+  for (uint64_t k = 0; k < links->store.count && contacts < most; k++) {
+    const hr2d_pair pair = hr2di_store_at(&links->store, k)->pair;
+    const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
+    if (i->child || j->child) continue;
+    contacts += (size_t)hr2di_point_same(i->b, j->a) + (size_t)hr2di_point_same(j->b, i->a);
+  }
+  return 2 * (contacts < most ? contacts : most);
+}
+
 /* Leaves that touch are linked with each other. */
 hr2d_status hr2di_contacts_init(hr2di_contacts *c, const hr2di_transport *t) {
   const hr2d_element *element = t->hierarchy->element;
@@ -86,7 +103,7 @@ static int by_key(const void *left, const void *right) {
 
 /* Chooses by the residuals that coefficients have at the vertex. */
 static void choose(hr2di_contacts *c, const hr2di_transport *t, const double *residual) {
-  const size_t most = t->hierarchy->scene->patches > MANY ? FEW : MOST;
+  const size_t most = most_for(t->hierarchy->scene);
   hr2di_basis basis;
   hr2di_basis_init(&basis, t->order);
   for (size_t k = 0; k < c->count; k++) {

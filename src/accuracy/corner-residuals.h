@@ -43,4 +43,7 @@ hr2d_status hr2di_contacts_gather(hr2di_contacts *contacts, const hr2di_equation
                                   const hr2d_solution *solution, const double *residual,
                                   const double *field);
 
+/* How many points an account gathers at, for a set with these links. */
+uint64_t hr2di_contacts_points(const hr2d_linkset *links);
+
 #endif

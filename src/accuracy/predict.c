@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "accuracy/corner-residuals.h"
 #include "accuracy/error-estimate.h"
 #include "accuracy/resolution.h"
 #include "base/alloc.h"
@@ -12,9 +13,16 @@
 #include "base/sized-struct.h"
 #include "blocks/block.h"
 #include "scene/scene-impl.h"
+#include "solution/solution-impl.h"
 #include "solve/transport.h"
 
-enum { SAMPLES = 48, PRODUCTS = 64, RUNS = 5 };
+enum { SAMPLES = 256, PRODUCTS = 64, RUNS = 5, POINTS = 4 };
+
+/* The time of one solve is within this factor of the prediction; of several, see set_range().
+ */
+#define SURE 2.0
+enum { ATTEMPTS = 8, MORE = 2 };
+
 #define SHORT 0.02
 
 /* Gathers of an account of the error: terms of the series, and solves that are not to full
@@ -22,16 +30,21 @@ enum { SAMPLES = 48, PRODUCTS = 64, RUNS = 5 };
 #define ERROR_GATHERS    12
 #define ERROR_ITERATIONS 1.6
 
-#define CLOSURE     0.5  /* of the time for blocks, on one thread */
-#define PER_ELEMENT 4.0  /* products of a block */
-#define CALLS       2.5  /* times the coarse solve: work that does not depend on the order */
-#define REST        1.75 /* for work that is not counted: fields set up, sampled, and copied */
+#define CALLS 2.5  /* times the coarse solve: work that does not depend on the order */
+#define REST  1.75 /* of gathers, for work that is not counted: fields set up and copied */
 
 /* The cost of an operator: seconds to make its links and blocks, and seconds of one gather. */
 typedef struct cost {
   uint64_t elements, leaves, links, bytes;
   double make, gather;
 } cost;
+
+/* A coarse solve: its iterations, which hardly depend on the order, its time, for calls that
+   have little to do, and the time of one gather at a point. */
+typedef struct trial {
+  double iterations, seconds, point;
+  uint64_t leaves;
+} trial;
 
 /* The time for all blocks, from every k-th block. */
 static hr2d_status time_blocks(const hr2di_graded *a, size_t order, double *seconds) {
@@ -90,20 +103,44 @@ static hr2d_status measure(const hr2d_scene *scene, const hr2di_graded *from,
   return status;
 }
 
-/* A coarse solve measures the number of iterations, which hardly depends on the order, and the
-   time of calls that have little to do. */
-static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target,
-                              double *iterations, double *seconds) {
+static hr2d_status time_points(const hr2d_solution *solution, size_t patches, trial *t) {
+  double *value = hr2di_alloc(&solution->alloc, solution->bands, sizeof *value);
+  const double end = 0, start = hr2di_clock_now();
+  hr2d_status status = value ? HR2D_OK : HR2D_ENOMEM;
+  for (size_t k = 0; k < POINTS && !status; k++)
+    status = hr2d_solution_gather(solution, k * patches / POINTS, &end, 1, value);
+  t->point = (hr2di_clock_now() - start) / POINTS;
+  hr2di_alloc_free(&solution->alloc, value);
+  return status;
+}
+
+static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target, trial *t) {
   const double start = hr2di_clock_now();
   hr2di_graded a;
   hr2di_message message;
   const hr2di_resolution coarse = {.order = 2, .target = 0.1, .norm = target->norm};
   hr2d_status status = hr2di_graded_refine(&a, scene, NULL, &coarse, target, &message);
   if (!status) status = hr2di_graded_solve(&a, target, &message);
-  if (!status) *iterations = 2 + (double)hr2d_solution_work(a.solution).iterations;
+  t->seconds = hr2di_clock_now() - start;
+  if (!status) {
+    t->iterations = 2 + (double)hr2d_solution_work(a.solution).iterations;
+    t->leaves = hr2d_hierarchy_count(a.hierarchy).leaves;
+    status = time_points(a.solution, scene->patches, t);
+  }
   hr2di_graded_clear(&a);
-  *seconds = hr2di_clock_now() - start;
   return status;
+}
+
+/* The first solve reaches the target in nine of ten cases.  Otherwise up to ATTEMPTS solves
+   follow, each of some coefficients more, and the time of one grows like p². */
+static void set_range(hr2d_prediction *p) {
+  double solves = 0;
+  for (unsigned k = 0; k < ATTEMPTS; k++) {
+    const double order = fmin(p->order + MORE * k, HR2D_MAX_ORDER) / p->order;
+    solves += order * order;
+  }
+  p->least_seconds = p->seconds / SURE;
+  p->most_seconds = p->seconds * SURE * solves;
 }
 
 static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
@@ -115,8 +152,9 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
   const hr2di_resolution finer = hr2di_resolution_finer(&fineness);
   hr2di_graded first = {0}, second = {0};
   cost solve = {0}, error = {0};
-  double iterations = 0, coarse = 0;
-  hr2d_status status = try_coarse(scene, target, &iterations, &coarse);
+  const int reflects = scene->effect[HR2D_EFFECT_INTERREFLECTION].on;
+  trial coarse = {0};
+  hr2d_status status = try_coarse(scene, target, &coarse);
   if (!status) status = measure(scene, NULL, &fineness, target, &first, &solve);
   if (!status) status = measure(scene, &first, &finer, target, &second, &error);
   if (!status) {
@@ -125,9 +163,14 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
     p->leaves = solve.leaves;
     p->links = solve.links;
     p->bytes = solve.bytes + error.bytes;
-    p->seconds = CALLS * coarse +
-                 REST * (solve.make + iterations * solve.gather + error.make +
-                         (ERROR_GATHERS + ERROR_ITERATIONS * iterations) * error.gather);
+    const double gathers =
+        coarse.iterations * solve.gather +
+        (ERROR_GATHERS + ERROR_ITERATIONS * coarse.iterations) * error.gather;
+    const double points = (double)hr2di_contacts_points(first.links) * coarse.point *
+                          sqrt((double)solve.leaves / (double)coarse.leaves);
+    p->seconds = CALLS * coarse.seconds + solve.make + error.make + REST * gathers +
+                 (reflects ? points : 0);
+    set_range(p);
   }
   hr2di_graded_clear(&first);
   hr2di_graded_clear(&second);
@@ -145,9 +188,9 @@ hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *target,
   hr2d_status status = predict(scene, &used, prediction);
   /* Other work of the machine disturbs short times: take the least of several. */
   for (int run = 1; run < RUNS && !status && hr2di_clock_now() - start < SHORT; run++) {
-    const double min = prediction->seconds;
+    const hr2d_prediction former = *prediction;
     status = predict(scene, &used, prediction);
-    prediction->seconds = fmin(prediction->seconds, min);
+    if (!status && former.seconds < prediction->seconds) *prediction = former;
   }
   return status;
 }

@@ -31,6 +31,8 @@ static json_t *prediction_entry(const cost *c, int k) {
   json_put(&entry, "links", json_count(p->links));
   json_put(&entry, "bytes", json_count(p->bytes));
   json_put(&entry, "seconds", json_number(p->seconds));
+  json_put(&entry, "least_seconds", json_number(p->least_seconds));
+  json_put(&entry, "most_seconds", json_number(p->most_seconds));
   return entry;
 }
 

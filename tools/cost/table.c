@@ -17,12 +17,13 @@ static const char *say(double seconds, char *text, size_t size) {
 }
 
 static void print_prediction_table(const cost *c) {
-  printf("\n%10s %6s %12s %14s %14s %10s\n", "target", "order", "N", "L", "bytes", "seconds");
+  printf("\n%7s %6s %10s %12s %13s %10s  %s\n", "target", "order", "N", "L", "bytes", "seconds",
+         "range");
   for (int k = 0; k < c->predictions; k++) {
     const hr2d_prediction *p = &c->prediction[k];
-    printf("%10.0e %6u %12llu %14llu %14llu %10.4f\n", cost_prediction_target(k), p->order,
-           (unsigned long long)p->elements, (unsigned long long)p->links,
-           (unsigned long long)p->bytes, p->seconds);
+    printf("%7.0e %6u %10llu %12llu %13llu %10.4f  %.2g to %.2g\n", cost_prediction_target(k),
+           p->order, (unsigned long long)p->elements, (unsigned long long)p->links,
+           (unsigned long long)p->bytes, p->seconds, p->least_seconds, p->most_seconds);
   }
 }
 

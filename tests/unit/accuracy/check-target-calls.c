@@ -225,7 +225,9 @@ START_TEST(predictions_count_right) {
         ck_assert_uint_eq(p.links, a.links);
         ck_assert_uint_ge(p.bytes, a.bytes);
         ck_assert_uint_le(p.bytes, 50 * a.bytes);
-        ck_assert_double_gt(p.seconds, 0);
+        ck_assert_double_gt(p.least_seconds, 0);
+        ck_assert_double_lt(p.least_seconds, p.seconds);
+        ck_assert_double_lt(p.seconds, p.most_seconds);
       }
       hr2d_solution_destroy(solution);
       hr2d_scene_destroy(scene);
