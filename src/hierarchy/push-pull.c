@@ -70,7 +70,17 @@ static void add_up(const hr2di_push_pull *p, const double *relation, double part
     add_up_bands(relation, p->order, p->bands, part, child, parent);
 }
 
-void hr2di_push_pull_up(const hr2di_push_pull *p, double *field) {
+/* The values of an element of order 1 from its children. */
+static void add_up_constants(size_t bands, double part, const double *spread,
+                             const double *left, const double *right, double *here) {
+  const double l = spread ? spread[0] : 1, r = spread ? spread[1] : 1;
+  for (size_t b = 0; b < bands; b++) {
+    const double x = l * left[b], y = r * right[b];
+    here[b] = part == 0.5 ? 0.5 * (x + y) : y + part * (x - y);
+  }
+}
+
+void hr2di_push_pull_up(const hr2di_push_pull *p, const double *spread, double *field) {
   const size_t bands = p->bands, width = p->order * bands;
   const hr2d_element *element = p->hierarchy->element;
   for (uint32_t e = (uint32_t)p->elements; e-- > 0;) {
@@ -79,9 +89,8 @@ void hr2di_push_pull_up(const hr2di_push_pull *p, double *field) {
     double *here = field + e * width;
     const double part = hr2di_element_left_part(element, e);
     if (width == bands) {
-      for (size_t b = 0; b < bands; b++)
-        here[b] =
-            part == 0.5 ? 0.5 * (left[b] + right[b]) : right[b] + part * (left[b] - right[b]);
+      add_up_constants(bands, part, spread ? spread + element[e].child : NULL, left, right,
+                       here);
       continue;
     }
     const double *relation = relation_of(p, e);
@@ -108,7 +117,7 @@ static void add_down(const hr2di_push_pull *p, const double *relation, const dou
     add_down_bands(relation, p->order, p->bands, parent, child);
 }
 
-void hr2di_push_pull_down(const hr2di_push_pull *p, double *field) {
+void hr2di_push_pull_down(const hr2di_push_pull *p, const double *spread, double *field) {
   const size_t bands = p->bands, width = p->order * bands, square = p->order * p->order;
   const hr2d_element *element = p->hierarchy->element;
   for (uint32_t e = 0; e < p->elements; e++) {
@@ -117,7 +126,8 @@ void hr2di_push_pull_down(const hr2di_push_pull *p, double *field) {
     double *here = field + e * width;
     const double *from = field + parent * width;
     if (width == bands) {
-      for (size_t b = 0; b < bands; b++) here[b] += from[b];
+      const double part = spread ? spread[e] : 1;
+      for (size_t b = 0; b < bands; b++) here[b] += part * from[b];
       continue;
     }
     const int right = e == element[parent].child + 1;

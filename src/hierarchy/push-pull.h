@@ -21,10 +21,13 @@ hr2d_status hr2di_push_pull_init(hr2di_push_pull *p, const hr2d_hierarchy *hiera
                                  const hr2d_allocator *alloc, size_t order, size_t bands);
 void hr2di_push_pull_clear(hr2di_push_pull *p);
 
-/* Pull: makes the values of every element with children from its children, leaves first. */
-void hr2di_push_pull_up(const hr2di_push_pull *p, double *field);
+/* Pull: makes the values of every element with children from its children, leaves first.  At
+   order 1 `spread` may give a factor per element, which a value takes on the way from the
+   element to its parent or back; NULL: 1. */
+void hr2di_push_pull_up(const hr2di_push_pull *p, const double *spread, double *field);
 
-/* Push: adds to every element the values of all its ancestors. */
-void hr2di_push_pull_down(const hr2di_push_pull *p, double *field);
+/* Push: adds to every element the values of all its ancestors.  This is the transpose of the
+   pull in the scalar product Σ A x y. */
+void hr2di_push_pull_down(const hr2di_push_pull *p, const double *spread, double *field);
 
 #endif

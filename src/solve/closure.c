@@ -1,17 +1,79 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A coarse link spreads its exchange evenly over all leaves below it.  So the row sum K·1 of
-   a leaf is off, although the row sum of the patch is exact.  Adding d(x)·B(x) on each leaf,
-   with d = σ − K·1 and σ the leaf's exact row sum, makes rows exact.
+/* A coarse link that spreads its exchange evenly over the leaves below makes the row sum K·1 of
+   a leaf wrong, although the row sum of the patch is exact.  Let an element c with parent p get
+   the light of the links at its ancestors with the factor
 
-   It keeps the operator symmetric, because d is on the diagonal, and makes it positive:
-     Σ A B (I − K − D) B = Σ A (1−σ) B² + ½ Σ AF_ij (B_i − B_j)² ≥ 0.
-   So the discrete equation has one solution wherever ρ < 1, for every ε.  Its matrix
-   I − ρ(K + D) is an M-matrix with row sums 1 − ρσ, and so B ≥ 0. */
+     w_c = T_c / mean of T over the children of p,   T_c = σ_c − D_c.
+
+   σ_c is the mean of the exact row sums of c's leaves.  D_c is the mean over c of what the
+   links at c and below it contribute to them: F_c, the form factors of c's own links, and the
+   mean of D over c's children.  As each link has its exact exchange, T_c is exactly what comes
+   from above. A pull with the same factors is the transpose of the push.  Then
+   - rows are exact: by induction ΣT is what arrives, so that a leaf gets T + F = σ;
+   - K stays symmetric and ≥ 0.  So I − ρK is an M-matrix with row sums 1 − ρσ, the discrete
+     equation has one solution wherever ρ < 1, for every ε, and B ≥ 0;
+   - the mean of w is 1: the exchange of every two patches stays exact.  So averages lose no
+     digit that they have without closure because B is constant on each patch that sends light
+     (d·B on the diagonal makes rows exact, too, but adds ∫dB to averages).
+
+   Directed links have factors for the push by the links over which an element receives, and
+   others for the pull by the links over which it sends. */
 #include "solve/closure.h"
 
-#include "base/alloc.h"
+#include <math.h>
 
-hr2d_status hr2di_closure_set(hr2di_transport *t, const hr2di_row_sums *rows) {
+#include "base/alloc.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "links/patch-defect.h"
+
+/* Differences of T below this part of σ may be roundings: light is spread evenly. */
+#define NOISE HR2DI_DEFECT_CLOSED
+
+/* Sets `below` to D, and `sum` to the mean of σ, of every element. */
+static void sum_rows(hr2di_transport *t, const hr2di_row_sums *rows, int sends, double *below,
+                     double *sum) {
+  const hr2d_element *element = t->hierarchy->element;
+  hr2di_transport_link_rows(t, sends, below);
+  for (size_t k = t->elements; k-- > 0;) {
+    const uint32_t c = element[k].child;
+    sum[k] = rows->front[k];
+    if (!c) continue;
+    const double part = hr2di_element_left_part(element, (uint32_t)k);
+    below[k] += below[c + 1] + part * (below[c] - below[c + 1]);
+    sum[k] = sum[c + 1] + part * (sum[c] - sum[c + 1]);
+  }
+}
+
+/* Sets w of every element. */
+static void set_factors(hr2di_transport *t, const double *below, const double *sum, double *w) {
+  const hr2d_element *element = t->hierarchy->element;
+  for (size_t k = 0; k < t->elements; k++) w[k] = 1;
+  for (size_t k = 0; k < t->elements; k++) {
+    const uint32_t c = element[k].child;
+    if (!c) continue;
+    const double part = hr2di_element_left_part(element, (uint32_t)k);
+    const double left = fmax(sum[c] - below[c], 0), right = fmax(sum[c + 1] - below[c + 1], 0);
+    if (fabs(left - right) <= NOISE * sum[k]) continue;
+    const double mean = right + part * (left - right);
+    w[c] = left / mean;
+    w[c + 1] = right / mean;
+  }
+}
+
+static hr2d_status make_factors(hr2di_transport *t, const hr2di_row_sums *rows, int sends,
+                                double **made) {
+  double *below = hr2di_alloc(&t->alloc, t->elements, 2 * sizeof *below);
+  *made = hr2di_alloc(&t->alloc, t->elements, sizeof **made);
+  if (below && *made) {
+    sum_rows(t, rows, sends, below, below + t->elements);
+    set_factors(t, below, below + t->elements, *made);
+  }
+  hr2di_alloc_free(&t->alloc, below);
+  return below && *made && !t->failed ? HR2D_OK : HR2D_ENOMEM;
+}
+
+/* What roundings leave of σ − K·1 is added on the diagonal. */
+static hr2d_status set_rest(hr2di_transport *t, const hr2di_row_sums *rows) {
   const size_t field = t->leaves * t->bands;
   double *closure = hr2di_alloc(&t->alloc, t->leaves, sizeof *closure);
   double *one = hr2di_alloc(&t->alloc, field, sizeof *one);
@@ -29,4 +91,15 @@ hr2d_status hr2di_closure_set(hr2di_transport *t, const hr2di_row_sums *rows) {
   hr2di_alloc_free(&t->alloc, one);
   hr2di_alloc_free(&t->alloc, row);
   return room ? HR2D_OK : HR2D_ENOMEM;
+}
+
+/* Both sets of factors are made before either is used. */
+hr2d_status hr2di_closure_set(hr2di_transport *t, const hr2di_row_sums *rows) {
+  double *receive, *send;
+  hr2d_status status = make_factors(t, rows, 0, &receive);
+  send = receive;
+  if (!status && t->links->directed) status = make_factors(t, rows, 1, &send);
+  t->receive = receive;
+  t->send = send;
+  return status ? status : set_rest(t, rows);
 }

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Closure: a term on each leaf that corrects the exchange that coarse links spread wrongly. */
+/* Closure: makes the row sums of leaves exact, which coarse links spread wrongly. */
 #ifndef HR2D_SRC_SOLVE_CLOSURE_H
 #define HR2D_SRC_SOLVE_CLOSURE_H
 
 #include "solve/row-sums.h"
 #include "solve/transport.h"
 
-/* Sets t->closure from the links and the exact row sums.  Returns HR2D_OK or HR2D_ENOMEM. */
+/* Sets t->receive, t->send and t->closure from the links and the exact row sums.  Returns
+ * HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_closure_set(hr2di_transport *t, const hr2di_row_sums *rows);
 
 /* The same at an order above 1; no row sums need be integrated. */

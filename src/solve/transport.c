@@ -53,14 +53,20 @@ void hr2di_transport_clear(hr2di_transport *t) {
   hr2di_alloc_free(&t->alloc, t->leaf);
   hr2di_alloc_free(&t->alloc, t->up);
   hr2di_alloc_free(&t->alloc, t->down);
+  if (t->send != t->receive) hr2di_alloc_free(&t->alloc, t->send);
+  hr2di_alloc_free(&t->alloc, t->receive);
   hr2di_alloc_free(&t->alloc, t->closure);
   hr2di_alloc_free(&t->alloc, t->sky);
 }
 
-void hr2di_transport_pull(hr2di_transport *t, const double *leaf_field) {
+static void pull(hr2di_transport *t, const double *spread, const double *leaf_field) {
   for (size_t k = 0; k < t->leaves; k++)
     memcpy(t->up + t->leaf[k] * t->width, leaf_field + k * t->width, t->width * sizeof(double));
-  hr2di_push_pull_up(&t->trees, t->up);
+  hr2di_push_pull_up(&t->trees, spread, t->up);
+}
+
+void hr2di_transport_pull(hr2di_transport *t, const double *leaf_field) {
+  pull(t, NULL, leaf_field);
 }
 
 /* Adds the power received over the links of one chunk, both ways unless directed. */
@@ -181,13 +187,18 @@ static void gather_clusters(hr2di_transport *t) {
     t->failed = 1;
 }
 
-/* Divides power by length to get irradiance, and pushes it down to the leaves. */
-static void lower(hr2di_transport *t, double *irradiance) {
+/* Divides power by length to get irradiance. */
+static void divide(hr2di_transport *t) {
   const size_t width = t->width;
   const hr2d_element *element = t->hierarchy->element;
   for (size_t e = 0; e < t->elements; e++)
     for (size_t k = 0; k < width; k++) t->down[e * width + k] /= element[e].length;
-  hr2di_push_pull_down(&t->trees, t->down);
+}
+
+/* Pushes the irradiance of elements down to the leaves. */
+static void lower(hr2di_transport *t, double *irradiance) {
+  const size_t width = t->width;
+  hr2di_push_pull_down(&t->trees, t->receive, t->down);
   for (size_t k = 0; k < t->leaves; k++)
     memcpy(irradiance + k * width, t->down + t->leaf[k] * width, width * sizeof(double));
 }
@@ -205,14 +216,36 @@ static void gather_slices(hr2di_transport *t, hr2di_transport_part part) {
   for (size_t slice = 0; slice < t->slices; slice++) gather_slice(t, part, slice);
 }
 
-void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
-                                const double *radiosity, double *irradiance) {
-  hr2di_transport_pull(t, radiosity);
+/* Sets t->down to the irradiance of elements over links and clusters, from t->up. */
+static void gather(hr2di_transport *t, hr2di_transport_part part) {
   gather_slices(t, part);
   sum_slices(t);
   if (t->links->roots.clusters && part == HR2DI_ALL_LINKS) gather_clusters(t);
-  lower(t, irradiance);
+  divide(t);
   t->sweeps++;
+}
+
+void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
+                                const double *radiosity, double *irradiance) {
+  pull(t, t->send, radiosity);
+  gather(t, part);
+  lower(t, irradiance);
+}
+
+void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor) {
+  const hr2di_store *store = &t->links->store;
+  for (size_t k = 0; k < t->elements * t->width; k++) t->up[k] = 1;
+  if (!sends || !t->links->directed) {
+    gather(t, HR2DI_ALL_LINKS);
+  } else {
+    memset(t->down, 0, t->elements * t->width * sizeof *t->down);
+    for (uint64_t k = 0; k < store->count; k++) {
+      const hr2d_link *link = hr2di_store_at(store, k);
+      t->down[link->pair.second * t->width] += link->exchange_area;
+    }
+    divide(t);
+  }
+  for (size_t k = 0; k < t->elements; k++) factor[k] = t->down[k * t->width];
 }
 
 void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *irradiance) {

@@ -19,6 +19,8 @@ typedef struct hr2di_transport {
   uint32_t *leaf;   /* the element of each leaf */
   double *up;       /* elements × width: radiosity */
   double *down;     /* slices × elements × width: power received, then irradiance */
+  double *receive;  /* order 1: factors per element for the push; NULL: light spreads evenly */
+  double *send;     /* the same for the pull; equal to `receive` unless links are directed */
   double *closure;  /* leaves × order × order, added to the diagonal; NULL for none */
   double *sky;      /* leaves × order: form factor of the background; NULL: none */
   size_t slices;    /* parts into which the links are cut, whatever the number of threads */
@@ -44,6 +46,10 @@ void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *
 typedef enum hr2di_transport_part { HR2DI_ALL_LINKS, HR2DI_DISTANT_LINKS } hr2di_transport_part;
 void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
                                 const double *radiosity, double *irradiance);
+
+/* The sum of the form factors over the links of each element itself, without those above and
+   below it, at order 1: of links over which it receives, or over which it sends. */
+void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor);
 
 /* down_i += C up_j and down_j += Cᵀ up_i of one block. */
 void hr2di_transport_multiply(const double *block, size_t order, const double *up_i,
