@@ -16,9 +16,12 @@ libhr2d_core_la_SOURCES = \
 	src/base/read-file.c src/base/read-file.h \
 	src/base/scaled-double.h \
 	src/base/sized-struct.h \
+	src/base/sort.c src/base/sort.h \
 	src/base/status.c \
+	src/base/team.c src/base/team.h \
 	src/base/union-find.h \
 	src/base/version.c \
+	src/base/watch.c src/base/watch.h \
 	src/geometry/bernstein-ellipse.c src/geometry/bernstein-ellipse.h \
 	src/geometry/crossings.c src/geometry/crossings.h \
 	src/geometry/cut-points.c src/geometry/cut-points.h \

@@ -26,6 +26,7 @@
 #define HR2D_REFINE_H
 
 #include <hr2d/linkset.h>
+#include <hr2d/progress.h>
 #include <hr2d/status.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -35,37 +36,6 @@ extern "C" {
 #endif
 
 struct hr2d_solution;
-
-/** The progress of a long call. */
-typedef struct hr2d_progress {
-  size_t struct_size; /**< sizeof (hr2d_progress) of the library */
-  const char *phase;  /**< "refine", "coefficients", "solve" or "factors" */
-  uint64_t elements;  /**< N so far */
-  uint64_t links;     /**< L so far */
-  double fraction;    /**< part that is done, in [0,1]: of root pairs, of links to integrate, of
-                           digits to gain, or of factors */
-  double residual;    /**< relative residual during a solve, otherwise 0 */
-} hr2d_progress;
-
-/**
- * Receives the progress of a call.
- *
- * It is called from the thread of the caller: after every 64 batches of a refinement (tens of
- * thousands of links), after every 256 links whose coefficients are integrated, after every
- * iteration of a solve, and for every run of patches in hr2d_exchange_matrix().
- *
- * This holds for every callback:
- * - It may call the library on other objects, and read the objects of the running call.
- * - A call that would change these objects returns HR2D_ESTATE. Such calls are a refinement or
- *   another order of their hierarchy, and a solve of links that are being refined or solved.
- * - It must not destroy these objects, and must not leave by longjmp() or an exception.
- *
- * @param ctx       the `progress_ctx` of the options
- * @param progress  valid during the call only
- * @return HR2D_OK to continue. Any other value stops the call. It is returned as it is, even if
- *         it is not a member of hr2d_status, and the objects are unchanged.
- */
-typedef hr2d_status (*hr2d_progress_fn)(void *ctx, const hr2d_progress *progress);
 
 /** Options of a refinement. Start from #HR2D_REFINE_OPTIONS_INIT. */
 typedef struct hr2d_refine_options {

@@ -18,6 +18,7 @@
 
 #include <hr2d/geometry.h>
 #include <hr2d/memory.h>
+#include <hr2d/progress.h>
 #include <hr2d/status.h>
 #include <stddef.h>
 
@@ -177,6 +178,23 @@ HR2D_API hr2d_status hr2d_scene_set_background(hr2d_scene *scene, const double *
  * @retval HR2D_ESTATE  the scene is committed
  */
 HR2D_API hr2d_status hr2d_scene_force(hr2d_scene *scene, hr2d_effect effect);
+
+/**
+ * Sets the callback that calls on a scene ask whether to go on.
+ *
+ * These are the calls that have no options with a `progress` of their own, or in whose options
+ * it is NULL: reading and cutting the scene, hr2d_scene_commit(), hr2d_linkset_validate(),
+ * hr2d_solution_gather() and its companions, hr2d_state_read(), hr2d_state_write(), and the
+ * long calls on the scene and on objects made from it. A stopped call returns the status of the
+ * callback and leaves its objects as they were: a scene whose commit was stopped is not
+ * committed and takes more patches, or another commit.
+ *
+ * @param scene     committed or not
+ * @param progress  called from the thread of each call: from several threads at once, if calls
+ *                  on the scene run in several threads. NULL for none, the initial value
+ * @param ctx       given to `progress`
+ */
+HR2D_API void hr2d_scene_set_progress(hr2d_scene *scene, hr2d_progress_fn progress, void *ctx);
 
 /**
  * Cuts patches that cross properly at their crossings, so that hr2d_scene_commit() does not

@@ -83,7 +83,7 @@ static void add_links(const hr2di_transport *t, const double *offset, const doub
                       double *error) {
   const hr2d_hierarchy *h = t->hierarchy;
   const hr2di_link_blocks *blocks = &t->links->blocks;
-  for (uint64_t k = 0; k < t->links->store.count; k++) {
+  for (uint64_t k = 0; k < t->links->store.count && !hr2di_watch_work(t->watch, 1); k++) {
     const hr2d_link *link = hr2di_store_at(&t->links->store, k);
     const uint32_t i = link->pair.first, j = link->pair.second;
     const int plain =
@@ -109,7 +109,8 @@ hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const double *most, 
   double *all = hr2di_alloc_zero(&t->alloc, t->elements, t->bands * sizeof *all);
   const int room = offset && all;
   if (room) {
-    for (uint32_t k = 0; k < t->elements; k++) offset[k] = offset_of(t->hierarchy, k);
+    for (uint32_t k = 0; k < t->elements && !hr2di_watch_work(t->watch, 1); k++)
+      offset[k] = offset_of(t->hierarchy, k);
     add_links(t, offset, most, all);
     lower(t, all);
     for (size_t k = 0; k < t->leaves; k++)
@@ -118,5 +119,5 @@ hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const double *most, 
   }
   hr2di_alloc_free(&t->alloc, offset);
   hr2di_alloc_free(&t->alloc, all);
-  return room ? HR2D_OK : HR2D_ENOMEM;
+  return room ? hr2di_watch_status(t->watch) : HR2D_ENOMEM;
 }

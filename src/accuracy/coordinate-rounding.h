@@ -6,7 +6,7 @@
 #include "solve/transport.h"
 
 /* error += how much the irradiance of leaves may be off, leaves × bands; |B| of elements is at
-   most `most`, elements × bands. HR2D_OK or HR2D_ENOMEM. */
+   most `most`, elements × bands. HR2D_OK, HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const double *most, double *error);
 
 #endif

@@ -64,7 +64,8 @@ hr2d_status hr2di_contacts_init(hr2di_contacts *c, const hr2di_transport *t) {
   for (uint64_t k = 0; k < t->links->store.count && !status; k++) {
     const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
     const hr2d_element *i = &element[pair.first], *j = &element[pair.second];
-    if (i->child || j->child) continue;
+    if (k % 16 == 0) status = hr2di_watch_work(t->watch, 2);
+    if (status || i->child || j->child) continue;
     if (hr2di_point_same(i->b, j->a)) status = add(c, t, number, pair.first, pair.second);
     if (!status && hr2di_point_same(j->b, i->a))
       status = add(c, t, number, pair.second, pair.first);
@@ -138,7 +139,7 @@ static hr2d_status gather(const hr2di_equation *eq, const hr2d_solution *solutio
   const double at = place_of(t, leaf, begins);
   hr2di_basis basis;
   hr2di_basis_init(&basis, t->order);
-  const hr2d_status status = hr2d_solution_gather(solution, patch, &at, 1, residual);
+  const hr2d_status status = hr2di_solution_gather(solution, patch, &at, 1, residual, t->watch);
   for (size_t b = 0; b < t->bands && !status; b++)
     residual[b] =
         ldexp(residual[b], -eq->exponent[b]) -
@@ -170,16 +171,9 @@ hr2d_status hr2di_contacts_gather(hr2di_contacts *c, const hr2di_equation *eq,
   c->residual = hr2di_alloc(&c->alloc, 2 * c->gathered, t->bands * sizeof *c->residual);
   hr2d_status status = c->residual ? HR2D_OK : HR2D_ENOMEM;
   for (size_t k = 0; k < 2 * c->gathered && !status; k++) {
-    const hr2d_progress progress = {.struct_size = sizeof progress,
-                                    .phase = "solve",
-                                    .elements = t->elements,
-                                    .links = t->links->store.count,
-                                    .fraction = 1};
     status = gather(eq, solution, field, c->contact[k / 2].leaf[k % 2], k % 2 != 0,
                     c->residual + k * t->bands);
     if (!status && k % 2) complete(c, t, k / 2);
-    if (!status && eq->options.progress)
-      status = eq->options.progress(eq->options.progress_ctx, &progress);
   }
   return status;
 }

@@ -26,8 +26,8 @@ typedef struct hr2di_contacts {
   double *residual; /* gathered × 2 × bands: B − B_h at the vertex, on either leaf */
 } hr2di_contacts;
 
-/* All contacts of the leaves of an operator; HR2D_OK or HR2D_ENOMEM. To be cleared in either
-   case. */
+/* All contacts of the leaves of an operator; HR2D_OK, HR2D_ENOMEM or the status of the watch.
+   To be cleared in any case. */
 hr2d_status hr2di_contacts_init(hr2di_contacts *contacts, const hr2di_transport *t);
 void hr2di_contacts_clear(hr2di_contacts *contacts);
 
@@ -38,7 +38,7 @@ hr2d_status hr2di_contacts_saturate(const hr2di_contacts *contacts, const hr2di_
 
 /* Gathers the residuals of a solution at contacts, at those with the largest `residual` where
    there are many. `residual` and `field`, which is B, are in the unit of the equation. HR2D_OK,
-   HR2D_ENOMEM, or the status of the progress callback. */
+   HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_contacts_gather(hr2di_contacts *contacts, const hr2di_equation *eq,
                                   const hr2d_solution *solution, const double *residual,
                                   const double *field);

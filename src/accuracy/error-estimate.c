@@ -74,10 +74,16 @@ hr2di_resolution hr2di_resolution_finer(const hr2di_resolution *f) {
   return finer;
 }
 
+/* Once the watch has stopped, fields have no meaning. */
+static int is_stopped(const estimator *e) {
+  return e->eq.transport.failed || hr2di_watch_status(e->eq.transport.watch);
+}
+
 /* The largest |value| of a field on a leaf, in a band. */
 static double leaf_most(const estimator *e, const double *field, size_t leaf, size_t band) {
   const hr2di_transport *t = &e->eq.transport;
   const double *at = field + leaf * t->width + band;
+  hr2di_watch_work(t->watch, 1 + e->rule.points * t->order / 32);
   double max = fmax(fabs(hr2di_basis_sum(&e->basis, -1, at, t->bands)),
                     fabs(hr2di_basis_sum(&e->basis, 1, at, t->bands)));
   for (size_t q = 0; q < e->rule.points; q++)
@@ -117,7 +123,7 @@ static void compare_irradiance(estimator *e) {
     e->average[1][k] -= ldexp(hr2d_solution_irradiance(e->coarse, k / t->bands, k % t->bands),
                               -eq->exponent[k % t->bands]);
   for (size_t b = 0; b < t->bands; b++) e->largest[0][b] = e->largest[1][b] = 0;
-  for (size_t k = 0; k < t->leaves; k++)
+  for (size_t k = 0; k < t->leaves && !is_stopped(e); k++)
     for (size_t b = 0; b < t->bands; b++) {
       const double h = leaf_most(e, eq->irradiance, k, b);
       e->largest[0][b] = fmax(e->largest[0][b], leaf_most(e, e->kept, k, b));
@@ -129,7 +135,8 @@ static void compare_irradiance(estimator *e) {
 static void set_residual(estimator *e) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
-  hr2di_solution_restrict(e->coarse, t->hierarchy, t->leaf, t->leaves, t->order, e->kept);
+  hr2di_solution_restrict(e->coarse, t->hierarchy, t->leaf, t->leaves, t->order, e->kept,
+                          t->watch);
   for (size_t k = 0; k < eq->field; k++)
     e->kept[k] = ldexp(e->kept[k], -eq->exponent[k % t->bands]);
   hr2di_equation_balance(eq);
@@ -238,7 +245,7 @@ static hr2d_status find_safe_sum(estimator *e, int irradiance) {
   /* The norm of a solve has the largest ones: dark patches. */
   const hr2d_status status = solve(e, max > 0 ? fmax(1e-4 * min / max, 1e-14) : 1);
   if (status) return status;
-  for (size_t leaf = 0; leaf < t->leaves; leaf++)
+  for (size_t leaf = 0; leaf < t->leaves && !is_stopped(e); leaf++)
     for (size_t b = 0; b < t->bands; b++) {
       const double rho = rho_of(e, leaf, b);
       double sum = 0;
@@ -273,7 +280,7 @@ static void add_contacts(estimator *e) {
 static void set_most(estimator *e, const double *field) {
   const hr2di_transport *t = &e->eq.transport;
   const hr2d_element *element = t->hierarchy->element;
-  for (size_t k = 0; k < t->leaves; k++)
+  for (size_t k = 0; k < t->leaves && !is_stopped(e); k++)
     for (size_t b = 0; b < t->bands; b++)
       e->most[t->leaf[k] * t->bands + b] = leaf_most(e, field, k, b);
   for (size_t k = t->elements; k-- > 0;)
@@ -320,7 +327,7 @@ static void find_errors(estimator *e) {
     e->point[0][b] = e->point[1][b] = 0;
     e->stray[0][b] = e->stray[1][b] = 0;
   }
-  for (size_t k = 0; k < t->leaves; k++)
+  for (size_t k = 0; k < t->leaves && !is_stopped(e); k++)
     for (size_t b = 0; b < t->bands; b++) {
       const double h = leaf_most(e, eq->irradiance, k, b);
       e->point[1][b] = fmax(e->point[1][b], h);
@@ -347,7 +354,7 @@ static hr2d_status find_rounding(estimator *e, int reflects) {
   if (status) return status;
   take_averages(e, e->error, e->rounding[0]);
   hr2di_equation_gather(eq, e->error);
-  for (size_t leaf = 0; leaf < t->leaves; leaf++)
+  for (size_t leaf = 0; leaf < t->leaves && !is_stopped(e); leaf++)
     for (size_t b = 0; b < t->bands; b++) {
       const double h = leaf_most(e, eq->irradiance, leaf, b) + ROUNDING * e->largest[1][b];
       e->stray[1][b] = fmax(e->stray[1][b], h);
@@ -426,7 +433,7 @@ static hr2d_status measure(estimator *e, hr2di_error_pair *errors) {
     *sup[h] = bounded(fmax(worst_point(e, h, 1, 0), doubt),
                       worst_point(e, h, fmax(e->margin, POINTS), 1) + level);
   }
-  return HR2D_OK;
+  return eq->transport.failed ? eq->transport.failed : hr2di_watch_status(eq->transport.watch);
 }
 
 /* Work space: NULL where there is no memory. */

@@ -14,10 +14,10 @@ enum { MOST_EVENTS = 30000, MANY = 256 };
 
 /* Finds the events of `generations` generations, or of as many as MOST_EVENTS has room for. */
 static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
-                               unsigned generations) {
+                               unsigned generations, hr2di_watch *watch) {
   hr2d_status status = HR2D_OK;
   while (generations > 0) {
-    status = hr2di_events_init(events, h->scene, &h->alloc, generations--, MOST_EVENTS);
+    status = hr2di_events_init(events, h->scene, &h->alloc, generations--, MOST_EVENTS, watch);
     if (status != HR2D_EMAX_ELEMENTS) return status;
     hr2di_events_clear(events);
     *events = (hr2di_events){0};
@@ -31,7 +31,9 @@ static hr2d_status grade(hr2di_graded *a, const hr2d_hierarchy *from,
                          const hr2di_resolution *fineness, const hr2d_target *target) {
   hr2d_hierarchy *h = a->hierarchy;
   hr2di_events events = {.alloc = h->alloc};
-  hr2d_status status = find_events(&events, h, fineness->generations);
+  hr2di_watch watch;
+  hr2di_scene_watch(h->scene, &watch, target->progress, target->progress_ctx, "refine");
+  hr2d_status status = find_events(&events, h, fineness->generations, &watch);
   const hr2di_grading grading = {.target = fineness->target,
                                  .norm = fineness->norm,
                                  .order = fineness->order,
@@ -39,7 +41,8 @@ static hr2d_status grade(hr2di_graded *a, const hr2d_hierarchy *from,
                                  .halvings = from ? 0 : fineness->halvings,
                                  .weight = fineness->weight,
                                  .events = &events,
-                                 .max_elements = target->max_elements};
+                                 .max_elements = target->max_elements,
+                                 .watch = &watch};
   if (!status) status = hr2di_grading_apply(h, &grading, &a->survey);
   a->events = events.count;
   hr2di_events_clear(&events);
@@ -60,9 +63,13 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_resolution *finene
       hr2d_linkset_create(a->hierarchy, hr2di_admissibility_oracle(), &separation,
                           hr2di_admissibility_fixed_leaves(), NULL, &a->links);
   if (status) return status;
-  if (a->hierarchy->scene->patches >= MANY)
+  if (a->hierarchy->scene->patches >= MANY) {
+    hr2di_watch watch;
+    hr2di_scene_watch(a->hierarchy->scene, &watch, target->progress, target->progress_ctx,
+                      "refine");
     status = hr2di_roots_init(&a->links->roots, a->hierarchy->scene, &a->links->alloc,
-                              fineness->cluster_accuracy);
+                              fineness->cluster_accuracy, &watch);
+  }
   if (!status) status = hr2d_refine(a->links, &options);
   a->links->oracle_ctx = NULL; /* the oracle is not asked again */
   return status;

@@ -35,7 +35,8 @@ static void multiply(hr2di_equation *eq, const hr2d_solution *solution, size_t p
   const hr2di_transport *t = &eq->transport;
   const double area = t->hierarchy->element[patch].length;
   double *radiosity = eq->work;
-  hr2di_solution_restrict(solution, t->hierarchy, t->leaf, t->leaves, t->order, radiosity);
+  hr2di_solution_restrict(solution, t->hierarchy, t->leaf, t->leaves, t->order, radiosity,
+                          t->watch);
   for (size_t k = 0; k < eq->field; k++) {
     const size_t item = k / t->bands;
     const hr2d_element *e = &t->hierarchy->element[t->leaf[item / t->order]];
@@ -51,6 +52,8 @@ static hr2d_status weigh(const hr2di_graded *coarse, size_t patch, const hr2d_ta
   const hr2d_allocator *alloc = &coarse->links->alloc;
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   options.threads = target->threads;
+  options.progress = target->progress;
+  options.progress_ctx = target->progress_ctx;
   options.tolerance = 1e-6;
   hr2di_equation eq;
   hr2d_status status = hr2di_equation_init(&eq, coarse->links, &options);

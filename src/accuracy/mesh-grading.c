@@ -14,6 +14,7 @@
 #include "accuracy/corner-exponent.h"
 #include "accuracy/mirror-images.h"
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
 #include "scene/back-faces.h"
@@ -85,8 +86,7 @@ static hr2d_status list_vertices(grader *g) {
     g->vertex[g->vertices++] = (vertex){s.a, k, 0};
     g->vertex[g->vertices++] = (vertex){s.b, k, 1};
   }
-  qsort(g->vertex, g->vertices, sizeof *g->vertex, by_x);
-  return HR2D_OK;
+  return hr2di_sort(g->vertex, g->vertices, sizeof *g->vertex, by_x, g->grading->watch);
 }
 
 static double reflectance(const hr2d_scene *scene, uint32_t patch) {
@@ -211,8 +211,10 @@ static hr2d_status look_around(grader *g, uint32_t patch) {
       high = at;
   }
   hr2d_status status = HR2D_OK;
-  for (; low < g->vertices && g->vertex[low].at.x <= middle + reach && !status; low++)
-    status = place(g, patch, (uint32_t)low);
+  for (; low < g->vertices && g->vertex[low].at.x <= middle + reach && !status; low++) {
+    status = hr2di_watch_work(g->grading->watch, 1);
+    if (!status) status = place(g, patch, (uint32_t)low);
+  }
   return status;
 }
 
@@ -341,7 +343,9 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
   g->distance =
       weight < 1 ? hr2di_ellipse_for(g->target, g->grading->order) : HR2DI_ELLIPSE_DISTANT;
   hr2d_status status = look_around(g, patch);
-  if (!status) status = hr2di_images_add(g->h->scene, patch, FAR, &g->near, g->near.count);
+  if (!status)
+    status =
+        hr2di_images_add(g->h->scene, patch, FAR, &g->near, g->near.count, g->grading->watch);
   for (int last = 0; last < 2 && !status; last++) status = add_foot(g, patch, last);
   if (!status) status = add_events(g, patch);
   if (status) return status;
@@ -349,8 +353,9 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
   stack[count++] = (part){patch, 0, 1, 0};
   while (count > 0 && !status) {
     part e = stack[--count];
-    int divided;
-    status = divide(g, &e, &divided);
+    int divided = 0;
+    status = hr2di_watch_work(g->grading->watch, 2 + (g->marks + g->near.count) / 4);
+    if (!status) status = divide(g, &e, &divided);
     if (!divided) survey_leaf(g, &e);
     if (status || !divided || count + 2 > STACK) continue;
     const uint32_t child = g->h->element[e.element].child;
@@ -369,7 +374,7 @@ static hr2d_status find_backs(grader *g) {
   const hr2d_scene *scene = g->h->scene;
   hr2di_backs backs = {0};
   if (!scene->effect[HR2D_EFFECT_BACKGROUND].on) return HR2D_OK;
-  const hr2d_status status = hr2di_backs_init(scene, &backs);
+  const hr2d_status status = hr2di_backs_init(scene, &backs, g->grading->watch);
   g->all = backs.count > 0;
   hr2di_alloc_free(&scene->alloc, backs.back);
   return status;

@@ -17,6 +17,7 @@ typedef struct hr2di_grading {
   const double *weight;       /* per patch, see hr2di_resolution; NULL: 1 */
   const hr2di_events *events; /* where elements end; NULL for none */
   uint64_t max_elements;      /* 0 for no limit */
+  hr2di_watch *watch;         /* NULL: nobody watches */
 } hr2di_grading;
 
 /* The number of generations of events that an error of averages needs, from measurements.  The
@@ -34,8 +35,8 @@ typedef struct hr2di_survey {
    - at visibility events, and where the end of a patch stands on another patch;
    - towards corners, geometrically;
    - until every end in front of an element is at an ellipse of HR2DI_ELLIPSE_DISTANT or more.
-   Patches that reflect nothing have B = E and stay whole.  Returns HR2D_OK, or HR2D_ENOMEM or
-   HR2D_EMAX_ELEMENTS with a part of the divisions done. */
+   Patches that reflect nothing have B = E and stay whole.  Returns HR2D_OK; or, with a part of
+   the divisions done, HR2D_ENOMEM, HR2D_EMAX_ELEMENTS or the status of the watch. */
 hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
                                 hr2di_survey *survey);
 

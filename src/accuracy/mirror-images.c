@@ -16,6 +16,7 @@ typedef struct mirror {
   double max;
   hr2di_image_points *points;
   size_t count;
+  hr2di_watch *watch;
 } mirror;
 
 /* Whether a box is nearer to the patch than the patch is long. */
@@ -61,14 +62,16 @@ static hr2d_status add_wall(mirror *m, hr2d_segment wall) {
   const double side[] = {fmax(of_a, of_b), fmin(of_a, of_b)};
   hr2d_status status = add_image(m, wall, side, s.a);
   if (!status) status = add_image(m, wall, side, s.b);
-  for (size_t k = 0; k < m->count && !status; k++)
-    status = add_image(m, wall, side, m->points->point[k]);
+  for (size_t k = 0; k < m->count && !status; k++) {
+    status = hr2di_watch_work(m->watch, 1);
+    if (!status) status = add_image(m, wall, side, m->points->point[k]);
+  }
   return status;
 }
 
 hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max,
-                             hr2di_image_points *points, size_t count) {
-  mirror m = {scene, &scene->patch[patch], max, points, count};
+                             hr2di_image_points *points, size_t count, hr2di_watch *watch) {
+  mirror m = {scene, &scene->patch[patch], max, points, count, watch};
   uint32_t stack[2 * HR2DI_BOX_DEPTH];
   size_t waiting = 0;
   hr2d_status status = HR2D_OK;
@@ -76,7 +79,8 @@ hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max
   while (waiting > 0 && !status) {
     const uint32_t number = stack[--waiting];
     const hr2di_box *box = &scene->walls.box[number];
-    if (!is_near(m.patch, box)) continue;
+    status = hr2di_watch_work(watch, 1);
+    if (status || !is_near(m.patch, box)) continue;
     if (box->wall == HR2DI_NO_WALL) {
       stack[waiting++] = box->below;
       stack[waiting++] = box->below + 1;

@@ -10,6 +10,8 @@
 #include <hr2d/scene.h>
 #include <stdint.h>
 
+#include "base/watch.h"
+
 typedef struct hr2di_image_points {
   hr2d_point *point;
   size_t count, capacity;
@@ -17,8 +19,8 @@ typedef struct hr2di_image_points {
 
 /* Appends to `points` the images of its first `count` points, and of the patch's ends, in walls
    that are near the patch and in front of it at least in part.  Images at an ellipse of `max`
-   or more are left out.  Returns HR2D_OK or HR2D_ENOMEM. */
+   or more are left out.  Returns HR2D_OK, HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max,
-                             hr2di_image_points *points, size_t count);
+                             hr2di_image_points *points, size_t count, hr2di_watch *watch);
 
 #endif

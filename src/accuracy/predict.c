@@ -47,14 +47,15 @@ typedef struct trial {
 } trial;
 
 /* The time for all blocks, from every k-th block. */
-static hr2d_status time_blocks(const hr2di_graded *a, size_t order, double *seconds) {
+static hr2d_status time_blocks(const hr2di_graded *a, size_t order, hr2di_watch *watch,
+                               double *seconds) {
   const hr2d_allocator *alloc = &a->hierarchy->alloc;
   const uint64_t links = hr2d_linkset_size(a->links);
   const uint64_t samples = links < SAMPLES ? links : SAMPLES;
   double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
   hr2di_integrator work;
   int distant;
-  hr2d_status status = hr2di_integrator_init(&work, a->hierarchy, alloc, order);
+  hr2d_status status = hr2di_integrator_init(&work, a->hierarchy, alloc, order, watch);
   const double start = hr2di_clock_now();
   for (uint64_t k = 0; k < samples && !status; k++) {
     const hr2d_link link = hr2d_linkset_get(a->links, (2 * k + 1) * links / (2 * samples));
@@ -95,7 +96,9 @@ static hr2d_status measure(const hr2d_scene *scene, const hr2di_graded *from,
   c->leaves = counts.leaves;
   c->links = hr2d_linkset_size(a->links);
   c->bytes = hr2di_graded_bytes(a) + c->links * (8 * fineness->order * fineness->order + 1);
-  status = time_blocks(a, fineness->order, &c->make);
+  hr2di_watch watch;
+  hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "coefficients");
+  status = time_blocks(a, fineness->order, &watch, &c->make);
   const double threads = target->threads > 1 ? target->threads : 1;
   c->make = c->make / threads + a->refine_seconds;
   c->gather =
@@ -103,12 +106,13 @@ static hr2d_status measure(const hr2d_scene *scene, const hr2di_graded *from,
   return status;
 }
 
-static hr2d_status time_points(const hr2d_solution *solution, size_t patches, trial *t) {
+static hr2d_status time_points(const hr2d_solution *solution, size_t patches,
+                               hr2di_watch *watch, trial *t) {
   double *value = hr2di_alloc(&solution->alloc, solution->bands, sizeof *value);
   const double end = 0, start = hr2di_clock_now();
   hr2d_status status = value ? HR2D_OK : HR2D_ENOMEM;
   for (size_t k = 0; k < POINTS && !status; k++)
-    status = hr2d_solution_gather(solution, k * patches / POINTS, &end, 1, value);
+    status = hr2di_solution_gather(solution, k * patches / POINTS, &end, 1, value, watch);
   t->point = (hr2di_clock_now() - start) / POINTS;
   hr2di_alloc_free(&solution->alloc, value);
   return status;
@@ -125,7 +129,9 @@ static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target
   if (!status) {
     t->iterations = 2 + (double)hr2d_solution_work(a.solution).iterations;
     t->leaves = hr2d_hierarchy_count(a.hierarchy).leaves;
-    status = time_points(a.solution, scene->patches, t);
+    hr2di_watch watch;
+    hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "gather");
+    status = time_points(a.solution, scene->patches, &watch, t);
   }
   hr2di_graded_clear(&a);
   return status;
@@ -147,14 +153,17 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
                            hr2d_prediction *p) {
   const double aim = target->error > 0 ? target->error : 1e-13;
   hr2di_survey survey;
-  if (hr2di_resolution_survey(scene, &survey)) return HR2D_ENOMEM;
+  hr2di_watch watch;
+  hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "refine");
+  hr2d_status status = hr2di_resolution_survey(scene, &watch, &survey);
+  if (status) return status;
   const hr2di_resolution fineness = hr2di_resolution_for(scene, &survey, aim, target->norm);
   const hr2di_resolution finer = hr2di_resolution_finer(&fineness);
   hr2di_graded first = {0}, second = {0};
   cost solve = {0}, error = {0};
   const int reflects = scene->effect[HR2D_EFFECT_INTERREFLECTION].on;
   trial coarse = {0};
-  hr2d_status status = try_coarse(scene, target, &coarse);
+  status = try_coarse(scene, target, &coarse);
   if (!status) status = measure(scene, NULL, &fineness, target, &first, &solve);
   if (!status) status = measure(scene, &first, &finer, target, &second, &error);
   if (!status) {

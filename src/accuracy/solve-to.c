@@ -234,7 +234,9 @@ hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
   s.target.progress = watch;
   s.target.progress_ctx = &s;
   if (s.given.seconds > 0) s.deadline = s.start + s.given.seconds;
-  status = hr2di_resolution_survey(scene, &s.survey);
+  hr2di_watch watch_of;
+  hr2di_scene_watch(scene, &watch_of, watch, &s, "refine");
+  status = hr2di_resolution_survey(scene, &watch_of, &s.survey);
   if (!status) status = weigh_patches(&s);
   if (!status && !(s.given.seconds > 0)) {
     status = reach(&s, s.given.error > 0 ? s.given.error : 1e-15);

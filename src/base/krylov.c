@@ -10,11 +10,20 @@
 
 #include "base/alloc.h"
 
+/* Items between two declarations of work.  Once the watch has stopped, numbers have no
+   meaning. */
+enum { SOME = 4096 };
+
+static inline hr2d_status declare(const hr2di_krylov_system *system, size_t item) {
+  return item % SOME == 0 ? hr2di_watch_work(system->watch, SOME / 64 * system->bands)
+                          : HR2D_OK;
+}
+
 void hr2di_krylov_dot(const hr2di_krylov_system *system, const double *u, const double *v,
                       double *product) {
   const size_t bands = system->bands;
   memset(product, 0, bands * sizeof *product);
-  for (size_t k = 0; k < system->size; k++)
+  for (size_t k = 0; k < system->size && !declare(system, k); k++)
     for (size_t b = 0; b < bands; b++)
       product[b] += system->weight[k] * (u[k * bands + b] * v[k * bands + b]);
 }
@@ -23,7 +32,7 @@ void hr2di_krylov_dot(const hr2di_krylov_system *system, const double *u, const 
 static void add(const hr2di_krylov_system *system, double *u, const double *factor,
                 const double *v) {
   const size_t bands = system->bands;
-  for (size_t k = 0; k < system->size; k++)
+  for (size_t k = 0; k < system->size && !declare(system, k); k++)
     for (size_t b = 0; b < bands; b++) u[k * bands + b] += factor[b] * v[k * bands + b];
 }
 
@@ -31,7 +40,7 @@ static void add(const hr2di_krylov_system *system, double *u, const double *fact
 static void scale_add(const hr2di_krylov_system *system, double *u, const double *factor,
                       const double *v) {
   const size_t bands = system->bands;
-  for (size_t k = 0; k < system->size; k++)
+  for (size_t k = 0; k < system->size && !declare(system, k); k++)
     for (size_t b = 0; b < bands; b++)
       u[k * bands + b] = v[k * bands + b] + factor[b] * u[k * bands + b];
 }
@@ -39,6 +48,7 @@ static void scale_add(const hr2di_krylov_system *system, double *u, const double
 /* out = (I − S) in */
 static void apply(const hr2di_krylov_system *system, const double *in, double *out) {
   system->apply(system->ctx, in, out);
+  if (hr2di_watch_work(system->watch, system->size * system->bands / 64)) return;
   for (size_t k = 0; k < system->size * system->bands; k++) out[k] = in[k] - out[k];
 }
 
@@ -173,5 +183,5 @@ hr2d_status hr2di_krylov(const hr2di_krylov_system *system, const double *b, dou
       system->symmetric ? conjugate_gradients(&s, b) : stabilised_gradients(&s, b);
   *residual = s.residual;
   hr2di_alloc_free(system->alloc, space);
-  return status;
+  return hr2di_watch_status(system->watch) ? hr2di_watch_status(system->watch) : status;
 }

@@ -7,6 +7,8 @@
 #include <hr2d/status.h>
 #include <stdint.h>
 
+#include "base/watch.h"
+
 typedef struct hr2di_krylov_system {
   const hr2d_allocator *alloc;
   size_t size, bands;   /* fields are size × bands */
@@ -21,6 +23,7 @@ typedef struct hr2di_krylov_system {
      but HR2D_OK ends the iteration. */
   hr2d_status (*report)(void *ctx, double residual);
   void *ctx;
+  hr2di_watch *watch;
 
   double tolerance;
   unsigned max_iterations;

@@ -13,7 +13,7 @@
 
 #include "base/alloc.h"
 
-enum { FIRST_BLOCK = 16384 };
+enum { FIRST_BLOCK = 16384, MOST_AT_ONCE = 1 << 19 };
 
 static const char *posix_reason(int failed, const char *buffer) {
   return failed ? "unknown error" : buffer;
@@ -35,14 +35,17 @@ static hr2d_status fail_errno(hr2di_message *message, const char *what, int erro
 }
 
 static hr2d_status read_stream(const hr2d_allocator *alloc, FILE *stream, char **text,
-                               size_t *size, hr2di_message *message) {
+                               size_t *size, hr2di_message *message, hr2di_watch *watch) {
   size_t capacity = 0;
   for (;;) {
     if (hr2di_alloc_reserve(alloc, text, &capacity, *size ? *size + 1 : FIRST_BLOCK, 1))
       return hr2di_message_fail(message, HR2D_ENOMEM,
                                 "out of memory after %zu bytes of the file", *size);
     errno = 0;
-    size_t got = fread(*text + *size, 1, capacity - *size, stream);
+    const size_t room = capacity - *size, some = room < MOST_AT_ONCE ? room : MOST_AT_ONCE;
+    const hr2d_status status = hr2di_watch_work(watch, some / 128);
+    if (status) return status;
+    size_t got = fread(*text + *size, 1, some, stream);
     *size += got;
     if (ferror(stream)) return fail_errno(message, "cannot read", errno);
     if (feof(stream)) return HR2D_OK;
@@ -50,7 +53,7 @@ static hr2d_status read_stream(const hr2d_allocator *alloc, FILE *stream, char *
 }
 
 hr2d_status hr2di_file_read(const hr2d_allocator *alloc, const char *path, char **text,
-                            size_t *size, hr2di_message *message) {
+                            size_t *size, hr2di_message *message, hr2di_watch *watch) {
   *text = NULL;
   *size = 0;
   errno = 0;
@@ -58,7 +61,7 @@ hr2d_status hr2di_file_read(const hr2d_allocator *alloc, const char *path, char 
   if (!stream) return fail_errno(message, "cannot open", errno);
   /* Unbuffered: the blocks are large, and a stream's buffer would not come from the hooks. */
   setvbuf(stream, NULL, _IONBF, 0);
-  hr2d_status status = read_stream(alloc, stream, text, size, message);
+  hr2d_status status = read_stream(alloc, stream, text, size, message, watch);
   fclose(stream);
   if (status) {
     hr2di_alloc_free(alloc, *text);

@@ -91,9 +91,11 @@ static double *table(const hr2di_integrator *w, const hr2di_rule *rule) {
 }
 
 hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hierarchy,
-                                  const hr2d_allocator *alloc, size_t order) {
+                                  const hr2d_allocator *alloc, size_t order,
+                                  hr2di_watch *watch) {
   const hr2d_scene *scene = hierarchy->scene;
-  *w = (hr2di_integrator){.hierarchy = hierarchy, .alloc = *alloc, .order = order};
+  *w = (hr2di_integrator){
+      .hierarchy = hierarchy, .alloc = *alloc, .order = order, .watch = watch};
   hr2di_basis_init(&w->basis, order);
   hr2di_rule_init(&w->far, order + 2);
   hr2di_rule_init(&w->near, near_points(order));
@@ -104,7 +106,7 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
   int room = w->phi_far && w->phi_exact && w->work;
   if (room && scene->effect[HR2D_EFFECT_OCCLUSION].on) {
     w->visibility = hr2di_alloc(alloc, 1, sizeof *w->visibility);
-    if (w->visibility) hr2di_visibility_init(w->visibility, &scene->walls, alloc);
+    if (w->visibility) hr2di_visibility_init(w->visibility, &scene->walls, alloc, watch);
     room = w->visibility != NULL;
   }
   return room ? HR2D_OK : HR2D_ENOMEM;
@@ -129,6 +131,7 @@ void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, double 
   const double scale = 0.5 * f->length_i * f->length_j;
   double moment[HR2D_MAX_ORDER];
   w->kernels += n * n;
+  if (hr2di_watch_work(w->watch, 1 + n * n * (8 + p) / 64)) return;
   for (size_t k = 0; k < n; k++) {
     const double s = 0.5 + 0.5 * w->far.at[k];
     const double x = f->apart.x - s * f->along_i.x, y = f->apart.y - s * f->along_i.y;
@@ -181,8 +184,9 @@ hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double *block, int 
   hr2di_visibility_class view;
   memset(block, 0, w->order * w->order * sizeof *block);
   *distant = 0;
-  if (facing == HR2DI_FACING_NONE) return HR2D_OK;
-  const hr2d_status status = look(w, pair, facing, &shaft, &view);
+  hr2d_status status = hr2di_watch_work(w->watch, 2);
+  if (status || facing == HR2DI_FACING_NONE) return status;
+  status = look(w, pair, facing, &shaft, &view);
   if (status || view == HR2DI_BLOCKED) return status;
   hr2di_pair_frame_init(&f, h, pair, facing);
   if (view == HR2DI_PARTIAL) return hr2di_block_occluded(w, &f, &shaft, block);
@@ -195,5 +199,5 @@ hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double *block, int 
     hr2di_block_touching(w, &f, touching_end, block);
   else
     hr2di_block_near(w, &f, block);
-  return HR2D_OK;
+  return hr2di_watch_status(w->watch);
 }

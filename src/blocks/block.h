@@ -8,6 +8,7 @@
 #include <hr2d/oracle.h>
 
 #include "base/legendre.h"
+#include "base/watch.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "occlusion/pair-visibility.h"
 
@@ -35,6 +36,7 @@ typedef struct hr2di_screen {
 typedef struct hr2di_integrator {
   const hr2d_hierarchy *hierarchy;
   hr2d_allocator alloc;
+  hr2di_watch *watch;
   size_t order;
   hr2di_basis basis;
   hr2di_rule far, near, exact;  /* `exact` integrates φ_l φ_m exactly */
@@ -55,12 +57,13 @@ typedef struct hr2di_integrator {
 
 /* Returns HR2D_OK or HR2D_ENOMEM.  Call hr2di_integrator_clear() in either case. */
 hr2d_status hr2di_integrator_init(hr2di_integrator *work, const hr2d_hierarchy *hierarchy,
-                                  const hr2d_allocator *alloc, size_t order);
+                                  const hr2d_allocator *alloc, size_t order,
+                                  hr2di_watch *watch);
 void hr2di_integrator_clear(hr2di_integrator *work);
 
 /* Integrates the block of a pair: order × order numbers, row l for the first element.
-   `distant` receives 1 if one tensor rule was enough, else 0.  Returns HR2D_OK or
-   HR2D_ENOMEM. */
+   `distant` receives 1 if one tensor rule was enough, else 0.  Returns HR2D_OK, HR2D_ENOMEM or
+   the status of the watch. */
 hr2d_status hr2di_block(hr2di_integrator *work, hr2d_pair pair, double *block, int *distant);
 
 /* Sets up the frame of a pair whose elements face each other as `facing` says.  Where the
@@ -68,7 +71,8 @@ hr2d_status hr2di_block(hr2di_integrator *work, hr2d_pair pair, double *block, i
 void hr2di_pair_frame_init(hr2di_pair_frame *frame, const hr2d_hierarchy *hierarchy,
                            hr2d_pair pair, hr2di_facing facing);
 
-/* One function per kind of pair.  Each adds to the block. */
+/* One function per kind of pair.  Each adds to the block, which has no meaning once the watch
+   has stopped. */
 void hr2di_block_distant(hr2di_integrator *work, const hr2di_pair_frame *f, double *block);
 void hr2di_block_touching(hr2di_integrator *work, const hr2di_pair_frame *f, int at_end,
                           double *block);

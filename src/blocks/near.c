@@ -22,6 +22,7 @@ void hr2di_block_add_moments(hr2di_integrator *w, const hr2di_pair_frame *f, dou
     const double size = panel.to - panel.from, middle = 0.5 * (panel.from + panel.to);
     if (hr2di_panel_near(x, f->along_j, panel) && hr2di_panel_halved(&panels, panel)) continue;
     w->kernels += w->near.points;
+    if (hr2di_watch_work(w->watch, 1 + w->near.points * (8 + 2 * p) / 32)) return;
     for (size_t q = 0; q < w->near.points; q++) {
       const double t = middle + 0.5 * size * w->near.at[q];
       const hr2d_point r = hr2di_block_along(x, f->along_j, t);
@@ -67,6 +68,7 @@ void hr2di_block_add_strip(hr2di_integrator *w, const hr2di_pair_frame *f,
   panels.stack[0] = strip->across;
   while (panels.count > 0) {
     const hr2di_span panel = panels.stack[--panels.count];
+    if (hr2di_watch_work(w->watch, 1 + strip->singulars / 8)) return;
     if (is_near(f, panel, strip) && hr2di_panel_halved(&panels, panel)) continue;
     if (panel.to > panel.from) add_panel(w, f, strip, panel, block);
   }

@@ -8,10 +8,10 @@
    points, near an x whose projection runs to infinity, and near the line of j.  Neighbouring
    cells with the same bounding points are joined. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "blocks/block.h"
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
@@ -94,15 +94,17 @@ static void append(signature *seen, bound low, bound high) {
 }
 
 /* The parts of j between the shadows, as the point at s sees them. */
-static void look(const view *v, double s, signature *seen) {
+static hr2d_status look(const view *v, double s, signature *seen) {
   const hr2di_span front = v->f->front_j;
   shadow *shade = v->work->shadow;
+  hr2di_watch *const watch = v->work->watch;
+  hr2d_status status = hr2di_watch_work(watch, 1 + v->screens / 2);
   for (size_t k = 0; k < v->screens; k++) {
     const uint32_t *end = v->work->screen[k].end;
     const bound p = project(v, s, end[0]), q = project(v, s, end[1]);
     shade[k] = p.at <= q.at ? (shadow){p, q} : (shadow){q, p};
   }
-  qsort(shade, v->screens, sizeof *shade, by_low);
+  if (!status) status = hr2di_sort(shade, v->screens, sizeof *shade, by_low, watch);
   bound open = {front.from, START};
   seen->parts = 0;
   for (size_t k = 0; k < v->screens; k++) {
@@ -110,6 +112,7 @@ static void look(const view *v, double s, signature *seen) {
     if (shade[k].high.at > open.at) open = shade[k].high;
   }
   append(seen, open, (bound){front.to, END});
+  return status;
 }
 
 static int alike(const signature *a, const signature *b) {
@@ -149,6 +152,8 @@ static hr2d_status make_screens(hr2di_integrator *w, const hr2di_shaft *shaft, v
     hr2di_obstacle o;
     const hr2d_segment wall = w->visibility->walls->wall[w->found.wall[k]].at;
     if (hr2di_shaft_test(shaft, wall, &o) == HR2DI_ASIDE) continue;
+    const hr2d_status status = hr2di_watch_work(w->watch, 2 + v->points / 32);
+    if (status) return status;
     w->screen[v->screens].end[0] = number(w, &v->points, o.end[0].at);
     w->screen[v->screens++].end[1] = number(w, &v->points, o.end[1].at);
   }
@@ -169,7 +174,9 @@ static hr2d_status make_cuts(hr2di_integrator *w, const view *v, size_t *cuts) {
   *cuts = 0;
   w->cut[(*cuts)++] = f->front_i.from;
   w->cut[(*cuts)++] = f->front_i.to;
-  for (size_t k = FIRST; k < v->points; k++)
+  hr2d_status status = HR2D_OK;
+  for (size_t k = FIRST; k < v->points && !status; k++) {
+    status = hr2di_watch_work(w->watch, 1 + k / 8);
     for (size_t m = 0; m < k; m++) {
       const hr2d_point line = hr2di_point_minus(w->point[m], w->point[k]);
       const double at_a = hr2di_point_cross(line, hr2di_point_minus(f->i.a, w->point[k]));
@@ -177,8 +184,8 @@ static hr2d_status make_cuts(hr2di_integrator *w, const view *v, size_t *cuts) {
       const double s = at_a / (at_a - at_b);
       if (s > f->front_i.from && s < f->front_i.to) w->cut[(*cuts)++] = s;
     }
-  qsort(w->cut, *cuts, sizeof *w->cut, rising);
-  return HR2D_OK;
+  }
+  return status ? status : hr2di_sort(w->cut, *cuts, sizeof *w->cut, rising, w->watch);
 }
 
 /* The points where the integrand over the cell may be singular; returns their number, at most
@@ -217,11 +224,12 @@ hr2d_status hr2di_block_occluded(hr2di_integrator *w, const hr2di_pair_frame *f,
   if (!status) status = make_cuts(w, &v, &cuts);
   if (status) return status;
   double from = w->cut[0], last = from;
-  for (size_t k = 1; k < cuts; k++) {
+  for (size_t k = 1; k < cuts && !status; k++) {
     const double to = w->cut[k];
     signature seen;
     if (to - last <= SLIVER && k + 1 < cuts) continue;
-    look(&v, 0.5 * (last + to), &seen);
+    status = look(&v, 0.5 * (last + to), &seen);
+    if (status) break;
     if (!alike(&seen, &v.seen)) {
       add_cell(w, &v, (hr2di_span){from, last}, block);
       from = last;
@@ -229,6 +237,6 @@ hr2d_status hr2di_block_occluded(hr2di_integrator *w, const hr2di_pair_frame *f,
     }
     last = to;
   }
-  add_cell(w, &v, (hr2di_span){from, last}, block);
-  return HR2D_OK;
+  if (!status) add_cell(w, &v, (hr2di_span){from, last}, block);
+  return status ? status : hr2di_watch_status(w->watch);
 }

@@ -28,6 +28,7 @@ static void add_panel(hr2di_integrator *w, const corner *c, double lambda, hr2di
                       int at_end, double *row) {
   const size_t p = w->order;
   double phi[HR2D_MAX_ORDER];
+  if (hr2di_watch_work(w->watch, 1 + w->near.points * p * p / 16)) return;
   for (size_t q = 0; q < w->near.points; q++) {
     const double part = 0.5 + 0.5 * w->near.at[q];
     const double v = panel.from + part * (panel.to - panel.from);

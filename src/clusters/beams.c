@@ -37,8 +37,9 @@ struct hr2di_beam {
 };
 
 hr2d_status hr2di_beams_init(hr2di_beams *b, const hr2d_scene *scene,
-                             const hr2di_cluster_tree *tree, const hr2d_allocator *alloc) {
-  *b = (hr2di_beams){.scene = scene, .tree = tree, .alloc = *alloc};
+                             const hr2di_cluster_tree *tree, const hr2d_allocator *alloc,
+                             hr2di_watch *watch) {
+  *b = (hr2di_beams){.scene = scene, .tree = tree, .alloc = *alloc, .watch = watch};
   b->mark = hr2di_alloc_zero(alloc, scene->patches, sizeof *b->mark);
   return b->mark ? HR2D_OK : HR2D_ENOMEM;
 }
@@ -203,6 +204,8 @@ static hr2d_status put_met(hr2di_beams *b, const hr2di_shaft *shaft, const cut *
   while (count > 0) {
     const uint32_t top = stack[--count];
     const hr2di_cluster *c = &b->tree->cluster[top];
+    const hr2d_status status = hr2di_watch_work(b->watch, 1);
+    if (status) return status;
     if (!may_meet(shaft, hidden, c)) continue;
     if (!c->child || (c->x1 - c->x0) + (c->y1 - c->y0) < width) {
       if (put_target(b, top)) return HR2D_ENOMEM;
@@ -233,8 +236,10 @@ static hr2d_status see_targets(hr2di_beams *b, const hr2di_shaft *shaft, const c
   hr2d_status status = HR2D_OK;
   for (size_t k = first; k < last && !status; k++)
     status = put_met(b, shaft, hidden, 0, b->target[k]);
-  for (size_t k = last; k < b->targets && !status; k++)
-    status = see(b, patch, b->tree->patch[b->tree->cluster[b->target[k]].first]);
+  for (size_t k = last; k < b->targets && !status; k++) {
+    status = hr2di_watch_work(b->watch, 1);
+    if (!status) status = see(b, patch, b->tree->patch[b->tree->cluster[b->target[k]].first]);
+  }
   return status;
 }
 
@@ -275,13 +280,15 @@ static hr2d_status follow(hr2di_beams *b, uint32_t patch, hr2di_beam beam) {
   const hr2d_segment i = part_of(line, beam.from), j = part_of(screen[beam.side], beam.to);
   hr2di_shaft shaft;
   finds found;
+  hr2d_status status =
+      hr2di_watch_work(b->watch, beam.known ? 5 + beam.walls / 2 : PATIENCE / 4);
+  if (status) return status;
   if (!hr2di_shaft_init(&shaft, hr2di_facing_of(&i, &j), i, j, line, screen[beam.side]))
     return HR2D_OK;
   look(b, &beam, &shaft, &beam.hidden, &found);
   const double middle = 0.5 * fmin(beam.hidden.distance, 0.25);
   const double near = (1 - middle) * width_of(&shaft, i), far = middle * width_of(&shaft, j);
   const size_t first = beam.first + beam.count;
-  hr2d_status status = HR2D_OK;
   b->targets = first;
   for (size_t k = beam.first; k < first && !status; k++)
     status = put_met(b, &shaft, &beam.hidden, near + far, b->target[k]);

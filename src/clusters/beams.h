@@ -18,6 +18,7 @@ typedef struct hr2di_beams {
   const hr2d_scene *scene;
   const hr2di_cluster_tree *tree;
   hr2d_allocator alloc;
+  hr2di_watch *watch;
   uint32_t *target; /* clusters that beams may still meet, each with its own */
   size_t targets, target_capacity;
   uint32_t *wall; /* of beams of which all walls are known */
@@ -31,11 +32,13 @@ typedef struct hr2di_beams {
 
 /* To be ended by hr2di_beams_clear() in either case. */
 hr2d_status hr2di_beams_init(hr2di_beams *beams, const hr2d_scene *scene,
-                             const hr2di_cluster_tree *tree, const hr2d_allocator *alloc);
+                             const hr2di_cluster_tree *tree, const hr2d_allocator *alloc,
+                             hr2di_watch *watch);
 void hr2di_beams_clear(hr2di_beams *beams);
 
 /* Collects beams->seen: the patches of clusters, without those that face a patch not at all
-   or are surely hidden from it, each once; HR2D_OK or HR2D_ENOMEM. */
+   or are surely hidden from it, each once; HR2D_OK, HR2D_ENOMEM or the status of the
+   watch. */
 hr2d_status hr2di_beams_cast(hr2di_beams *beams, uint32_t patch, const uint32_t *cluster,
                              size_t count);
 

@@ -3,9 +3,9 @@
 #include "clusters/clusters.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "clusters/beams.h"
 #include "clusters/clusters-impl.h"
 #include "clusters/facing.h"
@@ -17,6 +17,9 @@
    left, and walls may be in the way, beams tell which of them see each other.  Sines below a
    part in SLACK of the digits do not matter. */
 enum { NEAR = 256, WORTH = 8, FEW = 256, SLACK = 64 };
+
+/* What looking into two clusters may cost, as work. */
+enum { LOOKS = 100 };
 
 /* A pair of clusters; what is known of it holds for its parts. */
 typedef struct two {
@@ -36,6 +39,7 @@ typedef struct walk {
   size_t count, capacity;
   hr2di_near_fn near;
   void *ctx;
+  hr2di_watch *watch;
   hr2d_pair pair[NEAR];
   size_t pairs;
 } walk;
@@ -109,6 +113,7 @@ static int may_link(const walk *w, const two *at) {
 
 /* Completes what is known of a pair that may be linked, until it is known not to be. */
 static int is_clear(walk *w, two *at) {
+  if (hr2di_watch_work(w->watch, LOOKS)) return 0;
   if (!at->facing)
     at->facing = hr2di_cluster_on(&w->tree, at->i, at->j, HR2DI_SIDE_FRONT) &&
                  hr2di_cluster_on(&w->tree, at->j, at->i, HR2DI_SIDE_FRONT);
@@ -131,6 +136,8 @@ static hr2d_status put_off(walk *w, two at) {
 }
 
 static hr2d_status settle(walk *w, two at) {
+  const hr2d_status status = hr2di_watch_work(w->watch, 10);
+  if (status) return status;
   const hr2di_cluster *i = &w->tree.cluster[at.i], *j = &w->tree.cluster[at.j];
   if (at.i == at.j) return part(w, at);
   if (!at.facing) {
@@ -142,6 +149,7 @@ static hr2d_status settle(walk *w, two at) {
   if (!at.clear) {
     const int few = pairs_of(w, &at) <= FEW && !link_pays(w, &at);
     if (few && !is_clear(w, &at)) return put_off(w, at);
+    if (hr2di_watch_work(w->watch, LOOKS)) return hr2di_watch_status(w->watch);
     if (!few && hr2di_clusters_blocked(w->walls, i, j)) return HR2D_OK;
   }
   if (i->child || j->child) return part(w, at);
@@ -159,14 +167,17 @@ static hr2d_status cast(walk *w, hr2di_beams *beams, uint32_t place, const size_
                         uint32_t *target) {
   const hr2di_cluster *all = w->tree.cluster;
   size_t targets = 0;
+  hr2d_status status = hr2di_watch_work(w->watch, 10);
   for (uint32_t k = 0;; k = all[k].child + (place >= all[all[k].child].last)) {
     for (size_t m = start[k]; m < start[k + 1]; m++) target[targets++] = w->later[m].j;
     if (!all[k].child) break;
   }
   const uint32_t patch = w->tree.patch[place];
-  hr2d_status status = hr2di_beams_cast(beams, patch, target, targets);
+  if (!status) status = hr2di_watch_work(w->watch, targets / 16);
+  if (!status) status = hr2di_beams_cast(beams, patch, target, targets);
   for (size_t k = 0; k < beams->seen_count && !status; k++)
     status = hand_over(w, patch, beams->seen[k]);
+  if (!status) status = hr2di_watch_work(w->watch, beams->seen_count / 8);
   return status;
 }
 
@@ -176,9 +187,9 @@ static hr2d_status settle_later(walk *w, const hr2d_scene *scene) {
   hr2di_beams beams;
   size_t *start = hr2di_alloc(alloc, w->tree.clusters + 1, sizeof *start);
   uint32_t *target = hr2di_alloc(alloc, w->laters, sizeof *target);
-  hr2d_status status = hr2di_beams_init(&beams, scene, &w->tree, alloc);
+  hr2d_status status = hr2di_beams_init(&beams, scene, &w->tree, alloc, w->watch);
   if (!start || !target) status = HR2D_ENOMEM;
-  qsort(w->later, w->laters, sizeof *w->later, by_first);
+  if (!status) status = hr2di_sort(w->later, w->laters, sizeof *w->later, by_first, w->watch);
   for (size_t k = 0, m = 0; k <= w->tree.clusters && start; start[k++] = m)
     while (m < w->laters && w->later[m].i < k) m++;
   for (uint32_t k = 0; k < scene->patches && !status; k++)
@@ -197,17 +208,17 @@ static hr2d_status make_far(walk *w) {
   if (!w->far) return HR2D_ENOMEM;
   for (size_t k = 0; k < w->tree.clusters; k++)
     w->far[k] = hr2di_expansion_of(&w->tree.cluster[k], accuracy);
-  return HR2D_OK;
+  return hr2di_watch_work(w->watch, w->tree.clusters);
 }
 
 static hr2d_status sort_pairs(walk *w, const hr2d_scene *scene) {
   const hr2d_allocator *alloc = &w->made->alloc;
-  hr2d_status status = hr2di_cluster_tree_init(&w->tree, scene, alloc);
+  hr2d_status status = hr2di_cluster_tree_init(&w->tree, scene, alloc, w->watch);
   if (!status) status = make_far(w);
   if (status) return status;
   const int shaded = scene->effect[HR2D_EFFECT_OCCLUSION].on;
   if (shaded) w->walls = &scene->walls;
-  if (shaded) hr2di_clusters_order(&w->tree);
+  if (shaded) hr2di_clusters_order(&w->tree, w->watch);
   status = push(w, (two){.clear = !shaded}, 0, 0);
   while (!status && w->count > 0) status = settle(w, w->stack[--w->count]);
   if (!status) status = settle_later(w, scene);
@@ -216,12 +227,13 @@ static hr2d_status sort_pairs(walk *w, const hr2d_scene *scene) {
 
 hr2d_status hr2di_clusters_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
                                   double accuracy, hr2di_near_fn near, void *ctx,
-                                  hr2di_clusters **clusters) {
+                                  hr2di_watch *watch, hr2di_clusters **clusters) {
   hr2di_clusters *made = hr2di_alloc_zero(alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
   *made = (hr2di_clusters){.alloc = *alloc, .scene = scene, .accuracy = accuracy};
-  walk w = {.made = made, .near = near, .ctx = ctx};
+  walk w = {.made = made, .near = near, .ctx = ctx, .watch = watch};
   hr2d_status status = sort_pairs(&w, scene);
+  if (!status) status = hr2di_watch_work(watch, w.tree.clusters);
   if (!status) status = hr2di_clusters_keep(made, &w.tree, w.far);
   hr2di_cluster_tree_clear(&w.tree);
   hr2di_alloc_free(alloc, w.far);

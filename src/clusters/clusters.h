@@ -6,6 +6,8 @@
 #include <hr2d/oracle.h>
 #include <hr2d/scene.h>
 
+#include "base/watch.h"
+
 typedef struct hr2di_clusters hr2di_clusters;
 
 /* Called with up to 256 pairs of patches that may see each other and that no cluster link
@@ -17,10 +19,10 @@ typedef hr2d_status (*hr2di_near_fn)(void *ctx, const hr2d_pair *pairs, size_t c
    of a pair that has a link is seen, but for rounding.  `accuracy` is the accuracy asked of
    cluster links, as 1e-6: of the irradiance that comes over them where B ≤ 1; 0 for none of
    them.  The scene must outlive the clusters.  HR2D_OK, HR2D_ENOMEM, or the status of
-   `near`. */
+   `near` or of the watch. */
 hr2d_status hr2di_clusters_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
                                   double accuracy, hr2di_near_fn near, void *ctx,
-                                  hr2di_clusters **clusters);
+                                  hr2di_watch *watch, hr2di_clusters **clusters);
 void hr2di_clusters_destroy(hr2di_clusters *clusters);
 
 /* The number of cluster links, each for both directions. */
@@ -31,8 +33,8 @@ uint64_t hr2di_clusters_bytes(const hr2di_clusters *clusters);
    order of 1 to HR2D_MAX_ORDER: coefficient l of a patch is that of φ_l(ξ) = √(2l+1) P_l(ξ),
    ξ from −1 at its start to 1 at its end; radiosity_k = (1/A)∫ B φ_k, power_k = ∫∫ G B φ_k
    dy dx in scaled lengths.  Self-adjoint but for rounding.  The same bits every time.
-   HR2D_OK or HR2D_ENOMEM. */
+   HR2D_OK, HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, size_t order, size_t bands,
-                                  const double *radiosity, double *power);
+                                  const double *radiosity, double *power, hr2di_watch *watch);
 
 #endif

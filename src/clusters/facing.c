@@ -117,10 +117,11 @@ static int none_hides(const hr2di_cluster_tree *tree, two at) {
   return count == 0;
 }
 
-void hr2di_clusters_order(hr2di_cluster_tree *tree) {
+void hr2di_clusters_order(hr2di_cluster_tree *tree, hr2di_watch *watch) {
   for (uint32_t k = (uint32_t)tree->clusters; k-- > 0;) {
     hr2di_cluster *c = &tree->cluster[k];
     const uint32_t half = c->child;
+    if (hr2di_watch_work(watch, half ? PATIENCE : 1)) return;
     c->orderly =
         !half || c->run != HR2DI_NO_RUN ||
         (tree->cluster[half].orderly && tree->cluster[half + 1].orderly &&

@@ -41,6 +41,6 @@ hr2di_clusters_facing hr2di_clusters_face(const hr2di_cluster_tree *tree, uint32
    A patch w hides a point of p from a point y that is in front of both only if the line
    from p to y meets w: not if p is in front of w, so that the line stays there, nor if w is
    behind p. */
-void hr2di_clusters_order(hr2di_cluster_tree *tree);
+void hr2di_clusters_order(hr2di_cluster_tree *tree, hr2di_watch *watch);
 
 #endif

@@ -13,9 +13,10 @@ typedef struct hr2di_roots {
   size_t *row; /* where the pairs of each patch begin; one more */
 } hr2di_roots;
 
-/* Finds the pairs of a scene; HR2D_OK or HR2D_ENOMEM.  To be cleared in either case. */
+/* Finds the pairs of a scene; HR2D_OK, HR2D_ENOMEM or the status of the watch.  To be cleared
+   in any case. */
 hr2d_status hr2di_roots_init(hr2di_roots *roots, const hr2d_scene *scene,
-                             const hr2d_allocator *alloc, double accuracy);
+                             const hr2d_allocator *alloc, double accuracy, hr2di_watch *watch);
 void hr2di_roots_clear(hr2di_roots *roots, const hr2d_allocator *alloc);
 
 #endif

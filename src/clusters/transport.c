@@ -21,6 +21,7 @@ typedef struct gather {
   const hr2di_clusters *c;
   size_t order, bands, planes;
   double *sent, *received;
+  hr2di_watch *watch;
   double *vector; /* one value per plane */
   hr2di_basis basis;
   hr2di_rule *rule; /* for each number of points; 0 points: not made yet */
@@ -208,6 +209,7 @@ static void exchange(const gather *g, const hr2di_linked *i, const hr2di_linked 
   double *received_i = planes_of(g, g->received, i), *received_j = planes_of(g, g->received, j);
   row t;
   for (size_t k = 0; k < m; k++) {
+    if (hr2di_watch_work(g->watch, 1 + n * (1 + g->bands) / 16)) return;
     fill_row(&t, g->c->point[i->first + k], g->c->point + j->first, n);
     for (size_t band = 0; band < g->bands; band++) {
       const size_t x = band, y = g->bands + band;
@@ -221,42 +223,63 @@ static void exchange(const gather *g, const hr2di_linked *i, const hr2di_linked 
   }
 }
 
-static void run(const gather *g, const double *radiosity, double *power) {
+/* The points of a cluster, and what they cost on the way up or down. */
+static hr2d_status declare(const gather *g, const hr2di_linked *c) {
+  const size_t points = hr2di_expansion_points(&c->far);
+  return hr2di_watch_work(g->watch, 1 + points * points * g->planes / 64);
+}
+
+static hr2d_status declare_patch(const gather *g, size_t patch) {
+  const size_t points = hr2di_expansion_points(&g->c->linked[g->c->home[patch]].far);
+  return hr2di_watch_work(g->watch, 4 + g->order * points * g->planes / 16);
+}
+
+static hr2d_status run(const gather *g, const double *radiosity, double *power) {
   const hr2di_clusters *c = g->c;
   const size_t stride = g->order * g->bands, patches = c->scene->patches;
-  for (size_t k = 0; k < patches; k++)
-    if (c->home[k] != HR2DI_NO_CLUSTER) send_patch(g, k, radiosity + k * stride);
-  for (size_t k = c->linked_count; k-- > 0;) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < patches && !status; k++) {
+    if (c->home[k] == HR2DI_NO_CLUSTER) continue;
+    status = declare_patch(g, k);
+    send_patch(g, k, radiosity + k * stride);
+  }
+  for (size_t k = c->linked_count; k-- > 0 && !status;) {
+    status = declare(g, &c->linked[k]);
     turn_planes(g, g->sent, &c->linked[k], 1);
     if (c->linked[k].parent != HR2DI_NO_CLUSTER) send_up(g, &c->linked[k]);
   }
-  for (size_t k = 0; k < c->links; k++)
+  for (size_t k = 0; k < c->links && !hr2di_watch_status(g->watch); k++)
     exchange(g, &c->linked[c->link[k].first], &c->linked[c->link[k].second]);
-  for (size_t k = 0; k < c->linked_count; k++) {
+  status = hr2di_watch_status(g->watch);
+  for (size_t k = 0; k < c->linked_count && !status; k++) {
+    status = declare(g, &c->linked[k]);
     if (c->linked[k].parent != HR2DI_NO_CLUSTER) receive_down(g, &c->linked[k]);
     turn_planes(g, g->received, &c->linked[k], 0);
   }
-  for (size_t k = 0; k < patches; k++)
-    if (c->home[k] != HR2DI_NO_CLUSTER) receive_patch(g, k, power + k * stride);
+  for (size_t k = 0; k < patches && !status; k++) {
+    if (c->home[k] == HR2DI_NO_CLUSTER) continue;
+    status = declare_patch(g, k);
+    receive_patch(g, k, power + k * stride);
+  }
+  return status;
 }
 
 hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, size_t order, size_t bands,
-                                  const double *radiosity, double *power) {
+                                  const double *radiosity, double *power, hr2di_watch *watch) {
   if (clusters->links == 0) return HR2D_OK;
   const hr2d_allocator *alloc = &clusters->alloc;
-  gather g = {.c = clusters, .order = order, .bands = bands, .planes = 2 * bands};
+  gather g = {
+      .c = clusters, .order = order, .bands = bands, .planes = 2 * bands, .watch = watch};
   g.sent = hr2di_alloc_zero(alloc, clusters->points, g.planes * sizeof *g.sent);
   g.received = hr2di_alloc_zero(alloc, clusters->points, g.planes * sizeof *g.received);
   g.vector = hr2di_alloc(alloc, g.planes, sizeof *g.vector);
   g.rule = hr2di_alloc_zero(alloc, HR2DI_RULE_POINTS + 1, sizeof *g.rule);
-  const int room = g.sent && g.received && g.vector && g.rule;
-  if (room) {
-    hr2di_basis_init(&g.basis, order);
-    run(&g, radiosity, power);
-  }
+  hr2d_status status = g.sent && g.received && g.vector && g.rule ? HR2D_OK : HR2D_ENOMEM;
+  hr2di_basis_init(&g.basis, order);
+  if (!status) status = run(&g, radiosity, power);
   hr2di_alloc_free(alloc, g.sent);
   hr2di_alloc_free(alloc, g.received);
   hr2di_alloc_free(alloc, g.vector);
   hr2di_alloc_free(alloc, g.rule);
-  return room ? HR2D_OK : HR2D_ENOMEM;
+  return status;
 }

@@ -7,9 +7,9 @@
 #include "clusters/tree.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "geometry/orient-sign.h"
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
@@ -36,6 +36,7 @@ typedef struct maker {
   item *item;
   task task[DEPTH];
   size_t tasks;
+  hr2di_watch *watch;
 } maker;
 
 static hr2d_segment segment(const maker *m, uint32_t patch) {
@@ -139,11 +140,12 @@ static int by_key(const void *left, const void *right) {
   return (l->patch > r->patch) - (l->patch < r->patch);
 }
 
-/* Sorts items with key 0 before those with key 1; how many have key 0. */
-static size_t part(item *items, size_t count) {
+/* Sorts items with key 0 before those with key 1; how many have key 0.  In any order once the
+   watch has stopped. */
+static size_t part(const maker *m, item *items, size_t count) {
   size_t low = 0;
   for (size_t k = 0; k < count; k++) low += items[k].key == 0;
-  if (low > 0 && low < count) qsort(items, count, sizeof *items, by_key);
+  if (low > 0 && low < count) hr2di_sort(items, count, sizeof *items, by_key, m->watch);
   return low;
 }
 
@@ -155,7 +157,7 @@ static size_t part_by_normal(const maker *m, item *items, size_t count) {
   double cosine, sine;
   for (size_t k = 0; k < count; k++)
     items[k].key = hr2di_point_dot(first, direction(m, items[k].patch)) < 0.5;
-  const size_t low = part(items, count);
+  const size_t low = part(m, items, count);
   if (low == 0 || low == count) return 0;
   find_cone(m, items, low, &axis, &cosine, &sine);
   if (cosine < COS_EIGHTH) return 0;
@@ -168,7 +170,7 @@ static size_t part_by_length(const maker *m, const hr2di_cluster *c, item *items
   const double size = hypot(c->x1 - c->x0, c->y1 - c->y0);
   for (size_t k = 0; k < count; k++)
     items[k].key = m->scene->patch[items[k].patch].length < size / 2;
-  const size_t low = part(items, count);
+  const size_t low = part(m, items, count);
   return low == count ? 0 : low;
 }
 
@@ -179,16 +181,18 @@ static size_t part_by_place(const maker *m, const hr2di_cluster *c, item *items,
     const hr2d_point twice = {s.a.x + s.b.x, s.a.y + s.b.y};
     items[k].key = along ? hr2di_point_dot(c->u, twice) : hr2di_point_cross(c->u, twice);
   }
-  qsort(items, count, sizeof *items, by_key);
+  hr2di_sort(items, count, sizeof *items, by_key, m->watch);
   return count / 2;
 }
 
-static void divide(maker *m, task t) {
+static hr2d_status divide(maker *m, task t) {
   hr2di_cluster *c = &m->tree->cluster[t.cluster];
   item *items = m->item + c->first;
   const uint32_t count = hr2di_cluster_size(c);
+  const hr2d_status status = hr2di_watch_work(m->watch, 2 + count);
+  if (status) return status;
   measure(m, c, items);
-  if (count == 1) return;
+  if (count == 1) return HR2D_OK;
   size_t low = 0;
   if (t.depth < PARTED && c->cosine < COS_EIGHTH) low = part_by_normal(m, items, count);
   if (t.depth < PARTED && low == 0) low = part_by_length(m, c, items, count);
@@ -200,6 +204,7 @@ static void divide(maker *m, task t) {
   m->tree->cluster[c->child + 1] = (hr2di_cluster){.first = middle, .last = c->last};
   m->task[m->tasks++] = (task){c->child + 1, t.depth + 1};
   m->task[m->tasks++] = (task){c->child, t.depth + 1};
+  return hr2di_watch_status(m->watch);
 }
 
 static void include(hr2di_extent *e, hr2di_extent more) {
@@ -221,24 +226,25 @@ static void nest(hr2di_cluster_tree *tree) {
 }
 
 hr2d_status hr2di_cluster_tree_init(hr2di_cluster_tree *tree, const hr2d_scene *scene,
-                                    const hr2d_allocator *alloc) {
+                                    const hr2d_allocator *alloc, hr2di_watch *watch) {
   const size_t n = scene->patches;
   *tree = (hr2di_cluster_tree){.alloc = *alloc};
-  maker m = {.tree = tree, .scene = scene};
+  maker m = {.tree = tree, .scene = scene, .watch = watch};
   tree->cluster = hr2di_alloc(alloc, 2 * n, sizeof *tree->cluster);
   tree->patch = hr2di_alloc(alloc, n, sizeof *tree->patch);
   m.item = hr2di_alloc(alloc, n, sizeof *m.item);
-  const int room = tree->cluster && tree->patch && m.item;
-  if (room) {
+  hr2d_status status = tree->cluster && tree->patch && m.item ? HR2D_OK : HR2D_ENOMEM;
+  if (!status) {
     for (uint32_t k = 0; k < n; k++) m.item[k] = (item){0, k};
     tree->cluster[tree->clusters++] = (hr2di_cluster){.last = (uint32_t)n};
     m.task[m.tasks++] = (task){0, 0};
-    while (m.tasks > 0) divide(&m, m.task[--m.tasks]);
-    nest(tree);
+    while (m.tasks > 0 && !status) status = divide(&m, m.task[--m.tasks]);
+    if (!status) status = hr2di_watch_work(watch, n);
+    if (!status) nest(tree);
     for (uint32_t k = 0; k < n; k++) tree->patch[k] = m.item[k].patch;
   }
   hr2di_alloc_free(alloc, m.item);
-  return room ? HR2D_OK : HR2D_ENOMEM;
+  return status;
 }
 
 void hr2di_cluster_tree_clear(hr2di_cluster_tree *tree) {

@@ -10,6 +10,8 @@
 #include <hr2d/scene.h>
 #include <stdint.h>
 
+#include "base/watch.h"
+
 #define HR2DI_NO_RUN UINT32_MAX
 
 /* Lengths along a cluster's direction u, and along v, which is u turned to the left: of its
@@ -40,10 +42,10 @@ typedef struct hr2di_cluster_tree {
   double slack; /* a sine that does not matter; 0 unless set */
 } hr2di_cluster_tree;
 
-/* For a committed scene; HR2D_OK or HR2D_ENOMEM.  To be ended by hr2di_cluster_tree_clear()
-   in either case. */
+/* For a committed scene; HR2D_OK, HR2D_ENOMEM or the status of the watch.  To be ended by
+   hr2di_cluster_tree_clear() in any case. */
 hr2d_status hr2di_cluster_tree_init(hr2di_cluster_tree *tree, const hr2d_scene *scene,
-                                    const hr2d_allocator *alloc);
+                                    const hr2d_allocator *alloc, hr2di_watch *watch);
 void hr2di_cluster_tree_clear(hr2di_cluster_tree *tree);
 
 /* The corners of a cluster's extent, in the plane. */

@@ -55,7 +55,8 @@ static hr2d_status read_points(hr2di_geojson *reader, const path *p, size_t *cou
                           sizeof *reader->point))
     return hr2di_message_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", p->place);
   for (size_t k = 0; k < n; k++) {
-    hr2d_status status = read_position(reader, p, k);
+    hr2d_status status = hr2di_watch_work(reader->watch, 2);
+    if (!status) status = read_position(reader, p, k);
     if (status) return status;
     if (k && hr2di_point_same(reader->point[k - 1], reader->point[k]))
       return hr2di_message_fail(
@@ -112,6 +113,8 @@ static hr2d_status add_segment(hr2di_geojson *reader, hr2d_point a, hr2d_point b
   if (status) return status;
   patch.a = a;
   patch.b = b;
+  status = hr2di_watch_work(reader->watch, 4);
+  if (status) return status;
   status = reader->added++ ? hr2di_scene_add_alike(reader->scene, &patch)
                            : hr2d_scene_add(reader->scene, &patch, NULL);
   if (!status || status == HR2D_ENOMEM) return status;

@@ -9,6 +9,7 @@
 #include <stddef.h>
 
 #include "base/message.h"
+#include "base/watch.h"
 
 enum { HR2DI_LABEL_SIZE = 128, HR2DI_PLACE_SIZE = HR2DI_LABEL_SIZE + 64 };
 
@@ -22,6 +23,7 @@ typedef struct hr2di_geojson {
   hr2d_scene *scene;
   const hr2d_allocator *alloc;
   hr2di_message *message;
+  hr2di_watch *watch;
 
   /* The current feature. */
   char label[HR2DI_LABEL_SIZE]; /* feature 3 ("north wall") */

@@ -52,7 +52,9 @@ hr2d_status hr2di_geojson_values(hr2di_geojson *reader, const char *place, const
     return hr2di_message_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", place);
   for (size_t k = 0; k < size; k++) {
     const json_t *item = array ? json_array_get(json, k) : json;
-    hr2d_status status = check_value(reader, place, key, item, max);
+    hr2d_status status = hr2di_watch_work(reader->watch, 1);
+    if (status) return status;
+    status = check_value(reader, place, key, item, max);
     if (status) return status;
     values->value[k] = json_number_value(item);
   }

@@ -52,27 +52,34 @@ static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "not a GeoJSON FeatureCollection: \"type\" is %s",
                               hr2di_message_quote(type).text);
-  const json_t *features = json_object_get(root, "features");
+  json_t *features = json_object_get(root, "features");
   if (!json_is_array(features))
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "features: must be an array, not %s",
                               hr2di_geojson_kind(features));
   size_t background_bands;
   hr2d_status status = read_scene_effects(reader, root, &background_bands);
-  for (size_t k = 0; !status && k < json_array_size(features); k++)
-    status = hr2di_geojson_feature(reader, json_array_get(features, k), k + 1);
+  for (size_t k = 0; !status && k < json_array_size(features); k++) {
+    reader->watch->told.fraction = 0.5 + 0.5 * (double)k / (double)json_array_size(features);
+    status = hr2di_watch_work(reader->watch, 4);
+    if (!status) status = hr2di_geojson_feature(reader, json_array_get(features, k), k + 1);
+    /* Freed bit by bit: a large tree at once takes long, and cannot be stopped. */
+    json_array_set_new(features, k, json_null());
+  }
   /* The background is set last, so that no failure has to take it back.  A file without one
      leaves the background of the scene as it is. */
   if (status || !background_bands) return status;
   return hr2d_scene_set_background(reader->scene, reader->background.value, background_bands);
 }
 
-hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size) {
+hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size,
+                               hr2di_watch *watch) {
   hr2di_geojson reader = {.scene = scene,
                           .alloc = hr2di_scene_allocator(scene),
-                          .message = hr2di_scene_message(scene)};
+                          .message = hr2di_scene_message(scene),
+                          .watch = watch};
   json_t *root;
-  hr2d_status status = hr2di_geojson_load(text, size, &root, reader.message);
+  hr2d_status status = hr2di_geojson_load(text, size, &root, reader.message, watch);
   if (status) return status;
   status = read_collection(&reader, root);
 

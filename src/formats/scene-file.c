@@ -9,7 +9,8 @@
 #include "base/read-file.h"
 #include "scene/scene-impl.h"
 
-static hr2d_status add_text(hr2d_scene *scene, const char *text, size_t size) {
+static hr2d_status add_text(hr2d_scene *scene, const char *text, size_t size,
+                            hr2di_watch *watch) {
   /* A byte order mark may be ignored (RFC 8259, section 8.1), and some editors write it. */
   if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) {
     text += 3;
@@ -17,10 +18,15 @@ static hr2d_status add_text(hr2d_scene *scene, const char *text, size_t size) {
   }
   const size_t before = hr2d_scene_patches(scene);
   const hr2d_status status =
-      (hr2di_vs2_recognise(text, size) ? hr2di_vs2_read : hr2di_geojson_read)(scene, text,
-                                                                              size);
+      (hr2di_vs2_recognise(text, size) ? hr2di_vs2_read : hr2di_geojson_read)(scene, text, size,
+                                                                              watch);
   if (status) hr2di_scene_truncate(scene, before);
   return status;
+}
+
+/* Leaves a message if the watch has stopped; returns the status. */
+static hr2d_status finish(hr2d_scene *scene, hr2d_status status, const hr2di_watch *watch) {
+  return watch->refused ? hr2di_scene_fail(scene, status, watch, "") : status;
 }
 
 /* Checks the arguments of both entry points before anything is read. */
@@ -37,7 +43,10 @@ static hr2d_status check_call(hr2d_scene *scene, int source_given) {
 
 hr2d_status hr2d_scene_parse(hr2d_scene *scene, const char *text, size_t size) {
   hr2d_status status = check_call(scene, text || !size);
-  return status ? status : add_text(scene, size ? text : "", size);
+  if (status) return status;
+  hr2di_watch watch;
+  hr2di_scene_watch(scene, &watch, NULL, NULL, "read");
+  return finish(scene, add_text(scene, size ? text : "", size, &watch), &watch);
 }
 
 hr2d_status hr2d_scene_read(hr2d_scene *scene, const char *path) {
@@ -46,9 +55,10 @@ hr2d_status hr2d_scene_read(hr2d_scene *scene, const char *path) {
   const hr2d_allocator *alloc = hr2di_scene_allocator(scene);
   char *text;
   size_t size;
-  status = hr2di_file_read(alloc, path, &text, &size, hr2di_scene_message(scene));
-  if (status) return status;
-  status = add_text(scene, text, size);
+  hr2di_watch watch;
+  hr2di_scene_watch(scene, &watch, NULL, NULL, "read");
+  status = hr2di_file_read(alloc, path, &text, &size, hr2di_scene_message(scene), &watch);
+  if (!status) status = add_text(scene, text, size, &watch);
   hr2di_alloc_free(alloc, text);
-  return status;
+  return finish(scene, status, &watch);
 }

@@ -7,11 +7,15 @@
 #include <hr2d/scene.h>
 #include <stddef.h>
 
+#include "base/watch.h"
+
 /* GeoJSON: sets the background last, once nothing else can fail. */
-hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size);
+hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size,
+                               hr2di_watch *watch);
 
 /* View2D's .vs2; and whether a text seems to be in this format. */
-hr2d_status hr2di_vs2_read(hr2d_scene *scene, const char *text, size_t size);
+hr2d_status hr2di_vs2_read(hr2d_scene *scene, const char *text, size_t size,
+                           hr2di_watch *watch);
 int hr2di_vs2_recognise(const char *text, size_t size);
 
 #endif

@@ -10,6 +10,7 @@
 #include <stddef.h>
 
 #include "base/message.h"
+#include "base/watch.h"
 
 /* A part of the text. */
 typedef struct hr2di_vs2_span {
@@ -28,6 +29,7 @@ typedef struct hr2di_vs2 {
   hr2d_scene *scene;
   const hr2d_allocator *alloc;
   hr2di_message *message;
+  hr2di_watch *watch;
   locale_t numbers; /* a locale whose decimal sign is a point */
   size_t line;      /* the number of the current line, from 1 */
 

@@ -169,6 +169,8 @@ static hr2d_status read_records(hr2di_vs2 *reader, hr2di_vs2_span text) {
   int ended = 0;
   while (!status && hr2di_vs2_line(&text, &line)) {
     reader->line++;
+    status = hr2di_watch_work(reader->watch, 10);
+    if (status) break;
     hr2di_vs2_span rest = line;
     const char letter = hr2di_vs2_word(&rest, &word) ? record_letter(word) : '/';
     if (letter == '/') continue;
@@ -184,10 +186,12 @@ static hr2d_status read_records(hr2di_vs2 *reader, hr2di_vs2_span text) {
   return status;
 }
 
-hr2d_status hr2di_vs2_read(hr2d_scene *scene, const char *text, size_t size) {
+hr2d_status hr2di_vs2_read(hr2d_scene *scene, const char *text, size_t size,
+                           hr2di_watch *watch) {
   hr2di_vs2 reader = {.scene = scene,
                       .alloc = hr2di_scene_allocator(scene),
-                      .message = hr2di_scene_message(scene)};
+                      .message = hr2di_scene_message(scene),
+                      .watch = watch};
   /* Set for this thread alone, and only around strtod(): other code may print meanwhile. */
   reader.numbers = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
   if (!reader.numbers)

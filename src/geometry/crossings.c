@@ -3,9 +3,9 @@
 #include "geometry/crossings.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "geometry/determinant.h"
 #include "geometry/predicates.h"
 
@@ -202,20 +202,21 @@ static int meet_in_y(const hr2d_segment *i, const hr2d_segment *j) {
 hr2d_status hr2di_crossings_sweep(const hr2d_allocator *alloc, const hr2d_segment *first,
                                   size_t count, size_t stride,
                                   hr2d_status (*visit)(void *ctx, size_t i, size_t j),
-                                  void *ctx) {
+                                  void *ctx, hr2di_watch *watch) {
   span *spans = hr2di_alloc(alloc, count, sizeof *spans);
   if (!spans) return HR2D_ENOMEM;
   for (size_t k = 0; k < count; k++) {
     const hr2d_segment *s = at(first, stride, k);
     spans[k] = (span){fmin(s->a.x, s->b.x), fmax(s->a.x, s->b.x) + MARGIN, k};
   }
-  qsort(spans, count, sizeof *spans, by_start);
-  hr2d_status status = HR2D_OK;
+  hr2d_status status = hr2di_sort(spans, count, sizeof *spans, by_start, watch);
   for (size_t k = 0; k < count && !status; k++)
     for (size_t m = k + 1; m < count && spans[m].from <= spans[k].to && !status; m++) {
       const size_t i = spans[k].segment, j = spans[m].segment;
+      if (m % 16 == 0) status = hr2di_watch_work(watch, 1);
       if (!meet_in_y(at(first, stride, i), at(first, stride, j))) continue;
-      status = i < j ? visit(ctx, i, j) : visit(ctx, j, i);
+      if (!status) status = hr2di_watch_work(watch, 2);
+      if (!status) status = i < j ? visit(ctx, i, j) : visit(ctx, j, i);
     }
   hr2di_alloc_free(alloc, spans);
   return status;

@@ -15,6 +15,8 @@
 #include <hr2d/memory.h>
 #include <stddef.h>
 
+#include "base/watch.h"
+
 typedef enum hr2di_meeting_kind {
   HR2DI_MEET_FREE,  /* apart, touching, or back to back: nothing is wrong */
   HR2DI_MEET_CROSS, /* properly: no end counts as touching the other segment */
@@ -41,10 +43,11 @@ double hr2di_crossings_distance(hr2d_point p, const hr2d_segment *s);
 
 /* Calls `visit` with i < j for each pair of segments whose bounding boxes meet or are within a
    rounding of meeting.  Stops as soon as `visit` returns anything but HR2D_OK.  Returns
-   HR2D_OK, that status, or HR2D_ENOMEM.  Segments lie `stride` bytes apart. */
+   HR2D_OK, that status, HR2D_ENOMEM, or the status of the watch.  Segments lie `stride` bytes
+   apart. */
 hr2d_status hr2di_crossings_sweep(const hr2d_allocator *alloc, const hr2d_segment *first,
                                   size_t count, size_t stride,
                                   hr2d_status (*visit)(void *ctx, size_t i, size_t j),
-                                  void *ctx);
+                                  void *ctx, hr2di_watch *watch);
 
 #endif

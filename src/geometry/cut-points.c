@@ -13,9 +13,9 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "geometry/crossings.h"
 #include "geometry/vector.h"
 
@@ -116,9 +116,15 @@ static double key_of(hr2d_point p) {
   return 0.8251 * p.x + 0.5650 * p.y;
 }
 
+static int compare_points(hr2d_point p, hr2d_point q) {
+  if (p.x != q.x) return p.x < q.x ? -1 : 1;
+  return (p.y > q.y) - (p.y < q.y);
+}
+
 static int by_key(const void *left, const void *right) {
   const node *l = left, *r = right;
   if (l->key != r->key) return l->key < r->key ? -1 : 1;
+  if (l->crossing == r->crossing) return compare_points(l->at, r->at);
   return (l->crossing > r->crossing) - (l->crossing < r->crossing);
 }
 
@@ -132,10 +138,11 @@ static hr2d_status make_nodes(finder *f) {
   }
   for (size_t k = 0; k < f->crossings; k++)
     f->node[f->nodes++] = (node){key_of(f->crossing[k].at), f->crossing[k].at, k, 0};
-  qsort(f->node, f->nodes, sizeof *f->node, by_key);
+  const hr2d_status status =
+      hr2di_sort(f->node, f->nodes, sizeof *f->node, by_key, f->cuts->watch);
   for (size_t k = 0; k < f->nodes; k++)
     if (f->node[k].crossing != NONE) f->crossing[f->node[k].crossing].node = k;
-  return HR2D_OK;
+  return status;
 }
 
 static double apart(hr2d_point p, hr2d_point q) {
@@ -202,9 +209,11 @@ static size_t first_node(const finder *f, double key) {
 static void offer_neighbours(const finder *f, const crossing *c, choice *best) {
   const double key = key_of(c->at), width = 2 * c->reach;
   for (size_t k = first_node(f, key - width); k < f->nodes && f->node[k].key <= key + width;
-       k++)
+       k++) {
+    if (k % 16 == 0 && hr2di_watch_work(f->cuts->watch, 1)) return;
     if (f->node[k].settled && apart(f->node[k].at, c->at) <= c->reach)
       offer(f, c, f->node[k].at, best);
+  }
 }
 
 /* Makes room for one cut of a wall at each of its crossings and at both ends of a partner. */
@@ -241,7 +250,14 @@ static void cut(finder *f, size_t wall, hr2d_point p) {
   f->cuts->count++;
 }
 
-static void settle(finder *f, const crossing *c) {
+static size_t cuts_of(const finder *f, size_t wall) {
+  return f->cuts->of[wall].end - f->cuts->of[wall].first;
+}
+
+static hr2d_status settle(finder *f, const crossing *c) {
+  const hr2d_status status =
+      hr2di_watch_work(f->cuts->watch, 4 + (cuts_of(f, c->i) + cuts_of(f, c->j)) / 8);
+  if (status) return status;
   choice best = {.at = c->at, .distance = HUGE_VAL};
   offer_wall(f, c, c->i, &best);
   offer_wall(f, c, c->j, &best);
@@ -249,48 +265,60 @@ static void settle(finder *f, const crossing *c) {
   f->node[c->node].at = best.at;
   f->node[c->node].settled = 1;
   f->cuts->place[f->cuts->places++] = best.at;
-  if (best.distance == SHARED) return;
+  if (best.distance == SHARED) return HR2D_OK;
   cut(f, c->i, best.at);
   cut(f, c->j, best.at);
+  return HR2D_OK;
 }
 
 /* A wall that is cut bends by a rounding, away from a partner along it.  So partners are cut at
    the ends of the stretch that they share, which makes it a wall of its own. */
-static void cut_partners(finder *f) {
+static hr2d_status cut_partners(finder *f) {
+  hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < f->pairs; k++)
     f->partners[k].part |= is_cut(f, f->partners[k].i) || is_cut(f, f->partners[k].j);
-  for (size_t k = 0; k < 2 * f->pairs; k++) {
+  for (size_t k = 0; k < 2 * f->pairs && !status; k++) {
     const partners *p = &f->partners[k / 2];
     const size_t i = k % 2 ? p->j : p->i;
+    status = hr2di_watch_work(f->cuts->watch, 1 + cuts_of(f, i) / 16);
     const hr2d_segment own = f->wall[i].s, other = f->wall[k % 2 ? p->i : p->j].s;
     if (p->part && is_inside(&own, other.a)) cut(f, i, other.a);
     if (p->part && is_inside(&own, other.b)) cut(f, i, other.b);
   }
+  return status;
 }
 
 static int by_position(const void *left, const void *right) {
   const hr2di_cut *l = left, *r = right;
-  return (l->along > r->along) - (l->along < r->along);
+  if (l->along != r->along) return l->along < r->along ? -1 : 1;
+  return compare_points(l->at, r->at);
+}
+
+static hr2d_status sort_cuts(finder *f) {
+  hr2di_cuts *cuts = f->cuts;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < f->walls && !status; k++)
+    if (is_cut(f, k))
+      status = hr2di_sort(&cuts->cut[cuts->of[k].first], cuts_of(f, k), sizeof *cuts->cut,
+                          by_position, cuts->watch);
+  return status;
 }
 
 static hr2d_status find(finder *f) {
   hr2di_cuts *cuts = f->cuts;
-  if (hr2di_crossings_sweep(f->alloc, &f->wall[0].s, f->walls, sizeof *f->wall, note_meeting,
-                            f))
-    return HR2D_ENOMEM;
-  if (f->crossings == 0 && !f->parted) return HR2D_OK;
-  if (f->crossings > 0) qsort(f->crossing, f->crossings, sizeof *f->crossing, steepest_first);
-  if (make_nodes(f) || make_room(f) ||
-      hr2di_alloc_reserve(f->alloc, &cuts->place, &cuts->place_capacity,
-                          cuts->places + f->crossings, sizeof *cuts->place))
-    return HR2D_ENOMEM;
-  for (size_t k = 0; k < f->crossings; k++) settle(f, &f->crossing[k]);
-  cut_partners(f);
-  for (size_t k = 0; k < f->walls; k++)
-    if (is_cut(f, k))
-      qsort(&cuts->cut[cuts->of[k].first], cuts->of[k].end - cuts->of[k].first,
-            sizeof *cuts->cut, by_position);
-  return HR2D_OK;
+  hr2d_status status = hr2di_crossings_sweep(f->alloc, &f->wall[0].s, f->walls, sizeof *f->wall,
+                                             note_meeting, f, cuts->watch);
+  if (status || (f->crossings == 0 && !f->parted)) return status;
+  status =
+      hr2di_sort(f->crossing, f->crossings, sizeof *f->crossing, steepest_first, cuts->watch);
+  if (!status) status = make_nodes(f);
+  if (!status) status = make_room(f);
+  if (!status && hr2di_alloc_reserve(f->alloc, &cuts->place, &cuts->place_capacity,
+                                     cuts->places + f->crossings, sizeof *cuts->place))
+    status = HR2D_ENOMEM;
+  for (size_t k = 0; k < f->crossings && !status; k++) status = settle(f, &f->crossing[k]);
+  if (!status) status = cut_partners(f);
+  return status ? status : sort_cuts(f);
 }
 
 static void drop_cuts(hr2di_cuts *cuts) {

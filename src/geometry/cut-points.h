@@ -8,6 +8,8 @@
 #include <hr2d/memory.h>
 #include <stddef.h>
 
+#include "base/watch.h"
+
 typedef struct hr2di_cut_wall {
   hr2d_segment s;
   int sides; /* HR2DI_FORWARD, HR2DI_BACKWARD or both: directions of patches */
@@ -31,6 +33,7 @@ typedef struct hr2di_cut_range {
 
 typedef struct hr2di_cuts {
   const hr2d_allocator *alloc;
+  hr2di_watch *watch;
   int exponent; /* points must be doubles when multiplied by 2^exponent */
   hr2di_cut *cut;
   hr2di_cut_range *of; /* by wall */
@@ -41,7 +44,7 @@ typedef struct hr2di_cuts {
 
 /* Replaces the cuts by the cuts of `walls` walls, and appends to `place` the points where these
    cross.  No two walls may have the same segment.  Coordinates are below 2.  `of` may be NULL
-   if `count` is 0.  Returns HR2D_OK or HR2D_ENOMEM. */
+   if `count` is 0.  Returns HR2D_OK, HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_cuts_init(hr2di_cuts *cuts, const hr2di_cut_wall *wall, size_t walls);
 
 void hr2di_cuts_clear(hr2di_cuts *cuts);

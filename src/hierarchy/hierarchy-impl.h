@@ -6,6 +6,8 @@
 #include <hr2d/hierarchy.h>
 #include <stdatomic.h>
 
+#include "base/watch.h"
+
 struct hr2d_hierarchy {
   hr2d_allocator alloc;
   const hr2d_scene *scene;
@@ -83,10 +85,10 @@ uint64_t hr2di_hierarchy_clone_bytes(const hr2d_hierarchy *from);
 
 /* Adds every element that at least one of `count` clones has.  New elements are numbered patch
    by patch, the children of a parent before the children of its right neighbour.  Returns
-   HR2D_OK; or, with the hierarchy unchanged, HR2D_ENOMEM, HR2D_EMAX_ELEMENTS, or
-   HR2D_EMAX_BYTES if room for more than `max` elements is needed. */
+   HR2D_OK; or, with the hierarchy unchanged, HR2D_ENOMEM, HR2D_EMAX_ELEMENTS, the status of the
+   watch, or HR2D_EMAX_BYTES if room for more than `max` elements is needed. */
 hr2d_status hr2di_hierarchy_unite(hr2d_hierarchy *hierarchy, hr2d_hierarchy *const *clone,
-                                  size_t count, size_t max);
+                                  size_t count, size_t max, hr2di_watch *watch);
 
 /* Removes all elements but the first `elements`, and frees their room. */
 void hr2di_hierarchy_truncate(hr2d_hierarchy *hierarchy, size_t elements);

@@ -19,28 +19,32 @@ static void make_pair(const hr2di_push_pull *p, size_t pair, double left) {
 }
 
 hr2d_status hr2di_push_pull_init(hr2di_push_pull *p, const hr2d_hierarchy *hierarchy,
-                                 const hr2d_allocator *alloc, size_t order, size_t bands) {
+                                 const hr2d_allocator *alloc, size_t order, size_t bands,
+                                 hr2di_watch *watch) {
   const hr2d_element *element = hierarchy->element;
   *p = (hr2di_push_pull){.hierarchy = hierarchy,
                          .alloc = *alloc,
+                         .watch = watch,
                          .elements = hierarchy->elements,
                          .order = order,
                          .bands = bands};
   size_t odd = 0;
   for (uint32_t e = 0; e < p->elements; e++) odd += element[e].child && !is_halved(element, e);
   p->relation = hr2di_alloc(alloc, 1 + odd, 2 * order * order * sizeof *p->relation);
+  hr2d_status status = hr2di_watch_work(watch, p->elements / 8);
   if (!p->relation) return HR2D_ENOMEM;
   make_pair(p, 0, 0.5);
-  if (odd == 0) return HR2D_OK;
+  if (odd == 0) return status;
   p->pair_of = hr2di_alloc_zero(alloc, p->elements, sizeof *p->pair_of);
   if (!p->pair_of) return HR2D_ENOMEM;
   uint32_t pairs = 1;
-  for (uint32_t e = 0; e < p->elements; e++) {
+  for (uint32_t e = 0; e < p->elements && !status; e++) {
     if (!element[e].child || is_halved(element, e)) continue;
+    status = hr2di_watch_work(watch, 8 + 2 * order * order);
     make_pair(p, pairs, hr2di_element_left_part(element, e));
     p->pair_of[e] = pairs++;
   }
-  return HR2D_OK;
+  return status;
 }
 
 void hr2di_push_pull_clear(hr2di_push_pull *p) {
@@ -51,6 +55,15 @@ void hr2di_push_pull_clear(hr2di_push_pull *p) {
 static const double *relation_of(const hr2di_push_pull *p, uint32_t element) {
   const size_t pair = p->pair_of ? p->pair_of[element] : 0;
   return p->relation + 2 * pair * p->order * p->order;
+}
+
+enum { SOME = 16 };
+
+/* Declares the work of the next elements, before every one whose number is a multiple of SOME.
+ */
+static inline hr2d_status declare(const hr2di_push_pull *p, uint32_t element) {
+  if (element % SOME != 0) return HR2D_OK;
+  return hr2di_watch_work(p->watch, SOME / 4 + SOME * p->order * p->order * p->bands / 64);
 }
 
 /* parent_l += part Σ_k relation_lk child_k.  A constant stride lets the compiler vectorise. */
@@ -84,6 +97,7 @@ void hr2di_push_pull_up(const hr2di_push_pull *p, const double *spread, double *
   const size_t bands = p->bands, width = p->order * bands;
   const hr2d_element *element = p->hierarchy->element;
   for (uint32_t e = (uint32_t)p->elements; e-- > 0;) {
+    if (declare(p, e)) return;
     if (!element[e].child) continue;
     const double *left = field + element[e].child * width, *right = left + width;
     double *here = field + e * width;
@@ -122,6 +136,7 @@ void hr2di_push_pull_down(const hr2di_push_pull *p, const double *spread, double
   const hr2d_element *element = p->hierarchy->element;
   for (uint32_t e = 0; e < p->elements; e++) {
     const uint32_t parent = p->hierarchy->parent[e];
+    if (declare(p, e)) return;
     if (parent == e) continue;
     double *here = field + e * width;
     const double *from = field + parent * width;

@@ -4,21 +4,25 @@
 #ifndef HR2D_SRC_HIERARCHY_PUSH_PULL_H
 #define HR2D_SRC_HIERARCHY_PUSH_PULL_H
 
+#include "base/watch.h"
 #include "hierarchy/hierarchy-impl.h"
 
 typedef struct hr2di_push_pull {
   const hr2d_hierarchy *hierarchy;
   hr2d_allocator alloc;
-  size_t elements; /* of the hierarchy when this was made */
+  hr2di_watch *watch; /* once it has stopped, fields have no meaning */
+  size_t elements;    /* of the hierarchy when this was made */
   size_t order, bands;
   double *relation;  /* pairs of order × order matrices, for the left child and the right
                         one; pair 0 is for halves */
   uint32_t *pair_of; /* per element; NULL if all children are halves */
 } hr2di_push_pull;
 
-/* Returns HR2D_OK or HR2D_ENOMEM; in either case the caller calls hr2di_push_pull_clear(). */
+/* Returns HR2D_OK, HR2D_ENOMEM or the status of the watch; in any case the caller calls
+   hr2di_push_pull_clear(). */
 hr2d_status hr2di_push_pull_init(hr2di_push_pull *p, const hr2d_hierarchy *hierarchy,
-                                 const hr2d_allocator *alloc, size_t order, size_t bands);
+                                 const hr2d_allocator *alloc, size_t order, size_t bands,
+                                 hr2di_watch *watch);
 void hr2di_push_pull_clear(hr2di_push_pull *p);
 
 /* Pull: makes the values of every element with children from its children, leaves first.  At

@@ -39,6 +39,7 @@ typedef struct walk {
   uint32_t *column;
   size_t width, columns;
   size_t max; /* elements that room may be made for */
+  hr2di_watch *watch;
 } walk;
 
 /* Pushes the columns of the children, the right one first. */
@@ -67,6 +68,8 @@ static hr2d_status unite_patch(hr2d_hierarchy *h, hr2d_hierarchy *const *clone, 
   for (size_t k = 0; k < w->width; k++) w->column[k] = patch;
   w->columns = 1;
   while (w->columns > 0) {
+    const hr2d_status asked = hr2di_watch_work(w->watch, 1 + w->width / 4);
+    if (asked) return asked;
     w->columns--;
     memcpy(top, w->column + w->columns * w->width, w->width * sizeof *top);
     if (!some_clone_halved(top, w->width, clone)) continue;
@@ -83,11 +86,11 @@ static hr2d_status unite_patch(hr2d_hierarchy *h, hr2d_hierarchy *const *clone, 
 }
 
 hr2d_status hr2di_hierarchy_unite(hr2d_hierarchy *h, hr2d_hierarchy *const *clone, size_t count,
-                                  size_t max) {
+                                  size_t max, hr2di_watch *watch) {
   unsigned levels = h->levels;
   for (size_t k = 0; k < count; k++)
     levels = clone[k]->levels > levels ? clone[k]->levels : levels;
-  walk w = {.width = count + 1, .max = max};
+  walk w = {.width = count + 1, .max = max, .watch = watch};
   /* Each level leaves at most one sibling on the stack, and the last level two. */
   w.column = hr2di_alloc(&h->alloc, (size_t)levels + 3, w.width * sizeof *w.column);
   uint32_t *top = hr2di_alloc(&h->alloc, w.width, sizeof *top);

@@ -29,7 +29,8 @@ static void join_clusters(hr2di_components *c, const hr2di_clusters *clusters, s
     join(c, patches + clusters->link[k].first, patches + clusters->link[k].second);
 }
 
-hr2d_status hr2di_components_init(hr2di_components *c, const hr2d_linkset *links) {
+hr2d_status hr2di_components_init(hr2di_components *c, const hr2d_linkset *links,
+                                  hr2di_watch *watch) {
   const hr2d_element *element = links->hierarchy->element;
   const size_t patches = links->hierarchy->scene->patches;
   const hr2di_clusters *clusters = links->roots.clusters;
@@ -38,13 +39,16 @@ hr2d_status hr2di_components_init(hr2di_components *c, const hr2d_linkset *links
   c->parent = count <= UINT32_MAX ? hr2di_alloc(&links->alloc, count, sizeof *c->parent) : NULL;
   if (!c->parent) return HR2D_ENOMEM;
   for (size_t k = 0; k < count; k++) c->parent[k] = (uint32_t)k;
+  hr2d_status status = hr2di_watch_work(watch, count / 4);
   if (clusters) join_clusters(c, clusters, patches);
-  for (size_t block = 0; block < links->store.chunks; block++)
+  for (size_t block = 0; block < links->store.chunks && !status; block++) {
+    status = hr2di_watch_work(watch, HR2DI_CHUNK_LINKS / 8);
     for (size_t k = 0; k < hr2di_store_chunk_size(&links->store, block); k++) {
       const hr2d_pair pair = links->store.chunk[block][k].pair;
       join(c, element[pair.first].patch, element[pair.second].patch);
     }
-  return HR2D_OK;
+  }
+  return status;
 }
 
 void hr2di_components_clear(hr2di_components *c) {

@@ -10,9 +10,10 @@ typedef struct hr2di_components {
   uint32_t *parent; /* union-find over the patches, followed by the clusters */
 } hr2di_components;
 
-/* Finds the components of a link set.  Returns HR2D_OK or HR2D_ENOMEM.  Call
-   hr2di_components_clear() in either case. */
-hr2d_status hr2di_components_init(hr2di_components *c, const hr2d_linkset *links);
+/* Finds the components of a link set.  Returns HR2D_OK, HR2D_ENOMEM or the status of the watch.
+   Call hr2di_components_clear() in any case. */
+hr2d_status hr2di_components_init(hr2di_components *c, const hr2d_linkset *links,
+                                  hr2di_watch *watch);
 void hr2di_components_clear(hr2di_components *c);
 
 /* The component that holds a patch: the number of the first patch in it. */

@@ -5,23 +5,30 @@
 #include <float.h>
 #include <math.h>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "base/alloc.h"
+#include "base/team.h"
 #include "blocks/block.h"
 #include "links/linkset-impl.h"
 #include "scene/scene-impl.h"
 
-/* Blocks are made in rounds, and progress is reported between them. */
-enum { CHUNK = 16, ROUND = 256 };
+/* The links of a task; and those that are worth another thread. */
+enum { CHUNK = 16, WORTH = 256 };
+
+/* The work space of a thread. */
+typedef struct worker {
+  hr2di_integrator work;
+  hr2di_watch own; /* but the calling thread has another */
+  hr2d_status status;
+} worker;
 
 typedef struct maker {
   const hr2d_linkset *links;
   hr2di_link_blocks *blocks;
-  hr2di_integrator *work; /* per thread */
+  worker *worker;
   size_t threads;
+  hr2di_watch *watch; /* of the calling thread */
+  atomic_ullong done; /* links */
+  atomic_int failed;
 } maker;
 
 /* The relative error that rounded coordinates cause in the length of an element; a whole patch
@@ -56,90 +63,69 @@ static hr2d_status make_some(const maker *m, hr2di_integrator *work, uint64_t fr
   return HR2D_OK;
 }
 
-/* Chunk k of a round. */
-static hr2d_status make_chunk(const maker *m, size_t worker, uint64_t from, uint64_t to,
-                              long k) {
-  const uint64_t first = from + (uint64_t)k * CHUNK;
-  const uint64_t last = first + CHUNK < to ? first + CHUNK : to;
-  return make_some(m, &m->work[worker], first, last);
+static void make_chunk(void *ctx, size_t number, size_t chunk) {
+  maker *m = ctx;
+  worker *w = &m->worker[number];
+  const uint64_t count = m->links->store.count, first = (uint64_t)chunk * CHUNK;
+  if (atomic_load(&m->failed)) return;
+  w->status = make_some(m, &w->work, first, first + CHUNK < count ? first + CHUNK : count);
+  atomic_fetch_add(&m->done, CHUNK);
+  if (w->status) atomic_store(&m->failed, 1);
 }
 
-/* One thread does not use OpenMP, whose runtime ends the program if it has no memory. */
-static hr2d_status make_round(const maker *m, uint64_t from, uint64_t to) {
-  const long chunks = (long)((to - from + CHUNK - 1) / CHUNK);
-  hr2d_status worst = HR2D_OK;
-#ifdef _OPENMP
-  if (m->threads > 1) {
-#pragma omp parallel for num_threads((int)m->threads) schedule(dynamic) reduction(max : worst)
-    for (long k = 0; k < chunks; k++) {
-      const hr2d_status status = make_chunk(m, (size_t)omp_get_thread_num(), from, to, k);
-      if (status > worst) worst = status;
-    }
-    return worst;
-  }
-#endif
-  for (long k = 0; k < chunks && !worst; k++) worst = make_chunk(m, 0, from, to, k);
-  return worst;
+static void describe(void *of, hr2d_progress *told) {
+  const maker *m = of;
+  const double part = (double)atomic_load(&m->done) / (double)m->links->store.count;
+  told->fraction = part < 1 ? part : 1;
 }
 
-static hr2d_status report(const hr2d_linkset *links, const hr2di_link_blocks_plan *plan,
-                          uint64_t done) {
-  if (!plan->progress) return HR2D_OK;
-  const hr2d_progress progress = {.struct_size = sizeof progress,
-                                  .phase = "coefficients",
-                                  .elements = hr2d_hierarchy_count(links->hierarchy).elements,
-                                  .links = links->store.count,
-                                  .fraction = (double)done / (double)links->store.count};
-  return plan->progress(plan->progress_ctx, &progress);
-}
-
-static hr2d_status make_all(const maker *m, const hr2di_link_blocks_plan *plan) {
+static hr2d_status make_all(maker *m) {
+  const uint64_t chunks = (m->links->store.count + CHUNK - 1) / CHUNK;
   hr2d_status status = HR2D_OK;
-  const uint64_t count = m->links->store.count;
-  for (uint64_t from = 0; from < count && !status; from += ROUND) {
-    const uint64_t to = from + ROUND < count ? from + ROUND : count;
-    status = make_round(m, from, to);
-    if (!status) status = report(m->links, plan, to);
-  }
+  hr2di_watch_phase(m->watch, "coefficients");
+  hr2di_watch_describe(m->watch, describe, m);
+  hr2di_team_run(m->threads, (size_t)chunks, make_chunk, m, m->watch);
+  for (size_t k = 0; k < m->threads && !status; k++) status = m->worker[k].status;
+  if (!status) status = hr2di_watch_ask(m->watch);
+  hr2di_watch_describe(m->watch, NULL, NULL);
   return status;
 }
 
 /* Few links get few threads: their blocks are made before another thread wakes up. */
 static size_t count_threads(unsigned asked, uint64_t links) {
-#ifdef _OPENMP
-  const size_t threads = asked ? asked : (size_t)omp_get_max_threads();
-  const size_t max = (size_t)(1 + links / ROUND);
+  const size_t threads = hr2di_team_threads(asked), max = (size_t)(1 + links / WORTH);
   return threads < max ? threads : max;
-#else
-  (void)asked;
-  (void)links;
-  return 1;
-#endif
 }
 
-static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made,
-                       const hr2di_link_blocks_plan *plan) {
+static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made, unsigned threads,
+                       hr2di_watch *watch) {
   const hr2d_allocator *alloc = &links->alloc;
   maker m = {.links = links,
              .blocks = made,
-             .threads = count_threads(plan->threads, links->store.count)};
-  m.work = hr2di_alloc_zero(alloc, m.threads, sizeof *m.work);
-  if (!m.work) return HR2D_ENOMEM;
+             .threads = count_threads(threads, links->store.count),
+             .watch = watch};
+  m.worker = hr2di_alloc_zero(alloc, m.threads, sizeof *m.worker);
+  if (!m.worker) return HR2D_ENOMEM;
   hr2d_status status = HR2D_OK;
   size_t started = 0;
-  while (started < m.threads && !status)
-    status = hr2di_integrator_init(&m.work[started++], links->hierarchy, alloc, made->order);
-  if (!status) status = make_all(&m, plan);
-  while (started > 0) {
-    made->kernels += m.work[--started].kernels;
-    hr2di_integrator_clear(&m.work[started]);
+  while (started < m.threads && !status) {
+    worker *w = &m.worker[started];
+    hr2di_watch_follow(&w->own, watch);
+    status = hr2di_integrator_init(&w->work, links->hierarchy, alloc, made->order,
+                                   started == 0 ? watch : &w->own);
+    started++;
   }
-  hr2di_alloc_free(alloc, m.work);
+  if (!status) status = make_all(&m);
+  while (started > 0) {
+    made->kernels += m.worker[--started].work.kernels;
+    hr2di_integrator_clear(&m.worker[started].work);
+  }
+  hr2di_alloc_free(alloc, m.worker);
   return status;
 }
 
-hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order,
-                                   const hr2di_link_blocks_plan *plan) {
+hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order, unsigned threads,
+                                   hr2di_watch *watch) {
   const uint64_t count = links->store.count;
   hr2di_link_blocks made = {.order = order, .links = count};
   hr2di_link_blocks_clear(&links->blocks, &links->alloc);
@@ -148,7 +134,7 @@ hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order,
   made.value = hr2di_alloc(&links->alloc, (size_t)count, order * order * sizeof *made.value);
   made.distant = hr2di_alloc(&links->alloc, (size_t)count, 1);
   hr2d_status status = made.value && made.distant ? HR2D_OK : HR2D_ENOMEM;
-  if (!status) status = run(links, &made, plan);
+  if (!status) status = run(links, &made, threads, watch);
   if (status)
     hr2di_link_blocks_clear(&made, &links->alloc);
   else

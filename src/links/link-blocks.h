@@ -6,6 +6,8 @@
 #include <hr2d/linkset.h>
 #include <hr2d/refine.h>
 
+#include "base/watch.h"
+
 typedef struct hr2di_link_blocks {
   size_t order;
   uint64_t links;         /* the number of links when the blocks were made; 0: no blocks */
@@ -14,17 +16,11 @@ typedef struct hr2di_link_blocks {
   uint64_t kernels;       /* evaluations of G it took */
 } hr2di_link_blocks;
 
-/* Options of hr2di_link_blocks_init(). */
-typedef struct hr2di_link_blocks_plan {
-  unsigned threads; /* 0 for all; the result does not depend on it, bit for bit */
-  hr2d_progress_fn progress;
-  void *progress_ctx;
-} hr2di_link_blocks_plan;
-
-/* Makes new blocks for all links of a set.  Returns HR2D_OK, HR2D_ENOMEM, or the status of the
-   progress callback.  On failure the set has no blocks. */
-hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order,
-                                   const hr2di_link_blocks_plan *plan);
+/* Makes new blocks for all links of a set, on `threads` threads, 0 for all; no bit depends on
+   their number.  Returns HR2D_OK, HR2D_ENOMEM, or the status of the watch.  On failure the set
+   has no blocks. */
+hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order, unsigned threads,
+                                   hr2di_watch *watch);
 
 void hr2di_link_blocks_clear(hr2di_link_blocks *blocks, const hr2d_allocator *alloc);
 

@@ -17,8 +17,9 @@
    it. */
 #define HR2DI_DEFECT_NO_ESCAPE 1e-13
 
-/* Sets the defect of every patch.  Links of clusters do not count. */
-void hr2di_defect_sum(const hr2d_linkset *links, hr2di_sum *defect);
+/* Sets the defect of every patch.  Links of clusters do not count.  Returns HR2D_OK or the
+   status of the watch. */
+hr2d_status hr2di_defect_sum(const hr2d_linkset *links, hr2di_sum *defect, hr2di_watch *watch);
 
 /* Sets closed[k] to 1 for each patch k that is closed by its defect, else to 0. */
 void hr2di_defect_closed(const hr2d_linkset *links, const hr2di_sum *defect,

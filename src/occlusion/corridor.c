@@ -76,6 +76,8 @@ static hr2d_status add_point(hr2di_chain *chain, const hr2d_allocator *alloc,
                              hr2di_incident_point p, int *grown) {
   const size_t edges = chain->count - 1;
   size_t first = 0, last;
+  const hr2d_status status = hr2di_watch_work(chain->watch, 1 + edges / 4);
+  if (status) return status;
   while (first < edges && !sees(frame, chain, first, p, known)) first++;
   if (first == edges) {
     if (!lengthens(frame, chain, p)) return HR2D_OK;
@@ -102,9 +104,11 @@ int hr2di_chain_sound(const hr2di_pair_lines *frame, const hr2di_chain *chain) {
   size_t marked = 0;
   for (size_t k = 1; k + 1 < chain->count; k++) marked += chain->point[k].on != 0;
   if (marked == 0 || chain->count < 4) return 1;
-  for (size_t edge = 0; edge + 1 < chain->count; edge++)
+  for (size_t edge = 0; edge + 1 < chain->count; edge++) {
+    if (hr2di_watch_work(chain->watch, 1 + chain->count / 4)) return 1;
     for (size_t k = 0; k < chain->count; k++)
       if (sees(frame, chain, edge, chain->point[k], HR2DI_ON_BOTH)) return 0;
+  }
   return 1;
 }
 
@@ -118,6 +122,7 @@ static int search(const hr2di_pair_lines *frame, const hr2di_chain *low,
   t.on &= known;
   for (size_t turns = low->count + high->count + 2; turns > 0; turns--) {
     int moved = 0;
+    if (hr2di_watch_work(low->watch, 1 + (low->count + high->count) / 4)) return 0;
     if (hr2di_incident_same(frame, f, t)) return 0;
     for (size_t k = 0; k < high->count; k++) {
       const hr2di_incident_point p = {high->point[k].at, high->point[k].on & known};
@@ -217,7 +222,7 @@ int hr2di_corridor_area(const hr2di_pair_lines *frame, const hr2di_chain *right,
   if (!bridge(frame, left, right, &l, &r) || !bridge(frame, right, left, &r_last, &l_last))
     return 0;
   hr2d_point x = i.a;
-  for (;;) {
+  while (!hr2di_watch_work(right->watch, 2)) {
     const hr2di_incident_point *at = &right->point[r], *to = &left->point[l];
     const double t_right = r > r_last ? crossing(at[-1], at[0], i, t) : 1;
     const double t_left = l < l_last ? crossing(to[0], to[1], i, t) : 1;

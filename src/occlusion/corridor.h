@@ -12,6 +12,7 @@
 #include <hr2d/memory.h>
 #include <hr2d/status.h>
 
+#include "base/watch.h"
 #include "geometry/orient-incident.h"
 
 typedef enum hr2di_hand { HR2DI_RIGHT = 1, HR2DI_LEFT = -1 } hr2di_hand;
@@ -22,7 +23,10 @@ typedef struct hr2di_chain {
   hr2di_hand hand;
   hr2di_incident_point *point;
   size_t count, capacity;
+  hr2di_watch *watch;
 } hr2di_chain;
+
+/* What a function below returns after its watch has stopped it has no meaning. */
 
 /* Makes the chain from `from` to `to`; HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_chain_init(hr2di_chain *chain, const hr2d_allocator *alloc,

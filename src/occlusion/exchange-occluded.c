@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/sized-struct.h"
 #include "geometry/predicates.h"
 #include "occlusion/pair-visibility.h"
 
@@ -69,10 +70,34 @@ static hr2d_status integrate(hr2di_visibility *sight, hr2d_segment i, hr2d_segme
   return status;
 }
 
-hr2d_status hr2d_exchange_area_occluded(const hr2d_segment *i, const hr2d_segment *j,
-                                        const hr2d_segment *occluder, size_t count,
-                                        const hr2d_allocator *alloc, double *area) {
-  const hr2d_allocator used = alloc ? *alloc : hr2di_alloc_default();
+/* The same with occluders, for segments i, j, occluders in this order. */
+static hr2d_status integrate_scaled(hr2d_segment *segment, size_t count,
+                                    const hr2d_allocator *alloc, hr2di_watch *watch,
+                                    double *area) {
+  int exponent;
+  hr2d_status status = hr2di_watch_work(watch, count / 4);
+  if (!status) status = normalise(segment, count, &exponent);
+  if (status) return status;
+  hr2di_walls walls;
+  hr2di_visibility sight;
+  double scaled = 0;
+  status = hr2di_walls_init(&walls, alloc, segment + 2, count - 2, watch);
+  hr2di_visibility_init(&sight, &walls, alloc, watch);
+  if (!status) status = integrate(&sight, segment[0], segment[1], &scaled);
+  /* Roundings of far coordinates may exceed all there is of a small pair. */
+  scaled = fmin(scaled, hr2d_exchange_area(&segment[0], &segment[1]));
+  if (!status) *area = ldexp(scaled, exponent);
+  hr2di_visibility_clear(&sight);
+  hr2di_walls_clear(&walls);
+  return status;
+}
+
+hr2d_status hr2d_exchange_area_past(const hr2d_segment *i, const hr2d_segment *j,
+                                    const hr2d_segment *occluder, size_t count,
+                                    const hr2d_past_options *given, double *area) {
+  hr2d_past_options options = {.struct_size = sizeof options};
+  if (given) hr2di_sized_copy(&options, sizeof options, given);
+  const hr2d_allocator used = options.alloc ? *options.alloc : hr2di_alloc_default();
   if (count == 0) {
     if (!is_finite(*i) || !is_finite(*j)) return HR2D_EINVAL;
     *area = hr2d_exchange_area(i, j);
@@ -85,21 +110,16 @@ hr2d_status hr2d_exchange_area_occluded(const hr2d_segment *i, const hr2d_segmen
   segment[0] = in_order ? *i : *j;
   segment[1] = in_order ? *j : *i;
   memcpy(segment + 2, occluder, count * sizeof *segment);
-  int exponent;
-  hr2d_status status = normalise(segment, count + 2, &exponent);
-  if (!status) {
-    hr2di_walls walls;
-    hr2di_visibility sight;
-    double scaled = 0;
-    status = hr2di_walls_init(&walls, &used, segment + 2, count);
-    hr2di_visibility_init(&sight, &walls, &used);
-    if (!status) status = integrate(&sight, segment[0], segment[1], &scaled);
-    /* Roundings of far coordinates may exceed all there is of a small pair. */
-    scaled = fmin(scaled, hr2d_exchange_area(&segment[0], &segment[1]));
-    if (!status) *area = ldexp(scaled, exponent);
-    hr2di_visibility_clear(&sight);
-    hr2di_walls_clear(&walls);
-  }
+  hr2di_watch watch;
+  hr2di_watch_init(&watch, options.progress, options.progress_ctx, "factors");
+  const hr2d_status status = integrate_scaled(segment, count + 2, &used, &watch, area);
   hr2di_alloc_free(&used, segment);
   return status;
+}
+
+hr2d_status hr2d_exchange_area_occluded(const hr2d_segment *i, const hr2d_segment *j,
+                                        const hr2d_segment *occluder, size_t count,
+                                        const hr2d_allocator *alloc, double *area) {
+  const hr2d_past_options options = {.struct_size = sizeof options, .alloc = alloc};
+  return hr2d_exchange_area_past(i, j, occluder, count, &options, area);
 }

@@ -10,10 +10,10 @@
 #include "occlusion/line-classes.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "base/union-find.h"
 #include "geometry/orient-sign.h"
 
@@ -25,9 +25,10 @@ typedef struct hr2di_put_off {
   size_t island;      /* the next to be tried */
 } hr2di_put_off;
 
-void hr2di_classes_init(hr2di_classes *c, const hr2di_walls *walls,
-                        const hr2d_allocator *alloc) {
-  *c = (hr2di_classes){.walls = walls, .alloc = *alloc};
+void hr2di_classes_init(hr2di_classes *c, const hr2di_walls *walls, const hr2d_allocator *alloc,
+                        hr2di_watch *watch) {
+  *c = (hr2di_classes){.walls = walls, .alloc = *alloc, .watch = watch};
+  c->right.watch = c->left.watch = c->wider_right.watch = c->wider_left.watch = watch;
   c->right.hand = HR2DI_RIGHT;
   c->left.hand = HR2DI_LEFT;
   c->wider_right.hand = HR2DI_RIGHT;
@@ -91,13 +92,17 @@ static void join_at(hr2di_classes *c, uint32_t k, uint32_t vertex) {
 }
 
 /* A joint counts only within the shaft: outside of it something may pass between. */
-static void join_all(hr2di_classes *c, const hr2di_shaft *shaft) {
-  for (uint32_t k = 0; k < c->barriers; k++)
+static hr2d_status join_all(hr2di_classes *c, const hr2di_shaft *shaft) {
+  hr2d_status status = HR2D_OK;
+  for (uint32_t k = 0; k < c->barriers && !status; k++) {
+    status = hr2di_watch_work(c->watch, 1);
     for (int e = 0; e < 2; e++) {
       const hr2di_barrier *b = &c->barrier[k];
       if ((b->at.whole & (1u << e)) && between_sides(shaft, b->at.end[e]))
         join_at(c, k, c->walls->wall[b->wall].vertex[e]);
     }
+  }
+  return status;
 }
 
 static hr2d_status reserve(hr2di_classes *c, size_t count) {
@@ -155,6 +160,8 @@ static hr2d_status gather(hr2di_classes *c, const hr2di_shaft *s, unsigned known
     if (hr2di_union_find(c->parent, k) != k) continue;
     const size_t first = c->points;
     int grown;
+    status = hr2di_watch_work(c->watch, 1 + (c->barriers - k) / 32);
+    if (status) return status;
     put_points(c, k);
     const size_t count = c->points - first;
     if (c->barrier[k].hand == 0)
@@ -182,6 +189,8 @@ hr2d_status hr2di_classes_sort(hr2di_classes *c, const hr2di_shaft *shaft, const
   *passable = 0;
   for (size_t k = 0; k < count; k++) {
     hr2di_barrier b = {.wall = wall[k]};
+    const hr2d_status asked = hr2di_watch_work(c->watch, 2);
+    if (asked) return asked;
     if (!hr2di_shaft_test(shaft, c->walls->wall[wall[k]].at, &b.at)) continue;
     if (b.at.right && meets_side(&shaft->frame, &b.at, shaft->b, shaft->c)) b.hand |= TO_RIGHT;
     if (b.at.left && meets_side(&shaft->frame, &b.at, shaft->a, shaft->d)) b.hand |= TO_LEFT;
@@ -189,15 +198,15 @@ hr2d_status hr2di_classes_sort(hr2di_classes *c, const hr2di_shaft *shaft, const
     c->joint_of[wall[k]] = c->parent[c->barriers] = (uint32_t)c->barriers;
     c->barrier[c->barriers++] = b;
   }
-  join_all(c, shaft);
+  hr2d_status status = join_all(c, shaft);
+  if (status) return status;
   for (uint32_t k = 0; k < c->barriers; k++)
     if (c->barrier[hr2di_union_find(c->parent, k)].hand == NEITHER) return HR2D_OK;
-  const hr2d_status status = begin(c, shaft);
+  status = begin(c, shaft);
   if (status) return status;
   /* Without islands there is one class, and the sum looks at it. */
   *passable = c->islands == 0 || hr2di_corridor_open(&shaft->frame, &c->right, &c->left);
-  if (c->islands > 1) qsort(c->island, c->islands, sizeof *c->island, by_width);
-  return HR2D_OK;
+  return hr2di_sort(c->island, c->islands, sizeof *c->island, by_width, c->watch);
 }
 
 static hr2d_status copy(hr2di_chain *to, const hr2d_allocator *alloc,
@@ -276,7 +285,7 @@ static hr2d_status place(hr2di_classes *c, const hr2di_shaft *shaft, size_t k, i
   else if (right)
     swap(&c->right, &c->wider_right);
   *open = right || left;
-  return status;
+  return status ? status : hr2di_watch_status(c->watch);
 }
 
 hr2d_status hr2di_classes_sum(hr2di_classes *c, const hr2di_shaft *shaft, double *area,
@@ -293,14 +302,14 @@ hr2d_status hr2di_classes_sum(hr2di_classes *c, const hr2di_shaft *shaft, double
     if (status) return status;
     if (passable && !area) {
       *open = c->islands > 0 || hr2di_corridor_open(&shaft->frame, &c->right, &c->left);
-      return HR2D_OK;
+      return hr2di_watch_status(c->watch);
     }
     double some = 0;
     if (passable)
       *open |= hr2di_corridor_area(&shaft->frame, &c->right, &c->left,
                                    (hr2d_segment){shaft->a.at, shaft->b.at}, &some);
     if (area) *area += some;
-    if (c->put_offs == 0) return HR2D_OK;
+    if (c->put_offs == 0) return hr2di_watch_status(c->watch);
     status = take_up(c, &island);
     if (status) return status;
   }

@@ -27,6 +27,7 @@ typedef struct hr2di_island {
 typedef struct hr2di_classes {
   const hr2di_walls *walls;
   hr2d_allocator alloc;
+  hr2di_watch *watch;
   hr2di_barrier *barrier;
   size_t barriers, barrier_capacity;
   uint32_t *parent; /* union-find: barriers that are joined leave no gap */
@@ -46,11 +47,12 @@ typedef struct hr2di_classes {
 } hr2di_classes;
 
 void hr2di_classes_init(hr2di_classes *classes, const hr2di_walls *walls,
-                        const hr2d_allocator *alloc);
+                        const hr2d_allocator *alloc, hr2di_watch *watch);
 void hr2di_classes_clear(hr2di_classes *classes);
 
 /* Sorts the walls in the way of a shaft: to the right, to the left, and islands.
- *passable is 0 if they are seen to leave no gap.  HR2D_OK or HR2D_ENOMEM. */
+ *passable is 0 if they are seen to leave no gap.  HR2D_OK, HR2D_ENOMEM or the status of the
+   watch. */
 hr2d_status hr2di_classes_sort(hr2di_classes *classes, const hr2di_shaft *shaft,
                                const uint32_t *wall, size_t count, int *passable);
 

@@ -4,9 +4,9 @@
 #include "occlusion/pair-visibility.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "occlusion/wall-bodies.h"
 #include "occlusion/wall-tree.h"
 
@@ -18,10 +18,18 @@ enum { MOST_ISLANDS = 8, MOST_CUTS = 24 };
    they leave none. */
 enum { FEW = 4, WIDEST = 16 };
 
+/* Tests between two declarations of work; a test takes some 0.05 µs. */
+enum { TESTS = 16 };
+
+/* Declares work at the start of a loop over tests, and then before every TESTS of them. */
+static inline hr2d_status declare(const hr2di_visibility *s, size_t test) {
+  return test % TESTS == 0 ? hr2di_watch_work(s->watch, test ? TESTS / 2 : 2) : HR2D_OK;
+}
+
 void hr2di_visibility_init(hr2di_visibility *sight, const hr2di_walls *walls,
-                           const hr2d_allocator *alloc) {
-  *sight = (hr2di_visibility){.walls = walls, .alloc = *alloc};
-  hr2di_classes_init(&sight->classes, walls, alloc);
+                           const hr2d_allocator *alloc, hr2di_watch *watch) {
+  *sight = (hr2di_visibility){.walls = walls, .alloc = *alloc, .watch = watch};
+  hr2di_classes_init(&sight->classes, walls, alloc, watch);
 }
 
 void hr2di_visibility_clear(hr2di_visibility *sight) {
@@ -88,18 +96,16 @@ static int by_number(const void *left, const void *right) {
   return (l > r) - (l < r);
 }
 
-static void sort(uint32_t *wall, size_t count) {
+static hr2d_status sort(uint32_t *wall, size_t count, hr2di_watch *watch) {
   enum { SHORT = 24 };
-  if (count > SHORT) {
-    qsort(wall, count, sizeof *wall, by_number);
-    return;
-  }
+  if (count > SHORT) return hr2di_sort(wall, count, sizeof *wall, by_number, watch);
   for (size_t k = 1; k < count; k++) {
     const uint32_t moved = wall[k];
     size_t m = k;
     for (; m > 0 && wall[m - 1] > moved; m--) wall[m] = wall[m - 1];
     wall[m] = moved;
   }
+  return HR2D_OK;
 }
 
 /* How far the middle of a box is from that of a shaft, squared and four times. */
@@ -121,12 +127,15 @@ static hr2d_status collect(hr2di_visibility *s, const hr2di_shaft *shaft, size_t
   const size_t before = found->count;
   const hr2d_point middle = middle_of(shaft);
   uint32_t stack[HR2DI_BOX_DEPTH], count = 0;
+  size_t turn = 0;
   hr2d_status status = HR2D_OK;
   *view = HR2DI_CLEAR;
   s->looks++;
   stack[count++] = 0;
   while (count > 0 && !status && *view != HR2DI_BLOCKED && found->count - before <= most) {
     const hr2di_box *box = &s->walls->box[stack[--count]];
+    status = declare(s, turn++);
+    if (status) break;
     if (box->wall != HR2DI_NO_WALL) {
       status = test(s, shaft, box->wall, found, view);
       continue;
@@ -143,7 +152,8 @@ static hr2d_status collect(hr2di_visibility *s, const hr2di_shaft *shaft, size_t
     stack[count++] = box->below + nearer;
   }
   if (*view == HR2DI_BLOCKED) found->count = before;
-  if (found->count > before + 1) sort(found->wall + before, found->count - before);
+  if (!status && found->count > before + 1)
+    status = sort(found->wall + before, found->count - before, s->watch);
   return status;
 }
 
@@ -170,8 +180,10 @@ hr2d_status hr2di_visibility_shrink(hr2di_visibility *s, const hr2di_shaft *shaf
   hr2d_status status = HR2D_OK;
   *view = HR2DI_CLEAR;
   s->looks++;
-  for (size_t k = first; k < first + count && !status && *view != HR2DI_BLOCKED; k++)
-    status = test(s, shaft, from->wall[k], found, view);
+  for (size_t k = 0; k < count && !status && *view != HR2DI_BLOCKED; k++) {
+    status = declare(s, k);
+    if (!status) status = test(s, shaft, from->wall[first + k], found, view);
+  }
   if (*view == HR2DI_BLOCKED) found->count = before;
   return status;
 }
@@ -257,6 +269,7 @@ static hr2d_status sum_parts(hr2di_visibility *s, const hr2di_shaft *shaft,
   s->list.count = 0;
   if (hr2di_alloc_reserve(&s->alloc, &s->list.wall, &s->list.capacity, count, sizeof *wall))
     return HR2D_ENOMEM;
+  status = hr2di_watch_work(s->watch, 1 + count / 64);
   for (size_t k = 0; k < count; k++) s->list.wall[k] = wall[k];
   s->list.count = count;
   stack[0] = (part){*shaft, 0, count, 0};
@@ -293,8 +306,9 @@ static int centres_see(const hr2di_visibility *s, const hr2di_shaft *shaft,
 
 hr2d_status hr2di_visibility_any(hr2di_visibility *sight, const hr2di_shaft *shaft,
                                  const uint32_t *wall, size_t count, int *open) {
+  const hr2d_status status = hr2di_watch_work(sight->watch, 1 + count / 16);
   *open = centres_see(sight, shaft, wall, count);
-  if (*open) return HR2D_OK;
+  if (status || *open) return status;
   return sum_parts(sight, shaft, wall, count, NULL, open);
 }
 
@@ -321,8 +335,9 @@ hr2d_status hr2di_visibility_blocked(hr2di_visibility *s, const hr2di_shaft *sha
     widest[at] = wall[k];
   }
   int open;
-  const hr2d_status status = hr2di_visibility_any(s, shaft, widest, kept, &open);
-  *blocked = !open;
+  hr2d_status status = hr2di_watch_work(s->watch, 1 + count / 8);
+  if (!status) status = hr2di_visibility_any(s, shaft, widest, kept, &open);
+  *blocked = !status && !open;
   return status;
 }
 

@@ -31,8 +31,9 @@ typedef struct hr2di_reach {
 typedef struct hr2di_visibility {
   const hr2di_walls *walls;
   hr2d_allocator alloc;
-  uint64_t tests; /* of walls and boxes against a shaft, so far */
-  uint32_t last;  /* the wall found last to be in the way, or one of its body */
+  hr2di_watch *watch; /* of the same thread; NULL: nobody watches */
+  uint64_t tests;     /* of walls and boxes against a shaft, so far */
+  uint32_t last;      /* the wall found last to be in the way, or one of its body */
   uint64_t looks;
   hr2di_reach reach[HR2DI_REACHES];
   hr2di_classes classes;
@@ -40,7 +41,7 @@ typedef struct hr2di_visibility {
 } hr2di_visibility;
 
 void hr2di_visibility_init(hr2di_visibility *sight, const hr2di_walls *walls,
-                           const hr2d_allocator *alloc);
+                           const hr2d_allocator *alloc, hr2di_watch *watch);
 void hr2di_visibility_clear(hr2di_visibility *sight);
 
 typedef enum hr2di_visibility_class {
@@ -49,9 +50,11 @@ typedef enum hr2di_visibility_class {
   HR2DI_BLOCKED  /* nothing passes */
 } hr2di_visibility_class;
 
-/* Appends to `found` the walls in the way, of those in the scene, by their numbers; HR2D_OK or
-   HR2D_ENOMEM. Nothing is appended unless the view is partial.  One wall across is noticed
-   here, what several block together by hr2di_visibility_any(). */
+/* The functions below return HR2D_OK, HR2D_ENOMEM or the status of the watch. */
+
+/* Appends to `found` the walls in the way, of those in the scene, by their numbers.  Nothing is
+   appended unless the view is partial.  One wall across is noticed here, what several block
+   together by hr2di_visibility_any(). */
 hr2d_status hr2di_visibility_collect(hr2di_visibility *sight, const hr2di_shaft *shaft,
                                      hr2di_wall_list *found, hr2di_visibility_class *view);
 

@@ -32,12 +32,14 @@ static void extend(hr2di_body *body, hr2d_point p) {
   }
 }
 
-hr2d_status hr2di_wall_bodies_init(hr2di_walls *w) {
+hr2d_status hr2di_wall_bodies_init(hr2di_walls *w, hr2di_watch *watch) {
   uint32_t *parent = hr2di_alloc(&w->alloc, w->walls, sizeof *parent);
   uint32_t *first = hr2di_alloc(&w->alloc, w->vertices, sizeof *first);
-  const hr2d_status status = parent && first ? HR2D_OK : HR2D_ENOMEM;
+  hr2d_status status = parent && first ? HR2D_OK : HR2D_ENOMEM;
+  if (!status) status = hr2di_watch_work(watch, w->walls / 4);
   if (!status) unite(w, parent, first);
   for (uint32_t k = 0; k < w->walls && !status; k++) {
+    if (k % 16 == 0) status = hr2di_watch_work(watch, 8);
     const uint32_t root = hr2di_union_find(parent, k);
     const hr2d_segment s = w->wall[k].at;
     if (root == k) {

@@ -19,8 +19,8 @@ struct hr2di_body {
 };
 
 /* Fills walls->body and walls->body_of, which have room, from the vertices of the walls;
-   HR2D_OK or HR2D_ENOMEM. */
-hr2d_status hr2di_wall_bodies_init(hr2di_walls *walls);
+   HR2D_OK, HR2D_ENOMEM or the status of the watch. */
+hr2d_status hr2di_wall_bodies_init(hr2di_walls *walls, hr2di_watch *watch);
 
 /* The chord of a body that lies most across a direction. */
 hr2d_segment hr2di_body_chord_across(const hr2di_body *body, double dx, double dy);

@@ -8,9 +8,9 @@
 #include "occlusion/wall-tree.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "occlusion/wall-bodies.h"
 
 typedef struct item {
@@ -49,19 +49,21 @@ static double centre(const hr2di_walls *walls, item i, int by_x, int of_body) {
               : body->chord[1].a.y + body->chord[1].b.y;
 }
 
-/* Sets a box around its items and sorts these; whether they are of one body. */
-static int fit(const hr2di_walls *walls, hr2di_box *box, item *items, size_t count) {
+/* Sets a box around its items and sorts these; *one is whether they are of one body. */
+static hr2d_status fit(const hr2di_walls *walls, hr2di_box *box, item *items, size_t count,
+                       int *one, hr2di_watch *watch) {
+  const hr2d_status status = hr2di_watch_work(watch, 1 + count / 4);
+  if (status) return status;
   *box = (hr2di_box){.x0 = HUGE_VAL, .x1 = -HUGE_VAL, .y0 = HUGE_VAL, .y1 = -HUGE_VAL};
-  int one = 1;
+  *one = 1;
   for (size_t k = 0; k < count; k++) {
     enclose(box, walls->wall[items[k].wall].at);
-    one &= items[k].body == items[0].body;
+    *one &= items[k].body == items[0].body;
   }
   box->wall = count == 1 ? items[0].wall : HR2DI_NO_WALL;
   const int by_x = box->x1 - box->x0 > box->y1 - box->y0;
-  for (size_t k = 0; k < count; k++) items[k].key = centre(walls, items[k], by_x, !one);
-  qsort(items, count, sizeof *items, by_key);
-  return one;
+  for (size_t k = 0; k < count; k++) items[k].key = centre(walls, items[k], by_x, !*one);
+  return hr2di_sort(items, count, sizeof *items, by_key, watch);
 }
 
 /* Where to cut: at the border of two bodies that is nearest to the middle. */
@@ -75,19 +77,22 @@ static size_t cut(const item *items, size_t count, int one) {
   return middle;
 }
 
-hr2d_status hr2di_wall_tree_init(hr2di_walls *walls) {
+hr2d_status hr2di_wall_tree_init(hr2di_walls *walls, hr2di_watch *watch) {
   item *items = hr2di_alloc(&walls->alloc, walls->walls, sizeof *items);
   if (!items) return HR2D_ENOMEM;
   for (uint32_t k = 0; k < walls->walls; k++) items[k] = (item){0, k, walls->body_of[k]};
   task tasks[HR2DI_BOX_DEPTH];
   size_t count = 0;
   uint32_t boxes = 1;
+  hr2d_status status = HR2D_OK;
   tasks[count++] = (task){0, 0, walls->walls, 1};
-  while (count > 0) {
+  while (count > 0 && !status) {
     const task t = tasks[--count];
     hr2di_box *box = &walls->box[t.box];
     item *some = items + t.first;
-    const int one = fit(walls, box, some, t.last - t.first);
+    int one;
+    status = fit(walls, box, some, t.last - t.first, &one, watch);
+    if (status) break;
     box->body = one && t.whole && t.last - t.first > 1 ? some[0].body : HR2DI_NO_BODY;
     if (t.last - t.first == 1) continue;
     const size_t middle = t.first + cut(some, t.last - t.first, one);
@@ -97,5 +102,5 @@ hr2d_status hr2di_wall_tree_init(hr2di_walls *walls) {
     tasks[count++] = (task){box->below + 1, middle, t.last, t.whole && !one};
   }
   hr2di_alloc_free(&walls->alloc, items);
-  return HR2D_OK;
+  return status;
 }

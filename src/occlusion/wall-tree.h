@@ -9,7 +9,7 @@
    least every third level, see wall-tree.c. */
 enum { HR2DI_BOX_DEPTH = 100 };
 
-/* Fills walls->box, which has room; HR2D_OK or HR2D_ENOMEM. */
-hr2d_status hr2di_wall_tree_init(hr2di_walls *walls);
+/* Fills walls->box, which has room; HR2D_OK, HR2D_ENOMEM or the status of the watch. */
+hr2d_status hr2di_wall_tree_init(hr2di_walls *walls, hr2di_watch *watch);
 
 #endif

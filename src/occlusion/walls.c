@@ -2,9 +2,8 @@
 /* Segments to walls: vertices, runs on one line, joints. */
 #include "occlusion/walls.h"
 
-#include <stdlib.h>
-
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "base/union-find.h"
 #include "geometry/orient-sign.h"
 #include "geometry/predicates.h"
@@ -68,8 +67,9 @@ static void unite_at(runs *r, const tip *first, size_t count) {
     }
 }
 
-/* Numbers the vertices; their number. */
-static size_t find_runs(runs *r) {
+/* Numbers the vertices; *count is their number. */
+static hr2d_status find_runs(runs *r, size_t *count, hr2di_watch *watch) {
+  hr2d_status status = hr2di_watch_work(watch, r->count / 4);
   for (size_t k = 0; k < r->count; k++) {
     const hr2d_segment s = r->segment[k];
     r->parent[k] = (uint32_t)k;
@@ -77,16 +77,20 @@ static size_t find_runs(runs *r) {
     r->tip[2 * k] = (tip){s.a, (uint32_t)k, 0};
     r->tip[2 * k + 1] = (tip){s.b, (uint32_t)k, 1};
   }
-  qsort(r->tip, 2 * r->count, sizeof *r->tip, by_point);
+  if (!status) status = hr2di_sort(r->tip, 2 * r->count, sizeof *r->tip, by_point, watch);
   size_t vertices = 0;
-  for (size_t first = 0, last; first < 2 * r->count; first = last, vertices++) {
+  for (size_t first = 0, last; first < 2 * r->count && !status; first = last, vertices++) {
+    status = hr2di_watch_work(watch, 1);
     for (last = first;
          last < 2 * r->count && hr2di_point_same(r->tip[last].point, r->tip[first].point);
          last++)
       r->vertex[2 * r->tip[last].segment + r->tip[last].which] = (uint32_t)vertices;
+    if (last - first <= MOST_MEETING)
+      status = hr2di_watch_work(watch, (last - first) * (last - first) / 2);
     unite_at(r, r->tip + first, last - first);
   }
-  return vertices;
+  *count = vertices;
+  return status;
 }
 
 /* One wall per run; vertices within a run have it as their host. */
@@ -163,17 +167,17 @@ static hr2d_status reserve(hr2di_walls *w, runs *r, size_t count) {
 }
 
 hr2d_status hr2di_walls_init(hr2di_walls *walls, const hr2d_allocator *alloc,
-                             const hr2d_segment *segment, size_t count) {
+                             const hr2d_segment *segment, size_t count, hr2di_watch *watch) {
   *walls = (hr2di_walls){.alloc = *alloc};
   runs r = {.segment = segment, .count = count};
   hr2d_status status = reserve(walls, &r, count);
-  if (!status) {
-    walls->vertices = find_runs(&r);
-    make_walls(walls, &r);
-    status = hr2di_wall_bodies_init(walls);
-    if (!status) status = hr2di_wall_tree_init(walls);
-  }
+  if (!status) status = find_runs(&r, &walls->vertices, watch);
+  if (!status) status = hr2di_watch_work(watch, count / 2);
+  if (!status) make_walls(walls, &r);
+  if (!status) status = hr2di_wall_bodies_init(walls, watch);
+  if (!status) status = hr2di_wall_tree_init(walls, watch);
   for (size_t k = 0; k < 2 * count && !status; k++) {
+    status = hr2di_watch_work(watch, 4);
     uint32_t *host = &walls->host[r.vertex[2 * r.tip[k].segment + r.tip[k].which]];
     if (*host == HR2DI_NO_WALL) *host = host_of(walls, r.tip[k].point);
   }

@@ -12,6 +12,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/watch.h"
+
 #define HR2DI_NO_WALL UINT32_MAX
 #define HR2DI_NO_BODY UINT32_MAX
 
@@ -43,10 +45,10 @@ typedef struct hr2di_walls {
   hr2di_box *box; /* box 0 is around all; 2·walls − 1 of them */
 } hr2di_walls;
 
-/* Makes walls of `count` ≥ 1 segments, with coordinates in [-2,2]; HR2D_OK or
-   HR2D_ENOMEM.  To be ended by hr2di_walls_clear() in either case. */
+/* Makes walls of `count` ≥ 1 segments, with coordinates in [-2,2]; HR2D_OK, HR2D_ENOMEM or
+   the status of the watch.  To be ended by hr2di_walls_clear() in either case. */
 hr2d_status hr2di_walls_init(hr2di_walls *walls, const hr2d_allocator *alloc,
-                             const hr2d_segment *segment, size_t count);
+                             const hr2d_segment *segment, size_t count, hr2di_watch *watch);
 
 void hr2di_walls_clear(hr2di_walls *walls);
 

@@ -24,6 +24,10 @@ static int samples_of(const hr2d_batch *batch, uint32_t element) {
   return level < LEVELS ? SAMPLES >> level : 1;
 }
 
+uint64_t hr2di_l1_grid_samples(const hr2d_batch *batch, hr2d_pair pair) {
+  return (uint64_t)samples_of(batch, pair.first) * (uint64_t)samples_of(batch, pair.second);
+}
+
 /* `scale` keeps r² in range. */
 static void place(const hr2d_element *e, const hr2d_element *other, hr2d_point origin,
                   double scale, samples *s) {

@@ -4,6 +4,10 @@
 #define HR2D_SRC_ORACLE_L1_GRID_H
 
 #include <hr2d/oracle.h>
+#include <stdint.h>
+
+/* The number of samples in a pair. */
+uint64_t hr2di_l1_grid_samples(const hr2d_batch *batch, hr2d_pair pair);
 
 /* Σ |G(x_c,y_c) − G(x,y)|·(area of a cell) over the samples in a pair, in the unit
    of the elements.  If the sum is above `enough`, any number above `enough` may be returned.

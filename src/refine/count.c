@@ -8,11 +8,8 @@
 #include <hr2d/refine.h>
 #include <stdatomic.h>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "base/alloc.h"
+#include "base/team.h"
 #include "refine/occluded-pairs.h"
 #include "refine/projector.h"
 #include "refine/rounds.h"
@@ -28,6 +25,7 @@ enum {
 typedef struct worker {
   hr2d_linkset links; /* a copy with a hierarchy and a message of its own, without links */
   hr2di_projector *projector;
+  hr2di_watch own; /* but the calling thread has that of the team */
   hr2d_status status;
 } worker;
 
@@ -42,9 +40,9 @@ typedef struct team {
   hr2di_occluded_pairs occluded;
   size_t next_patch; /* the first not yet projected */
 
-  atomic_ullong links_reported; /* L of all workers but the first */
+  hr2di_watch *watch;        /* of the calling thread */
+  atomic_ullong links_found; /* L of all workers but the first */
   atomic_ullong tasks_done;
-  atomic_int stop;
 } team;
 
 static size_t shares(size_t pairs) {
@@ -64,36 +62,22 @@ static hr2di_stack *stack_of(hr2di_projector *p, int k) {
   return stack[k];
 }
 
-/* Every worker checks whether another has failed; the calling thread reports progress. */
-static hr2d_status report(hr2di_projector *p) {
-  team *t = p->report_ctx;
-  if (atomic_load(&t->stop)) return HR2D_STOPPED;
-  if (p != t->worker[0].projector || !p->options.progress) return HR2D_OK;
-  const unsigned long long tasks = task_count(t);
-  const hr2d_progress progress = {
-      .struct_size = sizeof progress,
-      .phase = "refine",
-      .elements = p->hierarchy->elements,
-      .links = atomic_load(&t->links_reported) + p->counts.links,
-      .fraction = tasks ? (double)atomic_load(&t->tasks_done) / (double)tasks : 0};
-  const hr2d_status status = p->options.progress(p->options.progress_ctx, &progress);
-  return status ? hr2di_message_fail(&p->links->message, status, "callback \"progress\": %s",
-                                     hr2d_strerror(status))
-                : HR2D_OK;
+/* What the team has done, for the watch; with one worker hr2di_rounds_describe() knows more. */
+static void describe(void *of, hr2d_progress *told) {
+  const team *t = of;
+  const hr2di_projector *p = t->worker[0].projector;
+  const unsigned long long tasks = task_count(t), done = atomic_load(&t->tasks_done);
+  told->elements = p->hierarchy->elements;
+  told->links = atomic_load(&t->links_found) + p->counts.links;
+  told->fraction = tasks && done < tasks ? (double)done / (double)tasks : tasks > 0;
 }
 
 static size_t wanted_workers(const hr2d_linkset *links, const hr2d_refine_options *options) {
-#ifdef _OPENMP
-  size_t wanted = options->threads ? options->threads : (size_t)omp_get_max_threads();
+  size_t wanted = hr2di_team_threads(options->threads);
   if (!(links->oracle.flags & HR2D_ORACLE_THREAD_SAFE) ||
       !(links->policy.flags & HR2D_POLICY_THREAD_SAFE))
     wanted = 1;
   return wanted < MOST_WORKERS ? wanted : MOST_WORKERS;
-#else
-  (void)links;
-  (void)options;
-  return 1;
-#endif
 }
 
 /* The budget of bytes has an equal part for each worker and one for the union of their trees;
@@ -118,13 +102,18 @@ static hr2d_status hire(team *t, size_t k, const hr2d_hierarchy *from) {
     return hr2di_message_fail(&w->links.message, status, "out of memory for the count");
   w->links.hierarchy = t->clone[k];
   t->clone[k]->refining = 1;
-  status = hr2di_projector_create(&w->links, &options, &w->projector);
+  hr2di_watch_follow(&w->own, t->watch);
+  status =
+      hr2di_projector_create(&w->links, &options, k == 0 ? t->watch : &w->own, &w->projector);
   if (status == HR2D_EMAX_BYTES)
     return hr2di_projector_fail_budget(&w->links, t->options.max_bytes, 0);
   if (status) return status;
   w->projector->budget = t->options.max_bytes;
-  if (t->count > 1) w->projector->report = report;
-  w->projector->report_ctx = t;
+  if (k > 0) return HR2D_OK;
+  if (t->count > 1)
+    hr2di_watch_describe(t->watch, describe, t);
+  else
+    hr2di_watch_describe(t->watch, hr2di_rounds_describe, w->projector);
   return HR2D_OK;
 }
 
@@ -170,37 +159,26 @@ static hr2d_status take(team *t, hr2di_projector *p, size_t task) {
   return hr2di_projector_row(p, t->next_patch + (task - occluded));
 }
 
-static hr2d_status do_task(team *t, hr2di_projector *p, size_t task) {
+static void do_task(void *ctx, size_t number, size_t task) {
+  team *t = ctx;
+  worker *w = &t->worker[number];
+  hr2di_projector *p = w->projector;
   const uint64_t before = p->counts.links;
-  hr2d_status status = report(p);
-  if (!status) status = take(t, p, task);
-  if (!status) status = hr2di_rounds_run(p, SIZE_MAX);
-  if (p != t->worker[0].projector)
-    atomic_fetch_add(&t->links_reported, p->counts.links - before);
+  if (w->status) return;
+  w->status = hr2di_projector_fail(p, hr2di_watch_status(p->watch), "");
+  if (!w->status) w->status = take(t, p, task);
+  if (!w->status) w->status = hr2di_rounds_run(p, SIZE_MAX);
+  if (number > 0) atomic_fetch_add(&t->links_found, p->counts.links - before);
   atomic_fetch_add(&t->tasks_done, 1);
-  return status;
+  if (w->status) hr2di_watch_stop(t->watch, HR2D_STOPPED);
 }
 
-/* The calling thread reports progress before and after, because it may get no task. */
+/* The calling thread asks before, because it may get no task. */
 static void work(team *t) {
-  const long long tasks = (long long)task_count(t);
   worker *first = &t->worker[0];
-  first->status = report(first->projector);
+  first->status = hr2di_projector_fail(first->projector, hr2di_watch_ask(t->watch), "");
   if (first->status) return;
-#ifdef _OPENMP
-#pragma omp parallel for num_threads((int)t->count) schedule(dynamic)
-#endif
-  for (long long task = 0; task < tasks; task++) {
-#ifdef _OPENMP
-    worker *w = &t->worker[omp_get_thread_num()];
-#else
-    worker *w = first;
-#endif
-    if (atomic_load(&t->stop)) continue;
-    w->status = do_task(t, w->projector, (size_t)task);
-    if (w->status) atomic_store(&t->stop, 1);
-  }
-  if (!atomic_load(&t->stop)) first->status = report(first->projector);
+  hr2di_team_run(t->count, (size_t)task_count(t), do_task, t, t->watch);
 }
 
 static uint64_t shared_bytes(const team *t) {
@@ -272,9 +250,12 @@ static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
   const size_t elements = links->hierarchy->elements;
   const size_t hired = t->count > 1 && t->clone[1] ? t->count : 1;
   const hr2d_status status =
-      hr2di_hierarchy_unite(links->hierarchy, t->clone, hired, union_room(t, hired));
+      hr2di_hierarchy_unite(links->hierarchy, t->clone, hired, union_room(t, hired), t->watch);
   if (status == HR2D_EMAX_BYTES)
     return hr2di_projector_fail_budget(links, t->options.max_bytes, sum.links);
+  if (hr2di_watch_refused(t->watch))
+    return hr2di_message_fail(&links->message, status, "callback \"progress\": %s",
+                              hr2d_strerror(status));
   if (status) return hr2di_message_fail(&links->message, status, "no room for the elements");
   if (t->options.max_elements && links->hierarchy->elements > t->options.max_elements) {
     hr2di_hierarchy_truncate(links->hierarchy, elements);
@@ -299,6 +280,11 @@ static hr2d_status count_as_team(team *t, hr2d_refine_counts *counts) {
   first->status = hire(t, 0, t->links->hierarchy);
   if (!first->status) first->status = begin(t);
   if (!first->status && t->count > 1 && !finished(t)) share_out(t);
+  if (!first->status) hr2di_rounds_measure(first->projector);
+  if (t->count > 1) hr2di_watch_describe(t->watch, NULL, NULL);
+  if (t->count > 1) t->watch->told.fraction = 1;
+  if (!first->status)
+    first->status = hr2di_projector_fail(first->projector, hr2di_watch_ask(t->watch), "");
   t->links->hierarchy->refining = 0;
   const hr2d_status status = gather_status(t);
   return status ? status : sum_up(t, counts);
@@ -306,11 +292,14 @@ static hr2d_status count_as_team(team *t, hr2d_refine_counts *counts) {
 
 hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *options,
                               hr2d_refine_counts *counts) {
-  team t = {.links = links};
+  hr2di_watch watch;
+  team t = {.links = links, .watch = &watch};
   if (links->store.count > 0)
     return hr2di_message_fail(&links->message, HR2D_ESTATE, "the set has links already");
   hr2d_status status = hr2di_projector_check_options(links, options, &t.options);
   if (status) return status;
+  hr2di_scene_watch(links->hierarchy->scene, &watch, t.options.progress, t.options.progress_ctx,
+                    "refine");
   t.count = wanted_workers(links, &t.options);
   if (t.options.max_bytes &&
       t.count * (sizeof *t.worker + sizeof *t.clone) > t.options.max_bytes)

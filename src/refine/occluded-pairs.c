@@ -12,9 +12,8 @@
 #include "geometry/exchange-area.h"
 #include "scene/scene-impl.h"
 
-static hr2d_status out_of_memory(hr2di_projector *p) {
-  return hr2di_message_fail(&p->links->message, HR2D_ENOMEM,
-                            "out of memory for walls in the way");
+static hr2d_status fail(hr2di_projector *p, hr2d_status status) {
+  return hr2di_projector_fail(p, status, " for walls in the way");
 }
 
 /* The patch with the lower number comes first, so that both directions get the same
@@ -58,7 +57,7 @@ hr2d_status hr2di_occluded_collect(hr2di_projector *p, hr2d_pair pair,
   if (!make_shaft(p->hierarchy, pair, &facing, &shaft)) return HR2D_OK;
   hr2d_status status = hr2di_visibility_collect(p->visibility, &shaft, &p->found, view);
   if (!status) status = look_closer(p->visibility, &shaft, &p->found, first, view);
-  return status ? out_of_memory(p) : HR2D_OK;
+  return fail(p, status);
 }
 
 /* Puts a pair on the stack with its walls. */
@@ -76,7 +75,7 @@ static hr2d_status push(hr2di_projector *p, hr2d_pair pair, const uint32_t *wall
                           sizeof *s->first) ||
       hr2di_alloc_reserve(alloc, &s->list.wall, &s->list.capacity, s->list.count + count,
                           sizeof *s->list.wall))
-    return out_of_memory(p);
+    return fail(p, HR2D_ENOMEM);
   s->first[s->stack.count - 1] = s->list.count;
   for (size_t k = 0; k < count; k++) s->list.wall[s->list.count++] = wall[k];
   return HR2D_OK;
@@ -93,7 +92,7 @@ static hr2d_status link_pair(hr2di_projector *p, hr2d_pair pair, const uint32_t 
   const hr2d_status status =
       p->sink ? hr2di_visibility_area(p->visibility, &shaft, wall, count, &area, &open)
               : hr2di_visibility_any(p->visibility, &shaft, wall, count, &open);
-  if (status) return out_of_memory(p);
+  if (status) return fail(p, status);
   if (!open) {
     p->counts.blocked_pairs++;
     return HR2D_OK;
@@ -154,6 +153,8 @@ hr2d_status hr2di_occluded_propose_roots(hr2di_projector *p, const hr2d_pair *pa
     if (hr2di_facing_of(&(hr2d_segment){i->a, i->b}, &(hr2d_segment){j->a, j->b}) ==
         HR2DI_FACING_NONE)
       continue;
+    status = fail(p, hr2di_projector_work(p, 1));
+    if (status) break;
     hr2di_visibility_class view;
     candidate c = {pairs[k], 0, 0};
     p->found.count = 0;
@@ -200,10 +201,12 @@ hr2d_status hr2di_occluded_round(hr2di_projector *p) {
     const size_t first = p->found.count;
     const int occluded = make_shaft(p->hierarchy, p->candidate[k], &facing, &shaft);
     if (facing == HR2DI_FACING_NONE) continue;
-    if (occluded && (hr2di_visibility_shrink(p->visibility, &shaft, &s->list, from, walls,
-                                             &p->found, &view) ||
-                     look_closer(p->visibility, &shaft, &p->found, first, &view)))
-      return out_of_memory(p);
+    if (occluded)
+      status = hr2di_visibility_shrink(p->visibility, &shaft, &s->list, from, walls, &p->found,
+                                       &view);
+    if (!status && occluded)
+      status = look_closer(p->visibility, &shaft, &p->found, first, &view);
+    if (status) return fail(p, status);
     status = sort_out(p, p->candidate[k], view, facing, first, c, &count);
   }
   s->list.count = from;

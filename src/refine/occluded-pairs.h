@@ -24,7 +24,8 @@ hr2d_status hr2di_occluded_share(hr2di_projector *p, const hr2di_occluded_pairs 
 hr2d_status hr2di_occluded_round(hr2di_projector *p);
 
 /* The exchange area of a pair, in units of the scene, past all walls of the scene; 0 and
-   HR2DI_BLOCKED in *view if nothing passes.  Returns HR2D_OK or HR2D_ENOMEM. */
+   HR2DI_BLOCKED in *view if nothing passes.  Returns HR2D_OK, HR2D_ENOMEM or the status of the
+   watch. */
 hr2d_status hr2di_occluded_area(hr2di_visibility *visibility, const hr2d_hierarchy *hierarchy,
                                 hr2d_pair pair, double *area, hr2di_visibility_class *view);
 

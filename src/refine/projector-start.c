@@ -49,6 +49,8 @@ static hr2d_status set_brightness(hr2di_projector *p) {
     return hr2di_message_fail(&p->links->message, HR2D_ENOMEM, "out of memory for brightness");
   double max = 0;
   for (size_t e = 0; e < h->elements; e++) {
+    status = hr2di_projector_work(p, 1 + h->scene->bands / 8);
+    if (status) return hr2di_projector_fail(p, status, "");
     const int root = h->parent[e] == e;
     const int solved = solution && e < solution->elements;
     double value = root || solved ? 0 : p->brightness[h->parent[e]];
@@ -74,12 +76,12 @@ static hr2d_status set_visibility(hr2di_projector *p) {
   if (!p->visibility)
     return hr2di_message_fail(&p->links->message, HR2D_ENOMEM,
                               "out of memory for the refinement");
-  hr2di_visibility_init(p->visibility, &scene->walls, &p->links->alloc);
+  hr2di_visibility_init(p->visibility, &scene->walls, &p->links->alloc, p->watch);
   return HR2D_OK;
 }
 
 hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_options *options,
-                                   hr2di_projector **made) {
+                                   hr2di_watch *watch, hr2di_projector **made) {
   const uint64_t held = sizeof(hr2di_projector) + hr2di_store_bytes(&links->store) +
                         (uint64_t)links->hierarchy->capacity * HR2DI_ELEMENT_BYTES;
   if (options->max_bytes && held > options->max_bytes)
@@ -90,6 +92,7 @@ hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_option
   p->links = links;
   p->hierarchy = links->hierarchy;
   p->options = *options;
+  p->watch = watch;
   p->budget = options->max_bytes;
   p->directed = directed_by(links, options);
   p->check_levels = p->hierarchy->levels > options->max_level;
@@ -145,7 +148,8 @@ hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch) {
   const hr2di_roots *known = &p->links->roots;
   proposals roots;
   roots.count = 0;
-  hr2d_status status = HR2D_OK;
+  hr2d_status status = hr2di_projector_work(p, 1 + n / 16);
+  if (status) return hr2di_projector_fail(p, status, "");
   if (known->clusters)
     for (size_t k = known->row[patch]; k < known->row[patch + 1] && !status; k++)
       status = add_root(p, &roots, patch, known->pair[k].second);
@@ -160,6 +164,7 @@ hr2d_status hr2di_projector_all(hr2di_projector *p) {
   for (size_t patch = 0; patch < p->hierarchy->scene->patches && !status; patch++) {
     status = hr2di_projector_row(p, patch);
     if (!status) status = hr2di_rounds_run(p, SIZE_MAX);
+    hr2di_rounds_measure(p);
   }
   return status;
 }

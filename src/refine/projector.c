@@ -8,11 +8,20 @@
 
 #include "base/alloc.h"
 #include "geometry/predicates.h"
+#include "oracle/built-in.h"
 
 enum { UNWRITTEN = 255 /* no subdivision: marks entries that a callback did not write */ };
 
 static hr2d_status fail(hr2di_projector *p, hr2d_status status, const char *what) {
   return hr2di_message_fail(&p->links->message, status, "%s", what);
+}
+
+hr2d_status hr2di_projector_fail(hr2di_projector *p, hr2d_status status, const char *what) {
+  if (hr2di_watch_refused(p->watch))
+    return hr2di_projector_check_callback(p, status, "callback", "progress");
+  if (status && status == hr2di_watch_status(p->watch)) return status;
+  return status ? hr2di_message_fail(&p->links->message, status, "out of memory%s", what)
+                : HR2D_OK;
 }
 
 static uint64_t stack_bytes(const hr2di_projector *p) {
@@ -91,6 +100,39 @@ static hr2d_status compare(hr2di_projector *p, const hr2d_batch *batch) {
   return HR2D_OK;
 }
 
+/* Asks the oracle about the pairs of a batch from number `first` on. */
+static hr2d_status ask(hr2di_projector *p, const hr2d_batch *all, size_t first, size_t count,
+                       int shortcut) {
+  const hr2d_linkset *links = p->links;
+  hr2d_batch some = *all;
+  some.pairs += first;
+  some.count = count;
+  if (some.partial) some.partial += first;
+  const hr2d_status status =
+      shortcut ? links->oracle.accept(links->oracle_ctx, &some, some.epsilon, p->flag + first)
+               : links->oracle.estimate(links->oracle_ctx, &some, p->error + first);
+  return hr2di_projector_check_callback(p, status, "oracle", links->oracle.name);
+}
+
+/* An oracle that integrates is asked about a part of a long batch at a time. */
+static hr2d_status ask_all(hr2di_projector *p, const hr2d_batch *all, int shortcut) {
+  const hr2d_oracle *oracle = &p->links->oracle;
+  if (all->count == 0 || !hr2di_oracle_work(oracle, all, 0)) {
+    const hr2d_status status = hr2di_projector_work(p, 1 + all->count);
+    return status ? hr2di_projector_fail(p, status, "") : ask(p, all, 0, all->count, shortcut);
+  }
+  hr2d_status status = HR2D_OK;
+  for (size_t first = 0, last = 0; first < all->count && !status; first = last) {
+    uint64_t work = 0;
+    while (last < all->count && work < HR2DI_WATCH_SPAN / 4)
+      work += hr2di_oracle_work(oracle, all, last++);
+    status = hr2di_projector_work(p, work);
+    status = status ? hr2di_projector_fail(p, status, "")
+                    : ask(p, all, first, last - first, shortcut);
+  }
+  return status;
+}
+
 hr2d_status hr2di_projector_estimate(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
   const hr2d_linkset *links = p->links;
   const hr2d_batch batch = make_batch(p, pairs, count);
@@ -98,11 +140,8 @@ hr2d_status hr2di_projector_estimate(hr2di_projector *p, const hr2d_pair *pairs,
   const int shortcut = links->oracle.accept && !links->policy.acceptable;
   memset(p->flag, 0, count);
   for (size_t k = 0; k < count && !shortcut; k++) p->error[k] = NAN;
-  const hr2d_status status =
-      shortcut ? links->oracle.accept(links->oracle_ctx, &batch, batch.epsilon, p->flag)
-               : links->oracle.estimate(links->oracle_ctx, &batch, p->error);
-  if (status) return hr2di_projector_check_callback(p, status, "oracle", links->oracle.name);
-  return shortcut ? HR2D_OK : compare(p, &batch);
+  const hr2d_status status = ask_all(p, &batch, shortcut);
+  return status || shortcut ? status : compare(p, &batch);
 }
 
 hr2d_status hr2di_projector_count_links(hr2di_projector *p, size_t more) {
@@ -143,6 +182,8 @@ hr2d_status hr2di_projector_propose_clipped(hr2di_projector *p, const hr2d_pair 
                                             size_t count) {
   const hr2d_element *element = p->hierarchy->element;
   size_t full = 0, part = 0;
+  const hr2d_status asked = hr2di_projector_work(p, count);
+  if (asked) return hr2di_projector_fail(p, asked, "");
   for (size_t k = 0; k < count; k++) {
     const hr2d_element *i = &element[pairs[k].first], *j = &element[pairs[k].second];
     const hr2di_facing facing =

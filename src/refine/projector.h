@@ -5,6 +5,7 @@
 
 #include <hr2d/refine.h>
 
+#include "base/watch.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/linkset-impl.h"
 #include "occlusion/pair-visibility.h"
@@ -50,9 +51,9 @@ struct hr2di_projector {
   uint64_t bytes;           /* memory held besides the hierarchy and the stacks */
   uint64_t budget;          /* bytes, for messages; options.max_bytes may be a part of it */
   double roots, roots_done; /* root pairs, all and done so far, for progress */
-  unsigned ticks;           /* rounds since the last progress report */
-  hr2d_status (*report)(hr2di_projector *p); /* reports progress; NULL: hr2di_rounds_report() */
-  void *report_ctx;
+  double fraction;          /* of them, when it was measured last; see rounds.h */
+  unsigned ticks;           /* rounds since then */
+  hr2di_watch *watch;       /* of the thread that uses this */
 
   hr2di_stack facing;  /* refused pairs that face each other fully */
   hr2di_stack clipped; /* refused pairs that one horizon still cuts */
@@ -81,9 +82,9 @@ hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine
                                           hr2d_refine_options *options);
 
 /* Creates a projector for checked options; the caller destroys it.  Returns HR2D_OK,
-   HR2D_ENOMEM or HR2D_EMAX_BYTES, and leaves a message on failure. */
+   HR2D_ENOMEM, HR2D_EMAX_BYTES or the status of the watch, and leaves a message on failure. */
 hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_options *options,
-                                   hr2di_projector **made);
+                                   hr2di_watch *watch, hr2di_projector **made);
 void hr2di_projector_destroy(hr2di_projector *p);
 
 /* Proposes a patch with all later patches, or with all others if links are directed.  Refused
@@ -119,6 +120,15 @@ hr2d_status hr2di_projector_prepare(hr2di_projector *p, hr2d_pair *pairs, size_t
 /* Writes the child pairs of `pairs` to p->candidate.  Returns their number, or 0 if some
    element to be split has no children yet. */
 size_t hr2di_projector_children(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
+
+/* Declares work.  Returns HR2D_OK, or the status that stops the refinement. */
+static inline hr2d_status hr2di_projector_work(hr2di_projector *p, uint64_t units) {
+  return hr2di_watch_work(p->watch, units);
+}
+
+/* Leaves a message for a status that the watch may have caused, else HR2D_ENOMEM for `what`;
+   none if another thread has stopped this one.  Returns the status. */
+hr2d_status hr2di_projector_fail(hr2di_projector *p, hr2d_status status, const char *what);
 
 /* Leaves a message if a callback has failed; returns the status of the callback. */
 hr2d_status hr2di_projector_check_callback(hr2di_projector *p, hr2d_status status,

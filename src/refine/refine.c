@@ -13,12 +13,15 @@
 /* Runs a projector.  On failure the hierarchy gets its former size. */
 static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
                        hr2d_status (*project)(hr2di_projector *)) {
+  hr2di_watch_describe(p->watch, hr2di_rounds_describe, p);
   hr2d_hierarchy *h = p->hierarchy;
   const size_t elements = h->elements;
   p->sink = sink;
   p->sink_ctx = sink_ctx;
   h->refining = 1;
-  const hr2d_status status = project(p);
+  hr2d_status status = project(p);
+  hr2di_rounds_measure(p);
+  if (!status) status = hr2di_projector_fail(p, hr2di_watch_ask(p->watch), "");
   h->refining = 0;
   if (p->visibility) p->counts.visibility_tests = p->visibility->tests;
   if (status) hr2di_hierarchy_truncate(h, elements);
@@ -60,18 +63,21 @@ static hr2d_status store_links(void *ctx, const hr2d_pair *pairs, const double *
   storing *s = ctx;
   if (area) return add_links(s, pairs, area, count);
   s->projector->counts.exchange_areas += count;
+  const hr2d_status status = hr2di_projector_work(s->projector, count);
+  if (status) return hr2di_projector_fail(s->projector, status, "");
   hr2di_exchange_areas(s->projector->hierarchy->element, pairs, count, s->area);
   return add_links(s, pairs, s->area, count);
 }
 
 /* Whether the elements of a pair, or ancestors of these, face each other fully.  Then so do all
    pairs below, whatever rounding does to their elements, and they are not tested again. */
-static int faces_fully(const hr2d_hierarchy *h, hr2d_pair pair) {
+static int faces_fully(const hr2d_hierarchy *h, hr2d_pair pair, hr2di_watch *watch) {
   for (uint32_t i = pair.first, above_i;; i = above_i) {
     above_i = h->parent[i];
     for (uint32_t j = pair.second, above_j;; j = above_j) {
       above_j = h->parent[j];
       const hr2d_element *e = &h->element[i], *f = &h->element[j];
+      if (hr2di_watch_work(watch, 1)) return 0;
       if (hr2di_facing_of(&(hr2d_segment){e->a, e->b}, &(hr2d_segment){f->a, f->b}) ==
           HR2DI_FACING_FULL)
         return 1;
@@ -98,7 +104,7 @@ static hr2d_status look_again(hr2di_projector *p, const hr2d_pair *pairs, size_t
 static hr2d_status refuse_link(hr2di_projector *p, hr2d_pair pair, int partial) {
   if (partial) return hr2di_occluded_push(p, pair);
   const int clipped = p->hierarchy->scene->effect[HR2D_EFFECT_FACING].on;
-  const int open = !p->test_all && (!clipped || faces_fully(p->hierarchy, pair));
+  const int open = !p->test_all && (!clipped || faces_fully(p->hierarchy, pair, p->watch));
   return hr2di_projector_push(p, open ? &p->facing : &p->clipped, pair);
 }
 
@@ -157,8 +163,11 @@ hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options)
   hr2d_refine_options used;
   hr2di_projector *p = NULL;
   hr2di_store made = {0};
+  hr2di_watch watch;
   hr2d_status status = hr2di_projector_check_options(links, options, &used);
-  if (!status) status = hr2di_projector_create(links, &used, &p);
+  hr2di_scene_watch(links->hierarchy->scene, &watch, used.progress, used.progress_ctx,
+                    "refine");
+  if (!status) status = hr2di_projector_create(links, &used, &watch, &p);
   if (status) return status;
   p->bytes += sizeof(storing);
   status = hr2di_projector_check_budget(p, 0);
@@ -201,6 +210,8 @@ static hr2d_status visit_links(void *ctx, const hr2d_pair *pairs, const double *
   const hr2d_hierarchy *h = v->projector->hierarchy;
   if (!area) {
     v->projector->counts.exchange_areas += count;
+    const hr2d_status status = hr2di_projector_work(v->projector, count);
+    if (status) return hr2di_projector_fail(v->projector, status, "");
     hr2di_exchange_areas(h->element, pairs, count, v->area);
     area = v->area;
   }
@@ -218,8 +229,11 @@ hr2d_status hr2d_refine_visit(hr2d_linkset *links, const hr2d_refine_options *op
   hr2di_projector *p = NULL;
   if (links->store.count > 0)
     return hr2di_message_fail(&links->message, HR2D_ESTATE, "the set has links already");
+  hr2di_watch watch;
   hr2d_status status = hr2di_projector_check_options(links, options, &used);
-  if (!status) status = hr2di_projector_create(links, &used, &p);
+  hr2di_scene_watch(links->hierarchy->scene, &watch, used.progress, used.progress_ctx,
+                    "refine");
+  if (!status) status = hr2di_projector_create(links, &used, &watch, &p);
   if (status) return status;
   p->bytes += sizeof(visiting);
   status = hr2di_projector_check_budget(p, 0);

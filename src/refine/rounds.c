@@ -14,7 +14,9 @@
 
 #include "refine/occluded-pairs.h"
 
-enum { TICKS = 64 /* rounds between two reports of progress */ };
+enum {
+  TICKS = 64 /* rounds between two measurements of progress, which cost as much as one */
+};
 
 /* One round: subdivides the topmost refused pairs, or links them if a limit holds. */
 static hr2d_status play(hr2di_projector *p, hr2di_stack *stack) {
@@ -68,9 +70,7 @@ hr2d_status hr2di_rounds_run(hr2di_projector *p, size_t enough) {
     const size_t left = hr2di_rounds_waiting(p);
     if (status || left == 0 || left >= enough) return status;
     status = play_next(p);
-    if (status || ++p->ticks < TICKS) continue;
-    p->ticks = 0;
-    status = p->report ? p->report(p) : hr2di_rounds_report(p);
+    if (++p->ticks % TICKS == 0) hr2di_rounds_measure(p);
   }
 }
 
@@ -85,16 +85,16 @@ static double unfinished(const hr2di_projector *p, const hr2di_stack *stack) {
   return sum;
 }
 
-hr2d_status hr2di_rounds_report(hr2di_projector *p) {
-  if (!p->options.progress) return HR2D_OK;
+void hr2di_rounds_measure(hr2di_projector *p) {
   const double done = p->roots_done - unfinished(p, &p->facing) - unfinished(p, &p->clipped) -
                       unfinished(p, &p->unoccluded[0]) - unfinished(p, &p->unoccluded[1]) -
                       unfinished(p, &p->occluded.stack);
-  const hr2d_progress progress = {.struct_size = sizeof progress,
-                                  .phase = "refine",
-                                  .elements = p->hierarchy->elements,
-                                  .links = p->counts.links,
-                                  .fraction = done > 0 ? done / p->roots : 0};
-  return hr2di_projector_check_callback(
-      p, p->options.progress(p->options.progress_ctx, &progress), "callback", "progress");
+  p->fraction = done > 0 && p->roots > 0 ? done / p->roots : 0;
+}
+
+void hr2di_rounds_describe(void *projector, hr2d_progress *told) {
+  const hr2di_projector *p = projector;
+  told->elements = p->hierarchy->elements;
+  told->links = p->counts.links;
+  told->fraction = p->fraction;
 }

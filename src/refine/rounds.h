@@ -11,7 +11,11 @@ size_t hr2di_rounds_waiting(const hr2di_projector *p);
 /* Subdivides until no refused pair is left, or until at least `enough` are. */
 hr2d_status hr2di_rounds_run(hr2di_projector *p, size_t enough);
 
-/* Reports progress; returns the status of the callback. */
-hr2d_status hr2di_rounds_report(hr2di_projector *p);
+/* Measures the part of the root pairs that is done: between two rounds, as during one some
+   pairs are on no stack. */
+void hr2di_rounds_measure(hr2di_projector *p);
+
+/* Describes the progress of a projector, for its watch. */
+void hr2di_rounds_describe(void *projector, hr2d_progress *told);
 
 #endif

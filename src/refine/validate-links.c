@@ -42,6 +42,7 @@ typedef struct validator {
   hr2d_pair *stack;
   size_t capacity;
   hr2di_visibility *visibility; /* NULL if the scene needs no occlusion */
+  hr2di_watch watch;
 } validator;
 
 static hr2d_status fail(validator *v, hr2d_pair pair, const char *what) {
@@ -80,15 +81,26 @@ static hr2d_status out_of_memory(validator *v) {
   return hr2di_message_fail(&v->links->message, HR2D_ENOMEM, "out of memory");
 }
 
+/* Leaves a message for a status that is HR2D_OK, HR2D_ENOMEM or that of the watch. */
+static hr2d_status pass_on(validator *v, hr2d_status status) {
+  if (status && hr2di_watch_refused(&v->watch))
+    return hr2di_message_fail(&v->links->message, status, "callback \"progress\": %s",
+                              hr2d_strerror(status));
+  return status ? out_of_memory(v) : HR2D_OK;
+}
+
+static hr2d_status work(validator *v, uint64_t units) {
+  return pass_on(v, hr2di_watch_work(&v->watch, units));
+}
+
 /* The exchange areas that the links of pairs should have. */
 static hr2d_status integrate(validator *v, const hr2d_pair *pair, size_t count, double *area) {
-  hr2d_status status = HR2D_OK;
+  hr2d_status status = work(v, count);
   if (!v->visibility) hr2di_exchange_areas(v->h->element, pair, count, area);
   for (size_t k = 0; k < count && v->visibility && !status; k++) {
     hr2di_visibility_class view;
-    if (hr2di_occluded_area(v->visibility, v->h, pair[k], &area[k], &view))
-      return out_of_memory(v);
-    if (view == HR2DI_BLOCKED)
+    status = pass_on(v, hr2di_occluded_area(v->visibility, v->h, pair[k], &area[k], &view));
+    if (!status && view == HR2DI_BLOCKED)
       status = fail(v, pair[k], "are linked, but are hidden from each other");
   }
   return status;
@@ -128,6 +140,7 @@ static hr2d_status take_links(validator *v) {
   for (uint64_t first = 0; first < store->count; first += AREAS) {
     const uint64_t rest = store->count - first;
     const size_t count = rest < AREAS ? (size_t)rest : AREAS;
+    v->watch.told.fraction = (double)first / (double)store->count;
     const hr2d_link *link = hr2di_store_at(store, first); /* AREAS divides a chunk */
     const hr2d_status status = check_areas(v, link, count);
     if (status) return status;
@@ -149,22 +162,29 @@ static size_t key_of(const validator *v, hr2d_pair pair, key by) {
 }
 
 /* A stable counting sort, O(L + N). */
-static void sort(validator *v, key by) {
+static hr2d_status sort(validator *v, key by) {
   const uint64_t count = v->links->store.count;
   const size_t keys = by == FIRST_ELEMENT ? v->h->elements : v->h->scene->patches;
+  hr2d_status status = work(v, keys / 64);
   memset(v->bucket, 0, keys * sizeof *v->bucket);
-  for (uint64_t k = 0; k < count; k++) v->bucket[key_of(v, v->pair[k], by)]++;
+  for (uint64_t k = 0; k < count && !status; k++) {
+    if (k % AREAS == 0) status = work(v, AREAS / 16);
+    v->bucket[key_of(v, v->pair[k], by)]++;
+  }
   uint64_t begin = 0;
   for (size_t k = 0; k < keys; k++) {
     const uint64_t size = v->bucket[k];
     v->bucket[k] = begin;
     begin += size;
   }
-  for (uint64_t k = 0; k < count; k++)
+  for (uint64_t k = 0; k < count && !status; k++) {
+    if (k % AREAS == 0) status = work(v, AREAS / 8);
     v->spare[v->bucket[key_of(v, v->pair[k], by)]++] = v->pair[k];
+  }
   hr2d_pair *sorted = v->spare;
   v->spare = v->pair;
   v->pair = sorted;
+  return status;
 }
 
 /* Spreads the link of e and f over Q's tree, where links of e's ancestors and other links of
@@ -172,6 +192,8 @@ static void sort(validator *v, key by) {
 static hr2d_status spread(validator *v, uint32_t e, uint32_t f) {
   const hr2d_element *element = v->h->element;
   node *at = v->node;
+  const hr2d_status status = work(v, 2 + v->h->level[f] / 8);
+  if (status) return status;
   for (uint32_t u = f;; u = v->h->parent[u]) {
     if (at[u].by != NOBODY) return fail_overlap(v, (hr2d_pair){e, f}, (hr2d_pair){at[u].by, u});
     if (is_root(v, u)) break;
@@ -209,11 +231,12 @@ static void take_away(validator *v, uint32_t e) {
 
 /* Whether the elements of a pair, or ancestors of these, face each other as `facing` says;
    ancestors of the second go up to `top`.  Ancestors matter only where a midpoint is off the
-   line of its patch by a rounding error that decides on which side of it something lies. */
-static int inherits(const validator *v, hr2d_pair pair, uint32_t top, hr2di_facing facing) {
+   line of its patch by a rounding error that decides on which side of it something lies.  1
+   once the watch has stopped. */
+static int inherits(validator *v, hr2d_pair pair, uint32_t top, hr2di_facing facing) {
   for (uint32_t i = pair.first;; i = v->h->parent[i]) {
     for (uint32_t j = pair.second;; j = v->h->parent[j]) {
-      if (face(v, i, j) == facing) return 1;
+      if (hr2di_watch_work(&v->watch, 1) || face(v, i, j) == facing) return 1;
       if (j == top) break;
     }
     if (is_root(v, i)) return 0;
@@ -228,8 +251,10 @@ static int inherits(const validator *v, hr2d_pair pair, uint32_t top, hr2di_faci
 static hr2d_status look(validator *v, hr2d_pair pair, int *hidden) {
   hr2di_visibility_class view = HR2DI_CLEAR;
   double area = 0;
-  if (v->visibility && hr2di_occluded_area(v->visibility, v->h, pair, &area, &view))
-    return out_of_memory(v);
+  hr2d_status status = hr2di_watch_work(&v->watch, 1);
+  if (!status && v->visibility)
+    status = hr2di_occluded_area(v->visibility, v->h, pair, &area, &view);
+  if (status) return pass_on(v, status);
   const hr2d_element *e = v->h->element;
   const double length = fmin(e[pair.first].length, e[pair.second].length);
   *hidden = view == HR2DI_BLOCKED || (v->visibility && area <= NEGLIGIBLE * length);
@@ -275,6 +300,8 @@ static hr2d_status check_unseen(validator *v, uint32_t e, uint32_t f) {
 static hr2d_status check_filled(validator *v, uint32_t e, uint32_t q, hr2di_facing facing) {
   uint32_t f = q;
   for (;;) {
+    const hr2d_status asked = work(v, 1);
+    if (asked) return asked;
     if (!v->node[f].whole && v->node[f].inside > 0) {
       f = v->h->element[f].child;
       continue;
@@ -296,7 +323,7 @@ static hr2d_status check_filled(validator *v, uint32_t e, uint32_t q, hr2di_faci
 static hr2d_status walk(validator *v, uint32_t p, uint32_t q, hr2di_facing facing) {
   uint32_t e = p;
   for (;;) {
-    hr2d_status status = HR2D_OK;
+    hr2d_status status = work(v, 1);
     for (uint64_t k = v->node[e].links; !status && k < v->end && v->pair[k].first == e; k++)
       status = spread(v, e, v->pair[k].second);
     if (status) return status;
@@ -314,8 +341,10 @@ static hr2d_status walk(validator *v, uint32_t p, uint32_t q, hr2di_facing facin
 
 /* Sets `links` and `above` of the elements of P for the links between P and Q, or clears
    them. */
-static void mark(validator *v, int clear) {
-  for (uint64_t k = v->end; k-- > v->begin;) {
+static hr2d_status mark(validator *v, int clear) {
+  hr2d_status status = HR2D_OK;
+  for (uint64_t k = v->end; k-- > v->begin && !status;) {
+    if (k % AREAS == 0) status = work(v, AREAS / 4);
     uint32_t u = v->pair[k].first;
     v->node[u].links = clear ? NO_LINK : k;
     while (!is_root(v, u)) {
@@ -324,6 +353,7 @@ static void mark(validator *v, int clear) {
       v->node[u].above = (unsigned char)!clear;
     }
   }
+  return status;
 }
 
 /* Checks all links between two patches; they are the next ones in v->pair. */
@@ -335,29 +365,29 @@ static hr2d_status check_patches(validator *v, uint32_t p, uint32_t q) {
          element[v->pair[v->end].second].patch == q)
     v->end++;
   const hr2di_facing facing = face(v, p, q);
-  for (uint64_t k = v->begin; k < v->end && facing != HR2DI_FACING_FULL; k++) {
+  hr2d_status status = work(v, 1);
+  for (uint64_t k = v->begin; k < v->end && facing != HR2DI_FACING_FULL && !status; k++) {
+    status = work(v, 1);
     const hr2d_pair pair = v->pair[k];
     if (facing == HR2DI_FACING_NONE || (face(v, pair.first, pair.second) == HR2DI_FACING_NONE &&
                                         !inherits(v, pair, q, HR2DI_FACING_FULL)))
       return fail(v, pair, "are linked, but cannot see each other");
   }
-  if (facing == HR2DI_FACING_NONE || !hr2di_scene_lit(v->h->scene, p) ||
+  if (status || facing == HR2DI_FACING_NONE || !hr2di_scene_lit(v->h->scene, p) ||
       !hr2di_scene_lit(v->h->scene, q))
-    return HR2D_OK;
-  mark(v, 0);
-  const hr2d_status status = walk(v, p, q, facing);
-  mark(v, 1);
-  return status;
+    return status;
+  status = mark(v, 0);
+  if (!status) status = walk(v, p, q, facing);
+  return status ? status : mark(v, 1);
 }
 
 static hr2d_status check_all(validator *v) {
   const uint32_t n = (uint32_t)v->h->scene->patches;
   hr2d_status status = take_links(v);
-  if (status) return status;
-  sort(v, FIRST_ELEMENT);
-  sort(v, SECOND_PATCH);
-  sort(v, FIRST_PATCH);
-  for (uint32_t p = 0; p < n; p++)
+  if (!status) status = sort(v, FIRST_ELEMENT);
+  if (!status) status = sort(v, SECOND_PATCH);
+  if (!status) status = sort(v, FIRST_PATCH);
+  for (uint32_t p = 0; p < n && !status; p++)
     for (uint32_t q = v->links->directed ? 0 : p + 1; q < n && !status; q++)
       if (p != q) status = check_patches(v, p, q);
   return status;
@@ -368,6 +398,7 @@ hr2d_status hr2d_linkset_validate(hr2d_linkset *links) {
   const hr2d_allocator *alloc = &links->alloc;
   const size_t count = (size_t)links->store.count;
   validator v = {.links = links, .h = h};
+  hr2di_scene_watch(h->scene, &v.watch, NULL, NULL, "validate");
   v.pair = hr2di_alloc(alloc, count, sizeof *v.pair);
   v.spare = hr2di_alloc(alloc, count, sizeof *v.spare);
   v.bucket = hr2di_alloc(alloc, h->elements, sizeof *v.bucket);
@@ -378,7 +409,7 @@ hr2d_status hr2d_linkset_validate(hr2d_linkset *links) {
   } else {
     for (size_t e = 0; e < h->elements; e++) v.node[e] = (node){.links = NO_LINK, .by = NOBODY};
     hr2di_visibility visibility;
-    hr2di_visibility_init(&visibility, &h->scene->walls, alloc);
+    hr2di_visibility_init(&visibility, &h->scene->walls, alloc, &v.watch);
     if (h->scene->effect[HR2D_EFFECT_OCCLUSION].on) v.visibility = &visibility;
     status = check_all(&v);
     hr2di_visibility_clear(&visibility);

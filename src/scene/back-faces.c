@@ -39,14 +39,16 @@ static hr2d_status cover(const hr2d_scene *scene, hr2di_backs *backs, size_t fir
   return status;
 }
 
-hr2d_status hr2di_backs_init(const hr2d_scene *scene, hr2di_backs *backs) {
+hr2d_status hr2di_backs_init(const hr2d_scene *scene, hr2di_backs *backs, hr2di_watch *watch) {
   hr2d_status status = HR2D_OK;
   for (uint32_t k = 0; k < scene->patches && !status; k++) {
     const hr2d_segment s = scene->patch[k].scaled;
     const size_t first = backs->count;
     status = add(scene, backs, k, (hr2d_segment){s.b, s.a});
-    for (size_t m = 0; m < scene->patches && !status && backs->count > first; m++)
-      status = cover(scene, backs, first, scene->patch[m].scaled);
+    for (size_t m = 0; m < scene->patches && !status && backs->count > first; m++) {
+      status = hr2di_watch_work(watch, 1 + (backs->count - first) / 2);
+      if (!status) status = cover(scene, backs, first, scene->patch[m].scaled);
+    }
   }
   return status;
 }

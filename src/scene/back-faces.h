@@ -6,6 +6,8 @@
 #include <hr2d/scene.h>
 #include <stdint.h>
 
+#include "base/watch.h"
+
 /* A part of the back of a patch, directed as its front would be. */
 typedef struct hr2di_back {
   hr2d_segment at;
@@ -17,8 +19,8 @@ typedef struct hr2di_backs {
   size_t count, capacity;
 } hr2di_backs;
 
-/* Appends the parts of backs that no patch covers with its front.  Returns HR2D_OK, or
-   HR2D_ENOMEM with some of the parts appended.  Cost O(n²). */
-hr2d_status hr2di_backs_init(const hr2d_scene *scene, hr2di_backs *backs);
+/* Appends the parts of backs that no patch covers with its front.  Returns HR2D_OK; or,
+   with some of the parts appended, HR2D_ENOMEM or the status of the watch.  Cost O(n²). */
+hr2d_status hr2di_backs_init(const hr2d_scene *scene, hr2di_backs *backs, hr2di_watch *watch);
 
 #endif

@@ -7,8 +7,10 @@
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
 
-hr2d_status hr2di_scene_check_bands(hr2d_scene *scene) {
+hr2d_status hr2di_scene_check_bands(hr2d_scene *scene, hr2di_watch *watch) {
   size_t bands = 1, setter = 0;
+  const hr2d_status status = hr2di_watch_work(watch, scene->patches / 16);
+  if (status) return hr2di_scene_fail(scene, status, watch, "");
   for (size_t k = 0; k < scene->patches; k++) {
     const hr2di_patch *p = &scene->patch[k];
     const size_t count[] = {p->emission_bands, p->reflectance_bands};
@@ -59,8 +61,9 @@ static double extent(const hr2d_scene *scene) {
 
 /* Whether no patch has an end of another behind it, by exact signs.  One or two patches always
    count as convex: nothing can stand between them. */
-static int is_convex(const hr2d_scene *scene) {
+static int is_convex(const hr2d_scene *scene, hr2di_watch *watch) {
   for (size_t k = 0; k < scene->patches && scene->patches > 2; k++) {
+    if (hr2di_watch_work(watch, scene->patches / 2)) return 0;
     const hr2d_segment s = scene->patch[k].scaled;
     for (size_t m = 0; m < scene->patches; m++) {
       const hr2d_segment other = scene->patch[m].scaled;
@@ -71,9 +74,11 @@ static int is_convex(const hr2d_scene *scene) {
   return 1;
 }
 
-static hr2d_status check_offset(hr2d_scene *scene) {
+static hr2d_status check_offset(hr2d_scene *scene, hr2di_watch *watch) {
   const double across = extent(scene);
-  if (across >= FEWEST_ROUNDINGS * 0x1p-50 || is_convex(scene)) return HR2D_OK;
+  if (across >= FEWEST_ROUNDINGS * 0x1p-50 || is_convex(scene, watch)) return HR2D_OK;
+  const hr2d_status status = hr2di_watch_status(watch);
+  if (status) return hr2di_scene_fail(scene, status, watch, "");
   return hr2di_message_fail(
       &scene->message, HR2D_ERANGE,
       "the scene is so far from the origin, %.3g for %.3g across, that rounding "
@@ -82,10 +87,12 @@ static hr2d_status check_offset(hr2d_scene *scene) {
 }
 
 /* Scaling by a power of two is exact unless a coordinate becomes subnormal. */
-hr2d_status hr2di_scene_scale(hr2d_scene *scene) {
+hr2d_status hr2di_scene_scale(hr2d_scene *scene, hr2di_watch *watch) {
   scene->exponent = ilogb(largest_coordinate(scene));
   for (size_t k = 0; k < scene->patches; k++) {
     hr2di_patch *p = &scene->patch[k];
+    const hr2d_status status = hr2di_watch_work(watch, 1);
+    if (status) return hr2di_scene_fail(scene, status, watch, "");
     if (!scale_point(p->given.a, scene->exponent, &p->scaled.a) ||
         !scale_point(p->given.b, scene->exponent, &p->scaled.b))
       return hr2di_message_fail(
@@ -99,7 +106,7 @@ hr2d_status hr2di_scene_scale(hr2d_scene *scene) {
                                 "%s: its length is beyond a double",
                                 hr2di_patch_label(scene, k).text);
   }
-  return check_offset(scene);
+  return check_offset(scene, watch);
 }
 
 static hr2d_point in_scene_lengths(const hr2d_scene *scene, hr2d_point p) {
@@ -165,11 +172,11 @@ static hr2d_status check_pair(void *ctx, size_t i, size_t j) {
   return fail_overlap(scene, i, j, &m);
 }
 
-hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene) {
+hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene, hr2di_watch *watch) {
   const hr2d_status status =
       hr2di_crossings_sweep(&scene->alloc, &scene->patch[0].scaled, scene->patches,
-                            sizeof *scene->patch, check_pair, scene);
-  if (status == HR2D_ENOMEM)
-    hr2di_message_fail(&scene->message, status, "out of memory for the checks");
+                            sizeof *scene->patch, check_pair, scene, watch);
+  if (status == HR2D_ENOMEM || hr2di_watch_status(watch))
+    hr2di_scene_fail(scene, status, watch, "the checks");
   return status;
 }

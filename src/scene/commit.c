@@ -3,7 +3,8 @@
 #include "base/alloc.h"
 #include "scene/scene-impl.h"
 
-static hr2d_status check_background(hr2d_scene *scene) {
+static hr2d_status check_background(hr2d_scene *scene, hr2di_watch *watch) {
+  (void)watch;
   const size_t bands = scene->background_bands;
   if (bands <= 1 || bands == scene->bands) return HR2D_OK;
   if (scene->bands > 1)
@@ -14,14 +15,14 @@ static hr2d_status check_background(hr2d_scene *scene) {
   return HR2D_OK;
 }
 
-static hr2d_status make_walls(hr2d_scene *scene) {
+static hr2d_status make_walls(hr2d_scene *scene, hr2di_watch *watch) {
   hr2d_segment *segment = hr2di_alloc(&scene->alloc, scene->patches, sizeof *segment);
   hr2d_status status = segment ? HR2D_OK : HR2D_ENOMEM;
   for (size_t k = 0; k < scene->patches && segment; k++) segment[k] = scene->patch[k].scaled;
-  if (!status) status = hr2di_walls_init(&scene->walls, &scene->alloc, segment, scene->patches);
+  if (!status)
+    status = hr2di_walls_init(&scene->walls, &scene->alloc, segment, scene->patches, watch);
   hr2di_alloc_free(&scene->alloc, segment);
-  return status ? hr2di_message_fail(&scene->message, status, "out of memory for the walls")
-                : HR2D_OK;
+  return status ? hr2di_scene_fail(scene, status, watch, "the walls") : HR2D_OK;
 }
 
 hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
@@ -29,12 +30,16 @@ hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");
   if (scene->patches == 0)
     return hr2di_message_fail(&scene->message, HR2D_ESCENE, "the scene has no patches");
-  hr2d_status (*const part[])(hr2d_scene *) = {
+  hr2d_status (*const part[])(hr2d_scene *, hr2di_watch *) = {
       hr2di_scene_check_bands,    check_background, hr2di_scene_scale,
       hr2di_scene_check_overlaps, make_walls,       hr2di_scene_analyse_effects,
       hr2di_scene_find_light};
-  for (size_t k = 0; k < sizeof part / sizeof *part; k++) {
-    const hr2d_status status = part[k](scene);
+  const size_t parts = sizeof part / sizeof *part;
+  hr2di_watch watch;
+  hr2di_scene_watch(scene, &watch, NULL, NULL, "commit");
+  for (size_t k = 0; k < parts; k++) {
+    watch.told.fraction = (double)k / (double)parts;
+    const hr2d_status status = part[k](scene, &watch);
     if (!status) continue;
     hr2di_scene_clear_commit(scene);
     return status;

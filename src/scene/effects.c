@@ -50,21 +50,24 @@ static int touch(const hr2d_segment *i, const hr2d_segment *j) {
          on_segment(j, i->b);
 }
 
-static void analyse_materials(hr2d_scene *scene) {
+static hr2d_status analyse_materials(hr2d_scene *scene, hr2di_watch *watch) {
+  hr2d_status status = HR2D_OK;
   set(scene, HR2D_EFFECT_INTERREFLECTION, 0, "every reflectance is 0");
   set(scene, HR2D_EFFECT_EMISSION, 0, "no patch emits");
   if (scene->bands > 1)
     set(scene, HR2D_EFFECT_BANDS, 1, "%zu bands", scene->bands);
   else
     set(scene, HR2D_EFFECT_BANDS, 0, "one band");
-  for (size_t k = scene->patches; k-- > 0;)
-    for (size_t band = 0; band < scene->bands; band++) {
+  for (size_t k = scene->patches; k-- > 0 && !status;)
+    for (size_t band = 0; band < scene->bands && !status; band++) {
+      status = hr2di_watch_work(watch, 4);
       if (hr2d_scene_reflectance(scene, k, band) > 0)
         set(scene, HR2D_EFFECT_INTERREFLECTION, 1, "%s reflects",
             hr2di_patch_label(scene, k).text);
       if (hr2d_scene_emission(scene, k, band) > 0)
         set(scene, HR2D_EFFECT_EMISSION, 1, "%s emits", hr2di_patch_label(scene, k).text);
     }
+  return status;
 }
 
 static void analyse_background(hr2d_scene *scene) {
@@ -85,26 +88,28 @@ static void set_pair(hr2d_scene *scene, hr2d_effect effect, const char *what, si
   set(scene, effect, 1, "%s and %s %s", first.text, second.text, what);
 }
 
-/* Returns how many pairs face each other. */
-static size_t analyse_pairs(hr2d_scene *scene) {
+/* *seen is how many pairs face each other. */
+static hr2d_status analyse_pairs(hr2d_scene *scene, size_t *seen, hr2di_watch *watch) {
   set(scene, HR2D_EFFECT_TWO_SIDED, 0, "no two patches stand back to back, end to end");
   set(scene, HR2D_EFFECT_FACING, 0, "patches see each other wholly or not at all");
   set(scene, HR2D_EFFECT_CORNER, 0, "patches that see each other do not touch");
-  size_t seen = 0;
-  for (size_t i = 0; i < scene->patches; i++)
-    for (size_t j = i + 1; j < scene->patches; j++) {
+  hr2d_status status = HR2D_OK;
+  *seen = 0;
+  for (size_t i = 0; i < scene->patches && !status; i++)
+    for (size_t j = i + 1; j < scene->patches && !status; j++) {
+      if (j % 16 == 0) status = hr2di_watch_work(watch, 8);
       const hr2d_segment *s = &scene->patch[i].scaled, *t = &scene->patch[j].scaled;
       if (hr2di_point_same(s->a, t->b) && hr2di_point_same(s->b, t->a))
         set_pair(scene, HR2D_EFFECT_TWO_SIDED, "stand back to back", i, j);
       const hr2di_facing facing = hr2di_facing_of(s, t);
       if (facing == HR2DI_FACING_NONE) continue;
-      seen++;
+      ++*seen;
       if (facing == HR2DI_FACING_PART)
         set_pair(scene, HR2D_EFFECT_FACING, "see each other in part", i, j);
       if (!scene->effect[HR2D_EFFECT_CORNER].on && touch(s, t))
         set_pair(scene, HR2D_EFFECT_CORNER, "touch", i, j);
     }
-  return seen;
+  return status;
 }
 
 /* Turns on the forced effects that the scene does not call for; their reasons say so. */
@@ -118,13 +123,14 @@ static void force(hr2d_scene *scene) {
   }
 }
 
-hr2d_status hr2di_scene_analyse_effects(hr2d_scene *scene) {
-  analyse_materials(scene);
-  analyse_background(scene);
-  const size_t seen = analyse_pairs(scene);
+hr2d_status hr2di_scene_analyse_effects(hr2d_scene *scene, hr2di_watch *watch) {
+  size_t seen;
   hr2di_occlusion found;
-  const hr2d_status status = hr2di_occluder_find(scene, &found);
-  if (status) return status;
+  hr2d_status status = analyse_materials(scene, watch);
+  analyse_background(scene);
+  if (!status) status = analyse_pairs(scene, &seen, watch);
+  if (!status) status = hr2di_occluder_find(scene, &found, watch);
+  if (status) return hr2di_scene_fail(scene, status, watch, "the analysis");
   if (found.exists)
     set(scene, HR2D_EFFECT_OCCLUSION, 1, "%s can stand between %s and %s",
         hr2di_patch_label(scene, found.occluder).text, hr2di_patch_label(scene, found.i).text,

@@ -7,11 +7,12 @@
 #include "scene/scene-impl.h"
 
 /* A patch whose line has the whole scene on one side cannot stand between two patches. */
-static int on_hull(const hr2d_scene *scene, size_t k) {
+static int on_hull(const hr2d_scene *scene, size_t k, hr2di_watch *watch) {
   const hr2d_segment w = scene->patch[k].scaled;
   int left = 0, right = 0;
   for (size_t m = 0; m < scene->patches; m++) {
     const hr2d_segment s = scene->patch[m].scaled;
+    if (m % 16 == 0 && hr2di_watch_work(watch, 8)) return 0;
     const int at_a = hr2di_orient_sign(w.a, w.b, s.a), at_b = hr2di_orient_sign(w.a, w.b, s.b);
     left |= at_a > 0 || at_b > 0;
     right |= at_a < 0 || at_b < 0;
@@ -20,9 +21,9 @@ static int on_hull(const hr2d_scene *scene, size_t k) {
   return 1;
 }
 
-static int all_on_hull(const hr2d_scene *scene) {
+static int all_on_hull(const hr2d_scene *scene, hr2di_watch *watch) {
   for (size_t k = 0; k < scene->patches; k++)
-    if (!on_hull(scene, k)) return 0;
+    if (!on_hull(scene, k, watch)) return 0;
   return 1;
 }
 
@@ -43,25 +44,27 @@ static hr2d_status look_between(const hr2d_scene *scene, hr2di_visibility *visib
   const hr2d_segment s = scene->patch[i].scaled, t = scene->patch[j].scaled;
   hr2di_shaft shaft;
   hr2di_visibility_class view;
-  if (!hr2di_shaft_init(&shaft, hr2di_facing_of(&s, &t), s, t, s, t)) return HR2D_OK;
+  if (!hr2di_shaft_init(&shaft, hr2di_facing_of(&s, &t), s, t, s, t))
+    return hr2di_watch_work(visibility->watch, 1);
   visibility->list.count = 0;
   const hr2d_status status =
       hr2di_visibility_collect(visibility, &shaft, &visibility->list, &view);
-  if (!status && view != HR2DI_CLEAR)
+  if (status) return status;
+  if (view != HR2DI_CLEAR)
     *found = (hr2di_occlusion){1, i, j, patch_in_way(scene, &shaft, visibility->last)};
-  return status;
+  return hr2di_watch_work(visibility->watch, 4);
 }
 
-hr2d_status hr2di_occluder_find(hr2d_scene *scene, hr2di_occlusion *found) {
+hr2d_status hr2di_occluder_find(const hr2d_scene *scene, hr2di_occlusion *found,
+                                hr2di_watch *watch) {
   *found = (hr2di_occlusion){0};
-  if (all_on_hull(scene)) return HR2D_OK;
+  if (all_on_hull(scene, watch)) return HR2D_OK;
   hr2di_visibility visibility;
-  hr2di_visibility_init(&visibility, &scene->walls, &scene->alloc);
-  hr2d_status status = HR2D_OK;
+  hr2di_visibility_init(&visibility, &scene->walls, &scene->alloc, watch);
+  hr2d_status status = hr2di_watch_status(watch);
   for (size_t i = 0; i < scene->patches && !found->exists && !status; i++)
     for (size_t j = i + 1; j < scene->patches && !found->exists && !status; j++)
       status = look_between(scene, &visibility, i, j, found);
   hr2di_visibility_clear(&visibility);
-  return status ? hr2di_message_fail(&scene->message, status, "out of memory for the analysis")
-                : HR2D_OK;
+  return status;
 }

@@ -6,14 +6,17 @@
 #include <hr2d/scene.h>
 #include <stddef.h>
 
+#include "base/watch.h"
+
 typedef struct hr2di_occlusion {
   int exists;
   size_t i, j, occluder; /* the first found */
 } hr2di_occlusion;
 
-/* Searches for a patch that reaches into the shaft of two others.  Returns HR2D_OK, or
-   HR2D_ENOMEM with a message.  Cost O(n²) if all patches lie on the hull of the scene, else up
+/* Searches for a patch that reaches into the shaft of two others.  Returns HR2D_OK, HR2D_ENOMEM
+   or the status of the watch.  Cost O(n²) if all patches lie on the hull of the scene, else up
    to O(n³), until one is found. */
-hr2d_status hr2di_occluder_find(hr2d_scene *scene, hr2di_occlusion *found);
+hr2d_status hr2di_occluder_find(const hr2d_scene *scene, hr2di_occlusion *found,
+                                hr2di_watch *watch);
 
 #endif

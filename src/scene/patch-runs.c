@@ -3,9 +3,9 @@
 #include "scene/patch-runs.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "scene/scene-impl.h"
 
 typedef struct place {
@@ -32,7 +32,7 @@ static place place_of(const hr2d_scene *scene, uint32_t patch) {
   return (place){wall, to > from, to > from ? from : -from, patch};
 }
 
-hr2d_status hr2di_runs_init(hr2di_runs *runs, const hr2d_scene *scene) {
+hr2d_status hr2di_runs_init(hr2di_runs *runs, const hr2d_scene *scene, hr2di_watch *watch) {
   const size_t n = scene->patches;
   *runs = (hr2di_runs){.alloc = scene->alloc};
   runs->patch = hr2di_alloc(&runs->alloc, n, sizeof *runs->patch);
@@ -42,9 +42,10 @@ hr2d_status hr2di_runs_init(hr2di_runs *runs, const hr2d_scene *scene) {
     hr2di_alloc_free(&runs->alloc, places);
     return HR2D_ENOMEM;
   }
+  hr2d_status status = hr2di_watch_work(watch, n / 4);
   for (uint32_t k = 0; k < n; k++) places[k] = place_of(scene, k);
-  qsort(places, n, sizeof *places, by_place);
-  for (uint32_t k = 0; k < n; k++) {
+  if (!status) status = hr2di_sort(places, n, sizeof *places, by_place, watch);
+  for (uint32_t k = 0; k < n && !status; k++) {
     const int begins = k == 0 || places[k].wall != places[k - 1].wall ||
                        places[k].forward != places[k - 1].forward;
     if (begins) runs->run[runs->runs++].first = k;
@@ -52,7 +53,7 @@ hr2d_status hr2di_runs_init(hr2di_runs *runs, const hr2d_scene *scene) {
     runs->patch[k] = places[k].patch;
   }
   hr2di_alloc_free(&runs->alloc, places);
-  return HR2D_OK;
+  return status;
 }
 
 void hr2di_runs_clear(hr2di_runs *runs) {

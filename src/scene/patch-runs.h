@@ -7,6 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/watch.h"
+
 typedef struct hr2di_run {
   uint32_t first, last; /* items [first, last) of hr2di_runs::patch */
 } hr2di_run;
@@ -18,9 +20,9 @@ typedef struct hr2di_runs {
   size_t runs;
 } hr2di_runs;
 
-/* Makes the runs of a committed scene.  Returns HR2D_OK or HR2D_ENOMEM; in either case the
-   caller calls hr2di_runs_clear(). */
-hr2d_status hr2di_runs_init(hr2di_runs *runs, const hr2d_scene *scene);
+/* Makes the runs of a committed scene.  Returns HR2D_OK, HR2D_ENOMEM or the status of the
+   watch; in any case the caller calls hr2di_runs_clear(). */
+hr2d_status hr2di_runs_init(hr2di_runs *runs, const hr2d_scene *scene, hr2di_watch *watch);
 void hr2di_runs_clear(hr2di_runs *runs);
 
 #endif

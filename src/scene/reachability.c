@@ -24,6 +24,8 @@ static int emits(const hr2d_scene *scene, size_t patch) {
 static hr2d_status sees(search *s, size_t i, size_t j, int exactly, int *seen) {
   const hr2d_segment p = s->scene->patch[i].scaled, q = s->scene->patch[j].scaled;
   hr2di_shaft shaft;
+  hr2d_status status = hr2di_watch_work(s->visibility.watch, 1);
+  if (status) return status;
   const hr2di_facing facing = hr2di_facing_of(&p, &q);
   *seen = facing != HR2DI_FACING_NONE;
   if (!s->scene->effect[HR2D_EFFECT_OCCLUSION].on ||
@@ -32,7 +34,7 @@ static hr2d_status sees(search *s, size_t i, size_t j, int exactly, int *seen) {
   if (!exactly) return hr2di_visibility_quick(&s->visibility, &shaft, seen);
   hr2di_wall_list found = {0};
   hr2di_visibility_class view;
-  hr2d_status status = hr2di_visibility_collect(&s->visibility, &shaft, &found, &view);
+  status = hr2di_visibility_collect(&s->visibility, &shaft, &found, &view);
   if (!status && view == HR2DI_BLOCKED) *seen = 0;
   if (!status && view == HR2DI_PARTIAL)
     status = hr2di_visibility_any(&s->visibility, &shaft, found.wall, found.count, seen);
@@ -43,6 +45,8 @@ static hr2d_status sees(search *s, size_t i, size_t j, int exactly, int *seen) {
 /* Lights all dark patches that see reached[from]. */
 static hr2d_status spread_from(search *s, size_t from, int exactly) {
   unsigned char *dark = s->scene->dark;
+  const hr2d_status asked = hr2di_watch_work(s->visibility.watch, s->scene->patches / 64);
+  if (asked) return asked;
   for (size_t k = 0; k < s->scene->patches; k++) {
     int seen = 0;
     const hr2d_status status = dark[k] ? sees(s, s->reached[from], k, exactly, &seen) : HR2D_OK;
@@ -85,14 +89,15 @@ static int all_lit(const hr2d_scene *scene) {
   return k == scene->patches;
 }
 
-hr2d_status hr2di_scene_find_light(hr2d_scene *scene) {
+hr2d_status hr2di_scene_find_light(hr2d_scene *scene, hr2di_watch *watch) {
   if (all_lit(scene)) return HR2D_OK;
   const size_t n = scene->patches;
   search s = {.scene = scene};
   s.reached = hr2di_alloc(&scene->alloc, n, sizeof *s.reached);
   scene->dark = hr2di_alloc_zero(&scene->alloc, n, 1);
-  hr2di_visibility_init(&s.visibility, &scene->walls, &scene->alloc);
+  hr2di_visibility_init(&s.visibility, &scene->walls, &scene->alloc, watch);
   hr2d_status status = s.reached && scene->dark ? HR2D_OK : HR2D_ENOMEM;
+  if (!status) status = hr2di_watch_work(watch, n / 8);
   for (size_t k = 0; k < n && !status; k++)
     if (emits(scene, k))
       s.reached[s.count++] = (uint32_t)k;
@@ -106,6 +111,5 @@ hr2d_status hr2di_scene_find_light(hr2d_scene *scene) {
     hr2di_alloc_free(&scene->alloc, scene->dark);
     scene->dark = NULL;
   }
-  return status ? hr2di_message_fail(&scene->message, status, "out of memory for the analysis")
-                : HR2D_OK;
+  return status ? hr2di_scene_fail(scene, status, watch, "the analysis") : HR2D_OK;
 }

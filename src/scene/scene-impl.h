@@ -6,6 +6,7 @@
 #include <hr2d/scene.h>
 
 #include "base/message.h"
+#include "base/watch.h"
 #include "occlusion/walls.h"
 
 /* Emission and reflectance of a patch.  The segments of a feature, both sides of a patch and
@@ -29,6 +30,8 @@ typedef struct hr2di_patch {
 struct hr2d_scene {
   hr2d_allocator alloc;
   hr2di_message message;
+  hr2d_progress_fn progress; /* for calls without one in their options */
+  void *progress_ctx;
   int committed;
   hr2di_patch *patch;
   size_t patches, capacity;
@@ -70,12 +73,20 @@ hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch);
 /* Removes the results of commit. */
 void hr2di_scene_clear_commit(hr2d_scene *scene);
 
+/* Sets up a watch that asks `progress`, or the callback of the scene if that is NULL. */
+void hr2di_scene_watch(const hr2d_scene *scene, hr2di_watch *watch, hr2d_progress_fn progress,
+                       void *ctx, const char *phase);
+
+/* Leaves a message; returns `status`: that of the watch, or HR2D_ENOMEM for `what`. */
+hr2d_status hr2di_scene_fail(hr2d_scene *scene, hr2d_status status, const hr2di_watch *watch,
+                             const char *what);
+
 /* Parts of commit, in the order of their calls.  Each leaves a message if it fails. */
-hr2d_status hr2di_scene_check_bands(hr2d_scene *scene);
-hr2d_status hr2di_scene_scale(hr2d_scene *scene);
-hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene);
-hr2d_status hr2di_scene_analyse_effects(hr2d_scene *scene);
-hr2d_status hr2di_scene_find_light(hr2d_scene *scene);
+hr2d_status hr2di_scene_check_bands(hr2d_scene *scene, hr2di_watch *watch);
+hr2d_status hr2di_scene_scale(hr2d_scene *scene, hr2di_watch *watch);
+hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene, hr2di_watch *watch);
+hr2d_status hr2di_scene_analyse_effects(hr2d_scene *scene, hr2di_watch *watch);
+hr2d_status hr2di_scene_find_light(hr2d_scene *scene, hr2di_watch *watch);
 
 static inline int hr2di_scene_lit(const hr2d_scene *scene, size_t patch) {
   return !scene->dark || !scene->dark[patch];

@@ -236,6 +236,27 @@ hr2d_status hr2d_scene_force(hr2d_scene *scene, hr2d_effect effect) {
   return HR2D_OK;
 }
 
+void hr2d_scene_set_progress(hr2d_scene *scene, hr2d_progress_fn progress, void *ctx) {
+  scene->progress = progress;
+  scene->progress_ctx = ctx;
+}
+
+void hr2di_scene_watch(const hr2d_scene *scene, hr2di_watch *watch, hr2d_progress_fn progress,
+                       void *ctx, const char *phase) {
+  if (progress)
+    hr2di_watch_init(watch, progress, ctx, phase);
+  else
+    hr2di_watch_init(watch, scene->progress, scene->progress_ctx, phase);
+}
+
+hr2d_status hr2di_scene_fail(hr2d_scene *scene, hr2d_status status, const hr2di_watch *watch,
+                             const char *what) {
+  if (hr2di_watch_refused(watch))
+    return hr2di_message_fail(&scene->message, status, "callback \"progress\": %s",
+                              hr2d_strerror(status));
+  return hr2di_message_fail(&scene->message, status, "out of memory for %s", what);
+}
+
 const char *hr2d_scene_message(const hr2d_scene *scene) {
   return scene->message.text;
 }

@@ -4,10 +4,10 @@
    then exactly back to back. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "geometry/crossings.h"
 #include "geometry/cut-points.h"
 #include "scene/scene-impl.h"
@@ -73,7 +73,12 @@ static hr2d_status make_walls(splitter *p) {
   const int made = sorted && p->wall && p->wall_of;
   if (made) {
     for (size_t k = 0; k < p->pieces; k++) sorted[k] = (place){undirected(p->piece[k].s), k};
-    qsort(sorted, p->pieces, sizeof *sorted, by_segment);
+    const hr2d_status status =
+        hr2di_sort(sorted, p->pieces, sizeof *sorted, by_segment, p->cuts.watch);
+    if (status) {
+      hr2di_alloc_free(p->alloc, sorted);
+      return status;
+    }
     for (size_t k = 0; k < p->pieces; k++) {
       const hr2d_segment s = sorted[k].s;
       if (k == 0 || compare_points(s.a, sorted[k - 1].s.a) ||
@@ -110,8 +115,11 @@ static hr2d_status cut_one(splitter *p, size_t k) {
 
 static hr2d_status cut_all(splitter *p) {
   p->cut_pieces = 0;
-  for (size_t k = 0; k < p->pieces; k++)
+  for (size_t k = 0; k < p->pieces; k++) {
+    const hr2d_status status = hr2di_watch_work(p->cuts.watch, 1);
+    if (status) return status;
     if (cut_one(p, k)) return HR2D_ENOMEM;
+  }
   piece *const pieces = p->piece;
   const size_t capacity = p->capacity;
   p->piece = p->cut_piece;
@@ -207,11 +215,14 @@ static hr2d_status make_patches(splitter *p, hr2di_patch *made, size_t *count) {
     const hr2di_patch *whole = &p->scene->patch[part->patch];
     if (k > 0 && p->piece[k - 1].patch != part->patch) number = 0;
     if (part->left_out) continue;
-    if (is_whole(p, k))
+    hr2d_status status = hr2di_watch_work(p->cuts.watch, 2);
+    if (!status && is_whole(p, k))
       made[*count] = *whole;
-    else if (make_piece(p, whole, part, ++number, &made[*count])) {
+    else if (!status)
+      status = make_piece(p, whole, part, ++number, &made[*count]);
+    if (status) {
       free_pieces(p, made, *count);
-      return HR2D_ENOMEM;
+      return status;
     }
     ++*count;
   }
@@ -222,9 +233,11 @@ static hr2d_status replace_patches(splitter *p) {
   hr2d_scene *scene = p->scene;
   size_t count;
   hr2di_patch *made = hr2di_alloc(p->alloc, p->pieces, sizeof *made);
-  if (!made || leave_copies_out(p) || make_patches(p, made, &count)) {
+  hr2d_status status = made ? leave_copies_out(p) : HR2D_ENOMEM;
+  if (!status) status = make_patches(p, made, &count);
+  if (status) {
     hr2di_alloc_free(p->alloc, made);
-    return HR2D_ENOMEM;
+    return status;
   }
   for (size_t k = 0; k < p->pieces; k++)
     if (!is_whole(p, k) && (k == 0 || p->piece[k - 1].patch != p->piece[k].patch))
@@ -240,24 +253,26 @@ static int by_place(const void *left, const void *right) {
   return compare_points(*(const hr2d_point *)left, *(const hr2d_point *)right);
 }
 
-static size_t count_places(hr2di_cuts *cuts) {
-  size_t count = 0;
-  if (cuts->places > 0) qsort(cuts->place, cuts->places, sizeof *cuts->place, by_place);
-  for (size_t k = 0; k < cuts->places; k++)
-    count += k == 0 || by_place(&cuts->place[k], &cuts->place[k - 1]) != 0;
-  return count;
+static hr2d_status count_places(hr2di_cuts *cuts, size_t *count) {
+  *count = 0;
+  const hr2d_status status =
+      hr2di_sort(cuts->place, cuts->places, sizeof *cuts->place, by_place, cuts->watch);
+  for (size_t k = 0; k < cuts->places && !status; k++)
+    *count += k == 0 || by_place(&cuts->place[k], &cuts->place[k - 1]) != 0;
+  return status;
 }
 
-static hr2d_status split(splitter *p) {
+static hr2d_status split(splitter *p, size_t *count) {
   hr2d_scene *scene = p->scene;
-  hr2d_status status = hr2di_scene_scale(scene);
+  hr2d_status status = hr2di_scene_scale(scene, p->cuts.watch);
   if (status) return status;
-  p->cuts = (hr2di_cuts){.alloc = p->alloc, .exponent = scene->exponent};
+  p->cuts.exponent = scene->exponent;
   if (hr2di_alloc_reserve(p->alloc, &p->piece, &p->capacity, scene->patches, sizeof *p->piece))
     return HR2D_ENOMEM;
   for (; p->pieces < scene->patches; p->pieces++)
     p->piece[p->pieces] = (piece){scene->patch[p->pieces].scaled, p->pieces, 0};
   status = cut_until_free(p);
+  if (!status) status = count_places(&p->cuts, count);
   if (status || p->pieces == scene->patches) return status;
   return replace_patches(p);
 }
@@ -265,16 +280,21 @@ static hr2d_status split(splitter *p) {
 hr2d_status hr2d_scene_split_crossings(hr2d_scene *scene, size_t *cuts) {
   if (scene->committed)
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "a committed scene cannot be cut");
-  splitter p = {.scene = scene, .alloc = &scene->alloc, .cuts = {.alloc = &scene->alloc}};
-  hr2d_status status = scene->patches > 0 ? split(&p) : HR2D_OK;
+  hr2di_watch watch;
+  size_t count = 0;
+  hr2di_scene_watch(scene, &watch, NULL, NULL, "split");
+  splitter p = {.scene = scene,
+                .alloc = &scene->alloc,
+                .cuts = {.alloc = &scene->alloc, .watch = &watch}};
+  hr2d_status status = scene->patches > 0 ? split(&p, &count) : HR2D_OK;
   scene->exponent = 0;
-  if (!status && cuts) *cuts = count_places(&p.cuts);
+  if (!status && cuts) *cuts = count;
   hr2di_alloc_free(p.alloc, p.piece);
   hr2di_alloc_free(p.alloc, p.cut_piece);
   hr2di_alloc_free(p.alloc, p.wall);
   hr2di_alloc_free(p.alloc, p.wall_of);
   hr2di_cuts_clear(&p.cuts);
-  if (status == HR2D_ENOMEM)
-    hr2di_message_fail(&scene->message, status, "out of memory for the crossings");
+  if (status == HR2D_ENOMEM || watch.status)
+    hr2di_scene_fail(scene, status, &watch, "the crossings");
   return status;
 }

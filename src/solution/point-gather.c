@@ -35,6 +35,7 @@ enum { POINTS = 32, STACK = 128 };
 typedef struct gatherer {
   const hr2d_solution *solution;
   hr2di_viewer *viewer;
+  hr2di_watch *watch;
   hr2di_basis basis;
   hr2di_rule rule;
   hr2d_point x, normal;
@@ -67,6 +68,8 @@ static void add_panel(gatherer *g, hr2d_point from, hr2d_point along, hr2di_span
                       const double *coefficient) {
   const double size = panel.to - panel.from;
   const size_t bands = g->solution->bands;
+  if (hr2di_watch_work(g->watch, g->rule.points * (1 + g->solution->order * bands / 16)))
+    return;
   for (size_t q = 0; q < g->rule.points; q++) {
     const double t = panel.from + size * (0.5 + 0.5 * g->rule.at[q]);
     const hr2d_point r = hr2di_block_along(from, along, t);
@@ -117,6 +120,7 @@ static void add_leaves(gatherer *g, const hr2di_glimpse *seen) {
   stack[count++] = (piece){seen->patch, 0, 1};
   while (count > 0) {
     const piece p = stack[--count];
+    if (hr2di_watch_work(g->watch, 1)) return;
     const double size = p.to - p.from;
     if (p.to <= seen->from || p.from >= seen->to) continue;
     const uint32_t child = element[p.element].child;
@@ -178,7 +182,8 @@ static hr2d_status look(gatherer *g, size_t patch, double t, const edge *without
   const hr2d_scene *scene = g->solution->hierarchy->scene;
   const int background = scene->effect[HR2D_EFFECT_BACKGROUND].on;
   hr2di_view_from seen;
-  if (hr2di_view_at(g->viewer, patch, t, &seen)) return HR2D_ENOMEM;
+  const hr2d_status status = hr2di_view_at(g->viewer, patch, t, &seen);
+  if (status) return status;
   set_point(g, &scene->patch[patch], t);
   g->value = irradiance;
   *wedge = 0;
@@ -192,7 +197,7 @@ static hr2d_status look(gatherer *g, size_t patch, double t, const edge *without
   }
   /* Light is never negative; polynomials may be beside a shadow. */
   for (size_t b = 0; b < g->solution->bands; b++) g->value[b] = fmax(g->value[b], 0);
-  return HR2D_OK;
+  return hr2di_watch_work(g->watch, seen.count / 16);
 }
 
 /* The point of a patch at the edge of a wedge, with the inside of the patch on the given side
@@ -267,9 +272,10 @@ static hr2d_status find_wedge(gatherer *g, size_t patch, double t, double *irrad
   *closed = 0;
   for (size_t k = 0; k < scene->patches && !*closed && !status; k++) {
     double distance;
+    if (k % 16 == 0) status = hr2di_watch_work(g->watch, 4);
     set_point(g, &scene->patch[patch], t);
     const double at = nearest(g, k, 0, 1, &distance);
-    if (k == patch || distance > TOUCH) continue;
+    if (status || k == patch || distance > TOUCH) continue;
     const hr2d_segment s = scene->patch[k].scaled;
     const double rises = hr2di_point_dot(hr2di_point_minus(s.b, s.a), g->normal);
     const edge q = edge_of(g, k, at, rises > 0 ? 1 : -1);
@@ -287,42 +293,66 @@ static hr2d_status gather_at(gatherer *g, size_t patch, double t, double *irradi
   return status || closed ? status : look(g, patch, t, NULL, irradiance, &wedge, &others);
 }
 
-hr2d_status hr2d_solution_gather_irradiance(const hr2d_solution *solution, size_t patch,
-                                            const double *t, size_t count, double *value) {
-  gatherer g = {.solution = solution};
+static hr2d_status gather_irradiance(const hr2d_solution *solution, size_t patch,
+                                     const double *t, size_t count, double *value,
+                                     hr2di_watch *watch) {
+  gatherer g = {.solution = solution, .watch = watch};
   g.edge = hr2di_alloc(&solution->alloc, 2 * solution->bands, sizeof *g.edge);
   g.far = g.edge + (g.edge ? solution->bands : 0);
   hr2d_status status = g.edge ? HR2D_OK : HR2D_ENOMEM;
   if (!status)
-    status = hr2di_viewer_create(solution->hierarchy->scene, &solution->alloc, &g.viewer);
+    status =
+        hr2di_viewer_create(solution->hierarchy->scene, &solution->alloc, watch, &g.viewer);
   hr2di_basis_init(&g.basis, solution->order);
   hr2di_rule_init(&g.rule, POINTS);
-  for (size_t k = 0; k < count && !status; k++)
+  for (size_t k = 0; k < count && !status; k++) {
+    if (watch) watch->told.fraction = (double)k / (double)count;
     status = gather_at(&g, patch, t[k], value + k * solution->bands);
+  }
   hr2di_viewer_destroy(g.viewer);
   hr2di_alloc_free(&solution->alloc, g.edge);
   return status;
 }
 
-/* value = constant + factor·H, per band. */
-static hr2d_status gather_with(const hr2d_solution *solution, size_t patch, const double *t,
-                               size_t count, int net, double *value) {
+hr2d_status hr2di_solution_gather(const hr2d_solution *solution, size_t patch, const double *t,
+                                  size_t count, double *value, hr2di_watch *watch) {
   const hr2d_scene *scene = solution->hierarchy->scene;
-  const hr2d_status status = hr2d_solution_gather_irradiance(solution, patch, t, count, value);
+  const hr2d_status status = gather_irradiance(solution, patch, t, count, value, watch);
   for (size_t k = 0; k < count * solution->bands && !status; k++) {
     const size_t band = k % solution->bands;
-    const double rho = hr2d_scene_reflectance(scene, patch, band);
-    value[k] = hr2d_scene_emission(scene, patch, band) + (net ? rho - 1 : rho) * value[k];
+    value[k] = hr2d_scene_emission(scene, patch, band) +
+               hr2d_scene_reflectance(scene, patch, band) * value[k];
   }
   return status;
 }
 
+/* The callback of the scene is asked between the points. */
+static void watch_gather(const hr2d_solution *solution, hr2di_watch *watch) {
+  hr2di_scene_watch(solution->hierarchy->scene, watch, NULL, NULL, "gather");
+}
+
 hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t patch, const double *t,
                                  size_t count, double *value) {
-  return gather_with(solution, patch, t, count, 0, value);
+  hr2di_watch watch;
+  watch_gather(solution, &watch);
+  return hr2di_solution_gather(solution, patch, t, count, value, &watch);
+}
+
+hr2d_status hr2d_solution_gather_irradiance(const hr2d_solution *solution, size_t patch,
+                                            const double *t, size_t count, double *value) {
+  hr2di_watch watch;
+  watch_gather(solution, &watch);
+  return gather_irradiance(solution, patch, t, count, value, &watch);
 }
 
 hr2d_status hr2d_solution_gather_net_flux(const hr2d_solution *solution, size_t patch,
                                           const double *t, size_t count, double *value) {
-  return gather_with(solution, patch, t, count, 1, value);
+  const hr2d_scene *scene = solution->hierarchy->scene;
+  const hr2d_status status = hr2d_solution_gather_irradiance(solution, patch, t, count, value);
+  for (size_t k = 0; k < count * solution->bands && !status; k++) {
+    const size_t band = k % solution->bands;
+    value[k] = hr2d_scene_emission(scene, patch, band) +
+               (hr2d_scene_reflectance(scene, patch, band) - 1) * value[k];
+  }
+  return status;
 }

@@ -5,6 +5,8 @@
 
 #include <hr2d/solve.h>
 
+#include "base/watch.h"
+
 struct hr2d_solution {
   hr2d_allocator alloc;
   const hr2d_linkset *links;
@@ -21,8 +23,14 @@ struct hr2d_solution {
 };
 
 /* Writes B of a solution to `field`: count × order × bands coefficients, on leaves of a
-   hierarchy that has grown from its own, and at another order perhaps. */
-void hr2di_solution_restrict(const hr2d_solution *from, const hr2d_hierarchy *hierarchy,
-                             const uint32_t *leaf, size_t count, size_t order, double *field);
+   hierarchy that has grown from its own, and at another order perhaps.  Returns HR2D_OK or the
+   status of the watch. */
+hr2d_status hr2di_solution_restrict(const hr2d_solution *from, const hr2d_hierarchy *hierarchy,
+                                    const uint32_t *leaf, size_t count, size_t order,
+                                    double *field, hr2di_watch *watch);
+
+/* hr2d_solution_gather() with a watch. */
+hr2d_status hr2di_solution_gather(const hr2d_solution *solution, size_t patch, const double *t,
+                                  size_t count, double *value, hr2di_watch *watch);
 
 #endif

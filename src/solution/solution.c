@@ -99,19 +99,24 @@ static void restrict_to(const hr2d_solution *from, const hr2d_hierarchy *h, uint
 }
 
 /* Legendre coefficients are nested: on leaves that the solution has, they are copied. */
-void hr2di_solution_restrict(const hr2d_solution *from, const hr2d_hierarchy *hierarchy,
-                             const uint32_t *leaf, size_t count, size_t order, double *field) {
+hr2d_status hr2di_solution_restrict(const hr2d_solution *from, const hr2d_hierarchy *hierarchy,
+                                    const uint32_t *leaf, size_t count, size_t order,
+                                    double *field, hr2di_watch *watch) {
+  hr2d_status status = HR2D_OK;
   const size_t bands = from->bands, width = order * bands, known = from->order * bands;
   hr2di_rule rule;
   hr2di_basis basis;
   hr2di_rule_init(&rule, order > from->order ? order : from->order);
   hr2di_basis_init(&basis, order);
-  for (size_t k = 0; k < count; k++) {
+  for (size_t k = 0; k < count && !status; k++) {
+    const int copied = leaf[k] < from->elements;
+    status = hr2di_watch_work(watch, 1 + width / 32 + (copied ? 0 : 5 * rule.points * bands));
     double *to = field + k * width;
     for (size_t m = 0; m < width; m++)
       to[m] = leaf[k] < from->elements && m < known ? from->value[leaf[k] * known + m] : 0;
-    if (leaf[k] >= from->elements) restrict_to(from, hierarchy, leaf[k], &rule, &basis, to);
+    if (!copied) restrict_to(from, hierarchy, leaf[k], &rule, &basis, to);
   }
+  return status;
 }
 
 double hr2d_solution_at(const hr2d_solution *solution, size_t patch, double t, size_t band) {

@@ -40,7 +40,8 @@ static hr2d_status take_backs(looker *l, size_t leaf, double from, double size) 
   for (size_t q = 0; q < l->rule.points; q++) {
     hr2di_view_from seen;
     const double at = from + size * (0.5 + 0.5 * l->rule.at[q]);
-    if (hr2di_view_at(l->viewer, patch, at, &seen)) return HR2D_ENOMEM;
+    const hr2d_status status = hr2di_view_at(l->viewer, patch, at, &seen);
+    if (status) return status;
     hr2di_basis_at(&l->basis, l->rule.at[q], phi);
     for (size_t k = 0; k < t->order; k++) sky[k] -= l->rule.weight[q] * seen.back * phi[k];
   }
@@ -52,7 +53,7 @@ static hr2d_status take_all_backs(hr2di_transport *t) {
   looker l = {.t = t};
   hr2di_basis_init(&l.basis, t->order);
   hr2di_rule_init(&l.rule, t->order + 6);
-  hr2d_status status = hr2di_viewer_create(h->scene, &t->alloc, &l.viewer);
+  hr2d_status status = hr2di_viewer_create(h->scene, &t->alloc, t->watch, &l.viewer);
   for (size_t k = 0; k < t->leaves && !status; k++) {
     const hr2d_element *e = &h->element[t->leaf[k]];
     if (hr2di_scene_lit(h->scene, e->patch))
@@ -72,14 +73,14 @@ static hr2d_status take_rows(hr2di_transport *t) {
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t b = 0; b < t->bands; b++) one[k * t->width + b] = 1;
   hr2di_transport_apply(t, one, row);
-  for (size_t k = 0; k < t->leaves; k++) {
+  for (size_t k = 0; k < t->leaves && !t->failed; k++) {
     const int lit =
         hr2di_scene_lit(t->hierarchy->scene, t->hierarchy->element[t->leaf[k]].patch);
     for (size_t l = 0; l < t->order && lit; l++)
       t->sky[k * t->order + l] = (l == 0) - row[k * t->width + l * t->bands];
   }
   hr2di_alloc_free(&t->alloc, one);
-  return HR2D_OK;
+  return t->failed ? t->failed : hr2di_watch_work(t->watch, t->leaves / 4);
 }
 
 /* A closed room does not see the background, whatever rounding does to its row sums. */
@@ -95,7 +96,7 @@ hr2d_status hr2di_background_set_order_p(hr2di_transport *t) {
   hr2di_backs backs = {0};
   t->sky = hr2di_alloc_zero(&t->alloc, t->leaves * t->order, sizeof *t->sky);
   hr2d_status status = t->sky ? take_rows(t) : HR2D_ENOMEM;
-  if (!status) status = hr2di_backs_init(t->hierarchy->scene, &backs);
+  if (!status) status = hr2di_backs_init(t->hierarchy->scene, &backs, t->watch);
   if (!status && backs.count > 0) status = take_all_backs(t);
   if (!status) clear_closed(t);
   hr2di_alloc_free(&t->alloc, backs.back);

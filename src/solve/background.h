@@ -7,8 +7,8 @@
 #include "solve/row-sums.h"
 #include "solve/transport.h"
 
-/* Sets t->sky to 1 less the row sums over patches and over their backs.  Returns HR2D_OK or
-   HR2D_ENOMEM. */
+/* Sets t->sky to 1 less the row sums over patches and over their backs.  Returns HR2D_OK,
+   HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_background_set(hr2di_transport *t, const hr2di_row_sums *rows);
 
 /* The same at an order above 1, from the rows of the operator, and from the backs that points

@@ -49,6 +49,7 @@ static void add_exact(rows *r, uint32_t receiver, uint32_t source) {
   const hr2d_point normal = {-f.along_i.y / size, f.along_i.x / size};
   uint32_t leaf = hr2di_hierarchy_first_leaf(h, receiver);
   do {
+    if (hr2di_watch_work(r->t->watch, r->rule.points * (8 + order) / 16)) return;
     const double from = (hr2di_element_start(h, leaf) - start) * (whole / size);
     const double part = h->element[leaf].length / size;
     double *exact = r->exact + r->number[leaf] * order;
@@ -67,6 +68,7 @@ static void add_links(rows *r) {
   const hr2d_linkset *links = r->t->links;
   const hr2d_element *element = r->t->hierarchy->element;
   for (uint64_t k = 0; k < links->store.count; k++) {
+    if (k % 64 == 0 && hr2di_watch_work(r->t->watch, 4)) return;
     if (!links->blocks.distant[k]) continue;
     const hr2d_pair pair = hr2di_store_at(&links->store, k)->pair;
     if (!r->closed[element[pair.first].patch]) add_exact(r, pair.first, pair.second);
@@ -77,7 +79,7 @@ static void add_links(rows *r) {
 
 /* Marks the patches that see patches in every direction. */
 static void find_closed(rows *r) {
-  hr2di_defect_sum(r->t->links, r->defect);
+  hr2di_defect_sum(r->t->links, r->defect, r->t->watch);
   hr2di_defect_closed(r->t->links, r->defect, r->closed);
 }
 
@@ -116,6 +118,7 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
   }
   hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, r->one, r->all);
   hr2di_transport_apply_part(t, HR2DI_DISTANT_LINKS, r->one, r->row);
+  if (t->failed) return;
   const hr2di_clusters *clusters = t->links->roots.clusters;
   if (clusters && hr2di_clusters_links(clusters) > 0)
     find_closed_by_rows(r, t);
@@ -123,6 +126,8 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
     find_closed(r);
   add_links(r);
   for (size_t k = 0; k < t->leaves; k++) {
+    t->failed = hr2di_watch_work(t->watch, 1 + r->product.points * t->order * t->order / 32);
+    if (t->failed) return;
     const int closed = r->closed[t->hierarchy->element[t->leaf[k]].patch];
     const double *row = (closed ? r->all : r->row) + k * t->width;
     double *missing = r->exact + k * t->order;
@@ -161,5 +166,5 @@ hr2d_status hr2di_closure_set_order_p(hr2di_transport *t) {
   hr2di_alloc_free(alloc, r.closed);
   hr2di_alloc_free(alloc, r.defect);
   hr2di_alloc_free(alloc, r.exact);
-  return room ? HR2D_OK : HR2D_ENOMEM;
+  return room ? t->failed : HR2D_ENOMEM;
 }

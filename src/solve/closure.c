@@ -69,7 +69,7 @@ static hr2d_status make_factors(hr2di_transport *t, const hr2di_row_sums *rows, 
     set_factors(t, below, below + t->elements, *made);
   }
   hr2di_alloc_free(&t->alloc, below);
-  return below && *made && !t->failed ? HR2D_OK : HR2D_ENOMEM;
+  return !below || !*made ? HR2D_ENOMEM : t->failed;
 }
 
 /* What roundings leave of σ − K·1 is added on the diagonal. */
@@ -82,7 +82,7 @@ static hr2d_status set_rest(hr2di_transport *t, const hr2di_row_sums *rows) {
   if (room) {
     for (size_t k = 0; k < field; k++) one[k] = 1;
     hr2di_transport_apply(t, one, row);
-    for (size_t k = 0; k < t->leaves; k++)
+    for (size_t k = 0; k < t->leaves && !t->failed; k++)
       closure[k] = rows->front[t->leaf[k]] - row[k * t->bands];
     t->closure = closure;
   } else {
@@ -90,7 +90,7 @@ static hr2d_status set_rest(hr2di_transport *t, const hr2di_row_sums *rows) {
   }
   hr2di_alloc_free(&t->alloc, one);
   hr2di_alloc_free(&t->alloc, row);
-  return room ? HR2D_OK : HR2D_ENOMEM;
+  return room ? t->failed : HR2D_ENOMEM;
 }
 
 /* Both sets of factors are made before either is used. */

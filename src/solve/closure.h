@@ -7,7 +7,7 @@
 #include "solve/transport.h"
 
 /* Sets t->receive, t->send and t->closure from the links and the exact row sums.  Returns
- * HR2D_OK or HR2D_ENOMEM. */
+   HR2D_OK, HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_closure_set(hr2di_transport *t, const hr2di_row_sums *rows);
 
 /* The same at an order above 1; no row sums need be integrated. */

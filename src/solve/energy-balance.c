@@ -30,10 +30,10 @@ static hr2d_status set_missing(hr2di_balance *b, hr2di_transport *t) {
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t band = 0; band < t->bands; band++) one[k * t->width + band] = 1;
   hr2di_transport_apply(t, one, row);
-  for (size_t k = 0; k < t->leaves * t->order; k++)
+  for (size_t k = 0; k < t->leaves * t->order && !t->failed; k++)
     b->missing[k] = one[k * t->bands] - row[k * t->bands];
   hr2di_alloc_free(&t->alloc, one);
-  return t->failed ? HR2D_ENOMEM : HR2D_OK;
+  return t->failed;
 }
 
 /* Sums of a component, kept at its first patch while components are numbered. */
@@ -58,12 +58,13 @@ static void number(hr2di_balance *b, const hr2di_transport *t, hr2di_components 
 
 static hr2d_status find_components(hr2di_balance *b, hr2di_transport *t) {
   hr2di_components c = {.alloc = t->alloc};
-  hr2d_status status = hr2di_components_init(&c, t->links);
+  hr2d_status status = hr2di_components_init(&c, t->links, t->watch);
   tally *of = hr2di_alloc_zero(&t->alloc, t->hierarchy->scene->patches, sizeof *of);
   b->component = hr2di_alloc(&t->alloc, t->leaves, sizeof *b->component);
   b->missing = hr2di_alloc(&t->alloc, t->leaves * t->order, sizeof *b->missing);
   if (!of || !b->component || !b->missing) status = HR2D_ENOMEM;
   if (!status) status = set_missing(b, t);
+  if (!status) status = hr2di_watch_work(t->watch, t->leaves);
   for (size_t k = 0; k < t->leaves && !status; k++) {
     tally *mine = &of[hr2di_component(&c, leaf_of(t, k)->patch)];
     const double area = leaf_of(t, k)->length;

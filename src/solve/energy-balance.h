@@ -30,8 +30,8 @@ typedef struct hr2di_balance {
   hr2di_sum *sum;      /* count × bands, work space */
 } hr2di_balance;
 
-/* Finds the components of a symmetric K with closure.  Returns HR2D_OK or HR2D_ENOMEM.  Call
-   hr2di_balance_clear() in either case. */
+/* Finds the components of a symmetric K with closure.  Returns HR2D_OK, HR2D_ENOMEM or the
+   status of the watch.  Call hr2di_balance_clear() in any case. */
 hr2d_status hr2di_balance_init(hr2di_balance *b, hr2di_transport *t);
 void hr2di_balance_clear(hr2di_balance *b);
 

@@ -50,16 +50,12 @@ static hr2d_status integrate_blocks(hr2di_equation *s) {
   const unsigned order = links->hierarchy->order;
   if (order == 1 || (links->blocks.order == order && links->blocks.links == links->store.count))
     return HR2D_OK;
-  const hr2di_link_blocks_plan plan = {s->options.threads, s->options.progress,
-                                       s->options.progress_ctx};
   const double start = hr2di_clock_now();
-  const hr2d_status status = hr2di_link_blocks_init(links, order, &plan);
+  const hr2d_status status =
+      hr2di_link_blocks_init(links, order, s->options.threads, &s->watch);
   s->kernels = links->blocks.kernels;
   s->coefficients_seconds = hr2di_clock_now() - start;
-  return status && status != HR2D_ENOMEM
-             ? hr2di_message_fail(&links->message, status, "coefficients: %s",
-                                  hr2d_strerror(status))
-             : status;
+  return status;
 }
 
 /* Sets powers of two that bring the light of each band near 1.  Then neither squares nor B
@@ -96,11 +92,19 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
   *s = (hr2di_equation){.links = links, .options = *options, .background = 1};
   s->transport.alloc = links->alloc;
   hr2di_transport *t = &s->transport;
+  hr2di_scene_watch(links->hierarchy->scene, &s->watch, options->progress,
+                    options->progress_ctx, "rows");
+  s->watch.told.elements = links->hierarchy->elements;
+  s->watch.told.links = links->store.count;
   hr2d_status status = integrate_blocks(s);
-  if (!status) status = hr2di_transport_init(t, s->links, s->options.threads);
+  if (status) return status;
+  hr2di_watch_phase(&s->watch, "rows");
+  status = hr2di_transport_init(t, s->links, s->options.threads, &s->watch);
   if (!status) status = integrate_rows(s);
   if (!status && t->closure && !links->directed) status = hr2di_balance_init(&s->balance, t);
+  if (!status) status = hr2di_watch_work(&s->watch, t->leaves * t->width / 4);
   if (status) return status;
+  hr2di_watch_phase(&s->watch, "solve");
   s->items = t->leaves * t->order;
   s->field = t->leaves * t->width;
   s->space = hr2di_alloc_zero(&s->links->alloc, s->items + 7 * s->field + 3 * t->bands,
@@ -153,15 +157,11 @@ static void scale(void *ctx, const double *y, double *norm) {
 static hr2d_status report(void *ctx, double residual) {
   hr2di_equation *s = ctx;
   s->looks++;
-  if (!s->options.progress) return HR2D_OK;
+  if (s->transport.failed) return s->transport.failed;
   const double digits = residual > 0 ? log(residual) / log(s->options.tolerance) : 1;
-  const hr2d_progress progress = {.struct_size = sizeof progress,
-                                  .phase = "solve",
-                                  .elements = s->transport.elements,
-                                  .links = s->links->store.count,
-                                  .fraction = fmin(fmax(digits, 0), 1),
-                                  .residual = residual};
-  return s->options.progress(s->options.progress_ctx, &progress);
+  s->watch.told.fraction = fmin(fmax(digits, 0), 1);
+  s->watch.told.residual = residual;
+  return hr2di_watch_ask(&s->watch);
 }
 
 static hr2di_krylov_system make_system(hr2di_equation *s) {
@@ -174,6 +174,7 @@ static hr2di_krylov_system make_system(hr2di_equation *s) {
                                .scale = scale,
                                .report = report,
                                .ctx = s,
+                               .watch = &s->watch,
                                .tolerance = s->options.tolerance,
                                .max_iterations = s->options.max_iterations};
 }
@@ -204,7 +205,7 @@ hr2d_status hr2di_equation_solve(hr2di_equation *s) {
   const hr2di_krylov_system system = make_system(s);
   double residual = 0;
   hr2d_status status = hr2di_krylov(&system, s->b, s->y, &residual);
-  if (s->transport.failed) status = HR2D_ENOMEM;
+  if (s->transport.failed) status = s->transport.failed;
   if (status == HR2D_ENOT_CONVERGED && s->looks <= s->options.max_iterations)
     return hr2di_message_fail(
         &s->links->message, status,
@@ -236,7 +237,7 @@ hr2d_status hr2di_equation_take(hr2di_equation *s) {
   set_fluctuation(s, s->y, s->radiosity);
   gather_rest(s, s->radiosity, s->irradiance);
   if (s->balance.count > 0) balance(s);
-  return s->transport.failed ? HR2D_ENOMEM : HR2D_OK;
+  return s->transport.failed;
 }
 
 /* c if entry k of a field is the constant coefficient of a leaf, else 0. */

@@ -13,6 +13,7 @@
 typedef struct hr2di_equation {
   hr2d_linkset *links;
   hr2d_solve_options options;
+  hr2di_watch watch; /* asks the callback of the options, or that of the scene */
   hr2di_transport transport;
   hr2di_balance balance;
   int background;   /* light comes in from the surroundings */
@@ -35,7 +36,7 @@ typedef struct hr2di_equation {
 
 /* Integrates blocks if the links have none, and row sums if they are called for.  Returns
    HR2D_OK, HR2D_ENOMEM, or the status of the progress callback.  Call hr2di_equation_clear() in
-   either case. */
+   any case.  The struct must not be moved. */
 hr2d_status hr2di_equation_init(hr2di_equation *eq, hr2d_linkset *links,
                                 const hr2d_solve_options *options);
 void hr2di_equation_clear(hr2di_equation *eq);
@@ -48,7 +49,7 @@ void hr2di_equation_gather(hr2di_equation *eq, const double *radiosity);
 hr2d_status hr2di_equation_solve(hr2di_equation *eq);
 
 /* Sets B = Q + √ρ y and its irradiance; this is the whole solve where nothing reflects.
-   Returns HR2D_OK or HR2D_ENOMEM. */
+   Returns HR2D_OK, HR2D_ENOMEM or the status of the progress callback. */
 hr2d_status hr2di_equation_take(hr2di_equation *eq);
 
 /* Sets c from the source, so that y = √ρ h from then on; hr2di_equation_solve() does it. */

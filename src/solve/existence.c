@@ -19,14 +19,15 @@ typedef struct exchange {
 } exchange;
 
 /* Subtracts from the defect of each patch what links of clusters exchange for it. */
-static hr2d_status add_clusters(const hr2d_linkset *links, exchange *e) {
+static hr2d_status add_clusters(const hr2d_linkset *links, exchange *e, hr2di_watch *watch) {
   const size_t n = links->hierarchy->scene->patches;
   if (!links->roots.clusters) return HR2D_OK;
   double *one = hr2di_alloc_zero(&links->alloc, 2 * n, sizeof *one);
   if (!one) return HR2D_ENOMEM;
   double *power = one + n;
   for (size_t k = 0; k < n; k++) one[k] = 1;
-  const hr2d_status status = hr2di_clusters_gather(links->roots.clusters, 1, 1, one, power);
+  const hr2d_status status =
+      hr2di_clusters_gather(links->roots.clusters, 1, 1, one, power, watch);
   for (size_t k = 0; k < n; k++) hr2di_sum_add(&e->escape[k], -power[k]);
   hr2di_alloc_free(&links->alloc, one);
   return status;
@@ -73,18 +74,19 @@ static int some_patch_absorbs_nothing(const hr2d_scene *scene) {
   return 0;
 }
 
-static hr2d_status sum_exchange(const hr2d_linkset *links, exchange *e) {
+static hr2d_status sum_exchange(const hr2d_linkset *links, exchange *e, hr2di_watch *watch) {
   const hr2d_scene *scene = links->hierarchy->scene;
-  hr2d_status status = hr2di_components_init(&e->components, links);
+  hr2d_status status = hr2di_components_init(&e->components, links, watch);
   for (size_t k = 0; k < scene->patches; k++) e->length[k] = scene->patch[k].length;
-  hr2di_defect_sum(links, e->escape);
-  if (!status) status = add_clusters(links, e);
+  if (!status) status = hr2di_defect_sum(links, e->escape, watch);
+  if (!status) status = add_clusters(links, e, watch);
+  if (!status) status = hr2di_watch_work(watch, scene->patches / 2);
   if (status) return status;
   sum_up(scene, e);
   return HR2D_OK;
 }
 
-hr2d_status hr2di_existence_check(hr2d_linkset *links) {
+hr2d_status hr2di_existence_check(hr2d_linkset *links, hr2di_watch *watch) {
   const hr2d_scene *scene = links->hierarchy->scene;
   if (!some_patch_absorbs_nothing(scene)) return HR2D_OK;
   const hr2d_allocator *alloc = &links->alloc;
@@ -93,8 +95,10 @@ hr2d_status hr2di_existence_check(hr2d_linkset *links) {
   e.components.alloc = *alloc;
   unsigned char *absorbs = hr2di_alloc(alloc, scene->patches, 1);
   hr2d_status status = HR2D_ENOMEM;
-  if (e.escape && e.length && absorbs) status = sum_exchange(links, &e);
-  if (status) hr2di_message_fail(&links->message, status, "out of memory for the solve");
+  if (e.escape && e.length && absorbs) status = sum_exchange(links, &e, watch);
+  if (status)
+    hr2di_message_fail(&links->message, status, "%s",
+                       watch->refused ? hr2d_strerror(status) : "out of memory for the solve");
   for (size_t band = 0; band < scene->bands && !status; band++)
     status = check_band(links, &e, band, absorbs);
   hr2di_components_clear(&e.components);

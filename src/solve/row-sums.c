@@ -26,6 +26,7 @@ typedef struct waiting {
 /* The row of one patch. */
 typedef struct walker {
   const hr2d_hierarchy *h;
+  hr2di_watch *watch;
   hr2di_backs backs;            /* empty if not asked for */
   hr2d_segment line;            /* of the patch */
   hr2d_segment source;          /* its leaves look at this: a patch, a back or an element */
@@ -42,6 +43,7 @@ static void add_clear(walker *w, uint32_t top) {
   const hr2d_element *element = w->h->element;
   uint32_t leaf = hr2di_hierarchy_first_leaf(w->h, top);
   do {
+    if (hr2di_watch_work(w->watch, 1)) return;
     const hr2d_segment s = {element[leaf].a, element[leaf].b};
     hr2di_sum_add(&w->sum[leaf], hr2d_exchange_area(&s, &w->source));
     leaf = hr2di_hierarchy_next_leaf(w->h, leaf, top);
@@ -58,10 +60,10 @@ static hr2d_status look(walker *w, uint32_t element, const waiting *parent, size
   hr2di_visibility_class view = HR2DI_CLEAR;
   const size_t first = w->list.count;
   const hr2di_facing facing = hr2di_facing_of(&s, &w->source);
-  if (facing == HR2DI_FACING_NONE) return HR2D_OK;
+  hr2d_status status = hr2di_watch_work(w->watch, 1);
+  if (status || facing == HR2DI_FACING_NONE) return status;
   const int shaded =
       w->visibility && hr2di_shaft_init(&shaft, facing, s, w->source, w->line, w->source_line);
-  hr2d_status status = HR2D_OK;
   if (shaded && parent)
     status = hr2di_visibility_shrink(w->visibility, &shaft, &w->list, parent->first,
                                      parent->count, &w->list, &view);
@@ -69,7 +71,7 @@ static hr2d_status look(walker *w, uint32_t element, const waiting *parent, size
     status = hr2di_visibility_collect(w->visibility, &shaft, &w->list, &view);
   if (status) return status;
   if (view == HR2DI_CLEAR) add_clear(w, element);
-  if (view != HR2DI_PARTIAL) return HR2D_OK;
+  if (view != HR2DI_PARTIAL) return hr2di_watch_status(w->watch);
   if (e->child) {
     w->stack[(*count)++] = (waiting){element, first, w->list.count - first};
     return HR2D_OK;
@@ -129,7 +131,7 @@ static hr2d_status walk_link(walker *w, uint32_t receiver, uint32_t source, doub
   w->line = w->h->scene->patch[e->patch].scaled;
   if (hr2d_exchange_area(&s, &w->source) != area) return walk(w, receiver);
   add_clear(w, receiver);
-  return HR2D_OK;
+  return hr2di_watch_work(w->watch, 1);
 }
 
 static hr2d_status walk_links(walker *w, const hr2di_transport *t,
@@ -140,7 +142,8 @@ static hr2d_status walk_links(walker *w, const hr2di_transport *t,
   for (uint64_t k = 0; k < store->count && !status; k++) {
     const hr2d_link link = *hr2di_store_at(store, k);
     const uint32_t i = link.pair.first, j = link.pair.second;
-    if (!closed[element[i].patch]) status = walk_link(w, i, j, link.exchange_area);
+    if (k % 64 == 0) status = hr2di_watch_work(w->watch, 8);
+    if (!status && !closed[element[i].patch]) status = walk_link(w, i, j, link.exchange_area);
     if (!status && !t->links->directed && !closed[element[j].patch])
       status = walk_link(w, j, i, link.exchange_area);
   }
@@ -155,6 +158,7 @@ static void finish(hr2di_row_sums *rows, uint32_t patch, const hr2di_sum *front,
   do {
     const double length = h->element[leaf].length;
     rows->leaves += !rows->closed[patch];
+    if (hr2di_watch_work(rows->watch, 1)) return;
     rows->front[leaf] = rows->closed[patch] ? 1 : hr2di_sum_total(&front[leaf]) / length;
     if (rows->back) rows->back[leaf] = hr2di_sum_total(&back[leaf]) / length;
     leaf = hr2di_hierarchy_next_leaf(h, leaf, patch);
@@ -173,13 +177,14 @@ static hr2d_status walk_rows(hr2di_row_sums *rows, const hr2di_transport *t, wal
     if (!hr2di_scene_lit(scene, k)) continue;
     if (!rows->closed[k]) status = walk_row(w, k, by_links ? NULL : front, back);
     finish(rows, k, front, back);
+    if (!status) status = hr2di_watch_work(w->watch, 1);
   }
   return status;
 }
 
 hr2d_status hr2di_row_sums_init(hr2di_row_sums *rows, const hr2di_transport *t, int backs) {
   const hr2d_scene *scene = t->hierarchy->scene;
-  *rows = (hr2di_row_sums){.hierarchy = t->hierarchy, .alloc = t->alloc};
+  *rows = (hr2di_row_sums){.hierarchy = t->hierarchy, .alloc = t->alloc, .watch = t->watch};
   rows->front = hr2di_alloc_zero(&t->alloc, t->elements, sizeof *rows->front);
   rows->back = backs ? hr2di_alloc_zero(&t->alloc, t->elements, sizeof *rows->back) : NULL;
   rows->closed = hr2di_alloc_zero(&t->alloc, scene->patches, 1);
@@ -190,11 +195,12 @@ hr2d_status hr2di_row_sums_init(hr2di_row_sums *rows, const hr2di_transport *t, 
   hr2d_status status = HR2D_ENOMEM;
   if (rows->front && rows->closed && defect && front && w && (!backs || (rows->back && back))) {
     hr2di_visibility visibility;
-    hr2di_visibility_init(&visibility, &scene->walls, &t->alloc);
+    hr2di_visibility_init(&visibility, &scene->walls, &t->alloc, t->watch);
     w->h = t->hierarchy;
+    w->watch = t->watch;
     w->visibility = scene->effect[HR2D_EFFECT_OCCLUSION].on || backs ? &visibility : NULL;
-    hr2di_defect_sum(t->links, defect);
-    status = backs ? hr2di_backs_init(scene, &w->backs) : HR2D_OK;
+    status = hr2di_defect_sum(t->links, defect, t->watch);
+    if (!status && backs) status = hr2di_backs_init(scene, &w->backs, t->watch);
     if (!status) status = walk_rows(rows, t, w, defect, front, back);
     hr2di_visibility_clear(&visibility);
     hr2di_alloc_free(&t->alloc, w->list.wall);

@@ -29,10 +29,12 @@ static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *
 
 /* y = (B − E)/√ρ of a former solution, which may have another order and older leaves; less √ρ c
    in balanced components. */
-static void warm_start(hr2di_equation *s) {
+static hr2d_status warm_start(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
-  hr2di_solution_restrict(s->options.start, t->hierarchy, t->leaf, t->leaves, t->order,
-                          s->radiosity);
+  hr2d_status status = hr2di_solution_restrict(s->options.start, t->hierarchy, t->leaf,
+                                               t->leaves, t->order, s->radiosity, t->watch);
+  if (!status) status = hr2di_watch_work(t->watch, s->field / 4);
+  if (status) return status;
   for (size_t k = 0; k < s->field; k++)
     if (s->root_rho[k] > 0)
       s->y[k] =
@@ -43,6 +45,7 @@ static void warm_start(hr2di_equation *s) {
       const size_t at = k * t->width + b;
       s->y[at] -= s->root_rho[at] * hr2di_balance_at(&s->balance, t, k, b);
     }
+  return HR2D_OK;
 }
 
 /* Adds the escaped power of a leaf.  In balanced components it is ∫mB.  Elsewhere it is the
@@ -90,7 +93,8 @@ static int take_raised(hr2di_equation *s, const double *leaf_field, double *fiel
   hr2di_transport *t = &s->transport;
   int finite = 1;
   hr2di_transport_pull(t, leaf_field);
-  for (size_t k = 0; k < t->elements * t->width; k++) {
+  for (size_t k = 0; k < t->elements * t->width && !t->failed; k++) {
+    if (k % 1024 == 0) t->failed = hr2di_watch_work(t->watch, 100);
     field[k] = ldexp(t->up[k], s->exponent[k % t->bands]);
     finite &= isfinite(field[k]) != 0;
   }
@@ -120,7 +124,10 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
     hr2d_solution_destroy(made);
     return HR2D_ENOMEM;
   }
-  for (size_t band = 0; band < t->bands; band++) made->power[band] = sum_power(s, band);
+  for (size_t band = 0; band < t->bands && !t->failed; band++) {
+    t->failed = hr2di_watch_work(t->watch, t->leaves / 4);
+    made->power[band] = sum_power(s, band);
+  }
   int finite = take_raised(s, s->radiosity, made->value);
   finite &= take_raised(s, s->irradiance, t->up);
   made->irradiance = t->up;
@@ -130,7 +137,7 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
     return HR2D_OK;
   }
   hr2d_solution_destroy(made);
-  return t->failed ? HR2D_ENOMEM
+  return t->failed ? t->failed
                    : hr2di_message_fail(&s->links->message, HR2D_ERANGE,
                                         "a radiosity is beyond what a double can represent");
 }
@@ -143,6 +150,8 @@ static hr2d_status check_sign(hr2di_equation *s) {
   const double min = t->order > 1 ? 1e-2 : 1e-6;
   for (size_t b = 0; b < t->bands; b++) {
     double low = 0, high = 0;
+    const hr2d_status status = hr2di_watch_work(t->watch, t->leaves / 16);
+    if (status) return status;
     for (size_t k = 0; k < t->leaves; k++) {
       low = fmin(low, s->radiosity[k * t->width + b]);
       high = fmax(high, s->radiosity[k * t->width + b]);
@@ -162,13 +171,16 @@ static hr2d_status solve(hr2d_linkset *links, const hr2d_solve_options *options,
   hr2di_equation eq;
   hr2d_status status = hr2di_equation_init(&eq, links, options);
   if (!status && links->hierarchy->scene->effect[HR2D_EFFECT_INTERREFLECTION].on) {
-    if (options->start) warm_start(&eq);
-    status = hr2di_equation_solve(&eq);
+    if (options->start) status = warm_start(&eq);
+    if (!status) status = hr2di_equation_solve(&eq);
     if (!status) status = check_sign(&eq);
   } else if (!status) {
     status = hr2di_equation_take(&eq);
   }
   if (!status) status = make_solution(&eq, solution);
+  if (status && eq.watch.refused && status == eq.watch.status)
+    hr2di_message_fail(&links->message, status, "%s: %s", eq.watch.told.phase,
+                       hr2d_strerror(status));
   hr2di_equation_clear(&eq);
   return status;
 }
@@ -179,7 +191,10 @@ hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *given,
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   if (given) hr2di_sized_copy(&options, sizeof options, given);
   hr2d_status status = check_options(links, &options);
-  if (!status) status = hr2di_existence_check(links);
+  hr2di_watch watch;
+  hr2di_scene_watch(links->hierarchy->scene, &watch, options.progress, options.progress_ctx,
+                    "rows");
+  if (!status) status = hr2di_existence_check(links, &watch);
   if (status) return status;
   links->solving = 1;
   atomic_fetch_add(&links->hierarchy->readers, 1);

@@ -5,12 +5,9 @@
 #include <stdint.h>
 #include <string.h>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "base/alloc.h"
 #include "base/ordered-dot.h"
+#include "base/team.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 
@@ -23,7 +20,7 @@ static size_t count_slices(const hr2d_linkset *links) {
 }
 
 hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
-                                 unsigned threads) {
+                                 unsigned threads, hr2di_watch *watch) {
   const hr2d_hierarchy *h = links->hierarchy;
   *t = (hr2di_transport){.links = links,
                          .hierarchy = h,
@@ -33,19 +30,22 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
                          .width = h->order * h->scene->bands,
                          .elements = h->elements,
                          .slices = count_slices(links),
-                         .threads = threads};
+                         .threads = threads,
+                         .watch = watch};
   /* The width of a field may overflow a size_t of 32 bits.  No field is larger than those
      below. */
   if (t->bands > PTRDIFF_MAX / sizeof(double) / t->order) return HR2D_ENOMEM;
   const size_t field = t->width * sizeof(double);
-  if (hr2di_push_pull_init(&t->trees, h, &t->alloc, t->order, t->bands)) return HR2D_ENOMEM;
+  const hr2d_status status =
+      hr2di_push_pull_init(&t->trees, h, &t->alloc, t->order, t->bands, watch);
+  if (status) return status;
   t->leaf = hr2di_alloc(&t->alloc, (size_t)hr2d_hierarchy_count(h).leaves, sizeof *t->leaf);
   t->up = hr2di_alloc(&t->alloc, t->elements, field);
   t->down = hr2di_alloc(&t->alloc, t->elements * t->slices, field);
   if (!t->leaf || !t->up || !t->down) return HR2D_ENOMEM;
   for (size_t e = 0; e < t->elements; e++)
     if (!h->element[e].child) t->leaf[t->leaves++] = (uint32_t)e;
-  return HR2D_OK;
+  return hr2di_watch_work(watch, t->elements / 16);
 }
 
 void hr2di_transport_clear(hr2di_transport *t) {
@@ -59,10 +59,24 @@ void hr2di_transport_clear(hr2di_transport *t) {
   hr2di_alloc_free(&t->alloc, t->sky);
 }
 
+/* Keeps what stopped the watch; whether anything has failed. */
+static int has_failed(hr2di_transport *t) {
+  if (!t->failed) t->failed = hr2di_watch_status(t->watch);
+  return t->failed != HR2D_OK;
+}
+
+/* Leaves or elements between two declarations of work. */
+enum { SOME = 1024 };
+
+static inline int declare(hr2di_transport *t, size_t number) {
+  return number % SOME == 0 && hr2di_watch_work(t->watch, SOME / 32 + SOME * t->width / 64);
+}
+
 static void pull(hr2di_transport *t, const double *spread, const double *leaf_field) {
-  for (size_t k = 0; k < t->leaves; k++)
+  for (size_t k = 0; k < t->leaves && !declare(t, k); k++)
     memcpy(t->up + t->leaf[k] * t->width, leaf_field + k * t->width, t->width * sizeof(double));
-  hr2di_push_pull_up(&t->trees, spread, t->up);
+  if (!has_failed(t)) hr2di_push_pull_up(&t->trees, spread, t->up);
+  has_failed(t);
 }
 
 void hr2di_transport_pull(hr2di_transport *t, const double *leaf_field) {
@@ -156,15 +170,19 @@ static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, u
   }
 }
 
-static void gather_slice(hr2di_transport *t, hr2di_transport_part part, size_t slice) {
+static void gather_slice(hr2di_transport *t, hr2di_transport_part part, size_t slice,
+                         hr2di_watch *watch) {
   const hr2di_store *store = &t->links->store;
   const size_t from = slice * store->chunks / t->slices;
   const size_t to = (slice + 1) * store->chunks / t->slices;
   double *down = t->down + slice * t->elements * t->width;
+  const uint64_t units = HR2DI_CHUNK_LINKS / 32 * (1 + t->order * t->width / 8);
+  if (hr2di_watch_work(watch, t->elements * t->width / 128)) return;
   memset(down, 0, t->elements * t->width * sizeof *down);
   const int plain = !t->hierarchy->scene->effect[HR2D_EFFECT_BANDS].on;
   for (size_t k = from; k < to; k++) {
     const size_t count = hr2di_store_chunk_size(store, k);
+    if (hr2di_watch_work(watch, units)) return;
     if (t->order > 1)
       gather_orders(t, part, (uint64_t)k * HR2DI_CHUNK_LINKS, count, down);
     else
@@ -177,59 +195,71 @@ static void sum_slices(hr2di_transport *t) {
   const size_t field = t->elements * t->width;
   for (size_t s = 1; s < t->slices; s++) {
     const double *part = t->down + s * field;
-    for (size_t k = 0; k < field; k++) t->down[k] += part[k];
+    for (size_t from = 0; from < field; from += SOME) {
+      const size_t to = from + SOME < field ? from + SOME : field;
+      if (hr2di_watch_work(t->watch, SOME / 64)) return;
+      for (size_t k = from; k < to; k++) t->down[k] += part[k];
+    }
   }
 }
 
 /* Roots are the first elements, so their part of a field is a field of the patches. */
 static void gather_clusters(hr2di_transport *t) {
-  if (hr2di_clusters_gather(t->links->roots.clusters, t->order, t->bands, t->up, t->down))
-    t->failed = 1;
+  t->failed = hr2di_clusters_gather(t->links->roots.clusters, t->order, t->bands, t->up,
+                                    t->down, t->watch);
 }
 
 /* Divides power by length to get irradiance. */
 static void divide(hr2di_transport *t) {
   const size_t width = t->width;
   const hr2d_element *element = t->hierarchy->element;
-  for (size_t e = 0; e < t->elements; e++)
+  for (size_t e = 0; e < t->elements && !declare(t, e); e++)
     for (size_t k = 0; k < width; k++) t->down[e * width + k] /= element[e].length;
 }
 
 /* Pushes the irradiance of elements down to the leaves. */
 static void lower(hr2di_transport *t, double *irradiance) {
   const size_t width = t->width;
-  hr2di_push_pull_down(&t->trees, t->receive, t->down);
-  for (size_t k = 0; k < t->leaves; k++)
+  if (!has_failed(t)) hr2di_push_pull_down(&t->trees, t->receive, t->down);
+  for (size_t k = 0; k < t->leaves && !declare(t, k); k++)
     memcpy(irradiance + k * width, t->down + t->leaf[k] * width, width * sizeof(double));
 }
 
-/* One thread does not use OpenMP, whose runtime ends the program if it has no memory. */
+typedef struct slices {
+  hr2di_transport *t;
+  hr2di_transport_part part;
+  hr2di_watch own[MOST_SLICES]; /* for slices that the calling thread does not gather */
+} slices;
+
+static void gather_one(void *ctx, size_t worker, size_t slice) {
+  slices *s = ctx;
+  gather_slice(s->t, s->part, slice, worker == 0 ? s->t->watch : &s->own[slice]);
+}
+
 static void gather_slices(hr2di_transport *t, hr2di_transport_part part) {
-#ifdef _OPENMP
-  const int threads = t->threads ? (int)t->threads : omp_get_max_threads();
-  if (threads > 1 && t->slices > 1) {
-#pragma omp parallel for num_threads(threads) schedule(dynamic)
-    for (size_t slice = 0; slice < t->slices; slice++) gather_slice(t, part, slice);
-    return;
-  }
-#endif
-  for (size_t slice = 0; slice < t->slices; slice++) gather_slice(t, part, slice);
+  slices s = {.t = t, .part = part};
+  const size_t threads = t->slices > 1 ? hr2di_team_threads(t->threads) : 1;
+  for (size_t k = 0; k < t->slices; k++) hr2di_watch_follow(&s.own[k], t->watch);
+  hr2di_team_run(threads, t->slices, gather_one, &s, t->watch);
 }
 
 /* Sets t->down to the irradiance of elements over links and clusters, from t->up. */
 static void gather(hr2di_transport *t, hr2di_transport_part part) {
+  t->sweeps++;
   gather_slices(t, part);
   sum_slices(t);
+  if (has_failed(t)) return;
   if (t->links->roots.clusters && part == HR2DI_ALL_LINKS) gather_clusters(t);
-  divide(t);
-  t->sweeps++;
+  if (!has_failed(t)) divide(t);
 }
 
 void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
                                 const double *radiosity, double *irradiance) {
   pull(t, t->send, radiosity);
+  if (t->failed) return;
   gather(t, part);
-  lower(t, irradiance);
+  if (!has_failed(t)) lower(t, irradiance);
+  has_failed(t);
 }
 
 void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor) {
@@ -239,7 +269,7 @@ void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor) {
     gather(t, HR2DI_ALL_LINKS);
   } else {
     memset(t->down, 0, t->elements * t->width * sizeof *t->down);
-    for (uint64_t k = 0; k < store->count; k++) {
+    for (uint64_t k = 0; k < store->count && !declare(t, k); k++) {
       const hr2d_link *link = hr2di_store_at(store, k);
       t->down[link->pair.second * t->width] += link->exchange_area;
     }
@@ -251,7 +281,7 @@ void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor) {
 void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *irradiance) {
   hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, radiosity, irradiance);
   const size_t square = t->order * t->order;
-  for (size_t k = 0; k < t->leaves && t->closure; k++)
+  for (size_t k = 0; k < t->leaves && t->closure && !t->failed; k++)
     add_block(t->closure + k * square, t->order, t->bands, radiosity + k * t->width,
               irradiance + k * t->width);
 }

@@ -26,13 +26,16 @@ typedef struct hr2di_transport {
   size_t slices;    /* parts into which the links are cut, whatever the number of threads */
   unsigned threads; /* 0 for all */
   uint64_t sweeps;  /* gathers so far */
-  int failed;       /* a gather lacked memory; its result must not be used */
+  hr2di_watch *watch;
+  hr2d_status failed; /* HR2D_ENOMEM if a gather lacked memory, or the status of the watch: its
+                         result must not be used */
 } hr2di_transport;
 
 /* Sets up the operator at the order of the hierarchy; above 1 the links must have blocks.
-   Returns HR2D_OK or HR2D_ENOMEM.  Call hr2di_transport_clear() in either case. */
+   Returns HR2D_OK, HR2D_ENOMEM or the status of the watch.  Call hr2di_transport_clear() in any
+   case. */
 hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
-                                 unsigned threads);
+                                 unsigned threads, hr2di_watch *watch);
 
 void hr2di_transport_clear(hr2di_transport *t);
 

@@ -13,6 +13,8 @@
 #include <hr2d/state.h>
 #include <stdint.h>
 
+#include "base/watch.h"
+
 #define HR2DI_STATE_TITLE "libhr2d state 1\n"
 
 enum { HR2DI_STATE_TITLE_BYTES = sizeof HR2DI_STATE_TITLE - 1, HR2DI_STATE_COUNTERS = 16 };
@@ -31,8 +33,9 @@ enum { HR2DI_STATE_HEAD_BYTES = 8 * (10 + HR2DI_STATE_COUNTERS) };
 void hr2di_state_counters(hr2d_refine_counts *counts, hr2d_solve_work *work,
                           uint64_t *counter[HR2DI_STATE_COUNTERS]);
 
-/* The hash of everything in a committed scene that can change a result. */
-uint64_t hr2di_state_scene(const hr2d_scene *scene);
+/* The hash of everything in a committed scene that can change a result; of a part of it once
+   the watch has stopped. */
+uint64_t hr2di_state_scene(const hr2d_scene *scene, hr2di_watch *watch);
 
 /* The hash of the names of the oracle and the policy. */
 uint64_t hr2di_state_method(const hr2d_linkset *links);

@@ -14,6 +14,7 @@
 
 typedef struct loading {
   hr2di_reader reader;
+  hr2di_watch watch;
   hr2d_linkset *links;
   hr2di_state_head head;
   hr2d_refine_counts counts;
@@ -42,7 +43,9 @@ static hr2d_status check_head(loading *l) {
   const hr2di_state_head *head = &l->head;
   const hr2d_scene *scene = l->links->hierarchy->scene;
   hr2di_message *message = &l->links->message;
-  if (head->scene != hr2di_state_scene(scene))
+  const uint64_t hash = hr2di_state_scene(scene, &l->watch);
+  if (l->watch.status) return l->watch.status;
+  if (head->scene != hash)
     return hr2di_message_fail(message, HR2D_EINVAL, "the state is that of another scene");
   if (head->method != hr2di_state_method(l->links))
     return hr2di_message_fail(message, HR2D_EINVAL,
@@ -83,11 +86,21 @@ static hr2d_status read_head(loading *l, hr2d_solve_work *work) {
   return status;
 }
 
+/* Items between two declarations of work. */
+enum { SOME = 256 };
+
+/* Asks the watch before some items of `bytes` each. */
+static hr2d_status declare(loading *l, uint64_t item, size_t bytes) {
+  return item % SOME == 0 ? hr2di_watch_work(&l->watch, SOME * bytes / 64) : HR2D_OK;
+}
+
 static hr2d_status read_elements(loading *l) {
   hr2d_hierarchy *h = l->links->hierarchy;
   while (h->elements < l->head.elements) {
     const uint32_t element = hr2di_reader_half(&l->reader);
     if (l->reader.status) return l->reader.status;
+    const hr2d_status asked = declare(l, h->elements, 32);
+    if (asked) return asked;
     if (element >= h->elements || h->element[element].child ||
         !hr2di_element_divisible(h, element) || h->level[element] == UINT16_MAX)
       return damaged(l, "an element that cannot be divided");
@@ -114,6 +127,8 @@ static hr2d_status read_links(loading *l) {
     pair.second = hr2di_reader_half(r);
     const double area = hr2di_reader_double(r);
     if (r->status) return r->status;
+    const hr2d_status asked = declare(l, k, 16);
+    if (asked) return asked;
     if (!is_link(l->links->hierarchy, pair, area)) return damaged(l, "a link");
     if (hr2di_store_add(&l->store, &l->links->alloc, &pair, &area, 1))
       return hr2di_message_fail(&l->links->message, HR2D_ENOMEM,
@@ -126,6 +141,8 @@ static hr2d_status read_doubles(loading *l, double *value, size_t count) {
   for (size_t k = 0; k < count; k++) {
     value[k] = hr2di_reader_double(&l->reader);
     if (l->reader.status) return l->reader.status;
+    const hr2d_status asked = declare(l, k, 8);
+    if (asked) return asked;
     if (!isfinite(value[k])) return damaged(l, "a value that is not finite");
   }
   return HR2D_OK;
@@ -183,7 +200,7 @@ static hr2d_status read_all(loading *l) {
     return damaged(l, "its hash is not that of its contents");
   if (!status) status = l->reader.status;
   if (status == HR2D_ESYNTAX && l->reader.status) return damaged(l, "it ends too early");
-  if (status && status == l->reader.status)
+  if (status && (status == l->reader.status || l->watch.refused))
     return hr2di_message_fail(&l->links->message, status, "reading the state: %s",
                               hr2d_strerror(status));
   return status;
@@ -207,6 +224,7 @@ hr2d_status hr2d_state_read(hr2d_linkset *links, hr2d_read_fn read, void *ctx,
     return hr2di_message_fail(&links->message, HR2D_ESTATE,
                               "the set or its hierarchy is not empty");
   loading l = {.links = links};
+  hr2di_scene_watch(h->scene, &l.watch, NULL, NULL, "state");
   hr2di_reader_init(&l.reader, read, ctx);
   h->refining = 1;
   const hr2d_status status = read_all(&l);

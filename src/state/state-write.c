@@ -9,11 +9,12 @@
 #include "state/byte-stream.h"
 #include "state/state-impl.h"
 
-uint64_t hr2di_state_scene(const hr2d_scene *scene) {
+uint64_t hr2di_state_scene(const hr2d_scene *scene, hr2di_watch *watch) {
   hr2di_hash hash = hr2di_hash_word(HR2DI_HASH_INIT, scene->patches);
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++)
     hash = hr2di_hash_word(hash, (uint64_t)scene->effect[e].on);
   for (size_t k = 0; k < scene->patches; k++) {
+    if (hr2di_watch_work(watch, 1 + scene->bands / 2)) break;
     const hr2d_segment s = scene->patch[k].given;
     const double coordinate[] = {s.a.x, s.a.y, s.b.x, s.b.y};
     for (int c = 0; c < 4; c++) hash = hr2di_hash_double(hash, coordinate[c]);
@@ -54,12 +55,12 @@ void hr2di_state_counters(hr2d_refine_counts *counts, hr2d_solve_work *work,
   memcpy(counter, all, sizeof all);
 }
 
-static void put_head(hr2di_writer *w, const hr2d_solution *s) {
+static void put_head(hr2di_writer *w, const hr2d_solution *s, hr2di_watch *watch) {
   const hr2d_linkset *links = s->links;
   hr2d_refine_counts counts = links->counts;
   hr2d_solve_work work = s->work;
   uint64_t *counter[HR2DI_STATE_COUNTERS];
-  const uint64_t head[] = {hr2di_state_scene(s->hierarchy->scene),
+  const uint64_t head[] = {hr2di_state_scene(s->hierarchy->scene, watch),
                            hr2di_state_method(links),
                            s->hierarchy->elements,
                            links->store.count,
@@ -75,8 +76,17 @@ static void put_head(hr2di_writer *w, const hr2d_solution *s) {
   for (int k = 0; k < HR2DI_STATE_COUNTERS; k++) hr2di_writer_word(w, *counter[k]);
 }
 
-static void put_links(hr2di_writer *w, const hr2di_store *store) {
+/* Items between two declarations of work. */
+enum { SOME = 256 };
+
+/* Asks the watch before some items of `bytes` each; its status becomes that of the writer. */
+static void declare(hr2di_writer *w, hr2di_watch *watch, uint64_t item, size_t bytes) {
+  if (item % SOME == 0 && !w->status) w->status = hr2di_watch_work(watch, SOME * bytes / 64);
+}
+
+static void put_links(hr2di_writer *w, const hr2di_store *store, hr2di_watch *watch) {
   for (uint64_t k = 0; k < store->count && !w->status; k++) {
+    declare(w, watch, k, 16);
     const hr2d_link *link = hr2di_store_at(store, k);
     hr2di_writer_half(w, link->pair.first);
     hr2di_writer_half(w, link->pair.second);
@@ -84,7 +94,7 @@ static void put_links(hr2di_writer *w, const hr2di_store *store) {
   }
 }
 
-static void put_fields(hr2di_writer *w, const hr2d_solution *s) {
+static void put_fields(hr2di_writer *w, const hr2d_solution *s, hr2di_watch *watch) {
   const size_t count = s->elements * s->order * s->bands;
   for (size_t band = 0; band < s->bands; band++) {
     const hr2d_power *p = &s->power[band];
@@ -93,19 +103,26 @@ static void put_fields(hr2di_writer *w, const hr2d_solution *s) {
     hr2di_writer_double(w, p->absorbed);
     hr2di_writer_double(w, p->escaped);
   }
-  for (size_t k = 0; k < count && !w->status; k++) hr2di_writer_double(w, s->value[k]);
-  for (size_t k = 0; k < count && !w->status; k++) hr2di_writer_double(w, s->irradiance[k]);
+  for (size_t k = 0; k < 2 * count && !w->status; k++) {
+    declare(w, watch, k, 8);
+    hr2di_writer_double(w, k < count ? s->value[k] : s->irradiance[k - count]);
+  }
 }
 
 hr2d_status hr2d_state_write(const hr2d_solution *solution, hr2d_write_fn write, void *ctx) {
   const hr2d_hierarchy *h = solution->hierarchy;
   hr2di_writer w;
   if (solution->own_links) return HR2D_EUNSUPPORTED;
+  hr2di_watch watch;
+  hr2di_scene_watch(h->scene, &watch, NULL, NULL, "state");
   hr2di_writer_init(&w, write, ctx);
-  put_head(&w, solution);
-  for (size_t k = h->scene->patches; k < h->elements && !w.status; k += 2)
+  put_head(&w, solution, &watch);
+  if (!w.status) w.status = watch.status;
+  for (size_t k = h->scene->patches; k < h->elements && !w.status; k += 2) {
+    declare(&w, &watch, k / 2, 4);
     hr2di_writer_half(&w, h->parent[k]);
-  put_links(&w, &solution->links->store);
-  put_fields(&w, solution);
+  }
+  put_links(&w, &solution->links->store, &watch);
+  put_fields(&w, solution, &watch);
   return hr2di_writer_end(&w);
 }

@@ -26,14 +26,15 @@ typedef struct hr2di_vertices {
   uint32_t *first;   /* per vertex: where its walls begin in `wall`; one more */
   uint32_t *wall;    /* the walls that end at each vertex */
   hr2di_runs runs;
-  uint32_t *run;    /* at 2·wall + forward: the run along this side of a wall */
+  uint32_t *run; /* at 2·wall + forward: the run along this side of a wall */
+  hr2di_watch *watch;
   uint32_t blocker; /* the wall that was last found in the way */
 } hr2di_vertices;
 
-/* For a committed scene.  Returns HR2D_OK or HR2D_ENOMEM.  Call hr2di_vertices_clear() in
-   either case. */
+/* For a committed scene.  Returns HR2D_OK, HR2D_ENOMEM or the status of the watch.  Call
+   hr2di_vertices_clear() in any case. */
 hr2d_status hr2di_vertices_init(hr2di_vertices *vertices, const hr2d_scene *scene,
-                                const hr2d_allocator *alloc);
+                                const hr2d_allocator *alloc, hr2di_watch *watch);
 void hr2di_vertices_clear(hr2di_vertices *vertices);
 
 enum { HR2DI_EVENTS_RIGHT = 1, HR2DI_EVENTS_LEFT = 2 };
@@ -48,8 +49,8 @@ typedef struct hr2di_origin {
 } hr2di_origin;
 
 /* Finds the patch that the ray from v through u hits beyond u, a vertex that is not inside a
-   wall.  Returns 1, or 0 if the ray is stopped, passes a vertex, leaves the scene, or nothing
-   changes at u. */
+   wall.  Returns 1, or 0 if the watch has stopped, or the ray is stopped, passes a vertex,
+   leaves the scene, or nothing changes at u. */
 int hr2di_origin_reaches(hr2di_vertices *vertices, const hr2di_origin *v, uint32_t u,
                          uint32_t *patch);
 

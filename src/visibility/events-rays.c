@@ -18,6 +18,9 @@
 /* So near to its end, as a fraction, a wall is not told from the one that it ends on. */
 #define FOOT 1e-12
 
+/* Boxes between two declarations of work. */
+enum { TURNS = 16 };
+
 static void index_ends(hr2di_vertices *t) {
   const hr2di_walls *w = t->walls;
   for (size_t k = 0; k < w->walls; k++) {
@@ -42,19 +45,20 @@ static void index_runs(hr2di_vertices *t) {
 }
 
 hr2d_status hr2di_vertices_init(hr2di_vertices *t, const hr2d_scene *scene,
-                                const hr2d_allocator *alloc) {
+                                const hr2d_allocator *alloc, hr2di_watch *watch) {
   const hr2di_walls *walls = &scene->walls;
-  *t = (hr2di_vertices){.alloc = *alloc, .scene = scene, .walls = walls};
+  *t = (hr2di_vertices){.alloc = *alloc, .scene = scene, .walls = walls, .watch = watch};
   t->blocker = HR2DI_NO_WALL;
   t->point = hr2di_alloc(alloc, walls->vertices, sizeof *t->point);
   t->first = hr2di_alloc_zero(alloc, walls->vertices + 1, sizeof *t->first);
   t->wall = hr2di_alloc(alloc, 2 * walls->walls, sizeof *t->wall);
   t->run = hr2di_alloc(alloc, 2 * walls->walls, sizeof *t->run);
-  const hr2d_status status = hr2di_runs_init(&t->runs, scene);
-  if (status || !t->point || !t->first || !t->wall || !t->run) return HR2D_ENOMEM;
+  const hr2d_status status = hr2di_runs_init(&t->runs, scene, watch);
+  if (status) return status;
+  if (!t->point || !t->first || !t->wall || !t->run) return HR2D_ENOMEM;
   index_ends(t);
   index_runs(t);
-  return HR2D_OK;
+  return hr2di_watch_work(watch, walls->walls);
 }
 
 void hr2di_vertices_clear(hr2di_vertices *t) {
@@ -93,6 +97,7 @@ static int ends_at(const hr2di_wall *w, uint32_t vertex) {
 static int grazes(const hr2di_vertices *t, const ray *r) {
   int left = 0, right = 0;
   for (uint32_t k = t->first[r->u]; k < t->first[r->u + 1]; k++) {
+    if (hr2di_watch_work(t->watch, 1)) return 0;
     const hr2di_wall *w = &t->walls->wall[t->wall[k]];
     const hr2d_point other = w->vertex[0] == r->u ? w->at.b : w->at.a;
     const int side = hr2di_orient_sign(r->from, r->at, other);
@@ -144,8 +149,9 @@ static int is_blocked(hr2di_vertices *t, const ray *r) {
   const double y0 = fmin(r->from.y, r->at.y), y1 = fmax(r->from.y, r->at.y);
   uint32_t stack[HR2DI_BOX_DEPTH], count = 0;
   stack[count++] = 0;
-  while (count > 0) {
+  for (size_t turn = 1; count > 0; turn++) {
     const hr2di_box *box = &t->walls->box[stack[--count]];
+    if (turn % TURNS == 0 && hr2di_watch_work(t->watch, TURNS / 4)) return 1;
     if (box->x0 > x1 || box->x1 < x0 || box->y0 > y1 || box->y1 < y0 || !line_meets_box(r, box))
       continue;
     if (box->wall == HR2DI_NO_WALL) {
@@ -213,8 +219,9 @@ static hit first_hit(const hr2di_vertices *t, const ray *r) {
   const hr2di_box *boxes = t->walls->box;
   uint32_t stack[HR2DI_BOX_DEPTH], count = 0;
   stack[count++] = 0;
-  while (count > 0) {
+  for (size_t turn = 1; count > 0; turn++) {
     const hr2di_box *box = &boxes[stack[--count]];
+    if (turn % TURNS == 0 && hr2di_watch_work(t->watch, TURNS / 4)) break;
     if (!is_ahead(r, box, h.distance) || !line_meets_box(r, box)) continue;
     if (box->wall != HR2DI_NO_WALL) {
       meet_wall(t, r, box->wall, &h);
@@ -230,8 +237,9 @@ static hit first_hit(const hr2di_vertices *t, const ray *r) {
 
 uint32_t hr2di_events_next_host(const hr2di_vertices *t, hr2d_point p, uint32_t *stack,
                                 uint32_t *count) {
-  while (*count > 0) {
+  for (size_t turn = 1; *count > 0; turn++) {
     const hr2di_box *box = &t->walls->box[stack[--*count]];
+    if (turn % TURNS == 0 && hr2di_watch_work(t->watch, TURNS / 4)) break;
     if (p.x < box->x0 - TOUCH || p.x > box->x1 + TOUCH || p.y < box->y0 - TOUCH ||
         p.y > box->y1 + TOUCH)
       continue;

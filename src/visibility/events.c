@@ -6,9 +6,9 @@
 #include "visibility/events.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "geometry/orient-sign.h"
 #include "geometry/predicates.h"
 #include "occlusion/wall-tree.h"
@@ -27,6 +27,7 @@ typedef struct finder {
   const hr2d_scene *scene;
   hr2d_allocator alloc;
   size_t max;
+  hr2di_watch *watch;
   hr2di_vertices vertices;
   hr2di_origin *origin; /* of one generation */
   size_t origins, origin_capacity;
@@ -46,7 +47,9 @@ static int by_place(const void *left, const void *right) {
 /* Sorts, and keeps one of those alike. */
 static hr2d_status settle(finder *f) {
   size_t kept = 0;
-  if (f->count > 1) qsort(f->found, f->count, sizeof *f->found, by_place);
+  hr2d_status status = hr2di_sort(f->found, f->count, sizeof *f->found, by_place, f->watch);
+  if (!status) status = hr2di_watch_work(f->watch, f->count / 16);
+  if (status) return status;
   for (size_t k = 0; k < f->count; k++) {
     const candidate c = f->found[k];
     candidate *last = kept > 0 ? &f->found[kept - 1] : NULL;
@@ -104,6 +107,8 @@ static hr2d_status add_joints(finder *f, uint32_t wall, unsigned side) {
   const hr2di_run run = f->vertices.runs.run[number];
   const uint32_t *patch = f->vertices.runs.patch;
   for (uint32_t k = run.first; k < run.last && !status; k++) {
+    status = hr2di_watch_work(f->watch, 4);
+    if (status) break;
     const hr2d_segment s = f->scene->patch[patch[k]].scaled;
     const int joined =
         k > run.first && hr2di_point_same(f->scene->patch[patch[k - 1]].scaled.b, s.a);
@@ -131,10 +136,12 @@ static unsigned sides_of(const hr2di_vertices *t, uint32_t vertex) {
 static hr2d_status add_vertices(finder *f) {
   const hr2di_vertices *t = &f->vertices;
   hr2d_status status = HR2D_OK;
-  for (uint32_t v = 0; v < t->walls->vertices && !status; v++)
-    if (t->first[v] < t->first[v + 1])
+  for (uint32_t v = 0; v < t->walls->vertices && !status; v++) {
+    status = hr2di_watch_work(f->watch, 4 + (t->first[v + 1] - t->first[v]) / 2);
+    if (!status && t->first[v] < t->first[v + 1])
       status = add_origin(f, (hr2di_origin){t->point[v], v, t->walls->host[v], sides_of(t, v),
                                             HR2DI_NO_VERTEX});
+  }
   for (uint32_t w = 0; w < t->walls->walls && !status; w++) {
     status = add_joints(f, w, HR2DI_EVENTS_LEFT);
     if (!status) status = add_joints(f, w, HR2DI_EVENTS_RIGHT);
@@ -163,11 +170,13 @@ static hr2d_status add_events(finder *f, unsigned generation) {
   f->origins = 0;
   for (size_t k = 0; k < f->count && !status; k++) {
     const candidate c = f->found[k];
+    status = hr2di_watch_work(f->watch, 1 + f->scene->bands / 32);
     if (c.event.generation != generation || !reflects(f->scene, c.event.patch)) continue;
     const hr2d_segment s = f->scene->patch[c.event.patch].scaled;
     const uint32_t host = walls->of_segment[c.event.patch];
     const hr2d_segment w = walls->wall[host].at;
     const double along = (s.b.x - s.a.x) * (w.b.x - w.a.x) + (s.b.y - s.a.y) * (w.b.y - w.a.y);
+    if (status) break;
     status = add_origin(f, (hr2di_origin){point_on(f->scene, c.event), HR2DI_NO_VERTEX, host,
                                           along > 0 ? HR2DI_EVENTS_LEFT : HR2DI_EVENTS_RIGHT,
                                           c.via});
@@ -179,12 +188,14 @@ static hr2d_status add_events(finder *f, unsigned generation) {
 static hr2d_status follow_lines(finder *f, unsigned generation) {
   const hr2di_vertices *t = &f->vertices;
   hr2d_status status = HR2D_OK;
-  for (uint32_t u = 0; u < t->walls->vertices; u++) {
+  for (uint32_t u = 0; u < t->walls->vertices && !status; u++) {
     if (t->first[u] == t->first[u + 1] || t->walls->host[u] != HR2DI_NO_WALL) continue;
     for (size_t k = 0; k < f->origins && !status; k++) {
       const hr2di_origin *v = &f->origin[k];
       uint32_t patch;
-      if (v->vertex == u || v->via == u || !hr2di_origin_reaches(&f->vertices, v, u, &patch))
+      status = hr2di_watch_work(f->watch, 2);
+      if (status || v->vertex == u || v->via == u ||
+          !hr2di_origin_reaches(&f->vertices, v, u, &patch))
         continue;
       const hr2d_segment s = f->scene->patch[patch].scaled;
       status = add(f, patch, hr2di_line_crossing(v->at, t->point[u], s.a, s.b), generation, u);
@@ -221,14 +232,15 @@ static hr2d_status add_feet(finder *f) {
   for (size_t k = 0; k < f->scene->patches && !status; k++) {
     const hr2d_segment s = f->scene->patch[k].scaled;
     const uint32_t wall = f->vertices.walls->of_segment[k];
-    status = add_feet_of(f, wall, s.a, s.b);
+    status = hr2di_watch_work(f->watch, 8);
+    if (!status) status = add_feet_of(f, wall, s.a, s.b);
     if (!status) status = add_feet_of(f, wall, s.b, s.a);
   }
   return status;
 }
 
 static hr2d_status find(finder *f, unsigned generations) {
-  hr2d_status status = hr2di_vertices_init(&f->vertices, f->scene, &f->alloc);
+  hr2d_status status = hr2di_vertices_init(&f->vertices, f->scene, &f->alloc, f->watch);
   if (!status) status = add_vertices(f);
   if (!status) status = add_feet(f);
   for (unsigned g = 1; g <= generations && !status; g++) {
@@ -237,17 +249,19 @@ static hr2d_status find(finder *f, unsigned generations) {
     if (!status) status = follow_lines(f, g);
     if (!status) status = settle(f);
   }
-  return status;
+  /* Rays that the watch has stopped reach nothing. */
+  return status ? status : hr2di_watch_status(f->watch);
 }
 
 hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
-                              const hr2d_allocator *alloc, unsigned generations, size_t max) {
+                              const hr2d_allocator *alloc, unsigned generations, size_t max,
+                              hr2di_watch *watch) {
   *events = (hr2di_events){.alloc = *alloc};
   if (generations == 0 || !(scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
                             scene->effect[HR2D_EFFECT_FACING].called_for ||
                             scene->effect[HR2D_EFFECT_BACKGROUND].called_for))
     return HR2D_OK;
-  finder f = {.scene = scene, .alloc = *alloc, .max = max};
+  finder f = {.scene = scene, .alloc = *alloc, .max = max, .watch = watch};
   hr2d_status status = find(&f, generations);
   if (!status && hr2di_alloc_reserve(alloc, &events->event, &events->capacity, f.count,
                                      sizeof *events->event))

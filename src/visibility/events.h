@@ -14,6 +14,8 @@
 #include <hr2d/scene.h>
 #include <stdint.h>
 
+#include "base/watch.h"
+
 typedef struct hr2di_event {
   uint32_t patch;
   double at;           /* fraction of the patch, inside (0,1) */
@@ -29,12 +31,13 @@ typedef struct hr2di_events {
 
 /* Finds all events up to `generations` of a committed scene, at most `max` of them.  There are
    none if the scene calls neither for occlusion nor for facing nor for a background; forced
-   effects do not count.  Returns HR2D_OK, HR2D_ENOMEM, or HR2D_EMAX_ELEMENTS if there are more
-   than `max`.  Call hr2di_events_clear() in either case.  Generation 1 takes O(n²) walks
-   through the tree of walls, 0.1 to 0.6 µs each; generation g+1 takes one walk for each event
-   of generation g and each vertex. */
+   effects do not count.  Returns HR2D_OK, HR2D_ENOMEM, the status of the watch, or
+   HR2D_EMAX_ELEMENTS if there are more than `max`.  Call hr2di_events_clear() in any case.
+   Generation 1 takes O(n²) walks through the tree of walls, 0.1 to 0.6 µs each; generation g+1
+   takes one walk for each event of generation g and each vertex. */
 hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
-                              const hr2d_allocator *alloc, unsigned generations, size_t max);
+                              const hr2d_allocator *alloc, unsigned generations, size_t max,
+                              hr2di_watch *watch);
 void hr2di_events_clear(hr2di_events *events);
 
 #endif

@@ -8,12 +8,9 @@
 #include <stdatomic.h>
 #include <string.h>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "base/alloc.h"
 #include "base/sized-struct.h"
+#include "base/team.h"
 #include "geometry/exchange-area.h"
 #include "geometry/predicates.h"
 #include "occlusion/pair-visibility.h"
@@ -38,6 +35,7 @@ typedef struct matrix {
   hr2di_runs runs;
   hr2d_element *element; /* of which only a and b are used */
   hr2d_matrix_options options;
+  hr2di_watch *watch; /* of the calling thread */
   atomic_size_t rows_done;
   atomic_int stop;
 } matrix;
@@ -45,6 +43,8 @@ typedef struct matrix {
 /* The work of one thread. */
 typedef struct filler {
   matrix *m;
+  hr2di_watch *watch; /* of the thread: `own`, or that of the matrix */
+  hr2di_watch own;
   hr2d_status status;
   hr2d_matrix_counts counts;
   hr2di_visibility visibility;
@@ -68,12 +68,16 @@ static void flush(filler *f) {
   f->pairs = 0;
 }
 
-static void fill_clear(filler *f, hr2di_run i, hr2di_run j) {
+static hr2d_status fill_clear(filler *f, hr2di_run i, hr2di_run j) {
   for (uint32_t k = i.first; k < i.last; k++)
     for (uint32_t m = j.first; m < j.last; m++) {
       f->pair[f->pairs++] = (hr2d_pair){f->m->runs.patch[k], f->m->runs.patch[m]};
-      if (f->pairs == BATCH) flush(f);
+      if (f->pairs < BATCH) continue;
+      flush(f);
+      const hr2d_status status = hr2di_watch_work(f->watch, BATCH);
+      if (status) return status;
     }
+  return HR2D_OK;
 }
 
 /* From the start of the first patch of a part to the end of its last. */
@@ -137,20 +141,20 @@ static hr2d_status look(filler *f, node *at, const node *parent, int *keep) {
   hr2di_shaft shaft;
   hr2di_visibility_class view = HR2DI_CLEAR;
   *keep = 0;
+  const hr2d_status asked = hr2di_watch_work(f->watch, 2);
+  if (asked) return asked;
   const int shaded = shaft_of(f, at->i, at->j, &at->facing, &shaft);
   if (at->facing == HR2DI_FACING_NONE) return HR2D_OK;
   at->first = f->list.count;
-  if (!shaded || !f->m->scene->effect[HR2D_EFFECT_OCCLUSION].on) {
-    fill_clear(f, at->i, at->j);
-    return HR2D_OK;
-  }
+  if (!shaded || !f->m->scene->effect[HR2D_EFFECT_OCCLUSION].on)
+    return fill_clear(f, at->i, at->j);
   const hr2d_status status =
       parent ? hr2di_visibility_shrink(&f->visibility, &shaft, &f->list, parent->first,
                                        parent->count, &f->list, &view)
              : hr2di_visibility_collect(&f->visibility, &shaft, &f->list, &view);
   at->count = f->list.count - at->first;
   if (status) return status;
-  if (view == HR2DI_CLEAR) fill_clear(f, at->i, at->j);
+  if (view == HR2DI_CLEAR) return fill_clear(f, at->i, at->j);
   if (view == HR2DI_BLOCKED) f->counts.blocked_pairs += pairs_of(at);
   *keep = view == HR2DI_PARTIAL;
   return HR2D_OK;
@@ -181,21 +185,23 @@ static hr2d_status fill_runs(filler *f, hr2di_run i, hr2di_run j) {
   return status;
 }
 
-/* The calling thread tells progress; every thread looks whether another has failed. */
-static hr2d_status tell(const filler *f, int calling) {
-  const matrix *m = f->m;
-  if (atomic_load(&m->stop)) return HR2D_STOPPED;
-  if (!calling || !m->options.progress) return HR2D_OK;
+/* Pairs of runs: a row has one for each row behind it. */
+static void describe(void *of, hr2d_progress *told) {
+  const matrix *m = of;
   const double rest = 1 - (double)atomic_load(&m->rows_done) / (double)m->runs.runs;
-  const hr2d_progress progress = {
-      .struct_size = sizeof progress, .phase = "factors", .fraction = 1 - rest * rest};
-  return m->options.progress(m->options.progress_ctx, &progress);
+  told->fraction = 1 - rest * rest;
+}
+
+/* Every thread looks whether another has failed. */
+static hr2d_status look_around(const filler *f) {
+  return atomic_load(&f->m->stop) ? HR2D_STOPPED : hr2di_watch_status(f->watch);
 }
 
 /* A run with all those behind it. */
-static void fill_row(filler *f, size_t row, int calling) {
+static void fill_row(void *ctx, size_t worker, size_t row) {
+  filler *f = ((filler *const *)ctx)[worker];
   matrix *m = f->m;
-  hr2d_status status = tell(f, calling);
+  hr2d_status status = look_around(f);
   for (size_t k = row + 1; k < m->runs.runs && !status; k++)
     status = fill_runs(f, m->runs.run[row], m->runs.run[k]);
   atomic_fetch_add(&m->rows_done, 1);
@@ -204,50 +210,31 @@ static void fill_row(filler *f, size_t row, int calling) {
   atomic_store(&m->stop, 1);
 }
 
-/* One thread takes none of OpenMP, whose runtime ends the program where it has no memory. */
-static void fill_rows(filler *const *team, size_t count) {
-  const long long rows = (long long)team[0]->m->runs.runs;
-#ifdef _OPENMP
-  if (count > 1) {
-#pragma omp parallel for num_threads((int)count) schedule(dynamic)
-    for (long long row = 0; row < rows; row++) {
-      const int worker = omp_get_thread_num();
-      fill_row(team[worker], (size_t)row, worker == 0);
-    }
-    return;
-  }
-#endif
-  (void)count;
-  for (long long row = 0; row < rows; row++) fill_row(team[0], (size_t)row, 1);
-}
-
-static void fill(filler *const *team, size_t count) {
-  fill_rows(team, count);
+static void fill(filler **team, size_t count) {
+  const matrix *m = team[0]->m;
+  hr2di_team_run(count, m->runs.runs, fill_row, team, m->watch);
   for (size_t k = 0; k < count; k++) flush(team[k]);
 }
 
 /* Tile by tile, lest each value take a cache line of its own. */
-static void mirror(double *area, size_t n) {
-  for (size_t i0 = 0; i0 < n; i0 += TILE)
-    for (size_t j0 = i0; j0 < n; j0 += TILE)
+static hr2d_status mirror(double *area, size_t n, hr2di_watch *watch) {
+  hr2d_status status = HR2D_OK;
+  for (size_t i0 = 0; i0 < n && !status; i0 += TILE)
+    for (size_t j0 = i0; j0 < n && !(status = hr2di_watch_work(watch, TILE)); j0 += TILE)
       for (size_t i = i0; i < n && i < i0 + TILE; i++)
         for (size_t j = j0 > i ? j0 : i + 1; j < n && j < j0 + TILE; j++)
           area[j * n + i] = area[i * n + j];
+  return status;
 }
 
 static size_t count_threads(const matrix *m) {
-#ifdef _OPENMP
-  const size_t wanted = m->options.threads ? m->options.threads : (size_t)omp_get_max_threads();
+  const size_t wanted = hr2di_team_threads(m->options.threads);
   const size_t max = wanted < MOST_THREADS ? wanted : MOST_THREADS;
   return max < m->runs.runs ? max : m->runs.runs;
-#else
-  (void)m;
-  return 1;
-#endif
 }
 
 static hr2d_status start(matrix *m) {
-  const hr2d_status status = hr2di_runs_init(&m->runs, m->scene);
+  hr2d_status status = hr2di_runs_init(&m->runs, m->scene, m->watch);
   if (status) return status;
   m->element = hr2di_alloc_zero(&m->scene->alloc, m->n, sizeof *m->element);
   if (!m->element) return HR2D_ENOMEM;
@@ -255,8 +242,11 @@ static hr2d_status start(matrix *m) {
     m->element[k].a = m->scene->patch[k].scaled.a;
     m->element[k].b = m->scene->patch[k].scaled.b;
   }
-  memset(m->area, 0, m->n * m->n * sizeof *m->area);
-  return HR2D_OK;
+  for (size_t k = 0; k < m->n && !status; k++) {
+    memset(m->area + k * m->n, 0, m->n * sizeof *m->area);
+    status = hr2di_watch_work(m->watch, 1 + m->n / 128);
+  }
+  return status;
 }
 
 static hr2d_status hire(matrix *m, filler **team, size_t count) {
@@ -264,7 +254,10 @@ static hr2d_status hire(matrix *m, filler **team, size_t count) {
     team[k] = hr2di_alloc_zero(&m->scene->alloc, 1, sizeof **team);
     if (!team[k]) return HR2D_ENOMEM;
     team[k]->m = m;
-    hr2di_visibility_init(&team[k]->visibility, &m->scene->walls, &m->scene->alloc);
+    team[k]->watch = k == 0 ? m->watch : &team[k]->own;
+    hr2di_watch_follow(&team[k]->own, m->watch);
+    hr2di_visibility_init(&team[k]->visibility, &m->scene->walls, &m->scene->alloc,
+                          team[k]->watch);
   }
   return HR2D_OK;
 }
@@ -290,19 +283,11 @@ static hr2d_status fill_matrix(matrix *m, hr2d_matrix_counts *counts) {
   filler *team[MOST_THREADS] = {0};
   const size_t count = count_threads(m);
   hr2d_status status = hire(m, team, count);
+  if (!status) status = hr2di_watch_ask(m->watch);
   if (!status) fill(team, count);
   const hr2d_status failed = dismiss(m, team, count, counts);
   if (!status) status = failed;
-  if (!status) mirror(m->area, m->n);
-  return status;
-}
-
-/* Progress is told once more at the end. */
-static hr2d_status tell_end(const matrix *m) {
-  const hr2d_progress progress = {
-      .struct_size = sizeof progress, .phase = "factors", .fraction = 1};
-  return m->options.progress ? m->options.progress(m->options.progress_ctx, &progress)
-                             : HR2D_OK;
+  return status ? status : mirror(m->area, m->n, m->watch);
 }
 
 hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_options *options,
@@ -315,9 +300,13 @@ hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_opti
               .options = HR2D_MATRIX_OPTIONS_INIT};
   if (options) hr2di_sized_copy(&m.options, sizeof m.options, options);
   hr2d_matrix_counts sum = {0};
+  hr2di_watch watch;
+  hr2di_scene_watch(scene, &watch, m.options.progress, m.options.progress_ctx, "factors");
+  m.watch = &watch;
   hr2d_status status = start(&m);
+  hr2di_watch_describe(&watch, describe, &m);
   if (!status) status = fill_matrix(&m, &sum);
-  if (!status) status = tell_end(&m);
+  if (!status) status = hr2di_watch_ask(&watch);
   if (!status && counts) *counts = sum;
   hr2di_runs_clear(&m.runs);
   hr2di_alloc_free(&scene->alloc, m.element);

@@ -39,6 +39,7 @@ typedef struct hr2di_direction {
 
 struct hr2di_viewer {
   hr2d_allocator alloc;
+  hr2di_watch *watch;
   const hr2d_scene *scene;
   size_t patches, vertices;
   hr2d_point *vertex;  /* each vertex once, times HR2DI_VIEW_SCALE */
@@ -78,7 +79,8 @@ static inline int hr2di_view_turn(const hr2di_viewer *w, uint32_t u, uint32_t v)
 /* Notes that the point sees an arc's patch between two directions. */
 void hr2di_view_note(hr2di_viewer *w, const hr2di_arc *arc, uint32_t right, uint32_t left);
 
-/* Notes all parts of arcs that the point sees, in the order of directions. */
-void hr2di_view_sweep(hr2di_viewer *w);
+/* Notes all parts of arcs that the point sees, in the order of directions.  Returns HR2D_OK or
+   the status of the watch. */
+hr2d_status hr2di_view_sweep(hr2di_viewer *w);
 
 #endif

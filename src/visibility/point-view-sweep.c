@@ -20,6 +20,7 @@ static void merge(const hr2di_viewer *w, const hr2di_direction *from, hr2di_dire
                   size_t begin, size_t middle, size_t end) {
   size_t left = begin, right = middle;
   for (size_t k = begin; k < end; k++) {
+    if (k % 16 == 0 && hr2di_watch_work(w->watch, 2)) return;
     const int from_right =
         left == middle || (right < end && precedes(w, from[right], from[left]));
     to[k] = from[from_right ? right++ : left++];
@@ -34,6 +35,7 @@ static size_t sort_directions(hr2di_viewer *w) {
       w->direction[0][count++] = (hr2di_direction){w->bearing[v].key, v};
   for (size_t width = 1; width < count; width *= 2) {
     for (size_t begin = 0; begin < count; begin += 2 * width) {
+      if (hr2di_watch_status(w->watch)) return 0;
       const size_t middle = begin + width < count ? begin + width : count;
       const size_t end = middle + width < count ? middle + width : count;
       merge(w, w->direction[0], w->direction[1], begin, middle, end);
@@ -136,23 +138,29 @@ static void take_out(hr2di_viewer *w, uint32_t arc) {
 /* The nearest arc just left of rank r; *at is an end of an arc there. */
 static uint32_t pass(hr2di_viewer *w, uint32_t r, uint32_t *at) {
   for (uint32_t k = w->ending[r]; k != HR2DI_NO_ARC; k = w->arc[k].next_end) {
+    if (hr2di_watch_work(w->watch, 4)) break;
     take_out(w, k);
     *at = w->arc[k].left;
   }
   for (uint32_t k = w->starting[r]; k != HR2DI_NO_ARC; k = w->arc[k].next_start) {
+    if (hr2di_watch_work(w->watch, 4)) break;
     sift_up(w, w->under_way++, k);
     *at = w->arc[k].right;
   }
   return w->under_way > 0 ? w->heap[0] : HR2DI_NO_ARC;
 }
 
-void hr2di_view_sweep(hr2di_viewer *w) {
+hr2d_status hr2di_view_sweep(hr2di_viewer *w) {
   const uint32_t horizon = rank_directions(w);
+  hr2d_status status = hr2di_watch_work(w->watch, w->arcs / 4);
+  if (status) return status;
   uint32_t top = HR2DI_NO_ARC, since = HR2DI_HORIZON, at = HR2DI_HORIZON;
   list_arcs(w, horizon);
   w->under_way = 0;
-  for (uint32_t r = 0; r <= horizon; r++) {
+  for (uint32_t r = 0; r <= horizon && !status; r++) {
     const uint32_t next = pass(w, r, &at);
+    status = hr2di_watch_work(w->watch, 1);
+    if (status) break;
     if (next == top) continue;
     /* A patch that begins or ends here does so at its own vertex. */
     const int begins = next != HR2DI_NO_ARC && w->arc[next].start == r;
@@ -166,4 +174,5 @@ void hr2di_view_sweep(hr2di_viewer *w) {
     since = at;
     top = next;
   }
+  return status;
 }

@@ -7,9 +7,9 @@
 #include "visibility/point-view.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "geometry/orient-sign.h"
 #include "geometry/predicates.h"
 #include "scene/scene-impl.h"
@@ -29,7 +29,8 @@ static int by_point(const void *left, const void *right) {
 }
 
 /* Numbers the different ends of patches. */
-static void number_vertices(hr2di_viewer *w, tip *tips) {
+static hr2d_status number_vertices(hr2di_viewer *w, tip *tips) {
+  hr2d_status status = hr2di_watch_work(w->watch, w->patches / 4);
   for (uint32_t k = 0; k < w->patches; k++) {
     const hr2d_segment s = w->scene->patch[k].scaled;
     for (uint32_t e = 0; e < 2; e++) {
@@ -37,26 +38,28 @@ static void number_vertices(hr2di_viewer *w, tip *tips) {
       tips[2 * k + e].index = 2 * k + e;
     }
   }
-  qsort(tips, 2 * w->patches, sizeof *tips, by_point);
-  for (size_t k = 0; k < 2 * w->patches; k++) {
+  if (!status) status = hr2di_sort(tips, 2 * w->patches, sizeof *tips, by_point, w->watch);
+  for (size_t k = 0; k < 2 * w->patches && !status; k++) {
     const hr2d_point at = tips[k].at;
     if (k == 0 || !hr2di_point_same(at, tips[k - 1].at))
       w->vertex[w->vertices++] = (hr2d_point){HR2DI_VIEW_SCALE * at.x, HR2DI_VIEW_SCALE * at.y};
     w->end[tips[k].index / 2][tips[k].index % 2] = (uint32_t)w->vertices - 1;
   }
+  return status;
 }
 
 /* Patches with the same two vertices are back to back: commit allows no other ones. */
-static void find_twins(hr2di_viewer *w, tip *tips) {
+static hr2d_status find_twins(hr2di_viewer *w, tip *tips) {
   for (uint32_t k = 0; k < w->patches; k++) {
     const uint32_t a = w->end[k][0], b = w->end[k][1];
     tips[k].at = (hr2d_point){a < b ? a : b, a < b ? b : a};
     tips[k].index = k;
   }
-  qsort(tips, w->patches, sizeof *tips, by_point);
-  for (size_t k = 1; k < w->patches; k++)
+  const hr2d_status status = hr2di_sort(tips, w->patches, sizeof *tips, by_point, w->watch);
+  for (size_t k = 1; k < w->patches && !status; k++)
     if (hr2di_point_same(tips[k].at, tips[k - 1].at))
       w->twin[tips[k].index] = w->twin[tips[k - 1].index] = 1;
+  return status;
 }
 
 /* Directions between the ends of n arcs, of which at most 2n are vertices in front and two
@@ -84,25 +87,25 @@ static int reserve(hr2di_viewer *w) {
 }
 
 hr2d_status hr2di_viewer_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
-                                hr2di_viewer **viewer) {
+                                hr2di_watch *watch, hr2di_viewer **viewer) {
   *viewer = NULL;
   if (scene->patches > UINT32_MAX / 4) return HR2D_ENOMEM;
   hr2di_viewer *w = hr2di_alloc_zero(alloc, 1, sizeof *w);
   if (!w) return HR2D_ENOMEM;
   w->alloc = *alloc;
+  w->watch = watch;
   w->scene = scene;
   w->patches = scene->patches;
   tip *tips = hr2di_alloc(alloc, 2 * w->patches, sizeof *tips);
-  if (!tips || !reserve(w)) {
-    hr2di_alloc_free(alloc, tips);
-    hr2di_viewer_destroy(w);
-    return HR2D_ENOMEM;
-  }
-  number_vertices(w, tips);
-  find_twins(w, tips);
+  hr2d_status status = tips && reserve(w) ? HR2D_OK : HR2D_ENOMEM;
+  if (!status) status = number_vertices(w, tips);
+  if (!status) status = find_twins(w, tips);
   hr2di_alloc_free(alloc, tips);
-  *viewer = w;
-  return HR2D_OK;
+  if (status)
+    hr2di_viewer_destroy(w);
+  else
+    *viewer = w;
+  return status;
 }
 
 void hr2di_viewer_destroy(hr2di_viewer *viewer) {
@@ -160,6 +163,7 @@ static void take_bearings(hr2di_viewer *w, size_t patch, double t) {
   x.x = part(from_base, ab.x, ab.tx, &x.tx);
   x.y = part(from_base, ab.y, ab.ty, &x.ty);
   for (size_t v = 0; v < w->vertices; v++) {
+    if (v % 16 == 0 && hr2di_watch_work(w->watch, 16)) return;
     hr2di_bearing *bearing = &w->bearing[v];
     const hr2di_vector d = hr2di_vector_difference(w->vertex[v], base);
     bearing->height = hr2di_det(&axis, &d) / length;
@@ -203,6 +207,7 @@ static int find_arcs(hr2di_viewer *w) {
   int backs = 0;
   w->arcs = 0;
   for (size_t k = 0; k < w->patches; k++) {
+    if (k % 16 == 0 && hr2di_watch_work(w->watch, 8)) return 0;
     const uint32_t p = w->end[k][0], q = w->end[k][1];
     const int p_above = w->bearing[p].height > 0, q_above = w->bearing[q].height > 0;
     if (!p_above && !q_above) continue;
@@ -240,8 +245,12 @@ hr2d_status hr2di_view_at(hr2di_viewer *viewer, size_t patch, double t, hr2di_vi
   w->glimpses = 0;
   w->back = (hr2di_sum){0, 0};
   take_bearings(w, patch, t);
-  if (find_arcs(w)) {
-    hr2di_view_sweep(w);
+  const int hidden = hr2di_watch_status(w->watch) ? 0 : find_arcs(w);
+  hr2d_status status = hr2di_watch_status(w->watch);
+  if (!status && hidden) status = hr2di_view_sweep(w);
+  if (!status) status = hr2di_watch_work(w->watch, w->patches / 4);
+  if (status) return status;
+  if (hidden) {
     sort_glimpses(w);
   } else {
     for (size_t k = 0; k < w->arcs; k++)

@@ -6,6 +6,8 @@
 #include <hr2d/scene.h>
 #include <stdint.h>
 
+#include "base/watch.h"
+
 /* A part of a patch's front, all of it seen from the point with nothing in between. */
 typedef struct hr2di_glimpse {
   uint32_t patch;
@@ -17,9 +19,9 @@ typedef struct hr2di_glimpse {
 /* Work space of one thread, and the last view. */
 typedef struct hr2di_viewer hr2di_viewer;
 
-/* For a committed scene.  Returns HR2D_OK or HR2D_ENOMEM. */
+/* For a committed scene.  Returns HR2D_OK, HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_viewer_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
-                                hr2di_viewer **viewer);
+                                hr2di_watch *watch, hr2di_viewer **viewer);
 void hr2di_viewer_destroy(hr2di_viewer *viewer);
 
 typedef struct hr2di_view_from {
@@ -32,7 +34,8 @@ typedef struct hr2di_view_from {
   double sky;   /* 1 − front − back, at least 0: the form factor of the background */
 } hr2di_view_from;
 
-/* The view from fraction t in [0,1] of patch `patch`.  Returns HR2D_OK or HR2D_ENOMEM.
+/* The view from fraction t in [0,1] of patch `patch`.  Returns HR2D_OK, HR2D_ENOMEM or the
+   status of the watch.
 
    The angle of a patch that touches the point is undefined.  Then the view is that of the
    points next to it, towards the middle of `patch`.  A patch that touches the point covers the

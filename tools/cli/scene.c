@@ -9,16 +9,24 @@
 
 #include "cli/numbers.h"
 #include "output/complain.h"
+#include "output/progress.h"
 
 int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cuts) {
+  progress p;
   *scene = NULL;
   *cuts = 0;
   hr2d_status status = hr2d_scene_create(NULL, scene);
   if (!status) status = hr2d_scene_read(*scene, o->scene);
+  /* Not before: a signal that only sets a flag would not end a read that waits for a pipe. */
+  progress_start(&p, o->quiet);
+  if (!status) hr2d_scene_set_progress(*scene, progress_show, &p);
   if (!status && o->split_crossings) status = hr2d_scene_split_crossings(*scene, cuts);
   for (int e = 0; !status && e < HR2D_EFFECT_COUNT; e++)
     if (force >> e & 1) status = hr2d_scene_force(*scene, (hr2d_effect)e);
   if (!status) status = hr2d_scene_commit(*scene);
+  if (*scene) hr2d_scene_set_progress(*scene, NULL, NULL);
+  progress_clear(&p);
+  progress_end();
   if (!status) return 0;
   const int code = complain_call(o->scene, *scene ? hr2d_scene_message(*scene) : "", status);
   hr2d_scene_destroy(*scene);

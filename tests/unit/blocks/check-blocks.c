@@ -152,7 +152,7 @@ static void check_pull_of_push(const hr2d_hierarchy *h, unsigned long *state, si
   const hr2d_allocator alloc = h->alloc;
   const size_t width = order * bands, size = h->elements * width;
   hr2di_push_pull trees;
-  ck_assert_int_eq(hr2di_push_pull_init(&trees, h, &alloc, order, bands), HR2D_OK);
+  ck_assert_int_eq(hr2di_push_pull_init(&trees, h, &alloc, order, bands, NULL), HR2D_OK);
   double *down = calloc(size, sizeof *down), *up = calloc(size, sizeof *up);
   for (size_t k = 0; k < 2 * width; k++) down[k] = test_random(state) - 0.5;
   hr2di_push_pull_down(&trees, NULL, down);
@@ -171,7 +171,7 @@ static void check_pull(const hr2d_hierarchy *h, unsigned long *state, size_t ord
                        const double *spread) {
   const size_t size = h->elements * order;
   hr2di_push_pull trees;
-  ck_assert_int_eq(hr2di_push_pull_init(&trees, h, &h->alloc, order, 1), HR2D_OK);
+  ck_assert_int_eq(hr2di_push_pull_init(&trees, h, &h->alloc, order, 1, NULL), HR2D_OK);
   double *up = calloc(size, sizeof *up), *down = calloc(size, sizeof *down);
   double *pushed = calloc(size, sizeof *pushed);
   for (size_t k = 0; k < size; k++) {
@@ -283,7 +283,7 @@ static int make_block(const stage *s, size_t order, int swapped, double *block) 
   int distant;
   const hr2d_allocator *alloc = &s->hierarchy->alloc;
   const hr2d_pair swap = {s->pair.second, s->pair.first};
-  ck_assert_int_eq(hr2di_integrator_init(&work, s->hierarchy, alloc, order), HR2D_OK);
+  ck_assert_int_eq(hr2di_integrator_init(&work, s->hierarchy, alloc, order, NULL), HR2D_OK);
   ck_assert_int_eq(hr2di_block(&work, swapped ? swap : s->pair, block, &distant), HR2D_OK);
   for (size_t k = 0; k < order * order; k++) block[k] *= hr2d_scene_unit(s->scene);
   hr2di_integrator_clear(&work);

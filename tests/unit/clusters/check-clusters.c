@@ -59,7 +59,7 @@ static void gather_matrix(sorted *s) {
     memset(sent, 0, s->n * BANDS * sizeof *sent);
     memset(power, 0, s->n * BANDS * sizeof *power);
     for (size_t k = 0; k < BANDS && first + k < s->n; k++) sent[(first + k) * BANDS + k] = 1;
-    ck_assert_int_eq(hr2di_clusters_gather(s->clusters, 1, BANDS, sent, power), HR2D_OK);
+    ck_assert_int_eq(hr2di_clusters_gather(s->clusters, 1, BANDS, sent, power, NULL), HR2D_OK);
     for (size_t i = 0; i < s->n; i++)
       for (size_t k = 0; k < BANDS && first + k < s->n; k++)
         s->linked[i * s->n + first + k] = power[i * BANDS + k];
@@ -78,8 +78,8 @@ static sorted sort_scene(hr2d_scene *scene, double digits) {
   ck_assert_ptr_nonnull(s.near);
   ck_assert_int_eq(hr2d_exchange_matrix(scene, NULL, s.area, NULL), HR2D_OK);
   for (size_t k = 0; k < s.n * s.n; k++) s.area[k] /= hr2d_scene_unit(scene);
-  ck_assert_int_eq(hr2di_clusters_create(scene, &alloc, digits, put_near, &s, &s.clusters),
-                   HR2D_OK);
+  ck_assert_int_eq(
+      hr2di_clusters_create(scene, &alloc, digits, put_near, &s, NULL, &s.clusters), HR2D_OK);
   if (hr2di_clusters_links(s.clusters) > 0) gather_matrix(&s);
   return s;
 }
@@ -368,7 +368,7 @@ START_TEST(orders_are_exact_enough) {
   double *b = new_doubles(s.n * ORDER), *power = new_doubles(s.n * ORDER),
          *brute = new_doubles(s.n * ORDER), block[ORDER * ORDER], worst = 0;
   for (size_t k = 0; k < s.n * ORDER; k++) b[k] = test_random(&r) - .3;
-  ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, b, power), HR2D_OK);
+  ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, b, power, NULL), HR2D_OK);
   for (size_t i = 0; i < s.n; i++)
     for (size_t j = 0; j < s.n; j++) {
       if (s.linked[i * s.n + j] == 0) continue;
@@ -404,8 +404,8 @@ START_TEST(gathers_are_symmetric) {
     double *u = new_doubles(count), *v = new_doubles(count), *ku = new_doubles(count),
            *kv = new_doubles(count);
     for (size_t k = 0; k < count; k++) u[k] = test_random(&r) - .5, v[k] = test_random(&r);
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, order, 1, u, ku), HR2D_OK);
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, order, 1, v, kv), HR2D_OK);
+    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, order, 1, u, ku, NULL), HR2D_OK);
+    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, order, 1, v, kv, NULL), HR2D_OK);
     const double size = sqrt(product(ku, ku, count) * product(v, v, count));
     ck_assert_double_le(fabs(product(ku, v, count) - product(kv, u, count)), 1e-13 * size);
     free(u);
@@ -427,13 +427,13 @@ START_TEST(bands_are_gathers) {
   double *b = new_doubles(count * BANDS), *power = new_doubles(count * BANDS),
          *one = new_doubles(count), *out = new_doubles(count);
   for (size_t k = 0; k < count * BANDS; k++) b[k] = test_random(&r);
-  ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, BANDS, b, power), HR2D_OK);
+  ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, BANDS, b, power, NULL), HR2D_OK);
   for (size_t band = 0; band < BANDS; band++) {
     for (size_t k = 0; k < count; k++) one[k] = b[k * BANDS + band], out[k] = 0;
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, one, out), HR2D_OK);
+    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, one, out, NULL), HR2D_OK);
     for (size_t k = 0; k < count; k++) ck_assert(out[k] == power[k * BANDS + band]);
     for (size_t k = 0; k < count; k++) out[k] = 1;
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, one, out), HR2D_OK);
+    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, one, out, NULL), HR2D_OK);
     for (size_t k = 0; k < count; k++)
       ck_assert_double_le(fabs(out[k] - 1 - power[k * BANDS + band]), 1e-15);
   }
@@ -449,8 +449,8 @@ END_TEST
 static size_t count_near(hr2d_scene *scene, double digits, uint64_t *links, uint64_t *bytes) {
   const hr2d_allocator alloc = hr2di_alloc_default();
   sorted s = {.scene = scene, .n = hr2d_scene_patches(scene)};
-  ck_assert_int_eq(hr2di_clusters_create(scene, &alloc, digits, put_near, &s, &s.clusters),
-                   HR2D_OK);
+  ck_assert_int_eq(
+      hr2di_clusters_create(scene, &alloc, digits, put_near, &s, NULL, &s.clusters), HR2D_OK);
   *links = hr2di_clusters_links(s.clusters);
   *bytes = hr2di_clusters_bytes(s.clusters);
   hr2di_clusters_destroy(s.clusters);
@@ -506,8 +506,9 @@ START_TEST(near_may_stop) {
   hr2di_clusters *clusters = NULL;
   for (int calls = 1; calls < 4; calls++) {
     int left = calls;
-    ck_assert_int_eq(hr2di_clusters_create(scene, &alloc, 1e-3, stop_at, &left, &clusters),
-                     HR2D_STOPPED);
+    ck_assert_int_eq(
+        hr2di_clusters_create(scene, &alloc, 1e-3, stop_at, &left, NULL, &clusters),
+        HR2D_STOPPED);
     ck_assert_ptr_null(clusters);
   }
   hr2d_scene_destroy(scene);
@@ -533,11 +534,12 @@ START_TEST(allocations_fail_one_by_one) {
   for (int failed = 1; failed; k++) {
     f = (test_memory){.until_failure = k, .for_good = _i};
     hr2di_clusters *clusters = NULL;
-    hr2d_status status = hr2di_clusters_create(scene, &hooks, 1e-3, put_near, &s, &clusters);
+    hr2d_status status =
+        hr2di_clusters_create(scene, &hooks, 1e-3, put_near, &s, NULL, &clusters);
     if (status)
       ck_assert_ptr_null(clusters);
     else
-      status = hr2di_clusters_gather(clusters, 1, 1, b, power);
+      status = hr2di_clusters_gather(clusters, 1, 1, b, power, NULL);
     failed = f.failures > 0;
     ck_assert_int_eq(status, failed ? HR2D_ENOMEM : HR2D_OK);
     hr2di_clusters_destroy(clusters);

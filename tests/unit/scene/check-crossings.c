@@ -86,8 +86,8 @@ static hr2d_scene *scene_of(const drawing *d, const hr2d_allocator *hooks) {
 
 /* Commit's checks alone: the analysis of the effects takes its time with thousands. */
 static hr2d_status check(hr2d_scene *scene) {
-  const hr2d_status status = hr2di_scene_scale(scene);
-  return status ? status : hr2di_scene_check_overlaps(scene);
+  const hr2d_status status = hr2di_scene_scale(scene, NULL);
+  return status ? status : hr2di_scene_check_overlaps(scene, NULL);
 }
 
 static double largest(const hr2d_segment *s) {

@@ -27,7 +27,7 @@ typedef long double real;
 static hr2di_viewer *viewer_of(const hr2d_scene *scene) {
   const hr2d_allocator alloc = hr2di_alloc_default();
   hr2di_viewer *viewer = NULL;
-  ck_assert_int_eq(hr2di_viewer_create(scene, &alloc, &viewer), HR2D_OK);
+  ck_assert_int_eq(hr2di_viewer_create(scene, &alloc, NULL, &viewer), HR2D_OK);
   return viewer;
 }
 
@@ -700,7 +700,7 @@ START_TEST(allocations_fail_one_by_one) {
   long k = 0;
   for (int failed = 1; failed; k++) {
     memory = (test_memory){.until_failure = k, .for_good = _i};
-    const hr2d_status status = hr2di_viewer_create(scene, &hooks, &viewer);
+    const hr2d_status status = hr2di_viewer_create(scene, &hooks, NULL, &viewer);
     failed = memory.failures > 0;
     ck_assert_int_eq(status, failed ? HR2D_ENOMEM : HR2D_OK);
     ck_assert_int_eq(viewer == NULL, failed);

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Threads that share tasks.  The calling thread is one of them, and the only one that asks its
+   watch: also while it waits for the others at the end. */
+#ifndef HR2D_SRC_BASE_TEAM_H
+#define HR2D_SRC_BASE_TEAM_H
+
+#include "base/watch.h"
+
+/* Does one task.  `worker` is the number of the thread, 0 for the calling one. */
+typedef void (*hr2di_team_fn)(void *ctx, size_t worker, size_t task);
+
+/* The number of threads for `asked`, where 0 means all; 1 without OpenMP. */
+size_t hr2di_team_threads(unsigned asked);
+
+/* Does tasks 0, 1, … each once.  One thread does not use OpenMP, whose runtime ends the program
+   if it has no memory. */
+void hr2di_team_run(size_t threads, size_t tasks, hr2di_team_fn run, void *ctx,
+                    hr2di_watch *watch);
+
+#endif
