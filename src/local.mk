@@ -119,6 +119,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/closure-order-p.c \
 	src/solve/energy-balance.c src/solve/energy-balance.h \
 	src/solve/equation.c src/solve/equation.h \
+	src/solve/equation-power.c \
 	src/solve/existence.c src/solve/existence.h \
 	src/solve/row-sums.c src/solve/row-sums.h \
 	src/solve/solve.c \

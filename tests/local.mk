@@ -32,6 +32,7 @@ SUITES = \
 	tests/unit/solution/check-points \
 	tests/unit/solve/check-solve \
 	tests/unit/solve/check-closure \
+	tests/unit/solve/check-lengths \
 	tests/unit/refine/check-occlusion \
 	tests/unit/scene/check-effects \
 	tests/unit/occlusion/check-visibility \

@@ -78,7 +78,8 @@ typedef struct hr2d_solution hr2d_solution;
 typedef struct hr2d_solve_options {
   size_t struct_size; /**< so that the options can grow */
   double tolerance;   /**< stop when ‖residual‖ ≤ tolerance·‖B‖ in each band, in the
-                           norm ∫B²; at least 1e-15, and finite */
+                           norm ∫B², and also ∫|residual| ≤ max(tolerance, 1e-13)·∫B; at
+                           least 1e-15, and finite */
   unsigned max_iterations;    /**< after this number stop with HR2D_ENOT_CONVERGED */
   unsigned threads;           /**< 0 for all; the result does not depend on it, bit for bit */
   int closure;                /**< 1: the exchange of every leaf with all others is exact; 0:
@@ -130,7 +131,8 @@ typedef struct hr2d_solve_work {
  * @retval HR2D_ENO_SOLUTION   light is emitted in a closed part of the scene in which nothing
  *                             absorbs; the message names the patch. Without light B is 0 there
  * @retval HR2D_ENOT_CONVERGED `max_iterations` are done, or rows of links exceed 1 so far that
- *                             light would grow for ever
+ *                             light would grow for ever, or powers are not balanced to 1e-9
+ *                             because lengths differ too much
  * @retval HR2D_ERANGE         B is beyond the range of a double
  * @retval other               the status of the progress callback
  *

@@ -7,11 +7,18 @@
    and τ = A_j uv, so that with λ = A_j/A_i
      ∫∫ k φ_l φ_m = A_j ∫₀¹ k(1, λv) ∫₀¹ φ_l(u) φ_m(uv) du dv,
    where the integral over u is one of a polynomial of degree 2p − 2, and the only singularities
-   in v are at e^{±iα}/λ.  On the other side i and j change places. */
+   in v are at e^{±iα}/λ.  On the other side i and j change places.
+
+   As α → 0 all light stays at its distance from the corner: from σ on i the part
+   (1 + cosα)/2 → 1 arrives around τ = σ on j, within some α σ, and
+     ∫∫ k φ_l φ_m → ∫ φ_l(σ) φ_m(σ) dσ   over the shorter element. */
 #include <math.h>
 #include <string.h>
 
 #include "blocks/panels.h"
+
+/* sin α below which the limit stands; its error is of this order. */
+#define CLOSED 1e-13
 
 typedef struct corner {
   double sine, versed; /* sin α, 1 − cos α */
@@ -64,6 +71,24 @@ static void add_side(hr2di_integrator *w, const corner *c, double lambda, int in
   }
 }
 
+/* The limit as α → 0.  The corner is at the end of i and the start of j, or the other way
+ * round. */
+static void add_closed(hr2di_integrator *w, const hr2di_pair_frame *f, int at_end,
+                       double *block) {
+  const size_t p = w->order;
+  const double least = fmin(f->length_i, f->length_j);
+  double phi_i[HR2D_MAX_ORDER], phi_j[HR2D_MAX_ORDER];
+  for (size_t k = 0; k < p; k++) {
+    const double from = (1 + w->exact.at[k]) * least; /* twice the distance from the corner */
+    const double on_i = from / f->length_i - 1, on_j = from / f->length_j - 1;
+    hr2di_basis_at(&w->basis, at_end ? -on_i : on_i, phi_i);
+    hr2di_basis_at(&w->basis, at_end ? on_j : -on_j, phi_j);
+    for (size_t l = 0; l < p; l++)
+      for (size_t m = 0; m < p; m++)
+        block[l * p + m] += least * w->exact.weight[k] * phi_i[l] * phi_j[m];
+  }
+}
+
 void hr2di_block_touching(hr2di_integrator *w, const hr2di_pair_frame *f, int at_end,
                           double *block) {
   const size_t p = w->order;
@@ -75,6 +100,10 @@ void hr2di_block_touching(hr2di_integrator *w, const hr2di_pair_frame *f, int at
   corner c = {.sine = fabs(u.x * v.y - u.y * v.x) / scale,
               .cosine = -(u.x * v.x + u.y * v.y) / scale};
   c.versed = c.cosine > 0 ? c.sine * c.sine / (1 + c.cosine) : 1 - c.cosine;
+  if (c.cosine > 0 && c.sine < CLOSED) {
+    add_closed(w, f, at_end, block);
+    return;
+  }
   double *row = w->work;
   add_side(w, &c, f->length_j / f->length_i, !at_end, row);
   for (size_t k = 0; k < p; k++) {

@@ -45,7 +45,20 @@ static double first_coefficient(const hr2d_hierarchy *h, const hr2d_link *link, 
   const double rounding =
       rounding_of(h, link->pair.first) + rounding_of(h, link->pair.second) + 4 * DBL_EPSILON;
   const double area = link->exchange_area;
-  return fabs(block - area) > rounding * fmax(block, area) ? area : block;
+  return fabs(block - area) <= rounding * fmax(block, area) ? block : area;
+}
+
+/* G V is not negative, so that |C_lm| ≤ √((2l+1)(2m+1)) C_00.  A block beyond that comes from
+   elements that the rules cannot tell apart in doubles, as a distance of 1e-17 of a length: it
+   keeps its exchange area alone. */
+static void check_bound(double *block, size_t order) {
+  int holds = 1;
+  for (size_t l = 0; l < order; l++)
+    for (size_t m = 0; m < order; m++) {
+      const double most = 1.5 * block[0] * sqrt((double)((2 * l + 1) * (2 * m + 1)));
+      holds &= fabs(block[l * order + m]) <= most;
+    }
+  for (size_t k = 1; k < order * order && !holds; k++) block[k] = 0;
 }
 
 static hr2d_status make_some(const maker *m, hr2di_integrator *work, uint64_t from,
@@ -58,6 +71,7 @@ static hr2d_status make_some(const maker *m, hr2di_integrator *work, uint64_t fr
     const hr2d_status status = hr2di_block(work, link->pair, block, &distant);
     if (status) return status;
     block[0] = first_coefficient(m->links->hierarchy, link, block[0]);
+    check_bound(block, m->blocks->order);
     m->blocks->distant[k] = (unsigned char)distant;
   }
   return HR2D_OK;

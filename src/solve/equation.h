@@ -22,6 +22,7 @@ typedef struct hr2di_equation {
   size_t field;     /* items × bands */
   double *space;    /* holds all arrays below */
   double *weight;   /* A of each item's leaf */
+  double *square;   /* A² where a solve takes the norm of powers, else NULL */
   double *source;   /* E at first */
   double *light;    /* per band: of the background */
   double *root_rho; /* √ρ */
@@ -51,6 +52,10 @@ hr2d_status hr2di_equation_solve(hr2di_equation *eq);
 /* Sets B = Q + √ρ y and its irradiance; this is the whole solve where nothing reflects.
    Returns HR2D_OK, HR2D_ENOMEM or the status of the progress callback. */
 hr2d_status hr2di_equation_take(hr2di_equation *eq);
+
+/* Adds to a solution what its residual, measured by power, still calls for.  Returns HR2D_OK,
+   HR2D_ENOMEM, HR2D_ENOT_CONVERGED with a message or the status of the progress callback. */
+hr2d_status hr2di_equation_settle_power(hr2di_equation *eq);
 
 /* Sets c from the source, so that y = √ρ h from then on; hr2di_equation_solve() does it. */
 void hr2di_equation_balance(hr2di_equation *eq);

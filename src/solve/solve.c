@@ -173,6 +173,7 @@ static hr2d_status solve(hr2d_linkset *links, const hr2d_solve_options *options,
   if (!status && links->hierarchy->scene->effect[HR2D_EFFECT_INTERREFLECTION].on) {
     if (options->start) status = warm_start(&eq);
     if (!status) status = hr2di_equation_solve(&eq);
+    if (!status) status = hr2di_equation_settle_power(&eq);
     if (!status) status = check_sign(&eq);
   } else if (!status) {
     status = hr2di_equation_take(&eq);
