@@ -31,6 +31,7 @@ SUITES = \
 	tests/unit/oracle/check-l1 \
 	tests/unit/solution/check-points \
 	tests/unit/solve/check-solve \
+	tests/unit/solve/check-background \
 	tests/unit/solve/check-closure \
 	tests/unit/solve/check-lengths \
 	tests/unit/refine/check-occlusion \

@@ -3,6 +3,7 @@
 #include "solve/background.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/legendre.h"
@@ -83,12 +84,12 @@ static hr2d_status take_rows(hr2di_transport *t) {
   return t->failed ? t->failed : hr2di_watch_work(t->watch, t->leaves / 4);
 }
 
-/* A closed room does not see the background, whatever rounding does to its row sums. */
+/* A form factor is not negative, so its mean bounds its other coefficients.  A closed room does
+   not see the background, whatever rounding does to its row sums. */
 static void clear_closed(hr2di_transport *t) {
   for (size_t k = 0; k < t->leaves; k++) {
-    double *sky = t->sky + k * t->order, max = 0;
-    for (size_t l = 0; l < t->order; l++) max = fmax(max, fabs(sky[l]));
-    for (size_t l = 0; l < t->order && max <= NONE; l++) sky[l] = 0;
+    double *sky = t->sky + k * t->order;
+    if (sky[0] <= NONE) memset(sky, 0, t->order * sizeof *sky);
   }
 }
 

@@ -25,16 +25,26 @@ static int reflects(const hr2d_scene *scene) {
   return 0;
 }
 
+/* At an order above 1.  The background needs closed rows: what K lacks elsewhere would
+   come from the background. */
+static hr2d_status integrate_rows_order_p(hr2di_equation *s, int closure, int background) {
+  hr2di_transport *t = &s->transport;
+  if (background) s->row_sums = t->leaves;
+  hr2d_status status = hr2di_closure_set_order_p(t);
+  if (!status && background) status = hr2di_background_set_order_p(t);
+  if (!closure) {
+    hr2di_alloc_free(&t->alloc, t->closure);
+    t->closure = NULL;
+  }
+  return status;
+}
+
 /* Sets closure and the form factor of the background, which need the rows of all leaves. */
 static hr2d_status integrate_rows(hr2di_equation *s) {
   const int closure = s->options.closure && reflects(s->links->hierarchy->scene);
   const int background = s->links->hierarchy->scene->effect[HR2D_EFFECT_BACKGROUND].on;
   if (!closure && !background) return HR2D_OK;
-  if (s->transport.order > 1) {
-    hr2d_status status = closure ? hr2di_closure_set_order_p(&s->transport) : HR2D_OK;
-    if (background) s->row_sums = s->transport.leaves;
-    return !status && background ? hr2di_background_set_order_p(&s->transport) : status;
-  }
+  if (s->transport.order > 1) return integrate_rows_order_p(s, closure, background);
   hr2di_row_sums rows;
   hr2d_status status = hr2di_row_sums_init(&rows, &s->transport, background);
   if (!status && background) status = hr2di_background_set(&s->transport, &rows);

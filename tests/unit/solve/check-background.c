@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What comes in from the background: nothing where a room is closed, and never less than
+   nothing. */
+#include <math.h>
+
+#include "support/support.h"
+
+static void set_background(hr2d_scene *scene, double light) {
+  ck_assert_int_eq(hr2d_scene_set_background(scene, &light, 1), HR2D_OK);
+}
+
+/* A room of random walls, with a screen; one wall is missing if it is open. */
+static hr2d_scene *draw_room(randoms *r, int open) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  hr2d_point at[8];
+  const int count = 3 + random_below(r, 5);
+  for (int k = 0; k < count; k++) {
+    const double angle = 6.28 * (k + random_between(r, 0, 0.9)) / count;
+    at[k] = (hr2d_point){cos(angle), sin(angle)};
+  }
+  for (int k = open; k < count; k++)
+    test_add_patch(scene, (hr2d_segment){at[k], at[(k + 1) % count]}, random_between(r, 0, 1),
+                   random_between(r, 0, 0.9), HR2D_SIDES_FRONT);
+  const double x = 0.25 * (at[0].x + at[1].x + at[2].x),
+               y = 0.25 * (at[0].y + at[1].y + at[2].y);
+  const hr2d_segment screen = {{x, y}, {x + 0.01, y + 0.02}};
+  if (random_below(r, 2)) test_add_patch(scene, screen, 0, 0.5, HR2D_SIDES_BOTH);
+  set_background(scene, 1);
+  return scene;
+}
+
+static double least_of(const test_links *t, int closure) {
+  hr2d_solution *solution = test_solve(t, closure);
+  const hr2d_power p = hr2d_solution_power(solution, 0);
+  ck_assert_double_eq_tol(p.absorbed + p.escaped, p.emitted + p.received, 1e-12);
+  hr2d_solution_destroy(solution);
+  return p.received;
+}
+
+static void check_room(randoms *r, int open) {
+  hr2d_scene *scene = draw_room(r, open);
+  if (hr2d_scene_commit(scene)) { /* the screen crosses a wall */
+    hr2d_scene_destroy(scene);
+    return;
+  }
+  test_links t = test_make_links(scene, NULL, NULL, NULL, NULL);
+  test_refine(&t, random_power(r, -1, 0), 6);
+  for (unsigned order = 1; order <= 5; order++) {
+    ck_assert_int_eq(hr2d_hierarchy_set_order(t.hierarchy, order), HR2D_OK);
+    for (int closure = 0; closure < 2; closure++) {
+      const double received = least_of(&t, closure);
+      ck_assert_msg(open ? received > 1e-3 : received == 0, "order %u, closure %d: %g", order,
+                    closure, received);
+    }
+  }
+  test_free_links(&t);
+}
+
+START_TEST(nothing_comes_into_closed_rooms) {
+  randoms r = randoms_stream(test_seed(), 2);
+  for (int k = test_count(200) + 10; k > 0; k--) check_room(&r, 0);
+}
+END_TEST
+
+/* Negative control: without one wall it is bright. */
+START_TEST(light_comes_into_open_rooms) {
+  randoms r = randoms_stream(test_seed(), 3);
+  for (int k = test_count(50) + 5; k > 0; k--) check_room(&r, 1);
+}
+END_TEST
+
+TEST_SUITE("background") {
+  ADD_TESTS("received", nothing_comes_into_closed_rooms, light_comes_into_open_rooms);
+}
