@@ -27,6 +27,7 @@ SUITES = \
 	tests/unit/refine/check-refine \
 	tests/unit/links/check-linkset \
 	tests/unit/refine/check-validate \
+	tests/unit/refine/check-validate-ulps \
 	tests/paper/check-theorem \
 	tests/unit/oracle/check-l1 \
 	tests/unit/solution/check-points \
