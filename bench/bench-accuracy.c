@@ -71,7 +71,7 @@ static double time_paper(const radiosity_scene *known, double epsilon, int closu
   hr2d_refine_options refine = HR2D_REFINE_OPTIONS_INIT;
   hr2d_solve_options solve = HR2D_SOLVE_OPTIONS_INIT;
   refine.epsilon = epsilon;
-  solve.closure = closure;
+  solve.closure = closure ? HR2D_CLOSURE_ON : HR2D_CLOSURE_OFF;
   solve.tolerance = 1e-7;
   const double start = hr2di_clock_now();
   hr2d_status status = hr2d_hierarchy_create(scene, &hierarchy);

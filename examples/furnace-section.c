@@ -84,7 +84,7 @@ static hr2d_status add_tubes(hr2d_scene *scene, double inner, double outer, int 
   return status;
 }
 
-/* Links of max(A)/r ≤ epsilon; with max_level 0 each wall stays one element. */
+/* Links of max(A)/r ≤ epsilon; with HR2D_NO_SUBDIVISION each wall stays one element. */
 static hr2d_status solve(model *m, double epsilon, unsigned max_level) {
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
   options.epsilon = epsilon;
@@ -149,7 +149,8 @@ static hr2d_status show_row(double width, double epsilon, unsigned max_level) {
   model m = {0};
   const hr2d_status status = solve_box(&m, width, 1, epsilon, max_level);
   if (!status)
-    printf("%7g %8g %9llu %9.3f %9.3f %9.3f\n", width, max_level ? epsilon : HUGE_VAL,
+    printf("%7g %8g %9llu %9.3f %9.3f %9.3f\n", width,
+           max_level == HR2D_NO_SUBDIVISION ? HUGE_VAL : epsilon,
            (unsigned long long)hr2d_linkset_size(m.links), gain(&m), box_network(width, 1),
            network(1, 1));
   return finish(&m, status);
@@ -158,7 +159,7 @@ static hr2d_status show_row(double width, double epsilon, unsigned max_level) {
 static hr2d_status show_boxes(void) {
   printf("\nHeat into the load, kW/m2\n%7s %8s %9s %9s %9s %9s\n", "width", "epsilon", "links",
          "hr2d", "network", "infinite");
-  hr2d_status status = show_row(3, 1, 0);
+  hr2d_status status = show_row(3, 1, HR2D_NO_SUBDIVISION);
   for (int k = 1; k <= 64 && !status; k *= 4)
     status = show_row(3, 1. / k, HR2D_DEFAULT_MAX_LEVEL);
   for (int width = 10; width <= 1000 && !status; width *= 10)

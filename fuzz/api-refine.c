@@ -25,11 +25,12 @@ int api_memory_is_back(api_run *r) {
 }
 
 hr2d_refine_options api_refine_options(api_run *r, const api_slot *s) {
-  static const double epsilons[] = {0.5, 1, 0.2, 2, 0.1, 0, 0x1p-1074, 1e300};
+  static const double epsilons[] = {0.5, 1, 0.2, 2, 0.1, HR2D_EPSILON_ZERO, 0x1p-1074, 1e300};
   hr2d_refine_options o = HR2D_REFINE_OPTIONS_INIT;
   const unsigned b = fuzz_byte(r->in);
   o.epsilon = epsilons[b & 7];
   o.max_level = (b >> 3) % 6 + (o.epsilon >= 0.5 ? 3 : 0);
+  if (!o.max_level) o.max_level = HR2D_NO_SUBDIVISION;
   o.ordered = s->ordered;
   o.max_elements = 1500;
   o.max_links = 3000;

@@ -7,7 +7,7 @@
 static hr2d_solve_options solve_options(api_run *r, const api_slot *s) {
   hr2d_solve_options o = HR2D_SOLVE_OPTIONS_INIT;
   const unsigned b = fuzz_byte(r->in);
-  o.closure = b & 1;
+  o.closure = b & 1 ? HR2D_CLOSURE_ON : HR2D_CLOSURE_OFF;
   if (b & 2) o.tolerance = ldexp(1, -(int)fuzz_below(r->in, 50));
   o.max_iterations = b & 4 ? fuzz_byte(r->in) : 300;
   if (b & 8) o.start = s->solution;
@@ -16,7 +16,7 @@ static hr2d_solve_options solve_options(api_run *r, const api_slot *s) {
 
 void api_solve(api_run *r, api_slot *s) {
   hr2d_solve_options options = solve_options(r, s);
-  if (options.tolerance < 1e-15) options.tolerance = 1e-15;
+  if (options.tolerance > 0 && options.tolerance < 1e-15) options.tolerance = 1e-15;
   const unsigned wanted = fuzz_byte(r->in);
   hr2d_hierarchy *hierarchy = api_hierarchy(r, s);
   /* Blocks of touching patches take panels without number where one is 2^500 times the other.
@@ -36,11 +36,12 @@ void api_solve(api_run *r, api_slot *s) {
     fuzz_check_message(hr2d_linkset_message(s->links));
     return;
   }
-  if (options.tolerance <= 1e-12) fuzz_check_solution(solution, order, options.closure);
+  if (options.tolerance <= 1e-12)
+    fuzz_check_solution(solution, order, options.closure == HR2D_CLOSURE_ON);
   hr2d_solution_destroy(s->solution);
   s->solution = solution;
   s->order = order;
-  s->closure = options.closure;
+  s->closure = options.closure == HR2D_CLOSURE_ON;
 }
 
 void api_read(api_run *r, api_slot *s) {
@@ -67,12 +68,17 @@ void api_read(api_run *r, api_slot *s) {
   for (size_t k = 0; k < 4 * bands; k++) REQUIRE(isfinite(value[k]));
 }
 
-static hr2d_target small_target(api_run *r) {
+static hr2d_target small_target(api_run *r, size_t important[2]) {
   hr2d_target target = HR2D_TARGET_INIT;
   const unsigned b = fuzz_byte(r->in);
   target.error = ldexp(1, -(int)(b & 15) - 1);
   target.norm = b & 16 ? HR2D_NORM_SUP : HR2D_NORM_AVERAGE;
-  if (b & 32) target.importance = fuzz_byte(r->in) % hr2d_scene_patches(r->scene);
+  if (b & 32) {
+    important[0] = important[1] = fuzz_byte(r->in) % hr2d_scene_patches(r->scene);
+    if (important[0] & 1) important[1]--;
+    target.important = important;
+    target.important_count = 2;
+  }
   target.max_elements = 300;
   target.max_links = b & 64 ? 1 + fuzz_byte(r->in) : 600;
   if (b & 128) target.max_bytes = 1u << (10 + fuzz_below(r->in, 12));
@@ -86,7 +92,8 @@ static void check_error(const hr2d_error *e) {
 }
 
 void api_target(api_run *r, api_slot *s) {
-  const hr2d_target target = small_target(r);
+  size_t important[2];
+  const hr2d_target target = small_target(r, important);
   hr2d_solution *solution = NULL;
   hr2d_account account;
   (void)s;

@@ -8,10 +8,12 @@ libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
 libhr2d_core_la_SOURCES = \
 	src/base/alloc.c src/base/alloc.h \
 	src/base/clock.h \
+	src/base/constants.c \
 	src/base/krylov.c src/base/krylov.h \
 	src/base/legendre.c src/base/legendre.h \
 	src/base/message.c src/base/message.h \
 	src/base/neumaier-sum.h \
+	src/base/options-init.c \
 	src/base/ordered-dot.h \
 	src/base/read-file.c src/base/read-file.h \
 	src/base/scaled-double.h \
@@ -137,6 +139,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/resolution.c src/accuracy/resolution.h \
 	src/accuracy/solution-error.c \
 	src/accuracy/solve-to.c \
+	src/accuracy/target.c src/accuracy/target.h \
 	src/state/byte-stream.c src/state/byte-stream.h \
 	src/state/state-impl.h \
 	src/state/state-read.c \

@@ -5,6 +5,7 @@ AM_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/src -I$(srcdir)/tests $(GSL_CFLAGS)
 LDADD = tests/libsupport.la libhr2d-core.la $(CHECK_LIBS) $(MPFR_LIBS) $(OPENMP_CFLAGS)
 
 SUITES = \
+	tests/unit/base/check-options \
 	tests/unit/base/check-status \
 	tests/unit/geometry/check-geometry \
 	tests/unit/geometry/check-exchange-area \
@@ -68,6 +69,7 @@ OUTSIDE = \
 	tests/program/check-program-faults.sh \
 	tests/program/check-digits.sh \
 	tests/program/check-resume.sh \
+	tests/package/check-constants.sh \
 	tests/package/check-exports.sh \
 	tests/package/check-headers.sh \
 	tests/package/check-layers.sh \

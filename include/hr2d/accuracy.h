@@ -41,6 +41,7 @@
 #ifndef HR2D_ACCURACY_H
 #define HR2D_ACCURACY_H
 
+#include <hr2d/options.h>
 #include <hr2d/refine.h>
 #include <hr2d/scene.h>
 #include <hr2d/solve.h>
@@ -67,24 +68,35 @@ typedef struct hr2d_error {
   double bound;    /**< the error does not exceed this; see above */
 } hr2d_error;
 
-/** Stands for all patches. */
-#define HR2D_ALL_PATCHES ((size_t)-1)
+/** The default of hr2d_target::error. */
+#define HR2D_DEFAULT_ERROR 1e-6
+
+/** As hr2d_target::error: the smallest error that a budget, or doubles, allow. */
+#define HR2D_SMALLEST_ERROR (-1e300)
+
+/** The default of hr2d_target::floor: patches with averages below this part of the largest one
+    count as equally dark. */
+#define HR2D_FLOOR 1e-6
 
 /** The target of a solve. Start from #HR2D_TARGET_INIT. */
 typedef struct hr2d_target {
-  size_t struct_size;        /**< so that the struct can grow */
-  double error;              /**< relative error to be reached; 0: the smallest possible, which
-                                  only `seconds` or the precision of doubles limits */
-  hr2d_norm norm;            /**< the norm in which it is measured */
-  double seconds;            /**< budget of wall time; 0 for none. The best solution that is
-                                  ready by then is returned */
-  size_t importance;         /**< only the average of this patch has to reach the target;
-                                  #HR2D_ALL_PATCHES for all */
-  unsigned threads;          /**< 0 for all; no bit depends on it, except through `seconds` */
-  uint64_t max_elements;     /**< budget for N; 0 for none */
-  uint64_t max_links;        /**< budget for L; 0 for none */
-  uint64_t max_bytes;        /**< budget for the elements, links and work space of a refinement,
-                                  without blocks; 0 for none */
+  size_t struct_size;      /**< so that the struct can grow */
+  double error;            /**< relative error to be reached, or #HR2D_SMALLEST_ERROR; 0 stands
+                                for #HR2D_DEFAULT_ERROR */
+  hr2d_norm norm;          /**< the norm in which it is measured */
+  double seconds;          /**< budget of wall time; 0 for none. The best solution that is
+                                ready by then is returned */
+  const size_t *important; /**< indices of the patches whose averages have to reach the
+                                target; the errors of other averages do not count. Any order;
+                                one may occur twice. Only read, and only during the call. NULL
+                                for all patches */
+  size_t important_count;  /**< the number of indices; 0 for all patches */
+  unsigned threads;        /**< 0 for one, or #HR2D_ALL_THREADS; no bit depends on it, except
+                                through `seconds` */
+  uint64_t max_elements;   /**< budget for N; 0 for none */
+  uint64_t max_links;      /**< budget for L; 0 for none */
+  uint64_t max_bytes;      /**< budget for the elements, links and work space of a refinement,
+                                without blocks; 0 for none */
   hr2d_progress_fn progress; /**< optional */
   void *progress_ctx;        /**< given to `progress` */
   double floor;              /**< an average counts as no less than this part of the largest
@@ -92,20 +104,22 @@ typedef struct hr2d_target {
                                   #HR2D_FLOOR */
 } hr2d_target;
 
-/** The part of the largest average below which patches count as equally dark. */
-#define HR2D_FLOOR 1e-6
-
-/** 1e-6 in averages, no budget, all patches, one thread, no callback. */
+/** The defaults: 1e-6 in averages, no budget, all patches, one thread, no callback. */
 #define HR2D_TARGET_INIT                                                                       \
-  {                                                                                            \
-    sizeof(hr2d_target), 1e-6, HR2D_NORM_AVERAGE, 0, HR2D_ALL_PATCHES, 1, 0, 0, 0, NULL, NULL, \
-        HR2D_FLOOR                                                                             \
-  }
+  { sizeof(hr2d_target), 0, HR2D_NORM_AVERAGE, 0, NULL, 0, 0, 0, 0, 0, NULL, NULL, 0 }
+
+/**
+ * Does what #HR2D_TARGET_INIT does, for languages without macros: sets all bytes to 0, and
+ * `struct_size`.
+ * @param target  the struct
+ * @param size    its size as the caller knows it; may differ from that of the library
+ */
+HR2D_API void hr2d_target_init(hr2d_target *target, size_t size);
 
 /** The result and the work of hr2d_solve_to(). */
 typedef struct hr2d_account {
-  hr2d_error average;    /**< error of the solution in #HR2D_NORM_AVERAGE; with `importance`, of
-                              that patch */
+  hr2d_error average;    /**< error of the solution in #HR2D_NORM_AVERAGE; with `important`, of
+                              these patches */
   hr2d_error sup;        /**< error in #HR2D_NORM_SUP of hr2d_solution_gather() */
   hr2d_error irradiance; /**< error of hr2d_solution_irradiance(), in the norm of `average` with
                               H in the place of B */
@@ -138,7 +152,8 @@ typedef struct hr2d_account {
  * @param solution  receives the solution, also with HR2D_EACCURACY, otherwise NULL; it owns its
  *                  hierarchy and links; the caller destroys it
  * @param account   receives the errors and the work; may be NULL
- * @retval HR2D_OK             the target is reached; or `error` is 0 and the budget is used up
+ * @retval HR2D_OK             the target is reached; or `error` is #HR2D_SMALLEST_ERROR, and
+ *                             the solution is as good as a budget or doubles allow
  * @retval HR2D_EACCURACY      the target was not reached, because a budget ran out or double
  *                             precision does not suffice; see hr2d_account::reason. The best
  *                             solution so far is returned with its errors. The errors are
@@ -194,9 +209,10 @@ HR2D_API hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *ta
  * below. The bound is this distance plus the bound of the reference.
  *
  * @param solution  its scene must still exist
- * @param how       threads, budgets, progress; `error` is the smallest relative distance that
- *                  must be distinguished from 0. The budgets hold for each reference. NULL for
- *                  the defaults with `error` 0
+ * @param how       threads, budgets, progress, important patches, floor; `error` is the
+ *                  smallest relative distance that must be distinguished from 0; here both 0
+ *                  and #HR2D_SMALLEST_ERROR stand for 1e-14. The budgets hold for each
+ *                  reference. NULL for the defaults
  * @param average   receives the error in #HR2D_NORM_AVERAGE; may be NULL
  * @param sup       receives the error of hr2d_solution_at() in #HR2D_NORM_SUP; may be NULL
  * @return as hr2d_solve_to(), but HR2D_OK if that returns HR2D_EACCURACY with a solution

@@ -65,6 +65,7 @@
  * - Pointers must not be NULL, and indices must be in range, unless the comment says otherwise.
  * - Structs of options and tables of functions begin with `struct_size`. It tells the library
  *   which members the caller knows, so that the struct can grow. Start from the macro …_INIT.
+ *   In options 0 and NULL mean the default (options.h).
  * - Stops: every long call asks a callback whether to go on (progress.h).
  * - Threads: different objects may be used from different threads. Only one thread at a time
  *   may change an object; several threads may read an object that no thread changes.
@@ -77,6 +78,7 @@
 #include <hr2d/hierarchy.h>
 #include <hr2d/linkset.h>
 #include <hr2d/memory.h>
+#include <hr2d/options.h>
 #include <hr2d/oracle.h>
 #include <hr2d/policy.h>
 #include <hr2d/progress.h>

@@ -26,6 +26,7 @@
 #define HR2D_REFINE_H
 
 #include <hr2d/linkset.h>
+#include <hr2d/options.h>
 #include <hr2d/progress.h>
 #include <hr2d/status.h>
 #include <stddef.h>
@@ -37,23 +38,33 @@ extern "C" {
 
 struct hr2d_solution;
 
+/** The default of hr2d_refine_options::epsilon. */
+#define HR2D_DEFAULT_EPSILON 0.1
+
+/** As hr2d_refine_options::epsilon: ε = 0. Only a link without any error is accepted. */
+#define HR2D_EPSILON_ZERO (-1e300)
+
+/** As hr2d_refine_options::max_level: patches are not subdivided, as if the level were 0. */
+#define HR2D_NO_SUBDIVISION ((unsigned)-2)
+
 /** Options of a refinement. Start from #HR2D_REFINE_OPTIONS_INIT. */
 typedef struct hr2d_refine_options {
-  size_t struct_size;    /**< so that the options can grow */
-  double epsilon;        /**< ε ≥ 0, in the unit of the oracle */
-  unsigned max_level;    /**< elements on this level are not subdivided; see
-                              #HR2D_DEFAULT_MAX_LEVEL */
-  int ordered;           /**< 1: project every ordered pair of patches, as the paper words it;
-                              each link then carries one direction */
+  size_t struct_size; /**< so that the options can grow */
+  double epsilon;     /**< ε > 0, in the unit of the oracle, or #HR2D_EPSILON_ZERO; 0 stands
+                           for #HR2D_DEFAULT_EPSILON */
+  unsigned max_level; /**< elements on this level are not subdivided; or #HR2D_NO_SUBDIVISION;
+                           0 stands for #HR2D_DEFAULT_MAX_LEVEL */
+  int ordered;        /**< 1: project every ordered pair of patches, as the paper words it;
+                           each link then carries one direction */
   uint64_t max_elements; /**< budget for N; 0 for none */
   uint64_t max_links;    /**< budget for L; 0 for none */
   uint64_t max_bytes;    /**< budget for elements, links and work space; 0 for none. The work
                               space takes about 60 KiB at least. Never exceeded, except by the
                               second copy that realloc may hold while it moves an array, and
                               by a few words per occluding wall */
-  unsigned threads;      /**< for hr2d_refine_count(): 0 for all; the counts do not depend on
-                              it. An oracle or a policy that is not flagged thread-safe is
-                              called from one thread only */
+  unsigned threads; /**< for hr2d_refine_count(): 0 for one, or #HR2D_ALL_THREADS; the counts
+                         do not depend on it. An oracle or a policy that is not flagged
+                         thread-safe is called from one thread only */
   const struct hr2d_solution *brightness; /**< for an oracle that needs brightness: a solution
                                                on the same hierarchy, whose B is the weight;
                                                NULL: emission alone */
@@ -71,9 +82,17 @@ typedef struct hr2d_refine_options {
  */
 #define HR2D_DEFAULT_MAX_LEVEL 24
 
-/** ε = 0.1, the default limit, no budgets, one thread, no callback. */
+/** The defaults: ε = 0.1, level 24, unordered, no budgets, one thread, no callback. */
 #define HR2D_REFINE_OPTIONS_INIT                                                               \
-  { sizeof(hr2d_refine_options), 0.1, HR2D_DEFAULT_MAX_LEVEL, 0, 0, 0, 0, 1, NULL, NULL, NULL }
+  { sizeof(hr2d_refine_options), 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL }
+
+/**
+ * Does what #HR2D_REFINE_OPTIONS_INIT does, for languages without macros: sets all bytes to 0,
+ * and `struct_size`.
+ * @param options  the struct
+ * @param size     its size as the caller knows it; may differ from that of the library
+ */
+HR2D_API void hr2d_refine_options_init(hr2d_refine_options *options, size_t size);
 
 /**
  * Fills a link set, or refines it further.
@@ -86,8 +105,9 @@ typedef struct hr2d_refine_options {
  * @param options  NULL for the defaults
  * @retval HR2D_OK             success
  * @retval HR2D_ENOMEM         an allocation failed
- * @retval HR2D_EINVAL         ε is negative or NaN; `ordered` differs from the last refinement;
- *                             or `brightness` is a solution on another hierarchy
+ * @retval HR2D_EINVAL         ε is NaN, or negative and not #HR2D_EPSILON_ZERO; `struct_size`
+ *                             is too small; `ordered` differs from the last refinement; or
+ *                             `brightness` is a solution on another hierarchy
  * @retval HR2D_ESTATE         called back from a call that works on the hierarchy
  * @retval HR2D_ECALLBACK      an estimate is NaN or negative, or a subdivision is not a
  *                             HR2D_SPLIT_…

@@ -57,6 +57,12 @@ typedef struct hr2d_patch {
   { {0, 0}, {0, 0}, NULL, NULL, 0, NULL, 0, HR2D_SIDES_FRONT }
 
 /**
+ * Does what #HR2D_PATCH_INIT does, for languages without macros: sets all bytes to 0.
+ * @param patch  the struct
+ */
+HR2D_API void hr2d_patch_init(hr2d_patch *patch);
+
+/**
  * Effects that change the answer in some scenes only. The library works on an effect only if
  * the scene calls for it.
  */

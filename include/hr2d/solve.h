@@ -62,6 +62,7 @@
 #define HR2D_SOLVE_H
 
 #include <hr2d/linkset.h>
+#include <hr2d/options.h>
 #include <hr2d/refine.h>
 #include <hr2d/status.h>
 #include <stddef.h>
@@ -74,26 +75,48 @@ extern "C" {
 /** Radiosity on every element of a hierarchy; opaque. */
 typedef struct hr2d_solution hr2d_solution;
 
+/** The default of hr2d_solve_options::tolerance, and the least tolerance. */
+#define HR2D_DEFAULT_TOLERANCE 1e-15
+
+/** The default of hr2d_solve_options::max_iterations. */
+#define HR2D_DEFAULT_MAX_ITERATIONS 10000
+
+/** Whether a solve uses closure; see above. */
+typedef enum hr2d_closure {
+  HR2D_CLOSURE_DEFAULT = 0, /**< as HR2D_CLOSURE_ON */
+  HR2D_CLOSURE_ON,          /**< the exchange of every leaf with all others is exact */
+  HR2D_CLOSURE_OFF /**< the paper's algorithm unchanged, whose coarse links spread their
+                        exchange evenly over the leaves below */
+} hr2d_closure;
+
 /** Options of a solve. Start from #HR2D_SOLVE_OPTIONS_INIT. */
 typedef struct hr2d_solve_options {
   size_t struct_size; /**< so that the options can grow */
   double tolerance;   /**< stop when ‖residual‖ ≤ tolerance·‖B‖ in each band, in the
                            norm ∫B², and also ∫|residual| ≤ max(tolerance, 1e-13)·∫B; at
-                           least 1e-15, and finite */
-  unsigned max_iterations;    /**< after this number stop with HR2D_ENOT_CONVERGED */
-  unsigned threads;           /**< 0 for all; the result does not depend on it, bit for bit */
-  int closure;                /**< 1: the exchange of every leaf with all others is exact; 0:
-                                   the paper's algorithm unchanged, whose coarse links spread
-                                   their exchange evenly over the leaves below */
+                           least 1e-15, and finite; 0 stands for #HR2D_DEFAULT_TOLERANCE */
+  unsigned max_iterations; /**< after this number stop with HR2D_ENOT_CONVERGED; 0 stands for
+                                #HR2D_DEFAULT_MAX_ITERATIONS */
+  unsigned threads;        /**< 0 for one, or #HR2D_ALL_THREADS; the result does not depend on
+                                it, bit for bit */
+  hr2d_closure closure;    /**< on by default */
   const hr2d_solution *start; /**< warm start: a solution on the same hierarchy, perhaps older
                                    than its last refinement; NULL: none */
   hr2d_progress_fn progress;  /**< optional */
   void *progress_ctx;         /**< given to `progress` */
 } hr2d_solve_options;
 
-/** Tolerance 1e-15, at most 10000 iterations, one thread, with closure. */
+/** The defaults: tolerance 1e-15, at most 10000 iterations, one thread, with closure. */
 #define HR2D_SOLVE_OPTIONS_INIT                                                                \
-  { sizeof(hr2d_solve_options), 1e-15, 10000, 1, 1, NULL, NULL, NULL }
+  { sizeof(hr2d_solve_options), 0, 0, 0, HR2D_CLOSURE_DEFAULT, NULL, NULL, NULL }
+
+/**
+ * Does what #HR2D_SOLVE_OPTIONS_INIT does, for languages without macros: sets all bytes to 0,
+ * and `struct_size`.
+ * @param options  the struct
+ * @param size     its size as the caller knows it; may differ from that of the library
+ */
+HR2D_API void hr2d_solve_options_init(hr2d_solve_options *options, size_t size);
 
 /**
  * The balance of the power of one band, per length perpendicular to the plane. A sum beyond the
@@ -125,7 +148,8 @@ typedef struct hr2d_solve_work {
  * @param solution  receives the solution; the caller destroys it
  * @retval HR2D_OK             success
  * @retval HR2D_ENOMEM         an allocation failed
- * @retval HR2D_EINVAL         `tolerance` is out of range, or `start` is on another hierarchy
+ * @retval HR2D_EINVAL         `tolerance`, `closure` or `struct_size` is out of range, or
+ * `start` is on another hierarchy
  * @retval HR2D_ESTATE         the set was never refined, or the call comes from a callback of a
  *                             call that refines or solves these links
  * @retval HR2D_ENO_SOLUTION   light is emitted in a closed part of the scene in which nothing

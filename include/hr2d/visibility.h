@@ -18,6 +18,7 @@
 
 #include <hr2d/geometry.h>
 #include <hr2d/memory.h>
+#include <hr2d/options.h>
 #include <hr2d/refine.h>
 #include <hr2d/scene.h>
 #include <hr2d/status.h>
@@ -86,14 +87,22 @@ HR2D_API hr2d_status hr2d_exchange_area_past(const hr2d_segment *i, const hr2d_s
 /** Options of hr2d_exchange_matrix(). Start from #HR2D_MATRIX_OPTIONS_INIT. */
 typedef struct hr2d_matrix_options {
   size_t struct_size;        /**< so that the options can grow */
-  unsigned threads;          /**< 0 for all; no bit depends on it */
+  unsigned threads;          /**< 0 for one, or #HR2D_ALL_THREADS; no bit depends on it */
   hr2d_progress_fn progress; /**< optional; with the phase "factors", from the calling thread */
   void *progress_ctx;        /**< given to `progress` */
 } hr2d_matrix_options;
 
-/** One thread, no callback. */
+/** The defaults: one thread, no callback. */
 #define HR2D_MATRIX_OPTIONS_INIT                                                               \
-  { sizeof(hr2d_matrix_options), 1, NULL, NULL }
+  { sizeof(hr2d_matrix_options), 0, NULL, NULL }
+
+/**
+ * Does what #HR2D_MATRIX_OPTIONS_INIT does, for languages without macros: sets all bytes to 0,
+ * and `struct_size`.
+ * @param options  the struct
+ * @param size     its size as the caller knows it; may differ from that of the library
+ */
+HR2D_API void hr2d_matrix_options_init(hr2d_matrix_options *options, size_t size);
 
 /** The work of hr2d_exchange_matrix(). */
 typedef struct hr2d_matrix_counts {
@@ -113,6 +122,7 @@ typedef struct hr2d_matrix_counts {
  * @param counts   receives the work; may be NULL
  * @retval HR2D_OK      success
  * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  `struct_size` of the options is too small
  * @retval HR2D_ESTATE  the scene is not committed
  * @retval other        the status of the progress callback
  *

@@ -19,6 +19,7 @@
 
 #include "accuracy/coordinate-rounding.h"
 #include "accuracy/corner-residuals.h"
+#include "accuracy/importance.h"
 #include "base/alloc.h"
 #include "base/legendre.h"
 #include "scene/scene-impl.h"
@@ -236,8 +237,7 @@ static hr2d_status find_safe_sum(estimator *e, int irradiance) {
     if (least > 0) min = fmin(min, least);
     max = fmax(max, least);
     const int counts =
-        k % t->width < t->bands && least > 0 &&
-        (e->target->importance == HR2D_ALL_PATCHES || e->target->importance == patch);
+        k % t->width < t->bands && least > 0 && hr2di_is_important(e->target, patch);
     eq->source[k] = counts ? (irradiance ? 1 : rho_of(e, leaf, band)) / least /
                                  t->hierarchy->element[patch].length
                            : 0;
@@ -375,7 +375,7 @@ static double worst_average(const estimator *e, int irradiance, double factor,
   for (size_t b = 0; b < bands; b++) {
     const double floor = e->floor[(size_t)irradiance * bands + b];
     for (size_t k = 0; k < patches; k++) {
-      if (e->target->importance != HR2D_ALL_PATCHES && k != e->target->importance) continue;
+      if (!hr2di_is_important(e->target, k)) continue;
       const size_t at = k * bands + b;
       const double error = e->average[irradiance][at], is = average_of(e, irradiance, k, b);
       const double sum = factor * fabs(error) + (more ? fabs(more[at]) : 0);
@@ -400,8 +400,8 @@ static double signless(const estimator *e, int irradiance) {
   const size_t bands = e->eq.transport.bands;
   double max = 0;
   for (size_t b = 0; b < bands; b++) max = fmax(max, e->safe[(size_t)irradiance * bands + b]);
-  const int one = e->target->importance != HR2D_ALL_PATCHES;
-  return SIGNS * max / (one ? 1 : (double)(e->values / bands));
+  const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
+  return SIGNS * max / (double)hr2di_important_count(e->target, scene);
 }
 
 static hr2d_error bounded(double estimate, double bound) {

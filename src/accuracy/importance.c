@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The adjoint equation (Smits, Arvo, Salesin 1992).  An error r in B = E + ρKB changes
-   B̄ = (1/A)∫ B over a patch by ∫ ψ r, ψ = χ/A + Kφ, where χ is 1 on the patch and φ = ρψ is the
-   radiosity of a source ρχ/A: light sent back from the patch that is asked for. */
+/* The adjoint equation (Smits, Arvo, Salesin 1992).  An error r in B = E + ρKB changes averages
+   over a patch, with χ = 1 on it, by ∫ ψ r:
+     B̄ = (1/A)∫ B   by ψ = χ/A + Kφ, with φ the radiosity of a source ρχ/A,
+     H̄ = (1/A)∫ KB  by ψ = Kφ, with φ the radiosity of a source χ/A:
+   light sent back from the patch that is asked for.  One φ of the sum of all sources, each over
+   its average, serves all. */
 #include "accuracy/importance.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "base/alloc.h"
 #include "scene/scene-impl.h"
@@ -14,74 +18,133 @@
 /* The least weight, so that no patch is entirely unimportant. */
 #define LEAST 1e-12
 
-/* Solves for φ; eq->irradiance becomes Kφ. */
-static hr2d_status solve_adjoint(hr2di_equation *eq, size_t patch) {
-  const hr2di_transport *t = &eq->transport;
-  const double area = t->hierarchy->element[patch].length;
-  for (size_t k = 0; k < eq->field; k++) {
-    const size_t item = k / t->bands;
-    const int on = t->hierarchy->element[t->leaf[item / t->order]].patch == patch;
-    const int constant = item % t->order == 0;
-    eq->source[k] = on && constant ? eq->root_rho[k] * eq->root_rho[k] / area : 0;
-    eq->y[k] = 0;
+static int by_index(const void *a, const void *b) {
+  const size_t i = *(const size_t *)a, j = *(const size_t *)b;
+  return (i > j) - (i < j);
+}
+
+int hr2di_is_important(const hr2d_target *target, size_t patch) {
+  return !target->important || bsearch(&patch, target->important, target->important_count,
+                                       sizeof patch, by_index) != NULL;
+}
+
+size_t hr2di_important_count(const hr2d_target *target, const hr2d_scene *scene) {
+  return target->important ? target->important_count : scene->patches;
+}
+
+/* For each patch and band, 1/(A·average) of B and of H where the patch counts, otherwise 0;
+   times the largest average B of the band, `most`, so that it is a moderate number over A. */
+typedef struct wanted {
+  double *most; /* bands */
+  double *of_b; /* patches × bands */
+  double *of_h;
+} wanted;
+
+typedef double average_of(const hr2d_solution *, size_t patch, size_t band);
+
+static double largest(const hr2d_solution *solution, average_of *average, size_t band) {
+  double max = 0;
+  for (size_t k = 0; k < solution->hierarchy->scene->patches; k++)
+    max = fmax(max, average(solution, k, band));
+  return max;
+}
+
+static void want(const hr2d_solution *solution, average_of *average, const hr2d_target *target,
+                 const double *most, double *of, hr2di_watch *watch) {
+  const hr2d_hierarchy *h = solution->hierarchy;
+  const size_t patches = h->scene->patches, bands = h->scene->bands;
+  for (size_t b = 0; b < bands; b++) {
+    const double floor = target->floor * largest(solution, average, b);
+    for (size_t k = 0; k < patches && !hr2di_watch_work(watch, 2); k++) {
+      const double least = fmax(average(solution, k, b), floor);
+      const int counts = least > 0 && hr2di_is_important(target, k);
+      of[k * bands + b] = counts ? most[b] / least / h->element[k].length : 0;
+    }
   }
+}
+
+/* Solves for φ; eq->irradiance becomes Kφ.  The norm of a solve has the largest sources, which
+   are those of dark patches. */
+static hr2d_status solve_adjoint(hr2di_equation *eq, const wanted *w) {
+  const hr2di_transport *t = &eq->transport;
+  double min = HUGE_VAL, max = 0;
+  for (size_t k = 0; k < eq->field && !hr2di_watch_work(t->watch, 1); k++) {
+    const size_t item = k / t->bands;
+    const uint32_t patch = t->hierarchy->element[t->leaf[item / t->order]].patch;
+    const size_t at = patch * t->bands + k % t->bands;
+    const double rho = eq->root_rho[k] * eq->root_rho[k];
+    eq->source[k] = item % t->order == 0 ? rho * w->of_b[at] + w->of_h[at] : 0;
+    eq->y[k] = 0;
+    if (eq->source[k] > 0) min = fmin(min, eq->source[k]);
+    max = fmax(max, eq->source[k]);
+  }
+  if (hr2di_watch_status(t->watch)) return hr2di_watch_status(t->watch);
   eq->background = 0;
+  eq->options.tolerance = max > 0 ? fmax(1e-6 * min / max, 1e-14) : 1e-6;
   return hr2di_equation_solve(eq);
 }
 
 /* ∫ ψ B over each patch, per band, into `product`. */
-static void multiply(hr2di_equation *eq, const hr2d_solution *solution, size_t patch,
+static void multiply(hr2di_equation *eq, const hr2d_solution *solution, const wanted *w,
                      double *product) {
   const hr2di_transport *t = &eq->transport;
-  const double area = t->hierarchy->element[patch].length;
   double *radiosity = eq->work;
   hr2di_solution_restrict(solution, t->hierarchy, t->leaf, t->leaves, t->order, radiosity,
                           t->watch);
-  for (size_t k = 0; k < eq->field; k++) {
-    const size_t item = k / t->bands;
+  for (size_t k = 0; k < eq->field && !hr2di_watch_work(t->watch, 1); k++) {
+    const size_t item = k / t->bands, band = k % t->bands;
     const hr2d_element *e = &t->hierarchy->element[t->leaf[item / t->order]];
-    const int own = e->patch == patch && item % t->order == 0;
-    const double psi = eq->irradiance[k] + (own ? 1 / area : 0);
-    product[e->patch * t->bands + k % t->bands] += e->length * psi * radiosity[k];
+    const size_t at = e->patch * t->bands + band;
+    const double psi = eq->irradiance[k] + (item % t->order == 0 ? w->of_b[at] : 0);
+    if (w->most[band] > 0) product[at] += e->length * psi * (radiosity[k] / w->most[band]);
   }
 }
 
-static hr2d_status weigh(const hr2di_graded *coarse, size_t patch, const hr2d_target *target,
+static hr2d_status weigh(const hr2di_graded *coarse, const hr2d_target *target,
                          double *weight) {
   const hr2d_scene *scene = coarse->hierarchy->scene;
   const hr2d_allocator *alloc = &coarse->links->alloc;
+  const size_t values = scene->patches * scene->bands;
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   options.threads = target->threads;
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;
-  options.tolerance = 1e-6;
   hr2di_equation eq;
   hr2d_status status = hr2di_equation_init(&eq, coarse->links, &options);
-  double *product = hr2di_alloc_zero(alloc, scene->patches * scene->bands, sizeof *product);
-  if (!status && !product) status = HR2D_ENOMEM;
-  if (!status) status = solve_adjoint(&eq, patch);
-  if (!status) multiply(&eq, coarse->solution, patch, product);
+  double *space = hr2di_alloc_zero(alloc, 3 * values + scene->bands, sizeof *space);
+  double *product = space;
+  if (!status && !space) status = HR2D_ENOMEM;
+  if (!status) {
+    const wanted w = {product + values, product + values + scene->bands,
+                      product + 2 * values + scene->bands};
+    for (size_t b = 0; b < scene->bands; b++)
+      w.most[b] = largest(coarse->solution, hr2d_solution_average, b);
+    want(coarse->solution, hr2d_solution_average, target, w.most, w.of_b, &eq.watch);
+    want(coarse->solution, hr2d_solution_irradiance, target, w.most, w.of_h, &eq.watch);
+    status = hr2di_watch_status(&eq.watch);
+    if (!status) status = solve_adjoint(&eq, &w);
+    if (!status) multiply(&eq, coarse->solution, &w, product);
+    if (!status) status = hr2di_watch_status(&eq.watch);
+  }
   for (size_t k = 0; k < scene->patches && !status; k++) {
     weight[k] = LEAST;
-    for (size_t b = 0; b < scene->bands; b++) {
-      const double average = hr2d_solution_average(coarse->solution, patch, b);
-      if (average > 0) weight[k] = fmax(weight[k], product[k * scene->bands + b] / average);
-    }
+    for (size_t b = 0; b < scene->bands; b++)
+      weight[k] = fmax(weight[k], product[k * scene->bands + b]);
     weight[k] = fmin(weight[k], 1);
   }
-  hr2di_alloc_free(alloc, product);
+  hr2di_alloc_free(alloc, space);
   hr2di_equation_clear(&eq);
   return status;
 }
 
-hr2d_status hr2di_importance(const hr2d_scene *scene, size_t patch, const hr2d_target *target,
-                             double *weight, hr2di_message *message) {
+hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *target, double *weight,
+                             hr2di_message *message) {
   const hr2di_resolution fineness = {.order = 2, .target = 0.1, .norm = target->norm};
   hr2di_graded coarse;
   hr2d_status status = hr2di_graded_refine(&coarse, scene, NULL, &fineness, target, message);
   if (!status) status = hr2di_graded_solve(&coarse, target, message);
   if (!status) {
-    status = weigh(&coarse, patch, target, weight);
+    status = weigh(&coarse, target, weight);
     if (status) hr2di_message_fail(message, status, "importance: %s", hr2d_strerror(status));
   }
   hr2di_graded_clear(&coarse);

@@ -1,15 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Importance: how much the radiosity of each patch counts for the average of one patch. */
+/* Importance: how much the radiosity of each patch counts for the averages of some. */
 #ifndef HR2D_SRC_ACCURACY_IMPORTANCE_H
 #define HR2D_SRC_ACCURACY_IMPORTANCE_H
 
 #include "accuracy/graded-solve.h"
 
-/* weight_k = ∫_k ψ B / B̄, the largest over the bands: a relative error ε of B on patch k that
-   is not compensated elsewhere changes the average B̄ of `patch` by at most ε·weight_k of it.
-   The weights are from a coarse solve.  Returns HR2D_OK, or a status with a reason in
-   `message`. */
-hr2d_status hr2di_importance(const hr2d_scene *scene, size_t patch, const hr2d_target *target,
-                             double *weight, hr2di_message *message);
+/* Whether the averages of a patch count for a target of hr2di_target_init().  Takes O(log n).
+ */
+int hr2di_is_important(const hr2d_target *target, size_t patch);
+
+/* The number of patches of a scene that count. */
+size_t hr2di_important_count(const hr2d_target *target, const hr2d_scene *scene);
+
+/* weight_k = ∫_k ψ B, the largest over the bands, with ψ = Σ ψ_i/a_i over the important
+   averages a_i of B and of H.  No ψ_i is negative: a relative error ε of B on patch k that is
+   not compensated elsewhere changes each of these averages by at most ε·weight_k of it.
+   Averages count as no less than the floor of the target.  The weights are from a coarse solve.
+   Returns HR2D_OK, or a status with a reason in `message`. */
+hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *target, double *weight,
+                             hr2di_message *message);
 
 #endif

@@ -8,9 +8,10 @@
 #include "accuracy/corner-residuals.h"
 #include "accuracy/error-estimate.h"
 #include "accuracy/resolution.h"
+#include "accuracy/target.h"
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "base/sized-struct.h"
+#include "base/team.h"
 #include "blocks/block.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
@@ -99,8 +100,7 @@ static hr2d_status measure(const hr2d_scene *scene, const hr2di_graded *from,
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "coefficients");
   status = time_blocks(a, fineness->order, &watch, &c->make);
-  const double threads = target->threads > 1 ? target->threads : 1;
-  c->make = c->make / threads + a->refine_seconds;
+  c->make = c->make / (double)hr2di_team_threads(target->threads) + a->refine_seconds;
   c->gather =
       time_product(fineness->order) * bands * ((double)c->links + 1.5 * (double)c->elements);
   return status;
@@ -188,18 +188,19 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
 
 hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *target,
                          hr2d_prediction *prediction) {
-  hr2d_target used = HR2D_TARGET_INIT;
+  hr2d_target used;
   *prediction = (hr2d_prediction){0};
-  if (target) hr2di_sized_copy(&used, sizeof used, target);
   if (!scene->committed) return HR2D_ESTATE;
-  if (!(used.error >= 0)) return HR2D_EINVAL;
+  hr2d_status status = hr2di_target_init(&used, scene, target, HR2D_DEFAULT_ERROR);
+  if (status) return status;
   const double start = hr2di_clock_now();
-  hr2d_status status = predict(scene, &used, prediction);
+  status = predict(scene, &used, prediction);
   /* Other work of the machine disturbs short times: take the least of several. */
   for (int run = 1; run < RUNS && !status && hr2di_clock_now() - start < SHORT; run++) {
     const hr2d_prediction former = *prediction;
     status = predict(scene, &used, prediction);
     if (!status && former.seconds < prediction->seconds) *prediction = former;
   }
+  hr2di_target_clear(&used, scene);
   return status;
 }

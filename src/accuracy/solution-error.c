@@ -3,7 +3,8 @@
 #include <hr2d/accuracy.h>
 #include <math.h>
 
-#include "base/sized-struct.h"
+#include "accuracy/importance.h"
+#include "accuracy/target.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
@@ -17,16 +18,24 @@
 static const double place[] = {1e-9, 0.25, 0.5, 0.75, 1 - 1e-9};
 enum { PLACES = sizeof place / sizeof *place };
 
-static double average_distance(const hr2d_solution *solution, const hr2d_solution *reference) {
+/* Of the patches that count, relative to averages but to no less than the floor, as the errors
+   of hr2d_solve_to(). */
+static double average_distance(const hr2d_solution *solution, const hr2d_solution *reference,
+                               const hr2d_target *target) {
   const hr2d_scene *scene = solution->hierarchy->scene;
-  double max = 0;
-  for (size_t k = 0; k < scene->patches; k++)
-    for (size_t b = 0; b < scene->bands; b++) {
+  double worst = 0;
+  for (size_t b = 0; b < scene->bands; b++) {
+    double max = 0;
+    for (size_t k = 0; k < scene->patches; k++)
+      max = fmax(max, hr2d_solution_average(reference, k, b));
+    for (size_t k = 0; k < scene->patches; k++) {
       const double right = hr2d_solution_average(reference, k, b);
       const double error = fabs(hr2d_solution_average(solution, k, b) - right);
-      if (error > 0) max = fmax(max, error / right);
+      if (error > 0 && hr2di_is_important(target, k))
+        worst = fmax(worst, error / fmax(right, target->floor * max));
     }
-  return max;
+  }
+  return worst;
 }
 
 static double sup_distance(const hr2d_solution *solution, const hr2d_solution *reference) {
@@ -66,7 +75,7 @@ static hr2d_status compare(const hr2d_solution *solution, const hr2d_target *tar
   *enough = status == HR2D_EACCURACY;
   if (!reference) return status;
   if (average) {
-    average->estimate = average_distance(solution, reference);
+    average->estimate = average_distance(solution, reference, target);
     average->bound = average->estimate + account.average.bound;
   }
   if (sup) {
@@ -94,14 +103,14 @@ static hr2d_status listen(void *ctx, const hr2d_progress *progress) {
 /* If the budgets do not suffice for a better comparison, the last one stands. */
 hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target *how,
                                 hr2d_error *average, hr2d_error *sup) {
-  hr2d_target target = HR2D_TARGET_INIT;
-  target.error = 0;
-  if (how) hr2di_sized_copy(&target, sizeof target, how);
+  const hr2d_scene *scene = solution->hierarchy->scene;
+  hr2d_target target;
+  hr2d_status status = hr2di_target_init(&target, scene, how, FINEST);
+  if (status) return status;
   listener l = {.progress = target.progress, .ctx = target.progress_ctx};
   target.progress = listen;
   target.progress_ctx = &l;
   const double finest = fmax(target.error, FINEST);
-  hr2d_status status = HR2D_OK;
   int enough = 0, compared = 0;
   for (double error = FIRST; !status && !enough; error *= 1e-3) {
     target.error = fmax(error, finest);
@@ -110,5 +119,6 @@ hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target
     compared = 1;
     enough = enough || target.error <= finest;
   }
+  hr2di_target_clear(&target, scene);
   return status;
 }

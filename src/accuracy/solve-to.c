@@ -9,9 +9,9 @@
 #include "accuracy/error-estimate.h"
 #include "accuracy/importance.h"
 #include "accuracy/resolution.h"
+#include "accuracy/target.h"
 #include "base/alloc.h"
 #include "base/clock.h"
-#include "base/sized-struct.h"
 #include "links/linkset-impl.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
@@ -25,7 +25,7 @@ enum { ATTEMPTS = 8, LEAST_SAFE = 6 };
 typedef struct search {
   const hr2d_scene *scene;
   hr2d_target target;          /* the caller's, with watch() as progress callback */
-  hr2d_target given;           /* the caller's */
+  hr2d_target given;           /* the caller's; its error is 0 for the smallest */
   double start, deadline;      /* deadline 0: none */
   int late;                    /* a call was ended because the time was up */
   hr2d_status progress_status; /* of the caller's progress callback */
@@ -198,19 +198,11 @@ static hr2d_status settle(search *s, hr2d_status status) {
   return status == HR2D_EACCURACY && all_there_is ? HR2D_OK : status;
 }
 
-static hr2d_status check(const hr2d_scene *scene, const hr2d_target *t) {
-  if (!scene->committed) return HR2D_ESTATE;
-  if (!(t->error >= 0) || !(t->seconds >= 0)) return HR2D_EINVAL;
-  if (!(t->floor >= 0 && t->floor <= 1)) return HR2D_EINVAL;
-  if (t->importance != HR2D_ALL_PATCHES && t->importance >= scene->patches) return HR2D_EINVAL;
-  return t->norm == HR2D_NORM_AVERAGE || t->norm == HR2D_NORM_SUP ? HR2D_OK : HR2D_EINVAL;
-}
-
 static hr2d_status weigh_patches(search *s) {
-  if (s->given.importance == HR2D_ALL_PATCHES) return HR2D_OK;
+  if (!s->given.important) return HR2D_OK;
   s->weight = hr2di_alloc(&s->scene->alloc, s->scene->patches, sizeof *s->weight);
   if (!s->weight) return HR2D_ENOMEM;
-  return hr2di_importance(s->scene, s->given.importance, &s->target, s->weight, &s->message);
+  return hr2di_importance(s->scene, &s->target, s->weight, &s->message);
 }
 
 /* Hands the best solution over; it owns its hierarchy and its links from then on. */
@@ -224,11 +216,11 @@ static void hand_over(search *s, hr2d_solution **solution) {
 
 hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
                           hr2d_solution **solution, hr2d_account *account) {
-  search s = {.scene = scene, .given = HR2D_TARGET_INIT, .start = hr2di_clock_now()};
+  search s = {.scene = scene, .start = hr2di_clock_now()};
   *solution = NULL;
   if (account) *account = (hr2d_account){0};
-  if (target) hr2di_sized_copy(&s.given, sizeof s.given, target);
-  hr2d_status status = check(scene, &s.given);
+  if (!scene->committed) return HR2D_ESTATE;
+  hr2d_status status = hr2di_target_init(&s.given, scene, target, HR2D_DEFAULT_ERROR);
   if (status) return status;
   s.target = s.given;
   s.target.progress = watch;
@@ -250,5 +242,6 @@ hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
   if (account) *account = s.account;
   hr2di_graded_clear(&s.best);
   hr2di_alloc_free(&scene->alloc, s.weight);
+  hr2di_target_clear(&s.given, scene);
   return status;
 }

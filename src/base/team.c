@@ -5,6 +5,7 @@
 
 #include "base/team.h"
 
+#include <hr2d/options.h>
 #include <sched.h>
 #include <time.h>
 
@@ -15,6 +16,9 @@
 /* A thread that waits gives way so many times, some 10 µs, before it sleeps between two
    looks. */
 enum { PATIENCE = 50, NAP = 100000 /* ns */ };
+
+/* More threads than any machine has processors; an int has room for it. */
+enum { MOST = 4096 };
 
 typedef struct team {
   size_t tasks;
@@ -27,7 +31,8 @@ typedef struct team {
 
 size_t hr2di_team_threads(unsigned asked) {
 #ifdef _OPENMP
-  return asked ? asked : (size_t)omp_get_max_threads();
+  const size_t count = asked == HR2D_ALL_THREADS ? (size_t)omp_get_max_threads() : asked;
+  return count < 1 ? 1 : count < MOST ? count : MOST;
 #else
   (void)asked;
   return 1;

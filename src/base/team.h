@@ -9,7 +9,8 @@
 /* Does one task.  `worker` is the number of the thread, 0 for the calling one. */
 typedef void (*hr2di_team_fn)(void *ctx, size_t worker, size_t task);
 
-/* The number of threads for `asked`, where 0 means all; 1 without OpenMP. */
+/* The number of threads that options ask for: 0 is one, and HR2D_ALL_THREADS all.  At least 1;
+   1 without OpenMP. */
 size_t hr2di_team_threads(unsigned asked);
 
 /* Does tasks 0, 1, … each once.  One thread does not use OpenMP, whose runtime ends the program

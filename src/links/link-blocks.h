@@ -16,9 +16,9 @@ typedef struct hr2di_link_blocks {
   uint64_t kernels;       /* evaluations of G it took */
 } hr2di_link_blocks;
 
-/* Makes new blocks for all links of a set, on `threads` threads, 0 for all; no bit depends on
-   their number.  Returns HR2D_OK, HR2D_ENOMEM, or the status of the watch.  On failure the set
-   has no blocks. */
+/* Makes new blocks for all links of a set, on as many threads as options ask for; no bit
+   depends on their number.  Returns HR2D_OK, HR2D_ENOMEM, or the status of the watch.  On
+   failure the set has no blocks. */
 hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order, unsigned threads,
                                    hr2di_watch *watch);
 

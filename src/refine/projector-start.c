@@ -14,12 +14,25 @@ static int directed_by(const hr2d_linkset *links, const hr2d_refine_options *opt
   return options->ordered || !(links->oracle.flags & HR2D_ORACLE_SYMMETRIC);
 }
 
+/* From here on ε = 0 and level 0 mean what they say. */
+static void set_defaults(hr2d_refine_options *o) {
+  if (o->epsilon == HR2D_EPSILON_ZERO)
+    o->epsilon = 0;
+  else if (o->epsilon == 0)
+    o->epsilon = HR2D_DEFAULT_EPSILON;
+  if (o->max_level == HR2D_NO_SUBDIVISION)
+    o->max_level = 0;
+  else if (!o->max_level)
+    o->max_level = HR2D_DEFAULT_MAX_LEVEL;
+}
+
 hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine_options *given,
                                           hr2d_refine_options *options) {
   hr2di_message *message = &links->message;
   *options = (hr2d_refine_options)HR2D_REFINE_OPTIONS_INIT;
-  if (given) hr2di_sized_copy(options, sizeof *options, given);
-  options->struct_size = sizeof *options;
+  if (hr2di_sized_copy(options, sizeof *options, given))
+    return hr2di_message_fail(message, HR2D_EINVAL, "struct_size is not set");
+  set_defaults(options);
   if (links->hierarchy->refining)
     return hr2di_message_fail(message, HR2D_ESTATE, "the hierarchy is being refined already");
   if (hr2di_hierarchy_busy(links->hierarchy))

@@ -34,9 +34,8 @@ static hr2d_status count_once(hr2d_linkset *links, const hr2d_refine_options *op
     const double start = hr2di_clock_now();
     status = hr2d_refine_count(empty, options, &row->counts);
     row->seconds = hr2di_clock_now() - start;
-    row->epsilon = options->epsilon;
     if (status)
-      hr2di_message_fail(&links->message, status, "at epsilon %g: %s", options->epsilon,
+      hr2di_message_fail(&links->message, status, "at epsilon %g: %s", row->epsilon,
                          hr2d_linkset_message(empty));
   }
   hr2d_linkset_destroy(empty);
@@ -48,16 +47,21 @@ hr2d_status hr2d_study_run(hr2d_linkset *links, const hr2d_refine_options *optio
                            const double *epsilon, size_t count, hr2d_study_row *rows,
                            size_t *done) {
   hr2d_refine_options used = HR2D_REFINE_OPTIONS_INIT;
-  if (options) hr2di_sized_copy(&used, sizeof used, options);
-  used.struct_size = sizeof used;
-  used.brightness = NULL; /* every count begins on a new hierarchy */
   hr2d_status status = HR2D_OK;
   size_t k = 0;
   if (done) *done = 0;
+  if (hr2di_sized_copy(&used, sizeof used, options))
+    return hr2di_message_fail(&links->message, HR2D_EINVAL, "struct_size is not set");
+  used.brightness = NULL; /* every count begins on a new hierarchy */
   if (links->store.count > 0)
     return hr2di_message_fail(&links->message, HR2D_ESTATE, "the set has links already");
   for (; k < count && !status; k++) {
-    used.epsilon = epsilon[k];
+    /* Among options 0 would be the default. */
+    if (!(epsilon[k] >= 0))
+      return hr2di_message_fail(&links->message, HR2D_EINVAL, "epsilon %g is not a number ≥ 0",
+                                epsilon[k]);
+    used.epsilon = epsilon[k] > 0 ? epsilon[k] : HR2D_EPSILON_ZERO;
+    rows[k].epsilon = epsilon[k];
     status = count_once(links, &used, &rows[k]);
     if (!status && done) *done = k + 1;
   }

@@ -41,7 +41,8 @@ static hr2d_status integrate_rows_order_p(hr2di_equation *s, int closure, int ba
 
 /* Sets closure and the form factor of the background, which need the rows of all leaves. */
 static hr2d_status integrate_rows(hr2di_equation *s) {
-  const int closure = s->options.closure && reflects(s->links->hierarchy->scene);
+  const int closure =
+      s->options.closure != HR2D_CLOSURE_OFF && reflects(s->links->hierarchy->scene);
   const int background = s->links->hierarchy->scene->effect[HR2D_EFFECT_BACKGROUND].on;
   if (!closure && !background) return HR2D_OK;
   if (s->transport.order > 1) return integrate_rows_order_p(s, closure, background);
@@ -100,6 +101,8 @@ static void set_surfaces(hr2di_equation *s) {
 hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
                                 const hr2d_solve_options *options) {
   *s = (hr2di_equation){.links = links, .options = *options, .background = 1};
+  if (!(s->options.tolerance > 0)) s->options.tolerance = HR2D_DEFAULT_TOLERANCE;
+  if (!s->options.max_iterations) s->options.max_iterations = HR2D_DEFAULT_MAX_ITERATIONS;
   s->transport.alloc = links->alloc;
   hr2di_transport *t = &s->transport;
   hr2di_scene_watch(links->hierarchy->scene, &s->watch, options->progress,

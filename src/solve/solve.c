@@ -17,9 +17,12 @@ static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *
   if (links->hierarchy->refining || links->solving)
     return hr2di_message_fail(message, HR2D_ESTATE, "the links are being %s already",
                               links->solving ? "solved on" : "refined");
-  if (!(o->tolerance >= 1e-15) || !isfinite(o->tolerance))
+  if (o->tolerance != 0 && (!(o->tolerance >= 1e-15) || !isfinite(o->tolerance)))
     return hr2di_message_fail(message, HR2D_EINVAL, "tolerance %g is not a number ≥ 1e-15",
                               o->tolerance);
+  if ((unsigned)o->closure > HR2D_CLOSURE_OFF)
+    return hr2di_message_fail(message, HR2D_EINVAL, "closure %d is no hr2d_closure",
+                              (int)o->closure);
   if (o->start && o->start->hierarchy != links->hierarchy)
     return hr2di_message_fail(message, HR2D_EINVAL, "the warm start is from another hierarchy");
   if (links->counts.elements == 0)
@@ -190,7 +193,8 @@ static hr2d_status solve(hr2d_linkset *links, const hr2d_solve_options *options,
 hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *given,
                        hr2d_solution **solution) {
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
-  if (given) hr2di_sized_copy(&options, sizeof options, given);
+  if (hr2di_sized_copy(&options, sizeof options, given))
+    return hr2di_message_fail(&links->message, HR2D_EINVAL, "struct_size is not set");
   hr2d_status status = check_options(links, &options);
   hr2di_watch watch;
   hr2di_scene_watch(links->hierarchy->scene, &watch, options.progress, options.progress_ctx,

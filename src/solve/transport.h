@@ -24,7 +24,7 @@ typedef struct hr2di_transport {
   double *closure;  /* leaves × order × order, added to the diagonal; NULL for none */
   double *sky;      /* leaves × order: form factor of the background; NULL: none */
   size_t slices;    /* parts into which the links are cut, whatever the number of threads */
-  unsigned threads; /* 0 for all */
+  unsigned threads; /* as in options */
   uint64_t sweeps;  /* gathers so far */
   hr2di_watch *watch;
   hr2d_status failed; /* HR2D_ENOMEM if a gather lacked memory, or the status of the watch: its

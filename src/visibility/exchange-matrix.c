@@ -298,12 +298,13 @@ hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_opti
               .area = area,
               .unit = hr2d_scene_unit(scene),
               .options = HR2D_MATRIX_OPTIONS_INIT};
-  if (options) hr2di_sized_copy(&m.options, sizeof m.options, options);
+  hr2d_status status = hr2di_sized_copy(&m.options, sizeof m.options, options);
+  if (status) return status;
   hr2d_matrix_counts sum = {0};
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, m.options.progress, m.options.progress_ctx, "factors");
   m.watch = &watch;
-  hr2d_status status = start(&m);
+  status = start(&m);
   hr2di_watch_describe(&watch, describe, &m);
   if (!status) status = fill_matrix(&m, &sum);
   if (!status) status = hr2di_watch_ask(&watch);

@@ -42,10 +42,12 @@ static hr2d_status reach_everywhere(fault_stage *s, uint64_t *sum) {
   return solve_to(s, sum, &target);
 }
 
-static hr2d_status reach_one(fault_stage *s, uint64_t *sum) {
+static hr2d_status reach_some(fault_stage *s, uint64_t *sum) {
+  const size_t important[] = {1, 0, 1};
   hr2d_target target = HR2D_TARGET_INIT;
   target.error = 1e-3;
-  target.importance = 1;
+  target.important = important;
+  target.important_count = 3;
   return solve_to(s, sum, &target);
 }
 
@@ -96,7 +98,7 @@ START_TEST(targets) {
   play("solve_to, occluded", DEPTH_COMMITTED, PLAN_ROOM, reach, 50);
   play("solve_to, open", DEPTH_COMMITTED, PLAN_OPEN, reach, 50);
   play("solve_to, at points", DEPTH_COMMITTED, PLAN_ROOM, reach_everywhere, 40);
-  play("solve_to, one patch", DEPTH_COMMITTED, PLAN_ROOM, reach_one, 40);
+  play("solve_to, one patch", DEPTH_COMMITTED, PLAN_ROOM, reach_some, 40);
   play("solve_to, 2 threads", DEPTH_COMMITTED, PLAN_OPEN, reach_by_two, 30);
 }
 END_TEST

@@ -161,10 +161,14 @@ static hr2d_status matrix_by_three(fault_stage *s, uint64_t *sum) {
   return matrix_on(s, sum, 3);
 }
 
-static hr2d_status reach_as(fault_stage *s, uint64_t *sum, size_t importance, double budget) {
+#define ALL SIZE_MAX
+
+/* The average of one patch, or of all. */
+static hr2d_status reach_as(fault_stage *s, uint64_t *sum, size_t important, double budget) {
   hr2d_target target = HR2D_TARGET_INIT;
   target.error = 1e-4;
-  target.importance = importance;
+  target.important = &important;
+  target.important_count = important != ALL;
   target.progress = told;
   target.seconds = budget;
   hr2d_solution_destroy(s->result);
@@ -175,7 +179,7 @@ static hr2d_status reach_as(fault_stage *s, uint64_t *sum, size_t importance, do
 }
 
 static hr2d_status reach(fault_stage *s, uint64_t *sum) {
-  return reach_as(s, sum, HR2D_ALL_PATCHES, 0);
+  return reach_as(s, sum, ALL, 0);
 }
 
 static hr2d_status reach_one(fault_stage *s, uint64_t *sum) {
@@ -184,7 +188,7 @@ static hr2d_status reach_one(fault_stage *s, uint64_t *sum) {
 
 /* A budget that is far from spent: answers of falling error. */
 static hr2d_status reach_in_time(fault_stage *s, uint64_t *sum) {
-  return reach_as(s, sum, HR2D_ALL_PATCHES, 1e6);
+  return reach_as(s, sum, ALL, 1e6);
 }
 
 static hr2d_status predict(fault_stage *s, uint64_t *sum) {
@@ -372,7 +376,7 @@ static hr2d_status refine_with(const hr2d_oracle *oracle, const hr2d_policy *pol
   fault_stage_make(&s, &setting);
   const uint64_t before = fault_stage_sum(&s);
   hr2d_refine_options o = HR2D_REFINE_OPTIONS_INIT;
-  o.epsilon = epsilon;
+  o.epsilon = epsilon > 0 ? epsilon : HR2D_EPSILON_ZERO;
   o.max_level = 3;
   const hr2d_status status = hr2d_refine(s.links, &o);
   *sum = fault_stage_sum(&s);

@@ -175,7 +175,7 @@ static hr2d_status solve(fault_stage *s, uint64_t *sum) {
 
 static hr2d_status solve_otherwise(fault_stage *s, uint64_t *sum) {
   hr2d_solve_options how = HR2D_SOLVE_OPTIONS_INIT;
-  how.closure = 0;
+  how.closure = HR2D_CLOSURE_OFF;
   how.start = s->solution;
   how.threads = 2;
   return fault_solve(s, sum, &how);

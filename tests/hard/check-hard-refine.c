@@ -331,7 +331,8 @@ START_TEST(budgets_end_what_is_endless) {
         test_meter m = {0, 0};
         test_links t = metered_links(&m, 0, hr2d_oracle_size());
         hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
-        options.epsilon = kind == 1 ? 1e-4 : 0; /* about 10¹⁰ links, or no end */
+        options.epsilon =
+            kind == 1 ? 1e-4 : HR2D_EPSILON_ZERO; /* about 10¹⁰ links, or no end */
         options.max_level = kind == 1 ? 24 : UINT32_MAX;
         options.threads = threads;
         if (kind == 0) options.max_links = links;

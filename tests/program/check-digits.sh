@@ -138,6 +138,9 @@ for key in refine coefficients solve error total estimate bound sup_estimate sup
   oracle_calls visibility_tests exchange_areas sweeps; do
   check "a target has the inner key $key" grep -q "^    \"$key\": [0-9]" "$work/t.json"
 done
+for key in estimate bound sup_estimate sup_bound; do
+  check "the error of H has the key $key" grep -q "^      \"$key\": [0-9]" "$work/t.json"
+done
 check "no epsilon" grep -q '^  "epsilon": null,$' "$work/t.json"
 check "the oracle of a target" grep -q '^  "oracle": "separation",$' "$work/t.json"
 check "no variant" grep -q '^  "variant": null,$' "$work/t.json"
@@ -146,14 +149,39 @@ check "status ok" grep -q '^  "status": "ok"$' "$work/t.json"
 for line in '^target    error 1e-09 in averages$' '^order     p = [0-9]*$' \
   '^error     of averages about [0-9.e-]*, at most [0-9.e-]*$' \
   '^          at points about [0-9.e-]*, at most [0-9.e-]*$' \
+  '^          of averages of H about [0-9.e-]*, at most [0-9.e-]*$' \
+  '^          of H at points about [0-9.e-]*, at most [0-9.e-]*$' \
   '^seconds   refine [0-9.]*, coefficients [0-9.]*, solve [0-9.]*, error [0-9.]*, total '; do
   check "the table has a line $line" grep -q -e "$line" "$work/out"
 done
 if command -v python3 >/dev/null 2>&1; then
   check "JSON is JSON" python3 -m json.tool "$work/t.json" /dev/null
 fi
-succeeds solve "$narrow" --target-error 1e-6 --importance top --quiet --json "$work/t.json"
-check "the patch that matters" grep -q '^    "importance": 1,$' "$work/t.json"
+
+# ---- patches that matter, and the floor
+listed() { # listed KEY FILE: the numbers of a list of the target, in one line
+  awk -v key="\"$1\": [" 'index($0, key) { on = 1; next } on && /]/ { exit } on { gsub(/[ ,]/, ""); printf "%s ", $0 }' "$2"
+}
+succeeds solve "$narrow" --target-error 1e-6 --importance top --json "$work/t.json"
+check "the patch that matters" [ "$(listed importance "$work/t.json")" = "1 " ]
+check "it is told" grep -q '^target    error 1e-06 in averages of top$' "$work/out"
+check "the default floor" near "$(value floor "$work/t.json")" 1e-6 1e-20
+succeeds solve "$scenes/square-room.geojson" --target-error 1e-6 --importance left --importance 0 \
+  --importance=left --floor 0.25 --json "$work/t.json"
+check "the patches that matter" [ "$(listed importance "$work/t.json")" = "3 0 3 " ]
+check "they are told" grep -q '^target    error 1e-06 in averages of left, 0, left$' "$work/out"
+check "the floor" near "$(value floor "$work/t.json")" 0.25 0
+for number in 0 -1 1.5 x nan ''; do
+  usage "--floor: '$number' is not a number greater than 0 and at most 1" \
+    solve "$narrow" --target-error 1e-3 --floor "$number"
+done
+# With a floor of 1 errors are relative to the brightest average, also those that are measured.
+estimate() { # estimate FLOOR: of a solve whose darker patch is worse
+  hr2d solve "$narrow" --eps 0.5 --error --floor "$1" --quiet --json "$work/t.json" &&
+    value estimate "$work/t.json"
+}
+check "a floor counts without a target, too" awk -v low="$(estimate 1e-6)" \
+  -v high="$(estimate 1)" 'BEGIN { exit !(high > 0 && high < 0.9 * low) }'
 
 # ---- points, in the largest norm
 point() { # point PATCH:T VALUE: what the table says
@@ -197,6 +225,7 @@ succeeds solve "$narrow" --no-error --json "$work/t.json"
 check "no error, no line" lacks '^error' "$work/out"
 for key in estimate bound sup_estimate sup_bound; do
   check "no error: $key" grep -q "^    \"$key\": null" "$work/t.json"
+  check "nor of H: $key" grep -q "^      \"$key\": null" "$work/t.json"
 done
 succeeds solve "$scenes/occluders-200.geojson" --eps 1 --json "$work/t.json"
 check "nor of 406 patches" grep -q '^    "bound": null' "$work/t.json"

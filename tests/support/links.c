@@ -24,8 +24,8 @@ void test_free_links(test_links *t) {
 
 hr2d_refine_options test_options(double epsilon, unsigned max_level) {
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
-  options.epsilon = epsilon;
-  options.max_level = max_level;
+  options.epsilon = epsilon != 0 ? epsilon : HR2D_EPSILON_ZERO;
+  options.max_level = max_level ? max_level : HR2D_NO_SUBDIVISION;
   return options;
 }
 
@@ -62,7 +62,7 @@ hr2d_solution *test_solve_by(const test_links *t, const hr2d_solve_options *opti
 
 hr2d_solution *test_solve(const test_links *t, int closure) {
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
-  options.closure = closure;
+  options.closure = closure ? HR2D_CLOSURE_ON : HR2D_CLOSURE_OFF;
   return test_solve_by(t, &options);
 }
 

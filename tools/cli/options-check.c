@@ -48,7 +48,7 @@ static int check_target(const options *o, const given_options *given) {
                           o->target_error > 0 ? "target-error" : "time-budget", chosen);
   if (!options_targeted(o) && detail)
     return complain_usage("--%s needs --target-error or --time-budget", detail);
-  if (o->importance.patch && o->norm == HR2D_NORM_SUP)
+  if (o->importance.count && o->norm == HR2D_NORM_SUP)
     return complain_usage("--importance is for averages and excludes --norm sup");
   if (o->error && o->no_error)
     return complain_usage("--error and --no-error exclude each other");

@@ -74,11 +74,10 @@ static int read_bare(int argc, char **argv, options *o) {
 }
 
 static options make_defaults(void) {
-  const hr2d_refine_options refine = HR2D_REFINE_OPTIONS_INIT;
   return (options){.oracle = hr2d_oracle_size(),
                    .policy = hr2d_policy_original(),
-                   .epsilon = refine.epsilon,
-                   .max_level = refine.max_level,
+                   .epsilon = HR2D_DEFAULT_EPSILON,
+                   .max_level = HR2D_DEFAULT_MAX_LEVEL,
                    .order = 1,
                    .steps = 13,
                    .max_seconds = 10,
@@ -94,7 +93,8 @@ int options_read(int argc, char **argv, options *o) {
   if (status || o->help || o->version) return status;
   if (o->command == COST) o->threads = 1; /* its own default */
   o->at.items = calloc((size_t)argc, sizeof *o->at.items);
-  if (!o->at.items) return complain_memory();
+  o->importance.items = calloc((size_t)argc, sizeof *o->importance.items);
+  if (!o->at.items || !o->importance.items) return complain_memory();
   status = read_options(argc - 1, argv + 1, o, &given);
   if (status || o->help || o->version) return status;
   status = read_arguments(argc - 1, argv + 1, o);
@@ -103,5 +103,6 @@ int options_read(int argc, char **argv, options *o) {
 
 void options_release(options *o) {
   free(o->at.items);
-  o->at = (place_list){NULL, 0};
+  free(o->importance.items);
+  o->at = o->importance = (place_list){NULL, 0};
 }

@@ -11,7 +11,8 @@
 /* One bit each, so that an option can name the commands that it belongs to. */
 enum { INFO = 1, SOLVE = 2, STUDY = 4, FACTORS = 8, PAIR = 16, COST = 32 };
 
-/* PATCH:T, a point at fraction t of the patch with this index or name. */
+/* PATCH:T, a point at fraction t of the patch with this index or name.  PATCH alone has no t.
+ */
 typedef struct place {
   const char *patch; /* NULL: not given */
   double t;
@@ -71,14 +72,16 @@ typedef struct options {
   unsigned order;
   double target_error, time_budget; /* 0: not given */
   hr2d_norm norm;
-  place importance;    /* without a t */
-  int error, no_error; /* measure the error of any scene, of none */
-  double max_seconds;  /* of `cost` */
-  unsigned methods;    /* of `cost`, bit 1 << m for each method m */
+  place_list importance; /* without t */
+  double floor;          /* 0: not given */
+  int error, no_error;   /* measure the error of any scene, of none */
+  double max_seconds;    /* of `cost` */
+  unsigned methods;      /* of `cost`, bit 1 << m for each method m */
   against_list against;
   int predict;
   double from, to; /* of a study; 0: not given */
-  unsigned steps, max_level, threads;
+  unsigned steps, max_level;
+  unsigned threads;                 /* 0: all processors */
   uint64_t max_links, max_elements; /* 0: no limit */
   const char *state;                /* file name; NULL: not given */
   place_list at;
@@ -99,6 +102,15 @@ int options_check_outputs(const options *o);
 
 /* Whether a command prints its table on standard output. */
 int options_want_table(const options *o);
+
+/* The options of the program are numbers; in those of the library 0 is the default. */
+static inline unsigned options_threads(const options *o) {
+  return o->threads ? o->threads : HR2D_ALL_THREADS;
+}
+
+static inline unsigned options_max_level(const options *o) {
+  return o->max_level ? o->max_level : HR2D_NO_SUBDIVISION;
+}
 
 /* Whether a target or a budget decides how to solve. */
 static inline int options_targeted(const options *o) {

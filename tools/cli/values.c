@@ -60,9 +60,19 @@ int value_picture(const char *option, char *text, value_range range, void *value
   return 0;
 }
 
-int value_patch(const char *option, char *text, value_range range, void *value) {
+int value_part(const char *option, char *text, value_range range, void *value) {
+  double *x = value;
   (void)range;
-  *(place *)value = (place){text, 0};
+  if (number_real(text, x) || *x <= 0 || *x > 1)
+    return complain_usage("--%s: '%s' is not a number greater than 0 and at most 1", option,
+                          text);
+  return 0;
+}
+
+int value_patches(const char *option, char *text, value_range range, void *value) {
+  place_list *list = value;
+  (void)range;
+  list->items[list->count++] = (place){text, 0};
   return *text ? 0 : complain_usage("--%s: the name is empty", option);
 }
 

@@ -16,19 +16,20 @@ typedef struct value_range {
    Returns 0, or EXIT_USAGE after an error message that names the option. */
 typedef int value_reader(const char *option, char *text, value_range range, void *value);
 
-value_reader value_flag, value_positive, value_unsigned, value_count, value_path, value_file,
-    value_picture, value_patch, value_place, value_places, value_sequence, value_oracle,
-    value_policy, value_norm, value_effect, value_methods, value_against;
+value_reader value_flag, value_positive, value_part, value_unsigned, value_count, value_path,
+    value_file, value_picture, value_patches, value_place, value_places, value_sequence,
+    value_oracle, value_policy, value_norm, value_effect, value_methods, value_against;
 
 /* The types of the values. */
 typedef int type_of_flag;                  /* set to 1; there is no text */
 typedef double type_of_positive;           /* greater than 0 */
+typedef double type_of_part;               /* greater than 0, at most 1 */
 typedef unsigned type_of_unsigned;         /* in the range */
 typedef uint64_t type_of_count;            /* in the range */
 typedef const char *type_of_path;          /* a file, or - for standard output */
 typedef const char *type_of_file;          /* a file that can be read back */
 typedef const char *type_of_picture;       /* a file with the suffix of a picture format */
-typedef place type_of_patch;               /* its patch only */
+typedef place_list type_of_patches;        /* a patch is appended; there is room for it */
 typedef place type_of_place;               /* PATCH:T */
 typedef place_list type_of_places;         /* PATCH:T is appended; there is room for it */
 typedef sequence type_of_sequence;         /* FROM:RATIO */

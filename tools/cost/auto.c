@@ -23,7 +23,7 @@ static hr2d_status solve_to(cost *c, const cost_method *m, double error, cost_ro
   hr2d_solution *solution = NULL;
   hr2d_account a;
   target.error = error;
-  target.threads = c->options->threads;
+  target.threads = options_threads(c->options);
   target.progress = progress_show;
   target.progress_ctx = &c->line;
   const hr2d_status status = hr2d_solve_to(c->scene, &target, &solution, &a);

@@ -124,7 +124,7 @@ static double average(const void *ctx, size_t patch, size_t band) {
 
 static hr2d_status run(dense *d, double length) {
   hr2d_matrix_options how = HR2D_MATRIX_OPTIONS_INIT;
-  how.threads = d->cost->options->threads;
+  how.threads = options_threads(d->cost->options);
   how.progress = progress_show;
   how.progress_ctx = &d->cost->line;
   d->first = calloc(d->patches + 1, sizeof *d->first);

@@ -17,7 +17,7 @@ double cost_prediction_target(int k) {
 static hr2d_target make_target(cost *c, double error) {
   hr2d_target target = HR2D_TARGET_INIT;
   target.error = error;
-  target.threads = c->options->threads;
+  target.threads = options_threads(c->options);
   target.progress = progress_show;
   target.progress_ctx = &c->line;
   return target;

@@ -42,11 +42,11 @@ static hr2d_status solve(cost *c, trial *t, double epsilon) {
   hr2d_solve_options solve = HR2D_SOLVE_OPTIONS_INIT;
   hr2d_solution *next = NULL;
   refine.epsilon = epsilon;
-  refine.max_level = c->options->max_level;
+  refine.max_level = options_max_level(c->options);
   refine.max_bytes = MOST_BYTES;
   refine.brightness = solve.start = t->solution;
-  refine.threads = solve.threads = c->options->threads;
-  solve.closure = !c->options->no_closure;
+  refine.threads = solve.threads = options_threads(c->options);
+  if (c->options->no_closure) solve.closure = HR2D_CLOSURE_OFF;
   refine.progress = solve.progress = progress_show;
   refine.progress_ctx = solve.progress_ctx = &c->line;
   hr2d_status status = hr2d_refine(t->links, &refine);

@@ -31,7 +31,7 @@ static int integrate(factors *f) {
   progress p;
   hr2d_matrix_options matrix = HR2D_MATRIX_OPTIONS_INIT;
   progress_start(&p, f->options->quiet);
-  matrix.threads = f->options->threads;
+  matrix.threads = options_threads(f->options);
   matrix.progress = progress_show;
   matrix.progress_ctx = &p;
   const double start = clock_seconds();

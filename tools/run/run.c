@@ -12,7 +12,7 @@
 hr2d_refine_options run_refine_options(const options *o) {
   hr2d_refine_options refine = HR2D_REFINE_OPTIONS_INIT;
   refine.epsilon = o->epsilon;
-  refine.max_level = o->max_level;
+  refine.max_level = options_max_level(o);
   refine.max_links = o->max_links;
   refine.max_elements = o->max_elements;
   return refine;
@@ -63,8 +63,8 @@ static void add_work(run *r, hr2d_solve_work stage) {
 
 static hr2d_status solve_stage(run *r, progress *p) {
   hr2d_solve_options solve = HR2D_SOLVE_OPTIONS_INIT;
-  solve.threads = r->options->threads;
-  solve.closure = !r->options->no_closure;
+  solve.threads = options_threads(r->options);
+  if (r->options->no_closure) solve.closure = HR2D_CLOSURE_OFF;
   solve.start = r->solution;
   solve.progress = progress_show;
   solve.progress_ctx = p;

@@ -44,6 +44,9 @@ int run_error(run *r, progress *p);
 /* The limits of refinement in the options. */
 hr2d_refine_options run_refine_options(const options *o);
 
+/* The patches of --importance, in the order given. */
+const size_t *run_important(const run *r);
+
 /* B averaged over an element and over the bands. */
 double run_mean(const run *r, uint32_t element);
 

@@ -9,13 +9,19 @@
 /* Up to this many patches the error is measured by default. */
 enum { FEW_PATCHES = 200 };
 
+const size_t *run_important(const run *r) {
+  return r->places + r->options->at.count + 1;
+}
+
 static hr2d_target make_target(const run *r, progress *p) {
   const options *o = r->options;
   hr2d_target target = HR2D_TARGET_INIT;
-  target.error = o->target_error;
+  target.error = o->target_error > 0 ? o->target_error : HR2D_SMALLEST_ERROR;
   target.norm = o->norm;
-  if (o->importance.patch) target.importance = r->places[o->at.count + 1];
-  target.threads = o->threads;
+  target.important = run_important(r);
+  target.important_count = o->importance.count;
+  target.floor = o->floor;
+  target.threads = options_threads(o);
   target.max_elements = o->max_elements;
   target.max_links = o->max_links;
   target.progress = progress_show;
@@ -57,7 +63,8 @@ static hr2d_status compare(run *r, progress *p) {
   hr2d_target how = HR2D_TARGET_INIT;
   hr2d_account *a = &r->account;
   hr2d_status status = HR2D_OK;
-  how.threads = r->options->threads;
+  how.floor = r->options->floor;
+  how.threads = options_threads(r->options);
   how.progress = progress_show;
   how.progress_ctx = p;
   for (how.error = 1e-6; !status && how.error > 0.5e-12; how.error *= 1e-3) {
@@ -73,7 +80,8 @@ static hr2d_status compare(run *r, progress *p) {
 
 int run_error(run *r, progress *p) {
   const options *o = r->options;
-  r->account.average = r->account.sup = (hr2d_error){NAN, NAN};
+  hr2d_account *a = &r->account;
+  a->average = a->sup = a->irradiance = a->irradiance_sup = (hr2d_error){NAN, NAN};
   if (o->no_error || (!o->error && hr2d_scene_patches(r->scene) > FEW_PATCHES)) return 0;
   const double start = clock_seconds();
   const hr2d_status status = compare(r, p);

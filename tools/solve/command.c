@@ -18,8 +18,9 @@ static int find_places(const options *o, const hr2d_scene *scene, size_t *patche
     status = scene_find_place(scene, "at", &o->at.items[k], &patches[k]);
   if (!status && o->links_of.patch)
     status = scene_find_place(scene, "links-of", &o->links_of, &patches[o->at.count]);
-  if (!status && o->importance.patch)
-    status = scene_find_place(scene, "importance", &o->importance, &patches[o->at.count + 1]);
+  for (size_t k = 0; !status && k < o->importance.count; k++)
+    status = scene_find_place(scene, "importance", &o->importance.items[k],
+                              &patches[o->at.count + 1 + k]);
   return status;
 }
 
@@ -57,7 +58,7 @@ int solve_command(const options *o) {
   if (!status) status = options_check_outputs(o);
   if (!status) status = scene_load(o, o->force, &scene, &cuts);
   if (status) return status;
-  size_t *patches = calloc(o->at.count + 2, sizeof *patches);
+  size_t *patches = calloc(o->at.count + 1 + o->importance.count, sizeof *patches);
   status = patches ? solve_scene(o, scene, cuts, start, patches) : complain_memory();
   free(patches);
   hr2d_scene_destroy(scene);

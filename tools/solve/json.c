@@ -89,17 +89,33 @@ static json_t *power(const run *r) {
   return list;
 }
 
-static json_t *errors(const hr2d_account *a) {
+static json_t *error_pair(const hr2d_error *average, const hr2d_error *sup) {
   json_t *object = json_object();
-  json_put(&object, "estimate", json_number(a->average.estimate));
-  json_put(&object, "bound", json_number(a->average.bound));
-  json_put(&object, "sup_estimate", json_number(a->sup.estimate));
-  json_put(&object, "sup_bound", json_number(a->sup.bound));
+  json_put(&object, "estimate", json_number(average->estimate));
+  json_put(&object, "bound", json_number(average->bound));
+  json_put(&object, "sup_estimate", json_number(sup->estimate));
+  json_put(&object, "sup_bound", json_number(sup->bound));
+  return object;
+}
+
+/* Of B, and as a member those of H. */
+static json_t *errors(const hr2d_account *a) {
+  json_t *object = error_pair(&a->average, &a->sup);
+  json_put(&object, "irradiance", error_pair(&a->irradiance, &a->irradiance_sup));
   return object;
 }
 
 static json_t *optional(double x) {
   return x > 0 ? json_number(x) : json_null();
+}
+
+/* The indices of --importance; null if all patches count. */
+static json_t *importance(const run *r) {
+  if (!r->options->importance.count) return json_null();
+  json_t *list = json_array();
+  for (size_t k = 0; k < r->options->importance.count; k++)
+    json_push(&list, json_count(run_important(r)[k]));
+  return list;
 }
 
 /* The target or budget; null if the options choose the method instead. */
@@ -110,8 +126,8 @@ static json_t *target(const run *r) {
   json_put(&object, "error", optional(o->target_error));
   json_put(&object, "norm", json_text(o->norm == HR2D_NORM_SUP ? "sup" : "average"));
   json_put(&object, "seconds", optional(o->time_budget));
-  json_put(&object, "importance",
-           o->importance.patch ? json_count(r->places[o->at.count + 1]) : json_null());
+  json_put(&object, "importance", importance(r));
+  json_put(&object, "floor", json_number(o->floor > 0 ? o->floor : HR2D_FLOOR));
   json_put(&object, "reason", json_text(r->account.reason));
   return object;
 }

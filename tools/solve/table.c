@@ -65,19 +65,25 @@ static void print_method(const run *r) {
   if (o->target_error > 0)
     printf(" error %g %s", o->target_error,
            o->norm == HR2D_NORM_SUP ? "at all points" : "in averages");
-  if (o->importance.patch) printf(" of %s", o->importance.patch);
+  for (size_t k = 0; k < o->importance.count; k++)
+    printf("%s %s", k ? "," : " of", o->importance.items[k].patch);
   if (o->time_budget > 0)
     printf("%s %g seconds", o->target_error > 0 ? " within" : " best within", o->time_budget);
   puts("");
 }
 
-/* Relative errors: of averages, then at points. */
+static void print_error_of(const char *title, const char *what, const hr2d_error *e) {
+  if (!isnan(e->estimate))
+    printf("%-9s %s about %.1e, at most %.1e\n", title, what, e->estimate, e->bound);
+}
+
+/* Relative errors of B and, with a target, of H. */
 static void print_error(const run *r) {
   const hr2d_account *a = &r->account;
-  if (isnan(a->average.estimate)) return;
-  printf("error     of averages about %.1e, at most %.1e\n", a->average.estimate,
-         a->average.bound);
-  printf("          at points about %.1e, at most %.1e\n", a->sup.estimate, a->sup.bound);
+  print_error_of("error", "of averages", &a->average);
+  print_error_of("", "at points", &a->sup);
+  print_error_of("", "of averages of H", &a->irradiance);
+  print_error_of("", "of H at points", &a->irradiance_sup);
 }
 
 static void print_seconds(const run *r, double total_seconds) {

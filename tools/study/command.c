@@ -28,7 +28,7 @@ static void print_row(const hr2d_study_row *row) {
 static hr2d_status count(const study *s, hr2d_linkset *links, sweep *w, size_t step,
                          hr2d_study_row *row) {
   hr2d_refine_options refine = run_refine_options(s->options);
-  refine.threads = s->options->threads;
+  refine.threads = options_threads(s->options);
   refine.progress = sweep_show;
   refine.progress_ctx = w;
   hr2d_status status = sweep_next(w, s, step);

@@ -19,7 +19,7 @@ static int solve(double reflectance, double *average) {
   ceiling.reflectance_bands = 1;
 
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
-  options.max_level = 0;
+  options.max_level = HR2D_NO_SUBDIVISION;
 
   hr2d_scene *scene = NULL;
   hr2d_hierarchy *hierarchy = NULL;

@@ -234,7 +234,7 @@ START_TEST(an_error_of_nothing_takes_what_doubles_give) {
     hr2d_target target = HR2D_TARGET_INIT;
     hr2d_account a;
     hr2d_solution *solution;
-    target.error = 0;
+    target.error = HR2D_SMALLEST_ERROR;
     ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &a), HR2D_OK);
     ck_assert_double_le(a.average.estimate, 1e-13);
     if (s) ck_assert_double_le(radiosity_average_error(s, solution), 2e-13);

@@ -12,24 +12,43 @@ START_TEST(targets_without_meaning_are_refused) {
   hr2d_scene *scene = test_named_scene("par0.1"), *open = NULL;
   hr2d_solution *solution = (hr2d_solution *)scene;
   hr2d_prediction prediction;
-  hr2d_target bad[7];
-  for (int k = 0; k < 7; k++) bad[k] = (hr2d_target)HR2D_TARGET_INIT;
+  const size_t beyond[] = {0, 2};
+  enum { BAD = 13 };
+  hr2d_target bad[BAD];
+  for (int k = 0; k < BAD; k++) bad[k] = (hr2d_target)HR2D_TARGET_INIT;
   bad[0].error = -1e-6;
   bad[1].error = NAN;
   bad[2].seconds = -1;
   bad[3].seconds = NAN;
   bad[4].norm = (hr2d_norm)2;
   bad[5].norm = (hr2d_norm)-1;
-  bad[6].importance = 2;
-  for (int k = 0; k < 7; k++) {
+  bad[6].important = beyond;
+  bad[6].important_count = 2;
+  bad[7].important_count = 1; /* of no patches */
+  bad[8].floor = -1e-6;
+  bad[9].floor = 1.5;
+  bad[10].floor = NAN;
+  bad[11].struct_size = 0;
+  bad[12].struct_size = sizeof(size_t) - 1;
+  for (int k = 0; k < BAD; k++) {
     hr2d_account account = {.order = 7};
     solution = (hr2d_solution *)scene;
     ck_assert_int_eq(hr2d_solve_to(scene, &bad[k], &solution, &account), HR2D_EINVAL);
     ck_assert_ptr_null(solution);
     ck_assert_uint_eq(account.order, 0);
   }
-  for (int k = 0; k < 2; k++)
+  ck_assert_int_eq(hr2d_solve_to(scene, NULL, &solution, NULL), HR2D_OK);
+  for (int k = 0; k < BAD; k++) {
+    hr2d_error error = {7, 7};
     ck_assert_int_eq(hr2d_predict(scene, &bad[k], &prediction), HR2D_EINVAL);
+    ck_assert_int_eq(hr2d_solution_error(solution, &bad[k], &error, NULL), HR2D_EINVAL);
+    ck_assert_double_eq(error.bound, 7);
+  }
+  hr2d_solution_destroy(solution);
+  /* Negative control: the patches that exist. */
+  bad[6].important_count = 1;
+  ck_assert_int_eq(hr2d_solve_to(scene, &bad[6], &solution, NULL), HR2D_OK);
+  hr2d_solution_destroy(solution);
   ck_assert_int_eq(hr2d_scene_create(NULL, &open), HR2D_OK);
   ck_assert_int_eq(hr2d_solve_to(open, NULL, &solution, NULL), HR2D_ESTATE);
   ck_assert_int_eq(hr2d_predict(open, NULL, &prediction), HR2D_ESTATE);
@@ -48,7 +67,7 @@ START_TEST(defaults_and_older_structs) {
   target.struct_size = offsetof(hr2d_target, norm);
   target.norm = (hr2d_norm)77;
   target.seconds = NAN;
-  target.importance = 99;
+  target.important_count = 99;
   ck_assert_int_eq(hr2d_solve_to(scene, &target, &small, &a), HR2D_OK);
   for (size_t k = 0; k < 4; k++)
     ck_assert_double_eq(hr2d_solution_average(plain, k, 0), hr2d_solution_average(small, k, 0));
@@ -66,6 +85,7 @@ END_TEST
 /* What little time there is, there is a status and a reason, and a solution if it is OK. */
 START_TEST(time_runs_out) {
   const double seconds[] = {1e-12, 1e-4, 1e-3, 5e-3, 2e-2};
+  const size_t first[] = {0};
   for (int k = 0; k < 5; k++)
     for (int none = 0; none < 4; none++) {
       hr2d_scene *scene = test_named_scene("occ_square_walls0.5_occ0.5");
@@ -73,8 +93,8 @@ START_TEST(time_runs_out) {
       hr2d_account a;
       hr2d_solution *solution;
       target.seconds = seconds[k];
-      target.error = none & 1 ? 0 : 1e-13;
-      if (none & 2) target.importance = 0;
+      target.error = none & 1 ? HR2D_SMALLEST_ERROR : 1e-13;
+      if (none & 2) target.important = first, target.important_count = 1;
       const hr2d_status status = hr2d_solve_to(scene, &target, &solution, &a);
       ck_assert(status == HR2D_OK || status == HR2D_EACCURACY);
       if (status == HR2D_OK) ck_assert_ptr_nonnull(solution);
@@ -187,9 +207,10 @@ START_TEST(importance_spares_links) {
   hr2d_solution *every = accuracy_solve(scene, 1e-8, HR2D_NORM_AVERAGE, &all);
   hr2d_target target = HR2D_TARGET_INIT;
   target.error = 1e-8;
-  for (target.importance = 0; target.importance < 3; target.importance++) {
+  target.important_count = 1;
+  for (size_t p = 0; p < 3; p++) {
     hr2d_solution *solution;
-    const size_t p = target.importance;
+    target.important = &p;
     ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &one), HR2D_OK);
     const double right = hr2d_solution_average(truth, p, 0);
     const double error = fabs(hr2d_solution_average(solution, p, 0) / right - 1);
@@ -243,13 +264,15 @@ static hr2d_status do_all(const hr2d_scene *scene) {
   hr2d_prediction prediction;
   hr2d_error error;
   double value[2];
+  const size_t second = 1;
   target.error = 1e-3;
-  target.importance = 1;
+  target.important = &second;
+  target.important_count = 1;
   hr2d_status status = hr2d_predict(scene, &target, &prediction);
   if (!status) status = hr2d_solve_to(scene, &target, &solution, NULL);
   if (status) ck_assert_ptr_null(solution);
   if (!status) status = hr2d_solution_gather(solution, 0, (const double[]){.3, .6}, 2, value);
-  target.importance = HR2D_ALL_PATCHES;
+  target.important_count = 0;
   if (!status) status = hr2d_solution_error(solution, &target, &error, NULL);
   hr2d_solution_destroy(solution);
   return status;

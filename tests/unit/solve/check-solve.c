@@ -70,7 +70,7 @@ START_TEST(furnace_is_exact) {
       ck_assert_double_eq_tol(hr2d_solution_element(solution, e, 0), 1, 1e-13);
     /* Negative control: without closure the rows are off. */
     hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
-    options.closure = 0;
+    options.closure = HR2D_CLOSURE_OFF;
     hr2d_solution *open = test_solve_by(&t, &options);
     ck_assert_double_gt(fabs(hr2d_solution_average(open, 0, 0) - 1), 1e-7);
     hr2d_solution_destroy(open);

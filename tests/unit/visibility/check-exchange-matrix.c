@@ -336,7 +336,8 @@ START_TEST(threads_change_no_bit) {
   hr2d_matrix_counts counts, others;
   double *one = matrix_of(scene, &counts), *many = malloc(n * n * sizeof *many);
   hr2d_matrix_options options = HR2D_MATRIX_OPTIONS_INIT;
-  for (options.threads = 0; options.threads <= 5; options.threads++) {
+  for (unsigned k = 0; k <= 6; k++) {
+    options.threads = k < 6 ? k : HR2D_ALL_THREADS;
     memset(many, 0xff, n * n * sizeof *many);
     ck_assert_int_eq(hr2d_exchange_matrix(scene, &options, many, &others), HR2D_OK);
     ck_assert_mem_eq(one, many, n * n * sizeof *one);

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The macros ..._INIT as functions.  A caller's struct may be older or newer than the
+   library's: its own size counts. */
+#include <hr2d/hr2d.h>
+#include <string.h>
+
+static void set_defaults(void *options, size_t size) {
+  memset(options, 0, size);
+  if (size >= sizeof size) memcpy(options, &size, sizeof size);
+}
+
+void hr2d_refine_options_init(hr2d_refine_options *options, size_t size) {
+  set_defaults(options, size);
+}
+
+void hr2d_solve_options_init(hr2d_solve_options *options, size_t size) {
+  set_defaults(options, size);
+}
+
+void hr2d_matrix_options_init(hr2d_matrix_options *options, size_t size) {
+  set_defaults(options, size);
+}
+
+void hr2d_target_init(hr2d_target *target, size_t size) {
+  set_defaults(target, size);
+}
+
+void hr2d_patch_init(hr2d_patch *patch) {
+  *patch = (hr2d_patch)HR2D_PATCH_INIT;
+}
