@@ -47,6 +47,7 @@ SUITES = \
 	tests/unit/accuracy/check-known-radiosities \
 	tests/unit/accuracy/check-random-accuracy \
 	tests/unit/accuracy/check-target-calls \
+	tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-short-patches \
 	tests/unit/accuracy/check-dark \
 	tests/unit/clusters/check-clusters \
