@@ -90,7 +90,8 @@ typedef struct hr2d_target {
                                 target; the errors of other averages do not count. Any order;
                                 one may occur twice. Only read, and only during the call. NULL
                                 for all patches */
-  size_t important_count;  /**< the number of indices; 0 for all patches */
+  size_t important_count;  /**< the number of indices; 0 for all patches. An index of no patch,
+                                or a count without indices, is not valid */
   unsigned threads;        /**< 0 for one, or #HR2D_ALL_THREADS; no bit depends on it, except
                                 through `seconds` */
   uint64_t max_elements;   /**< budget for N; 0 for none */

@@ -30,8 +30,8 @@ extern "C" {
 
 /**
  * The value of a constant, for languages that cannot read the headers.
- * @param name   the name of a macro with a number, or of a member of an enumeration, for
- * example "HR2D_FLOOR" or "HR2D_EINVAL"
+ * @param name   of a macro with a number, or of a member of an enumeration, for example
+ *               "HR2D_FLOOR" or "HR2D_EINVAL"
  * @param value  receives the value that the library was compiled with; exact for all constants;
  *               unchanged on failure
  * @retval HR2D_OK      success

@@ -85,8 +85,8 @@ typedef struct hr2d_solution hr2d_solution;
 typedef enum hr2d_closure {
   HR2D_CLOSURE_DEFAULT = 0, /**< as HR2D_CLOSURE_ON */
   HR2D_CLOSURE_ON,          /**< the exchange of every leaf with all others is exact */
-  HR2D_CLOSURE_OFF /**< the paper's algorithm unchanged, whose coarse links spread their
-                        exchange evenly over the leaves below */
+  HR2D_CLOSURE_OFF          /**< the paper's algorithm unchanged: coarse links spread their
+                                 exchange evenly over the leaves below */
 } hr2d_closure;
 
 /** Options of a solve. Start from #HR2D_SOLVE_OPTIONS_INIT. */
@@ -149,7 +149,7 @@ typedef struct hr2d_solve_work {
  * @retval HR2D_OK             success
  * @retval HR2D_ENOMEM         an allocation failed
  * @retval HR2D_EINVAL         `tolerance`, `closure` or `struct_size` is out of range, or
- * `start` is on another hierarchy
+ *                             `start` is on another hierarchy
  * @retval HR2D_ESTATE         the set was never refined, or the call comes from a callback of a
  *                             call that refines or solves these links
  * @retval HR2D_ENO_SOLUTION   light is emitted in a closed part of the scene in which nothing

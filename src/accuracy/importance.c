@@ -58,7 +58,8 @@ static void want(const hr2d_solution *solution, average_of *average, const hr2d_
     for (size_t k = 0; k < patches && !hr2di_watch_work(watch, 2); k++) {
       const double least = fmax(average(solution, k, b), floor);
       const int counts = least > 0 && hr2di_is_important(target, k);
-      of[k * bands + b] = counts ? most[b] / least / h->element[k].length : 0;
+      /* H may be smaller than B beyond all bounds; its weight is 1 long before. */
+      of[k * bands + b] = counts ? fmin(most[b] / least, 1e100) / h->element[k].length : 0;
     }
   }
 }
