@@ -176,8 +176,8 @@ for number in 0 -1 1.5 x nan ''; do
     solve "$narrow" --target-error 1e-3 --floor "$number"
 done
 # With a floor of 1 errors are relative to the brightest average, also those that are measured.
-estimate() { # estimate FLOOR: of a solve whose darker patch is worse
-  hr2d solve "$narrow" --eps 0.5 --error --floor "$1" --quiet --json "$work/t.json" &&
+estimate() { # estimate FLOOR: of a solve whose darker patches are worse
+  hr2d solve "$scenes/screened-room.geojson" --eps 0.5 --error --floor "$1" --quiet --json "$work/t.json" &&
     value estimate "$work/t.json"
 }
 check "a floor counts without a target, too" awk -v low="$(estimate 1e-6)" \
