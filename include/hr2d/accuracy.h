@@ -53,12 +53,12 @@
 extern "C" {
 #endif
 
-/** The norm in which an error is measured. */
+/** The norm in which an error of B, or of H, is measured. */
 typedef enum hr2d_norm {
-  HR2D_NORM_AVERAGE = 0, /**< the largest |error| of the average B of a patch, relative to this
+  HR2D_NORM_AVERAGE = 0, /**< the largest |error| of the average over a patch, relative to this
                               average, but to no less than hr2d_target::floor times the largest
                               average of the band; over patches and bands */
-  HR2D_NORM_SUP          /**< the largest |error| of B at a point, relative to the largest B of
+  HR2D_NORM_SUP          /**< the largest |error| at a point, relative to the largest value of
                               the band, over points and bands */
 } hr2d_norm;
 
@@ -81,8 +81,8 @@ typedef struct hr2d_error {
 /** The target of a solve. Start from #HR2D_TARGET_INIT. */
 typedef struct hr2d_target {
   size_t struct_size;      /**< so that the struct can grow */
-  double error;            /**< relative error to be reached, or #HR2D_SMALLEST_ERROR; 0 stands
-                                for #HR2D_DEFAULT_ERROR */
+  double error;            /**< relative error of B and of H to be reached, or
+                                #HR2D_SMALLEST_ERROR; 0 stands for #HR2D_DEFAULT_ERROR */
   hr2d_norm norm;          /**< the norm in which it is measured */
   double seconds;          /**< budget of wall time; 0 for none. The best solution that is
                                 ready by then is returned */

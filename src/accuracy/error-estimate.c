@@ -421,8 +421,12 @@ static hr2d_status measure(estimator *e, hr2di_error_pair *errors) {
   status = find_rounding(e, reflects);
   if (status) return status;
   const double level = eq->balance.count > 0 ? ROUNDING : 0;
-  errors->rounding[0] = fmax(worst_average(e, 0, 0, e->rounding[0]) + level, e->doubt);
-  errors->rounding[1] = fmax(worst_point(e, 0, 0, 1) + level, e->doubt);
+  for (int h = 0; h < 2; h++) {
+    const double average_off = worst_average(e, h, 0, e->rounding[h]) + level;
+    errors->rounding[0] = fmax(errors->rounding[0], fmax(average_off, e->doubt));
+    errors->rounding[1] =
+        fmax(errors->rounding[1], fmax(worst_point(e, h, 0, 1) + level, e->doubt));
+  }
   hr2d_error *const average[] = {&errors->average, &errors->irradiance};
   hr2d_error *const sup[] = {&errors->sup, &errors->irradiance_sup};
   for (int h = 0; h < 2; h++) {

@@ -9,7 +9,7 @@ typedef struct hr2di_error_pair {
   hr2d_error average; /* of the worst patch, or of the one that importance is asked for */
   hr2d_error sup;
   hr2d_error irradiance, irradiance_sup; /* of H */
-  double rounding[2]; /* what of the bounds of averages and at points is rounding, of B */
+  double rounding[2]; /* what of the bounds of averages and at points is rounding */
   uint64_t kernels;   /* values of G it took */
   uint64_t bytes;     /* of the finer trees, links and blocks */
 } hr2di_error_pair;

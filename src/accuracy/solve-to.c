@@ -33,6 +33,7 @@ typedef struct search {
   hr2di_graded best;
   double *weight;       /* per patch, where importance is asked for */
   hr2d_account account; /* of the best, with all times */
+  hr2d_error error;     /* of the best, the larger one of B and H */
   double rounding;      /* what of its bound is rounding */
   hr2di_message message;
 } search;
@@ -51,16 +52,19 @@ static hr2d_status watch(void *ctx, const hr2d_progress *progress) {
   return s->progress_status;
 }
 
-static hr2d_error errors_of(const search *s) {
-  return s->target.norm == HR2D_NORM_SUP ? s->account.sup : s->account.average;
+/* The larger error of B and H, in the norm of the target. */
+static hr2d_error worst_of(const hr2di_error_pair *e, hr2d_norm norm) {
+  const hr2d_error b = norm == HR2D_NORM_SUP ? e->sup : e->average;
+  const hr2d_error h = norm == HR2D_NORM_SUP ? e->irradiance_sup : e->irradiance;
+  return (hr2d_error){fmax(b.estimate, h.estimate), fmax(b.bound, h.bound)};
 }
 
 static double error_of(const search *s) {
-  return errors_of(s).estimate;
+  return s->error.estimate;
 }
 
 static int is_reached(const search *s, double error) {
-  return error_of(s) <= MARGIN * error || errors_of(s).bound <= error;
+  return error_of(s) <= MARGIN * error || s->error.bound <= error;
 }
 
 static void add_times(hr2d_account *sum, const hr2di_graded *answer) {
@@ -78,6 +82,7 @@ static void keep(search *s, hr2di_graded *answer, const hr2di_error_pair *errors
   *answer = (hr2di_graded){0};
   const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(s->best.hierarchy);
   hr2d_account *a = &s->account;
+  s->error = worst_of(errors, s->target.norm);
   s->rounding = errors->rounding[s->target.norm == HR2D_NORM_SUP];
   a->average = errors->average;
   a->sup = errors->sup;
@@ -106,8 +111,7 @@ static hr2d_status attempt(search *s, const hr2di_resolution *fineness) {
     status = hr2di_error_estimate(&answer, fineness, &s->target, &errors, &s->message);
   s->account.error_seconds += hr2di_clock_now() - start;
   if (!status) {
-    const double error =
-        s->target.norm == HR2D_NORM_SUP ? errors.sup.estimate : errors.average.estimate;
+    const double error = worst_of(&errors, s->target.norm).estimate;
     s->account.kernels += errors.kernels;
     if (!s->best.solution || error < error_of(s)) keep(s, &answer, &errors);
   } else if (s->late && answer.solution && !s->best.solution) {
@@ -190,7 +194,7 @@ static hr2d_status settle(search *s, hr2d_status status) {
   else if (status && status != HR2D_EACCURACY)
     give_reason(s, s->message.text);
   if (is_budget(status) || (status == HR2D_STOPPED && s->late)) status = HR2D_EACCURACY;
-  if (!status && s->best.solution && !isfinite(errors_of(s).bound)) {
+  if (!status && s->best.solution && !isfinite(s->error.bound)) {
     give_reason(s, "the error has no finite bound");
     status = HR2D_EACCURACY;
   }

@@ -56,8 +56,11 @@ static hr2d_solution *solve(const hr2d_scene *scene, double error, hr2d_account 
   hr2d_solution *solution;
   target.error = error;
   const hr2d_status status = hr2d_solve_to(scene, &target, &solution, a);
-  const int limited = status == HR2D_EACCURACY && a->average.bound > error;
-  ck_assert_msg(status == HR2D_OK || limited, "%g: %s", error, a->reason);
+  const double bound = fmax(a->average.bound, a->irradiance.bound);
+  ck_assert_msg(status == HR2D_OK || (status == HR2D_EACCURACY && bound > error), "%g: %s",
+                error, a->reason);
+  if (status == HR2D_OK)
+    ck_assert_double_le(fmax(a->average.estimate, a->irradiance.estimate), error);
   const hr2d_error all[] = {a->average, a->sup, a->irradiance, a->irradiance_sup};
   for (int k = 0; k < 4; k++) {
     ck_assert_double_ge(all[k].estimate, 0);
