@@ -32,6 +32,7 @@ SUITES = \
 	tests/paper/check-theorem \
 	tests/unit/oracle/check-l1 \
 	tests/unit/solution/check-points \
+	tests/unit/solution/check-irradiance-points \
 	tests/unit/solve/check-solve \
 	tests/unit/solve/check-background \
 	tests/unit/solve/check-closure \
@@ -105,6 +106,7 @@ tests_libsupport_la_SOURCES = \
 	tests/support/scene-files.c tests/support/scene-files.h \
 	tests/support/scenes.c tests/support/scenes.h \
 	tests/support/settings.c tests/support/settings.h \
+	tests/support/shadow-scenes.c tests/support/shadow-scenes.h \
 	tests/support/short-rooms.c tests/support/short-rooms.h \
 	tests/support/suite.c tests/support/suite.h \
 	tests/support/support.h \
@@ -116,7 +118,9 @@ tests_libsupport_la_SOURCES = \
 	tests/independent/convex-nystrom.c tests/independent/convex-nystrom.h \
 	tests/independent/mpfr-exchange.c tests/independent/mpfr-exchange.h \
 	tests/independent/mpfr-l1.c tests/independent/mpfr-l1.h \
-	tests/independent/pair-frame.c tests/independent/pair-frame.h
+	tests/independent/pair-frame.c tests/independent/pair-frame.h \
+	tests/independent/point-sweep.c tests/independent/point-sweep.h \
+	tests/independent/sweep-nystrom.c tests/independent/sweep-nystrom.h
 check_PROGRAMS += $(SUITES)
 TESTS += $(SUITES) $(OUTSIDE)
 else
