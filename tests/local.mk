@@ -120,7 +120,8 @@ tests_libsupport_la_SOURCES = \
 	tests/independent/mpfr-l1.c tests/independent/mpfr-l1.h \
 	tests/independent/pair-frame.c tests/independent/pair-frame.h \
 	tests/independent/point-sweep.c tests/independent/point-sweep.h \
-	tests/independent/sweep-nystrom.c tests/independent/sweep-nystrom.h
+	tests/independent/sweep-nystrom.c tests/independent/sweep-nystrom.h \
+	tests/independent/sweep-row.c tests/independent/sweep-row.h
 check_PROGRAMS += $(SUITES)
 TESTS += $(SUITES) $(OUTSIDE)
 else

@@ -167,6 +167,70 @@ static void furnished(draft *d) {
   add_table(d, w, h, black);
 }
 
+/* Panels just above ground that reflects much. */
+static void low_panels(draft *d) {
+  const double background[2] = {1, 0.5}, low = random_power(&d->r, -3, -1);
+  material ground = black;
+  for (int b = 0; b < 2; b++) ground.reflectance[b] = random_between(&d->r, 0.5, 0.8);
+  add(d, -8, 0, 8, 0, ground, HR2D_SIDES_FRONT);
+  for (int k = 0; k < 3; k++)
+    add(d, 3 * k - 4, low, 3 * k - 2.5, low + random_between(&d->r, 0.3, 1),
+        k == 1 ? grey(d, 0.5) : black, HR2D_SIDES_BOTH);
+  ck_assert_int_eq(hr2d_scene_set_background(d->scene, background, d->bands), HR2D_OK);
+}
+
+/* Screens in the air without a room, each in a cell of its own. */
+static void free_screens(draft *d) {
+  const double background[2] = {random_unit(&d->r), 1};
+  for (int k = 0; k < 6; k++) {
+    const double angle = random_between(&d->r, 0, PI), half = random_between(&d->r, 0.1, 0.49);
+    const double x = k % 3, y = k / 3;
+    material m = random_unit(&d->r) < 0.4 ? black : grey(d, 0.9);
+    if (k == 1) m.emission[0] = 1;
+    add(d, x - half * cos(angle), y - half * sin(angle), x + half * cos(angle),
+        y + half * sin(angle), m,
+        random_unit(&d->r) < 0.8 ? HR2D_SIDES_BOTH : HR2D_SIDES_FRONT);
+  }
+  ck_assert_int_eq(hr2d_scene_set_background(d->scene, background, d->bands), HR2D_OK);
+}
+
+/* A box in a room, of which only the outside is given. */
+static void box(draft *d) {
+  const double w = on_grid(d, 3, 5), h = on_grid(d, 2, 4);
+  const double x = on_grid(d, 0.2 * w, 0.5 * w), y = on_grid(d, 0.2 * h, 0.4 * h);
+  const double size = on_grid(d, 0.1, 0.9);
+  const material side = grey(d, 0.6);
+  add_room(d, w, h, grey(d, 0.7), black, grey(d, 0.5));
+  add(d, x, y, x, y + size, side, HR2D_SIDES_FRONT);
+  add(d, x, y + size, x + size, y + size, black, HR2D_SIDES_FRONT);
+  add(d, x + size, y + size, x + size, y, side, HR2D_SIDES_FRONT);
+  add(d, x + size, y, x, y, grey(d, 0.6), HR2D_SIDES_FRONT);
+}
+
+/* A room around a corner; both of its lamps are walls. */
+static void around_a_corner(draft *d) {
+  const double w = on_grid(d, 3, 5), h = on_grid(d, 3, 4);
+  const double x = on_grid(d, 1, 2), y = on_grid(d, 1, 2);
+  add(d, 0, 0, w, 0, grey(d, 0.7), HR2D_SIDES_FRONT);
+  add(d, w, 0, w, y, lamp(d), HR2D_SIDES_FRONT);
+  add(d, w, y, x, y, random_unit(&d->r) < 0.5 ? black : grey(d, 0.6), HR2D_SIDES_FRONT);
+  add(d, x, y, x, h, black, HR2D_SIDES_FRONT);
+  add(d, x, h, 0, h, lamp(d), HR2D_SIDES_FRONT);
+  add(d, 0, h, 0, 0, black, HR2D_SIDES_FRONT);
+}
+
+/* A screen that reflects hangs over a skirting, a short patch beside a corner. */
+static void skirting(draft *d) {
+  const double w = on_grid(d, 2, 4), h = on_grid(d, 2, 3),
+               low = ldexp(1, -random_below(&d->r, 8));
+  add(d, 0, 0, w, 0, grey(d, 0.6), HR2D_SIDES_FRONT);
+  add(d, w, 0, w, low, random_unit(&d->r) < 0.5 ? black : lamp(d), HR2D_SIDES_FRONT);
+  add(d, w, low, w, h, black, HR2D_SIDES_FRONT);
+  add(d, w, h, 0, h, lamp(d), HR2D_SIDES_FRONT);
+  add(d, 0, h, 0, 0, black, HR2D_SIDES_FRONT);
+  add_screen(d, w, h, grey(d, 0.6), HR2D_SIDES_BOTH);
+}
+
 static const struct {
   const char *name;
   void (*draw)(draft *d);
@@ -180,6 +244,11 @@ static const struct {
     {"street", street},
     {"one-sided screen", one_sided},
     {"door", door},
+    {"low panels", low_panels},
+    {"free screens", free_screens},
+    {"box", box},
+    {"around a corner", around_a_corner},
+    {"skirting", skirting},
     {"furnished", furnished},
 };
 

@@ -6,7 +6,7 @@
 
 #include <hr2d/hr2d.h>
 
-enum { SHADOW_KINDS = 10 };
+enum { SHADOW_KINDS = 15 };
 
 /* Scene number k of a seed, committed; its kind is k % SHADOW_KINDS. */
 hr2d_scene *shadow_scene_draw(unsigned long seed, int k);

@@ -301,7 +301,7 @@ START_TEST(a_furnace_is_known) {
 END_TEST
 
 START_TEST(two_meshes_agree) {
-  const int scenes = (int)fmax(30 * test_multiplier(), SHADOW_KINDS - 1);
+  const int scenes = (int)fmax(30 * test_multiplier(), 8);
   for (int k = 0; k < scenes; k++) {
     hr2d_scene *scene = shadow_scene_draw(test_seed(), k);
     const randoms r = randoms_stream(test_seed() + 1, k);
