@@ -231,6 +231,17 @@ static void prepare(swept_solution *s) {
   }
 }
 
+/* Behind a narrow window B is far below that of the sky. */
+static void find_scale(swept_solution *s) {
+  const size_t nodes = s->field.mesh.nodes, bands = s->field.scene->bands;
+  for (size_t b = 0; b < bands; b++) {
+    double most = 0;
+    for (size_t k = 0; k < nodes; k++)
+      most = fmax(most, s->field.mesh.radiosity[k * bands + b]);
+    if (most > 0) s->scale[b] = fmin(s->scale[b], most);
+  }
+}
+
 swept_solution *swept_solve(const swept_scene *scene, swept_mesh how) {
   swept_solution *s = calloc(1, sizeof *s);
   ck_assert(s != NULL && scene->bands <= SWEPT_BANDS);
@@ -241,6 +252,7 @@ swept_solution *swept_solve(const swept_scene *scene, swept_mesh how) {
   prepare(s);
   replace_mesh(s, HUGE_VAL);
   solve(s, 1e-4);
+  find_scale(s);
   for (int round = 1; round < ROUNDS && s->field.mesh.nodes > 0; round++) {
     const double part = round < ROUNDS - 2 ? 1e3 : 1;
     replace_mesh(s, part * how.tolerance);

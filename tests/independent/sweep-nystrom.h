@@ -23,7 +23,7 @@ typedef struct swept_scene {
 } swept_scene;
 
 /* How fine: Gauss points of a panel, and by how much B may differ from the polynomial of a
-   panel, relative to the brightest E. */
+   panel, relative to the largest. */
 typedef struct swept_mesh {
   size_t points;
   double tolerance;
