@@ -190,3 +190,17 @@ real *sweep_events(const sweep_patches *p, size_t patch, size_t *count) {
   *count = kept;
   return at;
 }
+
+real sweep_clearance(const sweep_patches *p, size_t patch, real from, real to) {
+  const spot a = sweep_place(p, patch, from), b = sweep_place(p, patch, to);
+  const spot d = {b.x - a.x, b.y - a.y};
+  const real square = d.x * d.x + d.y * d.y, touching = 1e-15L * largest(p);
+  real least = HUGE_VALL;
+  for (size_t v = 0; v < 2 * p->count; v++) {
+    const spot end = sweep_place(p, v / 2, v % 2), e = {end.x - a.x, end.y - a.y};
+    const real at = fminl(fmaxl((e.x * d.x + e.y * d.y) / square, 0), 1);
+    const real far = hypotl(e.x - at * d.x, e.y - at * d.y);
+    if (far > touching) least = fminl(least, far);
+  }
+  return least;
+}

@@ -110,6 +110,13 @@ static double importance(const pass *p, real length) {
   return p->mesh ? (double)fminl(length / LEAST, 1) : (double)length;
 }
 
+/* Whether no node may be near enough to an end of another patch to see what it does. */
+static int is_blind(const pass *p, real from, real to) {
+  const sweep_patches *patches = &p->s->field.scene->patches;
+  const spot a = sweep_place(patches, p->patch, from), b = sweep_place(patches, p->patch, to);
+  return hypotl(b.x - a.x, b.y - a.y) > 8 * sweep_clearance(patches, p->patch, from, to);
+}
+
 static void refine(const pass *p, real from, real to, const values *v, int depth) {
   const swept_solution *s = p->s;
   const real middle = (from + to) / 2;
@@ -117,7 +124,8 @@ static void refine(const pass *p, real from, real to, const values *v, int depth
   find_values(s, p->patch, from, middle, &half[0]);
   find_values(s, p->patch, middle, to, &half[1]);
   const double off = fmax(miss(s, v, &half[0], 0), miss(s, v, &half[1], 1));
-  if (depth == DEEPEST || off * importance(p, to - from) <= p->tolerance) {
+  if (depth == DEEPEST ||
+      (off * importance(p, to - from) <= p->tolerance && !is_blind(p, from, to))) {
     finish_panel(p, from, to, v);
     return;
   }
