@@ -191,16 +191,24 @@ real *sweep_events(const sweep_patches *p, size_t patch, size_t *count) {
   return at;
 }
 
+static real distance(spot a, spot b, spot p) {
+  const spot d = {b.x - a.x, b.y - a.y}, e = {p.x - a.x, p.y - a.y};
+  const real at = (e.x * d.x + e.y * d.y) / (d.x * d.x + d.y * d.y);
+  const real inside = fminl(fmaxl(at, 0), 1);
+  return hypotl(e.x - inside * d.x, e.y - inside * d.y);
+}
+
+/* Two segments that do not cross are nearest at an end of one of them. */
 real sweep_clearance(const sweep_patches *p, size_t patch, real from, real to) {
   const spot a = sweep_place(p, patch, from), b = sweep_place(p, patch, to);
-  const spot d = {b.x - a.x, b.y - a.y};
-  const real square = d.x * d.x + d.y * d.y, touching = 1e-15L * largest(p);
+  const real touching = 1e-15L * largest(p);
   real least = HUGE_VALL;
-  for (size_t v = 0; v < 2 * p->count; v++) {
-    const spot end = sweep_place(p, v / 2, v % 2), e = {end.x - a.x, end.y - a.y};
-    const real at = fminl(fmaxl((e.x * d.x + e.y * d.y) / square, 0), 1);
-    const real far = hypotl(e.x - at * d.x, e.y - at * d.y);
-    if (far > touching) least = fminl(least, far);
+  for (size_t k = 0; k < p->count; k++) {
+    const spot c = sweep_place(p, k, 0), d = sweep_place(p, k, 1);
+    const real far[] = {distance(a, b, c), distance(a, b, d), distance(c, d, a),
+                        distance(c, d, b)};
+    for (int q = 0; q < 4; q++)
+      if (far[q] > touching && (q < 2 || k != patch)) least = fminl(least, far[q]);
   }
   return least;
 }

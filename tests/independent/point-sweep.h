@@ -49,7 +49,7 @@ size_t sweep_all(const sweep_patches *p, const sweep_frame *f, sweep_span *span)
    0 and 1, in ascending order. To be freed by the caller. */
 real *sweep_events(const sweep_patches *p, size_t patch, size_t *count);
 
-/* How near ends of patches come to a part of a patch without touching it. */
+/* How near other patches come to a part of a patch without touching it. */
 real sweep_clearance(const sweep_patches *p, size_t patch, real from, real to);
 
 #endif

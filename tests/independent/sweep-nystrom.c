@@ -110,7 +110,7 @@ static double importance(const pass *p, real length) {
   return p->mesh ? (double)fminl(length / LEAST, 1) : (double)length;
 }
 
-/* Whether no node may be near enough to an end of another patch to see what it does. */
+/* Whether no node may be near enough to another patch to see what it does. */
 static int is_blind(const pass *p, real from, real to) {
   const sweep_patches *patches = &p->s->field.scene->patches;
   const spot a = sweep_place(patches, p->patch, from), b = sweep_place(patches, p->patch, to);
