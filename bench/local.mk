@@ -1,6 +1,6 @@
 # Measurements, built and run by `make bench` alone.
 BENCHES = bench/bench-exchange-area bench/bench-refine bench/bench-l1 bench/bench-visibility \
-	bench/bench-accuracy bench/bench-prediction
+	bench/bench-accuracy bench/bench-polls bench/bench-prediction
 EXTRA_PROGRAMS += $(BENCHES)
 CLEANFILES += $(BENCHES)
 bench_bench_exchange_area_SOURCES = bench/bench-exchange-area.c bench/timing.h
@@ -24,6 +24,10 @@ bench_bench_prediction_SOURCES = bench/bench-prediction.c \
 	tests/adversary/kinds-open.c tests/adversary/kinds-rooms.c tests/adversary/random.h \
 	tests/adversary/scene.c tests/adversary/scene.h
 bench_bench_prediction_LDADD = libhr2d-core.la $(OPENMP_CFLAGS) -lm
+bench_bench_polls_SOURCES = bench/bench-polls.c tests/support/slow-phases.c \
+	tests/support/slow-phases.h tests/support/slow-scenes.c tests/support/slow-scenes.h
+bench_bench_polls_CPPFLAGS = $(AM_CPPFLAGS)
+bench_bench_polls_LDADD = libhr2d-core.la $(OPENMP_CFLAGS) -lm
 
 bench: $(BENCHES)
 	@for program in $(BENCHES); do echo "== $$program"; ./$$program || exit 1; done

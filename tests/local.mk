@@ -63,7 +63,8 @@ SUITES = \
 	tests/faults/check-faults \
 	tests/faults/check-faults-accuracy \
 	tests/faults/check-faults-callbacks \
-	tests/faults/check-faults-malloc
+	tests/faults/check-faults-malloc \
+	tests/faults/check-polls
 
 OUTSIDE = \
 	tests/program/check-cli.sh \
@@ -108,6 +109,8 @@ tests_libsupport_la_SOURCES = \
 	tests/support/settings.c tests/support/settings.h \
 	tests/support/shadow-scenes.c tests/support/shadow-scenes.h \
 	tests/support/short-rooms.c tests/support/short-rooms.h \
+	tests/support/slow-phases.c tests/support/slow-phases.h \
+	tests/support/slow-scenes.c tests/support/slow-scenes.h \
 	tests/support/suite.c tests/support/suite.h \
 	tests/support/support.h \
 	tests/support/tables.c tests/support/tables.h \

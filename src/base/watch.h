@@ -74,8 +74,8 @@ static inline int hr2di_watch_refused(const hr2di_watch *watch) {
 }
 
 /* The watch that calls a callback back, for tests. */
-static inline const hr2di_watch *hr2di_watch_of(const hr2d_progress *told) {
-  return (const hr2di_watch *)(const void *)told;
+static inline hr2di_watch *hr2di_watch_of(const hr2d_progress *told) {
+  return (hr2di_watch *)(uintptr_t)told;
 }
 
 #endif

@@ -89,5 +89,5 @@ const hr2d_oracle *hr2d_oracle_l1_grid(void) {
 uint64_t hr2di_oracle_work(const hr2d_oracle *oracle, const hr2d_batch *batch, size_t pair) {
   if (oracle->estimate == estimate_l1) return 100;
   if (oracle->estimate != estimate_grid) return 0;
-  return 1 + hr2di_l1_grid_samples(batch, batch->pairs[pair]) / 16;
+  return 1 + hr2di_l1_grid_samples(batch, batch->pairs[pair]) / 48;
 }

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Measures how long the library works between two questions to the progress callback: whether
+   the work that its loops declare is what they do.
+
+   Usage: bench_polls [PATCHES [ORDER [THREADS]]].  For every phase of every kind of scene: the
+   longest time between two questions, by the clock of the calling thread, on which other
+   programs have little influence, and by the wall.  Fails where it is longer than the bar. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "support/slow-phases.h"
+
+/* Seconds. */
+#define BAR 0.01
+
+typedef struct stopwatch {
+  double cpu, wall; /* of the last question */
+  double longest_cpu, longest_wall;
+  unsigned long asks;
+  const char *phase; /* of the longest */
+} stopwatch;
+
+static double now(clockid_t id) {
+  struct timespec t;
+  clock_gettime(id, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void look(stopwatch *w, const char *phase) {
+  const double cpu = now(CLOCK_THREAD_CPUTIME_ID), wall = now(CLOCK_MONOTONIC);
+  if (cpu - w->cpu > w->longest_cpu) {
+    w->longest_cpu = cpu - w->cpu;
+    w->phase = phase;
+  }
+  if (wall - w->wall > w->longest_wall) w->longest_wall = wall - w->wall;
+  w->cpu = now(CLOCK_THREAD_CPUTIME_ID);
+  w->wall = now(CLOCK_MONOTONIC);
+}
+
+static hr2d_status ask(void *ctx, const hr2d_progress *progress) {
+  stopwatch *w = ctx;
+  w->asks++;
+  look(w, progress->phase);
+  return HR2D_OK;
+}
+
+static int measure(slow_kind kind, const slow_phase *phase, const slow_stage *like) {
+  stopwatch w = {.phase = ""};
+  slow_stage s = *like;
+  s.kind = kind;
+  s.ask = ask;
+  s.ctx = &w;
+  hr2d_status status = phase->prepare(&s);
+  w.cpu = now(CLOCK_THREAD_CPUTIME_ID);
+  const double start = w.wall = now(CLOCK_MONOTONIC);
+  if (!status) status = phase->run(&s);
+  look(&w, "end");
+  printf("%-8s %-10s %9.3f s %8lu asks   longest %7.2f ms (wall %7.2f) in %s%s%s\n",
+         slow_name(kind), phase->name, w.wall - start, w.asks, 1e3 * w.longest_cpu,
+         1e3 * w.longest_wall, w.phase, status ? ": " : "",
+         status ? hr2d_strerror(status) : "");
+  fflush(stdout);
+  slow_clear(&s);
+  return status != HR2D_OK || w.longest_cpu > BAR;
+}
+
+int main(int argc, char **argv) {
+  const slow_stage like = {.count = argc > 1 ? (size_t)atol(argv[1]) : 1000,
+                           .order = argc > 2 ? (unsigned)atoi(argv[2]) : 1,
+                           .threads = argc > 3 ? (unsigned)atoi(argv[3]) : 1,
+                           .epsilon = 0.5};
+  int missed = 0;
+  for (int kind = 0; kind < SLOW_KINDS; kind++)
+    for (size_t k = 0; k < SLOW_PHASES; k++)
+      missed += measure((slow_kind)kind, &slow_phases[k], &like);
+  printf("%d of %d are longer than %g ms, or failed\n", missed, SLOW_KINDS * SLOW_PHASES,
+         1e3 * BAR);
+  return missed ? EXIT_FAILURE : EXIT_SUCCESS;
+}

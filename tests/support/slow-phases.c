@@ -1,0 +1,294 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "support/slow-phases.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "clusters/root-pairs.h"
+#include "visibility/events.h"
+
+void slow_clear(slow_stage *s) {
+  hr2d_solution_destroy(s->solution);
+  hr2d_linkset_destroy(s->links);
+  hr2d_hierarchy_destroy(s->hierarchy);
+  hr2d_scene_destroy(s->scene);
+  free(s->area);
+  free(s->text);
+  s->solution = NULL;
+  s->links = NULL;
+  s->hierarchy = NULL;
+  s->scene = NULL;
+  s->area = NULL;
+  s->text = NULL;
+  s->size = s->at = 0;
+}
+
+/* Calls without options ask the callback of the scene. */
+static hr2d_status by_scene(slow_stage *s, hr2d_status (*call)(slow_stage *s)) {
+  hr2d_scene_set_progress(s->scene, s->ask, s->ctx);
+  const hr2d_status status = call(s);
+  hr2d_scene_set_progress(s->scene, NULL, NULL);
+  return status;
+}
+
+static hr2d_status make_open(slow_stage *s) {
+  const hr2d_status status = hr2d_scene_create(s->hooks, &s->scene);
+  return status ? status : slow_add(s->scene, s->kind, s->count);
+}
+
+static hr2d_status make_crossing(slow_stage *s) {
+  const hr2d_status status = hr2d_scene_create(s->hooks, &s->scene);
+  return status ? status : slow_add_crossing(s->scene, s->count);
+}
+
+static hr2d_status make_text(slow_stage *s) {
+  hr2d_scene *source = NULL;
+  hr2d_status status = hr2d_scene_create(NULL, &source);
+  if (!status) status = slow_add(source, s->kind, s->count);
+  if (!status && !(s->text = slow_text(source, &s->size))) status = HR2D_ENOMEM;
+  hr2d_scene_destroy(source);
+  return status ? status : hr2d_scene_create(s->hooks, &s->scene);
+}
+
+static hr2d_status make_scene(slow_stage *s) {
+  const hr2d_status status = make_open(s);
+  return status ? status : hr2d_scene_commit(s->scene);
+}
+
+static hr2d_status make_set(slow_stage *s, const hr2d_oracle *oracle) {
+  hr2d_status status = make_scene(s);
+  if (!status) status = hr2d_hierarchy_create(s->scene, &s->hierarchy);
+  if (!status) status = hr2d_hierarchy_set_order(s->hierarchy, s->order);
+  return status ? status
+                : hr2d_linkset_create(s->hierarchy, oracle, NULL, NULL, NULL, &s->links);
+}
+
+static hr2d_status make_empty(slow_stage *s) {
+  return make_set(s, hr2d_oracle_size());
+}
+
+static hr2d_status make_grid(slow_stage *s) {
+  return make_set(s, hr2d_oracle_l1_grid());
+}
+
+static hr2d_refine_options fine(const slow_stage *s) {
+  hr2d_refine_options o = HR2D_REFINE_OPTIONS_INIT;
+  o.epsilon = s->epsilon;
+  o.threads = s->threads;
+  return o;
+}
+
+static hr2d_status make_links(slow_stage *s) {
+  const hr2d_status status = make_empty(s);
+  const hr2d_refine_options o = fine(s);
+  return status ? status : hr2d_refine(s->links, &o);
+}
+
+static hr2d_status make_solution(slow_stage *s) {
+  const hr2d_status status = make_links(s);
+  hr2d_solve_options o = HR2D_SOLVE_OPTIONS_INIT;
+  o.threads = s->threads;
+  return status ? status : hr2d_solve(s->links, &o, &s->solution);
+}
+
+static hr2d_status make_matrix(slow_stage *s) {
+  const hr2d_status status = make_scene(s);
+  const size_t n = status ? 0 : hr2d_scene_patches(s->scene);
+  s->area = malloc((n * n + 1) * sizeof *s->area);
+  return status ? status : s->area ? HR2D_OK : HR2D_ENOMEM;
+}
+
+static hr2d_status keep(void *ctx, const void *bytes, size_t size) {
+  slow_stage *s = ctx;
+  char *grown = realloc(s->text, s->size + size);
+  if (!grown) return HR2D_ENOMEM;
+  memcpy(grown + s->size, bytes, size);
+  s->text = grown;
+  s->size += size;
+  return HR2D_OK;
+}
+
+static hr2d_status give(void *ctx, void *bytes, size_t size) {
+  slow_stage *s = ctx;
+  if (size > s->size - s->at) return HR2D_ESYNTAX;
+  memcpy(bytes, s->text + s->at, size);
+  s->at += size;
+  return HR2D_OK;
+}
+
+/* A state, and an empty set to read it into. */
+static hr2d_status make_state(slow_stage *s) {
+  hr2d_status status = make_solution(s);
+  if (!status) status = hr2d_state_write(s->solution, keep, s);
+  hr2d_solution_destroy(s->solution);
+  hr2d_linkset_destroy(s->links);
+  hr2d_hierarchy_destroy(s->hierarchy);
+  s->solution = NULL;
+  s->links = NULL;
+  s->hierarchy = NULL;
+  if (!status) status = hr2d_hierarchy_create(s->scene, &s->hierarchy);
+  return status ? status
+                : hr2d_linkset_create(s->hierarchy, hr2d_oracle_size(), NULL, NULL, NULL,
+                                      &s->links);
+}
+
+static hr2d_status parse(slow_stage *s) {
+  return hr2d_scene_parse(s->scene, s->text, s->size);
+}
+
+static hr2d_status read_file(slow_stage *s) {
+  return by_scene(s, parse);
+}
+
+static hr2d_status cut(slow_stage *s) {
+  size_t cuts;
+  return hr2d_scene_split_crossings(s->scene, &cuts);
+}
+
+static hr2d_status split(slow_stage *s) {
+  return by_scene(s, cut);
+}
+
+static hr2d_status commit_scene(slow_stage *s) {
+  return hr2d_scene_commit(s->scene);
+}
+
+static hr2d_status commit(slow_stage *s) {
+  return by_scene(s, commit_scene);
+}
+
+static hr2d_allocator hooks_of(const slow_stage *s) {
+  return s->hooks ? *s->hooks : hr2di_alloc_default();
+}
+
+static hr2d_status find_events(slow_stage *s) {
+  const hr2d_allocator alloc = hooks_of(s);
+  hr2di_events events;
+  hr2di_watch watch;
+  hr2di_watch_init(&watch, s->ask, s->ctx, "events");
+  const hr2d_status status =
+      hr2di_events_init(&events, s->scene, &alloc, 2, 8 * s->count, &watch);
+  hr2di_events_clear(&events);
+  return status == HR2D_EMAX_ELEMENTS ? HR2D_OK : status;
+}
+
+static hr2d_status find_roots(slow_stage *s) {
+  const hr2d_allocator alloc = hooks_of(s);
+  hr2di_roots roots;
+  hr2di_watch watch;
+  hr2di_watch_init(&watch, s->ask, s->ctx, "roots");
+  const hr2d_status status = hr2di_roots_init(&roots, s->scene, &alloc, 1e-4, &watch);
+  hr2di_roots_clear(&roots, &alloc);
+  return status;
+}
+
+static hr2d_status find_factors(slow_stage *s) {
+  hr2d_matrix_options o = HR2D_MATRIX_OPTIONS_INIT;
+  o.threads = s->threads;
+  o.progress = s->ask;
+  o.progress_ctx = s->ctx;
+  return hr2d_exchange_matrix(s->scene, &o, s->area, NULL);
+}
+
+static hr2d_status refine(slow_stage *s) {
+  hr2d_refine_options o = fine(s);
+  o.progress = s->ask;
+  o.progress_ctx = s->ctx;
+  return hr2d_refine(s->links, &o);
+}
+
+/* The integrals of this oracle are slow: some of them are enough. */
+static hr2d_status refine_some(slow_stage *s) {
+  hr2d_refine_options o = fine(s);
+  o.max_links = 200;
+  o.progress = s->ask;
+  o.progress_ctx = s->ctx;
+  const hr2d_status status = hr2d_refine(s->links, &o);
+  return status == HR2D_EMAX_LINKS ? HR2D_OK : status;
+}
+
+static hr2d_status count_links(slow_stage *s) {
+  hr2d_refine_options o = fine(s);
+  hr2d_refine_counts counts;
+  o.progress = s->ask;
+  o.progress_ctx = s->ctx;
+  return hr2d_refine_count(s->links, &o, &counts);
+}
+
+static hr2d_status validate_links(slow_stage *s) {
+  return hr2d_linkset_validate(s->links);
+}
+
+static hr2d_status validate(slow_stage *s) {
+  return by_scene(s, validate_links);
+}
+
+static hr2d_status solve(slow_stage *s) {
+  hr2d_solve_options o = HR2D_SOLVE_OPTIONS_INIT;
+  o.threads = s->threads;
+  o.progress = s->ask;
+  o.progress_ctx = s->ctx;
+  return hr2d_solve(s->links, &o, &s->solution);
+}
+
+static hr2d_status gather_some(slow_stage *s) {
+  const double t[] = {0, 0.25, 0.5, 0.75, 1};
+  double value[5];
+  return hr2d_solution_gather(s->solution, 5, t, 5, value);
+}
+
+static hr2d_status gather(slow_stage *s) {
+  return by_scene(s, gather_some);
+}
+
+static hr2d_status put_state(slow_stage *s) {
+  s->size = 0;
+  return hr2d_state_write(s->solution, keep, s);
+}
+
+static hr2d_status write_state(slow_stage *s) {
+  return by_scene(s, put_state);
+}
+
+static hr2d_status get_state(slow_stage *s) {
+  s->at = 0;
+  return hr2d_state_read(s->links, give, s, &s->solution);
+}
+
+static hr2d_status read_state(slow_stage *s) {
+  return by_scene(s, get_state);
+}
+
+/* The longest distance in the scene, past all patches. */
+static hr2d_status pass(slow_stage *s) {
+  const size_t n = hr2d_scene_patches(s->scene);
+  hr2d_segment *segment = malloc((n + 1) * sizeof *segment);
+  if (!segment) return HR2D_ENOMEM;
+  for (size_t k = 0; k < n; k++) segment[k] = hr2d_scene_segment(s->scene, k);
+  const hr2d_past_options o = {
+      .struct_size = sizeof o, .alloc = s->hooks, .progress = s->ask, .progress_ctx = s->ctx};
+  double area;
+  const hr2d_status status =
+      hr2d_exchange_area_past(&segment[0], &segment[2], segment, n, &o, &area);
+  free(segment);
+  return status;
+}
+
+const slow_phase slow_phases[SLOW_PHASES] = {
+    {"read", make_text, read_file},
+    {"split", make_crossing, split},
+    {"commit", make_open, commit},
+    {"events", make_scene, find_events},
+    {"roots", make_scene, find_roots},
+    {"factors", make_matrix, find_factors},
+    {"refine", make_empty, refine},
+    {"refine l1", make_grid, refine_some},
+    {"count", make_empty, count_links},
+    {"validate", make_links, validate},
+    {"solve", make_links, solve},
+    {"gather", make_solution, gather},
+    {"write", make_solution, write_state},
+    {"resume", make_state, read_state},
+    {"past", make_open, pass},
+};
