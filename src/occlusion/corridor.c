@@ -15,6 +15,9 @@
 #include "geometry/orient-sign.h"
 #include "geometry/predicates.h"
 
+/* With fewer points, what is done is part of what callers declare. */
+enum { FEW = 16 };
+
 hr2d_status hr2di_chain_init(hr2di_chain *chain, const hr2d_allocator *alloc,
                              hr2di_incident_point from, hr2di_incident_point to) {
   if (hr2di_alloc_reserve(alloc, &chain->point, &chain->capacity, 2, sizeof from))
@@ -76,7 +79,7 @@ static hr2d_status add_point(hr2di_chain *chain, const hr2d_allocator *alloc,
                              hr2di_incident_point p, int *grown) {
   const size_t edges = chain->count - 1;
   size_t first = 0, last;
-  const hr2d_status status = hr2di_watch_work(chain->watch, 1 + edges / 4);
+  const hr2d_status status = edges < FEW ? HR2D_OK : hr2di_watch_work(chain->watch, edges / 4);
   if (status) return status;
   while (first < edges && !sees(frame, chain, first, p, known)) first++;
   if (first == edges) {
@@ -93,7 +96,7 @@ static hr2d_status add_point(hr2di_chain *chain, const hr2d_allocator *alloc,
 hr2d_status hr2di_chain_add(hr2di_chain *chain, const hr2d_allocator *alloc,
                             const hr2di_pair_lines *frame, unsigned known,
                             const hr2di_incident_point *point, size_t count, int *grown) {
-  hr2d_status status = HR2D_OK;
+  hr2d_status status = hr2di_watch_work(chain->watch, count);
   *grown = 0;
   for (size_t k = 0; k < count && !status; k++)
     status = add_point(chain, alloc, frame, known, point[k], grown);
@@ -122,7 +125,8 @@ static int search(const hr2di_pair_lines *frame, const hr2di_chain *low,
   t.on &= known;
   for (size_t turns = low->count + high->count + 2; turns > 0; turns--) {
     int moved = 0;
-    if (hr2di_watch_work(low->watch, 1 + (low->count + high->count) / 4)) return 0;
+    const size_t points = low->count + high->count;
+    if (points >= FEW && hr2di_watch_work(low->watch, points / 4)) return 0;
     if (hr2di_incident_same(frame, f, t)) return 0;
     for (size_t k = 0; k < high->count; k++) {
       const hr2di_incident_point p = {high->point[k].at, high->point[k].on & known};

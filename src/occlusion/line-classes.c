@@ -19,6 +19,9 @@
 
 enum { TO_RIGHT = 1, TO_LEFT = 2, NEITHER = 3 };
 
+/* Walls between two declarations of work. */
+enum { SOME = 8 };
+
 /* A class put off: its chains lie on the stack, one behind the other. */
 typedef struct hr2di_put_off {
   size_t right, left; /* counts of points */
@@ -93,15 +96,13 @@ static void join_at(hr2di_classes *c, uint32_t k, uint32_t vertex) {
 
 /* A joint counts only within the shaft: outside of it something may pass between. */
 static hr2d_status join_all(hr2di_classes *c, const hr2di_shaft *shaft) {
-  hr2d_status status = HR2D_OK;
-  for (uint32_t k = 0; k < c->barriers && !status; k++) {
-    status = hr2di_watch_work(c->watch, 1);
+  const hr2d_status status = hr2di_watch_work(c->watch, c->barriers / 2);
+  for (uint32_t k = 0; k < c->barriers && !status; k++)
     for (int e = 0; e < 2; e++) {
       const hr2di_barrier *b = &c->barrier[k];
       if ((b->at.whole & (1u << e)) && between_sides(shaft, b->at.end[e]))
         join_at(c, k, c->walls->wall[b->wall].vertex[e]);
     }
-  }
   return status;
 }
 
@@ -189,7 +190,7 @@ hr2d_status hr2di_classes_sort(hr2di_classes *c, const hr2di_shaft *shaft, const
   *passable = 0;
   for (size_t k = 0; k < count; k++) {
     hr2di_barrier b = {.wall = wall[k]};
-    const hr2d_status asked = hr2di_watch_work(c->watch, 2);
+    const hr2d_status asked = k % SOME == 0 ? hr2di_watch_work(c->watch, 2 * SOME) : HR2D_OK;
     if (asked) return asked;
     if (!hr2di_shaft_test(shaft, c->walls->wall[wall[k]].at, &b.at)) continue;
     if (b.at.right && meets_side(&shaft->frame, &b.at, shaft->b, shaft->c)) b.hand |= TO_RIGHT;
@@ -206,6 +207,7 @@ hr2d_status hr2di_classes_sort(hr2di_classes *c, const hr2di_shaft *shaft, const
   if (status) return status;
   /* Without islands there is one class, and the sum looks at it. */
   *passable = c->islands == 0 || hr2di_corridor_open(&shaft->frame, &c->right, &c->left);
+  if (c->islands < 2) return hr2di_watch_status(c->watch);
   return hr2di_sort(c->island, c->islands, sizeof *c->island, by_width, c->watch);
 }
 
