@@ -470,7 +470,12 @@ check "a closed standard output is told" [ $? -eq 1 ]
 "$HR2D_PROGRAM" study "$scenes/square-room.geojson" --from 1e-4 --to 1e-5 --json "$work/late.json" \
   >/dev/null 2>"$work/err" &
 child=$!
-sleep 1
+# Until it has read its scene and catches signals, which shows in /proc where there is one.
+for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do
+  sleep 1
+  caught=$(sed -n 's/^SigCgt:.*\(....\)$/\1/p' "/proc/$child/status" 2>/dev/null) || caught=4000
+  [ $((0x${caught:-4000} & 0x4000)) -eq 0 ] || break
+done
 kill -TERM "$child"
 wait "$child"
 check "an interrupt ends with 130" [ $? -eq 130 ]
@@ -481,9 +486,9 @@ begin() { # begin SIGNAL: a sweep that takes minutes, ended once its CSV is ther
   "$HR2D_PROGRAM" study "$scenes/square-room.geojson" --to 1e-5 --steps 100 --threads 1 \
     --json "$work/$1/late.json" --csv "$work/$1/late.csv" >"$work/out" 2>"$work/err" &
   child=$!
-  for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do
+  for _ in $(seq 120); do
     sleep 1
-    [ ! -s "$work/$1/late.csv" ] || break
+    [ "$(wc -l <"$work/$1/late.csv" 2>/dev/null || echo 0)" -lt 5 ] || break
   done
   kill -"$1" "$child"
   wait "$child"

@@ -55,14 +55,16 @@ for command in solve target stages study cost factors; do
 done
 echo "$interrupted runs were interrupted"
 
-# The long ones, as long as they work and as long as they write.
+# The long ones, as long as they work and as long as they write.  Undisturbed they would take
+# minutes, so that one that does not end is noticed whatever the machine is busy with; how soon a
+# stop acts tests/faults/check-polls.c counts, without a clock.
 ends_soon() { # ends_soon SIGNAL FLAG ARGUMENTS...
   signal=$1
   flag=$2
   shift 2
   start=$(date +%s)
   interrupt "$signal" 0.7 "$flag" "$@"
-  check "$* ends soon after SIG$signal" [ $(($(date +%s) - start)) -le 5 ]
+  check "$* ends after SIG$signal" [ $(($(date +%s) - start)) -le 60 ]
   check "$* ends with 130; $(said)" [ "$status" -eq 130 ]
   check "$* says so; $(said)" [ "$(grep -c '^hr2d: .*interrupted$' "$work/err")" -eq 1 ]
   check "$* leaves no file" untouched
