@@ -40,20 +40,25 @@ static char *median(sorter *s, char *items, size_t count) {
   return s->compare(p, r) > 0 ? p : r;
 }
 
-/* Puts items before the pivot to the front, and the pivot behind them; *middle is its place. */
-static hr2d_status part(sorter *s, char *items, size_t count, size_t *middle) {
+/* Puts items that are less than the pivot to the front and greater ones to the end; *low and
+ *high are where those that are equal begin and end. */
+static hr2d_status part(sorter *s, char *items, size_t count, size_t *low, size_t *high) {
+  char pivot[HR2DI_SORT_BYTES];
   hr2d_status status = HR2D_OK;
-  size_t low = 0;
-  char *const last = items + (count - 1) * s->size;
-  swap(s, median(s, items, count), last);
-  for (size_t k = 0; k + 1 < count && !status; k++) {
-    if (k % FEW == 0) status = hr2di_watch_work(s->watch, FEW / 4);
-    if (s->compare(items + k * s->size, last) >= 0) continue;
-    swap(s, items + low * s->size, items + k * s->size);
-    low++;
+  size_t less = 0, k = 0, greater = count;
+  memcpy(pivot, median(s, items, count), s->size);
+  for (size_t turn = 0; k < greater && !status; turn++) {
+    if (turn % FEW == 0) status = hr2di_watch_work(s->watch, FEW / 4);
+    const int order = s->compare(items + k * s->size, pivot);
+    if (order < 0)
+      swap(s, items + less++ * s->size, items + k++ * s->size);
+    else if (order > 0)
+      swap(s, items + k * s->size, items + --greater * s->size);
+    else
+      k++;
   }
-  swap(s, items + low * s->size, last);
-  *middle = low;
+  *low = less;
+  *high = greater;
   return status;
 }
 
@@ -76,9 +81,9 @@ hr2d_status hr2di_sort(void *items, size_t count, size_t size,
       if (!status && r.count > 1) qsort(first, r.count, size, compare);
       continue;
     }
-    size_t middle;
-    status = part(&s, first, r.count, &middle);
-    const range low = {r.first, middle}, high = {r.first + middle + 1, r.count - middle - 1};
+    size_t before, behind;
+    status = part(&s, first, r.count, &before, &behind);
+    const range low = {r.first, before}, high = {r.first + behind, r.count - behind};
     waiting[ranges++] = low.count > high.count ? low : high;
     waiting[ranges++] = low.count > high.count ? high : low;
   }
