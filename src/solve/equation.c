@@ -83,10 +83,12 @@ static void set_exponents(hr2di_equation *s) {
 }
 
 /* Item k of the system is coefficient k % order of leaf k / order. */
-static void set_surfaces(hr2di_equation *s) {
+static hr2d_status set_surfaces(hr2di_equation *s) {
+  hr2d_status status = HR2D_OK;
   const hr2di_transport *t = &s->transport;
   const hr2d_scene *scene = t->hierarchy->scene;
-  for (size_t k = 0; k < s->items; k++) {
+  for (size_t k = 0; k < s->items && !status; k++) {
+    if (k % 1024 == 0) status = hr2di_watch_work(&s->watch, 1024 * (1 + t->bands) / 2);
     const hr2d_element *e = &t->hierarchy->element[t->leaf[k / t->order]];
     s->weight[k] = e->length;
     for (size_t b = 0; b < t->bands; b++) {
@@ -96,6 +98,7 @@ static void set_surfaces(hr2di_equation *s) {
       s->root_rho[k * t->bands + b] = sqrt(hr2d_scene_reflectance(scene, e->patch, b));
     }
   }
+  return status;
 }
 
 hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
@@ -132,8 +135,7 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
   s->norm[1] = s->norm[0] + t->bands;
   s->light = s->norm[1] + t->bands;
   set_exponents(s);
-  set_surfaces(s);
-  return HR2D_OK;
+  return set_surfaces(s);
 }
 
 /* out = √ρ K √ρ in */
