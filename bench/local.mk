@@ -4,30 +4,30 @@ BENCHES = bench/bench-exchange-area bench/bench-refine bench/bench-l1 bench/benc
 EXTRA_PROGRAMS += $(BENCHES)
 CLEANFILES += $(BENCHES)
 bench_bench_exchange_area_SOURCES = bench/bench-exchange-area.c bench/timing.h
-bench_bench_exchange_area_LDADD = libhr2d-core.la $(OPENMP_CFLAGS)
+bench_bench_exchange_area_LDADD = libhr2d-core.la $(THREADS_LIBS)
 bench_bench_refine_SOURCES = bench/bench-refine.c bench/plain.c bench/plain.h bench/timing.h
-bench_bench_refine_LDADD = libhr2d-core.la $(OPENMP_CFLAGS) -lm
+bench_bench_refine_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_visibility_SOURCES = bench/bench-visibility.c bench/timing.h
-bench_bench_visibility_LDADD = libhr2d-core.la $(OPENMP_CFLAGS) -lm
+bench_bench_visibility_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_l1_SOURCES = bench/bench-l1.c bench/timing.h
 bench_bench_l1_CPPFLAGS = $(AM_CPPFLAGS)
-bench_bench_l1_LDADD = libhr2d-core.la $(GSL_LIBS) $(OPENMP_CFLAGS) -lm
+bench_bench_l1_LDADD = libhr2d-core.la $(GSL_LIBS) $(THREADS_LIBS) -lm
 bench_bench_accuracy_SOURCES = bench/bench-accuracy.c bench/dense.c bench/dense.h bench/many.c \
 	bench/many.h bench/plain.c bench/plain.h bench/timing.h \
 	tests/support/radiosity-scenes.c tests/support/radiosity-scenes.h \
 	tests/support/random.c tests/support/random.h
 bench_bench_accuracy_CPPFLAGS = $(AM_CPPFLAGS) $(LAPACK_CFLAGS) \
 	-DBENCH_DATA='"$(abs_top_srcdir)/tests/data/reference"'
-bench_bench_accuracy_LDADD = libhr2d-core.la $(LAPACK_LIBS) $(GSL_LIBS) $(OPENMP_CFLAGS) -lm
+bench_bench_accuracy_LDADD = libhr2d-core.la $(LAPACK_LIBS) $(GSL_LIBS) $(THREADS_LIBS) -lm
 bench_bench_prediction_SOURCES = bench/bench-prediction.c \
 	tests/adversary/kinds.c tests/adversary/kinds.h tests/adversary/kinds-extreme.c \
 	tests/adversary/kinds-open.c tests/adversary/kinds-rooms.c tests/adversary/random.h \
 	tests/adversary/scene.c tests/adversary/scene.h
-bench_bench_prediction_LDADD = libhr2d-core.la $(OPENMP_CFLAGS) -lm
+bench_bench_prediction_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_polls_SOURCES = bench/bench-polls.c tests/support/slow-phases.c \
 	tests/support/slow-phases.h tests/support/slow-scenes.c tests/support/slow-scenes.h
 bench_bench_polls_CPPFLAGS = $(AM_CPPFLAGS)
-bench_bench_polls_LDADD = libhr2d-core.la $(OPENMP_CFLAGS) -lm
+bench_bench_polls_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 
 bench: $(BENCHES)
 	@for program in $(BENCHES); do echo "== $$program"; ./$$program || exit 1; done

@@ -16,7 +16,7 @@ fuzz_libfuzz_la_SOURCES = \
 	fuzz/scenes.c \
 	tools/cli/numbers.c tools/cli/numbers.h \
 	tools/pair/line.c tools/pair/line.h
-fuzz_libs = fuzz/libfuzz.la libhr2d-core.la $(JANSSON_LIBS) $(OPENMP_CFLAGS)
+fuzz_libs = fuzz/libfuzz.la libhr2d-core.la $(JANSSON_LIBS) $(THREADS_LIBS)
 
 REPLAYS = fuzz/replay-scene fuzz/replay-api fuzz/replay-pair
 check_PROGRAMS += $(REPLAYS)

@@ -3,7 +3,7 @@
 noinst_LTLIBRARIES += libhr2d-core.la
 libhr2d_core_la_CPPFLAGS = -DHR2D_BUILDING -D_POSIX_C_SOURCE=200809L $(PUBLIC_CPPFLAGS) \
 	-I$(srcdir)/src $(GSL_CFLAGS) $(JANSSON_CFLAGS)
-libhr2d_core_la_CFLAGS = $(AM_CFLAGS) $(OPENMP_CFLAGS)
+libhr2d_core_la_CFLAGS = $(AM_CFLAGS) $(THREADS_CFLAGS)
 libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
 libhr2d_core_la_SOURCES = \
 	src/base/alloc.c src/base/alloc.h \
@@ -148,7 +148,7 @@ libhr2d_core_la_SOURCES = \
 lib_LTLIBRARIES += libhr2d.la
 libhr2d_la_SOURCES =
 libhr2d_la_LIBADD = libhr2d-core.la
-libhr2d_la_LDFLAGS = -no-undefined -version-info $(HR2D_VERSION_INFO) $(OPENMP_CFLAGS)
+libhr2d_la_LDFLAGS = -no-undefined -version-info $(HR2D_VERSION_INFO) $(THREADS_LIBS)
 if HAVE_VERSION_SCRIPT
 libhr2d_la_LDFLAGS += -Wl,--version-script=$(srcdir)/src/libhr2d.map
 EXTRA_libhr2d_la_DEPENDENCIES = src/libhr2d.map

@@ -2,7 +2,7 @@
 # without a list of sources is built from the one file of its name.
 AM_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/src -I$(srcdir)/tests $(GSL_CFLAGS) $(JANSSON_CFLAGS) \
 	$(CHECK_CFLAGS) $(MPFR_CFLAGS)
-LDADD = tests/libsupport.la libhr2d-core.la $(CHECK_LIBS) $(MPFR_LIBS) $(OPENMP_CFLAGS)
+LDADD = tests/libsupport.la libhr2d-core.la $(CHECK_LIBS) $(MPFR_LIBS) $(THREADS_LIBS)
 
 SUITES = \
 	tests/unit/base/check-options \
@@ -60,6 +60,7 @@ SUITES = \
 	tests/hard/check-hard-refine \
 	tests/hard/check-hard-solve \
 	tests/threads/check-threads \
+	tests/threads/check-team \
 	tests/faults/check-faults \
 	tests/faults/check-faults-accuracy \
 	tests/faults/check-faults-callbacks \
@@ -86,6 +87,8 @@ SH_LOG_COMPILER = $(SHELL)
 if HAVE_TESTS
 check_LTLIBRARIES += tests/libsupport.la
 tests_threads_check_threads_LDFLAGS = -pthread
+tests_threads_check_team_CPPFLAGS = -D_GNU_SOURCE $(AM_CPPFLAGS)
+tests_threads_check_team_LDADD = $(LDADD) -ldl
 tests_libsupport_la_SOURCES = \
 	tests/support/accuracy-scenes.c tests/support/accuracy-scenes.h \
 	tests/support/accuracy-tally.c tests/support/accuracy-tally.h \
@@ -180,8 +183,8 @@ check-long:
 	HR2D_TEST_MULTIPLIER="$${HR2D_TEST_MULTIPLIER-1}" $(MAKE) check
 .PHONY: check-long
 
-# Only Check programs, without fork and in one thread, because valgrind reports libgomp's threads
-# as leaks; and without the suites that take too long, which run under the sanitizers.
+# Only Check programs, without fork, and without the suites that take too long, which run under the
+# sanitizers.
 TOO_LONG = tests/unit/accuracy/check-known-radiosities \
 	tests/unit/accuracy/check-short-patches \
 	tests/unit/accuracy/check-target-calls tests/unit/blocks/check-blocks \
@@ -191,7 +194,7 @@ TOO_LONG = tests/unit/accuracy/check-known-radiosities \
 MEMCHECK = $(VALGRIND) --quiet --error-exitcode=9 --leak-check=full \
 	--errors-for-leak-kinds=definite,indirect
 check-valgrind:
-	CK_FORK=no CK_DEFAULT_TIMEOUT=0 OMP_NUM_THREADS=1 \
+	CK_FORK=no CK_DEFAULT_TIMEOUT=0 \
 	HR2D_TEST_MULTIPLIER="$${HR2D_TEST_MULTIPLIER-0.01}" \
 	$(MAKE) check TESTS='$(filter-out $(TOO_LONG),$(SUITES))' LOG_COMPILER='$(MEMCHECK)'
 

@@ -16,7 +16,7 @@ passed=0 failed=0
 export HR2D_TEST_MULTIPLIER="${HR2D_TEST_MULTIPLIER-0.1}"
 
 # The suites in which the library or the application has several threads.
-threaded="tests/threads/check-threads tests/unit/refine/check-refine \
+threaded="tests/threads/check-threads tests/threads/check-team tests/unit/refine/check-refine \
 tests/unit/solve/check-order tests/unit/solve/check-solve \
 tests/unit/visibility/check-exchange-matrix tests/unit/blocks/check-blocks"
 
@@ -54,7 +54,7 @@ tested() {
 
 # What ThreadSanitizer makes of a program with RACE=1 or 0 races: it finds it, and invents none.
 control() {
-  clang -g -O1 -fopenmp -fsanitize=thread -DRACE="$1" "$source/tests/threads/race.c" \
+  clang -g -O1 -pthread -fsanitize=thread -DRACE="$1" "$source/tests/threads/race.c" \
     -o matrix/thread/race || return 1
   matrix/thread/race >matrix/thread/race.log 2>&1
   if [ $? = 0 ] && [ "$1" = 0 ]; then return 0; fi
@@ -64,11 +64,9 @@ control() {
   return 1
 }
 
-# ThreadSanitizer learns from libomp's tool Archer, which libomp loads by itself, how libomp
-# synchronises; what libomp does with its own memory is not asked.  Without a long history
-# reports are dropped whose earlier access is forgotten.
+# Without a long history reports are dropped whose earlier access is forgotten.
 thread() {
-  export TSAN_OPTIONS=ignore_noninstrumented_modules=1:history_size=7:halt_on_error=1
+  export TSAN_OPTIONS=history_size=7:halt_on_error=1
   build thread CC=clang CFLAGS='-g -O1' --enable-sanitizers=thread --disable-shared &&
     control 0 && control 1 && run thread "$threaded"
 }
@@ -91,7 +89,7 @@ setting() {
   gcc-fortify)
     tested "$1" CC=gcc CFLAGS='-g -O2' CPPFLAGS='-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3'
     ;;
-  gcc-one-thread) tested "$1" CC=gcc --disable-openmp ;;
+  gcc-one-thread) tested "$1" CC=gcc --disable-threads ;;
   gcc-m32) m32 ;;
   *-O3-native) tested "$1" CC="${1%%-*}" CFLAGS='-g -O3 -march=native' ;;
   gcc-O[0-3] | clang-O[0-3]) tested "$1" CC="${1%-*}" CFLAGS="-g -${1#*-}" ;;

@@ -8,9 +8,8 @@
  *
  * Three kinds of memory do not come from the hooks:
  * - jansson's, while a GeoJSON file is parsed. These allocations may fail as well.
- * - OpenMP's, in a call that asks for more than one thread. The OpenMP runtime ends the program
- *   if it gets no memory. With one thread it allocates nothing, except that clang's runtime
- *   allocates when it starts.
+ * - The system's, for the threads of a call that asks for more than one. If it has none for a
+ *   thread, the call goes on with fewer threads.
  * - The work space of hr2d_study_fit_rows(), from malloc().
  * @{
  */

@@ -6,19 +6,17 @@
 #include "base/team.h"
 
 #include <hr2d/options.h>
+
+#ifdef HR2D_THREADS
+#include <pthread.h>
 #include <sched.h>
 #include <time.h>
-
-#ifdef _OPENMP
-#include <omp.h>
+#include <unistd.h>
 #endif
 
 /* A thread that waits gives way so many times, some 10 µs, before it sleeps between two
    looks. */
-enum { PATIENCE = 50, NAP = 100000 /* ns */ };
-
-/* More threads than any machine has processors; an int has room for it. */
-enum { MOST = 4096 };
+enum { PATIENCE = 50, NAP = 100000 /* ns */, MOST = 256 };
 
 typedef struct team {
   size_t tasks;
@@ -30,8 +28,9 @@ typedef struct team {
 } team;
 
 size_t hr2di_team_threads(unsigned asked) {
-#ifdef _OPENMP
-  const size_t count = asked == HR2D_ALL_THREADS ? (size_t)omp_get_max_threads() : asked;
+#ifdef HR2D_THREADS
+  const long all = asked == HR2D_ALL_THREADS ? sysconf(_SC_NPROCESSORS_ONLN) : 0;
+  const size_t count = asked == HR2D_ALL_THREADS ? (all > 0 ? (size_t)all : 1) : asked;
   return count < 1 ? 1 : count < MOST ? count : MOST;
 #else
   (void)asked;
@@ -43,7 +42,7 @@ static void work(team *t, size_t worker) {
   for (size_t k; (k = atomic_fetch_add(&t->next, 1)) < t->tasks;) t->run(t->ctx, worker, k);
 }
 
-#ifdef _OPENMP
+#ifdef HR2D_THREADS
 static void wait_for_others(team *t) {
   const struct timespec nap = {0, NAP};
   for (unsigned turns = 0; atomic_load(&t->busy) > 0; turns++) {
@@ -56,26 +55,41 @@ static void wait_for_others(team *t) {
   }
 }
 
+typedef struct member {
+  team *team;
+  size_t number;
+  pthread_t thread;
+} member;
+
+static void *join_in(void *arg) {
+  const member *m = arg;
+  work(m->team, m->number);
+  atomic_fetch_sub(&m->team->busy, 1);
+  return NULL;
+}
+
+/* Threads are made for each call, some 20 µs each, for tasks of milliseconds. */
 static void run_together(team *t, size_t threads) {
-#pragma omp parallel num_threads((int)threads)
-  {
-    const size_t worker = (size_t)omp_get_thread_num();
-    if (worker > 0) {
-      atomic_fetch_add(&t->busy, 1);
-      work(t, worker);
+  member m[MOST];
+  size_t count = 1;
+  for (; count < threads && count < t->tasks && count < MOST; count++) {
+    m[count] = (member){.team = t, .number = count};
+    atomic_fetch_add(&t->busy, 1);
+    if (pthread_create(&m[count].thread, NULL, join_in, &m[count])) {
       atomic_fetch_sub(&t->busy, 1);
-    } else {
-      work(t, worker);
-      if (t->watch && t->watch->ask) wait_for_others(t);
+      break;
     }
   }
+  work(t, 0);
+  if (t->watch && t->watch->ask) wait_for_others(t);
+  while (count > 1) pthread_join(m[--count].thread, NULL);
 }
 #endif
 
 void hr2di_team_run(size_t threads, size_t tasks, hr2di_team_fn run, void *ctx,
                     hr2di_watch *watch) {
   team t = {.tasks = tasks, .run = run, .ctx = ctx, .watch = watch};
-#ifdef _OPENMP
+#ifdef HR2D_THREADS
   if (threads > 1 && tasks > 1) {
     run_together(&t, threads);
     return;

@@ -10,11 +10,12 @@
 typedef void (*hr2di_team_fn)(void *ctx, size_t worker, size_t task);
 
 /* The number of threads that options ask for: 0 is one, and HR2D_ALL_THREADS all.  At least 1;
-   1 without OpenMP. */
+   1 in a library without threads. */
 size_t hr2di_team_threads(unsigned asked);
 
-/* Does tasks 0, 1, … each once.  One thread does not use OpenMP, whose runtime ends the program
-   if it has no memory. */
+/* Does tasks 0, 1, … each once.  If the system gives fewer threads, these do all of them: POSIX
+   threads, as OpenMP's runtime ends the program where a thread cannot be had.  Allocates
+   nothing. */
 void hr2di_team_run(size_t threads, size_t tasks, hr2di_team_fn run, void *ctx,
                     hr2di_watch *watch);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* malloc() itself fails, for allocations that do not use the hooks: those of the library
-   before there is a scene, of stdio, jansson, OpenMP and GSL.  GSL's error handler must not
+   before there is a scene, of stdio, jansson and GSL.  GSL's error handler must not
    be reached either.  The suite skips itself where malloc() cannot be replaced: under
    sanitizers and valgrind. */
 #include <errno.h>
@@ -93,8 +93,7 @@ static void fail_test(const char *reason, const char *file, int line, int number
 /* A call on its own objects that ends with OK or ENOMEM. */
 typedef hr2d_status (*call)(void *ctx);
 
-/* Fails each allocation; returns how many there are.  The first call fails none: in it
-   clang's OpenMP starts, which carries on without the memory that it cannot get. */
+/* Fails each allocation; returns how many there are.  The first call fails none. */
 static long starve(const char *name, call run, void *ctx) {
   long k = 0;
   gsl_set_error_handler(fail_test);

@@ -37,7 +37,7 @@ fi
 
 if readelf -d "$library" >"$work/dynamic" 2>/dev/null; then
   sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' "$work/dynamic" |
-    grep -Ev '^(libgsl|libgslcblas|libjansson|libm|libgomp|libomp|libc|ld-linux.*)\.so' \
+    grep -Ev '^(libgsl|libgslcblas|libjansson|libm|libpthread|libc|ld-linux.*)\.so' \
       >"$work/foreign" || true
   if [ -s "$work/foreign" ]; then
     sed 's/^/the library links /' "$work/foreign" >&2
