@@ -10,6 +10,7 @@
 #include "base/sort.h"
 #include "geometry/crossings.h"
 #include "geometry/cut-points.h"
+#include "geometry/orient-sign.h"
 #include "scene/scene-impl.h"
 
 /* Rounded points bend the pieces, so that a piece may go through others by a rounding more than
@@ -113,13 +114,8 @@ static hr2d_status cut_one(splitter *p, size_t k) {
   return push(p, from, whole.s.b, whole.patch);
 }
 
-static hr2d_status cut_all(splitter *p) {
-  p->cut_pieces = 0;
-  for (size_t k = 0; k < p->pieces; k++) {
-    const hr2d_status status = hr2di_watch_work(p->cuts.watch, 1);
-    if (status) return status;
-    if (cut_one(p, k)) return HR2D_ENOMEM;
-  }
+/* Takes the pieces that were cut for the next round. */
+static void exchange_pieces(splitter *p) {
   piece *const pieces = p->piece;
   const size_t capacity = p->capacity;
   p->piece = p->cut_piece;
@@ -127,7 +123,94 @@ static hr2d_status cut_all(splitter *p) {
   p->capacity = p->cut_capacity;
   p->cut_piece = pieces;
   p->cut_capacity = capacity;
+}
+
+static hr2d_status cut_all(splitter *p) {
+  p->cut_pieces = 0;
+  for (size_t k = 0; k < p->pieces; k++) {
+    const hr2d_status status = hr2di_watch_work(p->cuts.watch, 1);
+    if (status) return status;
+    if (cut_one(p, k)) return HR2D_ENOMEM;
+  }
+  exchange_pieces(p);
   return HR2D_OK;
+}
+
+static int is_whole(const splitter *p, size_t k) {
+  const size_t patch = p->piece[k].patch;
+  return (k == 0 || p->piece[k - 1].patch != patch) &&
+         (k + 1 == p->pieces || p->piece[k + 1].patch != patch);
+}
+
+static int by_x(const void *left, const void *right) {
+  return compare_points(*(const hr2d_point *)left, *(const hr2d_point *)right);
+}
+
+/* Makes a list of the ends of all patches, by x. */
+static hr2d_status sort_ends(const splitter *p, hr2d_point **made) {
+  const hr2d_scene *scene = p->scene;
+  hr2d_point *end = *made = hr2di_alloc(p->alloc, scene->patches, 2 * sizeof *end);
+  if (!end) return HR2D_ENOMEM;
+  for (size_t k = 0; k < scene->patches; k++) {
+    end[2 * k] = scene->patch[k].scaled.a;
+    end[2 * k + 1] = scene->patch[k].scaled.b;
+  }
+  return hr2di_sort(end, 2 * scene->patches, sizeof *end, by_x, p->cuts.watch);
+}
+
+/* The first of `count` ends whose x is not below `x`. */
+static size_t first_end(const hr2d_point *end, size_t count, double x) {
+  size_t low = 0, high = count;
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    if (end[middle].x < x)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+static int is_between(const hr2d_segment *s, hr2d_point at) {
+  const double x = s->b.x - s->a.x, y = s->b.y - s->a.y;
+  return (at.x - s->a.x) * x + (at.y - s->a.y) * y > 0 &&
+         (at.x - s->b.x) * x + (at.y - s->b.y) * y < 0;
+}
+
+/* Pushes a piece.  If it bends so far that ends of patches change their side of it, the first
+   of these ends by place becomes a cut. */
+static hr2d_status push_straight(splitter *p, size_t k, const hr2d_point *end, int *bent) {
+  const piece part = p->piece[k];
+  const hr2d_segment s = part.s, whole = p->scene->patch[part.patch].scaled;
+  const size_t ends = 2 * p->scene->patches;
+  const double far = fmax(s.a.x, s.b.x);
+  hr2d_status status = HR2D_OK;
+  for (size_t m = first_end(end, ends, fmin(s.a.x, s.b.x));
+       m < ends && end[m].x <= far && !is_whole(p, k); m++) {
+    status = hr2di_watch_work(p->cuts.watch, 1);
+    if (status) return status;
+    if (!is_between(&s, end[m]) ||
+        hr2di_orient_sign(s.a, s.b, end[m]) == hr2di_orient_sign(whole.a, whole.b, end[m]))
+      continue;
+    *bent = 1;
+    status = push(p, s.a, end[m], part.patch);
+    return status ? status : push(p, end[m], s.b, part.patch);
+  }
+  return push(p, s.a, s.b, part.patch);
+}
+
+/* A piece that a rounded crossing bends may come to lie on the other side of an end that
+   touches its patch within roundings.  Such an end becomes a cut, so that it lies on the wall.
+ */
+static hr2d_status cut_at_ends(splitter *p, int *bent) {
+  hr2d_point *end;
+  hr2d_status status = sort_ends(p, &end);
+  *bent = 0;
+  p->cut_pieces = 0;
+  for (size_t k = 0; k < p->pieces && !status; k++) status = push_straight(p, k, end, bent);
+  hr2di_alloc_free(p->alloc, end);
+  if (!status) exchange_pieces(p);
+  return status;
 }
 
 static hr2d_status cut_until_free(splitter *p) {
@@ -135,9 +218,12 @@ static hr2d_status cut_until_free(splitter *p) {
   for (int round = 0;; round++) {
     hr2d_status status = make_walls(p);
     if (!status) status = hr2di_cuts_init(&p->cuts, p->wall, p->walls);
-    if (status || p->cuts.count == 0) return status;
+    int bent = 0;
+    if (!status && p->cuts.count == 0 && p->pieces > scene->patches && round < MOST_ROUNDS)
+      status = cut_at_ends(p, &bent);
+    if (status || (p->cuts.count == 0 && !bent)) return status;
     if (round == MOST_ROUNDS) break;
-    status = cut_all(p);
+    if (!bent) status = cut_all(p);
     if (status) return status;
   }
   size_t k = 0;
@@ -145,12 +231,6 @@ static hr2d_status cut_until_free(splitter *p) {
   return hr2di_message_fail(&scene->message, HR2D_ESCENE,
                             "%s is crossed within roundings still, after %d rounds of cutting",
                             hr2di_patch_label(scene, p->piece[k].patch).text, MOST_ROUNDS);
-}
-
-static int is_whole(const splitter *p, size_t k) {
-  const size_t patch = p->piece[k].patch;
-  return (k == 0 || p->piece[k - 1].patch != patch) &&
-         (k + 1 == p->pieces || p->piece[k + 1].patch != patch);
 }
 
 static int is_short(const splitter *p, const piece *part) {
