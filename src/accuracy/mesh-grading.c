@@ -22,8 +22,10 @@
 
 /* An end stands on a patch if it is nearer than this part of the patch's length to its line. */
 #define ON_LINE 1e-13
-/* Elements no shorter than this part of their patch have distinct ends. */
-#define SHORTEST 0x1p-44
+/* Elements are no shorter than this part of their patch, and than so many roundings of its
+   coordinates: then their lengths are known to 0.1 %. */
+#define SHORTEST  0x1p-44
+#define ROUNDINGS 0x1p10
 
 /* Elements that are graded towards an end have it at an ellipse of 3; ends farther than that
    are not near. */
@@ -60,6 +62,7 @@ typedef struct grader {
   int all;         /* patches that reflect nothing are divided, too */
   double target;   /* of the patch under way */
   double distance; /* and how far ends must be from its elements */
+  double shortest; /* no element of it is a shorter part of it */
   double last[3];  /* angle and ρ of the last corner, and its exponent */
 } grader;
 
@@ -258,7 +261,7 @@ static void sort_marks(grader *g) {
   size_t kept = 0;
   if (g->marks > 0) qsort(g->mark, g->marks, sizeof *g->mark, by_place);
   for (size_t k = 0; k < g->marks; k++) {
-    if (kept > 0 && g->mark[k].at - g->mark[kept - 1].at < 16 * SHORTEST) {
+    if (kept > 0 && g->mark[k].at - g->mark[kept - 1].at < 16 * g->shortest) {
       if (g->mark[k].depth > g->mark[kept - 1].depth)
         g->mark[kept - 1].depth = g->mark[k].depth;
       continue;
@@ -277,7 +280,7 @@ typedef struct part {
 
 /* The mark inside an element that is nearest to its middle, or NULL. */
 static const mark *mark_inside(const grader *g, const part *e) {
-  const double margin = 4 * SHORTEST, middle = 0.5 * (e->from + e->to);
+  const double margin = 4 * g->shortest, middle = 0.5 * (e->from + e->to);
   const mark *best = NULL;
   for (size_t k = 0; k < g->marks; k++) {
     const double at = g->mark[k].at;
@@ -290,8 +293,8 @@ static const mark *mark_inside(const grader *g, const part *e) {
 static int wants_halves(const grader *g, const part *e) {
   const hr2d_element *element = &g->h->element[e->element];
   const hr2d_segment s = {element->a, element->b};
-  const double size = e->to - e->from, margin = 4 * SHORTEST;
-  if (size < SHORTEST || !hr2di_element_divisible(g->h, e->element)) return 0;
+  const double size = e->to - e->from, margin = 4 * g->shortest;
+  if (size < g->shortest || !hr2di_element_divisible(g->h, e->element)) return 0;
   for (size_t k = 0; k < g->marks; k++) {
     const double at = g->mark[k].at;
     const double from = fabs(at - e->from), to = fabs(at - e->to);
@@ -334,6 +337,12 @@ static hr2d_status divide(grader *g, part *e, int *divided) {
   return HR2D_OK;
 }
 
+static double shortest_part(const hr2di_patch *p) {
+  const hr2d_segment s = p->scaled;
+  const double x = fmax(fabs(s.a.x), fabs(s.b.x)), y = fmax(fabs(s.a.y), fabs(s.b.y));
+  return fmax(SHORTEST, ROUNDINGS * DBL_EPSILON * fmax(x, y) / p->length);
+}
+
 static hr2d_status grade_patch(grader *g, uint32_t patch) {
   part stack[STACK];
   size_t count = 0;
@@ -342,6 +351,7 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
   g->target = fmin(g->grading->target / weight, 0.5);
   g->distance =
       weight < 1 ? hr2di_ellipse_for(g->target, g->grading->order) : HR2DI_ELLIPSE_DISTANT;
+  g->shortest = shortest_part(&g->h->scene->patch[patch]);
   hr2d_status status = look_around(g, patch);
   if (!status)
     status =

@@ -8,10 +8,13 @@
 #include "support/short-rooms.h"
 #include "support/support.h"
 
-/* How well the other method knows averages, at 36 halvings; see two_meshes_agree. */
+/* How well the other method knows averages; see two_meshes_agree. */
 #define KNOWN 1e-11
 
-static const convex_mesh fine = {10, 36};
+static const convex_mesh fine = {8, 34};
+
+/* One room in two hundred needs this one: what looks wrong is looked at again. */
+static const convex_mesh finest = {14, 44};
 
 /* 2000 last panels and more from a vertex: the other method knows H there to 1e-11. */
 static const double places[] = {1e-5, 1e-3, 0.03, 0.5};
@@ -81,6 +84,22 @@ static void check_error(const char *what, int k, double target, hr2d_error e, do
                 target, what, error, e.estimate, e.bound);
 }
 
+static found find(const short_room *r, convex_mesh mesh, const hr2d_solution *solution) {
+  const convex_room room = {r->patches, r->patch};
+  convex_solution *truth = convex_solve(&room, mesh);
+  found f = {{0, 0}, {0, 0}};
+  compare_averages(r, truth, solution, &f);
+  compare_points(r, truth, solution, &f);
+  convex_destroy(truth);
+  return f;
+}
+
+static int looks_wrong(const found *f, const hr2d_account *a) {
+  return f->average[0] > a->average.bound + KNOWN ||
+         f->average[1] > a->irradiance.bound + KNOWN || f->sup[0] > a->sup.bound + KNOWN ||
+         f->sup[1] > a->irradiance_sup.bound + KNOWN;
+}
+
 static void check_room(const short_room *r, int k, const convex_solution *truth, hr2d_norm norm,
                        double error) {
   hr2d_scene *scene = test_scene(r->patch, r->patches);
@@ -94,6 +113,7 @@ static void check_room(const short_room *r, int k, const convex_solution *truth,
   ck_assert_msg(status == HR2D_OK, "room %d, %g: %s", k, error, a.reason);
   compare_averages(r, truth, solution, &f);
   compare_points(r, truth, solution, &f);
+  if (looks_wrong(&f, &a)) f = find(r, finest, solution);
   ck_assert_double_le(norm == HR2D_NORM_SUP ? f.sup[0] : f.average[0], error + KNOWN);
   check_error("B", k, error, a.average, f.average[0]);
   check_error("H", k, error, a.irradiance, f.average[1]);
@@ -147,13 +167,27 @@ START_TEST(two_meshes_agree) {
     const short_room r = short_room_draw(test_seed(), k);
     const convex_room room = {r.patches, r.patch};
     convex_solution *one = convex_solve(&room, fine);
-    convex_solution *other = convex_solve(&room, (convex_mesh){12, 42});
+    convex_solution *other = convex_solve(&room, finest);
     for (size_t p = 0; p < r.patches; p++) {
       const double right = convex_irradiance(other, p);
       ck_assert_double_le(fabs(convex_irradiance(one, p) - right), 0.3 * KNOWN * right);
     }
     convex_destroy(one);
     convex_destroy(other);
+  }
+}
+END_TEST
+
+/* The line of a wall meets another one within roundings of its end: no element may end there,
+   which would be shorter than an ulp. */
+START_TEST(lines_through_ends) {
+  const int number[] = {278, 491, 575};
+  for (int k = 0; k < 3; k++) {
+    const short_room r = short_room_draw(77, number[k]);
+    const convex_room room = {r.patches, r.patch};
+    convex_solution *truth = convex_solve(&room, fine);
+    check_room(&r, number[k], truth, HR2D_NORM_SUP, 1e-4);
+    convex_destroy(truth);
   }
 }
 END_TEST
@@ -182,6 +216,6 @@ START_TEST(a_wrong_room_is_noticed) {
 END_TEST
 
 TEST_SUITE("short patches") {
-  ADD_TESTS("rooms", bounds_hold_in_random_rooms, a_strip_is_known, two_meshes_agree,
-            a_wrong_room_is_noticed);
+  ADD_TESTS("rooms", bounds_hold_in_random_rooms, a_strip_is_known, lines_through_ends,
+            two_meshes_agree, a_wrong_room_is_noticed);
 }
