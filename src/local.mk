@@ -130,6 +130,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/corner-exponent.c src/accuracy/corner-exponent.h \
 	src/accuracy/coordinate-rounding.c src/accuracy/coordinate-rounding.h \
 	src/accuracy/corner-residuals.c src/accuracy/corner-residuals.h \
+	src/accuracy/sketch.c src/accuracy/sketch.h \
 	src/accuracy/error-estimate.c src/accuracy/error-estimate.h \
 	src/accuracy/graded-solve.c src/accuracy/graded-solve.h \
 	src/accuracy/importance.c src/accuracy/importance.h \

@@ -51,6 +51,7 @@ SUITES = \
 	tests/unit/accuracy/check-target-calls \
 	tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-short-patches \
+	tests/unit/accuracy/check-budgets \
 	tests/unit/accuracy/check-dark \
 	tests/unit/clusters/check-clusters \
 	tests/unit/accuracy/check-corner \

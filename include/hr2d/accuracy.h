@@ -158,8 +158,10 @@ typedef struct hr2d_account {
  * @retval HR2D_EACCURACY      the target was not reached, because a budget ran out or double
  *                             precision does not suffice; see hr2d_account::reason. The best
  *                             solution so far is returned with its errors. The errors are
- *                             infinite if there was no time to measure them. The solution is
- *                             NULL if there was no time for the coarsest
+ *                             infinite if there was no time to measure them. If there was none
+ * for the factors of whole patches either, B is one constant per patch over the factors that
+ * were ready. The solution is NULL if `max_elements` or `max_bytes` is too small for the
+ * patches
  * @retval HR2D_ENOMEM         an allocation failed
  * @retval HR2D_EINVAL         a member of `target` is not valid
  * @retval HR2D_ESTATE         the scene is not committed

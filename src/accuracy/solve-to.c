@@ -9,6 +9,7 @@
 #include "accuracy/error-estimate.h"
 #include "accuracy/importance.h"
 #include "accuracy/resolution.h"
+#include "accuracy/sketch.h"
 #include "accuracy/target.h"
 #include "base/alloc.h"
 #include "base/clock.h"
@@ -98,6 +99,35 @@ static void keep(search *s, hr2di_graded *answer, const hr2di_error_pair *errors
   a->bytes = hr2di_graded_bytes(&s->best);
 }
 
+static const hr2di_error_pair unknown = {.average = {HUGE_VAL, HUGE_VAL},
+                                         .sup = {HUGE_VAL, HUGE_VAL},
+                                         .irradiance = {HUGE_VAL, HUGE_VAL},
+                                         .irradiance_sup = {HUGE_VAL, HUGE_VAL}};
+
+/* Parts of the time for the factors of a sketch, and for the whole sketch. */
+#define FACTORS 0.8
+#define SKETCH  0.95
+
+/* One constant per patch, of unknown error, to have an answer whatever happens.  If the time
+   does not suffice for all factors of whole patches, nothing better is tried. */
+static hr2d_status sketch(search *s) {
+  hr2di_graded answer;
+  int complete;
+  const double all = s->deadline > 0 ? s->given.seconds : HUGE_VAL;
+  const size_t patches = s->scene->patches;
+  if (s->given.max_elements && s->given.max_elements < patches) return HR2D_OK;
+  if (s->given.max_bytes && s->given.max_bytes / HR2DI_ELEMENT_BYTES < patches) return HR2D_OK;
+  hr2d_status status = hr2di_sketch(
+      &answer, s->scene, &s->given,
+      (hr2di_sketch_times){s->start + FACTORS * all, s->start + SKETCH * all}, &complete);
+  add_times(&s->account, &answer);
+  if (!status) keep(s, &answer, &unknown);
+  if (status && status != HR2D_ENOMEM) s->progress_status = status;
+  hr2di_graded_clear(&answer);
+  s->late = !status && s->deadline > 0 && !complete;
+  return s->late ? HR2D_STOPPED : status;
+}
+
 /* Solves once, estimates the error, and keeps the graded solve if it is the best so far. */
 static hr2d_status attempt(search *s, const hr2di_resolution *fineness) {
   hr2di_graded answer;
@@ -113,14 +143,10 @@ static hr2d_status attempt(search *s, const hr2di_resolution *fineness) {
   if (!status) {
     const double error = worst_of(&errors, s->target.norm).estimate;
     s->account.kernels += errors.kernels;
-    if (!s->best.solution || error < error_of(s)) keep(s, &answer, &errors);
-  } else if (s->late && answer.solution && !s->best.solution) {
-    const hr2d_error unknown = {HUGE_VAL, HUGE_VAL};
-    keep(s, &answer,
-         &(hr2di_error_pair){.average = unknown,
-                             .sup = unknown,
-                             .irradiance = unknown,
-                             .irradiance_sup = unknown});
+    if (!s->best.solution || error < error_of(s) || !isfinite(error_of(s)))
+      keep(s, &answer, &errors);
+  } else if (s->late && answer.solution && !isfinite(error_of(s))) {
+    keep(s, &answer, &unknown);
   }
   hr2di_graded_clear(&answer);
   return status;
@@ -181,24 +207,27 @@ static hr2d_status reach_step_by_step(search *s) {
 }
 
 /* The status of the whole search, with a reason if the target was not reached.  A spent budget
-   is HR2D_EACCURACY, with a solution or without one; HR2D_OK if there is a solution and the
-   target error is 0. */
+   is HR2D_EACCURACY, with a solution or without one; HR2D_OK if there is a solution of known
+   error and the target error is 0. */
 static hr2d_status settle(search *s, hr2d_status status) {
   if (s->progress_status) {
     give_reason(s, "stopped by the callback");
     return s->progress_status;
   }
+  const int is_spent = is_budget(status) || (status == HR2D_STOPPED && s->late);
   if (status == HR2D_STOPPED && s->late)
-    give_reason(s, s->best.solution ? "the time is used up"
-                                    : "the time does not suffice for the coarsest solution");
+    give_reason(s, isfinite(error_of(s))
+                       ? "the time is used up"
+                       : "the time does not suffice for a solution of known error");
   else if (status && status != HR2D_EACCURACY)
     give_reason(s, s->message.text);
-  if (is_budget(status) || (status == HR2D_STOPPED && s->late)) status = HR2D_EACCURACY;
+  if (is_spent || (status == HR2D_ENOT_CONVERGED && isfinite(error_of(s))))
+    status = HR2D_EACCURACY;
   if (!status && s->best.solution && !isfinite(s->error.bound)) {
     give_reason(s, "the error has no finite bound");
     status = HR2D_EACCURACY;
   }
-  const int all_there_is = !(s->given.error > 0) && s->best.solution;
+  const int all_there_is = !(s->given.error > 0) && isfinite(s->error.bound);
   return status == HR2D_EACCURACY && all_there_is ? HR2D_OK : status;
 }
 
@@ -220,7 +249,7 @@ static void hand_over(search *s, hr2d_solution **solution) {
 
 hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
                           hr2d_solution **solution, hr2d_account *account) {
-  search s = {.scene = scene, .start = hr2di_clock_now()};
+  search s = {.scene = scene, .start = hr2di_clock_now(), .error = {HUGE_VAL, HUGE_VAL}};
   *solution = NULL;
   if (account) *account = (hr2d_account){0};
   if (!scene->committed) return HR2D_ESTATE;
@@ -232,11 +261,16 @@ hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
   if (s.given.seconds > 0) s.deadline = s.start + s.given.seconds;
   hr2di_watch watch_of;
   hr2di_scene_watch(scene, &watch_of, watch, &s, "refine");
-  status = hr2di_resolution_survey(scene, &watch_of, &s.survey);
+  if (s.deadline > 0) status = sketch(&s);
+  if (!status) status = hr2di_resolution_survey(scene, &watch_of, &s.survey);
   if (!status) status = weigh_patches(&s);
   if (!status && !(s.given.seconds > 0)) {
     status = reach(&s, s.given.error > 0 ? s.given.error : 1e-15);
     if (is_budget(status) && !s.progress_status) status = reach_step_by_step(&s);
+    if (is_budget(status) && !s.best.solution) {
+      const hr2d_status sketched = sketch(&s);
+      status = sketched ? sketched : status;
+    }
   } else if (!status) {
     status = reach_step_by_step(&s);
   }

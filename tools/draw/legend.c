@@ -22,8 +22,11 @@ static void describe_target(const run *r, char *text, size_t size) {
     snprintf(wanted, sizeof wanted, "target error %g", o->target_error);
   else
     snprintf(wanted, sizeof wanted, "%g seconds", o->time_budget);
-  snprintf(text, size, "%s, at most %.1e reached", wanted,
-           sup ? r->account.sup.bound : r->account.average.bound);
+  const double bound = sup ? r->account.sup.bound : r->account.average.bound;
+  if (isfinite(bound))
+    snprintf(text, size, "%s, at most %.1e reached", wanted, bound);
+  else
+    snprintf(text, size, "%s, error unknown", wanted);
 }
 
 void legend_draw_title(const picture *p) {

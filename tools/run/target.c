@@ -32,14 +32,16 @@ static hr2d_target make_target(const run *r, progress *p) {
   return target;
 }
 
-/* Reports the error that was reached, in the norm of the target. */
+/* Reports the error that was reached, of B or of H, in the norm of the target. */
 static int complain_of_error(const run *r) {
   const hr2d_account *a = &r->account;
   const int sup = r->options->norm == HR2D_NORM_SUP;
-  const hr2d_error *e = sup ? &a->sup : &a->average;
-  return complain(r->options->scene, "%s; the error is about %.1e, at most %.1e",
-                  *a->reason ? a->reason : "the target error was not reached", e->estimate,
-                  e->bound);
+  const hr2d_error *b = sup ? &a->sup : &a->average;
+  const hr2d_error *h = sup ? &a->irradiance_sup : &a->irradiance;
+  const char *reason = *a->reason ? a->reason : "the target error was not reached";
+  if (!isfinite(b->estimate)) return complain(r->options->scene, "%s", reason);
+  return complain(r->options->scene, "%s; the error is about %.1e, at most %.1e", reason,
+                  fmax(b->estimate, h->estimate), fmax(b->bound, h->bound));
 }
 
 int run_target(run *r, progress *p) {

@@ -73,7 +73,9 @@ static void print_method(const run *r) {
 }
 
 static void print_error_of(const char *title, const char *what, const hr2d_error *e) {
-  if (!isnan(e->estimate))
+  if (isinf(e->estimate))
+    printf("%-9s %s unknown\n", title, what);
+  else if (!isnan(e->estimate))
     printf("%-9s %s about %.1e, at most %.1e\n", title, what, e->estimate, e->bound);
 }
 

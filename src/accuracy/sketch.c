@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "accuracy/sketch.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "base/clock.h"
+#include "links/linkset-impl.h"
+#include "scene/scene-impl.h"
+#include "solution/solution-impl.h"
+
+/* Sweeps end when B changes by less than this part of the largest, or after MOST. */
+#define CHANGE 1e-6
+enum { MOST = 1000 };
+
+typedef struct sketcher {
+  const hr2d_scene *scene;
+  const hr2d_target *target;
+  hr2di_sketch_times until;
+  int late;                    /* the time for what is done now is up */
+  double limit;                /* this time */
+  hr2d_status progress_status; /* of the caller's callback */
+  hr2d_linkset *links;
+  size_t bands;
+  double *row; /* patches: ΣF */
+} sketcher;
+
+/* Ends what is done now when its time is up. */
+static hr2d_status watch(void *ctx, const hr2d_progress *progress) {
+  sketcher *s = ctx;
+  s->late = hr2di_clock_now() >= s->limit;
+  if (s->late) return HR2D_STOPPED;
+  if (s->target->progress)
+    s->progress_status = s->target->progress(s->target->progress_ctx, progress);
+  return s->progress_status;
+}
+
+/* A visitor that keeps the links that were made before the time was up. */
+static hr2d_status keep(void *ctx, const hr2d_link *links, size_t count) {
+  sketcher *s = ctx;
+  const double unit = hr2d_scene_unit(s->scene);
+  hr2d_status status = HR2D_OK;
+  if (s->target->max_bytes && 2 * hr2di_store_bytes(&s->links->store) > s->target->max_bytes)
+    return HR2D_EMAX_BYTES;
+  for (size_t k = 0; k < count && !status; k++) {
+    const double area = links[k].exchange_area / unit;
+    status = hr2di_store_add(&s->links->store, &s->links->alloc, &links[k].pair, &area, 1);
+  }
+  return status;
+}
+
+static hr2d_status make_links(sketcher *s, hr2di_graded *a, int *complete) {
+  hr2d_linkset *maker = NULL;
+  hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
+  hr2d_refine_counts counts;
+  options.max_level = HR2D_NO_SUBDIVISION;
+  options.max_links = s->target->max_links;
+  options.max_bytes = s->target->max_bytes / 2; /* the other half is for the links */
+  options.progress = watch;
+  options.progress_ctx = s;
+  s->limit = s->until.factors;
+  hr2d_status status = hr2d_hierarchy_create(s->scene, &a->hierarchy);
+  if (!status) status = hr2d_linkset_create(a->hierarchy, NULL, NULL, NULL, NULL, &a->links);
+  if (!status) status = hr2d_linkset_create(a->hierarchy, NULL, NULL, NULL, NULL, &maker);
+  s->links = a->links;
+  if (!status) status = hr2d_refine_visit(maker, &options, keep, s, &counts);
+  *complete = !status;
+  hr2d_linkset_destroy(maker);
+  if (status == HR2D_EMAX_LINKS || status == HR2D_EMAX_BYTES ||
+      (s->late && status == HR2D_STOPPED))
+    status = HR2D_OK;
+  return s->progress_status ? s->progress_status : status;
+}
+
+static void sum_rows(sketcher *s) {
+  const hr2di_store *store = &s->links->store;
+  const hr2d_element *patch = s->links->hierarchy->element;
+  for (uint64_t k = 0; k < store->count; k++) {
+    const hr2d_link *link = hr2di_store_at(store, k);
+    s->row[link->pair.first] += link->exchange_area / patch[link->pair.first].length;
+    s->row[link->pair.second] += link->exchange_area / patch[link->pair.second].length;
+  }
+}
+
+/* The irradiance of a patch from the background. */
+static double from_sky(const sketcher *s, size_t patch, size_t band) {
+  if (!s->scene->effect[HR2D_EFFECT_BACKGROUND].on) return 0;
+  return fmax(1 - s->row[patch], 0) * hr2d_scene_background(s->scene, band);
+}
+
+/* H = ΣFB + sL.  Returns HR2D_OK or the status of the watch. */
+static hr2d_status gather(const sketcher *s, const double *b, double *h, hr2di_watch *watched) {
+  const hr2di_store *store = &s->links->store;
+  const hr2d_element *patch = s->links->hierarchy->element;
+  const size_t bands = s->bands;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < s->scene->patches * bands; k++)
+    h[k] = from_sky(s, k / bands, k % bands);
+  for (uint64_t k = 0; k < store->count && !status; k++) {
+    const hr2d_link *link = hr2di_store_at(store, k);
+    const size_t i = link->pair.first, j = link->pair.second;
+    if (k % 64 == 0) status = hr2di_watch_work(watched, 8 + 4 * bands);
+    for (size_t m = 0; m < bands; m++) {
+      h[i * bands + m] += link->exchange_area / patch[i].length * b[j * bands + m];
+      h[j * bands + m] += link->exchange_area / patch[j].length * b[i * bands + m];
+    }
+  }
+  return status;
+}
+
+/* B = E + ρH.  Returns the largest change, relative to the largest B of the band. */
+static double reflect(const sketcher *s, const double *h, double *b) {
+  double worst = 0;
+  for (size_t m = 0; m < s->bands; m++) {
+    double change = 0, most = 0;
+    for (size_t k = 0; k < s->scene->patches; k++) {
+      const size_t at = k * s->bands + m;
+      const double next =
+          hr2d_scene_emission(s->scene, k, m) + hr2d_scene_reflectance(s->scene, k, m) * h[at];
+      change = fmax(change, fabs(next - b[at]));
+      most = fmax(most, next);
+      b[at] = next;
+    }
+    if (change > 0) worst = fmax(worst, change / most);
+  }
+  return worst;
+}
+
+/* Sweeps until B stands or the time is up.  A sweep that is not ended is not used. */
+static hr2d_status sweep(sketcher *s, hr2d_solution *made, double *next) {
+  hr2di_watch watched;
+  hr2di_scene_watch(s->scene, &watched, watch, s, "solve");
+  s->limit = s->until.all;
+  made->residual = HUGE_VAL;
+  hr2d_status status = HR2D_OK;
+  for (int k = 0; k < MOST && !status && made->residual > CHANGE; k++) {
+    status = gather(s, made->value, next, &watched);
+    if (status) break;
+    for (size_t m = 0; m < s->scene->patches * s->bands; m++) made->irradiance[m] = next[m];
+    made->residual = reflect(s, made->irradiance, made->value);
+    made->work.gathers++;
+    status = hr2di_watch_work(&watched, s->scene->patches * s->bands / 8);
+  }
+  return s->progress_status;
+}
+
+/* Emitted + received = absorbed + escaped holds to the last change of B. */
+static void sum_power(const sketcher *s, hr2d_solution *made) {
+  const hr2d_element *patch = s->links->hierarchy->element;
+  const double unit = hr2d_scene_unit(s->scene);
+  for (size_t m = 0; m < s->bands; m++) {
+    hr2d_power *p = &made->power[m];
+    *p = (hr2d_power){0};
+    for (size_t k = 0; k < s->scene->patches; k++) {
+      const size_t at = k * s->bands + m;
+      const double length = unit * patch[k].length;
+      p->emitted += length * hr2d_scene_emission(s->scene, k, m);
+      p->received += length * from_sky(s, k, m);
+      p->absorbed +=
+          length * (1 - hr2d_scene_reflectance(s->scene, k, m)) * made->irradiance[at];
+      p->escaped += length * fmax(1 - s->row[k], 0) * made->value[at];
+    }
+  }
+}
+
+static hr2d_status solve(sketcher *s, hr2di_graded *a) {
+  const hr2d_allocator *alloc = &a->links->alloc;
+  const size_t patches = s->scene->patches, values = patches * s->bands;
+  double *space = hr2di_alloc_zero(alloc, values + patches, sizeof *space);
+  hr2d_solution *made = hr2di_alloc_zero(alloc, 1, sizeof *made);
+  if (made) {
+    *made = (hr2d_solution){.alloc = *alloc,
+                            .links = a->links,
+                            .hierarchy = a->hierarchy,
+                            .elements = patches,
+                            .order = 1,
+                            .bands = s->bands};
+    made->value = hr2di_alloc_zero(alloc, values, sizeof *made->value);
+    made->irradiance = hr2di_alloc_zero(alloc, values, sizeof *made->irradiance);
+    made->power = hr2di_alloc(alloc, s->bands, sizeof *made->power);
+    a->solution = made;
+  }
+  if (!space || !made || !made->value || !made->irradiance || !made->power) {
+    hr2di_alloc_free(alloc, space);
+    return HR2D_ENOMEM;
+  }
+  s->row = space + values;
+  sum_rows(s);
+  for (size_t k = 0; k < values; k++)
+    made->irradiance[k] = from_sky(s, k / s->bands, k % s->bands);
+  reflect(s, made->irradiance, made->value);
+  const hr2d_status status = sweep(s, made, space);
+  if (!status) sum_power(s, made);
+  hr2di_alloc_free(alloc, space);
+  return status;
+}
+
+hr2d_status hr2di_sketch(hr2di_graded *answer, const hr2d_scene *scene,
+                         const hr2d_target *target, hr2di_sketch_times until, int *complete) {
+  sketcher s = {.scene = scene, .target = target, .until = until, .bands = scene->bands};
+  const double start = hr2di_clock_now();
+  *answer = (hr2di_graded){0};
+  hr2d_status status = make_links(&s, answer, complete);
+  answer->refine_seconds = hr2di_clock_now() - start;
+  if (!status) status = solve(&s, answer);
+  answer->solve_seconds = hr2di_clock_now() - start - answer->refine_seconds;
+  return status;
+}
