@@ -130,6 +130,10 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/corner-exponent.c src/accuracy/corner-exponent.h \
 	src/accuracy/coordinate-rounding.c src/accuracy/coordinate-rounding.h \
 	src/accuracy/corner-residuals.c src/accuracy/corner-residuals.h \
+	src/accuracy/estimator.c src/accuracy/estimator.h \
+	src/accuracy/residual-series.c src/accuracy/residual-series.h \
+	src/accuracy/safe-sum.c src/accuracy/safe-sum.h \
+	src/accuracy/rounding-bound.c src/accuracy/rounding-bound.h \
 	src/accuracy/sketch.c src/accuracy/sketch.h \
 	src/accuracy/error-estimate.c src/accuracy/error-estimate.h \
 	src/accuracy/graded-solve.c src/accuracy/graded-solve.h \

@@ -26,9 +26,9 @@ static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
   return status;
 }
 
-/* Divides the elements.  Copies of graded trees have had their additional halvings. */
-static hr2d_status grade(hr2di_graded *a, const hr2d_hierarchy *from,
-                         const hr2di_resolution *fineness, const hr2d_target *target) {
+/* Divides the elements. */
+static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
+                         const hr2d_target *target) {
   hr2d_hierarchy *h = a->hierarchy;
   hr2di_events events = {.alloc = h->alloc};
   hr2di_watch watch;
@@ -38,7 +38,7 @@ static hr2d_status grade(hr2di_graded *a, const hr2d_hierarchy *from,
                                  .norm = fineness->norm,
                                  .order = fineness->order,
                                  .corner_levels = fineness->corner_levels,
-                                 .halvings = from ? 0 : fineness->halvings,
+                                 .halvings = fineness->halvings,
                                  .weight = fineness->weight,
                                  .events = &events,
                                  .max_elements = target->max_elements,
@@ -82,26 +82,25 @@ static hr2d_status explain(const hr2di_graded *a, hr2d_status status, hr2di_mess
 }
 
 hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
-                                const hr2d_hierarchy *from, const hr2di_resolution *fineness,
-                                const hr2d_target *target, hr2di_message *message) {
+                                const hr2di_resolution *fineness, const hr2d_target *target,
+                                hr2di_message *message) {
   const double start = hr2di_clock_now();
   *a = (hr2di_graded){0};
-  hr2d_status status = from ? hr2di_hierarchy_clone(from, &a->hierarchy)
-                            : hr2d_hierarchy_create(scene, &a->hierarchy);
+  hr2d_status status = hr2d_hierarchy_create(scene, &a->hierarchy);
   if (!status) a->hierarchy->order = fineness->order;
-  if (!status) status = grade(a, from, fineness, target);
+  if (!status) status = grade(a, fineness, target);
   if (!status) status = link_elements(a, fineness, target);
   a->refine_seconds = hr2di_clock_now() - start;
   return explain(a, status, message);
 }
 
 hr2d_status hr2di_graded_reorder(hr2di_graded *a, const hr2di_graded *from,
-                                 const hr2di_resolution *fineness, unsigned order,
-                                 const hr2d_target *target, hr2di_message *message) {
+                                 const hr2di_resolution *fineness, const hr2d_target *target,
+                                 hr2di_message *message) {
   const double start = hr2di_clock_now();
   *a = (hr2di_graded){.survey = from->survey, .events = from->events};
   hr2d_status status = hr2di_hierarchy_clone(from->hierarchy, &a->hierarchy);
-  if (!status) a->hierarchy->order = order;
+  if (!status) a->hierarchy->order = fineness->order;
   if (!status) status = link_elements(a, fineness, target);
   a->refine_seconds = hr2di_clock_now() - start;
   return explain(a, status, message);

@@ -34,19 +34,19 @@ typedef struct hr2di_graded {
   double refine_seconds, coefficients_seconds, solve_seconds;
 } hr2di_graded;
 
-/* Makes trees and links, starting from a copy of `from` if that is not NULL.  Returns HR2D_OK,
-   or a status with a reason in `message`.  Call hr2di_graded_clear() in either case. */
+/* Makes trees and links.  Returns HR2D_OK, or a status with a reason in `message`.  Call
+   hr2di_graded_clear() in either case. */
 hr2d_status hr2di_graded_refine(hr2di_graded *answer, const hr2d_scene *scene,
-                                const hr2d_hierarchy *from, const hr2di_resolution *fineness,
-                                const hr2d_target *target, hr2di_message *message);
+                                const hr2di_resolution *fineness, const hr2d_target *target,
+                                hr2di_message *message);
+
+/* Takes the elements of another graded solve, and links them for the order of `fineness`;
+   returns likewise. */
+hr2d_status hr2di_graded_reorder(hr2di_graded *answer, const hr2di_graded *from,
+                                 const hr2di_resolution *fineness, const hr2d_target *target,
+                                 hr2di_message *message);
 
 /* Solves on them; returns likewise. */
-/* The same elements and links at another order. */
-hr2d_status hr2di_graded_reorder(hr2di_graded *answer, const hr2di_graded *from,
-                                 const hr2di_resolution *fineness, unsigned order,
-                                 const hr2d_target *target, hr2di_message *message);
-
-/* And solves. */
 hr2d_status hr2di_graded_solve(hr2di_graded *answer, const hr2d_target *target,
                                hr2di_message *message);
 

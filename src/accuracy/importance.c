@@ -142,7 +142,7 @@ hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *target,
                              hr2di_message *message) {
   const hr2di_resolution fineness = {.order = 2, .target = 0.1, .norm = target->norm};
   hr2di_graded coarse;
-  hr2d_status status = hr2di_graded_refine(&coarse, scene, NULL, &fineness, target, message);
+  hr2d_status status = hr2di_graded_refine(&coarse, scene, &fineness, target, message);
   if (!status) status = hr2di_graded_solve(&coarse, target, message);
   if (!status) {
     status = weigh(&coarse, target, weight);

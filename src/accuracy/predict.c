@@ -87,9 +87,8 @@ static hr2d_status measure(const hr2d_scene *scene, const hr2di_graded *from,
                            const hr2di_resolution *fineness, const hr2d_target *target,
                            hr2di_graded *a, cost *c) {
   hr2di_message message;
-  hr2d_status status =
-      from ? hr2di_graded_reorder(a, from, fineness, fineness->order, target, &message)
-           : hr2di_graded_refine(a, scene, NULL, fineness, target, &message);
+  hr2d_status status = from ? hr2di_graded_reorder(a, from, fineness, target, &message)
+                            : hr2di_graded_refine(a, scene, fineness, target, &message);
   if (status) return status;
   const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(a->hierarchy);
   const double bands = (double)scene->bands;
@@ -123,7 +122,7 @@ static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target
   hr2di_graded a;
   hr2di_message message;
   const hr2di_resolution coarse = {.order = 2, .target = 0.1, .norm = target->norm};
-  hr2d_status status = hr2di_graded_refine(&a, scene, NULL, &coarse, target, &message);
+  hr2d_status status = hr2di_graded_refine(&a, scene, &coarse, target, &message);
   if (!status) status = hr2di_graded_solve(&a, target, &message);
   t->seconds = hr2di_clock_now() - start;
   if (!status) {

@@ -133,7 +133,7 @@ static hr2d_status attempt(search *s, const hr2di_resolution *fineness) {
   hr2di_graded answer;
   hr2di_error_pair errors;
   hr2d_status status =
-      hr2di_graded_refine(&answer, s->scene, NULL, fineness, &s->target, &s->message);
+      hr2di_graded_refine(&answer, s->scene, fineness, &s->target, &s->message);
   if (!status) status = hr2di_graded_solve(&answer, &s->target, &s->message);
   add_times(&s->account, &answer);
   const double start = hr2di_clock_now();

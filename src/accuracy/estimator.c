@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "accuracy/estimator.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "scene/scene-impl.h"
+#include "solution/solution-impl.h"
+
+int hr2di_estimator_stopped(const hr2di_estimator *e) {
+  return e->eq.transport.failed || hr2di_watch_status(e->eq.transport.watch);
+}
+
+double hr2di_estimator_most(const hr2di_estimator *e, const double *field, size_t leaf,
+                            size_t band) {
+  const hr2di_transport *t = &e->eq.transport;
+  const double *at = field + leaf * t->width + band;
+  hr2di_watch_work(t->watch, 1 + e->rule.points * t->order / 32);
+  double max = fmax(fabs(hr2di_basis_sum(&e->basis, -1, at, t->bands)),
+                    fabs(hr2di_basis_sum(&e->basis, 1, at, t->bands)));
+  for (size_t q = 0; q < e->rule.points; q++)
+    max = fmax(max, fabs(hr2di_basis_sum(&e->basis, e->rule.at[q], at, t->bands)));
+  return max;
+}
+
+double hr2di_estimator_rho(const hr2di_estimator *e, size_t leaf, size_t band) {
+  const hr2di_transport *t = &e->eq.transport;
+  return hr2d_scene_reflectance(t->hierarchy->scene, t->hierarchy->element[t->leaf[leaf]].patch,
+                                band);
+}
+
+void hr2di_estimator_averages(hr2di_estimator *e, const double *field, double *average) {
+  hr2di_transport *t = &e->eq.transport;
+  hr2di_transport_pull(t, field);
+  for (size_t k = 0; k < t->hierarchy->scene->patches; k++)
+    for (size_t b = 0; b < t->bands; b++) average[k * t->bands + b] = t->up[k * t->width + b];
+}
+
+void hr2di_estimator_set_most(hr2di_estimator *e, const double *field) {
+  const hr2di_transport *t = &e->eq.transport;
+  const hr2d_element *element = t->hierarchy->element;
+  for (size_t k = 0; k < t->leaves && !hr2di_estimator_stopped(e); k++)
+    for (size_t b = 0; b < t->bands; b++)
+      e->most[t->leaf[k] * t->bands + b] = hr2di_estimator_most(e, field, k, b);
+  for (size_t k = t->elements; k-- > 0;)
+    for (size_t b = 0; b < t->bands && element[k].child; b++) {
+      const double *child = e->most + element[k].child * t->bands + b;
+      e->most[k * t->bands + b] = fmax(child[0], child[t->bands]);
+    }
+}
+
+/* Solves with the source of each band scaled to about 1, by a power of two: squares of the
+   unknowns would underflow where the error is tiny. */
+hr2d_status hr2di_estimator_solve(hr2di_estimator *e, double tolerance) {
+  hr2di_equation *eq = &e->eq;
+  const size_t bands = eq->transport.bands;
+  for (size_t k = 0; k < eq->field; k++) eq->y[k] = 0;
+  for (size_t b = 0; b < bands; b++) {
+    double max = 0;
+    for (size_t k = b; k < eq->field; k += bands) max = fmax(max, fabs(eq->source[k]));
+    e->exponent_of[b] = max > 0 ? ilogb(max) : 0;
+    for (size_t k = b; k < eq->field; k += bands)
+      eq->source[k] = ldexp(eq->source[k], -e->exponent_of[b]);
+  }
+  eq->options.tolerance = tolerance;
+  const hr2d_status status = hr2di_equation_solve(eq);
+  for (size_t k = 0; k < eq->field; k++)
+    eq->radiosity[k] = ldexp(eq->radiosity[k], e->exponent_of[k % bands]);
+  return status;
+}
+
+/* An average of the solution, in the unit of the equation, where nothing is denormal. */
+double hr2di_estimator_value(const hr2di_estimator *e, int irradiance, size_t patch,
+                             size_t band) {
+  const double value = irradiance ? hr2d_solution_irradiance(e->coarse, patch, band)
+                                  : hr2d_solution_average(e->coarse, patch, band);
+  return fabs(ldexp(value, -e->eq.exponent[band]));
+}
+
+double hr2di_estimator_least(const hr2di_estimator *e, int irradiance, size_t patch,
+                             size_t band) {
+  return fmax(hr2di_estimator_value(e, irradiance, patch, band),
+              e->floor[(size_t)irradiance * e->eq.transport.bands + band]);
+}
+
+static void set_floors(hr2di_estimator *e) {
+  const size_t bands = e->eq.transport.bands;
+  const double part = e->target->floor > 0 ? e->target->floor : HR2D_FLOOR;
+  for (int h = 0; h < 2; h++)
+    for (size_t b = 0; b < bands; b++) {
+      double max = 0;
+      for (size_t k = 0; k < e->values / bands; k++)
+        max = fmax(max, hr2di_estimator_value(e, h, k, b));
+      e->floor[(size_t)h * bands + b] = part * max;
+    }
+}
+
+/* Work space for all fields. */
+static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
+  const hr2di_transport *t = &e->eq.transport;
+  const size_t field = e->eq.field, rows = t->leaves * t->bands;
+  e->values = t->hierarchy->scene->patches * t->bands;
+  e->space = hr2di_alloc_zero(
+      alloc, 4 * field + 4 * e->values + t->elements * t->bands + rows + 10 * t->bands,
+      sizeof *e->space);
+  e->exponent_of = hr2di_alloc(alloc, t->bands, sizeof *e->exponent_of);
+  if (!e->space || !e->exponent_of) return HR2D_ENOMEM;
+  double *next = e->space;
+  double **const fields[] = {&e->kept, &e->rest, &e->error, &e->residual};
+  for (int k = 0; k < 4; k++, next += field) *fields[k] = next;
+  for (int h = 0; h < 2; h++, next += 2 * e->values) {
+    e->average[h] = next;
+    e->rounding[h] = next + e->values;
+  }
+  e->most = next;
+  e->off = next + t->elements * t->bands;
+  next = e->off + rows;
+  for (int h = 0; h < 2; h++, next += 3 * t->bands) {
+    e->largest[h] = next;
+    e->point[h] = next + t->bands;
+    e->stray[h] = e->point[h] + t->bands;
+  }
+  e->floor = next;
+  e->safe = next + 2 * t->bands;
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *finer,
+                                 const hr2di_graded *answer, const hr2d_target *target) {
+  hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+  options.threads = target->threads;
+  options.progress = target->progress;
+  options.progress_ctx = target->progress_ctx;
+  *e = (hr2di_estimator){.coarse = answer->solution,
+                         .target = target,
+                         .exponent = answer->survey.exponent,
+                         .contacts.alloc = finer->links->alloc};
+  hr2d_status status = hr2di_equation_init(&e->eq, finer->links, &options);
+  if (!status) status = reserve(e, &finer->links->alloc);
+  if (status) return status;
+  hr2di_basis_init(&e->basis, e->eq.transport.order);
+  hr2di_rule_init(&e->rule, e->eq.transport.order + 2);
+  set_floors(e);
+  return HR2D_OK;
+}
+
+void hr2di_estimator_clear(hr2di_estimator *e) {
+  hr2di_contacts_clear(&e->contacts);
+  hr2di_alloc_free(&e->contacts.alloc, e->space);
+  hr2di_alloc_free(&e->contacts.alloc, e->exponent_of);
+  hr2di_equation_clear(&e->eq);
+}

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The finer operator, a solution, and the fields from which the error of the solution is made.
+   All are in the unit of the equation. */
+#ifndef HR2D_SRC_ACCURACY_ESTIMATOR_H
+#define HR2D_SRC_ACCURACY_ESTIMATOR_H
+
+#include "accuracy/corner-residuals.h"
+#include "accuracy/graded-solve.h"
+#include "base/legendre.h"
+#include "solve/equation.h"
+
+/* What roundings may be, relative to the largest value. */
+#define HR2DI_ESTIMATOR_ROUNDING (16 * DBL_EPSILON)
+
+typedef struct hr2di_estimator {
+  hr2di_equation eq;
+  const hr2d_solution *coarse;
+  const hr2d_target *target;
+  double exponent; /* γ, the least of the corners */
+  double margin;   /* of bounds over estimates */
+  hr2di_contacts contacts;
+  hr2di_basis basis;
+  hr2di_rule rule;
+  double *space;
+  double doubt;        /* of the levels of components, see energy-balance.h */
+  size_t values;       /* patches × bands */
+  double *kept;        /* the field of B_h */
+  double *rest;        /* of B_h less the level of closed components */
+  double *error;       /* B − B_h */
+  double *residual;    /* r */
+  double *average[2];  /* patches × bands: errors of averages, of B and of H */
+  double *rounding[2]; /* likewise what roundings may be */
+  double *most;        /* elements × bands: |field| at most */
+  double *off;         /* leaves × bands: what roundings may do to H */
+  double *floor;       /* 2 × bands, of B and of H: no average counts as less */
+  double *safe;        /* likewise: errors of averages without signs */
+  double *largest[2];  /* per band: B and H at a point */
+  double *point[2];    /* per band: errors at points, of B and of H */
+  double *stray[2];    /* per band: what roundings may be at points */
+  int *exponent_of;    /* per band: what the last solve was scaled by */
+} hr2di_estimator;
+
+/* Makes an estimator of a solved answer, with the operator of `finer`.  Returns HR2D_OK, or a
+   status with a message in the links of `finer`.  The estimator must not be moved; call
+   hr2di_estimator_clear() in any case. */
+hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *finer,
+                                 const hr2di_graded *answer, const hr2d_target *target);
+void hr2di_estimator_clear(hr2di_estimator *e);
+
+/* Whether the watch has stopped, or a gather has failed: fields have no meaning then. */
+int hr2di_estimator_stopped(const hr2di_estimator *e);
+
+/* The largest |value| of a field on a leaf, in a band. */
+double hr2di_estimator_most(const hr2di_estimator *e, const double *field, size_t leaf,
+                            size_t band);
+
+/* Sets e->most to the largest |field| on each element. */
+void hr2di_estimator_set_most(hr2di_estimator *e, const double *field);
+
+/* ρ of the patch of a leaf. */
+double hr2di_estimator_rho(const hr2di_estimator *e, size_t leaf, size_t band);
+
+/* Averages of a field over the patches. */
+void hr2di_estimator_averages(hr2di_estimator *e, const double *field, double *average);
+
+/* Solves the equation for its source.  Returns HR2D_OK or the status of the solve. */
+hr2d_status hr2di_estimator_solve(hr2di_estimator *e, double tolerance);
+
+/* An average of the solution: of B, or of H. */
+double hr2di_estimator_value(const hr2di_estimator *e, int irradiance, size_t patch,
+                             size_t band);
+
+/* The value that the error of an average is relative to: the average, but no less than the
+   floor. */
+double hr2di_estimator_least(const hr2di_estimator *e, int irradiance, size_t patch,
+                             size_t band);
+
+#endif

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The error of a solution, from the residual that a finer operator gives it. */
+#ifndef HR2D_SRC_ACCURACY_RESIDUAL_SERIES_H
+#define HR2D_SRC_ACCURACY_RESIDUAL_SERIES_H
+
+#include "accuracy/estimator.h"
+
+/* Sets e->residual, and the largest B and H. */
+void hr2di_residual_set(hr2di_estimator *e);
+
+/* Sets e->error to B − B_h.  Returns HR2D_OK or the status of a solve or a gather. */
+hr2d_status hr2di_residual_solve(hr2di_estimator *e);
+
+/* Sets the errors of averages and at points from e->error. */
+void hr2di_residual_measure(hr2di_estimator *e);
+
+#endif

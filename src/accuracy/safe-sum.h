@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Errors of averages whose signs do not cancel. */
+#ifndef HR2D_SRC_ACCURACY_SAFE_SUM_H
+#define HR2D_SRC_ACCURACY_SAFE_SUM_H
+
+#include "accuracy/estimator.h"
+
+/* Sets e->safe of B, or of H, per band: Σ A |⟨r, Z⟩| over leaves, with Z the importance of all
+   averages together.  Returns HR2D_OK or the status of a solve. */
+hr2d_status hr2di_safe_sum(hr2di_estimator *e, int irradiance);
+
+#endif
