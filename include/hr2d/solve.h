@@ -25,7 +25,7 @@
  *
  * When to switch it off: to measure the paper's algorithm as it is; and at an order above 1
  * where all light that is reflected comes from patches of constant B, as a sky or black lamps.
- * There averages are exact without closure, and d·B adds an error like that of elements, 1e-5
+ * There averages are exact without closure, and d·B adds an error like that of elements, 1e-4
  * to 1e-7. At order 1 such averages are exact with closure, too
  * (tests/unit/solve/check-closure.c). Elsewhere at order 1 the errors of elements differ: over
  * random scenes those of averages are half as large with closure on the mean and those of
