@@ -145,8 +145,8 @@ HR2D_API uint64_t hr2d_linkset_bytes(const hr2d_linkset *links);
  * - Each pair of leaves that see each other lies below exactly one link, per direction if the
  *   set is directed.
  * - No link joins elements that cannot see each other, but for roundings of midpoints.
- * - Every exchange area is the exchange area of its elements; in scenes with walls in the way, to
- *   4e-15 of the largest coordinate, as midpoints are rounded.
+ * - Every exchange area is the exchange area of its elements; in scenes with walls in the way,
+ * to 4e-15 of the largest coordinate, as midpoints are rounded.
  *
  * @param links  a link set
  * @retval HR2D_OK      all of this holds

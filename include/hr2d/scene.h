@@ -210,11 +210,11 @@ HR2D_API void hr2d_scene_set_progress(hr2d_scene *scene, hr2d_progress_fn progre
  * suffixes " [1]", " [2]", …; the indices of later patches increase. The pieces of both patches
  * share the crossing, bit for bit.
  *
- * A crossing is rounded. If its pieces meet other patches again, they are cut there, too, and so
- * they are at ends of patches that would come to lie on their other side. Two
- * patches that lie on one another within rounding are cut at each other's ends. Such cuts can
- * leave copies. One of two copies is dropped if it is no longer than 1e-9 of the largest
- * coordinate and no longer than 1e-6 of the patch.
+ * A crossing is rounded. If its pieces meet other patches again, they are cut there, too, and
+ * so they are at ends of patches that would come to lie on their other side. Two patches that
+ * lie on one another within rounding are cut at each other's ends. Such cuts can leave copies.
+ * One of two copies is dropped if it is no longer than 1e-9 of the largest coordinate and no
+ * longer than 1e-6 of the patch.
  *
  * @param scene  not yet committed; unchanged on failure
  * @param cuts   receives the number of places where patches were cut; may be NULL

@@ -13,8 +13,8 @@
 #include "accuracy/safe-sum.h"
 #include "scene/scene-impl.h"
 
-/* Estimates were 0.93 to 4.3 times the errors, over rooms, corners, gaps and occluders. */
-#define MARGIN 1.5
+/* Estimates were 0.5 to 4.3 times the errors, over rooms, corners, gaps and short patches. */
+#define MARGIN 2.5
 /* Where views change, coefficients p and p + 1 of a kink inside an element show 1 − (p/(p+2))³
    of its effect, and visibility events leave kinks of later generations. */
 #define HIDDEN 5
