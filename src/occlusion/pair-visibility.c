@@ -334,7 +334,7 @@ hr2d_status hr2di_visibility_blocked(hr2di_visibility *s, const hr2di_shaft *sha
     width[at] = w;
     widest[at] = wall[k];
   }
-  int open;
+  int open = 1;
   hr2d_status status = hr2di_watch_work(s->watch, 1 + count / 8);
   if (!status) status = hr2di_visibility_any(s, shaft, widest, kept, &open);
   *blocked = !status && !open;
