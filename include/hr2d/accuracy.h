@@ -178,15 +178,16 @@ HR2D_API hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *t
 
 /** The predicted cost of a target. */
 typedef struct hr2d_prediction {
-  unsigned order;    /**< p of the first solve */
-  uint64_t elements; /**< N */
-  uint64_t leaves;   /**< elements without children */
-  uint64_t links;    /**< L */
-  uint64_t bytes;    /**< memory of elements, links and blocks, with those of the finer solve
-                          for the error */
-  double seconds;    /**< wall time of hr2d_solve_to(), its account of the error included */
-  double least_seconds, most_seconds; /**< the range of that time, with the solves that follow
-                                           if the first one does not reach the target */
+  unsigned order;       /**< p of the first solve */
+  uint64_t elements;    /**< N */
+  uint64_t leaves;      /**< elements without children */
+  uint64_t links;       /**< L */
+  uint64_t bytes;       /**< memory of elements, links and blocks, with those of the finer solve
+                             for the error */
+  double seconds;       /**< wall time of hr2d_solve_to(), its account of the error included */
+  double least_seconds; /**< the range of that time begins here */
+  double most_seconds;  /**< and ends here, with the solves that follow if the first one does
+                             not reach the target */
 } hr2d_prediction;
 
 /**

@@ -79,18 +79,28 @@ static void add_pair(const hr2di_transport *t, double off, const double *most, u
     error[i * t->bands + b] += off / t->hierarchy->element[i].length * most[j * t->bands + b];
 }
 
+/* The exchange area of a pair that is hidden or clipped in part is known to this part of the
+   shorter length (tests/unit/occlusion/check-visibility.c). */
+#define HIDDEN 1e-14
+
 static void add_links(const hr2di_transport *t, const double *offset, const double *most,
                       double *error) {
   const hr2d_hierarchy *h = t->hierarchy;
   const hr2di_link_blocks *blocks = &t->links->blocks;
+  const int hides =
+      h->scene->effect[HR2D_EFFECT_OCCLUSION].on || h->scene->effect[HR2D_EFFECT_FACING].on;
   for (uint64_t k = 0; k < t->links->store.count && !hr2di_watch_work(t->watch, 1); k++) {
     const hr2d_link *link = hr2di_store_at(&t->links->store, k);
     const uint32_t i = link->pair.first, j = link->pair.second;
     const int plain =
         t->order == 1 || blocks->value[k * t->order * t->order] == link->exchange_area;
-    if (!(offset[i] + offset[j] > 0)) continue;
-    if (!plain && have_corner(h->scene, h->element[i].patch, h->element[j].patch)) continue;
-    const double off = exchange_off(link, h->element, offset, plain);
+    const int corner =
+        !plain && have_corner(h->scene, h->element[i].patch, h->element[j].patch);
+    double off = offset[i] + offset[j] > 0 && !corner
+                     ? exchange_off(link, h->element, offset, plain)
+                     : 0;
+    if (hides && !(t->order > 1 && blocks->distant[k]))
+      off += HIDDEN * fmin(h->element[i].length, h->element[j].length);
     add_pair(t, off, most, i, j, error);
     if (!t->links->directed) add_pair(t, off, most, j, i, error);
   }

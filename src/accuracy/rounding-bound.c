@@ -20,7 +20,7 @@ hr2d_status hr2di_rounding_bound(hr2di_estimator *e, int reflects) {
         m < t->bands ? HR2DI_ESTIMATOR_ROUNDING * hr2di_estimator_most(e, e->rest, leaf, m) : 0;
     eq->source[k] =
         m < t->bands ? hr2di_estimator_rho(e, leaf, m) * e->off[leaf * t->bands + m] + b : 0;
-    eq->radiosity[k] = 0;
+    eq->radiosity[k] = eq->source[k]; /* where nothing reflects */
   }
   if (!status && reflects) status = hr2di_estimator_solve(e, 1e-3);
   for (size_t k = 0; k < eq->field && !status; k++) e->error[k] = eq->radiosity[k];
