@@ -69,7 +69,7 @@ static hr2d_scene *draw(randoms *r, int kind) {
   } else {
     add_polygon(scene, r, (const hr2d_point[]){{0, 0}, {1, 0}, {1, size}, {1, 1}, {0, 1}}, 5);
   }
-  if (open) ck_assert_int_eq(hr2d_scene_set_background(scene, &open, 1), HR2D_OK);
+  if (open != 0) ck_assert_int_eq(hr2d_scene_set_background(scene, &open, 1), HR2D_OK);
   test_commit(scene);
   return scene;
 }
