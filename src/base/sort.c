@@ -68,6 +68,7 @@ typedef struct range {
 
 hr2d_status hr2di_sort(void *items, size_t count, size_t size,
                        int (*compare)(const void *, const void *), hr2di_watch *watch) {
+  if (count < 2) return hr2di_watch_status(watch);
   sorter s = {.size = size, .compare = compare, .watch = watch};
   range waiting[WAITING];
   size_t ranges = 0;
