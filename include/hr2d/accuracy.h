@@ -27,7 +27,7 @@
  *
  * The *estimate* solves this equation. Beside corners, where K⁺ shows a known part of the
  * error, r is divided by that part. The *bound* has three parts:
- * - a multiple of the estimate: 2.5 times, from 7 to 40 times where views change, 3 times at
+ * - a multiple of the estimate: 2.5 times, from 6 to 28 times where views change, 3 times at
  *   points at least;
  * - a tenth of the mean over patches of the same errors without signs: errors with signs may
  *   cancel by chance;

@@ -85,13 +85,12 @@ double hr2di_estimator_least(const hr2di_estimator *e, int irradiance, size_t pa
 
 static void set_floors(hr2di_estimator *e) {
   const size_t bands = e->eq.transport.bands;
-  const double part = e->target->floor > 0 ? e->target->floor : HR2D_FLOOR;
   for (int h = 0; h < 2; h++)
     for (size_t b = 0; b < bands; b++) {
       double max = 0;
       for (size_t k = 0; k < e->values / bands; k++)
         max = fmax(max, hr2di_estimator_value(e, h, k, b));
-      e->floor[(size_t)h * bands + b] = part * max;
+      e->floor[(size_t)h * bands + b] = e->target->floor * max;
     }
 }
 

@@ -14,18 +14,18 @@ hr2d_status hr2di_safe_sum(hr2di_estimator *e, int irradiance) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
   double min = HUGE_VAL, max = 0;
-  for (size_t k = 0; k < eq->field; k++) {
-    const size_t leaf = k / t->width, band = k % t->bands;
-    const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
-    const double least = hr2di_estimator_least(e, irradiance, patch, band);
-    if (least > 0) min = fmin(min, least);
-    max = fmax(max, least);
-    const int counts =
-        k % t->width < t->bands && least > 0 && hr2di_is_important(e->target, patch);
-    eq->source[k] = counts ? (irradiance ? 1 : hr2di_estimator_rho(e, leaf, band)) / least /
-                                 t->hierarchy->element[patch].length
-                           : 0;
-  }
+  for (size_t k = 0; k < eq->field; k++) eq->source[k] = 0;
+  for (size_t leaf = 0; leaf < t->leaves; leaf++)
+    for (size_t b = 0; b < t->bands; b++) {
+      const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
+      const double least = hr2di_estimator_least(e, irradiance, patch, b);
+      if (!(least > 0)) continue;
+      min = fmin(min, least);
+      max = fmax(max, least);
+      if (hr2di_is_important(e->target, patch))
+        eq->source[leaf * t->width + b] = (irradiance ? 1 : hr2di_estimator_rho(e, leaf, b)) /
+                                          least / t->hierarchy->element[patch].length;
+    }
   /* The norm of a solve has the largest ones: dark patches. */
   const hr2d_status status =
       hr2di_estimator_solve(e, max > 0 ? fmax(1e-4 * min / max, 1e-14) : 1);

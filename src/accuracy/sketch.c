@@ -49,7 +49,7 @@ static hr2d_status keep(void *ctx, const hr2d_link *links, size_t count) {
   return status;
 }
 
-static hr2d_status make_links(sketcher *s, hr2di_graded *a, int *complete) {
+static hr2d_status make_links(sketcher *s, hr2di_graded *a) {
   hr2d_linkset *maker = NULL;
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
   hr2d_refine_counts counts;
@@ -64,11 +64,8 @@ static hr2d_status make_links(sketcher *s, hr2di_graded *a, int *complete) {
   if (!status) status = hr2d_linkset_create(a->hierarchy, NULL, NULL, NULL, NULL, &maker);
   s->links = a->links;
   if (!status) status = hr2d_refine_visit(maker, &options, keep, s, &counts);
-  *complete = !status;
   hr2d_linkset_destroy(maker);
-  if (status == HR2D_EMAX_LINKS || status == HR2D_EMAX_BYTES ||
-      (s->late && status == HR2D_STOPPED))
-    status = HR2D_OK;
+  if (status == HR2D_EMAX_LINKS || status == HR2D_EMAX_BYTES || s->late) status = HR2D_OK;
   return s->progress_status ? s->progress_status : status;
 }
 
@@ -196,11 +193,12 @@ static hr2d_status solve(sketcher *s, hr2di_graded *a) {
 }
 
 hr2d_status hr2di_sketch(hr2di_graded *answer, const hr2d_scene *scene,
-                         const hr2d_target *target, hr2di_sketch_times until, int *complete) {
+                         const hr2d_target *target, hr2di_sketch_times until, int *late) {
   sketcher s = {.scene = scene, .target = target, .until = until, .bands = scene->bands};
   const double start = hr2di_clock_now();
   *answer = (hr2di_graded){0};
-  hr2d_status status = make_links(&s, answer, complete);
+  hr2d_status status = make_links(&s, answer);
+  *late = s.late;
   answer->refine_seconds = hr2di_clock_now() - start;
   if (!status) status = solve(&s, answer);
   answer->solve_seconds = hr2di_clock_now() - start - answer->refine_seconds;

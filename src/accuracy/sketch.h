@@ -13,11 +13,11 @@ typedef struct hr2di_sketch_times {
 } hr2di_sketch_times;
 
 /* Links whole patches with each other in their order, and iterates B = E + ρ(ΣFB + sL), with
-   s = 1 − ΣF where there is a background.  *complete receives 1 if all factors were ready.  The
-   callback of the target is asked.  Of its budgets `max_links` and `max_bytes` count.  Returns
-   HR2D_OK, HR2D_ENOMEM or the status of the callback; only after HR2D_OK there is a solution.
-   Call hr2di_graded_clear() in any case. */
+   s = 1 − ΣF where there is a background.  *late receives 1 if the time for factors ended
+   first.  The callback of the target is asked.  Of its budgets `max_links` and `max_bytes`
+   count.  Returns HR2D_OK, HR2D_ENOMEM or the status of the callback; only after HR2D_OK there
+   is a solution. Call hr2di_graded_clear() in any case. */
 hr2d_status hr2di_sketch(hr2di_graded *answer, const hr2d_scene *scene,
-                         const hr2d_target *target, hr2di_sketch_times until, int *complete);
+                         const hr2d_target *target, hr2di_sketch_times until, int *late);
 
 #endif

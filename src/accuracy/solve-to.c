@@ -35,7 +35,7 @@ typedef struct search {
   double *weight;       /* per patch, where importance is asked for */
   hr2d_account account; /* of the best, with all times */
   hr2d_error error;     /* of the best, the larger one of B and H */
-  double rounding;      /* what of its bound is rounding */
+  double rounding;      /* the part of its bound that is rounding */
   hr2di_message message;
 } search;
 
@@ -112,19 +112,19 @@ static const hr2di_error_pair unknown = {.average = {HUGE_VAL, HUGE_VAL},
    does not suffice for all factors of whole patches, nothing better is tried. */
 static hr2d_status sketch(search *s) {
   hr2di_graded answer;
-  int complete;
+  int late;
   const double all = s->deadline > 0 ? s->given.seconds : HUGE_VAL;
   const size_t patches = s->scene->patches;
   if (s->given.max_elements && s->given.max_elements < patches) return HR2D_OK;
   if (s->given.max_bytes && s->given.max_bytes / HR2DI_ELEMENT_BYTES < patches) return HR2D_OK;
   hr2d_status status = hr2di_sketch(
       &answer, s->scene, &s->given,
-      (hr2di_sketch_times){s->start + FACTORS * all, s->start + SKETCH * all}, &complete);
+      (hr2di_sketch_times){s->start + FACTORS * all, s->start + SKETCH * all}, &late);
   add_times(&s->account, &answer);
   if (!status) keep(s, &answer, &unknown);
   if (status && status != HR2D_ENOMEM) s->progress_status = status;
   hr2di_graded_clear(&answer);
-  s->late = !status && s->deadline > 0 && !complete;
+  s->late = !status && late;
   return s->late ? HR2D_STOPPED : status;
 }
 

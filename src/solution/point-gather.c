@@ -270,16 +270,18 @@ static hr2d_status find_wedge(gatherer *g, size_t patch, double t, double *irrad
   const edge p = edge_of(g, patch, t, t <= 0.5 ? 1 : -1);
   hr2d_status status = HR2D_OK;
   *closed = 0;
+  set_point(g, &scene->patch[patch], t);
   for (size_t k = 0; k < scene->patches && !*closed && !status; k++) {
     double distance;
     if (k % 16 == 0) status = hr2di_watch_work(g->watch, 4);
-    set_point(g, &scene->patch[patch], t);
     const double at = nearest(g, k, 0, 1, &distance);
     if (status || k == patch || distance > TOUCH) continue;
     const hr2d_segment s = scene->patch[k].scaled;
     const double rises = hr2di_point_dot(hr2di_point_minus(s.b, s.a), g->normal);
     const edge q = edge_of(g, k, at, rises > 0 ? 1 : -1);
-    if (q.inside * rises > 0) status = close_wedge(g, &p, &q, irradiance, closed);
+    if (!(q.inside * rises > 0)) continue;
+    status = close_wedge(g, &p, &q, irradiance, closed);
+    set_point(g, &scene->patch[patch], t);
   }
   return status;
 }

@@ -19,22 +19,20 @@
 
 enum { ATTEMPTS = 3 };
 
-/* out = Q + ρH − B */
-static void form_residual(const hr2di_equation *s, double *out) {
-  for (size_t k = 0; k < s->field; k++)
-    out[k] =
-        s->source[k] + s->root_rho[k] * s->root_rho[k] * s->irradiance[k] - s->radiosity[k];
+/* Q + ρH − B */
+static double residual_at(const hr2di_equation *s, size_t k) {
+  return s->source[k] + s->root_rho[k] * s->root_rho[k] * s->irradiance[k] - s->radiosity[k];
 }
 
 /* The largest ∫|r|/∫|B| over the bands. */
-static double measure(const hr2di_equation *s, const double *residual) {
+static double measure(const hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   double max = 0;
   for (size_t b = 0; b < t->bands; b++) {
     hr2di_sum off = {0, 0}, all = {0, 0};
     for (size_t k = 0; k < t->leaves; k++) {
       const double area = s->weight[k * t->order];
-      hr2di_sum_add(&off, area * fabs(residual[k * t->width + b]));
+      hr2di_sum_add(&off, area * fabs(residual_at(s, k * t->width + b)));
       hr2di_sum_add(&all, area * fabs(s->radiosity[k * t->width + b]));
     }
     if (hr2di_sum_total(&off) > 0)
@@ -71,11 +69,12 @@ static void set_unknown(hr2di_equation *s, const double *radiosity) {
 }
 
 /* Adds the solution for the residual to the radiosity.  `space` holds three fields and the
-   squares of A; residual is the first of the fields. */
-static hr2d_status add_solution(hr2di_equation *s, double *space, int *exponent) {
+   squares of A. */
+static hr2d_status add_solution_in(hr2di_equation *s, double *space, int *exponent) {
   const size_t bytes = s->field * sizeof *space;
   double *residual = space, *source = space + s->field, *radiosity = source + s->field;
   const int background = s->background;
+  for (size_t k = 0; k < s->field; k++) residual[k] = residual_at(s, k);
   memcpy(source, s->source, bytes);
   memcpy(radiosity, s->radiosity, bytes);
   set_source(s, residual, exponent);
@@ -93,17 +92,24 @@ static hr2d_status add_solution(hr2di_equation *s, double *space, int *exponent)
   return status ? status : taken;
 }
 
-hr2d_status hr2di_equation_settle_power(hr2di_equation *s) {
+static hr2d_status add_solution(hr2di_equation *s) {
   const hr2d_allocator *alloc = &s->links->alloc;
   double *space = hr2di_alloc(alloc, 3 * s->field + s->items, sizeof *space);
   int *exponent = hr2di_alloc(alloc, s->transport.bands, sizeof *exponent);
-  hr2d_status status = space && exponent ? HR2D_OK : HR2D_ENOMEM;
+  const hr2d_status status =
+      space && exponent ? add_solution_in(s, space, exponent) : HR2D_ENOMEM;
+  hr2di_alloc_free(alloc, space);
+  hr2di_alloc_free(alloc, exponent);
+  return status;
+}
+
+hr2d_status hr2di_equation_settle_power(hr2di_equation *s) {
+  hr2d_status status = HR2D_OK;
   double off = 0;
   for (int k = 0; k <= ATTEMPTS && !status; k++) {
-    form_residual(s, space);
-    off = measure(s, space);
+    off = measure(s);
     if (off <= fmax(ROUNDING, s->options.tolerance) || k == ATTEMPTS) break;
-    status = add_solution(s, space, exponent);
+    status = add_solution(s);
   }
   if (status == HR2D_ENOT_CONVERGED && off <= FAILED) status = HR2D_OK;
   if (!status && !(off <= fmax(FAILED, s->options.tolerance)))
@@ -111,7 +117,5 @@ hr2d_status hr2di_equation_settle_power(hr2di_equation *s) {
                                 "the residual has %.1e of the power of all light: the lengths "
                                 "of the patches differ too much",
                                 off);
-  hr2di_alloc_free(alloc, space);
-  hr2di_alloc_free(alloc, exponent);
   return status;
 }

@@ -15,7 +15,8 @@ typedef struct outline {
 
 /* 2^-1 to 2^-20, most of them short. */
 static double draw_length(unsigned long *state) {
-  return ldexp(0.5 + 0.5 * test_random(state), -(int)(20 * test_random(state)));
+  const int exponent = -(int)(20 * test_random(state));
+  return ldexp(0.5 + 0.5 * test_random(state), exponent);
 }
 
 static double length_of(const outline *o, size_t k) {

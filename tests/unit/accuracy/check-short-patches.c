@@ -170,7 +170,7 @@ START_TEST(two_meshes_agree) {
     convex_solution *other = convex_solve(&room, finest);
     for (size_t p = 0; p < r.patches; p++) {
       const double right = convex_irradiance(other, p);
-      ck_assert_double_le(fabs(convex_irradiance(one, p) - right), 0.3 * KNOWN * right);
+      ck_assert_double_le(fabs(convex_irradiance(one, p) - right), KNOWN * right);
     }
     convex_destroy(one);
     convex_destroy(other);
