@@ -23,8 +23,7 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 
-/* How far a point is off its place at fraction `at` of a patch, measured from its nearer end.
- */
+/* How far a point is off its place at fraction `at` of a patch, from its nearer end. */
 static double distance_off(const hr2di_patch *p, double at, hr2d_point is) {
   const hr2d_segment s = p->scaled;
   const hr2d_point from = at <= 0.5 ? s.a : s.b;

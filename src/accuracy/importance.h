@@ -5,8 +5,7 @@
 
 #include "accuracy/graded-solve.h"
 
-/* Whether the averages of a patch count for a target of hr2di_target_init().  Takes O(log n).
- */
+/* Whether the averages of a patch count for a target of hr2di_target_init(); O(log n). */
 int hr2di_is_important(const hr2d_target *target, size_t patch);
 
 /* The number of patches of a scene that count. */

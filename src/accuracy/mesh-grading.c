@@ -124,8 +124,7 @@ static unsigned corner_depth(grader *g, double cosine, double sine, double rho) 
 }
 
 /* The corner of a shorter patch is as fine on this one as on that, whose average counts as
- * much.
- */
+   much. */
 static unsigned levels_to(const hr2d_scene *scene, uint32_t patch, uint32_t other) {
   const double ratio = scene->patch[patch].length / scene->patch[other].length;
   return ratio > 1 ? (unsigned)fmin(ceil(log2(ratio)), DEEPEST) : 0;

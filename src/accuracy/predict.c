@@ -19,8 +19,7 @@
 
 enum { SAMPLES = 256, PRODUCTS = 64, RUNS = 5, POINTS = 4 };
 
-/* The time of one solve is within this factor of the prediction; of several, see set_range().
- */
+/* The time of one solve is within this factor of what is predicted; see set_range(). */
 #define SURE 2.0
 enum { ATTEMPTS = 8, MORE = 2 };
 
@@ -137,9 +136,8 @@ static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target
 }
 
 /* The first solve reaches the target in nine of ten cases.  Otherwise up to ATTEMPTS solves
-   follow, each of MORE coefficients more.  Measured times grow less than p from one to the
-   next.
- */
+   follow, each of MORE coefficients more.  From one to the next measured times grow less
+   than p. */
 static void set_range(hr2d_prediction *p) {
   double solves = 0;
   for (unsigned k = 0; k < ATTEMPTS; k++)

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "support/scenes.h"
+
 #define PI 3.14159265358979323846
 
 static int is_clear(const plan *p, hr2d_segment s) {
@@ -191,4 +193,31 @@ void accuracy_print(FILE *out, const accuracy_scene *s) {
             w.a.x, w.a.y, w.b.x, w.b.y);
   }
   fprintf(out, "]}\n");
+}
+
+hr2d_scene *accuracy_enfilade(int count, double last) {
+  const double light = 1, rho = .5;
+  hr2d_scene *scene = test_new_scene(NULL);
+  for (int k = 0; k < count; k++) {
+    const double door = .25 + .1 * (k % 3);
+    const hr2d_segment wall[] = {{{k, 0}, {k + 1, 0}},
+                                 {{k + 1, 1}, {k, 1}},
+                                 {{k, k ? 0 : 1}, {k, k ? door : 0}},
+                                 {{k, door + .1}, {k, 1}}};
+    for (int w = 0; w < (k ? 4 : 3); w++) {
+      const hr2d_patch patch = {.a = wall[w].a,
+                                .b = wall[w].b,
+                                .emission = &light,
+                                .emission_bands = k == 0 && w == 1,
+                                .reflectance = &rho,
+                                .reflectance_bands = 1,
+                                .sides = w < 2 || k == 0 ? HR2D_SIDES_FRONT : HR2D_SIDES_BOTH};
+      ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
+    }
+  }
+  const hr2d_patch end = {
+      .a = {count, 0}, .b = {count, 1}, .reflectance = &last, .reflectance_bands = 1};
+  ck_assert_int_eq(hr2d_scene_add(scene, &end, NULL), HR2D_OK);
+  test_commit(scene);
+  return scene;
 }

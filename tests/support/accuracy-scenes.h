@@ -36,6 +36,10 @@ void accuracy_set_uniform(accuracy_scene *s);
 /* A committed scene. */
 hr2d_scene *accuracy_make(const accuracy_scene *s);
 
+/* Rooms of 1 × 1 in a row, with doors of 0.1 between them that are not in line; light in the
+   first.  All walls reflect .5 but the last, which reflects `last`. */
+hr2d_scene *accuracy_enfilade(int count, double last);
+
 /* As GeoJSON. */
 void accuracy_print(FILE *out, const accuracy_scene *s);
 

@@ -8,16 +8,20 @@
 #include "clusters/root-pairs.h"
 #include "visibility/events.h"
 
-void slow_clear(slow_stage *s) {
+static void forget_solution(slow_stage *s) {
   hr2d_solution_destroy(s->solution);
   hr2d_linkset_destroy(s->links);
   hr2d_hierarchy_destroy(s->hierarchy);
-  hr2d_scene_destroy(s->scene);
-  free(s->area);
-  free(s->text);
   s->solution = NULL;
   s->links = NULL;
   s->hierarchy = NULL;
+}
+
+void slow_clear(slow_stage *s) {
+  forget_solution(s);
+  hr2d_scene_destroy(s->scene);
+  free(s->area);
+  free(s->text);
   s->scene = NULL;
   s->area = NULL;
   s->text = NULL;
@@ -121,12 +125,7 @@ static hr2d_status give(void *ctx, void *bytes, size_t size) {
 static hr2d_status make_state(slow_stage *s) {
   hr2d_status status = make_solution(s);
   if (!status) status = hr2d_state_write(s->solution, keep, s);
-  hr2d_solution_destroy(s->solution);
-  hr2d_linkset_destroy(s->links);
-  hr2d_hierarchy_destroy(s->hierarchy);
-  s->solution = NULL;
-  s->links = NULL;
-  s->hierarchy = NULL;
+  forget_solution(s);
   if (!status) status = hr2d_hierarchy_create(s->scene, &s->hierarchy);
   return status ? status
                 : hr2d_linkset_create(s->hierarchy, hr2d_oracle_size(), NULL, NULL, NULL,

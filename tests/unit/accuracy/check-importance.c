@@ -4,38 +4,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "support/accuracy-scenes.h"
 #include "support/accuracy-tally.h"
 #include "support/support.h"
 
-/* Rooms of 1 × 1 in a row, with doors of 0.1 between them that are not in line; light in the
-   first.  The last wall reflects nothing. */
 enum { ROOMS = 5, PATCHES = 6 * ROOMS - 2, LAST = PATCHES - 1 };
-
-static hr2d_scene *enfilade(void) {
-  const double light = 1, rho = .5;
-  hr2d_scene *scene = test_new_scene(NULL);
-  for (int k = 0; k < ROOMS; k++) {
-    const double door = .25 + .1 * (k % 3);
-    const hr2d_segment wall[] = {{{k, 0}, {k + 1, 0}},
-                                 {{k + 1, 1}, {k, 1}},
-                                 {{k, k ? 0 : 1}, {k, k ? door : 0}},
-                                 {{k, door + .1}, {k, 1}}};
-    for (int w = 0; w < (k ? 4 : 3); w++) {
-      const hr2d_patch patch = {.a = wall[w].a,
-                                .b = wall[w].b,
-                                .emission = &light,
-                                .emission_bands = k == 0 && w == 1,
-                                .reflectance = &rho,
-                                .reflectance_bands = 1,
-                                .sides = w < 2 || k == 0 ? HR2D_SIDES_FRONT : HR2D_SIDES_BOTH};
-      ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
-    }
-  }
-  const hr2d_patch last = {.a = {ROOMS, 0}, .b = {ROOMS, 1}};
-  ck_assert_int_eq(hr2d_scene_add(scene, &last, NULL), HR2D_OK);
-  test_commit(scene);
-  return scene;
-}
 
 typedef double average_of(const hr2d_solution *, size_t patch, size_t band);
 
@@ -63,7 +36,7 @@ enum { ASKED = sizeof asked / sizeof *asked };
 /* Where errors of all patches are larger than the target, those of the important ones are
    not. */
 START_TEST(what_is_important_is_right) {
-  hr2d_scene *scene = enfilade();
+  hr2d_scene *scene = accuracy_enfilade(ROOMS, 0);
   ck_assert_uint_eq(hr2d_scene_patches(scene), PATCHES);
   hr2d_account all, some;
   hr2d_solution *truth = accuracy_solve(scene, 1e-11, HR2D_NORM_AVERAGE, &all);
@@ -116,7 +89,7 @@ static hr2d_solution *solve_for(const hr2d_scene *scene, const size_t *patch, si
 
 START_TEST(order_and_repetition_change_no_bit) {
   const size_t orders[][6] = {{3, 17, 8, 3, 3, 3}, {8, 8, 17, 3, 17, 8}, {17, 8, 3, 3, 8, 17}};
-  hr2d_scene *scene = enfilade();
+  hr2d_scene *scene = accuracy_enfilade(ROOMS, 0);
   hr2d_account a, b;
   hr2d_solution *first = solve_for(scene, orders[0], 3, &a);
   for (size_t k = 0; k < 3; k++) {
@@ -195,9 +168,9 @@ static double measured(const hr2d_solution *solution, const size_t *patch, size_
 START_TEST(measured_errors_are_those_of_important_patches) {
   test_links t;
   hr2d_account a;
-  hr2d_scene *exact = enfilade();
+  hr2d_scene *exact = accuracy_enfilade(ROOMS, 0);
   hr2d_solution *truth = accuracy_solve(exact, 1e-11, HR2D_NORM_AVERAGE, &a);
-  hr2d_solution *solution = rough(enfilade(), &t);
+  hr2d_solution *solution = rough(accuracy_enfilade(ROOMS, 0), &t);
   const double all = worst(t.scene, solution, truth, hr2d_solution_average, NULL, 0);
   ck_assert_double_eq_tol(measured(solution, NULL, 0, 0) / all, 1, 0.1);
   int less = 0;

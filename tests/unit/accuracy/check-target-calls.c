@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
+#include "support/accuracy-scenes.h"
 #include "support/accuracy-tally.h"
 #include "support/support.h"
 
@@ -172,36 +173,8 @@ START_TEST(other_budgets_hold) {
 }
 END_TEST
 
-/* Rooms in a row, with doors that are not in line; light in the first. */
-static hr2d_scene *enfilade(int rooms) {
-  const double light = 1, rho = .5;
-  hr2d_scene *scene = test_new_scene(NULL);
-  for (int k = 0; k < rooms; k++) {
-    const double door = .25 + .1 * (k % 3);
-    const hr2d_segment wall[] = {{{k, 0}, {k + 1, 0}},
-                                 {{k + 1, 1}, {k, 1}},
-                                 {{k, k ? 0 : 1}, {k, k ? door : 0}},
-                                 {{k, door + .1}, {k, 1}}};
-    for (int w = 0; w < (k ? 4 : 3); w++) {
-      const hr2d_patch patch = {.a = wall[w].a,
-                                .b = wall[w].b,
-                                .emission = &light,
-                                .emission_bands = k == 0 && w == 1,
-                                .reflectance = &rho,
-                                .reflectance_bands = 1,
-                                .sides = w < 2 || k == 0 ? HR2D_SIDES_FRONT : HR2D_SIDES_BOTH};
-      ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
-    }
-  }
-  const hr2d_patch last = {
-      .a = {rooms, 0}, .b = {rooms, 1}, .reflectance = &rho, .reflectance_bands = 1};
-  ck_assert_int_eq(hr2d_scene_add(scene, &last, NULL), HR2D_OK);
-  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
-  return scene;
-}
-
 START_TEST(importance_spares_links) {
-  hr2d_scene *scene = enfilade(6);
+  hr2d_scene *scene = accuracy_enfilade(6, 0.5);
   hr2d_account all, one;
   hr2d_solution *truth = accuracy_solve(scene, 1e-11, HR2D_NORM_AVERAGE, &one);
   hr2d_solution *every = accuracy_solve(scene, 1e-8, HR2D_NORM_AVERAGE, &all);
