@@ -29,6 +29,7 @@ bench_bench_polls_SOURCES = bench/bench-polls.c tests/support/slow-phases.c \
 bench_bench_polls_CPPFLAGS = $(AM_CPPFLAGS)
 bench_bench_polls_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 
-bench: $(BENCHES)
+benches: $(BENCHES)
+bench: benches
 	@for program in $(BENCHES); do echo "== $$program"; ./$$program || exit 1; done
-.PHONY: bench
+.PHONY: bench benches
