@@ -300,7 +300,7 @@ static hr2d_status gather_irradiance(const hr2d_solution *solution, size_t patch
                                      hr2di_watch *watch) {
   gatherer g = {.solution = solution, .watch = watch};
   g.edge = hr2di_alloc(&solution->alloc, 2 * solution->bands, sizeof *g.edge);
-  g.far = g.edge + (g.edge ? solution->bands : 0);
+  if (g.edge) g.far = g.edge + solution->bands;
   hr2d_status status = g.edge ? HR2D_OK : HR2D_ENOMEM;
   if (!status)
     status =
