@@ -119,7 +119,7 @@ static hr2d_status fill_partial(filler *f, const node *at) {
 static double extent(const filler *f, hr2di_run r) {
   const hr2d_segment s = span(f, r);
   const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
-  return r.last - r.first == 1 ? 0 : dx * dx + dy * dy;
+  return r.last - r.first == 1 ? -1 : dx * dx + dy * dy; /* may underflow */
 }
 
 /* The longer of the parts is halved, unless it is a single patch. */
