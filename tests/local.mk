@@ -53,6 +53,7 @@ SUITES = \
 	tests/unit/accuracy/check-short-patches \
 	tests/unit/accuracy/check-budgets \
 	tests/unit/accuracy/check-dark \
+	tests/unit/accuracy/check-roundings \
 	tests/unit/clusters/check-clusters \
 	tests/unit/accuracy/check-corner \
 	tests/unit/visibility/check-events \

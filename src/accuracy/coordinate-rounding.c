@@ -11,8 +11,15 @@
 
    Where a block has the exchange area of the coordinates, its elements are longer or shorter,
    too, by δ/A of their lengths: that adds (δ_i/A_i + δ_j/A_j) AF. No AF is more than the
-   shorter length. The irradiance of i from j is then off by ΔAF B_j/A_i. Elements of patches
-   with a common end are measured from there, to all digits. */
+   shorter length. Elements of patches with a common end are measured from there, to all digits.
+
+   With δ = ΔAF/A_i the irradiance of i from j is off by δB_j, but rows of K, closure and the
+   background add up to 1, so that what one of them has more another one has less:
+   - on a patch whose row sum closure makes 1, by δ(B_j − B_i);
+   - on one that sees a background of radiosity L, by δ(B_j − L);
+   - by δ(B_i − L) more, where closure corrects a distant pair whose block has another exchange
+     area than the frame from which both form factors are integrated.
+   None of these is negative, so that a difference is at most the larger of two. */
 #include "accuracy/coordinate-rounding.h"
 
 #include <float.h>
@@ -71,18 +78,40 @@ static double exchange_off(const hr2d_link *link, const hr2d_element *element,
   return fmin(2 * (off_i + off_j) * area + (plain ? longer * link->exchange_area : 0), shorter);
 }
 
-/* What the second of a pair does to the irradiance of the first. */
-static void add_pair(const hr2di_transport *t, double off, const double *most, uint32_t i,
-                     uint32_t j, double *error) {
-  for (size_t b = 0; b < t->bands; b++)
-    error[i * t->bands + b] += off / t->hierarchy->element[i].length * most[j * t->bands + b];
+typedef struct levels {
+  const double *most;     /* |B| of elements, elements × bands */
+  const double *light;    /* L, per band */
+  unsigned char *has_sky; /* elements: a leaf below sees the background */
+} levels;
+
+static void find_sky(const hr2di_transport *t, unsigned char *has_sky) {
+  const hr2d_element *e = t->hierarchy->element;
+  for (size_t k = 0; k < t->leaves * t->order && t->sky; k++)
+    if (t->sky[k] != 0) has_sky[t->leaf[k / t->order]] = 1;
+  for (size_t k = t->elements; k-- > 0;)
+    if (e[k].child) has_sky[k] = has_sky[e[k].child] | has_sky[e[k].child + 1];
+}
+
+/* What the second of a pair does to the irradiance of the first; `corrected` where closure has
+   another form factor of the pair. */
+static void add_pair(const hr2di_transport *t, double off, int corrected, const levels *is,
+                     uint32_t i, uint32_t j, double *error) {
+  const hr2d_element *e = &t->hierarchy->element[i];
+  const int closed = t->closed && t->closed[e->patch];
+  for (size_t b = 0; b < t->bands; b++) {
+    const double light = is->has_sky[i] ? is->light[b] : 0;
+    const double other = fmax(is->most[j * t->bands + b], light);
+    const double own = fmax(t->closure ? is->most[i * t->bands + b] : 0, light);
+    const double sum = closed ? fmax(other, own) : other + (corrected ? own : 0);
+    error[i * t->bands + b] += off / e->length * sum;
+  }
 }
 
 /* The exchange area of a pair that is hidden or clipped in part is known to this part of the
    shorter length (tests/unit/occlusion/check-visibility.c). */
 #define HIDDEN 1e-14
 
-static void add_links(const hr2di_transport *t, const double *offset, const double *most,
+static void add_links(const hr2di_transport *t, const double *offset, const levels *is,
                       double *error) {
   const hr2d_hierarchy *h = t->hierarchy;
   const hr2di_link_blocks *blocks = &t->links->blocks;
@@ -98,10 +127,10 @@ static void add_links(const hr2di_transport *t, const double *offset, const doub
     double off = offset[i] + offset[j] > 0 && !corner
                      ? exchange_off(link, h->element, offset, plain)
                      : 0;
-    if (hides && !(t->order > 1 && blocks->distant[k]))
-      off += HIDDEN * fmin(h->element[i].length, h->element[j].length);
-    add_pair(t, off, most, i, j, error);
-    if (!t->links->directed) add_pair(t, off, most, j, i, error);
+    const int distant = t->order > 1 && blocks->distant[k];
+    if (hides && !distant) off += HIDDEN * fmin(h->element[i].length, h->element[j].length);
+    add_pair(t, off, distant && plain, is, i, j, error);
+    if (!t->links->directed) add_pair(t, off, distant && plain, is, j, i, error);
   }
 }
 
@@ -113,14 +142,17 @@ static void lower(const hr2di_transport *t, double *error) {
       error[e[k].child * t->bands + m] += error[k * t->bands + m % t->bands];
 }
 
-hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const double *most, double *error) {
+hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const double *most,
+                                  const double *light, double *error) {
   double *offset = hr2di_alloc(&t->alloc, t->elements, sizeof *offset);
   double *all = hr2di_alloc_zero(&t->alloc, t->elements, t->bands * sizeof *all);
-  const int room = offset && all;
+  levels is = {most, light, hr2di_alloc_zero(&t->alloc, t->elements, 1)};
+  const int room = offset && all && is.has_sky;
   if (room) {
+    find_sky(t, is.has_sky);
     for (uint32_t k = 0; k < t->elements && !hr2di_watch_work(t->watch, 1); k++)
       offset[k] = offset_of(t->hierarchy, k);
-    add_links(t, offset, most, all);
+    add_links(t, offset, &is, all);
     lower(t, all);
     for (size_t k = 0; k < t->leaves; k++)
       for (size_t b = 0; b < t->bands; b++)
@@ -128,5 +160,6 @@ hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const double *most, 
   }
   hr2di_alloc_free(&t->alloc, offset);
   hr2di_alloc_free(&t->alloc, all);
+  hr2di_alloc_free(&t->alloc, is.has_sky);
   return room ? hr2di_watch_status(t->watch) : HR2D_ENOMEM;
 }

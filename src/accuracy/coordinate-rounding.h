@@ -6,7 +6,9 @@
 #include "solve/transport.h"
 
 /* error += how much the irradiance of leaves may be off, leaves × bands; |B| of elements is at
-   most `most`, elements × bands. HR2D_OK, HR2D_ENOMEM or the status of the watch. */
-hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const double *most, double *error);
+   most `most`, elements × bands, and the background has radiosity `light` per band. HR2D_OK,
+   HR2D_ENOMEM or the status of the watch. */
+hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const double *most,
+                                  const double *light, double *error);
 
 #endif

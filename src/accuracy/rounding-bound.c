@@ -1,19 +1,84 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* (I − ρK)⁻¹ = Σ(ρK)^k maps nothing positive to anything negative, so it carries a bound of
    roundings as it does light.  Roundings of the level of a closed component are no more than
-   that. */
+   that.
+
+   Closure d makes K1 + d the exact row sum, and the form factor s of the background is
+   1 − K1 − d: what is off in K is off in these, too, with the other sign.  With z = B − c in a
+   closed component of level c, and z = B − L where the background has radiosity L,
+
+     H_i = Σ K_ij B_j + d_i B_i + s_i L   is off by   Σ δK_ij z_j + δd_i z_i.
+
+   Exchange areas have a relative error of ε, so that |δK_ij| ≤ εK_ij and |δd_i| ≤ εr_i for the
+   row sum r_i that d_i corrects: of all links on closed patches, of distant links on others.
+   On a patch that shines and sees the dark r_i|z_i| is much more than H_i.  A difference from 1
+   has some roundings of 1, however small it is. */
 #include "accuracy/rounding-bound.h"
 
 #include <float.h>
 #include <math.h>
 
 #include "accuracy/coordinate-rounding.h"
+#include "scene/scene-impl.h"
+
+/* Of 1 − Σ. */
+#define DIFFERENCE (4 * DBL_EPSILON)
+
+/* Sets e->error to constants on leaves, |z| at most. */
+static void set_rest(hr2di_estimator *e) {
+  const hr2di_transport *t = &e->eq.transport;
+  for (size_t k = 0; k < e->eq.field; k++) {
+    const size_t m = k % t->width;
+    const int lit =
+        t->sky && m < t->bands && !hr2di_balance_closed(&e->eq.balance, k / t->width);
+    e->error[k] = e->rest[k] - (lit ? e->eq.light[m] : 0);
+  }
+  for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++)
+    for (size_t m = 0; m < t->width; m++) {
+      double *at = e->error + leaf * t->width + m;
+      *at = m < t->bands ? hr2di_estimator_most(e, e->error, leaf, m) : 0;
+    }
+}
+
+/* Whether any of the coefficients of a leaf is not 0. */
+static int is_set(const double *field, size_t leaf, size_t count) {
+  for (size_t k = 0; k < count && field; k++)
+    if (field[leaf * count + k] != 0) return 1;
+  return 0;
+}
+
+/* e->off is εH so far.  Without closure nothing is added to H where no background is seen. */
+static void add_rows(hr2di_estimator *e) {
+  hr2di_equation *eq = &e->eq;
+  hr2di_transport *t = &eq->transport;
+  double *const received = eq->source, *const one = eq->work, *const row = eq->irradiance;
+  if (!t->closure && !t->sky) return;
+  set_rest(e);
+  for (size_t k = 0; k < eq->field; k++) one[k] = k % t->width < t->bands;
+  hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, e->error, received);
+  hr2di_transport_apply_part(t, HR2DI_DISTANT_LINKS, one, row);
+  for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
+    const uint32_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
+    const int sky = is_set(t->sky, leaf, t->order);
+    const int closed = t->closed && t->closed[patch];
+    const int corrected = t->closure ? is_set(t->closure, leaf, t->order * t->order) : sky;
+    for (size_t b = 0; b < t->bands && (t->closure || sky); b++) {
+      const double r = closed ? 1 : corrected ? hr2di_estimator_most(e, row, leaf, b) : 0;
+      const double own = t->closure ? e->error[leaf * t->width + b] : eq->light[b];
+      const double from = hr2di_estimator_most(e, received, leaf, b);
+      double *off = e->off + leaf * t->bands + b;
+      *off = fmax(*off, HR2DI_ESTIMATOR_ROUNDING * (from + r * own)) +
+             (sky ? DIFFERENCE * eq->light[b] : 0);
+    }
+  }
+}
 
 hr2d_status hr2di_rounding_bound(hr2di_estimator *e, int reflects) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
+  add_rows(e);
   hr2di_estimator_set_most(e, e->kept);
-  hr2d_status status = hr2di_coordinates_add(t, e->most, e->off);
+  hr2d_status status = hr2di_coordinates_add(t, e->most, eq->light, e->off);
   for (size_t k = 0; k < eq->field && !status; k++) {
     const size_t leaf = k / t->width, m = k % t->width;
     const double b =

@@ -7,12 +7,12 @@
    elementary because nothing is in the way.  On each leaf d = Π(Σ F(x → j) − K_distant 1)
    multiplies B, where Π projects onto degree p−1.  The matrix of that, (1/A)∫ d φ_l φ_m, is
    symmetric, so that the operator stays symmetric. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "blocks/block.h"
-#include "geometry/point-view-factor.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/patch-defect.h"
 #include "scene/scene-impl.h"
@@ -38,6 +38,19 @@ typedef struct rows {
   double product_phi[HR2DI_RULE_POINTS][HR2D_MAX_ORDER];
 } rows;
 
+/* F(x → j) at fraction s of i, as in geometry/point-view-factor.h.  The cross product of the
+   vectors C and D to the ends of j is A_j times the distance of x from the line of j, and
+   |C| cos θ_C is the distance of the one end from the line of i: a rounding of these is one of
+   F, also where F is small. */
+static double point_factor(const hr2di_pair_frame *f, double s) {
+  const hr2d_point c = hr2di_block_along(f->apart, f->along_i, -s);
+  const hr2d_point d = {c.x + f->along_j.x, c.y + f->along_j.y};
+  const double size_c = sqrt(c.x * c.x + c.y * c.y), size_d = sqrt(d.x * d.x + d.y * d.y);
+  const double cosines = f->above_i[0] / size_c + f->above_i[1] / size_d;
+  return f->length_j * hr2di_block_mix(f->above_j, s) * cosines /
+         (2 * (size_c * size_d + (c.x * d.x + c.y * d.y)));
+}
+
 /* Adds the form factor of `source` to the leaves below `receiver`, by degree. */
 static void add_exact(rows *r, uint32_t receiver, uint32_t source) {
   const hr2d_hierarchy *h = r->t->hierarchy;
@@ -46,7 +59,6 @@ static void add_exact(rows *r, uint32_t receiver, uint32_t source) {
   const double whole = h->element[h->element[receiver].patch].length;
   hr2di_pair_frame f;
   hr2di_pair_frame_init(&f, h, (hr2d_pair){receiver, source}, HR2DI_FACING_FULL);
-  const hr2d_point normal = {-f.along_i.y / size, f.along_i.x / size};
   uint32_t leaf = hr2di_hierarchy_first_leaf(h, receiver);
   do {
     if (hr2di_watch_work(r->t->watch, r->rule.points * (8 + order) / 16)) return;
@@ -55,9 +67,7 @@ static void add_exact(rows *r, uint32_t receiver, uint32_t source) {
     double *exact = r->exact + r->number[leaf] * order;
     for (size_t q = 0; q < r->rule.points; q++) {
       const double s = from + part * (0.5 + 0.5 * r->rule.at[q]);
-      const hr2d_point c = hr2di_block_along(f.apart, f.along_i, -s);
-      const hr2d_point d = {c.x + f.along_j.x, c.y + f.along_j.y};
-      const double factor = r->rule.weight[q] * hr2di_point_view_factor(normal, c, d);
+      const double factor = r->rule.weight[q] * point_factor(&f, s);
       for (size_t l = 0; l < order; l++) exact[l] += factor * r->phi[q][l];
     }
     leaf = hr2di_hierarchy_next_leaf(h, leaf, receiver);
@@ -90,6 +100,17 @@ static void find_closed_by_rows(rows *r, hr2di_transport *t) {
   hr2di_transport_pull(t, r->all);
   for (size_t k = 0; k < t->hierarchy->scene->patches; k++)
     r->closed[k] = fabs(1 - t->up[k * t->width]) <= none;
+}
+
+/* Row sums of links and form factors have a relative error of some roundings.  Where these are
+   all that is missing, closure would add that part of the leaf's own B to its H, and H may be
+   much less.  Patches that see patches everywhere keep it: an isothermal room stays so. */
+#define NOISE (8 * DBL_EPSILON)
+
+static void clear_noise(const rows *r, const double *row, double *missing) {
+  double max = 0;
+  for (size_t l = 0; l < r->t->order; l++) max = fmax(max, fabs(missing[l]));
+  if (max <= NOISE * row[0]) memset(missing, 0, r->t->order * sizeof *missing);
 }
 
 /* closure_lm = (1/A)∫ d φ_l φ_m for d = Σ missing_k φ_k; symmetric. */
@@ -133,6 +154,7 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
     double *missing = r->exact + k * t->order;
     if (closed) missing[0] = 1;
     for (size_t l = 0; l < t->order; l++) missing[l] -= row[l * t->bands];
+    if (!closed) clear_noise(r, row, missing);
     multiply(r, missing, closure + k * t->order * t->order);
   }
 }
@@ -156,6 +178,8 @@ hr2d_status hr2di_closure_set_order_p(hr2di_transport *t) {
   if (room) {
     close_rows(&r, t, closure);
     t->closure = closure;
+    t->closed = r.closed;
+    r.closed = NULL;
   } else {
     hr2di_alloc_free(alloc, closure);
   }

@@ -34,7 +34,9 @@ static hr2d_status integrate_rows_order_p(hr2di_equation *s, int closure, int ba
   if (!status && background) status = hr2di_background_set_order_p(t);
   if (!closure) {
     hr2di_alloc_free(&t->alloc, t->closure);
+    hr2di_alloc_free(&t->alloc, t->closed);
     t->closure = NULL;
+    t->closed = NULL;
   }
   return status;
 }

@@ -29,6 +29,7 @@ typedef struct hr2di_transport {
   hr2di_watch *watch;
   hr2d_status failed; /* HR2D_ENOMEM if a gather lacked memory, or the status of the watch: its
                          result must not be used */
+  unsigned char *closed; /* per patch: closure makes row sums 1; NULL at order 1, or without */
 } hr2di_transport;
 
 /* Sets up the operator at the order of the hierarchy; above 1 the links must have blocks.
