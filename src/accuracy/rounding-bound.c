@@ -20,24 +20,34 @@
 
 #include "accuracy/coordinate-rounding.h"
 #include "scene/scene-impl.h"
+#include "solve/closure.h"
 
 /* Of 1 − Σ. */
 #define DIFFERENCE (4 * DBL_EPSILON)
 
-/* Sets e->error to constants on leaves, |z| at most. */
-static void set_rest(hr2di_estimator *e) {
+/* The largest |value| of a field on a leaf without its constant, which is set to 0. */
+static double fluctuation(hr2di_estimator *e, double *field, size_t leaf, size_t band) {
+  field[leaf * e->eq.transport.width + band] = 0;
+  return hr2di_estimator_most(e, field, leaf, band);
+}
+
+/* Sets `most` and `rest` to constants on leaves: |z| at most, and |z − z̄|. */
+static void set_fields(hr2di_estimator *e, double *most, double *rest) {
   const hr2di_transport *t = &e->eq.transport;
   for (size_t k = 0; k < e->eq.field; k++) {
     const size_t m = k % t->width;
     const int lit =
         t->sky && m < t->bands && !hr2di_balance_closed(&e->eq.balance, k / t->width);
-    e->error[k] = e->rest[k] - (lit ? e->eq.light[m] : 0);
+    rest[k] = e->rest[k] - (lit ? e->eq.light[m] : 0);
+    most[k] = 0;
   }
-  for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++)
-    for (size_t m = 0; m < t->width; m++) {
-      double *at = e->error + leaf * t->width + m;
-      *at = m < t->bands ? hr2di_estimator_most(e, e->error, leaf, m) : 0;
+  for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
+    double *at = rest + leaf * t->width;
+    for (size_t b = 0; b < t->bands; b++) {
+      most[leaf * t->width + b] = hr2di_estimator_most(e, rest, leaf, b);
+      at[b] = fluctuation(e, rest, leaf, b);
     }
+  }
 }
 
 /* Whether any of the coefficients of a leaf is not 0. */
@@ -47,28 +57,40 @@ static int is_set(const double *field, size_t leaf, size_t count) {
   return 0;
 }
 
-/* e->off is εH so far.  Without closure nothing is added to H where no background is seen. */
+/* r_i|z_i| at most, for the row sum `row` of distant links.  An average of d z is d̄ z̄ and what
+   both fluctuate; d̄ is not 0 if it is above the noise of closure. */
+static double corrected(const hr2di_estimator *e, const double *row, size_t leaf, size_t band,
+                        double most, double rest) {
+  const hr2di_transport *t = &e->eq.transport;
+  const size_t square = t->order * t->order;
+  const double mean = row[leaf * t->width + band];
+  if (t->closed[t->hierarchy->element[t->leaf[leaf]].patch]) return most;
+  if (!is_set(t->closure, leaf, square)) return 0;
+  const int shifted = fabs(t->closure[leaf * square]) > 0.5 * HR2DI_CLOSURE_NOISE * mean;
+  return hr2di_estimator_most(e, row, leaf, band) * (shifted ? most : rest);
+}
+
+/* e->off is εH so far.  Without closure d is a part of s alone. */
 static void add_rows(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   hr2di_transport *t = &eq->transport;
-  double *const received = eq->source, *const one = eq->work, *const row = eq->irradiance;
+  double *const most = e->error, *const rest = eq->radiosity, *const one = eq->work;
+  double *const received = eq->source, *const row = eq->irradiance;
   if (!t->closure && !t->sky) return;
-  set_rest(e);
+  set_fields(e, most, rest);
   for (size_t k = 0; k < eq->field; k++) one[k] = k % t->width < t->bands;
-  hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, e->error, received);
+  hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, most, received);
   hr2di_transport_apply_part(t, HR2DI_DISTANT_LINKS, one, row);
   for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
-    const uint32_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
     const int sky = is_set(t->sky, leaf, t->order);
-    const int closed = t->closed && t->closed[patch];
-    const int corrected = t->closure ? is_set(t->closure, leaf, t->order * t->order) : sky;
     for (size_t b = 0; b < t->bands && (t->closure || sky); b++) {
-      const double r = closed ? 1 : corrected ? hr2di_estimator_most(e, row, leaf, b) : 0;
-      const double own = t->closure ? e->error[leaf * t->width + b] : eq->light[b];
-      const double from = hr2di_estimator_most(e, received, leaf, b);
+      const size_t at = leaf * t->width + b;
+      const double own = t->closure ? corrected(e, row, leaf, b, most[at], rest[at])
+                                    : hr2di_estimator_most(e, row, leaf, b) * eq->light[b];
+      const double sum = hr2di_estimator_most(e, received, leaf, b) + own;
       double *off = e->off + leaf * t->bands + b;
-      *off = fmax(*off, HR2DI_ESTIMATOR_ROUNDING * (from + r * own)) +
-             (sky ? DIFFERENCE * eq->light[b] : 0);
+      *off = fmax(*off, HR2DI_ESTIMATOR_ROUNDING * sum);
+      *off += sky ? DIFFERENCE * eq->light[b] : 0;
     }
   }
 }

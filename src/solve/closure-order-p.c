@@ -7,7 +7,6 @@
    elementary because nothing is in the way.  On each leaf d = Π(Σ F(x → j) − K_distant 1)
    multiplies B, where Π projects onto degree p−1.  The matrix of that, (1/A)∫ d φ_l φ_m, is
    symmetric, so that the operator stays symmetric. */
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -102,15 +101,13 @@ static void find_closed_by_rows(rows *r, hr2di_transport *t) {
     r->closed[k] = fabs(1 - t->up[k * t->width]) <= none;
 }
 
-/* Row sums of links and form factors have a relative error of some roundings.  Where these are
-   all that is missing, closure would add that part of the leaf's own B to its H, and H may be
-   much less.  Patches that see patches everywhere keep it: an isothermal room stays so. */
-#define NOISE (8 * DBL_EPSILON)
-
+/* Row sums of links and form factors have a relative error of some roundings.  Where a
+   coefficient of d is no more, closure would add that part of the leaf's own B to its H, and H
+   may be much less; a leaf that has all its links itself has no d_0 but this.  Patches that see
+   patches everywhere keep it: an isothermal room stays so. */
 static void clear_noise(const rows *r, const double *row, double *missing) {
-  double max = 0;
-  for (size_t l = 0; l < r->t->order; l++) max = fmax(max, fabs(missing[l]));
-  if (max <= NOISE * row[0]) memset(missing, 0, r->t->order * sizeof *missing);
+  for (size_t l = 0; l < r->t->order; l++)
+    if (fabs(missing[l]) <= HR2DI_CLOSURE_NOISE * row[0]) missing[l] = 0;
 }
 
 /* closure_lm = (1/A)∫ d φ_l φ_m for d = Σ missing_k φ_k; symmetric. */
