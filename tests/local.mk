@@ -191,7 +191,7 @@ check-long:
 TOO_LONG = tests/unit/accuracy/check-dark tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-known-radiosities tests/unit/solve/check-closure \
 	tests/unit/solution/check-irradiance-points tests/faults/check-polls \
-	tests/unit/accuracy/check-short-patches \
+	tests/unit/accuracy/check-roundings tests/unit/accuracy/check-short-patches \
 	tests/unit/accuracy/check-target-calls tests/unit/blocks/check-blocks \
 	tests/unit/clusters/check-clusters tests/unit/refine/check-occlusion \
 	tests/paper/check-theorem tests/faults/check-faults-accuracy \

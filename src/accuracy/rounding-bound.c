@@ -19,7 +19,6 @@
 #include <math.h>
 
 #include "accuracy/coordinate-rounding.h"
-#include "scene/scene-impl.h"
 #include "solve/closure.h"
 
 /* Of 1 − Σ. */
