@@ -87,10 +87,11 @@ libhr2d_core_la_SOURCES = \
 	src/oracle/oracle.c \
 	src/oracle/policy.c \
 	src/blocks/block.c src/blocks/block.h \
-	src/blocks/near.c \
-	src/blocks/occluded.c \
-	src/blocks/panels.h \
-	src/blocks/touching.c \
+	src/blocks/directions.c \
+	src/blocks/line-frame.c \
+	src/blocks/line-vector.h \
+	src/blocks/lines.c src/blocks/lines.h \
+	src/blocks/moments.c src/blocks/moments.h \
 	src/clusters/beams.c src/clusters/beams.h \
 	src/clusters/clusters.c src/clusters/clusters.h \
 	src/clusters/clusters-impl.h \
@@ -105,6 +106,7 @@ libhr2d_core_la_SOURCES = \
 	src/links/linkset.c \
 	src/links/linkset-impl.h \
 	src/links/patch-defect.c src/links/patch-defect.h \
+	src/solution/panels.h \
 	src/solution/point-gather.c \
 	src/solution/solution.c \
 	src/solution/solution-impl.h \

@@ -11,14 +11,6 @@
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
 
-/* The part of [0,1] where a linear function with these end values is positive. */
-static hr2di_span positive(const double end[2]) {
-  hr2di_span span = {0, 1};
-  if (!(end[0] > 0)) span.from = end[1] > 0 ? end[0] / (end[0] - end[1]) : 1;
-  if (!(end[1] > 0)) span.to = end[0] > 0 ? end[0] / (end[0] - end[1]) : 0;
-  return span;
-}
-
 /* The vector b − a of an element, from the vector of its patch, which has more digits. */
 static hr2d_point along(const hr2di_patch *p, const hr2d_element *e) {
   const double part = e->length / p->length;
@@ -27,9 +19,7 @@ static hr2d_point along(const hr2di_patch *p, const hr2d_element *e) {
 }
 
 static void make_frame(hr2di_pair_frame *f, const hr2d_scene *scene, const hr2d_element *i,
-                       const hr2d_element *j, hr2di_facing facing) {
-  f->i = (hr2d_segment){i->a, i->b};
-  f->j = (hr2d_segment){j->a, j->b};
+                       const hr2d_element *j) {
   f->along_i = along(&scene->patch[i->patch], i);
   f->along_j = along(&scene->patch[j->patch], j);
   f->apart = (hr2d_point){j->a.x - i->a.x, j->a.y - i->a.y};
@@ -39,11 +29,6 @@ static void make_frame(hr2di_pair_frame *f, const hr2d_scene *scene, const hr2d_
   f->above_i[1] = hr2di_orient(i->a, i->b, j->b) / i->length;
   f->above_j[0] = hr2di_orient(j->a, j->b, i->a) / j->length;
   f->above_j[1] = hr2di_orient(j->a, j->b, i->b) / j->length;
-  f->front_i = f->front_j = (hr2di_span){0, 1};
-  if (facing == HR2DI_FACING_PART) {
-    f->front_i = positive(f->above_j);
-    f->front_j = positive(f->above_i);
-  }
 }
 
 /* Elements next to a corner of their patches may be so small that their coordinates are equal.
@@ -67,26 +52,20 @@ static void measure_from_corner(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr
   f->above_j[1] = fabs(a + size_i) * sine / q->length;
 }
 
-void hr2di_pair_frame_init(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pair pair,
-                           hr2di_facing facing) {
+void hr2di_pair_frame_init(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pair pair) {
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
   const hr2d_segment p = h->scene->patch[i->patch].scaled, q = h->scene->patch[j->patch].scaled;
-  make_frame(f, h->scene, i, j, facing);
+  make_frame(f, h->scene, i, j);
   if (hr2di_point_same(p.b, q.a) || hr2di_point_same(p.a, q.b))
     measure_from_corner(f, h, pair, hr2di_point_same(p.b, q.a));
 }
 
-/* The number of points that the accuracy of order p needs: B is approximated to 3.3^−2p in the
-   mean, and a rule of q points is accurate to 3.19^−(2q−p) on the panels of near.c. */
-static size_t near_points(size_t order) {
-  const double p = (double)order, digits = fmin(2 * p * log(3.3) + 5, 35);
-  return (size_t)ceil(0.5 * (digits / log(3.19) + p));
-}
-
 static double *table(const hr2di_integrator *w, const hr2di_rule *rule) {
+  hr2di_basis basis;
+  hr2di_basis_init(&basis, w->order);
   double *phi = hr2di_alloc(&w->alloc, rule->points * w->order, sizeof *phi);
   for (size_t q = 0; phi && q < rule->points; q++)
-    hr2di_basis_at(&w->basis, rule->at[q], phi + q * w->order);
+    hr2di_basis_at(&basis, rule->at[q], phi + q * w->order);
   return phi;
 }
 
@@ -96,14 +75,11 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
   const hr2d_scene *scene = hierarchy->scene;
   *w = (hr2di_integrator){
       .hierarchy = hierarchy, .alloc = *alloc, .order = order, .watch = watch};
-  hr2di_basis_init(&w->basis, order);
   hr2di_rule_init(&w->far, order + 2);
-  hr2di_rule_init(&w->near, near_points(order));
-  hr2di_rule_init(&w->exact, order);
   w->phi_far = table(w, &w->far);
-  w->phi_exact = table(w, &w->exact);
-  w->work = hr2di_alloc(alloc, 2 * HR2DI_RULE_POINTS * HR2DI_RULE_POINTS, sizeof *w->work);
-  int room = w->phi_far && w->phi_exact && w->work;
+  w->rule = hr2di_alloc(alloc, HR2DI_RULE_POINTS, sizeof *w->rule);
+  const hr2d_status status = hr2di_moments_init(&w->moments, order, alloc);
+  int room = w->phi_far && w->rule && !status;
   if (room && scene->effect[HR2D_EFFECT_OCCLUSION].on) {
     w->visibility = hr2di_alloc(alloc, 1, sizeof *w->visibility);
     if (w->visibility) hr2di_visibility_init(w->visibility, &scene->walls, alloc, watch);
@@ -114,19 +90,21 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
 
 void hr2di_integrator_clear(hr2di_integrator *w) {
   hr2di_alloc_free(&w->alloc, w->phi_far);
-  hr2di_alloc_free(&w->alloc, w->phi_exact);
-  hr2di_alloc_free(&w->alloc, w->work);
+  hr2di_alloc_free(&w->alloc, w->rule);
+  hr2di_moments_clear(&w->moments, &w->alloc);
   if (w->visibility) hr2di_visibility_clear(w->visibility);
   hr2di_alloc_free(&w->alloc, w->visibility);
   hr2di_alloc_free(&w->alloc, w->found.wall);
-  hr2di_alloc_free(&w->alloc, w->screen);
-  hr2di_alloc_free(&w->alloc, w->point);
-  hr2di_alloc_free(&w->alloc, w->cut);
-  hr2di_alloc_free(&w->alloc, w->shadow);
+  hr2di_alloc_free(&w->alloc, w->vertex);
+  hr2di_alloc_free(&w->alloc, w->trapezoid);
+}
+
+static double mix(const double end[2], double part) {
+  return end[0] + part * (end[1] - end[0]);
 }
 
 /* One tensor rule is enough, because G is smooth on both elements. */
-void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, double *block) {
+static void add_distant(hr2di_integrator *w, const hr2di_pair_frame *f, double *block) {
   const size_t p = w->order, n = w->far.points;
   const double scale = 0.5 * f->length_i * f->length_j;
   double moment[HR2D_MAX_ORDER];
@@ -135,14 +113,13 @@ void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, double 
   for (size_t k = 0; k < n; k++) {
     const double s = 0.5 + 0.5 * w->far.at[k];
     const double x = f->apart.x - s * f->along_i.x, y = f->apart.y - s * f->along_i.y;
-    const double outer = scale * w->far.weight[k] * hr2di_block_mix(f->above_j, s);
+    const double outer = scale * w->far.weight[k] * mix(f->above_j, s);
     memset(moment, 0, p * sizeof *moment);
     for (size_t q = 0; q < n; q++) {
       const double t = 0.5 + 0.5 * w->far.at[q];
       const double rx = x + t * f->along_j.x, ry = y + t * f->along_j.y;
       const double square = rx * rx + ry * ry;
-      const double g =
-          w->far.weight[q] * hr2di_block_mix(f->above_i, t) / (square * sqrt(square));
+      const double g = w->far.weight[q] * mix(f->above_i, t) / (square * sqrt(square));
       const double *phi = w->phi_far + q * p;
       for (size_t m = 0; m < p; m++) moment[m] += g * phi[m];
     }
@@ -152,17 +129,75 @@ void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, double 
   }
 }
 
-/* Collects the walls in the way into w->found.  The patch with the lower number comes first,
-   as it does in refinement. */
+hr2d_status hr2di_block_of_vertices(hr2di_integrator *w, const hr2di_line_frame *f,
+                                    const hr2di_vertex *vertex, size_t rights, size_t lefts,
+                                    double *block) {
+  if (hr2di_alloc_reserve(&w->alloc, &w->trapezoid, &w->trapezoid_capacity, rights + lefts,
+                          sizeof *w->trapezoid))
+    return HR2D_ENOMEM;
+  const hr2d_status status = hr2di_watch_work(w->watch, 2 * (rights + lefts));
+  if (status) return status;
+  const size_t count =
+      hr2di_line_trapezoids(f, vertex, rights, vertex + rights, lefts, w->trapezoid);
+  return hr2di_block_add_lines(w, w->trapezoid, count, block);
+}
+
+hr2d_status hr2di_block_of_chains(hr2di_integrator *w, const hr2di_line_frame *f,
+                                  const hr2di_incident_point *right, size_t rights,
+                                  const hr2di_incident_point *left, size_t lefts,
+                                  double *block) {
+  if (hr2di_alloc_reserve(&w->alloc, &w->vertex, &w->vertex_capacity, rights + lefts,
+                          sizeof *w->vertex))
+    return HR2D_ENOMEM;
+  for (size_t k = 0; k < rights; k++) w->vertex[k] = hr2di_line_vertex(f, right[k]);
+  for (size_t k = 0; k < lefts; k++) w->vertex[rights + k] = hr2di_line_vertex(f, left[k]);
+  return hr2di_block_of_vertices(w, f, w->vertex, rights, lefts, block);
+}
+
+/* Where nothing is in the way. */
+static hr2d_status add_clear(hr2di_integrator *w, const hr2di_line_frame *f, double *block) {
+  hr2di_vertex end[4];
+  if (!hr2di_line_ends(f, end, end + 2)) return HR2D_OK;
+  return hr2di_block_of_vertices(w, f, end, 2, 2, block);
+}
+
+typedef struct shaded {
+  hr2di_integrator *work;
+  hr2di_line_frame frame;
+  double *block;
+} shaded;
+
+static hr2d_status add_class(void *ctx, const hr2di_shaft *shaft, const hr2di_chain *right,
+                             const hr2di_chain *left, int *open) {
+  const shaded *s = ctx;
+  hr2di_corridor c;
+  if (!right) {
+    const hr2di_incident_point side[2][2] = {{shaft->b, shaft->c}, {shaft->a, shaft->d}};
+    *open = 1;
+    return hr2di_block_of_chains(s->work, &s->frame, side[0], 2, side[1], 2, s->block);
+  }
+  *open = hr2di_corridor_find(&shaft->frame, right, left, &c);
+  if (!*open) return HR2D_OK;
+  return hr2di_block_of_chains(s->work, &s->frame, right->point + c.right_first,
+                               c.right_last - c.right_first + 1, left->point + c.left_first,
+                               c.left_last - c.left_first + 1, s->block);
+}
+
+static hr2d_status add_shaded(hr2di_integrator *w, hr2d_pair pair, const hr2di_shaft *shaft,
+                              double *block) {
+  shaded s = {.work = w, .block = block};
+  const hr2di_class_visitor visitor = {add_class, &s};
+  int open;
+  hr2di_line_frame_init(&s.frame, w->hierarchy, pair);
+  return hr2di_visibility_visit(w->visibility, shaft, w->found.wall, w->found.count, &visitor,
+                                &open);
+}
+
+/* Collects the walls in the way into w->found. */
 static hr2d_status look(hr2di_integrator *w, hr2d_pair pair, hr2di_facing facing,
                         hr2di_shaft *shaft, hr2di_visibility_class *view) {
   const hr2d_hierarchy *h = w->hierarchy;
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
-  if (i->patch > j->patch) {
-    const hr2d_element *swap = i;
-    i = j;
-    j = swap;
-  }
   *view = HR2DI_CLEAR;
   w->found.count = 0;
   const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
@@ -172,32 +207,54 @@ static hr2d_status look(hr2di_integrator *w, hr2d_pair pair, hr2di_facing facing
   return hr2di_visibility_collect(w->visibility, shaft, &w->found, view);
 }
 
-hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double *block, int *distant) {
+/* hr2di_block() for a pair in order. */
+static hr2d_status integrate(hr2di_integrator *w, hr2d_pair pair, double *block, int *distant) {
   const hr2d_hierarchy *h = w->hierarchy;
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
   const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
   const hr2d_segment p = h->scene->patch[i->patch].scaled, q = h->scene->patch[j->patch].scaled;
   const int corner = hr2di_point_same(p.b, q.a) || hr2di_point_same(p.a, q.b);
   const hr2di_facing facing = corner ? hr2di_facing_of(&p, &q) : hr2di_facing_of(&s, &t);
-  hr2di_pair_frame f;
   hr2di_shaft shaft;
   hr2di_visibility_class view;
-  memset(block, 0, w->order * w->order * sizeof *block);
   *distant = 0;
   hr2d_status status = hr2di_watch_work(w->watch, 2);
   if (status || facing == HR2DI_FACING_NONE) return status;
   status = look(w, pair, facing, &shaft, &view);
   if (status || view == HR2DI_BLOCKED) return status;
-  hr2di_pair_frame_init(&f, h, pair, facing);
-  if (view == HR2DI_PARTIAL) return hr2di_block_occluded(w, &f, &shaft, block);
-  const int full = facing == HR2DI_FACING_FULL, touching_end = hr2di_point_same(i->b, j->a);
-  *distant = full && hr2di_ellipse_least(s, t) >= HR2DI_ELLIPSE_DISTANT &&
+  if (view == HR2DI_PARTIAL) return add_shaded(w, pair, &shaft, block);
+  *distant = facing == HR2DI_FACING_FULL &&
+             hr2di_ellipse_least(s, t) >= HR2DI_ELLIPSE_DISTANT &&
              hr2di_ellipse_least(t, s) >= HR2DI_ELLIPSE_DISTANT;
-  if (*distant)
-    hr2di_block_distant(w, &f, block);
-  else if (full && (touching_end || hr2di_point_same(i->a, j->b)))
-    hr2di_block_touching(w, &f, touching_end, block);
-  else
-    hr2di_block_near(w, &f, block);
+  if (*distant) {
+    hr2di_pair_frame f;
+    hr2di_pair_frame_init(&f, h, pair);
+    add_distant(w, &f, block);
+    return hr2di_watch_status(w->watch);
+  }
+  hr2di_line_frame f;
+  hr2di_line_frame_init(&f, h, pair);
+  return add_clear(w, &f, block);
+}
+
+static void transpose(double *block, size_t order) {
+  for (size_t l = 0; l < order; l++)
+    for (size_t m = 0; m < l; m++) {
+      const double kept = block[l * order + m];
+      block[l * order + m] = block[m * order + l];
+      block[m * order + l] = kept;
+    }
+}
+
+hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double *block, int *distant) {
+  const hr2d_element *element = w->hierarchy->element;
+  const hr2d_pair swap = {pair.second, pair.first};
+  const int in_order = element[pair.first].patch <= element[pair.second].patch;
+  memset(block, 0, w->order * w->order * sizeof *block);
+  w->moments.count = 0;
+  const hr2d_status status = integrate(w, in_order ? pair : swap, block, distant);
+  if (status) return status;
+  hr2di_moments_add(&w->moments, 1, block);
+  if (!in_order) transpose(block, w->order);
   return hr2di_watch_status(w->watch);
 }

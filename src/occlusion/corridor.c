@@ -175,6 +175,13 @@ int hr2di_corridor_open(const hr2di_pair_lines *frame, const hr2di_chain *right,
   return bridge(frame, left, right, &l, &r);
 }
 
+int hr2di_corridor_find(const hr2di_pair_lines *frame, const hr2di_chain *right,
+                        const hr2di_chain *left, hr2di_corridor *c) {
+  *c = (hr2di_corridor){0, right->count - 1, 0, left->count - 1};
+  return bridge(frame, left, right, &c->left_first, &c->right_last) &&
+         bridge(frame, right, left, &c->right_first, &c->left_last);
+}
+
 /* orient(p,q,r), rounded; 0 where that leaves few digits. */
 static double cross(hr2d_point p, hr2d_point q, hr2d_point r) {
   const double u = (q.x - p.x) * (r.y - p.y), v = (q.y - p.y) * (r.x - p.x);
@@ -220,11 +227,12 @@ static hr2d_point point_at(hr2d_segment i, double t) {
 
 int hr2di_corridor_area(const hr2di_pair_lines *frame, const hr2di_chain *right,
                         const hr2di_chain *left, hr2d_segment i, double *area) {
-  size_t r = right->count - 1, l = 0, r_last = 0, l_last = left->count - 1;
+  hr2di_corridor c;
   double sum = 0, t = 0;
   *area = 0;
-  if (!bridge(frame, left, right, &l, &r) || !bridge(frame, right, left, &r_last, &l_last))
-    return 0;
+  if (!hr2di_corridor_find(frame, right, left, &c)) return 0;
+  const size_t r_last = c.right_first, l_last = c.left_last;
+  size_t r = c.right_last, l = c.left_first;
   hr2d_point x = i.a;
   while (!hr2di_watch_work(right->watch, 2)) {
     const hr2di_incident_point *at = &right->point[r], *to = &left->point[l];

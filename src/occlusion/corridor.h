@@ -48,6 +48,17 @@ int hr2di_chain_sound(const hr2di_pair_lines *frame, const hr2di_chain *chain);
 int hr2di_corridor_open(const hr2di_pair_lines *frame, const hr2di_chain *right,
                         const hr2di_chain *left);
 
+/* The vertices that bound the lines of a class: of the right chain and of the left one. */
+typedef struct hr2di_corridor {
+  size_t right_first, right_last, left_first, left_last;
+} hr2di_corridor;
+
+/* The same; and the vertices.  The line from the first of the left to the last of the right is
+   the first, if lines turn left, and that from the first of the right to the last of the left
+   the last. */
+int hr2di_corridor_find(const hr2di_pair_lines *frame, const hr2di_chain *right,
+                        const hr2di_chain *left, hr2di_corridor *corridor);
+
 /* The same; and half the measure of these lines, which is what they contribute to the
    exchange area of i. */
 int hr2di_corridor_area(const hr2di_pair_lines *frame, const hr2di_chain *right,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Classes of lines, and the sum over them.
+/* Classes of lines.
 
    A line from i to j that meets no barrier leaves each on its right or on its left, and
    joined ones on the same side.  So the lines fall into classes, each with a corridor
@@ -290,28 +290,24 @@ static hr2d_status place(hr2di_classes *c, const hr2di_shaft *shaft, size_t k, i
   return status ? status : hr2di_watch_status(c->watch);
 }
 
-hr2d_status hr2di_classes_sum(hr2di_classes *c, const hr2di_shaft *shaft, double *area,
-                              int *open) {
+hr2d_status hr2di_classes_visit(hr2di_classes *c, const hr2di_shaft *shaft,
+                                const hr2di_class_visitor *visitor, int *open) {
   hr2d_status status = HR2D_OK;
   size_t island = 0;
   c->put_offs = c->stacked = 0;
-  if (area) *area = 0;
   *open = 0;
   for (;;) {
-    int passable = 1;
+    int passable = 1, some = 0;
     while (island < c->islands && passable && !status)
       status = place(c, shaft, island++, &passable);
     if (status) return status;
-    if (passable && !area) {
+    if (passable && !visitor) {
       *open = c->islands > 0 || hr2di_corridor_open(&shaft->frame, &c->right, &c->left);
       return hr2di_watch_status(c->watch);
     }
-    double some = 0;
-    if (passable)
-      *open |= hr2di_corridor_area(&shaft->frame, &c->right, &c->left,
-                                   (hr2d_segment){shaft->a.at, shaft->b.at}, &some);
-    if (area) *area += some;
-    if (c->put_offs == 0) return hr2di_watch_status(c->watch);
+    if (passable) status = visitor->visit(visitor->ctx, shaft, &c->right, &c->left, &some);
+    *open |= some;
+    if (status || c->put_offs == 0) return status ? status : hr2di_watch_status(c->watch);
     status = take_up(c, &island);
     if (status) return status;
   }

@@ -56,9 +56,17 @@ void hr2di_classes_clear(hr2di_classes *classes);
 hr2d_status hr2di_classes_sort(hr2di_classes *classes, const hr2di_shaft *shaft,
                                const uint32_t *wall, size_t count, int *passable);
 
-/* The sum over the classes, after sorting; *open tells whether there is one.  Without
-   `area` it ends with the first class found. */
-hr2d_status hr2di_classes_sum(hr2di_classes *classes, const hr2di_shaft *shaft, double *area,
-                              int *open);
+/* Visits a class that may be open, and tells whether it is.  `right` and `left` are NULL where
+   nothing is in the shaft.  Returns HR2D_OK or a status that ends the visits. */
+typedef struct hr2di_class_visitor {
+  hr2d_status (*visit)(void *ctx, const hr2di_shaft *shaft, const hr2di_chain *right,
+                       const hr2di_chain *left, int *open);
+  void *ctx;
+} hr2di_class_visitor;
+
+/* Visits the classes, after sorting; *open tells whether there is one.  Without a visitor it
+   ends with the first class found. */
+hr2d_status hr2di_classes_visit(hr2di_classes *classes, const hr2di_shaft *shaft,
+                                const hr2di_class_visitor *visitor, int *open);
 
 #endif

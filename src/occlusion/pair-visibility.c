@@ -234,18 +234,15 @@ static hr2d_status cut_up(hr2di_visibility *s, part *stack, size_t *parts, int *
   return status;
 }
 
-/* One part: its area and whether it is open, or its halves. */
-static hr2d_status settle(hr2di_visibility *s, part *stack, size_t *parts, double *area,
-                          int *open) {
+/* One part: its classes and whether there is one, or its halves. */
+static hr2d_status settle(hr2di_visibility *s, part *stack, size_t *parts,
+                          const hr2di_class_visitor *visitor, int *open) {
   const part *top = &stack[*parts - 1];
   int passable, cut_done;
   if (top->count == 0) {
     *open = 1;
-    const hr2d_segment i = {top->shaft.a.at, top->shaft.b.at};
-    const hr2d_segment j = {top->shaft.c.at, top->shaft.d.at};
-    if (area) *area = hr2d_exchange_area(&i, &j);
     --*parts;
-    return HR2D_OK;
+    return visitor ? visitor->visit(visitor->ctx, &top->shaft, NULL, NULL, open) : HR2D_OK;
   }
   hr2d_status status =
       hr2di_classes_sort(&s->classes, &top->shaft, hr2di_wall_list_from(&s->list, top->first),
@@ -254,18 +251,20 @@ static hr2d_status settle(hr2di_visibility *s, part *stack, size_t *parts, doubl
     status = cut_up(s, stack, parts, &cut_done);
     if (status || cut_done) return status;
   }
-  if (!status && passable) status = hr2di_classes_sum(&s->classes, &top->shaft, area, open);
+  if (!status && passable)
+    status = hr2di_classes_visit(&s->classes, &top->shaft, visitor, open);
   --*parts;
   return status;
 }
 
-static hr2d_status sum_parts(hr2di_visibility *s, const hr2di_shaft *shaft,
-                             const uint32_t *wall, size_t count, double *area, int *open) {
+/* Without a visitor it ends with the first class found. */
+static hr2d_status visit_parts(hr2di_visibility *s, const hr2di_shaft *shaft,
+                               const uint32_t *wall, size_t count,
+                               const hr2di_class_visitor *visitor, int *open) {
   part stack[MOST_CUTS + 2];
   size_t parts = 1;
   hr2d_status status = HR2D_OK;
   *open = 0;
-  if (area) *area = 0;
   s->list.count = 0;
   if (hr2di_alloc_reserve(&s->alloc, &s->list.wall, &s->list.capacity, count, sizeof *wall))
     return HR2D_ENOMEM;
@@ -273,16 +272,20 @@ static hr2d_status sum_parts(hr2di_visibility *s, const hr2di_shaft *shaft,
   for (size_t k = 0; k < count; k++) s->list.wall[k] = wall[k];
   s->list.count = count;
   stack[0] = (part){*shaft, 0, count, 0};
-  while (parts > 0 && !status && (area || !*open)) {
-    double some = 0;
+  while (parts > 0 && !status && (visitor || !*open)) {
     int some_open = 0;
     const part *top = &stack[parts - 1];
     s->list.count = top->first + top->count;
-    status = settle(s, stack, &parts, area ? &some : NULL, &some_open);
-    if (area) *area += some;
+    status = settle(s, stack, &parts, visitor, &some_open);
     *open |= some_open;
   }
   return status;
+}
+
+hr2d_status hr2di_visibility_visit(hr2di_visibility *sight, const hr2di_shaft *shaft,
+                                   const uint32_t *wall, size_t count,
+                                   const hr2di_class_visitor *visitor, int *open) {
+  return visit_parts(sight, shaft, wall, count, visitor, open);
 }
 
 static hr2d_point between(hr2di_incident_point p, hr2di_incident_point q) {
@@ -309,7 +312,7 @@ hr2d_status hr2di_visibility_any(hr2di_visibility *sight, const hr2di_shaft *sha
   const hr2d_status status = hr2di_watch_work(sight->watch, 1 + count / 16);
   *open = centres_see(sight, shaft, wall, count);
   if (status || *open) return status;
-  return sum_parts(sight, shaft, wall, count, NULL, open);
+  return visit_parts(sight, shaft, wall, count, NULL, open);
 }
 
 /* The width of a wall across the shaft. */
@@ -341,7 +344,18 @@ hr2d_status hr2di_visibility_blocked(hr2di_visibility *s, const hr2di_shaft *sha
   return status;
 }
 
+static hr2d_status add_area(void *ctx, const hr2di_shaft *shaft, const hr2di_chain *right,
+                            const hr2di_chain *left, int *open) {
+  const hr2d_segment i = {shaft->a.at, shaft->b.at}, j = {shaft->c.at, shaft->d.at};
+  double some = 0, *const sum = ctx;
+  *open = !right || hr2di_corridor_area(&shaft->frame, right, left, i, &some);
+  *sum += right ? some : hr2d_exchange_area(&i, &j);
+  return HR2D_OK;
+}
+
 hr2d_status hr2di_visibility_area(hr2di_visibility *sight, const hr2di_shaft *shaft,
                                   const uint32_t *wall, size_t count, double *area, int *open) {
-  return sum_parts(sight, shaft, wall, count, area, open);
+  const hr2di_class_visitor visitor = {add_area, area};
+  *area = 0;
+  return visit_parts(sight, shaft, wall, count, &visitor, open);
 }

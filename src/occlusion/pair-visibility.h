@@ -76,6 +76,11 @@ hr2d_status hr2di_visibility_any(hr2di_visibility *sight, const hr2di_shaft *sha
 hr2d_status hr2di_visibility_blocked(hr2di_visibility *sight, const hr2di_shaft *shaft,
                                      const uint32_t *wall, size_t count, int *blocked);
 
+/* Visits the classes of lines past the walls in the way; *open tells whether there is one. */
+hr2d_status hr2di_visibility_visit(hr2di_visibility *sight, const hr2di_shaft *shaft,
+                                   const uint32_t *wall, size_t count,
+                                   const hr2di_class_visitor *visitor, int *open);
+
 /* The exchange area past the walls in the way, and whether some light passes. */
 hr2d_status hr2di_visibility_area(hr2di_visibility *sight, const hr2di_shaft *shaft,
                                   const uint32_t *wall, size_t count, double *area, int *open);

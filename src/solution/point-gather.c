@@ -13,11 +13,11 @@
    of B solve
      b_p = E_p + ρ_p (k b_q + r_p),   b_q = E_q + ρ_q (k b_p + r_q). */
 #include "base/alloc.h"
-#include "blocks/panels.h"
 #include "geometry/point-view-factor.h"
 #include "geometry/vector.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
+#include "solution/panels.h"
 #include "solution/solution-impl.h"
 #include "visibility/point-view.h"
 

@@ -57,7 +57,7 @@ static void add_exact(rows *r, uint32_t receiver, uint32_t source) {
   const double start = hr2di_element_start(h, receiver), size = h->element[receiver].length;
   const double whole = h->element[h->element[receiver].patch].length;
   hr2di_pair_frame f;
-  hr2di_pair_frame_init(&f, h, (hr2d_pair){receiver, source}, HR2DI_FACING_FULL);
+  hr2di_pair_frame_init(&f, h, (hr2d_pair){receiver, source});
   uint32_t leaf = hr2di_hierarchy_first_leaf(h, receiver);
   do {
     if (hr2di_watch_work(r->t->watch, r->rule.points * (8 + order) / 16)) return;

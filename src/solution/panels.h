@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Panels: parts of a segment that shrink towards a near point. */
-#ifndef HR2D_SRC_BLOCKS_PANELS_H
-#define HR2D_SRC_BLOCKS_PANELS_H
+#ifndef HR2D_SRC_SOLUTION_PANELS_H
+#define HR2D_SRC_SOLUTION_PANELS_H
 
 #include "blocks/block.h"
 #include "geometry/bernstein-ellipse.h"
@@ -14,6 +14,11 @@
 #define HR2DI_SMALLEST_PANEL 0x1p-46
 
 enum { HR2DI_PANELS = 128 };
+
+/* A part of a segment, in fractions. */
+typedef struct hr2di_span {
+  double from, to;
+} hr2di_span;
 
 /* The panels still to be treated; the next one is last. */
 typedef struct hr2di_panels {

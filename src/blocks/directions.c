@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Gauss rules over the directions of a trapezoid.
+
+   With e = (1−λ) e0 + λ κ e1 for any κ > 0, and the mean M_lm over the offsets of φ_l φ_m,
+     C_lm = ∫₀¹ ½ κ (e0 × e1) (gap/|e|³) M_lm dλ.
+   Offsets are never near anything: what is singular in λ are the directions along i and j,
+   where places that turn with e have poles, and the two complex zeros of |e|².  κ moves them.
+   If the nearest is on the ellipse ρ₀ around [0,1], a rule of n points errs by about ρ^−2n (ρ_i
+   ρ_j)^(p−1)   for any ρ < ρ₀, where ρ_i is the ellipse around i on which places on i lie for λ
+   on the ellipse ρ. */
+#include <math.h>
+
+#include "blocks/block.h"
+
+/* ln of the error of a trapezoid as a part of the exchange area. */
+#define DIGITS 33.5
+
+/* Directions below this part of all lines are dropped with all that they could change. */
+#define NEGLIGIBLE 0x1p-56
+
+enum { STACK = 128, MOST = HR2DI_RULE_POINTS };
+
+/* ln x for x ≥ 1, to 1e-3; x beyond 2^1000 counts as that. */
+static double logarithm(double x) {
+  int exponent;
+  const double m = frexp(fmin(x, 0x1p+1000), &exponent), t = (m - 0.75) / (m + 0.75);
+  return 0.69314718055994531 * exponent - 0.28768207245178090 + t * (2 + t * t * (2. / 3));
+}
+
+/* ρ of the ellipse with major half axis m ≥ 1. */
+static double ellipse(double m) {
+  m = fmin(fmax(m, 1), 1e8);
+  return m + sqrt(m * m - 1);
+}
+
+/* What the choice of a rule knows of a trapezoid, for |e0| = |e1| = 1. */
+typedef struct outline {
+  double across_i[2], across_j[2]; /* 1 where nothing depends on e */
+  double cosine;
+  double ratio; /* |e0|/|e1| */
+} outline;
+
+static outline outline_of(const hr2di_trapezoid *t) {
+  const double length = hr2di_vector_length(&t->e[0]), other = hr2di_vector_length(&t->e[1]);
+  outline o = {
+      {1, 1}, {1, 1}, hr2di_vector_dot(&t->e[0], &t->e[1]) / (length * other), length / other};
+  if (t->turns_i) {
+    o.across_i[0] = t->across_i[0];
+    o.across_i[1] = t->across_i[1] * o.ratio;
+  }
+  if (t->turns_j) {
+    o.across_j[0] = t->across_j[0];
+    o.across_j[1] = t->across_j[1] * o.ratio;
+  }
+  return o;
+}
+
+static double limited_ratio(double x, double y) {
+  return x < 1e8 * y ? x / y : 1e8;
+}
+
+/* The major half axis through the zero of a linear function with these ends. */
+static double through_zero(double f, double g) {
+  return limited_ratio(f + g, fabs(f - g));
+}
+
+/* The smallest ellipse through a singularity. */
+static double nearest(const outline *o, double kappa) {
+  const double square = (1 - kappa) * (1 - kappa) + 2 * kappa * (1 - o->cosine);
+  const double at_i = through_zero(o->across_i[0], kappa * o->across_i[1]);
+  const double at_j = through_zero(o->across_j[0], kappa * o->across_j[1]);
+  return fmin(fmin(at_i, at_j), limited_ratio(1 + kappa, sqrt(square)));
+}
+
+/* Chooses κ so that the nearest singularity is as far away as can be. */
+static double choose_kappa(const outline *o, double *most) {
+  enum { ENOUGH = 3 };
+  *most = nearest(o, 1);
+  if (*most >= ENOUGH) return 1;
+  const double by_i = o->across_i[0] / o->across_i[1], by_j = o->across_j[0] / o->across_j[1];
+  const double candidate[] = {by_i, by_j, sqrt(by_i * by_j)};
+  double kappa = 1;
+  for (int k = 0; k < 3; k++) {
+    if (!(candidate[k] > 0x1p-20 && candidate[k] < 0x1p+20)) continue;
+    const double m = nearest(o, candidate[k]);
+    if (m <= *most) continue;
+    *most = m;
+    kappa = candidate[k];
+  }
+  return kappa;
+}
+
+/* The major half axis, around an element, of the place start/across at λ = ½ + x + iy; the ends
+   of `across` and `start` are scaled by κ. */
+static double place_at(const double across[2], const double start[2], double x, double y) {
+  const double a = across[0] * (0.5 - x) + across[1] * (0.5 + x), b = across[1] - across[0];
+  const double s = start[0] * (0.5 - x) + start[1] * (0.5 + x), t = start[1] - start[0];
+  if (y == 0) return (fabs(s) + fabs(a - s)) / fabs(a);
+  const double u = b * y, v = t * y;
+  return (sqrt(s * s + v * v) + sqrt((a - s) * (a - s) + (u - v) * (u - v))) /
+         sqrt(a * a + u * u);
+}
+
+/* The ellipse around an element on which its places lie for λ on the ellipse ρ. */
+static double reach(const double across[2], const double start[2], const double gap[2],
+                    double scale, double rho) {
+  const double major = 0.25 * (rho + 1 / rho), minor = 0.25 * (rho - 1 / rho);
+  const double c[2] = {across[0], scale * across[1]};
+  double most = 1;
+  for (int k = 0; k < 2; k++) {
+    const double s[2] = {start[0] + k * gap[0], scale * (start[1] + k * gap[1])};
+    most = fmax(most, fmax(place_at(c, s, major, 0), place_at(c, s, -major, 0)));
+    most = fmax(most, place_at(c, s, 0, minor));
+  }
+  return ellipse(most);
+}
+
+/* The points that an error of e^−digits takes on the ellipse ρ. */
+static double points_on(const hr2di_trapezoid *t, size_t order, double scale, double digits,
+                        double rho) {
+  double grows = 1;
+  if (order > 1 && t->turns_i) grows *= reach(t->across_i, t->start_i, t->gap, scale, rho);
+  if (order > 1 && t->turns_j) grows *= reach(t->across_j, t->start_j, t->gap, scale, rho);
+  return (digits + (double)(order - 1) * logarithm(grows)) / (2 * logarithm(rho));
+}
+
+/* A rule for a trapezoid. */
+typedef struct choice {
+  double kappa, points;
+} choice;
+
+static choice choose(const hr2di_trapezoid *t, const outline *o, size_t order, double digits) {
+  double m;
+  const double kappa = choose_kappa(o, &m), root = sqrt(ellipse(m));
+  const double low = points_on(t, order, kappa * o->ratio, digits, root);
+  const double high = points_on(t, order, kappa * o->ratio, digits, root * sqrt(root));
+  return (choice){kappa * o->ratio, fmax(fmin(low, high), 1)};
+}
+
+/* Half the measure of the lines, at most: |e|² is no less than in the middle. */
+static double bound_area(const hr2di_trapezoid *t, const outline *o) {
+  const double square = hr2di_vector_dot(&t->e[0], &t->e[0]), m = 0.5 + 0.5 * o->cosine;
+  return 0.5 * t->turn * fmax(t->gap[0], t->gap[1] * o->ratio) * o->ratio /
+         (square * sqrt(square) * m * sqrt(m));
+}
+
+static const hr2di_rule *rule_of(hr2di_integrator *w, double points) {
+  size_t n = (size_t)ceil(points);
+  if (n > 12) n += n & 1;
+  if (n > 24) n += n & 2;
+  hr2di_rule *rule = &w->rule[n - 1];
+  if (!w->made[n - 1]) hr2di_rule_init(rule, n);
+  w->made[n - 1] = 1;
+  return rule;
+}
+
+static void add_directions(hr2di_integrator *w, const hr2di_trapezoid *t, choice chosen,
+                           double *block) {
+  const hr2di_rule *rule = rule_of(w, chosen.points);
+  const double k = chosen.kappa, turn = 0.5 * k * t->turn;
+  hr2di_moments *m = &w->moments;
+  if (m->count + rule->points > HR2DI_MOMENT_ROOM) hr2di_moments_add(m, 0, block);
+  const size_t first = m->count;
+  for (size_t q = 0; q < rule->points; q++) {
+    const double f = 0.5 - 0.5 * rule->at[q], g = k * (0.5 + 0.5 * rule->at[q]);
+    const double x = f * t->e[0].x + g * t->e[1].x, y = f * t->e[0].y + g * t->e[1].y;
+    const double square = x * x + y * y, gap = f * t->gap[0] + g * t->gap[1];
+    const double across_i = f * t->across_i[0] + g * t->across_i[1];
+    const double across_j = f * t->across_j[0] + g * t->across_j[1];
+    const double start_i = f * t->start_i[0] + g * t->start_i[1];
+    const double start_j = f * t->start_j[0] + g * t->start_j[1];
+    const double by_i = 1 / across_i, by_j = 1 / across_j;
+    m->weight[first + q] = turn * rule->weight[q] * gap / (square * sqrt(square));
+    m->centre_i[first + q] = (2 * start_i + gap) * by_i - 1;
+    m->half_i[first + q] = gap * by_i;
+    m->centre_j[first + q] = (2 * start_j + gap) * by_j - 1;
+    m->half_j[first + q] = gap * by_j;
+  }
+  m->count += rule->points;
+  w->kernels += rule->points;
+}
+
+/* The weights that divide where the rates at which u × e and e × v grow have the same sum on
+   either side; |e0| = |e1|. */
+static void choose_middle(const outline *o, double m[2]) {
+  const double least = 0x1p-60;
+  const double by_i =
+      (o->across_i[1] + least * o->across_i[0]) / (o->across_i[0] + least * o->across_i[1]);
+  const double by_j =
+      (o->across_j[1] + least * o->across_j[0]) / (o->across_j[0] + least * o->across_j[1]);
+  const double more = fmax(by_i, by_j), less = fmin(by_i, by_j);
+  const double rate = less >= 1 ? more : more <= 1 ? less : by_i * by_j;
+  const double weight = 1 / sqrt(rate);
+  m[0] = 1 / (1 + weight);
+  m[1] = o->ratio * weight / (1 + weight);
+}
+
+/* Divides a trapezoid in two if that takes fewer points.  Returns 0 if not. */
+static int divide(const hr2di_trapezoid *t, const outline *o, size_t order, double digits,
+                  double points, hr2di_trapezoid part[2]) {
+  /* Beyond this angle e is far from e0 and e1, and their ellipse is narrow. */
+  const double wide = -0.3;
+  double m[2] = {0.5, 0.5 * o->ratio};
+  if (o->cosine < wide) {
+    hr2di_trapezoid_divide(t, m, part);
+    return 1;
+  }
+  if (points <= 14 + (double)order) return 0;
+  choose_middle(o, m);
+  hr2di_trapezoid_divide(t, m, part);
+  const outline left = outline_of(&part[0]), right = outline_of(&part[1]);
+  return points > MOST || choose(&part[0], &left, order, digits).points +
+                                  choose(&part[1], &right, order, digits).points <
+                              points;
+}
+
+/* Adds a trapezoid to within e^−DIGITS of `area`. */
+static hr2d_status add_trapezoid(hr2di_integrator *w, const hr2di_trapezoid *whole, double area,
+                                 double *block) {
+  const size_t p = w->order;
+  hr2di_trapezoid stack[STACK];
+  size_t count = 1;
+  stack[0] = *whole;
+  while (count > 0) {
+    const hr2di_trapezoid t = stack[--count];
+    const outline o = outline_of(&t);
+    double part = 1;
+    if (o.cosine > 0) part = fmin(bound_area(&t, &o) / area, 1);
+    if (!(part > NEGLIGIBLE)) continue;
+    const double digits = DIGITS + log(part);
+    const choice chosen = choose(&t, &o, p, digits);
+    if (count + 2 <= STACK && divide(&t, &o, p, digits, chosen.points, &stack[count])) {
+      const hr2di_trapezoid left = stack[count];
+      stack[count] = stack[count + 1];
+      stack[count + 1] = left;
+      count += 2;
+      continue;
+    }
+    const choice used = {chosen.kappa, fmin(chosen.points, MOST)};
+    const hr2d_status status =
+        hr2di_watch_work(w->watch, 2 + (size_t)used.points * (16 + 2 * p * p) / 160);
+    if (status) return status;
+    add_directions(w, &t, used, block);
+  }
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_block_add_lines(hr2di_integrator *w, const hr2di_trapezoid *t, size_t count,
+                                  double *block) {
+  double area = block[0];
+  for (size_t k = 0; k < count; k++) area += t[k].area;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < count && !status && area > 0; k++)
+    if (t[k].gap[0] > 0 || t[k].gap[1] > 0) status = add_trapezoid(w, &t[k], area, block);
+  return status;
+}

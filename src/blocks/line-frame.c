@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where the ends of elements are, to twice the digits of doubles. */
+#include "blocks/line-vector.h"
+#include "blocks/lines.h"
+#include "geometry/vector.h"
+#include "scene/scene-impl.h"
+
+/* The part of a patch behind an element; exact if all divisions were halvings, and 0 if there
+   is none. */
+static double rest_behind(const hr2d_hierarchy *h, uint32_t element) {
+  double rest = 0;
+  for (uint32_t parent = h->parent[element]; parent != element; parent = h->parent[element]) {
+    const double right = 1 - hr2di_element_left_part(h->element, parent);
+    rest = element == h->element[parent].child ? right + (1 - right) * rest : right * rest;
+    element = parent;
+  }
+  return rest;
+}
+
+static hr2di_vector whole_patch(const hr2di_patch *p) {
+  return hr2di_vector_difference(p->scaled.b, p->scaled.a);
+}
+
+/* The end of p is the start of q. */
+static void place_at_corner(hr2di_vector *a, hr2di_vector *b, hr2di_vector *c, hr2di_vector *d,
+                            const hr2di_vector *u, const hr2di_vector *v, hr2di_vector p,
+                            double rest, hr2di_vector q, double start) {
+  *b = hr2di_vector_times(&p, -rest);
+  *a = hr2di_vector_minus(b, u);
+  *c = hr2di_vector_times(&q, start);
+  *d = hr2di_vector_plus(c, v);
+}
+
+static void measure_from_corner(hr2di_line_frame *f, const hr2d_hierarchy *h, hr2d_pair pair,
+                                int at_end) {
+  const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
+  const hr2di_patch *p = &h->scene->patch[i->patch], *q = &h->scene->patch[j->patch];
+  const hr2di_vector along_p = whole_patch(p), along_q = whole_patch(q);
+  f->origin = at_end ? p->scaled.b : p->scaled.a;
+  f->u = hr2di_vector_times(&along_p, i->length / p->length);
+  f->v = hr2di_vector_times(&along_q, j->length / q->length);
+  if (at_end)
+    place_at_corner(&f->a, &f->b, &f->c, &f->d, &f->u, &f->v, along_p,
+                    rest_behind(h, pair.first), along_q, hr2di_element_start(h, pair.second));
+  else
+    place_at_corner(&f->c, &f->d, &f->a, &f->b, &f->v, &f->u, along_q,
+                    rest_behind(h, pair.second), along_p, hr2di_element_start(h, pair.first));
+}
+
+void hr2di_line_frame_init(hr2di_line_frame *f, const hr2d_hierarchy *h, hr2d_pair pair) {
+  const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
+  const hr2d_segment p = h->scene->patch[i->patch].scaled, q = h->scene->patch[j->patch].scaled;
+  *f = (hr2di_line_frame){.i = {i->a, i->b}, .j = {j->a, j->b}};
+  if (hr2di_point_same(p.b, q.a) || hr2di_point_same(p.a, q.b)) {
+    measure_from_corner(f, h, pair, hr2di_point_same(p.b, q.a));
+    return;
+  }
+  f->origin = i->a;
+  f->b = f->u = hr2di_vector_difference(i->b, i->a);
+  f->c = hr2di_vector_difference(j->a, i->a);
+  f->d = hr2di_vector_difference(j->b, i->a);
+  f->v = hr2di_vector_difference(j->b, j->a);
+}
+
+/* Where the point nearest to `at` is on the line from `from` along `along`. */
+static double place(const hr2di_vector *at, const hr2di_vector *from,
+                    const hr2di_vector *along) {
+  const hr2di_vector away = hr2di_vector_minus(at, from);
+  return hr2di_vector_dot(&away, along) / hr2di_vector_dot(along, along);
+}
+
+static void find_places(const hr2di_line_frame *f, hr2di_vertex *z) {
+  if (z->on & HR2DI_ON_I) z->s = place(&z->at, &f->a, &f->u);
+  if (z->on & HR2DI_ON_J) z->t = place(&z->at, &f->c, &f->v);
+}
+
+hr2di_vertex hr2di_line_vertex(const hr2di_line_frame *f, hr2di_incident_point p) {
+  hr2di_vertex z = {.on = p.on};
+  if (p.on & HR2DI_ON_I && hr2di_point_same(p.at, f->i.a))
+    z.at = f->a;
+  else if (p.on & HR2DI_ON_I && hr2di_point_same(p.at, f->i.b))
+    z.at = f->b;
+  else if (p.on & HR2DI_ON_J && hr2di_point_same(p.at, f->j.a))
+    z.at = f->c;
+  else if (p.on & HR2DI_ON_J && hr2di_point_same(p.at, f->j.b))
+    z.at = f->d;
+  else
+    z.at = hr2di_vector_difference(p.at, f->origin);
+  find_places(f, &z);
+  return z;
+}
+
+/* Moves the end of an element that is behind the other's line to that line.  `height` has the
+   heights of this end and of the opposite one. */
+static hr2di_vertex clipped(const hr2di_line_frame *f, unsigned own, double at,
+                            const double height[2]) {
+  hr2di_vertex z = {.on = own};
+  const double here = height[at > 0], there = height[at == 0];
+  const hr2di_vector *from = own == HR2DI_ON_I ? &f->a : &f->c;
+  const hr2di_vector *along = own == HR2DI_ON_I ? &f->u : &f->v;
+  if (here < 0) at = height[0] / (height[0] - height[1]);
+  if (here <= 0 && there > 0) z.on = HR2DI_ON_BOTH;
+  const hr2di_vector way = hr2di_vector_times(along, at);
+  z.at = hr2di_vector_plus(from, &way);
+  find_places(f, &z);
+  *(own == HR2DI_ON_I ? &z.s : &z.t) = at;
+  return z;
+}
+
+int hr2di_line_ends(const hr2di_line_frame *f, hr2di_vertex right[2], hr2di_vertex left[2]) {
+  const hr2di_vector to_c = hr2di_vector_minus(&f->c, &f->a);
+  const hr2di_vector to_d = hr2di_vector_minus(&f->d, &f->a);
+  const hr2di_vector to_b = hr2di_vector_minus(&f->b, &f->c);
+  const hr2di_vector u = hr2di_vector_times(&f->u, hr2di_vector_scale(&f->u));
+  const hr2di_vector v = hr2di_vector_times(&f->v, hr2di_vector_scale(&f->v));
+  /* v × (a − c) = (c − a) × v */
+  const double above_i[] = {hr2di_vector_cross(&u, &to_c), hr2di_vector_cross(&u, &to_d)};
+  const double above_j[] = {hr2di_vector_cross(&to_c, &v), hr2di_vector_cross(&v, &to_b)};
+  if (!(above_i[0] > 0 || above_i[1] > 0) || !(above_j[0] > 0 || above_j[1] > 0)) return 0;
+  left[0] = clipped(f, HR2DI_ON_I, 0, above_j);
+  right[0] = clipped(f, HR2DI_ON_I, 1, above_j);
+  right[1] = clipped(f, HR2DI_ON_J, 0, above_i);
+  left[1] = clipped(f, HR2DI_ON_J, 1, above_i);
+  return 1;
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The lines between two elements, by direction.
+
+   G dy dx = ½ dp dθ, where p is the offset of a line and θ its direction.  In a direction e the
+   visible lines lie between two vertices, and the places s on i and t on j where they meet the
+   elements are affine in p.  Where vertices change is an event.  Between two events the lines
+   make a trapezoid. */
+#ifndef HR2D_SRC_BLOCKS_LINES_H
+#define HR2D_SRC_BLOCKS_LINES_H
+
+#include "geometry/determinant.h"
+#include "geometry/orient-incident.h"
+#include "hierarchy/hierarchy-impl.h"
+
+/* A pair i = ab, j = cd, with u = b − a and v = d − c, from a point that all vectors are
+   measured from: the corner of patches that have a common end, else a.  Beside a corner, places
+   have the relative accuracy of fractions of the patches, which coordinates do not have. */
+typedef struct hr2di_line_frame {
+  hr2d_segment i, j;
+  hr2d_point origin;
+  hr2di_vector a, b, c, d, u, v;
+} hr2di_line_frame;
+
+void hr2di_line_frame_init(hr2di_line_frame *frame, const hr2d_hierarchy *hierarchy,
+                           hr2d_pair pair);
+
+/* A point that bounds lines.  On the line of i it is at a + s u, on that of j at c + t v. */
+typedef struct hr2di_vertex {
+  hr2di_vector at; /* from the origin of the frame */
+  unsigned on;     /* HR2DI_ON_…: the lines on which it lies */
+  double s, t;
+} hr2di_vertex;
+
+hr2di_vertex hr2di_line_vertex(const hr2di_line_frame *frame, hr2di_incident_point point);
+
+/* The ends b and c that all clear lines have on their right, and a and d on their left, each
+   clipped at the other's horizon.  Returns 0 if no line is left. */
+int hr2di_line_ends(const hr2di_line_frame *frame, hr2di_vertex right[2], hr2di_vertex left[2]);
+
+/* The lines between two directions that have the vertex `low` on their left and `high` on their
+   right.  Each pair of numbers is linear in e, so that it is known in between.  None is
+   negative. */
+typedef struct hr2di_trapezoid {
+  hr2di_vector e[2];
+  double turn;                     /* e[0] × e[1] */
+  double across_i[2], across_j[2]; /* u × e and e × v */
+  double gap[2];                   /* (high − low) × e */
+  double start_i[2], start_j[2];   /* across_i s at low, across_j t at high */
+  unsigned char turns_i, turns_j;  /* 0 if no place on that element depends on e */
+  double area;                     /* half the measure of the lines, rounded */
+} hr2di_trapezoid;
+
+/* The number of trapezoids of these chains is at most that of their vertices. */
+size_t hr2di_line_trapezoids(const hr2di_line_frame *frame, const hr2di_vertex *right,
+                             size_t rights, const hr2di_vertex *left, size_t lefts,
+                             hr2di_trapezoid *trapezoid);
+
+/* Divides at the direction m[0] e[0] + m[1] e[1]; both weights are positive. */
+void hr2di_trapezoid_divide(const hr2di_trapezoid *whole, const double m[2],
+                            hr2di_trapezoid part[2]);
+
+#endif
