@@ -45,6 +45,7 @@ SUITES = \
 	tests/hard/check-hard-scenes \
 	tests/unit/visibility/check-exchange-matrix \
 	tests/unit/blocks/check-blocks \
+	tests/unit/blocks/check-directions \
 	tests/unit/solve/check-order \
 	tests/unit/accuracy/check-known-radiosities \
 	tests/unit/accuracy/check-random-accuracy \
@@ -95,6 +96,7 @@ tests_threads_check_team_LDADD = $(LDADD) -ldl
 tests_libsupport_la_SOURCES = \
 	tests/support/accuracy-scenes.c tests/support/accuracy-scenes.h \
 	tests/support/accuracy-tally.c tests/support/accuracy-tally.h \
+	tests/support/block-stage.c tests/support/block-stage.h \
 	tests/support/elements.c tests/support/elements.h \
 	tests/support/fault-calls.c tests/support/fault-calls.h \
 	tests/support/fault-stage.c tests/support/fault-stage.h \
@@ -125,6 +127,7 @@ tests_libsupport_la_SOURCES = \
 	tests/independent/brute-block.c tests/independent/brute-block.h \
 	tests/independent/brute-visibility.c tests/independent/brute-visibility.h \
 	tests/independent/convex-nystrom.c tests/independent/convex-nystrom.h \
+	tests/independent/lines-block.c tests/independent/lines-block.h \
 	tests/independent/mpfr-exchange.c tests/independent/mpfr-exchange.h \
 	tests/independent/mpfr-l1.c tests/independent/mpfr-l1.h \
 	tests/independent/pair-frame.c tests/independent/pair-frame.h \
@@ -193,6 +196,7 @@ TOO_LONG = tests/unit/accuracy/check-dark tests/unit/accuracy/check-importance \
 	tests/unit/solution/check-irradiance-points tests/faults/check-polls \
 	tests/unit/accuracy/check-roundings tests/unit/accuracy/check-short-patches \
 	tests/unit/accuracy/check-target-calls tests/unit/blocks/check-blocks \
+	tests/unit/blocks/check-directions \
 	tests/unit/clusters/check-clusters tests/unit/refine/check-occlusion \
 	tests/paper/check-theorem tests/faults/check-faults-accuracy \
 	tests/faults/check-faults-callbacks

@@ -35,22 +35,19 @@ static double ellipse(double m) {
 
 /* What the choice of a rule knows of a trapezoid, for |e0| = |e1| = 1. */
 typedef struct outline {
-  double across_i[2], across_j[2]; /* 1 where nothing depends on e */
+  double across[2][2]; /* per element and end; 1 where nothing depends on e */
   double cosine;
   double ratio; /* |e0|/|e1| */
 } outline;
 
 static outline outline_of(const hr2di_trapezoid *t) {
   const double length = hr2di_vector_length(&t->e[0]), other = hr2di_vector_length(&t->e[1]);
-  outline o = {
-      {1, 1}, {1, 1}, hr2di_vector_dot(&t->e[0], &t->e[1]) / (length * other), length / other};
-  if (t->turns_i) {
-    o.across_i[0] = t->across_i[0];
-    o.across_i[1] = t->across_i[1] * o.ratio;
-  }
-  if (t->turns_j) {
-    o.across_j[0] = t->across_j[0];
-    o.across_j[1] = t->across_j[1] * o.ratio;
+  outline o = {.cosine = hr2di_vector_dot(&t->e[0], &t->e[1]) / (length * other),
+               .ratio = length / other};
+  for (size_t k = 0; k < 2; k++) {
+    const hr2di_meeting *m = &t->on[k];
+    o.across[k][0] = m->fixed == 3 ? 1 : m->across[0];
+    o.across[k][1] = m->fixed == 3 ? 1 : m->across[1] * o.ratio;
   }
   return o;
 }
@@ -67,8 +64,8 @@ static double through_zero(double f, double g) {
 /* The smallest ellipse through a singularity. */
 static double nearest(const outline *o, double kappa) {
   const double square = (1 - kappa) * (1 - kappa) + 2 * kappa * (1 - o->cosine);
-  const double at_i = through_zero(o->across_i[0], kappa * o->across_i[1]);
-  const double at_j = through_zero(o->across_j[0], kappa * o->across_j[1]);
+  const double at_i = through_zero(o->across[0][0], kappa * o->across[0][1]);
+  const double at_j = through_zero(o->across[1][0], kappa * o->across[1][1]);
   return fmin(fmin(at_i, at_j), limited_ratio(1 + kappa, sqrt(square)));
 }
 
@@ -77,7 +74,8 @@ static double choose_kappa(const outline *o, double *most) {
   enum { ENOUGH = 3 };
   *most = nearest(o, 1);
   if (*most >= ENOUGH) return 1;
-  const double by_i = o->across_i[0] / o->across_i[1], by_j = o->across_j[0] / o->across_j[1];
+  const double by_i = o->across[0][0] / o->across[0][1];
+  const double by_j = o->across[1][0] / o->across[1][1];
   const double candidate[] = {by_i, by_j, sqrt(by_i * by_j)};
   double kappa = 1;
   for (int k = 0; k < 3; k++) {
@@ -102,15 +100,16 @@ static double place_at(const double across[2], const double start[2], double x, 
 }
 
 /* The ellipse around an element on which its places lie for λ on the ellipse ρ. */
-static double reach(const double across[2], const double start[2], const double gap[2],
-                    double scale, double rho) {
+static double reach(const hr2di_meeting *m, const double gap[2], double scale, double rho) {
   const double major = 0.25 * (rho + 1 / rho), minor = 0.25 * (rho - 1 / rho);
-  const double c[2] = {across[0], scale * across[1]};
+  const double across[2] = {m->across[0], scale * m->across[1]};
   double most = 1;
   for (int k = 0; k < 2; k++) {
-    const double s[2] = {start[0] + k * gap[0], scale * (start[1] + k * gap[1])};
-    most = fmax(most, fmax(place_at(c, s, major, 0), place_at(c, s, -major, 0)));
-    most = fmax(most, place_at(c, s, 0, minor));
+    const double start[2] = {m->start[0] + k * gap[0], scale * (m->start[1] + k * gap[1])};
+    if (m->fixed & (1u << k)) continue;
+    most = fmax(most, place_at(across, start, major, 0));
+    most = fmax(most, place_at(across, start, -major, 0));
+    most = fmax(most, place_at(across, start, 0, minor));
   }
   return ellipse(most);
 }
@@ -119,8 +118,8 @@ static double reach(const double across[2], const double start[2], const double 
 static double points_on(const hr2di_trapezoid *t, size_t order, double scale, double digits,
                         double rho) {
   double grows = 1;
-  if (order > 1 && t->turns_i) grows *= reach(t->across_i, t->start_i, t->gap, scale, rho);
-  if (order > 1 && t->turns_j) grows *= reach(t->across_j, t->start_j, t->gap, scale, rho);
+  for (size_t k = 0; k < 2 && order > 1; k++)
+    if (t->on[k].fixed != 3) grows *= reach(&t->on[k], t->gap, scale, rho);
   return (digits + (double)(order - 1) * logarithm(grows)) / (2 * logarithm(rho));
 }
 
@@ -154,40 +153,74 @@ static const hr2di_rule *rule_of(hr2di_integrator *w, double points) {
   return rule;
 }
 
+/* Places on an element: the centre of the lines is at base + middle/across, in [-1,1], and half
+   their width is width + gap/across.  So what is fixed is rounded only once. */
+typedef struct spread {
+  double base, width, middle[2], gap[2];
+} spread;
+
+static spread spread_of(const hr2di_meeting *m, const double gap[2]) {
+  const double low = m->place[0], high = m->place[1];
+  switch (m->fixed) {
+  case 3:
+    return (spread){(low - 0.5) + (high - 0.5), high - low, {0, 0}, {0, 0}};
+  case 1:
+    return (spread){2 * low - 1, 0, {gap[0], gap[1]}, {gap[0], gap[1]}};
+  case 2:
+    return (spread){2 * high - 1, 0, {-gap[0], -gap[1]}, {gap[0], gap[1]}};
+  default:
+    break;
+  }
+  const double *start = m->start, *across = m->across;
+  const double middle[] = {2 * start[0] + gap[0] - across[0],
+                           2 * start[1] + gap[1] - across[1]};
+  return (spread){0, 0, {middle[0], middle[1]}, {gap[0], gap[1]}};
+}
+
+/* Sets the places for directions f e[0] + g e[1]. */
+static void set_places(const hr2di_meeting *m, const double gap[2], size_t count,
+                       const double *restrict f, const double *restrict g,
+                       double *restrict centre, double *restrict half) {
+  const spread s = spread_of(m, gap);
+  for (size_t q = 0; q < count; q++) {
+    const double by = 1 / (f[q] * m->across[0] + g[q] * m->across[1]);
+    centre[q] = s.base + (f[q] * s.middle[0] + g[q] * s.middle[1]) * by;
+    half[q] = s.width + (f[q] * s.gap[0] + g[q] * s.gap[1]) * by;
+  }
+}
+
 static void add_directions(hr2di_integrator *w, const hr2di_trapezoid *t, choice chosen,
                            double *block) {
   const hr2di_rule *rule = rule_of(w, chosen.points);
+  const size_t n = rule->points;
   const double k = chosen.kappa, turn = 0.5 * k * t->turn;
+  double f[MOST], g[MOST];
   hr2di_moments *m = &w->moments;
-  if (m->count + rule->points > HR2DI_MOMENT_ROOM) hr2di_moments_add(m, 0, block);
-  const size_t first = m->count;
-  for (size_t q = 0; q < rule->points; q++) {
-    const double f = 0.5 - 0.5 * rule->at[q], g = k * (0.5 + 0.5 * rule->at[q]);
-    const double x = f * t->e[0].x + g * t->e[1].x, y = f * t->e[0].y + g * t->e[1].y;
-    const double square = x * x + y * y, gap = f * t->gap[0] + g * t->gap[1];
-    const double across_i = f * t->across_i[0] + g * t->across_i[1];
-    const double across_j = f * t->across_j[0] + g * t->across_j[1];
-    const double start_i = f * t->start_i[0] + g * t->start_i[1];
-    const double start_j = f * t->start_j[0] + g * t->start_j[1];
-    const double by_i = 1 / across_i, by_j = 1 / across_j;
-    m->weight[first + q] = turn * rule->weight[q] * gap / (square * sqrt(square));
-    m->centre_i[first + q] = (2 * start_i + gap) * by_i - 1;
-    m->half_i[first + q] = gap * by_i;
-    m->centre_j[first + q] = (2 * start_j + gap) * by_j - 1;
-    m->half_j[first + q] = gap * by_j;
+  if (m->count + n > HR2DI_MOMENT_ROOM) hr2di_moments_add(m, 0, block);
+  double *restrict weight = m->weight + m->count;
+  for (size_t q = 0; q < n; q++) {
+    f[q] = 0.5 - 0.5 * rule->at[q];
+    g[q] = k * (0.5 + 0.5 * rule->at[q]);
   }
-  m->count += rule->points;
-  w->kernels += rule->points;
+  for (size_t q = 0; q < n; q++) {
+    const double x = f[q] * t->e[0].x + g[q] * t->e[1].x;
+    const double y = f[q] * t->e[0].y + g[q] * t->e[1].y;
+    const double square = x * x + y * y, gap = f[q] * t->gap[0] + g[q] * t->gap[1];
+    weight[q] = turn * rule->weight[q] * gap / (square * sqrt(square));
+  }
+  set_places(&t->on[0], t->gap, n, f, g, m->centre_i + m->count, m->half_i + m->count);
+  set_places(&t->on[1], t->gap, n, f, g, m->centre_j + m->count, m->half_j + m->count);
+  m->count += n;
+  w->kernels += n;
 }
 
 /* The weights that divide where the rates at which u × e and e × v grow have the same sum on
    either side; |e0| = |e1|. */
 static void choose_middle(const outline *o, double m[2]) {
   const double least = 0x1p-60;
-  const double by_i =
-      (o->across_i[1] + least * o->across_i[0]) / (o->across_i[0] + least * o->across_i[1]);
-  const double by_j =
-      (o->across_j[1] + least * o->across_j[0]) / (o->across_j[0] + least * o->across_j[1]);
+  const double *i = o->across[0], *j = o->across[1];
+  const double by_i = (i[1] + least * i[0]) / (i[0] + least * i[1]);
+  const double by_j = (j[1] + least * j[0]) / (j[0] + least * j[1]);
   const double more = fmax(by_i, by_j), less = fmin(by_i, by_j);
   const double rate = less >= 1 ? more : more <= 1 ? less : by_i * by_j;
   const double weight = 1 / sqrt(rate);

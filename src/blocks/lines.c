@@ -11,7 +11,7 @@
 /* A direction where trapezoids begin or end; |e| is between 1 and 3. */
 typedef struct ray {
   hr2di_vector e;
-  double across_i, across_j, length;
+  double across[2], length; /* u × e and e × v */
 } ray;
 
 static double not_negative(double x) {
@@ -32,43 +32,50 @@ static ray ray_through(const hr2di_line_frame *f, const hr2di_vertex *p,
   const unsigned both = p->on & q->on;
   const hr2di_vector way = direction(f, p, q);
   ray r = {.e = hr2di_vector_times(&way, hr2di_vector_scale(&way))};
-  if (!(both & HR2DI_ON_I)) r.across_i = not_negative(hr2di_vector_cross(&f->u, &r.e));
-  if (!(both & HR2DI_ON_J)) r.across_j = not_negative(hr2di_vector_cross(&r.e, &f->v));
+  if (!(both & HR2DI_ON_I)) r.across[0] = not_negative(hr2di_vector_cross(&f->u, &r.e));
+  if (!(both & HR2DI_ON_J)) r.across[1] = not_negative(hr2di_vector_cross(&r.e, &f->v));
   r.length = hr2di_vector_length(&r.e);
   return r;
 }
 
-/* Sets what belongs to end k of a trapezoid.  With a vertex on i the place there is known, and
-   the other place is off by gap / across_i; the same on j. */
+/* Which places on the line of an element do not depend on the direction; `bit` is that line's.
+ */
+static void set_places(unsigned bit, const hr2di_vertex *first, const hr2di_vertex *last,
+                       hr2di_meeting *m) {
+  m->fixed = (first->on & bit ? 1 : 0) | (last->on & bit ? 2 : 0);
+  m->place[0] = bit == HR2DI_ON_I ? first->s : first->t;
+  m->place[1] = bit == HR2DI_ON_I ? last->s : last->t;
+}
+
+/* (at − from) × e */
+static double offset(const hr2di_vector *at, const hr2di_vector *from, const hr2di_vector *e) {
+  const hr2di_vector way = hr2di_vector_minus(at, from);
+  return hr2di_vector_cross(&way, e);
+}
+
+/* Sets what belongs to end k of a trapezoid.  With one place known the other is off by
+   gap/across, and with both the gap is known. */
 static void set_end(const hr2di_line_frame *f, const hr2di_vertex *low,
                     const hr2di_vertex *high, const ray *r, size_t k, hr2di_trapezoid *t) {
-  const hr2di_vector between = hr2di_vector_minus(&high->at, &low->at);
-  double gap = not_negative(hr2di_vector_cross(&between, &r->e)), start;
+  double gap = offset(&high->at, &low->at, &r->e);
   t->e[k] = r->e;
-  t->across_i[k] = r->across_i;
-  t->across_j[k] = r->across_j;
-  if (!t->turns_i) gap = (high->s - low->s) * r->across_i;
-  if (!t->turns_j) gap = (low->t - high->t) * r->across_j;
-  gap = fmin(not_negative(gap), fmin(r->across_i, r->across_j));
-  t->gap[k] = gap;
-  if (low->on & HR2DI_ON_I) {
-    start = low->s * r->across_i;
-  } else if (high->on & HR2DI_ON_I) {
-    start = high->s * r->across_i - gap;
-  } else {
-    const hr2di_vector from = hr2di_vector_minus(&low->at, &f->a);
-    start = hr2di_vector_cross(&from, &r->e);
+  for (size_t side = 0; side < 2; side++) {
+    const hr2di_meeting *m = &t->on[side];
+    if (m->fixed == 3) gap = (m->place[1] - m->place[0]) * r->across[side];
   }
-  t->start_i[k] = fmin(not_negative(start), r->across_i - gap);
-  if (high->on & HR2DI_ON_J) {
-    start = high->t * r->across_j;
-  } else if (low->on & HR2DI_ON_J) {
-    start = low->t * r->across_j - gap;
-  } else {
-    const hr2di_vector from = hr2di_vector_minus(&high->at, &f->c);
-    start = hr2di_vector_cross(&r->e, &from);
+  t->gap[k] = gap = fmin(not_negative(gap), fmin(r->across[0], r->across[1]));
+  for (size_t side = 0; side < 2; side++) {
+    hr2di_meeting *m = &t->on[side];
+    double start;
+    if (m->fixed & 1)
+      start = m->place[0] * r->across[side];
+    else if (m->fixed & 2)
+      start = m->place[1] * r->across[side] - gap;
+    else
+      start = side ? -offset(&high->at, &f->c, &r->e) : offset(&low->at, &f->a, &r->e);
+    m->across[k] = r->across[side];
+    m->start[k] = fmin(not_negative(start), r->across[side] - gap);
   }
-  t->start_j[k] = fmin(not_negative(start), r->across_j - gap);
 }
 
 /* Makes the trapezoid between two rays; returns 0 if they do not differ, or not that way. */
@@ -77,8 +84,8 @@ static int make_trapezoid(const hr2di_line_frame *f, const hr2di_vertex *low,
                           hr2di_trapezoid *t) {
   t->turn = hr2di_vector_cross(&from->e, &to->e);
   if (!(t->turn > 0)) return 0;
-  t->turns_i = !(low->on & high->on & HR2DI_ON_I);
-  t->turns_j = !(low->on & high->on & HR2DI_ON_J);
+  set_places(HR2DI_ON_I, low, high, &t->on[0]);
+  set_places(HR2DI_ON_J, high, low, &t->on[1]);
   set_end(f, low, high, from, 0, t);
   set_end(f, low, high, to, 1, t);
   /* ∫ z × e dθ = z·(e0 − e1) for unit vectors. */
@@ -147,9 +154,10 @@ void hr2di_trapezoid_divide(const hr2di_trapezoid *t, const double m[2],
   part[0].e[1] = part[1].e[0] = combine(m, t->e);
   part[0].turn = m[1] * t->turn;
   part[1].turn = m[0] * t->turn;
-  divide(m, t->across_i, part[0].across_i, part[1].across_i);
-  divide(m, t->across_j, part[0].across_j, part[1].across_j);
   divide(m, t->gap, part[0].gap, part[1].gap);
-  divide(m, t->start_i, part[0].start_i, part[1].start_i);
-  divide(m, t->start_j, part[0].start_j, part[1].start_j);
+  for (size_t k = 0; k < 2; k++) {
+    hr2di_meeting *left = &part[0].on[k], *right = &part[1].on[k];
+    divide(m, t->on[k].across, left->across, right->across);
+    divide(m, t->on[k].start, left->start, right->start);
+  }
 }

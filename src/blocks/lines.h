@@ -8,6 +8,8 @@
 #ifndef HR2D_SRC_BLOCKS_LINES_H
 #define HR2D_SRC_BLOCKS_LINES_H
 
+#include <hr2d/oracle.h>
+
 #include "geometry/determinant.h"
 #include "geometry/orient-incident.h"
 #include "hierarchy/hierarchy-impl.h"
@@ -37,17 +39,25 @@ hr2di_vertex hr2di_line_vertex(const hr2di_line_frame *frame, hr2di_incident_poi
    clipped at the other's horizon.  Returns 0 if no line is left. */
 int hr2di_line_ends(const hr2di_line_frame *frame, hr2di_vertex right[2], hr2di_vertex left[2]);
 
+/* Where the lines of a trapezoid meet an element.  The outermost ones meet it at start/across
+   and (start + gap)/across, as fractions of the element, of which `fixed` ones do not depend on
+   e. */
+typedef struct hr2di_meeting {
+  double across[2]; /* u × e, or e × v */
+  double start[2];
+  unsigned fixed;  /* 1: the place at the start; 2: that at the end */
+  double place[2]; /* these places */
+} hr2di_meeting;
+
 /* The lines between two directions that have the vertex `low` on their left and `high` on their
    right.  Each pair of numbers is linear in e, so that it is known in between.  None is
    negative. */
 typedef struct hr2di_trapezoid {
   hr2di_vector e[2];
-  double turn;                     /* e[0] × e[1] */
-  double across_i[2], across_j[2]; /* u × e and e × v */
-  double gap[2];                   /* (high − low) × e */
-  double start_i[2], start_j[2];   /* across_i s at low, across_j t at high */
-  unsigned char turns_i, turns_j;  /* 0 if no place on that element depends on e */
-  double area;                     /* half the measure of the lines, rounded */
+  double turn;         /* e[0] × e[1] */
+  double gap[2];       /* (high − low) × e */
+  hr2di_meeting on[2]; /* on i, from low to high, and on j, from high to low */
+  double area;         /* half the measure of the lines, rounded */
 } hr2di_trapezoid;
 
 /* The number of trapezoids of these chains is at most that of their vertices. */

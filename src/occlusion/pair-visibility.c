@@ -257,10 +257,9 @@ static hr2d_status settle(hr2di_visibility *s, part *stack, size_t *parts,
   return status;
 }
 
-/* Without a visitor it ends with the first class found. */
-static hr2d_status visit_parts(hr2di_visibility *s, const hr2di_shaft *shaft,
-                               const uint32_t *wall, size_t count,
-                               const hr2di_class_visitor *visitor, int *open) {
+hr2d_status hr2di_visibility_visit(hr2di_visibility *s, const hr2di_shaft *shaft,
+                                   const uint32_t *wall, size_t count,
+                                   const hr2di_class_visitor *visitor, int *open) {
   part stack[MOST_CUTS + 2];
   size_t parts = 1;
   hr2d_status status = HR2D_OK;
@@ -280,12 +279,6 @@ static hr2d_status visit_parts(hr2di_visibility *s, const hr2di_shaft *shaft,
     *open |= some_open;
   }
   return status;
-}
-
-hr2d_status hr2di_visibility_visit(hr2di_visibility *sight, const hr2di_shaft *shaft,
-                                   const uint32_t *wall, size_t count,
-                                   const hr2di_class_visitor *visitor, int *open) {
-  return visit_parts(sight, shaft, wall, count, visitor, open);
 }
 
 static hr2d_point between(hr2di_incident_point p, hr2di_incident_point q) {
@@ -312,7 +305,7 @@ hr2d_status hr2di_visibility_any(hr2di_visibility *sight, const hr2di_shaft *sha
   const hr2d_status status = hr2di_watch_work(sight->watch, 1 + count / 16);
   *open = centres_see(sight, shaft, wall, count);
   if (status || *open) return status;
-  return visit_parts(sight, shaft, wall, count, NULL, open);
+  return hr2di_visibility_visit(sight, shaft, wall, count, NULL, open);
 }
 
 /* The width of a wall across the shaft. */
@@ -357,5 +350,5 @@ hr2d_status hr2di_visibility_area(hr2di_visibility *sight, const hr2di_shaft *sh
                                   const uint32_t *wall, size_t count, double *area, int *open) {
   const hr2di_class_visitor visitor = {add_area, area};
   *area = 0;
-  return visit_parts(sight, shaft, wall, count, &visitor, open);
+  return hr2di_visibility_visit(sight, shaft, wall, count, &visitor, open);
 }

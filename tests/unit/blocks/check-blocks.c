@@ -10,6 +10,7 @@
 #include "blocks/block.h"
 #include "hierarchy/push-pull.h"
 #include "independent/brute-block.h"
+#include "support/block-stage.h"
 #include "support/pair-classes.h"
 #include "support/support.h"
 #include "support/visibility-cases.h"
@@ -225,73 +226,8 @@ START_TEST(push_and_pull) {
 }
 END_TEST
 
-/* Two patches and their occluders, after the commit. */
-typedef struct stage {
-  hr2d_scene *scene;
-  hr2d_hierarchy *hierarchy;
-  hr2d_pair pair;
-  hr2d_segment i, j;
-  hr2d_segment *occluder;
-  size_t count;
-} stage;
-
-static void add_patch(hr2d_scene *scene, hr2d_segment s, const char *name) {
-  const double half = 0.5;
-  const hr2d_patch patch = {.a = s.a,
-                            .b = s.b,
-                            .name = name,
-                            .emission = &half,
-                            .emission_bands = 1,
-                            .reflectance = &half,
-                            .reflectance_bands = 1};
-  ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
-}
-
-static void end_stage(stage *s) {
-  hr2d_hierarchy_destroy(s->hierarchy);
-  hr2d_scene_destroy(s->scene);
-  free(s->occluder);
-}
-
-/* Patches that cross are split; i and j are the first pieces.  Returns 0 if the scene is
-   refused. */
-static int set_stage(stage *s, const occluded_pair *p) {
-  *s = (stage){0};
-  ck_assert_int_eq(hr2d_scene_create(NULL, &s->scene), HR2D_OK);
-  add_patch(s->scene, p->i, "i");
-  add_patch(s->scene, p->j, "j");
-  for (size_t k = 0; k < p->count; k++) add_patch(s->scene, p->occluder[k], "w");
-  if (hr2d_scene_split_crossings(s->scene, NULL) || hr2d_scene_commit(s->scene) ||
-      hr2d_hierarchy_create(s->scene, &s->hierarchy)) {
-    end_stage(s);
-    return 0;
-  }
-  const size_t patches = hr2d_scene_patches(s->scene);
-  s->occluder = malloc(patches * sizeof *s->occluder);
-  while (*hr2d_scene_name(s->scene, s->pair.second) != 'j') s->pair.second++;
-  for (size_t k = 0; k < patches; k++)
-    if (k != s->pair.first && k != s->pair.second)
-      s->occluder[s->count++] = hr2d_scene_segment(s->scene, k);
-  s->i = hr2d_scene_segment(s->scene, s->pair.first);
-  s->j = hr2d_scene_segment(s->scene, s->pair.second);
-  return 1;
-}
-
-/* The block of i and j in scene lengths, or of j and i. */
-static int make_block(const stage *s, size_t order, int swapped, double *block) {
-  hr2di_integrator work;
-  int distant;
-  const hr2d_allocator *alloc = &s->hierarchy->alloc;
-  const hr2d_pair swap = {s->pair.second, s->pair.first};
-  ck_assert_int_eq(hr2di_integrator_init(&work, s->hierarchy, alloc, order, NULL), HR2D_OK);
-  ck_assert_int_eq(hr2di_block(&work, swapped ? swap : s->pair, block, &distant), HR2D_OK);
-  for (size_t k = 0; k < order * order; k++) block[k] *= hr2d_scene_unit(s->scene);
-  hr2di_integrator_clear(&work);
-  return distant;
-}
-
 /* The exact exchange area, past the occluders if there are any. */
-static double area_of(const stage *s) {
+static double area_of(const block_stage *s) {
   double area;
   ck_assert_int_eq(
       hr2d_exchange_area_occluded(&s->i, &s->j, s->occluder, s->count, NULL, &area), HR2D_OK);
@@ -333,7 +269,7 @@ static double gap_between(hr2d_segment i, hr2d_segment j) {
 /* An error divided by the allowed error.  Rounding costs a part of the area and a part of
    the smaller patch.  The places of points are rounded to 1e-16 of a patch; the kernel
    changes by this rounding over the gap. */
-static double share_of(const stage *s, double error, double area, double most) {
+static double share_of(const block_stage *s, double error, double area, double most) {
   const double a = hypot(s->i.b.x - s->i.a.x, s->i.b.y - s->i.a.y);
   const double b = hypot(s->j.b.x - s->j.a.x, s->j.b.y - s->j.a.y);
   const double blur = 1e-16 * fmax(a, b) / gap_between(s->i, s->j);
@@ -359,13 +295,13 @@ static void complain(const tally *t, const occluded_pair *p, const char *what, d
 }
 
 /* One moment at all orders that have it. */
-static void compare_moment(tally *t, const occluded_pair *p, const stage *s, unsigned l,
+static void compare_moment(tally *t, const occluded_pair *p, const block_stage *s, unsigned l,
                            unsigned m, double area, double expected) {
   double block[SQUARE];
   char what[80];
   for (size_t k = 0; k < ORDERS; k++) {
     if (l >= orders[k] || m >= orders[k]) continue;
-    const int distant = make_block(s, orders[k], 0, block);
+    const int distant = block_stage_make(s, orders[k], 0, block);
     const double value = block[l * orders[k] + m];
     const double error = fabs(value - expected) / scale_of(l, m);
     const double share = share_of(s, error, area, allowed(orders[k], distant, l, m));
@@ -379,8 +315,8 @@ static void compare_moment(tally *t, const occluded_pair *p, const stage *s, uns
 
 static void compare(tally *t, const occluded_pair *p) {
   static const unsigned moment[][2] = {{0, 1}, {7, 3}, {5, 11}};
-  stage s;
-  if (!set_stage(&s, p)) return;
+  block_stage s;
+  if (!block_stage_set(&s, p)) return;
   const double area = area_of(&s);
   brute_view *view = brute_view_open(&s.i, &s.j, s.occluder, s.count);
   t->pairs++;
@@ -390,7 +326,7 @@ static void compare(tally *t, const occluded_pair *p) {
     compare_moment(t, p, &s, l, m, area, brute_block(view, l, m));
   }
   brute_view_close(view);
-  end_stage(&s);
+  block_stage_end(&s);
 }
 
 static void report(const tally *t) {
@@ -501,11 +437,11 @@ END_TEST
 
 /* The block of (j, i) is the transposed block of (i, j): the difference as a part of the
    allowed error. */
-static double asymmetry(const stage *s, size_t order) {
+static double asymmetry(const block_stage *s, size_t order) {
   double block[SQUARE], other[SQUARE], worst = 0;
   const double area = area_of(s);
-  const int distant = make_block(s, order, 0, block);
-  ck_assert_int_eq(distant, make_block(s, order, 1, other));
+  const int distant = block_stage_make(s, order, 0, block);
+  ck_assert_int_eq(distant, block_stage_make(s, order, 1, other));
   for (unsigned l = 0; l < order; l++)
     for (unsigned m = 0; m < order; m++) {
       const double error = fabs(block[l * order + m] - other[m * order + l]) / scale_of(l, m);
@@ -526,9 +462,9 @@ START_TEST(swapped_pairs_have_transposed_blocks) {
   for (int n = 0; n < 200; n++) {
     randoms r = randoms_stream(test_seed(), n);
     occluded_pair p = draw_any(&r, n);
-    stage s;
+    block_stage s;
     if (n % 5 == 0) draw_occluded(&occluded_classes[n / 5 % occluded_class_count], &r, &p);
-    if (!set_stage(&s, &p)) continue;
+    if (!block_stage_set(&s, &p)) continue;
     for (size_t k = 0; k < ORDERS; k++) {
       const double share = asymmetry(&s, orders[k]);
       worst[k] = fmax(worst[k], share);
@@ -537,7 +473,7 @@ START_TEST(swapped_pairs_have_transposed_blocks) {
         print_occluded(&p);
       }
     }
-    end_stage(&s);
+    block_stage_end(&s);
   }
   for (size_t k = 0; k < ORDERS; k++) {
     printf("order %zu: at most %.2g of what is allowed\n", orders[k], worst[k]);
@@ -549,11 +485,11 @@ END_TEST
 enum { SMALL = 6 };
 
 static int small_block(const occluded_pair *p, similarity by, double *block) {
-  stage s;
+  block_stage s;
   const occluded_pair moved = similar_pair(by, p);
-  ck_assert(set_stage(&s, &moved));
-  const int distant = make_block(&s, SMALL, 0, block);
-  end_stage(&s);
+  ck_assert(block_stage_set(&s, &moved));
+  const int distant = block_stage_make(&s, SMALL, 0, block);
+  block_stage_end(&s);
   return distant;
 }
 
@@ -585,9 +521,9 @@ START_TEST(areas_are_those_of_links) {
   for (int n = 0; n < 1000; n++) {
     randoms r = randoms_stream(test_seed() + 2, n);
     const occluded_pair p = draw_any(&r, n);
-    stage s;
-    if (!set_stage(&s, &p)) continue;
-    make_block(&s, 16, 0, block);
+    block_stage s;
+    if (!block_stage_set(&s, &p)) continue;
+    block_stage_make(&s, 16, 0, block);
     const double area = hr2d_exchange_area(&s.i, &s.j);
     const double share = share_of(&s, fabs(block[0] - area), area, 2e-14);
     worst = fmax(worst, share);
@@ -595,7 +531,7 @@ START_TEST(areas_are_those_of_links) {
       printf("area %.17g for %.17g\n", block[0], area);
       print_occluded(&p);
     }
-    end_stage(&s);
+    block_stage_end(&s);
   }
   printf("C_00 at order 16 is off by at most %.2g of what is allowed\n", worst);
   ck_assert_double_lt(worst, 1);

@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Blocks that are integrated over directions, against the same integral in long double by
+   another rule, and against what the rows of a closed room must be. */
+#include <gsl/gsl_math.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "independent/lines-block.h"
+#include "support/block-stage.h"
+#include "support/support.h"
+
+/* The largest error of a block in terms of its norm, and beside a line on which both elements
+   nearly lie, where the coordinates of the long double have too few digits. */
+#define BOUND          4e-15
+#define COPLANAR_BOUND 3e-14
+
+enum { MOST_ORDER = 16, SQUARE = MOST_ORDER * MOST_ORDER };
+
+typedef struct kind {
+  const char *name;
+  occluded_pair (*draw)(randoms *r);
+  double bound;
+  unsigned steps; /* of the reference */
+} kind;
+
+static hr2d_point polar(double length, double angle) {
+  return (hr2d_point){length * cos(angle), length * sin(angle)};
+}
+
+/* i from 0 to 1, and j of a size beside it at a distance. */
+static occluded_pair beside(randoms *r, double size, double gap, double tilt) {
+  const double middle = random_between(r, -0.3, 1.3);
+  const hr2d_point half = polar(0.5 * size, M_PI + tilt);
+  const double lift = gap + fabs(half.y);
+  return (occluded_pair){
+      .i = {{0, 0}, {1, 0}},
+      .j = {{middle - half.x, lift - half.y}, {middle + half.x, lift + half.y}}};
+}
+
+static occluded_pair draw_far(randoms *r) {
+  return beside(r, random_between(r, 0.3, 1), random_between(r, 3, 5),
+                random_between(r, -0.5, 0.5));
+}
+
+static occluded_pair draw_near(randoms *r) {
+  return beside(r, random_between(r, 0.3, 2), random_between(r, 0.3, 1.5),
+                random_between(r, -0.5, 0.5));
+}
+
+static occluded_pair draw_nearer(randoms *r) {
+  return beside(r, random_between(r, 0.3, 2), random_power(r, -1.5, -0.5),
+                random_between(r, -0.3, 0.3));
+}
+
+static occluded_pair draw_slit(randoms *r) {
+  return beside(r, random_between(r, 0.3, 2), random_power(r, -4, -2),
+                random_between(r, -1e-4, 1e-4));
+}
+
+static occluded_pair touching(randoms *r, double angle) {
+  const double ratio = random_power(r, -1, 1);
+  if (random_below(r, 2))
+    return (occluded_pair){.i = {{0, 0}, {1, 0}}, .j = {polar(ratio, angle), {0, 0}}};
+  return (occluded_pair){.i = {{-1, 0}, {0, 0}}, .j = {{0, 0}, polar(ratio, M_PI - angle)}};
+}
+
+static occluded_pair draw_touching(randoms *r) {
+  return touching(r, random_between(r, 10, 179) * M_PI / 180);
+}
+
+static occluded_pair draw_wedge(randoms *r) {
+  return touching(r, random_power(r, -1, 1) * M_PI / 180);
+}
+
+/* Side by side, each hardly in front of the other. */
+static occluded_pair draw_coplanar(randoms *r) {
+  const double from = 1 + random_power(r, -2, 0), length = random_power(r, -1, 0.5);
+  const double low = random_power(r, -5, -2), rise = random_power(r, -5, -2);
+  return (occluded_pair){.i = {{0, 0}, {1, 0}},
+                         .j = {{from, low}, {from + length, low + rise}}};
+}
+
+static occluded_pair draw_clipped(randoms *r) {
+  const double x = random_between(r, 1.05, 2), low = -random_power(r, -2, 0);
+  const double high = random_power(r, -2, 0), lean = random_between(r, -0.5, 1);
+  return (occluded_pair){.i = {{0, 0}, {1, 0}},
+                         .j = {{x, low}, {x + lean * (high - low), high}}};
+}
+
+/* Two that face each other with small walls between them. */
+static occluded_pair shaded(randoms *r, size_t walls) {
+  occluded_pair p = {
+      .i = {{0, 0}, {1, 0}},
+      .j = {{1 + random_between(r, -0.5, 0.5), 1}, {random_between(r, -0.5, 0.3), 1}},
+      .count = walls};
+  for (size_t k = 0; k < walls; k++) {
+    const hr2d_point m = {random_between(r, 0, 1), random_between(r, 0.2, 0.8)};
+    const hr2d_point half = polar(random_between(r, 0.02, 0.12), random_between(r, 0, M_PI));
+    p.occluder[k] = (hr2d_segment){{m.x - half.x, m.y - half.y}, {m.x + half.x, m.y + half.y}};
+  }
+  return p;
+}
+
+static occluded_pair draw_shaded(randoms *r) {
+  return shaded(r, 1 + (size_t)random_below(r, 4));
+}
+
+static double on_grid(randoms *r, int cells) {
+  return random_below(r, cells + 1) / 8.0;
+}
+
+/* Points of a coarse grid, so that many are collinear and many walls touch. */
+static occluded_pair draw_grid(randoms *r) {
+  occluded_pair p = {
+      .i = {{0, 0}, {1, 0}},
+      .j = {{0.5 + on_grid(r, 6), 1}, {on_grid(r, 3), 1 + on_grid(r, 2) - 0.125}},
+      .count = 1 + (size_t)random_below(r, 4)};
+  for (size_t k = 0; k < p.count; k++)
+    p.occluder[k] = (hr2d_segment){{on_grid(r, 8), 0.125 + on_grid(r, 5)},
+                                   {on_grid(r, 8), 0.125 + on_grid(r, 6)}};
+  return p;
+}
+
+static const kind kinds[] = {
+    {"far", draw_far, BOUND, 16},
+    {"near", draw_near, BOUND, 16},
+    {"nearer", draw_nearer, BOUND, 24},
+    {"slits", draw_slit, BOUND, 48},
+    {"touching", draw_touching, BOUND, 16},
+    {"in a wedge", draw_wedge, BOUND, 32},
+    {"coplanar but for a little", draw_coplanar, COPLANAR_BOUND, 32},
+    {"behind a horizon", draw_clipped, BOUND, 32},
+    {"shaded", draw_shaded, BOUND, 16},
+    {"on a grid", draw_grid, BOUND, 24},
+};
+
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+/* The block of the leading orders is the leading part of the block. */
+static double error_of(const double *block, const long double *expected, size_t order) {
+  long double error = 0, norm = 0;
+  for (size_t l = 0; l < order; l++)
+    for (size_t m = 0; m < order; m++) {
+      const long double value = expected[l * MOST_ORDER + m];
+      const long double off = (long double)block[l * order + m] - value;
+      error += off * off;
+      norm += value * value;
+    }
+  return norm > 0 ? (double)sqrtl(error / norm) : error > 0 ? INFINITY : 0;
+}
+
+/* The worst error at each order; 0 if the scene is refused. */
+static int compare(const kind *k, const occluded_pair *p, double *worst) {
+  block_stage s;
+  double block[SQUARE];
+  long double expected[SQUARE];
+  if (!block_stage_set(&s, p)) return 0;
+  lines_block(&s.i, &s.j, s.occluder, s.count, MOST_ORDER, k->steps, expected);
+  for (size_t order = 1; order <= MOST_ORDER; order++) {
+    if (block_stage_make(&s, order, 0, block)) block_stage_lines(&s, order, block);
+    const double error = error_of(block, expected, order);
+    if (error > fmax(k->bound, worst[order]) && getenv("HR2D_TEST_VERBOSE")) {
+      printf("%s: %.2g at order %zu\n", k->name, error, order);
+      print_occluded(p);
+    }
+    worst[order] = fmax(worst[order], error);
+  }
+  block_stage_end(&s);
+  return 1;
+}
+
+START_TEST(blocks_are_exact) {
+  const kind *k = &kinds[_i];
+  double worst[MOST_ORDER + 1] = {0}, most = 0;
+  randoms r = randoms_stream(test_seed(), _i);
+  int pairs = 0;
+  for (int n = 0; n < test_count(30); n++) {
+    const occluded_pair p = k->draw(&r);
+    pairs += compare(k, &p, worst);
+  }
+  printf("  %-26s%3d pairs, worst of orders 1, 2, 3, 4, 7, 8, 15, 16", k->name, pairs);
+  const size_t shown[] = {1, 2, 3, 4, 7, 8, 15, 16};
+  for (size_t n = 0; n < 8; n++) printf(" %.0e", worst[shown[n]]);
+  printf("\n");
+  for (size_t n = 1; n <= MOST_ORDER; n++) most = fmax(most, worst[n]);
+  ck_assert_int_gt(pairs, 0);
+  ck_assert_double_lt(most, k->bound);
+}
+END_TEST
+
+TEST_SUITE("directions") {
+  REPEAT_TESTS(KINDS, "directions", blocks_are_exact);
+}
