@@ -18,18 +18,31 @@
 /* Directions below this part of all lines are dropped with all that they could change. */
 #define NEGLIGIBLE 0x1p-56
 
+/* The cosine of an angle between e0 and e1 beyond which e is far from both in between, so that
+   ellipses are narrow whatever κ is. */
+#define WIDE -0.3
+
 enum { STACK = 128, MOST = HR2DI_RULE_POINTS };
+
+/* fmin() and fmax() would be calls. */
+static inline double lesser(double x, double y) {
+  return x < y ? x : y;
+}
+
+static inline double greater(double x, double y) {
+  return x > y ? x : y;
+}
 
 /* ln x for x ≥ 1, to 1e-3; x beyond 2^1000 counts as that. */
 static double logarithm(double x) {
   int exponent;
-  const double m = frexp(fmin(x, 0x1p+1000), &exponent), t = (m - 0.75) / (m + 0.75);
+  const double m = frexp(lesser(x, 0x1p+1000), &exponent), t = (m - 0.75) / (m + 0.75);
   return 0.69314718055994531 * exponent - 0.28768207245178090 + t * (2 + t * t * (2. / 3));
 }
 
 /* ρ of the ellipse with major half axis m ≥ 1. */
 static double ellipse(double m) {
-  m = fmin(fmax(m, 1), 1e8);
+  m = lesser(greater(m, 1), 1e8);
   return m + sqrt(m * m - 1);
 }
 
@@ -66,7 +79,7 @@ static double nearest(const outline *o, double kappa) {
   const double square = (1 - kappa) * (1 - kappa) + 2 * kappa * (1 - o->cosine);
   const double at_i = through_zero(o->across[0][0], kappa * o->across[0][1]);
   const double at_j = through_zero(o->across[1][0], kappa * o->across[1][1]);
-  return fmin(fmin(at_i, at_j), limited_ratio(1 + kappa, sqrt(square)));
+  return lesser(lesser(at_i, at_j), limited_ratio(1 + kappa, sqrt(square)));
 }
 
 /* Chooses κ so that the nearest singularity is as far away as can be. */
@@ -107,20 +120,19 @@ static double reach(const hr2di_meeting *m, const double gap[2], double scale, d
   for (int k = 0; k < 2; k++) {
     const double start[2] = {m->start[0] + k * gap[0], scale * (m->start[1] + k * gap[1])};
     if (m->fixed & (1u << k)) continue;
-    most = fmax(most, place_at(across, start, major, 0));
-    most = fmax(most, place_at(across, start, -major, 0));
-    most = fmax(most, place_at(across, start, 0, minor));
+    most = greater(place_at(across, start, major, 0), most);
+    most = greater(place_at(across, start, -major, 0), most);
+    most = greater(place_at(across, start, 0, minor), most);
   }
   return ellipse(most);
 }
 
-/* The points that an error of e^−digits takes on the ellipse ρ. */
-static double points_on(const hr2di_trapezoid *t, size_t order, double scale, double digits,
-                        double rho) {
+/* ln (ρ_i ρ_j)^(p−1) on the ellipse ρ. */
+static double growth(const hr2di_trapezoid *t, size_t order, double scale, double rho) {
   double grows = 1;
-  for (size_t k = 0; k < 2 && order > 1; k++)
+  for (size_t k = 0; k < 2; k++)
     if (t->on[k].fixed != 3) grows *= reach(&t->on[k], t->gap, scale, rho);
-  return (digits + (double)(order - 1) * logarithm(grows)) / (2 * logarithm(rho));
+  return (double)(order - 1) * logarithm(grows);
 }
 
 /* A rule for a trapezoid. */
@@ -128,18 +140,21 @@ typedef struct choice {
   double kappa, points;
 } choice;
 
+/* Tries the ellipses ρ₀^¾ and ρ₀^½; the latter only if it may be better. */
 static choice choose(const hr2di_trapezoid *t, const outline *o, size_t order, double digits) {
   double m;
-  const double kappa = choose_kappa(o, &m), root = sqrt(ellipse(m));
-  const double low = points_on(t, order, kappa * o->ratio, digits, root);
-  const double high = points_on(t, order, kappa * o->ratio, digits, root * sqrt(root));
-  return (choice){kappa * o->ratio, fmax(fmin(low, high), 1)};
+  const double scale = choose_kappa(o, &m) * o->ratio, rho = ellipse(m);
+  const double root = sqrt(rho),
+               more = order > 1 ? growth(t, order, scale, root * sqrt(root)) : 0;
+  double points = (digits + more) / 1.5;
+  if (2 * more > digits) points = lesser(points, digits + growth(t, order, scale, root));
+  return (choice){scale, greater(points / logarithm(rho), 1)};
 }
 
 /* Half the measure of the lines, at most: |e|² is no less than in the middle. */
 static double bound_area(const hr2di_trapezoid *t, const outline *o) {
   const double square = hr2di_vector_dot(&t->e[0], &t->e[0]), m = 0.5 + 0.5 * o->cosine;
-  return 0.5 * t->turn * fmax(t->gap[0], t->gap[1] * o->ratio) * o->ratio /
+  return 0.5 * t->turn * greater(t->gap[0], t->gap[1] * o->ratio) * o->ratio /
          (square * sqrt(square) * m * sqrt(m));
 }
 
@@ -221,7 +236,7 @@ static void choose_middle(const outline *o, double m[2]) {
   const double *i = o->across[0], *j = o->across[1];
   const double by_i = (i[1] + least * i[0]) / (i[0] + least * i[1]);
   const double by_j = (j[1] + least * j[0]) / (j[0] + least * j[1]);
-  const double more = fmax(by_i, by_j), less = fmin(by_i, by_j);
+  const double more = greater(by_i, by_j), less = lesser(by_i, by_j);
   const double rate = less >= 1 ? more : more <= 1 ? less : by_i * by_j;
   const double weight = 1 / sqrt(rate);
   m[0] = 1 / (1 + weight);
@@ -231,20 +246,16 @@ static void choose_middle(const outline *o, double m[2]) {
 /* Divides a trapezoid in two if that takes fewer points.  Returns 0 if not. */
 static int divide(const hr2di_trapezoid *t, const outline *o, size_t order, double digits,
                   double points, hr2di_trapezoid part[2]) {
-  /* Beyond this angle e is far from e0 and e1, and their ellipse is narrow. */
-  const double wide = -0.3;
-  double m[2] = {0.5, 0.5 * o->ratio};
-  if (o->cosine < wide) {
-    hr2di_trapezoid_divide(t, m, part);
-    return 1;
-  }
+  double m[2];
   if (points <= 14 + (double)order) return 0;
   choose_middle(o, m);
   hr2di_trapezoid_divide(t, m, part);
-  const outline left = outline_of(&part[0]), right = outline_of(&part[1]);
-  return points > MOST || choose(&part[0], &left, order, digits).points +
-                                  choose(&part[1], &right, order, digits).points <
-                              points;
+  if (points > MOST) return 1;
+  for (size_t k = 0; k < 2; k++) {
+    const outline half = outline_of(&part[k]);
+    points -= choose(&part[k], &half, order, digits).points;
+  }
+  return points > 0;
 }
 
 /* Adds a trapezoid to within e^−DIGITS of `area`. */
@@ -257,23 +268,25 @@ static hr2d_status add_trapezoid(hr2di_integrator *w, const hr2di_trapezoid *who
   while (count > 0) {
     const hr2di_trapezoid t = stack[--count];
     const outline o = outline_of(&t);
-    double part = 1;
-    if (o.cosine > 0) part = fmin(bound_area(&t, &o) / area, 1);
-    if (!(part > NEGLIGIBLE)) continue;
-    const double digits = DIGITS + log(part);
-    const choice chosen = choose(&t, &o, p, digits);
-    if (count + 2 <= STACK && divide(&t, &o, p, digits, chosen.points, &stack[count])) {
-      const hr2di_trapezoid left = stack[count];
-      stack[count] = stack[count + 1];
-      stack[count + 1] = left;
+    const int room = count + 2 <= STACK;
+    if (o.cosine < WIDE && room) {
+      hr2di_trapezoid_divide(&t, (const double[]){0.5, 0.5 * o.ratio}, &stack[count]);
       count += 2;
       continue;
     }
-    const choice used = {chosen.kappa, fmin(chosen.points, MOST)};
-    const hr2d_status status =
-        hr2di_watch_work(w->watch, 2 + (size_t)used.points * (16 + 2 * p * p) / 160);
+    const double part = bound_area(&t, &o) / area;
+    if (!(part > NEGLIGIBLE)) continue;
+    const double digits = DIGITS - (part < 1 ? logarithm(1 / part) : 0);
+    choice chosen = choose(&t, &o, p, digits);
+    if (room && divide(&t, &o, p, digits, chosen.points, &stack[count])) {
+      count += 2;
+      continue;
+    }
+    chosen.points = lesser(chosen.points, MOST);
+    const uint64_t work = 2 + (uint64_t)chosen.points * (16 + 2 * p * p) / 160;
+    const hr2d_status status = hr2di_watch_work(w->watch, work);
     if (status) return status;
-    add_directions(w, &t, used, block);
+    add_directions(w, &t, chosen, block);
   }
   return HR2D_OK;
 }

@@ -10,6 +10,7 @@
 
 /* A direction where trapezoids begin or end; |e| is between 1 and 3. */
 typedef struct ray {
+  const hr2di_vertex *from, *to; /* it passes through */
   hr2di_vector e;
   double across[2], length; /* u × e and e × v */
 } ray;
@@ -31,7 +32,7 @@ static ray ray_through(const hr2di_line_frame *f, const hr2di_vertex *p,
                        const hr2di_vertex *q) {
   const unsigned both = p->on & q->on;
   const hr2di_vector way = direction(f, p, q);
-  ray r = {.e = hr2di_vector_times(&way, hr2di_vector_scale(&way))};
+  ray r = {.from = p, .to = q, .e = hr2di_vector_times(&way, hr2di_vector_scale(&way))};
   if (!(both & HR2DI_ON_I)) r.across[0] = not_negative(hr2di_vector_cross(&f->u, &r.e));
   if (!(both & HR2DI_ON_J)) r.across[1] = not_negative(hr2di_vector_cross(&r.e, &f->v));
   r.length = hr2di_vector_length(&r.e);
@@ -57,11 +58,12 @@ static double offset(const hr2di_vector *at, const hr2di_vector *from, const hr2
    gap/across, and with both the gap is known. */
 static void set_end(const hr2di_line_frame *f, const hr2di_vertex *low,
                     const hr2di_vertex *high, const ray *r, size_t k, hr2di_trapezoid *t) {
-  double gap = offset(&high->at, &low->at, &r->e);
+  const int through = (r->from == low && r->to == high) || (r->from == high && r->to == low);
+  double gap = through ? 0 : offset(&high->at, &low->at, &r->e);
   t->e[k] = r->e;
   for (size_t side = 0; side < 2; side++) {
     const hr2di_meeting *m = &t->on[side];
-    if (m->fixed == 3) gap = (m->place[1] - m->place[0]) * r->across[side];
+    if (m->fixed == 3 && !through) gap = (m->place[1] - m->place[0]) * r->across[side];
   }
   t->gap[k] = gap = fmin(not_negative(gap), fmin(r->across[0], r->across[1]));
   for (size_t side = 0; side < 2; side++) {
