@@ -133,7 +133,7 @@ typedef struct hr2d_account {
   uint64_t links;              /**< L, links between clusters of patches included */
   uint64_t events;             /**< visibility events at which elements end */
   uint64_t bytes;              /**< memory of elements, links and blocks */
-  uint64_t kernels;            /**< values of G in integrals, over all solves */
+  uint64_t kernels;            /**< hr2d_solve_work::kernels, over all solves */
   double refine_seconds;       /**< time for elements and links, over all solves */
   double coefficients_seconds; /**< time for blocks */
   double solve_seconds;        /**< time for the iterations */

@@ -137,7 +137,8 @@ typedef struct hr2d_solve_work {
   uint64_t row_sums;        /**< leaves whose exchange with all patches was summed: for closure
                                  in open scenes, and for the background */
   uint64_t background_rows; /**< of these, leaves whose view of the background was needed */
-  uint64_t kernels;         /**< values of G to integrate blocks, at an order above 1 */
+  uint64_t kernels;         /**< to integrate blocks, at an order above 1: values of G at two
+                                 points, or integrals of G over the lines of one direction */
   double coefficients_seconds; /**< wall time of this integration */
 } hr2d_solve_work;
 

@@ -251,10 +251,10 @@ hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double *block, int 
   const hr2d_pair swap = {pair.second, pair.first};
   const int in_order = element[pair.first].patch <= element[pair.second].patch;
   memset(block, 0, w->order * w->order * sizeof *block);
-  w->moments.count = 0;
+  hr2di_moments_begin(&w->moments);
   const hr2d_status status = integrate(w, in_order ? pair : swap, block, distant);
   if (status) return status;
-  hr2di_moments_add(&w->moments, 1, block);
+  hr2di_moments_end(&w->moments, block);
   if (!in_order) transpose(block, w->order);
   return hr2di_watch_status(w->watch);
 }

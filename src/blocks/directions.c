@@ -204,15 +204,21 @@ static void set_places(const hr2di_meeting *m, const double gap[2], size_t count
   }
 }
 
+static int covers(const hr2di_meeting *m) {
+  return m->fixed == 3 && m->place[0] == 0 && m->place[1] == 1;
+}
+
 static void add_directions(hr2di_integrator *w, const hr2di_trapezoid *t, choice chosen,
                            double *block) {
   const hr2di_rule *rule = rule_of(w, chosen.points);
   const size_t n = rule->points;
   const double k = chosen.kappa, turn = 0.5 * k * t->turn;
+  const hr2di_cover cover = covers(&t->on[0])   ? HR2DI_COVERS_I
+                            : covers(&t->on[1]) ? HR2DI_COVERS_J
+                                                : HR2DI_COVERS_NEITHER;
   double f[MOST], g[MOST];
-  hr2di_moments *m = &w->moments;
-  if (m->count + n > HR2DI_MOMENT_ROOM) hr2di_moments_add(m, 0, block);
-  double *restrict weight = m->weight + m->count;
+  hr2di_directions *d = hr2di_moments_room(&w->moments, cover, block);
+  double *restrict weight = d->weight + d->count;
   for (size_t q = 0; q < n; q++) {
     f[q] = 0.5 - 0.5 * rule->at[q];
     g[q] = k * (0.5 + 0.5 * rule->at[q]);
@@ -223,9 +229,11 @@ static void add_directions(hr2di_integrator *w, const hr2di_trapezoid *t, choice
     const double square = x * x + y * y, gap = f[q] * t->gap[0] + g[q] * t->gap[1];
     weight[q] = turn * rule->weight[q] * gap / (square * sqrt(square));
   }
-  set_places(&t->on[0], t->gap, n, f, g, m->centre_i + m->count, m->half_i + m->count);
-  set_places(&t->on[1], t->gap, n, f, g, m->centre_j + m->count, m->half_j + m->count);
-  m->count += n;
+  for (int side = 0; side < 2; side++)
+    if (cover == HR2DI_COVERS_NEITHER || cover == (hr2di_cover)side)
+      set_places(&t->on[side], t->gap, n, f, g, d->centre[side] + d->count,
+                 d->half[side] + d->count);
+  d->count += n;
   w->kernels += n;
 }
 

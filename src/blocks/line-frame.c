@@ -21,45 +21,50 @@ static hr2di_vector whole_patch(const hr2di_patch *p) {
   return hr2di_vector_difference(p->scaled.b, p->scaled.a);
 }
 
-/* The end of p is the start of q. */
-static void place_at_corner(hr2di_vector *a, hr2di_vector *b, hr2di_vector *c, hr2di_vector *d,
-                            const hr2di_vector *u, const hr2di_vector *v, hr2di_vector p,
-                            double rest, hr2di_vector q, double start) {
-  *b = hr2di_vector_times(&p, -rest);
-  *a = hr2di_vector_minus(b, u);
-  *c = hr2di_vector_times(&q, start);
-  *d = hr2di_vector_plus(c, v);
-}
-
-static void measure_from_corner(hr2di_line_frame *f, const hr2d_hierarchy *h, hr2d_pair pair,
-                                int at_end) {
-  const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
-  const hr2di_patch *p = &h->scene->patch[i->patch], *q = &h->scene->patch[j->patch];
-  const hr2di_vector along_p = whole_patch(p), along_q = whole_patch(q);
-  f->origin = at_end ? p->scaled.b : p->scaled.a;
-  f->u = hr2di_vector_times(&along_p, i->length / p->length);
-  f->v = hr2di_vector_times(&along_q, j->length / q->length);
-  if (at_end)
-    place_at_corner(&f->a, &f->b, &f->c, &f->d, &f->u, &f->v, along_p,
-                    rest_behind(h, pair.first), along_q, hr2di_element_start(h, pair.second));
-  else
-    place_at_corner(&f->c, &f->d, &f->a, &f->b, &f->v, &f->u, along_q,
-                    rest_behind(h, pair.second), along_p, hr2di_element_start(h, pair.first));
+/* The end of i is `rest` of its patch before the corner, and the start of j as much behind it;
+   or, if not `at_end`, the other way round. */
+static void measure_from(hr2di_line_frame *f, int at_end, hr2di_vector before,
+                         hr2di_vector behind) {
+  if (at_end) {
+    f->b = before;
+    f->c = behind;
+    f->a = hr2di_vector_minus(&f->b, &f->u);
+    f->d = hr2di_vector_plus(&f->c, &f->v);
+  } else {
+    f->a = behind;
+    f->d = before;
+    f->b = hr2di_vector_plus(&f->a, &f->u);
+    f->c = hr2di_vector_minus(&f->d, &f->v);
+  }
 }
 
 void hr2di_line_frame_init(hr2di_line_frame *f, const hr2d_hierarchy *h, hr2d_pair pair) {
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
-  const hr2d_segment p = h->scene->patch[i->patch].scaled, q = h->scene->patch[j->patch].scaled;
+  const hr2di_patch *p = &h->scene->patch[i->patch], *q = &h->scene->patch[j->patch];
+  const hr2di_vector along_p = whole_patch(p), along_q = whole_patch(q), zero = {0};
   *f = (hr2di_line_frame){.i = {i->a, i->b}, .j = {j->a, j->b}};
-  if (hr2di_point_same(p.b, q.a) || hr2di_point_same(p.a, q.b)) {
-    measure_from_corner(f, h, pair, hr2di_point_same(p.b, q.a));
-    return;
+  f->u = hr2di_vector_times(&along_p, i->length / p->length);
+  f->v = hr2di_vector_times(&along_q, j->length / q->length);
+  if (hr2di_point_same(p->scaled.b, q->scaled.a)) {
+    f->origin = p->scaled.b;
+    measure_from(f, 1, hr2di_vector_times(&along_p, -rest_behind(h, pair.first)),
+                 hr2di_vector_times(&along_q, hr2di_element_start(h, pair.second)));
+  } else if (hr2di_point_same(p->scaled.a, q->scaled.b)) {
+    f->origin = p->scaled.a;
+    measure_from(f, 0, hr2di_vector_times(&along_q, -rest_behind(h, pair.second)),
+                 hr2di_vector_times(&along_p, hr2di_element_start(h, pair.first)));
+  } else if (hr2di_point_same(i->b, j->a)) {
+    f->origin = i->b;
+    measure_from(f, 1, zero, zero);
+  } else if (hr2di_point_same(i->a, j->b)) {
+    f->origin = i->a;
+    measure_from(f, 0, zero, zero);
+  } else {
+    f->origin = i->a;
+    f->b = f->u;
+    f->c = hr2di_vector_difference(j->a, i->a);
+    f->d = hr2di_vector_plus(&f->c, &f->v);
   }
-  f->origin = i->a;
-  f->b = f->u = hr2di_vector_difference(i->b, i->a);
-  f->c = hr2di_vector_difference(j->a, i->a);
-  f->d = hr2di_vector_difference(j->b, i->a);
-  f->v = hr2di_vector_difference(j->b, j->a);
 }
 
 /* Where the point nearest to `at` is on the line from `from` along `along`. */

@@ -14,9 +14,10 @@
 #include "geometry/orient-incident.h"
 #include "hierarchy/hierarchy-impl.h"
 
-/* A pair i = ab, j = cd, with u = b − a and v = d − c, from a point that all vectors are
-   measured from: the corner of patches that have a common end, else a.  Beside a corner, places
-   have the relative accuracy of fractions of the patches, which coordinates do not have. */
+/* A pair i = ab, j = cd, with u = b − a and v = d − c as parts of the vectors of their patches,
+   which have more digits than coordinates of small elements.  Vectors lead from the corner of
+   patches that have a common end, with the relative accuracy of fractions of the patches; else
+   from a common end of the elements, or a. */
 typedef struct hr2di_line_frame {
   hr2d_segment i, j;
   hr2d_point origin;

@@ -8,20 +8,28 @@
 
 #include "base/legendre.h"
 
-/* Directions are taken in batches of LANES; at most ROOM of them wait. */
-enum { HR2DI_MOMENT_LANES = 8, HR2DI_MOMENT_ROOM = 128 };
+/* Directions are summed in batches of LANES, and wait until there are as many. */
+enum { HR2DI_MOMENT_LANES = 8, HR2DI_MOMENT_ROOM = HR2DI_RULE_POINTS + HR2DI_MOMENT_LANES };
 
-/* Lines of one direction, of which the outermost meet i and j at ξ = centre ± half, in [-1,1].
-   The line that meets i at centre_i + σ half_i meets j at centre_j − σ half_j. */
-typedef struct hr2di_moments {
-  size_t order, count;
+/* Which elements the lines of a direction cover from end to end.  Their number is that of the
+   element that they do not. */
+typedef enum hr2di_cover { HR2DI_COVERS_J, HR2DI_COVERS_I, HR2DI_COVERS_NEITHER } hr2di_cover;
+
+/* Directions that wait.  Their outermost lines meet element k, i or j, at ξ = centre ± half, in
+   [-1,1].  The line that meets i at centre + σ half meets j at centre − σ half. */
+typedef struct hr2di_directions {
+  size_t count;
   double weight[HR2DI_MOMENT_ROOM];
-  double centre_i[HR2DI_MOMENT_ROOM], half_i[HR2DI_MOMENT_ROOM];
-  double centre_j[HR2DI_MOMENT_ROOM], half_j[HR2DI_MOMENT_ROOM];
+  double centre[2][HR2DI_MOMENT_ROOM], half[2][HR2DI_MOMENT_ROOM];
+} hr2di_directions;
+
+typedef struct hr2di_moments {
+  size_t order;
+  hr2di_directions waiting[3];   /* by hr2di_cover */
   double square[HR2D_MAX_ORDER]; /* of the recurrence of monic Legendre polynomials */
   double norm[HR2D_MAX_ORDER];   /* mean squares of these */
   double scale[HR2D_MAX_ORDER];  /* 1/√ of that */
-  double *on_i, *on_j;           /* order × order × LANES, order rounded up to even */
+  double *row[2];                /* order × order × LANES, order rounded up to even */
 } hr2di_moments;
 
 /* HR2D_OK or HR2D_ENOMEM; call hr2di_moments_clear() in either case. */
@@ -29,8 +37,14 @@ hr2d_status hr2di_moments_init(hr2di_moments *moments, size_t order,
                                const hr2d_allocator *alloc);
 void hr2di_moments_clear(hr2di_moments *moments, const hr2d_allocator *alloc);
 
-/* block_lm += Σ weight · mean over σ of φ_l φ_m, for the directions that wait; order × order
-   numbers.  Unless `all` is set, less than LANES directions go on waiting. */
-void hr2di_moments_add(hr2di_moments *moments, int all, double *block);
+/* Forgets the directions that wait. */
+void hr2di_moments_begin(hr2di_moments *moments);
+
+/* Makes room for HR2DI_RULE_POINTS more directions: adds Σ weight · mean over σ of φ_l φ_m to
+   block_lm, order × order numbers, for full batches. */
+hr2di_directions *hr2di_moments_room(hr2di_moments *moments, hr2di_cover cover, double *block);
+
+/* Adds all directions that wait. */
+void hr2di_moments_end(hr2di_moments *moments, double *block);
 
 #endif

@@ -68,7 +68,7 @@ void block_stage_lines(const block_stage *s, size_t order, double *block) {
   hr2di_line_frame_init(&frame, s->hierarchy, s->pair);
   if (hr2di_line_ends(&frame, end, end + 2))
     ck_assert_int_eq(hr2di_block_of_vertices(&work, &frame, end, 2, 2, block), HR2D_OK);
-  hr2di_moments_add(&work.moments, 1, block);
+  hr2di_moments_end(&work.moments, block);
   for (size_t k = 0; k < order * order; k++) block[k] *= hr2d_scene_unit(s->scene);
   hr2di_integrator_clear(&work);
 }
