@@ -88,6 +88,7 @@ libhr2d_core_la_SOURCES = \
 	src/oracle/policy.c \
 	src/blocks/block.c src/blocks/block.h \
 	src/blocks/directions.c \
+	src/blocks/distant.c \
 	src/blocks/line-frame.c \
 	src/blocks/line-vector.h \
 	src/blocks/lines.c src/blocks/lines.h \

@@ -58,6 +58,9 @@ hr2d_status hr2di_block(hr2di_integrator *work, hr2d_pair pair, double *block, i
 void hr2di_pair_frame_init(hr2di_pair_frame *frame, const hr2d_hierarchy *hierarchy,
                            hr2d_pair pair);
 
+/* Adds the block of a distant pair. */
+void hr2di_block_add_distant(hr2di_integrator *work, const hr2di_pair_frame *f, double *block);
+
 /* Adds the lines of one class to a block: those that have the points of `right` on their right
    and the points of `left` on their left.  Both are chains, parts of convex hulls, in the order
    from i to j.  The first line leads from the first point of `left` to the last of `right`, the

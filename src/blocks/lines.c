@@ -150,10 +150,14 @@ static void divide(const double m[2], const double whole[2], double left[2], dou
   right[1] = whole[1];
 }
 
-void hr2di_trapezoid_divide(const hr2di_trapezoid *t, const double m[2],
+/* Between directions that are nearly opposite e is short: it is scaled by a power of two. */
+void hr2di_trapezoid_divide(const hr2di_trapezoid *t, const double weight[2],
                             hr2di_trapezoid part[2]) {
+  const hr2di_vector middle = combine(weight, t->e);
+  const double scale = hr2di_vector_scale(&middle);
+  const double m[2] = {scale * weight[0], scale * weight[1]};
   part[0] = part[1] = *t;
-  part[0].e[1] = part[1].e[0] = combine(m, t->e);
+  part[0].e[1] = part[1].e[0] = hr2di_vector_times(&middle, scale);
   part[0].turn = m[1] * t->turn;
   part[1].turn = m[0] * t->turn;
   divide(m, t->gap, part[0].gap, part[1].gap);

@@ -66,8 +66,8 @@ size_t hr2di_line_trapezoids(const hr2di_line_frame *frame, const hr2di_vertex *
                              size_t rights, const hr2di_vertex *left, size_t lefts,
                              hr2di_trapezoid *trapezoid);
 
-/* Divides at the direction m[0] e[0] + m[1] e[1]; both weights are positive. */
-void hr2di_trapezoid_divide(const hr2di_trapezoid *whole, const double m[2],
+/* Divides at the direction weight[0] e[0] + weight[1] e[1]; both weights are positive. */
+void hr2di_trapezoid_divide(const hr2di_trapezoid *whole, const double weight[2],
                             hr2di_trapezoid part[2]);
 
 #endif
