@@ -13,7 +13,10 @@
 #include "blocks/block.h"
 
 /* ln of the error of a trapezoid as a part of the exchange area. */
-#define DIGITS 33.5
+#define DIGITS 34
+
+/* For the constant that the bound leaves out, which few points have no room for. */
+#define MARGIN 0.3
 
 /* Directions below this part of all lines are dropped with all that they could change. */
 #define NEGLIGIBLE 0x1p-56
@@ -148,7 +151,7 @@ static choice choose(const hr2di_trapezoid *t, const outline *o, size_t order, d
                more = order > 1 ? growth(t, order, scale, root * sqrt(root)) : 0;
   double points = (digits + more) / 1.5;
   if (2 * more > digits) points = lesser(points, digits + growth(t, order, scale, root));
-  return (choice){scale, greater(points / logarithm(rho), 1)};
+  return (choice){scale, greater(points / logarithm(rho) + MARGIN, 1)};
 }
 
 /* Half the measure of the lines, at most: |e|² is no less than in the middle. */

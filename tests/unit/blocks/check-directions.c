@@ -29,34 +29,38 @@ static hr2d_point polar(double length, double angle) {
   return (hr2d_point){length * cos(angle), length * sin(angle)};
 }
 
-/* i from 0 to 1, and j of a size beside it at a distance. */
-static occluded_pair beside(randoms *r, double size, double gap, double tilt) {
+/* Numbers are drawn one by one, so that the order does not depend on the compiler. */
+
+/* i from 0 to 1, and j of a size between two limits beside it at a distance. */
+static occluded_pair beside(randoms *r, const double size[2], double gap, double tilt) {
   const double middle = random_between(r, -0.3, 1.3);
-  const hr2d_point half = polar(0.5 * size, M_PI + tilt);
+  const hr2d_point half = polar(0.5 * random_between(r, size[0], size[1]), M_PI + tilt);
   const double lift = gap + fabs(half.y);
   return (occluded_pair){
       .i = {{0, 0}, {1, 0}},
       .j = {{middle - half.x, lift - half.y}, {middle + half.x, lift + half.y}}};
 }
 
+static const double small[] = {0.3, 1}, any_size[] = {0.3, 2};
+
 static occluded_pair draw_far(randoms *r) {
-  return beside(r, random_between(r, 0.3, 1), random_between(r, 3, 5),
-                random_between(r, -0.5, 0.5));
+  const double gap = random_between(r, 3, 5);
+  return beside(r, small, gap, random_between(r, -0.5, 0.5));
 }
 
 static occluded_pair draw_near(randoms *r) {
-  return beside(r, random_between(r, 0.3, 2), random_between(r, 0.3, 1.5),
-                random_between(r, -0.5, 0.5));
+  const double gap = random_between(r, 0.3, 1.5), tilt = random_between(r, -0.5, 0.5);
+  return beside(r, any_size, gap, tilt);
 }
 
 static occluded_pair draw_nearer(randoms *r) {
-  return beside(r, random_between(r, 0.3, 2), random_power(r, -1.5, -0.5),
-                random_between(r, -0.3, 0.3));
+  const double gap = random_power(r, -1.5, -0.5), tilt = random_between(r, -0.3, 0.3);
+  return beside(r, any_size, gap, tilt);
 }
 
 static occluded_pair draw_slit(randoms *r) {
-  return beside(r, random_between(r, 0.3, 2), random_power(r, -4, -2),
-                random_between(r, -1e-4, 1e-4));
+  const double gap = random_power(r, -4, -2), tilt = random_between(r, -1e-4, 1e-4);
+  return beside(r, any_size, gap, tilt);
 }
 
 static occluded_pair touching(randoms *r, double angle) {
@@ -67,11 +71,13 @@ static occluded_pair touching(randoms *r, double angle) {
 }
 
 static occluded_pair draw_touching(randoms *r) {
-  return touching(r, random_between(r, 10, 179) * M_PI / 180);
+  const double angle = random_between(r, 10, 179) * M_PI / 180;
+  return touching(r, angle);
 }
 
 static occluded_pair draw_wedge(randoms *r) {
-  return touching(r, random_power(r, -1, 1) * M_PI / 180);
+  const double angle = random_power(r, -1, 1) * M_PI / 180;
+  return touching(r, angle);
 }
 
 /* Side by side, each hardly in front of the other. */
@@ -89,37 +95,36 @@ static occluded_pair draw_clipped(randoms *r) {
                          .j = {{x, low}, {x + lean * (high - low), high}}};
 }
 
+static hr2d_segment small_wall(randoms *r) {
+  const double x = random_between(r, 0, 1), y = random_between(r, 0.2, 0.8);
+  const double length = random_between(r, 0.02, 0.12), angle = random_between(r, 0, M_PI);
+  const hr2d_point half = polar(length, angle);
+  return (hr2d_segment){{x - half.x, y - half.y}, {x + half.x, y + half.y}};
+}
+
 /* Two that face each other with small walls between them. */
-static occluded_pair shaded(randoms *r, size_t walls) {
-  occluded_pair p = {
-      .i = {{0, 0}, {1, 0}},
-      .j = {{1 + random_between(r, -0.5, 0.5), 1}, {random_between(r, -0.5, 0.3), 1}},
-      .count = walls};
-  for (size_t k = 0; k < walls; k++) {
-    const hr2d_point m = {random_between(r, 0, 1), random_between(r, 0.2, 0.8)};
-    const hr2d_point half = polar(random_between(r, 0.02, 0.12), random_between(r, 0, M_PI));
-    p.occluder[k] = (hr2d_segment){{m.x - half.x, m.y - half.y}, {m.x + half.x, m.y + half.y}};
-  }
+static occluded_pair draw_shaded(randoms *r) {
+  const double from = random_between(r, -0.5, 0.3), to = 1 + random_between(r, -0.5, 0.5);
+  occluded_pair p = {.i = {{0, 0}, {1, 0}}, .j = {{to, 1}, {from, 1}}};
+  for (size_t walls = 1 + (size_t)random_below(r, 4); walls > 0; walls--)
+    p.occluder[p.count++] = small_wall(r);
   return p;
 }
 
-static occluded_pair draw_shaded(randoms *r) {
-  return shaded(r, 1 + (size_t)random_below(r, 4));
-}
-
-static double on_grid(randoms *r, int cells) {
-  return random_below(r, cells + 1) / 8.0;
+static hr2d_point on_grid(randoms *r, int columns, int rows) {
+  const int x = random_below(r, columns + 1), y = random_below(r, rows + 1);
+  return (hr2d_point){x / 8.0, y / 8.0};
 }
 
 /* Points of a coarse grid, so that many are collinear and many walls touch. */
 static occluded_pair draw_grid(randoms *r) {
-  occluded_pair p = {
-      .i = {{0, 0}, {1, 0}},
-      .j = {{0.5 + on_grid(r, 6), 1}, {on_grid(r, 3), 1 + on_grid(r, 2) - 0.125}},
-      .count = 1 + (size_t)random_below(r, 4)};
-  for (size_t k = 0; k < p.count; k++)
-    p.occluder[k] = (hr2d_segment){{on_grid(r, 8), 0.125 + on_grid(r, 5)},
-                                   {on_grid(r, 8), 0.125 + on_grid(r, 6)}};
+  const hr2d_point c = on_grid(r, 6, 1), d = on_grid(r, 3, 2);
+  occluded_pair p = {.i = {{0, 0}, {1, 0}}, .j = {{0.5 + c.x, 1}, {d.x, 0.875 + d.y}}};
+  for (size_t walls = 1 + (size_t)random_below(r, 4); walls > 0; walls--) {
+    const hr2d_point a = on_grid(r, 8, 5), b = on_grid(r, 8, 6);
+    const double top = a.x == b.x && a.y == b.y ? 1 : 0.125 + b.y;
+    p.occluder[p.count++] = (hr2d_segment){{a.x, 0.125 + a.y}, {b.x, top}};
+  }
   return p;
 }
 
