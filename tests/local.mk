@@ -9,6 +9,7 @@ SUITES = \
 	tests/unit/base/check-status \
 	tests/unit/geometry/check-geometry \
 	tests/unit/geometry/check-exchange-area \
+	tests/unit/triangulation/check-triangulation \
 	tests/bounds/check-bounds-geometry \
 	tests/bounds/check-bounds-oracles \
 	tests/bounds/check-bounds-l1 \

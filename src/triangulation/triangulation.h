@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A constrained Delaunay triangulation of walls: the plane in triangles, each side of each wall
+   a side of triangles. */
+#ifndef HR2D_SRC_TRIANGULATION_TRIANGULATION_H
+#define HR2D_SRC_TRIANGULATION_TRIANGULATION_H
+
+#include <hr2d/geometry.h>
+#include <hr2d/memory.h>
+#include <hr2d/status.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/watch.h"
+
+/* What is behind the border of the box. */
+#define HR2DI_SKY INT32_MIN
+
+typedef struct hr2di_triangle {
+  uint32_t corner[3]; /* vertices, counterclockwise */
+  /* Behind the edge corner[k] -> corner[(k+1)%3]: the half-edge 4·triangle + k there if >= 0 (a
+     free edge), else ~(2·edge + side) of a wall edge, or HR2DI_SKY. */
+  int32_t across[3];
+} hr2di_triangle;
+
+/* A part of a wall between two vertices, with none on its inside.  Side 0 is on the left of
+   from -> to, side 1 on the right. */
+typedef struct hr2di_wall_edge {
+  uint32_t wall;        /* which of the segments that the triangulation was made of */
+  uint32_t from, to;    /* vertices, in the direction of that segment */
+  int32_t half_edge[2]; /* of the triangle on each side: from -> to, and to -> from */
+} hr2di_wall_edge;
+
+typedef struct hr2di_triangulation {
+  hr2d_allocator alloc;
+  hr2d_point *at; /* along a Hilbert curve, then the four corners of a box around all walls */
+  size_t vertices;
+  hr2di_triangle *triangle;
+  size_t triangles;
+  hr2di_wall_edge *edge; /* by wall, and along each wall */
+  size_t edges;
+  uint32_t *edge_of; /* the edges of wall w are [edge_of[w], edge_of[w + 1]) */
+  size_t walls;
+} hr2di_triangulation;
+
+/* Why there is no triangulation. */
+typedef struct hr2di_conflict {
+  int together;     /* the walls share a stretch; else they cross */
+  uint32_t wall[2]; /* the lesser number first */
+} hr2di_conflict;
+
+/* Triangulates `count` walls, segments of finite coordinates below 2^200 that lie `stride`
+   bytes apart.  Returns HR2D_OK, HR2D_ENOMEM, the status of the watch, or HR2D_ESCENE with the
+   conflict.  To be ended by hr2di_triangulation_clear() in any case. */
+hr2d_status hr2di_triangulation_init(hr2di_triangulation *t, const hr2d_allocator *alloc,
+                                     const hr2d_segment *first, size_t count, size_t stride,
+                                     hr2di_conflict *conflict, hr2di_watch *watch);
+
+void hr2di_triangulation_clear(hr2di_triangulation *t);
+
+#endif
