@@ -37,14 +37,17 @@ libhr2d_core_la_SOURCES = \
 	src/geometry/point-view-factor.h \
 	src/geometry/predicates.c src/geometry/predicates.h \
 	src/geometry/vector.h \
+	src/triangulation/alike.c src/triangulation/alike.h \
 	src/triangulation/cavity.c src/triangulation/cavity.h \
 	src/triangulation/check.c src/triangulation/check.h \
 	src/triangulation/constraints.c src/triangulation/constraints.h \
 	src/triangulation/delaunay.c src/triangulation/delaunay.h \
+	src/triangulation/feet.c src/triangulation/feet.h \
 	src/triangulation/hilbert.h \
 	src/triangulation/in-circle.h \
 	src/triangulation/mesh.c src/triangulation/mesh.h \
 	src/triangulation/passes.c src/triangulation/passes.h \
+	src/triangulation/pieces.c src/triangulation/pieces.h \
 	src/triangulation/points.c src/triangulation/points.h \
 	src/triangulation/triangulation.c src/triangulation/triangulation.h \
 	src/occlusion/corridor.c src/occlusion/corridor.h \

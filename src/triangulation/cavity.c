@@ -25,12 +25,12 @@ static hr2d_status add_rim(const hr2di_mesh *m, hr2di_cavity *c, int side, uint3
   return HR2D_OK;
 }
 
-static hr2d_status add_triangle(const hr2di_mesh *m, hr2di_cavity *c, int32_t t) {
+hr2d_status hr2di_cavity_touch(const hr2di_mesh *m, hr2di_cavity *c, int32_t t) {
   if (hr2di_alloc_reserve(m->alloc, &c->triangle, &c->triangle_room, c->triangles + 1,
                           sizeof *c->triangle))
     return HR2D_ENOMEM;
   c->triangle[c->triangles++] = t;
-  return hr2di_watch_work(m->watch, 2);
+  return hr2di_watch_work(m->watch, 1);
 }
 
 hr2d_status hr2di_cavity_look(const hr2di_mesh *m, hr2di_cavity *c, int32_t h) {
@@ -44,7 +44,7 @@ hr2d_status hr2di_cavity_look(const hr2di_mesh *m, hr2di_cavity *c, int32_t h) {
 hr2d_status hr2di_cavity_begin(const hr2di_mesh *m, hr2di_cavity *c, int32_t h) {
   const uint32_t start = hr2di_mesh_apex(m, h);
   c->count[0] = c->count[1] = c->triangles = 0;
-  hr2d_status status = add_triangle(m, c, h >> 2);
+  hr2d_status status = hr2di_cavity_touch(m, c, h >> 2);
   for (int side = 0; side < 2 && !status; side++) {
     status = add_rim(m, c, side, start, -1);
     const int32_t within = side ? hr2di_mesh_before(h) : hr2di_mesh_next(h);
@@ -57,7 +57,7 @@ hr2d_status hr2di_cavity_begin(const hr2di_mesh *m, hr2di_cavity *c, int32_t h) 
 hr2d_status hr2di_cavity_go_on(const hr2di_mesh *m, hr2di_cavity *c, int32_t *h, int side) {
   const int32_t back = hr2di_mesh_across(m, *h);
   const int32_t right = hr2di_mesh_next(back), left = hr2di_mesh_before(back);
-  const hr2d_status status = add_triangle(m, c, back >> 2);
+  const hr2d_status status = hr2di_cavity_touch(m, c, back >> 2);
   *h = side ? left : right;
   return status ? status : add_rim(m, c, side, hr2di_mesh_apex(m, back), side ? right : left);
 }
@@ -76,7 +76,6 @@ static void look_outside(hr2di_mesh *m, hr2di_rim *rim, size_t count) {
     const int32_t mark = hr2di_mesh_across(m, rim[k].outside);
     if (mark < 0) rim[k].pair = 1 + (uint32_t)((size_t)~mark < k ? (size_t)~mark : k);
   }
-  /* From here on `within` of the first rim of a pair is the half-edge that was made for one. */
 }
 
 /* Hooks a new half-edge to what was outside; of a pair, the second to the first. */
@@ -119,7 +118,7 @@ static int32_t fill(hr2di_mesh *m, hr2di_cavity *c, int side, int32_t *first_of)
 hr2d_status hr2di_cavity_close(hr2di_mesh *m, hr2di_cavity *c, int32_t h, int32_t *made) {
   const int32_t back = hr2di_mesh_across(m, h);
   const uint32_t end = hr2di_mesh_apex(m, back);
-  hr2d_status status = add_triangle(m, c, back >> 2);
+  hr2d_status status = hr2di_cavity_touch(m, c, back >> 2);
   if (!status) status = add_rim(m, c, 0, end, hr2di_mesh_before(back));
   if (!status) status = add_rim(m, c, 1, end, hr2di_mesh_next(back));
   const size_t rims = c->count[0] > c->count[1] ? c->count[0] : c->count[1];
@@ -152,6 +151,8 @@ hr2d_status hr2di_cavity_settle(hr2di_mesh *m, hr2di_cavity *c) {
                          m->at[hr2di_mesh_apex(m, h)], m->at[hr2di_mesh_apex(m, back)]))
       continue;
     hr2di_mesh_flip(m, h);
+    if (!status) status = hr2di_cavity_touch(m, c, h >> 2);
+    if (!status) status = hr2di_cavity_touch(m, c, back >> 2);
     const int32_t t = 4 * (h >> 2), s = 4 * (back >> 2);
     const int32_t around[] = {t, t + 2, s, s + 1};
     for (int k = 0; k < 4 && !status; k++) status = hr2di_cavity_look(m, c, around[k]);

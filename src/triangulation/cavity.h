@@ -20,7 +20,7 @@ typedef struct hr2di_rim {
 typedef struct hr2di_cavity {
   hr2di_rim *rim[2];
   size_t count[2], room[2];
-  int32_t *triangle; /* that the line crosses */
+  int32_t *triangle; /* that the line crosses; then those that were flipped */
   size_t triangles, triangle_room;
   int32_t *half_edge; /* to be looked at */
   size_t half_edges, half_edge_room;
@@ -41,6 +41,9 @@ hr2d_status hr2di_cavity_go_on(const hr2di_mesh *m, hr2di_cavity *c, int32_t *h,
 /* Ends at the corner behind the free edge h, and makes the new triangles.  *made is the
    half-edge from the start to the end of the line.  After a failure the mesh is not whole. */
 hr2d_status hr2di_cavity_close(hr2di_mesh *m, hr2di_cavity *c, int32_t h, int32_t *made);
+
+/* Adds a triangle to the list. */
+hr2d_status hr2di_cavity_touch(const hr2di_mesh *m, hr2di_cavity *c, int32_t t);
 
 /* Flips edges of new triangles, and around them, until no circle is surely against it. */
 hr2d_status hr2di_cavity_settle(hr2di_mesh *m, hr2di_cavity *c);

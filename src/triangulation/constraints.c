@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "geometry/orient-sign.h"
 #include "triangulation/cavity.h"
+#include "triangulation/pieces.h"
 
 typedef struct inserter {
   hr2di_mesh *m;
@@ -20,38 +21,6 @@ static hr2d_status wait_for(inserter *in, uint32_t piece) {
                           sizeof *in->waiting))
     return HR2D_ENOMEM;
   in->waiting[in->waits++] = piece;
-  return HR2D_OK;
-}
-
-static hr2d_status refuse(inserter *in, uint32_t p, uint32_t q, int together) {
-  const uint32_t i = in->m->piece[p].edge.wall, j = in->m->piece[q].edge.wall;
-  *in->conflict = (hr2di_conflict){together, {i < j ? i : j, i < j ? j : i}};
-  return HR2D_ESCENE;
-}
-
-/* Ends a piece at v; *rest is a new piece from there on. */
-static hr2d_status cut(inserter *in, uint32_t piece, uint32_t v, uint32_t *rest) {
-  hr2di_mesh *m = in->m;
-  if (m->pieces >= INT32_MAX / 2 ||
-      hr2di_alloc_reserve(m->alloc, &m->piece, &m->capacity, m->pieces + 1, sizeof *m->piece))
-    return HR2D_ENOMEM;
-  *rest = (uint32_t)m->pieces++;
-  hr2di_piece *p = &m->piece[piece];
-  m->piece[*rest] = *p;
-  m->piece[*rest].edge.from = v;
-  p->edge.to = v;
-  p->next = *rest;
-  return HR2D_OK;
-}
-
-/* Makes the edge of the half-edge h, which runs along the piece or back, part of the wall. */
-static hr2d_status mark(inserter *in, uint32_t piece, int32_t h) {
-  hr2di_mesh *m = in->m;
-  const int32_t across = hr2di_mesh_across(m, h);
-  if (across < 0) return refuse(in, piece, hr2di_mesh_piece(across), 1);
-  const int side = hr2di_mesh_from(m, h) != m->piece[piece].edge.from;
-  hr2di_mesh_hook(m, h, ~(int32_t)(2 * piece + (uint32_t)side));
-  hr2di_mesh_hook(m, across, ~(int32_t)(2 * piece + 1 - (uint32_t)side));
   return HR2D_OK;
 }
 
@@ -97,16 +66,53 @@ static hr2d_status find_start(const inserter *in, uint32_t piece, turn *found) {
     }
 }
 
+/* Puts a piece where the edge of h is, which must be free. */
+static hr2d_status put(inserter *in, uint32_t piece, int32_t h) {
+  const int32_t across = hr2di_mesh_across(in->m, h);
+  if (across < 0)
+    return hr2di_piece_conflict(in->m, piece, hr2di_mesh_piece(across), 1, in->conflict);
+  hr2di_piece_put(in->m, piece, h);
+  return HR2D_OK;
+}
+
 /* The line is in the mesh from its start to v, by the half-edge h.  What is left of the piece
    waits. */
 static hr2d_status arrive(inserter *in, uint32_t piece, const turn *start, uint32_t v,
                           int32_t h) {
-  if (v == start->to) return mark(in, piece, h);
+  if (v == start->to) return put(in, piece, h);
   uint32_t rest;
-  hr2d_status status = cut(in, piece, v, &rest);
+  hr2d_status status = hr2di_piece_cut(in->m, piece, v, &rest);
   const int forward = start->at == in->m->piece[piece].edge.from;
   if (!status) status = wait_for(in, forward ? rest : piece);
-  return status ? status : mark(in, forward ? piece : rest, h);
+  return status ? status : put(in, forward ? piece : rest, h);
+}
+
+/* Cuts a piece at v; it waits again, in two parts. */
+static hr2d_status lead_through(inserter *in, uint32_t piece, uint32_t v) {
+  uint32_t rest;
+  hr2d_status status = hr2di_piece_cut(in->m, piece, v, &rest);
+  if (!status) status = wait_for(in, rest);
+  return status ? status : wait_for(in, piece);
+}
+
+/* A piece meets another one, which is in the mesh.  If one of them ends within the reach of the
+   other wall, that is led through this end; the nearest counts.  Else they cross. */
+static hr2d_status meet(inserter *in, uint32_t piece, uint32_t other) {
+  const hr2di_wall_edge e = in->m->piece[piece].edge, f = in->m->piece[other].edge;
+  const uint32_t end[4] = {f.from, f.to, e.from, e.to};
+  double nearest = INFINITY;
+  int which = -1;
+  for (int k = 0; k < 4; k++) {
+    const double distance = hr2di_piece_distance(in->m, k < 2 ? piece : other, end[k]);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    which = k;
+  }
+  if (which < 0) return hr2di_piece_conflict(in->m, piece, other, 0, in->conflict);
+  if (which < 2) return lead_through(in, piece, end[which]);
+  hr2di_piece_take(in->m, other);
+  const hr2d_status status = lead_through(in, other, end[which]);
+  return status ? status : wait_for(in, piece);
 }
 
 /* Follows a line that leaves `start` between two edges, to the next vertex on it. */
@@ -116,7 +122,7 @@ static hr2d_status follow(inserter *in, uint32_t piece, const turn *start) {
   hr2d_status status = hr2di_cavity_begin(m, &in->cavity, h);
   while (!status) {
     const int32_t back = hr2di_mesh_across(m, h);
-    if (back < 0) return refuse(in, piece, hr2di_mesh_piece(back), 0);
+    if (back < 0) return meet(in, piece, hr2di_mesh_piece(back));
     const uint32_t v = hr2di_mesh_apex(m, back);
     const int side =
         v == start->to ? 0 : hr2di_orient_sign(m->at[start->at], m->at[start->to], m->at[v]);

@@ -2,8 +2,6 @@
 /* The changes of a mesh that keep it a triangulation of the box. */
 #include "triangulation/mesh.h"
 
-#include <math.h>
-
 void hr2di_mesh_set(hr2di_mesh *m, int32_t t, uint32_t a, uint32_t b, uint32_t c) {
   m->triangle[t] = (hr2di_triangle){{a, b, c}, {HR2DI_SKY, HR2DI_SKY, HR2DI_SKY}};
   if (!m->out) return;

@@ -4,6 +4,8 @@
 #ifndef HR2D_SRC_TRIANGULATION_MESH_H
 #define HR2D_SRC_TRIANGULATION_MESH_H
 
+#include <math.h>
+
 #include "triangulation/triangulation.h"
 
 #define HR2DI_NO_PIECE UINT32_MAX
@@ -19,6 +21,9 @@ typedef struct hr2di_piece {
 typedef struct hr2di_mesh {
   const hr2d_allocator *alloc;
   hr2di_watch *watch;
+  const hr2d_segment *first; /* the walls, `stride` bytes apart */
+  size_t stride;
+  double tolerance; /* 4 units in the last place of the largest coordinate */
   hr2d_point *at;
   size_t vertices; /* the last four are the corners of the box */
   hr2di_triangle *triangle;
@@ -27,6 +32,17 @@ typedef struct hr2di_mesh {
   hr2di_piece *piece;
   size_t walls, pieces, capacity;
 } hr2di_mesh;
+
+static inline const hr2d_segment *hr2di_mesh_wall(const hr2di_mesh *m, size_t wall) {
+  return (const void *)((const char *)m->first + wall * m->stride);
+}
+
+/* How far a wall may be moved: by no more than it is off because of roundings, and never so far
+   that its shape would change. */
+static inline double hr2di_mesh_reach(const hr2di_mesh *m, size_t wall) {
+  const hr2d_segment *s = hr2di_mesh_wall(m, wall);
+  return fmin(m->tolerance, 0x1p-20 * hypot(s->b.x - s->a.x, s->b.y - s->a.y));
+}
 
 static inline int32_t hr2di_mesh_next(int32_t h) {
   return (h & 3) == 2 ? h - 2 : h + 1;

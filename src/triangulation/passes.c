@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "geometry/orient-sign.h"
+#include "triangulation/pieces.h"
 
 /* Whether q is on the left of the way from -> v -> to; no two of the four are in one direction
    from v. */
@@ -36,9 +37,7 @@ static hr2d_status look(const hr2di_mesh *m, uint32_t *last, uint32_t *before,
     for (uint32_t q = before[k]; q != HR2DI_NO_PIECE && !status; q = before[q]) {
       status = hr2di_watch_work(m->watch, 1);
       if (!cross(m, p, &m->piece[q])) continue;
-      const uint32_t i = p->edge.wall, j = m->piece[q].edge.wall;
-      *conflict = (hr2di_conflict){0, {i < j ? i : j, i < j ? j : i}};
-      return HR2D_ESCENE;
+      return hr2di_piece_conflict(m, k, q, 0, conflict);
     }
     if (status) return status;
   }

@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "base/sort.h"
 #include "geometry/vector.h"
+#include "triangulation/alike.h"
 #include "triangulation/hilbert.h"
 
 /* An end of a wall. */
@@ -24,38 +25,47 @@ static int by_place(const void *left, const void *right) {
   return (l->end > r->end) - (l->end < r->end);
 }
 
-static hr2d_point end_of(const hr2d_segment *first, size_t stride, size_t end) {
-  const hr2d_segment *s = (const void *)((const char *)first + end / 2 * stride);
-  return end % 2 ? s->b : s->a;
+static double largest(hr2d_point p) {
+  return fmax(fabs(p.x), fabs(p.y));
 }
 
-static void place_tips(tip *tips, const hr2d_segment *first, size_t stride, size_t count) {
-  hr2d_point low = first->a, high = first->a;
-  for (size_t k = 0; k < count; k++) {
-    const hr2d_point p = tips[k].at = end_of(first, stride, k);
-    tips[k].end = (uint32_t)k;
+/* Also finds the tolerance. */
+static void place_tips(hr2di_mesh *m, tip *tips) {
+  hr2d_point low = hr2di_mesh_wall(m, 0)->a, high = low;
+  for (uint32_t k = 0; k < 2 * m->walls; k++) {
+    const hr2d_segment *s = hr2di_mesh_wall(m, k / 2);
+    const hr2d_point p = k % 2 ? s->b : s->a;
+    tips[k] = (tip){.at = p, .end = k};
     low = (hr2d_point){fmin(low.x, p.x), fmin(low.y, p.y)};
     high = (hr2d_point){fmax(high.x, p.x), fmax(high.y, p.y)};
   }
+  m->tolerance = 4 * 0x1p-52 * fmax(largest(low), largest(high));
   const double wide = fmax(fmax(high.x - low.x, high.y - low.y), 0x1p-500);
   const double scale = 0x0.ffffffffp+32 / wide;
-  for (size_t k = 0; k < count; k++)
+  for (size_t k = 0; k < 2 * m->walls; k++)
     tips[k].place = hr2di_hilbert_place((uint32_t)((tips[k].at.x - low.x) * scale),
                                         (uint32_t)((tips[k].at.y - low.y) * scale));
 }
 
 /* Numbers the vertices in the order of the curve. */
-static void number(hr2di_mesh *m, const tip *tips, size_t count) {
-  for (size_t k = 0; k < count; k++) {
-    if (k == 0 || !hr2di_point_same(tips[k].at, tips[k - 1].at))
-      m->at[m->vertices++] = tips[k].at;
-    hr2di_wall_edge *e = &m->piece[tips[k].end / 2].edge;
-    *(tips[k].end % 2 ? &e->to : &e->from) = (uint32_t)m->vertices - 1;
+static hr2d_status number(hr2di_mesh *m, hr2di_alike *alike, const tip *tips) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0, end; k < 2 * m->walls && !status; k = end) {
+    double reach = INFINITY;
+    status = hr2di_watch_work(m->watch, 2);
+    for (end = k; end < 2 * m->walls && hr2di_point_same(tips[end].at, tips[k].at); end++)
+      reach = fmin(reach, hr2di_mesh_reach(m, tips[end].end / 2));
+    if (!status) status = hr2di_alike_add(alike, tips[k].at, reach);
+    for (size_t i = k; i < end && !status; i++) {
+      hr2di_wall_edge *e = &m->piece[tips[i].end / 2].edge;
+      *(tips[i].end % 2 ? &e->to : &e->from) = alike->found;
+    }
   }
-  m->vertices += 4;
+  m->vertices = alike->count + 4;
+  return status;
 }
 
-hr2d_status hr2di_points_init(hr2di_mesh *m, const hr2d_segment *first, size_t stride) {
+hr2d_status hr2di_points_init(hr2di_mesh *m) {
   const size_t count = 2 * m->walls;
   tip *tips = hr2di_alloc(m->alloc, count, sizeof *tips);
   m->at = hr2di_alloc(m->alloc, count + 4, sizeof *m->at);
@@ -64,12 +74,15 @@ hr2d_status hr2di_points_init(hr2di_mesh *m, const hr2d_segment *first, size_t s
   hr2d_status status = tips && m->at && m->piece ? HR2D_OK : HR2D_ENOMEM;
   if (!status) status = hr2di_watch_work(m->watch, count);
   if (!status) {
-    place_tips(tips, first, stride, count);
+    place_tips(m, tips);
     for (uint32_t w = 0; w < m->walls; w++)
       m->piece[w] = (hr2di_piece){{.wall = w, .half_edge = {-1, -1}}, HR2DI_NO_PIECE};
     status = hr2di_sort(tips, count, sizeof *tips, by_place, m->watch);
   }
-  if (!status) number(m, tips, count);
+  hr2di_alike alike = {.at = m->at, .watch = m->watch};
+  if (!status) status = hr2di_alike_init(&alike, m->alloc, count, m->tolerance);
+  if (!status) status = number(m, &alike, tips);
+  hr2di_alike_clear(&alike, m->alloc);
   hr2di_alloc_free(m->alloc, tips);
   return status;
 }

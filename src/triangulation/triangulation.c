@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "triangulation/constraints.h"
 #include "triangulation/delaunay.h"
+#include "triangulation/feet.h"
 #include "triangulation/mesh.h"
 #include "triangulation/passes.h"
 #include "triangulation/points.h"
@@ -94,8 +95,9 @@ hr2d_status hr2di_triangulation_init(hr2di_triangulation *t, const hr2d_allocato
   *t = (hr2di_triangulation){.alloc = *alloc};
   *conflict = (hr2di_conflict){0};
   if (count > MOST_WALLS) return HR2D_ENOMEM;
-  hr2di_mesh m = {.alloc = &t->alloc, .watch = watch, .walls = count};
-  hr2d_status status = hr2di_points_init(&m, first, stride);
+  hr2di_mesh m = {
+      .alloc = &t->alloc, .watch = watch, .first = first, .stride = stride, .walls = count};
+  hr2d_status status = hr2di_points_init(&m);
   if (!status) status = hr2di_delaunay_init(&m);
   if (!status) {
     m.out = hr2di_alloc(m.alloc, m.vertices, sizeof *m.out);
@@ -105,6 +107,7 @@ hr2d_status hr2di_triangulation_init(hr2di_triangulation *t, const hr2d_allocato
     hr2di_mesh_find_out(&m);
     status = hr2di_constraints_insert(&m, conflict);
   }
+  if (!status) status = hr2di_feet_join(&m);
   if (!status) status = hr2di_passes_check(&m, conflict);
   if (!status) status = compact(t, &m);
   hr2di_alloc_free(m.alloc, m.at);
