@@ -40,11 +40,12 @@ libhr2d_core_la_SOURCES = \
 	src/triangulation/alike.c src/triangulation/alike.h \
 	src/triangulation/cavity.c src/triangulation/cavity.h \
 	src/triangulation/check.c src/triangulation/check.h \
+	src/triangulation/compact.c src/triangulation/compact.h \
 	src/triangulation/constraints.c src/triangulation/constraints.h \
 	src/triangulation/delaunay.c src/triangulation/delaunay.h \
 	src/triangulation/feet.c src/triangulation/feet.h \
 	src/triangulation/hilbert.h \
-	src/triangulation/in-circle.h \
+	src/triangulation/in-circle.c src/triangulation/in-circle.h \
 	src/triangulation/mesh.c src/triangulation/mesh.h \
 	src/triangulation/passes.c src/triangulation/passes.h \
 	src/triangulation/pieces.c src/triangulation/pieces.h \

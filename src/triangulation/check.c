@@ -72,6 +72,26 @@ static double away(const hr2d_segment *s, hr2d_point p) {
   return fabs(hr2di_orient(s->a, s->b, p)) / length;
 }
 
+/* The triangle on one side of an edge knows the edge, or another one of its ring. */
+static const char *side_fault(const hr2di_triangulation *t, uint32_t edge, int side) {
+  const hr2di_wall_edge *e = &t->edge[edge];
+  const int32_t h = e->half_edge[side];
+  if (!is_half_edge(t, h)) return "an edge has no triangle";
+  if (from_of(t, h) != (side ? e->to : e->from) || to_of(t, h) != (side ? e->from : e->to))
+    return "the triangle of an edge has other corners";
+  const int32_t across = t->triangle[h >> 2].across[h & 3];
+  if (across >= 0 || across == HR2DI_SKY) return "the triangle of an edge does not know it";
+  const uint32_t known = (uint32_t)~across >> 1;
+  uint32_t turn = e->same;
+  int knows = known == edge;
+  for (size_t k = 0; turn != edge && k < t->edges && turn < t->edges; k++) {
+    knows |= known == turn;
+    turn = t->edge[turn].same;
+  }
+  if (turn != edge) return "a ring of edges is broken";
+  return knows ? NULL : "the triangle of an edge knows another one";
+}
+
 static const char *wall_fault(const hr2di_triangulation *t, size_t wall, const hr2d_segment *s,
                               double off) {
   const uint32_t first = t->edge_of[wall], last = t->edge_of[wall + 1];
@@ -83,10 +103,8 @@ static const char *wall_fault(const hr2di_triangulation *t, size_t wall, const h
     if (e->from >= t->vertices - 4 || e->to >= t->vertices - 4)
       return "an edge has no vertices";
     for (int side = 0; side < 2; side++) {
-      const int32_t h = e->half_edge[side];
-      if (!is_half_edge(t, h)) return "an edge has no triangle";
-      if (t->triangle[h >> 2].across[h & 3] != ~(int32_t)(2 * k + (uint32_t)side))
-        return "the triangle of an edge does not lead back";
+      const char *fault = side_fault(t, k, side);
+      if (fault) return fault;
     }
     if (k > first && t->edge[k - 1].to != e->from) return "a wall is broken";
     if (away(s, t->at[e->from]) > off || away(s, t->at[e->to]) > off)

@@ -6,9 +6,10 @@
 #include "triangulation/triangulation.h"
 
 /* Returns what is wrong, or NULL: all triangles are counterclockwise and fill the box; what is
-   across an edge leads back and has the same ends; the edges of a wall follow each other from
-   end to end, and no vertex lies on the inside of one.  `first` and `stride` are the walls it
-   was made of; the path of each may be off its line and its ends by at most `off`. */
+   across an edge leads back and has the same ends; triangles know the edges of walls; the edges
+   of a wall follow each other from end to end, and no vertex lies on the inside of one. `first`
+   and `stride` are the walls it was made of; the path of each may be off its line and its ends
+   by at most `off`. */
 const char *hr2di_triangulation_fault(const hr2di_triangulation *t, const hr2d_segment *first,
                                       size_t stride, double off);
 

@@ -66,25 +66,20 @@ static hr2d_status find_start(const inserter *in, uint32_t piece, turn *found) {
     }
 }
 
-/* Puts a piece where the edge of h is, which must be free. */
-static hr2d_status put(inserter *in, uint32_t piece, int32_t h) {
-  const int32_t across = hr2di_mesh_across(in->m, h);
-  if (across < 0)
-    return hr2di_piece_conflict(in->m, piece, hr2di_mesh_piece(across), 1, in->conflict);
-  hr2di_piece_put(in->m, piece, h);
-  return HR2D_OK;
-}
-
 /* The line is in the mesh from its start to v, by the half-edge h.  What is left of the piece
    waits. */
 static hr2d_status arrive(inserter *in, uint32_t piece, const turn *start, uint32_t v,
                           int32_t h) {
-  if (v == start->to) return put(in, piece, h);
   uint32_t rest;
+  if (v == start->to) {
+    hr2di_piece_put(in->m, piece, h);
+    return HR2D_OK;
+  }
   hr2d_status status = hr2di_piece_cut(in->m, piece, v, &rest);
   const int forward = start->at == in->m->piece[piece].edge.from;
   if (!status) status = wait_for(in, forward ? rest : piece);
-  return status ? status : put(in, forward ? piece : rest, h);
+  if (!status) hr2di_piece_put(in->m, forward ? piece : rest, h);
+  return status;
 }
 
 /* Cuts a piece at v; it waits again, in two parts. */
@@ -111,7 +106,11 @@ static hr2d_status meet(inserter *in, uint32_t piece, uint32_t other) {
   if (which < 0) return hr2di_piece_conflict(in->m, piece, other, 0, in->conflict);
   if (which < 2) return lead_through(in, piece, end[which]);
   hr2di_piece_take(in->m, other);
-  const hr2d_status status = lead_through(in, other, end[which]);
+  hr2d_status status = HR2D_OK;
+  for (uint32_t k = other, next; k != HR2DI_NO_PIECE && !status; k = next) {
+    next = hr2di_piece_part(in->m, k);
+    status = lead_through(in, k, end[which]);
+  }
   return status ? status : wait_for(in, piece);
 }
 

@@ -105,9 +105,8 @@ hr2d_status hr2di_delaunay_init(hr2di_mesh *m) {
   const size_t points = m->vertices - 4, most = 2 * points + 2;
   m->triangle = hr2di_alloc(m->alloc, most, sizeof *m->triangle);
   if (!m->triangle) return HR2D_ENOMEM;
-  hr2di_mesh_start(m);
   walk w = {.random = 1};
-  hr2d_status status = HR2D_OK;
+  hr2d_status status = hr2di_mesh_start(m);
   int rounds = 1;
   for (size_t n = points; n > 64; n /= 8) rounds++;
   for (int round = rounds; round-- > 0 && !status;)

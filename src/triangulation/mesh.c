@@ -2,6 +2,8 @@
 /* The changes of a mesh that keep it a triangulation of the box. */
 #include "triangulation/mesh.h"
 
+#include "base/alloc.h"
+
 void hr2di_mesh_set(hr2di_mesh *m, int32_t t, uint32_t a, uint32_t b, uint32_t c) {
   m->triangle[t] = (hr2di_triangle){{a, b, c}, {HR2DI_SKY, HR2DI_SKY, HR2DI_SKY}};
   if (!m->out) return;
@@ -11,10 +13,12 @@ void hr2di_mesh_set(hr2di_mesh *m, int32_t t, uint32_t a, uint32_t b, uint32_t c
 }
 
 /* The box is three times as large as the scene, so that no rounding brings its border near. */
-void hr2di_mesh_start(hr2di_mesh *m) {
+hr2d_status hr2di_mesh_start(hr2di_mesh *m) {
   hr2d_point low = m->at[0], high = m->at[0];
   const size_t first = m->vertices - 4;
-  for (size_t k = 1; k < first; k++) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < first && !status; k++) {
+    status = hr2di_mesh_poll(m, k);
     low = (hr2d_point){fmin(low.x, m->at[k].x), fmin(low.y, m->at[k].y)};
     high = (hr2d_point){fmax(high.x, m->at[k].x), fmax(high.y, m->at[k].y)};
   }
@@ -30,6 +34,7 @@ void hr2di_mesh_start(hr2di_mesh *m) {
   hr2di_mesh_set(m, 1, c + 2, c + 3, c);
   hr2di_mesh_hook(m, 2, 6);
   m->triangles = 2;
+  return status;
 }
 
 /* A ring of `count` edges around v, each with what is behind it, becomes as many triangles. */
@@ -89,7 +94,12 @@ void hr2di_mesh_flip(hr2di_mesh *m, int32_t h) {
   hr2di_mesh_hook(m, 4 * t + 1, 4 * s + 2);
 }
 
-void hr2di_mesh_find_out(hr2di_mesh *m) {
-  for (size_t t = 0; t < m->triangles; t++)
+hr2d_status hr2di_mesh_find_out(hr2di_mesh *m) {
+  m->out = hr2di_alloc(m->alloc, m->vertices, sizeof *m->out);
+  hr2d_status status = m->out ? HR2D_OK : HR2D_ENOMEM;
+  for (size_t t = 0; t < m->triangles && !status; t++) {
+    status = hr2di_mesh_poll(m, t);
     for (int k = 0; k < 3; k++) m->out[m->triangle[t].corner[k]] = (int32_t)(4 * t) + k;
+  }
+  return status;
 }

@@ -10,9 +10,10 @@
 
 #define HR2DI_NO_PIECE UINT32_MAX
 
-/* A part of a wall.  Piece w is the first of wall w. */
+/* A part of a wall.  Piece w is the first of wall w.  Walls that share a stretch have pieces in
+   a list there; the mesh knows only the first of them. */
 typedef struct hr2di_piece {
-  hr2di_wall_edge edge; /* its half-edges are -1 as long as it is not in the mesh */
+  hr2di_wall_edge edge; /* edge.same is the next in the list, or HR2DI_NO_PIECE */
   uint32_t next;        /* along the wall, or HR2DI_NO_PIECE */
 } hr2di_piece;
 
@@ -42,6 +43,11 @@ static inline const hr2d_segment *hr2di_mesh_wall(const hr2di_mesh *m, size_t wa
 static inline double hr2di_mesh_reach(const hr2di_mesh *m, size_t wall) {
   const hr2d_segment *s = hr2di_mesh_wall(m, wall);
   return fmin(m->tolerance, 0x1p-20 * hypot(s->b.x - s->a.x, s->b.y - s->a.y));
+}
+
+/* Declares the work of a loop whose turns take up to 0.1 µs; `turn` counts them. */
+static inline hr2d_status hr2di_mesh_poll(const hr2di_mesh *m, size_t turn) {
+  return turn % 1024 == 0 ? hr2di_watch_work(m->watch, 1024) : HR2D_OK;
 }
 
 static inline int32_t hr2di_mesh_next(int32_t h) {
@@ -93,8 +99,8 @@ static inline void hr2di_mesh_hook(hr2di_mesh *m, int32_t h, int32_t across) {
 void hr2di_mesh_set(hr2di_mesh *m, int32_t t, uint32_t a, uint32_t b, uint32_t c);
 
 /* The box around points [0, vertices − 4) as two triangles; its corners are the last four
-   vertices.  There is room for all triangles. */
-void hr2di_mesh_start(hr2di_mesh *m);
+   vertices.  There is room for all triangles.  HR2D_OK or the status of the watch. */
+hr2d_status hr2di_mesh_start(hr2di_mesh *m);
 
 /* Makes v a corner of three triangles instead of t, in which it lies; or of four instead of
    those on both sides of h, on which it lies.  v is corner 2 of all of them. */
@@ -105,7 +111,7 @@ void hr2di_mesh_split_edge(hr2di_mesh *m, int32_t h, uint32_t v);
    the corner opposite to h as its corner 2. */
 void hr2di_mesh_flip(hr2di_mesh *m, int32_t h);
 
-/* Sets `out` for all vertices. */
-void hr2di_mesh_find_out(hr2di_mesh *m);
+/* Makes `out`.  HR2D_OK, HR2D_ENOMEM or the status of the watch. */
+hr2d_status hr2di_mesh_find_out(hr2di_mesh *m);
 
 #endif

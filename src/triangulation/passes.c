@@ -17,11 +17,13 @@ static int on_left(const hr2di_mesh *m, uint32_t from, uint32_t v, uint32_t to, 
   return turn >= 0 ? before && behind : before || behind;
 }
 
-/* Both pieces end in a vertex behind which their walls go on. */
+/* Both pieces end in a vertex behind which their walls go on.  Walls that share one of the
+   edges there do not cross. */
 static int cross(const hr2di_mesh *m, const hr2di_piece *p, const hr2di_piece *q) {
   const uint32_t from = p->edge.from, v = p->edge.to, to = m->piece[p->next].edge.to;
-  return on_left(m, from, v, to, q->edge.from) !=
-         on_left(m, from, v, to, m->piece[q->next].edge.to);
+  const uint32_t a = q->edge.from, b = m->piece[q->next].edge.to;
+  if (a == from || a == to || b == from || b == to) return 0;
+  return on_left(m, from, v, to, a) != on_left(m, from, v, to, b);
 }
 
 /* `last` is the last piece found that ends in each vertex, and `before` the one found before

@@ -21,15 +21,27 @@ hr2d_status hr2di_piece_cut(hr2di_mesh *m, uint32_t piece, uint32_t v, uint32_t 
 
 void hr2di_piece_put(hr2di_mesh *m, uint32_t piece, int32_t h) {
   const int32_t back = hr2di_mesh_across(m, h);
-  const uint32_t side = hr2di_mesh_from(m, h) != m->piece[piece].edge.from;
+  hr2di_wall_edge *e = &m->piece[piece].edge;
+  if (back < 0) {
+    hr2di_wall_edge *first = &m->piece[hr2di_mesh_piece(back)].edge;
+    e->same = first->same;
+    first->same = piece;
+    return;
+  }
+  const uint32_t side = hr2di_mesh_from(m, h) != e->from;
   hr2di_mesh_hook(m, h, ~(int32_t)(2 * piece + side));
   hr2di_mesh_hook(m, back, ~(int32_t)(2 * piece + 1 - side));
 }
 
 void hr2di_piece_take(hr2di_mesh *m, uint32_t piece) {
-  int32_t *h = m->piece[piece].edge.half_edge;
+  const int32_t *h = m->piece[piece].edge.half_edge;
   hr2di_mesh_hook(m, h[0], h[1]);
-  h[0] = h[1] = -1;
+}
+
+uint32_t hr2di_piece_part(hr2di_mesh *m, uint32_t piece) {
+  const uint32_t next = m->piece[piece].edge.same;
+  m->piece[piece].edge.same = HR2DI_NO_PIECE;
+  return next;
 }
 
 static double length(hr2d_point u) {

@@ -9,11 +9,15 @@
    HR2D_ENOMEM. */
 hr2d_status hr2di_piece_cut(hr2di_mesh *m, uint32_t piece, uint32_t v, uint32_t *rest);
 
-/* Puts a piece where the free edge of h is, which runs along the piece or back. */
+/* Puts a piece where the edge of h is, which runs along the piece or back; to the list of the
+   edge, if there is a wall already. */
 void hr2di_piece_put(hr2di_mesh *m, uint32_t piece, int32_t h);
 
-/* Takes a piece out; its edge is free then. */
+/* Takes a piece out, which the mesh knows, with its list; its edge is free then. */
 void hr2di_piece_take(hr2di_mesh *m, uint32_t piece);
+
+/* Ends the list behind a piece that is not in the mesh; returns what was the next. */
+uint32_t hr2di_piece_part(hr2di_mesh *m, uint32_t piece);
 
 /* How far v is from the wall of a piece, if the wall reaches it and it is beside the inside of
    the piece; else infinity.  Both parts are shorter if the piece is cut there, so that cutting

@@ -29,22 +29,28 @@ static double largest(hr2d_point p) {
   return fmax(fabs(p.x), fabs(p.y));
 }
 
-/* Also finds the tolerance. */
-static void place_tips(hr2di_mesh *m, tip *tips) {
-  hr2d_point low = hr2di_mesh_wall(m, 0)->a, high = low;
-  for (uint32_t k = 0; k < 2 * m->walls; k++) {
-    const hr2d_segment *s = hr2di_mesh_wall(m, k / 2);
-    const hr2d_point p = k % 2 ? s->b : s->a;
-    tips[k] = (tip){.at = p, .end = k};
-    low = (hr2d_point){fmin(low.x, p.x), fmin(low.y, p.y)};
-    high = (hr2d_point){fmax(high.x, p.x), fmax(high.y, p.y)};
+/* Also makes the pieces and finds the tolerance.  2^32 cells a side, a little less. */
+static hr2d_status place_tips(hr2di_mesh *m, tip *tips) {
+  hr2d_point low = {HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL};
+  hr2d_status status = HR2D_OK;
+  for (uint32_t w = 0; w < m->walls && !status; w++) {
+    const hr2d_segment s = *hr2di_mesh_wall(m, w);
+    status = hr2di_mesh_poll(m, w);
+    tips[2 * w] = (tip){.at = s.a, .end = 2 * w};
+    tips[2 * w + 1] = (tip){.at = s.b, .end = 2 * w + 1};
+    m->piece[w] = (hr2di_piece){{.wall = w, .same = HR2DI_NO_PIECE}, HR2DI_NO_PIECE};
+    low = (hr2d_point){fmin(low.x, fmin(s.a.x, s.b.x)), fmin(low.y, fmin(s.a.y, s.b.y))};
+    high = (hr2d_point){fmax(high.x, fmax(s.a.x, s.b.x)), fmax(high.y, fmax(s.a.y, s.b.y))};
   }
   m->tolerance = 4 * 0x1p-52 * fmax(largest(low), largest(high));
   const double wide = fmax(fmax(high.x - low.x, high.y - low.y), 0x1p-500);
   const double scale = 0x0.ffffffffp+32 / wide;
-  for (size_t k = 0; k < 2 * m->walls; k++)
+  for (size_t k = 0; k < 2 * m->walls && !status; k++) {
+    status = hr2di_mesh_poll(m, k);
     tips[k].place = hr2di_hilbert_place((uint32_t)((tips[k].at.x - low.x) * scale),
                                         (uint32_t)((tips[k].at.y - low.y) * scale));
+  }
+  return status;
 }
 
 /* Numbers the vertices in the order of the curve. */
@@ -72,13 +78,8 @@ hr2d_status hr2di_points_init(hr2di_mesh *m) {
   m->piece = hr2di_alloc(m->alloc, m->walls, sizeof *m->piece);
   m->capacity = m->pieces = m->walls;
   hr2d_status status = tips && m->at && m->piece ? HR2D_OK : HR2D_ENOMEM;
-  if (!status) status = hr2di_watch_work(m->watch, count);
-  if (!status) {
-    place_tips(m, tips);
-    for (uint32_t w = 0; w < m->walls; w++)
-      m->piece[w] = (hr2di_piece){{.wall = w, .half_edge = {-1, -1}}, HR2DI_NO_PIECE};
-    status = hr2di_sort(tips, count, sizeof *tips, by_place, m->watch);
-  }
+  if (!status) status = place_tips(m, tips);
+  if (!status) status = hr2di_sort(tips, count, sizeof *tips, by_place, m->watch);
   hr2di_alike alike = {.at = m->at, .watch = m->watch};
   if (!status) status = hr2di_alike_init(&alike, m->alloc, count, m->tolerance);
   if (!status) status = number(m, &alike, tips);

@@ -28,6 +28,9 @@ typedef struct hr2di_wall_edge {
   uint32_t wall;        /* which of the segments that the triangulation was made of */
   uint32_t from, to;    /* vertices, in the direction of that segment */
   int32_t half_edge[2]; /* of the triangle on each side: from -> to, and to -> from */
+  /* Walls that share a stretch have edges in a ring there: the next one.  Triangles know only
+     the edge of the least number in the ring.  The edge itself, if no other wall is there. */
+  uint32_t same;
 } hr2di_wall_edge;
 
 typedef struct hr2di_triangulation {
@@ -42,9 +45,9 @@ typedef struct hr2di_triangulation {
   size_t walls;
 } hr2di_triangulation;
 
-/* Why there is no triangulation. */
+/* Two walls that have more than an end in common. */
 typedef struct hr2di_conflict {
-  int together;     /* the walls share a stretch; else they cross */
+  int together;     /* they share a stretch; else they cross */
   uint32_t wall[2]; /* the lesser number first */
 } hr2di_conflict;
 
