@@ -105,8 +105,8 @@ static hr2d_status meet(inserter *in, uint32_t piece, uint32_t other) {
   }
   if (which < 0) return hr2di_piece_conflict(in->m, piece, other, 0, in->conflict);
   if (which < 2) return lead_through(in, piece, end[which]);
+  hr2d_status status = hr2di_cavity_look(in->m, &in->cavity, f.half_edge[0]);
   hr2di_piece_take(in->m, other);
-  hr2d_status status = HR2D_OK;
   for (uint32_t k = other, next; k != HR2DI_NO_PIECE && !status; k = next) {
     next = hr2di_piece_part(in->m, k);
     status = lead_through(in, k, end[which]);
@@ -150,6 +150,7 @@ hr2d_status hr2di_constraints_insert(hr2di_mesh *m, hr2di_conflict *conflict) {
     if (m->piece[w].edge.from == m->piece[w].edge.to) continue;
     status = wait_for(&in, w);
     while (in.waits > 0 && !status) status = insert(&in, in.waiting[--in.waits]);
+    if (!status) status = hr2di_cavity_settle(m, &in.cavity);
   }
   hr2di_cavity_clear(m, &in.cavity);
   hr2di_alloc_free(m->alloc, in.waiting);
