@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "geometry/crossings.h"
 #include "geometry/predicates.h"
 #include "geometry/vector.h"
 #include "scene/find-occluder.h"
@@ -81,33 +82,82 @@ static void analyse_background(hr2d_scene *scene) {
   }
 }
 
-static void set_pair(hr2d_scene *scene, hr2d_effect effect, const char *what, size_t i,
-                     size_t j) {
-  if (scene->effect[effect].on) return;
-  const hr2di_label first = hr2di_patch_label(scene, i), second = hr2di_patch_label(scene, j);
+/* The first pair of patches that has a property. */
+typedef struct first_pair {
+  int exists;
+  size_t i, j;
+} first_pair;
+
+static int is_earlier(const first_pair *than, size_t i, size_t j) {
+  return !than->exists || i < than->i || (i == than->i && j < than->j);
+}
+
+typedef struct touching {
+  const hr2d_scene *scene;
+  first_pair back, corner;
+} touching;
+
+/* Patches that touch have boxes that meet. */
+static hr2d_status look_at_touching(void *ctx, size_t i, size_t j) {
+  touching *t = ctx;
+  const hr2d_segment *p = &t->scene->patch[i].scaled, *q = &t->scene->patch[j].scaled;
+  if (is_earlier(&t->back, i, j) && hr2di_point_same(p->a, q->b) &&
+      hr2di_point_same(p->b, q->a))
+    t->back = (first_pair){1, i, j};
+  if (is_earlier(&t->corner, i, j) && touch(p, q) && hr2di_facing_of(p, q) != HR2DI_FACING_NONE)
+    t->corner = (first_pair){1, i, j};
+  return HR2D_OK;
+}
+
+static hr2d_status find_facing_in_part(const hr2d_scene *scene, first_pair *found,
+                                       hr2di_watch *watch) {
+  hr2d_status status = HR2D_OK;
+  for (size_t i = 0; i < scene->patches && !found->exists && !status; i++)
+    for (size_t j = i + 1; j < scene->patches && !found->exists && !status; j++) {
+      if (j % 16 == 0) status = hr2di_watch_work(watch, 8);
+      if (hr2di_facing_of(&scene->patch[i].scaled, &scene->patch[j].scaled) ==
+          HR2DI_FACING_PART)
+        *found = (first_pair){1, i, j};
+    }
+  return status;
+}
+
+static void set_pair(hr2d_scene *scene, hr2d_effect effect, const first_pair *pair,
+                     const char *what, const char *none) {
+  if (!pair->exists) {
+    set(scene, effect, 0, "%s", none);
+    return;
+  }
+  const hr2di_label first = hr2di_patch_label(scene, pair->i),
+                    second = hr2di_patch_label(scene, pair->j);
   set(scene, effect, 1, "%s and %s %s", first.text, second.text, what);
 }
 
+static hr2d_status analyse_pairs(hr2d_scene *scene, hr2di_watch *watch) {
+  touching t = {.scene = scene};
+  first_pair part = {0};
+  hr2d_status status =
+      hr2di_crossings_sweep(&scene->alloc, &scene->patch[0].scaled, scene->patches,
+                            sizeof *scene->patch, look_at_touching, &t, watch);
+  if (!status) status = find_facing_in_part(scene, &part, watch);
+  set_pair(scene, HR2D_EFFECT_TWO_SIDED, &t.back, "stand back to back",
+           "no two patches stand back to back, end to end");
+  set_pair(scene, HR2D_EFFECT_FACING, &part, "see each other in part",
+           "patches see each other wholly or not at all");
+  set_pair(scene, HR2D_EFFECT_CORNER, &t.corner, "touch",
+           "patches that see each other do not touch");
+  return status;
+}
+
 /* *seen is how many pairs face each other. */
-static hr2d_status analyse_pairs(hr2d_scene *scene, size_t *seen, hr2di_watch *watch) {
-  set(scene, HR2D_EFFECT_TWO_SIDED, 0, "no two patches stand back to back, end to end");
-  set(scene, HR2D_EFFECT_FACING, 0, "patches see each other wholly or not at all");
-  set(scene, HR2D_EFFECT_CORNER, 0, "patches that see each other do not touch");
+static hr2d_status count_facing(const hr2d_scene *scene, size_t *seen, hr2di_watch *watch) {
   hr2d_status status = HR2D_OK;
   *seen = 0;
   for (size_t i = 0; i < scene->patches && !status; i++)
     for (size_t j = i + 1; j < scene->patches && !status; j++) {
       if (j % 16 == 0) status = hr2di_watch_work(watch, 8);
-      const hr2d_segment *s = &scene->patch[i].scaled, *t = &scene->patch[j].scaled;
-      if (hr2di_point_same(s->a, t->b) && hr2di_point_same(s->b, t->a))
-        set_pair(scene, HR2D_EFFECT_TWO_SIDED, "stand back to back", i, j);
-      const hr2di_facing facing = hr2di_facing_of(s, t);
-      if (facing == HR2DI_FACING_NONE) continue;
-      ++*seen;
-      if (facing == HR2DI_FACING_PART)
-        set_pair(scene, HR2D_EFFECT_FACING, "see each other in part", i, j);
-      if (!scene->effect[HR2D_EFFECT_CORNER].on && touch(s, t))
-        set_pair(scene, HR2D_EFFECT_CORNER, "touch", i, j);
+      *seen += hr2di_facing_of(&scene->patch[i].scaled, &scene->patch[j].scaled) !=
+               HR2DI_FACING_NONE;
     }
   return status;
 }
@@ -124,12 +174,13 @@ static void force(hr2d_scene *scene) {
 }
 
 hr2d_status hr2di_scene_analyse_effects(hr2d_scene *scene, hr2di_watch *watch) {
-  size_t seen;
+  size_t seen = 0;
   hr2di_occlusion found;
   hr2d_status status = analyse_materials(scene, watch);
   analyse_background(scene);
-  if (!status) status = analyse_pairs(scene, &seen, watch);
+  if (!status) status = analyse_pairs(scene, watch);
   if (!status) status = hr2di_occluder_find(scene, &found, watch);
+  if (!status && !found.exists) status = count_facing(scene, &seen, watch);
   if (status) return hr2di_scene_fail(scene, status, watch, "the analysis");
   if (found.exists)
     set(scene, HR2D_EFFECT_OCCLUSION, 1, "%s can stand between %s and %s",
