@@ -64,6 +64,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/commit.c \
 	src/scene/effects.c \
 	src/scene/find-occluder.c src/scene/find-occluder.h \
+	src/scene/near-pairs.c src/scene/near-pairs.h \
 	src/scene/patch-runs.c src/scene/patch-runs.h \
 	src/scene/reachability.c \
 	src/scene/scene.c \

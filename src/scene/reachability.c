@@ -3,6 +3,7 @@
    sees the next.  No other patch needs a link. */
 #include "base/alloc.h"
 #include "occlusion/pair-visibility.h"
+#include "scene/near-pairs.h"
 #include "scene/scene-impl.h"
 
 /* A search that starts from the sources. */
@@ -11,6 +12,8 @@ typedef struct search {
   hr2di_visibility visibility;
   uint32_t *reached; /* lit patches: sources, then others in the order of the search */
   size_t count;
+  uint32_t *left; /* patches that may still be dark */
+  size_t lefts;
 } search;
 
 static int emits(const hr2d_scene *scene, size_t patch) {
@@ -42,20 +45,28 @@ static hr2d_status sees(search *s, size_t i, size_t j, int exactly, int *seen) {
   return status;
 }
 
+/* Lights patch k if reached[from] sees it. */
+static hr2d_status light_up(search *s, size_t from, size_t k, int exactly) {
+  unsigned char *dark = s->scene->dark;
+  int seen = 0;
+  const hr2d_status status = dark[k] ? sees(s, s->reached[from], k, exactly, &seen) : HR2D_OK;
+  if (status || !seen) return status;
+  dark[k] = 0;
+  s->reached[s->count++] = (uint32_t)k;
+  return HR2D_OK;
+}
+
 /* Lights all dark patches that see reached[from]. */
 static hr2d_status spread_from(search *s, size_t from, int exactly) {
-  unsigned char *dark = s->scene->dark;
-  const hr2d_status asked = hr2di_watch_work(s->visibility.watch, s->scene->patches / 64);
-  if (asked) return asked;
-  for (size_t k = 0; k < s->scene->patches; k++) {
-    int seen = 0;
-    const hr2d_status status = dark[k] ? sees(s, s->reached[from], k, exactly, &seen) : HR2D_OK;
-    if (status) return status;
-    if (!seen) continue;
-    dark[k] = 0;
-    s->reached[s->count++] = (uint32_t)k;
+  const unsigned char *dark = s->scene->dark;
+  size_t kept = 0;
+  hr2d_status status = hr2di_watch_work(s->visibility.watch, s->lefts / 64);
+  for (size_t k = 0; k < s->lefts && !status; k++) {
+    status = light_up(s, from, s->left[k], exactly);
+    if (dark[s->left[k]]) s->left[kept++] = s->left[k];
   }
-  return HR2D_OK;
+  if (!status) s->lefts = kept;
+  return status;
 }
 
 /* Lights all dark patches that surely see reached[from] or a patch reached after it. */
@@ -66,10 +77,25 @@ static hr2d_status spread_surely(search *s, size_t from) {
   return status;
 }
 
-/* Most patches see some lit patch with little in the way.  The others are tested exactly
-   against each lit patch. */
+/* Lights what sees a lit patch next to it. */
+static hr2d_status spread_near(search *s) {
+  hr2di_near_pairs near;
+  hr2d_status status = hr2di_near_pairs_init(&near, s->scene, s->visibility.watch);
+  for (size_t k = 0; k < s->count && !status; k++) {
+    const uint32_t i = s->reached[k];
+    for (uint32_t m = near.first[i]; m < near.first[i + 1] && !status; m++)
+      status = light_up(s, k, near.other[m], 1);
+  }
+  hr2di_alloc_free(&s->scene->alloc, near.first);
+  hr2di_alloc_free(&s->scene->alloc, near.other);
+  return status;
+}
+
+/* Most patches see a lit patch next to them, or some lit patch with little in the way.  The
+   others are tested exactly against each lit patch. */
 static hr2d_status spread(search *s) {
-  hr2d_status status = spread_surely(s, 0);
+  hr2d_status status = spread_near(s);
+  if (!status) status = spread_surely(s, 0);
   for (size_t k = 0; k < s->count && s->count < s->scene->patches && !status; k++) {
     const size_t before = s->count;
     status = spread_from(s, k, 1);
@@ -89,24 +115,33 @@ static int all_lit(const hr2d_scene *scene) {
   return k == scene->patches;
 }
 
+/* Sources are lit, the others dark. */
+static hr2d_status begin(search *s) {
+  const size_t n = s->scene->patches;
+  s->reached = hr2di_alloc(&s->scene->alloc, n, sizeof *s->reached);
+  s->left = hr2di_alloc(&s->scene->alloc, n, sizeof *s->left);
+  s->scene->dark = hr2di_alloc_zero(&s->scene->alloc, n, 1);
+  if (!s->reached || !s->left || !s->scene->dark) return HR2D_ENOMEM;
+  for (size_t k = 0; k < n; k++) {
+    s->scene->dark[k] = !emits(s->scene, k);
+    if (s->scene->dark[k])
+      s->left[s->lefts++] = (uint32_t)k;
+    else
+      s->reached[s->count++] = (uint32_t)k;
+  }
+  return hr2di_watch_work(s->visibility.watch, n / 8);
+}
+
 hr2d_status hr2di_scene_find_light(hr2d_scene *scene, hr2di_watch *watch) {
   if (all_lit(scene)) return HR2D_OK;
-  const size_t n = scene->patches;
   search s = {.scene = scene};
-  s.reached = hr2di_alloc(&scene->alloc, n, sizeof *s.reached);
-  scene->dark = hr2di_alloc_zero(&scene->alloc, n, 1);
   hr2di_visibility_init(&s.visibility, &scene->walls, &scene->alloc, watch);
-  hr2d_status status = s.reached && scene->dark ? HR2D_OK : HR2D_ENOMEM;
-  if (!status) status = hr2di_watch_work(watch, n / 8);
-  for (size_t k = 0; k < n && !status; k++)
-    if (emits(scene, k))
-      s.reached[s.count++] = (uint32_t)k;
-    else
-      scene->dark[k] = 1;
+  hr2d_status status = begin(&s);
   if (!status) status = spread(&s);
-  const int none_dark = s.count == n;
+  const int none_dark = s.count == scene->patches;
   hr2di_visibility_clear(&s.visibility);
   hr2di_alloc_free(&scene->alloc, s.reached);
+  hr2di_alloc_free(&scene->alloc, s.left);
   if (status || none_dark) {
     hr2di_alloc_free(&scene->alloc, scene->dark);
     scene->dark = NULL;
