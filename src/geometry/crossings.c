@@ -180,9 +180,24 @@ hr2di_meeting hr2di_crossings_meet(const hr2d_segment *i, const hr2d_segment *j)
 }
 
 typedef struct span {
-  double from, to; /* in x */
+  double from, to, low, high; /* in x and y; those of two boxes that meet overlap */
   size_t segment;
+  uint32_t first_row, last_row;
 } span;
+
+/* The sweep looks only at spans of the same row of the plane, for which `item` has the numbers
+   of the spans that reach into each row, in their order. */
+typedef struct sweep {
+  const hr2d_allocator *alloc;
+  span *spans;
+  size_t count;
+  size_t rows;
+  size_t *start; /* rows + 1: the items of row r are [start[r], start[r + 1]) */
+  size_t *next;  /* the first item in each row that the sweep has not reached */
+  uint32_t *item;
+  uint32_t *found; /* what meets one span */
+  hr2di_watch *watch;
+} sweep;
 
 static int by_start(const void *left, const void *right) {
   const span *l = left, *r = right;
@@ -190,34 +205,110 @@ static int by_start(const void *left, const void *right) {
   return (l->segment > r->segment) - (l->segment < r->segment);
 }
 
-static const hr2d_segment *at(const hr2d_segment *first, size_t stride, size_t k) {
-  return (const hr2d_segment *)(const void *)((const char *)first + k * stride);
+static int by_number(const void *left, const void *right) {
+  const uint32_t l = *(const uint32_t *)left, r = *(const uint32_t *)right;
+  return (l > r) - (l < r);
 }
 
-static int meet_in_y(const hr2d_segment *i, const hr2d_segment *j) {
-  return fmin(i->a.y, i->b.y) <= fmax(j->a.y, j->b.y) + MARGIN &&
-         fmin(j->a.y, j->b.y) <= fmax(i->a.y, i->b.y) + MARGIN;
+static hr2d_status make_spans(sweep *s, const hr2d_segment *first, size_t stride) {
+  for (size_t k = 0; k < s->count; k++) {
+    const hr2d_segment *at = (const void *)((const char *)first + k * stride);
+    s->spans[k] = (span){.from = fmin(at->a.x, at->b.x),
+                         .to = fmax(at->a.x, at->b.x) + MARGIN,
+                         .low = fmin(at->a.y, at->b.y),
+                         .high = fmax(at->a.y, at->b.y) + MARGIN,
+                         .segment = k};
+  }
+  const hr2d_status status = hr2di_watch_work(s->watch, s->count / 4);
+  return status ? status : hr2di_sort(s->spans, s->count, sizeof *s->spans, by_start, s->watch);
+}
+
+/* Chooses as many rows as there are spans in one, about, but so few that spans reach into four
+   rows at most on average; returns the number of items. */
+static size_t choose_rows(sweep *s) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (size_t k = 0; k < s->count; k++) {
+    low = fmin(low, s->spans[k].low);
+    high = fmax(high, s->spans[k].high);
+  }
+  size_t items = 0;
+  for (s->rows = (size_t)sqrt((double)s->count) + 1;; s->rows = (s->rows + 1) / 2) {
+    const double scale = (double)s->rows / (high - low);
+    items = 0;
+    for (size_t k = 0; k < s->count; k++) {
+      span *p = &s->spans[k];
+      p->first_row = (uint32_t)fmin((p->low - low) * scale, (double)(s->rows - 1));
+      p->last_row = (uint32_t)fmin((p->high - low) * scale, (double)(s->rows - 1));
+      items += p->last_row - p->first_row + 1;
+    }
+    if (s->rows == 1 || items <= 4 * s->count) return items;
+  }
+}
+
+static hr2d_status make_rows(sweep *s) {
+  hr2d_status status = hr2di_watch_work(s->watch, s->count / 2);
+  if (status) return status;
+  const size_t items = choose_rows(s);
+  s->start = hr2di_alloc_zero(s->alloc, s->rows + 1, sizeof *s->start);
+  s->next = hr2di_alloc(s->alloc, s->rows, sizeof *s->next);
+  s->item = hr2di_alloc(s->alloc, items, sizeof *s->item);
+  if (!s->start || !s->next || !s->item) return HR2D_ENOMEM;
+  status = hr2di_watch_work(s->watch, items / 4);
+  for (size_t k = 0; k < s->count; k++)
+    for (uint32_t r = s->spans[k].first_row; r <= s->spans[k].last_row; r++) s->start[r + 1]++;
+  for (size_t r = 0; r < s->rows; r++) {
+    s->start[r + 1] += s->start[r];
+    s->next[r] = s->start[r];
+  }
+  for (size_t k = 0; k < s->count; k++)
+    for (uint32_t r = s->spans[k].first_row; r <= s->spans[k].last_row; r++)
+      s->item[s->next[r]++] = (uint32_t)k;
+  for (size_t r = 0; r < s->rows; r++) s->next[r] = s->start[r];
+  return status;
+}
+
+/* Finds the spans behind k that meet it, in their order.  Two that meet in more than one row
+   are found in the first of them. */
+static hr2d_status find_behind(sweep *s, size_t k, size_t *found) {
+  const span *p = &s->spans[k];
+  hr2d_status status = HR2D_OK;
+  *found = 0;
+  for (uint32_t r = p->first_row; r <= p->last_row && !status; r++) {
+    const size_t after = ++s->next[r], last = s->start[r + 1];
+    for (size_t m = after; m < last && s->spans[s->item[m]].from <= p->to && !status; m++) {
+      const span *q = &s->spans[s->item[m]];
+      if (m % 16 == 0) status = hr2di_watch_work(s->watch, 1);
+      if (r != (p->first_row > q->first_row ? p->first_row : q->first_row)) continue;
+      if (p->low <= q->high && q->low <= p->high) s->found[(*found)++] = s->item[m];
+    }
+  }
+  if (status || p->first_row == p->last_row) return status;
+  return hr2di_sort(s->found, *found, sizeof *s->found, by_number, s->watch);
 }
 
 hr2d_status hr2di_crossings_sweep(const hr2d_allocator *alloc, const hr2d_segment *first,
                                   size_t count, size_t stride,
                                   hr2d_status (*visit)(void *ctx, size_t i, size_t j),
                                   void *ctx, hr2di_watch *watch) {
-  span *spans = hr2di_alloc(alloc, count, sizeof *spans);
-  if (!spans) return HR2D_ENOMEM;
-  for (size_t k = 0; k < count; k++) {
-    const hr2d_segment *s = at(first, stride, k);
-    spans[k] = (span){fmin(s->a.x, s->b.x), fmax(s->a.x, s->b.x) + MARGIN, k};
-  }
-  hr2d_status status = hr2di_sort(spans, count, sizeof *spans, by_start, watch);
-  for (size_t k = 0; k < count && !status; k++)
-    for (size_t m = k + 1; m < count && spans[m].from <= spans[k].to && !status; m++) {
-      const size_t i = spans[k].segment, j = spans[m].segment;
-      if (m % 16 == 0) status = hr2di_watch_work(watch, 1);
-      if (!meet_in_y(at(first, stride, i), at(first, stride, j))) continue;
-      if (!status) status = hr2di_watch_work(watch, 2);
+  if (count > UINT32_MAX) return HR2D_ENOMEM;
+  sweep s = {.alloc = alloc, .count = count, .watch = watch};
+  s.spans = hr2di_alloc(alloc, count, sizeof *s.spans);
+  s.found = hr2di_alloc(alloc, count, sizeof *s.found);
+  hr2d_status status = s.spans && s.found ? HR2D_OK : HR2D_ENOMEM;
+  if (!status) status = make_spans(&s, first, stride);
+  if (!status) status = make_rows(&s);
+  for (size_t k = 0, found; k < count && !status; k++) {
+    status = find_behind(&s, k, &found);
+    for (size_t m = 0; m < found && !status; m++) {
+      const size_t i = s.spans[k].segment, j = s.spans[s.found[m]].segment;
+      status = hr2di_watch_work(watch, 2);
       if (!status) status = i < j ? visit(ctx, i, j) : visit(ctx, j, i);
     }
-  hr2di_alloc_free(alloc, spans);
+  }
+  hr2di_alloc_free(alloc, s.spans);
+  hr2di_alloc_free(alloc, s.found);
+  hr2di_alloc_free(alloc, s.start);
+  hr2di_alloc_free(alloc, s.next);
+  hr2di_alloc_free(alloc, s.item);
   return status;
 }

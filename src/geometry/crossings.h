@@ -42,9 +42,9 @@ hr2di_meeting hr2di_crossings_meet(const hr2d_segment *i, const hr2d_segment *j)
 double hr2di_crossings_distance(hr2d_point p, const hr2d_segment *s);
 
 /* Calls `visit` with i < j for each pair of segments whose bounding boxes meet or are within a
-   rounding of meeting.  Stops as soon as `visit` returns anything but HR2D_OK.  Returns
-   HR2D_OK, that status, HR2D_ENOMEM, or the status of the watch.  Segments lie `stride` bytes
-   apart. */
+   rounding of meeting; cost O(n log n) and what is visited, for segments that are spread out.
+   Stops as soon as `visit` returns anything but HR2D_OK.  Returns HR2D_OK, that status,
+   HR2D_ENOMEM, or the status of the watch.  Segments lie `stride` bytes apart. */
 hr2d_status hr2di_crossings_sweep(const hr2d_allocator *alloc, const hr2d_segment *first,
                                   size_t count, size_t stride,
                                   hr2d_status (*visit)(void *ctx, size_t i, size_t j),
