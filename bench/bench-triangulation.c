@@ -15,7 +15,7 @@
 #include "triangulation/triangulation.h"
 
 #define TURN 6.28318530717958648
-#define BAR  4.0 /* caches account for half of it */
+#define BAR  8.0 /* caches account for half of it; a quadratic cost would be 100 */
 
 typedef void (*draw_fn)(randoms *r, hr2d_segment *wall, size_t count);
 
