@@ -236,14 +236,11 @@ static double area_of(const block_stage *s) {
 
 /* A Gauss rule of q points on a function with singularities no nearer than the ellipse ρ is
    good to ρ^−2q, with a factor of degree l to ρ^−(2q−l).  Distant pairs have order + 2 points
-   and ρ = 3.297; panels of near pairs have ρ = 3.19 and as many points as give 3.3^−2p e^−5,
-   and there what x sees of φ_m is nearly of degree m in x; there
-   may be ten of them.  Error of a moment whose polynomials
-   have a maximum of 1, in terms of the exchange area. */
+   and ρ = 3.297; all others are exact, and the reference is good to 1e-13.  Error of a moment
+   whose polynomials have a maximum of 1, in terms of the exchange area. */
 static double allowed(size_t order, int distant, unsigned l, unsigned m) {
   const double p = (double)order;
-  if (distant) return 3 * pow(3.297, fmax(l, m) - 2 * (p + 2)) + 2e-14;
-  return 10 * exp(-fmin(2 * p * log(3.3) + 5, 35)) * pow(3.19, l + m - p) + 2e-14;
+  return (distant ? 3 * pow(3.297, fmax(l, m) - 2 * (p + 2)) : 0) + 2e-14;
 }
 
 static double scale_of(unsigned l, unsigned m) {
