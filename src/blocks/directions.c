@@ -5,9 +5,9 @@
      C_lm = ∫₀¹ ½ κ (e0 × e1) (gap/|e|³) M_lm dλ.
    Offsets are never near anything: what is singular in λ are the directions along i and j,
    where places that turn with e have poles, and the two complex zeros of |e|².  κ moves them.
-   If the nearest is on the ellipse ρ₀ around [0,1], a rule of n points errs by about ρ^−2n (ρ_i
-   ρ_j)^(p−1)   for any ρ < ρ₀, where ρ_i is the ellipse around i on which places on i lie for λ
-   on the ellipse ρ. */
+   If the nearest is on the ellipse ρ₀ around [0,1], a rule of n points errs by about
+     ρ^−2n (ρ_i ρ_j)^(p−1)   for any ρ < ρ₀,
+   where ρ_i is the ellipse around i on which places on i lie for λ on the ellipse ρ. */
 #include <math.h>
 
 #include "blocks/block.h"

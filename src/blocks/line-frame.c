@@ -70,8 +70,11 @@ void hr2di_line_frame_init(hr2di_line_frame *f, const hr2d_hierarchy *h, hr2d_pa
 /* Where the point nearest to `at` is on the line from `from` along `along`. */
 static double place(const hr2di_vector *at, const hr2di_vector *from,
                     const hr2di_vector *along) {
-  const hr2di_vector away = hr2di_vector_minus(at, from);
-  return hr2di_vector_dot(&away, along) / hr2di_vector_dot(along, along);
+  const double scale = hr2di_vector_scale(along); /* so that no product underflows */
+  const hr2di_vector difference = hr2di_vector_minus(at, from);
+  const hr2di_vector away = hr2di_vector_times(&difference, scale);
+  const hr2di_vector whole = hr2di_vector_times(along, scale);
+  return hr2di_vector_dot(&away, &whole) / hr2di_vector_dot(&whole, &whole);
 }
 
 static void find_places(const hr2di_line_frame *f, hr2di_vertex *z) {
@@ -80,18 +83,16 @@ static void find_places(const hr2di_line_frame *f, hr2di_vertex *z) {
 }
 
 hr2di_vertex hr2di_line_vertex(const hr2di_line_frame *f, hr2di_incident_point p) {
+  const int on_i = p.on & HR2DI_ON_I, on_j = p.on & HR2DI_ON_J;
+  const int a = on_i && hr2di_point_same(p.at, f->i.a);
+  const int b = on_i && hr2di_point_same(p.at, f->i.b);
+  const int c = on_j && hr2di_point_same(p.at, f->j.a);
+  const int d = on_j && hr2di_point_same(p.at, f->j.b);
   hr2di_vertex z = {.on = p.on};
-  if (p.on & HR2DI_ON_I && hr2di_point_same(p.at, f->i.a))
-    z.at = f->a;
-  else if (p.on & HR2DI_ON_I && hr2di_point_same(p.at, f->i.b))
-    z.at = f->b;
-  else if (p.on & HR2DI_ON_J && hr2di_point_same(p.at, f->j.a))
-    z.at = f->c;
-  else if (p.on & HR2DI_ON_J && hr2di_point_same(p.at, f->j.b))
-    z.at = f->d;
-  else
-    z.at = hr2di_vector_difference(p.at, f->origin);
+  z.at = a ? f->a : b ? f->b : c ? f->c : d ? f->d : hr2di_vector_difference(p.at, f->origin);
   find_places(f, &z);
+  if (a || b) z.s = b;
+  if (c || d) z.t = d;
   return z;
 }
 
