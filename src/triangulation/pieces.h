@@ -20,8 +20,8 @@ void hr2di_piece_take(hr2di_mesh *m, uint32_t piece);
 uint32_t hr2di_piece_part(hr2di_mesh *m, uint32_t piece);
 
 /* How far v is from the wall of a piece, if the wall reaches it and it is beside the inside of
-   the piece; else infinity.  Both parts are shorter if the piece is cut there, so that cutting
-   comes to an end. */
+   the piece; else infinity.  Both parts have fewer vertices beside them if the piece is cut
+   there, so that cutting comes to an end. */
 double hr2di_piece_distance(const hr2di_mesh *m, uint32_t piece, uint32_t v);
 
 /* Names the walls of two pieces; returns HR2D_ESCENE. */
