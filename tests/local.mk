@@ -193,7 +193,8 @@ check-long:
 # Only Check programs, without fork, and without the suites that take too long, which run under the
 # sanitizers.
 TOO_LONG = tests/unit/accuracy/check-dark tests/unit/accuracy/check-importance \
-	tests/unit/accuracy/check-known-radiosities tests/unit/solve/check-closure \
+	tests/unit/accuracy/check-known-radiosities tests/unit/accuracy/check-random-accuracy \
+	tests/unit/solve/check-closure \
 	tests/unit/solution/check-irradiance-points tests/faults/check-polls \
 	tests/unit/accuracy/check-roundings tests/unit/accuracy/check-short-patches \
 	tests/unit/accuracy/check-target-calls tests/unit/blocks/check-blocks \
