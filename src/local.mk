@@ -39,7 +39,6 @@ libhr2d_core_la_SOURCES = \
 	src/geometry/vector.h \
 	src/triangulation/alike.c src/triangulation/alike.h \
 	src/triangulation/cavity.c src/triangulation/cavity.h \
-	src/triangulation/check.c src/triangulation/check.h \
 	src/triangulation/compact.c src/triangulation/compact.h \
 	src/triangulation/constraints.c src/triangulation/constraints.h \
 	src/triangulation/delaunay.c src/triangulation/delaunay.h \

@@ -123,6 +123,7 @@ tests_libsupport_la_SOURCES = \
 	tests/support/suite.c tests/support/suite.h \
 	tests/support/support.h \
 	tests/support/tables.c tests/support/tables.h \
+	tests/support/triangulation-fault.c tests/support/triangulation-fault.h \
 	tests/support/visibility-cases.c tests/support/visibility-cases.h \
 	tests/independent/accuracy-nystrom.c tests/independent/accuracy-nystrom.h \
 	tests/independent/brute-block.c tests/independent/brute-block.h \

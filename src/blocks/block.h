@@ -84,4 +84,8 @@ static inline hr2d_point hr2di_block_along(hr2d_point from, hr2d_point direction
   return (hr2d_point){from.x + part * direction.x, from.y + part * direction.y};
 }
 
+static inline double hr2di_block_mix(const double end[2], double part) {
+  return end[0] + part * (end[1] - end[0]);
+}
+
 #endif

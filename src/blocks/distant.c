@@ -57,10 +57,6 @@ void hr2di_pair_frame_init(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pa
     measure_from_corner(f, h, pair, hr2di_point_same(p.b, q.a));
 }
 
-static double mix(const double end[2], double part) {
-  return end[0] + part * (end[1] - end[0]);
-}
-
 /* One tensor rule is enough, because G is smooth on both elements. */
 void hr2di_block_add_distant(hr2di_integrator *w, const hr2di_pair_frame *f, double *block) {
   const size_t p = w->order, n = w->far.points;
@@ -71,13 +67,14 @@ void hr2di_block_add_distant(hr2di_integrator *w, const hr2di_pair_frame *f, dou
   for (size_t k = 0; k < n; k++) {
     const double s = 0.5 + 0.5 * w->far.at[k];
     const double x = f->apart.x - s * f->along_i.x, y = f->apart.y - s * f->along_i.y;
-    const double outer = scale * w->far.weight[k] * mix(f->above_j, s);
+    const double outer = scale * w->far.weight[k] * hr2di_block_mix(f->above_j, s);
     memset(moment, 0, p * sizeof *moment);
     for (size_t q = 0; q < n; q++) {
       const double t = 0.5 + 0.5 * w->far.at[q];
       const double rx = x + t * f->along_j.x, ry = y + t * f->along_j.y;
       const double square = rx * rx + ry * ry;
-      const double g = w->far.weight[q] * mix(f->above_i, t) / (square * sqrt(square));
+      const double g =
+          w->far.weight[q] * hr2di_block_mix(f->above_i, t) / (square * sqrt(square));
       const double *phi = w->phi_far + q * p;
       for (size_t m = 0; m < p; m++) moment[m] += g * phi[m];
     }

@@ -224,31 +224,32 @@ static hr2d_status make_spans(sweep *s, const hr2d_segment *first, size_t stride
 }
 
 /* Chooses as many rows as there are spans in one, about, but so few that spans reach into four
-   rows at most on average; returns the number of items. */
-static size_t choose_rows(sweep *s) {
+   rows at most on average; *items is the number of items. */
+static hr2d_status choose_rows(sweep *s, size_t *items) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (size_t k = 0; k < s->count; k++) {
     low = fmin(low, s->spans[k].low);
     high = fmax(high, s->spans[k].high);
   }
-  size_t items = 0;
   for (s->rows = (size_t)sqrt((double)s->count) + 1;; s->rows = (s->rows + 1) / 2) {
     const double scale = (double)s->rows / (high - low);
-    items = 0;
+    const hr2d_status status = hr2di_watch_work(s->watch, s->count / 4);
+    if (status) return status;
+    *items = 0;
     for (size_t k = 0; k < s->count; k++) {
       span *p = &s->spans[k];
       p->first_row = (uint32_t)fmin((p->low - low) * scale, (double)(s->rows - 1));
       p->last_row = (uint32_t)fmin((p->high - low) * scale, (double)(s->rows - 1));
-      items += p->last_row - p->first_row + 1;
+      *items += p->last_row - p->first_row + 1;
     }
-    if (s->rows == 1 || items <= 4 * s->count) return items;
+    if (s->rows == 1 || *items <= 4 * s->count) return HR2D_OK;
   }
 }
 
 static hr2d_status make_rows(sweep *s) {
-  hr2d_status status = hr2di_watch_work(s->watch, s->count / 2);
+  size_t items;
+  hr2d_status status = choose_rows(s, &items);
   if (status) return status;
-  const size_t items = choose_rows(s);
   s->start = hr2di_alloc_zero(s->alloc, s->rows + 1, sizeof *s->start);
   s->next = hr2di_alloc(s->alloc, s->rows, sizeof *s->next);
   s->item = hr2di_alloc(s->alloc, items, sizeof *s->item);

@@ -31,4 +31,11 @@ static inline double hr2di_point_along(hr2d_segment s, hr2d_point p) {
   return dy > 0 ? p.y : -p.y;
 }
 
+/* Whether p is between the ends of t along the line of s; without rounding. */
+static inline int hr2di_point_between(hr2d_segment s, hr2d_segment t, hr2d_point p) {
+  const double a = hr2di_point_along(s, t.a), b = hr2di_point_along(s, t.b);
+  const double at = hr2di_point_along(s, p);
+  return fmin(a, b) < at && at < fmax(a, b);
+}
+
 #endif

@@ -11,6 +11,7 @@
 #include "geometry/crossings.h"
 #include "geometry/cut-points.h"
 #include "geometry/orient-sign.h"
+#include "geometry/vector.h"
 #include "scene/scene-impl.h"
 
 /* Rounded points bend the pieces, so that a piece may go through others by a rounding more than
@@ -171,17 +172,9 @@ static size_t first_end(const hr2d_point *end, size_t count, double x) {
   return low;
 }
 
-/* Whether a point is between the ends of a piece, along the axis to which the whole patch is
-   nearest.  Without rounding, so that each cut leaves fewer points between. */
-static int is_between(const hr2d_segment *whole, const hr2d_segment *s, hr2d_point at) {
-  const int by_x = fabs(whole->b.x - whole->a.x) >= fabs(whole->b.y - whole->a.y);
-  const double a = by_x ? s->a.x : s->a.y, b = by_x ? s->b.x : s->b.y;
-  const double middle = by_x ? at.x : at.y;
-  return (a < middle && middle < b) || (b < middle && middle < a);
-}
-
 /* Pushes a piece.  If it bends so far that ends of patches change their side of it, the first
-   of these ends by place becomes a cut. */
+   of these ends by place becomes a cut.  Each cut leaves fewer ends between those of a piece,
+   so that cutting comes to an end. */
 static hr2d_status push_straight(splitter *p, size_t k, const hr2d_point *end, int *bent) {
   const piece part = p->piece[k];
   const hr2d_segment s = part.s, whole = p->scene->patch[part.patch].scaled;
@@ -192,7 +185,7 @@ static hr2d_status push_straight(splitter *p, size_t k, const hr2d_point *end, i
        m < ends && end[m].x <= far && !is_whole(p, k); m++) {
     status = hr2di_watch_work(p->cuts.watch, 1);
     if (status) return status;
-    if (!is_between(&whole, &s, end[m]) ||
+    if (!hr2di_point_between(whole, s, end[m]) ||
         hr2di_orient_sign(s.a, s.b, end[m]) == hr2di_orient_sign(whole.a, whole.b, end[m]))
       continue;
     *bent = 1;

@@ -8,7 +8,6 @@
 #include "base/alloc.h"
 #include "base/legendre.h"
 #include "hierarchy/hierarchy-impl.h"
-#include "links/patch-defect.h"
 #include "scene/back-faces.h"
 #include "scene/scene-impl.h"
 #include "visibility/point-view.h"
@@ -95,19 +94,10 @@ static double largest(const hr2di_transport *t, size_t leaf) {
 /* A patch that sees patches in every direction does not see the background, whatever the blocks
    of its leaves lack.  On other patches this stays, also where it is below 0: an isothermal
    scene is isothermal then. */
-static hr2d_status clear_closed(hr2di_transport *t) {
-  const size_t patches = t->hierarchy->scene->patches;
-  hr2di_sum *defect = hr2di_alloc_zero(&t->alloc, patches, sizeof *defect);
-  unsigned char *closed = hr2di_alloc_zero(&t->alloc, patches, 1);
-  hr2d_status status = defect && closed ? HR2D_OK : HR2D_ENOMEM;
-  if (!status) status = hr2di_defect_sum(t->links, defect, t->watch);
-  if (!status) hr2di_defect_closed(t->links, defect, closed);
-  for (size_t k = 0; k < t->leaves && !status; k++)
-    if (closed[t->hierarchy->element[t->leaf[k]].patch] || largest(t, k) <= NONE)
+static void clear_closed(hr2di_transport *t) {
+  for (size_t k = 0; k < t->leaves; k++)
+    if (t->closed[t->hierarchy->element[t->leaf[k]].patch] || largest(t, k) <= NONE)
       memset(t->sky + k * t->order, 0, t->order * sizeof *t->sky);
-  hr2di_alloc_free(&t->alloc, defect);
-  hr2di_alloc_free(&t->alloc, closed);
-  return status;
 }
 
 hr2d_status hr2di_background_set_order_p(hr2di_transport *t) {
@@ -116,7 +106,7 @@ hr2d_status hr2di_background_set_order_p(hr2di_transport *t) {
   hr2d_status status = t->sky ? take_rows(t) : HR2D_ENOMEM;
   if (!status) status = hr2di_backs_init(t->hierarchy->scene, &backs, t->watch);
   if (!status && backs.count > 0) status = take_all_backs(t);
-  if (!status) status = clear_closed(t);
+  if (!status) clear_closed(t);
   hr2di_alloc_free(&t->alloc, backs.back);
   return status;
 }

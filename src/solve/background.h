@@ -11,8 +11,8 @@
    HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_background_set(hr2di_transport *t, const hr2di_row_sums *rows);
 
-/* The same at an order above 1, from the rows of the operator, and from the backs that points
-   of each leaf see. */
+/* The same at an order above 1, from the rows of the operator with its closure, and from the
+   backs that points of each leaf see. */
 hr2d_status hr2di_background_set_order_p(hr2di_transport *t);
 
 #endif

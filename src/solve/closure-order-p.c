@@ -46,8 +46,8 @@ static double point_factor(const hr2di_pair_frame *f, double s) {
   const hr2d_point d = {c.x + f->along_j.x, c.y + f->along_j.y};
   const double size_c = sqrt(c.x * c.x + c.y * c.y), size_d = sqrt(d.x * d.x + d.y * d.y);
   const double cosines = f->above_i[0] / size_c + f->above_i[1] / size_d;
-  const double above = f->above_j[0] + s * (f->above_j[1] - f->above_j[0]);
-  return f->length_j * above * cosines / (2 * (size_c * size_d + (c.x * d.x + c.y * d.y)));
+  return f->length_j * hr2di_block_mix(f->above_j, s) * cosines /
+         (2 * (size_c * size_d + (c.x * d.x + c.y * d.y)));
 }
 
 /* Adds the form factor of `source` to the leaves below `receiver`, by degree. */

@@ -44,18 +44,11 @@ uint32_t hr2di_piece_part(hr2di_mesh *m, uint32_t piece) {
   return next;
 }
 
-/* Whether a point is between p and q along the axis to which a wall is nearest.  Without
-   rounding, so that each cut of the wall leaves fewer points between. */
-static int is_between(const hr2d_segment *wall, hr2d_point p, hr2d_point q, hr2d_point at) {
-  const int by_x = fabs(wall->b.x - wall->a.x) >= fabs(wall->b.y - wall->a.y);
-  const double from = by_x ? p.x : p.y, to = by_x ? q.x : q.y, middle = by_x ? at.x : at.y;
-  return (from < middle && middle < to) || (to < middle && middle < from);
-}
-
 double hr2di_piece_distance(const hr2di_mesh *m, uint32_t piece, uint32_t v) {
   const hr2di_wall_edge *e = &m->piece[piece].edge;
   const hr2d_segment *s = hr2di_mesh_wall(m, e->wall);
-  if (!is_between(s, m->at[e->from], m->at[e->to], m->at[v])) return INFINITY;
+  const hr2d_segment part = {m->at[e->from], m->at[e->to]};
+  if (!hr2di_point_between(*s, part, m->at[v])) return INFINITY;
   const double distance = hr2di_crossings_distance(m->at[v], s);
   return distance <= hr2di_mesh_reach(m, e->wall) ? distance : INFINITY;
 }

@@ -6,7 +6,7 @@
 #include "base/alloc.h"
 #include "geometry/predicates.h"
 #include "support/support.h"
-#include "triangulation/check.h"
+#include "support/triangulation-fault.h"
 #include "triangulation/triangulation.h"
 
 enum { MOST = 64 };
@@ -82,7 +82,7 @@ static void assert_names_conflict(const lattice *l, const hr2di_conflict *confli
 }
 
 static void assert_whole(const hr2di_triangulation *t, const hr2d_segment *wall, double off) {
-  const char *fault = hr2di_triangulation_fault(t, wall, sizeof *wall, off);
+  const char *fault = triangulation_fault(t, wall, sizeof *wall, off);
   ck_assert_msg(!fault, "%s", fault);
 }
 
@@ -498,7 +498,7 @@ START_TEST(damage_is_noticed) {
     ck_assert_int_eq(build(&t, wall, draw_squares(&r, wall, 5), &conflict), HR2D_OK);
     assert_whole(&t, wall, 0);
     corrupt(&r, &t, _i);
-    const char *fault = hr2di_triangulation_fault(&t, wall, sizeof *wall, 0);
+    const char *fault = triangulation_fault(&t, wall, sizeof *wall, 0);
     ck_assert_msg(fault != NULL, "damage %d is not noticed", _i);
     hr2di_triangulation_clear(&t);
   }

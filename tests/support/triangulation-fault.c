@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "triangulation/check.h"
+#include "support/triangulation-fault.h"
 
 #include <math.h>
 
@@ -120,8 +120,8 @@ static const char *wall_fault(const hr2di_triangulation *t, size_t wall, const h
   return NULL;
 }
 
-const char *hr2di_triangulation_fault(const hr2di_triangulation *t, const hr2d_segment *first,
-                                      size_t stride, double off) {
+const char *triangulation_fault(const hr2di_triangulation *t, const hr2d_segment *first,
+                                size_t stride, double off) {
   const char *fault = triangles_fault(t);
   if (t->edge_of[0] != 0 || t->edge_of[t->walls] != t->edges) return "edges belong to no wall";
   for (size_t w = 0; w < t->walls && !fault; w++)

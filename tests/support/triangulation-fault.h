@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whether a triangulation is whole: for tests, which call it after each build. */
-#ifndef HR2D_SRC_TRIANGULATION_CHECK_H
-#define HR2D_SRC_TRIANGULATION_CHECK_H
+/* Whether a triangulation is whole. */
+#ifndef HR2D_TESTS_SUPPORT_TRIANGULATION_FAULT_H
+#define HR2D_TESTS_SUPPORT_TRIANGULATION_FAULT_H
 
 #include "triangulation/triangulation.h"
 
@@ -10,7 +10,7 @@
    of a wall follow each other from end to end, and no vertex lies on the inside of one. `first`
    and `stride` are the walls it was made of; the path of each may be off its line and its ends
    by at most `off`. */
-const char *hr2di_triangulation_fault(const hr2di_triangulation *t, const hr2d_segment *first,
-                                      size_t stride, double off);
+const char *triangulation_fault(const hr2di_triangulation *t, const hr2d_segment *first,
+                                size_t stride, double off);
 
 #endif
