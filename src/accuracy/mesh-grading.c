@@ -275,13 +275,28 @@ typedef struct part {
   uint32_t element;
   double from, to;
   unsigned halvings; /* additional ones done */
+  size_t near;       /* the first so many of grader::near may be near to it */
 } part;
+
+/* The first mark that is not before a place, or their number. */
+static size_t first_mark(const grader *g, double place) {
+  size_t low = 0, high = g->marks;
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    if (g->mark[middle].at < place)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
 
 /* The mark inside an element that is nearest to its middle, or NULL. */
 static const mark *mark_inside(const grader *g, const part *e) {
   const double margin = 4 * g->shortest, middle = 0.5 * (e->from + e->to);
   const mark *best = NULL;
-  for (size_t k = 0; k < g->marks; k++) {
+  const size_t behind = first_mark(g, middle);
+  for (size_t k = behind > 0 ? behind - 1 : 0; k <= behind && k < g->marks; k++) {
     const double at = g->mark[k].at;
     if (at <= e->from + margin || at >= e->to - margin) continue;
     if (!best || fabs(at - middle) < fabs(best->at - middle)) best = &g->mark[k];
@@ -289,12 +304,33 @@ static const mark *mark_inside(const grader *g, const part *e) {
   return best;
 }
 
-static int wants_halves(const grader *g, const part *e) {
+/* Sorts the points of an element, those nearer than FAR first, and forgets the others; returns
+   the least ellipse.  The ellipses of a part of the element lie within its own, so that no
+   other point is nearer to the part than FAR. */
+static double sort_near(grader *g, part *e) {
   const hr2d_element *element = &g->h->element[e->element];
   const hr2d_segment s = {element->a, element->b};
+  hr2d_point *point = g->near.point;
+  double least = FAR;
+  size_t near = 0;
+  for (size_t k = 0; k < e->near; k++) {
+    const hr2d_point p = point[k];
+    const double ellipse = hr2di_ellipse(s, p);
+    if (!(ellipse < FAR)) continue;
+    least = fmin(least, ellipse);
+    point[k] = point[near];
+    point[near++] = p;
+  }
+  e->near = near;
+  return least;
+}
+
+static int wants_halves(const grader *g, const part *e, double least) {
   const double size = e->to - e->from, margin = 4 * g->shortest;
   if (size < g->shortest || !hr2di_element_divisible(g->h, e->element)) return 0;
-  for (size_t k = 0; k < g->marks; k++) {
+  const double reach = g->distance * size + margin;
+  for (size_t k = first_mark(g, e->from - reach);
+       k < g->marks && g->mark[k].at <= e->to + reach; k++) {
     const double at = g->mark[k].at;
     const double from = fabs(at - e->from), to = fabs(at - e->to);
     const int touches = from <= margin || to <= margin;
@@ -302,27 +338,19 @@ static int wants_halves(const grader *g, const part *e) {
     const int near = g->mark[k].depth > 0 && from + to < g->distance * size;
     if ((touches || near) && size > 1.001 * ldexp(1, -(int)g->mark[k].depth)) return 1;
   }
-  for (size_t k = 0; k < g->near.count; k++)
-    if (hr2di_ellipse(s, g->near.point[k]) < g->distance) return 1;
-  return 0;
-}
-
-/* Enters into the survey how far a leaf is from the near points. */
-static void survey_leaf(grader *g, const part *e) {
-  const hr2d_element *element = &g->h->element[e->element];
-  const hr2d_segment s = {element->a, element->b};
-  for (size_t k = 0; k < g->near.count; k++)
-    g->survey.ellipse = fmin(g->survey.ellipse, hr2di_ellipse(s, g->near.point[k]));
+  return least < g->distance;
 }
 
 static hr2d_status divide(grader *g, part *e, int *divided) {
   hr2d_hierarchy *h = g->h;
   const mark *inside = mark_inside(g, e);
-  *divided = h->element[e->element].child || inside || wants_halves(g, e);
+  const double least = sort_near(g, e);
+  *divided = h->element[e->element].child || inside || wants_halves(g, e, least);
   if (!*divided && e->halvings < g->grading->halvings) {
     *divided = hr2di_element_divisible(h, e->element);
     e->halvings++;
   }
+  if (!*divided) g->survey.ellipse = fmin(g->survey.ellipse, least);
   if (!*divided || h->element[e->element].child) return HR2D_OK;
   if (g->grading->max_elements && h->elements + 2 > g->grading->max_elements)
     return HR2D_EMAX_ELEMENTS;
@@ -359,19 +387,18 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
   if (!status) status = add_events(g, patch);
   if (status) return status;
   sort_marks(g);
-  stack[count++] = (part){patch, 0, 1, 0};
+  stack[count++] = (part){patch, 0, 1, 0, g->near.count};
   while (count > 0 && !status) {
     part e = stack[--count];
     int divided = 0;
-    status = hr2di_watch_work(g->grading->watch, 2 + (g->marks + g->near.count) / 4);
+    status = hr2di_watch_work(g->grading->watch, 2 + e.near / 4);
     if (!status) status = divide(g, &e, &divided);
-    if (!divided) survey_leaf(g, &e);
     if (status || !divided || count + 2 > STACK) continue;
     const uint32_t child = g->h->element[e.element].child;
     const double middle =
         e.from + hr2di_element_left_part(g->h->element, e.element) * (e.to - e.from);
-    stack[count++] = (part){child + 1, middle, e.to, e.halvings};
-    stack[count++] = (part){child, e.from, middle, e.halvings};
+    stack[count++] = (part){child + 1, middle, e.to, e.halvings, e.near};
+    stack[count++] = (part){child, e.from, middle, e.halvings, e.near};
   }
   return status;
 }
