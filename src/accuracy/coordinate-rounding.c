@@ -1,24 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The ends of an element are doubles, and off their places on the patch by δ, up to a rounding
-   of the coordinates; far from the origin that is much in terms of small elements. Let d be the
-   distance of a pair of elements, of lengths A_i and A_j, or the shorter length if that is
-   more.
+/* Blocks take the places of elements from fractions of their patches, with more digits than
+   coordinates.  What halving alone has made is in its place.  Other fractions are rounded: δ is
+   how far an element is off its place, or its coordinates are, up to a rounding.  Far from the
+   origin that is much in terms of small elements.  Let d be the distance of a pair of elements,
+   of lengths A_i and A_j, or the shorter length if that is more.
 
    G ≤ 1/2r, and a shift of either point by δ changes G by no more than 2δ/r². Where r ≥ d,
    ∫1/r² over a line is at most π/d, so that the exchange area changes by
 
-     ΔAF ≤ 2(δ_i + δ_j) min(A_i A_j/d², 4 min(A_i, A_j)/d).
+     ΔAF ≤ 2(δ_i + δ_j) min(A_i A_j/d², 4 min(A_i, A_j)/d),
 
-   Where a block has the exchange area of the coordinates, its elements are longer or shorter,
-   too, by δ/A of their lengths: that adds (δ_i/A_i + δ_j/A_j) AF. No AF is more than the
-   shorter length. Elements of patches with a common end are measured from there, to all digits.
+   and no AF is more than the shorter length.  Coordinates count for all elements where they
+   decide: which walls are in the way, and where elements touch.  Elements of patches with a
+   common end are measured from there, to all digits.
 
    With δ = ΔAF/A_i the irradiance of i from j is off by δB_j, but rows of K, closure and the
    background add up to 1, so that what one of them has more another one has less:
    - on a patch whose row sum closure makes 1, by δ(B_j − B_i);
-   - on one that sees a background of radiosity L, by δ(B_j − L);
-   - by δ(B_i − L) more, where closure corrects a distant pair whose block has another exchange
-     area than the frame from which both form factors are integrated.
+   - on one that sees a background of radiosity L, by δ(B_j − L).
    None of these is negative, so that a difference is at most the larger of two. */
 #include "accuracy/coordinate-rounding.h"
 
@@ -67,15 +66,22 @@ static int have_corner(const hr2d_scene *scene, uint32_t i, uint32_t j) {
   return hr2di_point_same(p.b, q.a) || hr2di_point_same(p.a, q.b);
 }
 
-/* ΔAF; `plain` where the block has the exchange area of the coordinates. */
-static double exchange_off(const hr2d_link *link, const hr2d_element *element,
-                           const double *offset, int plain) {
-  const hr2d_element *i = &element[link->pair.first], *j = &element[link->pair.second];
-  const double off_i = offset[link->pair.first], off_j = offset[link->pair.second];
+/* How far elements are off. */
+typedef struct offsets {
+  double *offset;       /* δ by coordinates */
+  unsigned char *exact; /* halving alone has made it */
+} offsets;
+
+/* ΔAF; `decide` where coordinates count for all elements. */
+static double exchange_off(hr2d_pair pair, const hr2d_element *element, const offsets *is,
+                           int decide) {
+  const hr2d_element *i = &element[pair.first], *j = &element[pair.second];
+  const double off = (decide || !is->exact[pair.first] ? is->offset[pair.first] : 0) +
+                     (decide || !is->exact[pair.second] ? is->offset[pair.second] : 0);
+  if (!(off > 0)) return 0;
   const double distance = distance_of(i, j), shorter = fmin(i->length, j->length);
   const double area = fmin(i->length * (j->length / distance), 4 * shorter) / distance;
-  const double longer = off_i / i->length + off_j / j->length;
-  return fmin(2 * (off_i + off_j) * area + (plain ? longer * link->exchange_area : 0), shorter);
+  return fmin(2 * off * area, shorter);
 }
 
 typedef struct levels {
@@ -92,18 +98,16 @@ static void find_sky(const hr2di_transport *t, unsigned char *has_sky) {
     if (e[k].child) has_sky[k] = has_sky[e[k].child] | has_sky[e[k].child + 1];
 }
 
-/* What the second of a pair does to the irradiance of the first; `corrected` where closure has
-   another form factor of the pair. */
-static void add_pair(const hr2di_transport *t, double off, int corrected, const levels *is,
-                     uint32_t i, uint32_t j, double *error) {
+/* What the second of a pair does to the irradiance of the first. */
+static void add_pair(const hr2di_transport *t, double off, const levels *is, uint32_t i,
+                     uint32_t j, double *error) {
   const hr2d_element *e = &t->hierarchy->element[i];
   const int closed = t->closed && t->closed[e->patch];
   for (size_t b = 0; b < t->bands; b++) {
     const double light = is->has_sky[i] ? is->light[b] : 0;
     const double other = fmax(is->most[j * t->bands + b], light);
-    const double own = fmax(t->closure ? is->most[i * t->bands + b] : 0, light);
-    const double sum = closed ? fmax(other, own) : other + (corrected ? own : 0);
-    error[i * t->bands + b] += off / e->length * sum;
+    const double own = closed ? is->most[i * t->bands + b] : 0;
+    error[i * t->bands + b] += off / e->length * fmax(other, own);
   }
 }
 
@@ -111,26 +115,31 @@ static void add_pair(const hr2di_transport *t, double off, int corrected, const 
    shorter length (tests/unit/occlusion/check-visibility.c). */
 #define HIDDEN 1e-14
 
-static void add_links(const hr2di_transport *t, const double *offset, const levels *is,
-                      double *error) {
-  const hr2d_hierarchy *h = t->hierarchy;
-  const hr2di_link_blocks *blocks = &t->links->blocks;
+static int touch(const hr2d_element *i, const hr2d_element *j) {
+  return hr2di_point_same(i->b, j->a) || hr2di_point_same(i->a, j->b);
+}
+
+static double link_off(const hr2di_transport *t, uint64_t link, const offsets *places) {
+  const hr2d_scene *scene = t->hierarchy->scene;
   const int hides =
-      h->scene->effect[HR2D_EFFECT_OCCLUSION].on || h->scene->effect[HR2D_EFFECT_FACING].on;
+      scene->effect[HR2D_EFFECT_OCCLUSION].on || scene->effect[HR2D_EFFECT_FACING].on;
+  const int distant = t->order > 1 && t->links->blocks.distant[link];
+  const hr2d_pair pair = hr2di_store_at(&t->links->store, link)->pair;
+  const hr2d_element *e = t->hierarchy->element;
+  const hr2d_element *i = &e[pair.first], *j = &e[pair.second];
+  double off = 0;
+  if (t->order == 1 || !have_corner(scene, i->patch, j->patch))
+    off = exchange_off(pair, e, places, t->order == 1 || (!distant && (hides || touch(i, j))));
+  return hides && !distant ? off + HIDDEN * fmin(i->length, j->length) : off;
+}
+
+static void add_links(const hr2di_transport *t, const offsets *places, const levels *is,
+                      double *error) {
   for (uint64_t k = 0; k < t->links->store.count && !hr2di_watch_work(t->watch, 1); k++) {
-    const hr2d_link *link = hr2di_store_at(&t->links->store, k);
-    const uint32_t i = link->pair.first, j = link->pair.second;
-    const int plain =
-        t->order == 1 || blocks->value[k * t->order * t->order] == link->exchange_area;
-    const int corner =
-        !plain && have_corner(h->scene, h->element[i].patch, h->element[j].patch);
-    double off = offset[i] + offset[j] > 0 && !corner
-                     ? exchange_off(link, h->element, offset, plain)
-                     : 0;
-    const int distant = t->order > 1 && blocks->distant[k];
-    if (hides && !distant) off += HIDDEN * fmin(h->element[i].length, h->element[j].length);
-    add_pair(t, off, distant && plain, is, i, j, error);
-    if (!t->links->directed) add_pair(t, off, distant && plain, is, j, i, error);
+    const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
+    const double off = link_off(t, k, places);
+    add_pair(t, off, is, pair.first, pair.second, error);
+    if (!t->links->directed) add_pair(t, off, is, pair.second, pair.first, error);
   }
 }
 
@@ -142,23 +151,33 @@ static void lower(const hr2di_transport *t, double *error) {
       error[e[k].child * t->bands + m] += error[k * t->bands + m % t->bands];
 }
 
+static void find_places(const hr2d_hierarchy *h, offsets *is, hr2di_watch *watch) {
+  for (uint32_t k = 0; k < h->elements && !hr2di_watch_work(watch, 1); k++) {
+    const uint32_t parent = h->parent[k];
+    is->offset[k] = offset_of(h, k);
+    is->exact[k] = parent == k ||
+                   (is->exact[parent] && hr2di_element_left_part(h->element, parent) == 0.5);
+  }
+}
+
 hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const double *most,
                                   const double *light, double *error) {
-  double *offset = hr2di_alloc(&t->alloc, t->elements, sizeof *offset);
+  offsets places = {hr2di_alloc(&t->alloc, t->elements, sizeof *places.offset),
+                    hr2di_alloc_zero(&t->alloc, t->elements, 1)};
   double *all = hr2di_alloc_zero(&t->alloc, t->elements, t->bands * sizeof *all);
   levels is = {most, light, hr2di_alloc_zero(&t->alloc, t->elements, 1)};
-  const int room = offset && all && is.has_sky;
+  const int room = places.offset && places.exact && all && is.has_sky;
   if (room) {
     find_sky(t, is.has_sky);
-    for (uint32_t k = 0; k < t->elements && !hr2di_watch_work(t->watch, 1); k++)
-      offset[k] = offset_of(t->hierarchy, k);
-    add_links(t, offset, &is, all);
+    find_places(t->hierarchy, &places, t->watch);
+    add_links(t, &places, &is, all);
     lower(t, all);
     for (size_t k = 0; k < t->leaves; k++)
       for (size_t b = 0; b < t->bands; b++)
         error[k * t->bands + b] += all[t->leaf[k] * t->bands + b];
   }
-  hr2di_alloc_free(&t->alloc, offset);
+  hr2di_alloc_free(&t->alloc, places.offset);
+  hr2di_alloc_free(&t->alloc, places.exact);
   hr2di_alloc_free(&t->alloc, all);
   hr2di_alloc_free(&t->alloc, is.has_sky);
   return room ? hr2di_watch_status(t->watch) : HR2D_ENOMEM;

@@ -150,7 +150,7 @@ static hr2d_status integrate(hr2di_integrator *w, hr2d_pair pair, double *block,
   if (*distant) {
     hr2di_pair_frame f;
     hr2di_pair_frame_init(&f, h, pair);
-    hr2di_block_add_distant(w, &f, block);
+    hr2di_block_distant(w, &f, block);
     return hr2di_watch_status(w->watch);
   }
   hr2di_line_frame f;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blocks: C_lm = ∫∫ G V φ_l(x) φ_m(y) dy dx over a pair of elements, a length; C_00 is their
-   exchange area.  Blocks of distant pairs are as accurate as the order needs; all others are
-   exact to rounding. */
+   exchange area.  Blocks of distant pairs are as accurate as the order needs, but for C_00; all
+   others are exact to rounding. */
 #ifndef HR2D_SRC_BLOCKS_BLOCK_H
 #define HR2D_SRC_BLOCKS_BLOCK_H
 
@@ -20,6 +20,7 @@ typedef struct hr2di_pair_frame {
   double length_i, length_j;
   double above_i[2]; /* how far c and d are in front of the line of i */
   double above_j[2]; /* how far a and b are in front of the line of j */
+  double area;       /* exchange area */
 } hr2di_pair_frame;
 
 /* Work space of one thread. */
@@ -53,13 +54,12 @@ void hr2di_integrator_clear(hr2di_integrator *work);
    the status of the watch. */
 hr2d_status hr2di_block(hr2di_integrator *work, hr2d_pair pair, double *block, int *distant);
 
-/* Sets up the frame of a pair.  Where the patches have a common end, the frame has more digits
-   than the coordinates. */
+/* Sets up the frame of a pair, which has more digits than coordinates. */
 void hr2di_pair_frame_init(hr2di_pair_frame *frame, const hr2d_hierarchy *hierarchy,
                            hr2d_pair pair);
 
-/* Adds the block of a distant pair. */
-void hr2di_block_add_distant(hr2di_integrator *work, const hr2di_pair_frame *f, double *block);
+/* Sets the block of a distant pair, which is 0 so far. */
+void hr2di_block_distant(hr2di_integrator *work, const hr2di_pair_frame *f, double *block);
 
 /* Adds the lines of one class to a block: those that have the points of `right` on their right
    and the points of `left` on their left.  Both are chains, parts of convex hulls, in the order

@@ -4,61 +4,44 @@
 #include <string.h>
 
 #include "blocks/block.h"
-#include "geometry/predicates.h"
-#include "geometry/vector.h"
-#include "scene/scene-impl.h"
+#include "blocks/line-vector.h"
+#include "geometry/exchange-area.h"
 
-/* The vector b − a of an element, from the vector of its patch, which has more digits. */
-static hr2d_point along(const hr2di_patch *p, const hr2d_element *e) {
-  const double part = e->length / p->length;
-  return (hr2d_point){part * (p->scaled.b.x - p->scaled.a.x),
-                      part * (p->scaled.b.y - p->scaled.a.y)};
+static hr2d_point rounded(const hr2di_vector *v, double scale) {
+  return (hr2d_point){v->x * scale, v->y * scale};
 }
 
-static void make_frame(hr2di_pair_frame *f, const hr2d_scene *scene, const hr2d_element *i,
-                       const hr2d_element *j) {
-  f->along_i = along(&scene->patch[i->patch], i);
-  f->along_j = along(&scene->patch[j->patch], j);
-  f->apart = (hr2d_point){j->a.x - i->a.x, j->a.y - i->a.y};
-  f->length_i = i->length;
-  f->length_j = j->length;
-  f->above_i[0] = hr2di_orient(i->a, i->b, j->a) / i->length;
-  f->above_i[1] = hr2di_orient(i->a, i->b, j->b) / i->length;
-  f->above_j[0] = hr2di_orient(j->a, j->b, i->a) / j->length;
-  f->above_j[1] = hr2di_orient(j->a, j->b, i->b) / j->length;
+/* Vectors are scaled, so that no product underflows. */
+static hr2di_between vectors_between(const hr2di_line_frame *f, double scale) {
+  const hr2di_vector a = hr2di_vector_times(&f->a, scale), b = hr2di_vector_times(&f->b, scale);
+  const hr2di_vector c = hr2di_vector_times(&f->c, scale), d = hr2di_vector_times(&f->d, scale);
+  return (hr2di_between){hr2di_vector_times(&f->u, scale), hr2di_vector_times(&f->v, scale),
+                         hr2di_vector_minus(&c, &a),       hr2di_vector_minus(&d, &b),
+                         hr2di_vector_minus(&d, &a),       hr2di_vector_minus(&c, &b)};
 }
 
-/* Elements next to a corner of their patches may be so small that their coordinates are equal.
-   Their distances from the corner, as fractions of the patches, are exact and differ. */
-static void measure_from_corner(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pair pair,
-                                int at_end) {
-  const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
-  const hr2di_patch *p = &h->scene->patch[i->patch], *q = &h->scene->patch[j->patch];
-  const double from_i = hr2di_element_start(h, pair.first), size_i = i->length / p->length;
-  const double from_j = hr2di_element_start(h, pair.second), size_j = j->length / q->length;
-  const hr2d_point u = {p->scaled.b.x - p->scaled.a.x, p->scaled.b.y - p->scaled.a.y};
-  const hr2d_point v = {q->scaled.b.x - q->scaled.a.x, q->scaled.b.y - q->scaled.a.y};
-  const double sine =
-      hr2di_orient(p->scaled.a, p->scaled.b, at_end ? q->scaled.b : q->scaled.a);
-  /* Fractions of the patches, with the corner at 0. */
-  const double a = at_end ? from_i - 1 : from_i, c = at_end ? from_j : from_j - 1;
-  f->apart = (hr2d_point){c * v.x - a * u.x, c * v.y - a * u.y};
-  f->above_i[0] = fabs(c) * sine / p->length;
-  f->above_i[1] = fabs(c + size_j) * sine / p->length;
-  f->above_j[0] = fabs(a) * sine / q->length;
-  f->above_j[1] = fabs(a + size_i) * sine / q->length;
-}
-
+/* The frame of lines has more digits than coordinates of small elements. */
 void hr2di_pair_frame_init(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pair pair) {
-  const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
-  const hr2d_segment p = h->scene->patch[i->patch].scaled, q = h->scene->patch[j->patch].scaled;
-  make_frame(f, h->scene, i, j);
-  if (hr2di_point_same(p.b, q.a) || hr2di_point_same(p.a, q.b))
-    measure_from_corner(f, h, pair, hr2di_point_same(p.b, q.a));
+  hr2di_line_frame lines;
+  hr2di_line_frame_init(&lines, h, pair);
+  const hr2di_vector apart = hr2di_vector_minus(&lines.c, &lines.a);
+  const double scale = hr2di_vector_scale(&apart), back = 1 / scale;
+  const hr2di_between z = vectors_between(&lines, scale);
+  f->along_i = rounded(&z.ab, back);
+  f->along_j = rounded(&z.cd, back);
+  f->apart = rounded(&z.ac, back);
+  f->length_i = h->element[pair.first].length;
+  f->length_j = h->element[pair.second].length;
+  f->above_i[0] = hr2di_det(&z.ab, &z.ac) * back / (scale * f->length_i);
+  f->above_i[1] = hr2di_det(&z.ab, &z.bd) * back / (scale * f->length_i);
+  f->above_j[0] = hr2di_det(&z.ac, &z.cd) * back / (scale * f->length_j);
+  f->above_j[1] = hr2di_det(&z.bd, &z.cd) * back / (scale * f->length_j);
+  f->area = hr2di_exchange_area_between(&z) * back;
 }
 
-/* One tensor rule is enough, because G is smooth on both elements. */
-void hr2di_block_add_distant(hr2di_integrator *w, const hr2di_pair_frame *f, double *block) {
+/* One tensor rule is enough, because G is smooth on both elements.  The first coefficient,
+   which is the exchange area, is known without it. */
+void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, double *block) {
   const size_t p = w->order, n = w->far.points;
   const double scale = 0.5 * f->length_i * f->length_j;
   double moment[HR2D_MAX_ORDER];
@@ -82,4 +65,5 @@ void hr2di_block_add_distant(hr2di_integrator *w, const hr2di_pair_frame *f, dou
     for (size_t l = 0; l < p; l++)
       for (size_t m = 0; m < p; m++) block[l * p + m] += outer * phi[l] * moment[m];
   }
+  block[0] = f->area;
 }

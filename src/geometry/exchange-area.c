@@ -134,17 +134,14 @@ static double clipped_area(const quadrilateral *s, determinants o) {
   return corner_area(v, length(s->ac), -hr2di_point_dot(s->ac, s->cd), o.cda, length(s->ad));
 }
 
-/* AF from determinants that have all their digits, for plain coordinates. */
-static double area_of(const hr2d_segment *i, const hr2d_segment *j, determinants o) {
+/* AF from determinants that have all their digits. */
+static double area_of(const quadrilateral *s, determinants o) {
   if ((o.abc <= 0 && o.abd <= 0) || (o.cda <= 0 && o.cdb <= 0)) return 0;
-  const quadrilateral s = {hr2di_point_minus(i->b, i->a), hr2di_point_minus(j->b, j->a),
-                           hr2di_point_minus(j->a, i->a), hr2di_point_minus(j->b, i->b),
-                           hr2di_point_minus(j->b, i->a), hr2di_point_minus(j->a, i->b)};
-  if (o.abc < 0 || o.abd < 0 || o.cda < 0 || o.cdb < 0) return clipped_area(&s, o);
-  const double p = length(s.ac), q = length(s.bd), e = hr2di_point_dot(s.ac, s.bd),
+  if (o.abc < 0 || o.abd < 0 || o.cda < 0 || o.cdb < 0) return clipped_area(s, o);
+  const double p = length(s->ac), q = length(s->bd), e = hr2di_point_dot(s->ac, s->bd),
                k = o.abc + o.cda;
-  const double at_ad = (p * o.abd + q * o.cda) + k * length(s.ad);
-  const double at_bc = (q * o.abc + p * o.cdb) + k * length(s.bc);
+  const double at_ad = (p * o.abd + q * o.cda) + k * length(s->ad);
+  const double at_bc = (q * o.abc + p * o.cdb) + k * length(s->bc);
   /* At a common corner a = d or b = c the term and its denominator vanish. */
   const double t =
       (at_ad > 0 ? o.abd * o.cda / at_ad : 0) + (at_bc > 0 ? o.abc * o.cdb / at_bc : 0);
@@ -180,8 +177,24 @@ static inline int is_plain(const hr2d_segment *i, const hr2d_segment *j) {
          hr2di_point_plain(j->b);
 }
 
+/* For plain coordinates. */
 static double careful_area(const hr2d_segment *i, const hr2d_segment *j, determinants o) {
-  return area_of(i, j, isnan(o.abc) ? exact(i, j) : o);
+  const quadrilateral s = {hr2di_point_minus(i->b, i->a), hr2di_point_minus(j->b, j->a),
+                           hr2di_point_minus(j->a, i->a), hr2di_point_minus(j->b, i->b),
+                           hr2di_point_minus(j->b, i->a), hr2di_point_minus(j->a, i->b)};
+  return area_of(&s, isnan(o.abc) ? exact(i, j) : o);
+}
+
+static hr2d_point rounded(const hr2di_vector *v) {
+  return (hr2d_point){v->x, v->y};
+}
+
+double hr2di_exchange_area_between(const hr2di_between *v) {
+  const determinants o = {hr2di_det(&v->ab, &v->ac), hr2di_det(&v->ab, &v->bd),
+                          -hr2di_det(&v->cd, &v->ac), -hr2di_det(&v->cd, &v->bd)};
+  const quadrilateral s = {rounded(&v->ab), rounded(&v->cd), rounded(&v->ac),
+                           rounded(&v->bd), rounded(&v->ad), rounded(&v->bc)};
+  return area_of(&s, o);
 }
 
 double hr2d_exchange_area(const hr2d_segment *i, const hr2d_segment *j) {

@@ -6,7 +6,18 @@
 #include <hr2d/oracle.h>
 #include <stddef.h>
 
+#include "geometry/determinant.h"
+
 void hr2di_exchange_areas(const hr2d_element *elements, const hr2d_pair *pairs, size_t count,
                           double *area);
+
+/* The vectors between the ends of i = ab and j = cd, without exponents. */
+typedef struct hr2di_between {
+  hr2di_vector ab, cd, ac, bd, ad, bc;
+} hr2di_between;
+
+/* The exchange area of two segments from vectors that have more digits than coordinates.  They
+   must be within a factor of 2^400 of 1. */
+double hr2di_exchange_area_between(const hr2di_between *vectors);
 
 #endif

@@ -2,7 +2,6 @@
 /* Each block has a place of its own in memory, so the result does not depend on threads. */
 #include "links/link-blocks.h"
 
-#include <float.h>
 #include <math.h>
 
 #include "base/alloc.h"
@@ -31,34 +30,19 @@ typedef struct maker {
   atomic_int failed;
 } maker;
 
-/* The relative error that rounded coordinates cause in the length of an element; a whole patch
-   has its own coordinates. */
-static double rounding_of(const hr2d_hierarchy *h, uint32_t element) {
-  return element < h->scene->patches ? 0 : DBL_EPSILON / h->element[element].length;
-}
-
-/* The first coefficient of a block is the exchange area of its elements.  The link knows the
-   area to all digits of their coordinates, whatever the rule of the block is worth.  The block
-   of touching elements knows more digits, as it measures small elements as parts of their
-   patches.  So it stands where both agree to the digits of the coordinates. */
-static double first_coefficient(const hr2d_hierarchy *h, const hr2d_link *link, double block) {
-  const double rounding =
-      rounding_of(h, link->pair.first) + rounding_of(h, link->pair.second) + 4 * DBL_EPSILON;
-  const double area = link->exchange_area;
-  return fabs(block - area) <= rounding * fmax(block, area) ? block : area;
-}
-
 /* G V is not negative, so that |C_lm| ≤ √((2l+1)(2m+1)) C_00.  A block beyond that comes from
    elements that the rules cannot tell apart in doubles, as a distance of 1e-17 of a length: it
-   keeps its exchange area alone. */
-static void check_bound(double *block, size_t order) {
-  int holds = 1;
+   keeps the exchange area of the link alone. */
+static void check_bound(double area, double *block, size_t order) {
+  int holds = isfinite(block[0]);
   for (size_t l = 0; l < order; l++)
     for (size_t m = 0; m < order; m++) {
       const double most = 1.5 * block[0] * sqrt((double)((2 * l + 1) * (2 * m + 1)));
       holds &= fabs(block[l * order + m]) <= most;
     }
-  for (size_t k = 1; k < order * order && !holds; k++) block[k] = 0;
+  if (holds) return;
+  block[0] = area;
+  for (size_t k = 1; k < order * order; k++) block[k] = 0;
 }
 
 static hr2d_status make_some(const maker *m, hr2di_integrator *work, uint64_t from,
@@ -70,8 +54,7 @@ static hr2d_status make_some(const maker *m, hr2di_integrator *work, uint64_t fr
     int distant;
     const hr2d_status status = hr2di_block(work, link->pair, block, &distant);
     if (status) return status;
-    block[0] = first_coefficient(m->links->hierarchy, link, block[0]);
-    check_bound(block, m->blocks->order);
+    check_bound(link->exchange_area, block, m->blocks->order);
     m->blocks->distant[k] = (unsigned char)distant;
   }
   return HR2D_OK;
