@@ -24,7 +24,7 @@ libhr2d_core_la_SOURCES = \
 	src/base/union-find.h \
 	src/base/version.c \
 	src/base/watch.c src/base/watch.h \
-	src/geometry/bernstein-ellipse.c src/geometry/bernstein-ellipse.h \
+	src/geometry/apart.h src/geometry/bernstein-ellipse.c src/geometry/bernstein-ellipse.h \
 	src/geometry/crossings.c src/geometry/crossings.h \
 	src/geometry/cut-points.c src/geometry/cut-points.h \
 	src/geometry/determinant.c src/geometry/determinant.h \
@@ -149,6 +149,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/corner-residuals.c src/accuracy/corner-residuals.h \
 	src/accuracy/estimator.c src/accuracy/estimator.h \
 	src/accuracy/residual-series.c src/accuracy/residual-series.h \
+	src/accuracy/shadow-residuals.c src/accuracy/shadow-residuals.h \
 	src/accuracy/safe-sum.c src/accuracy/safe-sum.h \
 	src/accuracy/rounding-bound.c src/accuracy/rounding-bound.h \
 	src/accuracy/sketch.c src/accuracy/sketch.h \

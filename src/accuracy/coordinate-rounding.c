@@ -25,7 +25,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "geometry/vector.h"
+#include "geometry/apart.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 
@@ -46,18 +46,9 @@ static double offset_of(const hr2d_hierarchy *h, uint32_t element) {
   return fmax(distance_off(p, from, e->a), distance_off(p, fmin(to, 1), e->b));
 }
 
-static double distance_from(const hr2d_element *e, hr2d_point v) {
-  const hr2d_point u = hr2di_point_minus(e->b, e->a), w = hr2di_point_minus(v, e->a);
-  const double square = hr2di_point_dot(u, u);
-  const double t = square > 0 ? fmin(fmax(hr2di_point_dot(u, w) / square, 0), 1) : 0;
-  return hypot(w.x - t * u.x, w.y - t * u.y);
-}
-
-/* Elements of a link do not cross, so that an end is nearest. */
 static double distance_of(const hr2d_element *i, const hr2d_element *j) {
-  const double ends = fmin(fmin(distance_from(i, j->a), distance_from(i, j->b)),
-                           fmin(distance_from(j, i->a), distance_from(j, i->b)));
-  return fmax(ends, fmin(i->length, j->length));
+  return fmax(hr2di_apart((hr2d_segment){i->a, i->b}, (hr2d_segment){j->a, j->b}),
+              fmin(i->length, j->length));
 }
 
 /* Whether blocks measure elements of these patches from their common end. */

@@ -11,6 +11,7 @@
 #include "accuracy/residual-series.h"
 #include "accuracy/rounding-bound.h"
 #include "accuracy/safe-sum.h"
+#include "accuracy/shadow-residuals.h"
 #include "scene/scene-impl.h"
 
 /* Estimates were 0.5 to 4.3 times the errors, over rooms, corners, gaps and short patches. */
@@ -78,6 +79,7 @@ static hr2d_status measure(hr2di_estimator *e, hr2di_error_pair *errors) {
   hr2d_status status = reflects ? hr2di_residual_solve(e) : HR2D_OK;
   if (status) return status;
   hr2di_residual_measure(e);
+  status = hr2di_shadow_residuals(e);
   for (int h = 0; h < 2 && reflects && !status; h++) status = hr2di_safe_sum(e, h);
   if (status) return status;
   status = hr2di_rounding_bound(e, reflects);

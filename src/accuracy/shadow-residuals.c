@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A point sees an element j, with something in the way, up to a place y.  The error b = B − B_h
+   there is orthogonal to polynomials, so that the whole of j would hardly send any of it, but
+   the visible part sends
+
+     ∫ G b = G(y) β(y) − ∫ β dG,   β = ∫ b from an end of j,
+
+   and β is 0 at both ends.  G is smooth, so that the last term is smaller.  While the point
+   moves, y moves over j, and H is off by up to G|β|, to and fro as often as b has zeros.  That
+   may happen on a small part of the receiving element, which polynomials on it do not resolve.
+
+   With b = Σ c_l √(2l+1) P_l on an element of length A, |P_{l+1} − P_{l−1}| ≤ 2√(2/(πl)) gives
+
+     |β| ≤ A Σ |c_l| √(2/(πl(2l+1))),   l ≥ 1;
+
+   l = 0 is an error of averages.  G is at most 1/2d at a distance d, and h_i h_j/2d³ for points
+   no higher than h above the other's line.  The errors of several elements have signs of their
+   own: squares add up. */
+#include "accuracy/shadow-residuals.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "geometry/apart.h"
+#include "geometry/predicates.h"
+#include "scene/scene-impl.h"
+
+#define PI 3.14159265358979323846
+
+/* An exchange area below this part of that of a clear pair is that of a pair with something in
+   the way, and no rounding. */
+#define SHADED (1 - 1e-12)
+
+/* |β| of leaves. */
+static void integrate_error(const hr2di_estimator *e, double *beta) {
+  const hr2di_transport *t = &e->eq.transport;
+  for (size_t k = 0; k < t->leaves; k++)
+    for (size_t b = 0; b < t->bands; b++) {
+      double sum = 0;
+      for (size_t l = 1; l < t->order; l++)
+        sum += fabs(e->error[k * t->width + l * t->bands + b]) *
+               sqrt(2 / (PI * (double)(l * (2 * l + 1))));
+      beta[t->leaf[k] * t->bands + b] = sum * t->hierarchy->element[t->leaf[k]].length;
+    }
+}
+
+/* How far the higher end of j is above the line of i. */
+static double height_above(const hr2d_element *i, const hr2d_element *j) {
+  return fmax(hr2di_orient(i->a, i->b, j->a), hr2di_orient(i->a, i->b, j->b)) / i->length;
+}
+
+/* G at most; infinite where the elements touch. */
+static double largest_kernel(const hr2d_element *i, const hr2d_element *j) {
+  const double d = hr2di_apart((hr2d_segment){i->a, i->b}, (hr2d_segment){j->a, j->b});
+  const double cosines = fmin(1, height_above(i, j) / d * (height_above(j, i) / d));
+  return d > 0 ? cosines / (2 * d) : HUGE_VAL;
+}
+
+static int is_shaded(const hr2d_link *link, const hr2d_element *i, const hr2d_element *j) {
+  const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
+  return link->exchange_area < SHADED * hr2d_exchange_area(&s, &t);
+}
+
+/* What j may send to a point of i; no more than all of its error from all directions. */
+static void add(const hr2di_estimator *e, uint32_t i, uint32_t j, double kernel,
+                const double *beta, double *square) {
+  const size_t bands = e->eq.transport.bands;
+  for (size_t b = 0; b < bands; b++) {
+    const double h = fmin(kernel * beta[j * bands + b], e->most[j * bands + b]);
+    square[i * bands + b] += h * h;
+  }
+}
+
+static void add_links(hr2di_estimator *e, const double *beta, double *square) {
+  const hr2di_transport *t = &e->eq.transport;
+  const hr2d_element *element = t->hierarchy->element;
+  for (uint64_t k = 0; k < t->links->store.count && !hr2di_watch_work(t->watch, 1); k++) {
+    if (t->order > 1 && t->links->blocks.distant[k]) continue;
+    const hr2d_link *link = hr2di_store_at(&t->links->store, k);
+    const hr2d_element *i = &element[link->pair.first], *j = &element[link->pair.second];
+    if (!is_shaded(link, i, j)) continue;
+    const double kernel = largest_kernel(i, j);
+    add(e, link->pair.first, link->pair.second, kernel, beta, square);
+    add(e, link->pair.second, link->pair.first, kernel, beta, square);
+  }
+}
+
+hr2d_status hr2di_shadow_residuals(hr2di_estimator *e) {
+  const hr2di_transport *t = &e->eq.transport;
+  const hr2d_scene *scene = t->hierarchy->scene;
+  const size_t count = t->elements * t->bands;
+  if (!scene->effect[HR2D_EFFECT_OCCLUSION].on) return HR2D_OK;
+  double *beta = hr2di_alloc_zero(&t->alloc, 2 * count, sizeof *beta);
+  if (!beta) return HR2D_ENOMEM;
+  double *square = beta + count;
+  integrate_error(e, beta);
+  hr2di_estimator_set_most(e, e->error);
+  add_links(e, beta, square);
+  for (size_t k = 0; k < count; k++) {
+    const size_t b = k % t->bands;
+    const double h = sqrt(square[k]);
+    const double rho =
+        hr2d_scene_reflectance(scene, t->hierarchy->element[k / t->bands].patch, b);
+    e->point[1][b] = fmax(e->point[1][b], h);
+    e->point[0][b] = fmax(e->point[0][b], rho * h);
+  }
+  hr2di_alloc_free(&t->alloc, beta);
+  return hr2di_watch_status(t->watch);
+}
