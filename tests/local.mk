@@ -56,6 +56,7 @@ SUITES = \
 	tests/unit/accuracy/check-budgets \
 	tests/unit/accuracy/check-dark \
 	tests/unit/accuracy/check-roundings \
+	tests/unit/accuracy/check-shadow-edges \
 	tests/unit/clusters/check-clusters \
 	tests/unit/accuracy/check-corner \
 	tests/unit/visibility/check-events \

@@ -178,6 +178,31 @@ START_TEST(two_meshes_agree) {
 }
 END_TEST
 
+/* Lamps of 2e-5 and 4e-5 that get little back: 1e-4 to 1e-7 of what they send.  Where exchange
+   areas were those of rounded coordinates, H of the first one was off by 7e-9, and the second
+   one did not reach 1e-9. */
+static const convex_mesh for_lamps = {9, 42};
+
+START_TEST(short_lamps_keep_digits_of_h) {
+  const int number[] = {1078, 1858};
+  const double bound[] = {1e-9, 1e-6};
+  for (int k = 0; k < 2; k++) {
+    const short_room r = short_room_draw(77, number[k]);
+    hr2d_scene *scene = test_scene(r.patch, r.patches);
+    hr2d_target target = HR2D_TARGET_INIT;
+    hr2d_solution *solution;
+    hr2d_account a;
+    target.error = 1e-9;
+    ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &a), HR2D_OK);
+    const found f = find(&r, for_lamps, solution);
+    check_error("H", number[k], target.error, a.irradiance, f.average[1]);
+    ck_assert_double_lt(a.irradiance.bound, bound[k]);
+    hr2d_solution_destroy(solution);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
 /* The line of a wall meets another one within roundings of its end: no element may end there,
    which would be shorter than an ulp. */
 START_TEST(lines_through_ends) {
@@ -216,6 +241,7 @@ START_TEST(a_wrong_room_is_noticed) {
 END_TEST
 
 TEST_SUITE("short patches") {
-  ADD_TESTS("rooms", bounds_hold_in_random_rooms, a_strip_is_known, lines_through_ends,
-            two_meshes_agree, a_wrong_room_is_noticed);
+  ADD_TESTS("rooms", bounds_hold_in_random_rooms, a_strip_is_known,
+            short_lamps_keep_digits_of_h, lines_through_ends, two_meshes_agree,
+            a_wrong_room_is_noticed);
 }

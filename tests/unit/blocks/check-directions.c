@@ -300,6 +300,57 @@ START_TEST(rows_of_closed_rooms_are_full) {
 }
 END_TEST
 
+/* A room of this many walls, two of them short; none is where coordinates are round. */
+enum { SHORT_WALLS = 6 };
+
+static hr2d_scene *room_with_short_walls(void) {
+  static const double wall[SHORT_WALLS][6] = {
+      {0.1, 0.1, 1.3, 0.2},          {1.3, 0.2, 1.30002, 0.20003}, {1.30002, 0.20003, 1.1, 1.2},
+      {1.1, 1.2, 1.0999, 1.2000007}, {1.0999, 1.2000007, 0, 0.9},  {0, 0.9, 0.1, 0.1}};
+  return test_scene(wall, SHORT_WALLS);
+}
+
+/* Σ AF of a leaf with all leaves of other patches, as the blocks of links have it, less its
+   length, relative to that. */
+static double row_lacks(hr2di_integrator *w, uint32_t leaf) {
+  const hr2d_hierarchy *h = w->hierarchy;
+  double block[SQUARE], sum = -h->element[leaf].length;
+  for (uint32_t e = 0; e < h->elements; e++) {
+    int distant;
+    if (h->element[e].child || h->element[e].patch == h->element[leaf].patch) continue;
+    ck_assert_int_eq(hr2di_block(w, (hr2d_pair){leaf, e}, block, &distant), HR2D_OK);
+    sum += block[0];
+  }
+  return fabs(sum) / h->element[leaf].length;
+}
+
+/* Elements have their places on their patches, whatever the digits of coordinates: a leaf of
+   2^-25 of a wall of 4e-5 is 1e-12 long, and its coordinates are off by 1e-4 of that.  The
+   first coefficients of distant pairs are exact at order 2, too. */
+START_TEST(rows_of_small_elements_are_full) {
+  const int levels[] = {4, 12, 25};
+  hr2d_scene *scene = room_with_short_walls();
+  for (int k = 0; k < 3; k++) {
+    hr2d_hierarchy *h;
+    hr2di_integrator w;
+    double worst = 0;
+    ck_assert_int_eq(hr2d_hierarchy_create(scene, &h), HR2D_OK);
+    for (size_t p = 0; p < SHORT_WALLS; p++)
+      for (double t = 0; t <= 1; t++)
+        for (int level = 0; level < levels[k]; level++) halve(h, hr2d_hierarchy_leaf(h, p, t));
+    ck_assert_int_eq(hr2di_integrator_init(&w, h, &h->alloc, 2, NULL), HR2D_OK);
+    for (uint32_t e = 0; e < h->elements; e++)
+      if (!h->element[e].child) worst = fmax(worst, row_lacks(&w, e));
+    printf("  %d levels: rows of %zu elements off by at most %.1e\n", levels[k], h->elements,
+           worst);
+    ck_assert_double_lt(worst, 1e-14);
+    hr2di_integrator_clear(&w);
+    hr2d_hierarchy_destroy(h);
+  }
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 /* Negative control: a vertex that is moved by 1e-13 is noticed. */
 START_TEST(moved_vertices_are_noticed) {
   occluded_pair p = {.i = {{0, 0}, {1, 0}},
@@ -328,5 +379,5 @@ END_TEST
 TEST_SUITE("directions") {
   REPEAT_TESTS(KINDS, "directions", blocks_are_exact);
   REPEAT_TESTS(MOST_ORDER, "directions", rows_of_closed_rooms_are_full);
-  ADD_TESTS("directions", moved_vertices_are_noticed);
+  ADD_TESTS("directions", rows_of_small_elements_are_full, moved_vertices_are_noticed);
 }
