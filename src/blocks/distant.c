@@ -20,6 +20,17 @@ static hr2di_between vectors_between(const hr2di_line_frame *f, double scale) {
                          hr2di_vector_minus(&d, &a),       hr2di_vector_minus(&c, &b)};
 }
 
+/* How far ends are above the line along a vector, which may be much shorter.  Larger factors
+   overflow in products with all digits. */
+static void set_heights(const hr2di_vector *along, double length, const hr2di_vector *first,
+                        const hr2di_vector *second, double back, double height[2]) {
+  const double scale = ldexp(1, -ilogb(fmax(length, 0x1p-990)));
+  const hr2di_vector u = hr2di_vector_times(along, scale);
+  const double unit = back / (scale * length);
+  height[0] = hr2di_det(&u, first) * unit;
+  height[1] = hr2di_det(&u, second) * unit;
+}
+
 /* The frame of lines has more digits than coordinates of small elements. */
 void hr2di_pair_frame_init(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pair pair) {
   hr2di_line_frame lines;
@@ -27,15 +38,14 @@ void hr2di_pair_frame_init(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pa
   const hr2di_vector apart = hr2di_vector_minus(&lines.c, &lines.a);
   const double scale = hr2di_vector_scale(&apart), back = 1 / scale;
   const hr2di_between z = vectors_between(&lines, scale);
+  const hr2di_vector ca = hr2di_vector_reversed(&z.ac), db = hr2di_vector_reversed(&z.bd);
   f->along_i = rounded(&z.ab, back);
   f->along_j = rounded(&z.cd, back);
   f->apart = rounded(&z.ac, back);
   f->length_i = h->element[pair.first].length;
   f->length_j = h->element[pair.second].length;
-  f->above_i[0] = hr2di_det(&z.ab, &z.ac) * back / (scale * f->length_i);
-  f->above_i[1] = hr2di_det(&z.ab, &z.bd) * back / (scale * f->length_i);
-  f->above_j[0] = hr2di_det(&z.ac, &z.cd) * back / (scale * f->length_j);
-  f->above_j[1] = hr2di_det(&z.bd, &z.cd) * back / (scale * f->length_j);
+  set_heights(&z.ab, scale * f->length_i, &z.ac, &z.bd, back, f->above_i);
+  set_heights(&z.cd, scale * f->length_j, &ca, &db, back, f->above_j);
   f->area = hr2di_exchange_area_between(&z) * back;
 }
 

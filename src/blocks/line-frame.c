@@ -38,29 +38,28 @@ static void measure_from(hr2di_line_frame *f, int at_end, hr2di_vector before,
   }
 }
 
-/* An element from the start of its patch, which has the vector `along`: from the nearer end of
-   that. */
-static void measure_along(const hr2d_hierarchy *h, uint32_t element, const hr2di_vector *along,
-                          const hr2di_vector *size, hr2di_vector *start, hr2di_vector *end) {
+/* The ends of an element, of the vector `size`, from the nearer end of its patch, which has the
+   vector `along`; returns that end. */
+static hr2d_point measure_along(const hr2d_hierarchy *h, uint32_t element,
+                                const hr2di_vector *along, const hr2di_vector *size,
+                                hr2di_vector *start, hr2di_vector *end) {
+  const hr2d_segment patch = h->scene->patch[h->element[element].patch].scaled;
   const double from = hr2di_element_start(h, element);
   if (from <= 0.5) {
     *start = hr2di_vector_times(along, from);
     *end = hr2di_vector_plus(start, size);
-  } else {
-    const hr2di_vector behind = hr2di_vector_times(along, rest_behind(h, element));
-    *end = hr2di_vector_minus(along, &behind);
-    *start = hr2di_vector_minus(end, size);
+    return patch.a;
   }
+  *end = hr2di_vector_times(along, -rest_behind(h, element));
+  *start = hr2di_vector_minus(end, size);
+  return patch.b;
 }
 
 static void measure_apart(hr2di_line_frame *f, const hr2d_hierarchy *h, hr2d_pair pair,
                           const hr2di_vector *along_p, const hr2di_vector *along_q) {
-  const hr2d_segment p = h->scene->patch[h->element[pair.first].patch].scaled;
-  const hr2d_segment q = h->scene->patch[h->element[pair.second].patch].scaled;
-  const hr2di_vector apart = hr2di_vector_difference(q.a, p.a);
-  f->origin = p.a;
-  measure_along(h, pair.first, along_p, &f->u, &f->a, &f->b);
-  measure_along(h, pair.second, along_q, &f->v, &f->c, &f->d);
+  f->origin = measure_along(h, pair.first, along_p, &f->u, &f->a, &f->b);
+  const hr2d_point other = measure_along(h, pair.second, along_q, &f->v, &f->c, &f->d);
+  const hr2di_vector apart = hr2di_vector_difference(other, f->origin);
   f->c = hr2di_vector_plus(&f->c, &apart);
   f->d = hr2di_vector_plus(&f->d, &apart);
 }

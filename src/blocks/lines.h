@@ -17,7 +17,7 @@
 /* A pair i = ab, j = cd, with u = b − a and v = d − c as parts of the vectors of their patches,
    which have more digits than coordinates of small elements.  Vectors lead from the corner of
    patches that have a common end, with the relative accuracy of fractions of the patches; else
-   from a common end of the elements, or the start of the patch of i. */
+   from a common end of the elements, or from that end of the patch of i that is nearer to i. */
 typedef struct hr2di_line_frame {
   hr2d_segment i, j;
   hr2d_point origin;

@@ -30,6 +30,14 @@ typedef struct maker {
   atomic_int failed;
 } maker;
 
+/* In terms of the scene.  Products of vectors along shorter elements underflow in blocks, and
+   not in exchange areas of links. */
+#define TINY 0x1p-400
+
+static int is_tiny(const hr2d_hierarchy *h, hr2d_pair pair) {
+  return h->element[pair.first].length < TINY || h->element[pair.second].length < TINY;
+}
+
 /* G V is not negative, so that |C_lm| ≤ √((2l+1)(2m+1)) C_00.  A block beyond that comes from
    elements that the rules cannot tell apart in doubles, as a distance of 1e-17 of a length: it
    keeps the exchange area of the link alone. */
@@ -54,6 +62,7 @@ static hr2d_status make_some(const maker *m, hr2di_integrator *work, uint64_t fr
     int distant;
     const hr2d_status status = hr2di_block(work, link->pair, block, &distant);
     if (status) return status;
+    if (is_tiny(m->links->hierarchy, link->pair)) block[0] = link->exchange_area;
     check_bound(link->exchange_area, block, m->blocks->order);
     m->blocks->distant[k] = (unsigned char)distant;
   }
