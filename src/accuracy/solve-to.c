@@ -32,10 +32,11 @@ typedef struct search {
   hr2d_status progress_status; /* of the caller's progress callback */
   hr2di_survey survey;
   hr2di_graded best;
-  double *weight;       /* per patch, where importance is asked for */
-  hr2d_account account; /* of the best, with all times */
-  hr2d_error error;     /* of the best, the larger one of B and H */
-  double rounding;      /* the part of its bound that is rounding */
+  hr2di_resolution fineness; /* of the best */
+  double *weight;            /* per patch, where importance is asked for */
+  hr2d_account account;      /* of the best, with all times */
+  hr2d_error error;          /* of the best, the larger one of B and H */
+  double rounding;           /* the part of its bound that is rounding */
   hr2di_message message;
 } search;
 
@@ -143,8 +144,10 @@ static hr2d_status attempt(search *s, const hr2di_resolution *fineness) {
   if (!status) {
     const double error = worst_of(&errors, s->target.norm).estimate;
     s->account.kernels += errors.kernels;
-    if (!s->best.solution || error < error_of(s) || !isfinite(error_of(s)))
+    if (!s->best.solution || error < error_of(s) || !isfinite(error_of(s))) {
       keep(s, &answer, &errors);
+      s->fineness = *fineness;
+    }
   } else if (s->late && answer.solution && !isfinite(error_of(s))) {
     keep(s, &answer, &unknown);
   }
@@ -161,12 +164,24 @@ static int is_rounding(const search *s) {
   return error_of(s) <= s->rounding;
 }
 
+/* The resolution to begin with: no coarser than the best one so far, which was not enough. */
+static hr2di_resolution first_resolution(const search *s, double error) {
+  hr2di_resolution guess = hr2di_resolution_for(s->scene, &s->survey, error, s->target.norm);
+  hr2di_resolution finer = s->fineness;
+  guess.weight = s->weight;
+  const int known = s->best.solution && isfinite(error_of(s));
+  const int is_finer =
+      known && !hr2di_resolution_raise(&finer, &s->best.survey, error_of(s) / (0.5 * error)) &&
+      finer.order > guess.order;
+  return is_finer ? finer : guess;
+}
+
 /* Goes finer until the error is below `error`; HR2D_EACCURACY if it does not come down. */
 static hr2d_status reach(search *s, double error) {
-  hr2di_resolution fineness = hr2di_resolution_for(s->scene, &s->survey, error, s->target.norm);
+  if (s->best.solution && is_reached(s, error)) return HR2D_OK;
+  hr2di_resolution fineness = first_resolution(s, error);
   double before = HUGE_VAL;
   int stuck = 0, raised = 1;
-  fineness.weight = s->weight;
   for (int k = 0; k < ATTEMPTS && (stuck < 2 || !is_rounding(s)) && raised; k++) {
     const hr2d_status status = attempt(s, &fineness);
     /* At a low order rows of K may exceed 1 in narrow corners, even with closure. */

@@ -31,6 +31,8 @@ once black 100131
 once panels 100016
 # The edge of a shadow that sweeps over an element.
 once soup-sky 2000077
+# Steps of a budget that began coarser than the best answer.
+once panels 3000049
 
 "$adversary" --runs "$(awk "BEGIN { print int(760 * ${HR2D_TEST_MULTIPLIER-0.1} + 4) }")" \
   --seed "${HR2D_TEST_SEED-1}" --limit 10 || failures=$((failures + 1))
