@@ -34,7 +34,7 @@
 /* |β| of leaves. */
 static void integrate_error(const hr2di_estimator *e, double *beta) {
   const hr2di_transport *t = &e->eq.transport;
-  for (size_t k = 0; k < t->leaves; k++)
+  for (size_t k = 0; k < t->leaves && !hr2di_watch_work(t->watch, 1 + t->width / 16); k++)
     for (size_t b = 0; b < t->bands; b++) {
       double sum = 0;
       for (size_t l = 1; l < t->order; l++)
