@@ -198,7 +198,8 @@ TOO_LONG = tests/unit/accuracy/check-dark tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-known-radiosities tests/unit/accuracy/check-random-accuracy \
 	tests/unit/solve/check-closure \
 	tests/unit/solution/check-irradiance-points tests/faults/check-polls \
-	tests/unit/accuracy/check-roundings tests/unit/accuracy/check-short-patches \
+	tests/unit/accuracy/check-roundings tests/unit/accuracy/check-shadow-edges \
+	tests/unit/accuracy/check-short-patches \
 	tests/unit/accuracy/check-target-calls tests/unit/blocks/check-blocks \
 	tests/unit/blocks/check-directions \
 	tests/unit/clusters/check-clusters tests/unit/refine/check-occlusion \
