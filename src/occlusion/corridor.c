@@ -169,17 +169,30 @@ static int bridge(const hr2di_pair_lines *frame, const hr2di_chain *low,
   return search(frame, low, high, 0, from, to) > 0;
 }
 
+static hr2di_corridor widest(const hr2di_chain *right, const hr2di_chain *left) {
+  return (hr2di_corridor){0, right->count - 1, 0, left->count - 1};
+}
+
+static int find_first(const hr2di_pair_lines *frame, const hr2di_chain *right,
+                      const hr2di_chain *left, hr2di_corridor *c) {
+  return bridge(frame, left, right, &c->left_first, &c->right_last);
+}
+
+static int find_last(const hr2di_pair_lines *frame, const hr2di_chain *right,
+                     const hr2di_chain *left, hr2di_corridor *c) {
+  return bridge(frame, right, left, &c->right_first, &c->left_last);
+}
+
 int hr2di_corridor_open(const hr2di_pair_lines *frame, const hr2di_chain *right,
                         const hr2di_chain *left) {
-  size_t l = 0, r = right->count - 1;
-  return bridge(frame, left, right, &l, &r);
+  hr2di_corridor c = widest(right, left);
+  return find_first(frame, right, left, &c);
 }
 
 int hr2di_corridor_find(const hr2di_pair_lines *frame, const hr2di_chain *right,
                         const hr2di_chain *left, hr2di_corridor *c) {
-  *c = (hr2di_corridor){0, right->count - 1, 0, left->count - 1};
-  return bridge(frame, left, right, &c->left_first, &c->right_last) &&
-         bridge(frame, right, left, &c->right_first, &c->left_last);
+  *c = widest(right, left);
+  return find_first(frame, right, left, c) && find_last(frame, right, left, c);
 }
 
 /* orient(p,q,r), rounded; 0 where that leaves few digits. */
@@ -227,10 +240,13 @@ static hr2d_point point_at(hr2d_segment i, double t) {
 
 int hr2di_corridor_area(const hr2di_pair_lines *frame, const hr2di_chain *right,
                         const hr2di_chain *left, hr2d_segment i, double *area) {
-  hr2di_corridor c;
+  hr2di_corridor c = widest(right, left);
   double sum = 0, t = 0;
   *area = 0;
-  if (!hr2di_corridor_find(frame, right, left, &c)) return 0;
+  if (!find_first(frame, right, left, &c)) return 0;
+  /* If there is a first line there is a last one.  But where a rounding of a wall is longer
+     than i and j, its ends on their lines may lie so that only one is found. */
+  if (!find_last(frame, right, left, &c)) return 1;
   const size_t r_last = c.right_first, l_last = c.left_last;
   size_t r = c.right_last, l = c.left_first;
   hr2d_point x = i.a;

@@ -59,8 +59,8 @@ typedef struct hr2di_corridor {
 int hr2di_corridor_find(const hr2di_pair_lines *frame, const hr2di_chain *right,
                         const hr2di_chain *left, hr2di_corridor *corridor);
 
-/* The same; and half the measure of these lines, which is what they contribute to the
-   exchange area of i. */
+/* hr2di_corridor_open(), whatever roundings do; and half the measure of these lines, which is
+   what they contribute to the exchange area of i. */
 int hr2di_corridor_area(const hr2di_pair_lines *frame, const hr2di_chain *right,
                         const hr2di_chain *left, hr2d_segment i, double *area);
 

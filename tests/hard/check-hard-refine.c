@@ -399,6 +399,70 @@ START_TEST(counts_are_those_of_a_refinement) {
 }
 END_TEST
 
+/* A room, and a wall so much longer that the room is smaller than the wall's roundings. */
+typedef struct beside_wall {
+  hr2d_segment wall;
+  double room;
+} beside_wall;
+
+static beside_wall draw_beside_wall(randoms *r) {
+  const int k = 60 + random_below(r, 440);
+  const double room = ldexp(1, -k);
+  const hr2d_point p = {-ldexp(1, -random_below(r, 60)),
+                        ldexp(1 + random_unit(r), -random_below(r, k))};
+  const hr2d_point q = {ldexp(1, -random_below(r, 12)),
+                        random_below(r, 2) ? -room : ldexp(1, -random_below(r, k))};
+  return (beside_wall){random_below(r, 2) ? (hr2d_segment){p, q} : (hr2d_segment){q, p}, room};
+}
+
+/* Refused are walls that cut the room. */
+static int make_beside_wall(const beside_wall *b, test_links *t) {
+  const double s = b->room;
+  const hr2d_point corner[] = {{-s, -s}, {s, -s}, {s, s / 2}, {0, s}};
+  hr2d_scene *scene = test_new_scene(NULL);
+  for (int k = 0; k < 4; k++)
+    test_add_patch(scene, (hr2d_segment){corner[k], corner[(k + 1) % 4]}, 1, .5,
+                   HR2D_SIDES_FRONT);
+  test_add_patch(scene, b->wall, 1, .5, HR2D_SIDES_FRONT);
+  const int made = hr2d_scene_commit(scene) == HR2D_OK;
+  if (made)
+    *t = test_make_links(scene, NULL, NULL, NULL, NULL);
+  else
+    hr2d_scene_destroy(scene);
+  return made;
+}
+
+START_TEST(counts_survive_roundings_of_long_walls) {
+  randoms r = randoms_stream(test_seed(), 1);
+  const int scenes = test_count(1000);
+  int made = 0;
+  uint64_t partial = 0;
+  for (int k = 0; k < scenes; k++) {
+    const beside_wall b = draw_beside_wall(&r);
+    test_links t, u;
+    if (!make_beside_wall(&b, &t)) continue;
+    ck_assert(make_beside_wall(&b, &u));
+    const hr2d_refine_options options = test_options(.5, 6);
+    hr2d_refine_counts counted;
+    ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
+    ck_assert_int_eq(hr2d_refine_count(u.links, &options, &counted), HR2D_OK);
+    const hr2d_refine_counts stored = hr2d_linkset_counts(t.links);
+    ck_assert_msg(counted.links == stored.links &&
+                      counted.partial_links == stored.partial_links,
+                  "%llu links, and %llu counted: room %a, wall %a %a %a %a",
+                  (unsigned long long)stored.links, (unsigned long long)counted.links, b.room,
+                  b.wall.a.x, b.wall.a.y, b.wall.b.x, b.wall.b.y);
+    ck_assert_uint_eq(counted.blocked_pairs, stored.blocked_pairs);
+    partial += stored.partial_links;
+    made++;
+    test_free_links(&t);
+    test_free_links(&u);
+  }
+  ck_assert_int_gt(made, scenes / 2);
+  ck_assert_uint_gt(partial, (uint64_t)made);
+}
+END_TEST
+
 /* Policies of no good will: never accept, and split as if nothing could end. */
 static hr2d_status accept_nothing(void *ctx, const hr2d_batch *batch, const double *error,
                                   unsigned char *accepted) {
@@ -479,5 +543,6 @@ TEST_SUITE("hard cases of refinement") {
   ADD_TESTS("epsilon", errors_equal_to_epsilon, epsilon_at_its_ends,
             ties_do_not_depend_on_the_order);
   ADD_TESTS("budgets", bytes_stay_within_their_budget, a_budget_remembers_nothing,
-            budgets_end_what_is_endless, counts_are_those_of_a_refinement, many_patches);
+            budgets_end_what_is_endless, counts_are_those_of_a_refinement,
+            counts_survive_roundings_of_long_walls, many_patches);
 }
