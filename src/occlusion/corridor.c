@@ -178,9 +178,14 @@ static int find_first(const hr2di_pair_lines *frame, const hr2di_chain *right,
   return bridge(frame, left, right, &c->left_first, &c->right_last);
 }
 
+/* After find_first().  Where i and j touch within a rounding, their ends there are one place,
+   and have no order: the last line may touch one that comes before that of the first line. */
 static int find_last(const hr2di_pair_lines *frame, const hr2di_chain *right,
                      const hr2di_chain *left, hr2di_corridor *c) {
-  return bridge(frame, right, left, &c->right_first, &c->left_last);
+  if (!bridge(frame, right, left, &c->right_first, &c->left_last)) return 0;
+  if (c->right_first > c->right_last) c->right_first = c->right_last;
+  if (c->left_last < c->left_first) c->left_last = c->left_first;
+  return 1;
 }
 
 int hr2di_corridor_open(const hr2di_pair_lines *frame, const hr2di_chain *right,
