@@ -50,6 +50,9 @@ libhr2d_core_la_SOURCES = \
 	src/triangulation/pieces.c src/triangulation/pieces.h \
 	src/triangulation/points.c src/triangulation/points.h \
 	src/triangulation/triangulation.c src/triangulation/triangulation.h \
+	src/sight/area.c \
+	src/sight/restrict.c \
+	src/sight/sight.h \
 	src/occlusion/corridor.c src/occlusion/corridor.h \
 	src/occlusion/exchange-occluded.c \
 	src/occlusion/line-classes.c src/occlusion/line-classes.h \

@@ -10,6 +10,7 @@ SUITES = \
 	tests/unit/geometry/check-geometry \
 	tests/unit/geometry/check-exchange-area \
 	tests/unit/triangulation/check-triangulation \
+	tests/unit/sight/check-sight \
 	tests/bounds/check-bounds-geometry \
 	tests/bounds/check-bounds-oracles \
 	tests/bounds/check-bounds-l1 \

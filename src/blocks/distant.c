@@ -46,7 +46,7 @@ void hr2di_pair_frame_init(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pa
   f->length_j = h->element[pair.second].length;
   set_heights(&z.ab, scale * f->length_i, &z.ac, &z.bd, back, f->above_i);
   set_heights(&z.cd, scale * f->length_j, &ca, &db, back, f->above_j);
-  f->area = hr2di_exchange_area_between(&z) * back;
+  f->area = hr2di_exchange_area_of_vectors(&z) * back;
 }
 
 /* One tensor rule is enough, because G is smooth on both elements.  The first coefficient,

@@ -189,7 +189,7 @@ static hr2d_point rounded(const hr2di_vector *v) {
   return (hr2d_point){v->x, v->y};
 }
 
-double hr2di_exchange_area_between(const hr2di_between *v) {
+double hr2di_exchange_area_of_vectors(const hr2di_between *v) {
   const determinants o = {hr2di_det(&v->ab, &v->ac), hr2di_det(&v->ab, &v->bd),
                           -hr2di_det(&v->cd, &v->ac), -hr2di_det(&v->cd, &v->bd)};
   const quadrilateral s = {rounded(&v->ab), rounded(&v->cd), rounded(&v->ac),
@@ -202,6 +202,19 @@ double hr2d_exchange_area(const hr2d_segment *i, const hr2d_segment *j) {
   if (area >= 0) return area;
   if (!is_plain(i, j)) return hr2di_exchange_area_scaled(i, j);
   return careful_area(i, j, corrected(i->a, i->b, j->a, j->b));
+}
+
+double hr2di_corner_area(hr2d_point x, hr2d_point y, hr2d_point z) {
+  const hr2d_segment i = {x, y}, j = {z, x};
+  if (!is_plain(&i, &j)) return hr2di_exchange_area_scaled(&i, &j);
+  const hr2d_point xy = hr2di_point_minus(y, x), xz = hr2di_point_minus(z, x);
+  const double dot = hr2di_point_dot(xy, xz);
+  double det = 0;
+  if (dot < 0) {
+    const hr2di_vector u = hr2di_vector_difference(y, x), v = hr2di_vector_difference(z, x);
+    det = hr2di_det(&u, &v);
+  }
+  return corner_area(length(xy), length(xz), dot, det, length(hr2di_point_minus(z, y)));
 }
 
 /* Pairs per block: the data of a block stay in the first-level cache. */
@@ -257,6 +270,15 @@ static void block_areas(block *p, size_t n, double *area) {
   for (size_t k = 0; k < left; k++) {
     const hr2d_segment i = first(p, k), j = second(p, k);
     area[place[k]] = careful_area(&i, &j, o[k]);
+  }
+}
+
+void hr2di_exchange_areas_between(const hr2d_segment (*pairs)[2], size_t count, double *area) {
+  block p;
+  for (size_t start = 0; start < count; start += BLOCK) {
+    const size_t n = count - start < BLOCK ? count - start : BLOCK;
+    for (size_t k = 0; k < n; k++) put(&p, k, pairs[start + k][0], pairs[start + k][1]);
+    block_areas(&p, n, area + start);
   }
 }
 

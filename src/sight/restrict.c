@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a part of a segment sees: one point put in at one end of one chain.
+
+   The end a is moved to x.  Lines that leave x on their right start between a and x and are
+   dropped.  With A the left chain and B the right one:
+
+   - x on or left of the line that leans most to the right, A[0] → B[last]: no line starts
+     before x, and nothing changes.
+   - x on or right of the line that leans most to the left, B[0] → A[last]: nothing is left.
+   - Otherwise x becomes the first point of A, and what no tangent from x can touch is dropped
+     at the start of A and at the end of B.
+
+   The other three ends are mirror images: with the chains exchanged and all signs negated, and
+   with the chains read from j to i.
+
+   x is a rounded point of the line of i, and a tangent may be that line.  Then its sign says
+   nothing, and would cost a whole view; three rules avoid these signs.  If A begins with a,
+   x replaces it untested: a lies on the left of x on i.  If B begins with b, or A is the point
+   a alone, i.e. the horizon of i, some line is left untested. */
+#include "geometry/orient-sign.h"
+#include "sight/sight.h"
+
+/* A chain as it is read: from i to j, or from j to i. */
+typedef struct strip {
+  const hr2d_point *first;
+  ptrdiff_t step;
+  size_t count;
+} strip;
+
+static strip strip_of(const hr2d_point *p, size_t count, int from_j) {
+  return (strip){from_j ? p + (count - 1) : p, from_j ? -1 : 1, count};
+}
+
+static hr2d_point at(const strip *s, size_t k) {
+  return s->first[(ptrdiff_t)k * s->step];
+}
+
+/* Where the chains begin and end, for the end that is moved. */
+typedef struct view {
+  int from_j, hand;                          /* hand is −1 in a mirror */
+  unsigned near, far, other_near, other_far; /* of A, then of B */
+} view;
+
+static view view_of(hr2di_sight_end end) {
+  enum { A = HR2DI_SIGHT_A, B = HR2DI_SIGHT_B, C = HR2DI_SIGHT_C, D = HR2DI_SIGHT_D };
+  switch (end) {
+  case HR2DI_SIGHT_A:
+    return (view){0, 1, A, D, B, C};
+  case HR2DI_SIGHT_B:
+    return (view){0, -1, B, C, A, D};
+  case HR2DI_SIGHT_C:
+    return (view){1, 1, C, B, D, A};
+  default:
+    return (view){1, -1, D, A, C, B};
+  }
+}
+
+/* Writes what is left of a strip, behind the point *x if there is one, in the order of the
+   sight; returns where it begins. */
+static hr2d_point *write(const strip *s, size_t first, size_t last, const hr2d_point *x,
+                         int from_j, hr2d_point **room) {
+  hr2d_point *start = *room;
+  const size_t kept = last - first, count = kept + (x != NULL);
+  for (size_t k = 0; k < kept; k++) {
+    const size_t place = k + (x != NULL);
+    start[from_j ? count - 1 - place : place] = at(s, first + k);
+  }
+  if (x) start[from_j ? count - 1 : 0] = *x;
+  *room += count;
+  return start;
+}
+
+/* Whether some line starts behind x. */
+static int has_lines(const hr2di_sight *s, const view *v, const strip *chain,
+                     const strip *other, hr2d_point x) {
+  const int horizon = chain->count == 1 && s->ends & v->near;
+  if (s->ends & v->other_near || horizon) return 1;
+  return v->hand * hr2di_orient_sign(at(other, 0), at(chain, chain->count - 1), x) > 0;
+}
+
+int hr2di_sight_restrict(const hr2di_sight *s, hr2di_sight_end end, hr2d_point x,
+                         hr2d_point *room, hr2di_sight *child) {
+  const view v = view_of(end);
+  const int on_left = end == HR2DI_SIGHT_A || end == HR2DI_SIGHT_D;
+  const strip left = strip_of(s->left, s->lefts, v.from_j);
+  const strip right = strip_of(s->right, s->rights, v.from_j);
+  const strip *chain = on_left ? &left : &right, *other = on_left ? &right : &left;
+  const int begins = (s->ends & v.near) != 0;
+  if (!begins &&
+      v.hand * hr2di_orient_sign(at(chain, 0), at(other, other->count - 1), x) >= 0) {
+    *child = *s;
+    return 1;
+  }
+  if (!has_lines(s, &v, chain, other, x)) return 0;
+  /* A point that is a and d stays as d. */
+  size_t first = begins && (chain->count > 1 || !(s->ends & v.far)), last = other->count;
+  while (first + 1 < chain->count &&
+         v.hand * hr2di_orient_sign(x, at(chain, first), at(chain, first + 1)) <= 0)
+    first++;
+  while (last > 1 &&
+         v.hand * hr2di_orient_sign(x, at(other, last - 1), at(other, last - 2)) >= 0)
+    last--;
+  const size_t count = chain->count - first + 1;
+  const hr2d_point *moved = write(chain, first, chain->count, &x, v.from_j, &room);
+  const hr2d_point *rest = write(other, 0, last, NULL, v.from_j, &room);
+  unsigned ends = s->ends | v.near;
+  if (last < other->count) ends &= ~v.other_far;
+  *child = on_left ? (hr2di_sight){moved, rest, count, last, ends}
+                   : (hr2di_sight){rest, moved, last, count, ends};
+  return 1;
+}
+
+int hr2di_sight_clear(const hr2di_sight *s) {
+  enum { A = HR2DI_SIGHT_A, B = HR2DI_SIGHT_B, C = HR2DI_SIGHT_C, D = HR2DI_SIGHT_D };
+  const int left = s->lefts == 1 ? (s->ends & (A | D)) != 0
+                                 : s->lefts == 2 && (s->ends & (A | D)) == (A | D);
+  const int right = s->rights == 1 ? (s->ends & (B | C)) != 0
+                                   : s->rights == 2 && (s->ends & (B | C)) == (B | C);
+  return left && right;
+}
+
+void hr2di_sight_turn(const hr2di_sight *s, hr2d_point *room, hr2di_sight *turned) {
+  const strip left = strip_of(s->left, s->lefts, 1), right = strip_of(s->right, s->rights, 1);
+  *turned = (hr2di_sight){.lefts = s->rights, .rights = s->lefts};
+  turned->left = write(&right, 0, s->rights, NULL, 0, &room);
+  turned->right = write(&left, 0, s->lefts, NULL, 0, &room);
+  turned->ends = (s->ends << 2 | s->ends >> 2) & 15;
+}

@@ -1,0 +1,336 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One class of lines: its measure against strings of many digits, and what is left of it when
+   an end is moved against the definition, by all pairs of points.
+
+   HR2D_TEST_SEED and HR2D_TEST_MULTIPLIER in the environment change the classes. */
+#include <check.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "independent/mpfr-exchange.h"
+#include "sight/sight.h"
+#include "support/plane.h"
+#include "support/support.h"
+
+enum { MOST = 40, PARTS = 8 };
+
+/* The points that the lines of a class leave on their left and on their right: a and d, b and c
+   first, then ends of what is in the way. */
+typedef struct definition {
+  hr2d_point left[MOST], right[MOST];
+  int lefts, rights;
+} definition;
+
+/* A class found by the definition. */
+typedef struct found {
+  hr2d_point left[MOST], right[MOST];
+  hr2di_sight sight;
+} found;
+
+/* Whether the line from p to q has all points of the sets on their sides. */
+static int separates(const definition *d, hr2d_point p, hr2d_point q) {
+  for (int k = 0; k < d->lefts; k++)
+    if (hr2d_orientation(p, q, d->left[k]) < 0) return 0;
+  for (int k = 0; k < d->rights; k++)
+    if (hr2d_orientation(p, q, d->right[k]) > 0) return 0;
+  return 1;
+}
+
+/* Whether the segment pq is shorter than rs, for segments of one line. */
+static int shorter(hr2d_point p, hr2d_point q, hr2d_point r, hr2d_point s) {
+  return fabs(q.x - p.x) + fabs(q.y - p.y) < fabs(s.x - r.x) + fabs(s.y - r.y);
+}
+
+/* The tangents, each with the contacts that are nearest to each other; 0 if there is none. */
+static int tangents(const definition *d, int contact[2][2]) {
+  int count[2] = {0, 0};
+  for (int l = 0; l < d->lefts; l++)
+    for (int r = 0; r < d->rights; r++)
+      for (int kind = 0; kind < 2; kind++) {
+        const hr2d_point p = d->left[l], q = d->right[r];
+        if (plane_same(p, q) || !(kind ? separates(d, q, p) : separates(d, p, q))) continue;
+        if (count[kind]++ &&
+            !shorter(p, q, d->left[contact[kind][0]], d->right[contact[kind][1]]))
+          continue;
+        contact[kind][0] = l;
+        contact[kind][1] = r;
+      }
+  return count[0] > 0 && count[1] > 0;
+}
+
+/* The hull of `point` from one of its points to another, seen from the side `hand`: 1 for a
+   chain that turns left. */
+static size_t hull(const hr2d_point *point, int count, hr2d_point from, hr2d_point to, int hand,
+                   hr2d_point *chain) {
+  size_t n = 0;
+  for (chain[n++] = from; !plane_same(chain[n - 1], to); n++) {
+    const hr2d_point last = chain[n - 1];
+    hr2d_point next = to;
+    for (int k = 0; k < count; k++) {
+      const int side = hand * hr2d_orientation(last, next, point[k]);
+      if (plane_same(point[k], last)) continue;
+      if (side < 0 ||
+          (side == 0 && !plane_same(next, to) && shorter(last, next, last, point[k])))
+        next = point[k];
+    }
+    ck_assert_uint_lt(n, MOST);
+    chain[n] = next;
+  }
+  return n;
+}
+
+static unsigned ends_of(const definition *d, const found *f) {
+  const hr2di_sight *s = &f->sight;
+  return (plane_same(s->left[0], d->left[0]) ? HR2DI_SIGHT_A : 0u) |
+         (plane_same(s->right[0], d->right[0]) ? HR2DI_SIGHT_B : 0u) |
+         (plane_same(s->right[s->rights - 1], d->right[1]) ? HR2DI_SIGHT_C : 0u) |
+         (plane_same(s->left[s->lefts - 1], d->left[1]) ? HR2DI_SIGHT_D : 0u);
+}
+
+static int find(const definition *d, found *f) {
+  int contact[2][2];
+  if (!tangents(d, contact)) return 0;
+  const hr2d_point l0 = d->left[contact[0][0]], r1 = d->right[contact[0][1]];
+  const hr2d_point l1 = d->left[contact[1][0]], r0 = d->right[contact[1][1]];
+  /* The hulls touch: one line is left, which has no measure. */
+  if (hr2d_orientation(l0, r1, l1) == 0 && hr2d_orientation(l0, r1, r0) == 0) return 0;
+  f->sight = (hr2di_sight){.left = f->left, .right = f->right};
+  f->sight.lefts = hull(d->left, d->lefts, l0, l1, 1, f->left);
+  f->sight.rights = hull(d->right, d->rights, r0, r1, -1, f->right);
+  f->sight.ends = ends_of(d, f);
+  return 1;
+}
+
+static void add_distance(mpfr_t sum, hr2d_point p, hr2d_point q, int sign) {
+  mpfr_t distance;
+  mpfr_init(distance);
+  mpfr_distance(distance, p, q);
+  (sign > 0 ? mpfr_add : mpfr_sub)(sum, sum, distance, MPFR_RNDN);
+  mpfr_clear(distance);
+}
+
+/* Crossed minus uncrossed strings, halved. */
+static void strings(mpfr_t area, const hr2di_sight *s) {
+  mpfr_init2(area, 300);
+  mpfr_set_zero(area, 1);
+  add_distance(area, s->left[0], s->right[s->rights - 1], 1);
+  add_distance(area, s->right[0], s->left[s->lefts - 1], 1);
+  for (size_t k = 1; k < s->lefts; k++) add_distance(area, s->left[k - 1], s->left[k], -1);
+  for (size_t k = 1; k < s->rights; k++) add_distance(area, s->right[k - 1], s->right[k], -1);
+  mpfr_div_2ui(area, area, 1, MPFR_RNDN);
+}
+
+static double strings_of(const hr2di_sight *s) {
+  mpfr_t area;
+  strings(area, s);
+  const double value = mpfr_get_d(area, MPFR_RNDN);
+  mpfr_clear(area);
+  return value;
+}
+
+/* Two segments on a grid that face each other, perhaps in part, and points between them; a line
+   from one to the other says on which side each of these is.  All ends of PARTS equal parts of
+   the segments are on the grid. */
+typedef struct scene {
+  hr2d_segment i, j;
+  definition d;
+} scene;
+
+static hr2d_point grid(randoms *r, int width, int from, int height) {
+  return (hr2d_point){random_below(r, width + 1), from + random_below(r, height + 1)};
+}
+
+static hr2d_segment stretched(hr2d_point a, hr2d_point b) {
+  return (hr2d_segment){{PARTS * a.x, PARTS * a.y}, {PARTS * b.x, PARTS * b.y}};
+}
+
+static void draw_segments(randoms *r, int width, scene *s) {
+  do {
+    s->i = stretched(grid(r, width, 0, 1), grid(r, width, 0, 1));
+    s->j = stretched(grid(r, width, 4, 2), grid(r, width, 4, 2));
+  } while (!(hr2d_exchange_area(&s->i, &s->j) > 0));
+}
+
+static void draw_scene(randoms *r, scene *s) {
+  const int width = 2 + random_below(r, 8), points = random_below(r, 12);
+  draw_segments(r, width, s);
+  s->d = (definition){{s->i.a, s->j.b}, {s->i.b, s->j.a}, 2, 2};
+  hr2d_point p, q;
+  do {
+    p = plane_along(s->i, random_unit(r));
+    q = plane_along(s->j, random_unit(r));
+  } while (plane_det(s->i.a, s->i.b, q) <= 0 || plane_det(s->j.a, s->j.b, p) <= 0);
+  for (int k = 0; k < points; k++) {
+    const hr2d_point v = grid(r, PARTS * width, PARTS, 3 * PARTS);
+    if (plane_det(p, q, v) > 0)
+      s->d.left[s->d.lefts++] = v;
+    else
+      s->d.right[s->d.rights++] = v;
+  }
+}
+
+static hr2d_segment part(hr2d_segment s, int first, int last) {
+  return (hr2d_segment){plane_along(s, (double)first / PARTS),
+                        plane_along(s, (double)last / PARTS)};
+}
+
+/* Moves one of the ends of the definition, and of the sight. */
+static int move(definition *d, hr2di_sight_end end, hr2d_point x, const hr2di_sight *s,
+                hr2d_point *room, hr2di_sight *child) {
+  switch (end) {
+  case HR2DI_SIGHT_A:
+    d->left[0] = x;
+    break;
+  case HR2DI_SIGHT_B:
+    d->right[0] = x;
+    break;
+  case HR2DI_SIGHT_C:
+    d->right[1] = x;
+    break;
+  default:
+    d->left[1] = x;
+  }
+  return hr2di_sight_restrict(s, end, x, room, child);
+}
+
+/* Lines that come from behind may separate the same points. */
+static int faces(const definition *d) {
+  const hr2d_segment near = {d->left[0], d->right[0]}, far = {d->right[1], d->left[1]};
+  return hr2d_exchange_area(&near, &far) > 0;
+}
+
+typedef struct tally {
+  int moved, empty, clear;
+  double worst;
+} tally;
+
+/* Moves all four ends, in any order, and compares at each step. */
+static void narrow(randoms *r, scene *s, const found *f, tally *count) {
+  const hr2d_segment i = part(s->i, random_below(r, 4), 4 + random_below(r, 5));
+  const hr2d_segment j = part(s->j, random_below(r, 4), 4 + random_below(r, 5));
+  const struct {
+    hr2di_sight_end end;
+    hr2d_point x;
+  } moves[] = {
+      {HR2DI_SIGHT_A, i.a}, {HR2DI_SIGHT_B, i.b}, {HR2DI_SIGHT_C, j.a}, {HR2DI_SIGHT_D, j.b}};
+  hr2d_point room[4][2 * MOST];
+  hr2di_sight sight = f->sight;
+  const int start = random_below(r, 4), step = random_below(r, 2) ? 1 : 3;
+  for (int k = 0; k < 4; k++) {
+    const int m = (start + k * step) % 4;
+    hr2di_sight child;
+    found expected;
+    const int lines = move(&s->d, moves[m].end, moves[m].x, &sight, room[k], &child);
+    const double area =
+        faces(&s->d) && find(&s->d, &expected) ? strings_of(&expected.sight) : 0;
+    count->moved++;
+    if (!lines) {
+      count->empty++;
+      ck_assert_double_le(fabs(area), 1e-13);
+      return;
+    }
+    ck_assert_double_gt(area, 1e-13);
+    const double error = fabs(hr2di_sight_area(&child) - area);
+    count->worst = fmax(count->worst, error);
+    ck_assert_double_le(error, 1e-13);
+    if (hr2di_sight_clear(&child)) {
+      const hr2d_segment near = {s->d.left[0], s->d.right[0]};
+      const hr2d_segment far = {s->d.right[1], s->d.left[1]};
+      count->clear++;
+      ck_assert_double_le(fabs(hr2d_exchange_area(&near, &far) - area), 1e-13);
+    }
+    sight = child;
+  }
+}
+
+START_TEST(moved_ends_leave_what_the_definition_says) {
+  randoms r = randoms_stream(test_seed(), 1);
+  tally count = {0};
+  for (int k = test_count(100000); k > 0; k--) {
+    scene s;
+    found f;
+    draw_scene(&r, &s);
+    if (find(&s.d, &f)) narrow(&r, &s, &f, &count);
+  }
+  printf("%d moves, %d leave nothing, %d a clear view, worst error %.1e\n", count.moved,
+         count.empty, count.clear, count.worst);
+  ck_assert_int_gt(count.empty, count.moved / 100);
+  ck_assert_int_gt(count.clear, count.moved / 100);
+}
+END_TEST
+
+/* Points on two parabolas that nearly touch: chains of many points, and areas far below the
+   roundings of strings. */
+static void draw_slit(randoms *r, found *f) {
+  const double bend = random_power(r, -6, 0), gap = random_power(r, -12, 0);
+  const double turn = random_between(r, 0, 6.3), c = cos(turn), s = sin(turn);
+  definition d = {.lefts = 2 + random_below(r, 12), .rights = 2 + random_below(r, 12)};
+  for (int side = 0; side < 2; side++)
+    for (int k = 0; k < (side ? d.rights : d.lefts); k++) {
+      const double y = k == 0   ? 0
+                       : k == 1 ? 1
+                                : random_unit(r),
+                   out = bend * (y - .5) * (y - .5);
+      const double x = side ? gap + out : -out;
+      (side ? d.right : d.left)[k] = (hr2d_point){c * x - s * y, s * x + c * y};
+    }
+  ck_assert(find(&d, f));
+}
+
+START_TEST(areas_are_those_of_strings) {
+  randoms r = randoms_stream(test_seed(), 2);
+  double worst = 0, least = 1;
+  int long_chains = 0, naive = 0;
+  for (int k = test_count(20000); k > 0; k--) {
+    found f;
+    mpfr_t exact;
+    draw_slit(&r, &f);
+    strings(exact, &f.sight);
+    const double area = hr2di_sight_area(&f.sight), value = mpfr_get_d(exact, MPFR_RNDN);
+    const double error = mpfr_relative_error(area, exact);
+    worst = fmax(worst, error);
+    least = fmin(least, area);
+    long_chains += f.sight.lefts > 2 || f.sight.rights > 2;
+    /* Negative control: strings in doubles lose the digits. */
+    double sum = 0;
+    for (size_t m = 1; m < f.sight.lefts; m++)
+      sum -= plane_distance(f.sight.left[m - 1], f.sight.left[m]);
+    for (size_t m = 1; m < f.sight.rights; m++)
+      sum -= plane_distance(f.sight.right[m - 1], f.sight.right[m]);
+    sum += plane_distance(f.sight.left[0], f.sight.right[f.sight.rights - 1]) +
+           plane_distance(f.sight.right[0], f.sight.left[f.sight.lefts - 1]);
+    naive += fabs(sum / 2 - value) > 1e-6 * value;
+    mpfr_clear(exact);
+  }
+  printf("areas from %.1e on, %d of longer chains, worst relative error %.1e\n", least,
+         long_chains, worst);
+  ck_assert_double_le(worst, 8e-15);
+  ck_assert_int_gt(long_chains, 0);
+  ck_assert_int_gt(naive, 0);
+}
+END_TEST
+
+START_TEST(turned_round_it_is_the_same) {
+  randoms r = randoms_stream(test_seed(), 3);
+  for (int k = test_count(10000); k > 0; k--) {
+    scene s;
+    found f;
+    hr2d_point room[2][2 * MOST];
+    hr2di_sight turned, back;
+    draw_scene(&r, &s);
+    if (!find(&s.d, &f)) continue;
+    hr2di_sight_turn(&f.sight, room[0], &turned);
+    hr2di_sight_turn(&turned, room[1], &back);
+    ck_assert_double_le(fabs(hr2di_sight_area(&turned) - hr2di_sight_area(&f.sight)), 1e-13);
+    ck_assert_int_eq(hr2di_sight_clear(&turned), hr2di_sight_clear(&f.sight));
+    ck_assert_uint_eq(back.ends, f.sight.ends);
+    ck_assert_mem_eq(back.left, f.sight.left, f.sight.lefts * sizeof *back.left);
+    ck_assert_mem_eq(back.right, f.sight.right, f.sight.rights * sizeof *back.right);
+  }
+}
+END_TEST
+
+TEST_SUITE("sight") {
+  ADD_TESTS("sight", moved_ends_leave_what_the_definition_says, areas_are_those_of_strings,
+            turned_round_it_is_the_same);
+}
