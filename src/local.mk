@@ -53,6 +53,7 @@ libhr2d_core_la_SOURCES = \
 	src/sight/area.c \
 	src/sight/restrict.c \
 	src/sight/sight.h \
+	src/sight/walk.c src/sight/walk.h \
 	src/occlusion/corridor.c src/occlusion/corridor.h \
 	src/occlusion/exchange-occluded.c \
 	src/occlusion/line-classes.c src/occlusion/line-classes.h \

@@ -11,6 +11,7 @@ SUITES = \
 	tests/unit/geometry/check-exchange-area \
 	tests/unit/triangulation/check-triangulation \
 	tests/unit/sight/check-sight \
+	tests/unit/sight/check-walk \
 	tests/bounds/check-bounds-geometry \
 	tests/bounds/check-bounds-oracles \
 	tests/bounds/check-bounds-l1 \

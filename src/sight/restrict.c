@@ -110,15 +110,6 @@ int hr2di_sight_restrict(const hr2di_sight *s, hr2di_sight_end end, hr2d_point x
   return 1;
 }
 
-int hr2di_sight_clear(const hr2di_sight *s) {
-  enum { A = HR2DI_SIGHT_A, B = HR2DI_SIGHT_B, C = HR2DI_SIGHT_C, D = HR2DI_SIGHT_D };
-  const int left = s->lefts == 1 ? (s->ends & (A | D)) != 0
-                                 : s->lefts == 2 && (s->ends & (A | D)) == (A | D);
-  const int right = s->rights == 1 ? (s->ends & (B | C)) != 0
-                                   : s->rights == 2 && (s->ends & (B | C)) == (B | C);
-  return left && right;
-}
-
 void hr2di_sight_turn(const hr2di_sight *s, hr2d_point *room, hr2di_sight *turned) {
   const strip left = strip_of(s->left, s->lefts, 1), right = strip_of(s->right, s->rights, 1);
   *turned = (hr2di_sight){.lefts = s->rights, .rights = s->lefts};

@@ -33,9 +33,18 @@ typedef struct hr2di_sight {
 /* The exchange area of a sight: half the measure of its lines, to some roundings of itself. */
 double hr2di_sight_area(const hr2di_sight *s);
 
+/* Whether a chain of so many points has only ends of the segments: `first` at its start and
+   `last` at its end. */
+static inline int hr2di_sight_chain_clear(size_t points, unsigned first, unsigned last) {
+  return points == 1 ? (first | last) != 0 : points == 2 && first && last;
+}
+
 /* Whether the chains have no points but ends of i and j: nothing but their horizons bounds the
    view, and the sight has all lines from i to j. */
-int hr2di_sight_clear(const hr2di_sight *s);
+static inline int hr2di_sight_clear(const hr2di_sight *s) {
+  return hr2di_sight_chain_clear(s->lefts, s->ends & HR2DI_SIGHT_A, s->ends & HR2DI_SIGHT_D) &&
+         hr2di_sight_chain_clear(s->rights, s->ends & HR2DI_SIGHT_B, s->ends & HR2DI_SIGHT_C);
+}
 
 /* Whether it has lines when one end of i or j is moved to x, a point of that segment.  `child`
    is then what is left of it: with points in `room`, which has room for one point more than the
