@@ -2,20 +2,23 @@
 /* Measures the cost of exact occlusion: all exchange areas of a scene against crossed strings,
    which ignore occluders, and a link of a refinement for a growing number of occluders.
 
-   Usage: bench_visibility [matrix|links]; without a word, matrix and links.  Times are
-   medians of rounds in which both sides of a ratio alternate.  Fails where a bar is missed. */
+   Usage: bench_visibility [rows|growth|hard|million|links]; without a word, rows and links.
+   Times are medians of rounds in which both sides of a ratio alternate.  Fails where a bar is
+   missed.  `growth` and `hard` go on to larger scenes, and `million` measures a million
+   segments from adding them on; they take as long as commit does. */
 #include <hr2d/hr2d.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "base/clock.h"
-#include "support/plane.h"
 #include "timing.h"
 
-enum { MOST_ROUNDS = 15, BLOCKERS = 16, SIZES = 5 };
+enum { MOST_ROUNDS = 15, BLOCKERS = 16 };
 
 #define PI   3.14159265358979323846
 #define SIDE 0.1 /* of a blocker */
@@ -178,6 +181,47 @@ static void put_segment(plan *p, hr2d_point c, double radius) {
   add(p, (hr2d_point){c.x - u, c.y - v}, (hr2d_point){c.x + u, c.y + v});
 }
 
+static void put_octagon(plan *p, hr2d_point c, double radius) {
+  add_round(p, c, radius, 8, -1);
+}
+
+/* Sections of n/8 fibres. */
+static void draw_fibres(plan *p, int n) {
+  add_room(p, 1);
+  scatter(p, n / 8, 0.15, 0.3, put_octagon);
+}
+
+/* n/4 houses between streets that are not quite straight. */
+static void draw_city(plan *p, int n) {
+  const int blocks = (int)sqrt(n / 4.), side = blocks > 0 ? blocks : 1;
+  add_room(p, 1);
+  state = 20250102;
+  for (int k = 0; k < side * side; k++) {
+    const double x = (k % side + .5) / side, y = (k / side + .5) / side;
+    const double w = uniform(.3, .45) / side, e = uniform(.3, .45) / side,
+                 south = uniform(.3, .45) / side, north = uniform(.3, .45) / side;
+    const hr2d_point corner[] = {
+        {x - w, y - south}, {x - w, y + north}, {x + e, y + north}, {x + e, y - south}};
+    add_polygon(p, corner, 4, 1);
+  }
+}
+
+/* Squares that are small beside the space between them. */
+static void draw_thin(plan *p, int n) {
+  add_room(p, 1);
+  scatter(p, n / 4, 0.025, 0.03, put_square);
+}
+
+static void draw_tiny(plan *p, int n) {
+  add_room(p, 1);
+  scatter(p, n / 4, 0.0005, 0.0005, put_square);
+}
+
+/* A round room with nothing in it. */
+static void draw_open(plan *p, int n) {
+  add_round(p, (hr2d_point){0.5, 0.5}, 0.75, n, 1);
+}
+
 /* n segments of length 0.3/√n, each with one front and any way round. */
 static void draw_segments(plan *p, int n) {
   add_room(p, 1);
@@ -204,57 +248,83 @@ static hr2d_scene *scene_of(void (*draw)(plan *, int), int n, int forced) {
   return scene;
 }
 
-/* Half of the matrix is enough for a comparison.  As gcc -O2 compiles it, without vectors. */
+static double distance(hr2d_point p, hr2d_point q) {
+  const double x = q.x - p.x, y = q.y - p.y;
+  return sqrt(x * x + y * y);
+}
+
+/* Half of the matrix is enough for a comparison. */
 #if defined __GNUC__ && !defined __clang__
-__attribute__((optimize("O2", "no-tree-vectorize")))
+__attribute__((optimize("O3")))
 #endif
 static void
 fill_strings(const hr2d_segment *s, size_t n, double *area) {
   for (size_t i = 0; i < n; i++)
     for (size_t j = i + 1; j < n; j++)
-      area[i * n + j] =
-          0.5 * ((plane_distance(s[i].a, s[j].a) + plane_distance(s[i].b, s[j].b)) -
-                 (plane_distance(s[i].a, s[j].b) + plane_distance(s[i].b, s[j].a)));
+      area[i * n + j] = 0.5 * ((distance(s[i].a, s[j].a) + distance(s[i].b, s[j].b)) -
+                               (distance(s[i].a, s[j].b) + distance(s[i].b, s[j].a)));
 }
 
-static double worst_row(const hr2d_scene *scene, const double *area) {
-  const size_t n = hr2d_scene_patches(scene);
+static double worst_row(const hr2d_scene *scene, const hr2d_exchange_rows *rows) {
+  const uint64_t *start = hr2d_exchange_rows_start(rows);
+  const double *area = hr2d_exchange_rows_area(rows);
   double worst = 0;
-  for (size_t i = 0; i < n; i++) {
+  for (size_t i = 0; i < hr2d_scene_patches(scene); i++) {
     const double length = hr2d_scene_length(scene, i);
     long double sum = -length;
-    for (size_t j = 0; j < n; j++) sum += area[i * n + j];
+    for (uint64_t k = start[i]; k < start[i + 1]; k++) sum += area[k];
     worst = fmax(worst, fabs((double)sum) / length);
   }
   return worst;
 }
 
 typedef struct measured {
+  size_t patches;
   double seconds, strings, row;
+  uint64_t entries;
   hr2d_matrix_counts counts;
 } measured;
 
-static measured measure_matrix(void (*draw)(plan *, int), int n) {
+/* Seconds of one call; the first one of a scene looks at the rows, too. */
+static double make_rows(const hr2d_scene *scene, unsigned threads, measured *m) {
+  hr2d_exchange_rows *rows = NULL;
+  hr2d_matrix_options options = HR2D_MATRIX_OPTIONS_INIT;
+  options.threads = threads;
+  const double start = hr2di_clock_now();
+  if (hr2d_exchange_rows_create(scene, &options, &rows, &m->counts)) fail("no rows");
+  const double seconds = hr2di_clock_now() - start;
+  if (m->entries == 0) m->row = worst_row(scene, rows);
+  m->entries = hr2d_exchange_rows_entries(rows);
+  hr2d_exchange_rows_destroy(rows);
+  return seconds;
+}
+
+/* Strings take n² numbers: without them beyond `MOST_STRINGS` patches. */
+enum { MOST_STRINGS = 6000 };
+
+static double make_strings(const hr2d_segment *segment, size_t n, double *area) {
+  const double start = hr2di_clock_now();
+  if (area) fill_strings(segment, n, area);
+  return hr2di_clock_now() - start;
+}
+
+static measured measure_rows(void (*draw)(plan *, int), int n) {
   hr2d_scene *scene = scene_of(draw, n, 0);
-  const size_t patches = hr2d_scene_patches(scene);
-  const int rounds = n > 2048 ? 3 : MOST_ROUNDS;
-  double *area = calloc(patches * patches, sizeof *area);
+  measured m = {.patches = hr2d_scene_patches(scene)};
+  const size_t patches = m.patches;
+  const int rounds = n > 50000 ? 1 : n > 2048 ? 5 : MOST_ROUNDS;
+  double *area = patches <= MOST_STRINGS ? calloc(patches * patches, sizeof *area) : NULL;
   hr2d_segment *segment = malloc(patches * sizeof *segment);
-  if (!area || !segment) fail("out of memory");
+  if ((!area && patches <= MOST_STRINGS) || !segment) fail("out of memory");
   for (size_t k = 0; k < patches; k++) segment[k] = hr2d_scene_segment(scene, k);
   double strings[MOST_ROUNDS], exact[MOST_ROUNDS];
-  measured m = {0};
-  for (int k = -1; k < rounds; k++) {
-    double start = hr2di_clock_now();
-    fill_strings(segment, patches, area);
-    if (k >= 0) strings[k] = hr2di_clock_now() - start;
-    start = hr2di_clock_now();
-    if (hr2d_exchange_matrix(scene, NULL, area, &m.counts)) fail("no matrix");
-    if (k >= 0) exact[k] = hr2di_clock_now() - start;
+  for (int k = rounds > 1 ? -1 : 0; k < rounds; k++) {
+    const double first = make_strings(segment, patches, area);
+    const double second = make_rows(scene, 1, &m);
+    if (k >= 0) strings[k] = first, exact[k] = second;
   }
-  m.row = worst_row(scene, area);
   m.seconds = median_of(exact, rounds);
-  m.strings = median_of(strings, rounds);
+  m.strings = area ? median_of(strings, rounds) : 0;
   free(segment);
   free(area);
   hr2d_scene_destroy(scene);
@@ -264,42 +334,107 @@ static measured measure_matrix(void (*draw)(plan *, int), int n) {
 typedef struct family {
   const char *name;
   void (*draw)(plan *, int);
-  double growth;  /* exponent allowed from 1024 to 5120 */
-  double at_1024; /* times the strings allowed there; 0 for any */
+  int size;      /* at which strings are the measure */
+  double ratio;  /* times their seconds allowed there */
+  double growth; /* exponent allowed from 5120 to 102,400; 0 for any */
 } family;
 
-static double exponent(double first, double second, int n, int m) {
-  return log(second / first) / log((double)m / n);
+static const family families[] = {{"squares", draw_squares, 5120, .5, 1.15},
+                                  {"fibres", draw_fibres, 5120, .5, 1.15},
+                                  {"city", draw_city, 3960, .5, 1.15},
+                                  {"occ", draw_occ, 5120, 1, 0},
+                                  {"round", draw_round, 5120, 3, 0}};
+enum { FAMILIES = sizeof families / sizeof *families };
+
+static double exponent(const measured *first, const measured *second) {
+  return log(second->seconds / first->seconds) /
+         log((double)second->patches / (double)first->patches);
 }
 
-static void measure_family(const family *f) {
-  static const int size[SIZES] = {128, 512, 1024, 2048, 5120};
-  measured m[SIZES];
-  for (int k = 0; k < SIZES; k++) {
-    m[k] = measure_matrix(f->draw, size[k]);
-    printf("%-8s%6d%10.2f%10.2f%8.2f%10.1e%12llu%10llu%12llu%12llu\n", f->name, size[k],
-           1e3 * m[k].seconds, 1e3 * m[k].strings, m[k].seconds / m[k].strings, m[k].row,
-           (unsigned long long)m[k].counts.exchange_areas,
-           (unsigned long long)m[k].counts.partial_pairs,
-           (unsigned long long)m[k].counts.blocked_pairs,
-           (unsigned long long)m[k].counts.visibility_tests);
-    bar("worst row", m[k].row, 1e-13);
-    if (size[k] == 1024 && f->at_1024 > 0)
-      bar("ratio at 1024", m[k].seconds / m[k].strings, f->at_1024);
+static void print_titles(void) {
+  printf("%-8s%8s%10s%10s%8s%10s%12s%12s%12s\n", "rows", "N", "ms", "strings", "ratio", "row",
+         "pairs", "partial", "triangles");
+}
+
+static void print_measured(const char *name, const measured *m) {
+  printf("%-8s%8zu%10.2f%10.2f%8.2f%10.1e%12llu%12llu%12llu\n", name, m->patches,
+         1e3 * m->seconds, 1e3 * m->strings, m->strings > 0 ? m->seconds / m->strings : 0,
+         m->row, (unsigned long long)m->counts.exchange_areas,
+         (unsigned long long)m->counts.partial_pairs,
+         (unsigned long long)m->counts.visibility_tests);
+  bar("worst row", m->row, 1e-13);
+}
+
+static measured measure_and_print(const char *name, void (*draw)(plan *, int), int n) {
+  const measured m = measure_rows(draw, n);
+  print_measured(name, &m);
+  fflush(stdout);
+  return m;
+}
+
+/* Up to the size at which strings are the measure. */
+static void measure_families(void) {
+  static const int size[] = {128, 512, 1024, 2048};
+  print_titles();
+  for (size_t k = 0; k < FAMILIES; k++) {
+    const family *f = &families[k];
+    for (size_t m = 0; m < sizeof size / sizeof *size; m++)
+      measure_and_print(f->name, f->draw, size[m]);
+    const measured last = measure_and_print(f->name, f->draw, f->size);
+    bar("the ratio to strings", last.seconds / last.strings, f->ratio);
   }
-  const double p = exponent(m[2].seconds, m[4].seconds, size[2], size[4]);
-  printf("%-8stime grows like N^%.2f from 1024 to 5120, strings like N^%.2f\n", f->name, p,
-         exponent(m[2].strings, m[4].strings, size[2], size[4]));
-  bar("exponent", p, f->growth);
 }
 
-static void measure_matrices(void) {
-  static const family families[] = {{"occ", draw_occ, 1.8, 4},
-                                    {"squares", draw_squares, 2.1, 0},
-                                    {"round", draw_round, 2.1, 0}};
-  printf("%-8s%6s%10s%10s%8s%10s%12s%10s%12s%12s\n", "matrix", "N", "ms", "strings", "ratio",
-         "row", "areas", "partial", "blocked", "tests");
-  for (size_t k = 0; k < sizeof families / sizeof *families; k++) measure_family(&families[k]);
+static void measure_growth(void) {
+  print_titles();
+  for (size_t k = 0; k < FAMILIES; k++) {
+    const family *f = &families[k];
+    if (f->growth == 0) continue;
+    const measured first = measure_and_print(f->name, f->draw, 5120);
+    measure_and_print(f->name, f->draw, 20480);
+    const measured last = measure_and_print(f->name, f->draw, 102400);
+    printf("%-8stime grows like N^%.2f from 5120 to 102,400\n", f->name,
+           exponent(&first, &last));
+    bar("exponent", exponent(&first, &last), f->growth);
+  }
+}
+
+/* Where beams pass many triangles, and where everything sees everything. */
+static void measure_hard(void) {
+  static const struct {
+    const char *name;
+    void (*draw)(plan *, int);
+  } hard[] = {{"thin", draw_thin},
+              {"tiny", draw_tiny},
+              {"round", draw_round},
+              {"backs", draw_segments},
+              {"open", draw_open}};
+  static const int size[] = {1024, 5120, 10240};
+  print_titles();
+  for (size_t k = 0; k < sizeof hard / sizeof *hard; k++)
+    for (size_t m = 0; m < sizeof size / sizeof *size; m++)
+      measure_and_print(hard[k].name, hard[k].draw, size[m]);
+}
+
+/* From the first patch to rows, and with two threads. */
+static void measure_million(const family *f) {
+  const double start = hr2di_clock_now();
+  hr2d_scene *scene = scene_of(f->draw, 1000000, 0);
+  const double committed = hr2di_clock_now() - start;
+  measured m = {.patches = hr2d_scene_patches(scene), .entries = 1};
+  m.seconds = make_rows(scene, 1, &m);
+  const double all = hr2di_clock_now() - start;
+  printf("%s: %zu patches, %.2f s to commit, %.2f s for %llu entries", f->name, m.patches,
+         committed, m.seconds, (unsigned long long)m.entries);
+  const double two = make_rows(scene, 2, &m);
+  struct rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  const double gigabytes = (double)usage.ru_maxrss * 1024e-9;
+  printf(", %.2f s with two threads, %.2f GB\n", two, gigabytes);
+  bar("seconds", all, 60);
+  bar("GB", gigabytes, 2);
+  if (sysconf(_SC_NPROCESSORS_ONLN) > 1) bar("1.7 times two threads", 1.7 * two / m.seconds, 1);
+  hr2d_scene_destroy(scene);
 }
 
 /* Root links first, then small elements. */
@@ -407,15 +542,23 @@ static void measure_refinements(int most, double epsilon) {
 }
 
 int main(int argc, char **argv) {
+  static const char *const words[] = {"rows", "links", "growth", "hard", "million"};
+  enum { WORDS = sizeof words / sizeof *words, DEFAULT = 2 };
   const char *what = argc > 1 ? argv[1] : "";
-  if (*what && strcmp(what, "matrix") != 0 && strcmp(what, "links") != 0) {
-    fprintf(stderr, "usage: %s [matrix|links]\n", argv[0]);
+  int asked[WORDS], any = 0;
+  for (int k = 0; k < WORDS; k++)
+    any |= asked[k] = *what ? strcmp(what, words[k]) == 0 : k < DEFAULT;
+  if (!any) {
+    fprintf(stderr, "usage: %s [rows|growth|hard|million|links]\n", argv[0]);
     return 2;
   }
-  if (!*what || strcmp(what, "matrix") == 0) measure_matrices();
-  if (!*what || strcmp(what, "links") == 0) {
+  if (asked[0]) measure_families();
+  if (asked[1]) {
     measure_refinements(1000, 1. / 256);
     measure_forced(1. / 256);
   }
+  if (asked[2]) measure_growth();
+  if (asked[3]) measure_hard();
+  for (int k = 0; k < 2 && asked[4]; k++) measure_million(&families[k]);
   return failures ? EXIT_FAILURE : EXIT_SUCCESS;
 }

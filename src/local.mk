@@ -73,6 +73,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/scene.c \
 	src/scene/scene-impl.h \
 	src/scene/split-crossings.c \
+	src/scene/wall-pieces.c src/scene/wall-pieces.h \
 	src/formats/geojson.c \
 	src/formats/geojson-feature.c \
 	src/formats/geojson-geometry.c \
@@ -87,10 +88,16 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/events-impl.h \
 	src/visibility/events-rays.c \
 	src/visibility/exchange-matrix.c \
+	src/visibility/exchange-rows.c \
+	src/visibility/exchange-visit.c \
 	src/visibility/point-view.c src/visibility/point-view.h \
 	src/visibility/point-view-glimpse.c \
 	src/visibility/point-view-impl.h \
 	src/visibility/point-view-sweep.c \
+	src/visibility/row-maker.c src/visibility/row-maker.h \
+	src/visibility/row-sum.c src/visibility/row-sum.h \
+	src/visibility/sharing.c src/visibility/sharing.h \
+	src/visibility/side-parts.c src/visibility/side-parts.h \
 	src/hierarchy/hierarchy.c \
 	src/hierarchy/hierarchy-impl.h \
 	src/hierarchy/push-pull.c src/hierarchy/push-pull.h \

@@ -47,6 +47,7 @@ SUITES = \
 	tests/hard/check-hard-visibility \
 	tests/hard/check-hard-scenes \
 	tests/unit/visibility/check-exchange-matrix \
+	tests/unit/visibility/check-exchange-rows \
 	tests/unit/blocks/check-blocks \
 	tests/unit/blocks/check-directions \
 	tests/unit/solve/check-order \

@@ -71,6 +71,8 @@ tools_hr2d_SOURCES = \
 	tools/factors/csv.c \
 	tools/factors/factors.h \
 	tools/factors/json.c \
+	tools/factors/mtx.c \
+	tools/factors/row.c \
 	tools/pair/command.c \
 	tools/pair/line.c tools/pair/line.h
 

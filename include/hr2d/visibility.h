@@ -84,7 +84,7 @@ HR2D_API hr2d_status hr2d_exchange_area_past(const hr2d_segment *i, const hr2d_s
                                              const hr2d_segment *occluder, size_t count,
                                              const hr2d_past_options *options, double *area);
 
-/** Options of hr2d_exchange_matrix(). Start from #HR2D_MATRIX_OPTIONS_INIT. */
+/** Options of the calls for all patches. Start from #HR2D_MATRIX_OPTIONS_INIT. */
 typedef struct hr2d_matrix_options {
   size_t struct_size;        /**< so that the options can grow */
   unsigned threads;          /**< 0 for one, or #HR2D_ALL_THREADS; no bit depends on it */
@@ -104,17 +104,16 @@ typedef struct hr2d_matrix_options {
  */
 HR2D_API void hr2d_matrix_options_init(hr2d_matrix_options *options, size_t size);
 
-/** The work of hr2d_exchange_matrix(). */
+/** The work of the calls for all patches. */
 typedef struct hr2d_matrix_counts {
-  uint64_t exchange_areas;   /**< pairs of patches whose exchange area was computed */
-  uint64_t partial_pairs;    /**< of these, pairs integrated around occluders */
-  uint64_t blocked_pairs;    /**< pairs that occluders hide from each other */
-  uint64_t visibility_tests; /**< walls, and boxes of walls, tested against a shaft */
+  uint64_t exchange_areas;   /**< pairs of patches that see each other */
+  uint64_t partial_pairs;    /**< of these, pairs that occluders hide from each other in part */
+  uint64_t visibility_tests; /**< triangles between the patches that were looked through */
 } hr2d_matrix_counts;
 
 /**
- * The exchange areas of all pairs of patches. Row i, divided by hr2d_scene_length(i), has the
- * view factors F_ij.
+ * The exchange areas of all pairs of patches, as a full matrix. Row i, divided by
+ * hr2d_scene_length(i), has the view factors F_ij.
  * @param scene    committed
  * @param options  NULL for the defaults
  * @param area     receives n × n exchange areas in scene lengths, row by row, with n =
@@ -131,14 +130,98 @@ typedef struct hr2d_matrix_counts {
  * coordinate. If ends pass through other patches by a rounding, the sum is within 2⁻²⁸ of that
  * coordinate; hr2d_scene_commit() refuses scenes that would lose more.
  *
- * A run of patches on one line is treated as one wall as long as its view is completely clear
- * or completely blocked. Several calls may run on one scene at once. With several threads the
- * hooks of the scene are called from all of them. Cost O(n²), plus, for each pair of runs, one
- * test per wall in their shaft.
+ * Nothing is looked at that is not seen: beams start at each wall and end at what they meet,
+ * and patches on one line are one wall. Several calls may run on one scene at once. With
+ * several threads the hooks of the scene are called from all of them. Cost O(n²) for the
+ * matrix, O(n log n) to triangulate the plane between the walls, some 50 ns for each pair that
+ * sees each other and 15 ns for each triangle that beams pass, mostly four for each pair of
+ * walls.
  */
 HR2D_API hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene,
                                           const hr2d_matrix_options *options, double *area,
                                           hr2d_matrix_counts *counts);
+
+/** The exchange areas that are not 0, as compressed rows; opaque. */
+typedef struct hr2d_exchange_rows hr2d_exchange_rows;
+
+/**
+ * The exchange areas of all pairs of patches that see each other.
+ * @param scene    committed; need not outlive the rows
+ * @param options  NULL for the defaults
+ * @param rows     receives the rows; the caller destroys them with
+ *                 hr2d_exchange_rows_destroy(); unchanged on failure
+ * @param counts   receives the work; may be NULL
+ * @return as hr2d_exchange_matrix()
+ *
+ * The entries are those of hr2d_exchange_matrix(), bit for bit, without zeros. They take 12
+ * bytes each, and 18 while the call runs. Cost as there, but without the matrix: it grows with
+ * the pairs that see each other. The hooks of the scene provide the memory.
+ */
+HR2D_API hr2d_status hr2d_exchange_rows_create(const hr2d_scene *scene,
+                                               const hr2d_matrix_options *options,
+                                               hr2d_exchange_rows **rows,
+                                               hr2d_matrix_counts *counts);
+
+/** Frees the rows, and what the functions below returned; NULL is allowed. */
+HR2D_API void hr2d_exchange_rows_destroy(hr2d_exchange_rows *rows);
+
+/** The number of entries: twice the number of pairs that see each other. */
+HR2D_API uint64_t hr2d_exchange_rows_entries(const hr2d_exchange_rows *rows);
+
+/**
+ * Where the rows start: the entries of row i are [start[i], start[i + 1]).
+ * @return n + 1 items, which belong to the rows
+ */
+HR2D_API const uint64_t *hr2d_exchange_rows_start(const hr2d_exchange_rows *rows);
+
+/**
+ * The columns of the entries: the patches that patch i sees, in ascending order.
+ * @return an item per entry; belongs to the rows
+ */
+HR2D_API const uint32_t *hr2d_exchange_rows_column(const hr2d_exchange_rows *rows);
+
+/**
+ * The exchange areas of the entries in scene lengths, all above 0.
+ * @return an item per entry; belongs to the rows
+ */
+HR2D_API const double *hr2d_exchange_rows_area(const hr2d_exchange_rows *rows);
+
+/** A row, for hr2d_exchange_rows_visit(). */
+typedef struct hr2d_exchange_row {
+  size_t struct_size;     /**< its size as the library knows it */
+  size_t patch;           /**< i */
+  size_t count;           /**< how many patches it sees */
+  const uint32_t *column; /**< these patches, in ascending order */
+  const double *area;     /**< their exchange areas with i in scene lengths, all above 0 */
+} hr2d_exchange_row;
+
+/**
+ * Takes a row. What it points to is valid until the function returns.
+ * @param ctx  as given to hr2d_exchange_rows_visit()
+ * @param row  the row
+ * @return HR2D_OK, or a status that ends the call
+ */
+typedef hr2d_status (*hr2d_exchange_row_fn)(void *ctx, const hr2d_exchange_row *row);
+
+/**
+ * Shows all rows to a visitor, one after the other, and keeps none.
+ * @param scene    committed
+ * @param options  NULL for the defaults
+ * @param visit    called once for each patch, in the calling thread. The order is that of walls
+ *                 in the plane, and the same for each number of threads
+ * @param ctx      given to `visit`
+ * @param counts   receives the work; may be NULL
+ * @retval other   the status of the visitor; otherwise as hr2d_exchange_matrix()
+ *
+ * The rows have the entries of hr2d_exchange_rows_create(), which may differ by roundings where
+ * ends of patches are rounded points of a wall. Memory does not grow with the number of pairs:
+ * there are at most 64 rows for each of 16 blocks per thread at once. Each pair is found from
+ * both of its ends, so that the call takes up to twice the time of hr2d_exchange_rows_create().
+ */
+HR2D_API hr2d_status hr2d_exchange_rows_visit(const hr2d_scene *scene,
+                                              const hr2d_matrix_options *options,
+                                              hr2d_exchange_row_fn visit, void *ctx,
+                                              hr2d_matrix_counts *counts);
 
 #ifdef __cplusplus
 }

@@ -129,8 +129,7 @@ static int touches(hr2d_segment w, hr2d_point p) {
          along < length * length && !hr2di_point_same(p, w.a) && !hr2di_point_same(p, w.b);
 }
 
-/* The wall on whose inside p lies, if there is one. */
-static uint32_t host_of(const hr2di_walls *w, hr2d_point p) {
+uint32_t hr2di_walls_host(const hr2di_walls *w, hr2d_point p, uint32_t but) {
   uint32_t stack[HR2DI_BOX_DEPTH], count = 0;
   stack[count++] = 0;
   while (count > 0) {
@@ -141,7 +140,7 @@ static uint32_t host_of(const hr2di_walls *w, hr2d_point p) {
     if (box->wall == HR2DI_NO_WALL) {
       stack[count++] = box->below;
       stack[count++] = box->below + 1;
-    } else if (touches(w->wall[box->wall].at, p)) {
+    } else if (box->wall != but && touches(w->wall[box->wall].at, p)) {
       return box->wall;
     }
   }
@@ -179,7 +178,7 @@ hr2d_status hr2di_walls_init(hr2di_walls *walls, const hr2d_allocator *alloc,
   for (size_t k = 0; k < 2 * count && !status; k++) {
     status = hr2di_watch_work(watch, 4);
     uint32_t *host = &walls->host[r.vertex[2 * r.tip[k].segment + r.tip[k].which]];
-    if (*host == HR2DI_NO_WALL) *host = host_of(walls, r.tip[k].point);
+    if (*host == HR2DI_NO_WALL) *host = hr2di_walls_host(walls, r.tip[k].point, HR2DI_NO_WALL);
   }
   hr2di_alloc_free(alloc, r.parent);
   hr2di_alloc_free(alloc, r.span);

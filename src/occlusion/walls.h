@@ -50,6 +50,10 @@ typedef struct hr2di_walls {
 hr2d_status hr2di_walls_init(hr2di_walls *walls, const hr2d_allocator *alloc,
                              const hr2d_segment *segment, size_t count, hr2di_watch *watch);
 
+/* A wall on whose inside p lies, but for a rounding, and not the wall `but`; HR2DI_NO_WALL if
+   there is none. */
+uint32_t hr2di_walls_host(const hr2di_walls *walls, hr2d_point p, uint32_t but);
+
 void hr2di_walls_clear(hr2di_walls *walls);
 
 #endif

@@ -281,7 +281,7 @@ START_TEST(fans_are_fast) {
   plan_fan(&p, spokes);
   room t = open_room(&p);
   const double error = checked_rows("fan", &t, 0);
-  const double pairs = (double)(t.counts.exchange_areas + t.counts.blocked_pairs);
+  const double pairs = (double)t.patches * ((double)t.patches - 1) / 2;
   const double tests = (double)t.counts.visibility_tests / pairs;
   ck_assert_double_lt(tests, 64);
   hard_case("visibility", "a fan of 1000 walls that meet in a point",

@@ -190,6 +190,31 @@ static hr2d_status find_factors(slow_stage *s) {
   return hr2d_exchange_matrix(s->scene, &o, s->area, NULL);
 }
 
+static hr2d_status find_rows(slow_stage *s) {
+  hr2d_matrix_options o = HR2D_MATRIX_OPTIONS_INIT;
+  hr2d_exchange_rows *rows = NULL;
+  o.threads = s->threads;
+  o.progress = s->ask;
+  o.progress_ctx = s->ctx;
+  const hr2d_status status = hr2d_exchange_rows_create(s->scene, &o, &rows, NULL);
+  hr2d_exchange_rows_destroy(rows);
+  return status;
+}
+
+static hr2d_status pass_over(void *ctx, const hr2d_exchange_row *row) {
+  (void)ctx;
+  (void)row;
+  return HR2D_OK;
+}
+
+static hr2d_status visit_rows(slow_stage *s) {
+  hr2d_matrix_options o = HR2D_MATRIX_OPTIONS_INIT;
+  o.threads = s->threads;
+  o.progress = s->ask;
+  o.progress_ctx = s->ctx;
+  return hr2d_exchange_rows_visit(s->scene, &o, pass_over, NULL, NULL);
+}
+
 static hr2d_status refine(slow_stage *s) {
   hr2d_refine_options o = fine(s);
   o.progress = s->ask;
@@ -281,6 +306,8 @@ const slow_phase slow_phases[SLOW_PHASES] = {
     {"events", make_scene, find_events},
     {"roots", make_scene, find_roots},
     {"factors", make_matrix, find_factors},
+    {"rows", make_scene, find_rows},
+    {"visit", make_scene, visit_rows},
     {"refine", make_empty, refine},
     {"refine l1", make_grid, refine_some},
     {"count", make_empty, count_links},

@@ -99,11 +99,13 @@ int options_check(const options *o, const given_options *given) {
 int options_check_outputs(const options *o) {
   int status = output_check(o->json);
   if (!status) status = output_check(o->csv);
+  if (!status) status = output_check(o->mtx);
   if (!status) status = output_check(o->state);
   if (!status) status = output_check(o->draw);
   return status ? status : output_check(o->plot);
 }
 
 int options_want_table(const options *o) {
-  return !o->quiet && !output_is_stdout(o->json) && !output_is_stdout(o->csv);
+  return !o->quiet && !output_is_stdout(o->json) && !output_is_stdout(o->csv) &&
+         !output_is_stdout(o->mtx);
 }

@@ -88,7 +88,7 @@ typedef struct options {
   place links_of;
   unsigned link_level;
   int link_parents, plot_log, resume;
-  const char *json, *csv, *draw, *plot; /* file names; NULL: not given */
+  const char *json, *csv, *mtx, *draw, *plot; /* file names; NULL: not given */
 } options;
 
 /* Reads the command line.  Returns 0, or the exit status after an error message.  The strings

@@ -13,47 +13,47 @@
 #include "output/progress.h"
 #include "output/table.h"
 
-/* The matrix, and two rows more for the sums. */
+/* Two sums for each row, and a row. */
 static int make_room(factors *f) {
   const size_t n = f->patches;
-  const double bytes = (double)n * ((double)n + 2) * sizeof *f->factor;
-  if (n + 2 <= SIZE_MAX / sizeof *f->factor / n)
-    f->factor = malloc(n * (n + 2) * sizeof *f->factor);
-  if (!f->factor)
-    return complain(f->options->scene, "out of memory: the factors of %zu patches take %.3g MB",
-                    n, bytes / 1e6);
-  f->row_sum = f->factor + n * n;
+  f->row_sum =
+      n <= SIZE_MAX / 3 / sizeof *f->row_sum ? malloc(3 * n * sizeof *f->row_sum) : NULL;
+  if (!f->row_sum) return complain_memory();
   f->missing = f->row_sum + n;
+  f->row = f->missing + n;
   return 0;
 }
 
 static int integrate(factors *f) {
   progress p;
-  hr2d_matrix_options matrix = HR2D_MATRIX_OPTIONS_INIT;
+  hr2d_matrix_options how = HR2D_MATRIX_OPTIONS_INIT;
   progress_start(&p, f->options->quiet);
-  matrix.threads = options_threads(f->options);
-  matrix.progress = progress_show;
-  matrix.progress_ctx = &p;
+  how.threads = options_threads(f->options);
+  how.progress = progress_show;
+  how.progress_ctx = &p;
   const double start = clock_seconds();
-  const hr2d_status status = hr2d_exchange_matrix(f->scene, &matrix, f->factor, &f->counts);
+  const hr2d_status status = hr2d_exchange_rows_create(f->scene, &how, &f->rows, &f->counts);
   f->seconds = clock_seconds() - start;
   progress_clear(&p);
   progress_end();
+  if (status == HR2D_ENOMEM)
+    return complain(f->options->scene, "out of memory: the factors of %zu patches do not fit",
+                    f->patches);
   return status ? complain_call(f->options->scene, "", status) : 0;
 }
 
-/* From AF to F.  In a closed scene 1 − Σ F_ij is a small difference: the rounding errors of the
-   sum are summed, too (Neumaier). */
-static void divide(factors *f) {
-  const size_t n = f->patches;
-  for (size_t i = 0; i < n; i++) {
+/* In a closed scene 1 − Σ F_ij is a small difference: the rounding errors of the sum are
+   summed, too (Neumaier). */
+static void sum_rows(factors *f) {
+  const uint64_t *start = hr2d_exchange_rows_start(f->rows);
+  const double *area = hr2d_exchange_rows_area(f->rows);
+  for (size_t i = 0; i < f->patches; i++) {
     const double length = hr2d_scene_length(f->scene, i);
-    double *row = f->factor + i * n, sum = 0, lost = 0;
-    for (size_t j = 0; j < n; j++) {
-      const double next = sum + row[j];
-      lost += sum >= row[j] ? (sum - next) + row[j] : (row[j] - next) + sum;
+    double sum = 0, lost = 0;
+    for (uint64_t k = start[i]; k < start[i + 1]; k++) {
+      const double next = sum + area[k];
+      lost += sum >= area[k] ? (sum - next) + area[k] : (area[k] - next) + sum;
       sum = next;
-      row[j] /= length;
     }
     f->row_sum[i] = (sum + lost) / length;
     f->missing[i] = ((length - sum) - lost) / length;
@@ -84,9 +84,9 @@ static void print_factors(const factors *f, double total_seconds) {
                          {"visibility tests", n->visibility_tests}};
   scene_print(f->options, 10, f->cuts);
   printf("patches   %zu\n", f->patches);
-  printf("pairs     %llu clear, %llu partly visible, %llu blocked\n",
+  printf("pairs     %llu clear, %llu partly visible, %llu see nothing of each other\n",
          (unsigned long long)(n->exchange_areas - n->partial_pairs),
-         (unsigned long long)n->partial_pairs, (unsigned long long)n->blocked_pairs);
+         (unsigned long long)n->partial_pairs, (unsigned long long)factors_unseen(f));
   print_patches(f);
   printf("worst     |1 - row sum| = %.3e, of patch %zu (%s)\n", fabs(f->missing[worst]), worst,
          hr2d_scene_name(f->scene, worst));
@@ -99,6 +99,7 @@ static int report(const factors *f, double start) {
   int status = 0;
   if (options_want_table(o)) print_factors(f, clock_seconds() - start);
   if (o->csv) status = factors_write_csv(f);
+  if (o->mtx && !status) status = factors_write_mtx(f);
   if (o->json && !status) status = factors_write_json(f, o->json);
   return status;
 }
@@ -115,10 +116,11 @@ int factors_command(const options *o) {
   status = make_room(&f);
   if (!status) status = integrate(&f);
   if (!status) {
-    divide(&f);
+    sum_rows(&f);
     status = report(&f, start);
   }
-  free(f.factor);
+  hr2d_exchange_rows_destroy(f.rows);
+  free(f.row_sum);
   hr2d_scene_destroy(scene);
   return status;
 }

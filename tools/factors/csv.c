@@ -16,7 +16,10 @@ int factors_write_csv(const factors *f) {
     csv_text(out.stream, hr2d_scene_name(f->scene, k));
     fputc(k + 1 < n ? ',' : '\n', out.stream);
   }
-  for (size_t k = 0; k < n * n && !ferror(out.stream); k++)
-    fprintf(out.stream, "%.17g%c", f->factor[k], (k + 1) % n ? ',' : '\n');
+  for (size_t i = 0; i < n && !ferror(out.stream); i++) {
+    const double *row = factors_row(f, i);
+    for (size_t k = 0; k < n; k++)
+      fprintf(out.stream, "%.17g%c", row[k], k + 1 < n ? ',' : '\n');
+  }
   return output_close(&out, 0);
 }

@@ -11,16 +11,26 @@ typedef struct factors {
   const options *options;
   const hr2d_scene *scene;
   size_t patches;
-  double *factor;  /* patches × patches, row by row */
+  hr2d_exchange_rows *rows;
   double *row_sum; /* Σ F_ij */
   double *missing; /* 1 − Σ F_ij, without the rounding errors of the row sum */
+  double *row;     /* one row of F_ij, with its zeros */
   hr2d_matrix_counts counts;
   size_t cuts;    /* of --split-crossings */
   double seconds; /* for all exchange areas */
 } factors;
 
+/* row.c: returns row i of F_ij with its zeros, which lasts until the next call. */
+const double *factors_row(const factors *f, size_t i);
+
+/* How many pairs see nothing of each other. */
+uint64_t factors_unseen(const factors *f);
+
 /* csv.c: a line of names, then a row of F_ij for each patch. */
 int factors_write_csv(const factors *f);
+
+/* mtx.c: the entries that are not 0 in the coordinate format of Matrix Market. */
+int factors_write_mtx(const factors *f);
 
 /* json.c */
 int factors_write_json(const factors *f, const char *path);

@@ -31,7 +31,7 @@ static json_t *patch_entry(const factors *f, size_t k) {
 }
 
 static json_t *row(const factors *f, size_t k) {
-  return json_numbers(f->factor + k * f->patches, f->patches);
+  return json_numbers(factors_row(f, k), f->patches);
 }
 
 /* An array with an item per patch, each on its own line. */
@@ -51,7 +51,7 @@ static json_t *work(const factors *f) {
   json_t *object = json_object();
   json_put(&object, "exchange_areas", json_count(f->counts.exchange_areas));
   json_put(&object, "partial_pairs", json_count(f->counts.partial_pairs));
-  json_put(&object, "blocked_pairs", json_count(f->counts.blocked_pairs));
+  json_put(&object, "unseen_pairs", json_count(factors_unseen(f)));
   json_put(&object, "visibility_tests", json_count(f->counts.visibility_tests));
   return object;
 }

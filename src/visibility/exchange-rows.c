@@ -1,0 +1,274 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Exchange areas as compressed rows.
+
+   Threads make half rows and keep them in chunks of their own.  A row of the result is the half
+   row of its patch, and what other half rows have in its column.  As these are visited in
+   order, both parts are sorted and are merged. */
+#include <hr2d/visibility.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/sized-struct.h"
+#include "scene/scene-impl.h"
+#include "visibility/row-maker.h"
+
+enum { CHUNK = 1 << 15, MOST_THREADS = 256 };
+
+struct hr2d_exchange_rows {
+  hr2d_allocator alloc;
+  uint64_t *start;
+  uint32_t *column;
+  double *area;
+  size_t patches;
+};
+
+/* Entries of half rows, all of the same thread. */
+typedef struct chunk {
+  struct chunk *next;
+  uint32_t *column;
+  double *area;
+  size_t used, room;
+} chunk;
+
+typedef struct half_row {
+  const uint32_t *column;
+  const double *area;
+  uint32_t count;
+} half_row;
+
+typedef struct builder {
+  hr2di_row_maker maker;
+  hr2di_watch *watch;
+  const hr2d_allocator *alloc;
+  hr2d_exchange_rows *rows;
+  half_row *half; /* per patch */
+  uint64_t *fill; /* per patch: behind its last entry so far */
+  double unit;
+  uint32_t *column; /* a row while it is merged */
+  double *area;
+  chunk *chunk[MOST_THREADS];
+  hr2d_matrix_counts counts;
+} builder;
+
+/* ---- half rows */
+
+static chunk *add_chunk(builder *b, size_t worker, size_t needed) {
+  const size_t room = needed > CHUNK ? needed : CHUNK;
+  chunk *c = hr2di_alloc_zero(b->alloc, 1, sizeof *c);
+  if (!c) return NULL;
+  c->next = b->chunk[worker];
+  c->room = room;
+  b->chunk[worker] = c;
+  c->column = hr2di_alloc(b->alloc, room, sizeof *c->column);
+  c->area = hr2di_alloc(b->alloc, room, sizeof *c->area);
+  return c->column && c->area ? c : NULL;
+}
+
+static hr2d_status keep_row(void *ctx, size_t worker, const hr2di_row *row) {
+  builder *b = ctx;
+  chunk *c = b->chunk[worker];
+  if (row->count == 0) return HR2D_OK;
+  if (!c || c->room - c->used < row->count) c = add_chunk(b, worker, row->count);
+  if (!c) return HR2D_ENOMEM;
+  uint32_t *column = c->column + c->used;
+  double *area = c->area + c->used;
+  memcpy(column, row->column, row->count * sizeof *column);
+  for (size_t k = 0; k < row->count; k++) area[k] = row->area[k] * b->unit;
+  c->used += row->count;
+  b->half[row->patch] = (half_row){column, area, (uint32_t)row->count};
+  return HR2D_OK;
+}
+
+static void free_chunks(builder *b) {
+  for (size_t k = 0; k < MOST_THREADS; k++)
+    while (b->chunk[k]) {
+      chunk *c = b->chunk[k];
+      b->chunk[k] = c->next;
+      hr2di_alloc_free(b->alloc, c->column);
+      hr2di_alloc_free(b->alloc, c->area);
+      hr2di_alloc_free(b->alloc, c);
+    }
+}
+
+/* ---- whole rows */
+
+/* Sets the starts of rows that have a place for each half of each pair. */
+static hr2d_status count_entries(builder *b) {
+  const size_t n = b->rows->patches;
+  uint64_t *start = b->rows->start;
+  hr2d_status status = HR2D_OK;
+  for (size_t i = 0; i < n && !status; i++) {
+    const half_row *h = &b->half[i];
+    start[i + 1] += h->count;
+    for (uint32_t k = 0; k < h->count; k++) start[(h->column[k] & ~HR2DI_PARTIAL) + 1]++;
+    status = hr2di_watch_work(b->watch, 1 + h->count / 32);
+  }
+  for (size_t i = 0; i < n; i++) start[i + 1] += start[i];
+  return status;
+}
+
+static hr2d_status reserve_entries(builder *b) {
+  hr2d_exchange_rows *r = b->rows;
+  size_t longest = 0;
+  if (r->start[r->patches] > SIZE_MAX / sizeof *r->area) return HR2D_ENOMEM;
+  for (size_t i = 0; i < r->patches; i++) {
+    const size_t length = (size_t)(r->start[i + 1] - r->start[i]);
+    if (length > longest) longest = length;
+  }
+  const size_t entries = (size_t)r->start[r->patches];
+  r->column = hr2di_alloc(b->alloc, entries, sizeof *r->column);
+  r->area = hr2di_alloc(b->alloc, entries, sizeof *r->area);
+  b->fill = hr2di_alloc(b->alloc, r->patches, sizeof *b->fill);
+  b->column = hr2di_alloc(b->alloc, longest, sizeof *b->column);
+  b->area = hr2di_alloc(b->alloc, longest, sizeof *b->area);
+  return r->column && r->area && b->fill && b->column && b->area ? HR2D_OK : HR2D_ENOMEM;
+}
+
+/* The half row of i first, then what others have in column i. */
+static hr2d_status scatter(builder *b) {
+  hr2d_exchange_rows *r = b->rows;
+  hr2d_status status = HR2D_OK;
+  for (size_t i = 0; i < r->patches; i++) b->fill[i] = r->start[i] + b->half[i].count;
+  for (size_t i = 0; i < r->patches && !status; i++) {
+    const half_row *h = &b->half[i];
+    for (uint32_t k = 0; k < h->count; k++) {
+      const uint64_t at = b->fill[h->column[k] & ~HR2DI_PARTIAL]++;
+      r->column[at] = (uint32_t)i | (h->column[k] & HR2DI_PARTIAL);
+      r->area[at] = h->area[k];
+    }
+    if (h->count > 0) {
+      memcpy(r->column + r->start[i], h->column, h->count * sizeof *r->column);
+      memcpy(r->area + r->start[i], h->area, h->count * sizeof *r->area);
+    }
+    status = hr2di_watch_work(b->watch, 1 + h->count / 16);
+  }
+  return status;
+}
+
+/* Merges the two parts of row i and moves it to `to`; returns its length.  The loop has no
+   branches that depend on the columns but for the end of a part. */
+static size_t merge(builder *b, size_t i, uint64_t first, uint64_t last, uint64_t to) {
+  const size_t half = b->half[i].count, count = (size_t)(last - first);
+  uint32_t *column = b->rows->column + to;
+  double *area = b->rows->area + to;
+  size_t head = 0, tail = half, made = 0, partial = 0;
+  memcpy(b->column, b->rows->column + first, count * sizeof *b->column);
+  memcpy(b->area, b->rows->area + first, count * sizeof *b->area);
+  while (head < half && tail < count) {
+    const uint32_t p = b->column[head] & ~HR2DI_PARTIAL, q = b->column[tail] & ~HR2DI_PARTIAL;
+    const size_t from = p < q ? head : tail;
+    const uint32_t both = p == q ? b->column[head] : 0;
+    column[made] = p < q ? p : q;
+    area[made++] = b->area[from] + (p == q ? b->area[head] : 0);
+    partial += (b->column[from] | both) >> 31;
+    head += p <= q;
+    tail += q <= p;
+  }
+  const size_t rest = head < half ? head : tail, end = head < half ? half : count;
+  for (size_t k = rest; k < end; k++) {
+    column[made] = b->column[k] & ~HR2DI_PARTIAL;
+    area[made++] = b->area[k];
+    partial += b->column[k] >> 31;
+  }
+  b->counts.partial_pairs += partial;
+  return made;
+}
+
+static hr2d_status merge_all(builder *b) {
+  hr2d_exchange_rows *r = b->rows;
+  hr2d_status status = HR2D_OK;
+  uint64_t first = 0, made = 0;
+  for (size_t i = 0; i < r->patches && !status; i++) {
+    const uint64_t last = r->start[i + 1];
+    const size_t count = merge(b, i, first, last, made);
+    r->start[i] = made;
+    made += count;
+    first = last;
+    status = hr2di_watch_work(b->watch, 1 + count / 32);
+  }
+  r->start[r->patches] = made;
+  b->counts.exchange_areas = made / 2;
+  b->counts.partial_pairs /= 2;
+  return status;
+}
+
+static hr2d_status reserve_rows(builder *b) {
+  const size_t n = b->rows->patches;
+  b->rows->start = hr2di_alloc_zero(b->alloc, n + 1, sizeof *b->rows->start);
+  b->half = hr2di_alloc_zero(b->alloc, n, sizeof *b->half);
+  return b->rows->start && b->half ? HR2D_OK : HR2D_ENOMEM;
+}
+
+static void describe(void *of, hr2d_progress *told) {
+  told->fraction = hr2di_row_maker_fraction(of);
+}
+
+static hr2d_status build(builder *b) {
+  hr2di_watch_describe(b->watch, describe, &b->maker);
+  hr2d_status status = reserve_rows(b);
+  if (!status) status = hr2di_row_maker_run(&b->maker, 0, b->maker.tasks, keep_row, b);
+  if (!status) status = count_entries(b);
+  if (!status) status = reserve_entries(b);
+  if (!status) status = scatter(b);
+  free_chunks(b);
+  if (!status) status = merge_all(b);
+  if (!status) status = hr2di_watch_ask(b->watch);
+  b->counts.visibility_tests = hr2di_row_maker_steps(&b->maker);
+  hr2di_alloc_free(b->alloc, b->half);
+  hr2di_alloc_free(b->alloc, b->fill);
+  hr2di_alloc_free(b->alloc, b->column);
+  hr2di_alloc_free(b->alloc, b->area);
+  return status;
+}
+
+hr2d_status hr2d_exchange_rows_create(const hr2d_scene *scene,
+                                      const hr2d_matrix_options *options,
+                                      hr2d_exchange_rows **rows, hr2d_matrix_counts *counts) {
+  if (!scene->committed) return HR2D_ESTATE;
+  hr2d_matrix_options o = HR2D_MATRIX_OPTIONS_INIT;
+  hr2d_status status = hr2di_sized_copy(&o, sizeof o, options);
+  if (status) return status;
+  hr2di_watch watch;
+  hr2di_scene_watch(scene, &watch, o.progress, o.progress_ctx, "factors");
+  hr2d_exchange_rows *made = hr2di_alloc_zero(&scene->alloc, 1, sizeof *made);
+  if (!made) return HR2D_ENOMEM;
+  made->alloc = scene->alloc;
+  made->patches = scene->patches;
+  builder b = {
+      .watch = &watch, .alloc = &made->alloc, .rows = made, .unit = hr2d_scene_unit(scene)};
+  status = hr2di_row_maker_init(&b.maker, scene, o.threads, 0, &watch);
+  if (!status) status = build(&b);
+  hr2di_row_maker_clear(&b.maker);
+  if (status) {
+    hr2d_exchange_rows_destroy(made);
+    return status;
+  }
+  if (counts) *counts = b.counts;
+  *rows = made;
+  return HR2D_OK;
+}
+
+void hr2d_exchange_rows_destroy(hr2d_exchange_rows *rows) {
+  if (!rows) return;
+  const hr2d_allocator alloc = rows->alloc;
+  hr2di_alloc_free(&alloc, rows->start);
+  hr2di_alloc_free(&alloc, rows->column);
+  hr2di_alloc_free(&alloc, rows->area);
+  hr2di_alloc_free(&alloc, rows);
+}
+
+uint64_t hr2d_exchange_rows_entries(const hr2d_exchange_rows *rows) {
+  return rows->start[rows->patches];
+}
+
+const uint64_t *hr2d_exchange_rows_start(const hr2d_exchange_rows *rows) {
+  return rows->start;
+}
+
+const uint32_t *hr2d_exchange_rows_column(const hr2d_exchange_rows *rows) {
+  return rows->column;
+}
+
+const double *hr2d_exchange_rows_area(const hr2d_exchange_rows *rows) {
+  return rows->area;
+}

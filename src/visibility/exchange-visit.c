@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Exchange areas row by row.  Threads make the rows of some blocks and keep them; then the
+   calling thread shows them in the order of the blocks. */
+#include <hr2d/visibility.h>
+
+#include "base/alloc.h"
+#include "base/sized-struct.h"
+#include "scene/scene-impl.h"
+#include "visibility/row-maker.h"
+
+enum { BLOCKS = 16 };
+
+/* A row of a round, in the memory of its thread. */
+typedef struct kept_row {
+  size_t first, count; /* among the entries of the thread */
+  uint32_t patch;
+  uint32_t worker;
+} kept_row;
+
+/* The entries that a thread has made in a round. */
+typedef struct store {
+  uint32_t *column;
+  double *area;
+  size_t used, room[2];
+} store;
+
+typedef struct visit {
+  hr2di_row_maker maker;
+  const hr2d_allocator *alloc;
+  hr2di_watch *watch;
+  double unit;
+  store *store;   /* per thread */
+  kept_row *kept; /* per patch */
+  hr2d_exchange_row_fn show;
+  void *ctx;
+  hr2d_matrix_counts counts;
+} visit;
+
+static hr2d_status keep_row(void *ctx, size_t worker, const hr2di_row *row) {
+  visit *v = ctx;
+  store *s = &v->store[worker];
+  const size_t needed = s->used + row->count;
+  if (hr2di_alloc_reserve(v->alloc, &s->column, &s->room[0], needed, sizeof *s->column) ||
+      hr2di_alloc_reserve(v->alloc, &s->area, &s->room[1], needed, sizeof *s->area))
+    return HR2D_ENOMEM;
+  for (size_t k = 0; k < row->count; k++) {
+    s->column[s->used + k] = row->column[k];
+    s->area[s->used + k] = row->area[k] * v->unit;
+  }
+  v->kept[row->patch] = (kept_row){s->used, row->count, row->patch, (uint32_t)worker};
+  s->used = needed;
+  return HR2D_OK;
+}
+
+static hr2d_status show_row(visit *v, uint32_t patch) {
+  const kept_row kept = v->kept[patch];
+  const store *s = &v->store[kept.worker];
+  uint32_t *column = s->column ? s->column + kept.first : NULL;
+  for (size_t k = 0; k < kept.count; k++) {
+    v->counts.partial_pairs += (column[k] & HR2DI_PARTIAL) != 0;
+    column[k] &= ~HR2DI_PARTIAL;
+  }
+  v->counts.exchange_areas += kept.count;
+  const hr2d_exchange_row row = {sizeof row, patch, kept.count, column,
+                                 s->area ? s->area + kept.first : NULL};
+  const hr2d_status status = v->show(v->ctx, &row);
+  return status ? status : hr2di_watch_work(v->watch, 1 + kept.count / 32);
+}
+
+static hr2d_status show_all(visit *v) {
+  const hr2di_row_maker *m = &v->maker;
+  const size_t round = BLOCKS * m->workers;
+  hr2d_status status = HR2D_OK;
+  for (size_t first = 0, last; first < m->tasks && !status; first = last) {
+    last = m->tasks - first < round ? m->tasks : first + round;
+    for (size_t k = 0; k < m->workers; k++) v->store[k].used = 0;
+    status = hr2di_row_maker_run(&v->maker, first, last, keep_row, v);
+    for (size_t task = first; task < last && !status; task++)
+      for (uint32_t k = m->task[task].first; k < m->task[task].last && !status; k++)
+        status = show_row(v, m->runs.patch[k]);
+  }
+  v->counts.exchange_areas /= 2;
+  v->counts.partial_pairs /= 2;
+  v->counts.visibility_tests = hr2di_row_maker_steps(m);
+  return status;
+}
+
+static void describe(void *of, hr2d_progress *told) {
+  told->fraction = hr2di_row_maker_fraction(of);
+}
+
+static hr2d_status run(visit *v, size_t patches) {
+  hr2di_watch_describe(v->watch, describe, &v->maker);
+  v->store = hr2di_alloc_zero(v->alloc, v->maker.workers, sizeof *v->store);
+  v->kept = hr2di_alloc(v->alloc, patches, sizeof *v->kept);
+  hr2d_status status = v->store && v->kept ? show_all(v) : HR2D_ENOMEM;
+  for (size_t k = 0; k < v->maker.workers && v->store; k++) {
+    hr2di_alloc_free(v->alloc, v->store[k].column);
+    hr2di_alloc_free(v->alloc, v->store[k].area);
+  }
+  hr2di_alloc_free(v->alloc, v->store);
+  hr2di_alloc_free(v->alloc, v->kept);
+  return status ? status : hr2di_watch_ask(v->watch);
+}
+
+hr2d_status hr2d_exchange_rows_visit(const hr2d_scene *scene,
+                                     const hr2d_matrix_options *options,
+                                     hr2d_exchange_row_fn show, void *ctx,
+                                     hr2d_matrix_counts *counts) {
+  if (!scene->committed) return HR2D_ESTATE;
+  hr2d_matrix_options o = HR2D_MATRIX_OPTIONS_INIT;
+  hr2d_status status = hr2di_sized_copy(&o, sizeof o, options);
+  if (status) return status;
+  hr2di_watch watch;
+  hr2di_scene_watch(scene, &watch, o.progress, o.progress_ctx, "factors");
+  visit v = {.alloc = &scene->alloc,
+             .watch = &watch,
+             .unit = hr2d_scene_unit(scene),
+             .show = show,
+             .ctx = ctx};
+  status = hr2di_row_maker_init(&v.maker, scene, o.threads, 1, &watch);
+  if (!status) status = run(&v, scene->patches);
+  hr2di_row_maker_clear(&v.maker);
+  if (!status && counts) *counts = v.counts;
+  return status;
+}

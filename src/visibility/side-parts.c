@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cuts the patches of a run at the vertices of the run's wall. */
+#include "visibility/side-parts.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "geometry/vector.h"
+#include "scene/scene-impl.h"
+
+/* A vertex so near to the end of a patch is that end: the triangulation moves ends of walls by
+   at most 4 units in the last place of scaled coordinates, and by less where a wall is short.
+ */
+static double nearness(double wall, double patch) {
+  return fmin(fmin(0x1p-49, 0x1p-20 * wall), patch / 4);
+}
+
+typedef struct cutter {
+  hr2di_side_parts *made;
+  const hr2d_scene *scene;
+  const hr2di_runs *runs;
+  hr2d_segment along; /* the wall, in the direction of the run */
+  double length;      /* of the wall */
+  uint32_t wall;
+  uint32_t place; /* the first patch that is not done */
+  uint32_t last;
+  size_t room; /* for parts */
+} cutter;
+
+/* Where a point lies in the direction of the run. */
+static double at(const cutter *c, hr2d_point p) {
+  return hr2di_point_along(c->along, p);
+}
+
+static void add(cutter *c, hr2di_wall_side side, hr2d_point a, hr2d_point b, uint32_t patch) {
+  c->made->part[c->made->parts++] = (hr2di_side_part){{a, b}, patch, c->place, side};
+}
+
+/* The side of the only edge of a ring that triangles know. */
+static hr2di_wall_side known(const hr2di_triangulation *t, hr2di_wall_side side) {
+  const uint32_t edge = side >> 1;
+  uint32_t least = edge;
+  for (uint32_t k = t->edge[edge].same; k != edge; k = t->edge[k].same)
+    if (k < least) least = k;
+  const uint32_t turned = t->edge[least].from != t->edge[edge].from;
+  return 2 * least + ((side ^ turned) & 1);
+}
+
+/* Where walls share a stretch within a rounding, with patches of both on one side, those that
+   came first hide the others. */
+static void take_side(cutter *c, hr2di_wall_side side, hr2di_parts parts) {
+  if (c->made->wanted[side]) {
+    for (uint32_t k = parts.first; k < parts.last; k++) c->made->part[k].patch = HR2DI_NOBODY;
+    return;
+  }
+  c->made->of_side[side] = (hr2di_side){parts, c->wall};
+  c->made->wanted[side] = 1;
+}
+
+/* The patches along one side, and what is between them. */
+static void cut_side(cutter *c, hr2di_wall_side side, hr2d_segment s) {
+  const double start = at(c, s.a), end = at(c, s.b);
+  const uint32_t first = (uint32_t)c->made->parts;
+  int somebody = 0;
+  hr2d_point done = s.a;
+  while (c->place < c->last) {
+    const uint32_t number = c->runs->patch[c->place];
+    const hr2d_segment patch = c->scene->patch[number].scaled;
+    const double from = at(c, patch.a), to = at(c, patch.b);
+    const double near = nearness(c->length, to - from);
+    if (from >= end - near) break;
+    if (to > start + near) {
+      if (from > at(c, done) + near) add(c, side, done, patch.a, HR2DI_NOBODY);
+      const int ends = to <= end + near;
+      done = ends ? patch.b : s.b;
+      add(c, side, from >= start - near ? patch.a : s.a, done, number);
+      somebody = 1;
+      if (!ends) break;
+    }
+    c->place++;
+  }
+  if (somebody && at(c, done) < end - nearness(c->length, end - start))
+    add(c, side, done, s.b, HR2DI_NOBODY);
+  if (somebody) take_side(c, side, (hr2di_parts){first, (uint32_t)c->made->parts});
+}
+
+/* A patch is cut at vertices of its wall, and each patch and each edge has at most one stretch
+   without patches before or behind it. */
+static hr2d_status cut_run(cutter *c, const hr2di_wall_pieces *pieces,
+                           const hr2di_triangulation *t, size_t run) {
+  const hr2di_run r = c->runs->run[run];
+  const uint32_t patch = c->runs->patch[r.first], wall = c->scene->walls.of_segment[patch];
+  const hr2d_segment s = c->scene->patch[patch].scaled, w = c->scene->walls.wall[wall].at;
+  const uint32_t back = hr2di_point_along(w, s.a) > hr2di_point_along(w, s.b);
+  c->along = back ? (hr2d_segment){w.b, w.a} : w;
+  c->wall = wall;
+  c->length = hypot(w.b.x - w.a.x, w.b.y - w.a.y);
+  c->place = r.first;
+  c->last = r.last;
+  const uint32_t first = t->edge_of[pieces->of_wall[wall]];
+  const uint32_t edges = t->edge_of[pieces->of_wall[wall + 1]] - first;
+  const uint32_t start = (uint32_t)c->made->parts;
+  const size_t needed = c->made->parts + 2 * ((size_t)(r.last - r.first) + edges);
+  if (needed > UINT32_MAX / 2 || hr2di_alloc_reserve(&c->made->alloc, &c->made->part, &c->room,
+                                                     needed, sizeof *c->made->part))
+    return HR2D_ENOMEM;
+  for (uint32_t k = 0; k < edges; k++) {
+    const hr2di_wall_side side = known(t, 2 * (first + (back ? edges - 1 - k : k)) + back);
+    cut_side(c, side, hr2di_wall_side_at(t, side));
+  }
+  c->made->of_run[run] = (hr2di_parts){start, (uint32_t)c->made->parts};
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_side_parts_init(hr2di_side_parts *parts, const hr2d_scene *scene,
+                                  const hr2di_runs *runs, const hr2di_wall_pieces *pieces,
+                                  const hr2di_triangulation *t, hr2di_watch *watch) {
+  const size_t sides = 2 * t->edges;
+  *parts = (hr2di_side_parts){.alloc = scene->alloc};
+  parts->of_side = hr2di_alloc_zero(&scene->alloc, sides, sizeof *parts->of_side);
+  parts->of_run = hr2di_alloc(&scene->alloc, runs->runs, sizeof *parts->of_run);
+  parts->wanted = hr2di_alloc_zero(&scene->alloc, sides, sizeof *parts->wanted);
+  if (!parts->of_side || !parts->of_run || !parts->wanted) return HR2D_ENOMEM;
+  cutter c = {.made = parts, .scene = scene, .runs = runs};
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < runs->runs && !status; k++) {
+    status = hr2di_watch_work(watch, 1 + (runs->run[k].last - runs->run[k].first) / 4);
+    if (!status) status = cut_run(&c, pieces, t, k);
+  }
+  return status;
+}
+
+void hr2di_side_parts_clear(hr2di_side_parts *parts) {
+  hr2di_alloc_free(&parts->alloc, parts->part);
+  hr2di_alloc_free(&parts->alloc, parts->of_side);
+  hr2di_alloc_free(&parts->alloc, parts->of_run);
+  hr2di_alloc_free(&parts->alloc, parts->wanted);
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which patches lie along which side of the wall edges of a triangulation. */
+#ifndef HR2D_SRC_VISIBILITY_SIDE_PARTS_H
+#define HR2D_SRC_VISIBILITY_SIDE_PARTS_H
+
+#include "scene/patch-runs.h"
+#include "scene/wall-pieces.h"
+#include "sight/walk.h"
+
+#define HR2DI_NOBODY UINT32_MAX
+
+/* A part of one patch, or of a stretch without patches, on one side of a wall edge. */
+typedef struct hr2di_side_part {
+  hr2d_segment at; /* an end that is an end of the patch has its coordinates */
+  uint32_t patch;  /* or HR2DI_NOBODY */
+  uint32_t place;  /* of the patch in hr2di_runs::patch */
+  hr2di_wall_side side;
+} hr2di_side_part;
+
+typedef struct hr2di_parts {
+  uint32_t first, last; /* items [first, last) of hr2di_side_parts::part */
+} hr2di_parts;
+
+/* What lies along a side, and of which wall it is a part. */
+typedef struct hr2di_side {
+  hr2di_parts parts;
+  uint32_t wall;
+} hr2di_side;
+
+/* The parts along a run follow each other in its direction, and those of one side make up the
+   whole side; a side without patches has none. */
+typedef struct hr2di_side_parts {
+  hr2d_allocator alloc;
+  hr2di_side_part *part;
+  size_t parts;
+  hr2di_side *of_side;   /* 2·edges */
+  hr2di_parts *of_run;   /* one for each run */
+  unsigned char *wanted; /* per side: whether it has patches */
+} hr2di_side_parts;
+
+/* `t` is made of `pieces`.  HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended by
+   hr2di_side_parts_clear() in any case. */
+hr2d_status hr2di_side_parts_init(hr2di_side_parts *parts, const hr2d_scene *scene,
+                                  const hr2di_runs *runs, const hr2di_wall_pieces *pieces,
+                                  const hr2di_triangulation *t, hr2di_watch *watch);
+void hr2di_side_parts_clear(hr2di_side_parts *parts);
+
+#endif

@@ -1,0 +1,499 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sparse exchange areas: the same as in the matrix, from whichever end they are looked at, and
+   in thousands of small scenes the pairs that see each other are those of a search pair by
+   pair.
+
+   HR2D_TEST_SEED and HR2D_TEST_MULTIPLIER in the environment change the scenes. */
+#include <check.h>
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "support/plane.h"
+#include "support/room-plans.h"
+#include "support/support.h"
+
+/* Walls are cut into pieces of which each has ends on the grid. */
+enum { GRID = 12, MOST_PIECES = 6 };
+
+/* Whether two walls have more in common than an end of one of them; coordinates are small
+   integers, and nothing is rounded. */
+static int collide(hr2d_segment s, hr2d_segment t) {
+  if (plane_crosses(s, t.a, t.b)) return 1;
+  if (plane_det(s.a, s.b, t.a) != 0 || plane_det(s.a, s.b, t.b) != 0) return 0;
+  const hr2d_point u = {s.b.x - s.a.x, s.b.y - s.a.y};
+  const double from = (t.a.x - s.a.x) * u.x + (t.a.y - s.a.y) * u.y;
+  const double to = (t.b.x - s.a.x) * u.x + (t.b.y - s.a.y) * u.y;
+  return fmax(from, to) > 0 && fmin(from, to) < u.x * u.x + u.y * u.y;
+}
+
+static hr2d_point on_grid(randoms *r, int size) {
+  return (hr2d_point){GRID * random_below(r, size + 1), GRID * random_below(r, size + 1)};
+}
+
+static void add_pieces(plan *p, hr2d_segment s, int pieces, hr2d_sides sides) {
+  for (int k = 0; k < pieces; k++)
+    plan_add(p, plane_along(s, (double)k / pieces), plane_along(s, (double)(k + 1) / pieces),
+             sides);
+}
+
+/* A room with walls on a coarse grid, which meet in T-junctions, share ends, lie on one line
+   and touch; each cut into some patches.  In an open scene there is no room around them. */
+static plan draw_scene(randoms *r, int closed) {
+  static const int pieces[MOST_PIECES] = {1, 1, 2, 3, 4, 6};
+  hr2d_segment wall[24];
+  const int size = 2 + random_below(r, 5), count = 1 + random_below(r, 20);
+  const double low = -GRID, high = GRID * (size + 1);
+  const hr2d_point corner[] = {{low, low}, {high, low}, {high, high}, {low, high}};
+  plan p = {.walls = 0};
+  int walls = 0;
+  for (int k = 0; k < 4; k++) {
+    const hr2d_segment side = {corner[k], corner[(k + 1) % 4]};
+    if (closed) add_pieces(&p, side, 1 + random_below(r, 3), HR2D_SIDES_FRONT);
+  }
+  for (int k = 0; k < count; k++) {
+    const hr2d_segment w = {on_grid(r, size), on_grid(r, size)};
+    int bad = plane_same(w.a, w.b);
+    for (int m = 0; m < walls && !bad; m++) bad = collide(wall[m], w) || collide(w, wall[m]);
+    if (bad) continue;
+    wall[walls++] = w;
+    add_pieces(&p, w, pieces[random_below(r, MOST_PIECES)],
+               closed || random_below(r, 2) ? HR2D_SIDES_BOTH : HR2D_SIDES_FRONT);
+  }
+  if (p.walls == 0) add_pieces(&p, (hr2d_segment){corner[0], corner[1]}, 1, HR2D_SIDES_BOTH);
+  return p;
+}
+
+/* NULL if commit refuses. */
+static hr2d_scene *try_scene(const plan *p, const hr2d_allocator *hooks) {
+  hr2d_scene *scene = test_new_scene(hooks);
+  for (size_t k = 0; k < p->walls; k++) {
+    const hr2d_patch patch = {.a = p->wall[k].a, .b = p->wall[k].b, .sides = p->sides[k]};
+    ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
+  }
+  if (!hr2d_scene_commit(scene)) return scene;
+  hr2d_scene_destroy(scene);
+  return NULL;
+}
+
+static void print_plan(const plan *p) {
+  for (size_t k = 0; k < p->walls; k++)
+    fprintf(stderr, "  {{%a, %a}, {%a, %a}}, %s\n", p->wall[k].a.x, p->wall[k].a.y,
+            p->wall[k].b.x, p->wall[k].b.y, p->sides[k] == HR2D_SIDES_BOTH ? "both" : "front");
+}
+
+static hr2d_exchange_rows *rows_of(const hr2d_scene *scene, unsigned threads,
+                                   hr2d_matrix_counts *counts) {
+  hr2d_exchange_rows *rows = NULL;
+  hr2d_matrix_options options = HR2D_MATRIX_OPTIONS_INIT;
+  options.threads = threads;
+  ck_assert_int_eq(hr2d_exchange_rows_create(scene, &options, &rows, counts), HR2D_OK);
+  return rows;
+}
+
+/* To be freed. */
+static double *matrix_of(const hr2d_scene *scene, hr2d_matrix_counts *counts) {
+  const size_t n = hr2d_scene_patches(scene);
+  double *area = malloc(n * n * sizeof *area);
+  ck_assert_ptr_nonnull(area);
+  ck_assert_int_eq(hr2d_exchange_matrix(scene, NULL, area, counts), HR2D_OK);
+  return area;
+}
+
+/* Spreads rows out, as a reader of the arrays would. */
+static double *spread(const hr2d_exchange_rows *rows, size_t n) {
+  const uint64_t *start = hr2d_exchange_rows_start(rows);
+  const uint32_t *column = hr2d_exchange_rows_column(rows);
+  const double *value = hr2d_exchange_rows_area(rows);
+  double *area = calloc(n * n, sizeof *area);
+  ck_assert_ptr_nonnull(area);
+  ck_assert_uint_eq(start[0], 0);
+  ck_assert_uint_eq(start[n], hr2d_exchange_rows_entries(rows));
+  for (size_t i = 0; i < n; i++)
+    for (uint64_t k = start[i]; k < start[i + 1]; k++) {
+      ck_assert(k == start[i] || column[k] > column[k - 1]);
+      ck_assert(value[k] > 0 && column[k] < n && column[k] != i);
+      area[i * n + column[k]] = value[k];
+    }
+  return area;
+}
+
+typedef struct reader {
+  size_t n, rows;
+  double *area;
+  int stop_at;
+} reader;
+
+static hr2d_status read_row(void *ctx, const hr2d_exchange_row *row) {
+  reader *r = ctx;
+  ck_assert_uint_eq(row->struct_size, sizeof *row);
+  ck_assert_uint_lt(row->patch, r->n);
+  for (size_t k = 0; k < row->count; k++) {
+    ck_assert(k == 0 || row->column[k] > row->column[k - 1]);
+    r->area[row->patch * r->n + row->column[k]] = row->area[k];
+  }
+  return ++r->rows == (size_t)r->stop_at ? (hr2d_status)77 : HR2D_OK;
+}
+
+/* To be freed. */
+static double *visited(const hr2d_scene *scene, unsigned threads, hr2d_matrix_counts *counts) {
+  reader r = {.n = hr2d_scene_patches(scene)};
+  hr2d_matrix_options options = HR2D_MATRIX_OPTIONS_INIT;
+  options.threads = threads;
+  r.area = calloc(r.n * r.n, sizeof *r.area);
+  ck_assert_ptr_nonnull(r.area);
+  ck_assert_int_eq(hr2d_exchange_rows_visit(scene, &options, read_row, &r, counts), HR2D_OK);
+  ck_assert_uint_eq(r.rows, r.n);
+  return r.area;
+}
+
+static void check_counts(const hr2d_matrix_counts *one, const hr2d_matrix_counts *other) {
+  ck_assert_uint_eq(one->exchange_areas, other->exchange_areas);
+  ck_assert_uint_eq(one->partial_pairs, other->partial_pairs);
+}
+
+START_TEST(rows_matrix_and_visits_are_the_same) {
+  randoms r = randoms_stream(test_seed(), 1 + _i);
+  for (int k = test_count(1000); k > 0; k--) {
+    plan p = draw_scene(&r, _i);
+    hr2d_scene *scene = try_scene(&p, NULL);
+    ck_assert_ptr_nonnull(scene);
+    const size_t n = hr2d_scene_patches(scene);
+    hr2d_matrix_counts counts[3];
+    hr2d_exchange_rows *rows = rows_of(scene, 1, &counts[0]);
+    double *full = matrix_of(scene, &counts[1]), *held = spread(rows, n),
+           *seen = visited(scene, 1, &counts[2]);
+    if (memcmp(full, seen, n * n * sizeof *seen) != 0) print_plan(&p);
+    ck_assert_mem_eq(full, held, n * n * sizeof *held);
+    ck_assert_mem_eq(full, seen, n * n * sizeof *seen);
+    check_counts(&counts[0], &counts[1]);
+    check_counts(&counts[0], &counts[2]);
+    ck_assert_uint_eq(2 * counts[0].exchange_areas, hr2d_exchange_rows_entries(rows));
+    hr2d_exchange_rows_destroy(rows);
+    free(full);
+    free(held);
+    free(seen);
+    hr2d_scene_destroy(scene);
+    plan_free(&p);
+  }
+}
+END_TEST
+
+/* Ends are on the grid: the search of one pair decides by exact signs. */
+START_TEST(seen_pairs_are_those_of_brute_force) {
+  randoms r = randoms_stream(test_seed(), 10 + _i);
+  size_t seen = 0, pairs = 0;
+  double worst = 0, worst_row = 0;
+  for (int k = test_count(5000); k > 0; k--) {
+    plan p = draw_scene(&r, _i);
+    hr2d_scene *scene = try_scene(&p, NULL);
+    ck_assert_ptr_nonnull(scene);
+    const size_t n = hr2d_scene_patches(scene);
+    hr2d_exchange_rows *rows = rows_of(scene, 1, NULL);
+    double *area = spread(rows, n);
+    hr2d_segment *at = malloc(n * sizeof *at);
+    ck_assert_ptr_nonnull(at);
+    for (size_t i = 0; i < n; i++) at[i] = hr2d_scene_segment(scene, i);
+    for (size_t i = 0; i < n; i++) {
+      double sum = 0;
+      for (size_t j = 0; j < n; j++) sum += area[i * n + j];
+      if (_i) worst_row = fmax(worst_row, fabs(sum / hr2d_scene_length(scene, i) - 1));
+      for (size_t j = 0; j < i; j++) {
+        double other;
+        if (n > 60 && random_below(&r, 8)) continue;
+        ck_assert_int_eq(hr2d_exchange_area_occluded(&at[i], &at[j], at, n, NULL, &other),
+                         HR2D_OK);
+        const double value = area[i * n + j];
+        if ((value > 0) != (other > 0)) print_plan(&p);
+        ck_assert_msg((value > 0) == (other > 0), "%zu %zu: %g %g", i, j, value, other);
+        worst = fmax(worst, fabs(value - other));
+        seen += value > 0;
+        pairs++;
+      }
+    }
+    free(at);
+    free(area);
+    hr2d_exchange_rows_destroy(rows);
+    hr2d_scene_destroy(scene);
+    plan_free(&p);
+  }
+  printf("%zu of %zu pairs see each other, worst difference %.1e, worst row %.1e\n", seen,
+         pairs, worst, worst_row);
+  ck_assert_double_le(worst, 1e-12); /* of coordinates of a hundred */
+  ck_assert_double_le(worst_row, 1e-13);
+}
+END_TEST
+
+static void jitter(randoms *r, plan *p, similarity s) {
+  for (size_t k = 0; k < p->walls; k++) {
+    p->wall[k] = similar_segment(s, p->wall[k]);
+    hr2d_point *end[] = {&p->wall[k].a, &p->wall[k].b};
+    for (int e = 0; e < 2; e++) {
+      end[e]->x = random_nudge(r, end[e]->x, 1);
+      end[e]->y = random_nudge(r, end[e]->y, 1);
+    }
+  }
+}
+
+/* Turned, and every end moved by itself by an ulp: feet are in front of walls or behind them,
+   walls are bent, corners are open.  Where commit accepts that, nothing is lost but roundings.
+ */
+START_TEST(jittered_rooms_lose_nothing) {
+  randoms r = randoms_stream(test_seed(), 20);
+  int accepted = 0, count = 0;
+  double worst = 0;
+  for (int k = test_count(5000); k > 0; k--, count++) {
+    plan p = draw_scene(&r, 1);
+    const double angle = random_between(&r, 0, 6.3);
+    jitter(&r, &p, (similarity){.u = cos(angle), .v = sin(angle)});
+    hr2d_scene *scene = try_scene(&p, NULL);
+    if (scene) {
+      const size_t n = hr2d_scene_patches(scene);
+      double *area = matrix_of(scene, NULL), largest = 0;
+      for (size_t i = 0; i < n; i++) {
+        const hr2d_segment s = hr2d_scene_segment(scene, i);
+        largest = fmax(largest, fmax(fabs(s.a.x), fabs(s.a.y)));
+      }
+      for (size_t i = 0; i < n; i++) {
+        const double length = hr2d_scene_length(scene, i);
+        double sum = -length;
+        for (size_t j = 0; j < n; j++) sum += area[i * n + j];
+        const double error = fabs(sum) / (1e-13 * length + 64 * DBL_EPSILON * largest);
+        worst = fmax(worst, error);
+        if (error > 1) print_plan(&p);
+        ck_assert_msg(error <= 1, "row %zu of %zu: %g of %g", i, n, sum, length);
+      }
+      free(area);
+      accepted++;
+    }
+    hr2d_scene_destroy(scene);
+    plan_free(&p);
+  }
+  printf("%d of %d rooms accepted, worst row %.2g of its bound\n", accepted, count, worst);
+  ck_assert_int_gt(accepted, count / 4);
+}
+END_TEST
+
+/* Walls with more patches than a block of rows has, behind obstacles. */
+static plan draw_fine(randoms *r, int pieces) {
+  plan p = {.walls = 0};
+  const hr2d_point corner[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (int k = 0; k < 4; k++)
+    add_pieces(&p, (hr2d_segment){corner[k], corner[(k + 1) % 4]}, pieces, HR2D_SIDES_FRONT);
+  for (int k = 0; k < 4; k++) {
+    const double x = k % 2 * .5 + random_between(r, .1, .3);
+    const double y = k / 2 * .5 + random_between(r, .1, .3);
+    const hr2d_segment w = {{x, y},
+                            {x + random_between(r, -.1, .1), y + random_between(r, -.1, .1)}};
+    add_pieces(&p, w, pieces / 2, HR2D_SIDES_BOTH);
+  }
+  /* A foot in the middle of the floor, and one between patches of a wall. */
+  plan_add(&p, (hr2d_point){.4375, 0}, (hr2d_point){.46, .3}, HR2D_SIDES_BOTH);
+  plan_add(&p, (hr2d_point){0, .5}, (hr2d_point){.2, .5}, HR2D_SIDES_BOTH);
+  return p;
+}
+
+START_TEST(finely_cut_walls) {
+  randoms r = randoms_stream(test_seed(), 30);
+  double worst = 0, worst_row = 0;
+  for (int k = test_count(30); k > 0; k--) {
+    plan p = draw_fine(&r, 2 + random_below(&r, 200));
+    hr2d_scene *scene = try_scene(&p, NULL);
+    ck_assert_ptr_nonnull(scene);
+    const size_t n = hr2d_scene_patches(scene);
+    double *area = matrix_of(scene, NULL), *seen = visited(scene, 2, NULL);
+    hr2d_segment *at = malloc(n * sizeof *at);
+    ck_assert_ptr_nonnull(at);
+    for (size_t i = 0; i < n; i++) at[i] = hr2d_scene_segment(scene, i);
+    for (size_t i = 0; i < n; i++) {
+      double sum = 0;
+      for (size_t j = 0; j < n; j++) {
+        sum += area[i * n + j];
+        ck_assert_double_le(fabs(area[i * n + j] - seen[i * n + j]), 1e-15);
+      }
+      worst_row = fmax(worst_row, fabs(sum / hr2d_scene_length(scene, i) - 1));
+    }
+    for (int m = 0; m < 300; m++) {
+      const size_t i = (size_t)(random_bits(&r) % n), j = (size_t)(random_bits(&r) % n);
+      double other;
+      ck_assert_int_eq(hr2d_exchange_area_occluded(&at[i], &at[j], at, n, NULL, &other),
+                       HR2D_OK);
+      worst = fmax(worst, fabs(area[i * n + j] - other));
+    }
+    free(at);
+    free(seen);
+    free(area);
+    hr2d_scene_destroy(scene);
+    plan_free(&p);
+  }
+  printf("worst difference %.1e, worst row %.1e\n", worst, worst_row);
+  ck_assert_double_le(worst, 1e-15);
+  ck_assert_double_le(worst_row, 1e-13);
+}
+END_TEST
+
+/* Nothing in the way: the plain kernel for all pairs, and with occlusion forced no other bit.
+ */
+START_TEST(convex_rooms) {
+  plan p = {.walls = 0};
+  hr2d_matrix_counts counts, forced_counts;
+  const hr2d_point corner[] = {{0, 0}, {3, 0}, {4, 2}, {1, 3}};
+  for (int k = 0; k < 4; k++)
+    add_pieces(&p, (hr2d_segment){corner[k], corner[(k + 1) % 4]}, 8 << 2 * (k % 3),
+               HR2D_SIDES_FRONT);
+  hr2d_scene *scene = try_scene(&p, NULL), *forced = test_new_scene(NULL);
+  for (size_t k = 0; k < p.walls; k++) {
+    const hr2d_patch patch = {.a = p.wall[k].a, .b = p.wall[k].b, .sides = p.sides[k]};
+    ck_assert_int_eq(hr2d_scene_add(forced, &patch, NULL), HR2D_OK);
+  }
+  ck_assert_int_eq(hr2d_scene_force(forced, HR2D_EFFECT_OCCLUSION), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_commit(forced), HR2D_OK);
+  const size_t n = hr2d_scene_patches(scene);
+  double *area = visited(scene, 1, &counts), *other = visited(forced, 1, &forced_counts);
+  ck_assert_mem_eq(area, other, n * n * sizeof *area);
+  check_counts(&counts, &forced_counts);
+  ck_assert_uint_eq(counts.visibility_tests, 0);
+  ck_assert_uint_gt(forced_counts.visibility_tests, 0);
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = 0; j < n; j++) {
+      const hr2d_segment s = hr2d_scene_segment(scene, i), t = hr2d_scene_segment(scene, j);
+      ck_assert(i == j || area[i * n + j] == hr2d_exchange_area(&s, &t));
+    }
+  free(area);
+  free(other);
+  hr2d_scene_destroy(scene);
+  hr2d_scene_destroy(forced);
+  plan_free(&p);
+}
+END_TEST
+
+static plan some_scene(int pieces) {
+  randoms r = randoms_stream(test_seed(), 40);
+  return draw_fine(&r, pieces);
+}
+
+START_TEST(threads_change_no_bit) {
+  plan p = some_scene(150);
+  hr2d_scene *scene = try_scene(&p, NULL);
+  const size_t n = hr2d_scene_patches(scene);
+  hr2d_matrix_counts counts, others;
+  hr2d_exchange_rows *one = rows_of(scene, 1, &counts);
+  double *seen = visited(scene, 1, NULL);
+  for (unsigned k = 0; k <= 6; k++) {
+    const unsigned threads = k < 6 ? k : HR2D_ALL_THREADS;
+    hr2d_exchange_rows *many = rows_of(scene, threads, &others);
+    double *others_seen = visited(scene, threads, NULL);
+    const size_t entries = (size_t)hr2d_exchange_rows_entries(one);
+    ck_assert_uint_eq(hr2d_exchange_rows_entries(many), entries);
+    ck_assert_mem_eq(hr2d_exchange_rows_start(one), hr2d_exchange_rows_start(many),
+                     (n + 1) * sizeof(uint64_t));
+    ck_assert_mem_eq(hr2d_exchange_rows_column(one), hr2d_exchange_rows_column(many),
+                     entries * sizeof(uint32_t));
+    ck_assert_mem_eq(hr2d_exchange_rows_area(one), hr2d_exchange_rows_area(many),
+                     entries * sizeof(double));
+    ck_assert_mem_eq(seen, others_seen, n * n * sizeof *seen);
+    check_counts(&counts, &others);
+    ck_assert_uint_eq(counts.visibility_tests, others.visibility_tests);
+    hr2d_exchange_rows_destroy(many);
+    free(others_seen);
+  }
+  hr2d_exchange_rows_destroy(one);
+  free(seen);
+  hr2d_scene_destroy(scene);
+  plan_free(&p);
+}
+END_TEST
+
+START_TEST(a_visitor_may_stop) {
+  plan p = some_scene(20);
+  hr2d_scene *scene = try_scene(&p, NULL);
+  const size_t n = hr2d_scene_patches(scene);
+  reader r = {.n = n, .area = calloc(n * n, sizeof *r.area), .stop_at = 7};
+  hr2d_matrix_counts counts = {.exchange_areas = 5};
+  ck_assert_ptr_nonnull(r.area);
+  ck_assert_int_eq(hr2d_exchange_rows_visit(scene, NULL, read_row, &r, &counts), 77);
+  ck_assert_uint_eq(r.rows, 7);
+  ck_assert_uint_eq(counts.exchange_areas, 5);
+  free(r.area);
+  hr2d_scene_destroy(scene);
+  plan_free(&p);
+}
+END_TEST
+
+static hr2d_status refuse(void *ctx, const hr2d_progress *progress) {
+  ck_assert_str_eq(progress->phase, "factors");
+  return --*(int *)ctx == 0 ? HR2D_STOPPED : HR2D_OK;
+}
+
+START_TEST(wrong_calls_leave_everything) {
+  const hr2d_patch patch = {.b = {1, 0}};
+  hr2d_scene *scene = test_new_scene(NULL);
+  hr2d_exchange_rows *rows = NULL;
+  hr2d_matrix_options options = HR2D_MATRIX_OPTIONS_INIT;
+  reader r = {.n = 1};
+  int asks = 1;
+  ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2d_exchange_rows_create(scene, NULL, &rows, NULL), HR2D_ESTATE);
+  ck_assert_int_eq(hr2d_exchange_rows_visit(scene, NULL, read_row, &r, NULL), HR2D_ESTATE);
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  options.struct_size = 1;
+  ck_assert_int_eq(hr2d_exchange_rows_create(scene, &options, &rows, NULL), HR2D_EINVAL);
+  ck_assert_int_eq(hr2d_exchange_rows_visit(scene, &options, read_row, &r, NULL), HR2D_EINVAL);
+  options = (hr2d_matrix_options){sizeof options, 1, refuse, &asks};
+  ck_assert_int_eq(hr2d_exchange_rows_create(scene, &options, &rows, NULL), HR2D_STOPPED);
+  ck_assert_ptr_null(rows);
+  asks = 1;
+  ck_assert_int_eq(hr2d_exchange_rows_visit(scene, &options, read_row, &r, NULL), HR2D_STOPPED);
+  ck_assert_uint_eq(r.rows, 0);
+  ck_assert_int_eq(hr2d_exchange_rows_create(scene, NULL, &rows, NULL), HR2D_OK);
+  hr2d_scene_destroy(scene);
+  ck_assert_uint_eq(hr2d_exchange_rows_entries(rows), 0);
+  ck_assert_uint_eq(hr2d_exchange_rows_start(rows)[1], 0);
+  hr2d_exchange_rows_destroy(rows);
+  hr2d_exchange_rows_destroy(NULL);
+}
+END_TEST
+
+/* Each allocation in turn, once and from then on. */
+static void fail_one_by_one(int for_good, int visit) {
+  test_memory f = {.until_failure = -1};
+  const hr2d_allocator hooks = test_hooks(&f);
+  plan p = some_scene(10);
+  hr2d_scene *scene = try_scene(&p, &hooks);
+  const size_t n = hr2d_scene_patches(scene);
+  const long live = f.live;
+  long k = 0;
+  for (int failed = 1; failed; k++) {
+    hr2d_exchange_rows *rows = NULL;
+    reader r = {.n = n, .area = calloc(n * n, sizeof *r.area)};
+    f = (test_memory){.until_failure = k, .for_good = for_good, .live = live};
+    const hr2d_status status = visit ? hr2d_exchange_rows_visit(scene, NULL, read_row, &r, NULL)
+                                     : hr2d_exchange_rows_create(scene, NULL, &rows, NULL);
+    failed = f.failures > 0;
+    ck_assert_int_eq(status, failed ? HR2D_ENOMEM : HR2D_OK);
+    if (failed) ck_assert_ptr_null(rows);
+    hr2d_exchange_rows_destroy(rows);
+    free(r.area);
+    ck_assert_int_eq(f.live, live);
+  }
+  ck_assert_int_gt(k, 20);
+  f.until_failure = -1;
+  hr2d_scene_destroy(scene);
+  ck_assert_int_eq(f.live, 0);
+  plan_free(&p);
+}
+
+START_TEST(allocations_fail_one_by_one) {
+  fail_one_by_one(_i & 1, _i >> 1);
+}
+END_TEST
+
+TEST_SUITE("exchange rows") {
+  REPEAT_TESTS(2, "scenes", rows_matrix_and_visits_are_the_same,
+               seen_pairs_are_those_of_brute_force);
+  ADD_TESTS("scenes", jittered_rooms_lose_nothing, finely_cut_walls, convex_rooms);
+  ADD_TESTS("calls", threads_change_no_bit, a_visitor_may_stop, wrong_calls_leave_everything);
+  REPEAT_TESTS(4, "calls", allocations_fail_one_by_one);
+}
