@@ -2,7 +2,8 @@
 /* Measures the cost of exact occlusion: all exchange areas of a scene against crossed strings,
    which ignore occluders, and a link of a refinement for a growing number of occluders.
 
-   Usage: bench_visibility [rows|growth|hard|million|links]; without a word, rows and links.
+   Usage: bench_visibility [rows|growth|hard|million|links [FAMILY]]; without a word, rows and
+   links.
    Times are medians of rounds in which both sides of a ratio alternate.  Fails where a bar is
    missed.  `growth` and `hard` go on to larger scenes, and `million` measures a million
    segments from adding them on; they take as long as commit does. */
@@ -13,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/clock.h"
@@ -248,12 +250,12 @@ static hr2d_scene *scene_of(void (*draw)(plan *, int), int n, int forced) {
   return scene;
 }
 
-static double distance(hr2d_point p, hr2d_point q) {
-  const double x = q.x - p.x, y = q.y - p.y;
-  return sqrt(x * x + y * y);
-}
+#define DISTANCE(p, q)                                                                         \
+  sqrt(((p).x - (q).x) * ((p).x - (q).x) + ((p).y - (q).y) * ((p).y - (q).y))
 
-/* Half of the matrix is enough for a comparison. */
+/* Half of the matrix is enough for a comparison.  As gcc -O3 compiles it without further
+   options: roots may set errno then, and come one by one.  Without errno it takes half the
+   time. */
 #if defined __GNUC__ && !defined __clang__
 __attribute__((optimize("O3")))
 #endif
@@ -261,8 +263,8 @@ static void
 fill_strings(const hr2d_segment *s, size_t n, double *area) {
   for (size_t i = 0; i < n; i++)
     for (size_t j = i + 1; j < n; j++)
-      area[i * n + j] = 0.5 * ((distance(s[i].a, s[j].a) + distance(s[i].b, s[j].b)) -
-                               (distance(s[i].a, s[j].b) + distance(s[i].b, s[j].a)));
+      area[i * n + j] = 0.5 * ((DISTANCE(s[i].a, s[j].a) + DISTANCE(s[i].b, s[j].b)) -
+                               (DISTANCE(s[i].a, s[j].b) + DISTANCE(s[i].b, s[j].a)));
 }
 
 static double worst_row(const hr2d_scene *scene, const hr2d_exchange_rows *rows) {
@@ -285,14 +287,18 @@ typedef struct measured {
   hr2d_matrix_counts counts;
 } measured;
 
+static double processor_now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
 /* Seconds of one call; the first one of a scene looks at the rows, too. */
-static double make_rows(const hr2d_scene *scene, unsigned threads, measured *m) {
+static double make_rows(const hr2d_scene *scene, measured *m) {
   hr2d_exchange_rows *rows = NULL;
-  hr2d_matrix_options options = HR2D_MATRIX_OPTIONS_INIT;
-  options.threads = threads;
-  const double start = hr2di_clock_now();
-  if (hr2d_exchange_rows_create(scene, &options, &rows, &m->counts)) fail("no rows");
-  const double seconds = hr2di_clock_now() - start;
+  const double start = processor_now();
+  if (hr2d_exchange_rows_create(scene, NULL, &rows, &m->counts)) fail("no rows");
+  const double seconds = processor_now() - start;
   if (m->entries == 0) m->row = worst_row(scene, rows);
   m->entries = hr2d_exchange_rows_entries(rows);
   hr2d_exchange_rows_destroy(rows);
@@ -303,9 +309,9 @@ static double make_rows(const hr2d_scene *scene, unsigned threads, measured *m) 
 enum { MOST_STRINGS = 6000 };
 
 static double make_strings(const hr2d_segment *segment, size_t n, double *area) {
-  const double start = hr2di_clock_now();
+  const double start = processor_now();
   if (area) fill_strings(segment, n, area);
-  return hr2di_clock_now() - start;
+  return processor_now() - start;
 }
 
 static measured measure_rows(void (*draw)(plan *, int), int n) {
@@ -320,7 +326,7 @@ static measured measure_rows(void (*draw)(plan *, int), int n) {
   double strings[MOST_ROUNDS], exact[MOST_ROUNDS];
   for (int k = rounds > 1 ? -1 : 0; k < rounds; k++) {
     const double first = make_strings(segment, patches, area);
-    const double second = make_rows(scene, 1, &m);
+    const double second = make_rows(scene, &m);
     if (k >= 0) strings[k] = first, exact[k] = second;
   }
   m.seconds = median_of(exact, rounds);
@@ -338,6 +344,13 @@ typedef struct family {
   double ratio;  /* times their seconds allowed there */
   double growth; /* exponent allowed from 5120 to 102,400; 0 for any */
 } family;
+
+/* The family that was asked for; NULL for all. */
+static const char *only;
+
+static int is_wanted(const char *name) {
+  return !only || strcmp(name, only) == 0;
+}
 
 static const family families[] = {{"squares", draw_squares, 5120, .5, 1.15},
                                   {"fibres", draw_fibres, 5120, .5, 1.15},
@@ -378,6 +391,7 @@ static void measure_families(void) {
   print_titles();
   for (size_t k = 0; k < FAMILIES; k++) {
     const family *f = &families[k];
+    if (!is_wanted(f->name)) continue;
     for (size_t m = 0; m < sizeof size / sizeof *size; m++)
       measure_and_print(f->name, f->draw, size[m]);
     const measured last = measure_and_print(f->name, f->draw, f->size);
@@ -389,7 +403,7 @@ static void measure_growth(void) {
   print_titles();
   for (size_t k = 0; k < FAMILIES; k++) {
     const family *f = &families[k];
-    if (f->growth == 0) continue;
+    if (f->growth == 0 || !is_wanted(f->name)) continue;
     const measured first = measure_and_print(f->name, f->draw, 5120);
     measure_and_print(f->name, f->draw, 20480);
     const measured last = measure_and_print(f->name, f->draw, 102400);
@@ -412,28 +426,62 @@ static void measure_hard(void) {
   static const int size[] = {1024, 5120, 10240};
   print_titles();
   for (size_t k = 0; k < sizeof hard / sizeof *hard; k++)
-    for (size_t m = 0; m < sizeof size / sizeof *size; m++)
+    for (size_t m = 0; m < sizeof size / sizeof *size && is_wanted(hard[k].name); m++)
       measure_and_print(hard[k].name, hard[k].draw, size[m]);
 }
 
-/* From the first patch to rows, and with two threads. */
+typedef struct balance {
+  const hr2d_scene *scene;
+  double worst; /* row */
+  uint64_t entries;
+} balance;
+
+static hr2d_status weigh_row(void *ctx, const hr2d_exchange_row *row) {
+  balance *b = ctx;
+  const double length = hr2d_scene_length(b->scene, row->patch);
+  long double sum = -length;
+  for (size_t k = 0; k < row->count; k++) sum += row->area[k];
+  b->worst = fmax(b->worst, fabs((double)sum) / length);
+  b->entries += row->count;
+  return HR2D_OK;
+}
+
+/* Seconds on the clock. */
+static double visit_rows(const hr2d_scene *scene, unsigned threads, balance *b) {
+  hr2d_matrix_options options = HR2D_MATRIX_OPTIONS_INIT;
+  options.threads = threads;
+  *b = (balance){.scene = scene};
+  const double start = hr2di_clock_now();
+  if (hr2d_exchange_rows_visit(scene, &options, weigh_row, b, NULL)) fail("no rows");
+  return hr2di_clock_now() - start;
+}
+
+static double gigabytes(void) {
+  struct rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return (double)usage.ru_maxrss * 1024e-9;
+}
+
+/* From the first patch to the last row, with one thread and with two; then the rows are held.
+ */
 static void measure_million(const family *f) {
+  balance b;
+  measured m = {.entries = 1};
   const double start = hr2di_clock_now();
   hr2d_scene *scene = scene_of(f->draw, 1000000, 0);
   const double committed = hr2di_clock_now() - start;
-  measured m = {.patches = hr2d_scene_patches(scene), .entries = 1};
-  m.seconds = make_rows(scene, 1, &m);
-  const double all = hr2di_clock_now() - start;
-  printf("%s: %zu patches, %.2f s to commit, %.2f s for %llu entries", f->name, m.patches,
-         committed, m.seconds, (unsigned long long)m.entries);
-  const double two = make_rows(scene, 2, &m);
-  struct rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  const double gigabytes = (double)usage.ru_maxrss * 1024e-9;
-  printf(", %.2f s with two threads, %.2f GB\n", two, gigabytes);
-  bar("seconds", all, 60);
-  bar("GB", gigabytes, 2);
-  if (sysconf(_SC_NPROCESSORS_ONLN) > 1) bar("1.7 times two threads", 1.7 * two / m.seconds, 1);
+  const double one = visit_rows(scene, 1, &b), space = gigabytes();
+  const double two = visit_rows(scene, 2, &b);
+  printf("%s: %zu patches, %.2f s to commit, %.2f s for rows of %llu entries, %.2f s with two "
+         "threads, %.2f GB, worst row %.1e\n",
+         f->name, hr2d_scene_patches(scene), committed, one, (unsigned long long)b.entries, two,
+         space, b.worst);
+  const double held = make_rows(scene, &m);
+  printf("%s: %.2f s and %.2f GB to hold them\n", f->name, held, gigabytes());
+  bar("seconds", committed + one, 60);
+  bar("GB", space, 2);
+  bar("worst row", b.worst, 1e-13);
+  if (sysconf(_SC_NPROCESSORS_ONLN) > 1) bar("1.7 times two threads", 1.7 * two / one, 1);
   hr2d_scene_destroy(scene);
 }
 
@@ -546,10 +594,11 @@ int main(int argc, char **argv) {
   enum { WORDS = sizeof words / sizeof *words, DEFAULT = 2 };
   const char *what = argc > 1 ? argv[1] : "";
   int asked[WORDS], any = 0;
+  only = argc > 2 ? argv[2] : NULL;
   for (int k = 0; k < WORDS; k++)
     any |= asked[k] = *what ? strcmp(what, words[k]) == 0 : k < DEFAULT;
   if (!any) {
-    fprintf(stderr, "usage: %s [rows|growth|hard|million|links]\n", argv[0]);
+    fprintf(stderr, "usage: %s [rows|growth|hard|million|links [FAMILY]]\n", argv[0]);
     return 2;
   }
   if (asked[0]) measure_families();
@@ -559,6 +608,7 @@ int main(int argc, char **argv) {
   }
   if (asked[2]) measure_growth();
   if (asked[3]) measure_hard();
-  for (int k = 0; k < 2 && asked[4]; k++) measure_million(&families[k]);
+  for (int k = 0; k < 2 && asked[4]; k++)
+    if (is_wanted(families[k].name)) measure_million(&families[k]);
   return failures ? EXIT_FAILURE : EXIT_SUCCESS;
 }

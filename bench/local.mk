@@ -9,6 +9,7 @@ bench_bench_exchange_area_LDADD = libhr2d-core.la $(THREADS_LIBS)
 bench_bench_refine_SOURCES = bench/bench-refine.c bench/plain.c bench/plain.h bench/timing.h
 bench_bench_refine_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_visibility_SOURCES = bench/bench-visibility.c bench/timing.h
+bench_bench_visibility_CFLAGS = $(AM_CFLAGS) -fmath-errno -ftrapping-math
 bench_bench_visibility_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_l1_SOURCES = bench/bench-l1.c bench/timing.h
 bench_bench_l1_CPPFLAGS = $(AM_CPPFLAGS)
