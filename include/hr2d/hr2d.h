@@ -21,7 +21,7 @@
  * - hr2d_solve_to() makes hierarchy, links and solution for a target error (accuracy.h).
  * - hr2d_state_write() saves a stage of a long solve (state.h).
  * - hr2d_exchange_area() computes the exchange of two segments (geometry.h).
- * - hr2d_exchange_matrix() does it for all patches, with occluders (visibility.h).
+ * - hr2d_exchange_rows_create() does it for all patches, with occluders (visibility.h).
  * - hr2d_study_run() measures L against N (study.h).
  *
  * A whole program:

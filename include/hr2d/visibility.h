@@ -214,9 +214,9 @@ typedef hr2d_status (*hr2d_exchange_row_fn)(void *ctx, const hr2d_exchange_row *
  * @retval other   the status of the visitor; otherwise as hr2d_exchange_matrix()
  *
  * The rows have the entries of hr2d_exchange_rows_create(), which may differ by roundings where
- * ends of patches are rounded points of a wall. Memory does not grow with the number of pairs:
- * there are at most 64 rows for each of 16 blocks per thread at once. Each pair is found from
- * both of its ends, so that the call takes up to twice the time of hr2d_exchange_rows_create().
+ * ends of patches are rounded points of a wall. At most some 1100 rows per thread are in memory
+ * at once. Each pair is found from both of its ends, so that the call takes up to twice the time
+ * of hr2d_exchange_rows_create().
  */
 HR2D_API hr2d_status hr2d_exchange_rows_visit(const hr2d_scene *scene,
                                               const hr2d_matrix_options *options,

@@ -203,17 +203,31 @@ static void describe(void *of, hr2d_progress *told) {
   told->fraction = hr2di_row_maker_fraction(of);
 }
 
-static hr2d_status build(builder *b) {
+static hr2d_status make_halves(builder *b, const hr2d_scene *scene, unsigned threads) {
+  hr2d_status status = hr2di_row_maker_init(&b->maker, scene, threads, 0, b->watch);
   hr2di_watch_describe(b->watch, describe, &b->maker);
-  hr2d_status status = reserve_rows(b);
+  if (!status) status = reserve_rows(b);
   if (!status) status = hr2di_row_maker_run(&b->maker, 0, b->maker.tasks, keep_row, b);
-  if (!status) status = count_entries(b);
+  b->counts.visibility_tests = hr2di_row_maker_steps(&b->maker);
+  hr2di_watch_describe(b->watch, NULL, NULL);
+  hr2di_row_maker_clear(&b->maker);
+  return status;
+}
+
+static hr2d_status join_halves(builder *b) {
+  hr2d_status status = count_entries(b);
+  b->watch->told.fraction = 1;
   if (!status) status = reserve_entries(b);
   if (!status) status = scatter(b);
   free_chunks(b);
   if (!status) status = merge_all(b);
-  if (!status) status = hr2di_watch_ask(b->watch);
-  b->counts.visibility_tests = hr2di_row_maker_steps(&b->maker);
+  return status ? status : hr2di_watch_ask(b->watch);
+}
+
+static hr2d_status build(builder *b, const hr2d_scene *scene, unsigned threads) {
+  hr2d_status status = make_halves(b, scene, threads);
+  if (!status) status = join_halves(b);
+  free_chunks(b);
   hr2di_alloc_free(b->alloc, b->half);
   hr2di_alloc_free(b->alloc, b->fill);
   hr2di_alloc_free(b->alloc, b->column);
@@ -236,9 +250,7 @@ hr2d_status hr2d_exchange_rows_create(const hr2d_scene *scene,
   made->patches = scene->patches;
   builder b = {
       .watch = &watch, .alloc = &made->alloc, .rows = made, .unit = hr2d_scene_unit(scene)};
-  status = hr2di_row_maker_init(&b.maker, scene, o.threads, 0, &watch);
-  if (!status) status = build(&b);
-  hr2di_row_maker_clear(&b.maker);
+  status = build(&b, scene, o.threads);
   if (status) {
     hr2d_exchange_rows_destroy(made);
     return status;

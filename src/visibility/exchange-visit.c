@@ -8,12 +8,13 @@
 #include "scene/scene-impl.h"
 #include "visibility/row-maker.h"
 
-enum { BLOCKS = 16 };
+/* Rows that a thread makes before they are shown: more than threads take to start. */
+enum { ROWS = 1024 };
 
 /* A row of a round, in the memory of its thread. */
 typedef struct kept_row {
-  size_t first, count; /* among the entries of the thread */
-  uint32_t patch;
+  size_t first; /* among the entries of the thread */
+  uint32_t count;
   uint32_t worker;
 } kept_row;
 
@@ -47,7 +48,7 @@ static hr2d_status keep_row(void *ctx, size_t worker, const hr2di_row *row) {
     s->column[s->used + k] = row->column[k];
     s->area[s->used + k] = row->area[k] * v->unit;
   }
-  v->kept[row->patch] = (kept_row){s->used, row->count, row->patch, (uint32_t)worker};
+  v->kept[row->patch] = (kept_row){s->used, (uint32_t)row->count, (uint32_t)worker};
   s->used = needed;
   return HR2D_OK;
 }
@@ -56,7 +57,7 @@ static hr2d_status show_row(visit *v, uint32_t patch) {
   const kept_row kept = v->kept[patch];
   const store *s = &v->store[kept.worker];
   uint32_t *column = s->column ? s->column + kept.first : NULL;
-  for (size_t k = 0; k < kept.count; k++) {
+  for (uint32_t k = 0; k < kept.count; k++) {
     v->counts.partial_pairs += (column[k] & HR2DI_PARTIAL) != 0;
     column[k] &= ~HR2DI_PARTIAL;
   }
@@ -67,12 +68,19 @@ static hr2d_status show_row(visit *v, uint32_t patch) {
   return status ? status : hr2di_watch_work(v->watch, 1 + kept.count / 32);
 }
 
+/* The end of the tasks of a round. */
+static size_t end_of_round(const hr2di_row_maker *m, size_t first) {
+  size_t rows = 0, last = first;
+  for (; last < m->tasks && rows < ROWS * m->workers; last++)
+    rows += m->task[last].last - m->task[last].first;
+  return last;
+}
+
 static hr2d_status show_all(visit *v) {
   const hr2di_row_maker *m = &v->maker;
-  const size_t round = BLOCKS * m->workers;
   hr2d_status status = HR2D_OK;
   for (size_t first = 0, last; first < m->tasks && !status; first = last) {
-    last = m->tasks - first < round ? m->tasks : first + round;
+    last = end_of_round(m, first);
     for (size_t k = 0; k < m->workers; k++) v->store[k].used = 0;
     status = hr2di_row_maker_run(&v->maker, first, last, keep_row, v);
     for (size_t task = first; task < last && !status; task++)
