@@ -73,6 +73,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/scene.c \
 	src/scene/scene-impl.h \
 	src/scene/split-crossings.c \
+	src/scene/plane.c src/scene/plane.h \
 	src/scene/wall-pieces.c src/scene/wall-pieces.h \
 	src/formats/geojson.c \
 	src/formats/geojson-feature.c \

@@ -124,9 +124,9 @@ static void make_walls(hr2di_walls *w, runs *r) {
 /* p lies on the inside of a wall, but for rounding. */
 static int touches(hr2d_segment w, hr2d_point p) {
   const double dx = w.b.x - w.a.x, dy = w.b.y - w.a.y, length = hypot(dx, dy);
-  const double along = (p.x - w.a.x) * dx + (p.y - w.a.y) * dy;
-  return fabs(hr2di_orient(w.a, w.b, p)) <= TOUCH * length && along > 0 &&
-         along < length * length && !hr2di_point_same(p, w.a) && !hr2di_point_same(p, w.b);
+  const double along = (p.x - w.a.x) * (dx / length) + (p.y - w.a.y) * (dy / length);
+  return fabs(hr2di_orient(w.a, w.b, p)) <= TOUCH * length && along > 0 && along < length &&
+         !hr2di_point_same(p, w.a) && !hr2di_point_same(p, w.b);
 }
 
 uint32_t hr2di_walls_host(const hr2di_walls *w, hr2d_point p, uint32_t but) {

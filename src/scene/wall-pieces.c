@@ -3,6 +3,7 @@
 #include "scene/wall-pieces.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/sort.h"
@@ -78,7 +79,9 @@ hr2d_status hr2di_wall_pieces_init(hr2di_wall_pieces *p, const hr2d_scene *scene
   *p = (hr2di_wall_pieces){.alloc = scene->alloc};
   hr2d_status status = find_cuts(scene, &cuts, &count, watch);
   if (!status) {
-    p->piece = hr2di_alloc(&p->alloc, walls->walls + count, sizeof *p->piece);
+    p->walls = walls->walls;
+    p->room = walls->walls + count;
+    p->piece = hr2di_alloc(&p->alloc, p->room, sizeof *p->piece);
     p->of_wall = hr2di_alloc(&p->alloc, walls->walls + 1, sizeof *p->of_wall);
     if (!p->piece || !p->of_wall) status = HR2D_ENOMEM;
   }
@@ -86,6 +89,16 @@ hr2d_status hr2di_wall_pieces_init(hr2di_wall_pieces *p, const hr2d_scene *scene
   if (!status) make_pieces(p, walls, cuts, count);
   hr2di_alloc_free(&p->alloc, cuts);
   return status;
+}
+
+hr2d_status hr2di_wall_pieces_cut(hr2di_wall_pieces *p, size_t piece, hr2d_point at) {
+  if (hr2di_alloc_reserve(&p->alloc, &p->piece, &p->room, p->pieces + 1, sizeof *p->piece))
+    return HR2D_ENOMEM;
+  memmove(p->piece + piece + 1, p->piece + piece, (p->pieces - piece) * sizeof *p->piece);
+  p->pieces++;
+  p->piece[piece].b = p->piece[piece + 1].a = at;
+  for (size_t w = 0; w <= p->walls; w++) p->of_wall[w] += p->of_wall[w] > piece;
+  return HR2D_OK;
 }
 
 void hr2di_wall_pieces_clear(hr2di_wall_pieces *p) {

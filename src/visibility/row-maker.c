@@ -76,7 +76,7 @@ static void place_run(const hr2di_row_maker *m, uint32_t run, placed_task **task
     (*task)->task.parts = parts_of(m, &part, m->parts.of_run[run].last, first, last);
     if ((*task)->task.parts.first == (*task)->task.parts.last) continue;
     const hr2di_wall_side side = m->parts.part[(*task)->task.parts.first].side;
-    (*task)->vertex = m->triangulation.edge[side >> 1].from;
+    (*task)->vertex = m->plane.triangulation.edge[side >> 1].from;
   }
 }
 
@@ -238,7 +238,7 @@ static hr2d_status hire(hr2di_row_maker *m, unsigned threads) {
     w->maker = m;
     w->watch = m->workers == 0 ? m->watch : &w->own;
     hr2di_watch_follow(&w->own, m->watch);
-    w->walk = (hr2di_walk){.in = &m->triangulation,
+    w->walk = (hr2di_walk){.in = &m->plane.triangulation,
                            .wanted = m->parts.wanted,
                            .once = !m->whole,
                            .take = share,
@@ -253,44 +253,21 @@ static hr2d_status hire(hr2di_row_maker *m, unsigned threads) {
   return status;
 }
 
-/* Makes the shorter of two walls a point, if it is no longer than some roundings of scaled
-   coordinates. */
-static int leave_out(const hr2di_wall_pieces *p, const hr2di_conflict *conflict) {
-  hr2d_segment *one = &p->piece[conflict->wall[0]], *other = &p->piece[conflict->wall[1]];
-  const double first = hypot(one->b.x - one->a.x, one->b.y - one->a.y);
-  const double second = hypot(other->b.x - other->a.x, other->b.y - other->a.y);
-  hr2d_segment *shorter = first < second ? one : other;
-  if (fmin(first, second) > 0x1p-48 || hr2di_point_same(shorter->a, shorter->b)) return 0;
-  shorter->b = shorter->a;
-  return 1;
-}
-
-/* Commit has refused walls that cross or lie on one another, but for walls of some roundings:
-   nothing is seen of these. */
 static hr2d_status triangulate(hr2di_row_maker *m) {
-  hr2di_conflict conflict;
-  hr2d_status status = hr2di_wall_pieces_init(&m->pieces, m->scene, m->watch);
-  for (int again = !status; again;) {
-    hr2di_triangulation_clear(&m->triangulation);
-    status = hr2di_triangulation_init(&m->triangulation, &m->scene->alloc, m->pieces.piece,
-                                      m->pieces.pieces, sizeof *m->pieces.piece, &conflict,
-                                      m->watch);
-    again = status == HR2D_ESCENE && leave_out(&m->pieces, &conflict);
-  }
+  const hr2d_status status = hr2di_plane_init(&m->plane, m->scene, m->watch);
   return status ? status
-                : hr2di_side_parts_init(&m->parts, m->scene, &m->runs, &m->pieces,
-                                        &m->triangulation, m->watch);
+                : hr2di_side_parts_init(&m->parts, m->scene, &m->runs, &m->plane, m->watch);
 }
 
 hr2d_status hr2di_row_maker_init(hr2di_row_maker *m, const hr2d_scene *scene, unsigned threads,
                                  int whole, hr2di_watch *watch) {
-  *m = (hr2di_row_maker){.scene = scene,
-                         .watch = watch,
-                         .whole = whole,
-                         .beams = scene->effect[HR2D_EFFECT_OCCLUSION].on,
-                         .triangulation = {.alloc = scene->alloc},
-                         .pieces = {.alloc = scene->alloc},
-                         .parts = {.alloc = scene->alloc}};
+  *m = (hr2di_row_maker){
+      .scene = scene,
+      .watch = watch,
+      .whole = whole,
+      .beams = scene->effect[HR2D_EFFECT_OCCLUSION].on,
+      .plane = {.triangulation = {.alloc = scene->alloc}, .pieces = {.alloc = scene->alloc}},
+      .parts = {.alloc = scene->alloc}};
   hr2d_status status = hr2di_runs_init(&m->runs, scene, watch);
   if (!status && m->beams) status = triangulate(m);
   if (!status) status = make_tasks(m);
@@ -312,8 +289,7 @@ void hr2di_row_maker_clear(hr2di_row_maker *m) {
   hr2di_alloc_free(&m->scene->alloc, m->worker);
   hr2di_alloc_free(&m->scene->alloc, m->task);
   hr2di_side_parts_clear(&m->parts);
-  hr2di_triangulation_clear(&m->triangulation);
-  hr2di_wall_pieces_clear(&m->pieces);
+  hr2di_plane_clear(&m->plane);
   hr2di_runs_clear(&m->runs);
 }
 

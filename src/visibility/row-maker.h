@@ -39,8 +39,7 @@ typedef struct hr2di_row_maker {
   int whole; /* rows */
   int beams; /* something can be in the way */
   hr2di_runs runs;
-  hr2di_wall_pieces pieces;
-  hr2di_triangulation triangulation;
+  hr2di_plane plane;
   hr2di_side_parts parts;
   hr2di_row_task *task; /* along a Hilbert curve */
   size_t tasks;

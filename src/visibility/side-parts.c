@@ -86,8 +86,9 @@ static void cut_side(cutter *c, hr2di_wall_side side, hr2d_segment s) {
 
 /* A patch is cut at vertices of its wall, and each patch and each edge has at most one stretch
    without patches before or behind it. */
-static hr2d_status cut_run(cutter *c, const hr2di_wall_pieces *pieces,
-                           const hr2di_triangulation *t, size_t run) {
+static hr2d_status cut_run(cutter *c, const hr2di_plane *plane, size_t run) {
+  const hr2di_wall_pieces *pieces = &plane->pieces;
+  const hr2di_triangulation *t = &plane->triangulation;
   const hr2di_run r = c->runs->run[run];
   const uint32_t patch = c->runs->patch[r.first], wall = c->scene->walls.of_segment[patch];
   const hr2d_segment s = c->scene->patch[patch].scaled, w = c->scene->walls.wall[wall].at;
@@ -113,9 +114,9 @@ static hr2d_status cut_run(cutter *c, const hr2di_wall_pieces *pieces,
 }
 
 hr2d_status hr2di_side_parts_init(hr2di_side_parts *parts, const hr2d_scene *scene,
-                                  const hr2di_runs *runs, const hr2di_wall_pieces *pieces,
-                                  const hr2di_triangulation *t, hr2di_watch *watch) {
-  const size_t sides = 2 * t->edges;
+                                  const hr2di_runs *runs, const hr2di_plane *plane,
+                                  hr2di_watch *watch) {
+  const size_t sides = 2 * plane->triangulation.edges;
   *parts = (hr2di_side_parts){.alloc = scene->alloc};
   parts->of_side = hr2di_alloc_zero(&scene->alloc, sides, sizeof *parts->of_side);
   parts->of_run = hr2di_alloc(&scene->alloc, runs->runs, sizeof *parts->of_run);
@@ -125,7 +126,7 @@ hr2d_status hr2di_side_parts_init(hr2di_side_parts *parts, const hr2d_scene *sce
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < runs->runs && !status; k++) {
     status = hr2di_watch_work(watch, 1 + (runs->run[k].last - runs->run[k].first) / 4);
-    if (!status) status = cut_run(&c, pieces, t, k);
+    if (!status) status = cut_run(&c, plane, k);
   }
   return status;
 }

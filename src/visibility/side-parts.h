@@ -4,7 +4,7 @@
 #define HR2D_SRC_VISIBILITY_SIDE_PARTS_H
 
 #include "scene/patch-runs.h"
-#include "scene/wall-pieces.h"
+#include "scene/plane.h"
 #include "sight/walk.h"
 
 #define HR2DI_NOBODY UINT32_MAX
@@ -38,11 +38,11 @@ typedef struct hr2di_side_parts {
   unsigned char *wanted; /* per side: whether it has patches */
 } hr2di_side_parts;
 
-/* `t` is made of `pieces`.  HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended by
+/* HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended by
    hr2di_side_parts_clear() in any case. */
 hr2d_status hr2di_side_parts_init(hr2di_side_parts *parts, const hr2d_scene *scene,
-                                  const hr2di_runs *runs, const hr2di_wall_pieces *pieces,
-                                  const hr2di_triangulation *t, hr2di_watch *watch);
+                                  const hr2di_runs *runs, const hr2di_plane *plane,
+                                  hr2di_watch *watch);
 void hr2di_side_parts_clear(hr2di_side_parts *parts);
 
 #endif
