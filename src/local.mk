@@ -98,6 +98,7 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/row-maker.c src/visibility/row-maker.h \
 	src/visibility/row-sum.c src/visibility/row-sum.h \
 	src/visibility/sharing.c src/visibility/sharing.h \
+	src/visibility/side-layers.c src/visibility/side-layers.h \
 	src/visibility/side-parts.c src/visibility/side-parts.h \
 	src/hierarchy/hierarchy.c \
 	src/hierarchy/hierarchy-impl.h \

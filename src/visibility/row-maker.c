@@ -76,6 +76,7 @@ static void place_run(const hr2di_row_maker *m, uint32_t run, placed_task **task
     (*task)->task.parts = parts_of(m, &part, m->parts.of_run[run].last, first, last);
     if ((*task)->task.parts.first == (*task)->task.parts.last) continue;
     const hr2di_wall_side side = m->parts.part[(*task)->task.parts.first].side;
+    if (side == HR2DI_HIDDEN) continue;
     (*task)->vertex = m->plane.triangulation.edge[side >> 1].from;
   }
 }
@@ -132,12 +133,37 @@ static hr2d_status look_from(hr2di_row_worker *w, hr2di_parts parts) {
   return hr2di_walk_from(&w->walk, w->side, w->part ? &span : NULL);
 }
 
+/* What hidden parts among those of a task see. */
+static hr2d_status add_contacts(hr2di_row_worker *w, hr2di_parts parts) {
+  const hr2di_side_parts *p = &w->maker->parts;
+  size_t low = 0, high = p->contacts;
+  hr2d_status status = HR2D_OK;
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    if (p->contact[middle].part < parts.first)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  for (; low < p->contacts && p->contact[low].part < parts.last && !status; low++) {
+    const hr2di_contact *c = &p->contact[low];
+    const int mine = c->part < c->other;
+    if (!mine && !w->maker->whole) continue;
+    status = hr2di_sharing_add_area(&w->sharing, (hr2di_share){.area = c->area,
+                                                               .place = p->part[c->part].place,
+                                                               .patch = p->part[c->other].patch,
+                                                               .partial = 1,
+                                                               .later = !mine});
+  }
+  return status;
+}
+
 static hr2d_status look_around(hr2di_row_worker *w, const hr2di_row_task *t) {
   const hr2di_side_part *part = w->maker->parts.part;
-  hr2d_status status = HR2D_OK;
+  hr2d_status status = add_contacts(w, t->parts);
   for (uint32_t first = t->parts.first, last; first < t->parts.last && !status; first = last) {
     for (last = first; last < t->parts.last && part[last].side == part[first].side;) last++;
-    status = look_from(w, (hr2di_parts){first, last});
+    if (part[first].side != HR2DI_HIDDEN) status = look_from(w, (hr2di_parts){first, last});
   }
   return status;
 }

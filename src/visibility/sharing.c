@@ -44,6 +44,13 @@ hr2d_status hr2di_sharing_add_pair(hr2di_sharing *f, const hr2d_segment pair[2],
   return f->pairs < HR2DI_SHARING_BATCH ? HR2D_OK : flush(f);
 }
 
+hr2d_status hr2di_sharing_add_area(hr2di_sharing *f, hr2di_share share) {
+  if (hr2di_alloc_reserve(&f->alloc, &f->share, &f->room, f->shares + 1, sizeof *f->share))
+    return HR2D_ENOMEM;
+  f->share[f->shares++] = share;
+  return HR2D_OK;
+}
+
 hr2d_status hr2di_sharing_finish(hr2di_sharing *f) {
   return f->pairs > 0 ? flush(f) : HR2D_OK;
 }
@@ -88,11 +95,8 @@ static hr2d_status add_one(hr2di_sharing *f, const hr2di_sight *s, uint32_t near
     return hr2di_sharing_add_pair(f, pair, share);
   }
   share.area = hr2di_sight_area(s);
-  if (!(share.area > 0)) return HR2D_OK;
-  if (hr2di_alloc_reserve(&f->alloc, &f->share, &f->room, f->shares + 1, sizeof *f->share))
-    return HR2D_ENOMEM;
-  f->share[f->shares++] = share;
-  return hr2di_watch_work(f->watch, 1 + (s->lefts + s->rights) / 2);
+  const hr2d_status status = share.area > 0 ? hr2di_sharing_add_area(f, share) : HR2D_OK;
+  return status ? status : hr2di_watch_work(f->watch, 1 + (s->lefts + s->rights) / 2);
 }
 
 /* Moves one end of a node's sight, with points from n->free on. */

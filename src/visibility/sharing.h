@@ -46,6 +46,10 @@ hr2d_status hr2di_sharing_add(hr2di_sharing *sharing, const hr2di_sight *s,
 /* Adds the area of a pair with nothing in the way. */
 hr2d_status hr2di_sharing_add_pair(hr2di_sharing *sharing, const hr2d_segment pair[2],
                                    hr2di_share share);
+
+/* Adds a pair whose area is known.  HR2D_OK or HR2D_ENOMEM. */
+hr2d_status hr2di_sharing_add_area(hr2di_sharing *sharing, hr2di_share share);
+
 hr2d_status hr2di_sharing_finish(hr2di_sharing *sharing);
 void hr2di_sharing_clear(hr2di_sharing *sharing);
 

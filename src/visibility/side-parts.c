@@ -7,12 +7,13 @@
 #include "base/alloc.h"
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
+#include "visibility/side-layers.h"
 
 /* A vertex so near to the end of a patch is that end: the triangulation moves ends of walls by
    at most 4 units in the last place of scaled coordinates, and by less where a wall is short.
  */
 static double nearness(double wall, double patch) {
-  return fmin(fmin(0x1p-49, 0x1p-20 * wall), patch / 4);
+  return fmin(fmin(HR2DI_PART_ROUNDING, 0x1p-20 * wall), patch / 4);
 }
 
 typedef struct cutter {
@@ -21,8 +22,7 @@ typedef struct cutter {
   const hr2di_runs *runs;
   hr2d_segment along; /* the wall, in the direction of the run */
   double length;      /* of the wall */
-  uint32_t wall;
-  uint32_t place; /* the first patch that is not done */
+  uint32_t place;     /* the first patch that is not done */
   uint32_t last;
   size_t room; /* for parts */
 } cutter;
@@ -34,27 +34,6 @@ static double at(const cutter *c, hr2d_point p) {
 
 static void add(cutter *c, hr2di_wall_side side, hr2d_point a, hr2d_point b, uint32_t patch) {
   c->made->part[c->made->parts++] = (hr2di_side_part){{a, b}, patch, c->place, side};
-}
-
-/* The side of the only edge of a ring that triangles know. */
-static hr2di_wall_side known(const hr2di_triangulation *t, hr2di_wall_side side) {
-  const uint32_t edge = side >> 1;
-  uint32_t least = edge;
-  for (uint32_t k = t->edge[edge].same; k != edge; k = t->edge[k].same)
-    if (k < least) least = k;
-  const uint32_t turned = t->edge[least].from != t->edge[edge].from;
-  return 2 * least + ((side ^ turned) & 1);
-}
-
-/* Where walls share a stretch within a rounding, with patches of both on one side, those that
-   came first hide the others. */
-static void take_side(cutter *c, hr2di_wall_side side, hr2di_parts parts) {
-  if (c->made->wanted[side]) {
-    for (uint32_t k = parts.first; k < parts.last; k++) c->made->part[k].patch = HR2DI_NOBODY;
-    return;
-  }
-  c->made->of_side[side] = (hr2di_side){parts, c->wall};
-  c->made->wanted[side] = 1;
 }
 
 /* The patches along one side, and what is between them. */
@@ -81,7 +60,9 @@ static void cut_side(cutter *c, hr2di_wall_side side, hr2d_segment s) {
   }
   if (somebody && at(c, done) < end - nearness(c->length, end - start))
     add(c, side, done, s.b, HR2DI_NOBODY);
-  if (somebody) take_side(c, side, (hr2di_parts){first, (uint32_t)c->made->parts});
+  if (!somebody) return;
+  c->made->of_side[side].parts = (hr2di_parts){first, (uint32_t)c->made->parts};
+  c->made->wanted[side] = 1;
 }
 
 /* A patch is cut at vertices of its wall, and each patch and each edge has at most one stretch
@@ -94,7 +75,6 @@ static hr2d_status cut_run(cutter *c, const hr2di_plane *plane, size_t run) {
   const hr2d_segment s = c->scene->patch[patch].scaled, w = c->scene->walls.wall[wall].at;
   const uint32_t back = hr2di_point_along(w, s.a) > hr2di_point_along(w, s.b);
   c->along = back ? (hr2d_segment){w.b, w.a} : w;
-  c->wall = wall;
   c->length = hypot(w.b.x - w.a.x, w.b.y - w.a.y);
   c->place = r.first;
   c->last = r.last;
@@ -106,7 +86,8 @@ static hr2d_status cut_run(cutter *c, const hr2di_plane *plane, size_t run) {
                                                      needed, sizeof *c->made->part))
     return HR2D_ENOMEM;
   for (uint32_t k = 0; k < edges; k++) {
-    const hr2di_wall_side side = known(t, 2 * (first + (back ? edges - 1 - k : k)) + back);
+    const hr2di_wall_side side = 2 * (first + (back ? edges - 1 - k : k)) + back;
+    c->made->of_side[side].wall = c->made->of_side[side ^ 1].wall = wall;
     cut_side(c, side, hr2di_wall_side_at(t, side));
   }
   c->made->of_run[run] = (hr2di_parts){start, (uint32_t)c->made->parts};
@@ -128,7 +109,7 @@ hr2d_status hr2di_side_parts_init(hr2di_side_parts *parts, const hr2d_scene *sce
     status = hr2di_watch_work(watch, 1 + (runs->run[k].last - runs->run[k].first) / 4);
     if (!status) status = cut_run(&c, plane, k);
   }
-  return status;
+  return status ? status : hr2di_side_layers_settle(parts, scene, &plane->triangulation, watch);
 }
 
 void hr2di_side_parts_clear(hr2di_side_parts *parts) {
@@ -136,4 +117,5 @@ void hr2di_side_parts_clear(hr2di_side_parts *parts) {
   hr2di_alloc_free(&parts->alloc, parts->of_side);
   hr2di_alloc_free(&parts->alloc, parts->of_run);
   hr2di_alloc_free(&parts->alloc, parts->wanted);
+  hr2di_alloc_free(&parts->alloc, parts->contact);
 }

@@ -9,13 +9,25 @@
 
 #define HR2DI_NOBODY UINT32_MAX
 
+/* The side of a part that lies between walls within roundings of each other. */
+#define HR2DI_HIDDEN UINT32_MAX
+
+/* Parts of scaled coordinates overlap for certain if they do by more. */
+#define HR2DI_PART_ROUNDING 0x1p-49
+
 /* A part of one patch, or of a stretch without patches, on one side of a wall edge. */
 typedef struct hr2di_side_part {
-  hr2d_segment at; /* an end that is an end of the patch has its coordinates */
-  uint32_t patch;  /* or HR2DI_NOBODY */
-  uint32_t place;  /* of the patch in hr2di_runs::patch */
-  hr2di_wall_side side;
+  hr2d_segment at;      /* an end that is an end of the patch has its coordinates */
+  uint32_t patch;       /* or HR2DI_NOBODY */
+  uint32_t place;       /* of the patch in hr2di_runs::patch */
+  hr2di_wall_side side; /* or HR2DI_HIDDEN: it sees no more than its contacts */
 } hr2di_side_part;
+
+/* Two parts that are face to face with nothing between them. */
+typedef struct hr2di_contact {
+  uint32_t part, other;
+  double area; /* their exchange area */
+} hr2di_contact;
 
 typedef struct hr2di_parts {
   uint32_t first, last; /* items [first, last) of hr2di_side_parts::part */
@@ -28,14 +40,17 @@ typedef struct hr2di_side {
 } hr2di_side;
 
 /* The parts along a run follow each other in its direction, and those of one side make up the
-   whole side; a side without patches has none. */
+   whole side; a side without patches has none.  Of walls that share an edge, triangles know the
+   edge of one, whose sides have the parts of the outermost walls. */
 typedef struct hr2di_side_parts {
   hr2d_allocator alloc;
   hr2di_side_part *part;
   size_t parts;
-  hr2di_side *of_side;   /* 2·edges */
-  hr2di_parts *of_run;   /* one for each run */
-  unsigned char *wanted; /* per side: whether it has patches */
+  hr2di_side *of_side;    /* 2·edges */
+  hr2di_parts *of_run;    /* one for each run */
+  unsigned char *wanted;  /* per side: whether it has patches */
+  hr2di_contact *contact; /* by part; each is there from both sides */
+  size_t contacts;
 } hr2di_side_parts;
 
 /* HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended by
