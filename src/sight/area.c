@@ -49,9 +49,11 @@ static double triangle(const side *s, const hr2di_vector *w, const hr2di_vector 
   const double we = s->hand * hr2di_det(w, e);
   if (!(wv > 0) || !(ev > 0) || !(we > 0) || !(h > 0)) return 0;
   const double length = hr2di_vector_length(w);
-  const double to_x = length / wv, to_next = hr2di_vector_length(e) / ev;
-  const double between = s->length * (we / ev / wv);
-  return h * to_x * (between / (to_x + between + to_next)) * one_plus_cos(w, length, s, wv);
+  /* The three sides, times (w×v)(e×v)/h: a determinant may be so small that it has no inverse.
+   */
+  const double to_x = length * ev, between = s->length * we;
+  const double sum = to_x + between + hr2di_vector_length(e) * wv;
+  return sum > 0 ? h / wv * length * (between / sum) * one_plus_cos(w, length, s, wv) : 0;
 }
 
 /* The excess of a chain that turns towards the tangent from `from` to its last point; `w` is

@@ -14,9 +14,10 @@
    with the chains read from j to i.
 
    x is a rounded point of the line of i, and a tangent may be that line.  Then its sign says
-   nothing, and would cost a whole view; three rules avoid these signs.  If A begins with a,
+   nothing, and would cost a whole view; four rules avoid these signs.  If A begins with a,
    x replaces it untested: a lies on the left of x on i.  If B begins with b, or A is the point
-   a alone, i.e. the horizon of i, some line is left untested. */
+   a alone, i.e. the horizon of i, some line is left untested.  If B begins with b, its second
+   point stays untested: x and b are on i, and this point is in front of i. */
 #include "geometry/orient-sign.h"
 #include "sight/sight.h"
 
@@ -97,7 +98,8 @@ int hr2di_sight_restrict(const hr2di_sight *s, hr2di_sight_end end, hr2d_point x
   while (first + 1 < chain->count &&
          v.hand * hr2di_orient_sign(x, at(chain, first), at(chain, first + 1)) <= 0)
     first++;
-  while (last > 1 &&
+  const size_t least = s->ends & v.other_near && other->count > 1 ? 2 : 1;
+  while (last > least &&
          v.hand * hr2di_orient_sign(x, at(other, last - 1), at(other, last - 2)) >= 0)
     last--;
   const size_t count = chain->count - first + 1;

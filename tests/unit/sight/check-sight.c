@@ -11,6 +11,7 @@
 #include "sight/sight.h"
 #include "support/plane.h"
 #include "support/support.h"
+#include "support/visibility-cases.h"
 
 enum { MOST = 40, PARTS = 8 };
 
@@ -259,6 +260,95 @@ START_TEST(moved_ends_leave_what_the_definition_says) {
 }
 END_TEST
 
+/* A point of the line of s outside of s, where a wall in line with it may end. */
+static hr2d_point in_line(randoms *r, hr2d_segment s) {
+  const double off = (double)(1 + random_below(r, 3 * PARTS)) / PARTS;
+  return plane_along(s, random_below(r, 2) ? 1 + off : -off);
+}
+
+static int is_on(hr2d_segment s, hr2d_point v) {
+  const hr2d_point u = {s.b.x - s.a.x, s.b.y - s.a.y};
+  const double at = (v.x - s.a.x) * u.x + (v.y - s.a.y) * u.y;
+  return plane_det(s.a, s.b, v) == 0 && at >= 0 && at <= u.x * u.x + u.y * u.y;
+}
+
+static hr2d_point rounded(randoms *r, similarity turn, hr2d_point v) {
+  const hr2d_point p = similar_point(turn, v);
+  return (hr2d_point){random_nudge(r, p.x, 1), random_nudge(r, p.y, 1)};
+}
+
+/* Whether points behind the first two, the ends of i and j, can be touched: lines between i and
+   j touch what is in front of both. */
+static int in_front(const hr2d_point *point, int count, hr2d_segment i, hr2d_segment j) {
+  int front = 1;
+  for (int k = 2; k < count; k++)
+    front &=
+        hr2d_orientation(i.a, i.b, point[k]) > 0 && hr2d_orientation(j.a, j.b, point[k]) > 0;
+  return front;
+}
+
+/* Adds points in line with i and j, turns all and moves each point by a rounding.  Returns 0 if
+   a point is then behind i or j, or was on one of them. */
+static int round_scene(randoms *r, similarity turn, scene *s) {
+  int apart = 1;
+  for (int k = random_below(r, 5); k > 0; k--) {
+    const hr2d_point v = in_line(r, random_below(r, 2) ? s->i : s->j);
+    if (random_below(r, 2))
+      s->d.left[s->d.lefts++] = v;
+    else
+      s->d.right[s->d.rights++] = v;
+  }
+  for (int side = 0; side < 2; side++) {
+    hr2d_point *point = side ? s->d.right : s->d.left;
+    for (int k = 0; k < (side ? s->d.rights : s->d.lefts); k++) {
+      apart &= k < 2 || !(is_on(s->i, point[k]) || is_on(s->j, point[k]));
+      point[k] = rounded(r, turn, point[k]);
+    }
+  }
+  s->i = (hr2d_segment){s->d.left[0], s->d.right[0]};
+  s->j = (hr2d_segment){s->d.right[1], s->d.left[1]};
+  return apart && in_front(s->d.left, s->d.lefts, s->i, s->j) &&
+         in_front(s->d.right, s->d.rights, s->i, s->j);
+}
+
+/* The area of what is left when an end is moved. */
+static double area_of_part(const hr2di_sight *s, hr2di_sight_end end, hr2d_point x) {
+  hr2d_point room[2 * MOST];
+  hr2di_sight child;
+  return hr2di_sight_restrict(s, end, x, room, &child) ? hr2di_sight_area(&child) : 0;
+}
+
+/* All points of a sight may lie within roundings of the line of i or j, and the point where
+   that is cut does, too. */
+START_TEST(parts_add_up_within_roundings) {
+  randoms r = randoms_stream(test_seed(), 4);
+  int thin = 0, count = 0;
+  double worst = 0;
+  for (int k = test_count(300000); k > 0; k--) {
+    scene s;
+    found f;
+    const double angle = random_between(&r, 0, 6.3);
+    const similarity turn = {.u = cos(angle), .v = sin(angle)};
+    draw_scene(&r, &s);
+    const int far = random_below(&r, 2);
+    const hr2d_point x =
+        plane_along(far ? s.j : s.i, (double)(1 + random_below(&r, PARTS - 1)) / PARTS);
+    if (!round_scene(&r, turn, &s) || !find(&s.d, &f)) continue;
+    const hr2d_point at = rounded(&r, turn, x);
+    const double whole = hr2di_sight_area(&f.sight);
+    const double first = area_of_part(&f.sight, far ? HR2DI_SIGHT_C : HR2DI_SIGHT_A, at);
+    const double second = area_of_part(&f.sight, far ? HR2DI_SIGHT_D : HR2DI_SIGHT_B, at);
+    worst = fmax(worst, fabs(first + second - whole));
+    thin += whole < 1e-12;
+    count++;
+    ck_assert_msg(fabs(first + second - whole) <= 1e-12, "%g and %g of %g", first, second,
+                  whole);
+  }
+  printf("%d sights, %d thin ones, parts off by %.1e\n", count, thin, worst);
+  ck_assert_int_gt(thin, 0);
+}
+END_TEST
+
 /* Points on two parabolas that nearly touch: chains of many points, and areas far below the
    roundings of strings. */
 static void draw_slit(randoms *r, found *f) {
@@ -310,6 +400,22 @@ START_TEST(areas_are_those_of_strings) {
 }
 END_TEST
 
+/* Coordinates far below all others: determinants of which nothing is left but the last bits. */
+START_TEST(areas_near_underflow) {
+  const hr2d_point left[] = {{0x1.5cc0642ffd354p+2, -0x1.76daea0977e4cp+2},
+                             {0x1.05904b23fde7fp+5, -0x1.19242f8719eb9p+5}};
+  hr2d_point right[] = {{0, 0},
+                        {0x1.2de506eece38ap+3, -0x1.a272f68f778b8p+3},
+                        {0x1.ad69dbc59dd69p+4, -0x1.44bc3c0d19923p+5}};
+  const hr2di_sight s = {left, right, 2, 3, 15};
+  const double expected = strings_of(&s);
+  for (int e = -1074; e < -60; e++) {
+    right[0].y = -ldexp(1, e);
+    ck_assert_double_le(fabs(hr2di_sight_area(&s) - expected), 1e-15);
+  }
+}
+END_TEST
+
 START_TEST(turned_round_it_is_the_same) {
   randoms r = randoms_stream(test_seed(), 3);
   for (int k = test_count(10000); k > 0; k--) {
@@ -331,6 +437,6 @@ START_TEST(turned_round_it_is_the_same) {
 END_TEST
 
 TEST_SUITE("sight") {
-  ADD_TESTS("sight", moved_ends_leave_what_the_definition_says, areas_are_those_of_strings,
-            turned_round_it_is_the_same);
+  ADD_TESTS("sight", moved_ends_leave_what_the_definition_says, parts_add_up_within_roundings,
+            areas_are_those_of_strings, areas_near_underflow, turned_round_it_is_the_same);
 }
