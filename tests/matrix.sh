@@ -19,7 +19,8 @@ export HR2D_TEST_MULTIPLIER="${HR2D_TEST_MULTIPLIER-0.1}"
 # pthread_create() of its own, which the sanitizer cannot do without.
 threaded="tests/threads/check-threads tests/unit/refine/check-refine \
 tests/unit/solve/check-order tests/unit/solve/check-solve \
-tests/unit/visibility/check-exchange-matrix tests/unit/blocks/check-blocks"
+tests/unit/visibility/check-exchange-matrix tests/unit/visibility/check-exchange-rows \
+tests/unit/blocks/check-blocks"
 
 # build SETTING CONFIGURE-ARGUMENT...
 build() {

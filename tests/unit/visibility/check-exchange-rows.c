@@ -276,6 +276,68 @@ START_TEST(jittered_rooms_lose_nothing) {
 }
 END_TEST
 
+/* Two walls that leave a common end at so flat an angle that both pass within roundings of the
+   end of a third one: from there on they are one line.  The upper one hides the lower one. */
+typedef struct flat_angle {
+  hr2d_scene *scene;
+  size_t ceiling, upper, lower; /* the first of the patches of two-sided walls */
+  double *area;
+} flat_angle;
+
+static flat_angle open_flat_angle(int upper_first, hr2d_sides upper_sides, similarity turn) {
+  enum { ULPS = 20 };
+  const double off = ULPS * DBL_EPSILON;
+  const hr2d_point corner[] = {{-.5, -.5}, {1.5, -.5}, {1.5, .5}, {-.5, .5}};
+  const hr2d_segment upper = {{0, off}, {1, 0}}, lower = {{0, -off}, {1, 0}};
+  flat_angle f = {.ceiling = 2, .upper = 4, .lower = 4};
+  plan p = {.walls = 0};
+  for (int k = 0; k < 4; k++) plan_add(&p, corner[k], corner[(k + 1) % 4], HR2D_SIDES_FRONT);
+  if (upper_first) plan_add(&p, upper.a, upper.b, upper_sides);
+  plan_add(&p, lower.a, lower.b, HR2D_SIDES_BOTH);
+  if (!upper_first) plan_add(&p, upper.a, upper.b, upper_sides);
+  *(upper_first ? &f.lower : &f.upper) += upper_first && upper_sides != HR2D_SIDES_BOTH ? 1 : 2;
+  plan_add(&p, (hr2d_point){.875, 0}, (hr2d_point){.875, -.25}, HR2D_SIDES_BOTH);
+  for (size_t k = 0; k < p.walls; k++) p.wall[k] = similar_segment(turn, p.wall[k]);
+  f.scene = try_scene(&p, NULL);
+  ck_assert_ptr_nonnull(f.scene);
+  f.area = matrix_of(f.scene, NULL);
+  plan_free(&p);
+  return f;
+}
+
+static double row_sum(const flat_angle *f, size_t row) {
+  const size_t n = hr2d_scene_patches(f->scene);
+  double sum = 0;
+  for (size_t k = 0; k < n; k++) sum += f->area[row * n + k];
+  return sum;
+}
+
+/* Turns of which no digit is lost. */
+START_TEST(the_wall_in_front_hides_the_other) {
+  static const similarity turns[] = {{1, 0, 0, 0}, {-1, 0, 0, 0}, {0, 1, 0, 0}, {0, -1, 0, 0}};
+  const similarity turn = turns[_i & 3];
+  for (int black = 0; black < 2; black++) {
+    flat_angle f = open_flat_angle(_i >> 2, black ? HR2D_SIDES_FRONT : HR2D_SIDES_BOTH, turn);
+    const size_t n = hr2d_scene_patches(f.scene);
+    double *seen = visited(f.scene, 1, NULL);
+    ck_assert_mem_eq(f.area, seen, n * n * sizeof *seen);
+    ck_assert_double_le(f.area[f.ceiling * n + f.lower], 1e-14); /* through the open end */
+    ck_assert_double_gt(f.area[f.ceiling * n + f.upper], .5);
+    ck_assert_double_le(fabs(row_sum(&f, f.upper) - 1), 1e-14);
+    if (black) {
+      ck_assert_double_le(row_sum(&f, f.lower), 1e-14);
+    } else {
+      ck_assert_double_le(fabs(f.area[f.lower * n + f.upper + 1] - 1), 1e-14);
+      for (size_t k = 0; k < n; k++)
+        ck_assert_double_le(fabs(row_sum(&f, k) - hr2d_scene_length(f.scene, k)), 1e-14);
+    }
+    free(seen);
+    free(f.area);
+    hr2d_scene_destroy(f.scene);
+  }
+}
+END_TEST
+
 /* Walls with more patches than a block of rows has, behind obstacles. */
 static plan draw_fine(randoms *r, int pieces) {
   plan p = {.walls = 0};
@@ -493,6 +555,7 @@ END_TEST
 TEST_SUITE("exchange rows") {
   REPEAT_TESTS(2, "scenes", rows_matrix_and_visits_are_the_same,
                seen_pairs_are_those_of_brute_force);
+  REPEAT_TESTS(8, "scenes", the_wall_in_front_hides_the_other);
   ADD_TESTS("scenes", jittered_rooms_lose_nothing, finely_cut_walls, convex_rooms);
   ADD_TESTS("calls", threads_change_no_bit, a_visitor_may_stop, wrong_calls_leave_everything);
   REPEAT_TESTS(4, "calls", allocations_fail_one_by_one);
