@@ -33,12 +33,14 @@ mkdir "$new" "$good"
 make_old() {
   rm -rf "$new"
   mkdir "$new"
-  for name in csv json svg png pdf; do echo old >"$new/x.$name"; done
+  for name in csv json mtx svg png pdf; do echo old >"$new/x.$name"; done
 }
 # Timing decides how many rows a study or a cost has, but no file of any kind is cut short.
 ends_well() {
   case $1 in
   *.csv) awk -F, 'NR == 1 { n = NF } NF != n { bad = 1 } END { exit bad || NR < 1 }' "$1" &&
+    [ "$(tail -c 1 "$1" | od -An -tx1 | tr -d ' ')" = 0a ] ;;
+  *.mtx) awk '/^%/ { next } !n { n = $3 + 1 } { lines++ } END { exit lines != n }' "$1" &&
     [ "$(tail -c 1 "$1" | od -An -tx1 | tr -d ' ')" = 0a ] ;;
   *.json) [ "$(head -n 1 "$1")$(tail -n 1 "$1")" = '{}' ] ;;
   *.svg) tail -n 2 "$1" | grep -q '</svg>' ;;
