@@ -72,6 +72,8 @@ libhr2d_core_la_SOURCES = \
 	src/scene/reachability.c \
 	src/scene/scene.c \
 	src/scene/scene-impl.h \
+	src/scene/side-layers.c src/scene/side-layers.h \
+	src/scene/side-parts.c src/scene/side-parts.h \
 	src/scene/split-crossings.c \
 	src/scene/plane.c src/scene/plane.h \
 	src/scene/wall-pieces.c src/scene/wall-pieces.h \
@@ -98,8 +100,6 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/row-maker.c src/visibility/row-maker.h \
 	src/visibility/row-sum.c src/visibility/row-sum.h \
 	src/visibility/sharing.c src/visibility/sharing.h \
-	src/visibility/side-layers.c src/visibility/side-layers.h \
-	src/visibility/side-parts.c src/visibility/side-parts.h \
 	src/hierarchy/hierarchy.c \
 	src/hierarchy/hierarchy-impl.h \
 	src/hierarchy/push-pull.c src/hierarchy/push-pull.h \

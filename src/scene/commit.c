@@ -21,8 +21,27 @@ static hr2d_status make_walls(hr2d_scene *scene, hr2di_watch *watch) {
   for (size_t k = 0; k < scene->patches && segment; k++) segment[k] = scene->patch[k].scaled;
   if (!status)
     status = hr2di_walls_init(&scene->walls, &scene->alloc, segment, scene->patches, watch);
+  if (!status) status = hr2di_runs_init(&scene->runs, scene, watch);
   hr2di_alloc_free(&scene->alloc, segment);
   return status ? hr2di_scene_fail(scene, status, watch, "the walls") : HR2D_OK;
+}
+
+static hr2di_label label_of_wall(const hr2d_scene *scene, uint32_t wall) {
+  size_t patch = 0;
+  while (scene->walls.of_segment[patch] != wall) patch++;
+  return hr2di_patch_label(scene, patch);
+}
+
+static hr2d_status make_plane(hr2d_scene *scene, hr2di_watch *watch) {
+  if (!scene->effect[HR2D_EFFECT_OCCLUSION].on) return HR2D_OK;
+  uint32_t wall[2];
+  hr2d_status status = hr2di_plane_init(&scene->plane, scene, wall, watch);
+  if (status == HR2D_ESCENE)
+    return hr2di_message_fail(
+        &scene->message, HR2D_ESCENE, "%s and %s cross within roundings, as too many others do",
+        label_of_wall(scene, wall[0]).text, label_of_wall(scene, wall[1]).text);
+  if (!status) status = hr2di_side_parts_init(&scene->parts, scene, watch);
+  return status ? hr2di_scene_fail(scene, status, watch, "the plane") : HR2D_OK;
 }
 
 hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
@@ -30,10 +49,14 @@ hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");
   if (scene->patches == 0)
     return hr2di_message_fail(&scene->message, HR2D_ESCENE, "the scene has no patches");
-  hr2d_status (*const part[])(hr2d_scene *, hr2di_watch *) = {
-      hr2di_scene_check_bands,    check_background, hr2di_scene_scale,
-      hr2di_scene_check_overlaps, make_walls,       hr2di_scene_analyse_effects,
-      hr2di_scene_find_light};
+  hr2d_status (*const part[])(hr2d_scene *, hr2di_watch *) = {hr2di_scene_check_bands,
+                                                              check_background,
+                                                              hr2di_scene_scale,
+                                                              hr2di_scene_check_overlaps,
+                                                              make_walls,
+                                                              hr2di_scene_analyse_effects,
+                                                              make_plane,
+                                                              hr2di_scene_find_light};
   const size_t parts = sizeof part / sizeof *part;
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, NULL, NULL, "commit");

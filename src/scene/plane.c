@@ -60,7 +60,20 @@ static hr2d_status settle(hr2di_wall_pieces *p, const hr2di_conflict *conflict) 
   return status || cut ? status : HR2D_ESCENE;
 }
 
-hr2d_status hr2di_plane_init(hr2di_plane *plane, const hr2d_scene *scene, hr2di_watch *watch) {
+static uint32_t wall_of(const hr2di_wall_pieces *p, uint32_t piece) {
+  uint32_t low = 0, high = (uint32_t)p->walls;
+  while (high - low > 1) {
+    const uint32_t middle = low + (high - low) / 2;
+    if (p->of_wall[middle] <= piece)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+hr2d_status hr2di_plane_init(hr2di_plane *plane, const hr2d_scene *scene, uint32_t wall[2],
+                             hr2di_watch *watch) {
   hr2di_wall_pieces *p = &plane->pieces;
   hr2di_conflict conflict;
   *plane = (hr2di_plane){.triangulation = {.alloc = scene->alloc}};
@@ -72,6 +85,8 @@ hr2d_status hr2di_plane_init(hr2di_plane *plane, const hr2d_scene *scene, hr2di_
     if (!status || (status == HR2D_ESCENE && conflict.together)) return HR2D_OK;
     if (status == HR2D_ESCENE && round < MOST_CUTS) status = settle(p, &conflict);
   }
+  if (status == HR2D_ESCENE)
+    for (int k = 0; k < 2; k++) wall[k] = wall_of(p, conflict.wall[k]);
   return status;
 }
 

@@ -15,9 +15,11 @@ typedef struct hr2di_plane {
   hr2di_triangulation triangulation; /* of the pieces */
 } hr2di_plane;
 
-/* Of a committed scene.  HR2D_OK, HR2D_ENOMEM, the status of the watch, or HR2D_ESCENE for more
-   crossings than roundings make; to be ended by hr2di_plane_clear() in any case. */
-hr2d_status hr2di_plane_init(hr2di_plane *plane, const hr2d_scene *scene, hr2di_watch *watch);
+/* Of a scene with walls.  HR2D_OK, HR2D_ENOMEM, the status of the watch, or HR2D_ESCENE for
+   more crossings than roundings make, of which those of two walls are one; to be ended by
+   hr2di_plane_clear() in any case. */
+hr2d_status hr2di_plane_init(hr2di_plane *plane, const hr2d_scene *scene, uint32_t wall[2],
+                             hr2di_watch *watch);
 void hr2di_plane_clear(hr2di_plane *plane);
 
 #endif

@@ -8,6 +8,9 @@
 #include "base/message.h"
 #include "base/watch.h"
 #include "occlusion/walls.h"
+#include "scene/patch-runs.h"
+#include "scene/plane.h"
+#include "scene/side-parts.h"
 
 /* Emission and reflectance of a patch.  The segments of a feature, both sides of a patch and
    the pieces of a patch share one: otherwise a file of many values and many segments would take
@@ -38,9 +41,12 @@ struct hr2d_scene {
   size_t bands;
   double *background; /* background_bands values; NULL for none */
   size_t background_bands;
-  int exponent;        /* the unit is 2^exponent */
-  hr2di_walls walls;   /* the occluders; made by commit */
-  unsigned char *dark; /* per patch: 1 if no light reaches it; NULL if light reaches all */
+  int exponent;      /* the unit is 2^exponent */
+  hr2di_walls walls; /* the occluders; made by commit, as all that follows */
+  hr2di_runs runs;
+  hr2di_plane plane;      /* empty without the effect of occlusion, */
+  hr2di_side_parts parts; /* and so are these */
+  unsigned char *dark;    /* per patch: 1 if no light reaches it; NULL if light reaches all */
   struct {
     int on;
     int called_for; /* on although not forced */

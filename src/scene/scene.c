@@ -15,8 +15,8 @@ hr2d_status hr2d_scene_create(const hr2d_allocator *allocator, hr2d_scene **scen
   if (!alloc.allocate || !alloc.reallocate || !alloc.release) return HR2D_EINVAL;
   hr2d_scene *made = hr2di_alloc_zero(&alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
-  made->alloc = made->walls.alloc = alloc;
-  made->bands = 1;
+  made->alloc = alloc;
+  hr2di_scene_clear_commit(made);
   *scene = made;
   return HR2D_OK;
 }
@@ -24,6 +24,13 @@ hr2d_status hr2d_scene_create(const hr2d_allocator *allocator, hr2d_scene **scen
 void hr2di_scene_clear_commit(hr2d_scene *scene) {
   hr2di_walls_clear(&scene->walls);
   scene->walls = (hr2di_walls){.alloc = scene->alloc};
+  hr2di_runs_clear(&scene->runs);
+  scene->runs = (hr2di_runs){.alloc = scene->alloc};
+  hr2di_side_parts_clear(&scene->parts);
+  hr2di_plane_clear(&scene->plane);
+  scene->parts = (hr2di_side_parts){.alloc = scene->alloc};
+  scene->plane = (hr2di_plane){.triangulation = {.alloc = scene->alloc},
+                               .pieces = {.alloc = scene->alloc}};
   hr2di_alloc_free(&scene->alloc, scene->dark);
   scene->dark = NULL;
   scene->bands = 1;

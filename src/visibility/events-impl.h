@@ -13,7 +13,6 @@
 #include <hr2d/scene.h>
 
 #include "occlusion/walls.h"
-#include "scene/patch-runs.h"
 
 #define HR2DI_NO_VERTEX     UINT32_MAX
 #define HR2DI_EVENTS_NO_RUN UINT32_MAX
@@ -25,8 +24,7 @@ typedef struct hr2di_vertices {
   hr2d_point *point; /* per vertex of the walls, if a wall ends there */
   uint32_t *first;   /* per vertex: where its walls begin in `wall`; one more */
   uint32_t *wall;    /* the walls that end at each vertex */
-  hr2di_runs runs;
-  uint32_t *run; /* at 2·wall + forward: the run along this side of a wall */
+  uint32_t *run;     /* at 2·wall + forward: the run along this side of a wall */
   hr2di_watch *watch;
   uint32_t blocker; /* the wall that was last found in the way */
 } hr2di_vertices;

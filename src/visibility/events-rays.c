@@ -35,8 +35,8 @@ static void index_ends(hr2di_vertices *t) {
 
 static void index_runs(hr2di_vertices *t) {
   for (size_t k = 0; k < 2 * t->walls->walls; k++) t->run[k] = HR2DI_EVENTS_NO_RUN;
-  for (size_t r = 0; r < t->runs.runs; r++) {
-    const uint32_t patch = t->runs.patch[t->runs.run[r].first];
+  for (size_t r = 0; r < t->scene->runs.runs; r++) {
+    const uint32_t patch = t->scene->runs.patch[t->scene->runs.run[r].first];
     const uint32_t wall = t->walls->of_segment[patch];
     const hr2d_segment s = t->scene->patch[patch].scaled, w = t->walls->wall[wall].at;
     const double along = (s.b.x - s.a.x) * (w.b.x - w.a.x) + (s.b.y - s.a.y) * (w.b.y - w.a.y);
@@ -53,8 +53,6 @@ hr2d_status hr2di_vertices_init(hr2di_vertices *t, const hr2d_scene *scene,
   t->first = hr2di_alloc_zero(alloc, walls->vertices + 1, sizeof *t->first);
   t->wall = hr2di_alloc(alloc, 2 * walls->walls, sizeof *t->wall);
   t->run = hr2di_alloc(alloc, 2 * walls->walls, sizeof *t->run);
-  const hr2d_status status = hr2di_runs_init(&t->runs, scene, watch);
-  if (status) return status;
   if (!t->point || !t->first || !t->wall || !t->run) return HR2D_ENOMEM;
   index_ends(t);
   index_runs(t);
@@ -66,7 +64,6 @@ void hr2di_vertices_clear(hr2di_vertices *t) {
   hr2di_alloc_free(&t->alloc, t->first);
   hr2di_alloc_free(&t->alloc, t->wall);
   hr2di_alloc_free(&t->alloc, t->run);
-  hr2di_runs_clear(&t->runs);
 }
 
 /* From v through u. */
@@ -257,18 +254,18 @@ int hr2di_events_patch_across(const hr2di_vertices *t, uint32_t wall, unsigned s
                               hr2d_point from, hr2d_point to, uint32_t *patch) {
   const uint32_t number = t->run[2 * wall + (side == HR2DI_EVENTS_LEFT)];
   if (number == HR2DI_EVENTS_NO_RUN) return 0;
-  uint32_t low = t->runs.run[number].first, high = t->runs.run[number].last;
+  uint32_t low = t->scene->runs.run[number].first, high = t->scene->runs.run[number].last;
   const hr2di_patch *patches = t->scene->patch;
-  const int start = hr2di_orient_sign(from, to, patches[t->runs.patch[low]].scaled.a);
+  const int start = hr2di_orient_sign(from, to, patches[t->scene->runs.patch[low]].scaled.a);
   /* The last patch that starts before the line. */
   while (high - low > 1) {
     const uint32_t middle = low + (high - low) / 2;
-    if (hr2di_orient_sign(from, to, patches[t->runs.patch[middle]].scaled.a) == start)
+    if (hr2di_orient_sign(from, to, patches[t->scene->runs.patch[middle]].scaled.a) == start)
       low = middle;
     else
       high = middle;
   }
-  *patch = t->runs.patch[low];
+  *patch = t->scene->runs.patch[low];
   return start != 0 && hr2di_orient_sign(from, to, patches[*patch].scaled.b) == -start;
 }
 

@@ -104,8 +104,8 @@ static hr2d_status add_joints(finder *f, uint32_t wall, unsigned side) {
   const uint32_t number = f->vertices.run[2 * wall + (side == HR2DI_EVENTS_LEFT)];
   hr2d_status status = HR2D_OK;
   if (number == HR2DI_EVENTS_NO_RUN) return status;
-  const hr2di_run run = f->vertices.runs.run[number];
-  const uint32_t *patch = f->vertices.runs.patch;
+  const hr2di_run run = f->vertices.scene->runs.run[number];
+  const uint32_t *patch = f->vertices.scene->runs.patch;
   for (uint32_t k = run.first; k < run.last && !status; k++) {
     status = hr2di_watch_work(f->watch, 4);
     if (status) break;

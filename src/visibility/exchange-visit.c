@@ -85,7 +85,7 @@ static hr2d_status show_all(visit *v) {
     status = hr2di_row_maker_run(&v->maker, first, last, keep_row, v);
     for (size_t task = first; task < last && !status; task++)
       for (uint32_t k = m->task[task].first; k < m->task[task].last && !status; k++)
-        status = show_row(v, m->runs.patch[k]);
+        status = show_row(v, m->scene->runs.patch[k]);
   }
   v->counts.exchange_areas /= 2;
   v->counts.partial_pairs /= 2;

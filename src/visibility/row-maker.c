@@ -50,14 +50,14 @@ static size_t blocks_of(hr2di_run r) {
 
 static size_t count_tasks(const hr2di_row_maker *m) {
   size_t count = 0;
-  for (size_t k = 0; k < m->runs.runs; k++) count += blocks_of(m->runs.run[k]);
+  for (size_t k = 0; k < m->scene->runs.runs; k++) count += blocks_of(m->scene->runs.run[k]);
   return count;
 }
 
 /* The parts of the places [first, last) among those of a run, from *part on. */
 static hr2di_parts parts_of(const hr2di_row_maker *m, uint32_t *part, uint32_t end,
                             uint32_t first, uint32_t last) {
-  const hr2di_side_part *at = m->parts.part;
+  const hr2di_side_part *at = m->scene->parts.part;
   while (*part < end && (at[*part].patch == HR2DI_NOBODY || at[*part].place < first)) ++*part;
   hr2di_parts parts = {*part, *part};
   for (; *part < end && (at[*part].patch == HR2DI_NOBODY || at[*part].place < last); ++*part)
@@ -67,17 +67,17 @@ static hr2di_parts parts_of(const hr2di_row_maker *m, uint32_t *part, uint32_t e
 }
 
 static void place_run(const hr2di_row_maker *m, uint32_t run, placed_task **task) {
-  const hr2di_run r = m->runs.run[run];
-  uint32_t part = m->beams ? m->parts.of_run[run].first : 0;
+  const hr2di_run r = m->scene->runs.run[run];
+  uint32_t part = m->beams ? m->scene->parts.of_run[run].first : 0;
   for (uint32_t first = r.first; first < r.last; first += BLOCK, ++*task) {
     const uint32_t last = r.last - first < BLOCK ? r.last : first + BLOCK;
     **task = (placed_task){.task = {first, last, {0, 0}}, .run = run};
     if (!m->beams) continue;
-    (*task)->task.parts = parts_of(m, &part, m->parts.of_run[run].last, first, last);
+    (*task)->task.parts = parts_of(m, &part, m->scene->parts.of_run[run].last, first, last);
     if ((*task)->task.parts.first == (*task)->task.parts.last) continue;
-    const hr2di_wall_side side = m->parts.part[(*task)->task.parts.first].side;
+    const hr2di_wall_side side = m->scene->parts.part[(*task)->task.parts.first].side;
     if (side == HR2DI_HIDDEN) continue;
-    (*task)->vertex = m->plane.triangulation.edge[side >> 1].from;
+    (*task)->vertex = m->scene->plane.triangulation.edge[side >> 1].from;
   }
 }
 
@@ -87,8 +87,9 @@ static hr2d_status make_tasks(hr2di_row_maker *m) {
   placed_task *placed = hr2di_alloc(alloc, m->tasks, sizeof *placed), *next = placed;
   m->task = hr2di_alloc(alloc, m->tasks, sizeof *m->task);
   hr2d_status status = placed && m->task ? HR2D_OK : HR2D_ENOMEM;
-  for (uint32_t k = 0; k < m->runs.runs && !status; k++) {
-    status = hr2di_watch_work(m->watch, 1 + (m->runs.run[k].last - m->runs.run[k].first) / 16);
+  for (uint32_t k = 0; k < m->scene->runs.runs && !status; k++) {
+    status = hr2di_watch_work(
+        m->watch, 1 + (m->scene->runs.run[k].last - m->scene->runs.run[k].first) / 16);
     place_run(m, k, &next);
   }
   if (!status && m->beams)
@@ -105,7 +106,7 @@ static int is_up(hr2d_point p, hr2d_point q) {
 /* A sight that a beam has found. */
 static hr2d_status share(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
   hr2di_row_worker *w = ctx;
-  const hr2di_side *of_side = w->maker->parts.of_side, *far = &of_side[j];
+  const hr2di_side *of_side = w->maker->scene->parts.of_side, *far = &of_side[j];
   /* Edges of a wall that was bent by a rounding. */
   if (of_side[w->side].wall == far->wall) return HR2D_OK;
   const int right = is_up(s->left[0], s->right[s->rights - 1]);
@@ -124,10 +125,10 @@ static hr2d_status share(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
 
 /* All that the parts of one side see. */
 static hr2d_status look_from(hr2di_row_worker *w, hr2di_parts parts) {
-  const hr2di_side_part *part = w->maker->parts.part;
+  const hr2di_side_part *part = w->maker->scene->parts.part;
   w->side = part[parts.first].side;
   w->near = parts;
-  const hr2di_parts all = w->maker->parts.of_side[w->side].parts;
+  const hr2di_parts all = w->maker->scene->parts.of_side[w->side].parts;
   const hr2d_segment span = {part[parts.first].at.a, part[parts.last - 1].at.b};
   w->part = parts.first != all.first || parts.last != all.last;
   return hr2di_walk_from(&w->walk, w->side, w->part ? &span : NULL);
@@ -135,7 +136,7 @@ static hr2d_status look_from(hr2di_row_worker *w, hr2di_parts parts) {
 
 /* What hidden parts among those of a task see. */
 static hr2d_status add_contacts(hr2di_row_worker *w, hr2di_parts parts) {
-  const hr2di_side_parts *p = &w->maker->parts;
+  const hr2di_side_parts *p = &w->maker->scene->parts;
   size_t low = 0, high = p->contacts;
   hr2d_status status = HR2D_OK;
   while (low < high) {
@@ -159,7 +160,7 @@ static hr2d_status add_contacts(hr2di_row_worker *w, hr2di_parts parts) {
 }
 
 static hr2d_status look_around(hr2di_row_worker *w, const hr2di_row_task *t) {
-  const hr2di_side_part *part = w->maker->parts.part;
+  const hr2di_side_part *part = w->maker->scene->parts.part;
   hr2d_status status = add_contacts(w, t->parts);
   for (uint32_t first = t->parts.first, last; first < t->parts.last && !status; first = last) {
     for (last = first; last < t->parts.last && part[last].side == part[first].side;) last++;
@@ -174,7 +175,7 @@ static hr2d_status add_all(hr2di_row_worker *w, const hr2di_row_task *t) {
   const hr2di_patch *patch = m->scene->patch;
   hr2d_status status = HR2D_OK;
   for (uint32_t k = t->first; k < t->last && !status; k++) {
-    const uint32_t i = m->runs.patch[k];
+    const uint32_t i = m->scene->runs.patch[k];
     for (uint32_t j = m->whole ? 0 : i + 1; j < m->scene->patches && !status; j++) {
       if (i == j) continue;
       /* The first of a pair is the one with the lower index, as in links. */
@@ -218,7 +219,7 @@ static hr2d_status make_rows(hr2di_row_worker *w, size_t worker, const hr2di_row
   if (!status) status = sort_rows(w, t, start, &share);
   for (size_t k = 0; k < t->last - t->first && !status; k++) {
     status = hr2di_row_sum_make(&w->sum, share + start[k], start[k + 1] - start[k]);
-    const hr2di_row row = {m->runs.patch[t->first + k], w->sum.column, w->sum.area,
+    const hr2di_row row = {m->scene->runs.patch[t->first + k], w->sum.column, w->sum.area,
                            w->sum.count};
     if (!status) status = m->take(m->ctx, worker, &row);
   }
@@ -264,14 +265,14 @@ static hr2d_status hire(hr2di_row_maker *m, unsigned threads) {
     w->maker = m;
     w->watch = m->workers == 0 ? m->watch : &w->own;
     hr2di_watch_follow(&w->own, m->watch);
-    w->walk = (hr2di_walk){.in = &m->plane.triangulation,
-                           .wanted = m->parts.wanted,
+    w->walk = (hr2di_walk){.in = &m->scene->plane.triangulation,
+                           .wanted = m->scene->parts.wanted,
                            .once = !m->whole,
                            .take = share,
                            .ctx = w,
                            .alloc = *alloc,
                            .watch = w->watch};
-    w->sharing.parts = &m->parts;
+    w->sharing.parts = &m->scene->parts;
     w->sharing.alloc = *alloc;
     w->sharing.watch = w->watch;
     status = hr2di_row_sum_init(&w->sum, m->scene->patches, alloc, w->watch);
@@ -279,24 +280,13 @@ static hr2d_status hire(hr2di_row_maker *m, unsigned threads) {
   return status;
 }
 
-static hr2d_status triangulate(hr2di_row_maker *m) {
-  const hr2d_status status = hr2di_plane_init(&m->plane, m->scene, m->watch);
-  return status ? status
-                : hr2di_side_parts_init(&m->parts, m->scene, &m->runs, &m->plane, m->watch);
-}
-
 hr2d_status hr2di_row_maker_init(hr2di_row_maker *m, const hr2d_scene *scene, unsigned threads,
                                  int whole, hr2di_watch *watch) {
-  *m = (hr2di_row_maker){
-      .scene = scene,
-      .watch = watch,
-      .whole = whole,
-      .beams = scene->effect[HR2D_EFFECT_OCCLUSION].on,
-      .plane = {.triangulation = {.alloc = scene->alloc}, .pieces = {.alloc = scene->alloc}},
-      .parts = {.alloc = scene->alloc}};
-  hr2d_status status = hr2di_runs_init(&m->runs, scene, watch);
-  if (!status && m->beams) status = triangulate(m);
-  if (!status) status = make_tasks(m);
+  *m = (hr2di_row_maker){.scene = scene,
+                         .watch = watch,
+                         .whole = whole,
+                         .beams = scene->effect[HR2D_EFFECT_OCCLUSION].on};
+  hr2d_status status = make_tasks(m);
   if (!status) status = hire(m, threads);
   return status ? status : hr2di_watch_ask(watch);
 }
@@ -314,9 +304,6 @@ void hr2di_row_maker_clear(hr2di_row_maker *m) {
   for (size_t k = 0; k < m->workers; k++) dismiss(&m->worker[k]);
   hr2di_alloc_free(&m->scene->alloc, m->worker);
   hr2di_alloc_free(&m->scene->alloc, m->task);
-  hr2di_side_parts_clear(&m->parts);
-  hr2di_plane_clear(&m->plane);
-  hr2di_runs_clear(&m->runs);
 }
 
 double hr2di_row_maker_fraction(const hr2di_row_maker *m) {

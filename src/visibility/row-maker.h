@@ -12,8 +12,8 @@
 #define HR2D_SRC_VISIBILITY_ROW_MAKER_H
 
 #include "base/team.h"
+#include "scene/side-parts.h"
 #include "visibility/row-sum.h"
-#include "visibility/side-parts.h"
 
 /* A row; columns of pairs that something bounds but the patches are marked by HR2DI_PARTIAL. */
 typedef struct hr2di_row {
@@ -36,11 +36,8 @@ typedef struct hr2di_row_worker hr2di_row_worker;
 typedef struct hr2di_row_maker {
   const hr2d_scene *scene;
   hr2di_watch *watch;
-  int whole; /* rows */
-  int beams; /* something can be in the way */
-  hr2di_runs runs;
-  hr2di_plane plane;
-  hr2di_side_parts parts;
+  int whole;            /* rows */
+  int beams;            /* something can be in the way */
   hr2di_row_task *task; /* along a Hilbert curve */
   size_t tasks;
   hr2di_row_worker *worker;

@@ -3,7 +3,7 @@
 #ifndef HR2D_SRC_VISIBILITY_SHARING_H
 #define HR2D_SRC_VISIBILITY_SHARING_H
 
-#include "visibility/side-parts.h"
+#include "scene/side-parts.h"
 
 enum { HR2DI_SHARING_BATCH = 128 };
 

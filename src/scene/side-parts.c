@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cuts the patches of a run at the vertices of the run's wall. */
-#include "visibility/side-parts.h"
+#include "scene/side-parts.h"
 
 #include <math.h>
 
 #include "base/alloc.h"
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
-#include "visibility/side-layers.h"
+#include "scene/side-layers.h"
 
 /* A vertex so near to the end of a patch is that end: the triangulation moves ends of walls by
    at most 4 units in the last place of scaled coordinates, and by less where a wall is short.
@@ -19,7 +19,6 @@ static double nearness(double wall, double patch) {
 typedef struct cutter {
   hr2di_side_parts *made;
   const hr2d_scene *scene;
-  const hr2di_runs *runs;
   hr2d_segment along; /* the wall, in the direction of the run */
   double length;      /* of the wall */
   uint32_t place;     /* the first patch that is not done */
@@ -43,7 +42,7 @@ static void cut_side(cutter *c, hr2di_wall_side side, hr2d_segment s) {
   int somebody = 0;
   hr2d_point done = s.a;
   while (c->place < c->last) {
-    const uint32_t number = c->runs->patch[c->place];
+    const uint32_t number = c->scene->runs.patch[c->place];
     const hr2d_segment patch = c->scene->patch[number].scaled;
     const double from = at(c, patch.a), to = at(c, patch.b);
     const double near = nearness(c->length, to - from);
@@ -67,11 +66,12 @@ static void cut_side(cutter *c, hr2di_wall_side side, hr2d_segment s) {
 
 /* A patch is cut at vertices of its wall, and each patch and each edge has at most one stretch
    without patches before or behind it. */
-static hr2d_status cut_run(cutter *c, const hr2di_plane *plane, size_t run) {
-  const hr2di_wall_pieces *pieces = &plane->pieces;
-  const hr2di_triangulation *t = &plane->triangulation;
-  const hr2di_run r = c->runs->run[run];
-  const uint32_t patch = c->runs->patch[r.first], wall = c->scene->walls.of_segment[patch];
+static hr2d_status cut_run(cutter *c, size_t run) {
+  const hr2di_wall_pieces *pieces = &c->scene->plane.pieces;
+  const hr2di_triangulation *t = &c->scene->plane.triangulation;
+  const hr2di_run r = c->scene->runs.run[run];
+  const uint32_t patch = c->scene->runs.patch[r.first],
+                 wall = c->scene->walls.of_segment[patch];
   const hr2d_segment s = c->scene->patch[patch].scaled, w = c->scene->walls.wall[wall].at;
   const uint32_t back = hr2di_point_along(w, s.a) > hr2di_point_along(w, s.b);
   c->along = back ? (hr2d_segment){w.b, w.a} : w;
@@ -95,21 +95,22 @@ static hr2d_status cut_run(cutter *c, const hr2di_plane *plane, size_t run) {
 }
 
 hr2d_status hr2di_side_parts_init(hr2di_side_parts *parts, const hr2d_scene *scene,
-                                  const hr2di_runs *runs, const hr2di_plane *plane,
                                   hr2di_watch *watch) {
-  const size_t sides = 2 * plane->triangulation.edges;
+  const size_t sides = 2 * scene->plane.triangulation.edges;
   *parts = (hr2di_side_parts){.alloc = scene->alloc};
   parts->of_side = hr2di_alloc_zero(&scene->alloc, sides, sizeof *parts->of_side);
-  parts->of_run = hr2di_alloc(&scene->alloc, runs->runs, sizeof *parts->of_run);
+  parts->of_run = hr2di_alloc(&scene->alloc, scene->runs.runs, sizeof *parts->of_run);
   parts->wanted = hr2di_alloc_zero(&scene->alloc, sides, sizeof *parts->wanted);
   if (!parts->of_side || !parts->of_run || !parts->wanted) return HR2D_ENOMEM;
-  cutter c = {.made = parts, .scene = scene, .runs = runs};
+  cutter c = {.made = parts, .scene = scene};
   hr2d_status status = HR2D_OK;
-  for (size_t k = 0; k < runs->runs && !status; k++) {
-    status = hr2di_watch_work(watch, 1 + (runs->run[k].last - runs->run[k].first) / 4);
-    if (!status) status = cut_run(&c, plane, k);
+  for (size_t k = 0; k < scene->runs.runs && !status; k++) {
+    status =
+        hr2di_watch_work(watch, 1 + (scene->runs.run[k].last - scene->runs.run[k].first) / 4);
+    if (!status) status = cut_run(&c, k);
   }
-  return status ? status : hr2di_side_layers_settle(parts, scene, &plane->triangulation, watch);
+  return status ? status
+                : hr2di_side_layers_settle(parts, scene, &scene->plane.triangulation, watch);
 }
 
 void hr2di_side_parts_clear(hr2di_side_parts *parts) {

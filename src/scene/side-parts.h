@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which patches lie along which side of the wall edges of a triangulation. */
-#ifndef HR2D_SRC_VISIBILITY_SIDE_PARTS_H
-#define HR2D_SRC_VISIBILITY_SIDE_PARTS_H
+#ifndef HR2D_SRC_SCENE_SIDE_PARTS_H
+#define HR2D_SRC_SCENE_SIDE_PARTS_H
 
-#include "scene/patch-runs.h"
-#include "scene/plane.h"
+#include <hr2d/scene.h>
+
 #include "sight/walk.h"
 
 #define HR2DI_NOBODY UINT32_MAX
@@ -53,10 +53,9 @@ typedef struct hr2di_side_parts {
   size_t contacts;
 } hr2di_side_parts;
 
-/* HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended by
-   hr2di_side_parts_clear() in any case. */
+/* Of a scene with runs and a plane.  HR2D_OK, HR2D_ENOMEM or the status of the watch; to be
+   ended by hr2di_side_parts_clear() in any case. */
 hr2d_status hr2di_side_parts_init(hr2di_side_parts *parts, const hr2d_scene *scene,
-                                  const hr2di_runs *runs, const hr2di_plane *plane,
                                   hr2di_watch *watch);
 void hr2di_side_parts_clear(hr2di_side_parts *parts);
 

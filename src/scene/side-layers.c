@@ -9,7 +9,7 @@
 
    Two neighbours in this order see of each other all that lies face to face, and nothing
    else.  What faces no patch faces the back of a wall, which is black. */
-#include "visibility/side-layers.h"
+#include "scene/side-layers.h"
 
 #include <math.h>
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which of the walls that share an edge of the triangulation is in front of which. */
-#ifndef HR2D_SRC_VISIBILITY_SIDE_LAYERS_H
-#define HR2D_SRC_VISIBILITY_SIDE_LAYERS_H
+#ifndef HR2D_SRC_SCENE_SIDE_LAYERS_H
+#define HR2D_SRC_SCENE_SIDE_LAYERS_H
 
-#include "visibility/side-parts.h"
+#include "scene/side-parts.h"
 
 /* Each edge has the parts of its own wall.  After this, an edge that triangles know has the
    parts of the outermost walls on its two sides; the parts between walls are hidden and have
