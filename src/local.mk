@@ -120,7 +120,6 @@ libhr2d_core_la_SOURCES = \
 	src/blocks/line-vector.h \
 	src/blocks/lines.c src/blocks/lines.h \
 	src/blocks/moments.c src/blocks/moments.h \
-	src/clusters/beams.c src/clusters/beams.h \
 	src/clusters/clusters.c src/clusters/clusters.h \
 	src/clusters/clusters-impl.h \
 	src/clusters/expansion.c src/clusters/expansion.h \

@@ -6,16 +6,16 @@
 
 #include "base/alloc.h"
 #include "base/sort.h"
-#include "clusters/beams.h"
 #include "clusters/clusters-impl.h"
 #include "clusters/facing.h"
 #include "clusters/occlusion.h"
 #include "scene/scene-impl.h"
+#include "visibility/row-maker.h"
 
 /* NEAR pairs are handed over at a time.  A link costs as much as its points times those of
    the other, a pair of patches as much as WORTH of these.  Where so FEW pairs of patches are
-   left, and walls may be in the way, beams tell which of them see each other.  Sines below a
-   part in SLACK of the digits do not matter. */
+   left, and walls may be in the way, they are put off until rows tell which see each other.
+   Sines below a part in SLACK of the digits do not matter. */
 enum { NEAR = 256, WORTH = 8, FEW = 256, SLACK = 64 };
 
 /* What looking into two clusters may cost, as work. */
@@ -122,8 +122,7 @@ static int is_clear(walk *w, two *at) {
   return at->facing && at->clear;
 }
 
-/* The smaller cluster comes first: from its patches beams are cast, and the shorter a patch
-   the narrower they are. */
+/* The smaller cluster comes first: its patches are looked from, and short ones see less. */
 static hr2d_status put_off(walk *w, two at) {
   if (hr2di_alloc_reserve(&w->tree.alloc, &w->later, &w->later_capacity, w->laters + 1,
                           sizeof *w->later))
@@ -162,41 +161,84 @@ static int by_first(const void *left, const void *right) {
   return (l->j > r->j) - (l->j < r->j);
 }
 
-/* Beams from one patch to what was put off for the clusters that hold it. */
-static hr2d_status cast(walk *w, hr2di_beams *beams, uint32_t place, const size_t *start,
-                        uint32_t *target) {
-  const hr2di_cluster *all = w->tree.cluster;
-  size_t targets = 0;
-  hr2d_status status = hr2di_watch_work(w->watch, 10);
-  for (uint32_t k = 0;; k = all[k].child + (place >= all[all[k].child].last)) {
-    for (size_t m = start[k]; m < start[k + 1]; m++) target[targets++] = w->later[m].j;
-    if (!all[k].child) break;
+/* What was put off, to be settled by what patches see. */
+typedef struct settling {
+  walk *w;
+  size_t *start;   /* per cluster: its first of walk::later; one more */
+  uint32_t *place; /* per patch: its place in the tree */
+  uint32_t *mark;  /* per cluster: 1 + the patch it was put off for last */
+} settling;
+
+static uint32_t child_at(const hr2di_cluster *all, uint32_t k, uint32_t place) {
+  return all[k].child + (place >= all[all[k].child].last);
+}
+
+/* Marks the clusters that were put off for those that hold a patch; returns whether there are
+   any. */
+static int mark_put_off(settling *s, uint32_t patch) {
+  const hr2di_cluster *all = s->w->tree.cluster;
+  int any = 0;
+  for (uint32_t k = 0;; k = child_at(all, k, s->place[patch])) {
+    for (size_t m = s->start[k]; m < s->start[k + 1]; m++)
+      s->mark[s->w->later[m].j] = patch + 1;
+    any |= s->start[k] < s->start[k + 1];
+    if (!all[k].child) return any;
   }
-  const uint32_t patch = w->tree.patch[place];
-  if (!status) status = hr2di_watch_work(w->watch, targets / 16);
-  if (!status) status = hr2di_beams_cast(beams, patch, target, targets);
-  for (size_t k = 0; k < beams->seen_count && !status; k++)
-    status = hand_over(w, patch, beams->seen[k]);
-  if (!status) status = hr2di_watch_work(w->watch, beams->seen_count / 8);
+}
+
+static int was_put_off(const settling *s, uint32_t patch, uint32_t other) {
+  const hr2di_cluster *all = s->w->tree.cluster;
+  for (uint32_t k = 0;; k = child_at(all, k, s->place[other])) {
+    if (s->mark[k] == patch + 1) return 1;
+    if (!all[k].child) return 0;
+  }
+}
+
+/* Hands over what a patch sees of what was put off for it. */
+static hr2d_status settle_row(void *ctx, size_t worker, const hr2di_row *row) {
+  (void)worker;
+  settling *s = ctx;
+  hr2d_status status = hr2di_watch_work(s->w->watch, 1 + row->count / 4);
+  if (status || !mark_put_off(s, row->patch)) return status;
+  for (size_t k = 0; k < row->count && !status; k++) {
+    const uint32_t other = row->column[k] & ~HR2DI_PARTIAL;
+    if (was_put_off(s, row->patch, other)) status = hand_over(s->w, row->patch, other);
+  }
+  return status;
+}
+
+/* A task may be left out if nothing was put off for its patches. */
+static hr2d_status settle_rows(settling *s, const hr2d_scene *scene) {
+  hr2di_row_maker rows;
+  hr2d_status status = hr2di_row_maker_init(&rows, scene, 1, 1, s->w->watch);
+  for (size_t k = 0; k < rows.tasks && !status; k++) {
+    int any = 0;
+    for (uint32_t m = rows.task[k].first; m < rows.task[k].last && !any; m++)
+      any = mark_put_off(s, scene->runs.patch[m]);
+    status = hr2di_watch_work(s->w->watch, 1);
+    if (any && !status) status = hr2di_row_maker_run(&rows, k, k + 1, settle_row, s);
+  }
+  hr2di_row_maker_clear(&rows);
   return status;
 }
 
 static hr2d_status settle_later(walk *w, const hr2d_scene *scene) {
   if (w->laters == 0) return HR2D_OK;
   const hr2d_allocator *alloc = &w->tree.alloc;
-  hr2di_beams beams;
-  size_t *start = hr2di_alloc(alloc, w->tree.clusters + 1, sizeof *start);
-  uint32_t *target = hr2di_alloc(alloc, w->laters, sizeof *target);
-  hr2d_status status = hr2di_beams_init(&beams, scene, &w->tree, alloc, w->watch);
-  if (!start || !target) status = HR2D_ENOMEM;
+  settling s = {.w = w,
+                .start = hr2di_alloc(alloc, w->tree.clusters + 1, sizeof *s.start),
+                .place = hr2di_alloc(alloc, scene->patches, sizeof *s.place),
+                .mark = hr2di_alloc_zero(alloc, w->tree.clusters, sizeof *s.mark)};
+  hr2d_status status = s.start && s.place && s.mark ? HR2D_OK : HR2D_ENOMEM;
   if (!status) status = hr2di_sort(w->later, w->laters, sizeof *w->later, by_first, w->watch);
-  for (size_t k = 0, m = 0; k <= w->tree.clusters && start; start[k++] = m)
+  if (!status) status = hr2di_watch_work(w->watch, w->tree.clusters / 8);
+  for (size_t k = 0, m = 0; k <= w->tree.clusters && !status; s.start[k++] = m)
     while (m < w->laters && w->later[m].i < k) m++;
-  for (uint32_t k = 0; k < scene->patches && !status; k++)
-    status = cast(w, &beams, k, start, target);
-  hr2di_beams_clear(&beams);
-  hr2di_alloc_free(alloc, start);
-  hr2di_alloc_free(alloc, target);
+  for (uint32_t k = 0; k < scene->patches && !status; k++) s.place[w->tree.patch[k]] = k;
+  if (!status) status = settle_rows(&s, scene);
+  hr2di_alloc_free(alloc, s.start);
+  hr2di_alloc_free(alloc, s.place);
+  hr2di_alloc_free(alloc, s.mark);
   return status;
 }
 
