@@ -99,6 +99,7 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/point-view-sweep.c \
 	src/visibility/row-maker.c src/visibility/row-maker.h \
 	src/visibility/row-sum.c src/visibility/row-sum.h \
+	src/visibility/seen-ends.c src/visibility/seen-ends.h \
 	src/visibility/sharing.c src/visibility/sharing.h \
 	src/hierarchy/hierarchy.c \
 	src/hierarchy/hierarchy-impl.h \

@@ -19,6 +19,7 @@
 #include "geometry/predicates.h"
 #include "scene/back-faces.h"
 #include "scene/scene-impl.h"
+#include "visibility/seen-ends.h"
 
 /* An end stands on a patch if it is nearer than this part of the patch's length to its line. */
 #define ON_LINE 1e-13
@@ -55,7 +56,8 @@ typedef struct grader {
   uint32_t *under;         /* for the start and the end of each patch: 1 + the patch on whose
                               front, between its ends, it stands, or 0 */
   hr2di_image_points near; /* points in front of the current patch, and near to it: ends of
-                              other patches, and mirror images */
+                              other patches that it sees, and mirror images */
+  hr2di_seen_ends *seen;   /* NULL: nothing is in the way of anything */
   mark *mark;              /* of the current patch, by place */
   size_t marks, mark_capacity;
   hr2di_survey survey;
@@ -188,6 +190,8 @@ static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
   const double above = hr2di_orient(s.a, s.b, v->at) / square;
   const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y;
   const double at = ((v->at.x - s.a.x) * ux + (v->at.y - s.a.y) * uy) / square;
+  if (above > ON_LINE && g->seen && !hr2di_seen_ends_has(g->seen, v->patch, v->last))
+    return HR2D_OK;
   if (above > ON_LINE) return add_near(g, s, v->at);
   if (above < -ON_LINE) return HR2D_OK;
   if (at < -ON_LINE || at > 1 + ON_LINE)
@@ -379,10 +383,10 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
   g->distance =
       weight < 1 ? hr2di_ellipse_for(g->target, g->grading->order) : HR2DI_ELLIPSE_DISTANT;
   g->shortest = shortest_part(&g->h->scene->patch[patch]);
-  hr2d_status status = look_around(g, patch);
+  hr2d_status status = g->seen ? hr2di_seen_ends_look(g->seen, patch) : HR2D_OK;
+  if (!status) status = look_around(g, patch);
   if (!status)
-    status =
-        hr2di_images_add(g->h->scene, patch, FAR, &g->near, g->near.count, g->grading->watch);
+    status = hr2di_images_add(g->h->scene, patch, FAR, g->seen, &g->near, g->grading->watch);
   for (int last = 0; last < 2 && !status; last++) status = add_foot(g, patch, last);
   if (!status) status = add_events(g, patch);
   if (status) return status;
@@ -420,15 +424,21 @@ hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *
                                 hr2di_survey *survey) {
   const hr2d_scene *scene = hierarchy->scene;
   grader g = {.h = hierarchy, .grading = grading, .survey = {1, FAR}, .target = 1};
+  hr2di_seen_ends seen = {0};
   hr2d_status status = list_vertices(&g);
   for (uint32_t k = 0; k < scene->patches && !status; k++) {
     status = look_around(&g, k); /* finds the patches that stand on it, into g.under */
     g.near.count = g.marks = 0;
   }
   if (!status) status = find_backs(&g);
+  if (!status && scene->effect[HR2D_EFFECT_OCCLUSION].on) {
+    g.seen = &seen;
+    status = hr2di_seen_ends_init(&seen, scene, &hierarchy->alloc, grading->watch);
+  }
   for (uint32_t k = 0; k < scene->patches && !status; k++)
     if (hr2di_scene_lit(scene, k) && (g.all || reflectance(scene, k) > 0))
       status = grade_patch(&g, k);
+  hr2di_seen_ends_clear(&seen);
   hr2di_alloc_free(&hierarchy->alloc, g.vertex);
   hr2di_alloc_free(&hierarchy->alloc, g.under);
   hr2di_alloc_free(&hierarchy->alloc, g.near.point);

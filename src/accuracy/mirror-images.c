@@ -70,8 +70,9 @@ static hr2d_status add_wall(mirror *m, hr2d_segment wall) {
 }
 
 hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max,
-                             hr2di_image_points *points, size_t count, hr2di_watch *watch) {
-  mirror m = {scene, &scene->patch[patch], max, points, count, watch};
+                             const hr2di_seen_ends *seen, hr2di_image_points *points,
+                             hr2di_watch *watch) {
+  mirror m = {scene, &scene->patch[patch], max, points, points->count, watch};
   uint32_t stack[2 * HR2DI_BOX_DEPTH];
   size_t waiting = 0;
   hr2d_status status = HR2D_OK;
@@ -84,7 +85,8 @@ hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max
     if (box->wall == HR2DI_NO_WALL) {
       stack[waiting++] = box->below;
       stack[waiting++] = box->below + 1;
-    } else if (box->wall != scene->walls.of_segment[patch]) {
+    } else if (box->wall != scene->walls.of_segment[patch] &&
+               (!seen || hr2di_seen_ends_has_wall(seen, box->wall))) {
       status = add_wall(&m, scene->walls.wall[box->wall].at);
     }
   }

@@ -11,16 +11,19 @@
 #include <stdint.h>
 
 #include "base/watch.h"
+#include "visibility/seen-ends.h"
 
 typedef struct hr2di_image_points {
   hr2d_point *point;
   size_t count, capacity;
 } hr2di_image_points;
 
-/* Appends to `points` the images of its first `count` points, and of the patch's ends, in walls
-   that are near the patch and in front of it at least in part.  Images at an ellipse of `max`
-   or more are left out.  Returns HR2D_OK, HR2D_ENOMEM or the status of the watch. */
+/* Appends to `points` the images of those that are there, and of the patch's ends, in walls
+   that are near the patch and in front of it at least in part.  With `seen`, which has looked
+   from the patch, other walls have no images.  Images at an ellipse of `max` or more are left
+   out. Returns HR2D_OK, HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max,
-                             hr2di_image_points *points, size_t count, hr2di_watch *watch);
+                             const hr2di_seen_ends *seen, hr2di_image_points *points,
+                             hr2di_watch *watch);
 
 #endif

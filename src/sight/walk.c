@@ -146,6 +146,7 @@ static int is_end(const hr2di_walk *w, int32_t across) {
 typedef struct entry {
   hr2d_point l, r, v;
   int32_t across[2]; /* behind r → v, where beams go that leave v on their left, and v → l */
+  uint32_t vertex;   /* the number of v */
 } entry;
 
 /* The part of a beam that leaves v on its left (0) or right (1) ends here. */
@@ -175,6 +176,7 @@ static inline int go_on(hr2di_walk *w, chains *c, const base *b, hr2di_walk_fram
 static hr2d_status split(hr2di_walk *w, chains *c, const base *b, const entry *e,
                          int32_t *next) {
   hr2d_status status = reserve(w, c);
+  if (w->see) w->see(w->ctx, e->vertex);
   if (!status && is_end(w, e->across[0])) status = finish(w, c, b, e, 0);
   if (!status && is_end(w, e->across[1])) status = finish(w, c, b, e, 1);
   if (status || (e->across[0] < 0 && e->across[1] < 0)) return status;
@@ -222,7 +224,8 @@ static int follow(hr2di_walk *w, const chains *c, int32_t h, entry *e, int *hand
     *e = (entry){at[t->corner[k]],
                  at[t->corner[to_right]],
                  v,
-                 {t->across[to_right], t->across[to_left]}};
+                 {t->across[to_right], t->across[to_left]},
+                 t->corner[to_left]};
     *hand = !left;
     return left && right;
   }

@@ -26,6 +26,8 @@ typedef struct hr2di_walk {
   const unsigned char *wanted; /* per side: whether sights that end there are taken */
   int once;                    /* each sight only from one of its sides, see walk.c */
   hr2di_sight_fn take;
+  void (*see)(void *ctx, uint32_t vertex); /* a vertex that the side sees, maybe not for the
+                                              first time; may be NULL */
   void *ctx;
   hr2d_allocator alloc;
   hr2di_watch *watch;

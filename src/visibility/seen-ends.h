@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which ends of patches, and which walls, a patch sees past all others. */
+#ifndef HR2D_SRC_VISIBILITY_SEEN_ENDS_H
+#define HR2D_SRC_VISIBILITY_SEEN_ENDS_H
+
+#include "scene/scene-impl.h"
+
+/* Work space of one thread, and what the last patch sees. */
+typedef struct hr2di_seen_ends {
+  const hr2d_scene *scene;
+  hr2di_walk walk;
+  uint32_t *part_of;   /* per patch: its first part of hr2di_side_parts::part */
+  uint32_t *first;     /* per vertex: where its ends begin in `end`; one more */
+  uint32_t *end;       /* 2·patch for its start, 2·patch + 1 for its last point */
+  uint32_t *end_seen;  /* per end: 1 + the patch that saw it last */
+  uint32_t *side_seen; /* the same per side of a wall edge */
+  uint32_t *wall_seen;
+  uint32_t patch; /* 1 + the last one */
+} hr2di_seen_ends;
+
+/* For a committed scene with the effect of occlusion.  HR2D_OK, HR2D_ENOMEM or the status of
+   the watch; to be ended by hr2di_seen_ends_clear() in any case. */
+hr2d_status hr2di_seen_ends_init(hr2di_seen_ends *seen, const hr2d_scene *scene,
+                                 const hr2d_allocator *alloc, hr2di_watch *watch);
+void hr2di_seen_ends_clear(hr2di_seen_ends *seen);
+
+/* Looks from all of a patch; HR2D_OK, HR2D_ENOMEM or the status of the watch.  The cost is that
+   of the beams from the patch. */
+hr2d_status hr2di_seen_ends_look(hr2di_seen_ends *seen, uint32_t patch);
+
+/* Whether the patch that looked last sees an end in front of it.  Of a wall of which it sees a
+   part, all ends of patches between those of the wall count as seen. */
+static inline int hr2di_seen_ends_has(const hr2di_seen_ends *seen, uint32_t patch, int last) {
+  return seen->end_seen[2 * patch + (last != 0)] == seen->patch;
+}
+
+/* Whether it sees the front of a patch on a wall. */
+static inline int hr2di_seen_ends_has_wall(const hr2di_seen_ends *seen, uint32_t wall) {
+  return seen->wall_seen[wall] == seen->patch;
+}
+
+#endif
