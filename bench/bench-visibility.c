@@ -2,11 +2,12 @@
 /* Measures the cost of exact occlusion: all exchange areas of a scene against crossed strings,
    which ignore occluders, and a link of a refinement for a growing number of occluders.
 
-   Usage: bench_visibility [rows|growth|hard|million|links [FAMILY]]; without a word, rows and
-   links.
+   Usage: bench_visibility [rows|links|growth|hard|million|views [FAMILY]]; without a word, rows
+   and links.
    Times are medians of rounds in which both sides of a ratio alternate.  Fails where a bar is
    missed.  `growth` and `hard` go on to larger scenes, and `million` measures a million
-   segments from adding them on; they take as long as commit does. */
+   segments from adding them on; they take as long as commit does.  `views` counts the views of
+   single points in a second. */
 #include <hr2d/hr2d.h>
 #include <math.h>
 #include <stdint.h>
@@ -17,8 +18,10 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/alloc.h"
 #include "base/clock.h"
 #include "timing.h"
+#include "visibility/point-view.h"
 
 enum { MOST_ROUNDS = 15, BLOCKERS = 16 };
 
@@ -589,8 +592,35 @@ static void measure_refinements(int most, double epsilon) {
   }
 }
 
+/* Views of points anywhere, and what one sees. */
+static void measure_views(const family *f) {
+  enum { VIEWS = 2000 };
+  hr2d_scene *scene = scene_of(f->draw, f->size, 0);
+  const hr2d_allocator alloc = hr2di_alloc_default();
+  hr2di_viewer *viewer;
+  double seconds[MOST_ROUNDS];
+  size_t glimpses = 0;
+  for (int round = 0; round < 5; round++) {
+    glimpses = 0;
+    state = 20250103;
+    const double start = processor_now();
+    if (hr2di_viewer_create(scene, &alloc, NULL, &viewer)) fail("no viewer");
+    for (int k = 0; k < VIEWS; k++) {
+      hr2di_view_from seen;
+      const size_t patch = (size_t)uniform(0, (double)hr2d_scene_patches(scene));
+      if (hr2di_view_at(viewer, patch, uniform(0, 1), &seen)) fail("no view");
+      glimpses += seen.count;
+    }
+    hr2di_viewer_destroy(viewer);
+    seconds[round] = processor_now() - start;
+  }
+  printf("%-8s%8zu%12.0f%12.1f\n", f->name, hr2d_scene_patches(scene),
+         VIEWS / median_of(seconds, 5), (double)glimpses / VIEWS);
+  hr2d_scene_destroy(scene);
+}
+
 int main(int argc, char **argv) {
-  static const char *const words[] = {"rows", "links", "growth", "hard", "million"};
+  static const char *const words[] = {"rows", "links", "growth", "hard", "million", "views"};
   enum { WORDS = sizeof words / sizeof *words, DEFAULT = 2 };
   const char *what = argc > 1 ? argv[1] : "";
   int asked[WORDS], any = 0;
@@ -598,7 +628,7 @@ int main(int argc, char **argv) {
   for (int k = 0; k < WORDS; k++)
     any |= asked[k] = *what ? strcmp(what, words[k]) == 0 : k < DEFAULT;
   if (!any) {
-    fprintf(stderr, "usage: %s [rows|growth|hard|million|links [FAMILY]]\n", argv[0]);
+    fprintf(stderr, "usage: %s [rows|links|growth|hard|million|views [FAMILY]]\n", argv[0]);
     return 2;
   }
   if (asked[0]) measure_families();
@@ -610,5 +640,8 @@ int main(int argc, char **argv) {
   if (asked[3]) measure_hard();
   for (int k = 0; k < 2 && asked[4]; k++)
     if (is_wanted(families[k].name)) measure_million(&families[k]);
+  if (asked[5]) printf("%-8s%8s%12s%12s\n", "views", "N", "a second", "glimpses");
+  for (int k = 0; k < FAMILIES && asked[5]; k++)
+    if (is_wanted(families[k].name)) measure_views(&families[k]);
   return failures ? EXIT_FAILURE : EXIT_SUCCESS;
 }

@@ -94,9 +94,11 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/exchange-rows.c \
 	src/visibility/exchange-visit.c \
 	src/visibility/point-view.c src/visibility/point-view.h \
+	src/visibility/point-view-all.c \
 	src/visibility/point-view-glimpse.c \
 	src/visibility/point-view-impl.h \
-	src/visibility/point-view-sweep.c \
+	src/visibility/point-view-ray.c \
+	src/visibility/point-view-walk.c \
 	src/visibility/row-maker.c src/visibility/row-maker.h \
 	src/visibility/row-sum.c src/visibility/row-sum.h \
 	src/visibility/seen-ends.c src/visibility/seen-ends.h \

@@ -64,6 +64,7 @@ SUITES = \
 	tests/unit/accuracy/check-corner \
 	tests/unit/visibility/check-events \
 	tests/unit/visibility/check-point-view \
+	tests/unit/visibility/check-point-view-walls \
 	tests/unit/state/check-state \
 	tests/unit/refine/check-study \
 	tests/hard/check-hard-refine \
@@ -105,6 +106,7 @@ tests_libsupport_la_SOURCES = \
 	tests/support/elements.c tests/support/elements.h \
 	tests/support/fault-calls.c tests/support/fault-calls.h \
 	tests/support/fault-stage.c tests/support/fault-stage.h \
+	tests/support/grid-plans.c tests/support/grid-plans.h \
 	tests/support/hard-rooms.c tests/support/hard-rooms.h \
 	tests/support/hard.c tests/support/hard.h \
 	tests/support/hill-climb.c tests/support/hill-climb.h \

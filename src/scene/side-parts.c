@@ -32,6 +32,9 @@ static double at(const cutter *c, hr2d_point p) {
 }
 
 static void add(cutter *c, hr2di_wall_side side, hr2d_point a, hr2d_point b, uint32_t patch) {
+  hr2di_parts *of = patch == HR2DI_NOBODY ? NULL : &c->made->of_patch[patch];
+  if (of && of->first == of->last) of->first = (uint32_t)c->made->parts;
+  if (of) of->last = (uint32_t)c->made->parts + 1;
   c->made->part[c->made->parts++] = (hr2di_side_part){{a, b}, patch, c->place, side};
 }
 
@@ -100,8 +103,10 @@ hr2d_status hr2di_side_parts_init(hr2di_side_parts *parts, const hr2d_scene *sce
   *parts = (hr2di_side_parts){.alloc = scene->alloc};
   parts->of_side = hr2di_alloc_zero(&scene->alloc, sides, sizeof *parts->of_side);
   parts->of_run = hr2di_alloc(&scene->alloc, scene->runs.runs, sizeof *parts->of_run);
+  parts->of_patch = hr2di_alloc_zero(&scene->alloc, scene->patches, sizeof *parts->of_patch);
   parts->wanted = hr2di_alloc_zero(&scene->alloc, sides, sizeof *parts->wanted);
-  if (!parts->of_side || !parts->of_run || !parts->wanted) return HR2D_ENOMEM;
+  if (!parts->of_side || !parts->of_run || !parts->of_patch || !parts->wanted)
+    return HR2D_ENOMEM;
   cutter c = {.made = parts, .scene = scene};
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < scene->runs.runs && !status; k++) {
@@ -117,6 +122,7 @@ void hr2di_side_parts_clear(hr2di_side_parts *parts) {
   hr2di_alloc_free(&parts->alloc, parts->part);
   hr2di_alloc_free(&parts->alloc, parts->of_side);
   hr2di_alloc_free(&parts->alloc, parts->of_run);
+  hr2di_alloc_free(&parts->alloc, parts->of_patch);
   hr2di_alloc_free(&parts->alloc, parts->wanted);
   hr2di_alloc_free(&parts->alloc, parts->contact);
 }

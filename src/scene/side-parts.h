@@ -48,6 +48,7 @@ typedef struct hr2di_side_parts {
   size_t parts;
   hr2di_side *of_side;    /* 2·edges */
   hr2di_parts *of_run;    /* one for each run */
+  hr2di_parts *of_patch;  /* one for each patch, hidden ones too; may be empty */
   unsigned char *wanted;  /* per side: whether it has patches */
   hr2di_contact *contact; /* by part; each is there from both sides */
   size_t contacts;

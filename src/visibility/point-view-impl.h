@@ -1,86 +1,107 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The parts of a point's view: the directions of vertices, and the arcs of directions that
-   patches cover. */
+/* The parts of a point's view: the eye, rays from it, and what is seen between two rays. */
 #ifndef HR2D_SRC_VISIBILITY_POINT_VIEW_IMPL_H
 #define HR2D_SRC_VISIBILITY_POINT_VIEW_IMPL_H
 
 #include "base/neumaier-sum.h"
 #include "geometry/determinant.h"
+#include "scene/side-parts.h"
 #include "visibility/point-view.h"
 
-/* HR2DI_HORIZON: the end of an arc whose patch goes on behind the patch of the point.
-   HR2DI_NO_ARC: no arc. */
-#define HR2DI_HORIZON UINT32_MAX
-#define HR2DI_NO_ARC  UINT32_MAX
+/* Coordinates are at most 2; times this, they neither overflow nor underflow. */
+#define HR2DI_VIEW_SCALE 0x1p+400
 
-/* A vertex as the point sees it.  Members below `height` are set only if that is positive. */
-typedef struct hr2di_bearing {
-  hr2di_vector to;     /* from the point */
-  double height;       /* over the line of the patch, its sign exact; 0 at the point itself */
+/* A place that a ray goes to and that is no vertex of the triangulation. */
+#define HR2DI_VIEW_NO_VERTEX UINT32_MAX
+
+/* A ray from the eye to a place, or along the line of the patch. */
+typedef struct hr2di_ray {
+  hr2d_point at;       /* times HR2DI_VIEW_SCALE */
+  hr2di_vector to;     /* from the eye, to 2^-104 of its length */
+  double height;       /* over the line of the patch, its sign exact */
   double distance;     /* |to| */
   double sine, cosine; /* of the angle to the normal; the sine grows towards the patch's b */
-  double key;          /* from -2 to 2 as directions turn left, to 2^-50 */
-} hr2di_bearing;
+  uint32_t vertex;     /* or HR2DI_VIEW_NO_VERTEX */
+  int horizon;         /* 1: to the right, towards b; -1: to the left; else 0 */
+} hr2di_ray;
 
-/* The directions between the ends of a patch: from `right`, counter-clockwise to `left`. */
-typedef struct hr2di_arc {
-  uint32_t patch;
-  uint32_t right, left;          /* vertices, or HR2DI_HORIZON */
-  int front;                     /* whether the patch's front looks at the point */
-  uint32_t start, end;           /* ranks of these directions */
-  uint32_t next_start, next_end; /* arcs of the same rank */
-  uint32_t place;                /* in the heap */
-} hr2di_arc;
+/* Fraction t of a patch. */
+typedef struct hr2di_eye {
+  size_t patch;
+  double t;
+  hr2d_point a, b;   /* the ends of the patch, times HR2DI_VIEW_SCALE */
+  hr2d_point base;   /* the one that is nearer */
+  hr2di_vector x;    /* from there to the eye */
+  hr2di_vector axis; /* b − a, times a power of 2 */
+  double length;     /* of the axis */
+} hr2di_eye;
 
-typedef struct hr2di_direction {
-  double key;
-  uint32_t vertex;
-} hr2di_direction;
+void hr2di_eye_init(hr2di_eye *e, hr2d_segment patch, size_t number, double t);
+
+/* A ray to a place; sets `at`, `to`, `vertex` and `horizon` only. */
+void hr2di_ray_aim(const hr2di_eye *e, hr2d_point place, uint32_t vertex, hr2di_ray *ray);
+
+static inline hr2di_ray hr2di_ray_to(const hr2di_eye *e, hr2d_point place) {
+  hr2di_ray ray;
+  hr2di_ray_aim(e, place, HR2DI_VIEW_NO_VERTEX, &ray);
+  return ray;
+}
+
+/* Sets the rest; where the height is not positive, that is 0. */
+void hr2di_ray_measure(const hr2di_eye *e, hr2di_ray *ray);
+
+/* The ray along the line of the patch, which a vertex may stand for. */
+hr2di_ray hr2di_ray_horizon(int hand, uint32_t vertex);
+
+/* Whether a ray turns left against another one that was measured: 1; right: −1; exact for the
+   vectors `to`. */
+int hr2di_ray_turn(const hr2di_eye *e, const hr2di_ray *from, const hr2di_ray *to);
+
+/* ½ |sin θ| between two rays that were measured; positive if `left` is on the left. */
+double hr2di_ray_half_sine(const hr2di_ray *right, const hr2di_ray *left);
+
+/* Where a ray meets a patch that shows its front, with rays to its ends. */
+double hr2di_ray_fraction(const hr2di_ray *ray, const hr2di_ray *a, const hr2di_ray *b);
+
+/* What is seen, if it is not a patch's front. */
+enum {
+  HR2DI_SEEN_NOBODY = HR2DI_NOBODY, /* a back: black */
+  HR2DI_SEEN_SKY = HR2DI_NOBODY - 1,
+  HR2DI_SEEN_NOTHING = HR2DI_NOBODY - 2
+};
+
+/* What is seen from the right ray to the left one. */
+typedef struct hr2di_stretch {
+  uint32_t patch; /* or what else it is */
+  hr2di_ray right, left;
+  int starts, ends; /* with the patch's own start, on the right, and end */
+} hr2di_stretch;
+
+typedef struct hr2di_view_frame hr2di_view_frame;
 
 struct hr2di_viewer {
   hr2d_allocator alloc;
   hr2di_watch *watch;
   const hr2d_scene *scene;
-  size_t patches, vertices;
-  hr2d_point *vertex;  /* each vertex once, times HR2DI_VIEW_SCALE */
-  uint32_t (*end)[2];  /* the vertices of each patch's a and b */
-  unsigned char *twin; /* per patch: another one stands back to back with it, end to end */
-
-  /* The point. */
-  size_t patch;
-  double t;
-  hr2di_bearing *bearing;
-  hr2di_arc *arc;
-  size_t arcs;
-
-  /* The sweep. */
-  hr2di_direction *direction[2]; /* sorted, and space to sort */
-  uint32_t *rank;                /* per vertex in front, by its direction: from 1 on */
-  uint32_t *starting, *ending;   /* per rank: the first arc */
-  uint32_t *heap;                /* arcs under way, the nearest on top */
-  size_t under_way;
-
-  /* What was seen. */
+  hr2di_eye eye;
+  hr2di_stretch seeing; /* what may go on to the left */
+  hr2di_view_frame *frame;
+  size_t frames, frame_room;
+  double (*span)[2]; /* sines that something covers */
+  size_t spans, span_room;
   hr2di_glimpse *glimpse, *sorted;
-  size_t glimpses;
-  size_t *first; /* of each patch, to sort */
+  size_t glimpses, glimpse_room, sorted_room;
+  uint64_t *order; /* of glimpses: their patches and their places */
+  size_t order_room;
   hr2di_sum back;
 };
 
-/* Coordinates are at most 2; times this, they neither overflow nor underflow. */
-#define HR2DI_VIEW_SCALE 0x1p+400
+/* Adds what a stretch shows.  HR2D_OK or HR2D_ENOMEM. */
+hr2d_status hr2di_view_add(hr2di_viewer *w, const hr2di_stretch *s);
 
-/* u → v turns left as seen from the point: 1; right: -1; exact for the vectors `to`. */
-static inline int hr2di_view_turn(const hr2di_viewer *w, uint32_t u, uint32_t v) {
-  const double det = hr2di_det(&w->bearing[u].to, &w->bearing[v].to);
-  return (det > 0) - (det < 0);
-}
-
-/* Notes that the point sees an arc's patch between two directions. */
-void hr2di_view_note(hr2di_viewer *w, const hr2di_arc *arc, uint32_t right, uint32_t left);
-
-/* Notes all parts of arcs that the point sees, in the order of directions.  Returns HR2D_OK or
-   the status of the watch. */
-hr2d_status hr2di_view_sweep(hr2di_viewer *w);
+/* Adds all that the eye sees, in the order of directions where something can be in the way,
+   else in that of patches.  HR2D_OK, HR2D_ENOMEM or the status of the watch. */
+hr2d_status hr2di_view_walk(hr2di_viewer *w);
+hr2d_status hr2di_view_all(hr2di_viewer *w);
 
 #endif

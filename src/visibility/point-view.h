@@ -19,7 +19,8 @@ typedef struct hr2di_glimpse {
 /* Work space of one thread, and the last view. */
 typedef struct hr2di_viewer hr2di_viewer;
 
-/* For a committed scene.  Returns HR2D_OK, HR2D_ENOMEM or the status of the watch. */
+/* For a committed scene.  HR2D_OK or HR2D_ENOMEM.  Costs nothing: what viewers share is the
+   scene's. */
 hr2d_status hr2di_viewer_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
                                 hr2di_watch *watch, hr2di_viewer **viewer);
 void hr2di_viewer_destroy(hr2di_viewer *viewer);
@@ -44,8 +45,11 @@ typedef struct hr2di_view_from {
 
    If an angle covers less of a patch than a rounding, its part is as short as fractions can
    express, and its sine is right.  Fractions are accurate to 1e-15, sines to relative 1e-14
-   and 2^-104; patches under an angle of less than 2^-100 may be missed.
-   Cost O(n) if no patch can be in the way of another, else O(n log n). */
+   and 2^-104; patches under an angle of less than 2^-100 may be missed.  Where something can be
+   in the way, the walls are where the plane of the scene has them, and what is a rounding of
+   coordinates behind another patch sees nothing but backs.
+   Cost: if no patch can be in the way of another O(n), or O(n log n) where backs are in front;
+   else that of the triangles of the plane that the view passes. */
 hr2d_status hr2di_view_at(hr2di_viewer *viewer, size_t patch, double t, hr2di_view_from *seen);
 
 #endif

@@ -11,78 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "support/grid-plans.h"
 #include "support/plane.h"
-#include "support/room-plans.h"
 #include "support/support.h"
-
-/* Walls are cut into pieces of which each has ends on the grid. */
-enum { GRID = 12, MOST_PIECES = 6 };
-
-/* Whether two walls have more in common than an end of one of them; coordinates are small
-   integers, and nothing is rounded. */
-static int collide(hr2d_segment s, hr2d_segment t) {
-  if (plane_crosses(s, t.a, t.b)) return 1;
-  if (plane_det(s.a, s.b, t.a) != 0 || plane_det(s.a, s.b, t.b) != 0) return 0;
-  const hr2d_point u = {s.b.x - s.a.x, s.b.y - s.a.y};
-  const double from = (t.a.x - s.a.x) * u.x + (t.a.y - s.a.y) * u.y;
-  const double to = (t.b.x - s.a.x) * u.x + (t.b.y - s.a.y) * u.y;
-  return fmax(from, to) > 0 && fmin(from, to) < u.x * u.x + u.y * u.y;
-}
-
-static hr2d_point on_grid(randoms *r, int size) {
-  return (hr2d_point){GRID * random_below(r, size + 1), GRID * random_below(r, size + 1)};
-}
-
-static void add_pieces(plan *p, hr2d_segment s, int pieces, hr2d_sides sides) {
-  for (int k = 0; k < pieces; k++)
-    plan_add(p, plane_along(s, (double)k / pieces), plane_along(s, (double)(k + 1) / pieces),
-             sides);
-}
-
-/* A room with walls on a coarse grid, which meet in T-junctions, share ends, lie on one line
-   and touch; each cut into some patches.  In an open scene there is no room around them. */
-static plan draw_scene(randoms *r, int closed) {
-  static const int pieces[MOST_PIECES] = {1, 1, 2, 3, 4, 6};
-  hr2d_segment wall[24];
-  const int size = 2 + random_below(r, 5), count = 1 + random_below(r, 20);
-  const double low = -GRID, high = GRID * (size + 1);
-  const hr2d_point corner[] = {{low, low}, {high, low}, {high, high}, {low, high}};
-  plan p = {.walls = 0};
-  int walls = 0;
-  for (int k = 0; k < 4; k++) {
-    const hr2d_segment side = {corner[k], corner[(k + 1) % 4]};
-    if (closed) add_pieces(&p, side, 1 + random_below(r, 3), HR2D_SIDES_FRONT);
-  }
-  for (int k = 0; k < count; k++) {
-    const hr2d_segment w = {on_grid(r, size), on_grid(r, size)};
-    int bad = plane_same(w.a, w.b);
-    for (int m = 0; m < walls && !bad; m++) bad = collide(wall[m], w) || collide(w, wall[m]);
-    if (bad) continue;
-    wall[walls++] = w;
-    add_pieces(&p, w, pieces[random_below(r, MOST_PIECES)],
-               closed || random_below(r, 2) ? HR2D_SIDES_BOTH : HR2D_SIDES_FRONT);
-  }
-  if (p.walls == 0) add_pieces(&p, (hr2d_segment){corner[0], corner[1]}, 1, HR2D_SIDES_BOTH);
-  return p;
-}
-
-/* NULL if commit refuses. */
-static hr2d_scene *try_scene(const plan *p, const hr2d_allocator *hooks) {
-  hr2d_scene *scene = test_new_scene(hooks);
-  for (size_t k = 0; k < p->walls; k++) {
-    const hr2d_patch patch = {.a = p->wall[k].a, .b = p->wall[k].b, .sides = p->sides[k]};
-    ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
-  }
-  if (!hr2d_scene_commit(scene)) return scene;
-  hr2d_scene_destroy(scene);
-  return NULL;
-}
-
-static void print_plan(const plan *p) {
-  for (size_t k = 0; k < p->walls; k++)
-    fprintf(stderr, "  {{%a, %a}, {%a, %a}}, %s\n", p->wall[k].a.x, p->wall[k].a.y,
-            p->wall[k].b.x, p->wall[k].b.y, p->sides[k] == HR2D_SIDES_BOTH ? "both" : "front");
-}
 
 static hr2d_exchange_rows *rows_of(const hr2d_scene *scene, unsigned threads,
                                    hr2d_matrix_counts *counts) {
@@ -157,15 +88,15 @@ static void check_counts(const hr2d_matrix_counts *one, const hr2d_matrix_counts
 START_TEST(rows_matrix_and_visits_are_the_same) {
   randoms r = randoms_stream(test_seed(), 1 + _i);
   for (int k = test_count(1000); k > 0; k--) {
-    plan p = draw_scene(&r, _i);
-    hr2d_scene *scene = try_scene(&p, NULL);
+    plan p = grid_plan(&r, _i);
+    hr2d_scene *scene = plan_try_scene(&p, NULL);
     ck_assert_ptr_nonnull(scene);
     const size_t n = hr2d_scene_patches(scene);
     hr2d_matrix_counts counts[3];
     hr2d_exchange_rows *rows = rows_of(scene, 1, &counts[0]);
     double *full = matrix_of(scene, &counts[1]), *held = spread(rows, n),
            *seen = visited(scene, 1, &counts[2]);
-    if (memcmp(full, seen, n * n * sizeof *seen) != 0) print_plan(&p);
+    if (memcmp(full, seen, n * n * sizeof *seen) != 0) plan_print(&p);
     ck_assert_mem_eq(full, held, n * n * sizeof *held);
     ck_assert_mem_eq(full, seen, n * n * sizeof *seen);
     check_counts(&counts[0], &counts[1]);
@@ -187,8 +118,8 @@ START_TEST(seen_pairs_are_those_of_brute_force) {
   size_t seen = 0, pairs = 0;
   double worst = 0, worst_row = 0;
   for (int k = test_count(5000); k > 0; k--) {
-    plan p = draw_scene(&r, _i);
-    hr2d_scene *scene = try_scene(&p, NULL);
+    plan p = grid_plan(&r, _i);
+    hr2d_scene *scene = plan_try_scene(&p, NULL);
     ck_assert_ptr_nonnull(scene);
     const size_t n = hr2d_scene_patches(scene);
     hr2d_exchange_rows *rows = rows_of(scene, 1, NULL);
@@ -206,7 +137,7 @@ START_TEST(seen_pairs_are_those_of_brute_force) {
         ck_assert_int_eq(hr2d_exchange_area_occluded(&at[i], &at[j], at, n, NULL, &other),
                          HR2D_OK);
         const double value = area[i * n + j];
-        if ((value > 0) != (other > 0)) print_plan(&p);
+        if ((value > 0) != (other > 0)) plan_print(&p);
         ck_assert_msg((value > 0) == (other > 0), "%zu %zu: %g %g", i, j, value, other);
         worst = fmax(worst, fabs(value - other));
         seen += value > 0;
@@ -226,17 +157,6 @@ START_TEST(seen_pairs_are_those_of_brute_force) {
 }
 END_TEST
 
-static void jitter(randoms *r, plan *p, similarity s) {
-  for (size_t k = 0; k < p->walls; k++) {
-    p->wall[k] = similar_segment(s, p->wall[k]);
-    hr2d_point *end[] = {&p->wall[k].a, &p->wall[k].b};
-    for (int e = 0; e < 2; e++) {
-      end[e]->x = random_nudge(r, end[e]->x, 1);
-      end[e]->y = random_nudge(r, end[e]->y, 1);
-    }
-  }
-}
-
 /* Turned, and every end moved by itself by an ulp: feet are in front of walls or behind them,
    walls are bent, corners are open.  Where commit accepts that, nothing is lost but roundings.
  */
@@ -245,10 +165,10 @@ START_TEST(jittered_rooms_lose_nothing) {
   int accepted = 0, count = 0;
   double worst = 0;
   for (int k = test_count(5000); k > 0; k--, count++) {
-    plan p = draw_scene(&r, 1);
+    plan p = grid_plan(&r, 1);
     const double angle = random_between(&r, 0, 6.3);
-    jitter(&r, &p, (similarity){.u = cos(angle), .v = sin(angle)});
-    hr2d_scene *scene = try_scene(&p, NULL);
+    plan_jitter(&r, &p, (similarity){.u = cos(angle), .v = sin(angle)});
+    hr2d_scene *scene = plan_try_scene(&p, NULL);
     if (scene) {
       const size_t n = hr2d_scene_patches(scene);
       double *area = matrix_of(scene, NULL), largest = 0;
@@ -262,7 +182,7 @@ START_TEST(jittered_rooms_lose_nothing) {
         for (size_t j = 0; j < n; j++) sum += area[i * n + j];
         const double error = fabs(sum) / (1e-13 * length + 64 * DBL_EPSILON * largest);
         worst = fmax(worst, error);
-        if (error > 1) print_plan(&p);
+        if (error > 1) plan_print(&p);
         ck_assert_msg(error <= 1, "row %zu of %zu: %g of %g", i, n, sum, length);
       }
       free(area);
@@ -343,13 +263,14 @@ static plan draw_fine(randoms *r, int pieces) {
   plan p = {.walls = 0};
   const hr2d_point corner[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   for (int k = 0; k < 4; k++)
-    add_pieces(&p, (hr2d_segment){corner[k], corner[(k + 1) % 4]}, pieces, HR2D_SIDES_FRONT);
+    plan_add_pieces(&p, (hr2d_segment){corner[k], corner[(k + 1) % 4]}, pieces,
+                    HR2D_SIDES_FRONT);
   for (int k = 0; k < 4; k++) {
     const double x = k % 2 * .5 + random_between(r, .1, .3);
     const double y = k / 2 * .5 + random_between(r, .1, .3);
     const hr2d_segment w = {{x, y},
                             {x + random_between(r, -.1, .1), y + random_between(r, -.1, .1)}};
-    add_pieces(&p, w, pieces / 2, HR2D_SIDES_BOTH);
+    plan_add_pieces(&p, w, pieces / 2, HR2D_SIDES_BOTH);
   }
   /* A foot in the middle of the floor, and one between patches of a wall. */
   plan_add(&p, (hr2d_point){.4375, 0}, (hr2d_point){.46, .3}, HR2D_SIDES_BOTH);
@@ -362,7 +283,7 @@ START_TEST(finely_cut_walls) {
   double worst = 0, worst_row = 0;
   for (int k = test_count(30); k > 0; k--) {
     plan p = draw_fine(&r, 2 + random_below(&r, 200));
-    hr2d_scene *scene = try_scene(&p, NULL);
+    hr2d_scene *scene = plan_try_scene(&p, NULL);
     ck_assert_ptr_nonnull(scene);
     const size_t n = hr2d_scene_patches(scene);
     double *area = matrix_of(scene, NULL), *seen = visited(scene, 2, NULL);
@@ -403,9 +324,9 @@ START_TEST(convex_rooms) {
   hr2d_matrix_counts counts, forced_counts;
   const hr2d_point corner[] = {{0, 0}, {3, 0}, {4, 2}, {1, 3}};
   for (int k = 0; k < 4; k++)
-    add_pieces(&p, (hr2d_segment){corner[k], corner[(k + 1) % 4]}, 8 << 2 * (k % 3),
-               HR2D_SIDES_FRONT);
-  hr2d_scene *scene = try_scene(&p, NULL), *forced = test_new_scene(NULL);
+    plan_add_pieces(&p, (hr2d_segment){corner[k], corner[(k + 1) % 4]}, 8 << 2 * (k % 3),
+                    HR2D_SIDES_FRONT);
+  hr2d_scene *scene = plan_try_scene(&p, NULL), *forced = test_new_scene(NULL);
   for (size_t k = 0; k < p.walls; k++) {
     const hr2d_patch patch = {.a = p.wall[k].a, .b = p.wall[k].b, .sides = p.sides[k]};
     ck_assert_int_eq(hr2d_scene_add(forced, &patch, NULL), HR2D_OK);
@@ -438,7 +359,7 @@ static plan some_scene(int pieces) {
 
 START_TEST(threads_change_no_bit) {
   plan p = some_scene(150);
-  hr2d_scene *scene = try_scene(&p, NULL);
+  hr2d_scene *scene = plan_try_scene(&p, NULL);
   const size_t n = hr2d_scene_patches(scene);
   hr2d_matrix_counts counts, others;
   hr2d_exchange_rows *one = rows_of(scene, 1, &counts);
@@ -470,7 +391,7 @@ END_TEST
 
 START_TEST(a_visitor_may_stop) {
   plan p = some_scene(20);
-  hr2d_scene *scene = try_scene(&p, NULL);
+  hr2d_scene *scene = plan_try_scene(&p, NULL);
   const size_t n = hr2d_scene_patches(scene);
   reader r = {.n = n, .area = calloc(n * n, sizeof *r.area), .stop_at = 7};
   hr2d_matrix_counts counts = {.exchange_areas = 5};
@@ -523,7 +444,7 @@ static void fail_one_by_one(int for_good, int visit) {
   test_memory f = {.until_failure = -1};
   const hr2d_allocator hooks = test_hooks(&f);
   plan p = some_scene(10);
-  hr2d_scene *scene = try_scene(&p, &hooks);
+  hr2d_scene *scene = plan_try_scene(&p, &hooks);
   const size_t n = hr2d_scene_patches(scene);
   const long live = f.live;
   long k = 0;
