@@ -211,8 +211,9 @@ HR2D_API double hr2d_solution_at(const hr2d_solution *solution, size_t patch, do
  * @retval HR2D_OK      success
  * @retval HR2D_ENOMEM  an allocation failed
  *
- * Several threads may ask one solution at once. Cost per point: O(N), plus O(n log n) if the
- * scene calls for occlusion.
+ * Several threads may ask one solution at once. Cost per point: that of the elements that it
+ * sees, plus 0.1 µs for each triangle of the plane that its view passes if the scene calls
+ * for occlusion, else O(n).
  */
 HR2D_API hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t patch,
                                           const double *t, size_t count, double *value);

@@ -215,15 +215,20 @@ static hr2d_point direction_of(const gatherer *g, const edge *e) {
   return (hr2d_point){e->inside * along.x / p->length, e->inside * along.y / p->length};
 }
 
+/* A place so many steps beside an edge. */
+static double beside(const gatherer *g, const edge *e, double steps) {
+  const double step = steps * BESIDE / g->solution->hierarchy->scene->patch[e->patch].length;
+  return fmin(fmax(e->at + e->inside * step, 0), 1);
+}
+
 /* The form factor of an edge is k = ½(1 + cos α) = ¼|u + w|², and that of everything else
    1 − k = ¼|u − w|².  A view from beside the edge has neither exactly: irradiances from
    everything else are scaled by the right one. */
 static hr2d_status look_beside(gatherer *g, const edge *p, const edge *q, double steps,
                                double right, double *irradiance, int *sees) {
-  const double step = steps * BESIDE / g->solution->hierarchy->scene->patch[p->patch].length;
-  const double t = fmin(fmax(p->at + p->inside * step, 0), 1);
   double wedge, others;
-  const hr2d_status status = look(g, p->patch, t, q, irradiance, &wedge, &others);
+  const hr2d_status status =
+      look(g, p->patch, beside(g, p, steps), q, irradiance, &wedge, &others);
   *sees = !status && wedge > 0;
   for (size_t b = 0; b < g->solution->bands && !status; b++)
     irradiance[b] *= others > 0 ? right / others : 0;
@@ -263,25 +268,47 @@ static hr2d_status close_wedge(gatherer *g, const edge *p, const edge *q, double
   return HR2D_OK;
 }
 
+/* Where a patch has an edge in common with that at p, and shows its front beside it. */
+static int makes_wedge(const gatherer *g, size_t patch, edge *q) {
+  const hr2d_segment s = g->solution->hierarchy->scene->patch[patch].scaled;
+  const double rises = hr2di_point_dot(hr2di_point_minus(s.b, s.a), g->normal);
+  double distance;
+  const double at = nearest(g, patch, 0, 1, &distance);
+  if (distance > TOUCH) return 0;
+  *q = edge_of(g, patch, at, rises > 0 ? 1 : -1);
+  return q->inside * rises > 0;
+}
+
+/* The first patch from *k on that makes a wedge with the point's own one; its number is left in
+ *k, or that of patches if there is none.  It is seen from where limits are found. */
+static hr2d_status next_wedge(gatherer *g, const edge *p, size_t *k, edge *q) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  hr2di_view_from seen;
+  const hr2d_status status = hr2di_view_at(g->viewer, p->patch, beside(g, p, 2), &seen);
+  if (status) return status;
+  set_point(g, &scene->patch[p->patch], p->at);
+  for (size_t m = 0; m < seen.count; m++) {
+    const size_t patch = seen.glimpse[m].patch;
+    if (patch < *k || (m > 0 && patch == seen.glimpse[m - 1].patch)) continue;
+    if (!makes_wedge(g, patch, q)) continue;
+    *k = patch;
+    return hr2di_watch_work(g->watch, seen.count / 8);
+  }
+  *k = scene->patches;
+  return hr2di_watch_work(g->watch, seen.count / 8);
+}
+
 /* Looks for a patch that makes a wedge with the point's own one, and closes it. */
 static hr2d_status find_wedge(gatherer *g, size_t patch, double t, double *irradiance,
                               int *closed) {
   const hr2d_scene *scene = g->solution->hierarchy->scene;
   const edge p = edge_of(g, patch, t, t <= 0.5 ? 1 : -1);
+  edge q;
   hr2d_status status = HR2D_OK;
   *closed = 0;
-  set_point(g, &scene->patch[patch], t);
   for (size_t k = 0; k < scene->patches && !*closed && !status; k++) {
-    double distance;
-    if (k % 16 == 0) status = hr2di_watch_work(g->watch, 4);
-    const double at = nearest(g, k, 0, 1, &distance);
-    if (status || k == patch || distance > TOUCH) continue;
-    const hr2d_segment s = scene->patch[k].scaled;
-    const double rises = hr2di_point_dot(hr2di_point_minus(s.b, s.a), g->normal);
-    const edge q = edge_of(g, k, at, rises > 0 ? 1 : -1);
-    if (!(q.inside * rises > 0)) continue;
-    status = close_wedge(g, &p, &q, irradiance, closed);
-    set_point(g, &scene->patch[patch], t);
+    status = next_wedge(g, &p, &k, &q);
+    if (!status && k < scene->patches) status = close_wedge(g, &p, &q, irradiance, closed);
   }
   return status;
 }
