@@ -105,8 +105,8 @@ static hr2d_status add_contact(layers *c, uint32_t i, uint32_t j, double area) {
   if (hr2di_alloc_reserve(&p->alloc, &p->contact, &c->contacts, p->contacts + 2,
                           sizeof *p->contact))
     return HR2D_ENOMEM;
-  p->contact[p->contacts++] = (hr2di_contact){i, j, area};
-  p->contact[p->contacts++] = (hr2di_contact){j, i, area};
+  p->contact[p->contacts++] = (hr2di_part_contact){i, j, area};
+  p->contact[p->contacts++] = (hr2di_part_contact){j, i, area};
   return HR2D_OK;
 }
 
@@ -164,7 +164,7 @@ static int is_shared(const hr2di_triangulation *t, uint32_t k) {
 }
 
 static int by_part(const void *left, const void *right) {
-  const hr2di_contact *l = left, *r = right;
+  const hr2di_part_contact *l = left, *r = right;
   if (l->part != r->part) return l->part < r->part ? -1 : 1;
   return (l->other > r->other) - (l->other < r->other);
 }

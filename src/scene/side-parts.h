@@ -24,10 +24,10 @@ typedef struct hr2di_side_part {
 } hr2di_side_part;
 
 /* Two parts that are face to face with nothing between them. */
-typedef struct hr2di_contact {
+typedef struct hr2di_part_contact {
   uint32_t part, other;
   double area; /* their exchange area */
-} hr2di_contact;
+} hr2di_part_contact;
 
 typedef struct hr2di_parts {
   uint32_t first, last; /* items [first, last) of hr2di_side_parts::part */
@@ -46,11 +46,11 @@ typedef struct hr2di_side_parts {
   hr2d_allocator alloc;
   hr2di_side_part *part;
   size_t parts;
-  hr2di_side *of_side;    /* 2·edges */
-  hr2di_parts *of_run;    /* one for each run */
-  hr2di_parts *of_patch;  /* one for each patch, hidden ones too; may be empty */
-  unsigned char *wanted;  /* per side: whether it has patches */
-  hr2di_contact *contact; /* by part; each is there from both sides */
+  hr2di_side *of_side;         /* 2·edges */
+  hr2di_parts *of_run;         /* one for each run */
+  hr2di_parts *of_patch;       /* one for each patch, hidden ones too; may be empty */
+  unsigned char *wanted;       /* per side: whether it has patches */
+  hr2di_part_contact *contact; /* by part; each is there from both sides */
   size_t contacts;
 } hr2di_side_parts;
 

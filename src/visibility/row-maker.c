@@ -147,7 +147,7 @@ static hr2d_status add_contacts(hr2di_row_worker *w, hr2di_parts parts) {
       high = middle;
   }
   for (; low < p->contacts && p->contact[low].part < parts.last && !status; low++) {
-    const hr2di_contact *c = &p->contact[low];
+    const hr2di_part_contact *c = &p->contact[low];
     const int mine = c->part < c->other;
     if (!mine && !w->maker->whole) continue;
     status = hr2di_sharing_add_area(&w->sharing, (hr2di_share){.area = c->area,

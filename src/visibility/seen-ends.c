@@ -32,7 +32,7 @@ static void index_ends(hr2di_seen_ends *s, int enter) {
   const hr2di_wall_edge *edge = s->scene->plane.triangulation.edge;
   for (uint32_t k = 0; k < p->parts; k++) {
     const hr2di_side_part *part = &p->part[k];
-    if (part->patch == HR2DI_NOBODY) continue;
+    if (part->patch == HR2DI_NOBODY || part->side == HR2DI_HIDDEN) continue;
     const hr2di_parts all = p->of_side[part->side].parts;
     const hr2d_segment patch = s->scene->patch[part->patch].scaled;
     const hr2di_wall_edge *e = &edge[part->side >> 1];
@@ -46,13 +46,6 @@ static void index_ends(hr2di_seen_ends *s, int enter) {
   }
 }
 
-static void index_parts(hr2di_seen_ends *s) {
-  const hr2di_side_parts *p = &s->scene->parts;
-  for (size_t k = 0; k < s->scene->patches; k++) s->part_of[k] = (uint32_t)p->parts;
-  for (size_t k = p->parts; k-- > 0;)
-    if (p->part[k].patch != HR2DI_NOBODY) s->part_of[p->part[k].patch] = (uint32_t)k;
-}
-
 hr2d_status hr2di_seen_ends_init(hr2di_seen_ends *s, const hr2d_scene *scene,
                                  const hr2d_allocator *alloc, hr2di_watch *watch) {
   const hr2di_triangulation *t = &scene->plane.triangulation;
@@ -64,25 +57,24 @@ hr2d_status hr2di_seen_ends_init(hr2di_seen_ends *s, const hr2d_scene *scene,
                                   .ctx = s,
                                   .alloc = *alloc,
                                   .watch = watch}};
-  s->part_of = hr2di_alloc(alloc, scene->patches, sizeof *s->part_of);
   s->first = hr2di_alloc_zero(alloc, t->vertices + 1, sizeof *s->first);
   s->end = hr2di_alloc(alloc, scene->patches, 2 * sizeof *s->end);
   s->end_seen = hr2di_alloc_zero(alloc, scene->patches, 2 * sizeof *s->end_seen);
   s->side_seen = hr2di_alloc_zero(alloc, t->edges, 2 * sizeof *s->side_seen);
   s->wall_seen = hr2di_alloc_zero(alloc, scene->walls.walls, sizeof *s->wall_seen);
-  if (!s->part_of || !s->first || !s->end || !s->end_seen || !s->side_seen || !s->wall_seen)
+  if (!s->first || !s->end || !s->end_seen || !s->side_seen || !s->wall_seen)
     return HR2D_ENOMEM;
-  index_parts(s);
+  const hr2d_status status = hr2di_watch_work(watch, scene->patches + t->vertices / 8);
+  if (status) return status;
   index_ends(s, 0);
   for (size_t v = 0; v < t->vertices; v++) s->first[v + 1] += s->first[v];
   index_ends(s, 1);
-  return hr2di_watch_work(watch, scene->patches);
+  return HR2D_OK;
 }
 
 void hr2di_seen_ends_clear(hr2di_seen_ends *s) {
   const hr2d_allocator *alloc = &s->walk.alloc;
   hr2di_walk_clear(&s->walk);
-  hr2di_alloc_free(alloc, s->part_of);
   hr2di_alloc_free(alloc, s->first);
   hr2di_alloc_free(alloc, s->end);
   hr2di_alloc_free(alloc, s->end_seen);
@@ -91,11 +83,12 @@ void hr2di_seen_ends_clear(hr2di_seen_ends *s) {
 }
 
 hr2d_status hr2di_seen_ends_look(hr2di_seen_ends *s, uint32_t patch) {
-  const hr2di_side_parts *p = &s->scene->parts;
+  const hr2di_parts of = s->scene->parts.of_patch[patch];
   hr2d_status status = HR2D_OK;
   s->patch = patch + 1;
-  for (uint32_t k = s->part_of[patch]; k < p->parts && p->part[k].patch == patch && !status;
-       k++)
-    status = hr2di_walk_from(&s->walk, p->part[k].side, &p->part[k].at);
+  for (uint32_t k = of.first; k < of.last && !status; k++) {
+    const hr2di_side_part *part = &s->scene->parts.part[k];
+    if (part->side != HR2DI_HIDDEN) status = hr2di_walk_from(&s->walk, part->side, &part->at);
+  }
   return status;
 }

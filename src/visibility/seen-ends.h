@@ -9,7 +9,6 @@
 typedef struct hr2di_seen_ends {
   const hr2d_scene *scene;
   hr2di_walk walk;
-  uint32_t *part_of;   /* per patch: its first part of hr2di_side_parts::part */
   uint32_t *first;     /* per vertex: where its ends begin in `end`; one more */
   uint32_t *end;       /* 2·patch for its start, 2·patch + 1 for its last point */
   uint32_t *end_seen;  /* per end: 1 + the patch that saw it last */
