@@ -13,8 +13,9 @@ for harness in scene api pair; do
   # Texts and sequences of calls as long as are worth the time.
   case $harness in scene) longest=6000 ;; *) longest=600 ;; esac
   log=fuzz/$harness.log
+  # A unit of some seconds takes a minute and more on a machine with other work.
   if "fuzz/fuzz-$harness" ${dictionary:+"$dictionary"} -max_total_time="$seconds" \
-    -max_len=$longest -timeout=60 -rss_limit_mb=2048 -print_final_stats=1 \
+    -max_len=$longest -timeout=200 -rss_limit_mb=2048 -print_final_stats=1 \
     -artifact_prefix="fuzz/fault-$harness-" "fuzz/found/$harness" "$folder/corpus/$harness" \
     >"$log" 2>&1; then
     passed=$((passed + 1))
