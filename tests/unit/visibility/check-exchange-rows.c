@@ -218,7 +218,7 @@ static flat_angle open_flat_angle(int upper_first, hr2d_sides upper_sides, simil
   *(upper_first ? &f.lower : &f.upper) += upper_first && upper_sides != HR2D_SIDES_BOTH ? 1 : 2;
   plan_add(&p, (hr2d_point){.875, 0}, (hr2d_point){.875, -.25}, HR2D_SIDES_BOTH);
   for (size_t k = 0; k < p.walls; k++) p.wall[k] = similar_segment(turn, p.wall[k]);
-  f.scene = try_scene(&p, NULL);
+  f.scene = plan_try_scene(&p, NULL);
   ck_assert_ptr_nonnull(f.scene);
   f.area = matrix_of(f.scene, NULL);
   plan_free(&p);
