@@ -135,6 +135,7 @@ tests_libsupport_la_SOURCES = \
 	tests/independent/brute-block.c tests/independent/brute-block.h \
 	tests/independent/brute-visibility.c tests/independent/brute-visibility.h \
 	tests/independent/convex-nystrom.c tests/independent/convex-nystrom.h \
+	tests/independent/exact-sights.c tests/independent/exact-sights.h \
 	tests/independent/lines-block.c tests/independent/lines-block.h \
 	tests/independent/mpfr-exchange.c tests/independent/mpfr-exchange.h \
 	tests/independent/mpfr-l1.c tests/independent/mpfr-l1.h \
