@@ -34,6 +34,8 @@ uses() {
     row = 27; left = 440; column = 23; top = 92
     what["base"] = "memory, messages, numerical rules"
     what["geometry"] = "segments, exact signs, exchange areas"
+    what["triangulation"] = "the plane between walls"
+    what["sight"] = "beams, and the classes they end in"
     what["occlusion"] = "a pair of segments and the walls between"
     what["scene"] = "patches, and what commit finds out"
     what["formats"] = "GeoJSON and .vs2"
@@ -49,7 +51,7 @@ uses() {
     what["accuracy"] = "to a target error, with an account"
     what["state"] = "a stage of a solve on disk"
     # A hue for each group of storeys: ground, scene, objects, calls.
-    split("base geometry occlusion", name); for (k in name) hue[name[k]] = "#5b6b7a"
+    split("base geometry triangulation sight occlusion", name); for (k in name) hue[name[k]] = "#5b6b7a"
     split("scene formats visibility", name2); for (k in name2) hue[name2[k]] = "#2f7d6d"
     split("hierarchy oracle blocks clusters links solution", name3)
     for (k in name3) hue[name3[k]] = "#2d6aa0"

@@ -2,26 +2,66 @@
 /* Search for an occluder: a patch that reaches into the shaft of two others. */
 #include "scene/find-occluder.h"
 
+#include <math.h>
+
 #include "geometry/orient-sign.h"
 #include "occlusion/pair-visibility.h"
 #include "scene/scene-impl.h"
 
+/* The sides of a line on which ends of patches lie. */
+typedef struct sides {
+  int left, right;
+} sides;
+
+static void add_sides(sides *found, hr2d_segment w, hr2d_segment s) {
+  const int at_a = hr2di_orient_sign(w.a, w.b, s.a), at_b = hr2di_orient_sign(w.a, w.b, s.b);
+  found->left |= at_a > 0 || at_b > 0;
+  found->right |= at_a < 0 || at_b < 0;
+}
+
+/* Of x, y, x + y and x − y. */
+enum { EXTREMES = 8 };
+
+/* The patches with the greatest and the least of these coordinates. */
+static void find_extremes(const hr2d_scene *scene, size_t patch[EXTREMES]) {
+  for (int e = 0; e < EXTREMES; e++) {
+    const int sign = e % 2 ? -1 : 1, which = e / 2;
+    double most = -INFINITY;
+    for (size_t k = 0; k < scene->patches; k++) {
+      const hr2d_point p = scene->patch[k].scaled.a;
+      const double at = which == 0   ? p.x
+                        : which == 1 ? p.y
+                        : which == 2 ? p.x + p.y
+                                     : p.x - p.y;
+      if (sign * at <= most) continue;
+      most = sign * at;
+      patch[e] = k;
+    }
+  }
+}
+
 /* A patch whose line has the whole scene on one side cannot stand between two patches. */
 static int on_hull(const hr2d_scene *scene, size_t k, hr2di_watch *watch) {
-  const hr2d_segment w = scene->patch[k].scaled;
-  int left = 0, right = 0;
+  sides found = {0, 0};
   for (size_t m = 0; m < scene->patches; m++) {
-    const hr2d_segment s = scene->patch[m].scaled;
     if (m % 16 == 0 && hr2di_watch_work(watch, 8)) return 0;
-    const int at_a = hr2di_orient_sign(w.a, w.b, s.a), at_b = hr2di_orient_sign(w.a, w.b, s.b);
-    left |= at_a > 0 || at_b > 0;
-    right |= at_a < 0 || at_b < 0;
-    if (left && right) return 0;
+    add_sides(&found, scene->patch[k].scaled, scene->patch[m].scaled);
+    if (found.left && found.right) return 0;
   }
   return 1;
 }
 
+/* Most scenes have a patch with extremes of the scene on both of its sides. */
 static int all_on_hull(const hr2d_scene *scene, hr2di_watch *watch) {
+  size_t extreme[EXTREMES];
+  find_extremes(scene, extreme);
+  for (size_t k = 0; k < scene->patches; k++) {
+    sides found = {0, 0};
+    if (hr2di_watch_work(watch, EXTREMES)) return 0;
+    for (int e = 0; e < EXTREMES; e++)
+      add_sides(&found, scene->patch[k].scaled, scene->patch[extreme[e]].scaled);
+    if (found.left && found.right) return 0;
+  }
   for (size_t k = 0; k < scene->patches; k++)
     if (!on_hull(scene, k, watch)) return 0;
   return 1;
