@@ -215,8 +215,8 @@ typedef hr2d_status (*hr2d_exchange_row_fn)(void *ctx, const hr2d_exchange_row *
  *
  * The rows have the entries of hr2d_exchange_rows_create(), which may differ by roundings where
  * ends of patches are rounded points of a wall. At most some 1100 rows per thread are in memory
- * at once. Each pair is found from both of its ends, so that the call takes up to twice the time
- * of hr2d_exchange_rows_create().
+ * at once. Each pair is found from both of its ends, so that the call takes up to twice the
+ * time of hr2d_exchange_rows_create().
  */
 HR2D_API hr2d_status hr2d_exchange_rows_visit(const hr2d_scene *scene,
                                               const hr2d_matrix_options *options,
