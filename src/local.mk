@@ -53,6 +53,7 @@ libhr2d_core_la_SOURCES = \
 	src/sight/area.c \
 	src/sight/restrict.c \
 	src/sight/sight.h \
+	src/sight/sight-list.c src/sight/sight-list.h \
 	src/sight/walk.c src/sight/walk.h \
 	src/occlusion/corridor.c src/occlusion/corridor.h \
 	src/occlusion/exchange-occluded.c \
@@ -99,6 +100,7 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/point-view-impl.h \
 	src/visibility/point-view-ray.c \
 	src/visibility/point-view-walk.c \
+	src/visibility/patch-sights.c src/visibility/patch-sights.h \
 	src/visibility/row-maker.c src/visibility/row-maker.h \
 	src/visibility/row-sum.c src/visibility/row-sum.h \
 	src/visibility/seen-ends.c src/visibility/seen-ends.h \

@@ -48,6 +48,7 @@ SUITES = \
 	tests/hard/check-hard-scenes \
 	tests/unit/visibility/check-exchange-matrix \
 	tests/unit/visibility/check-exchange-rows \
+	tests/unit/visibility/check-patch-sights \
 	tests/unit/blocks/check-blocks \
 	tests/unit/blocks/check-directions \
 	tests/unit/solve/check-order \

@@ -6,6 +6,7 @@
 #include "occlusion/line-classes.h"
 #include "occlusion/shaft.h"
 #include "occlusion/walls.h"
+#include "sight/sight-list.h"
 
 /* The numbers of walls, of which each has a capacity of its own. */
 typedef struct hr2di_wall_list {
@@ -43,12 +44,6 @@ typedef struct hr2di_visibility {
 void hr2di_visibility_init(hr2di_visibility *sight, const hr2di_walls *walls,
                            const hr2d_allocator *alloc, hr2di_watch *watch);
 void hr2di_visibility_clear(hr2di_visibility *sight);
-
-typedef enum hr2di_visibility_class {
-  HR2DI_CLEAR,   /* nothing in the way */
-  HR2DI_PARTIAL, /* something, but maybe not everywhere */
-  HR2DI_BLOCKED  /* nothing passes */
-} hr2di_visibility_class;
 
 /* The functions below return HR2D_OK, HR2D_ENOMEM or the status of the watch. */
 

@@ -185,7 +185,7 @@ static uint64_t shared_bytes(const team *t) {
   uint64_t pairs = t->occluded.stack.capacity;
   for (int k = 0; k < STACKS; k++) pairs += t->stack[k].capacity;
   return pairs * sizeof(hr2d_pair) + t->occluded.first_capacity * sizeof *t->occluded.first +
-         t->occluded.list.capacity * sizeof *t->occluded.list.wall;
+         hr2di_sight_list_bytes(&t->occluded.list);
 }
 
 /* Shares the pairs on the first worker's stacks among all.  The first worker's budget keeps
@@ -197,7 +197,7 @@ static void share_out(team *t) {
     *stack_of(p, k) = (hr2di_stack){0};
   }
   t->occluded = p->occluded;
-  p->occluded = (hr2di_occluded_pairs){0};
+  p->occluded = (hr2di_occluded_pairs){.list.alloc = t->occluded.list.alloc};
   p->bytes += shared_bytes(t);
   hr2d_status status = HR2D_OK;
   for (size_t k = 1; k < t->count && !status; k++) {
@@ -237,8 +237,8 @@ static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
     sum.limited_links += part->limited_links;
     sum.oracle_calls += part->oracle_calls;
     sum.facing_tests += part->facing_tests;
-    const hr2di_visibility *visibility = t->worker[k].projector->visibility;
-    sum.visibility_tests += visibility ? visibility->tests : 0;
+    const hr2di_patch_sights *sights = t->worker[k].projector->sights;
+    sum.visibility_tests += sights ? hr2di_patch_sights_tests(sights) : 0;
     sum.blocked_pairs += part->blocked_pairs;
     sum.partial_links += part->partial_links;
     sum.dark_pairs += part->dark_pairs;
@@ -317,7 +317,7 @@ hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *op
   for (int k = 0; k < STACKS; k++) hr2di_alloc_free(&links->alloc, t.stack[k].pair);
   hr2di_alloc_free(&links->alloc, t.occluded.stack.pair);
   hr2di_alloc_free(&links->alloc, t.occluded.first);
-  hr2di_alloc_free(&links->alloc, t.occluded.list.wall);
+  hr2di_sight_list_clear(&t.occluded.list);
   hr2di_alloc_free(&links->alloc, t.worker);
   hr2di_alloc_free(&links->alloc, t.clone);
   return status;

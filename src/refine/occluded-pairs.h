@@ -9,14 +9,14 @@
 hr2d_status hr2di_occluded_propose_roots(hr2di_projector *p, const hr2d_pair *pairs,
                                          size_t count);
 
-/* Appends to p->found the walls of the scene that are in the way of a pair of elements. */
+/* Appends to p->found what a pair of elements sees of each other. */
 hr2d_status hr2di_occluded_collect(hr2di_projector *p, hr2d_pair pair,
                                    hr2di_visibility_class *view);
 
 /* Puts a refused pair that has walls in the way on the stack. */
 hr2d_status hr2di_occluded_push(hr2di_projector *p, hr2d_pair pair);
 
-/* Puts pair number k of another stack on this one, with its walls. */
+/* Puts pair number k of another stack on this one, with its sights. */
 hr2d_status hr2di_occluded_share(hr2di_projector *p, const hr2di_occluded_pairs *from,
                                  size_t k);
 
@@ -26,7 +26,7 @@ hr2d_status hr2di_occluded_round(hr2di_projector *p);
 /* The exchange area of a pair, in units of the scene, past all walls of the scene; 0 and
    HR2DI_BLOCKED in *view if nothing passes.  Returns HR2D_OK, HR2D_ENOMEM or the status of the
    watch. */
-hr2d_status hr2di_occluded_area(hr2di_visibility *visibility, const hr2d_hierarchy *hierarchy,
+hr2d_status hr2di_occluded_area(hr2di_patch_sights *sights, const hr2d_hierarchy *hierarchy,
                                 hr2d_pair pair, double *area, hr2di_visibility_class *view);
 
 #endif

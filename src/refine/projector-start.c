@@ -77,19 +77,19 @@ static hr2d_status set_brightness(hr2di_projector *p) {
   return HR2D_OK;
 }
 
-static hr2d_status set_visibility(hr2di_projector *p) {
+static hr2d_status set_sights(hr2di_projector *p) {
   const hr2d_scene *scene = p->hierarchy->scene;
   p->test_all =
       !scene->effect[HR2D_EFFECT_FACING].called_for && scene->effect[HR2D_EFFECT_FACING].forced;
   if (!scene->effect[HR2D_EFFECT_OCCLUSION].on) return HR2D_OK;
-  p->bytes += sizeof *p->visibility;
+  p->bytes +=
+      sizeof *p->sights + 2 * scene->plane.triangulation.edges * sizeof *p->sights->last;
   const hr2d_status status = hr2di_projector_check_budget(p, 0);
   if (status) return status;
-  p->visibility = hr2di_alloc(&p->links->alloc, 1, sizeof *p->visibility);
-  if (!p->visibility)
+  p->sights = hr2di_alloc_zero(&p->links->alloc, 1, sizeof *p->sights);
+  if (!p->sights || hr2di_patch_sights_init(p->sights, scene, &p->links->alloc, p->watch))
     return hr2di_message_fail(&p->links->message, HR2D_ENOMEM,
                               "out of memory for the refinement");
-  hr2di_visibility_init(p->visibility, &scene->walls, &p->links->alloc, p->watch);
   return HR2D_OK;
 }
 
@@ -107,6 +107,7 @@ hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_option
   p->options = *options;
   p->watch = watch;
   p->budget = options->max_bytes;
+  p->occluded.list.alloc = p->found.alloc = p->parts.alloc = links->alloc;
   p->directed = directed_by(links, options);
   p->check_levels = p->hierarchy->levels > options->max_level;
   p->bytes = sizeof *p + hr2di_store_bytes(&links->store);
@@ -114,7 +115,7 @@ hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_option
              (p->directed ? 1 : 2);
   if (links->roots.clusters) p->roots = (double)links->roots.count;
   hr2d_status status = set_brightness(p);
-  if (!status) status = set_visibility(p);
+  if (!status) status = set_sights(p);
   if (status)
     hr2di_projector_destroy(p);
   else
@@ -129,10 +130,11 @@ void hr2di_projector_destroy(hr2di_projector *p) {
   for (int k = 0; k < 2; k++) hr2di_alloc_free(alloc, p->unoccluded[k].pair);
   hr2di_alloc_free(alloc, p->occluded.stack.pair);
   hr2di_alloc_free(alloc, p->occluded.first);
-  hr2di_alloc_free(alloc, p->occluded.list.wall);
-  hr2di_alloc_free(alloc, p->found.wall);
-  if (p->visibility) hr2di_visibility_clear(p->visibility);
-  hr2di_alloc_free(alloc, p->visibility);
+  hr2di_sight_list_clear(&p->occluded.list);
+  hr2di_sight_list_clear(&p->found);
+  hr2di_sight_list_clear(&p->parts);
+  if (p->sights) hr2di_patch_sights_clear(p->sights);
+  hr2di_alloc_free(alloc, p->sights);
   hr2di_alloc_free(alloc, p->brightness);
   hr2di_alloc_free(alloc, p);
 }

@@ -27,10 +27,11 @@ hr2d_status hr2di_projector_fail(hr2di_projector *p, hr2d_status status, const c
 static uint64_t stack_bytes(const hr2di_projector *p) {
   const uint64_t pairs = p->facing.capacity + p->clipped.capacity + p->unoccluded[0].capacity +
                          p->unoccluded[1].capacity + p->occluded.stack.capacity;
-  const uint64_t walls = p->occluded.list.capacity + p->found.capacity +
-                         (p->visibility ? p->visibility->list.capacity : 0);
+  const uint64_t sights =
+      hr2di_sight_list_bytes(&p->occluded.list) + hr2di_sight_list_bytes(&p->found) +
+      hr2di_sight_list_bytes(&p->parts) + (p->sights ? hr2di_patch_sights_bytes(p->sights) : 0);
   return pairs * sizeof(hr2d_pair) + p->occluded.first_capacity * sizeof *p->occluded.first +
-         walls * sizeof *p->found.wall + p->brightness_capacity * sizeof *p->brightness;
+         sights + p->brightness_capacity * sizeof *p->brightness;
 }
 
 hr2d_status hr2di_projector_fail_budget(hr2d_linkset *links, uint64_t budget, uint64_t made) {

@@ -23,7 +23,7 @@ static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
   hr2di_rounds_measure(p);
   if (!status) status = hr2di_projector_fail(p, hr2di_watch_ask(p->watch), "");
   h->refining = 0;
-  if (p->visibility) p->counts.visibility_tests = p->visibility->tests;
+  if (p->sights) p->counts.visibility_tests = hr2di_patch_sights_tests(p->sights);
   if (status) hr2di_hierarchy_truncate(h, elements);
   return status;
 }
@@ -93,7 +93,7 @@ static hr2d_status look_again(hr2di_projector *p, const hr2d_pair *pairs, size_t
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < count && !status; k++) {
     hr2di_visibility_class view;
-    p->found.count = 0;
+    hr2di_sight_list_cut(&p->found, 0);
     status = hr2di_occluded_collect(p, pairs[k], &view);
     partial[k] = view != HR2DI_CLEAR;
     if (partial[k]) p->partial = partial;
@@ -122,7 +122,7 @@ static hr2d_status project_links(hr2di_projector *p) {
     const uint64_t rest = old->count - first;
     const size_t count = rest < HR2DI_BATCH ? (size_t)rest : HR2DI_BATCH;
     for (size_t k = 0; k < count; k++) pairs[k] = hr2di_store_at(old, first + k)->pair;
-    if (p->visibility) status = look_again(p, pairs, count, partial);
+    if (p->sights) status = look_again(p, pairs, count, partial);
     if (!status) status = hr2di_projector_estimate(p, pairs, count);
     p->partial = NULL;
     size_t kept = 0;

@@ -42,7 +42,7 @@ typedef struct validator {
   node *node;
   hr2d_pair *stack;
   size_t capacity;
-  hr2di_visibility *visibility; /* NULL if the scene needs no occlusion */
+  hr2di_patch_sights *sights; /* NULL if the scene needs no occlusion */
   hr2di_watch watch;
 } validator;
 
@@ -97,22 +97,23 @@ static hr2d_status work(validator *v, uint64_t units) {
 /* Midpoints are off the lines of their patches by up to an ulp.  So an element may lie on the
    other side of a wall's end than its ancestor, from which a refinement inherits the walls in
    the way.  Moving the ends of elements by an ulp, δ, opens or closes gaps of δ, and strings
-   change by as much: the exchange area of a pair with walls in the way is known to some δ.  For
-   elements of a few ulps that is all of it. */
+   change by as much: the exchange area of a pair with walls in the way is known to some δ.
+   Four ends may count as ends of walls, each of them by up to 2^-49.  For elements of a few
+   ulps that is all of it. */
 static double rounding_of(const validator *v, hr2d_pair pair) {
   const hr2d_element *i = &v->h->element[pair.first], *j = &v->h->element[pair.second];
   const double x = fmax(fmax(fabs(i->a.x), fabs(i->b.x)), fmax(fabs(j->a.x), fabs(j->b.x)));
   const double y = fmax(fmax(fabs(i->a.y), fabs(i->b.y)), fmax(fabs(j->a.y), fabs(j->b.y)));
-  return v->visibility ? 16 * DBL_EPSILON * fmax(x, y) : 0;
+  return v->sights ? 16 * DBL_EPSILON * fmax(x, y) + 4 * 0x1p-49 : 0;
 }
 
 /* The exchange areas that the links of pairs should have. */
 static hr2d_status integrate(validator *v, const hr2d_pair *pair, size_t count, double *area) {
   hr2d_status status = work(v, count);
-  if (!v->visibility) hr2di_exchange_areas(v->h->element, pair, count, area);
-  for (size_t k = 0; k < count && v->visibility && !status; k++) {
+  if (!v->sights) hr2di_exchange_areas(v->h->element, pair, count, area);
+  for (size_t k = 0; k < count && v->sights && !status; k++) {
     hr2di_visibility_class view = HR2DI_CLEAR;
-    status = pass_on(v, hr2di_occluded_area(v->visibility, v->h, pair[k], &area[k], &view));
+    status = pass_on(v, hr2di_occluded_area(v->sights, v->h, pair[k], &area[k], &view));
     if (view == HR2DI_BLOCKED) area[k] = 0;
   }
   return status;
@@ -261,10 +262,9 @@ static hr2d_status look(validator *v, hr2d_pair pair, int *hidden) {
   hr2di_visibility_class view = HR2DI_CLEAR;
   double area = 0;
   hr2d_status status = hr2di_watch_work(&v->watch, 1);
-  if (!status && v->visibility)
-    status = hr2di_occluded_area(v->visibility, v->h, pair, &area, &view);
+  if (!status && v->sights) status = hr2di_occluded_area(v->sights, v->h, pair, &area, &view);
   if (status) return pass_on(v, status);
-  *hidden = view == HR2DI_BLOCKED || (v->visibility && area <= rounding_of(v, pair));
+  *hidden = view == HR2DI_BLOCKED || (v->sights && area <= rounding_of(v, pair));
   return HR2D_OK;
 }
 
@@ -315,7 +315,7 @@ static hr2d_status check_filled(validator *v, uint32_t e, uint32_t q, hr2di_faci
     }
     if (!v->node[f].whole) {
       const hr2d_status status =
-          facing == HR2DI_FACING_FULL && !v->visibility
+          facing == HR2DI_FACING_FULL && !v->sights
               ? fail(v, (hr2d_pair){e, f}, "see each other, but no link joins them")
               : check_unseen(v, e, f);
       if (status) return status;
@@ -415,11 +415,14 @@ hr2d_status hr2d_linkset_validate(hr2d_linkset *links) {
     status = out_of_memory(&v);
   } else {
     for (size_t e = 0; e < h->elements; e++) v.node[e] = (node){.links = NO_LINK, .by = NOBODY};
-    hr2di_visibility visibility;
-    hr2di_visibility_init(&visibility, &h->scene->walls, alloc, &v.watch);
-    if (h->scene->effect[HR2D_EFFECT_OCCLUSION].on) v.visibility = &visibility;
-    status = check_all(&v);
-    hr2di_visibility_clear(&visibility);
+    hr2di_patch_sights sights = {0};
+    status = HR2D_OK;
+    if (h->scene->effect[HR2D_EFFECT_OCCLUSION].on) {
+      v.sights = &sights;
+      status = hr2di_patch_sights_init(&sights, h->scene, alloc, &v.watch);
+    }
+    status = status ? out_of_memory(&v) : check_all(&v);
+    hr2di_patch_sights_clear(&sights);
   }
   hr2di_alloc_free(alloc, v.pair);
   hr2di_alloc_free(alloc, v.spare);

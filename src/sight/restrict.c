@@ -18,6 +18,8 @@
    x replaces it untested: a lies on the left of x on i.  If B begins with b, or A is the point
    a alone, i.e. the horizon of i, some line is left untested.  If B begins with b, its second
    point stays untested: x and b are on i, and this point is in front of i. */
+#include <math.h>
+
 #include "geometry/orient-sign.h"
 #include "sight/sight.h"
 
@@ -79,6 +81,22 @@ static int has_lines(const hr2di_sight *s, const view *v, const strip *chain,
   return v->hand * hr2di_orient_sign(at(other, 0), at(chain, chain->count - 1), x) > 0;
 }
 
+/* Roundings of coordinates, which are at most 2, and of a sign. */
+#define ROUNDING 0x1p-50
+#define SIGN     0x1p-46
+
+/* Whether the two tangents lead in opposite directions within roundings.  Then all points are
+   on one line, that of i or of j, and the moved end has cut off all lines but by roundings. */
+static int turns_back(const hr2di_sight *s) {
+  const hr2d_point l = s->left[0], r = s->right[s->rights - 1];
+  const hr2d_point m = s->right[0], n = s->left[s->lefts - 1];
+  const double ux = r.x - l.x, uy = r.y - l.y, vx = n.x - m.x, vy = n.y - m.y;
+  if (!(ux * vx + uy * vy < 0)) return 0;
+  const double size = fabs(ux * vy) + fabs(uy * vx);
+  const double noise = ROUNDING * (fabs(ux) + fabs(uy) + fabs(vx) + fabs(vy)) + SIGN * size;
+  return ux * vy - uy * vx <= noise;
+}
+
 int hr2di_sight_restrict(const hr2di_sight *s, hr2di_sight_end end, hr2d_point x,
                          hr2d_point *room, hr2di_sight *child) {
   const view v = view_of(end);
@@ -93,8 +111,11 @@ int hr2di_sight_restrict(const hr2di_sight *s, hr2di_sight_end end, hr2d_point x
     return 1;
   }
   if (!has_lines(s, &v, chain, other, x)) return 0;
-  /* A point that is a and d stays as d. */
-  size_t first = begins && (chain->count > 1 || !(s->ends & v.far)), last = other->count;
+  /* A point that is a and d stays as d, unless B begins with b: the line from b to it is that
+     of i, and x is on it, too. */
+  const int corner = begins && chain->count == 1 && s->ends & v.far;
+  const int stays = corner && !(s->ends & v.other_near);
+  size_t first = begins && !stays, last = other->count;
   while (first + 1 < chain->count &&
          v.hand * hr2di_orient_sign(x, at(chain, first), at(chain, first + 1)) <= 0)
     first++;
@@ -107,9 +128,10 @@ int hr2di_sight_restrict(const hr2di_sight *s, hr2di_sight_end end, hr2d_point x
   const hr2d_point *rest = write(other, 0, last, NULL, v.from_j, &room);
   unsigned ends = s->ends | v.near;
   if (last < other->count) ends &= ~v.other_far;
+  if (corner && !stays) ends &= ~v.far;
   *child = on_left ? (hr2di_sight){moved, rest, count, last, ends}
                    : (hr2di_sight){rest, moved, last, count, ends};
-  return 1;
+  return !turns_back(child);
 }
 
 void hr2di_sight_turn(const hr2di_sight *s, hr2d_point *room, hr2di_sight *turned) {

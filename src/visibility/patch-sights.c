@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Beams from the walls of a patch find its sights, which are listed by the sides where they
+   end.  A pair takes those that end along its other patch, and leaves of them what lies between
+   its parts. */
+#include "visibility/patch-sights.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "geometry/vector.h"
+
+static hr2d_status keep(void *ctx, const hr2di_sight *sight, hr2di_wall_side side) {
+  hr2di_patch_sights *s = ctx;
+  const size_t k = s->all.count;
+  const hr2di_side *of = s->scene->parts.of_side;
+  if (of[side].wall == of[s->from].wall)
+    return HR2D_OK; /* of a wall that roundings have bent */
+  const hr2d_allocator *alloc = &s->all.alloc;
+  if (k >= UINT32_MAX - 1 ||
+      hr2di_alloc_reserve(alloc, &s->next, &s->next_capacity, k + 1, sizeof *s->next) ||
+      hr2di_alloc_reserve(alloc, &s->side, &s->side_capacity, k + 1, sizeof *s->side))
+    return HR2D_ENOMEM;
+  const hr2d_status status =
+      hr2di_sight_list_add(&s->all, sight, hr2di_wall_side_at(s->walk.in, s->from),
+                           hr2di_wall_side_at(s->walk.in, side));
+  if (status) return status;
+  s->next[k] = s->last[side];
+  s->side[k] = side;
+  s->last[side] = (uint32_t)k + 1;
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_patch_sights_init(hr2di_patch_sights *s, const hr2d_scene *scene,
+                                    const hr2d_allocator *alloc, hr2di_watch *watch) {
+  const hr2di_triangulation *t = &scene->plane.triangulation;
+  *s = (hr2di_patch_sights){.scene = scene,
+                            .walk = {.in = t,
+                                     .wanted = scene->parts.wanted,
+                                     .take = keep,
+                                     .ctx = s,
+                                     .alloc = *alloc,
+                                     .watch = watch},
+                            .all.alloc = *alloc,
+                            .turned.alloc = *alloc};
+  s->last = hr2di_alloc_zero(alloc, t->edges, 2 * sizeof *s->last);
+  return s->last ? HR2D_OK : HR2D_ENOMEM;
+}
+
+void hr2di_patch_sights_clear(hr2di_patch_sights *s) {
+  const hr2d_allocator *alloc = &s->walk.alloc;
+  hr2di_walk_clear(&s->walk);
+  hr2di_sight_list_clear(&s->all);
+  hr2di_sight_list_clear(&s->turned);
+  hr2di_alloc_free(alloc, s->next);
+  hr2di_alloc_free(alloc, s->side);
+  hr2di_alloc_free(alloc, s->last);
+}
+
+static hr2d_status look_from(hr2di_patch_sights *s, uint32_t patch) {
+  const hr2di_side_parts *p = &s->scene->parts;
+  if (s->looked == patch + 1) return HR2D_OK;
+  hr2d_status status = hr2di_watch_work(s->walk.watch, 1 + s->all.count / 16);
+  for (size_t k = 0; k < s->all.count; k++) s->last[s->side[k]] = 0;
+  hr2di_sight_list_cut(&s->all, 0);
+  s->looked = 0;
+  const hr2di_parts of = p->of_patch[patch];
+  for (uint32_t k = of.first; k < of.last && !status; k++) {
+    s->from = p->part[k].side;
+    if (s->from != HR2DI_HIDDEN) status = hr2di_walk_from(&s->walk, s->from, &p->part[k].at);
+  }
+  if (!status) s->looked = patch + 1;
+  return status;
+}
+
+/* Copies the sights that end along a patch, turned round if that is the near one. */
+static hr2d_status take(hr2di_patch_sights *s, uint32_t patch, int turn) {
+  const hr2di_side_parts *p = &s->scene->parts;
+  hr2d_status status = HR2D_OK;
+  const hr2di_parts of = p->of_patch[patch];
+  for (uint32_t k = of.first; k < of.last; k++) {
+    if (p->part[k].side == HR2DI_HIDDEN) continue;
+    for (uint32_t m = s->last[p->part[k].side]; m > 0 && !status; m = s->next[m - 1]) {
+      hr2di_sight_list *to = &s->turned;
+      status = hr2di_sight_list_copy(to, &s->all, m - 1, m);
+      if (!status && turn) hr2di_sight_list_turn(to, to->count - 1);
+      if (!status) status = hr2di_watch_work(s->walk.watch, 1);
+    }
+  }
+  return status;
+}
+
+/* Whether parts of two patches lie face to face within roundings. */
+static int in_contact(const hr2di_side_parts *p, uint32_t i, uint32_t j) {
+  size_t low = 0, high = p->contacts;
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    if (p->contact[middle].part < p->of_patch[i].first)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  for (; low < p->contacts && p->contact[low].part < p->of_patch[i].last; low++)
+    if (p->part[p->contact[low].other].patch == j) return 1;
+  return 0;
+}
+
+/* Patches in contact see each other as if nothing else were there. */
+static hr2d_status add_contact(hr2di_sight_list *list, hr2d_segment near, hr2d_segment far) {
+  const hr2d_point left[] = {near.a, far.b}, right[] = {near.b, far.a};
+  const hr2di_sight all = {left, right, 2, 2,
+                           HR2DI_SIGHT_A | HR2DI_SIGHT_B | HR2DI_SIGHT_C | HR2DI_SIGHT_D};
+  return hr2di_sight_list_add(list, &all, near, far);
+}
+
+hr2d_status hr2di_patch_sights_between(hr2di_patch_sights *s, const hr2di_patch_pair *pair,
+                                       hr2di_sight_list *list, hr2di_sight_list *whole) {
+  const int turn = pair->patch[0] > pair->patch[1];
+  if (in_contact(&s->scene->parts, pair->patch[0], pair->patch[1]))
+    return add_contact(list, pair->part[turn], pair->part[!turn]);
+  hr2d_status status = look_from(s, pair->patch[0]);
+  if (status || s->all.count == 0) return status;
+  hr2di_sight_list_cut(&s->turned, 0);
+  status = take(s, pair->patch[1], turn);
+  if (status || s->turned.count == 0) return status;
+  hr2di_sight_list_sort(&s->turned);
+  s->restricted += s->turned.count;
+  return hr2di_sight_list_restrict(list, &s->turned, 0, s->turned.count, pair->part[turn],
+                                   pair->part[!turn], whole);
+}
+
+static double part_along(hr2d_segment part, hr2d_segment whole) {
+  return (hr2di_point_along(whole, part.b) - hr2di_point_along(whole, part.a)) /
+         (hr2di_point_along(whole, whole.b) - hr2di_point_along(whole, whole.a));
+}
+
+/* A clear sight has all lines between its parts of the two segments.  Walls may cut the
+   segments in several parts. */
+hr2di_visibility_class hr2di_sights_classify(const hr2di_sight_list *list, size_t first,
+                                             hr2d_segment near, hr2d_segment far) {
+  double whole = 0;
+  if (first == list->count) return HR2DI_BLOCKED;
+  for (size_t k = first; k < list->count; k++) {
+    const hr2di_sight s = hr2di_sight_list_at(list, k);
+    if (!hr2di_sight_clear(&s)) return HR2DI_PARTIAL;
+    whole += part_along(list->sight[k].near, near) * part_along(list->sight[k].far, far);
+  }
+  return whole > 1 - 0x1p-16 ? HR2DI_CLEAR : HR2DI_PARTIAL;
+}
+
+uint64_t hr2di_patch_sights_tests(const hr2di_patch_sights *s) {
+  return s->walk.steps + s->restricted;
+}
+
+uint64_t hr2di_patch_sights_bytes(const hr2di_patch_sights *s) {
+  return hr2di_sight_list_bytes(&s->all) + hr2di_sight_list_bytes(&s->turned) +
+         s->next_capacity * sizeof *s->next + s->side_capacity * sizeof *s->side;
+}
