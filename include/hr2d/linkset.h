@@ -41,7 +41,7 @@ typedef struct hr2d_refine_counts {
   uint64_t limited_links;    /**< links that only a recursion limit accepted */
   uint64_t oracle_calls;     /**< pairs that the oracle was asked about */
   uint64_t facing_tests;     /**< pairs below the roots, tested for facing each other */
-  uint64_t visibility_tests; /**< walls, and boxes of walls, tested against a shaft */
+  uint64_t visibility_tests; /**< triangles that beams passed, and sights cut to elements */
   uint64_t exchange_areas;   /**< exchange areas that were computed */
   uint64_t partial_links;    /**< links whose exchange area was integrated around occluders */
   uint64_t blocked_pairs;    /**< pairs dropped because occluders hide them from each other */
