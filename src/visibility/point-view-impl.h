@@ -64,11 +64,9 @@ double hr2di_ray_half_sine(const hr2di_ray *right, const hr2di_ray *left);
 double hr2di_ray_fraction(const hr2di_ray *ray, const hr2di_ray *a, const hr2di_ray *b);
 
 /* What is seen, if it is not a patch's front. */
-enum {
-  HR2DI_SEEN_NOBODY = HR2DI_NOBODY, /* a back: black */
-  HR2DI_SEEN_SKY = HR2DI_NOBODY - 1,
-  HR2DI_SEEN_NOTHING = HR2DI_NOBODY - 2
-};
+#define HR2DI_SEEN_NOBODY  HR2DI_NOBODY /* a back: black */
+#define HR2DI_SEEN_SKY     (HR2DI_NOBODY - 1)
+#define HR2DI_SEEN_NOTHING (HR2DI_NOBODY - 2)
 
 /* What is seen from the right ray to the left one. */
 typedef struct hr2di_stretch {
