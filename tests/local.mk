@@ -49,6 +49,7 @@ SUITES = \
 	tests/unit/visibility/check-exchange-matrix \
 	tests/unit/visibility/check-exchange-rows \
 	tests/unit/visibility/check-patch-sights \
+	tests/unit/visibility/check-seen-ends \
 	tests/unit/blocks/check-blocks \
 	tests/unit/blocks/check-directions \
 	tests/unit/solve/check-order \
