@@ -83,10 +83,21 @@ static hr2d_status close_rings(hr2di_mesh *m, hr2di_conflict *conflict) {
   return HR2D_OK;
 }
 
+/* The piece in the ring of p that gets the least number: pieces were numbered as they were cut,
+   edges are numbered along their walls. */
+static uint32_t least_in_ring(const compactor *c, uint32_t p) {
+  uint32_t least = p;
+  for (uint32_t k = c->m->piece[p].edge.same; k != p; k = c->m->piece[k].edge.same)
+    if (c->edge_of[k] < c->edge_of[least]) least = k;
+  return least;
+}
+
 static int32_t renumber(const compactor *c, int32_t across) {
   if (across >= 0) return (int32_t)(4 * c->triangle_of[across >> 2]) + (across & 3);
   if (across == HR2DI_SKY) return HR2DI_SKY;
-  return ~(int32_t)(2 * c->edge_of[hr2di_mesh_piece(across)] + (uint32_t)(~across & 1));
+  const uint32_t p = hr2di_mesh_piece(across), known = least_in_ring(c, p);
+  const uint32_t turned = c->m->piece[known].edge.from != c->m->piece[p].edge.from;
+  return ~(int32_t)(2 * c->edge_of[known] + ((uint32_t)(~across & 1) ^ turned));
 }
 
 static hr2d_status renumber_all(compactor *c) {

@@ -72,7 +72,7 @@ static double away(const hr2d_segment *s, hr2d_point p) {
   return fabs(hr2di_orient(s->a, s->b, p)) / length;
 }
 
-/* The triangle on one side of an edge knows the edge, or another one of its ring. */
+/* The triangle on one side of an edge knows the least edge of its ring. */
 static const char *side_fault(const hr2di_triangulation *t, uint32_t edge, int side) {
   const hr2di_wall_edge *e = &t->edge[edge];
   const int32_t h = e->half_edge[side];
@@ -82,14 +82,15 @@ static const char *side_fault(const hr2di_triangulation *t, uint32_t edge, int s
   const int32_t across = t->triangle[h >> 2].across[h & 3];
   if (across >= 0 || across == HR2DI_SKY) return "the triangle of an edge does not know it";
   const uint32_t known = (uint32_t)~across >> 1;
-  uint32_t turn = e->same;
-  int knows = known == edge;
+  uint32_t turn = e->same, least = edge;
   for (size_t k = 0; turn != edge && k < t->edges && turn < t->edges; k++) {
-    knows |= known == turn;
+    if (turn < least) least = turn;
     turn = t->edge[turn].same;
   }
   if (turn != edge) return "a ring of edges is broken";
-  return knows ? NULL : "the triangle of an edge knows another one";
+  if (known != least) return "the triangle of an edge knows another one";
+  return t->edge[known].half_edge[~across & 1] == h ? NULL
+                                                    : "an edge is known by its other side";
 }
 
 static const char *wall_fault(const hr2di_triangulation *t, size_t wall, const hr2d_segment *s,

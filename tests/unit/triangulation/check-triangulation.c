@@ -347,6 +347,19 @@ START_TEST(copies_are_named) {
 }
 END_TEST
 
+/* The pieces of a wall that is cut have later numbers than the walls behind it. */
+START_TEST(triangles_know_the_least_of_a_ring) {
+  const hr2d_segment wall[] = {{{0, 0}, {4, 0}}, {{1, 1}, {1, 0}}, {{4, 0}, {1, 0}}};
+  hr2di_triangulation t;
+  hr2di_conflict conflict;
+  ck_assert_int_eq(build(&t, wall, 3, &conflict), HR2D_ESCENE);
+  ck_assert(conflict.together && conflict.wall[0] == 0 && conflict.wall[1] == 2);
+  assert_whole(&t, wall, 0);
+  ck_assert_uint_eq(t.edge[1].same, 3);
+  hr2di_triangulation_clear(&t);
+}
+END_TEST
+
 /* Half-edges would have no numbers: refused before the walls are looked at. */
 START_TEST(too_many_walls_are_refused) {
   const hr2d_segment wall = {{0, 0}, {1, 0}};
@@ -507,7 +520,7 @@ END_TEST
 
 TEST_SUITE("triangulation") {
   ADD_TESTS("exact", lattices_are_triangulated_exactly, squares_are_triangulated,
-            points_have_no_edges, copies_are_named);
+            points_have_no_edges, copies_are_named, triangles_know_the_least_of_a_ring);
   ADD_TESTS("roundings", roundings_change_nothing, rounded_feet_are_joined,
             tiny_walls_keep_their_shape);
   ADD_TESTS("failures", too_many_walls_are_refused, it_can_be_stopped);
