@@ -67,11 +67,13 @@ static int tangents_up(const hr2di_walk *w, const chains *c) {
   return goes_up(first(w, c, 0), last(w, c, 1)) + goes_up(first(w, c, 1), last(w, c, 0));
 }
 
-/* Whether r is on the right of p → q for certain, by more than the rounding of the sign and of
-   points on a base. */
+/* Whether r, a point of a base, is on the right of p → q for certain: by more than the rounding
+   of the sign and than r is off the base, some roundings of coordinates.  That matters where p,
+   q and r all lie on the base. */
 static int surely_right(hr2d_point p, hr2d_point q, hr2d_point r) {
-  const double u = (q.x - p.x) * (r.y - p.y), v = (q.y - p.y) * (r.x - p.x);
-  return u - v < -0x1p-40 * (fabs(u) + fabs(v)) - 0x1p-900;
+  const double dx = q.x - p.x, dy = q.y - p.y;
+  const double u = dx * (r.y - p.y), v = dy * (r.x - p.x);
+  return u - v < -0x1p-40 * (fabs(u) + fabs(v) + fabs(dx) + fabs(dy)) - 0x1p-900;
 }
 
 static int misses_part(const hr2di_walk *w, const chains *c, const base *b) {

@@ -272,7 +272,30 @@ START_TEST(parts_of_a_side) {
 }
 END_TEST
 
+/* The ends of a part are off its side by some roundings, which are large beside the width of a
+   side that is nearly upright. */
+START_TEST(parts_that_are_off_their_side) {
+  for (int signs = 0; signs < 8; signs++) {
+    const double tilt = signs & 1 ? 0x1p-50 : -0x1p-50, a = signs & 2 ? 0x1p-50 : -0x1p-50,
+                 b = signs & 4 ? 0x1p-50 : -0x1p-50;
+    const hr2d_point corner[] = {{0, 0}, {1 + tilt, 0}, {1 - tilt, 1}, {0, 1}};
+    unsigned char wanted[SIDES];
+    memset(wanted, 1, sizeof wanted);
+    scene s = {.walls = 4};
+    for (int k = 0; k < 4; k++) s.wall[k] = (hr2d_segment){corner[k], corner[(k + 1) % 4]};
+    triangulate(&s);
+    narrowed n = {{{1 + a, .25}, {1 + b, .5}}, 0};
+    hr2di_walk w = walk_of(&s, wanted, take_part);
+    w.ctx = &n;
+    ck_assert_int_eq(hr2di_walk_from(&w, 2, &n.part), HR2D_OK);
+    ck_assert_double_eq_tol(n.area, .25, 1e-14);
+    hr2di_walk_clear(&w);
+    close_scene(&s);
+  }
+}
+END_TEST
+
 TEST_SUITE("walk") {
   ADD_TESTS("walk", sights_add_up_to_pairs, both_ends_find_the_same, once_is_once,
-            parts_of_a_side);
+            parts_of_a_side, parts_that_are_off_their_side);
 }
