@@ -28,7 +28,8 @@ void hr2di_seen_ends_clear(hr2di_seen_ends *seen);
 hr2d_status hr2di_seen_ends_look(hr2di_seen_ends *seen, uint32_t patch);
 
 /* Whether the patch that looked last sees an end in front of it.  Of a wall of which it sees a
-   part, all ends of patches between those of the wall count as seen. */
+   part, all ends of patches between those of the wall count as seen, and so do a few ends that
+   only other patches of its own wall see. */
 static inline int hr2di_seen_ends_has(const hr2di_seen_ends *seen, uint32_t patch, int last) {
   return seen->end_seen[2 * patch + (last != 0)] == seen->patch;
 }
