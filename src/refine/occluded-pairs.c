@@ -12,7 +12,21 @@
 #include "scene/scene-impl.h"
 
 static hr2d_status fail(hr2di_projector *p, hr2d_status status) {
+  if (status == HR2D_EMAX_BYTES)
+    return hr2di_projector_fail_budget(p->links, p->budget, p->counts.links);
   return hr2di_projector_fail(p, status, " for what elements see");
+}
+
+/* Shares out what is left of the budget before lists may grow: a part for each of the five
+   lists, and the rest for what is beside them. */
+static void set_limits(hr2di_projector *p) {
+  enum { PARTS = 8 };
+  hr2di_sight_list *const list[] = {&p->sights->all, &p->sights->turned, &p->found, &p->parts,
+                                    &p->occluded.list};
+  const uint64_t left = hr2di_projector_left(p);
+  if (left == UINT64_MAX) return;
+  for (size_t k = 0; k < sizeof list / sizeof *list; k++)
+    list[k]->most_bytes = hr2di_sight_list_bytes(list[k]) + left / PARTS + 1;
 }
 
 /* The patch with the lower number comes first, so that both directions get the same
@@ -43,6 +57,7 @@ hr2d_status hr2di_occluded_collect(hr2di_projector *p, hr2d_pair pair,
   *view = HR2DI_CLEAR;
   if (facing_of(&parts) == HR2DI_FACING_NONE) return HR2D_OK;
   hr2di_sight_list_cut(&p->parts, 0);
+  set_limits(p);
   const hr2d_status status =
       hr2di_patch_sights_between(p->sights, &parts, &p->parts, &p->found);
   if (!status) *view = classify(&p->parts, &parts);
@@ -62,8 +77,8 @@ static hr2d_status push(hr2di_projector *p, hr2d_pair pair, const hr2di_sight_li
                           sizeof *s->first))
     return fail(p, HR2D_ENOMEM);
   s->first[s->stack.count - 1] = s->list.count;
-  status = fail(p, hr2di_sight_list_copy(&s->list, list, first, last));
-  return status ? status : hr2di_projector_check_budget(p, 0);
+  set_limits(p);
+  return fail(p, hr2di_sight_list_copy(&s->list, list, first, last));
 }
 
 /* Links an accepted pair. */
@@ -73,6 +88,7 @@ static hr2d_status link_pair(hr2di_projector *p, hr2d_pair pair, const hr2di_sig
   const int swap = swapped(&parts);
   hr2d_status status = hr2di_projector_work(p, 1 + (last - first));
   hr2di_sight_list_cut(&p->parts, 0);
+  set_limits(p);
   if (!status && p->sink)
     status = hr2di_sight_list_restrict(&p->parts, list, first, last, parts.part[swap],
                                        parts.part[!swap], NULL);
@@ -170,6 +186,7 @@ static hr2d_status restrict_to(hr2di_projector *p, hr2d_pair child, size_t from,
   *facing = facing_of(&parts);
   if (*facing == HR2DI_FACING_NONE) return HR2D_OK;
   hr2di_sight_list_cut(&p->parts, 0);
+  set_limits(p);
   hr2d_status status = hr2di_sight_list_restrict(
       &p->parts, list, from, list->count, parts.part[swap], parts.part[!swap], &p->found);
   p->sights->restricted += list->count - from;

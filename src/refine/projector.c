@@ -40,12 +40,19 @@ hr2d_status hr2di_projector_fail_budget(hr2d_linkset *links, uint64_t budget, ui
                             (unsigned long long)budget, (unsigned long long)made);
 }
 
+/* What is held of the budget. */
+static uint64_t held_bytes(const hr2di_projector *p) {
+  return p->bytes + (uint64_t)p->hierarchy->capacity * HR2DI_ELEMENT_BYTES + stack_bytes(p);
+}
+
+uint64_t hr2di_projector_left(const hr2di_projector *p) {
+  const uint64_t budget = p->options.max_bytes, held = budget ? held_bytes(p) : 0;
+  return budget == 0 ? UINT64_MAX : held < budget ? budget - held : 0;
+}
+
 hr2d_status hr2di_projector_check_budget(hr2di_projector *p, uint64_t more) {
-  const uint64_t budget = p->options.max_bytes;
-  if (budget == 0) return HR2D_OK;
-  const uint64_t held =
-      p->bytes + (uint64_t)p->hierarchy->capacity * HR2DI_ELEMENT_BYTES + stack_bytes(p);
-  if (held <= budget && more <= budget - held) return HR2D_OK;
+  const uint64_t budget = p->options.max_bytes, held = budget ? held_bytes(p) : 0;
+  if (budget == 0 || (held <= budget && more <= budget - held)) return HR2D_OK;
   return hr2di_projector_fail_budget(p->links, p->budget, p->counts.links);
 }
 

@@ -149,6 +149,9 @@ hr2d_status hr2di_projector_subdivide(hr2di_projector *p, hr2d_pair pair, size_t
 /* Counts `more` links.  Returns HR2D_OK, or HR2D_EMAX_LINKS if that exceeds the budget. */
 hr2d_status hr2di_projector_count_links(hr2di_projector *p, size_t more);
 
+/* What is left of the budget; UINT64_MAX if there is none. */
+uint64_t hr2di_projector_left(const hr2di_projector *p);
+
 /* Returns HR2D_OK, or HR2D_EMAX_BYTES if `more` bytes would exceed the budget. */
 hr2d_status hr2di_projector_check_budget(hr2di_projector *p, uint64_t more);
 

@@ -29,7 +29,16 @@ hr2di_sight hr2di_sight_list_at(const hr2di_sight_list *l, size_t k) {
   return (hr2di_sight){p, p + s->lefts, s->lefts, s->rights, s->ends};
 }
 
+/* The capacity that hr2di_alloc_reserve() may give at most. */
+static uint64_t grown(size_t capacity, size_t needed) {
+  return needed <= capacity ? capacity : needed < 8 ? 8 : 2 * (uint64_t)needed;
+}
+
 static hr2d_status reserve(hr2di_sight_list *l, size_t sights, size_t points) {
+  const uint64_t bytes = grown(l->capacity, l->count + sights) * sizeof *l->sight +
+                         grown(l->point_capacity, l->points + points) * sizeof *l->point;
+  if (l->most_bytes && bytes > l->most_bytes && bytes > hr2di_sight_list_bytes(l))
+    return HR2D_EMAX_BYTES;
   return hr2di_alloc_reserve(&l->alloc, &l->sight, &l->capacity, l->count + sights,
                              sizeof *l->sight) ||
                  hr2di_alloc_reserve(&l->alloc, &l->point, &l->point_capacity,
@@ -40,7 +49,8 @@ static hr2d_status reserve(hr2di_sight_list *l, size_t sights, size_t points) {
 
 hr2d_status hr2di_sight_list_add(hr2di_sight_list *l, const hr2di_sight *s, hr2d_segment near,
                                  hr2d_segment far) {
-  if (reserve(l, 1, s->lefts + s->rights)) return HR2D_ENOMEM;
+  const hr2d_status status = reserve(l, 1, s->lefts + s->rights);
+  if (status) return status;
   l->sight[l->count++] = (hr2di_kept_sight){
       near, far, l->points, (uint32_t)s->lefts, (uint32_t)s->rights, s->ends};
   memcpy(l->point + l->points, s->left, s->lefts * sizeof *s->left);
@@ -114,12 +124,13 @@ hr2d_status hr2di_sight_list_restrict(hr2di_sight_list *l, const hr2di_sight_lis
     hr2di_kept_sight kept = from->sight[k];
     /* Each of four steps keeps at most one point more than there was. */
     const size_t points = kept.lefts + kept.rights;
-    if (reserve(l, 1, 5 * points + 10)) return HR2D_ENOMEM;
+    hr2d_status status = reserve(l, 1, 5 * points + 10);
+    if (status) return status;
     narrowing n = {hr2di_sight_list_at(from, k), l->point + l->points + points + 4};
     if (!clip(&n, &kept.near, near, HR2DI_SIGHT_A, HR2DI_SIGHT_B) ||
         !clip(&n, &kept.far, far, HR2DI_SIGHT_C, HR2DI_SIGHT_D))
       continue;
-    hr2d_status status = hr2di_sight_list_add(l, &n.s, kept.near, kept.far);
+    status = hr2di_sight_list_add(l, &n.s, kept.near, kept.far);
     if (!status && whole) status = hr2di_sight_list_copy(whole, from, k, k + 1);
     if (status) return status;
   }

@@ -30,7 +30,11 @@ typedef struct hr2di_sight_list {
   size_t count, capacity;
   hr2d_point *point;
   size_t points, point_capacity;
+  uint64_t most_bytes; /* it may grow to so many; 0: no limit */
 } hr2di_sight_list;
+
+/* A call that makes a list grow returns HR2D_OK, HR2D_ENOMEM, or HR2D_EMAX_BYTES at its limit.
+ */
 
 void hr2di_sight_list_clear(hr2di_sight_list *list);
 
@@ -43,18 +47,18 @@ void hr2di_sight_list_cut(hr2di_sight_list *list, size_t count);
 /* Sight k; its chains are lost when the list grows. */
 hr2di_sight hr2di_sight_list_at(const hr2di_sight_list *list, size_t k);
 
-/* Appends a sight between two segments; HR2D_OK or HR2D_ENOMEM. */
+/* Appends a sight between two segments. */
 hr2d_status hr2di_sight_list_add(hr2di_sight_list *list, const hr2di_sight *s,
                                  hr2d_segment near, hr2d_segment far);
 
-/* Appends sights [first, last) of another list; HR2D_OK or HR2D_ENOMEM. */
+/* Appends sights [first, last) of another list. */
 hr2d_status hr2di_sight_list_copy(hr2di_sight_list *list, const hr2di_sight_list *from,
                                   size_t first, size_t last);
 
 /* Appends what is left of sights [first, last) of another list between a part `near` of the
    segment of their near ends and a part `far` of that of their far ones.  Appends to `whole`
    the sights of which something is left, as they are; it may be NULL, but is none of the other
-   lists.  HR2D_OK or HR2D_ENOMEM. */
+   lists. */
 hr2d_status hr2di_sight_list_restrict(hr2di_sight_list *list, const hr2di_sight_list *from,
                                       size_t first, size_t last, hr2d_segment near,
                                       hr2d_segment far, hr2di_sight_list *whole);

@@ -258,6 +258,10 @@ hr2d_status hr2di_walk_from(hr2di_walk *w, hr2di_wall_side side, const hr2d_segm
   return status;
 }
 
+uint64_t hr2di_walk_bytes(const hr2di_walk *w) {
+  return (w->capacity[0] + w->capacity[1]) * sizeof(hr2d_point) + w->room * sizeof *w->frame;
+}
+
 void hr2di_walk_clear(hr2di_walk *w) {
   for (int hand = 0; hand < 2; hand++) hr2di_alloc_free(&w->alloc, w->chain[hand]);
   hr2di_alloc_free(&w->alloc, w->frame);

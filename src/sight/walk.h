@@ -47,6 +47,9 @@ hr2d_segment hr2di_wall_side_at(const hr2di_triangulation *t, hr2di_wall_side si
  */
 hr2d_status hr2di_walk_from(hr2di_walk *w, hr2di_wall_side side, const hr2d_segment *part);
 
+/* The bytes of the work space. */
+uint64_t hr2di_walk_bytes(const hr2di_walk *w);
+
 /* Ends the use of the work space. */
 void hr2di_walk_clear(hr2di_walk *w);
 

@@ -152,6 +152,7 @@ uint64_t hr2di_patch_sights_tests(const hr2di_patch_sights *s) {
 }
 
 uint64_t hr2di_patch_sights_bytes(const hr2di_patch_sights *s) {
-  return hr2di_sight_list_bytes(&s->all) + hr2di_sight_list_bytes(&s->turned) +
-         s->next_capacity * sizeof *s->next + s->side_capacity * sizeof *s->side;
+  return hr2di_walk_bytes(&s->walk) + hr2di_sight_list_bytes(&s->all) +
+         hr2di_sight_list_bytes(&s->turned) + s->next_capacity * sizeof *s->next +
+         s->side_capacity * sizeof *s->side;
 }

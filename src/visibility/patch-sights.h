@@ -36,7 +36,7 @@ typedef struct hr2di_patch_pair {
 /* Appends to `list` what the parts see of each other, with the near ends on the patch of the
    lower number, whichever comes first, and to `whole`, which may be NULL, the sights between
    walls of which that is a part.  Looks from the first patch, unless it has looked last.
-   HR2D_OK, HR2D_ENOMEM or the status of the watch. */
+   HR2D_OK, HR2D_ENOMEM, HR2D_EMAX_BYTES at the limit of a list, or the status of the watch. */
 hr2d_status hr2di_patch_sights_between(hr2di_patch_sights *sights, const hr2di_patch_pair *pair,
                                        hr2di_sight_list *list, hr2di_sight_list *whole);
 
