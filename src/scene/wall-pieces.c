@@ -55,16 +55,17 @@ static int is_near(hr2d_point p, hr2d_point q, double distance) {
 /* The lesser end of a wall is its first, so that cuts are in the order of the wall. */
 static void make_pieces(hr2di_wall_pieces *p, const hr2di_walls *walls, const cut *cuts,
                         size_t count) {
-  const cut *next = cuts, *const end = cuts + count;
+  size_t next = 0;
   for (uint32_t w = 0; w < walls->walls; w++) {
     const hr2d_segment wall = walls->wall[w].at;
     hr2d_segment rest = wall;
     p->of_wall[w] = (uint32_t)p->pieces;
-    for (; next != end && next->wall == w; next++) {
+    for (; next < count && cuts[next].wall == w; next++) {
+      const hr2d_point at = cuts[next].at;
       const double least = fmin(NEAR, hypot(wall.b.x - wall.a.x, wall.b.y - wall.a.y) / 8);
-      if (is_near(next->at, rest.a, least) || is_near(next->at, wall.b, least)) continue;
-      p->piece[p->pieces++] = (hr2d_segment){rest.a, next->at};
-      rest.a = next->at;
+      if (is_near(at, rest.a, least) || is_near(at, wall.b, least)) continue;
+      p->piece[p->pieces++] = (hr2d_segment){rest.a, at};
+      rest.a = at;
     }
     p->piece[p->pieces++] = rest;
   }

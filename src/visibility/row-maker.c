@@ -218,7 +218,8 @@ static hr2d_status make_rows(hr2di_row_worker *w, size_t worker, const hr2di_row
   if (!status) status = hr2di_sharing_finish(&w->sharing);
   if (!status) status = sort_rows(w, t, start, &share);
   for (size_t k = 0; k < t->last - t->first && !status; k++) {
-    status = hr2di_row_sum_make(&w->sum, share + start[k], start[k + 1] - start[k]);
+    const size_t count = start[k + 1] - start[k];
+    status = hr2di_row_sum_make(&w->sum, count > 0 ? share + start[k] : NULL, count);
     const hr2di_row row = {m->scene->runs.patch[t->first + k], w->sum.column, w->sum.area,
                            w->sum.count};
     if (!status) status = m->take(m->ctx, worker, &row);
