@@ -14,9 +14,8 @@
    each see fewer islands; but no cut helps where they all are seen from everywhere. */
 enum { MOST_ISLANDS = 8, MOST_CUTS = 24 };
 
-/* So few walls are asked at once whether they leave a gap, or so many of the widest whether
-   they leave none. */
-enum { FEW = 4, WIDEST = 16 };
+/* So few walls are asked at once whether they leave a gap. */
+enum { FEW = 4 };
 
 /* Tests between two declarations of work; a test takes some 0.05 µs. */
 enum { TESTS = 16 };
@@ -306,35 +305,6 @@ hr2d_status hr2di_visibility_any(hr2di_visibility *sight, const hr2di_shaft *sha
   *open = centres_see(sight, shaft, wall, count);
   if (status || *open) return status;
   return hr2di_visibility_visit(sight, shaft, wall, count, NULL, open);
-}
-
-/* The width of a wall across the shaft. */
-static double width_of(const hr2di_shaft *s, hr2d_segment wall) {
-  const hr2d_point across = hr2di_shaft_across(s);
-  return fabs(across.x * (wall.b.x - wall.a.x) + across.y * (wall.b.y - wall.a.y));
-}
-
-hr2d_status hr2di_visibility_blocked(hr2di_visibility *s, const hr2di_shaft *shaft,
-                                     const uint32_t *wall, size_t count, int *blocked) {
-  uint32_t widest[WIDEST];
-  double width[WIDEST];
-  size_t kept = 0;
-  for (size_t k = 0; k < count; k++) {
-    const double w = width_of(shaft, s->walls->wall[wall[k]].at);
-    if (kept == WIDEST && w <= width[kept - 1]) continue;
-    size_t at = kept < WIDEST ? kept++ : kept - 1;
-    for (; at > 0 && width[at - 1] < w; at--) {
-      width[at] = width[at - 1];
-      widest[at] = widest[at - 1];
-    }
-    width[at] = w;
-    widest[at] = wall[k];
-  }
-  int open = 1;
-  hr2d_status status = hr2di_watch_work(s->watch, 1 + count / 8);
-  if (!status) status = hr2di_visibility_any(s, shaft, widest, kept, &open);
-  *blocked = !status && !open;
-  return status;
 }
 
 static hr2d_status add_area(void *ctx, const hr2di_shaft *shaft, const hr2di_chain *right,

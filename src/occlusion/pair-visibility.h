@@ -67,10 +67,6 @@ hr2d_status hr2di_visibility_quick(hr2di_visibility *sight, const hr2di_shaft *s
 hr2d_status hr2di_visibility_any(hr2di_visibility *sight, const hr2di_shaft *shaft,
                                  const uint32_t *wall, size_t count, int *open);
 
-/* Whether the widest of many walls block the pair together; never 1 if they do not. */
-hr2d_status hr2di_visibility_blocked(hr2di_visibility *sight, const hr2di_shaft *shaft,
-                                     const uint32_t *wall, size_t count, int *blocked);
-
 /* Visits the classes of lines past the walls in the way; *open tells whether there is one.
    Without a visitor it ends with the first class found. */
 hr2d_status hr2di_visibility_visit(hr2di_visibility *sight, const hr2di_shaft *shaft,

@@ -126,3 +126,15 @@ void hr2di_side_parts_clear(hr2di_side_parts *parts) {
   hr2di_alloc_free(&parts->alloc, parts->wanted);
   hr2di_alloc_free(&parts->alloc, parts->contact);
 }
+
+size_t hr2di_side_parts_contact(const hr2di_side_parts *p, uint32_t part) {
+  size_t low = 0, high = p->contacts;
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    if (p->contact[middle].part < part)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}

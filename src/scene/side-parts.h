@@ -60,4 +60,7 @@ hr2d_status hr2di_side_parts_init(hr2di_side_parts *parts, const hr2d_scene *sce
                                   hr2di_watch *watch);
 void hr2di_side_parts_clear(hr2di_side_parts *parts);
 
+/* The first contact of a part, or of a later one; the number of contacts if there is none. */
+size_t hr2di_side_parts_contact(const hr2di_side_parts *parts, uint32_t part);
+
 #endif

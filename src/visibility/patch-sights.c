@@ -91,16 +91,9 @@ static hr2d_status take(hr2di_patch_sights *s, uint32_t patch, int turn) {
 
 /* Whether parts of two patches lie face to face within roundings. */
 static int in_contact(const hr2di_side_parts *p, uint32_t i, uint32_t j) {
-  size_t low = 0, high = p->contacts;
-  while (low < high) {
-    const size_t middle = low + (high - low) / 2;
-    if (p->contact[middle].part < p->of_patch[i].first)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  for (; low < p->contacts && p->contact[low].part < p->of_patch[i].last; low++)
-    if (p->part[p->contact[low].other].patch == j) return 1;
+  for (size_t k = hr2di_side_parts_contact(p, p->of_patch[i].first);
+       k < p->contacts && p->contact[k].part < p->of_patch[i].last; k++)
+    if (p->part[p->contact[k].other].patch == j) return 1;
   return 0;
 }
 

@@ -137,17 +137,10 @@ static hr2d_status look_from(hr2di_row_worker *w, hr2di_parts parts) {
 /* What hidden parts among those of a task see. */
 static hr2d_status add_contacts(hr2di_row_worker *w, hr2di_parts parts) {
   const hr2di_side_parts *p = &w->maker->scene->parts;
-  size_t low = 0, high = p->contacts;
   hr2d_status status = HR2D_OK;
-  while (low < high) {
-    const size_t middle = low + (high - low) / 2;
-    if (p->contact[middle].part < parts.first)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  for (; low < p->contacts && p->contact[low].part < parts.last && !status; low++) {
-    const hr2di_part_contact *c = &p->contact[low];
+  for (size_t k = hr2di_side_parts_contact(p, parts.first);
+       k < p->contacts && p->contact[k].part < parts.last && !status; k++) {
+    const hr2di_part_contact *c = &p->contact[k];
     const int mine = c->part < c->other;
     if (!mine && !w->maker->whole) continue;
     status = hr2di_sharing_add_area(&w->sharing, (hr2di_share){.area = c->area,
