@@ -9,6 +9,7 @@
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
 #include "geometry/vector.h"
+#include "occlusion/shaft.h"
 #include "scene/scene-impl.h"
 
 static double *table(const hr2di_integrator *w, const hr2di_rule *rule) {
@@ -24,17 +25,19 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
                                   const hr2d_allocator *alloc, size_t order,
                                   hr2di_watch *watch) {
   const hr2d_scene *scene = hierarchy->scene;
-  *w = (hr2di_integrator){
-      .hierarchy = hierarchy, .alloc = *alloc, .order = order, .watch = watch};
+  *w = (hr2di_integrator){.hierarchy = hierarchy,
+                          .alloc = *alloc,
+                          .order = order,
+                          .watch = watch,
+                          .seen.alloc = *alloc};
   hr2di_rule_init(&w->far, order + 2);
   w->phi_far = table(w, &w->far);
   w->rule = hr2di_alloc(alloc, HR2DI_RULE_POINTS, sizeof *w->rule);
   const hr2d_status status = hr2di_moments_init(&w->moments, order, alloc);
   int room = w->phi_far && w->rule && !status;
   if (room && scene->effect[HR2D_EFFECT_OCCLUSION].on) {
-    w->visibility = hr2di_alloc(alloc, 1, sizeof *w->visibility);
-    if (w->visibility) hr2di_visibility_init(w->visibility, &scene->walls, alloc, watch);
-    room = w->visibility != NULL;
+    w->sights = hr2di_alloc_zero(alloc, 1, sizeof *w->sights);
+    room = w->sights && !hr2di_patch_sights_init(w->sights, scene, alloc, watch);
   }
   return room ? HR2D_OK : HR2D_ENOMEM;
 }
@@ -43,9 +46,9 @@ void hr2di_integrator_clear(hr2di_integrator *w) {
   hr2di_alloc_free(&w->alloc, w->phi_far);
   hr2di_alloc_free(&w->alloc, w->rule);
   hr2di_moments_clear(&w->moments, &w->alloc);
-  if (w->visibility) hr2di_visibility_clear(w->visibility);
-  hr2di_alloc_free(&w->alloc, w->visibility);
-  hr2di_alloc_free(&w->alloc, w->found.wall);
+  if (w->sights) hr2di_patch_sights_clear(w->sights);
+  hr2di_alloc_free(&w->alloc, w->sights);
+  hr2di_sight_list_clear(&w->seen);
   hr2di_alloc_free(&w->alloc, w->vertex);
   hr2di_alloc_free(&w->alloc, w->trapezoid);
 }
@@ -63,18 +66,6 @@ hr2d_status hr2di_block_of_vertices(hr2di_integrator *w, const hr2di_line_frame 
   return hr2di_block_add_lines(w, w->trapezoid, count, block);
 }
 
-hr2d_status hr2di_block_of_chains(hr2di_integrator *w, const hr2di_line_frame *f,
-                                  const hr2di_incident_point *right, size_t rights,
-                                  const hr2di_incident_point *left, size_t lefts,
-                                  double *block) {
-  if (hr2di_alloc_reserve(&w->alloc, &w->vertex, &w->vertex_capacity, rights + lefts,
-                          sizeof *w->vertex))
-    return HR2D_ENOMEM;
-  for (size_t k = 0; k < rights; k++) w->vertex[k] = hr2di_line_vertex(f, right[k]);
-  for (size_t k = 0; k < lefts; k++) w->vertex[rights + k] = hr2di_line_vertex(f, left[k]);
-  return hr2di_block_of_vertices(w, f, w->vertex, rights, lefts, block);
-}
-
 /* Where nothing is in the way. */
 static hr2d_status add_clear(hr2di_integrator *w, const hr2di_line_frame *f, double *block) {
   hr2di_vertex end[4];
@@ -82,68 +73,85 @@ static hr2d_status add_clear(hr2di_integrator *w, const hr2di_line_frame *f, dou
   return hr2di_block_of_vertices(w, f, end, 2, 2, block);
 }
 
-typedef struct shaded {
-  hr2di_integrator *work;
-  hr2di_line_frame frame;
-  double *block;
-} shaded;
+/* On which of the lines of two patches a point of a chain lies. */
+static hr2di_incident_point incident(const hr2di_pair_lines *lines, hr2d_point at,
+                                     unsigned known) {
+  if (!(known & HR2DI_ON_I) && hr2di_shaft_front(&lines->i, at) == 0) known |= HR2DI_ON_I;
+  if (!(known & HR2DI_ON_J) && hr2di_shaft_front(&lines->j, at) == 0) known |= HR2DI_ON_J;
+  return (hr2di_incident_point){at, known};
+}
 
-static hr2d_status add_class(void *ctx, const hr2di_shaft *shaft, const hr2di_chain *right,
-                             const hr2di_chain *left, int *open) {
-  const shaded *s = ctx;
-  hr2di_corridor c;
-  if (!right) {
-    const hr2di_incident_point side[2][2] = {{shaft->b, shaft->c}, {shaft->a, shaft->d}};
-    *open = 1;
-    return hr2di_block_of_chains(s->work, &s->frame, side[0], 2, side[1], 2, s->block);
+/* One chain, whose first and last points may be ends of i and of j. */
+static void add_chain(hr2di_vertex *vertex, const hr2di_line_frame *f,
+                      const hr2di_pair_lines *lines, const hr2d_point *point, size_t count,
+                      unsigned first, unsigned last) {
+  for (size_t k = 0; k < count; k++) {
+    const unsigned known =
+        (k == 0 && first ? HR2DI_ON_I : 0) | (k + 1 == count && last ? HR2DI_ON_J : 0);
+    vertex[k] = hr2di_line_vertex(f, incident(lines, point[k], known));
   }
-  *open = hr2di_corridor_find(&shaft->frame, right, left, &c);
-  if (!*open) return HR2D_OK;
-  return hr2di_block_of_chains(s->work, &s->frame, right->point + c.right_first,
-                               c.right_last - c.right_first + 1, left->point + c.left_first,
-                               c.left_last - c.left_first + 1, s->block);
 }
 
-static hr2d_status add_shaded(hr2di_integrator *w, hr2d_pair pair, const hr2di_shaft *shaft,
-                              double *block) {
-  shaded s = {.work = w, .block = block};
-  const hr2di_class_visitor visitor = {add_class, &s};
-  int open;
-  hr2di_line_frame_init(&s.frame, w->hierarchy, pair);
-  return hr2di_visibility_visit(w->visibility, shaft, w->found.wall, w->found.count, &visitor,
-                                &open);
+static hr2d_status add_sight(hr2di_integrator *w, const hr2di_line_frame *f,
+                             const hr2di_pair_lines *lines, const hr2di_sight *s,
+                             double *block) {
+  if (hr2di_alloc_reserve(&w->alloc, &w->vertex, &w->vertex_capacity, s->rights + s->lefts,
+                          sizeof *w->vertex))
+    return HR2D_ENOMEM;
+  add_chain(w->vertex, f, lines, s->right, s->rights, s->ends & HR2DI_SIGHT_B,
+            s->ends & HR2DI_SIGHT_C);
+  add_chain(w->vertex + s->rights, f, lines, s->left, s->lefts, s->ends & HR2DI_SIGHT_A,
+            s->ends & HR2DI_SIGHT_D);
+  return hr2di_block_of_vertices(w, f, w->vertex, s->rights, s->lefts, block);
 }
 
-/* Collects the walls in the way into w->found. */
-static hr2d_status look(hr2di_integrator *w, hr2d_pair pair, hr2di_facing facing,
-                        hr2di_shaft *shaft, hr2di_visibility_class *view) {
+/* Where something bounds the view but the elements. */
+static hr2d_status add_shaded(hr2di_integrator *w, hr2d_pair pair, double *block) {
   const hr2d_hierarchy *h = w->hierarchy;
-  const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
-  *view = HR2DI_CLEAR;
-  w->found.count = 0;
-  const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
-  if (!w->visibility || !hr2di_shaft_init(shaft, facing, s, t, h->scene->patch[i->patch].scaled,
-                                          h->scene->patch[j->patch].scaled))
-    return HR2D_OK;
-  return hr2di_visibility_collect(w->visibility, shaft, &w->found, view);
+  const hr2di_patch *patch = h->scene->patch;
+  const hr2di_pair_lines lines = {hr2di_axis_of(patch[h->element[pair.first].patch].scaled),
+                                  hr2di_axis_of(patch[h->element[pair.second].patch].scaled)};
+  hr2di_line_frame f;
+  hr2d_status status = HR2D_OK;
+  hr2di_line_frame_init(&f, h, pair);
+  for (size_t k = 0; k < w->seen.count && !status; k++) {
+    const hr2di_sight s = hr2di_sight_list_at(&w->seen, k);
+    status = add_sight(w, &f, &lines, &s, block);
+  }
+  return status;
 }
 
-/* hr2di_block() for a pair in order. */
-static hr2d_status integrate(hr2di_integrator *w, hr2d_pair pair, double *block, int *distant) {
+/* Takes what the elements see of each other into w->seen, with the first one's patch looking.
+ */
+static hr2d_status look(hr2di_integrator *w, hr2d_pair pair, hr2di_visibility_class *view) {
+  const hr2d_element *i = &w->hierarchy->element[pair.first];
+  const hr2d_element *j = &w->hierarchy->element[pair.second];
+  const hr2di_patch_pair parts = {{i->patch, j->patch}, {{i->a, i->b}, {j->a, j->b}}};
+  const int swap = i->patch > j->patch;
+  *view = HR2DI_CLEAR;
+  if (!w->sights) return HR2D_OK;
+  hr2di_sight_list_cut(&w->seen, 0);
+  const hr2d_status status = hr2di_patch_sights_between(w->sights, &parts, &w->seen, NULL);
+  if (!status) *view = hr2di_sights_classify(&w->seen, 0, parts.part[swap], parts.part[!swap]);
+  return status;
+}
+
+/* hr2di_block() for a pair in order; `given` is the same pair as it was asked for. */
+static hr2d_status integrate(hr2di_integrator *w, hr2d_pair pair, hr2d_pair given,
+                             double *block, int *distant) {
   const hr2d_hierarchy *h = w->hierarchy;
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
   const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
   const hr2d_segment p = h->scene->patch[i->patch].scaled, q = h->scene->patch[j->patch].scaled;
   const int corner = hr2di_point_same(p.b, q.a) || hr2di_point_same(p.a, q.b);
   const hr2di_facing facing = corner ? hr2di_facing_of(&p, &q) : hr2di_facing_of(&s, &t);
-  hr2di_shaft shaft;
   hr2di_visibility_class view;
   *distant = 0;
   hr2d_status status = hr2di_watch_work(w->watch, 2);
   if (status || facing == HR2DI_FACING_NONE) return status;
-  status = look(w, pair, facing, &shaft, &view);
+  status = look(w, given, &view);
   if (status || view == HR2DI_BLOCKED) return status;
-  if (view == HR2DI_PARTIAL) return add_shaded(w, pair, &shaft, block);
+  if (view == HR2DI_PARTIAL) return add_shaded(w, pair, block);
   *distant = facing == HR2DI_FACING_FULL &&
              hr2di_ellipse_least(s, t) >= HR2DI_ELLIPSE_DISTANT &&
              hr2di_ellipse_least(t, s) >= HR2DI_ELLIPSE_DISTANT;
@@ -173,7 +181,7 @@ hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double *block, int 
   const int in_order = element[pair.first].patch <= element[pair.second].patch;
   memset(block, 0, w->order * w->order * sizeof *block);
   hr2di_moments_begin(&w->moments);
-  const hr2d_status status = integrate(w, in_order ? pair : swap, block, distant);
+  const hr2d_status status = integrate(w, in_order ? pair : swap, pair, block, distant);
   if (status) return status;
   hr2di_moments_end(&w->moments, block);
   if (!in_order) transpose(block, w->order);

@@ -11,7 +11,7 @@
 #include "base/watch.h"
 #include "blocks/lines.h"
 #include "blocks/moments.h"
-#include "occlusion/pair-visibility.h"
+#include "visibility/patch-sights.h"
 
 /* A distant pair i = ab, j = cd, seen from x = a + s(b−a) and y = c + t(d−c). */
 typedef struct hr2di_pair_frame {
@@ -34,8 +34,8 @@ typedef struct hr2di_integrator {
   hr2di_rule *rule; /* of n points at n − 1, once it is made */
   unsigned char made[HR2DI_RULE_POINTS];
   hr2di_moments moments;
-  hr2di_visibility *visibility; /* NULL if the scene needs no occlusion */
-  hr2di_wall_list found;
+  hr2di_patch_sights *sights; /* NULL if the scene needs no occlusion */
+  hr2di_sight_list seen;      /* of the pair under way */
   hr2di_vertex *vertex;
   size_t vertex_capacity;
   hr2di_trapezoid *trapezoid;
@@ -61,17 +61,11 @@ void hr2di_pair_frame_init(hr2di_pair_frame *frame, const hr2d_hierarchy *hierar
 /* Sets the block of a distant pair, which is 0 so far. */
 void hr2di_block_distant(hr2di_integrator *work, const hr2di_pair_frame *f, double *block);
 
-/* Adds the lines of one class to a block: those that have the points of `right` on their right
-   and the points of `left` on their left.  Both are chains, parts of convex hulls, in the order
-   from i to j.  The first line leads from the first point of `left` to the last of `right`, the
-   last one from the first point of `right` to the last of `left`.  Returns HR2D_OK, HR2D_ENOMEM
-   or the status of the watch. */
-hr2d_status hr2di_block_of_chains(hr2di_integrator *work, const hr2di_line_frame *frame,
-                                  const hr2di_incident_point *right, size_t rights,
-                                  const hr2di_incident_point *left, size_t lefts,
-                                  double *block);
-
-/* The same for vertices, of which there are `rights` and then `lefts`. */
+/* Adds the lines of one class to a block: those that have the vertices of the right chain on
+   their right and those of the left chain on their left.  There are `rights` and then `lefts`
+   of them, in the order from i to j.  The first line leads from the first vertex of the left
+   chain to the last of the right one, the last line from the first of the right to the last of
+   the left.  Returns HR2D_OK, HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_block_of_vertices(hr2di_integrator *work, const hr2di_line_frame *frame,
                                     const hr2di_vertex *vertex, size_t rights, size_t lefts,
                                     double *block);

@@ -35,6 +35,10 @@ static inline int front(const hr2di_axis *line, hr2d_point p) {
   return value > margin ? 1 : value < -margin ? -1 : front_of_near(line, p);
 }
 
+int hr2di_shaft_front(const hr2di_axis *line, hr2d_point p) {
+  return front(line, p);
+}
+
 /* The point of p→q on a line between them; an end of the segment on that line if it is
    that. */
 static hr2d_point foot(hr2d_point p, hr2d_point q, hr2d_point on_a, hr2d_point on_b) {

@@ -21,6 +21,10 @@ typedef struct hr2di_shaft {
   hr2di_half_plane side[4]; /* in front of i, of j, between them on the right, on the left */
 } hr2di_shaft;
 
+/* 1 if a point is in front of a line, −1 if behind, 0 if on it within a few units in the last
+   place of coordinates, which lie in [−2,2]. */
+int hr2di_shaft_front(const hr2di_axis *line, hr2d_point p);
+
 /* Makes the shaft of i and j, parts of two lines; 0 if there is none: they do not face
    each other, or one lies along the line of the other but for rounding, so that nothing
    is between them. */
