@@ -30,6 +30,7 @@ libhr2d_core_la_SOURCES = \
 	src/geometry/determinant.c src/geometry/determinant.h \
 	src/geometry/exchange-area.c src/geometry/exchange-area.h \
 	src/geometry/exchange-area-scaled.c src/geometry/exchange-area-scaled.h \
+	src/geometry/hull.c src/geometry/hull.h \
 	src/geometry/kernel.c \
 	src/geometry/orient-exact.c src/geometry/orient-exact.h \
 	src/geometry/orient-incident.c src/geometry/orient-incident.h \
@@ -68,7 +69,9 @@ libhr2d_core_la_SOURCES = \
 	src/scene/commit.c \
 	src/scene/effects.c \
 	src/scene/find-occluder.c src/scene/find-occluder.h \
-	src/scene/near-pairs.c src/scene/near-pairs.h \
+	src/scene/facing-in-part.c src/scene/facing-in-part.h \
+	src/scene/in-between.c src/scene/in-between.h \
+	src/scene/need-plane.c \
 	src/scene/patch-runs.c src/scene/patch-runs.h \
 	src/scene/reachability.c \
 	src/scene/scene.c \

@@ -255,10 +255,11 @@ HR2D_API hr2d_status hr2d_scene_split_crossings(hr2d_scene *scene, size_t *cuts)
  *                      digits; the scene is too far from the origin; or doubles cannot
  *                      represent a length
  *
- * The message names the patches. Cost O(n log n) in most scenes, and O(n²) comparisons where
- * nothing is in the way of any pair. In a scene with dark patches and occluders, the search for
- * patches that light can reach adds a visibility query for each pair of a patch that is lit and
- * one that is not next to a lit one.
+ * The message names the patches. Cost O(n log n) in most scenes. Where nothing is in the way of
+ * any pair, though patches have others on both sides, that is known by beams from the backs of
+ * walls, or, if these are many, by O(n²) tests of pairs. In a scene with dark patches, the search
+ * for patches that light can reach follows beams from patches that are lit, in parts of the plane
+ * where dark patches are.
  */
 HR2D_API hr2d_status hr2d_scene_commit(hr2d_scene *scene);
 

@@ -14,9 +14,6 @@
    each see fewer islands; but no cut helps where they all are seen from everywhere. */
 enum { MOST_ISLANDS = 8, MOST_CUTS = 24 };
 
-/* So few walls are asked at once whether they leave a gap. */
-enum { FEW = 4 };
-
 /* Tests between two declarations of work; a test takes some 0.05 µs. */
 enum { TESTS = 16 };
 
@@ -118,11 +115,10 @@ static hr2d_point middle_of(const hr2di_shaft *s) {
                       0.25 * ((s->a.at.y + s->b.at.y) + (s->c.at.y + s->d.at.y))};
 }
 
-/* hr2di_visibility_collect(), until there are more than `most`.  What is across is most likely
-   in the middle: looked for there first it is found soon even where every box meets the shaft,
-   as do those around a fan of walls that meet in a point. */
-static hr2d_status collect(hr2di_visibility *s, const hr2di_shaft *shaft, size_t most,
-                           hr2di_wall_list *found, hr2di_visibility_class *view) {
+/* What is across is most likely in the middle: looked for there first it is found soon even
+   where every box meets the shaft, as do those around a fan of walls that meet in a point. */
+hr2d_status hr2di_visibility_collect(hr2di_visibility *s, const hr2di_shaft *shaft,
+                                     hr2di_wall_list *found, hr2di_visibility_class *view) {
   const size_t before = found->count;
   const hr2d_point middle = middle_of(shaft);
   uint32_t stack[HR2DI_BOX_DEPTH], count = 0;
@@ -131,7 +127,7 @@ static hr2d_status collect(hr2di_visibility *s, const hr2di_shaft *shaft, size_t
   *view = HR2DI_CLEAR;
   s->looks++;
   stack[count++] = 0;
-  while (count > 0 && !status && *view != HR2DI_BLOCKED && found->count - before <= most) {
+  while (count > 0 && !status && *view != HR2DI_BLOCKED) {
     const hr2di_box *box = &s->walls->box[stack[--count]];
     status = declare(s, turn++);
     if (status) break;
@@ -153,22 +149,6 @@ static hr2d_status collect(hr2di_visibility *s, const hr2di_shaft *shaft, size_t
   if (*view == HR2DI_BLOCKED) found->count = before;
   if (!status && found->count > before + 1)
     status = sort(found->wall + before, found->count - before, s->watch);
-  return status;
-}
-
-hr2d_status hr2di_visibility_collect(hr2di_visibility *s, const hr2di_shaft *shaft,
-                                     hr2di_wall_list *found, hr2di_visibility_class *view) {
-  return collect(s, shaft, SIZE_MAX, found, view);
-}
-
-hr2d_status hr2di_visibility_quick(hr2di_visibility *s, const hr2di_shaft *shaft, int *surely) {
-  hr2di_wall_list found = {0};
-  hr2di_visibility_class view;
-  hr2d_status status = collect(s, shaft, FEW, &found, &view);
-  *surely = view == HR2DI_CLEAR;
-  if (!status && view == HR2DI_PARTIAL && found.count <= FEW)
-    status = hr2di_visibility_any(s, shaft, found.wall, found.count, surely);
-  hr2di_alloc_free(&s->alloc, found.wall);
   return status;
 }
 

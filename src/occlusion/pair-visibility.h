@@ -58,11 +58,6 @@ hr2d_status hr2di_visibility_shrink(hr2di_visibility *sight, const hr2di_shaft *
                                     const hr2di_wall_list *from, size_t first, size_t count,
                                     hr2di_wall_list *found, hr2di_visibility_class *view);
 
-/* Whether two segments surely see each other, for little: nothing is in the way, or so few
-   walls that it is known at once.  What this does not notice hr2di_visibility_any() does. */
-hr2d_status hr2di_visibility_quick(hr2di_visibility *sight, const hr2di_shaft *shaft,
-                                   int *surely);
-
 /* Whether some light passes between the walls in the way; exact. */
 hr2d_status hr2di_visibility_any(hr2di_visibility *sight, const hr2di_shaft *shaft,
                                  const uint32_t *wall, size_t count, int *open);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "geometry/crossings.h"
+#include "geometry/hull.h"
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
 
@@ -59,26 +60,30 @@ static double extent(const hr2d_scene *scene) {
   return fmax(high.x - low.x, high.y - low.y);
 }
 
-/* Whether no patch has an end of another behind it, by exact signs.  One or two patches always
-   count as convex: nothing can stand between them. */
-static int is_convex(const hr2d_scene *scene, hr2di_watch *watch) {
-  for (size_t k = 0; k < scene->patches && scene->patches > 2; k++) {
-    if (hr2di_watch_work(watch, scene->patches / 2)) return 0;
-    const hr2d_segment s = scene->patch[k].scaled;
-    for (size_t m = 0; m < scene->patches; m++) {
-      const hr2d_segment other = scene->patch[m].scaled;
-      if (hr2d_orientation(s.a, s.b, other.a) < 0 || hr2d_orientation(s.a, s.b, other.b) < 0)
-        return 0;
-    }
+/* *convex is whether no patch has an end of another behind it, by exact signs.  One or two
+   patches always count as convex: nothing can stand between them. */
+static hr2d_status look_whether_convex(const hr2d_scene *scene, int *convex,
+                                       hr2di_watch *watch) {
+  hr2di_hull hull;
+  *convex = 1;
+  if (scene->patches <= 2) return HR2D_OK;
+  hr2d_status status = hr2di_hull_init(&hull, &scene->alloc, &scene->patch[0].scaled,
+                                       scene->patches, sizeof *scene->patch, watch);
+  for (size_t k = 0; k < scene->patches && *convex && !status; k++) {
+    status = hr2di_watch_work(watch, 1);
+    if (!status) *convex = !(hr2di_hull_sides(&hull, scene->patch[k].scaled) & 2);
   }
-  return 1;
+  hr2di_hull_clear(&hull);
+  return status;
 }
 
 static hr2d_status check_offset(hr2d_scene *scene, hr2di_watch *watch) {
   const double across = extent(scene);
-  if (across >= FEWEST_ROUNDINGS * 0x1p-50 || is_convex(scene, watch)) return HR2D_OK;
-  const hr2d_status status = hr2di_watch_status(watch);
-  if (status) return hr2di_scene_fail(scene, status, watch, "");
+  int convex = 1;
+  if (across >= FEWEST_ROUNDINGS * 0x1p-50) return HR2D_OK;
+  const hr2d_status status = look_whether_convex(scene, &convex, watch);
+  if (status) return hr2di_scene_fail(scene, status, watch, "the checks");
+  if (convex) return HR2D_OK;
   return hr2di_message_fail(
       &scene->message, HR2D_ERANGE,
       "the scene is so far from the origin, %.3g for %.3g across, that rounding "

@@ -32,16 +32,19 @@ static hr2di_label label_of_wall(const hr2d_scene *scene, uint32_t wall) {
   return hr2di_patch_label(scene, patch);
 }
 
-static hr2d_status make_plane(hr2d_scene *scene, hr2di_watch *watch) {
-  if (!scene->effect[HR2D_EFFECT_OCCLUSION].on) return HR2D_OK;
-  uint32_t wall[2];
-  hr2d_status status = hr2di_plane_init(&scene->plane, scene, wall, watch);
-  if (status == HR2D_ESCENE)
-    return hr2di_message_fail(
-        &scene->message, HR2D_ESCENE, "%s and %s cross within roundings, as too many others do",
-        label_of_wall(scene, wall[0]).text, label_of_wall(scene, wall[1]).text);
-  if (!status) status = hr2di_side_parts_init(&scene->parts, scene, watch);
-  return status ? hr2di_scene_fail(scene, status, watch, "the plane") : HR2D_OK;
+/* Without the effect of occlusion nobody asks the plane after commit. */
+static hr2d_status keep_plane(hr2d_scene *scene, hr2di_watch *watch) {
+  const uint32_t *wall = scene->unclear.wall;
+  if (!scene->effect[HR2D_EFFECT_OCCLUSION].on) {
+    hr2di_scene_clear_plane(scene);
+    return HR2D_OK;
+  }
+  const hr2d_status status = hr2di_scene_need_plane(scene, watch);
+  if (status) return hr2di_scene_fail(scene, status, watch, "the plane");
+  if (scene->parts.wanted) return HR2D_OK;
+  return hr2di_message_fail(
+      &scene->message, HR2D_ESCENE, "%s and %s cross within roundings, as too many others do",
+      label_of_wall(scene, wall[0]).text, label_of_wall(scene, wall[1]).text);
 }
 
 hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
@@ -49,14 +52,10 @@ hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");
   if (scene->patches == 0)
     return hr2di_message_fail(&scene->message, HR2D_ESCENE, "the scene has no patches");
-  hr2d_status (*const part[])(hr2d_scene *, hr2di_watch *) = {hr2di_scene_check_bands,
-                                                              check_background,
-                                                              hr2di_scene_scale,
-                                                              hr2di_scene_check_overlaps,
-                                                              make_walls,
-                                                              hr2di_scene_analyse_effects,
-                                                              make_plane,
-                                                              hr2di_scene_find_light};
+  hr2d_status (*const part[])(hr2d_scene *, hr2di_watch *) = {
+      hr2di_scene_check_bands,    check_background, hr2di_scene_scale,
+      hr2di_scene_check_overlaps, make_walls,       hr2di_scene_analyse_effects,
+      hr2di_scene_find_light,     keep_plane};
   const size_t parts = sizeof part / sizeof *part;
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, NULL, NULL, "commit");

@@ -6,6 +6,7 @@
 #include "geometry/crossings.h"
 #include "geometry/predicates.h"
 #include "geometry/vector.h"
+#include "scene/facing-in-part.h"
 #include "scene/find-occluder.h"
 #include "scene/scene-impl.h"
 
@@ -82,19 +83,13 @@ static void analyse_background(hr2d_scene *scene) {
   }
 }
 
-/* The first pair of patches that has a property. */
-typedef struct first_pair {
-  int exists;
-  size_t i, j;
-} first_pair;
-
-static int is_earlier(const first_pair *than, size_t i, size_t j) {
+static int is_earlier(const hr2di_patch_pair *than, size_t i, size_t j) {
   return !than->exists || i < than->i || (i == than->i && j < than->j);
 }
 
 typedef struct touching {
   const hr2d_scene *scene;
-  first_pair back, corner;
+  hr2di_patch_pair back, corner;
 } touching;
 
 /* Patches that touch have boxes that meet. */
@@ -103,26 +98,13 @@ static hr2d_status look_at_touching(void *ctx, size_t i, size_t j) {
   const hr2d_segment *p = &t->scene->patch[i].scaled, *q = &t->scene->patch[j].scaled;
   if (is_earlier(&t->back, i, j) && hr2di_point_same(p->a, q->b) &&
       hr2di_point_same(p->b, q->a))
-    t->back = (first_pair){1, i, j};
+    t->back = (hr2di_patch_pair){1, i, j};
   if (is_earlier(&t->corner, i, j) && touch(p, q) && hr2di_facing_of(p, q) != HR2DI_FACING_NONE)
-    t->corner = (first_pair){1, i, j};
+    t->corner = (hr2di_patch_pair){1, i, j};
   return HR2D_OK;
 }
 
-static hr2d_status find_facing_in_part(const hr2d_scene *scene, first_pair *found,
-                                       hr2di_watch *watch) {
-  hr2d_status status = HR2D_OK;
-  for (size_t i = 0; i < scene->patches && !found->exists && !status; i++)
-    for (size_t j = i + 1; j < scene->patches && !found->exists && !status; j++) {
-      if (j % 16 == 0) status = hr2di_watch_work(watch, 8);
-      if (hr2di_facing_of(&scene->patch[i].scaled, &scene->patch[j].scaled) ==
-          HR2DI_FACING_PART)
-        *found = (first_pair){1, i, j};
-    }
-  return status;
-}
-
-static void set_pair(hr2d_scene *scene, hr2d_effect effect, const first_pair *pair,
+static void set_pair(hr2d_scene *scene, hr2d_effect effect, const hr2di_patch_pair *pair,
                      const char *what, const char *none) {
   if (!pair->exists) {
     set(scene, effect, 0, "%s", none);
@@ -133,32 +115,20 @@ static void set_pair(hr2d_scene *scene, hr2d_effect effect, const first_pair *pa
   set(scene, effect, 1, "%s and %s %s", first.text, second.text, what);
 }
 
-static hr2d_status analyse_pairs(hr2d_scene *scene, hr2di_watch *watch) {
+static hr2d_status analyse_pairs(hr2d_scene *scene, const hr2di_hull *hull,
+                                 hr2di_watch *watch) {
   touching t = {.scene = scene};
-  first_pair part = {0};
+  hr2di_patch_pair part = {0};
   hr2d_status status =
       hr2di_crossings_sweep(&scene->alloc, &scene->patch[0].scaled, scene->patches,
                             sizeof *scene->patch, look_at_touching, &t, watch);
-  if (!status) status = find_facing_in_part(scene, &part, watch);
+  if (!status) status = hr2di_facing_in_part_find(scene, hull, &part, watch);
   set_pair(scene, HR2D_EFFECT_TWO_SIDED, &t.back, "stand back to back",
            "no two patches stand back to back, end to end");
   set_pair(scene, HR2D_EFFECT_FACING, &part, "see each other in part",
            "patches see each other wholly or not at all");
   set_pair(scene, HR2D_EFFECT_CORNER, &t.corner, "touch",
            "patches that see each other do not touch");
-  return status;
-}
-
-/* *seen is how many pairs face each other. */
-static hr2d_status count_facing(const hr2d_scene *scene, size_t *seen, hr2di_watch *watch) {
-  hr2d_status status = HR2D_OK;
-  *seen = 0;
-  for (size_t i = 0; i < scene->patches && !status; i++)
-    for (size_t j = i + 1; j < scene->patches && !status; j++) {
-      if (j % 16 == 0) status = hr2di_watch_work(watch, 8);
-      *seen += hr2di_facing_of(&scene->patch[i].scaled, &scene->patch[j].scaled) !=
-               HR2DI_FACING_NONE;
-    }
   return status;
 }
 
@@ -173,22 +143,31 @@ static void force(hr2d_scene *scene) {
   }
 }
 
-hr2d_status hr2di_scene_analyse_effects(hr2d_scene *scene, hr2di_watch *watch) {
-  size_t seen = 0;
+static hr2d_status analyse_occlusion(hr2d_scene *scene, const hr2di_hull *hull,
+                                     hr2di_watch *watch) {
   hr2di_occlusion found;
-  hr2d_status status = analyse_materials(scene, watch);
-  analyse_background(scene);
-  if (!status) status = analyse_pairs(scene, watch);
-  if (!status) status = hr2di_occluder_find(scene, &found, watch);
-  if (!status && !found.exists) status = count_facing(scene, &seen, watch);
-  if (status) return hr2di_scene_fail(scene, status, watch, "the analysis");
+  const hr2d_status status = hr2di_occluder_find(scene, hull, &found, watch);
+  if (status) return status;
   if (found.exists)
     set(scene, HR2D_EFFECT_OCCLUSION, 1, "%s can stand between %s and %s",
         hr2di_patch_label(scene, found.occluder).text, hr2di_patch_label(scene, found.i).text,
         hr2di_patch_label(scene, found.j).text);
   else
     set(scene, HR2D_EFFECT_OCCLUSION, 0,
-        "nothing can stand between patches that see each other (pairs: %zu)", seen);
+        "nothing can stand between patches that see each other");
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_scene_analyse_effects(hr2d_scene *scene, hr2di_watch *watch) {
+  hr2di_hull hull;
+  hr2d_status status = hr2di_hull_init(&hull, &scene->alloc, &scene->patch[0].scaled,
+                                       scene->patches, sizeof *scene->patch, watch);
+  if (!status) status = analyse_materials(scene, watch);
+  analyse_background(scene);
+  if (!status) status = analyse_pairs(scene, &hull, watch);
+  if (!status) status = analyse_occlusion(scene, &hull, watch);
+  hr2di_hull_clear(&hull);
+  if (status) return hr2di_scene_fail(scene, status, watch, "the analysis");
   force(scene);
   return HR2D_OK;
 }

@@ -2,69 +2,29 @@
 /* Search for an occluder: a patch that reaches into the shaft of two others. */
 #include "scene/find-occluder.h"
 
-#include <math.h>
-
-#include "geometry/orient-sign.h"
 #include "occlusion/pair-visibility.h"
+#include "scene/in-between.h"
 #include "scene/scene-impl.h"
 
-/* The sides of a line on which ends of patches lie. */
-typedef struct sides {
-  int left, right;
-} sides;
-
-static void add_sides(sides *found, hr2d_segment w, hr2d_segment s) {
-  const int at_a = hr2di_orient_sign(w.a, w.b, s.a), at_b = hr2di_orient_sign(w.a, w.b, s.b);
-  found->left |= at_a > 0 || at_b > 0;
-  found->right |= at_a < 0 || at_b < 0;
-}
-
-/* Of x, y, x + y and x − y. */
-enum { EXTREMES = 8 };
-
-/* The patches with the greatest and the least of these coordinates. */
-static void find_extremes(const hr2d_scene *scene, size_t patch[EXTREMES]) {
-  for (int e = 0; e < EXTREMES; e++) {
-    const int sign = e % 2 ? -1 : 1, which = e / 2;
-    double most = -INFINITY;
-    for (size_t k = 0; k < scene->patches; k++) {
-      const hr2d_point p = scene->patch[k].scaled.a;
-      const double at = which == 0   ? p.x
-                        : which == 1 ? p.y
-                        : which == 2 ? p.x + p.y
-                                     : p.x - p.y;
-      if (sign * at <= most) continue;
-      most = sign * at;
-      patch[e] = k;
-    }
-  }
-}
-
-/* A patch whose line has the whole scene on one side cannot stand between two patches. */
-static int on_hull(const hr2d_scene *scene, size_t k, hr2di_watch *watch) {
-  sides found = {0, 0};
-  for (size_t m = 0; m < scene->patches; m++) {
-    if (m % 16 == 0 && hr2di_watch_work(watch, 8)) return 0;
-    add_sides(&found, scene->patch[k].scaled, scene->patch[m].scaled);
-    if (found.left && found.right) return 0;
+/* A patch on the hull cannot stand between two others. */
+static int all_on_hull(const hr2d_scene *scene, const hr2di_hull *hull, hr2di_watch *watch) {
+  for (uint32_t k = 0; k < scene->walls.walls; k++) {
+    if (k % 16 == 0 && hr2di_watch_work(watch, 16)) return 0;
+    if (hr2di_hull_sides(hull, scene->walls.wall[k].at) == 3) return 0;
   }
   return 1;
 }
 
-/* Most scenes have a patch with extremes of the scene on both of its sides. */
-static int all_on_hull(const hr2d_scene *scene, hr2di_watch *watch) {
-  size_t extreme[EXTREMES];
-  find_extremes(scene, extreme);
-  for (size_t k = 0; k < scene->patches; k++) {
-    sides found = {0, 0};
-    if (hr2di_watch_work(watch, EXTREMES)) return 0;
-    for (int e = 0; e < EXTREMES; e++)
-      add_sides(&found, scene->patch[k].scaled, scene->patch[extreme[e]].scaled);
-    if (found.left && found.right) return 0;
-  }
-  for (size_t k = 0; k < scene->patches; k++)
-    if (!on_hull(scene, k, watch)) return 0;
-  return 1;
+/* Whether something may stand between two patches, so that it pays to look for them. */
+static hr2d_status is_possible(hr2d_scene *scene, const hr2di_hull *hull, int *possible,
+                               hr2di_watch *watch) {
+  *possible = 0;
+  if (all_on_hull(scene, hull, watch)) return HR2D_OK;
+  *possible = 1;
+  hr2d_status status = hr2di_watch_status(watch);
+  if (!status) status = hr2di_scene_need_plane(scene, watch);
+  return status || !scene->parts.wanted ? status
+                                        : hr2di_in_between(scene, hull, possible, watch);
 }
 
 /* The first patch in the body of `wall` that reaches into the shaft itself. */
@@ -95,13 +55,14 @@ static hr2d_status look_between(const hr2d_scene *scene, hr2di_visibility *visib
   return hr2di_watch_work(visibility->watch, 4);
 }
 
-hr2d_status hr2di_occluder_find(const hr2d_scene *scene, hr2di_occlusion *found,
-                                hr2di_watch *watch) {
+hr2d_status hr2di_occluder_find(hr2d_scene *scene, const hr2di_hull *hull,
+                                hr2di_occlusion *found, hr2di_watch *watch) {
+  int possible;
   *found = (hr2di_occlusion){0};
-  if (all_on_hull(scene, watch)) return HR2D_OK;
+  hr2d_status status = is_possible(scene, hull, &possible, watch);
+  if (status || !possible) return status;
   hr2di_visibility visibility;
   hr2di_visibility_init(&visibility, &scene->walls, &scene->alloc, watch);
-  hr2d_status status = hr2di_watch_status(watch);
   for (size_t i = 0; i < scene->patches && !found->exists && !status; i++)
     for (size_t j = i + 1; j < scene->patches && !found->exists && !status; j++)
       status = look_between(scene, &visibility, i, j, found);

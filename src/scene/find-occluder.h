@@ -7,6 +7,7 @@
 #include <stddef.h>
 
 #include "base/watch.h"
+#include "geometry/hull.h"
 
 typedef struct hr2di_occlusion {
   int exists;
@@ -14,9 +15,10 @@ typedef struct hr2di_occlusion {
 } hr2di_occlusion;
 
 /* Searches for a patch that reaches into the shaft of two others.  Returns HR2D_OK, HR2D_ENOMEM
-   or the status of the watch.  Cost O(n²) if all patches lie on the hull of the scene, else up
-   to O(n³), until one is found. */
-hr2d_status hr2di_occluder_find(const hr2d_scene *scene, hr2di_occlusion *found,
-                                hr2di_watch *watch);
+   or the status of the watch.  Cost O(n log n) if all patches lie on the hull of the scene, and
+   else that of the beams from the backs of walls.  If these find that something may be in the
+   way, pairs are searched in their order until the first is found. */
+hr2d_status hr2di_occluder_find(hr2d_scene *scene, const hr2di_hull *hull,
+                                hr2di_occlusion *found, hr2di_watch *watch);
 
 #endif

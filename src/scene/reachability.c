@@ -1,107 +1,43 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds the patches that light can reach: from a source over a chain of patches, each of which
-   sees the next.  No other patch needs a link. */
+   sees the next.  No other patch needs a link.
+
+   A flood over sides of wall edges: beams leave a side with lit patches whose light has not
+   been sent yet, all of them in one walk.  The lines of a sight that leave a stretch of the
+   side arrive on a stretch of another side, whose ends two binary searches find: all parts
+   there are lit.  Parts that are lit already are skipped.
+
+   Beams stay in one face of the plane, a set of triangles with free edges between them.  A side
+   in a face without dark patches sends none. */
 #include "base/alloc.h"
-#include "occlusion/pair-visibility.h"
-#include "scene/near-pairs.h"
+#include "base/union-find.h"
 #include "scene/scene-impl.h"
 
-/* A search that starts from the sources. */
-typedef struct search {
+#define NO_PART UINT32_MAX
+
+typedef struct flood {
   hr2d_scene *scene;
-  hr2di_visibility visibility;
-  uint32_t *reached; /* lit patches: sources, then others in the order of the search */
-  size_t count;
-  uint32_t *left; /* patches that may still be dark */
-  size_t lefts;
-} search;
+  uint32_t *face;               /* per triangle: the least triangle in its face */
+  uint32_t *darkness;           /* per triangle that is a face: dark parts in it */
+  uint32_t *first_of, *next_of; /* parts of a patch: the first, and the next behind a part */
+  uint32_t *dark_from;  /* per part: union-find to the next dark part, or the number of parts */
+  unsigned char *fresh; /* per part: lit, with light that has not been sent */
+  unsigned char *wanted;  /* per side: it has dark parts */
+  unsigned char *queued;  /* per side */
+  hr2di_wall_side *queue; /* a ring of sides with fresh parts */
+  size_t sides, head, waiting;
+  size_t dark;         /* patches */
+  hr2di_parts stretch; /* from which light is sent, of `side` */
+  hr2di_wall_side side;
+  hr2di_walk walk;
+  hr2d_point *room;
+  size_t points;
+} flood;
 
 static int emits(const hr2d_scene *scene, size_t patch) {
   for (size_t band = 0; band < scene->bands; band++)
     if (hr2d_scene_emission(scene, patch, band) > 0) return 1;
   return 0;
-}
-
-/* *seen becomes 1 if i and j see each other, else 0.  Without `exactly` it may be 0 though they
-   do. */
-static hr2d_status sees(search *s, size_t i, size_t j, int exactly, int *seen) {
-  const hr2d_segment p = s->scene->patch[i].scaled, q = s->scene->patch[j].scaled;
-  hr2di_shaft shaft;
-  hr2d_status status = hr2di_watch_work(s->visibility.watch, 1);
-  if (status) return status;
-  const hr2di_facing facing = hr2di_facing_of(&p, &q);
-  *seen = facing != HR2DI_FACING_NONE;
-  if (!s->scene->effect[HR2D_EFFECT_OCCLUSION].on ||
-      !hr2di_shaft_init(&shaft, facing, p, q, p, q))
-    return HR2D_OK;
-  if (!exactly) return hr2di_visibility_quick(&s->visibility, &shaft, seen);
-  hr2di_wall_list found = {0};
-  hr2di_visibility_class view;
-  status = hr2di_visibility_collect(&s->visibility, &shaft, &found, &view);
-  if (!status && view == HR2DI_BLOCKED) *seen = 0;
-  if (!status && view == HR2DI_PARTIAL)
-    status = hr2di_visibility_any(&s->visibility, &shaft, found.wall, found.count, seen);
-  hr2di_alloc_free(&s->scene->alloc, found.wall);
-  return status;
-}
-
-/* Lights patch k if reached[from] sees it. */
-static hr2d_status light_up(search *s, size_t from, size_t k, int exactly) {
-  unsigned char *dark = s->scene->dark;
-  int seen = 0;
-  const hr2d_status status = dark[k] ? sees(s, s->reached[from], k, exactly, &seen) : HR2D_OK;
-  if (status || !seen) return status;
-  dark[k] = 0;
-  s->reached[s->count++] = (uint32_t)k;
-  return HR2D_OK;
-}
-
-/* Lights all dark patches that see reached[from]. */
-static hr2d_status spread_from(search *s, size_t from, int exactly) {
-  const unsigned char *dark = s->scene->dark;
-  size_t kept = 0;
-  hr2d_status status = hr2di_watch_work(s->visibility.watch, s->lefts / 64);
-  for (size_t k = 0; k < s->lefts && !status; k++) {
-    status = light_up(s, from, s->left[k], exactly);
-    if (dark[s->left[k]]) s->left[kept++] = s->left[k];
-  }
-  if (!status) s->lefts = kept;
-  return status;
-}
-
-/* Lights all dark patches that surely see reached[from] or a patch reached after it. */
-static hr2d_status spread_surely(search *s, size_t from) {
-  hr2d_status status = HR2D_OK;
-  for (size_t k = from; k < s->count && s->count < s->scene->patches && !status; k++)
-    status = spread_from(s, k, 0);
-  return status;
-}
-
-/* Lights what sees a lit patch next to it. */
-static hr2d_status spread_near(search *s) {
-  hr2di_near_pairs near;
-  hr2d_status status = hr2di_near_pairs_init(&near, s->scene, s->visibility.watch);
-  for (size_t k = 0; k < s->count && !status; k++) {
-    const uint32_t i = s->reached[k];
-    for (uint32_t m = near.first[i]; m < near.first[i + 1] && !status; m++)
-      status = light_up(s, k, near.other[m], 1);
-  }
-  hr2di_alloc_free(&s->scene->alloc, near.first);
-  hr2di_alloc_free(&s->scene->alloc, near.other);
-  return status;
-}
-
-/* Most patches see a lit patch next to them, or some lit patch with little in the way.  The
-   others are tested exactly against each lit patch. */
-static hr2d_status spread(search *s) {
-  hr2d_status status = spread_near(s);
-  if (!status) status = spread_surely(s, 0);
-  for (size_t k = 0; k < s->count && s->count < s->scene->patches && !status; k++) {
-    const size_t before = s->count;
-    status = spread_from(s, k, 1);
-    if (!status) status = spread_surely(s, before);
-  }
-  return status;
 }
 
 /* Whether no search is needed: every patch emits, light from the background may come to any
@@ -115,36 +51,236 @@ static int all_lit(const hr2d_scene *scene) {
   return k == scene->patches;
 }
 
-/* Sources are lit, the others dark. */
-static hr2d_status begin(search *s) {
-  const size_t n = s->scene->patches;
-  s->reached = hr2di_alloc(&s->scene->alloc, n, sizeof *s->reached);
-  s->left = hr2di_alloc(&s->scene->alloc, n, sizeof *s->left);
-  s->scene->dark = hr2di_alloc_zero(&s->scene->alloc, n, 1);
-  if (!s->reached || !s->left || !s->scene->dark) return HR2D_ENOMEM;
-  for (size_t k = 0; k < n; k++) {
-    s->scene->dark[k] = !emits(s->scene, k);
-    if (s->scene->dark[k])
-      s->left[s->lefts++] = (uint32_t)k;
-    else
-      s->reached[s->count++] = (uint32_t)k;
-  }
-  return hr2di_watch_work(s->visibility.watch, n / 8);
+static uint32_t face_of(const flood *f, hr2di_wall_side side) {
+  const hr2di_wall_edge *e = &f->scene->plane.triangulation.edge[side >> 1];
+  return f->face[e->half_edge[side & 1] >> 2];
 }
 
-hr2d_status hr2di_scene_find_light(hr2d_scene *scene, hr2di_watch *watch) {
-  if (all_lit(scene)) return HR2D_OK;
-  search s = {.scene = scene};
-  hr2di_visibility_init(&s.visibility, &scene->walls, &scene->alloc, watch);
-  hr2d_status status = begin(&s);
-  if (!status) status = spread(&s);
-  const int none_dark = s.count == scene->patches;
-  hr2di_visibility_clear(&s.visibility);
-  hr2di_alloc_free(&scene->alloc, s.reached);
-  hr2di_alloc_free(&scene->alloc, s.left);
-  if (status || none_dark) {
+static hr2d_status find_faces(flood *f) {
+  const hr2di_triangulation *t = &f->scene->plane.triangulation;
+  hr2d_status status = HR2D_OK;
+  for (uint32_t k = 0; k < t->triangles; k++) f->face[k] = k;
+  for (uint32_t k = 0; k < t->triangles && !status; k++) {
+    if (k % 16 == 0) status = hr2di_watch_work(f->walk.watch, 8);
+    for (int e = 0; e < 3; e++)
+      if (t->triangle[k].across[e] >= 0)
+        hr2di_union_join(f->face, k, (uint32_t)t->triangle[k].across[e] >> 2);
+  }
+  for (uint32_t k = 0; k < t->triangles && !status; k++) {
+    if (k % 16 == 0) status = hr2di_watch_work(f->walk.watch, 2);
+    f->face[k] = hr2di_union_find(f->face, k);
+  }
+  return status;
+}
+
+static hr2d_status reserve(flood *f) {
+  const hr2d_allocator *alloc = &f->scene->alloc;
+  const hr2di_triangulation *t = &f->scene->plane.triangulation;
+  const size_t parts = f->scene->parts.parts, patches = f->scene->patches;
+  f->sides = 2 * t->edges;
+  f->face = hr2di_alloc(alloc, t->triangles, sizeof *f->face);
+  f->darkness = hr2di_alloc_zero(alloc, t->triangles, sizeof *f->darkness);
+  f->first_of = hr2di_alloc(alloc, patches, sizeof *f->first_of);
+  f->next_of = hr2di_alloc(alloc, parts, sizeof *f->next_of);
+  f->dark_from = hr2di_alloc(alloc, parts + 1, sizeof *f->dark_from);
+  f->fresh = hr2di_alloc_zero(alloc, parts, 1);
+  f->wanted = hr2di_alloc_zero(alloc, f->sides, 1);
+  f->queued = hr2di_alloc_zero(alloc, f->sides, 1);
+  f->queue = hr2di_alloc(alloc, f->sides, sizeof *f->queue);
+  return f->face && f->darkness && f->first_of && f->next_of && f->dark_from && f->fresh &&
+                 f->wanted && f->queued && f->queue
+             ? HR2D_OK
+             : HR2D_ENOMEM;
+}
+
+static void enqueue(flood *f, hr2di_wall_side side) {
+  if (f->queued[side]) return;
+  f->queued[side] = 1;
+  f->queue[(f->head + f->waiting++) % f->sides] = side;
+}
+
+/* Sources are lit, the others dark. */
+static hr2d_status begin(flood *f) {
+  const hr2di_side_parts *p = &f->scene->parts;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < f->scene->patches; k++) {
+    f->scene->dark[k] = !emits(f->scene, k);
+    f->dark += f->scene->dark[k];
+    f->first_of[k] = NO_PART;
+  }
+  f->dark_from[p->parts] = (uint32_t)p->parts;
+  for (uint32_t k = (uint32_t)p->parts; k-- > 0 && !status;) {
+    const uint32_t patch = p->part[k].patch;
+    const hr2di_wall_side side = p->part[k].side;
+    if (k % 16 == 0) status = hr2di_watch_work(f->walk.watch, 4);
+    f->dark_from[k] = k + 1;
+    if (patch == HR2DI_NOBODY) continue;
+    f->next_of[k] = f->first_of[patch];
+    f->first_of[patch] = k;
+    if (f->scene->dark[patch]) {
+      f->dark_from[k] = k;
+      f->wanted[side] = 1;
+      f->darkness[face_of(f, side)]++;
+    } else {
+      f->fresh[k] = 1;
+      enqueue(f, side);
+    }
+  }
+  return status;
+}
+
+static void light_up(flood *f, uint32_t patch) {
+  const hr2di_side_parts *p = &f->scene->parts;
+  f->scene->dark[patch] = 0;
+  f->dark--;
+  for (uint32_t k = f->first_of[patch]; k != NO_PART; k = f->next_of[k]) {
+    const hr2di_wall_side side = p->part[k].side;
+    const hr2di_parts all = p->of_side[side].parts;
+    f->dark_from[k] = k + 1;
+    f->fresh[k] = 1;
+    f->darkness[face_of(f, side)]--;
+    f->wanted[side] = hr2di_union_find(f->dark_from, all.first) < all.last;
+    enqueue(f, side);
+  }
+}
+
+/* Which of the parts along the far side some line of a sight meets. */
+static hr2di_parts met(const flood *f, const hr2di_sight *s, hr2di_parts all) {
+  const hr2di_side_part *part = f->scene->parts.part;
+  hr2di_sight child;
+  hr2di_parts found = all;
+  for (uint32_t high = all.last - 1; found.first < high;) {
+    const uint32_t middle = found.first + (high - found.first) / 2;
+    if (hr2di_sight_restrict(s, HR2DI_SIGHT_D, part[middle].at.b, f->room, &child))
+      high = middle;
+    else
+      found.first = middle + 1;
+  }
+  for (uint32_t low = found.first + 1; low < found.last;) {
+    const uint32_t middle = low + (found.last - low) / 2;
+    if (hr2di_sight_restrict(s, HR2DI_SIGHT_C, part[middle].at.a, f->room, &child))
+      low = middle + 1;
+    else
+      found.last = middle;
+  }
+  return found;
+}
+
+/* Leaves the lines from the stretch that is sent from, with points in *room; 0 if there are
+   none. */
+static int trim(const flood *f, hr2di_sight *s, hr2d_point **room) {
+  const hr2di_side_part *part = f->scene->parts.part;
+  const hr2di_parts all = f->scene->parts.of_side[f->side].parts, own = f->stretch;
+  hr2di_sight child;
+  if (own.first > all.first) {
+    if (!hr2di_sight_restrict(s, HR2DI_SIGHT_A, part[own.first].at.a, *room, &child)) return 0;
+    *s = child;
+    *room += child.lefts + child.rights;
+  }
+  if (own.last < all.last) {
+    if (!hr2di_sight_restrict(s, HR2DI_SIGHT_B, part[own.last - 1].at.b, *room, &child))
+      return 0;
+    *s = child;
+    *room += child.lefts + child.rights;
+  }
+  return 1;
+}
+
+/* Lights the dark parts that a sight ends on.  Each restriction has room for one point more. */
+static hr2d_status take(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
+  flood *f = ctx;
+  const hr2di_parts all = f->scene->parts.of_side[j].parts;
+  hr2di_sight own = *s;
+  if (hr2di_alloc_reserve(&f->scene->alloc, &f->room, &f->points,
+                          3 * (s->lefts + s->rights + 3), sizeof *f->room))
+    return HR2D_ENOMEM;
+  if (!f->wanted[j]) return HR2D_OK;
+  hr2d_point *const start = f->room, *free = start;
+  if (!trim(f, &own, &free)) return HR2D_OK;
+  f->room = free;
+  const hr2di_parts lit = met(f, &own, all);
+  f->room = start;
+  hr2d_status status = hr2di_watch_work(f->walk.watch, 4 + (own.lefts + own.rights) / 4);
+  for (uint32_t k = lit.first; !status; k++) {
+    k = hr2di_union_find(f->dark_from, k);
+    if (k >= lit.last) break;
+    light_up(f, f->scene->parts.part[k].patch);
+    status = hr2di_watch_work(f->walk.watch, 1);
+  }
+  return status;
+}
+
+/* The next stretch of fresh parts from number `first` on; empty if there is none. */
+static hr2di_parts next_stretch(flood *f, uint32_t first, uint32_t last) {
+  while (first < last && !f->fresh[first]) first++;
+  hr2di_parts stretch = {first, first};
+  while (stretch.last < last && f->fresh[stretch.last]) f->fresh[stretch.last++] = 0;
+  return stretch;
+}
+
+/* Sends the fresh light of a side. */
+static hr2d_status send(flood *f, hr2di_wall_side side) {
+  const hr2di_side_part *part = f->scene->parts.part;
+  const hr2di_parts all = f->scene->parts.of_side[side].parts;
+  const uint32_t face = face_of(f, side);
+  hr2d_status status = hr2di_watch_work(f->walk.watch, 1 + (all.last - all.first) / 16);
+  f->side = side;
+  for (uint32_t k = all.first; k < all.last && f->darkness[face] > 0 && !status;
+       k = f->stretch.last) {
+    f->stretch = next_stretch(f, k, all.last);
+    if (f->stretch.first == f->stretch.last) break;
+    const hr2d_segment at = {part[f->stretch.first].at.a, part[f->stretch.last - 1].at.b};
+    const int whole = f->stretch.first == all.first && f->stretch.last == all.last;
+    status = hr2di_walk_from(&f->walk, side, whole ? NULL : &at);
+  }
+  return status;
+}
+
+static hr2d_status spread(flood *f) {
+  hr2d_status status = HR2D_OK;
+  while (f->waiting > 0 && f->dark > 0 && !status) {
+    const hr2di_wall_side side = f->queue[f->head];
+    f->head = (f->head + 1) % f->sides;
+    f->waiting--;
+    f->queued[side] = 0;
+    status = send(f, side);
+  }
+  return status;
+}
+
+static void clear(flood *f) {
+  const hr2d_allocator *alloc = &f->scene->alloc;
+  void *const block[] = {f->face,  f->darkness, f->first_of, f->next_of, f->dark_from,
+                         f->fresh, f->wanted,   f->queued,   f->queue,   f->room};
+  for (size_t k = 0; k < sizeof block / sizeof *block; k++) hr2di_alloc_free(alloc, block[k]);
+  hr2di_walk_clear(&f->walk);
+}
+
+static hr2d_status find_dark(hr2d_scene *scene, hr2di_watch *watch) {
+  flood f = {.scene = scene};
+  scene->dark = hr2di_alloc_zero(&scene->alloc, scene->patches, 1);
+  hr2d_status status = scene->dark ? reserve(&f) : HR2D_ENOMEM;
+  f.walk = (hr2di_walk){.in = &scene->plane.triangulation,
+                        .wanted = f.wanted,
+                        .take = take,
+                        .ctx = &f,
+                        .alloc = scene->alloc,
+                        .watch = watch};
+  if (!status) status = find_faces(&f);
+  if (!status) status = begin(&f);
+  if (!status) status = spread(&f);
+  clear(&f);
+  if (status || f.dark == 0) {
     hr2di_alloc_free(&scene->alloc, scene->dark);
     scene->dark = NULL;
   }
+  return status;
+}
+
+/* Where nobody knows how walls cross, no patch counts as dark. */
+hr2d_status hr2di_scene_find_light(hr2d_scene *scene, hr2di_watch *watch) {
+  if (all_lit(scene)) return HR2D_OK;
+  hr2d_status status = hr2di_scene_need_plane(scene, watch);
+  if (!status && scene->parts.wanted) status = find_dark(scene, watch);
   return status ? hr2di_scene_fail(scene, status, watch, "the analysis") : HR2D_OK;
 }

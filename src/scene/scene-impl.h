@@ -45,8 +45,12 @@ struct hr2d_scene {
   hr2di_walls walls; /* the occluders; made by commit, as all that follows */
   hr2di_runs runs;
   hr2di_plane plane;      /* empty without the effect of occlusion, */
-  hr2di_side_parts parts; /* and so are these */
-  unsigned char *dark;    /* per patch: 1 if no light reaches it; NULL if light reaches all */
+  hr2di_side_parts parts; /* and so are these; during commit there once they were needed */
+  struct {
+    int is;           /* during commit: there can be no plane, */
+    uint32_t wall[2]; /* as of these walls, and too many others, nobody knows how they cross */
+  } unclear;
+  unsigned char *dark; /* per patch: 1 if no light reaches it; NULL if light reaches all */
   struct {
     int on;
     int called_for; /* on although not forced */
@@ -76,6 +80,9 @@ typedef struct hr2di_label {
 
 hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch);
 
+/* Removes the plane and its side parts. */
+void hr2di_scene_clear_plane(hr2d_scene *scene);
+
 /* Removes the results of commit. */
 void hr2di_scene_clear_commit(hr2d_scene *scene);
 
@@ -86,6 +93,11 @@ void hr2di_scene_watch(const hr2d_scene *scene, hr2di_watch *watch, hr2d_progres
 /* Leaves a message; returns `status`: that of the watch, or HR2D_ENOMEM for `what`. */
 hr2d_status hr2di_scene_fail(hr2d_scene *scene, hr2d_status status, const hr2di_watch *watch,
                              const char *what);
+
+/* Makes the plane and its side parts unless they are there, or cannot be: then that is unclear,
+   and nothing is made.  HR2D_OK, HR2D_ENOMEM or the status
+   of the watch. */
+hr2d_status hr2di_scene_need_plane(hr2d_scene *scene, hr2di_watch *watch);
 
 /* Parts of commit, in the order of their calls.  Each leaves a message if it fails. */
 hr2d_status hr2di_scene_check_bands(hr2d_scene *scene, hr2di_watch *watch);

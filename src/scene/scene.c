@@ -26,11 +26,7 @@ void hr2di_scene_clear_commit(hr2d_scene *scene) {
   scene->walls = (hr2di_walls){.alloc = scene->alloc};
   hr2di_runs_clear(&scene->runs);
   scene->runs = (hr2di_runs){.alloc = scene->alloc};
-  hr2di_side_parts_clear(&scene->parts);
-  hr2di_plane_clear(&scene->plane);
-  scene->parts = (hr2di_side_parts){.alloc = scene->alloc};
-  scene->plane = (hr2di_plane){.triangulation = {.alloc = scene->alloc},
-                               .pieces = {.alloc = scene->alloc}};
+  hr2di_scene_clear_plane(scene);
   hr2di_alloc_free(&scene->alloc, scene->dark);
   scene->dark = NULL;
   scene->bands = 1;

@@ -19,6 +19,7 @@
 #include "sight/walk.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "geometry/orient-sign.h"
@@ -233,29 +234,46 @@ static int follow(hr2di_walk *w, const chains *c, int32_t h, entry *e, int *hand
   }
 }
 
-hr2d_status hr2di_walk_from(hr2di_walk *w, hr2di_wall_side side, const hr2d_segment *part) {
-  const base b = {side, hr2di_wall_side_at(w->in, side), part};
-  chains c = {{0, 0}, {0, 0}};
-  w->frames = 0;
-  hr2d_status status = reserve(w, &c);
-  if (status) return status;
-  w->chain[0][0] = b.at.a;
-  w->chain[1][0] = b.at.b;
-  int32_t h = w->in->edge[side >> 1].half_edge[side & 1];
+/* Walks with the chains that are there. */
+static hr2d_status walk(hr2di_walk *w, const base *b, chains c) {
+  hr2d_status status = HR2D_OK;
+  int32_t h = w->in->edge[b->side >> 1].half_edge[b->side & 1];
   while (h >= 0 && !status) {
     const uint64_t before = w->steps;
     entry e;
     int hand;
     int32_t next = -1;
     if (follow(w, &c, h, &e, &hand))
-      status = split(w, &c, &b, &e, &next);
+      status = split(w, &c, b, &e, &next);
     else if (is_end(w, e.across[hand]))
-      status = take(w, &c, &b, (hr2di_wall_side)~e.across[hand],
+      status = take(w, &c, b, (hr2di_wall_side)~e.across[hand],
                     hand ? (hr2d_segment){e.v, e.l} : (hr2d_segment){e.r, e.v});
-    h = next >= 0 || status ? next : back(w, &c, &b);
+    h = next >= 0 || status ? next : back(w, &c, b);
     if (!status) status = hr2di_watch_work(w->watch, 1 + (w->steps - before) / 8);
   }
   return status;
+}
+
+hr2d_status hr2di_walk_from(hr2di_walk *w, hr2di_wall_side side, const hr2d_segment *part) {
+  const base b = {side, hr2di_wall_side_at(w->in, side), part};
+  const chains c = {{0, 0}, {0, 0}};
+  w->frames = 0;
+  const hr2d_status status = reserve(w, &c);
+  if (status) return status;
+  w->chain[0][0] = b.at.a;
+  w->chain[1][0] = b.at.b;
+  return walk(w, &b, c);
+}
+
+hr2d_status hr2di_walk_on(hr2di_walk *w, hr2di_wall_side side, const hr2di_sight *s) {
+  const base b = {side, hr2di_wall_side_at(w->in, side), NULL};
+  const chains c = {{0, 0}, {(uint32_t)s->lefts - 1, (uint32_t)s->rights - 1}};
+  w->frames = 0;
+  const hr2d_status status = reserve(w, &c);
+  if (status) return status;
+  memcpy(w->chain[0], s->left, s->lefts * sizeof *s->left);
+  memcpy(w->chain[1], s->right, s->rights * sizeof *s->right);
+  return walk(w, &b, c);
 }
 
 uint64_t hr2di_walk_bytes(const hr2di_walk *w) {

@@ -47,6 +47,11 @@ hr2d_segment hr2di_wall_side_at(const hr2di_triangulation *t, hr2di_wall_side si
  */
 hr2d_status hr2di_walk_from(hr2di_walk *w, hr2di_wall_side side, const hr2d_segment *part);
 
+/* Walks on from `side` of a wall edge as if the edge were free, with the lines of a sight that
+   ends at the other side of that edge.  The same statuses.  What `ends` says of the sights that
+   are taken is nothing. */
+hr2d_status hr2di_walk_on(hr2di_walk *w, hr2di_wall_side side, const hr2di_sight *s);
+
 /* The bytes of the work space. */
 uint64_t hr2di_walk_bytes(const hr2di_walk *w);
 
