@@ -349,12 +349,13 @@ END_TEST
 
 /* The pieces of a wall that is cut have later numbers than the walls behind it. */
 START_TEST(triangles_know_the_least_of_a_ring) {
-  const hr2d_segment wall[] = {{{0, 0}, {4, 0}}, {{1, 1}, {1, 0}}, {{4, 0}, {1, 0}}};
+  const hr2d_segment wall[] = {
+      {{0, 0}, {4, 0}}, {{1, 1}, {1, 0x1p-52}}, {{4, 0}, {1, 0x1p-52}}};
   hr2di_triangulation t;
   hr2di_conflict conflict;
   ck_assert_int_eq(build(&t, wall, 3, &conflict), HR2D_ESCENE);
   ck_assert(conflict.together && conflict.wall[0] == 0 && conflict.wall[1] == 2);
-  assert_whole(&t, wall, 0);
+  assert_whole(&t, wall, 0x1p-52);
   ck_assert_uint_eq(t.edge[1].same, 3);
   hr2di_triangulation_clear(&t);
 }
