@@ -9,6 +9,7 @@ SUITES = \
 	tests/unit/base/check-status \
 	tests/unit/geometry/check-geometry \
 	tests/unit/geometry/check-exchange-area \
+	tests/unit/geometry/check-hull \
 	tests/unit/triangulation/check-triangulation \
 	tests/unit/sight/check-sight \
 	tests/unit/sight/check-walk \

@@ -295,7 +295,62 @@ START_TEST(parts_that_are_off_their_side) {
 }
 END_TEST
 
+/* Sights that go on through the wall on which they end. */
+typedef struct going_on {
+  hr2di_walk further;
+  double area; /* in which they end */
+  double worst;
+  long through;
+} going_on;
+
+static hr2d_status add_area(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
+  going_on *g = ctx;
+  (void)j;
+  g->area += hr2di_sight_area(s);
+  return HR2D_OK;
+}
+
+static hr2d_status go_through(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
+  going_on *g = ctx;
+  const hr2d_point *at = g->further.in->at;
+  const hr2di_wall_edge *e = &g->further.in->edge[j >> 1];
+  const double x = at[e->from].x + at[e->to].x, y = at[e->from].y + at[e->to].y;
+  const hr2d_segment room = {at[g->further.in->edge[0].from], at[g->further.in->edge[2].from]};
+  if (x == 2 * room.a.x || y == 2 * room.a.y || x == 2 * room.b.x || y == 2 * room.b.y)
+    return HR2D_OK; /* behind the walls of the room is nothing */
+  g->area = 0;
+  const hr2d_status status = hr2di_walk_on(&g->further, j ^ 1, s);
+  const double area = hr2di_sight_area(s);
+  g->worst = fmax(g->worst, fabs(g->area - area));
+  g->through++;
+  return status;
+}
+
+/* In a closed room no line is lost behind a wall. */
+START_TEST(lines_go_on_through_walls) {
+  unsigned long state = test_seed() + 15;
+  going_on g = {.worst = 0};
+  for (int k = test_count(3000); k > 0; k--) {
+    scene s;
+    unsigned char wanted[SIDES];
+    memset(wanted, 1, sizeof wanted);
+    draw_scene(&state, &s);
+    hr2di_walk w = walk_of(&s, wanted, go_through);
+    g.further = walk_of(&s, wanted, add_area);
+    w.ctx = g.further.ctx = &g;
+    for (uint32_t side = 0; side < s.sides && s.t.edge_of[4] == 4; side++)
+      ck_assert_int_eq(hr2di_walk_from(&w, side, NULL), HR2D_OK);
+    hr2di_walk_clear(&w);
+    hr2di_walk_clear(&g.further);
+    close_scene(&s);
+  }
+  printf("%ld sights go through a wall, worst difference %.1e\n", g.through, g.worst);
+  ck_assert_int_gt(g.through, 0);
+  ck_assert_double_le(g.worst, 1e-13);
+}
+END_TEST
+
 TEST_SUITE("walk") {
   ADD_TESTS("walk", sights_add_up_to_pairs, both_ends_find_the_same, once_is_once,
-            parts_of_a_side, parts_that_are_off_their_side);
+            parts_of_a_side, parts_that_are_off_their_side, lines_go_on_through_walls);
 }
