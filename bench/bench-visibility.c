@@ -2,12 +2,11 @@
 /* Measures the cost of exact occlusion: all exchange areas of a scene against crossed strings,
    which ignore occluders, and a link of a refinement for a growing number of occluders.
 
-   Usage: bench_visibility [rows|links|growth|hard|million|views [FAMILY]]; without a word, rows
-   and links.
-   Times are medians of rounds in which both sides of a ratio alternate.  Fails where a bar is
-   missed.  `growth` and `hard` go on to larger scenes, and `million` measures a million
-   segments from adding them on; they take as long as commit does.  `views` counts the views of
-   single points in a second. */
+   Usage: bench_visibility [rows|links|growth|hard|million|views|commit [FAMILY]]; without a
+   word, rows and links. Times are medians of rounds in which both sides of a ratio alternate.
+   Fails where a bar is missed.  `growth` and `hard` go on to larger scenes, and `million`
+   measures a million segments from adding them on; they take as long as commit does.  `views`
+   counts the views of single points in a second. */
 #include <hr2d/hr2d.h>
 #include <math.h>
 #include <stdint.h>
@@ -619,8 +618,51 @@ static void measure_views(const family *f) {
   hr2d_scene_destroy(scene);
 }
 
+/* Seconds of commit alone. */
+static double commit_seconds(void (*draw)(plan *, int), int n, int lamps) {
+  plan p = {0};
+  hr2d_scene *scene = NULL;
+  draw(&p, n);
+  if (hr2d_scene_create(NULL, &scene)) fail("no scene");
+  for (size_t k = 0; k < p.count; k++) {
+    const double one = 1;
+    hr2d_patch patch = HR2D_PATCH_INIT;
+    patch.a = p.segment[k].a;
+    patch.b = p.segment[k].b;
+    patch.emission = &one;
+    patch.emission_bands = !lamps || k < (size_t)lamps;
+    if (hr2d_scene_add(scene, &patch, NULL)) fail(hr2d_scene_message(scene));
+  }
+  const double start = processor_now();
+  if (hr2d_scene_commit(scene)) fail(hr2d_scene_message(scene));
+  const double seconds = processor_now() - start;
+  hr2d_scene_destroy(scene);
+  free(p.segment);
+  return seconds;
+}
+
+/* Where all patches emit, and where one does: then dark patches are searched for. */
+static void measure_commits(void) {
+  static const family committed[] = {{"open", draw_open, 0, 0, 1.3},
+                                     {"squares", draw_squares, 0, 0, 1.3},
+                                     {"fibres", draw_fibres, 0, 0, 1.3}};
+  static const int size[] = {10240, 102400, 1024000};
+  printf("%-8s%10s%12s%12s\n", "commit", "N", "s", "one lamp, s");
+  for (size_t f = 0; f < sizeof committed / sizeof *committed; f++) {
+    double first = 0;
+    for (int k = 0; k < 3 && is_wanted(committed[f].name); k++) {
+      const double lit = commit_seconds(committed[f].draw, size[k], 0);
+      printf("%-8s%10d%12.3f%12.3f\n", committed[f].name, size[k], lit,
+             commit_seconds(committed[f].draw, size[k], 1));
+      if (k == 0) first = lit;
+      if (k == 2) bar("exponent of commit", log(lit / first) / log(100), committed[f].growth);
+    }
+  }
+}
+
 int main(int argc, char **argv) {
-  static const char *const words[] = {"rows", "links", "growth", "hard", "million", "views"};
+  static const char *const words[] = {"rows",    "links", "growth", "hard",
+                                      "million", "views", "commit"};
   enum { WORDS = sizeof words / sizeof *words, DEFAULT = 2 };
   const char *what = argc > 1 ? argv[1] : "";
   int asked[WORDS], any = 0;
@@ -628,7 +670,8 @@ int main(int argc, char **argv) {
   for (int k = 0; k < WORDS; k++)
     any |= asked[k] = *what ? strcmp(what, words[k]) == 0 : k < DEFAULT;
   if (!any) {
-    fprintf(stderr, "usage: %s [rows|links|growth|hard|million|views [FAMILY]]\n", argv[0]);
+    fprintf(stderr, "usage: %s [rows|links|growth|hard|million|views|commit [FAMILY]]\n",
+            argv[0]);
     return 2;
   }
   if (asked[0]) measure_families();
@@ -638,6 +681,7 @@ int main(int argc, char **argv) {
   }
   if (asked[2]) measure_growth();
   if (asked[3]) measure_hard();
+  if (asked[5]) measure_commits();
   for (int k = 0; k < 2 && asked[4]; k++)
     if (is_wanted(families[k].name)) measure_million(&families[k]);
   if (asked[5]) printf("%-8s%8s%12s%12s\n", "views", "N", "a second", "glimpses");

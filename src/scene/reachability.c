@@ -24,8 +24,9 @@ typedef struct flood {
   unsigned char *fresh; /* per part: lit, with light that has not been sent */
   unsigned char *wanted;  /* per side: it has dark parts */
   unsigned char *queued;  /* per side */
-  hr2di_wall_side *queue; /* a ring of sides with fresh parts */
-  size_t sides, head, waiting;
+  hr2di_wall_side *queue; /* sides with fresh parts */
+  size_t sides, waiting;
+  uint64_t sent;       /* sides so far */
   size_t dark;         /* patches */
   hr2di_parts stretch; /* from which light is sent, of `side` */
   hr2di_wall_side side;
@@ -96,7 +97,7 @@ static hr2d_status reserve(flood *f) {
 static void enqueue(flood *f, hr2di_wall_side side) {
   if (f->queued[side]) return;
   f->queued[side] = 1;
-  f->queue[(f->head + f->waiting++) % f->sides] = side;
+  f->queue[f->waiting++] = side;
 }
 
 /* Sources are lit, the others dark. */
@@ -236,15 +237,22 @@ static hr2d_status send(flood *f, hr2di_wall_side side) {
   return status;
 }
 
+/* Takes a side out of the queue: every eighth from anywhere, as sides that were lit one after
+   the other see much the same; else the last one, which is near to the one before. */
+static hr2di_wall_side dequeue(flood *f) {
+  const uint64_t golden = UINT64_C(0x9e3779b97f4a7c15);
+  const size_t last = --f->waiting;
+  size_t pick = last;
+  if (f->sent++ % 8 == 0) pick = (size_t)((f->sent * golden >> 32) * (last + 1) >> 32);
+  const hr2di_wall_side side = f->queue[pick];
+  f->queue[pick] = f->queue[last];
+  f->queued[side] = 0;
+  return side;
+}
+
 static hr2d_status spread(flood *f) {
   hr2d_status status = HR2D_OK;
-  while (f->waiting > 0 && f->dark > 0 && !status) {
-    const hr2di_wall_side side = f->queue[f->head];
-    f->head = (f->head + 1) % f->sides;
-    f->waiting--;
-    f->queued[side] = 0;
-    status = send(f, side);
-  }
+  while (f->waiting > 0 && f->dark > 0 && !status) status = send(f, dequeue(f));
   return status;
 }
 
