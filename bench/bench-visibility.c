@@ -681,7 +681,7 @@ int main(int argc, char **argv) {
   }
   if (asked[2]) measure_growth();
   if (asked[3]) measure_hard();
-  if (asked[5]) measure_commits();
+  if (asked[6]) measure_commits();
   for (int k = 0; k < 2 && asked[4]; k++)
     if (is_wanted(families[k].name)) measure_million(&families[k]);
   if (asked[5]) printf("%-8s%8s%12s%12s\n", "views", "N", "a second", "glimpses");

@@ -20,6 +20,7 @@ typedef struct flood {
   uint32_t *face;               /* per triangle: the least triangle in its face */
   uint32_t *darkness;           /* per triangle that is a face: dark parts in it */
   uint32_t *first_of, *next_of; /* parts of a patch: the first, and the next behind a part */
+  uint32_t *pending;            /* patches whose light has not reached their parts */
   uint32_t *dark_from;  /* per part: union-find to the next dark part, or the number of parts */
   unsigned char *fresh; /* per part: lit, with light that has not been sent */
   unsigned char *wanted;  /* per side: it has dark parts */
@@ -83,13 +84,14 @@ static hr2d_status reserve(flood *f) {
   f->darkness = hr2di_alloc_zero(alloc, t->triangles, sizeof *f->darkness);
   f->first_of = hr2di_alloc(alloc, patches, sizeof *f->first_of);
   f->next_of = hr2di_alloc(alloc, parts, sizeof *f->next_of);
+  f->pending = hr2di_alloc(alloc, patches, sizeof *f->pending);
   f->dark_from = hr2di_alloc(alloc, parts + 1, sizeof *f->dark_from);
   f->fresh = hr2di_alloc_zero(alloc, parts, 1);
   f->wanted = hr2di_alloc_zero(alloc, f->sides, 1);
   f->queued = hr2di_alloc_zero(alloc, f->sides, 1);
   f->queue = hr2di_alloc(alloc, f->sides, sizeof *f->queue);
-  return f->face && f->darkness && f->first_of && f->next_of && f->dark_from && f->fresh &&
-                 f->wanted && f->queued && f->queue
+  return f->face && f->darkness && f->first_of && f->next_of && f->pending && f->dark_from &&
+                 f->fresh && f->wanted && f->queued && f->queue
              ? HR2D_OK
              : HR2D_ENOMEM;
 }
@@ -118,6 +120,7 @@ static hr2d_status begin(flood *f) {
     if (patch == HR2DI_NOBODY) continue;
     f->next_of[k] = f->first_of[patch];
     f->first_of[patch] = k;
+    if (side == HR2DI_HIDDEN) continue;
     if (f->scene->dark[patch]) {
       f->dark_from[k] = k;
       f->wanted[side] = 1;
@@ -130,19 +133,58 @@ static hr2d_status begin(flood *f) {
   return status;
 }
 
-static void light_up(flood *f, uint32_t patch) {
+/* A part of a lit patch, which was dark. */
+static void light_part(flood *f, uint32_t k) {
+  const hr2di_wall_side side = f->scene->parts.part[k].side;
+  const hr2di_parts all = f->scene->parts.of_side[side].parts;
+  f->dark_from[k] = k + 1;
+  f->fresh[k] = 1;
+  f->darkness[face_of(f, side)]--;
+  f->wanted[side] = hr2di_union_find(f->dark_from, all.first) < all.last;
+  enqueue(f, side);
+}
+
+/* The patches in contact with a hidden part of a lit patch become pending. */
+static size_t light_contacts(flood *f, uint32_t part, size_t pending) {
   const hr2di_side_parts *p = &f->scene->parts;
-  f->scene->dark[patch] = 0;
-  f->dark--;
-  for (uint32_t k = f->first_of[patch]; k != NO_PART; k = f->next_of[k]) {
-    const hr2di_wall_side side = p->part[k].side;
-    const hr2di_parts all = p->of_side[side].parts;
-    f->dark_from[k] = k + 1;
-    f->fresh[k] = 1;
-    f->darkness[face_of(f, side)]--;
-    f->wanted[side] = hr2di_union_find(f->dark_from, all.first) < all.last;
-    enqueue(f, side);
+  for (size_t k = hr2di_side_parts_contact(p, part);
+       k < p->contacts && p->contact[k].part == part; k++) {
+    const uint32_t patch = p->part[p->contact[k].other].patch;
+    if (!f->scene->dark[patch]) continue;
+    f->scene->dark[patch] = 0;
+    f->pending[pending++] = patch;
   }
+  return pending;
+}
+
+static void light_pending(flood *f, size_t pending) {
+  while (pending > 0) {
+    const uint32_t patch = f->pending[--pending];
+    f->dark--;
+    for (uint32_t k = f->first_of[patch]; k != NO_PART; k = f->next_of[k])
+      if (f->scene->parts.part[k].side == HR2DI_HIDDEN)
+        pending = light_contacts(f, k, pending);
+      else
+        light_part(f, k);
+  }
+}
+
+static void light_up(flood *f, uint32_t patch) {
+  f->scene->dark[patch] = 0;
+  f->pending[0] = patch;
+  light_pending(f, 1);
+}
+
+/* Light from hidden parts of sources. */
+static hr2d_status begin_contacts(flood *f) {
+  const hr2di_side_parts *p = &f->scene->parts;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < p->contacts && !status; k++) {
+    status = hr2di_watch_work(f->walk.watch, 1);
+    if (emits(f->scene, p->part[p->contact[k].part].patch))
+      light_pending(f, light_contacts(f, p->contact[k].part, 0));
+  }
+  return status;
 }
 
 /* Which of the parts along the far side some line of a sight meets. */
@@ -258,8 +300,9 @@ static hr2d_status spread(flood *f) {
 
 static void clear(flood *f) {
   const hr2d_allocator *alloc = &f->scene->alloc;
-  void *const block[] = {f->face,  f->darkness, f->first_of, f->next_of, f->dark_from,
-                         f->fresh, f->wanted,   f->queued,   f->queue,   f->room};
+  void *const block[] = {f->face,      f->darkness, f->first_of, f->next_of,
+                         f->dark_from, f->fresh,    f->wanted,   f->queued,
+                         f->queue,     f->room,     f->pending};
   for (size_t k = 0; k < sizeof block / sizeof *block; k++) hr2di_alloc_free(alloc, block[k]);
   hr2di_walk_clear(&f->walk);
 }
@@ -276,6 +319,7 @@ static hr2d_status find_dark(hr2d_scene *scene, hr2di_watch *watch) {
                         .watch = watch};
   if (!status) status = find_faces(&f);
   if (!status) status = begin(&f);
+  if (!status) status = begin_contacts(&f);
   if (!status) status = spread(&f);
   clear(&f);
   if (status || f.dark == 0) {
