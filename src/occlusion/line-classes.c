@@ -301,10 +301,6 @@ hr2d_status hr2di_classes_visit(hr2di_classes *c, const hr2di_shaft *shaft,
     while (island < c->islands && passable && !status)
       status = place(c, shaft, island++, &passable);
     if (status) return status;
-    if (passable && !visitor) {
-      *open = c->islands > 0 || hr2di_corridor_open(&shaft->frame, &c->right, &c->left);
-      return hr2di_watch_status(c->watch);
-    }
     if (passable) status = visitor->visit(visitor->ctx, shaft, &c->right, &c->left, &some);
     *open |= some;
     if (status || c->put_offs == 0) return status ? status : hr2di_watch_status(c->watch);

@@ -64,8 +64,7 @@ typedef struct hr2di_class_visitor {
   void *ctx;
 } hr2di_class_visitor;
 
-/* Visits the classes, after sorting; *open tells whether there is one.  Without a visitor it
-   ends with the first class found. */
+/* Visits the classes, after sorting; *open tells whether there is one. */
 hr2d_status hr2di_classes_visit(hr2di_classes *classes, const hr2di_shaft *shaft,
                                 const hr2di_class_visitor *visitor, int *open);
 

@@ -221,7 +221,7 @@ static hr2d_status settle(hr2di_visibility *s, part *stack, size_t *parts,
   if (top->count == 0) {
     *open = 1;
     --*parts;
-    return visitor ? visitor->visit(visitor->ctx, &top->shaft, NULL, NULL, open) : HR2D_OK;
+    return visitor->visit(visitor->ctx, &top->shaft, NULL, NULL, open);
   }
   hr2d_status status =
       hr2di_classes_sort(&s->classes, &top->shaft, hr2di_wall_list_from(&s->list, top->first),
@@ -236,9 +236,9 @@ static hr2d_status settle(hr2di_visibility *s, part *stack, size_t *parts,
   return status;
 }
 
-hr2d_status hr2di_visibility_visit(hr2di_visibility *s, const hr2di_shaft *shaft,
-                                   const uint32_t *wall, size_t count,
-                                   const hr2di_class_visitor *visitor, int *open) {
+/* Visits the classes of lines past the walls in the way; *open tells whether there is one. */
+static hr2d_status visit(hr2di_visibility *s, const hr2di_shaft *shaft, const uint32_t *wall,
+                         size_t count, const hr2di_class_visitor *visitor, int *open) {
   part stack[MOST_CUTS + 2];
   size_t parts = 1;
   hr2d_status status = HR2D_OK;
@@ -250,7 +250,7 @@ hr2d_status hr2di_visibility_visit(hr2di_visibility *s, const hr2di_shaft *shaft
   for (size_t k = 0; k < count; k++) s->list.wall[k] = wall[k];
   s->list.count = count;
   stack[0] = (part){*shaft, 0, count, 0};
-  while (parts > 0 && !status && (visitor || !*open)) {
+  while (parts > 0 && !status) {
     int some_open = 0;
     const part *top = &stack[parts - 1];
     s->list.count = top->first + top->count;
@@ -258,33 +258,6 @@ hr2d_status hr2di_visibility_visit(hr2di_visibility *s, const hr2di_shaft *shaft
     *open |= some_open;
   }
   return status;
-}
-
-static hr2d_point between(hr2di_incident_point p, hr2di_incident_point q) {
-  return (hr2d_point){0.5 * (p.at.x + q.at.x), 0.5 * (p.at.y + q.at.y)};
-}
-
-/* Whether the line from centre to centre passes all walls.  Coordinates lie in [-2,2], so
-   that all rounding, that of the centres included, is below 2^-48. */
-static int centres_see(const hr2di_visibility *s, const hr2di_shaft *shaft,
-                       const uint32_t *wall, size_t count) {
-  const hr2d_point p = between(shaft->a, shaft->b), q = between(shaft->c, shaft->d);
-  const double ux = q.x - p.x, uy = q.y - p.y;
-  for (size_t k = 0; k < count; k++) {
-    const hr2d_segment w = s->walls->wall[wall[k]].at;
-    const double a = ux * (w.a.y - p.y) - uy * (w.a.x - p.x);
-    const double b = ux * (w.b.y - p.y) - uy * (w.b.x - p.x);
-    if (!((a > 0x1p-46 && b > 0x1p-46) || (a < -0x1p-46 && b < -0x1p-46))) return 0;
-  }
-  return 1;
-}
-
-hr2d_status hr2di_visibility_any(hr2di_visibility *sight, const hr2di_shaft *shaft,
-                                 const uint32_t *wall, size_t count, int *open) {
-  const hr2d_status status = hr2di_watch_work(sight->watch, 1 + count / 16);
-  *open = centres_see(sight, shaft, wall, count);
-  if (status || *open) return status;
-  return hr2di_visibility_visit(sight, shaft, wall, count, NULL, open);
 }
 
 static hr2d_status add_area(void *ctx, const hr2di_shaft *shaft, const hr2di_chain *right,
@@ -300,5 +273,5 @@ hr2d_status hr2di_visibility_area(hr2di_visibility *sight, const hr2di_shaft *sh
                                   const uint32_t *wall, size_t count, double *area, int *open) {
   const hr2di_class_visitor visitor = {add_area, area};
   *area = 0;
-  return hr2di_visibility_visit(sight, shaft, wall, count, &visitor, open);
+  return visit(sight, shaft, wall, count, &visitor, open);
 }

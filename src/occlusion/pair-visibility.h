@@ -49,7 +49,7 @@ void hr2di_visibility_clear(hr2di_visibility *sight);
 
 /* Appends to `found` the walls in the way, of those in the scene, by their numbers.  Nothing is
    appended unless the view is partial.  One wall across is noticed here, what several block
-   together by hr2di_visibility_any(). */
+   together by hr2di_visibility_area(). */
 hr2d_status hr2di_visibility_collect(hr2di_visibility *sight, const hr2di_shaft *shaft,
                                      hr2di_wall_list *found, hr2di_visibility_class *view);
 
@@ -57,16 +57,6 @@ hr2d_status hr2di_visibility_collect(hr2di_visibility *sight, const hr2di_shaft 
 hr2d_status hr2di_visibility_shrink(hr2di_visibility *sight, const hr2di_shaft *shaft,
                                     const hr2di_wall_list *from, size_t first, size_t count,
                                     hr2di_wall_list *found, hr2di_visibility_class *view);
-
-/* Whether some light passes between the walls in the way; exact. */
-hr2d_status hr2di_visibility_any(hr2di_visibility *sight, const hr2di_shaft *shaft,
-                                 const uint32_t *wall, size_t count, int *open);
-
-/* Visits the classes of lines past the walls in the way; *open tells whether there is one.
-   Without a visitor it ends with the first class found. */
-hr2d_status hr2di_visibility_visit(hr2di_visibility *sight, const hr2di_shaft *shaft,
-                                   const uint32_t *wall, size_t count,
-                                   const hr2di_class_visitor *visitor, int *open);
 
 /* The exchange area past the walls in the way, and whether some light passes. */
 hr2d_status hr2di_visibility_area(hr2di_visibility *sight, const hr2di_shaft *shaft,
