@@ -61,6 +61,7 @@ SUITES = \
 	tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-short-patches \
 	tests/unit/accuracy/check-budgets \
+	tests/unit/accuracy/check-cracks \
 	tests/unit/accuracy/check-dark \
 	tests/unit/accuracy/check-roundings \
 	tests/unit/accuracy/check-shadow-edges \

@@ -257,9 +257,9 @@ HR2D_API hr2d_status hr2d_scene_split_crossings(hr2d_scene *scene, size_t *cuts)
  *
  * The message names the patches. Cost O(n log n) in most scenes. Where nothing is in the way of
  * any pair, though patches have others on both sides, that is known by beams from the backs of
- * walls, or, if these are many, by O(n²) tests of pairs. In a scene with dark patches, the search
- * for patches that light can reach follows beams from patches that are lit, in parts of the plane
- * where dark patches are.
+ * walls, or, if these are many, by O(n²) tests of pairs. In a scene with dark patches, the
+ * search for patches that light can reach follows beams from patches that are lit, in parts of
+ * the plane where dark patches are.
  */
 HR2D_API hr2d_status hr2d_scene_commit(hr2d_scene *scene);
 

@@ -21,7 +21,8 @@
 #include "scene/scene-impl.h"
 #include "visibility/seen-ends.h"
 
-/* An end stands on a patch if it is nearer than this part of the patch's length to its line. */
+/* An end stands on a patch if it is nearer to its line than this part of its length, and than
+   what commit takes for a touch: else the two may see each other through the gap. */
 #define ON_LINE 1e-13
 /* Elements are no shorter than this part of their patch, and than so many roundings of its
    coordinates: then their lengths are known to 0.1 %. */
@@ -190,10 +191,11 @@ static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
   const double above = hr2di_orient(s.a, s.b, v->at) / square;
   const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y;
   const double at = ((v->at.x - s.a.x) * ux + (v->at.y - s.a.y) * uy) / square;
-  if (above > ON_LINE && g->seen && !hr2di_seen_ends_has(g->seen, v->patch, v->last))
+  const double least = fmin(ON_LINE, HR2DI_WALLS_TOUCH / p->length);
+  if (above > least && g->seen && !hr2di_seen_ends_has(g->seen, v->patch, v->last))
     return HR2D_OK;
-  if (above > ON_LINE) return add_near(g, s, v->at);
-  if (above < -ON_LINE) return HR2D_OK;
+  if (above > least) return add_near(g, s, v->at);
+  if (above < -least) return HR2D_OK;
   if (at < -ON_LINE || at > 1 + ON_LINE)
     return rises(g->h->scene, patch, v) ? add_near(g, s, v->at) : HR2D_OK;
   const unsigned depth = depth_at(g, patch, v, at);

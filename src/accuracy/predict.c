@@ -58,8 +58,9 @@ static hr2d_status time_blocks(const hr2di_graded *a, size_t order, hr2di_watch 
   hr2d_status status = hr2di_integrator_init(&work, a->hierarchy, alloc, order, watch);
   const double start = hr2di_clock_now();
   for (uint64_t k = 0; k < samples && !status; k++) {
-    const hr2d_link link = hr2d_linkset_get(a->links, (2 * k + 1) * links / (2 * samples));
-    status = hr2di_block(&work, link.pair, block, &distant);
+    const hr2d_link *link =
+        hr2di_store_at(&a->links->store, (2 * k + 1) * links / (2 * samples));
+    status = hr2di_block(&work, link->pair, link->exchange_area, block, &distant);
   }
   *seconds = samples ? (hr2di_clock_now() - start) * ((double)links / (double)samples) : 0;
   hr2di_integrator_clear(&work);

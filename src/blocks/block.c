@@ -122,14 +122,16 @@ static hr2d_status add_shaded(hr2di_integrator *w, hr2d_pair pair, double *block
 }
 
 /* Takes what the elements see of each other into w->seen, with the first one's patch looking.
- */
-static hr2d_status look(hr2di_integrator *w, hr2d_pair pair, hr2di_visibility_class *view) {
+   Elements within roundings of each other may have lost the lines that their ancestors had:
+   what was clear to these is not looked at. */
+static hr2d_status look(hr2di_integrator *w, hr2d_pair pair, double area,
+                        hr2di_visibility_class *view) {
   const hr2d_element *i = &w->hierarchy->element[pair.first];
   const hr2d_element *j = &w->hierarchy->element[pair.second];
   const hr2di_patch_pair parts = {{i->patch, j->patch}, {{i->a, i->b}, {j->a, j->b}}};
   const int swap = i->patch > j->patch;
   *view = HR2DI_CLEAR;
-  if (!w->sights) return HR2D_OK;
+  if (!w->sights || hr2d_exchange_area(&parts.part[0], &parts.part[1]) == area) return HR2D_OK;
   hr2di_sight_list_cut(&w->seen, 0);
   const hr2d_status status = hr2di_patch_sights_between(w->sights, &parts, &w->seen, NULL);
   if (!status) *view = hr2di_sights_classify(&w->seen, 0, parts.part[swap], parts.part[!swap]);
@@ -137,7 +139,7 @@ static hr2d_status look(hr2di_integrator *w, hr2d_pair pair, hr2di_visibility_cl
 }
 
 /* hr2di_block() for a pair in order; `given` is the same pair as it was asked for. */
-static hr2d_status integrate(hr2di_integrator *w, hr2d_pair pair, hr2d_pair given,
+static hr2d_status integrate(hr2di_integrator *w, hr2d_pair pair, hr2d_pair given, double area,
                              double *block, int *distant) {
   const hr2d_hierarchy *h = w->hierarchy;
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
@@ -149,7 +151,7 @@ static hr2d_status integrate(hr2di_integrator *w, hr2d_pair pair, hr2d_pair give
   *distant = 0;
   hr2d_status status = hr2di_watch_work(w->watch, 2);
   if (status || facing == HR2DI_FACING_NONE) return status;
-  status = look(w, given, &view);
+  status = look(w, given, area, &view);
   if (status || view == HR2DI_BLOCKED) return status;
   if (view == HR2DI_PARTIAL) return add_shaded(w, pair, block);
   *distant = facing == HR2DI_FACING_FULL &&
@@ -175,13 +177,14 @@ static void transpose(double *block, size_t order) {
     }
 }
 
-hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double *block, int *distant) {
+hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double area, double *block,
+                        int *distant) {
   const hr2d_element *element = w->hierarchy->element;
   const hr2d_pair swap = {pair.second, pair.first};
   const int in_order = element[pair.first].patch <= element[pair.second].patch;
   memset(block, 0, w->order * w->order * sizeof *block);
   hr2di_moments_begin(&w->moments);
-  const hr2d_status status = integrate(w, in_order ? pair : swap, pair, block, distant);
+  const hr2d_status status = integrate(w, in_order ? pair : swap, pair, area, block, distant);
   if (status) return status;
   hr2di_moments_end(&w->moments, block);
   if (!in_order) transpose(block, w->order);

@@ -49,10 +49,12 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *work, const hr2d_hierarchy *
                                   hr2di_watch *watch);
 void hr2di_integrator_clear(hr2di_integrator *work);
 
-/* Integrates the block of a pair: order × order numbers, row l for the first element.
+/* Integrates the block of a pair: order × order numbers, row l for the first element.  `area`
+   is the exchange area of its link: if walls change no bit of that, they count as none.
    `distant` receives 1 if one tensor rule was enough, else 0.  Returns HR2D_OK, HR2D_ENOMEM or
    the status of the watch. */
-hr2d_status hr2di_block(hr2di_integrator *work, hr2d_pair pair, double *block, int *distant);
+hr2d_status hr2di_block(hr2di_integrator *work, hr2d_pair pair, double area, double *block,
+                        int *distant);
 
 /* Sets up the frame of a pair, which has more digits than coordinates. */
 void hr2di_pair_frame_init(hr2di_pair_frame *frame, const hr2d_hierarchy *hierarchy,

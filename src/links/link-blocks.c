@@ -60,7 +60,8 @@ static hr2d_status make_some(const maker *m, hr2di_integrator *work, uint64_t fr
     const hr2d_link *link = hr2di_store_at(&m->links->store, k);
     double *block = m->blocks->value + k * square;
     int distant;
-    const hr2d_status status = hr2di_block(work, link->pair, block, &distant);
+    const hr2d_status status =
+        hr2di_block(work, link->pair, link->exchange_area, block, &distant);
     if (status) return status;
     if (is_tiny(m->links->hierarchy, link->pair)) block[0] = link->exchange_area;
     check_bound(link->exchange_area, block, m->blocks->order);

@@ -7,12 +7,18 @@
    rounding or since the point touches the patch, gets the B_h of the nearest point of the
    glimpse.
 
+   Coordinates of points and of leaves are rounded.  Where B changes within a distance that is
+   no more than many roundings, as beside the end of one of two plates that nearly touch, that
+   would show: the vector from a point to a leaf is made from fractions of their patches, with
+   twice the digits.
+
    A point that touches another patch has the limit from the inside of its own patch.  There the
    two patches p and q form a wedge, and see each other under k = ½(1 + cos α) of all directions
    whatever the distance from its edge.  With the irradiance r from everything else the limits
    of B solve
      b_p = E_p + ρ_p (k b_q + r_p),   b_q = E_q + ρ_q (k b_p + r_q). */
 #include "base/alloc.h"
+#include "blocks/line-vector.h"
 #include "geometry/point-view-factor.h"
 #include "geometry/vector.h"
 #include "hierarchy/hierarchy-impl.h"
@@ -39,10 +45,12 @@ typedef struct gatherer {
   hr2di_basis basis;
   hr2di_rule rule;
   hr2d_point x, normal;
-  double *value; /* per band: H */
-  double factor; /* the form factor that panels have found of the glimpse under way */
-  double *edge;  /* per band: the irradiance of the other patch of a wedge */
-  double *far;   /* per band: the irradiance at the farther one of two points */
+  hr2d_point base;  /* the end of its patch that is nearer to x */
+  hr2di_vector way; /* from there to x */
+  double *value;    /* per band: H */
+  double factor;    /* the form factor that panels have found of the glimpse under way */
+  double *edge;     /* per band: the irradiance of the other patch of a wedge */
+  double *far;      /* per band: the irradiance at the farther one of two points */
 } gatherer;
 
 /* A patch that touches the point, as one side of a wedge. */
@@ -52,20 +60,24 @@ typedef struct edge {
   double inside;   /* 1 if that is ahead along the patch, −1 if behind */
 } edge;
 
+/* A segment: the vector from x to its start, and its own. */
+typedef struct stretch {
+  hr2d_point from, along;
+} stretch;
+
 /* At order 1 B is constant on a leaf: its part sends B times the form factor of a segment. */
-static void add_constant(gatherer *g, const hr2d_element *e, const double *coefficient,
+static void add_constant(gatherer *g, const stretch *leaf, const double *coefficient,
                          hr2di_span part) {
-  const hr2d_point along = {e->b.x - e->a.x, e->b.y - e->a.y};
-  const hr2d_point from = {e->a.x - g->x.x, e->a.y - g->x.y};
   const double factor =
-      hr2di_point_view_factor(g->normal, hr2di_block_along(from, along, part.from),
-                              hr2di_block_along(from, along, part.to));
+      hr2di_point_view_factor(g->normal, hr2di_block_along(leaf->from, leaf->along, part.from),
+                              hr2di_block_along(leaf->from, leaf->along, part.to));
   g->factor += factor;
   for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += factor * coefficient[b];
 }
 
-static void add_panel(gatherer *g, hr2d_point from, hr2d_point along, hr2di_span panel,
+static void add_panel(gatherer *g, const stretch *leaf, hr2di_span panel,
                       const double *coefficient) {
+  const hr2d_point from = leaf->from, along = leaf->along;
   const double size = panel.to - panel.from;
   const size_t bands = g->solution->bands;
   if (hr2di_watch_work(g->watch, g->rule.points * (1 + g->solution->order * bands / 16)))
@@ -86,23 +98,20 @@ static void add_panel(gatherer *g, hr2d_point from, hr2d_point along, hr2di_span
 }
 
 /* Adds the light that a part of a leaf sends. */
-static void add_leaf(gatherer *g, uint32_t leaf, hr2di_span part) {
-  const hr2d_solution *s = g->solution;
-  const hr2d_element *e = &s->hierarchy->element[leaf];
-  const double *coefficient = s->value + leaf * s->order * s->bands;
-  const hr2d_point along = {e->b.x - e->a.x, e->b.y - e->a.y};
-  const hr2d_point from = {e->a.x - g->x.x, e->a.y - g->x.y};
+static void add_leaf(gatherer *g, const stretch *leaf, const double *coefficient,
+                     hr2di_span part) {
   hr2di_panels panels = {.count = 1};
   if (!(part.to > part.from)) return;
-  if (s->order == 1) {
-    add_constant(g, e, coefficient, part);
+  if (g->solution->order == 1) {
+    add_constant(g, leaf, coefficient, part);
     return;
   }
   panels.stack[0] = part;
   while (panels.count > 0) {
     const hr2di_span panel = panels.stack[--panels.count];
-    if (hr2di_panel_near(from, along, panel) && hr2di_panel_halved(&panels, panel)) continue;
-    add_panel(g, from, along, panel, coefficient);
+    if (hr2di_panel_near(leaf->from, leaf->along, panel) && hr2di_panel_halved(&panels, panel))
+      continue;
+    add_panel(g, leaf, panel, coefficient);
   }
 }
 
@@ -112,9 +121,22 @@ typedef struct piece {
   double from, to; /* fractions of the patch */
 } piece;
 
+/* The part of a patch that a leaf covers, as the point sees it. */
+static stretch stretch_of(const gatherer *g, hr2d_segment patch, const piece *p) {
+  const hr2di_vector whole = hr2di_vector_difference(patch.b, patch.a);
+  const hr2di_vector apart = hr2di_vector_difference(patch.a, g->base);
+  const hr2di_vector start = hr2di_vector_minus(&apart, &g->way);
+  const hr2di_vector offset = hr2di_vector_times(&whole, p->from);
+  const hr2di_vector from = hr2di_vector_plus(&start, &offset);
+  const double size = p->to - p->from;
+  return (stretch){{from.x, from.y}, {whole.x * size, whole.y * size}};
+}
+
 /* Adds the light of the leaves of a glimpse. */
 static void add_leaves(gatherer *g, const hr2di_glimpse *seen) {
-  const hr2d_element *element = g->solution->hierarchy->element;
+  const hr2d_solution *s = g->solution;
+  const hr2d_element *element = s->hierarchy->element;
+  const hr2d_segment patch = s->hierarchy->scene->patch[seen->patch].scaled;
   piece stack[STACK];
   size_t count = 0;
   stack[count++] = (piece){seen->patch, 0, 1};
@@ -124,7 +146,7 @@ static void add_leaves(gatherer *g, const hr2di_glimpse *seen) {
     const double size = p.to - p.from;
     if (p.to <= seen->from || p.from >= seen->to) continue;
     const uint32_t child = element[p.element].child;
-    if (child && child < g->solution->elements && count < STACK - 2) {
+    if (child && child < s->elements && count < STACK - 2) {
       const double middle = p.from + hr2di_element_left_part(element, p.element) * size;
       stack[count++] = (piece){child + 1, middle, p.to};
       stack[count++] = (piece){child, p.from, middle};
@@ -132,7 +154,8 @@ static void add_leaves(gatherer *g, const hr2di_glimpse *seen) {
     }
     const hr2di_span part = {seen->from > p.from ? (seen->from - p.from) / size : 0,
                              seen->to < p.to ? (seen->to - p.from) / size : 1};
-    add_leaf(g, p.element, part);
+    const stretch leaf = stretch_of(g, patch, &p);
+    add_leaf(g, &leaf, s->value + p.element * s->order * s->bands, part);
   }
 }
 
@@ -165,7 +188,11 @@ static void add_glimpse(gatherer *g, const hr2di_glimpse *seen) {
 static void set_point(gatherer *g, const hr2di_patch *p, double t) {
   const hr2d_segment s = p->scaled;
   const hr2d_point along = hr2di_point_minus(s.b, s.a);
-  g->x = t <= 0.5 ? hr2di_block_along(s.a, along, t) : hr2di_block_along(s.b, along, t - 1);
+  const hr2di_vector whole = hr2di_vector_difference(s.b, s.a);
+  const double way = t <= 0.5 ? t : t - 1;
+  g->base = t <= 0.5 ? s.a : s.b;
+  g->way = hr2di_vector_times(&whole, way);
+  g->x = hr2di_block_along(g->base, along, way);
   g->normal = (hr2d_point){-along.y / p->length, along.x / p->length};
 }
 

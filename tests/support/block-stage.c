@@ -52,7 +52,7 @@ int block_stage_make(const block_stage *s, size_t order, int swapped, double *bl
   const hr2d_allocator *alloc = &s->hierarchy->alloc;
   const hr2d_pair swap = {s->pair.second, s->pair.first};
   ck_assert_int_eq(hr2di_integrator_init(&work, s->hierarchy, alloc, order, NULL), HR2D_OK);
-  ck_assert_int_eq(hr2di_block(&work, swapped ? swap : s->pair, block, &distant), HR2D_OK);
+  ck_assert_int_eq(hr2di_block(&work, swapped ? swap : s->pair, 0, block, &distant), HR2D_OK);
   for (size_t k = 0; k < order * order; k++) block[k] *= hr2d_scene_unit(s->scene);
   hr2di_integrator_clear(&work);
   return distant;

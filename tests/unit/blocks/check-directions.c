@@ -261,8 +261,8 @@ static void add_row(hr2di_integrator *w, uint32_t leaf, double *row) {
     if (h->element[e].child || h->element[e].patch == h->element[leaf].patch) continue;
     const hr2d_pair both = {leaf, e}, swap = {e, leaf};
     int distant, other;
-    ck_assert_int_eq(hr2di_block(w, both, block, &distant), HR2D_OK);
-    ck_assert_int_eq(hr2di_block(w, swap, turned, &other), HR2D_OK);
+    ck_assert_int_eq(hr2di_block(w, both, 0, block, &distant), HR2D_OK);
+    ck_assert_int_eq(hr2di_block(w, swap, 0, turned, &other), HR2D_OK);
     ck_assert_int_eq(distant, other);
     for (size_t l = 0; l < w->order; l++)
       for (size_t m = 0; m < w->order; m++)
@@ -318,7 +318,7 @@ static double row_lacks(hr2di_integrator *w, uint32_t leaf) {
   for (uint32_t e = 0; e < h->elements; e++) {
     int distant;
     if (h->element[e].child || h->element[e].patch == h->element[leaf].patch) continue;
-    ck_assert_int_eq(hr2di_block(w, (hr2d_pair){leaf, e}, block, &distant), HR2D_OK);
+    ck_assert_int_eq(hr2di_block(w, (hr2d_pair){leaf, e}, 0, block, &distant), HR2D_OK);
     sum += block[0];
   }
   return fabs(sum) / h->element[leaf].length;

@@ -158,7 +158,7 @@ START_TEST(first_pairs_that_see_each_other_in_part) {
   size_t none = 0, first = 0, later = 0;
   for (int k = test_count(20000); k > 0; k--) {
     drawing d;
-    char expected[80];
+    char expected[120];
     const char *reason;
     hr2d_scene *scene = draw_scene(&state, &d);
     expect_facing(&d, expected, sizeof expected);
