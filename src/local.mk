@@ -97,6 +97,7 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/exchange-matrix.c \
 	src/visibility/exchange-rows.c \
 	src/visibility/exchange-visit.c \
+	src/visibility/point-beams.c \
 	src/visibility/point-view.c src/visibility/point-view.h \
 	src/visibility/point-view-all.c \
 	src/visibility/point-view-glimpse.c \

@@ -68,6 +68,7 @@ SUITES = \
 	tests/unit/clusters/check-clusters \
 	tests/unit/accuracy/check-corner \
 	tests/unit/visibility/check-events \
+	tests/unit/visibility/check-point-beams \
 	tests/unit/visibility/check-point-view \
 	tests/unit/visibility/check-point-view-walls \
 	tests/unit/state/check-state \

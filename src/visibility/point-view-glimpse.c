@@ -29,18 +29,20 @@ static void find_part(const hr2di_viewer *w, const hr2di_stretch *s, double *fro
 }
 
 hr2d_status hr2di_view_add(hr2di_viewer *w, const hr2di_stretch *s) {
-  if (s->patch == HR2DI_SEEN_SKY || s->patch == HR2DI_SEEN_NOTHING) return HR2D_OK;
-  const double sine = hr2di_ray_half_sine(&s->right, &s->left);
-  double from, to;
-  if (!(sine > 0)) return HR2D_OK;
+  if (s->patch == HR2DI_SEEN_NOTHING || (s->patch == HR2DI_SEEN_SKY && !w->show))
+    return HR2D_OK;
+  hr2di_glimpse g = {.patch = s->patch,
+                     .sine = fmin(hr2di_ray_half_sine(&s->right, &s->left), 1)};
+  if (!(g.sine > 0)) return HR2D_OK;
+  if (s->patch < HR2DI_SEEN_NOTHING) find_part(w, s, &g.from, &g.to);
+  if (w->show) return w->show(w->ctx, s, &g);
   if (s->patch == HR2DI_SEEN_NOBODY) {
-    hr2di_sum_add(&w->back, sine);
+    hr2di_sum_add(&w->back, g.sine);
     return HR2D_OK;
   }
   if (hr2di_alloc_reserve(&w->alloc, &w->glimpse, &w->glimpse_room, w->glimpses + 1,
                           sizeof *w->glimpse))
     return HR2D_ENOMEM;
-  find_part(w, s, &from, &to);
-  w->glimpse[w->glimpses++] = (hr2di_glimpse){s->patch, from, to, fmin(sine, 1)};
+  w->glimpse[w->glimpses++] = g;
   return HR2D_OK;
 }

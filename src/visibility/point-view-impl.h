@@ -72,8 +72,13 @@ double hr2di_ray_fraction(const hr2di_ray *ray, const hr2di_ray *a, const hr2di_
 typedef struct hr2di_stretch {
   uint32_t patch; /* or what else it is */
   hr2di_ray right, left;
-  int starts, ends; /* with the patch's own start, on the right, and end */
+  int starts, ends;     /* with the patch's own start, on the right, and end */
+  hr2di_wall_side side; /* of a back; HR2DI_HIDDEN: it lies at the eye.  Set by walks only */
 } hr2di_stretch;
+
+/* Takes a stretch with its glimpse, which has a part only of a patch.  HR2D_OK, or a status
+   that ends the view. */
+typedef hr2d_status (*hr2di_show_fn)(void *ctx, const hr2di_stretch *s, const hr2di_glimpse *g);
 
 typedef struct hr2di_view_frame hr2di_view_frame;
 
@@ -92,9 +97,11 @@ struct hr2di_viewer {
   uint64_t *order; /* of glimpses: their patches and their places */
   size_t order_room;
   hr2di_sum back;
+  hr2di_show_fn show; /* takes what a walk sees, from the right to the left; or NULL */
+  void *ctx;
 };
 
-/* Adds what a stretch shows.  HR2D_OK or HR2D_ENOMEM. */
+/* Adds what a stretch shows.  HR2D_OK, HR2D_ENOMEM or the status of `show`. */
 hr2d_status hr2di_view_add(hr2di_viewer *w, const hr2di_stretch *s);
 
 /* Adds all that the eye sees, in the order of directions where something can be in the way,

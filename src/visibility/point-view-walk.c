@@ -59,15 +59,18 @@ static int32_t follow(walk *k, const hr2di_ray *left, int32_t h, hr2di_ray *v, i
   return HR2DI_SKY;
 }
 
-/* Goes on to see something from where it saw something else last. */
-static hr2d_status see(hr2di_viewer *w, uint32_t patch, const hr2di_ray *left, int starts,
-                       int ends) {
+/* Goes on to see something from where it saw something else last.  Backs are told apart only
+   where they are shown. */
+static hr2d_status see(hr2di_viewer *w, uint32_t patch, hr2di_wall_side side,
+                       const hr2di_ray *left, int starts, int ends) {
   hr2di_stretch *s = &w->seeing;
   hr2d_status status = HR2D_OK;
-  if (patch != s->patch) {
+  const int other_back = w->show && patch == HR2DI_SEEN_NOBODY && side != s->side;
+  if (patch != s->patch || other_back) {
     status = hr2di_view_add(w, s);
     s->right = s->left;
     s->patch = patch;
+    s->side = side;
     s->starts = starts;
   }
   s->left = *left;
@@ -119,7 +122,7 @@ static hr2d_status see_parts(walk *k, hr2di_wall_side side, const hr2di_ray *lef
     const hr2d_segment *s =
         patch == HR2DI_NOBODY ? &part[m].at : &w->scene->patch[patch].scaled;
     const int ends = (inside || left->vertex == end) && hr2di_point_same(part[m].at.b, s->b);
-    status = see(w, patch, inside ? &until : left,
+    status = see(w, patch, side, inside ? &until : left,
                  starts && hr2di_point_same(part[m].at.a, s->a), ends);
     if (!status) status = hr2di_watch_work(w->watch, 1);
     if (!inside) break;
@@ -132,14 +135,14 @@ static hr2d_status see_parts(walk *k, hr2di_wall_side side, const hr2di_ray *lef
 /* The angle up to `left` ends at something. */
 static hr2d_status end_at(walk *k, int32_t what, const hr2di_ray *left) {
   hr2di_viewer *w = k->w;
-  if (what == HR2DI_SKY) return see(w, HR2DI_SEEN_SKY, left, 0, 0);
+  if (what == HR2DI_SKY) return see(w, HR2DI_SEEN_SKY, 0, left, 0, 0);
   const hr2di_wall_side side = (hr2di_wall_side)~what;
   if (side >> 1 >= k->own[0] && side >> 1 < k->own[1]) {
     if (w->seeing.patch != HR2DI_SEEN_NOTHING) w->seeing.left = *left;
     return HR2D_OK;
   }
   return w->scene->parts.wanted[side] ? see_parts(k, side, left)
-                                      : see(w, HR2DI_SEEN_NOBODY, left, 0, 0);
+                                      : see(w, HR2DI_SEEN_NOBODY, side, left, 0, 0);
 }
 
 static hr2d_status push(hr2di_viewer *w, const hr2di_ray *left, int32_t beyond) {
@@ -207,11 +210,11 @@ hr2d_status hr2di_view_walk(hr2di_viewer *w) {
             .own = {in->edge_of[of_wall[wall]], in->edge_of[of_wall[wall + 1]]},
             .right = hr2di_ray_horizon(1, side & 1 ? edge->from : edge->to)};
   const hr2di_ray left = hr2di_ray_horizon(-1, side & 1 ? edge->to : edge->from);
-  w->seeing = (hr2di_stretch){HR2DI_SEEN_NOTHING, k.right, k.right, 0, 0};
+  w->seeing = (hr2di_stretch){.patch = HR2DI_SEEN_NOTHING, .right = k.right, .left = k.right};
   w->frames = 0;
   hr2d_status status = push(w, &left, 0);
   if (!status)
-    status = hidden ? see(w, HR2DI_SEEN_NOBODY, &left, 0, 0)
+    status = hidden ? see(w, HR2DI_SEEN_NOBODY, HR2DI_HIDDEN, &left, 0, 0)
                     : walk_from(&k, edge->half_edge[side & 1]);
   return status ? status : hr2di_view_add(w, &w->seeing);
 }
