@@ -31,6 +31,7 @@ tools_hr2d_SOURCES = \
 	tools/run/state.c tools/run/state.h \
 	tools/run/target.c \
 	tools/draw/bands.c \
+	tools/draw/beams.c \
 	tools/draw/draw.c tools/draw/draw.h \
 	tools/draw/joints.c \
 	tools/draw/labels.c \

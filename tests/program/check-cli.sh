@@ -75,6 +75,15 @@ usage "--at: '1:' does not end" solve "$far" --at 1:
 usage "--at: the scene has no patch 2, only 0 to 1" solve "$far" --at 2:0
 usage "--at: the scene has no patch called 'foo'" solve "$far" --at foo:0
 usage "--links-of needs --draw" solve "$far" --links-of 0:0
+usage "--beams-of needs --draw" solve "$far" --beams-of 0:0
+usage "--beams-of: '1' is not PATCH:T" solve "$far" --draw a.svg --beams-of 1
+usage "--beams-of: '1:1.5' does not end in a number from 0 to 1" solve "$far" --draw a.svg \
+  --beams-of 1:1.5
+usage "--beams-of: the scene has no patch 2, only 0 to 1" solve "$far" --draw "$work/no.svg" \
+  --beams-of 0:0 --beams-of 2:0
+usage "--beams-of: the scene has no patch called 'foo'" solve "$far" --draw "$work/no.svg" \
+  --beams-of foo:0
+check "wrong beams leave no picture" is_absent "$work/no.svg"
 usage "--draw: 'a.jpg' does not end in .svg, .png or .pdf" solve "$far" --draw a.jpg
 usage "--draw: '.png' does not end" solve "$far" --draw .png
 usage "--json: the file name is empty" solve "$far" --json ''
@@ -555,6 +564,21 @@ else
   succeeds solve "$far" --quiet --eps 0.5 --draw "$work/picture.svg" --links-of 1:1 --link-level 0
   usage "--link-level: the elements at this point have levels 0 to 1" solve "$far" --quiet \
     --eps 0.5 --draw "$work/picture.svg" --links-of 1:1 --link-level 2
+  # With beams from a point between two patches: one ends at the other patch, two at the sky.
+  fills() { # fills COLOUR: how many, the key included
+    tr -d ' ' <"$work/picture.svg" | grep -o "fill[:=\"]*rgb($1)" | wc -l
+  }
+  for beams in "" "--beams-of bottom:0.5" "--beams-of 0:0.2 --beams-of top:1"; do
+    # shellcheck disable=SC2086
+    succeeds solve "$far" --quiet --draw "$work/picture.svg" $beams
+    check "beams '$beams': $(fills 90%,42%,5%), $(fills 15%,50%,90%)" \
+      [ "$(fills 90%,42%,5%),$(fills 15%,50%,90%)" = "$(case $beams in
+        "") echo 0,0 ;; *0.5) echo 2,3 ;; *) echo 3,5 ;; esac)" ]
+  done
+  succeeds solve "$data/sky.geojson" --quiet --draw "$work/old.png" --beams-of 0:0 --beams-of 1:1
+  check "PNG with beams" magic "$work/old.png" 89504e47
+  succeeds solve "$narrow" --quiet --draw "$work/picture.pdf" --beams-of top:0.5 --links-of top:0.3
+  check "PDF with beams" magic "$work/picture.pdf" 25504446
   expect 1 "^hr2d: $work/no/x.svg: cannot be written" solve "$far" --draw "$work/no/x.svg"
   check "PDF" magic "$work/picture.pdf" 25504446
   [ ! -c /dev/full ] || ln -s /dev/full "$work/full.png"

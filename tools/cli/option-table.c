@@ -49,6 +49,8 @@ static const option_entry table[] = {
    .help = {{SOLVE, "of these only those of the element on level K"}}, .needs = "links-of"},
   {"link-parents", NULL, GROUP_OUTPUT, VALUE(flag, link_parents),
    .help = {{SOLVE, "with the refused pairs that these come from"}}},
+  {"beams-of", "PATCH:T", GROUP_OUTPUT, VALUE(places, beams_of),
+   .help = {{SOLVE, "draw what this point sees, too; may be repeated"}}, .needs = "draw"},
   {"plot", "FILE", GROUP_OUTPUT, VALUE(picture, plot),
    .help = {{STUDY, "dots and fitted curve by gnuplot, as .svg, .png or .pdf"},
             {COST, "a curve per method by gnuplot, as .svg, .png or .pdf"}},

@@ -94,7 +94,8 @@ int options_read(int argc, char **argv, options *o) {
   if (o->command == COST) o->threads = 1; /* its own default */
   o->at.items = calloc((size_t)argc, sizeof *o->at.items);
   o->importance.items = calloc((size_t)argc, sizeof *o->importance.items);
-  if (!o->at.items || !o->importance.items) return complain_memory();
+  o->beams_of.items = calloc((size_t)argc, sizeof *o->beams_of.items);
+  if (!o->at.items || !o->importance.items || !o->beams_of.items) return complain_memory();
   status = read_options(argc - 1, argv + 1, o, &given);
   if (status || o->help || o->version) return status;
   status = read_arguments(argc - 1, argv + 1, o);
@@ -104,5 +105,6 @@ int options_read(int argc, char **argv, options *o) {
 void options_release(options *o) {
   free(o->at.items);
   free(o->importance.items);
-  o->at = o->importance = (place_list){NULL, 0};
+  free(o->beams_of.items);
+  o->at = o->importance = o->beams_of = (place_list){NULL, 0};
 }

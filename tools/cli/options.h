@@ -87,6 +87,7 @@ typedef struct options {
   place_list at;
   place links_of;
   unsigned link_level;
+  place_list beams_of;
   int link_parents, plot_log, resume;
   const char *json, *csv, *mtx, *draw, *plot; /* file names; NULL: not given */
 } options;

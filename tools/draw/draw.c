@@ -29,9 +29,11 @@ static int draw_page(picture *p) {
   pen_grey(p->cr, 1);
   cairo_paint(p->cr);
   legend_draw_title(p);
-  int status = links_draw(p);
+  int status = beams_draw(p);
+  if (!status) status = links_draw(p);
   if (!status) status = bands_draw(p);
   links_draw_point(p);
+  beams_draw_points(p);
   if (!status) status = labels_draw(p);
   legend_draw(p);
   cairo_show_page(p->cr);

@@ -9,8 +9,8 @@
    after an error message. */
 int draw_check(const char *path);
 
-/* Draws the scene coloured by B, and the links of --links-of if that is given.  Returns 0 or
-   the exit status. */
+/* Draws the scene coloured by B, and if they are given the links of --links-of and the beams of
+   --beams-of.  Returns 0 or the exit status. */
 int draw_run(const run *r, const char *path);
 
 #endif

@@ -63,6 +63,25 @@ static margins choose_margins(const picture *p) {
   return (margins){m.left + tree, m.right + tree, m.top + tree, m.bottom + tree};
 }
 
+hr2d_point layout_along(const stroke *s, double t) {
+  return (hr2d_point){s->a.x + t * (s->b.x - s->a.x), s->a.y + t * (s->b.y - s->a.y)};
+}
+
+void layout_draw_dot(const picture *p, const stroke *s, double t) {
+  const hr2d_point at = layout_along(s, t);
+  cairo_new_sub_path(p->cr);
+  cairo_arc(p->cr, at.x, at.y, 3, 0, 6.2832);
+  pen_grey(p->cr, 1);
+  cairo_fill_preserve(p->cr);
+  pen_grey(p->cr, 0);
+  cairo_set_line_width(p->cr, 1.2);
+  cairo_stroke(p->cr);
+}
+
+box layout_frame(const picture *p) {
+  return (box){0.4 * MARGIN, TITLE - 6, p->width - LEGEND, p->height - FOOT};
+}
+
 static int make_strokes(picture *p) {
   const size_t count = hr2d_scene_patches(p->run->scene);
   p->strokes = calloc(count, sizeof *p->strokes);

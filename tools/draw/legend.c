@@ -145,5 +145,6 @@ void legend_draw(const picture *p) {
     neighbours_draw_key(p);
   else if (p->path_count && p->level_lo <= p->level_hi)
     draw_level_key(p);
+  if (p->seen) beams_draw_key(p);
 }
 #endif

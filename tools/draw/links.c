@@ -130,14 +130,7 @@ void links_draw_point(const picture *p) {
   if (!p->path_count) return;
   const size_t patch = p->run->places[p->run->options->at.count];
   const stroke *s = &p->strokes[patch];
-  const double t = p->run->options->links_of.t;
-  cairo_arc(p->cr, s->a.x + t * (s->b.x - s->a.x), s->a.y + t * (s->b.y - s->a.y), 3, 0,
-            6.2832);
-  pen_grey(p->cr, 1);
-  cairo_fill_preserve(p->cr);
-  pen_grey(p->cr, 0);
-  cairo_set_line_width(p->cr, 1.2);
-  cairo_stroke(p->cr);
+  layout_draw_dot(p, s, p->run->options->links_of.t);
 }
 
 int links_draw(picture *p) {

@@ -81,6 +81,7 @@ typedef struct picture {
   unsigned level_lo, level_hi; /* of the linked elements of other patches */
   double tree_step;            /* distance of two levels in the trees behind patches */
   unsigned tree_levels;
+  unsigned seen; /* bit 1 << s for each hr2d_seen s at which a drawn beam ends */
   obstacles obstacles;
 } picture;
 
@@ -99,6 +100,13 @@ int layout_make(picture *p);
 
 /* A point in element units, on the page. */
 hr2d_point layout_point(const picture *p, hr2d_point element);
+
+/* A point of a stroke, and a dot there. */
+hr2d_point layout_along(const stroke *s, double t);
+void layout_draw_dot(const picture *p, const stroke *s, double t);
+
+/* The part of the page that has neither title nor legend. */
+box layout_frame(const picture *p);
 
 /* The height of the trees behind patches; 0 if no links are drawn. */
 double layout_tree_height(const picture *p);
@@ -120,6 +128,11 @@ int labels_draw(picture *p);
 int links_find(picture *p);
 int links_draw(picture *p);
 void links_draw_point(const picture *p);
+
+/* beams.c: what the points of --beams-of see, these points, and what the colours mean. */
+int beams_draw(picture *p);
+void beams_draw_points(const picture *p);
+void beams_draw_key(const picture *p);
 
 /* neighbours.c: with --link-level, the elements that are linked to the one of this level. */
 int neighbours_note(picture *p, uint32_t far);

@@ -14,7 +14,7 @@ typedef struct run {
   const hr2d_scene *scene;
   size_t cuts;          /* of --split-crossings */
   double start;         /* clock_seconds() when the command began */
-  const size_t *places; /* the patches of --at, then those of --links-of and --importance */
+  const size_t *places; /* the patches of --at, --links-of, --importance and --beams-of */
   const hr2d_hierarchy *hierarchy;
   const hr2d_linkset *links;
   hr2d_solution *solution;
@@ -46,6 +46,9 @@ hr2d_refine_options run_refine_options(const options *o);
 
 /* The patches of --importance, in the order given. */
 const size_t *run_important(const run *r);
+
+/* Those of --beams-of. */
+const size_t *run_beamed(const run *r);
 
 /* B averaged over an element and over the bands. */
 double run_mean(const run *r, uint32_t element);

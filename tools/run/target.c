@@ -13,6 +13,10 @@ const size_t *run_important(const run *r) {
   return r->places + r->options->at.count + 1;
 }
 
+const size_t *run_beamed(const run *r) {
+  return run_important(r) + r->options->importance.count;
+}
+
 static hr2d_target make_target(const run *r, progress *p) {
   const options *o = r->options;
   hr2d_target target = HR2D_TARGET_INIT;

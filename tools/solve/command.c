@@ -11,7 +11,7 @@
 #include "run/run.h"
 #include "solve/solve.h"
 
-/* The patches that --at, --links-of and --importance name, in this order. */
+/* The patches that --at, --links-of, --importance and --beams-of name, in this order. */
 static int find_places(const options *o, const hr2d_scene *scene, size_t *patches) {
   int status = 0;
   for (size_t k = 0; !status && k < o->at.count; k++)
@@ -21,6 +21,9 @@ static int find_places(const options *o, const hr2d_scene *scene, size_t *patche
   for (size_t k = 0; !status && k < o->importance.count; k++)
     status = scene_find_place(scene, "importance", &o->importance.items[k],
                               &patches[o->at.count + 1 + k]);
+  for (size_t k = 0; !status && k < o->beams_of.count; k++)
+    status = scene_find_place(scene, "beams-of", &o->beams_of.items[k],
+                              &patches[o->at.count + 1 + o->importance.count + k]);
   return status;
 }
 
@@ -58,7 +61,8 @@ int solve_command(const options *o) {
   if (!status) status = options_check_outputs(o);
   if (!status) status = scene_load(o, o->force, &scene, &cuts);
   if (status) return status;
-  size_t *patches = calloc(o->at.count + 1 + o->importance.count, sizeof *patches);
+  size_t *patches =
+      calloc(o->at.count + 1 + o->importance.count + o->beams_of.count, sizeof *patches);
   status = patches ? solve_scene(o, scene, cuts, start, patches) : complain_memory();
   free(patches);
   hr2d_scene_destroy(scene);
