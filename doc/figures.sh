@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Draws the picture of README.md, the paper's figures, and error against time: figures.sh OUT DATA
-# writes them into OUT and keeps the sweeps in DATA, from which a second run resumes.
+# Draws the pictures of README.md and occlusion.md, the paper's figures, and error against time:
+# figures.sh OUT DATA writes them into OUT and keeps the sweeps in DATA, from which a second run
+# resumes.
 #
 # Environment: HR2D_PROGRAM, the program; HR2D_SCENES, the example scenes; HR2D_SRCDIR,
 # the top of the sources; HR2D_COST_SECONDS, how long each scene of cost.md may take (60).
@@ -157,6 +158,10 @@ power() {
 # The picture of README.md; its SVG has five times the bytes.
 "$hr2d" solve "$scenes/partition.geojson" --target-error 1e-4 --quiet \
   --draw "$out/partition.png"
+
+# What a point sees, for occlusion.md.
+"$hr2d" solve "$scenes/partition.geojson" --eps 1 --quiet \
+  --draw "$out/beams.png" --beams-of window:0.5
 
 # Figures 1 to 4: the paper's analysis, with its oracle and its modification.
 draw figure-1 par-near --eps 16 --variant modified

@@ -38,8 +38,8 @@ doc/examples.dox: doc/local.mk $(EXAMPLES:=.c)
 	done >$@
 CLEANFILES += doc/examples.dox
 
-# `make figures` draws the figures of README.md, doc/theorem.md and doc/cost.md into the source
-# tree, from sweeps that a second run resumes.
+# `make figures` draws the figures of README.md, doc/occlusion.md, doc/theorem.md and doc/cost.md
+# into the source tree, from sweeps that a second run resumes.
 figures: tools/hr2d$(EXEEXT)
 	HR2D_PROGRAM='$(abs_top_builddir)/tools/hr2d$(EXEEXT)' \
 	HR2D_SCENES='$(abs_top_srcdir)/examples/scenes' \

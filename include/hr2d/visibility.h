@@ -235,7 +235,8 @@ typedef struct hr2d_beam {
   size_t struct_size; /**< its size as the library knows it */
   hr2d_seen seen;     /**< what the beam ends at */
   size_t patch;       /**< the patch whose front is seen; 0 for a back and for the sky */
-  double from, to;    /**< its part, fractions of its length, from < to; else 0 */
+  double from;        /**< where its part begins, a fraction of its length; else 0 */
+  double to;          /**< where the part ends, above `from`; else 0 */
   double factor;      /**< the form factor from the point to what is seen, greater than 0 */
   hr2d_point right;   /**< the direction of the right border, a unit vector */
   hr2d_point left;    /**< of the left border; looking ahead, with the patch's b on the right */
