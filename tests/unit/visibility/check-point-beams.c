@@ -191,6 +191,44 @@ START_TEST(walls_on_a_grid) {
 }
 END_TEST
 
+static int is_within(hr2d_point p, double size) {
+  return fabs(p.x) <= size && fabs(p.y) <= size;
+}
+
+/* Turned, far from the origin, and every end moved by an ulp: beams lie side by side, and end
+   in the scene, seen from ends of patches, too. */
+START_TEST(jittered_walls) {
+  static const double at[] = {0, 0x1p-1074, 1e-16, .3, .5, 1 - 0x1p-53, 1};
+  static look l;
+  randoms r = randoms_stream(test_seed(), 30 + _i);
+  int accepted = 0, count = 0;
+  for (int k = test_count(1000); k > 0; k--, count++) {
+    plan p = grid_plan(&r, _i);
+    const double angle = random_between(&r, 0, 6.3), far = k % 3 ? 0 : 1e4;
+    plan_jitter(&r, &p, (similarity){cos(angle), sin(angle), far, -far});
+    hr2d_scene *scene = plan_try_scene(&p, NULL);
+    double size = 0;
+    for (size_t m = 0; m < p.walls; m++)
+      size = fmax(size, fmax(fmax(fabs(p.wall[m].a.x), fabs(p.wall[m].a.y)),
+                             fmax(fabs(p.wall[m].b.x), fabs(p.wall[m].b.y))));
+    for (int m = 0; m < 20 && scene; m++) {
+      const size_t patch = (size_t)(random_bits(&r) % hr2d_scene_patches(scene));
+      see(scene, patch, at[random_below(&r, 7)], &l);
+      if (!is_whole(scene, patch, &l)) plan_print(&p);
+      ck_assert(is_whole(scene, patch, &l));
+      for (size_t b = 0; b < l.count; b++)
+        ck_assert(is_within(l.beam[b].end.a, (1 + 1e-15) * size) &&
+                  is_within(l.beam[b].end.b, (1 + 1e-15) * size));
+    }
+    accepted += scene != NULL;
+    hr2d_scene_destroy(scene);
+    plan_free(&p);
+  }
+  printf("%d of %d scenes accepted\n", accepted, count);
+  ck_assert_int_gt(accepted, count / 4);
+}
+END_TEST
+
 /* Every kind of fault in the beams of a view is found by what the tests above ask. */
 START_TEST(wrong_beams_are_noticed) {
   static look l, other;
@@ -341,7 +379,7 @@ START_TEST(allocations_fail_one_by_one) {
 END_TEST
 
 TEST_SUITE("beams from a point") {
-  REPEAT_TESTS(2, "sweep", walls_on_a_grid);
+  REPEAT_TESTS(2, "sweep", walls_on_a_grid, jittered_walls);
   ADD_TESTS("sweep", wrong_beams_are_noticed);
   ADD_TESTS("calls", the_effect_changes_no_bit, a_room_by_hand, wrong_calls);
   REPEAT_TESTS(4, "memory", allocations_fail_one_by_one);
