@@ -64,7 +64,6 @@ libhr2d_core_la_SOURCES = \
 	src/occlusion/wall-bodies.c src/occlusion/wall-bodies.h \
 	src/occlusion/wall-tree.c src/occlusion/wall-tree.h \
 	src/occlusion/walls.c src/occlusion/walls.h \
-	src/scene/back-faces.c src/scene/back-faces.h \
 	src/scene/checks.c \
 	src/scene/commit.c \
 	src/scene/effects.c \

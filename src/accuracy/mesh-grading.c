@@ -17,7 +17,6 @@
 #include "base/sort.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
-#include "scene/back-faces.h"
 #include "scene/scene-impl.h"
 #include "visibility/seen-ends.h"
 
@@ -414,12 +413,9 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
    kinks disturb. */
 static hr2d_status find_backs(grader *g) {
   const hr2d_scene *scene = g->h->scene;
-  hr2di_backs backs = {0};
-  if (!scene->effect[HR2D_EFFECT_BACKGROUND].on) return HR2D_OK;
-  const hr2d_status status = hr2di_backs_init(scene, &backs, g->grading->watch);
-  g->all = backs.count > 0;
-  hr2di_alloc_free(&scene->alloc, backs.back);
-  return status;
+  return scene->effect[HR2D_EFFECT_BACKGROUND].on
+             ? hr2di_side_parts_find_backs(scene, &g->all, g->grading->watch)
+             : HR2D_OK;
 }
 
 hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,

@@ -22,9 +22,9 @@
 
 /* What is known of a side of a wall edge. */
 enum {
-  FRONT = 1, /* it has patches */
-  GAPS = 2,  /* it has none, or not everywhere */
-  HULL = 4   /* the scene is on one side of the wall */
+  FRONT = HR2DI_HAS_FRONT,
+  GAPS = HR2DI_HAS_BACK,
+  HULL = 4 /* the scene is on one side of the wall */
 };
 
 typedef struct search {
@@ -82,14 +82,6 @@ static hr2d_status look_at(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
   return status ? status : pay(f, &f->beyond, before);
 }
 
-static unsigned char kind_of(const hr2d_scene *scene, hr2di_wall_side side) {
-  const hr2di_parts parts = scene->parts.of_side[side].parts;
-  if (!scene->parts.wanted[side]) return GAPS;
-  for (uint32_t k = parts.first; k < parts.last; k++)
-    if (scene->parts.part[k].patch == HR2DI_NOBODY) return FRONT | GAPS;
-  return FRONT;
-}
-
 static hr2d_status learn_sides(search *f, const hr2di_hull *hull) {
   const hr2di_wall_pieces *pieces = &f->scene->plane.pieces;
   const hr2di_triangulation *t = &f->scene->plane.triangulation;
@@ -102,7 +94,7 @@ static hr2d_status learn_sides(search *f, const hr2di_hull *hull) {
     for (hr2di_wall_side s = 2 * first; s < 2 * last && !status; s++) {
       const hr2di_parts parts = f->scene->parts.of_side[s].parts;
       status = hr2di_watch_work(f->out.watch, 2 + (parts.last - parts.first) / 8);
-      f->side[s] = kind_of(f->scene, s) | outer;
+      f->side[s] = (unsigned char)(hr2di_side_kind(&f->scene->parts, s) | outer);
     }
   }
   return status;

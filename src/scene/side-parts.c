@@ -127,6 +127,37 @@ void hr2di_side_parts_clear(hr2di_side_parts *parts) {
   hr2di_alloc_free(&parts->alloc, parts->contact);
 }
 
+unsigned hr2di_side_kind(const hr2di_side_parts *p, hr2di_wall_side side) {
+  const hr2di_parts parts = p->of_side[side].parts;
+  if (!p->wanted[side]) return HR2DI_HAS_BACK;
+  for (uint32_t k = parts.first; k < parts.last; k++)
+    if (p->part[k].patch == HR2DI_NOBODY) return HR2DI_HAS_FRONT | HR2DI_HAS_BACK;
+  return HR2DI_HAS_FRONT;
+}
+
+/* Of walls that share an edge, triangles know one. */
+static int is_seen(const hr2di_triangulation *t, hr2di_wall_side side) {
+  const int32_t h = t->edge[side >> 1].half_edge[side & 1];
+  return (hr2di_wall_side)~t->triangle[h >> 2].across[h & 3] == side;
+}
+
+hr2d_status hr2di_side_parts_find_backs(const hr2d_scene *scene, int *found,
+                                        hr2di_watch *watch) {
+  const hr2di_side_parts *p = &scene->parts;
+  const hr2di_triangulation *t = &scene->plane.triangulation;
+  hr2d_status status = hr2di_watch_work(watch, (scene->patches + p->parts) / 8);
+  *found = 0;
+  for (size_t k = 0; k < scene->patches && !*found; k++)
+    *found = p->of_patch[k].first == p->of_patch[k].last;
+  for (size_t k = 0; k < p->parts && !*found; k++) *found = p->part[k].side == HR2DI_HIDDEN;
+  for (hr2di_wall_side s = 0; s < 2 * t->edges && !*found && !status; s++) {
+    const hr2di_parts of = p->of_side[s].parts;
+    status = hr2di_watch_work(watch, 1 + (of.last - of.first) / 8);
+    *found = is_seen(t, s) && hr2di_side_kind(p, s) & HR2DI_HAS_BACK;
+  }
+  return status;
+}
+
 size_t hr2di_side_parts_contact(const hr2di_side_parts *p, uint32_t part) {
   size_t low = 0, high = p->contacts;
   while (low < high) {

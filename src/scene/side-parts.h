@@ -60,6 +60,20 @@ hr2d_status hr2di_side_parts_init(hr2di_side_parts *parts, const hr2d_scene *sce
                                   hr2di_watch *watch);
 void hr2di_side_parts_clear(hr2di_side_parts *parts);
 
+/* What lies along a side. */
+enum {
+  HR2DI_HAS_FRONT = 1, /* patches */
+  HR2DI_HAS_BACK = 2   /* no patch, or not everywhere: the black back of a wall */
+};
+
+/* These, of one side. */
+unsigned hr2di_side_kind(const hr2di_side_parts *parts, hr2di_wall_side side);
+
+/* Whether a scene with a plane has backs: sides without patches, wholly or in part, or patches
+   so close behind others that they see nothing else.  HR2D_OK or the status of the watch. */
+hr2d_status hr2di_side_parts_find_backs(const hr2d_scene *scene, int *found,
+                                        hr2di_watch *watch);
+
 /* The first contact of a part, or of a later one; the number of contacts if there is none. */
 size_t hr2di_side_parts_contact(const hr2di_side_parts *parts, uint32_t part);
 

@@ -8,7 +8,6 @@
 #include "base/alloc.h"
 #include "base/legendre.h"
 #include "hierarchy/hierarchy-impl.h"
-#include "scene/back-faces.h"
 #include "scene/scene-impl.h"
 #include "visibility/point-view.h"
 
@@ -101,12 +100,11 @@ static void clear_closed(hr2di_transport *t) {
 }
 
 hr2d_status hr2di_background_set_order_p(hr2di_transport *t) {
-  hr2di_backs backs = {0};
+  int backs = 0;
   t->sky = hr2di_alloc_zero(&t->alloc, t->leaves * t->order, sizeof *t->sky);
   hr2d_status status = t->sky ? take_rows(t) : HR2D_ENOMEM;
-  if (!status) status = hr2di_backs_init(t->hierarchy->scene, &backs, t->watch);
-  if (!status && backs.count > 0) status = take_all_backs(t);
+  if (!status) status = hr2di_side_parts_find_backs(t->hierarchy->scene, &backs, t->watch);
+  if (!status && backs) status = take_all_backs(t);
   if (!status) clear_closed(t);
-  hr2di_alloc_free(&t->alloc, backs.back);
   return status;
 }

@@ -1,215 +1,277 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Row sums of leaves.
 
-   If a patch sees patches in every direction, so do its leaves: their sums are 1.  Other leaves
-   sum their exchange areas with every patch that their patch sees, or, if the scene calls for
-   occlusion, with every element that the leaf or an ancestor of it is linked with.  A tree is
-   walked down only as far as walls are in the way of its elements. */
+   If a patch sees patches in every direction, so do its leaves: their sums are 1.  Other
+   patches send beams.  A sight that ends at a front is a part of the sums over patches, one
+   that ends at a back of those over backs: a leaf takes the lines that start on it.  Patches
+   side by side that a sight ends on are seen as one.
+
+   A tree is walked down as far as something bounds the view but its elements; where nothing
+   does, the lines from a leaf are all lines to the segment where the sight ends. */
 #include "solve/row-sums.h"
 
 #include "base/alloc.h"
+#include "geometry/exchange-area.h"
 #include "geometry/predicates.h"
+#include "geometry/vector.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/patch-defect.h"
-#include "occlusion/pair-visibility.h"
-#include "scene/back-faces.h"
 #include "scene/scene-impl.h"
+#include "sight/sight-list.h"
 
-/* Elements wait on a stack with their walls, one per level. */
+/* Elements that wait, one per level. */
 enum { DEPTH = 1100 };
-
-typedef struct waiting {
-  uint32_t element;
-  size_t first, count; /* of its walls */
-} waiting;
 
 /* The row of one patch. */
 typedef struct walker {
   const hr2d_hierarchy *h;
+  const hr2d_scene *scene;
   hr2di_watch *watch;
-  hr2di_backs backs;            /* empty if not asked for */
-  hr2d_segment line;            /* of the patch */
-  hr2d_segment source;          /* its leaves look at this: a patch, a back or an element */
-  hr2d_segment source_line;     /* the patch of which `source` is a part */
-  hr2di_visibility *visibility; /* NULL if nothing can be in the way */
-  hr2di_wall_list list;
-  waiting stack[DEPTH];
-  hr2di_sum *sum; /* per element, set for leaves */
+  hr2di_walk walk;
+  unsigned char *kind;     /* per side, as hr2di_side_kind() */
+  uint32_t patch;          /* that looks */
+  hr2di_wall_side from;    /* where its beams start */
+  hr2di_sight_list seen;   /* the sight that a beam has found */
+  hr2di_sight_list part;   /* what an element has of it */
+  hr2di_sum *front, *back; /* per element, set for leaves; `back` is NULL if not asked for */
+  uint32_t stack[DEPTH];
 } walker;
 
-/* Adds the exchange areas of the source with all leaves below an element, with nothing in the
+/* Adds the exchange areas of all leaves below an element with a segment, with nothing in the
    way. */
-static void add_clear(walker *w, uint32_t top) {
+static hr2d_status add_clear(walker *w, uint32_t top, hr2d_segment far, hr2di_sum *sum) {
   const hr2d_element *element = w->h->element;
+  hr2d_status status = HR2D_OK;
   uint32_t leaf = hr2di_hierarchy_first_leaf(w->h, top);
   do {
-    if (hr2di_watch_work(w->watch, 1)) return;
+    status = hr2di_watch_work(w->watch, 1);
     const hr2d_segment s = {element[leaf].a, element[leaf].b};
-    hr2di_sum_add(&w->sum[leaf], hr2d_exchange_area(&s, &w->source));
+    hr2di_sum_add(&sum[leaf], hr2d_exchange_area(&s, &far));
     leaf = hr2di_hierarchy_next_leaf(w->h, leaf, top);
-  } while (leaf);
-}
-
-/* Looks from an element at the source.  If the view is clear, adds the exchange areas of all
-   leaves below.  If walls are in the way, adds the exchange area of a leaf, and puts an element
-   with children on the stack.  `parent` is NULL where a walk begins. */
-static hr2d_status look(walker *w, uint32_t element, const waiting *parent, size_t *count) {
-  const hr2d_element *e = &w->h->element[element];
-  const hr2d_segment s = {e->a, e->b};
-  hr2di_shaft shaft;
-  hr2di_visibility_class view = HR2DI_CLEAR;
-  const size_t first = w->list.count;
-  const hr2di_facing facing = hr2di_facing_of(&s, &w->source);
-  hr2d_status status = hr2di_watch_work(w->watch, 1);
-  if (status || facing == HR2DI_FACING_NONE) return status;
-  const int shaded =
-      w->visibility && hr2di_shaft_init(&shaft, facing, s, w->source, w->line, w->source_line);
-  if (shaded && parent)
-    status = hr2di_visibility_shrink(w->visibility, &shaft, &w->list, parent->first,
-                                     parent->count, &w->list, &view);
-  else if (shaded)
-    status = hr2di_visibility_collect(w->visibility, &shaft, &w->list, &view);
-  if (status) return status;
-  if (view == HR2DI_CLEAR) add_clear(w, element);
-  if (view != HR2DI_PARTIAL) return hr2di_watch_status(w->watch);
-  if (e->child) {
-    w->stack[(*count)++] = (waiting){element, first, w->list.count - first};
-    return HR2D_OK;
-  }
-  double area;
-  int open;
-  status = hr2di_visibility_area(w->visibility, &shaft, hr2di_wall_list_from(&w->list, first),
-                                 w->list.count - first, &area, &open);
-  if (!status) hr2di_sum_add(&w->sum[element], area);
-  w->list.count = first;
+  } while (leaf && !status);
   return status;
 }
 
-/* Adds the exchange areas of the source with the leaves of a patch, or of an element. */
-static hr2d_status walk(walker *w, uint32_t patch) {
+/* Adds the length that each leaf shares with a stretch of the patch, times a factor. */
+static hr2d_status add_length(walker *w, hr2d_segment stretch, hr2di_sum *sum, double factor) {
+  const hr2d_segment line = w->scene->patch[w->patch].scaled;
+  const double start = hr2di_point_along(line, stretch.a);
+  const double end = hr2di_point_along(line, stretch.b);
+  hr2d_status status = HR2D_OK;
   size_t count = 0;
-  w->list.count = 0;
-  hr2d_status status = look(w, patch, NULL, &count);
+  if (sum) w->stack[count++] = w->patch;
   while (count > 0 && !status) {
-    const waiting top = w->stack[--count];
-    const uint32_t child = w->h->element[top.element].child;
-    w->list.count = top.first + top.count;
-    for (uint32_t k = 0; k < 2 && !status; k++) status = look(w, child + k, &top, &count);
+    const uint32_t k = w->stack[--count];
+    const hr2d_element *e = &w->h->element[k];
+    const double from = hr2di_point_along(line, e->a), to = hr2di_point_along(line, e->b);
+    const double shared = fmin(to, end) - fmax(from, start);
+    status = hr2di_watch_work(w->watch, 1);
+    if (!(shared > 0)) continue;
+    if (!e->child) {
+      hr2di_sum_add(&sum[k], factor * (shared / (to - from) * e->length));
+      continue;
+    }
+    w->stack[count++] = e->child + 1;
+    w->stack[count++] = e->child;
   }
   return status;
 }
 
-/* Adds the exchange areas of the leaves of a patch with all patches, and with all backs if
-   asked for. */
-static hr2d_status walk_row(walker *w, uint32_t patch, hr2di_sum *front, hr2di_sum *back) {
-  const hr2d_scene *scene = w->h->scene;
+static int is_all_of(const hr2d_element *e, hr2d_segment s) {
+  return hr2di_point_same(s.a, e->a) && hr2di_point_same(s.b, e->b);
+}
+
+/* Adds to the leaves what they have of the sight that was seen, as far as it ends on `far`. */
+static hr2d_status add_sight(walker *w, hr2d_segment far, hr2di_sum *sum) {
   hr2d_status status = HR2D_OK;
-  w->line = scene->patch[patch].scaled;
-  w->sum = front;
-  for (size_t k = 0; k < scene->patches && !status && front; k++) {
-    if (k == patch || !hr2di_scene_lit(scene, k)) continue;
-    w->source = w->source_line = scene->patch[k].scaled;
-    status = walk(w, patch);
-  }
-  w->sum = back;
-  for (size_t k = 0; k < w->backs.count && !status; k++) {
-    const hr2d_segment s = scene->patch[w->backs.back[k].patch].scaled;
-    w->source = w->backs.back[k].at;
-    w->source_line = (hr2d_segment){s.b, s.a};
-    status = walk(w, patch);
+  size_t count = 0;
+  w->stack[count++] = w->patch;
+  while (count > 0 && !status) {
+    const uint32_t k = w->stack[--count];
+    const hr2d_element *e = &w->h->element[k];
+    hr2di_sight_list_cut(&w->part, 0);
+    status = hr2di_watch_work(w->watch, 1 + w->seen.points / 8);
+    if (!status)
+      status = hr2di_sight_list_restrict(&w->part, &w->seen, 0, 1, (hr2d_segment){e->a, e->b},
+                                         far, NULL);
+    if (status || w->part.count == 0) continue;
+    const hr2di_sight s = hr2di_sight_list_at(&w->part, 0);
+    if (hr2di_sight_clear(&s) && is_all_of(e, w->part.sight[0].near)) {
+      status = add_clear(w, k, w->part.sight[0].far, sum);
+    } else if (!e->child) {
+      hr2di_sum_add(&sum[k], hr2di_sight_area(&s));
+    } else {
+      w->stack[count++] = e->child + 1;
+      w->stack[count++] = e->child;
+    }
   }
   return status;
 }
 
-/* Adds the exchange areas of the leaves of an element with another one that it is linked with.
-   If walls change no bit of the link's exchange area, they count as none for the leaves. */
-static hr2d_status walk_link(walker *w, uint32_t receiver, uint32_t source, double area) {
-  const hr2d_element *e = &w->h->element[receiver], *f = &w->h->element[source];
-  const hr2d_segment s = {e->a, e->b};
-  w->source = (hr2d_segment){f->a, f->b};
-  w->source_line = w->h->scene->patch[f->patch].scaled;
-  w->line = w->h->scene->patch[e->patch].scaled;
-  if (hr2d_exchange_area(&s, &w->source) != area) return walk(w, receiver);
-  add_clear(w, receiver);
-  return hr2di_watch_work(w->watch, 1);
+/* A sight that ends where patches and stretches without patches take turns. */
+static hr2d_status add_stretches(walker *w, hr2di_parts along) {
+  const hr2di_side_part *part = w->scene->parts.part;
+  hr2d_status status = HR2D_OK;
+  for (uint32_t first = along.first, last; first < along.last && !status; first = last) {
+    const int nobody = part[first].patch == HR2DI_NOBODY;
+    for (last = first + 1; last < along.last && (part[last].patch == HR2DI_NOBODY) == nobody;)
+      last++;
+    hr2di_sum *sum = nobody ? w->back : w->front;
+    status = hr2di_watch_work(w->watch, 1 + (last - first) / 8);
+    if (!status && sum)
+      status = add_sight(w, (hr2d_segment){part[first].at.a, part[last - 1].at.b}, sum);
+  }
+  return status;
 }
 
-static hr2d_status walk_links(walker *w, const hr2di_transport *t,
-                              const unsigned char *closed) {
-  const hr2d_element *element = w->h->element;
-  const hr2di_store *store = &t->links->store;
+static hr2d_status take(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
+  walker *w = ctx;
+  const hr2di_side *of_side = w->scene->parts.of_side;
+  const hr2di_triangulation *t = &w->scene->plane.triangulation;
+  const hr2d_segment far = hr2di_wall_side_at(t, j);
+  if (of_side[j].wall == of_side[w->from].wall)
+    return HR2D_OK; /* of a wall that roundings have bent */
+  hr2di_sight_list_cut(&w->seen, 0);
+  const hr2d_status status =
+      hr2di_sight_list_add(&w->seen, s, hr2di_wall_side_at(t, w->from), far);
+  if (status) return status;
+  if (w->kind[j] == HR2DI_HAS_FRONT) return add_sight(w, far, w->front);
+  if (w->kind[j] == HR2DI_HAS_BACK) return add_sight(w, far, w->back);
+  return add_stretches(w, of_side[j].parts);
+}
+
+/* Parts between walls within roundings see what they are in contact with, and backs.  So does a
+   patch that is but dust. */
+static hr2d_status add_hidden(walker *w) {
+  const hr2di_side_parts *p = &w->scene->parts;
+  const hr2di_parts of = p->of_patch[w->patch];
+  const hr2d_segment line = w->scene->patch[w->patch].scaled;
+  hr2d_status status =
+      of.first == of.last ? add_length(w, line, w->back, 1) : hr2di_watch_work(w->watch, 1);
+  for (uint32_t k = of.first; k < of.last && !status; k++)
+    if (p->part[k].side == HR2DI_HIDDEN) status = add_length(w, p->part[k].at, w->back, 1);
+  for (size_t k = hr2di_side_parts_contact(p, of.first);
+       k < p->contacts && p->contact[k].part < of.last && !status; k++) {
+    const hr2d_segment mine = p->part[p->contact[k].part].at,
+                       other = p->part[p->contact[k].other].at;
+    const hr2d_segment shared = {
+        hr2di_point_along(line, mine.a) > hr2di_point_along(line, other.b) ? mine.a : other.b,
+        hr2di_point_along(line, mine.b) < hr2di_point_along(line, other.a) ? mine.b : other.a};
+    status = add_length(w, shared, w->front, 1);
+    if (!status) status = add_length(w, shared, w->back, -1);
+  }
+  return status;
+}
+
+/* Where there is no plane, nothing is in the way. */
+static hr2d_status look_at_all(walker *w) {
+  const hr2d_scene *scene = w->scene;
+  const hr2d_segment s = scene->patch[w->patch].scaled;
   hr2d_status status = HR2D_OK;
-  for (uint64_t k = 0; k < store->count && !status; k++) {
-    const hr2d_link link = *hr2di_store_at(store, k);
-    const uint32_t i = link.pair.first, j = link.pair.second;
-    if (k % 64 == 0) status = hr2di_watch_work(w->watch, 8);
-    if (!status && !closed[element[i].patch]) status = walk_link(w, i, j, link.exchange_area);
-    if (!status && !t->links->directed && !closed[element[j].patch])
-      status = walk_link(w, j, i, link.exchange_area);
+  for (size_t k = 0; k < scene->patches && !status; k++) {
+    status = hr2di_watch_work(w->watch, 1);
+    if (!status && hr2di_scene_lit(scene, k) &&
+        hr2di_facing_of(&s, &scene->patch[k].scaled) != HR2DI_FACING_NONE)
+      status = add_clear(w, w->patch, scene->patch[k].scaled, w->front);
+  }
+  return status;
+}
+
+static hr2d_status look_around(walker *w) {
+  const hr2di_side_parts *p = &w->scene->parts;
+  if (!p->wanted) return look_at_all(w);
+  const hr2di_parts of = p->of_patch[w->patch];
+  hr2d_status status = add_hidden(w);
+  for (uint32_t k = of.first; k < of.last && !status; k++) {
+    w->from = p->part[k].side;
+    if (w->from != HR2DI_HIDDEN) status = hr2di_walk_from(&w->walk, w->from, &p->part[k].at);
   }
   return status;
 }
 
 /* Sets the row sums of the leaves of a patch: 1 if it is closed, else the sums over length. */
-static void finish(hr2di_row_sums *rows, uint32_t patch, const hr2di_sum *front,
-                   const hr2di_sum *back) {
+static void finish(hr2di_row_sums *rows, uint32_t patch, const walker *w) {
   const hr2d_hierarchy *h = rows->hierarchy;
   uint32_t leaf = hr2di_hierarchy_first_leaf(h, patch);
   do {
     const double length = h->element[leaf].length;
     rows->leaves += !rows->closed[patch];
     if (hr2di_watch_work(rows->watch, 1)) return;
-    rows->front[leaf] = rows->closed[patch] ? 1 : hr2di_sum_total(&front[leaf]) / length;
-    if (rows->back) rows->back[leaf] = hr2di_sum_total(&back[leaf]) / length;
+    rows->front[leaf] = rows->closed[patch] ? 1 : hr2di_sum_total(&w->front[leaf]) / length;
+    if (rows->back) rows->back[leaf] = hr2di_sum_total(&w->back[leaf]) / length;
     leaf = hr2di_hierarchy_next_leaf(h, leaf, patch);
   } while (leaf);
 }
 
-static hr2d_status walk_rows(hr2di_row_sums *rows, const hr2di_transport *t, walker *w,
-                             const hr2di_sum *defect, hr2di_sum *front, hr2di_sum *back) {
-  const hr2d_scene *scene = w->h->scene;
-  const int by_links = scene->effect[HR2D_EFFECT_OCCLUSION].called_for;
+/* Beams end at backs only if these are asked for. */
+static hr2d_status prepare(walker *w, const hr2di_row_sums *rows) {
+  const hr2di_side_parts *p = &w->scene->parts;
+  const hr2di_triangulation *t = &w->scene->plane.triangulation;
   hr2d_status status = HR2D_OK;
-  hr2di_defect_closed(t->links, defect, rows->closed);
-  w->sum = front;
-  if (by_links) status = walk_links(w, t, rows->closed);
-  for (uint32_t k = 0; k < scene->patches && !status; k++) {
-    if (!hr2di_scene_lit(scene, k)) continue;
-    if (!rows->closed[k]) status = walk_row(w, k, by_links ? NULL : front, back);
-    finish(rows, k, front, back);
+  w->walk = (hr2di_walk){.in = t,
+                         .wanted = w->back ? w->kind : p->wanted,
+                         .take = take,
+                         .ctx = w,
+                         .alloc = rows->alloc,
+                         .watch = w->watch};
+  for (hr2di_wall_side s = 0; s < 2 * t->edges && !status; s++) {
+    const hr2di_parts of = p->of_side[s].parts;
+    status = hr2di_watch_work(w->watch, 1 + (of.last - of.first) / 8);
+    w->kind[s] = (unsigned char)hr2di_side_kind(p, s);
+  }
+  return status;
+}
+
+static hr2d_status make_rows(hr2di_row_sums *rows, const hr2d_linkset *links, walker *w,
+                             hr2di_sum *defect) {
+  hr2d_status status = hr2di_defect_sum(links, defect, w->watch);
+  if (!status) status = prepare(w, rows);
+  if (status) return status;
+  hr2di_defect_closed(links, defect, rows->closed);
+  for (uint32_t k = 0; k < w->scene->patches && !status; k++) {
+    if (!hr2di_scene_lit(w->scene, k)) continue;
+    w->patch = k;
+    if (!rows->closed[k]) status = look_around(w);
+    finish(rows, k, w);
     if (!status) status = hr2di_watch_work(w->watch, 1);
   }
   return status;
 }
 
+static void clear(walker *w, const hr2d_allocator *alloc) {
+  hr2di_walk_clear(&w->walk);
+  hr2di_sight_list_clear(&w->seen);
+  hr2di_sight_list_clear(&w->part);
+  hr2di_alloc_free(alloc, w->kind);
+  hr2di_alloc_free(alloc, w->front);
+  hr2di_alloc_free(alloc, w->back);
+  hr2di_alloc_free(alloc, w);
+}
+
 hr2d_status hr2di_row_sums_init(hr2di_row_sums *rows, const hr2di_transport *t, int backs) {
   const hr2d_scene *scene = t->hierarchy->scene;
-  *rows = (hr2di_row_sums){.hierarchy = t->hierarchy, .alloc = t->alloc, .watch = t->watch};
-  rows->front = hr2di_alloc_zero(&t->alloc, t->elements, sizeof *rows->front);
-  rows->back = backs ? hr2di_alloc_zero(&t->alloc, t->elements, sizeof *rows->back) : NULL;
-  rows->closed = hr2di_alloc_zero(&t->alloc, scene->patches, 1);
-  hr2di_sum *defect = hr2di_alloc(&t->alloc, scene->patches, sizeof *defect);
-  hr2di_sum *front = hr2di_alloc_zero(&t->alloc, t->elements, sizeof *front);
-  hr2di_sum *back = backs ? hr2di_alloc_zero(&t->alloc, t->elements, sizeof *back) : NULL;
-  walker *w = hr2di_alloc_zero(&t->alloc, 1, sizeof *w);
+  const hr2d_allocator *alloc = &t->alloc;
+  *rows = (hr2di_row_sums){.hierarchy = t->hierarchy, .alloc = *alloc, .watch = t->watch};
+  rows->front = hr2di_alloc_zero(alloc, t->elements, sizeof *rows->front);
+  rows->back = backs ? hr2di_alloc_zero(alloc, t->elements, sizeof *rows->back) : NULL;
+  rows->closed = hr2di_alloc_zero(alloc, scene->patches, 1);
+  hr2di_sum *defect = hr2di_alloc(alloc, scene->patches, sizeof *defect);
+  walker *w = hr2di_alloc_zero(alloc, 1, sizeof *w);
   hr2d_status status = HR2D_ENOMEM;
-  if (rows->front && rows->closed && defect && front && w && (!backs || (rows->back && back))) {
-    hr2di_visibility visibility;
-    hr2di_visibility_init(&visibility, &scene->walls, &t->alloc, t->watch);
+  if (w) {
     w->h = t->hierarchy;
+    w->scene = scene;
     w->watch = t->watch;
-    w->visibility = scene->effect[HR2D_EFFECT_OCCLUSION].on || backs ? &visibility : NULL;
-    status = hr2di_defect_sum(t->links, defect, t->watch);
-    if (!status && backs) status = hr2di_backs_init(scene, &w->backs, t->watch);
-    if (!status) status = walk_rows(rows, t, w, defect, front, back);
-    hr2di_visibility_clear(&visibility);
-    hr2di_alloc_free(&t->alloc, w->list.wall);
-    hr2di_alloc_free(&t->alloc, w->backs.back);
+    w->walk.alloc = w->seen.alloc = w->part.alloc = *alloc;
+    w->kind = hr2di_alloc_zero(alloc, scene->plane.triangulation.edges, 2 * sizeof *w->kind);
+    w->front = hr2di_alloc_zero(alloc, t->elements, sizeof *w->front);
+    w->back = backs ? hr2di_alloc_zero(alloc, t->elements, sizeof *w->back) : NULL;
+    if (rows->front && rows->closed && defect && w->kind && w->front &&
+        (!backs || (rows->back && w->back)))
+      status = make_rows(rows, t->links, w, defect);
+    clear(w, alloc);
   }
-  hr2di_alloc_free(&t->alloc, w);
-  hr2di_alloc_free(&t->alloc, defect);
-  hr2di_alloc_free(&t->alloc, front);
-  hr2di_alloc_free(&t->alloc, back);
+  hr2di_alloc_free(alloc, defect);
   return status;
 }
 
