@@ -32,20 +32,17 @@ static hr2di_label label_of_wall(const hr2d_scene *scene, uint32_t wall) {
   return hr2di_patch_label(scene, patch);
 }
 
-/* The plane shows what is in the way and what backs hide of the background.  Where neither
-   matters, it is asked for row sums, but they have another way if nobody knows how walls cross.
-   Without any of this nobody asks it after commit. */
+/* The plane shows what is in the way, and what backs hide of the background; else few ask it
+   after commit. */
 static hr2d_status keep_plane(hr2d_scene *scene, hr2di_watch *watch) {
   const uint32_t *wall = scene->unclear.wall;
-  const int needed =
-      scene->effect[HR2D_EFFECT_OCCLUSION].on || scene->effect[HR2D_EFFECT_BACKGROUND].on;
-  if (!needed && !scene->effect[HR2D_EFFECT_INTERREFLECTION].on) {
+  if (!scene->effect[HR2D_EFFECT_OCCLUSION].on && !scene->effect[HR2D_EFFECT_BACKGROUND].on) {
     hr2di_scene_clear_plane(scene);
     return HR2D_OK;
   }
   const hr2d_status status = hr2di_scene_need_plane(scene, watch);
   if (status) return hr2di_scene_fail(scene, status, watch, "the plane");
-  if (scene->parts.wanted || !needed) return HR2D_OK;
+  if (scene->parts.wanted) return HR2D_OK;
   return hr2di_message_fail(
       &scene->message, HR2D_ESCENE, "%s and %s cross within roundings, as too many others do",
       label_of_wall(scene, wall[0]).text, label_of_wall(scene, wall[1]).text);

@@ -44,9 +44,8 @@ struct hr2d_scene {
   int exponent;      /* the unit is 2^exponent */
   hr2di_walls walls; /* the occluders; made by commit, as all that follows */
   hr2di_runs runs;
-  hr2di_plane plane;      /* there with the effects of occlusion or of the background, and with
-                             interreflection if it can be made; during commit once needed */
-  hr2di_side_parts parts; /* of the plane, or empty */
+  hr2di_plane plane;      /* empty without the effects of occlusion and of the background, */
+  hr2di_side_parts parts; /* and so are these; during commit there once they were needed */
   struct {
     int is;           /* during commit: there can be no plane, */
     uint32_t wall[2]; /* as of these walls, and too many others, nobody knows how they cross */

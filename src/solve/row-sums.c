@@ -25,7 +25,8 @@ enum { DEPTH = 1100 };
 /* The row of one patch. */
 typedef struct walker {
   const hr2d_hierarchy *h;
-  const hr2d_scene *scene;
+  const hr2d_scene *scene; /* with a plane, unless nobody knows how walls cross */
+  hr2d_scene own;          /* shares all but the plane with the scene, if that has none */
   hr2di_watch *watch;
   hr2di_walk walk;
   unsigned char *kind;     /* per side, as hr2di_side_kind() */
@@ -203,16 +204,28 @@ static void finish(hr2di_row_sums *rows, uint32_t patch, const walker *w) {
   } while (leaf);
 }
 
+/* Commit keeps no plane if it is of little use. */
+static hr2d_status need_plane(walker *w, const hr2d_allocator *alloc) {
+  if (w->scene->parts.wanted || w->scene == &w->own) return HR2D_OK;
+  w->own = *w->scene;
+  w->own.alloc = *alloc;
+  w->scene = &w->own;
+  return hr2di_scene_need_plane(&w->own, w->watch);
+}
+
 /* Beams end at backs only if these are asked for. */
-static hr2d_status prepare(walker *w, const hr2di_row_sums *rows) {
+static hr2d_status prepare(walker *w, const hr2d_allocator *alloc) {
+  hr2d_status status = need_plane(w, alloc);
   const hr2di_side_parts *p = &w->scene->parts;
   const hr2di_triangulation *t = &w->scene->plane.triangulation;
-  hr2d_status status = HR2D_OK;
+  if (status || !p->wanted) return status;
+  w->kind = hr2di_alloc(alloc, t->edges, 2 * sizeof *w->kind);
+  if (!w->kind) return HR2D_ENOMEM;
   w->walk = (hr2di_walk){.in = t,
                          .wanted = w->back ? w->kind : p->wanted,
                          .take = take,
                          .ctx = w,
-                         .alloc = rows->alloc,
+                         .alloc = *alloc,
                          .watch = w->watch};
   for (hr2di_wall_side s = 0; s < 2 * t->edges && !status; s++) {
     const hr2di_parts of = p->of_side[s].parts;
@@ -225,13 +238,14 @@ static hr2d_status prepare(walker *w, const hr2di_row_sums *rows) {
 static hr2d_status make_rows(hr2di_row_sums *rows, const hr2d_linkset *links, walker *w,
                              hr2di_sum *defect) {
   hr2d_status status = hr2di_defect_sum(links, defect, w->watch);
-  if (!status) status = prepare(w, rows);
   if (status) return status;
   hr2di_defect_closed(links, defect, rows->closed);
   for (uint32_t k = 0; k < w->scene->patches && !status; k++) {
     if (!hr2di_scene_lit(w->scene, k)) continue;
+    const int open = !rows->closed[k];
     w->patch = k;
-    if (!rows->closed[k]) status = look_around(w);
+    if (open && !w->kind) status = prepare(w, &rows->alloc);
+    if (open && !status) status = look_around(w);
     finish(rows, k, w);
     if (!status) status = hr2di_watch_work(w->watch, 1);
   }
@@ -239,6 +253,7 @@ static hr2d_status make_rows(hr2di_row_sums *rows, const hr2d_linkset *links, wa
 }
 
 static void clear(walker *w, const hr2d_allocator *alloc) {
+  if (w->scene == &w->own) hr2di_scene_clear_plane(&w->own);
   hr2di_walk_clear(&w->walk);
   hr2di_sight_list_clear(&w->seen);
   hr2di_sight_list_clear(&w->part);
@@ -249,24 +264,23 @@ static void clear(walker *w, const hr2d_allocator *alloc) {
 }
 
 hr2d_status hr2di_row_sums_init(hr2di_row_sums *rows, const hr2di_transport *t, int backs) {
-  const hr2d_scene *scene = t->hierarchy->scene;
   const hr2d_allocator *alloc = &t->alloc;
+  const size_t patches = t->hierarchy->scene->patches;
   *rows = (hr2di_row_sums){.hierarchy = t->hierarchy, .alloc = *alloc, .watch = t->watch};
   rows->front = hr2di_alloc_zero(alloc, t->elements, sizeof *rows->front);
   rows->back = backs ? hr2di_alloc_zero(alloc, t->elements, sizeof *rows->back) : NULL;
-  rows->closed = hr2di_alloc_zero(alloc, scene->patches, 1);
-  hr2di_sum *defect = hr2di_alloc(alloc, scene->patches, sizeof *defect);
+  rows->closed = hr2di_alloc_zero(alloc, patches, 1);
+  hr2di_sum *defect = hr2di_alloc(alloc, patches, sizeof *defect);
   walker *w = hr2di_alloc_zero(alloc, 1, sizeof *w);
   hr2d_status status = HR2D_ENOMEM;
   if (w) {
     w->h = t->hierarchy;
-    w->scene = scene;
+    w->scene = w->h->scene;
     w->watch = t->watch;
     w->walk.alloc = w->seen.alloc = w->part.alloc = *alloc;
-    w->kind = hr2di_alloc_zero(alloc, scene->plane.triangulation.edges, 2 * sizeof *w->kind);
     w->front = hr2di_alloc_zero(alloc, t->elements, sizeof *w->front);
     w->back = backs ? hr2di_alloc_zero(alloc, t->elements, sizeof *w->back) : NULL;
-    if (rows->front && rows->closed && defect && w->kind && w->front &&
+    if (rows->front && rows->closed && defect && w->front &&
         (!backs || (rows->back && w->back)))
       status = make_rows(rows, t->links, w, defect);
     clear(w, alloc);
