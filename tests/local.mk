@@ -42,6 +42,7 @@ SUITES = \
 	tests/unit/solve/check-solve \
 	tests/unit/solve/check-background \
 	tests/unit/solve/check-closure \
+	tests/unit/solve/check-row-sums \
 	tests/unit/solve/check-lengths \
 	tests/unit/refine/check-occlusion \
 	tests/unit/scene/check-effects \
