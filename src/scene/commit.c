@@ -32,8 +32,8 @@ static hr2di_label label_of_wall(const hr2d_scene *scene, uint32_t wall) {
   return hr2di_patch_label(scene, patch);
 }
 
-/* The plane shows what is in the way, and what backs hide of the background; else few ask it
-   after commit. */
+/* The plane shows what is in the way, and what backs hide of the background.  Else it would
+   mostly lie idle after commit: row sums of open scenes make their own. */
 static hr2d_status keep_plane(hr2d_scene *scene, hr2di_watch *watch) {
   const uint32_t *wall = scene->unclear.wall;
   if (!scene->effect[HR2D_EFFECT_OCCLUSION].on && !scene->effect[HR2D_EFFECT_BACKGROUND].on) {

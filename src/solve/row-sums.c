@@ -204,7 +204,7 @@ static void finish(hr2di_row_sums *rows, uint32_t patch, const walker *w) {
   } while (leaf);
 }
 
-/* Commit keeps no plane if it is of little use. */
+/* Commit keeps no plane where nothing is in the way and no background is before backs. */
 static hr2d_status need_plane(walker *w, const hr2d_allocator *alloc) {
   if (w->scene->parts.wanted || w->scene == &w->own) return HR2D_OK;
   w->own = *w->scene;
