@@ -107,9 +107,7 @@ static void check_leaf(randoms *r, const summed *s, tally *t) {
   t->sky += sky > 0.01 * e->length;
   o.wall[random_below(r, (int)o.count)] = o.wall[o.count - 1];
   o.count--;
-  t->differ += fabs(over_patches(scene, at, e->patch, &o) + over_sky(at, &o) - front - sky) +
-                   fabs(over_sky(at, &o) - sky) >
-               1e-3 * e->length;
+  t->differ += fabs(over_patches(scene, at, e->patch, &o) - front) > 1e-3 * e->length;
   free(o.wall);
 }
 
