@@ -155,7 +155,7 @@ libhr2d_core_la_SOURCES = \
 	src/refine/validate-links.c \
 	src/solve/background.c src/solve/background.h \
 	src/solve/closure.c src/solve/closure.h \
-	src/solve/closure-order-p.c \
+	src/solve/closure-mean.c src/solve/closure-order-p.c \
 	src/solve/energy-balance.c src/solve/energy-balance.h \
 	src/solve/equation.c src/solve/equation.h \
 	src/solve/equation-power.c \

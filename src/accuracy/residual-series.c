@@ -12,6 +12,7 @@
 
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
+#include "solve/closure.h"
 
 enum { TERMS = 4 };
 
@@ -28,6 +29,7 @@ static void compare_irradiance(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
   hr2di_equation_gather(eq, e->kept);
+  hr2di_closure_move_mean(t, e->kept, eq->irradiance);
   hr2di_estimator_averages(e, eq->irradiance, e->average[1]);
   for (size_t k = 0; k < e->values; k++)
     e->average[1][k] -= ldexp(hr2d_solution_irradiance(e->coarse, k / t->bands, k % t->bands),

@@ -119,6 +119,7 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
   hr2di_watch_phase(&s->watch, "rows");
   status = hr2di_transport_init(t, s->links, s->options.threads, &s->watch);
   if (!status) status = integrate_rows(s);
+  if (!status && t->closure) status = hr2di_closure_set_mean(t);
   if (!status && t->closure && !links->directed) status = hr2di_balance_init(&s->balance, t);
   if (!status) status = hr2di_watch_work(&s->watch, t->leaves * t->width / 4);
   if (status) return status;

@@ -9,6 +9,7 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
+#include "solve/closure.h"
 #include "solve/equation.h"
 #include "solve/existence.h"
 
@@ -132,6 +133,7 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
     made->power[band] = sum_power(s, band);
   }
   int finite = take_raised(s, s->radiosity, made->value);
+  hr2di_closure_move_mean(t, s->radiosity, s->irradiance);
   finite &= take_raised(s, s->irradiance, t->up);
   made->irradiance = t->up;
   t->up = NULL;

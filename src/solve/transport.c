@@ -56,6 +56,7 @@ void hr2di_transport_clear(hr2di_transport *t) {
   if (t->send != t->receive) hr2di_alloc_free(&t->alloc, t->send);
   hr2di_alloc_free(&t->alloc, t->receive);
   hr2di_alloc_free(&t->alloc, t->closure);
+  hr2di_alloc_free(&t->alloc, t->mean);
   hr2di_alloc_free(&t->alloc, t->closed);
   hr2di_alloc_free(&t->alloc, t->sky);
 }

@@ -213,8 +213,12 @@ static double scalar(const double *u, const double *v, size_t n) {
 }
 
 /* (I − √ρ M √ρ) y = √ρ M √w E by conjugate gradients; then B = E + ρKB some times over, which
-   gives small patches the digits that the norm of all does not ask for. */
-static void solve(convex_solution *s, const double *m) {
+   gives small patches the digits that the norm of all does not ask for.
+
+   At last H is gathered without the diagonal.  Its mean over a patch is 0, since the rules add
+   up to the exchange of whole patches; what it has in doubles, times B of a lamp, may be much
+   of the H of the lamp. */
+static void solve(convex_solution *s, double *m) {
   enum { MOST = 400, SWEEPS = 12 };
   const size_t n = s->count;
   double *space = calloc(6 * n, sizeof *space);
@@ -245,6 +249,8 @@ static void solve(convex_solution *s, const double *m) {
     for (size_t k = 0; k < n; k++)
       in[k] = sqrt((double)s->place[k].weight) * emission(s, k) + reflectance(s, k) * q[k];
   }
+  for (size_t k = 0; k < n; k++) m[k * n + k] = 0;
+  multiply(m, n, in, q);
   for (size_t k = 0; k < n; k++) {
     s->radiosity[k] = in[k] / sqrt((double)s->place[k].weight);
     s->irradiance[k] = q[k] / sqrt((double)s->place[k].weight);

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Each link has its exact exchange, so that the mean d̄ of d over a patch is 0 but for roundings
+   of the row sum: of 1, on a patch that sees patches in every direction.  In d̄B they are
+   roundings of the patch's own light, and a lamp that gets back 1e-8 of what it sends would
+   have a part of 1e-8 of its H from there.  With d̄H in the place of d̄B,
+
+     H' = H − d̄(B − H),   H̄' = (1 + d̄) Σ K̄_ij B_j + the mean of (d − d̄)B,
+
+   roundings of K are roundings of H.  Where B = H, as in an isothermal room, nothing changes.
+   The equation keeps d̄B, which is symmetric: in B it is a rounding, and powers are balanced. */
+#include <math.h>
+
+#include "base/alloc.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "links/patch-defect.h"
+#include "scene/scene-impl.h"
+#include "solve/closure.h"
+
+/* A mean above this part of 1 is no rounding: clusters exchange less accurately, and the links
+   of a caller may lack pairs. */
+#define ROUNDING HR2DI_DEFECT_CLOSED
+
+hr2d_status hr2di_closure_set_mean(hr2di_transport *t) {
+  const hr2d_element *element = t->hierarchy->element;
+  const size_t square = t->order * t->order;
+  t->mean = hr2di_alloc_zero(&t->alloc, t->hierarchy->scene->patches, sizeof *t->mean);
+  if (!t->mean) return HR2D_ENOMEM;
+  for (size_t k = 0; k < t->leaves; k++) {
+    const hr2d_element *leaf = &element[t->leaf[k]];
+    t->mean[leaf->patch] += leaf->length / element[leaf->patch].length * t->closure[k * square];
+  }
+  return hr2di_watch_work(t->watch, t->leaves / 16);
+}
+
+int hr2di_closure_is_rounding(const hr2di_transport *t, size_t patch) {
+  return fabs(t->mean[patch]) <= ROUNDING;
+}
+
+void hr2di_closure_move_mean(const hr2di_transport *t, const double *radiosity,
+                             double *irradiance) {
+  for (size_t k = 0; k < t->leaves * t->width && t->mean; k++) {
+    const size_t patch = t->hierarchy->element[t->leaf[k / t->width]].patch;
+    if (hr2di_closure_is_rounding(t, patch))
+      irradiance[k] -= t->mean[patch] * (radiosity[k] - irradiance[k]);
+  }
+}
