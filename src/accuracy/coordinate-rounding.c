@@ -18,6 +18,8 @@
    background add up to 1, so that what one of them has more another one has less:
    - on a patch whose row sum closure makes 1, by δ(B_j − B_i);
    - on one that sees a background of radiosity L, by δ(B_j − L).
+   H as it is told has the mean of H in the place of that of B, closure-mean.c: on a closed
+   patch it is off by δ(B_j − a), a = H̄ + B_i − B̄ = (1−ρ)H̄ + ρH_i.
    None of these is negative, so that a difference is at most the larger of two. */
 #include "accuracy/coordinate-rounding.h"
 
@@ -75,11 +77,12 @@ static double exchange_off(hr2d_pair pair, const hr2d_element *element, const of
   return fmin(2 * off * area, shorter);
 }
 
-typedef struct levels {
-  const double *most;     /* |B| of elements, elements × bands */
-  const double *light;    /* L, per band */
+typedef struct gather {
+  const hr2di_levels *levels;
+  const double *own[2];   /* what stands for B_i, elements × bands */
   unsigned char *has_sky; /* elements: a leaf below sees the background */
-} levels;
+  double *error[2];       /* elements × bands */
+} gather;
 
 static void find_sky(const hr2di_transport *t, unsigned char *has_sky) {
   const hr2d_element *e = t->hierarchy->element;
@@ -90,15 +93,17 @@ static void find_sky(const hr2di_transport *t, unsigned char *has_sky) {
 }
 
 /* What the second of a pair does to the irradiance of the first. */
-static void add_pair(const hr2di_transport *t, double off, const levels *is, uint32_t i,
-                     uint32_t j, double *error) {
+static void add_pair(const hr2di_transport *t, double off, const gather *g, uint32_t i,
+                     uint32_t j) {
   const hr2d_element *e = &t->hierarchy->element[i];
   const int closed = t->closed && t->closed[e->patch];
   for (size_t b = 0; b < t->bands; b++) {
-    const double light = is->has_sky[i] ? is->light[b] : 0;
-    const double other = fmax(is->most[j * t->bands + b], light);
-    const double own = closed ? is->most[i * t->bands + b] : 0;
-    error[i * t->bands + b] += off / e->length * fmax(other, own);
+    const double light = g->has_sky[i] ? g->levels->light[b] : 0;
+    const double other = fmax(g->levels->most[j * t->bands + b], light);
+    for (int told = 0; told < 2; told++) {
+      const double own = closed ? g->own[told][i * t->bands + b] : 0;
+      g->error[told][i * t->bands + b] += off / e->length * fmax(other, own);
+    }
   }
 }
 
@@ -124,13 +129,12 @@ static double link_off(const hr2di_transport *t, uint64_t link, const offsets *p
   return hides && !distant ? off + HIDDEN * fmin(i->length, j->length) : off;
 }
 
-static void add_links(const hr2di_transport *t, const offsets *places, const levels *is,
-                      double *error) {
+static void add_links(const hr2di_transport *t, const offsets *places, const gather *g) {
   for (uint64_t k = 0; k < t->links->store.count && !hr2di_watch_work(t->watch, 1); k++) {
     const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
     const double off = link_off(t, k, places);
-    add_pair(t, off, is, pair.first, pair.second, error);
-    if (!t->links->directed) add_pair(t, off, is, pair.second, pair.first, error);
+    add_pair(t, off, g, pair.first, pair.second);
+    if (!t->links->directed) add_pair(t, off, g, pair.second, pair.first);
   }
 }
 
@@ -151,25 +155,35 @@ static void find_places(const hr2d_hierarchy *h, offsets *is, hr2di_watch *watch
   }
 }
 
-hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const double *most,
-                                  const double *light, double *error) {
+static void add_leaves(const hr2di_transport *t, const double *all, double *error) {
+  for (size_t k = 0; k < t->leaves; k++)
+    for (size_t b = 0; b < t->bands; b++)
+      error[k * t->bands + b] += all[t->leaf[k] * t->bands + b];
+}
+
+hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const hr2di_levels *levels,
+                                  double *const error[2]) {
+  const size_t values = t->elements * t->bands;
   offsets places = {hr2di_alloc(&t->alloc, t->elements, sizeof *places.offset),
                     hr2di_alloc_zero(&t->alloc, t->elements, 1)};
-  double *all = hr2di_alloc_zero(&t->alloc, t->elements, t->bands * sizeof *all);
-  levels is = {most, light, hr2di_alloc_zero(&t->alloc, t->elements, 1)};
-  const int room = places.offset && places.exact && all && is.has_sky;
+  double *all = hr2di_alloc_zero(&t->alloc, values, 2 * sizeof *all);
+  const gather g = {levels,
+                    {levels->most, levels->own},
+                    hr2di_alloc_zero(&t->alloc, t->elements, 1),
+                    {all, all ? all + values : NULL}};
+  const int room = places.offset && places.exact && all && g.has_sky;
   if (room) {
-    find_sky(t, is.has_sky);
+    find_sky(t, g.has_sky);
     find_places(t->hierarchy, &places, t->watch);
-    add_links(t, &places, &is, all);
-    lower(t, all);
-    for (size_t k = 0; k < t->leaves; k++)
-      for (size_t b = 0; b < t->bands; b++)
-        error[k * t->bands + b] += all[t->leaf[k] * t->bands + b];
+    add_links(t, &places, &g);
+    for (int told = 0; told < 2; told++) {
+      lower(t, g.error[told]);
+      add_leaves(t, g.error[told], error[told]);
+    }
   }
   hr2di_alloc_free(&t->alloc, places.offset);
   hr2di_alloc_free(&t->alloc, places.exact);
   hr2di_alloc_free(&t->alloc, all);
-  hr2di_alloc_free(&t->alloc, is.has_sky);
+  hr2di_alloc_free(&t->alloc, g.has_sky);
   return room ? hr2di_watch_status(t->watch) : HR2D_ENOMEM;
 }

@@ -36,17 +36,22 @@ void hr2di_estimator_averages(hr2di_estimator *e, const double *field, double *a
     for (size_t b = 0; b < t->bands; b++) average[k * t->bands + b] = t->up[k * t->width + b];
 }
 
-void hr2di_estimator_set_most(hr2di_estimator *e, const double *field) {
+void hr2di_estimator_lift(const hr2di_estimator *e, double *most) {
   const hr2di_transport *t = &e->eq.transport;
   const hr2d_element *element = t->hierarchy->element;
+  for (size_t k = t->elements; k-- > 0;)
+    for (size_t b = 0; b < t->bands && element[k].child; b++) {
+      const double *child = most + element[k].child * t->bands + b;
+      most[k * t->bands + b] = fmax(child[0], child[t->bands]);
+    }
+}
+
+void hr2di_estimator_set_most(hr2di_estimator *e, const double *field) {
+  const hr2di_transport *t = &e->eq.transport;
   for (size_t k = 0; k < t->leaves && !hr2di_estimator_stopped(e); k++)
     for (size_t b = 0; b < t->bands; b++)
       e->most[t->leaf[k] * t->bands + b] = hr2di_estimator_most(e, field, k, b);
-  for (size_t k = t->elements; k-- > 0;)
-    for (size_t b = 0; b < t->bands && element[k].child; b++) {
-      const double *child = e->most + element[k].child * t->bands + b;
-      e->most[k * t->bands + b] = fmax(child[0], child[t->bands]);
-    }
+  hr2di_estimator_lift(e, e->most);
 }
 
 /* Solves with the source of each band scaled to about 1, by a power of two: squares of the
@@ -100,7 +105,7 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
   const size_t field = e->eq.field, rows = t->leaves * t->bands;
   e->values = t->hierarchy->scene->patches * t->bands;
   e->space = hr2di_alloc_zero(
-      alloc, 4 * field + 4 * e->values + t->elements * t->bands + rows + 10 * t->bands,
+      alloc, 4 * field + 4 * e->values + 2 * t->elements * t->bands + 2 * rows + 10 * t->bands,
       sizeof *e->space);
   e->exponent_of = hr2di_alloc(alloc, t->bands, sizeof *e->exponent_of);
   if (!e->space || !e->exponent_of) return HR2D_ENOMEM;
@@ -112,8 +117,10 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
     e->rounding[h] = next + e->values;
   }
   e->most = next;
-  e->off = next + t->elements * t->bands;
-  next = e->off + rows;
+  e->own = next + t->elements * t->bands;
+  e->off[0] = e->own + t->elements * t->bands;
+  e->off[1] = e->off[0] + rows;
+  next = e->off[1] + rows;
   for (int h = 0; h < 2; h++, next += 3 * t->bands) {
     e->largest[h] = next;
     e->point[h] = next + t->bands;

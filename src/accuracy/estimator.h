@@ -31,13 +31,14 @@ typedef struct hr2di_estimator {
   double *average[2];  /* patches × bands: errors of averages, of B and of H */
   double *rounding[2]; /* likewise what roundings may be */
   double *most;        /* elements × bands: |field| at most */
-  double *off;         /* leaves × bands: what roundings may do to H */
-  double *floor;       /* 2 × bands, of B and of H: no average counts as less */
-  double *safe;        /* likewise: errors of averages without signs */
-  double *largest[2];  /* per band: B and H at a point */
-  double *point[2];    /* per band: errors at points, of B and of H */
-  double *stray[2];    /* per band: what roundings may be at points */
-  int *exponent_of;    /* per band: what the last solve was scaled by */
+  double *own;         /* likewise: what of |B| roundings of H on the element itself are of */
+  double *off[2];     /* leaves × bands: what roundings may do to H, as B has it and as told */
+  double *floor;      /* 2 × bands, of B and of H: no average counts as less */
+  double *safe;       /* likewise: errors of averages without signs */
+  double *largest[2]; /* per band: B and H at a point */
+  double *point[2];   /* per band: errors at points, of B and of H */
+  double *stray[2];   /* per band: what roundings may be at points */
+  int *exponent_of;   /* per band: what the last solve was scaled by */
 } hr2di_estimator;
 
 /* Makes an estimator of a solved answer, with the operator of `finer`.  Returns HR2D_OK, or a
@@ -56,6 +57,9 @@ double hr2di_estimator_most(const hr2di_estimator *e, const double *field, size_
 
 /* Sets e->most to the largest |field| on each element. */
 void hr2di_estimator_set_most(hr2di_estimator *e, const double *field);
+
+/* Lifts values of leaves, in an array of elements × bands, to all elements as the largest. */
+void hr2di_estimator_lift(const hr2di_estimator *e, double *most);
 
 /* ρ of the patch of a leaf. */
 double hr2di_estimator_rho(const hr2di_estimator *e, size_t leaf, size_t band);

@@ -23,8 +23,8 @@ static void reflect(hr2di_equation *eq, double *field) {
     field[k] = eq->root_rho[k] * eq->root_rho[k] * eq->irradiance[k];
 }
 
-/* K⁺B_h − H_h in averages, and the largest B and H; of H on leaves, as it may not be resolved
-   on those of patches that reflect nothing. */
+/* K⁺B_h − H_h in averages, |H| in e->own, and the largest B and H; of H on leaves, as it may
+   not be resolved on those of patches that reflect nothing. */
 static void compare_irradiance(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
@@ -40,7 +40,9 @@ static void compare_irradiance(hr2di_estimator *e) {
       const double h = hr2di_estimator_most(e, eq->irradiance, k, b);
       e->largest[0][b] = fmax(e->largest[0][b], hr2di_estimator_most(e, e->kept, k, b));
       e->largest[1][b] = fmax(e->largest[1][b], eq->irradiance[k * t->width + b]);
-      e->off[k * t->bands + b] = HR2DI_ESTIMATOR_ROUNDING * h;
+      e->own[t->leaf[k] * t->bands + b] = h;
+      e->off[0][k * t->bands + b] = HR2DI_ESTIMATOR_ROUNDING * h;
+      e->off[1][k * t->bands + b] = HR2DI_ESTIMATOR_ROUNDING * h;
     }
 }
 

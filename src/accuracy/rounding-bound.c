@@ -11,8 +11,12 @@
 
    Exchange areas have a relative error of ε, so that |δK_ij| ≤ εK_ij and |δd_i| ≤ εr_i for the
    row sum r_i that d_i corrects: of all links on closed patches, of distant links on others.
-   On a patch that shines and sees the dark r_i|z_i| is much more than H_i.  A difference from 1
-   has some roundings of 1, however small it is. */
+   On a patch that shines and sees the dark r_i|z_i| is much more than H_i.  But in H as it is
+   told the mean of H takes the place of that of B (closure-mean.c), and z_i that of
+
+     z̄' + z_i − z̄,   where z' = H − c, or H − L.
+
+   A difference from 1 has some roundings of 1, however small it is. */
 #include "accuracy/rounding-bound.h"
 
 #include <float.h>
@@ -30,8 +34,26 @@ static double fluctuation(hr2di_estimator *e, double *field, size_t leaf, size_t
   return hr2di_estimator_most(e, field, leaf, band);
 }
 
-/* Sets `most` and `rest` to constants on leaves: |z| at most, and |z − z̄|. */
-static void set_fields(hr2di_estimator *e, double *most, double *rest) {
+/* Whether H as it is told has the mean of H in the place of that of B. */
+static int is_moved(const hr2di_transport *t, size_t leaf) {
+  return t->mean && hr2di_closure_is_rounding(t, t->hierarchy->element[t->leaf[leaf]].patch);
+}
+
+/* |z̄' + z_i − z̄| at most, for z̄ over the patch, with B̄ of patches in e->rounding[0]; |z_i|
+   where the mean of closure stays.  `from` is z_i − B_i. */
+static double moved(const hr2di_estimator *e, size_t leaf, size_t band, double from,
+                    double most, double rest) {
+  const hr2di_transport *t = &e->eq.transport;
+  const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
+  if (!is_moved(t, leaf)) return most;
+  const double apart =
+      e->kept[leaf * t->width + band] - e->rounding[0][patch * t->bands + band];
+  return fabs(hr2di_estimator_value(e, 1, patch, band) + from + apart) + rest;
+}
+
+/* Sets `most`, `rest` and `told` to constants on leaves: |z| at most, |z − z̄| over the leaf,
+   and moved(). */
+static void set_fields(hr2di_estimator *e, double *most, double *rest, double *told) {
   const hr2di_transport *t = &e->eq.transport;
   for (size_t k = 0; k < e->eq.field; k++) {
     const size_t m = k % t->width;
@@ -43,8 +65,11 @@ static void set_fields(hr2di_estimator *e, double *most, double *rest) {
   for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
     double *at = rest + leaf * t->width;
     for (size_t b = 0; b < t->bands; b++) {
-      most[leaf * t->width + b] = hr2di_estimator_most(e, rest, leaf, b);
+      const size_t k = leaf * t->width + b;
+      const double from = at[b] - e->kept[k];
+      most[k] = hr2di_estimator_most(e, rest, leaf, b);
       at[b] = fluctuation(e, rest, leaf, b);
+      told[k] = moved(e, leaf, b, from, most[k], at[b]);
     }
   }
 }
@@ -74,9 +99,10 @@ static void add_rows(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   hr2di_transport *t = &eq->transport;
   double *const most = e->error, *const rest = eq->radiosity, *const one = eq->work;
-  double *const received = eq->source, *const row = eq->irradiance;
+  double *const received = eq->source, *const row = eq->irradiance, *const told = eq->y;
   if (!t->closure && !t->sky) return;
-  set_fields(e, most, rest);
+  hr2di_estimator_averages(e, e->kept, e->rounding[0]);
+  set_fields(e, most, rest, told);
   for (size_t k = 0; k < eq->field; k++) one[k] = k % t->width < t->bands;
   hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, most, received);
   hr2di_transport_apply_part(t, HR2DI_DISTANT_LINKS, one, row);
@@ -84,14 +110,31 @@ static void add_rows(hr2di_estimator *e) {
     const int sky = is_set(t->sky, leaf, t->order);
     for (size_t b = 0; b < t->bands && (t->closure || sky); b++) {
       const size_t at = leaf * t->width + b;
-      const double own = t->closure ? corrected(e, row, leaf, b, most[at], rest[at])
-                                    : hr2di_estimator_most(e, row, leaf, b) * eq->light[b];
-      const double sum = hr2di_estimator_most(e, received, leaf, b) + own;
-      double *off = e->off + leaf * t->bands + b;
-      *off = fmax(*off, HR2DI_ESTIMATOR_ROUNDING * sum);
-      *off += sky ? DIFFERENCE * eq->light[b] : 0;
+      const double all = hr2di_estimator_most(e, received, leaf, b);
+      const double light =
+          t->closure ? 0 : hr2di_estimator_most(e, row, leaf, b) * eq->light[b];
+      for (int h = 0; h < 2; h++) {
+        const double z = h ? told[at] : most[at];
+        const double own = t->closure ? corrected(e, row, leaf, b, z, rest[at]) : light;
+        double *off = e->off[h] + leaf * t->bands + b;
+        *off = fmax(*off, HR2DI_ESTIMATOR_ROUNDING * (all + own));
+        *off += sky ? DIFFERENCE * eq->light[b] : 0;
+      }
     }
   }
+}
+
+/* Sets e->own from |H|: to what stands for |B_i| where H is told. */
+static void set_own(hr2di_estimator *e) {
+  const hr2di_transport *t = &e->eq.transport;
+  for (size_t leaf = 0; leaf < t->leaves; leaf++)
+    for (size_t b = 0; b < t->bands; b++) {
+      const size_t at = t->leaf[leaf] * t->bands + b;
+      const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
+      e->own[at] = is_moved(t, leaf) ? fmax(e->own[at], hr2di_estimator_value(e, 1, patch, b))
+                                     : e->most[at];
+    }
+  hr2di_estimator_lift(e, e->own);
 }
 
 hr2d_status hr2di_rounding_bound(hr2di_estimator *e, int reflects) {
@@ -99,13 +142,15 @@ hr2d_status hr2di_rounding_bound(hr2di_estimator *e, int reflects) {
   const hr2di_transport *t = &eq->transport;
   add_rows(e);
   hr2di_estimator_set_most(e, e->kept);
-  hr2d_status status = hr2di_coordinates_add(t, e->most, eq->light, e->off);
+  set_own(e);
+  const hr2di_levels levels = {e->most, e->own, eq->light};
+  hr2d_status status = hr2di_coordinates_add(t, &levels, e->off);
   for (size_t k = 0; k < eq->field && !status; k++) {
     const size_t leaf = k / t->width, m = k % t->width;
     const double b =
         m < t->bands ? HR2DI_ESTIMATOR_ROUNDING * hr2di_estimator_most(e, e->rest, leaf, m) : 0;
     eq->source[k] =
-        m < t->bands ? hr2di_estimator_rho(e, leaf, m) * e->off[leaf * t->bands + m] + b : 0;
+        m < t->bands ? hr2di_estimator_rho(e, leaf, m) * e->off[0][leaf * t->bands + m] + b : 0;
     eq->radiosity[k] = eq->source[k]; /* where nothing reflects */
   }
   if (!status && reflects) status = hr2di_estimator_solve(e, 1e-3);
@@ -119,7 +164,7 @@ hr2d_status hr2di_rounding_bound(hr2di_estimator *e, int reflects) {
                        HR2DI_ESTIMATOR_ROUNDING * e->largest[1][b];
       e->stray[1][b] = fmax(e->stray[1][b], h);
       e->stray[0][b] = fmax(e->stray[0][b], hr2di_estimator_rho(e, leaf, b) * h);
-      eq->irradiance[leaf * t->width + b] += e->off[leaf * t->bands + b];
+      eq->irradiance[leaf * t->width + b] += e->off[1][leaf * t->bands + b];
     }
   hr2di_estimator_averages(e, eq->irradiance, e->rounding[1]);
   return HR2D_OK;

@@ -13,23 +13,27 @@
 #include "base/alloc.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/patch-defect.h"
-#include "scene/scene-impl.h"
 #include "solve/closure.h"
 
 /* A mean above this part of 1 is no rounding: clusters exchange less accurately, and the links
    of a caller may lack pairs. */
 #define ROUNDING HR2DI_DEFECT_CLOSED
 
+/* Roots are the first elements.  The parts of children are those of averages of H. */
 hr2d_status hr2di_closure_set_mean(hr2di_transport *t) {
   const hr2d_element *element = t->hierarchy->element;
   const size_t square = t->order * t->order;
-  t->mean = hr2di_alloc_zero(&t->alloc, t->hierarchy->scene->patches, sizeof *t->mean);
-  if (!t->mean) return HR2D_ENOMEM;
-  for (size_t k = 0; k < t->leaves; k++) {
-    const hr2d_element *leaf = &element[t->leaf[k]];
-    t->mean[leaf->patch] += leaf->length / element[leaf->patch].length * t->closure[k * square];
+  double *mean = hr2di_alloc(&t->alloc, t->elements, sizeof *mean);
+  if (!mean) return HR2D_ENOMEM;
+  for (size_t k = 0; k < t->leaves; k++) mean[t->leaf[k]] = t->closure[k * square];
+  for (size_t k = t->elements; k-- > 0;) {
+    const uint32_t c = element[k].child;
+    if (!c) continue;
+    const double part = hr2di_element_left_part(element, (uint32_t)k);
+    mean[k] = mean[c + 1] + part * (mean[c] - mean[c + 1]);
   }
-  return hr2di_watch_work(t->watch, t->leaves / 16);
+  t->mean = mean;
+  return hr2di_watch_work(t->watch, t->elements / 16);
 }
 
 int hr2di_closure_is_rounding(const hr2di_transport *t, size_t patch) {

@@ -19,8 +19,8 @@ hr2d_status hr2di_closure_set(hr2di_transport *t, const hr2di_row_sums *rows);
 /* The same at an order above 1; no row sums need be integrated. */
 hr2d_status hr2di_closure_set_order_p(hr2di_transport *t);
 
-/* Sets t->mean to the mean of d over each patch, from t->closure.  Returns HR2D_OK, HR2D_ENOMEM
-   or the status of the watch. */
+/* Sets t->mean to the mean of d over each element, from t->closure.  Returns HR2D_OK,
+   HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_closure_set_mean(hr2di_transport *t);
 
 /* Whether the mean over a patch is a rounding. */

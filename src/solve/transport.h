@@ -29,7 +29,7 @@ typedef struct hr2di_transport {
   hr2di_watch *watch;
   hr2d_status failed; /* HR2D_ENOMEM if a gather lacked memory, or the status of the watch: its
                          result must not be used */
-  double *mean;       /* per patch: of the diagonal of `closure`; NULL for none */
+  double *mean;       /* per element: of the diagonal of `closure`; NULL for none */
   unsigned char *closed; /* per patch: closure makes row sums 1; NULL at order 1, or without */
 } hr2di_transport;
 

@@ -178,15 +178,15 @@ START_TEST(two_meshes_agree) {
 }
 END_TEST
 
-/* Lamps of 2e-5 and 4e-5 that get little back: 1e-4 to 1e-7 of what they send.  Where exchange
+/* Lamps of 2e-5 and 4e-5 that get little back: 1e-4 to 1e-8 of what they send.  Where exchange
    areas were those of rounded coordinates, H of the first one was off by 7e-9, and the second
-   one did not reach 1e-9. */
+   one did not reach 1e-9.  Where closure gave a lamp roundings of its own light, H of the third
+   one was off by 6e-9 under an estimate of 7e-12. */
 static const convex_mesh for_lamps = {9, 42};
 
 START_TEST(short_lamps_keep_digits_of_h) {
-  const int number[] = {1078, 1858};
-  const double bound[] = {1e-9, 1e-6};
-  for (int k = 0; k < 2; k++) {
+  const int number[] = {1078, 1858, 1033};
+  for (int k = 0; k < 3; k++) {
     const short_room r = short_room_draw(77, number[k]);
     hr2d_scene *scene = test_scene(r.patch, r.patches);
     hr2d_target target = HR2D_TARGET_INIT;
@@ -196,7 +196,8 @@ START_TEST(short_lamps_keep_digits_of_h) {
     ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &a), HR2D_OK);
     const found f = find(&r, for_lamps, solution);
     check_error("H", number[k], target.error, a.irradiance, f.average[1]);
-    ck_assert_double_lt(a.irradiance.bound, bound[k]);
+    ck_assert_double_lt(a.irradiance.bound, 1e-9);
+    ck_assert_double_le(f.average[1], 2 * a.irradiance.estimate + 1e-13);
     hr2d_solution_destroy(solution);
     hr2d_scene_destroy(scene);
   }
