@@ -18,7 +18,9 @@
  * **Closure** makes ∫ G of every leaf exact: the row sum of the leaf in the discrete kernel. At
  * order 1 a link spreads its exchange over the leaves below by the parts of these sums that
  * come from above, instead of evenly; at an order above 1, d·B is added on each leaf, with d
- * the part of ∫ G that its row lacks. With closure
+ * the part of ∫ G that its row lacks. The mean of d over a patch is a rounding; it multiplies H
+ * and not B where H is reported, since a lamp may get much less light than it sends. With
+ * closure
  * - a closed room with E = 1−ρ has B = 1 exactly;
  * - no light is lost or created;
  * - at order 1 the discrete equation has one solution if ρ < 1.
