@@ -5,6 +5,9 @@
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
 
+/* Ends that are nearer to each other than this part of both elements are one. */
+#define NEAR 0x1p-48
+
 /* The part of a patch behind an element; exact if all divisions were halvings, and 0 if there
    is none. */
 static double rest_behind(const hr2d_hierarchy *h, uint32_t element) {
@@ -39,7 +42,7 @@ static void measure_from(hr2di_line_frame *f, int at_end, hr2di_vector before,
 }
 
 /* The ends of an element, of the vector `size`, from the nearer end of its patch, which has the
-   vector `along`; returns that end. */
+   vector `along`; returns that end.  The last element of a patch ends where the patch does. */
 static hr2d_point measure_along(const hr2d_hierarchy *h, uint32_t element,
                                 const hr2di_vector *along, const hr2di_vector *size,
                                 hr2di_vector *start, hr2di_vector *end) {
@@ -47,7 +50,7 @@ static hr2d_point measure_along(const hr2d_hierarchy *h, uint32_t element,
   const double from = hr2di_element_start(h, element);
   if (from <= 0.5) {
     *start = hr2di_vector_times(along, from);
-    *end = hr2di_vector_plus(start, size);
+    *end = rest_behind(h, element) > 0 ? hr2di_vector_plus(start, size) : *along;
     return patch.a;
   }
   *end = hr2di_vector_times(along, -rest_behind(h, element));
@@ -136,6 +139,21 @@ static hr2di_vertex clipped(const hr2di_line_frame *f, unsigned own, double at,
   return z;
 }
 
+static double size_of(const hr2di_vector *p) {
+  return fmax(fabs(p->x), fabs(p->y));
+}
+
+/* Ends of i and of j within roundings are one, as where i stands on j: the direction from one
+   to the other would be noise. */
+static void join(const hr2di_line_frame *f, hr2di_vertex *on_i, hr2di_vertex *on_j) {
+  const hr2di_vector way = hr2di_vector_minus(&on_j->at, &on_i->at);
+  if (size_of(&way) > NEAR * fmin(size_of(&f->u), size_of(&f->v))) return;
+  on_i->t = on_j->t;
+  on_j->s = on_i->s;
+  on_j->at = on_i->at;
+  on_i->on = on_j->on = HR2DI_ON_BOTH;
+}
+
 int hr2di_line_ends(const hr2di_line_frame *f, hr2di_vertex right[2], hr2di_vertex left[2]) {
   const hr2di_vector to_c = hr2di_vector_minus(&f->c, &f->a);
   const hr2di_vector to_d = hr2di_vector_minus(&f->d, &f->a);
@@ -150,5 +168,7 @@ int hr2di_line_ends(const hr2di_line_frame *f, hr2di_vertex right[2], hr2di_vert
   right[0] = clipped(f, HR2DI_ON_I, 1, above_j);
   right[1] = clipped(f, HR2DI_ON_J, 0, above_i);
   left[1] = clipped(f, HR2DI_ON_J, 1, above_i);
+  join(f, &right[0], &right[1]);
+  join(f, &left[0], &left[1]);
   return 1;
 }
