@@ -92,7 +92,7 @@ libhr2d_core_la_SOURCES = \
 	src/formats/vs2-words.c \
 	src/visibility/events.c src/visibility/events.h \
 	src/visibility/events-impl.h \
-	src/visibility/events-rays.c \
+	src/visibility/events-beams.c \
 	src/visibility/exchange-matrix.c \
 	src/visibility/exchange-rows.c \
 	src/visibility/exchange-visit.c \

@@ -1,65 +1,76 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rays of visibility events: which walls meet at a vertex, and which walls a line through
-   vertices passes.
+/* Beams of visibility events: what an origin sees, and what it sees past the ends of walls.
 
-   From a point x look along a line: let u be the first vertex on it, and v the next point of
-   interest.  The view changes at x if light passes u on one side.  A ray from v through u need
-   not be followed beyond another vertex t on the line, and v need not be seen past one: the
-   pair (t, u) or (u, t) has the same line.  So walls include their ends here, except an end
-   that lies on another wall: there the other wall is met within rounding. */
+   From a point x look along a line: let u be the last vertex before x on it, and v the next
+   point of interest behind u.  The view changes at x if light passes u on one side.  So the
+   angle that v sees, walked through the triangles of the plane, splits at u, and the part on
+   the side where light passes ends at x, with the ray through u on its border. */
 #ifndef HR2D_SRC_VISIBILITY_EVENTS_IMPL_H
 #define HR2D_SRC_VISIBILITY_EVENTS_IMPL_H
 
-#include <hr2d/scene.h>
+#include "scene/scene-impl.h"
 
-#include "occlusion/walls.h"
+#define HR2DI_NO_VERTEX UINT32_MAX
 
-#define HR2DI_NO_VERTEX     UINT32_MAX
-#define HR2DI_EVENTS_NO_RUN UINT32_MAX
+/* A line through an origin and vertex `via` meets the front of a patch strictly inside.  It may
+   be found more than once.  A status but HR2D_OK ends the walk. */
+typedef hr2d_status (*hr2di_event_fn)(void *ctx, uint32_t patch, double at, uint32_t via);
 
-typedef struct hr2di_vertices {
+/* The border of an angle: from the origin through its tip, a vertex that the origin sees, or
+   along the wall of the origin. */
+typedef struct hr2di_border {
+  hr2d_point from, to;
+  uint32_t tip;    /* HR2DI_NO_VERTEX for the wall of the origin */
+  uint32_t behind; /* the last end of a wall exactly on the ray behind the tip */
+} hr2di_border;
+
+typedef struct hr2di_border_frame hr2di_border_frame;
+
+typedef struct hr2di_event_beams {
   hr2d_allocator alloc;
-  const hr2d_scene *scene;
-  const hr2di_walls *walls;
-  hr2d_point *point; /* per vertex of the walls, if a wall ends there */
-  uint32_t *first;   /* per vertex: where its walls begin in `wall`; one more */
-  uint32_t *wall;    /* the walls that end at each vertex */
-  uint32_t *run;     /* at 2·wall + forward: the run along this side of a wall */
+  const hr2d_scene *scene; /* with a plane */
+  const hr2di_triangulation *in;
   hr2di_watch *watch;
-  uint32_t blocker; /* the wall that was last found in the way */
-} hr2di_vertices;
-
-/* For a committed scene.  Returns HR2D_OK, HR2D_ENOMEM or the status of the watch.  Call
-   hr2di_vertices_clear() in any case. */
-hr2d_status hr2di_vertices_init(hr2di_vertices *vertices, const hr2d_scene *scene,
-                                const hr2d_allocator *alloc, hr2di_watch *watch);
-void hr2di_vertices_clear(hr2di_vertices *vertices);
-
-enum { HR2DI_EVENTS_RIGHT = 1, HR2DI_EVENTS_LEFT = 2 };
-
-/* A point where radiosity or visibility is not smooth: v above. */
-typedef struct hr2di_origin {
+  hr2di_event_fn take;
+  void *ctx;
+  uint64_t steps; /* triangles that were entered */
+  /* Found once. */
+  uint32_t *wall_of;   /* per edge */
+  unsigned char *free; /* per vertex: a wall ends there, and none goes on */
+  unsigned char *lit;  /* per triangle: it is in a part of the plane with a patch in light */
+  /* The last origin and its number. */
   hr2d_point at;
-  uint32_t vertex; /* HR2DI_NO_VERTEX if no wall ends there */
-  uint32_t host;   /* the wall that has it inside, or HR2DI_NO_WALL */
-  unsigned sides;  /* the sides of the host from which it matters */
-  uint32_t via;    /* u of the line on which it was found, or HR2DI_NO_VERTEX */
-} hr2di_origin;
+  uint32_t via;       /* the vertex that is not looked past */
+  uint32_t number;    /* counts origins */
+  uint32_t *own_wall; /* per wall: the number of the last origin that lies on it */
+  uint32_t *own_end;  /* the same per vertex: of whose walls it is an end */
+  hr2di_border right; /* of the angle that is walked */
+  hr2di_border_frame *frame;
+  size_t frames, room;
+} hr2di_event_beams;
 
-/* Finds the patch that the ray from v through u hits beyond u, a vertex that is not inside a
-   wall.  Returns 1, or 0 if the watch has stopped, or the ray is stopped, passes a vertex,
-   leaves the scene, or nothing changes at u. */
-int hr2di_origin_reaches(hr2di_vertices *vertices, const hr2di_origin *v, uint32_t u,
-                         uint32_t *patch);
+/* For a scene with a plane.  HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended by
+   hr2di_event_beams_clear() in any case. */
+hr2d_status hr2di_event_beams_init(hr2di_event_beams *b, const hr2d_scene *scene,
+                                   const hr2d_allocator *alloc, hr2di_watch *watch);
+void hr2di_event_beams_clear(hr2di_event_beams *b);
 
-/* Returns the next wall that has p inside, within rounding, or HR2DI_NO_WALL.  `stack` has room
-   for HR2DI_BOX_DEPTH boxes; before the first call it holds box 0. */
-uint32_t hr2di_events_next_host(const hr2di_vertices *vertices, hr2d_point p, uint32_t *stack,
-                                uint32_t *count);
+/* Looks from the start of a side into the angle from there to the next wall, unless what is
+   seen goes on there from one to the other without a change.  The sides that triangles know are
+   at once all such angles.  HR2D_OK, HR2D_ENOMEM, the status of the watch or of `take`; so for
+   the others. */
+hr2d_status hr2di_event_beams_from_vertex(hr2di_event_beams *b, hr2di_wall_side side);
 
-/* Finds the patch, along one side of a wall, that the line from → to crosses strictly inside;
-   the line does not run along the wall.  Returns 1, or 0 if there is none. */
-int hr2di_events_patch_across(const hr2di_vertices *vertices, uint32_t wall, unsigned side,
-                              hr2d_point from, hr2d_point to, uint32_t *patch);
+/* Looks from a point of a part in all directions in front of its wall, past all vertices but
+   `via`. */
+hr2d_status hr2di_event_beams_from_part(hr2di_event_beams *b, hr2d_point at,
+                                        const hr2di_side_part *part, uint32_t via);
+
+/* Looks along a wall past its end: the last one if `last`, else the first one. */
+hr2d_status hr2di_event_beams_along_wall(hr2di_event_beams *b, uint32_t wall, int last);
+
+/* The half-edge that leaves the end of a side, with the last triangle before the next wall in
+   front of the side on its left. */
+int32_t hr2di_event_beams_turn(const hr2di_event_beams *b, hr2di_wall_side side);
 
 #endif

@@ -5,14 +5,9 @@
    side. */
 #include "visibility/events.h"
 
-#include <math.h>
-
 #include "base/alloc.h"
 #include "base/sort.h"
-#include "geometry/orient-sign.h"
-#include "geometry/predicates.h"
-#include "occlusion/wall-tree.h"
-#include "scene/scene-impl.h"
+#include "geometry/vector.h"
 #include "visibility/events-impl.h"
 
 /* Events so near to one another or to an end, as fractions of the patch, are one. */
@@ -28,8 +23,9 @@ typedef struct finder {
   hr2d_allocator alloc;
   size_t max;
   hr2di_watch *watch;
-  hr2di_vertices vertices;
-  hr2di_origin *origin; /* of one generation */
+  hr2di_event_beams beams;
+  unsigned generation; /* of what is found now */
+  candidate *origin;   /* events of the generation before */
   size_t origins, origin_capacity;
   candidate *found;
   size_t count, capacity;
@@ -62,8 +58,7 @@ static hr2d_status settle(finder *f) {
   return kept > f->max ? HR2D_EMAX_ELEMENTS : HR2D_OK;
 }
 
-static hr2d_status add(finder *f, uint32_t patch, double at, unsigned generation,
-                       uint32_t via) {
+static hr2d_status add(finder *f, uint32_t patch, double at, uint32_t via) {
   if (!(at >= ALIKE && 1 - at >= ALIKE) || !hr2di_scene_lit(f->scene, patch)) return HR2D_OK;
   /* Half of them are more than there may be: some must be alike. */
   if (f->count / 2 > f->max) {
@@ -72,81 +67,12 @@ static hr2d_status add(finder *f, uint32_t patch, double at, unsigned generation
   }
   if (hr2di_alloc_reserve(&f->alloc, &f->found, &f->capacity, f->count + 1, sizeof *f->found))
     return HR2D_ENOMEM;
-  f->found[f->count++] = (candidate){{patch, at, generation}, via};
+  f->found[f->count++] = (candidate){{patch, at, f->generation}, via};
   return HR2D_OK;
 }
 
-static hr2d_status add_origin(finder *f, hr2di_origin origin) {
-  if (hr2di_alloc_reserve(&f->alloc, &f->origin, &f->origin_capacity, f->origins + 1,
-                          sizeof *f->origin))
-    return HR2D_ENOMEM;
-  f->origin[f->origins++] = origin;
-  return HR2D_OK;
-}
-
-/* The sides of a wall on which another one that has p inside is seen. */
-static unsigned crossed(const hr2di_vertices *t, hr2d_point p, uint32_t wall) {
-  uint32_t stack[HR2DI_BOX_DEPTH] = {0}, count = 1, host;
-  while ((host = hr2di_events_next_host(t, p, stack, &count)) != HR2DI_NO_WALL)
-    if (host != wall) return HR2DI_EVENTS_LEFT | HR2DI_EVENTS_RIGHT;
-  return 0;
-}
-
-/* Where a patch ends inside its wall there is something to see from its side only. */
-static hr2d_status add_joint(finder *f, hr2d_point p, uint32_t wall, unsigned side) {
-  const hr2d_segment w = f->vertices.walls->wall[wall].at;
-  if (hr2di_point_same(p, w.a) || hr2di_point_same(p, w.b)) return HR2D_OK;
-  const unsigned sides = side | crossed(&f->vertices, p, wall);
-  return add_origin(f, (hr2di_origin){p, HR2DI_NO_VERTEX, wall, sides, HR2DI_NO_VERTEX});
-}
-
-static hr2d_status add_joints(finder *f, uint32_t wall, unsigned side) {
-  const uint32_t number = f->vertices.run[2 * wall + (side == HR2DI_EVENTS_LEFT)];
-  hr2d_status status = HR2D_OK;
-  if (number == HR2DI_EVENTS_NO_RUN) return status;
-  const hr2di_run run = f->vertices.scene->runs.run[number];
-  const uint32_t *patch = f->vertices.scene->runs.patch;
-  for (uint32_t k = run.first; k < run.last && !status; k++) {
-    status = hr2di_watch_work(f->watch, 4);
-    if (status) break;
-    const hr2d_segment s = f->scene->patch[patch[k]].scaled;
-    const int joined =
-        k > run.first && hr2di_point_same(f->scene->patch[patch[k - 1]].scaled.b, s.a);
-    if (!joined) status = add_joint(f, s.a, wall, side);
-    if (!status) status = add_joint(f, s.b, wall, side);
-  }
-  return status;
-}
-
-/* The sides of its host, if it has one, on which walls end at a vertex. */
-static unsigned sides_of(const hr2di_vertices *t, uint32_t vertex) {
-  const uint32_t host = t->walls->host[vertex];
-  unsigned sides = 0;
-  if (host == HR2DI_NO_WALL) return HR2DI_EVENTS_LEFT | HR2DI_EVENTS_RIGHT;
-  const hr2d_segment h = t->walls->wall[host].at;
-  for (uint32_t k = t->first[vertex]; k < t->first[vertex + 1]; k++) {
-    const hr2di_wall *w = &t->walls->wall[t->wall[k]];
-    const int side = hr2di_orient_sign(h.a, h.b, w->vertex[0] == vertex ? w->at.b : w->at.a);
-    sides |= side > 0 ? HR2DI_EVENTS_LEFT : HR2DI_EVENTS_RIGHT;
-  }
-  return sides | crossed(t, t->point[vertex], host);
-}
-
-/* All ends of patches. */
-static hr2d_status add_vertices(finder *f) {
-  const hr2di_vertices *t = &f->vertices;
-  hr2d_status status = HR2D_OK;
-  for (uint32_t v = 0; v < t->walls->vertices && !status; v++) {
-    status = hr2di_watch_work(f->watch, 4 + (t->first[v + 1] - t->first[v]) / 2);
-    if (!status && t->first[v] < t->first[v + 1])
-      status = add_origin(f, (hr2di_origin){t->point[v], v, t->walls->host[v], sides_of(t, v),
-                                            HR2DI_NO_VERTEX});
-  }
-  for (uint32_t w = 0; w < t->walls->walls && !status; w++) {
-    status = add_joints(f, w, HR2DI_EVENTS_LEFT);
-    if (!status) status = add_joints(f, w, HR2DI_EVENTS_RIGHT);
-  }
-  return status;
+static hr2d_status take(void *ctx, uint32_t patch, double at, uint32_t via) {
+  return add(ctx, patch, at, via);
 }
 
 /* Exactly on a line along an axis. */
@@ -163,43 +89,81 @@ static int reflects(const hr2d_scene *scene, size_t patch) {
   return 0;
 }
 
-/* The events of a generation, where they show: B = E on a patch that does not reflect. */
-static hr2d_status add_events(finder *f, unsigned generation) {
-  const hr2di_walls *walls = f->vertices.walls;
+/* Where patches of one side meet there is something to see on that side only. */
+static hr2d_status look_from_joints(finder *f, hr2di_wall_side side) {
+  const hr2di_side_part *part = f->scene->parts.part;
+  const hr2di_parts of = f->scene->parts.of_side[side].parts;
+  hr2d_status status = HR2D_OK;
+  for (uint32_t k = of.first; k + 1 < of.last && !status; k++)
+    status = hr2di_event_beams_from_part(&f->beams, part[k].at.b, &part[k], HR2DI_NO_VERTEX);
+  return status;
+}
+
+/* Generation 1: all lines through ends of patches. */
+static hr2d_status look_from_ends(finder *f) {
+  const hr2di_triangulation *t = &f->scene->plane.triangulation;
+  hr2d_status status = HR2D_OK;
+  f->generation = 1;
+  for (hr2di_wall_side s = 0; s < 2 * t->edges && !status; s++) {
+    const hr2di_wall_edge *e = &t->edge[s >> 1];
+    const int32_t h = e->half_edge[s & 1];
+    status = hr2di_watch_work(f->watch, 1);
+    if (status || t->triangle[h >> 2].across[h & 3] != ~(int32_t)s) continue;
+    status = hr2di_event_beams_from_vertex(&f->beams, s);
+    if (!status) status = look_from_joints(f, s);
+  }
+  for (uint32_t w = 0; w < f->scene->walls.walls && !status; w++) {
+    status = hr2di_event_beams_along_wall(&f->beams, w, 0);
+    if (!status) status = hr2di_event_beams_along_wall(&f->beams, w, 1);
+  }
+  return status;
+}
+
+/* The part of a patch at a point of its line. */
+static const hr2di_side_part *part_at(const hr2d_scene *scene, uint32_t patch, hr2d_point p) {
+  const hr2d_segment s = scene->patch[patch].scaled;
+  const hr2di_parts of = scene->parts.of_patch[patch];
+  const double at = hr2di_point_along(s, p);
+  uint32_t low = of.first, high = of.last;
+  while (high - low > 1) {
+    const uint32_t middle = low + (high - low) / 2;
+    if (hr2di_point_along(s, scene->parts.part[middle].at.a) <= at)
+      low = middle;
+    else
+      high = middle;
+  }
+  return &scene->parts.part[low];
+}
+
+/* The events of a generation, where they show: B = E on a patch that does not reflect.  A foot
+   is a vertex, and the first generation has looked from there. */
+static hr2d_status find_origins(finder *f, unsigned generation) {
   hr2d_status status = HR2D_OK;
   f->origins = 0;
   for (size_t k = 0; k < f->count && !status; k++) {
     const candidate c = f->found[k];
     status = hr2di_watch_work(f->watch, 1 + f->scene->bands / 32);
-    if (c.event.generation != generation || !reflects(f->scene, c.event.patch)) continue;
-    const hr2d_segment s = f->scene->patch[c.event.patch].scaled;
-    const uint32_t host = walls->of_segment[c.event.patch];
-    const hr2d_segment w = walls->wall[host].at;
-    const double along = (s.b.x - s.a.x) * (w.b.x - w.a.x) + (s.b.y - s.a.y) * (w.b.y - w.a.y);
-    if (status) break;
-    status = add_origin(f, (hr2di_origin){point_on(f->scene, c.event), HR2DI_NO_VERTEX, host,
-                                          along > 0 ? HR2DI_EVENTS_LEFT : HR2DI_EVENTS_RIGHT,
-                                          c.via});
+    if (status || c.event.generation != generation || c.via == HR2DI_NO_VERTEX ||
+        !reflects(f->scene, c.event.patch))
+      continue;
+    if (hr2di_alloc_reserve(&f->alloc, &f->origin, &f->origin_capacity, f->origins + 1,
+                            sizeof *f->origin))
+      return HR2D_ENOMEM;
+    f->origin[f->origins++] = c;
   }
   return status;
 }
 
-/* One after the other for each u, since what blocks one line blocks the next. */
-static hr2d_status follow_lines(finder *f, unsigned generation) {
-  const hr2di_vertices *t = &f->vertices;
-  hr2d_status status = HR2D_OK;
-  for (uint32_t u = 0; u < t->walls->vertices && !status; u++) {
-    if (t->first[u] == t->first[u + 1] || t->walls->host[u] != HR2DI_NO_WALL) continue;
-    for (size_t k = 0; k < f->origins && !status; k++) {
-      const hr2di_origin *v = &f->origin[k];
-      uint32_t patch;
-      status = hr2di_watch_work(f->watch, 2);
-      if (status || v->vertex == u || v->via == u ||
-          !hr2di_origin_reaches(&f->vertices, v, u, &patch))
-        continue;
-      const hr2d_segment s = f->scene->patch[patch].scaled;
-      status = add(f, patch, hr2di_line_crossing(v->at, t->point[u], s.a, s.b), generation, u);
-    }
+/* A later generation: all lines through events of the one before and ends of walls. */
+static hr2d_status look_from_events(finder *f, unsigned generation) {
+  hr2d_status status = find_origins(f, generation - 1);
+  f->generation = generation;
+  for (size_t k = 0; k < f->origins && !status; k++) {
+    const candidate c = f->origin[k];
+    const hr2d_point at = point_on(f->scene, c.event);
+    const hr2di_side_part *part = part_at(f->scene, c.event.patch, at);
+    if (part->side != HR2DI_HIDDEN)
+      status = hr2di_event_beams_from_part(&f->beams, at, part, c.via);
   }
   return status;
 }
@@ -210,46 +174,39 @@ static double fraction_of(hr2d_segment s, hr2d_point p) {
   return ((p.x - s.a.x) * dx + (p.y - s.a.y) * dy) / (dx * dx + dy * dy);
 }
 
-/* A patch that ends inside another one. */
-static hr2d_status add_feet_of(finder *f, uint32_t own, hr2d_point foot, hr2d_point other) {
-  const hr2di_vertices *t = &f->vertices;
-  uint32_t stack[HR2DI_BOX_DEPTH] = {0}, count = 1, wall, patch;
-  hr2d_status status = HR2D_OK;
-  while (!status && (wall = hr2di_events_next_host(t, foot, stack, &count)) != HR2DI_NO_WALL) {
-    const hr2d_segment w = t->walls->wall[wall].at;
-    const int side = wall == own ? 0 : hr2di_orient_sign(w.a, w.b, other);
-    if (side != 0 &&
-        hr2di_events_patch_across(t, wall, side > 0 ? HR2DI_EVENTS_LEFT : HR2DI_EVENTS_RIGHT,
-                                  foot, other, &patch))
-      status =
-          add(f, patch, fraction_of(f->scene->patch[patch].scaled, foot), 1, HR2DI_NO_VERTEX);
-  }
-  return status;
-}
-
+/* Where a patch goes on from one side to the next and another wall stands between. */
 static hr2d_status add_feet(finder *f) {
+  const hr2di_triangulation *t = &f->scene->plane.triangulation;
+  const hr2di_side_parts *parts = &f->scene->parts;
   hr2d_status status = HR2D_OK;
-  for (size_t k = 0; k < f->scene->patches && !status; k++) {
-    const hr2d_segment s = f->scene->patch[k].scaled;
-    const uint32_t wall = f->vertices.walls->of_segment[k];
-    status = hr2di_watch_work(f->watch, 8);
-    if (!status) status = add_feet_of(f, wall, s.a, s.b);
-    if (!status) status = add_feet_of(f, wall, s.b, s.a);
+  for (size_t k = 0; k + 1 < parts->parts && !status; k++) {
+    const hr2di_side_part *p = &parts->part[k];
+    status = hr2di_watch_work(f->watch, 1);
+    if (status || p->patch == HR2DI_NOBODY || p[1].patch != p->patch || p->side == p[1].side ||
+        p->side == HR2DI_HIDDEN || p[1].side == HR2DI_HIDDEN)
+      continue;
+    const int32_t h = hr2di_event_beams_turn(&f->beams, p->side);
+    const hr2di_triangle *last = &t->triangle[h >> 2];
+    if (last->across[h & 3] == ~(int32_t)p[1].side) continue;
+    const hr2d_segment s = f->scene->patch[p->patch].scaled;
+    status = add(f, p->patch, fraction_of(s, t->at[last->corner[h & 3]]), HR2DI_NO_VERTEX);
   }
   return status;
 }
 
 static hr2d_status find(finder *f, unsigned generations) {
-  hr2d_status status = hr2di_vertices_init(&f->vertices, f->scene, &f->alloc, f->watch);
-  if (!status) status = add_vertices(f);
+  hr2d_status status = hr2di_event_beams_init(&f->beams, f->scene, &f->alloc, f->watch);
+  f->beams.take = take;
+  f->beams.ctx = f;
+  if (!status) status = look_from_ends(f);
   if (!status) status = add_feet(f);
-  for (unsigned g = 1; g <= generations && !status; g++) {
-    if (g > 1) status = add_events(f, g - 1);
+  if (!status) status = settle(f);
+  for (unsigned g = 2; g <= generations && !status; g++) {
+    status = look_from_events(f, g);
     if (!status && f->origins == 0) break;
-    if (!status) status = follow_lines(f, g);
     if (!status) status = settle(f);
   }
-  /* Rays that the watch has stopped reach nothing. */
+  /* A walk that the watch has stopped ends nowhere. */
   return status ? status : hr2di_watch_status(f->watch);
 }
 
@@ -261,16 +218,21 @@ hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
                             scene->effect[HR2D_EFFECT_FACING].called_for ||
                             scene->effect[HR2D_EFFECT_BACKGROUND].called_for))
     return HR2D_OK;
-  finder f = {.scene = scene, .alloc = *alloc, .max = max, .watch = watch};
-  hr2d_status status = find(&f, generations);
+  /* Commit makes no plane for scenes without occlusion; a copy of the struct gets one. */
+  hr2d_scene with_plane = *scene;
+  finder f = {.scene = &with_plane, .alloc = *alloc, .max = max, .watch = watch};
+  hr2d_status status = hr2di_scene_need_plane(&with_plane, watch);
+  if (!status && with_plane.parts.wanted) status = find(&f, generations);
+  events->steps = f.beams.steps;
   if (!status && hr2di_alloc_reserve(alloc, &events->event, &events->capacity, f.count,
                                      sizeof *events->event))
     status = HR2D_ENOMEM;
   for (size_t k = 0; k < f.count && !status; k++)
     events->event[events->count++] = f.found[k].event;
-  hr2di_vertices_clear(&f.vertices);
+  hr2di_event_beams_clear(&f.beams);
   hr2di_alloc_free(alloc, f.origin);
   hr2di_alloc_free(alloc, f.found);
+  if (!scene->parts.wanted) hr2di_scene_clear_plane(&with_plane);
   return status;
 }
 

@@ -27,6 +27,7 @@ typedef struct hr2di_events {
   hr2d_allocator alloc;
   hr2di_event *event; /* sorted by patch, then by fraction; no two equal within rounding */
   size_t count, capacity;
+  uint64_t steps; /* triangles that were entered to find them */
 } hr2di_events;
 
 /* Finds all events up to `generations` of a committed scene, at most `max` of them.  There are

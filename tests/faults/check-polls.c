@@ -87,9 +87,9 @@ START_TEST(too_few_questions_are_noticed) {
   static const struct {
     const char *name;
     size_t count;
-  } calls[] = {{"commit", 2500},  {"events", 250}, {"roots", 250},
-               {"factors", 1500}, {"rows", 1500},  {"visit", 1500},
-               {"refine", 250},   {"count", 250},  {"validate", 250}};
+  } calls[] = {{"commit", 2500},  {"events", 2000}, {"roots", 250},
+               {"factors", 1500}, {"rows", 1500},   {"visit", 1500},
+               {"refine", 250},   {"count", 250},   {"validate", 250}};
   for (size_t k = 0; k < sizeof calls / sizeof *calls; k++) {
     slow_stage s = stage(SLOW_SPOKES, calls[k].count, NULL);
     const witness w =
@@ -132,7 +132,7 @@ START_TEST(what_is_declared_is_what_is_done) {
 
   s = stage(SLOW_CITY, 2000, NULL);
   w = watch_phase(phase_called("events"), &s, (witness){0});
-  declares("events", w, (double)hr2d_scene_patches(s.scene) * 1000);
+  declares("events", w, (double)hr2d_scene_patches(s.scene) * 100);
   slow_clear(&s);
 
   s = stage(SLOW_SQUARES, 4000, NULL);
@@ -210,8 +210,9 @@ static size_t size_for(const slow_phase *phase) {
   static const struct {
     const char *name;
     size_t count;
-  } known[] = {{"read", 400},   {"split", 400}, {"commit", 300}, {"refine l1", 10},
-               {"gather", 150}, {"write", 200}, {"resume", 200}, {"past", 400}};
+  } known[] = {{"read", 400},     {"split", 400},  {"commit", 300},
+               {"refine l1", 10}, {"gather", 150}, {"write", 200},
+               {"resume", 200},   {"past", 400},   {"events", 400}};
   for (size_t k = 0; k < sizeof known / sizeof *known; k++)
     if (!strcmp(phase->name, known[k].name)) return known[k].count;
   return 50;
