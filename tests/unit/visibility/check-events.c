@@ -518,6 +518,132 @@ START_TEST(test_generations) {
 }
 END_TEST
 
+/* Rooms that roundings or coincidence make hard. */
+
+static void add_wall(hr2d_scene *scene, double ax, double ay, double bx, double by) {
+  add_piece(scene, (hr2d_segment){{ax, ay}, {bx, by}}, 0, 1);
+}
+
+static void add_room(hr2d_scene *scene, double width, double height) {
+  add_wall(scene, 0, 0, width, 0);
+  add_wall(scene, width, 0, width, height);
+  add_wall(scene, width, height, 0, height);
+  add_wall(scene, 0, height, 0, 0);
+}
+
+/* Walls with a front above, and others on the same line with a front below: where one of them
+   ends, something is to be seen on one side only. */
+START_TEST(test_coincident) {
+  randoms r = randoms_stream(test_seed(), 300);
+  const int count = test_count(30);
+  for (int k = 0; k < count; k++) {
+    hr2d_scene *scene = test_new_scene(NULL);
+    add_room(scene, 4, 4);
+    for (int row = 0; row < 3; row++) {
+      const double y = row + random_between(&r, .6, 1.4);
+      add_wall(scene, random_between(&r, .2, 1.9), y, random_between(&r, 2.1, 3.8), y);
+      add_wall(scene, random_between(&r, 2.1, 3.8), y, random_between(&r, .2, 1.9), y);
+    }
+    test_commit(scene);
+    hr2di_events found = events_of(scene, 1);
+    assert_complete(scene, &found, "coincident");
+    ck_assert_uint_ge(4 * needed(scene, &found), 3 * found.count);
+    hr2di_events_clear(&found);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
+static hr2d_point move(randoms *r, hr2d_point p) {
+  p.x = nextafter(p.x, random_between(r, -9, 9));
+  p.y = nextafter(p.y, random_between(r, -9, 9));
+  return p;
+}
+
+/* A star-shaped room; if moved, each end of a wall by itself goes to a double beside it. */
+static hr2d_scene *star(randoms *r, const double *radius, int corners, int moved) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  for (int k = 0; k < corners; k++) {
+    hr2d_point end[2];
+    for (int e = 0; e < 2; e++) {
+      const int corner = (k + e) % corners;
+      const double turn = 6.2831853071795862 * (corner + .1) / corners;
+      end[e] = (hr2d_point){radius[corner] * cos(turn), radius[corner] * sin(turn)};
+      if (moved) end[e] = move(r, end[e]);
+    }
+    add_wall(scene, end[0].x, end[0].y, end[1].x, end[1].y);
+  }
+  test_commit(scene);
+  return scene;
+}
+
+/* Ends a rounding apart make no line of their own, and no gap. */
+START_TEST(test_ends_apart) {
+  randoms r = randoms_stream(test_seed(), 301);
+  const int count = test_count(40);
+  size_t all = 0;
+  for (int k = 0; k < count; k++) {
+    double radius[16];
+    const int corners = 5 + (int)random_below(&r, 12);
+    for (int m = 0; m < corners; m++) radius[m] = random_between(&r, .4, 2);
+    hr2d_scene *whole = star(&r, radius, corners, 0), *moved = star(&r, radius, corners, 1);
+    hr2di_events expected = events_of(whole, 1), found = events_of(moved, 1);
+    ck_assert_uint_eq(found.count, expected.count);
+    for (size_t m = 0; m < found.count; m++) {
+      ck_assert_uint_eq(found.event[m].patch, expected.event[m].patch);
+      ck_assert_double_eq_tol(found.event[m].at, expected.event[m].at, NEAR);
+    }
+    all += found.count;
+    hr2di_events_clear(&expected);
+    hr2di_events_clear(&found);
+    hr2d_scene_destroy(whole);
+    hr2d_scene_destroy(moved);
+  }
+  ck_assert_uint_ge(all, 3 * (size_t)count);
+}
+END_TEST
+
+/* Cost. */
+
+/* A row of rooms with one corner each that stands out. */
+static void add_cells(hr2d_scene *scene, int count) {
+  static const double corner[][2] = {{0, 0}, {1, 0}, {1, 1}, {.4, 1}, {.4, .5}, {0, .5}};
+  for (int k = 0; k < count; k++)
+    for (size_t m = 0; m < ROWS(corner); m++) {
+      const double *a = corner[m], *b = corner[(m + 1) % ROWS(corner)];
+      add_wall(scene, 1.25 * k + a[0], a[1], 1.25 * k + b[0], b[1]);
+    }
+}
+
+/* A row of pins in one room, whose heads see each other. */
+static void add_pins(hr2d_scene *scene, int count) {
+  add_room(scene, count + 1, 3);
+  for (int k = 1; k <= count; k++) {
+    const double x = (double)k / (count + 1), head = .5 + (x - .5) * (x - .5);
+    add_wall(scene, k, .25, k, head);
+    add_wall(scene, k, head, k, .25);
+  }
+}
+
+static double steps_of(void (*add)(hr2d_scene *, int), int count) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  add(scene, count);
+  test_commit(scene);
+  hr2di_events found = events_of(scene, 1);
+  const double steps = (double)found.steps;
+  ck_assert_uint_ge(found.count, 2 * (size_t)count);
+  hr2di_events_clear(&found);
+  hr2d_scene_destroy(scene);
+  return steps;
+}
+
+/* The cost grows with what is seen; pins show that a square would be noticed. */
+START_TEST(test_cost) {
+  ck_assert_double_le(steps_of(add_cells, 400), 2.1 * steps_of(add_cells, 200));
+  ck_assert_double_ge(steps_of(add_pins, 400), 3.5 * steps_of(add_pins, 200));
+}
+END_TEST
+
 /* Limits. */
 
 START_TEST(test_most) {
@@ -570,5 +696,7 @@ TEST_SUITE("events") {
   ADD_TESTS("known", test_known, test_none, test_unlit, test_black);
   REPEAT_TESTS(plan_class_count, "random", test_complete);
   REPEAT_TESTS(6, "random", test_generations);
+  ADD_TESTS("hard", test_coincident, test_ends_apart);
+  ADD_TESTS("cost", test_cost);
   ADD_TESTS("limits", test_most, test_failures);
 }
