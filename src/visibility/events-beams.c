@@ -4,9 +4,9 @@
    vertex sees what is there and nothing else.  Others are roundings away from their wall: the
    first triangle is the one in front of it, and the line of the wall is their horizon.
 
-   The border of an angle through a vertex exactly behind its tip goes on: it is the line of
-   both.  The triangulation bends walls at feet by roundings, so their own line is not found by
-   angles but by the two ends of the wall. */
+   A border that meets a vertex exactly passes it, and is then the line of that vertex, too. The
+   triangulation bends walls at feet by roundings, so the line of a wall itself is not found by
+   angles, but from its two ends. */
 #include "base/alloc.h"
 #include "geometry/orient-sign.h"
 #include "geometry/predicates.h"
@@ -66,7 +66,8 @@ static uint32_t patch_at(const hr2di_event_beams *b, hr2di_wall_side side, hr2d_
   return inside ? part[low].patch : HR2DI_NOBODY;
 }
 
-/* An angle ends at a side: whether one of its borders passes a vertex before. */
+/* An angle ends at a side: if one of its borders passes the end of a wall on the way there, the
+   border is the line of an event. */
 static hr2d_status see(hr2di_event_beams *b, const hr2di_border *border, hr2di_wall_side side) {
   if (border->tip == HR2DI_NO_VERTEX) return HR2D_OK;
   const uint32_t u = border->behind == HR2DI_NO_VERTEX || is_end_of(b, side, border->behind)
@@ -130,7 +131,7 @@ static int32_t follow(hr2di_event_beams *b, hr2di_border *left, int32_t h, uint3
   return HR2DI_SKY;
 }
 
-/* Walks the angle between b->right and `left`; h is behind the edge that both cross. */
+/* Walks the angle between b->right and `left`; h is what is behind the edge that both cross. */
 static hr2d_status walk(hr2di_event_beams *b, const hr2di_border *left, int32_t h) {
   b->frames = 0;
   hr2d_status status = push(b, left, HR2DI_SKY);
@@ -160,7 +161,7 @@ static hr2d_status walk(hr2di_event_beams *b, const hr2di_border *left, int32_t 
   return status;
 }
 
-/* Begins with an origin. */
+/* Begins with the next origin. */
 static void start(hr2di_event_beams *b, hr2d_point at, uint32_t via) {
   b->at = at;
   b->via = via;
@@ -261,7 +262,6 @@ hr2d_status hr2di_event_beams_along_wall(hr2di_event_beams *b, uint32_t wall, in
   int32_t h = find_ahead(b, b->at, arriving, 0);
   if (h < 0) h = find_ahead(b, b->at, arriving, 1);
   if (h < 0 || !b->lit[h >> 2]) return hr2di_watch_status(b->watch);
-  b->own_wall[wall] = b->number;
   b->right = through(b, tip);
   hr2di_border left = b->right;
   left.tip = HR2DI_NO_VERTEX;
@@ -275,16 +275,21 @@ int32_t hr2di_event_beams_turn(const hr2di_event_beams *b, hr2di_wall_side side)
 }
 
 /* Which walls edges belong to, and which vertices are ends of walls and inside none. */
-static void index_walls(hr2di_event_beams *b) {
+static hr2d_status index_walls(hr2di_event_beams *b) {
   const uint32_t *of_wall = b->scene->plane.pieces.of_wall;
   const hr2di_wall_edge *edge = b->in->edge;
-  for (uint32_t w = 0; w < b->scene->walls.walls; w++) {
+  hr2d_status status = HR2D_OK;
+  for (uint32_t w = 0; w < b->scene->walls.walls && !status; w++) {
     const uint32_t begin = b->in->edge_of[of_wall[w]], end = b->in->edge_of[of_wall[w + 1]];
+    status = hr2di_watch_work(b->watch, 1 + (end - begin) / 8);
     if (begin < end) b->free[edge[begin].from] = b->free[edge[end - 1].to] = 1;
     for (uint32_t k = begin; k < end; k++) b->wall_of[k] = w;
   }
-  for (uint32_t k = 0; k + 1 < b->in->edges; k++)
+  for (uint32_t k = 0; k + 1 < b->in->edges && !status; k++) {
+    if (k % 64 == 0) status = hr2di_watch_work(b->watch, 8);
     if (b->wall_of[k] == b->wall_of[k + 1]) b->free[edge[k].to] = b->free[edge[k + 1].from] = 0;
+  }
+  return status;
 }
 
 /* Marks the part of the plane around a triangle. */
@@ -331,8 +336,7 @@ hr2d_status hr2di_event_beams_init(hr2di_event_beams *b, const hr2d_scene *scene
   b->own_wall = hr2di_alloc_zero(alloc, scene->walls.walls, sizeof *b->own_wall);
   b->own_end = hr2di_alloc_zero(alloc, in->vertices, sizeof *b->own_end);
   if (!b->wall_of || !b->free || !b->lit || !b->own_wall || !b->own_end) return HR2D_ENOMEM;
-  index_walls(b);
-  const hr2d_status status = hr2di_watch_work(watch, in->edges / 4);
+  const hr2d_status status = index_walls(b);
   return status ? status : flood_all(b);
 }
 

@@ -162,7 +162,7 @@ static hr2d_status look_from_events(finder *f, unsigned generation) {
     const candidate c = f->origin[k];
     const hr2d_point at = point_on(f->scene, c.event);
     const hr2di_side_part *part = part_at(f->scene, c.event.patch, at);
-    if (part->side != HR2DI_HIDDEN)
+    if (part->patch == c.event.patch && part->side != HR2DI_HIDDEN)
       status = hr2di_event_beams_from_part(&f->beams, at, part, c.via);
   }
   return status;
@@ -218,7 +218,8 @@ hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
                             scene->effect[HR2D_EFFECT_FACING].called_for ||
                             scene->effect[HR2D_EFFECT_BACKGROUND].called_for))
     return HR2D_OK;
-  /* Commit makes no plane for scenes without occlusion; a copy of the struct gets one. */
+  /* A scene without the effect of occlusion has no plane: a copy of the struct gets one, unless
+     so many walls cross within roundings that there is none. */
   hr2d_scene with_plane = *scene;
   finder f = {.scene = &with_plane, .alloc = *alloc, .max = max, .watch = watch};
   hr2d_status status = hr2di_scene_need_plane(&with_plane, watch);
