@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "accuracy/estimator.h"
+#include "accuracy/gap-residuals.h"
 #include "accuracy/importance.h"
 #include "accuracy/residual-series.h"
 #include "accuracy/rounding-bound.h"
@@ -49,12 +50,15 @@ static double worst_average(const hr2di_estimator *e, int irradiance, double fac
   return worst;
 }
 
-/* The largest error at a point, relative to the largest value of the band. */
+/* The largest error at a point, relative to the largest value of the band: `factor` times what
+   coefficients show, or `narrow` times what gaps make, and `rounding` times roundings. */
 static double worst_point(const hr2di_estimator *e, int irradiance, double factor,
-                          double rounding) {
+                          double narrow, double rounding) {
   double worst = 0;
   for (size_t b = 0; b < e->eq.transport.bands; b++) {
-    const double sum = factor * e->point[irradiance][b] + rounding * e->stray[irradiance][b];
+    const double error =
+        fmax(factor * e->point[irradiance][b], narrow * e->narrow[irradiance][b]);
+    const double sum = error + rounding * e->stray[irradiance][b];
     if (sum > 0) worst = fmax(worst, sum / e->largest[irradiance][b]);
   }
   return worst;
@@ -80,6 +84,7 @@ static hr2d_status measure(hr2di_estimator *e, hr2di_error_pair *errors) {
   if (status) return status;
   hr2di_residual_measure(e);
   status = hr2di_shadow_residuals(e);
+  if (!status && reflects) status = hr2di_gap_residuals(e);
   for (int h = 0; h < 2 && reflects && !status; h++) status = hr2di_safe_sum(e, h);
   if (status) return status;
   status = hr2di_rounding_bound(e, reflects);
@@ -89,7 +94,7 @@ static hr2d_status measure(hr2di_estimator *e, hr2di_error_pair *errors) {
     const double average_off = worst_average(e, h, 0, e->rounding[h]) + level;
     errors->rounding[0] = fmax(errors->rounding[0], fmax(average_off, e->doubt));
     errors->rounding[1] =
-        fmax(errors->rounding[1], fmax(worst_point(e, h, 0, 1) + level, e->doubt));
+        fmax(errors->rounding[1], fmax(worst_point(e, h, 0, 0, 1) + level, e->doubt));
   }
   hr2d_error *const average[] = {&errors->average, &errors->irradiance};
   hr2d_error *const sup[] = {&errors->sup, &errors->irradiance_sup};
@@ -98,8 +103,8 @@ static hr2d_status measure(hr2di_estimator *e, hr2di_error_pair *errors) {
     *average[h] =
         bounded(fmax(worst_average(e, h, 1, NULL), doubt),
                 worst_average(e, h, e->margin, e->rounding[h]) + signless(e, h) + level);
-    *sup[h] = bounded(fmax(worst_point(e, h, 1, 0), doubt),
-                      worst_point(e, h, fmax(e->margin, POINTS), 1) + level);
+    *sup[h] = bounded(fmax(worst_point(e, h, 1, 1, 0), doubt),
+                      worst_point(e, h, fmax(e->margin, POINTS), POINTS, 1) + level);
   }
   return eq->transport.failed ? eq->transport.failed : hr2di_watch_status(eq->transport.watch);
 }

@@ -105,7 +105,7 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
   const size_t field = e->eq.field, rows = t->leaves * t->bands;
   e->values = t->hierarchy->scene->patches * t->bands;
   e->space = hr2di_alloc_zero(
-      alloc, 4 * field + 4 * e->values + 2 * t->elements * t->bands + 2 * rows + 10 * t->bands,
+      alloc, 4 * field + 4 * e->values + 2 * t->elements * t->bands + 2 * rows + 12 * t->bands,
       sizeof *e->space);
   e->exponent_of = hr2di_alloc(alloc, t->bands, sizeof *e->exponent_of);
   if (!e->space || !e->exponent_of) return HR2D_ENOMEM;
@@ -121,10 +121,11 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
   e->off[0] = e->own + t->elements * t->bands;
   e->off[1] = e->off[0] + rows;
   next = e->off[1] + rows;
-  for (int h = 0; h < 2; h++, next += 3 * t->bands) {
+  for (int h = 0; h < 2; h++, next += 4 * t->bands) {
     e->largest[h] = next;
     e->point[h] = next + t->bands;
-    e->stray[h] = e->point[h] + t->bands;
+    e->narrow[h] = e->point[h] + t->bands;
+    e->stray[h] = e->narrow[h] + t->bands;
   }
   e->floor = next;
   e->safe = next + 2 * t->bands;

@@ -37,6 +37,7 @@ typedef struct hr2di_estimator {
   double *safe;       /* likewise: errors of averages without signs */
   double *largest[2]; /* per band: B and H at a point */
   double *point[2];   /* per band: errors at points, of B and of H */
+  double *narrow[2];  /* per band: errors at points beside gaps that nothing resolves */
   double *stray[2];   /* per band: what roundings may be at points */
   int *exponent_of;   /* per band: what the last solve was scaled by */
 } hr2di_estimator;

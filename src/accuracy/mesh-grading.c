@@ -369,7 +369,7 @@ static hr2d_status divide(grader *g, part *e, int *divided) {
   return HR2D_OK;
 }
 
-static double shortest_part(const hr2di_patch *p) {
+double hr2di_grading_shortest(const hr2di_patch *p) {
   const hr2d_segment s = p->scaled;
   const double x = fmax(fabs(s.a.x), fabs(s.b.x)), y = fmax(fabs(s.a.y), fabs(s.b.y));
   return fmax(SHORTEST, ROUNDINGS * DBL_EPSILON * fmax(x, y) / p->length);
@@ -383,7 +383,7 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
   g->target = fmin(g->grading->target / weight, 0.5);
   g->distance =
       weight < 1 ? hr2di_ellipse_for(g->target, g->grading->order) : HR2DI_ELLIPSE_DISTANT;
-  g->shortest = shortest_part(&g->h->scene->patch[patch]);
+  g->shortest = hr2di_grading_shortest(&g->h->scene->patch[patch]);
   hr2d_status status = g->seen ? hr2di_seen_ends_look(g->seen, patch) : HR2D_OK;
   if (!status) status = look_around(g, patch);
   if (!status)

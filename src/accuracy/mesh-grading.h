@@ -6,6 +6,7 @@
 #include <hr2d/accuracy.h>
 
 #include "hierarchy/hierarchy-impl.h"
+#include "scene/scene-impl.h"
 #include "visibility/events.h"
 
 typedef struct hr2di_grading {
@@ -39,5 +40,8 @@ typedef struct hr2di_survey {
    the divisions done, HR2D_ENOMEM, HR2D_EMAX_ELEMENTS or the status of the watch. */
 hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
                                 hr2di_survey *survey);
+
+/* The part of a patch that is too short to be divided, because of roundings of coordinates. */
+double hr2di_grading_shortest(const hr2di_patch *patch);
 
 #endif

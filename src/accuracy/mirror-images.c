@@ -2,6 +2,7 @@
 /* Finds the walls near a patch in the tree of boxes. */
 #include "accuracy/mirror-images.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "base/alloc.h"
@@ -27,8 +28,15 @@ static int is_near(const hr2di_patch *p, const hr2di_box *box) {
          box->y0 <= fmax(s.a.y, s.b.y) + reach && box->y1 >= fmin(s.a.y, s.b.y) - reach;
 }
 
-/* Images within this ellipse are on the patch itself, behind a wall that stands on it. */
-#define ON_PATCH (1 + 1e-9)
+/* Images that roundings alone keep off the patch are on the patch itself, behind a wall that
+   stands on it.  Scaled coordinates are at most 1. */
+#define ON_PATCH (16 * DBL_EPSILON)
+
+static int is_on_patch(const hr2di_patch *p, hr2d_point v) {
+  const hr2d_segment s = p->scaled;
+  const double above = fabs(hr2di_orient(s.a, s.b, v)) / p->length;
+  return above <= ON_PATCH && hr2di_ellipse(s, v) <= 1 + ON_PATCH;
+}
 
 /* Adds the image of v in a wall if
    - the foot of v is on the wall; if not, the wall's own end is the near point;
@@ -46,7 +54,7 @@ static hr2d_status add_image(mirror *m, hr2d_segment wall, const double side[2],
                away = hr2di_ellipse(s, image);
   if (hr2di_orient(s.a, s.b, wall.a) <= min && hr2di_orient(s.a, s.b, wall.b) <= min)
     return HR2D_OK;
-  if (away <= ON_PATCH || away >= m->max) return HR2D_OK;
+  if (away >= m->max || is_on_patch(m->patch, image)) return HR2D_OK;
   hr2di_image_points *points = m->points;
   if (hr2di_alloc_reserve(&m->scene->alloc, &points->point, &points->capacity,
                           points->count + 1, sizeof *points->point))

@@ -140,6 +140,7 @@ void hr2di_residual_measure(hr2di_estimator *e) {
   hr2di_estimator_averages(e, e->error, e->average[0]);
   for (size_t b = 0; b < t->bands; b++) {
     e->point[0][b] = e->point[1][b] = 0;
+    e->narrow[0][b] = e->narrow[1][b] = 0;
     e->stray[0][b] = e->stray[1][b] = 0;
   }
   for (size_t k = 0; k < t->leaves && !hr2di_estimator_stopped(e); k++)

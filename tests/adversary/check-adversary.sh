@@ -33,6 +33,11 @@ once panels 100016
 once soup-sky 2000077
 # Steps of a budget that began coarser than the best answer.
 once panels 3000049
+# Blocks of an element that stands on another one, and of slivers.
+once enfilade 4000231
+once foot 4000219
+# Ends of plates beside others, and gaps narrower than elements may be.
+once crack 8 54
 
 "$adversary" --runs "$(awk "BEGIN { print int(760 * ${HR2D_TEST_MULTIPLIER-0.1} + 4) }")" \
   --seed "${HR2D_TEST_SEED-1}" --limit 10 || failures=$((failures + 1))

@@ -119,6 +119,37 @@ static void slit(adv_scene *scene, adv_random *r) {
   adv_paint(scene, r, 0.8);
 }
 
+/* Two plates face to face, down to 2^-44 of each other; some of them meet at one end. */
+static void crack(adv_scene *scene, adv_random *r) {
+  scene->exponent = -44;
+  const double near = adv_real(r, 0.5, 1.5), far = adv_real(r, 2.5, 3.5);
+  const double gap = ldexp(adv_real(r, 1, 2), -adv_int(r, 8, 44));
+  const int meet = adv_chance(r, 0.3), level = adv_chance(r, 0.5);
+  const double start = meet ? near : near + adv_real(r, -0.4, 0.4);
+  const double end = adv_chance(r, 0.3) ? far : far + adv_real(r, -0.4, 0.4);
+  adv_box(scene, 0, 0, 4, 3);
+  adv_screen(scene, near, 1.5, far, 1.5);
+  adv_screen(scene, start, meet ? 1.5 : 1.5 + gap, end,
+             level && !meet ? 1.5 + gap : 1.5 + 2 * gap);
+  scene->closed = 1;
+  adv_paint(scene, r, 0.8);
+}
+
+/* A wall that misses a floor, perhaps at a tiny angle, down to 2^-44; a joint of the floor is
+   beside its foot. */
+static void miss(adv_scene *scene, adv_random *r) {
+  scene->exponent = -44;
+  const double x = adv_real(r, 1.5, 2.5), far = x + adv_real(r, -1, 1);
+  const double gap = ldexp(adv_real(r, 1, 2), -adv_int(r, 8, 44));
+  const double joint = x + ldexp(adv_chance(r, 0.5) ? 1 : -1, -adv_int(r, 2, 44));
+  const double rise = adv_chance(r, 0.5) ? ldexp(1, -adv_int(r, 0, 44)) : adv_real(r, 0.5, 2);
+  const double corner[5][2] = {{0, 0}, {joint, 0}, {4, 0}, {4, 3}, {0, 3}};
+  adv_ring(scene, corner, 5);
+  adv_screen(scene, x, gap, far, gap + rise);
+  scene->closed = 1;
+  adv_paint(scene, r, 0.8);
+}
+
 /* A small room inside of the wall of a large one: lengths of 2^-10 beside 4. */
 static void niche(adv_scene *scene, adv_random *r) {
   scene->exponent = -24;
@@ -143,4 +174,6 @@ const adv_kind adv_extreme[] = {
     {"white", white, "reflectances of 1 - 2^-k"},
     {"slit", slit, "two rooms with a slit between them"},
     {"niche", niche, "a niche down to 2^-10"},
+    {"crack", crack, "plates down to 2^-44 of each other"},
+    {"miss", miss, "a wall that misses a floor by down to 2^-44"},
     {NULL, NULL, NULL}};

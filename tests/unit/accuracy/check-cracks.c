@@ -61,6 +61,70 @@ START_TEST(plates_that_meet_at_one_end) {
 }
 END_TEST
 
+/* Beside the end of the lit plate, and beside its foot on the longer one, light changes within
+   some gaps.  As a function of the distance in gaps it is the same for all narrow gaps. */
+enum { POINTS = 8 };
+#define LONGER 1.25
+
+typedef struct layer {
+  double h[POINTS], b[POINTS];
+  hr2d_account account;
+} layer;
+
+static layer solve_layer(double width, double target, hr2d_norm norm) {
+  static const double away[POINTS] = {0, .5, 1, 4, 0, 1, -1, 4};
+  hr2d_scene *scene = plates(width, width, LONGER);
+  hr2d_target how = HR2D_TARGET_INIT;
+  hr2d_solution *solution;
+  layer l;
+  how.error = target;
+  how.norm = norm;
+  const hr2d_status status = hr2d_solve_to(scene, &how, &solution, &l.account);
+  ck_assert(status == HR2D_OK || status == HR2D_EACCURACY);
+  for (size_t k = 0; k < POINTS; k++) {
+    const size_t patch = k >= 4;
+    const double off = away[k] * width;
+    const double t = patch ? (LONGER - 1 + off) / LONGER : 1 - off;
+    ck_assert_int_eq(hr2d_solution_gather_irradiance(solution, patch, &t, 1, &l.h[k]), HR2D_OK);
+    ck_assert_int_eq(hr2d_solution_gather(solution, patch, &t, 1, &l.b[k]), HR2D_OK);
+  }
+  hr2d_solution_destroy(solution);
+  hr2d_scene_destroy(scene);
+  return l;
+}
+
+/* Values at points of gaps of 1e-7 are within this of their limits. */
+#define NARROW 1e-5
+
+static void compare_layers(const layer *is, const layer *right, double width) {
+  const double most = 1 / (1 - RHO_0 * RHO_1);
+  const double allowed_h = is->account.irradiance_sup.bound * most + NARROW;
+  const double allowed_b = is->account.sup.bound * most + NARROW;
+  for (size_t k = 0; k < POINTS; k++) {
+    ck_assert_msg(fabs(is->h[k] - right->h[k]) <= allowed_h,
+                  "gap %g, point %zu: H of %g and %g, bound %g", width, k, is->h[k],
+                  right->h[k], allowed_h);
+    ck_assert_msg(fabs(is->b[k] - right->b[k]) <= allowed_b,
+                  "gap %g, point %zu: B of %g and %g, bound %g", width, k, is->b[k],
+                  right->b[k], allowed_b);
+  }
+}
+
+START_TEST(light_changes_within_gaps) {
+  const layer right = solve_layer(1e-7, 1e-7, HR2D_NORM_SUP);
+  ck_assert_double_lt(right.account.irradiance_sup.bound, NARROW);
+  ck_assert_double_gt(fabs(right.h[0] - right.h[3]), 0.01); /* or nothing is tested */
+  for (int k = 0; k < GAPS; k++)
+    for (double target = 1e-3; target > 1e-8; target *= 1e-3) {
+      const layer average = solve_layer(gap[k], target, HR2D_NORM_AVERAGE);
+      const layer sup = solve_layer(gap[k], target, HR2D_NORM_SUP);
+      compare_layers(&average, &right, gap[k]);
+      compare_layers(&sup, &right, gap[k]);
+      if (gap[k] > 1e-10) ck_assert_double_lt(sup.account.irradiance_sup.bound, 0.01);
+    }
+}
+END_TEST
+
 /* With a gap that light leaves by, the values are others. */
 START_TEST(a_wide_gap_is_told) {
   hr2d_scene *scene = plates(.1, .1, 1);
@@ -74,5 +138,6 @@ START_TEST(a_wide_gap_is_told) {
 END_TEST
 
 TEST_SUITE("cracks") {
-  ADD_TESTS("plates", plates_face_to_face, plates_that_meet_at_one_end, a_wide_gap_is_told);
+  ADD_TESTS("plates", plates_face_to_face, plates_that_meet_at_one_end,
+            light_changes_within_gaps, a_wide_gap_is_told);
 }

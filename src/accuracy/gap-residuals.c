@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* An end v of a patch q at a distance h from a patch p makes a layer in B on both: on p beside
+   the foot of v, on q beside v itself, through its image in p.  Both are as wide as h. Elements
+   are divided until they resolve them, but become no shorter than some roundings of their
+   coordinates.  Below that coefficients show nothing: polynomials of any order miss the layer
+   on an element that is much longer.
+
+   There the residual r = B' − B_h is gathered, at distances of h times 0 to 16 from the foot
+   and from the end.  Light goes to and fro in the gap.  It leaves a layer to its sides: the
+   layer on one patch is seen from the middle of that on the other under REACH of all directions
+   or less. So the errors b of B_h are at most
+
+     b_p ≤ (r_p + REACH ρ_p r_q)/(1 − REACH² ρ_p ρ_q),
+
+   and b_q likewise.  A point in the gap may see hardly anything else, so that its H is off by
+   them.
+
+   The view from a point is that from its rounded coordinates.  They move it by δ/h of the gap,
+   and H by that part of the change of B. */
+#include "accuracy/gap-residuals.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/alloc.h"
+#include "geometry/apart.h"
+#include "geometry/bernstein-ellipse.h"
+#include "geometry/predicates.h"
+#include "scene/scene-impl.h"
+#include "solution/solution-impl.h"
+
+/* Gaps that are gathered at, of the largest radiosities: there may be many. */
+enum { MOST = 16, FEW = 4, MANY = 1000 };
+
+/* Of points in the middle of two layers of 8h. */
+#define REACH 0.97
+
+/* A point, the leaf that it sees, and the ends of that: coordinates are at most 1. */
+#define ROUNDED (4 * DBL_EPSILON)
+
+/* Where residuals are gathered, in units of h. */
+static const double place[] = {0, 1, 4, 16, -1, -4, -16};
+enum { PLACES = sizeof place / sizeof *place };
+
+/* An end of a patch beside another patch. */
+typedef struct gap {
+  uint32_t over;    /* the patch p */
+  uint32_t end;     /* of q: 2·patch for its start, 2·patch + 1 for its last point */
+  uint32_t leaf[2]; /* of p and of q */
+  double distance;
+  double at;     /* its foot, as a fraction of p */
+  double bright; /* the largest B_h of the leaves, in units of its band */
+} gap;
+
+typedef struct gaps {
+  gap *gap;
+  size_t count, capacity;
+} gaps;
+
+/* Whether grading could not divide a leaf, whatever is in front of it. */
+static int is_shortest(const hr2d_hierarchy *h, uint32_t leaf) {
+  const hr2d_element *e = &h->element[leaf];
+  const hr2di_patch *p = &h->scene->patch[e->patch];
+  return e->length < 1.001 * hr2di_grading_shortest(p) * p->length ||
+         !hr2di_element_divisible(h, leaf);
+}
+
+/* The mirror image of a point in the line of a patch. */
+static hr2d_point image_in(const hr2di_patch *p, hr2d_point v) {
+  const hr2d_point u = hr2di_point_minus(p->scaled.b, p->scaled.a);
+  const double off = hr2di_orient(p->scaled.a, p->scaled.b, v) / p->length / p->length;
+  return (hr2d_point){v.x + 2 * off * u.y, v.y - 2 * off * u.x};
+}
+
+static int is_near(const hr2d_element *e, hr2d_point v) {
+  return hr2di_ellipse((hr2d_segment){e->a, e->b}, v) < HR2DI_ELLIPSE_DISTANT;
+}
+
+/* The largest B_h on the two leaves of a gap. */
+static double brightness(const hr2di_estimator *e, const gap *g, size_t band) {
+  const size_t bands = e->eq.transport.bands;
+  return fmax(e->most[g->leaf[0] * bands + band], e->most[g->leaf[1] * bands + band]);
+}
+
+/* The gap between leaf i and an end v of the patch of leaf j. */
+static gap gap_between(const hr2di_estimator *e, uint32_t i, uint32_t j, int last,
+                       hr2d_point v) {
+  const hr2d_hierarchy *h = e->eq.transport.hierarchy;
+  const hr2di_patch *p = &h->scene->patch[h->element[i].patch];
+  const hr2d_point u = hr2di_point_minus(p->scaled.b, p->scaled.a);
+  gap g = {.over = h->element[i].patch,
+           .end = 2 * h->element[j].patch + (uint32_t)last,
+           .leaf = {i, j}};
+  g.at = hr2di_point_dot(hr2di_point_minus(v, p->scaled.a), u) / p->length / p->length;
+  g.distance = hr2di_apart_from_point(p->scaled, v);
+  for (size_t b = 0; b < e->eq.transport.bands; b++)
+    g.bright = fmax(g.bright, brightness(e, &g, b));
+  return g;
+}
+
+/* Whether one of two leaves is too long for the layer that an end v of the second one makes. */
+static int is_unresolved(const hr2d_hierarchy *h, const gap *g, uint32_t i, uint32_t j,
+                         hr2d_point v) {
+  const hr2d_element *element = h->element;
+  if (is_shortest(h, i) && is_near(&element[i], v)) return 1;
+  return g->at > 0 && g->at < 1 && is_shortest(h, j) &&
+         is_near(&element[j], image_in(&h->scene->patch[g->over], v));
+}
+
+static int reflects(const hr2d_scene *scene, uint32_t patch) {
+  for (size_t b = 0; b < scene->bands; b++)
+    if (hr2d_scene_reflectance(scene, patch, b) > 0) return 1;
+  return 0;
+}
+
+/* Lists the gaps between leaf i and the ends of the patch of leaf j. */
+static hr2d_status find(const hr2di_estimator *e, uint32_t i, uint32_t j, gaps *all) {
+  const hr2d_hierarchy *h = e->eq.transport.hierarchy;
+  const hr2d_element *element = h->element;
+  const hr2d_segment q = h->scene->patch[element[j].patch].scaled;
+  for (int last = 0; last < 2; last++) {
+    const hr2d_point v = last ? q.b : q.a;
+    if (!hr2di_point_same(v, last ? element[j].b : element[j].a)) continue;
+    const gap g = gap_between(e, i, j, last, v);
+    if (g.distance <= HR2DI_WALLS_TOUCH || !reflects(h->scene, g.over)) continue;
+    if (!is_unresolved(h, &g, i, j, v)) continue;
+    if (hr2di_alloc_reserve(&e->eq.transport.alloc, &all->gap, &all->capacity, all->count + 1,
+                            sizeof *all->gap))
+      return HR2D_ENOMEM;
+    all->gap[all->count++] = g;
+  }
+  return HR2D_OK;
+}
+
+static int by_place(const void *left, const void *right) {
+  const gap *l = left, *r = right;
+  if (l->over != r->over) return l->over < r->over ? -1 : 1;
+  if (l->end != r->end) return l->end < r->end ? -1 : 1;
+  return (l->bright < r->bright) - (l->bright > r->bright);
+}
+
+static int by_brightness(const void *left, const void *right) {
+  const gap *l = left, *r = right;
+  if (l->bright != r->bright) return l->bright > r->bright ? -1 : 1;
+  return by_place(left, right);
+}
+
+/* Several leaves see the same end: the brightest stays. */
+static void sort(gaps *all) {
+  size_t kept = 0;
+  if (all->count == 0) return;
+  qsort(all->gap, all->count, sizeof *all->gap, by_place);
+  for (size_t k = 0; k < all->count; k++)
+    if (k == 0 || all->gap[k].over != all->gap[k - 1].over ||
+        all->gap[k].end != all->gap[k - 1].end)
+      all->gap[kept++] = all->gap[k];
+  all->count = kept;
+  qsort(all->gap, all->count, sizeof *all->gap, by_brightness);
+}
+
+static hr2d_status find_all(hr2di_estimator *e, gaps *all) {
+  const hr2di_transport *t = &e->eq.transport;
+  const hr2d_element *element = t->hierarchy->element;
+  hr2d_status status = HR2D_OK;
+  hr2di_estimator_set_most(e, e->kept);
+  for (uint64_t k = 0; k < t->links->store.count && !status; k++) {
+    if (t->order > 1 && t->links->blocks.distant[k]) continue;
+    const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
+    if (element[pair.first].child || element[pair.second].child) continue;
+    status = hr2di_watch_work(t->watch, 1);
+    if (!status) status = find(e, pair.first, pair.second, all);
+    if (!status) status = find(e, pair.second, pair.first, all);
+  }
+  sort(all);
+  return status;
+}
+
+/* Raises `residual` to |B' − B_h| at places of a patch, in units of the equation. */
+static hr2d_status gather(const hr2di_estimator *e, size_t patch, double from, double step,
+                          double *space, double *residual) {
+  const hr2di_transport *t = &e->eq.transport;
+  for (size_t k = 0; k < PLACES; k++) {
+    const double at = from + place[k] * step;
+    if (at < 0 || at > 1) continue;
+    const hr2d_status status = hr2di_solution_gather(e->coarse, patch, &at, 1, space, t->watch);
+    if (status) return status;
+    for (size_t b = 0; b < t->bands; b++) {
+      const double off = space[b] - hr2d_solution_at(e->coarse, patch, at, b);
+      residual[b] = fmax(residual[b], fabs(ldexp(off, -e->eq.exponent[b])));
+    }
+  }
+  return HR2D_OK;
+}
+
+/* H at a point of a patch is off by `error`, and by `rounding`. */
+static void add(hr2di_estimator *e, size_t patch, size_t band, double error, double rounding) {
+  const double rho = hr2d_scene_reflectance(e->eq.transport.hierarchy->scene, patch, band);
+  e->narrow[1][band] = fmax(e->narrow[1][band], error);
+  e->narrow[0][band] = fmax(e->narrow[0][band], rho * error);
+  /* Elements cannot be shorter because of roundings. */
+  e->stray[1][band] = fmax(e->stray[1][band], error + rounding);
+  e->stray[0][band] = fmax(e->stray[0][band], rho * (error + rounding));
+}
+
+/* `space` is for 3 × bands. */
+static hr2d_status add_gap(hr2di_estimator *e, const gap *g, double *space) {
+  const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
+  const size_t bands = e->eq.transport.bands, q = g->end / 2;
+  double *of_p = space + bands, *of_q = of_p + bands;
+  for (size_t b = 0; b < bands; b++) of_p[b] = of_q[b] = 0;
+  hr2d_status status = gather(e, g->over, fmin(fmax(g->at, 0), 1),
+                              g->distance / scene->patch[g->over].length, space, of_p);
+  if (!status)
+    status = gather(e, q, g->end % 2, g->distance / scene->patch[q].length, space, of_q);
+  for (size_t b = 0; b < bands && !status; b++) {
+    const double rho_p = hr2d_scene_reflectance(scene, g->over, b);
+    const double rho_q = hr2d_scene_reflectance(scene, q, b);
+    const double more = 1 / (1 - REACH * REACH * rho_p * rho_q);
+    const double rounding = ROUNDED / g->distance * brightness(e, g, b);
+    add(e, q, b, more * (of_p[b] + REACH * rho_p * of_q[b]), rounding);
+    add(e, g->over, b, more * (of_q[b] + REACH * rho_q * of_p[b]), rounding);
+  }
+  return status;
+}
+
+/* Nothing is known of a gap where nothing is gathered. */
+static void add_unknown(hr2di_estimator *e, const gap *g) {
+  for (size_t b = 0; b < e->eq.transport.bands; b++)
+    for (int side = 0; side < 2; side++)
+      add(e, side ? g->over : g->end / 2, b, brightness(e, g, b), 0);
+}
+
+hr2d_status hr2di_gap_residuals(hr2di_estimator *e) {
+  const hr2di_transport *t = &e->eq.transport;
+  const size_t most = t->hierarchy->scene->patches > MANY ? FEW : MOST;
+  gaps all = {0};
+  hr2d_status status = find_all(e, &all);
+  double *space = NULL;
+  if (!status && all.count > 0) {
+    space = hr2di_alloc(&t->alloc, 3 * t->bands, sizeof *space);
+    status = space ? HR2D_OK : HR2D_ENOMEM;
+  }
+  for (size_t k = 0; k < all.count && k < most && !status; k++)
+    status = add_gap(e, &all.gap[k], space);
+  if (all.count > most && !status) add_unknown(e, &all.gap[most]);
+  hr2di_alloc_free(&t->alloc, all.gap);
+  hr2di_alloc_free(&t->alloc, space);
+  return status ? status : hr2di_watch_status(t->watch);
+}
