@@ -182,7 +182,7 @@ static hr2d_status gather(const hr2di_estimator *e, size_t patch, double from, d
   const hr2di_transport *t = &e->eq.transport;
   for (size_t k = 0; k < PLACES; k++) {
     const double at = from + place[k] * step;
-    if (at < 0 || at > 1) continue;
+    if (!(at >= 0 && at <= 1)) continue; /* also where the patch is dust */
     const hr2d_status status = hr2di_solution_gather(e->coarse, patch, &at, 1, space, t->watch);
     if (status) return status;
     for (size_t b = 0; b < t->bands; b++) {
