@@ -16,7 +16,8 @@
    them.
 
    The view from a point is that from its rounded coordinates.  They move it by δ/h of the gap,
-   and H by that part of the change of B. */
+   and H by that part of the change of B.  Beside patches that reflect nothing, and so have no
+   short elements of which coordinate-rounding.c knows that, it counts in resolved gaps, too. */
 #include "accuracy/gap-residuals.h"
 
 #include <float.h>
@@ -114,6 +115,18 @@ static int reflects(const hr2d_scene *scene, uint32_t patch) {
   return 0;
 }
 
+/* What rounded coordinates may do to H beside a gap. */
+static double rounding_at(const hr2di_estimator *e, const gap *g, size_t band) {
+  return ROUNDED / g->distance * brightness(e, g, band);
+}
+
+static void add_rounding(const hr2di_estimator *e, const gap *g) {
+  const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
+  if (reflects(scene, g->over) && reflects(scene, g->end / 2)) return;
+  for (size_t b = 0; b < e->eq.transport.bands; b++)
+    e->stray[1][b] = fmax(e->stray[1][b], rounding_at(e, g, b));
+}
+
 /* Lists the gaps between leaf i and the ends of the patch of leaf j. */
 static hr2d_status find(const hr2di_estimator *e, uint32_t i, uint32_t j, gaps *all) {
   const hr2d_hierarchy *h = e->eq.transport.hierarchy;
@@ -123,8 +136,9 @@ static hr2d_status find(const hr2di_estimator *e, uint32_t i, uint32_t j, gaps *
     const hr2d_point v = last ? q.b : q.a;
     if (!hr2di_point_same(v, last ? element[j].b : element[j].a)) continue;
     const gap g = gap_between(e, i, j, last, v);
-    if (g.distance <= HR2DI_WALLS_TOUCH || !reflects(h->scene, g.over)) continue;
-    if (!is_unresolved(h, &g, i, j, v)) continue;
+    if (g.distance <= HR2DI_WALLS_TOUCH) continue;
+    add_rounding(e, &g);
+    if (!reflects(h->scene, g.over) || !is_unresolved(h, &g, i, j, v)) continue;
     if (hr2di_alloc_reserve(&e->eq.transport.alloc, &all->gap, &all->capacity, all->count + 1,
                             sizeof *all->gap))
       return HR2D_ENOMEM;
@@ -217,7 +231,7 @@ static hr2d_status add_gap(hr2di_estimator *e, const gap *g, double *space) {
     const double rho_p = hr2d_scene_reflectance(scene, g->over, b);
     const double rho_q = hr2d_scene_reflectance(scene, q, b);
     const double more = 1 / (1 - REACH * REACH * rho_p * rho_q);
-    const double rounding = ROUNDED / g->distance * brightness(e, g, b);
+    const double rounding = rounding_at(e, g, b);
     add(e, q, b, more * (of_p[b] + REACH * rho_p * of_q[b]), rounding);
     add(e, g->over, b, more * (of_q[b] + REACH * rho_q * of_p[b]), rounding);
   }

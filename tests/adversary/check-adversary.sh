@@ -37,7 +37,7 @@ once panels 3000049
 once enfilade 4000231
 once foot 4000219
 # Ends of plates beside others, and gaps narrower than elements may be.
-once crack 8 54
+once crack 8 54 7000382
 
 "$adversary" --runs "$(awk "BEGIN { print int(760 * ${HR2D_TEST_MULTIPLIER-0.1} + 4) }")" \
   --seed "${HR2D_TEST_SEED-1}" --limit 10 || failures=$((failures + 1))
