@@ -56,9 +56,10 @@ typedef struct hr2d_batch {
   size_t count;                    /**< at least 1 */
   double unit;                     /**< scene lengths per unit of the elements' coordinates */
   double epsilon;                  /**< the ε of this refinement */
-  const unsigned char *partial;    /**< per pair: 1 if an occluder reaches into the shaft of the
-                                        pair, so that its elements may see each other only in
-                                        part, otherwise 0; NULL if there is no such pair */
+  const unsigned char *partial;    /**< per pair: 1 if something bounds the view between the
+                                        elements but their own ends, so that they may see each
+                                        other only in part, otherwise 0; NULL if there is no such
+                                        pair */
   const double *brightness;        /**< per element: average B relative to the brightest one,
                                         the largest over the bands; NULL unless the oracle has
                                         HR2D_ORACLE_NEEDS_BRIGHTNESS */

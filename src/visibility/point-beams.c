@@ -82,12 +82,12 @@ static hr2d_status look(const hr2d_scene *scene, size_t patch, double t, visit *
   return status;
 }
 
-/* Without the effect of occlusion a scene has no plane to walk in. */
-static hr2d_status look_in_own_plane(const hr2d_scene *scene, size_t patch, double t, visit *v,
+/* Without the effect of occlusion nobody walks in the plane of a scene, which may have none. */
+static hr2d_status look_past_nothing(const hr2d_scene *scene, size_t patch, double t, visit *v,
                                      hr2di_watch *watch) {
   hr2d_scene own = *scene;
   own.effect[HR2D_EFFECT_OCCLUSION].on = 1;
-  hr2di_scene_clear_plane(&own);
+  if (own.parts.wanted) return look(&own, patch, t, v, watch);
   hr2d_status status = hr2di_scene_need_plane(&own, watch);
   if (!status) status = own.unclear.is ? HR2D_ESCENE : look(&own, patch, t, v, watch);
   hr2di_scene_clear_plane(&own);
@@ -103,5 +103,5 @@ hr2d_status hr2d_beams_visit(const hr2d_scene *scene, size_t patch, double t, hr
   visit v = {.unit = hr2d_scene_unit(scene), .show = show, .ctx = ctx};
   return scene->effect[HR2D_EFFECT_OCCLUSION].on
              ? look(scene, patch, t, &v, &watch)
-             : look_in_own_plane(scene, patch, t, &v, &watch);
+             : look_past_nothing(scene, patch, t, &v, &watch);
 }
