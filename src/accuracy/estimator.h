@@ -34,7 +34,7 @@ typedef struct hr2di_estimator {
   double *own;         /* likewise: what of |B| roundings of H on the element itself are of */
   double *off[2];     /* leaves × bands: what roundings may do to H, as B has it and as told */
   double *floor;      /* 2 × bands, of B and of H: no average counts as less */
-  double *safe;       /* likewise: errors of averages without signs */
+  double *safe;       /* likewise: the worst error of an average without signs */
   double *largest[2]; /* per band: B and H at a point */
   double *point[2];   /* per band: errors at points, of B and of H */
   double *narrow[2];  /* per band: errors at points beside gaps that nothing resolves */

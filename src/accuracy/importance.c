@@ -28,10 +28,6 @@ int hr2di_is_important(const hr2d_target *target, size_t patch) {
                                        sizeof patch, by_index) != NULL;
 }
 
-size_t hr2di_important_count(const hr2d_target *target, const hr2d_scene *scene) {
-  return target->important ? target->important_count : scene->patches;
-}
-
 /* For each patch and band, 1/(A·average) of B and of H where the patch counts, otherwise 0;
    times the largest average B of the band, `most`, so that it is a moderate number over A. */
 typedef struct wanted {

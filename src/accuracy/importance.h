@@ -8,9 +8,6 @@
 /* Whether the averages of a patch count for a target of hr2di_target_init(); O(log n). */
 int hr2di_is_important(const hr2d_target *target, size_t patch);
 
-/* The number of patches of a scene that count. */
-size_t hr2di_important_count(const hr2d_target *target, const hr2d_scene *scene);
-
 /* weight_k = ∫_k ψ B, the largest over the bands, with ψ = Σ ψ_i/a_i over the important
    averages a_i of B and of H.  No ψ_i is negative: a relative error ε of B on patch k that is
    not compensated elsewhere changes each of these averages by at most ε·weight_k of it.

@@ -16,8 +16,7 @@
 
 enum { TERMS = 4 };
 
-/* field = ρK field, through eq->irradiance. */
-static void reflect(hr2di_equation *eq, double *field) {
+void hr2di_residual_reflect(hr2di_equation *eq, double *field) {
   hr2di_equation_gather(eq, field);
   for (size_t k = 0; k < eq->field; k++)
     field[k] = eq->root_rho[k] * eq->root_rho[k] * eq->irradiance[k];
@@ -71,7 +70,7 @@ static hr2d_status sum_series(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   for (size_t k = 0; k < eq->field; k++) eq->source[k] = e->error[k] = e->residual[k];
   for (int term = 1; term <= TERMS; term++) {
-    reflect(eq, eq->source);
+    hr2di_residual_reflect(eq, eq->source);
     for (size_t k = 0; k < eq->field && term < TERMS; k++) e->error[k] += eq->source[k];
   }
   const hr2d_status status = hr2di_estimator_solve(e, 1e-6);

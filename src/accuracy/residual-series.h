@@ -11,6 +11,9 @@ void hr2di_residual_set(hr2di_estimator *e);
 /* Sets e->error to B − B_h.  Returns HR2D_OK or the status of a solve or a gather. */
 hr2d_status hr2di_residual_solve(hr2di_estimator *e);
 
+/* field = ρK field, through eq->irradiance. */
+void hr2di_residual_reflect(hr2di_equation *eq, double *field);
+
 /* Sets the errors of averages and at points from e->error. */
 void hr2di_residual_measure(hr2di_estimator *e);
 

@@ -1,34 +1,120 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Averages sum up what residuals do everywhere, with signs, and may be small by chance.  With
+   the importance Z of one average, Z = s + KρZ, the sum Σ A |⟨r,Z⟩| over leaves has no signs.
+   For an average of B, s is 1/(A B̄) on the patch; Y = ρZ is the radiosity of a source ρs.  For
+   one of H, s is K of 1/(A H̄); Y = 1/(A H̄) + ρZ is the radiosity of a source 1/(A H̄), and Z is
+   KY.
+
+   With M of one row per patch, M_ij = A_j ⟨r_j, Z_i⟩ on leaf j, the largest sum is ‖M‖∞, the
+   largest |Mσ| for any signs σ.  It is looked for as Hager (1984) and Higham (1988) do: the row
+   where |Mσ| is largest for some σ mostly has the largest sum, or one nearly as large.  Mσ are
+   the errors of all averages for residuals σ_j r_j; a row is one more solve.  σ is random: with
+   all signs + these are the errors themselves, which may cancel.  With two samples the root of
+   their squares on a row is below f times its typical value with a probability of f²/2. */
 #include "accuracy/safe-sum.h"
 
 #include <math.h>
+#include <stdint.h>
 
 #include "accuracy/importance.h"
+#include "accuracy/residual-series.h"
+#include "scene/scene-impl.h"
 
-/* Averages sum up what residuals do everywhere, with signs, and may be small by chance. With
-   the importance Z of all averages together, Z = s + KρZ, the sum Σ A |⟨r,Z⟩| over leaves has
-   no signs. For averages of B, s is 1/(A B̄) on each patch; Y = ρZ is the radiosity of a source
-   ρs. For those of H, s is K of 1/(A H̄); Y = 1/(A H̄) + ρZ is the radiosity of a source 1/(A H̄),
-   and Z is KY. */
-hr2d_status hr2di_safe_sum(hr2di_estimator *e, int irradiance) {
+/* Relative, of solves of rows and of samples. */
+#define ROW    1e-2
+#define SAMPLE 1e-1
+
+enum { SAMPLES = 2 };
+
+static double tolerance(double part, double contrast) {
+  return fmax(part * contrast, 1e-14);
+}
+
+/* A random bit, the same on every machine (the finalizer of MurmurHash3). */
+static int is_turned(uint64_t k) {
+  uint64_t x = k + 1;
+  x = (x ^ (x >> 33)) * 0xff51afd7ed558ccdU;
+  x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53U;
+  return (int)((x ^ (x >> 33)) & 1);
+}
+
+/* The least of min least/max least over the bands: the norm of a solve has the largest values,
+   and dark patches have errors, too. */
+static double contrast(const hr2di_estimator *e, int irradiance) {
+  const size_t bands = e->eq.transport.bands, patches = e->values / bands;
+  double ratio = 1;
+  for (size_t b = 0; b < bands; b++) {
+    double min = HUGE_VAL, max = 0;
+    for (size_t k = 0; k < patches; k++) {
+      const double least = hr2di_estimator_least(e, irradiance, k, b);
+      if (least > 0 && hr2di_is_important(e->target, k)) min = fmin(min, least);
+      max = fmax(max, least);
+    }
+    if (max > 0) ratio = fmin(ratio, min / max);
+  }
+  return ratio;
+}
+
+/* Adds the square of Mσ, of averages of H, to that of e->rounding[1]; changes e->rounding[0].
+ */
+static hr2d_status add_sample(hr2di_estimator *e, uint64_t sample, double contrast) {
+  hr2di_equation *eq = &e->eq;
+  hr2di_transport *t = &eq->transport;
+  double *const now = e->rounding[0], *const sum = e->rounding[1];
+  for (size_t k = 0; k < eq->field; k++)
+    eq->source[k] =
+        is_turned(SAMPLES * (k / t->width) + sample) ? -e->residual[k] : e->residual[k];
+  hr2di_residual_reflect(eq, eq->source);
+  hr2di_estimator_averages(e, eq->irradiance, now);
+  const hr2d_status status = hr2di_estimator_solve(e, tolerance(SAMPLE, contrast));
+  if (status) return status;
+  hr2di_transport_pull(t, eq->irradiance);
+  for (size_t k = 0; k < e->values; k++) {
+    const size_t patch = k / t->bands, b = k % t->bands;
+    sum[k] = hypot(sum[k], now[k] + ldexp(t->up[patch * t->width + b], e->exponent_of[b]));
+  }
+  return HR2D_OK;
+}
+
+/* The important patch with the largest relative error in the samples, B being off by ρ times
+   what H is; any patch if all are 0. */
+static size_t worst_patch(const hr2di_estimator *e, int irradiance, size_t band) {
+  const size_t bands = e->eq.transport.bands, patches = e->values / bands;
+  const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
+  size_t found = 0;
+  double worst = 0;
+  for (size_t k = 0; k < patches; k++) {
+    if (!hr2di_is_important(e->target, k)) continue;
+    const double rho = irradiance ? 1 : hr2d_scene_reflectance(scene, k, band);
+    const double error = rho * e->rounding[1][k * bands + band];
+    const double least = hr2di_estimator_least(e, irradiance, k, band);
+    if (!(error > worst * least) || !(least > 0)) continue;
+    found = k;
+    worst = error / least;
+  }
+  return found;
+}
+
+/* Sets the source to ρs, or to 1/(A H̄), of the worst patch of each band. */
+static void set_source(hr2di_estimator *e, int irradiance) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
-  double min = HUGE_VAL, max = 0;
   for (size_t k = 0; k < eq->field; k++) eq->source[k] = 0;
-  for (size_t leaf = 0; leaf < t->leaves; leaf++)
-    for (size_t b = 0; b < t->bands; b++) {
-      const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
-      const double least = hr2di_estimator_least(e, irradiance, patch, b);
-      if (!(least > 0)) continue;
-      min = fmin(min, least);
-      max = fmax(max, least);
-      if (hr2di_is_important(e->target, patch))
+  for (size_t b = 0; b < t->bands; b++) {
+    const size_t patch = worst_patch(e, irradiance, b);
+    const double least = hr2di_estimator_least(e, irradiance, patch, b);
+    for (size_t leaf = 0; leaf < t->leaves && least > 0; leaf++)
+      if (t->hierarchy->element[t->leaf[leaf]].patch == patch)
         eq->source[leaf * t->width + b] = (irradiance ? 1 : hr2di_estimator_rho(e, leaf, b)) /
                                           least / t->hierarchy->element[patch].length;
-    }
-  /* The norm of a solve has the largest ones: dark patches. */
-  const hr2d_status status =
-      hr2di_estimator_solve(e, max > 0 ? fmax(1e-4 * min / max, 1e-14) : 1);
+  }
+}
+
+static hr2d_status sum_row(hr2di_estimator *e, int irradiance) {
+  hr2di_equation *eq = &e->eq;
+  const hr2di_transport *t = &eq->transport;
+  set_source(e, irradiance);
+  const hr2d_status status = hr2di_estimator_solve(e, tolerance(ROW, contrast(e, irradiance)));
   if (status) return status;
   for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++)
     for (size_t b = 0; b < t->bands; b++) {
@@ -41,7 +127,32 @@ hr2d_status hr2di_safe_sum(hr2di_estimator *e, int irradiance) {
             irradiance || !(rho > 0) ? 0 : ldexp(eq->source[k], e->exponent_of[b]) / rho;
         sum += (z + s) * e->residual[k];
       }
-      e->safe[irradiance * t->bands + b] += fabs(sum) * eq->weight[leaf * t->order];
+      e->safe[(size_t)irradiance * t->bands + b] += fabs(sum) * eq->weight[leaf * t->order];
     }
   return HR2D_OK;
+}
+
+/* The rows of B and H on one patch are the same but for their units.  Returns whether they are
+   on one patch in all bands; then e->safe of B follows from that of H. */
+static int share_rows(hr2di_estimator *e) {
+  const size_t bands = e->eq.transport.bands;
+  const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
+  for (size_t b = 0; b < bands; b++)
+    if (worst_patch(e, 0, b) != worst_patch(e, 1, b)) return 0;
+  for (size_t b = 0; b < bands; b++) {
+    const size_t patch = worst_patch(e, 0, b);
+    const double least = hr2di_estimator_least(e, 0, patch, b);
+    if (least > 0)
+      e->safe[b] = e->safe[bands + b] * hr2d_scene_reflectance(scene, patch, b) *
+                   (hr2di_estimator_least(e, 1, patch, b) / least);
+  }
+  return 1;
+}
+
+hr2d_status hr2di_safe_sum(hr2di_estimator *e) {
+  const double dark = fmin(contrast(e, 0), contrast(e, 1));
+  hr2d_status status = HR2D_OK;
+  for (int k = 0; k < SAMPLES && !status; k++) status = add_sample(e, (uint64_t)k, dark);
+  if (!status) status = sum_row(e, 1);
+  return status || share_rows(e) ? status : sum_row(e, 0);
 }

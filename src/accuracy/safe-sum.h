@@ -5,8 +5,9 @@
 
 #include "accuracy/estimator.h"
 
-/* Sets e->safe of B, or of H, per band: Σ A |⟨r, Z⟩| over leaves, with Z the importance of all
-   averages together.  Returns HR2D_OK or the status of a solve. */
-hr2d_status hr2di_safe_sum(hr2di_estimator *e, int irradiance);
+/* Sets e->safe, per band: Σ A |⟨r, Z⟩| over leaves for the worst of the important averages of
+   B, and of those of H, with its importance Z.  Changes e->error and e->rounding.  Returns
+   HR2D_OK or the status of a solve. */
+hr2d_status hr2di_safe_sum(hr2di_estimator *e);
 
 #endif

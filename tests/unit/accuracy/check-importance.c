@@ -236,8 +236,70 @@ START_TEST(dark_patches_are_measured_by_the_floor) {
 }
 END_TEST
 
+/* A lamp and a black receiver in a black floor, under an arc of dark walls.  What the walls
+   reflect makes errors of the receiver that have both signs, and reflectances are such that
+   they cancel in the estimate.  Patches that see nothing are important, too: they are right. */
+enum { FLOOR = 5, WALLS = 8, UNSEEING = 40, COUNT = FLOOR + WALLS + UNSEEING, LAMP = 1 };
+
+static hr2d_scene *cancelling(void) {
+  const double floor[FLOOR][2] = {{0.039490478796341266, 0.09501114898875665},
+                                  {-0.92024123807746205, -0.89027930979032488},
+                                  {-1, -0.92024123807746205},
+                                  {-0.89027930979032488, 0.039490478796341266},
+                                  {0.09501114898875665, 1}};
+  const double at[WALLS + 1][2] = {{1, 0},
+                                   {0.94643893998958473, 0.24498402009123771},
+                                   {0.62238835332979681, 0.59387204633496504},
+                                   {0.33460403007422662, 0.7150050054364836},
+                                   {0.084035242321760711, 0.75605582877678223},
+                                   {-0.29974013994041798, 0.72385347745158035},
+                                   {-0.67547532811692501, 0.55948141082320935},
+                                   {-0.96738976154862322, 0.19218300233310698},
+                                   {-1, 0}};
+  const double rho[WALLS] = {2.50173e-05, 3.13575e-06, 4.89525e-06, 1.75486e-05,
+                             7.19037e-06, 2.48643e-05, 6.79653e-06, 1.78912e-05};
+  hr2d_scene *scene = test_new_scene(NULL);
+  for (int k = 0; k < COUNT; k++) {
+    const int wall = k - FLOOR, other = wall - WALLS;
+    const double x = 1 - 2. * other / UNSEEING, next = 1 - 2. * (other + 1) / UNSEEING;
+    const hr2d_segment s = wall < 0    ? (hr2d_segment){{floor[k][0], 0}, {floor[k][1], 0}}
+                           : other < 0 ? (hr2d_segment){{at[wall][0], at[wall][1]},
+                                                        {at[wall + 1][0], at[wall + 1][1]}}
+                                       : (hr2d_segment){{x, -1}, {next, -1}};
+    ck_assert_int_eq(test_add_patch(scene, s, k == LAMP, wall >= 0 && other < 0 ? rho[wall] : 0,
+                                    HR2D_SIDES_FRONT),
+                     HR2D_OK);
+  }
+  test_commit(scene);
+  return scene;
+}
+
+/* The bound covers the worst patch, however many others are right. */
+START_TEST(bounds_are_not_shared_out) {
+  hr2d_scene *scene = cancelling();
+  size_t patch[COUNT], count = 0;
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_account a;
+  hr2d_solution *solution, *truth = accuracy_solve(scene, 1e-11, HR2D_NORM_AVERAGE, &a);
+  for (size_t k = 0; k < COUNT; k++)
+    if (k == 0 || k >= FLOOR) patch[count++] = k;
+  target.error = 0.00812;
+  target.important = patch;
+  target.important_count = count;
+  ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &a), HR2D_OK);
+  const double error = worst(scene, solution, truth, hr2d_solution_irradiance, patch, count);
+  ck_assert_double_le(error, a.irradiance.bound);
+  /* Negative controls: the estimate does not see the error, and a mean over patches is less. */
+  ck_assert_double_gt(error, 10 * a.irradiance.estimate);
+  ck_assert_double_gt(error, 2.5 * a.irradiance.estimate + a.irradiance.bound / (double)count);
+  hr2d_solution_destroy(solution);
+  hr2d_solution_destroy(truth);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 TEST_SUITE("importance") {
   ADD_TESTS("importance", what_is_important_is_right, order_and_repetition_change_no_bit,
             known_averages_are_met, measured_errors_are_those_of_important_patches,
-            dark_patches_are_measured_by_the_floor);
+            dark_patches_are_measured_by_the_floor, bounds_are_not_shared_out);
 }
