@@ -55,40 +55,40 @@ static double contrast(const hr2di_estimator *e, int irradiance) {
   return ratio;
 }
 
-/* Adds the square of Mσ, of averages of H, to that of e->rounding[1]; changes e->rounding[0].
- */
+/* Adds the squares of Mσ, of averages of B and of H, to those of e->rounding: B is off by σr
+   and ρ times what H is.  Changes e->most and e->error. */
 static hr2d_status add_sample(hr2di_estimator *e, uint64_t sample, double contrast) {
   hr2di_equation *eq = &e->eq;
   hr2di_transport *t = &eq->transport;
-  double *const now = e->rounding[0], *const sum = e->rounding[1];
+  double *const own = e->most, *const first = e->error;
   for (size_t k = 0; k < eq->field; k++)
     eq->source[k] =
         is_turned(SAMPLES * (k / t->width) + sample) ? -e->residual[k] : e->residual[k];
+  hr2di_estimator_averages(e, eq->source, own);
   hr2di_residual_reflect(eq, eq->source);
-  hr2di_estimator_averages(e, eq->irradiance, now);
+  hr2di_estimator_averages(e, eq->irradiance, first);
   const hr2d_status status = hr2di_estimator_solve(e, tolerance(SAMPLE, contrast));
   if (status) return status;
   hr2di_transport_pull(t, eq->irradiance);
   for (size_t k = 0; k < e->values; k++) {
     const size_t patch = k / t->bands, b = k % t->bands;
-    sum[k] = hypot(sum[k], now[k] + ldexp(t->up[patch * t->width + b], e->exponent_of[b]));
+    const double h = first[k] + ldexp(t->up[patch * t->width + b], e->exponent_of[b]);
+    const double rho = hr2d_scene_reflectance(t->hierarchy->scene, patch, b);
+    e->rounding[0][k] = hypot(e->rounding[0][k], own[k] + rho * h);
+    e->rounding[1][k] = hypot(e->rounding[1][k], h);
   }
   return HR2D_OK;
 }
 
-/* The important patch with the largest relative error in the samples, B being off by ρ times
-   what H is; any patch if all are 0. */
+/* The important patch with the largest relative error in the samples; any if all are 0. */
 static size_t worst_patch(const hr2di_estimator *e, int irradiance, size_t band) {
   const size_t bands = e->eq.transport.bands, patches = e->values / bands;
-  const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
   size_t found = 0;
   double worst = 0;
   for (size_t k = 0; k < patches; k++) {
-    if (!hr2di_is_important(e->target, k)) continue;
-    const double rho = irradiance ? 1 : hr2d_scene_reflectance(scene, k, band);
-    const double error = rho * e->rounding[1][k * bands + band];
+    const double error = e->rounding[irradiance][k * bands + band];
     const double least = hr2di_estimator_least(e, irradiance, k, band);
-    if (!(error > worst * least) || !(least > 0)) continue;
+    if (!(error > worst * least) || !(least > 0) || !hr2di_is_important(e->target, k)) continue;
     found = k;
     worst = error / least;
   }
@@ -110,30 +110,34 @@ static void set_source(hr2di_estimator *e, int irradiance) {
   }
 }
 
-static hr2d_status sum_row(hr2di_estimator *e, int irradiance) {
-  hr2di_equation *eq = &e->eq;
+/* Adds up `unit` times the row of the last solve, in one band. */
+static void add_row(hr2di_estimator *e, int irradiance, size_t b, double unit) {
+  const hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
-  set_source(e, irradiance);
-  const hr2d_status status = hr2di_estimator_solve(e, tolerance(ROW, contrast(e, irradiance)));
-  if (status) return status;
-  for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++)
-    for (size_t b = 0; b < t->bands; b++) {
-      const double rho = hr2di_estimator_rho(e, leaf, b);
-      double sum = 0;
-      for (size_t l = 0; l < t->order; l++) {
-        const size_t k = leaf * t->width + l * t->bands + b;
-        const double z = ldexp(eq->irradiance[k], e->exponent_of[b]);
-        const double s =
-            irradiance || !(rho > 0) ? 0 : ldexp(eq->source[k], e->exponent_of[b]) / rho;
-        sum += (z + s) * e->residual[k];
-      }
-      e->safe[(size_t)irradiance * t->bands + b] += fabs(sum) * eq->weight[leaf * t->order];
+  double *const safe = e->safe + (size_t)irradiance * t->bands + b;
+  for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
+    const double rho = hr2di_estimator_rho(e, leaf, b);
+    double sum = 0;
+    for (size_t l = 0; l < t->order; l++) {
+      const size_t k = leaf * t->width + l * t->bands + b;
+      const double z = ldexp(eq->irradiance[k], e->exponent_of[b]);
+      const double s =
+          irradiance || !(rho > 0) ? 0 : ldexp(eq->source[k], e->exponent_of[b]) / rho;
+      sum += (z + s) * e->residual[k];
     }
-  return HR2D_OK;
+    *safe += unit * fabs(sum) * eq->weight[leaf * t->order];
+  }
 }
 
-/* The rows of B and H on one patch are the same but for their units.  Returns whether they are
-   on one patch in all bands; then e->safe of B follows from that of H. */
+static hr2d_status sum_rows(hr2di_estimator *e, int irradiance) {
+  set_source(e, irradiance);
+  const hr2d_status status = hr2di_estimator_solve(e, tolerance(ROW, contrast(e, irradiance)));
+  for (size_t b = 0; b < e->eq.transport.bands && !status; b++) add_row(e, irradiance, b, 1);
+  return status;
+}
+
+/* Sources of B and of H on one patch differ by a factor, and so do their Y.  Returns whether
+   they are on one patch in all bands; then the rows of B are added up from those of H. */
 static int share_rows(hr2di_estimator *e) {
   const size_t bands = e->eq.transport.bands;
   const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
@@ -143,8 +147,9 @@ static int share_rows(hr2di_estimator *e) {
     const size_t patch = worst_patch(e, 0, b);
     const double least = hr2di_estimator_least(e, 0, patch, b);
     if (least > 0)
-      e->safe[b] = e->safe[bands + b] * hr2d_scene_reflectance(scene, patch, b) *
-                   (hr2di_estimator_least(e, 1, patch, b) / least);
+      add_row(e, 0, b,
+              hr2d_scene_reflectance(scene, patch, b) *
+                  (hr2di_estimator_least(e, 1, patch, b) / least));
   }
   return 1;
 }
@@ -153,6 +158,6 @@ hr2d_status hr2di_safe_sum(hr2di_estimator *e) {
   const double dark = fmin(contrast(e, 0), contrast(e, 1));
   hr2d_status status = HR2D_OK;
   for (int k = 0; k < SAMPLES && !status; k++) status = add_sample(e, (uint64_t)k, dark);
-  if (!status) status = sum_row(e, 1);
-  return status || share_rows(e) ? status : sum_row(e, 0);
+  if (!status) status = sum_rows(e, 1);
+  return status || share_rows(e) ? status : sum_rows(e, 0);
 }
