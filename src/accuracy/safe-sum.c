@@ -8,9 +8,8 @@
    With M of one row per patch, M_ij = A_j ⟨r_j, Z_i⟩ on leaf j, the largest sum is ‖M‖∞, the
    largest |Mσ| for any signs σ.  It is looked for as Hager (1984) and Higham (1988) do: the row
    where |Mσ| is largest for some σ mostly has the largest sum, or one nearly as large.  Mσ are
-   the errors of all averages for residuals σ_j r_j; a row is one more solve.  σ is random: with
-   all signs + these are the errors themselves, which may cancel.  With two samples the root of
-   their squares on a row is below f times its typical value with a probability of f²/2. */
+   the errors of all averages for residuals σ_j r_j; a row is one more solve.  σ is random, and
+   all signs +, which are the errors themselves, are a second sample. */
 #include "accuracy/safe-sum.h"
 
 #include <math.h>
@@ -23,8 +22,6 @@
 /* Relative, of solves of rows and of samples. */
 #define ROW    1e-2
 #define SAMPLE 1e-1
-
-enum { SAMPLES = 2 };
 
 static double tolerance(double part, double contrast) {
   return fmax(part * contrast, 1e-14);
@@ -55,32 +52,32 @@ static double contrast(const hr2di_estimator *e, int irradiance) {
   return ratio;
 }
 
-/* Adds the squares of Mσ, of averages of B and of H, to those of e->rounding: B is off by σr
-   and ρ times what H is.  Changes e->most and e->error. */
-static hr2d_status add_sample(hr2di_estimator *e, uint64_t sample, double contrast) {
+/* Sets e->rounding to the root of the squares of Mσ, for averages of B and of H, and of the
+   errors themselves: B is off by σr and ρ times what H is.  Changes e->most and e->error. */
+static hr2d_status sample(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   hr2di_transport *t = &eq->transport;
   double *const own = e->most, *const first = e->error;
+  const double dark = fmin(contrast(e, 0), contrast(e, 1));
   for (size_t k = 0; k < eq->field; k++)
-    eq->source[k] =
-        is_turned(SAMPLES * (k / t->width) + sample) ? -e->residual[k] : e->residual[k];
+    eq->source[k] = is_turned(k / t->width) ? -e->residual[k] : e->residual[k];
   hr2di_estimator_averages(e, eq->source, own);
   hr2di_residual_reflect(eq, eq->source);
   hr2di_estimator_averages(e, eq->irradiance, first);
-  const hr2d_status status = hr2di_estimator_solve(e, tolerance(SAMPLE, contrast));
+  const hr2d_status status = hr2di_estimator_solve(e, tolerance(SAMPLE, dark));
   if (status) return status;
   hr2di_transport_pull(t, eq->irradiance);
   for (size_t k = 0; k < e->values; k++) {
     const size_t patch = k / t->bands, b = k % t->bands;
     const double h = first[k] + ldexp(t->up[patch * t->width + b], e->exponent_of[b]);
     const double rho = hr2d_scene_reflectance(t->hierarchy->scene, patch, b);
-    e->rounding[0][k] = hypot(e->rounding[0][k], own[k] + rho * h);
-    e->rounding[1][k] = hypot(e->rounding[1][k], h);
+    e->rounding[0][k] = hypot(e->average[0][k], own[k] + rho * h);
+    e->rounding[1][k] = hypot(e->average[1][k], h);
   }
   return HR2D_OK;
 }
 
-/* The important patch with the largest relative error in the samples; any if all are 0. */
+/* The important patch with the largest relative error in both samples; any if all are 0. */
 static size_t worst_patch(const hr2di_estimator *e, int irradiance, size_t band) {
   const size_t bands = e->eq.transport.bands, patches = e->values / bands;
   size_t found = 0;
@@ -155,9 +152,7 @@ static int share_rows(hr2di_estimator *e) {
 }
 
 hr2d_status hr2di_safe_sum(hr2di_estimator *e) {
-  const double dark = fmin(contrast(e, 0), contrast(e, 1));
-  hr2d_status status = HR2D_OK;
-  for (int k = 0; k < SAMPLES && !status; k++) status = add_sample(e, (uint64_t)k, dark);
+  hr2d_status status = sample(e);
   if (!status) status = sum_rows(e, 1);
   return status || share_rows(e) ? status : sum_rows(e, 0);
 }
