@@ -117,9 +117,9 @@ HR2D_API void hr2d_refine_options_init(hr2d_refine_options *options, size_t size
  * @retval other               the status of a callback
  *
  * Only one thread at a time may refine a hierarchy. Cost O(n² + L). If the scene calls for
- * occlusion, each patch sends beams, which cost what it sees, and each pair whose view something
- * bounds costs a cut of its classes of lines, some 0.5 µs. Memory: 70 bytes
- * per element and 16 per link; while a set with links is refined further, old and new links are
+ * occlusion, each patch sends beams, which cost what it sees, and each pair whose view
+ * something bounds costs a cut of its classes of lines, some 0.5 µs. Memory: 70 bytes per
+ * element and 16 per link; while a set with links is refined further, old and new links are
  * held.
  */
 HR2D_API hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options);

@@ -141,9 +141,9 @@ static void add_coloured(hr2d_scene *scene, randoms *r, hr2d_segment at) {
   ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
 }
 
-/* A lamp that hangs in a closed black room.  Nothing comes back to it.  Its row sum is closed by
-   what the rounded ends of elements leave of 1, some roundings of its B, but these are not of
-   its H. */
+/* A lamp that hangs in a closed black room.  Nothing comes back to it.  Its row sum is closed
+   by what the rounded ends of elements leave of 1, some roundings of its B, but these are not
+   of its H. */
 START_TEST(a_lamp_in_a_black_room_far_away) {
   const size_t count = test_rounds(40, 12);
   randoms r = randoms_stream(test_seed(), 2);
