@@ -19,8 +19,9 @@
 /* Estimates were 0.5 to 4.3 times the errors, over rooms, corners, gaps and short patches. */
 #define MARGIN 2.5
 /* Where views change, coefficients p and p + 1 of a kink inside an element show 1 − (p/(p+2))³
-   of its effect, and visibility events leave kinks of later generations. */
-#define HIDDEN 5
+   of its effect, and visibility events leave kinks of later generations: in one of 7,000 random
+   runs, 6.1 times as much was hidden. */
+#define HIDDEN 7
 /* Points are sampled, and coefficients show less of B than of averages. */
 #define POINTS 3
 /* The part of the errors without signs that may be left where signs cancel: what K⁺ does not

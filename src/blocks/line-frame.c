@@ -8,13 +8,15 @@
 /* Ends that are nearer to each other than this part of both elements are one. */
 #define NEAR 0x1p-48
 
-/* The part of a patch behind an element; exact if all divisions were halvings, and 0 if there
-   is none. */
+/* The part of a patch behind an element, to its own digits; exact if all divisions were
+   halvings, and 0 if there is none. */
 static double rest_behind(const hr2d_hierarchy *h, uint32_t element) {
   double rest = 0;
   for (uint32_t parent = h->parent[element]; parent != element; parent = h->parent[element]) {
-    const double right = 1 - hr2di_element_left_part(h->element, parent);
-    rest = element == h->element[parent].child ? right + (1 - right) * rest : right * rest;
+    const double right = hr2di_element_right_part(h->element, parent);
+    rest = element == h->element[parent].child
+               ? right + hr2di_element_left_part(h->element, parent) * rest
+               : right * rest;
     element = parent;
   }
   return rest;

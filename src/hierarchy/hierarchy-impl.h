@@ -57,6 +57,13 @@ static inline double hr2di_element_left_part(const hr2d_element *element, uint32
   return left == right ? 0.5 : left / (left + right);
 }
 
+/* That of the right child, with its own digits where it is much shorter. */
+static inline double hr2di_element_right_part(const hr2d_element *element, uint32_t at) {
+  const double left = element[element[at].child].length;
+  const double right = element[element[at].child + 1].length;
+  return left == right ? 0.5 : right / (left + right);
+}
+
 /* Returns the child that holds the point at fraction *t of an element; *t becomes the fraction
    of this child, exact for halves.  A point on the border of the children belongs to the left
    one if `before` is set, else to the right one. */

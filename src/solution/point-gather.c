@@ -75,25 +75,32 @@ static void add_constant(gatherer *g, const stretch *leaf, const double *coeffic
   for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += factor * coefficient[b];
 }
 
+/* Sums of a panel come first, so that few roundings add up. */
 static void add_panel(gatherer *g, const stretch *leaf, hr2di_span panel,
                       const double *coefficient) {
   const hr2d_point from = leaf->from, along = leaf->along;
   const double size = panel.to - panel.from;
-  const size_t bands = g->solution->bands;
-  if (hr2di_watch_work(g->watch, g->rule.points * (1 + g->solution->order * bands / 16)))
-    return;
-  for (size_t q = 0; q < g->rule.points; q++) {
+  const size_t bands = g->solution->bands, points = g->rule.points;
+  double xi[POINTS], kernel[POINTS], factor = 0;
+  if (hr2di_watch_work(g->watch, points * (1 + g->solution->order * bands / 16))) return;
+  for (size_t q = 0; q < points; q++) {
     const double t = panel.from + size * (0.5 + 0.5 * g->rule.at[q]);
     const hr2d_point r = hr2di_block_along(from, along, t);
     const double square = r.x * r.x + r.y * r.y;
-    if (!(square > 0)) continue; /* x is a corner, and the panel no larger than rounding */
     const double cos_x = g->normal.x * r.x + g->normal.y * r.y;
     const double turn = r.x * along.y - r.y * along.x;
-    const double kernel =
-        0.5 * size * g->rule.weight[q] * cos_x * turn / (square * sqrt(square));
-    g->factor += kernel;
-    for (size_t b = 0; b < bands; b++)
-      g->value[b] += kernel * hr2di_basis_sum(&g->basis, 2 * t - 1, coefficient + b, bands);
+    xi[q] = 2 * t - 1;
+    kernel[q] = 0; /* of x in a corner, and a panel no larger than rounding */
+    if (square > 0)
+      kernel[q] = 0.5 * size * g->rule.weight[q] * cos_x * turn / (square * sqrt(square));
+    factor += kernel[q];
+  }
+  g->factor += factor;
+  for (size_t b = 0; b < bands; b++) {
+    double sum = 0;
+    for (size_t q = 0; q < points; q++)
+      sum += kernel[q] * hr2di_basis_sum(&g->basis, xi[q], coefficient + b, bands);
+    g->value[b] += sum;
   }
 }
 

@@ -36,6 +36,10 @@ once panels 3000049
 # Blocks of an element that stands on another one, and of slivers.
 once enfilade 4000231
 once foot 4000219
+# Short elements beside the end of a patch, sums over many panels, and hidden kinks.
+once skirting 5000208
+once needle 5000232
+once squares 5000164
 # Ends of plates beside others, and gaps narrower than elements may be.
 once crack 8 54 7000382
 
