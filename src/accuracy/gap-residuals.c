@@ -16,8 +16,7 @@
    them.
 
    The view from a point is that from its rounded coordinates.  They move it by δ/h of the gap,
-   and H by that part of the change of B.  Beside patches that reflect nothing, and so have no
-   short elements of which coordinate-rounding.c knows that, it counts in resolved gaps, too. */
+   and H by that part of the change of B, in resolved gaps, too. */
 #include "accuracy/gap-residuals.h"
 
 #include <float.h>
@@ -122,9 +121,13 @@ static double rounding_at(const hr2di_estimator *e, const gap *g, size_t band) {
 
 static void add_rounding(const hr2di_estimator *e, const gap *g) {
   const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
-  if (reflects(scene, g->over) && reflects(scene, g->end / 2)) return;
-  for (size_t b = 0; b < e->eq.transport.bands; b++)
-    e->stray[1][b] = fmax(e->stray[1][b], rounding_at(e, g, b));
+  for (size_t b = 0; b < e->eq.transport.bands; b++) {
+    const double rounding = rounding_at(e, g, b);
+    const double rho = fmax(hr2d_scene_reflectance(scene, g->over, b),
+                            hr2d_scene_reflectance(scene, g->end / 2, b));
+    e->stray[0][b] = fmax(e->stray[0][b], rho * rounding);
+    e->stray[1][b] = fmax(e->stray[1][b], rounding);
+  }
 }
 
 /* Lists the gaps between leaf i and the ends of the patch of leaf j. */
