@@ -86,7 +86,8 @@ static int measure(const char *name, draw_fn draw, size_t most) {
       hr2di_triangulation t;
       hr2di_conflict conflict;
       const double start = hr2di_clock_now();
-      failed = hr2di_triangulation_init(&t, &alloc, wall, count, sizeof *wall, &conflict, NULL);
+      failed = hr2di_triangulation_init(&t, &alloc, wall, count, sizeof *wall, HR2DI_UNITS,
+                                        &conflict, NULL);
       seconds[k] = hr2di_clock_now() - start;
       cost[size] = (double)(t.vertices ? t.vertices : 1);
       hr2di_triangulation_clear(&t);

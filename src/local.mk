@@ -56,10 +56,10 @@ libhr2d_core_la_SOURCES = \
 	src/sight/sight.h \
 	src/sight/sight-list.c src/sight/sight-list.h \
 	src/sight/walk.c src/sight/walk.h \
-	src/occlusion/corridor.c src/occlusion/corridor.h \
+	src/occlusion/clumps.c src/occlusion/clumps.h \
 	src/occlusion/exchange-occluded.c \
-	src/occlusion/line-classes.c src/occlusion/line-classes.h \
-	src/occlusion/pair-visibility.c src/occlusion/pair-visibility.h \
+	src/occlusion/past-clumps.c src/occlusion/past-clumps.h \
+	src/occlusion/screens.c src/occlusion/screens.h \
 	src/occlusion/shaft.c src/occlusion/shaft.h \
 	src/occlusion/wall-bodies.c src/occlusion/wall-bodies.h \
 	src/occlusion/wall-tree.c src/occlusion/wall-tree.h \

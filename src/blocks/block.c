@@ -9,7 +9,6 @@
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
 #include "geometry/vector.h"
-#include "occlusion/shaft.h"
 #include "scene/scene-impl.h"
 
 static double *table(const hr2di_integrator *w, const hr2di_rule *rule) {
@@ -76,8 +75,8 @@ static hr2d_status add_clear(hr2di_integrator *w, const hr2di_line_frame *f, dou
 /* On which of the lines of two patches a point of a chain lies. */
 static hr2di_incident_point incident(const hr2di_pair_lines *lines, hr2d_point at,
                                      unsigned known) {
-  if (!(known & HR2DI_ON_I) && hr2di_shaft_front(&lines->i, at) == 0) known |= HR2DI_ON_I;
-  if (!(known & HR2DI_ON_J) && hr2di_shaft_front(&lines->j, at) == 0) known |= HR2DI_ON_J;
+  if (!(known & HR2DI_ON_I) && hr2di_axis_front(&lines->i, at) == 0) known |= HR2DI_ON_I;
+  if (!(known & HR2DI_ON_J) && hr2di_axis_front(&lines->j, at) == 0) known |= HR2DI_ON_J;
   return (hr2di_incident_point){at, known};
 }
 

@@ -2,6 +2,24 @@
 /* Orientation of points that lie on the line of i or of j. */
 #include "geometry/orient-incident.h"
 
+#include "geometry/crossings.h"
+
+/* A few units in the last place of the coordinates involved: what is so near to a line lies on
+   it, as ends of walls that were computed to lie there do. */
+#define TOUCH 0x1p-50
+
+static double largest(hr2d_point p) {
+  return fmax(fabs(p.x), fabs(p.y));
+}
+
+int hr2di_axis_front_of_near(const hr2di_axis *line, hr2d_point p) {
+  const int side = hr2di_orient_sign(line->a, line->b, p);
+  if (side == 0) return 0;
+  const double size = fmax(largest(p), fmax(largest(line->a), largest(line->b)));
+  const hr2d_segment s = {line->a, line->b};
+  return hr2di_crossings_distance(p, &s) <= TOUCH * size ? 0 : side;
+}
+
 /* Two of the three points lie on the line of `bit`; their order on it decides. */
 static int turn_on_line(const hr2di_axis *axis, unsigned bit, hr2di_incident_point p,
                         hr2di_incident_point q, hr2di_incident_point r) {

@@ -43,6 +43,19 @@ static inline int hr2di_axis_order(const hr2di_axis *axis, hr2d_point p, hr2d_po
   return hr2di_sign_of(axis->direction * (axis->by_x ? q.x - p.x : q.y - p.y));
 }
 
+/* hr2di_axis_front() for a point near the line. */
+int hr2di_axis_front_of_near(const hr2di_axis *line, hr2d_point p);
+
+/* 1 if p is in front of a line, −1 if behind, 0 if on it within a few units in the last place.
+   Coordinates lie in [-2,2], so that what lies on a line is within 2^-49 of it, and the
+   rounding error of `value` is below 2^-50 of |dx| + |dy|. */
+static inline int hr2di_axis_front(const hr2di_axis *line, hr2d_point p) {
+  const double dx = line->b.x - line->a.x, dy = line->b.y - line->a.y;
+  const double value = dx * (p.y - line->a.y) - dy * (p.x - line->a.x);
+  const double margin = 0x1p-47 * (fabs(dx) + fabs(dy));
+  return value > margin ? 1 : value < -margin ? -1 : hr2di_axis_front_of_near(line, p);
+}
+
 /* Whether both points lie where the two lines meet. */
 static inline int hr2di_incident_corners(hr2di_incident_point p, hr2di_incident_point q) {
   return (p.on & q.on) == HR2DI_ON_BOTH;
@@ -67,17 +80,6 @@ static inline int hr2di_incident_same(const hr2di_pair_lines *frame, hr2di_incid
   const unsigned both = p.on & q.on;
   if (both & HR2DI_ON_I) return hr2di_axis_order(&frame->i, p.at, q.at) == 0;
   return both & HR2DI_ON_J ? hr2di_axis_order(&frame->j, p.at, q.at) == 0 : 0;
-}
-
-/* For three points on one line: whether p lies ahead of `from` on the way to `to` (1), at
-   it (0), or behind it (−1). */
-static inline int hr2di_incident_ahead(const hr2di_pair_lines *frame, hr2di_incident_point from,
-                                       hr2di_incident_point to, hr2di_incident_point p) {
-  const unsigned all = from.on & to.on & p.on;
-  const hr2di_axis axis = all & HR2DI_ON_I   ? frame->i
-                          : all & HR2DI_ON_J ? frame->j
-                                             : hr2di_axis_of((hr2d_segment){from.at, to.at});
-  return hr2di_axis_order(&axis, from.at, to.at) * hr2di_axis_order(&axis, from.at, p.at);
 }
 
 #endif

@@ -19,6 +19,10 @@ double hr2di_orient(hr2d_point a, hr2d_point b, hr2d_point c);
    last place; nothing under- or overflows.  NaN if p and q lie on the line. */
 double hr2di_line_crossing(hr2d_point a, hr2d_point b, hr2d_point p, hr2d_point q);
 
+/* The point of s on the line through p and q, which has the ends of s on different sides, to
+   the rounding of its coordinates. */
+hr2d_point hr2di_line_crossing_at(hr2d_segment s, hr2d_point p, hr2d_point q);
+
 /* How two segments see each other's fronts, exactly. */
 typedef enum hr2di_facing {
   HR2DI_FACING_NONE, /* exchange area 0 */

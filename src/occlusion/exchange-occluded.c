@@ -6,8 +6,9 @@
 
 #include "base/alloc.h"
 #include "base/sized-struct.h"
+#include "base/watch.h"
 #include "geometry/predicates.h"
-#include "occlusion/pair-visibility.h"
+#include "occlusion/past-clumps.h"
 
 static double largest(hr2d_segment s) {
   return fmax(fmax(fabs(s.a.x), fabs(s.a.y)), fmax(fabs(s.b.x), fabs(s.b.y)));
@@ -51,22 +52,52 @@ static int comes_first(const hr2d_segment *i, const hr2d_segment *j) {
   return i->b.y <= j->b.y;
 }
 
-static hr2d_status integrate(hr2di_visibility *sight, hr2d_segment i, hr2d_segment j,
-                             double *area) {
-  hr2di_shaft shaft;
-  hr2di_wall_list list = {0};
-  hr2di_visibility_class view;
-  int open;
-  *area = 0;
-  if (!hr2di_shaft_init(&shaft, hr2di_facing_of(&i, &j), i, j, i, j)) {
-    *area = hr2d_exchange_area(&i, &j);
-    return HR2D_OK;
+/* The screens of the occluders.  Each may hide all; then there is no need for others. */
+static hr2d_status find_screens(const hr2di_opening *o, const hr2d_segment *occluder,
+                                size_t count, hr2di_screen *screen, size_t *screens,
+                                int *blocked, hr2di_watch *watch) {
+  *screens = 0;
+  *blocked = 0;
+  for (size_t k = 0; k < count && !*blocked; k++) {
+    hr2di_screen *s = &screen[*screens];
+    if (hr2di_watch_work(watch, 1)) return hr2di_watch_status(watch);
+    *screens += (size_t)hr2di_screen_of(s, o, occluder[k]);
+    *blocked = s->joins == (HR2DI_JOINS_RIGHT | HR2DI_JOINS_LEFT);
   }
-  hr2d_status status = hr2di_visibility_collect(sight, &shaft, &list, &view);
-  if (!status && view == HR2DI_CLEAR) *area = hr2d_exchange_area(&i, &j);
-  if (!status && view == HR2DI_PARTIAL)
-    status = hr2di_visibility_area(sight, &shaft, list.wall, list.count, area, &open);
-  hr2di_alloc_free(&sight->alloc, list.wall);
+  return HR2D_OK;
+}
+
+/* The same past screens, at least one. */
+static hr2d_status pass(const hr2di_opening *o, hr2di_screen *screen, size_t count,
+                        const hr2d_allocator *alloc, hr2di_watch *watch, double *area) {
+  hr2di_clumps clumps;
+  double past = 0;
+  int all = 0;
+  hr2d_status status = hr2di_clumps_init(&clumps, alloc, o, screen, count, watch);
+  if (!status && !clumps.blocked) status = hr2di_past_clumps(o, &clumps, &past, &all);
+  hr2di_clumps_clear(&clumps);
+  if (!all) *area = fmin(past, *area);
+  return status;
+}
+
+/* The exchange area of two segments past others; coordinates are below 2. */
+static hr2d_status integrate(const hr2d_segment *segment, size_t count,
+                             const hr2d_allocator *alloc, hr2di_watch *watch, double *area) {
+  hr2di_opening opening;
+  size_t screens;
+  int blocked;
+  *area = hr2d_exchange_area(&segment[0], &segment[1]);
+  const hr2di_facing facing = hr2di_facing_of(&segment[0], &segment[1]);
+  if (!hr2di_opening_init(&opening, facing, segment[0], segment[1])) return HR2D_OK;
+  hr2di_screen *screen = hr2di_alloc(alloc, count, sizeof *screen);
+  if (!screen) return HR2D_ENOMEM;
+  hr2d_status status =
+      find_screens(&opening, segment + 2, count - 2, screen, &screens, &blocked, watch);
+  if (blocked)
+    *area = 0;
+  else if (!status && screens > 0)
+    status = pass(&opening, screen, screens, alloc, watch, area);
+  hr2di_alloc_free(alloc, screen);
   return status;
 }
 
@@ -75,20 +106,11 @@ static hr2d_status integrate_scaled(hr2d_segment *segment, size_t count,
                                     const hr2d_allocator *alloc, hr2di_watch *watch,
                                     double *area) {
   int exponent;
+  double scaled;
   hr2d_status status = hr2di_watch_work(watch, count / 4);
   if (!status) status = normalise(segment, count, &exponent);
-  if (status) return status;
-  hr2di_walls walls;
-  hr2di_visibility sight;
-  double scaled = 0;
-  status = hr2di_walls_init(&walls, alloc, segment + 2, count - 2, watch);
-  hr2di_visibility_init(&sight, &walls, alloc, watch);
-  if (!status) status = integrate(&sight, segment[0], segment[1], &scaled);
-  /* Roundings of far coordinates may exceed all there is of a small pair. */
-  scaled = fmin(scaled, hr2d_exchange_area(&segment[0], &segment[1]));
+  if (!status) status = integrate(segment, count, alloc, watch, &scaled);
   if (!status) *area = ldexp(scaled, exponent);
-  hr2di_visibility_clear(&sight);
-  hr2di_walls_clear(&walls);
   return status;
 }
 

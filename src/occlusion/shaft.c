@@ -6,37 +6,12 @@
 
 #include <math.h>
 
-#include "geometry/crossings.h"
-
 /* A few units in the last place of the coordinates involved: what is so near to a line
    lies on it, as ends of walls that were computed to lie there do. */
 #define TOUCH 0x1p-50
 
 static double largest(hr2d_point p) {
   return fmax(fabs(p.x), fabs(p.y));
-}
-
-/* front() for a point near the line. */
-static int front_of_near(const hr2di_axis *line, hr2d_point p) {
-  const int side = hr2di_orient_sign(line->a, line->b, p);
-  if (side == 0) return 0;
-  const double size = fmax(largest(p), fmax(largest(line->a), largest(line->b)));
-  const hr2d_segment s = {line->a, line->b};
-  return hr2di_crossings_distance(p, &s) <= TOUCH * size ? 0 : side;
-}
-
-/* 1 if p is in front of a line, −1 if behind, 0 if on it.  Coordinates lie in [-2,2], so
-   that what lies on a line is within 2^-49 of it, and the rounding error of `value` is
-   below 2^-50 of |dx| + |dy|. */
-static inline int front(const hr2di_axis *line, hr2d_point p) {
-  const double dx = line->b.x - line->a.x, dy = line->b.y - line->a.y;
-  const double value = dx * (p.y - line->a.y) - dy * (p.x - line->a.x);
-  const double margin = 0x1p-47 * (fabs(dx) + fabs(dy));
-  return value > margin ? 1 : value < -margin ? -1 : front_of_near(line, p);
-}
-
-int hr2di_shaft_front(const hr2di_axis *line, hr2d_point p) {
-  return front(line, p);
 }
 
 /* The point of p→q on a line between them; an end of the segment on that line if it is
@@ -76,7 +51,7 @@ static int clip(hr2di_obstacle *o, const hr2di_axis *line, unsigned bit, const i
 /* The part of a segment in front of a line. */
 static int clip_segment(hr2di_incident_point *p, hr2di_incident_point *q,
                         const hr2di_axis *line, unsigned bit) {
-  const int at[2] = {front(line, p->at), front(line, q->at)};
+  const int at[2] = {hr2di_axis_front(line, p->at), hr2di_axis_front(line, q->at)};
   if (at[0] > 0 && at[1] > 0) return 1;
   hr2di_obstacle o = {.end = {*p, *q}, .whole = 3};
   const unsigned own = p->on & q->on;
@@ -136,13 +111,6 @@ int hr2di_shaft_init(hr2di_shaft *s, hr2di_facing facing, hr2d_segment i, hr2d_s
   s->side[2] = side_between(&s->frame, s->b, s->c);
   s->side[3] = side_between(&s->frame, s->d, s->a);
   return 1;
-}
-
-int hr2di_shaft_part(hr2di_shaft *part, const hr2di_shaft *whole, hr2d_segment i,
-                     hr2d_segment j) {
-  const hr2di_axis p = whole->frame.i, q = whole->frame.j;
-  return hr2di_shaft_init(part, HR2DI_FACING_FULL, i, j, (hr2d_segment){p.a, p.b},
-                          (hr2d_segment){q.a, q.b});
 }
 
 int hr2di_shaft_meets_box(const hr2di_shaft *shaft, double x0, double x1, double y0,
@@ -218,7 +186,7 @@ static inline int clip_wall(const hr2di_shaft *s, double value[4][2], hr2di_obst
     int at[2];
     for (int e = 0; e < 2; e++) {
       at[e] = o->whole & (1u << e) ? certain(value[k][e], s->side[k].margin) : 0;
-      if (at[e] == 0) at[e] = front(line, o->end[e].at);
+      if (at[e] == 0) at[e] = hr2di_axis_front(line, o->end[e].at);
     }
     if ((at[0] <= 0 || at[1] <= 0) && !clip(o, line, 1u << k, at)) return 0;
   }

@@ -21,25 +21,11 @@ typedef struct hr2di_shaft {
   hr2di_half_plane side[4]; /* in front of i, of j, between them on the right, on the left */
 } hr2di_shaft;
 
-/* 1 if a point is in front of a line, −1 if behind, 0 if on it within a few units in the last
-   place of coordinates, which lie in [−2,2]. */
-int hr2di_shaft_front(const hr2di_axis *line, hr2d_point p);
-
 /* Makes the shaft of i and j, parts of two lines; 0 if there is none: they do not face
    each other, or one lies along the line of the other but for rounding, so that nothing
    is between them. */
 int hr2di_shaft_init(hr2di_shaft *shaft, hr2di_facing facing, hr2d_segment i, hr2d_segment j,
                      hr2d_segment line_i, hr2d_segment line_j);
-
-/* The shaft of parts of i and j; the same. */
-int hr2di_shaft_part(hr2di_shaft *part, const hr2di_shaft *whole, hr2d_segment i,
-                     hr2d_segment j);
-
-/* The direction across the shaft, as long as i and j together. */
-static inline hr2d_point hr2di_shaft_across(const hr2di_shaft *s) {
-  return (hr2d_point){(s->b.at.x - s->a.at.x) + (s->c.at.x - s->d.at.x),
-                      (s->b.at.y - s->a.at.y) + (s->c.at.y - s->d.at.y)};
-}
 
 /* Whether the shaft may meet a box; never 0 if it does. */
 int hr2di_shaft_meets_box(const hr2di_shaft *shaft, double x0, double x1, double y0, double y1);

@@ -93,26 +93,22 @@ static hr2d_status find_runs(runs *r, size_t *count, hr2di_watch *watch) {
   return status;
 }
 
-/* One wall per run; vertices within a run have it as their host. */
+/* One wall per run. */
 static void make_walls(hr2di_walls *w, runs *r) {
   for (uint32_t k = 0; k < r->count; k++)
     if (hr2di_union_find(r->parent, k) == k) {
       w->of_segment[k] = (uint32_t)w->walls;
       w->wall[w->walls++].at = r->span[k];
     }
-  for (size_t v = 0; v < w->vertices; v++) w->host[v] = HR2DI_NO_WALL;
   for (uint32_t k = 0; k < r->count; k++) {
     const uint32_t wall = w->of_segment[hr2di_union_find(r->parent, k)];
     const hr2d_point end[] = {r->segment[k].a, r->segment[k].b};
     w->of_segment[k] = wall;
     for (int e = 0; e < 2; e++) {
       const uint32_t vertex = r->vertex[2 * k + (uint32_t)e];
-      /* Both ends of an occluder that is a point are one vertex. */
-      const int at_a = hr2di_point_same(end[e], w->wall[wall].at.a);
-      const int at_b = hr2di_point_same(end[e], w->wall[wall].at.b);
-      if (at_a) w->wall[wall].vertex[0] = vertex;
-      if (at_b) w->wall[wall].vertex[1] = vertex;
-      if (!at_a && !at_b) w->host[vertex] = wall;
+      /* Both ends of a segment that is a point are one vertex. */
+      if (hr2di_point_same(end[e], w->wall[wall].at.a)) w->wall[wall].vertex[0] = vertex;
+      if (hr2di_point_same(end[e], w->wall[wall].at.b)) w->wall[wall].vertex[1] = vertex;
     }
   }
 }
@@ -148,7 +144,6 @@ static hr2d_status reserve(hr2di_walls *w, runs *r, size_t count) {
   if (count > UINT32_MAX / 4) return HR2D_ENOMEM;
   w->wall = hr2di_alloc(alloc, count, sizeof *w->wall);
   w->of_segment = hr2di_alloc(alloc, count, sizeof *w->of_segment);
-  w->host = hr2di_alloc(alloc, 2 * count, sizeof *w->host);
   w->box = hr2di_alloc(alloc, 2 * count, sizeof *w->box);
   w->body = hr2di_alloc(alloc, count, sizeof *w->body);
   w->body_of = hr2di_alloc(alloc, count, sizeof *w->body_of);
@@ -156,8 +151,8 @@ static hr2d_status reserve(hr2di_walls *w, runs *r, size_t count) {
   r->span = hr2di_alloc(alloc, count, sizeof *r->span);
   r->tip = hr2di_alloc(alloc, 2 * count, sizeof *r->tip);
   r->vertex = hr2di_alloc(alloc, 2 * count, sizeof *r->vertex);
-  const int room = w->wall && w->of_segment && w->host && w->box && w->body && w->body_of &&
-                   r->parent && r->span && r->tip && r->vertex;
+  const int room = w->wall && w->of_segment && w->box && w->body && w->body_of && r->parent &&
+                   r->span && r->tip && r->vertex;
   return room ? HR2D_OK : HR2D_ENOMEM;
 }
 
@@ -171,11 +166,6 @@ hr2d_status hr2di_walls_init(hr2di_walls *walls, const hr2d_allocator *alloc,
   if (!status) make_walls(walls, &r);
   if (!status) status = hr2di_wall_bodies_init(walls, watch);
   if (!status) status = hr2di_wall_tree_init(walls, watch);
-  for (size_t k = 0; k < 2 * count && !status; k++) {
-    status = hr2di_watch_work(watch, 4);
-    uint32_t *host = &walls->host[r.vertex[2 * r.tip[k].segment + r.tip[k].which]];
-    if (*host == HR2DI_NO_WALL) *host = hr2di_walls_host(walls, r.tip[k].point, HR2DI_NO_WALL);
-  }
   hr2di_alloc_free(alloc, r.parent);
   hr2di_alloc_free(alloc, r.span);
   hr2di_alloc_free(alloc, r.tip);
@@ -186,7 +176,6 @@ hr2d_status hr2di_walls_init(hr2di_walls *walls, const hr2d_allocator *alloc,
 void hr2di_walls_clear(hr2di_walls *walls) {
   hr2di_alloc_free(&walls->alloc, walls->wall);
   hr2di_alloc_free(&walls->alloc, walls->of_segment);
-  hr2di_alloc_free(&walls->alloc, walls->host);
   hr2di_alloc_free(&walls->alloc, walls->box);
   hr2di_alloc_free(&walls->alloc, walls->body);
   hr2di_alloc_free(&walls->alloc, walls->body_of);

@@ -41,7 +41,6 @@ typedef struct hr2di_walls {
   hr2di_wall *wall;
   size_t walls;
   uint32_t *of_segment; /* the wall of each segment they were made from */
-  uint32_t *host;       /* per vertex: a wall on whose inside it lies, or HR2DI_NO_WALL */
   size_t vertices;
   hr2di_body *body;  /* joined walls */
   uint32_t *body_of; /* the body of each wall */

@@ -14,11 +14,18 @@
    So beams are sent from the backs of walls only.  (In a closed room, fronts see fronts: n²
    pairs that need no look.)  A beam that ends at a front is turned, and goes on through the
    wall that it came from; so does one that ends at a back, when it has gone on through that to
-   a front.  A wall that has all of the scene on one side stands between nothing. */
+   a front.  A wall that has all of the scene on one side stands between nothing.
+
+   A side may have patches in some places only.  So what a beam has found is restricted to each
+   patch at its two ends; all of a wall between them has patches, on one side or the other. */
 #include "scene/in-between.h"
 
+#include <hr2d/visibility.h>
+
 #include "base/alloc.h"
+#include "geometry/vector.h"
 #include "scene/scene-impl.h"
+#include "sight/sight-list.h"
 
 /* What is known of a side of a wall edge. */
 enum {
@@ -32,54 +39,120 @@ typedef struct search {
   unsigned char *side;          /* bits, per side */
   unsigned char *any;           /* 1 per side */
   hr2di_wall_side from;         /* of the wall that may stand between */
+  hr2di_wall_side to;           /* where `back` comes from */
   hr2di_walk out, beyond, back; /* from that side, through what it sees, through the wall */
+  hr2di_walk glance;            /* from the other side of the wall */
   hr2d_point *room;
   size_t points;
-  int found;      /* something in between, or that it takes too long to know */
-  uint64_t steps; /* that are left */
+  hr2di_sight_list whole, near, both; /* restricted to nothing, to one patch, to two */
+  hr2di_occlusion *found;
+  int seen; /* there is a front behind the wall */
 } search;
 
 /* Ends a walk. */
-static hr2d_status find(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
-  search *f = ctx;
+static hr2d_status see(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
   (void)s;
   (void)j;
-  f->found = 1;
+  ((search *)ctx)->seen = 1;
   return HR2D_ESTATE;
 }
 
-/* Pays for the steps of a walk since `before`. */
-static hr2d_status pay(search *f, const hr2di_walk *w, uint64_t before) {
-  const uint64_t steps = 1 + w->steps - before;
-  f->found |= steps > f->steps;
-  f->steps -= f->found ? 0 : steps;
-  return f->found ? HR2D_ESTATE : HR2D_OK;
+/* Whether a patch takes some of what two others exchange: exactly, without the plane, in which
+   ends within roundings of each other are one. */
+static hr2d_status hides(const hr2d_scene *scene, size_t patch, size_t i, size_t j, int *so) {
+  const hr2d_past_options options = {.struct_size = sizeof options, .alloc = &scene->alloc};
+  const hr2di_patch *all = scene->patch;
+  double area;
+  *so = 0;
+  if (patch == i || patch == j) return HR2D_OK;
+  const hr2d_status status = hr2d_exchange_area_past(&all[i].scaled, &all[j].scaled,
+                                                     &all[patch].scaled, 1, &options, &area);
+  *so = !status && area < hr2d_exchange_area(&all[i].scaled, &all[j].scaled);
+  return status;
+}
+
+/* The first patch on either side of the wall between that hides i and j from each other. */
+static hr2d_status name(search *f, size_t i, size_t j) {
+  const hr2di_side_parts *all = &f->scene->parts;
+  hr2d_status status = HR2D_OK;
+  for (hr2di_wall_side turned = 0; turned < 2 && !f->found->exists; turned++) {
+    const hr2di_parts parts = all->of_side[f->from ^ turned].parts;
+    for (uint32_t k = parts.first; k < parts.last && !f->found->exists && !status; k++) {
+      const uint32_t patch = all->part[k].patch;
+      int so;
+      status = hr2di_watch_work(f->out.watch, 16);
+      if (patch == HR2DI_NOBODY || status) continue;
+      status = hides(f->scene, patch, i, j, &so);
+      if (so) *f->found = (hr2di_occlusion){1, i < j ? i : j, i < j ? j : i, patch};
+    }
+  }
+  return f->found->exists ? HR2D_ESTATE : status;
+}
+
+/* Looks for a patch on side `to` that has lines of the near patch. */
+static hr2d_status look_at_parts(search *f, hr2di_wall_side to, size_t near) {
+  const hr2di_side_parts *all = &f->scene->parts;
+  const hr2di_kept_sight kept = f->near.sight[0];
+  for (uint32_t k = all->of_side[to].parts.first; k < all->of_side[to].parts.last; k++) {
+    hr2d_status status = hr2di_watch_work(f->out.watch, 4);
+    if (all->part[k].patch == HR2DI_NOBODY) continue;
+    if (!status)
+      status =
+          hr2di_sight_list_restrict(&f->both, &f->near, 0, 1, kept.near, all->part[k].at, NULL);
+    if (status) return status;
+    if (f->both.count == 0) continue;
+    status = name(f, near, all->part[k].patch);
+    if (status) return status;
+  }
+  return HR2D_OK;
+}
+
+/* A sight from side `to` through the wall to side k: between patches?  Ends a walk if so. */
+static hr2d_status find(void *ctx, const hr2di_sight *s, hr2di_wall_side k) {
+  search *f = ctx;
+  const hr2di_side_parts *all = &f->scene->parts;
+  const hr2d_segment near = hr2di_wall_side_at(f->out.in, f->to),
+                     far = hr2di_wall_side_at(f->out.in, k);
+  const hr2di_parts parts = all->of_side[f->to].parts;
+  hr2di_sight known = *s;
+  known.ends = (hr2di_point_same(s->left[0], near.a) ? HR2DI_SIGHT_A : 0u) |
+               (hr2di_point_same(s->right[0], near.b) ? HR2DI_SIGHT_B : 0u) |
+               (hr2di_point_same(s->right[s->rights - 1], far.a) ? HR2DI_SIGHT_C : 0u) |
+               (hr2di_point_same(s->left[s->lefts - 1], far.b) ? HR2DI_SIGHT_D : 0u);
+  hr2di_sight_list_cut(&f->whole, 0);
+  hr2d_status status = hr2di_sight_list_add(&f->whole, &known, near, far);
+  for (uint32_t p = parts.first; p < parts.last && !status; p++) {
+    if (all->part[p].patch == HR2DI_NOBODY) continue;
+    hr2di_sight_list_cut(&f->near, 0);
+    hr2di_sight_list_cut(&f->both, 0);
+    status = hr2di_watch_work(f->out.watch, 4);
+    if (!status)
+      status = hr2di_sight_list_restrict(&f->near, &f->whole, 0, 1, all->part[p].at, far, NULL);
+    if (!status && f->near.count > 0) status = look_at_parts(f, k, all->part[p].patch);
+  }
+  return status;
 }
 
 /* A sight from the wall to a front: is there a front behind the wall? */
 static hr2d_status turn_back(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
   search *f = ctx;
-  const uint64_t before = f->back.steps;
   hr2di_sight turned;
-  (void)j;
   if (hr2di_alloc_reserve(&f->scene->alloc, &f->room, &f->points, s->lefts + s->rights,
                           sizeof *f->room))
     return HR2D_ENOMEM;
   hr2di_sight_turn(s, f->room, &turned);
-  const hr2d_status status = hr2di_walk_on(&f->back, f->from ^ 1, &turned);
-  return status ? status : pay(f, &f->back, before);
+  f->to = j;
+  return hr2di_walk_on(&f->back, f->from ^ 1, &turned);
 }
 
 /* A sight from the wall to any side. */
 static hr2d_status look_at(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
   search *f = ctx;
-  const uint64_t before = f->beyond.steps;
   hr2d_status status = HR2D_OK;
   if (f->side[j] & FRONT) status = turn_back(ctx, s, j);
   if (status || !(f->side[j] & GAPS) || f->side[j] & HULL || !(f->side[f->from] & GAPS))
     return status;
-  status = hr2di_walk_on(&f->beyond, j ^ 1, s);
-  return status ? status : pay(f, &f->beyond, before);
+  return hr2di_walk_on(&f->beyond, j ^ 1, s);
 }
 
 static hr2d_status learn_sides(search *f, const hr2di_hull *hull) {
@@ -104,13 +177,11 @@ static hr2d_status learn_sides(search *f, const hr2di_hull *hull) {
 static hr2d_status look_from(search *f, hr2di_wall_side side) {
   if (f->side[side] & HULL) return HR2D_OK;
   if (!(f->side[side] & GAPS) && (side & 1 || f->side[side ^ 1] & GAPS)) return HR2D_OK;
-  const uint64_t first = f->back.steps, second = f->out.steps;
-  hr2d_status status = hr2di_walk_from(&f->back, side ^ 1, NULL);
-  if (!f->found) return status ? status : pay(f, &f->back, first);
-  f->found = 0;
+  f->seen = 0;
+  const hr2d_status status = hr2di_walk_from(&f->glance, side ^ 1, NULL);
+  if (!f->seen) return status;
   f->from = side;
-  status = hr2di_walk_from(&f->out, side, NULL);
-  return status ? status : pay(f, &f->out, second);
+  return hr2di_walk_from(&f->out, side, NULL);
 }
 
 static hr2di_walk walk_of(search *f, const unsigned char *wanted, hr2di_sight_fn take,
@@ -123,29 +194,60 @@ static hr2di_walk walk_of(search *f, const unsigned char *wanted, hr2di_sight_fn
                       .watch = watch};
 }
 
-hr2d_status hr2di_in_between(const hr2d_scene *scene, const hr2di_hull *hull, int *possible,
-                             hr2di_watch *watch) {
+/* A number without a common factor with n, near the golden section of it. */
+static size_t stride_of(size_t n) {
+  size_t stride = (size_t)(0.618 * (double)n) | 1;
+  for (;; stride += 2) {
+    size_t a = n, b = stride;
+    while (b > 0) {
+      const size_t rest = a % b;
+      a = b;
+      b = rest;
+    }
+    if (a == 1) return stride;
+  }
+}
+
+/* Sides by the stride: neighbours mostly find alike, that is nothing, or the same. */
+static hr2d_status look_from_all(search *f, size_t sides) {
+  const size_t stride = stride_of(sides);
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0, side = 0; k < sides && !status; k++, side = (side + stride) % sides) {
+    status = hr2di_watch_work(f->out.watch, 1);
+    if (!status) status = look_from(f, (hr2di_wall_side)side);
+  }
+  return status;
+}
+
+static void end(search *f) {
+  hr2di_walk_clear(&f->out);
+  hr2di_walk_clear(&f->beyond);
+  hr2di_walk_clear(&f->back);
+  hr2di_walk_clear(&f->glance);
+  hr2di_sight_list_clear(&f->whole);
+  hr2di_sight_list_clear(&f->near);
+  hr2di_sight_list_clear(&f->both);
+  hr2di_alloc_free(&f->scene->alloc, f->room);
+  hr2di_alloc_free(&f->scene->alloc, f->side);
+  hr2di_alloc_free(&f->scene->alloc, f->any);
+}
+
+hr2d_status hr2di_in_between(const hr2d_scene *scene, const hr2di_hull *hull,
+                             hr2di_occlusion *found, hr2di_watch *watch) {
   const size_t sides = 2 * scene->plane.triangulation.edges;
-  search f = {.scene = scene};
-  f.steps = (1 << 18) + (uint64_t)scene->patches * scene->patches / 8;
+  const hr2di_sight_list list = {.alloc = scene->alloc};
+  search f = {.scene = scene, .whole = list, .near = list, .both = list, .found = found};
+  *found = (hr2di_occlusion){0};
   f.side = hr2di_alloc_zero(&scene->alloc, sides, 1);
   f.any = hr2di_alloc(&scene->alloc, sides, 1);
   f.out = walk_of(&f, f.any, look_at, watch);
   f.beyond = walk_of(&f, scene->parts.wanted, turn_back, watch);
   f.back = walk_of(&f, scene->parts.wanted, find, watch);
+  f.glance = walk_of(&f, scene->parts.wanted, see, watch);
   hr2d_status status = f.side && f.any ? HR2D_OK : HR2D_ENOMEM;
   for (size_t k = 0; k < sides && !status; k++) f.any[k] = 1;
   if (!status) status = learn_sides(&f, hull);
-  for (hr2di_wall_side k = 0; k < sides && !status; k++) {
-    status = hr2di_watch_work(watch, 1);
-    if (!status) status = look_from(&f, k);
-  }
-  *possible = f.found;
-  hr2di_walk_clear(&f.out);
-  hr2di_walk_clear(&f.beyond);
-  hr2di_walk_clear(&f.back);
-  hr2di_alloc_free(&scene->alloc, f.room);
-  hr2di_alloc_free(&scene->alloc, f.side);
-  hr2di_alloc_free(&scene->alloc, f.any);
-  return f.found ? HR2D_OK : status;
+  if (!status) status = look_from_all(&f, sides);
+  end(&f);
+  return found->exists ? HR2D_OK : status;
 }

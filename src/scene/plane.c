@@ -26,21 +26,14 @@ static int leave_out(hr2di_wall_pieces *p, const hr2di_conflict *conflict) {
   return 1;
 }
 
-/* Where two pieces cross, on the longer of them: the rounding of a place grows with the length
-   of what it is measured along, and that of the longer wall is what commit has forgiven. */
-static hr2d_point crossing(const hr2d_segment *s, const hr2d_segment *t) {
-  const double at = hr2di_line_crossing(t->a, t->b, s->a, s->b);
-  return at < 0.5
-             ? (hr2d_point){s->a.x + at * (s->b.x - s->a.x), s->a.y + at * (s->b.y - s->a.y)}
-             : (hr2d_point){s->b.x + (1 - at) * (s->a.x - s->b.x),
-                            s->b.y + (1 - at) * (s->a.y - s->b.y)};
-}
-
 /* Cuts both pieces where they cross; *cut is whether one of them has become two. */
 static hr2d_status cut_both(hr2di_wall_pieces *p, const hr2di_conflict *conflict, int *cut) {
   const hr2d_segment one = p->piece[conflict->wall[0]], other = p->piece[conflict->wall[1]];
-  const hr2d_point at =
-      length_of(&one) < length_of(&other) ? crossing(&one, &other) : crossing(&other, &one);
+  /* On the longer of them: the rounding of a place grows with the length of what it is measured
+     along, and that of the longer wall is what commit has forgiven. */
+  const hr2d_point at = length_of(&one) < length_of(&other)
+                            ? hr2di_line_crossing_at(other, one.a, one.b)
+                            : hr2di_line_crossing_at(one, other.a, other.b);
   *cut = 0;
   for (int k = 1; k >= 0; k--) { /* the one behind first: numbers before it stay */
     const hr2d_segment s = p->piece[conflict->wall[k]];
@@ -81,7 +74,7 @@ hr2d_status hr2di_plane_init(hr2di_plane *plane, const hr2d_scene *scene, uint32
   for (int round = 0; !status; round++) {
     hr2di_triangulation_clear(&plane->triangulation);
     status = hr2di_triangulation_init(&plane->triangulation, &scene->alloc, p->piece, p->pieces,
-                                      sizeof *p->piece, &conflict, watch);
+                                      sizeof *p->piece, HR2DI_UNITS, &conflict, watch);
     if (!status || (status == HR2D_ESCENE && conflict.together)) return HR2D_OK;
     if (status == HR2D_ESCENE && round < MOST_CUTS) status = settle(p, &conflict);
   }

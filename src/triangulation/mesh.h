@@ -24,7 +24,9 @@ typedef struct hr2di_mesh {
   hr2di_watch *watch;
   const hr2d_segment *first; /* the walls, `stride` bytes apart */
   size_t stride;
-  double tolerance; /* 4 units in the last place of the largest coordinate */
+  double unit;      /* in the last place of the largest coordinate */
+  unsigned units;   /* that are the tolerance */
+  double tolerance; /* what is nearer is joined */
   hr2d_point *at;
   size_t vertices; /* the last four are the corners of the box */
   hr2di_triangle *triangle;

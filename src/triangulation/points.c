@@ -42,7 +42,8 @@ static hr2d_status place_tips(hr2di_mesh *m, tip *tips) {
     low = (hr2d_point){fmin(low.x, fmin(s.a.x, s.b.x)), fmin(low.y, fmin(s.a.y, s.b.y))};
     high = (hr2d_point){fmax(high.x, fmax(s.a.x, s.b.x)), fmax(high.y, fmax(s.a.y, s.b.y))};
   }
-  m->tolerance = 4 * 0x1p-52 * fmax(largest(low), largest(high));
+  m->unit = 0x1p-52 * fmax(largest(low), largest(high));
+  m->tolerance = m->units * m->unit;
   const double wide = fmax(fmax(high.x - low.x, high.y - low.y), 0x1p-500);
   const double scale = 0x0.ffffffffp+32 / wide;
   for (size_t k = 0; k < 2 * m->walls && !status; k++) {
@@ -81,7 +82,7 @@ hr2d_status hr2di_points_init(hr2di_mesh *m) {
   if (!status) status = place_tips(m, tips);
   if (!status) status = hr2di_sort(tips, count, sizeof *tips, by_place, m->watch);
   hr2di_alike alike = {.at = m->at, .watch = m->watch};
-  if (!status) status = hr2di_alike_init(&alike, m->alloc, count, m->tolerance);
+  if (!status) status = hr2di_alike_init(&alike, m->alloc, count, fmax(m->tolerance, m->unit));
   if (!status) status = number(m, &alike, tips);
   hr2di_alike_clear(&alike, m->alloc);
   hr2di_alloc_free(m->alloc, tips);

@@ -16,12 +16,17 @@
 
 hr2d_status hr2di_triangulation_init(hr2di_triangulation *t, const hr2d_allocator *alloc,
                                      const hr2d_segment *first, size_t count, size_t stride,
-                                     hr2di_conflict *conflict, hr2di_watch *watch) {
+                                     unsigned units, hr2di_conflict *conflict,
+                                     hr2di_watch *watch) {
   *t = (hr2di_triangulation){.alloc = *alloc};
   *conflict = (hr2di_conflict){0};
   if (count > MOST_WALLS) return HR2D_ENOMEM;
-  hr2di_mesh m = {
-      .alloc = &t->alloc, .watch = watch, .first = first, .stride = stride, .walls = count};
+  hr2di_mesh m = {.alloc = &t->alloc,
+                  .watch = watch,
+                  .first = first,
+                  .stride = stride,
+                  .walls = count,
+                  .units = units};
   hr2d_status status = hr2di_points_init(&m);
   if (!status) status = hr2di_delaunay_init(&m);
   if (!status) status = hr2di_mesh_find_out(&m);

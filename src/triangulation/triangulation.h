@@ -51,12 +51,18 @@ typedef struct hr2di_conflict {
   uint32_t wall[2]; /* the lesser number first */
 } hr2di_conflict;
 
+/* The tolerance of planes, in units. */
+enum { HR2DI_UNITS = 4 };
+
 /* Triangulates `count` walls, segments of finite coordinates below 2^200 that lie `stride`
-   bytes apart.  Returns HR2D_OK, HR2D_ENOMEM, the status of the watch, or HR2D_ESCENE with the
-   conflict.  To be ended by hr2di_triangulation_clear() in any case. */
+   bytes apart.  What is within so many `units` in the last place of the largest coordinate is
+   joined, so that ends that were computed meet; with 0 all coordinates are exact.  Returns
+   HR2D_OK, HR2D_ENOMEM, the status of the watch, or HR2D_ESCENE with the conflict.  To be ended
+   by hr2di_triangulation_clear() in any case. */
 hr2d_status hr2di_triangulation_init(hr2di_triangulation *t, const hr2d_allocator *alloc,
                                      const hr2d_segment *first, size_t count, size_t stride,
-                                     hr2di_conflict *conflict, hr2di_watch *watch);
+                                     unsigned units, hr2di_conflict *conflict,
+                                     hr2di_watch *watch);
 
 void hr2di_triangulation_clear(hr2di_triangulation *t);
 

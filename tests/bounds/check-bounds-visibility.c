@@ -12,7 +12,7 @@
 #include "support/visibility-cases.h"
 
 /* Of the extent of all that is given. */
-#define BOUND 1e-11
+#define BOUND 0x1p-46
 
 enum { OCCLUDERS = 3, POINTS = 2 * (OCCLUDERS + 2), NUMBERS = 2 * POINTS };
 
@@ -27,11 +27,11 @@ static void draw_pair_among(const void *ctx, randoms *r, double *x) {
   }
 }
 
-/* Whether a point lies off the line of a segment by less than the header speaks of. */
+/* Whether a point counts as lying on the line of a segment, but does not. */
 static int is_doubtful(hr2d_segment s, hr2d_point p, double most) {
   const double x = s.b.x - s.a.x, y = s.b.y - s.a.y;
   const double off = fabs(x * (p.y - s.a.y) - y * (p.x - s.a.x)) / hypot(x, y);
-  return off < 1e-6 * most && hr2d_orientation(s.a, s.b, p) != 0;
+  return off < 0x1p-48 * most && hr2d_orientation(s.a, s.b, p) != 0;
 }
 
 /* Relative to the extent of all. */

@@ -222,6 +222,24 @@ START_TEST(more_occluders_hide_more) {
 }
 END_TEST
 
+/* Whether p counts as lying on the line of s, but does not. */
+static int counts_as_on(hr2d_segment s, hr2d_point p, double most) {
+  const double x = s.b.x - s.a.x, y = s.b.y - s.a.y;
+  const double off = fabs(x * (p.y - s.a.y) - y * (p.x - s.a.x)) / hypot(x, y);
+  return off < 0x1p-48 * most && hr2d_orientation(s.a, s.b, p) != 0;
+}
+
+/* An occluder of which an end counts as lying on the line of i or j may be left out. */
+static int has_doubtful_end(const occluded_pair *p, double most) {
+  for (size_t k = 0; k < p->count; k++) {
+    const hr2d_segment w = p->occluder[k];
+    if (counts_as_on(p->i, w.a, most) || counts_as_on(p->i, w.b, most) ||
+        counts_as_on(p->j, w.a, most) || counts_as_on(p->j, w.b, most))
+      return 1;
+  }
+  return 0;
+}
+
 START_TEST(cutting_changes_nothing) {
   draws d = start(_i, 9, 2000);
   while (draw(&d)) {
@@ -233,9 +251,39 @@ START_TEST(cutting_changes_nothing) {
       p.occluder[k].b = middle;
       p.occluder[p.count++] = (hr2d_segment){middle, w.b};
     }
+    if (has_doubtful_end(&p, fmax(4, longest(&p)))) continue;
     note(&d, fabs(area_of(&p) - area_of(&d.pair)) / longest(&p));
   }
   finish(&d, "cut in halves", 1e-15);
+}
+END_TEST
+
+static double off_by(randoms *r, double x, double most) {
+  return random_below(r, 2) ? x + random_between(r, -most, most) : x;
+}
+
+static hr2d_segment segment_off_by(randoms *r, hr2d_segment s, double most) {
+  return (hr2d_segment){{off_by(r, s.a.x, most), off_by(r, s.a.y, most)},
+                        {off_by(r, s.b.x, most), off_by(r, s.b.y, most)}};
+}
+
+/* Ends that should meet, or lie on others, miss them by anything down to an ulp. */
+START_TEST(ends_that_miss_by_little_cost_little) {
+  draws d = start(_i, 10, 3000);
+  int tried = 0;
+  while (draw(&d)) {
+    occluded_pair *p = &d.pair;
+    const double by = random_power(&d.r, -16, -10);
+    p->i = segment_off_by(&d.r, p->i, by);
+    p->j = segment_off_by(&d.r, p->j, by);
+    for (size_t k = 0; k < p->count; k++)
+      p->occluder[k] = segment_off_by(&d.r, p->occluder[k], by);
+    if (has_doubtful_end(p, fmax(4, longest(p)))) continue;
+    tried++;
+    note(&d, fabs(area_of(p) - strings_of(p)) / longest(p));
+  }
+  ck_assert_int_gt(tried, 0);
+  finish(&d, "ends that miss", ROUNDINGS);
 }
 END_TEST
 
@@ -634,7 +682,8 @@ TEST_SUITE("visibility") {
   ADD_TESTS("classes", a_shift_is_noticed);
   REPEAT_TESTS(occluded_class_count, "classes", swapping_changes_no_bit,
                powers_of_two_change_no_bit, moving_changes_little, occluders_are_a_set,
-               more_occluders_hide_more, cutting_changes_nothing);
+               more_occluders_hide_more, cutting_changes_nothing,
+               ends_that_miss_by_little_cost_little);
   ADD_TESTS("cases", blk1, what_is_not_in_the_way_changes_no_bit,
             points_and_nothing_hide_nothing);
   REPEAT_TESTS(BARRIERS, "cases", touching_occluders_do_not_leak);

@@ -37,8 +37,8 @@ static void close_scene(scene *s) {
 static void triangulate(scene *s) {
   const hr2d_allocator alloc = hr2di_alloc_default();
   hr2di_conflict conflict;
-  while (hr2di_triangulation_init(&s->t, &alloc, s->wall, s->walls, sizeof *s->wall, &conflict,
-                                  NULL)) {
+  while (hr2di_triangulation_init(&s->t, &alloc, s->wall, s->walls, sizeof *s->wall,
+                                  HR2DI_UNITS, &conflict, NULL)) {
     close_scene(s);
     drop(s, conflict.wall[1]);
   }

@@ -14,7 +14,8 @@ enum { MOST = 64 };
 static hr2d_status build(hr2di_triangulation *t, const hr2d_segment *wall, size_t count,
                          hr2di_conflict *conflict) {
   const hr2d_allocator alloc = hr2di_alloc_default();
-  return hr2di_triangulation_init(t, &alloc, wall, count, sizeof *wall, conflict, NULL);
+  return hr2di_triangulation_init(t, &alloc, wall, count, sizeof *wall, HR2DI_UNITS, conflict,
+                                  NULL);
 }
 
 static int sign(hr2d_point a, hr2d_point b, hr2d_point c) {
@@ -396,7 +397,8 @@ START_TEST(memory_may_run_out) {
     const hr2d_allocator hooks = test_hooks(&memory);
     hr2di_triangulation t;
     hr2di_conflict conflict;
-    status = hr2di_triangulation_init(&t, &hooks, wall, count, sizeof *wall, &conflict, NULL);
+    status = hr2di_triangulation_init(&t, &hooks, wall, count, sizeof *wall, HR2DI_UNITS,
+                                      &conflict, NULL);
     ck_assert_int_eq(status, memory.failures ? HR2D_ENOMEM : HR2D_OK);
     hr2di_triangulation_clear(&t);
     ck_assert_int_eq(memory.live, 0);
@@ -426,8 +428,8 @@ static hr2d_status watched(const hr2d_segment *wall, size_t count, witness *w, u
   hr2di_conflict conflict;
   hr2di_watch_init(&watch, ask, w, "triangulation");
   watch.span = span;
-  const hr2d_status status =
-      hr2di_triangulation_init(&t, &hooks, wall, count, sizeof *wall, &conflict, &watch);
+  const hr2d_status status = hr2di_triangulation_init(&t, &hooks, wall, count, sizeof *wall,
+                                                      HR2DI_UNITS, &conflict, &watch);
   hr2di_triangulation_clear(&t);
   ck_assert_int_eq(memory.live, 0);
   *most = watch.most;
