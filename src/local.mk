@@ -80,6 +80,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/split-crossings.c \
 	src/scene/plane.c src/scene/plane.h \
 	src/scene/wall-pieces.c src/scene/wall-pieces.h \
+	src/scene/with-plane.c src/scene/with-plane.h \
 	src/formats/geojson.c \
 	src/formats/geojson-feature.c \
 	src/formats/geojson-geometry.c \

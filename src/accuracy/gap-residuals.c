@@ -21,9 +21,9 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "geometry/apart.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
@@ -139,7 +139,7 @@ static hr2d_status find(const hr2di_estimator *e, uint32_t i, uint32_t j, gaps *
     const hr2d_point v = last ? q.b : q.a;
     if (!hr2di_point_same(v, last ? element[j].b : element[j].a)) continue;
     const gap g = gap_between(e, i, j, last, v);
-    if (g.distance <= HR2DI_WALLS_TOUCH) continue;
+    if (g.distance <= HR2DI_TOUCH) continue;
     add_rounding(e, &g);
     if (!reflects(h->scene, g.over) || !is_unresolved(h, &g, i, j, v)) continue;
     if (hr2di_alloc_reserve(&e->eq.transport.alloc, &all->gap, &all->capacity, all->count + 1,
@@ -154,7 +154,9 @@ static int by_place(const void *left, const void *right) {
   const gap *l = left, *r = right;
   if (l->over != r->over) return l->over < r->over ? -1 : 1;
   if (l->end != r->end) return l->end < r->end ? -1 : 1;
-  return (l->bright < r->bright) - (l->bright > r->bright);
+  if (l->bright != r->bright) return l->bright > r->bright ? -1 : 1;
+  if (l->leaf[0] != r->leaf[0]) return l->leaf[0] < r->leaf[0] ? -1 : 1;
+  return (l->leaf[1] > r->leaf[1]) - (l->leaf[1] < r->leaf[1]);
 }
 
 static int by_brightness(const void *left, const void *right) {
@@ -164,16 +166,17 @@ static int by_brightness(const void *left, const void *right) {
 }
 
 /* Several leaves see the same end: the brightest stays. */
-static void sort(gaps *all) {
+static hr2d_status sort(gaps *all, hr2di_watch *watch) {
   size_t kept = 0;
-  if (all->count == 0) return;
-  qsort(all->gap, all->count, sizeof *all->gap, by_place);
+  const hr2d_status status =
+      hr2di_sort(all->gap, all->count, sizeof *all->gap, by_place, watch);
+  if (status) return status;
   for (size_t k = 0; k < all->count; k++)
     if (k == 0 || all->gap[k].over != all->gap[k - 1].over ||
         all->gap[k].end != all->gap[k - 1].end)
       all->gap[kept++] = all->gap[k];
   all->count = kept;
-  qsort(all->gap, all->count, sizeof *all->gap, by_brightness);
+  return hr2di_sort(all->gap, kept, sizeof *all->gap, by_brightness, watch);
 }
 
 static hr2d_status find_all(hr2di_estimator *e, gaps *all) {
@@ -189,8 +192,7 @@ static hr2d_status find_all(hr2di_estimator *e, gaps *all) {
     if (!status) status = find(e, pair.first, pair.second, all);
     if (!status) status = find(e, pair.second, pair.first, all);
   }
-  sort(all);
-  return status;
+  return status ? status : sort(all, t->watch);
 }
 
 /* Raises `residual` to |B' − B_h| at places of a patch, in units of the equation. */

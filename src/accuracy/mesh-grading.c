@@ -190,7 +190,7 @@ static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
   const double above = hr2di_orient(s.a, s.b, v->at) / square;
   const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y;
   const double at = ((v->at.x - s.a.x) * ux + (v->at.y - s.a.y) * uy) / square;
-  const double least = fmin(ON_LINE, HR2DI_WALLS_TOUCH / p->length);
+  const double least = fmin(ON_LINE, HR2DI_TOUCH / p->length);
   if (above > least && g->seen && !hr2di_seen_ends_has(g->seen, v->patch, v->last))
     return HR2D_OK;
   if (above > least) return add_near(g, s, v->at);

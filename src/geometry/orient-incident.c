@@ -3,10 +3,7 @@
 #include "geometry/orient-incident.h"
 
 #include "geometry/crossings.h"
-
-/* A few units in the last place of the coordinates involved: what is so near to a line lies on
-   it, as ends of walls that were computed to lie there do. */
-#define TOUCH 0x1p-50
+#include "geometry/predicates.h"
 
 static double largest(hr2d_point p) {
   return fmax(fabs(p.x), fabs(p.y));
@@ -17,7 +14,7 @@ int hr2di_axis_front_of_near(const hr2di_axis *line, hr2d_point p) {
   if (side == 0) return 0;
   const double size = fmax(largest(p), fmax(largest(line->a), largest(line->b)));
   const hr2d_segment s = {line->a, line->b};
-  return hr2di_crossings_distance(p, &s) <= TOUCH * size ? 0 : side;
+  return hr2di_crossings_distance(p, &s) <= HR2DI_TOUCH * size ? 0 : side;
 }
 
 /* Two of the three points lie on the line of `bit`; their order on it decides. */

@@ -7,6 +7,10 @@
 
 #include "base/scaled-double.h"
 
+/* A few units in the last place of coordinates below 2: what is so near to a line was computed
+   to lie on it.  Where coordinates are not scaled, it is a fraction of the largest. */
+#define HR2DI_TOUCH 0x1p-50
+
 /* (b−a)×(c−a) for any finite points.  The sign is exact and the relative error at most 2·2^-53.
    m is not normalised to [½,1). */
 hr2di_scaled hr2di_orient_scaled(hr2d_point a, hr2d_point b, hr2d_point c);

@@ -6,10 +6,6 @@
 
 #include <math.h>
 
-/* A few units in the last place of the coordinates involved: what is so near to a line
-   lies on it, as ends of walls that were computed to lie there do. */
-#define TOUCH 0x1p-50
-
 static double largest(hr2d_point p) {
   return fmax(fabs(p.x), fabs(p.y));
 }
@@ -26,7 +22,7 @@ static hr2d_point foot(hr2d_point p, hr2d_point q, hr2d_point on_a, hr2d_point o
 
 /* Points on one line that are a rounding apart are one. */
 static void snap(hr2di_incident_point *p, hr2di_incident_point to) {
-  const double near = TOUCH * largest(to.at);
+  const double near = HR2DI_TOUCH * largest(to.at);
   if (!(p->on & to.on) || fabs(p->at.x - to.at.x) > near || fabs(p->at.y - to.at.y) > near)
     return;
   p->at = to.at;
@@ -162,7 +158,7 @@ static inline int certain(double value, double margin) {
 }
 
 static int is_near(hr2di_incident_point p, hr2di_incident_point corner) {
-  const double near = 16 * TOUCH * largest(corner.at);
+  const double near = 16 * HR2DI_TOUCH * largest(corner.at);
   return corner.on == HR2DI_ON_BOTH && fabs(p.at.x - corner.at.x) <= near &&
          fabs(p.at.y - corner.at.y) <= near;
 }

@@ -117,7 +117,7 @@ static void make_walls(hr2di_walls *w, runs *r) {
 static int touches(hr2d_segment w, hr2d_point p) {
   const double dx = w.b.x - w.a.x, dy = w.b.y - w.a.y, length = hypot(dx, dy);
   const double along = (p.x - w.a.x) * (dx / length) + (p.y - w.a.y) * (dy / length);
-  return fabs(hr2di_orient(w.a, w.b, p)) <= HR2DI_WALLS_TOUCH * length && along > 0 &&
+  return fabs(hr2di_orient(w.a, w.b, p)) <= HR2DI_TOUCH * length && along > 0 &&
          along < length && !hr2di_point_same(p, w.a) && !hr2di_point_same(p, w.b);
 }
 
@@ -126,8 +126,8 @@ uint32_t hr2di_walls_host(const hr2di_walls *w, hr2d_point p, uint32_t but) {
   stack[count++] = 0;
   while (count > 0) {
     const hr2di_box *box = &w->box[stack[--count]];
-    if (p.x < box->x0 - HR2DI_WALLS_TOUCH || p.x > box->x1 + HR2DI_WALLS_TOUCH ||
-        p.y < box->y0 - HR2DI_WALLS_TOUCH || p.y > box->y1 + HR2DI_WALLS_TOUCH)
+    if (p.x < box->x0 - HR2DI_TOUCH || p.x > box->x1 + HR2DI_TOUCH ||
+        p.y < box->y0 - HR2DI_TOUCH || p.y > box->y1 + HR2DI_TOUCH)
       continue;
     if (box->wall == HR2DI_NO_WALL) {
       stack[count++] = box->below;

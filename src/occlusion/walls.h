@@ -17,10 +17,6 @@
 #define HR2DI_NO_WALL UINT32_MAX
 #define HR2DI_NO_BODY UINT32_MAX
 
-/* A few units in the last place of coordinates below 2: an end that is so near to the
-   line of a wall was meant to lie on it. */
-#define HR2DI_WALLS_TOUCH 0x1p-50
-
 typedef struct hr2di_wall {
   hr2d_segment at;
   uint32_t vertex[2]; /* of its ends */

@@ -83,13 +83,13 @@ static void analyse_background(hr2d_scene *scene) {
   }
 }
 
-static int is_earlier(const hr2di_patch_pair *than, size_t i, size_t j) {
+static int is_earlier(const hr2di_first_pair *than, size_t i, size_t j) {
   return !than->exists || i < than->i || (i == than->i && j < than->j);
 }
 
 typedef struct touching {
   const hr2d_scene *scene;
-  hr2di_patch_pair back, corner;
+  hr2di_first_pair back, corner;
 } touching;
 
 /* Patches that touch have boxes that meet. */
@@ -98,13 +98,13 @@ static hr2d_status look_at_touching(void *ctx, size_t i, size_t j) {
   const hr2d_segment *p = &t->scene->patch[i].scaled, *q = &t->scene->patch[j].scaled;
   if (is_earlier(&t->back, i, j) && hr2di_point_same(p->a, q->b) &&
       hr2di_point_same(p->b, q->a))
-    t->back = (hr2di_patch_pair){1, i, j};
+    t->back = (hr2di_first_pair){1, i, j};
   if (is_earlier(&t->corner, i, j) && touch(p, q) && hr2di_facing_of(p, q) != HR2DI_FACING_NONE)
-    t->corner = (hr2di_patch_pair){1, i, j};
+    t->corner = (hr2di_first_pair){1, i, j};
   return HR2D_OK;
 }
 
-static void set_pair(hr2d_scene *scene, hr2d_effect effect, const hr2di_patch_pair *pair,
+static void set_pair(hr2d_scene *scene, hr2d_effect effect, const hr2di_first_pair *pair,
                      const char *what, const char *none) {
   if (!pair->exists) {
     set(scene, effect, 0, "%s", none);
@@ -118,7 +118,7 @@ static void set_pair(hr2d_scene *scene, hr2d_effect effect, const hr2di_patch_pa
 static hr2d_status analyse_pairs(hr2d_scene *scene, const hr2di_hull *hull,
                                  hr2di_watch *watch) {
   touching t = {.scene = scene};
-  hr2di_patch_pair part = {0};
+  hr2di_first_pair part = {0};
   hr2d_status status =
       hr2di_crossings_sweep(&scene->alloc, &scene->patch[0].scaled, scene->patches,
                             sizeof *scene->patch, look_at_touching, &t, watch);

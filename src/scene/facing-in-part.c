@@ -174,15 +174,15 @@ static hr2d_status find_least(finder *f, const hr2di_hull *hull) {
 }
 
 hr2d_status hr2di_facing_in_part_find(const hr2d_scene *scene, const hr2di_hull *hull,
-                                      hr2di_patch_pair *found, hr2di_watch *watch) {
+                                      hr2di_first_pair *found, hr2di_watch *watch) {
   finder f = {.scene = scene, .least = UINT32_MAX, .watch = watch};
-  *found = (hr2di_patch_pair){0};
+  *found = (hr2di_first_pair){0};
   hr2d_status status = find_least(&f, hull);
   const size_t i = f.least;
   for (size_t j = i + 1; j < scene->patches && !found->exists && !status; j++) {
     if (j % 16 == 0) status = hr2di_watch_work(watch, 8);
     if (hr2di_facing_of(&scene->patch[i].scaled, &scene->patch[j].scaled) == HR2DI_FACING_PART)
-      *found = (hr2di_patch_pair){1, i, j};
+      *found = (hr2di_first_pair){1, i, j};
   }
   hr2di_alloc_free(&scene->alloc, f.runs_of);
   hr2di_alloc_free(&scene->alloc, f.up);

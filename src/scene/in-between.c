@@ -20,10 +20,9 @@
    patch at its two ends; all of a wall between them has patches, on one side or the other. */
 #include "scene/in-between.h"
 
-#include <hr2d/visibility.h>
-
 #include "base/alloc.h"
 #include "geometry/vector.h"
+#include "occlusion/screens.h"
 #include "scene/scene-impl.h"
 #include "sight/sight-list.h"
 
@@ -57,18 +56,15 @@ static hr2d_status see(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
   return HR2D_ESTATE;
 }
 
-/* Whether a patch takes some of what two others exchange: exactly, without the plane, in which
-   ends within roundings of each other are one. */
-static hr2d_status hides(const hr2d_scene *scene, size_t patch, size_t i, size_t j, int *so) {
-  const hr2d_past_options options = {.struct_size = sizeof options, .alloc = &scene->alloc};
-  const hr2di_patch *all = scene->patch;
-  double area;
-  *so = 0;
-  if (patch == i || patch == j) return HR2D_OK;
-  const hr2d_status status = hr2d_exchange_area_past(&all[i].scaled, &all[j].scaled,
-                                                     &all[patch].scaled, 1, &options, &area);
-  *so = !status && area < hr2d_exchange_area(&all[i].scaled, &all[j].scaled);
-  return status;
+/* Whether a patch is in the hull of two others and in front of both: exactly, without the
+   plane, in which ends within roundings of each other are one. */
+static int hides(const hr2d_scene *scene, size_t patch, size_t i, size_t j) {
+  const hr2d_segment p = scene->patch[i].scaled, q = scene->patch[j].scaled;
+  hr2di_opening opening;
+  hr2di_screen screen;
+  return patch != i && patch != j &&
+         hr2di_opening_init(&opening, hr2di_facing_of(&p, &q), p, q) &&
+         hr2di_screen_of(&screen, &opening, scene->patch[patch].scaled);
 }
 
 /* The first patch on either side of the wall between that hides i and j from each other. */
@@ -79,11 +75,9 @@ static hr2d_status name(search *f, size_t i, size_t j) {
     const hr2di_parts parts = all->of_side[f->from ^ turned].parts;
     for (uint32_t k = parts.first; k < parts.last && !f->found->exists && !status; k++) {
       const uint32_t patch = all->part[k].patch;
-      int so;
-      status = hr2di_watch_work(f->out.watch, 16);
-      if (patch == HR2DI_NOBODY || status) continue;
-      status = hides(f->scene, patch, i, j, &so);
-      if (so) *f->found = (hr2di_occlusion){1, i < j ? i : j, i < j ? j : i, patch};
+      status = hr2di_watch_work(f->out.watch, 1);
+      if (patch != HR2DI_NOBODY && hides(f->scene, patch, i, j))
+        *f->found = (hr2di_occlusion){1, i < j ? i : j, i < j ? j : i, patch};
     }
   }
   return f->found->exists ? HR2D_ESTATE : status;

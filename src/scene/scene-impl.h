@@ -95,8 +95,7 @@ hr2d_status hr2di_scene_fail(hr2d_scene *scene, hr2d_status status, const hr2di_
                              const char *what);
 
 /* Makes the plane and its side parts unless they are there, or cannot be: then that is unclear,
-   and nothing is made.  HR2D_OK, HR2D_ENOMEM or the status
-   of the watch. */
+   and nothing is made.  HR2D_OK, HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_scene_need_plane(hr2d_scene *scene, hr2di_watch *watch);
 
 /* Parts of commit, in the order of their calls.  Each leaves a message if it fails. */

@@ -20,6 +20,7 @@
 #include "base/alloc.h"
 #include "blocks/line-vector.h"
 #include "geometry/point-view-factor.h"
+#include "geometry/predicates.h"
 #include "geometry/vector.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
@@ -29,10 +30,6 @@
 
 /* On a panel that is far enough a rule is accurate to 3.19^−(2·POINTS − order). */
 enum { POINTS = 32, STACK = 128 };
-
-/* Points nearer than this to a patch touch it: scaled coordinates are at most 1, so that it is
-   a few of their roundings. */
-#define TOUCH 0x1p-50
 
 /* The limits at the edge of a wedge are found from points so far beside it.  Roundings of the
    coordinates of a foot do not matter there. */
@@ -308,7 +305,7 @@ static int makes_wedge(const gatherer *g, size_t patch, edge *q) {
   const double rises = hr2di_point_dot(hr2di_point_minus(s.b, s.a), g->normal);
   double distance;
   const double at = nearest(g, patch, 0, 1, &distance);
-  if (distance > TOUCH) return 0;
+  if (distance > HR2DI_TOUCH) return 0;
   *q = edge_of(g, patch, at, rises > 0 ? 1 : -1);
   return q->inside * rises > 0;
 }
@@ -350,7 +347,7 @@ static hr2d_status find_wedge(gatherer *g, size_t patch, double t, double *irrad
 static hr2d_status gather_at(gatherer *g, size_t patch, double t, double *irradiance) {
   double wedge, others;
   int closed;
-  const double step = TOUCH / g->solution->hierarchy->scene->patch[patch].length;
+  const double step = HR2DI_TOUCH / g->solution->hierarchy->scene->patch[patch].length;
   const double at = t <= step ? 0 : t >= 1 - step ? 1 : t;
   const hr2d_status status = find_wedge(g, patch, at, irradiance, &closed);
   return status || closed ? status : look(g, patch, t, NULL, irradiance, &wedge, &others);

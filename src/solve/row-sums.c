@@ -16,7 +16,7 @@
 #include "geometry/vector.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/patch-defect.h"
-#include "scene/scene-impl.h"
+#include "scene/with-plane.h"
 #include "sight/sight-list.h"
 
 /* Elements that wait, one per level. */
@@ -26,7 +26,7 @@ enum { DEPTH = 1100 };
 typedef struct walker {
   const hr2d_hierarchy *h;
   const hr2d_scene *scene; /* with a plane, unless nobody knows how walls cross */
-  hr2d_scene own;          /* shares all but the plane with the scene, if that has none */
+  hr2di_with_plane with;   /* `scene` once beams are sent */
   hr2di_watch *watch;
   hr2di_walk walk;
   unsigned char *kind;     /* per side, as hr2di_side_kind() */
@@ -206,11 +206,10 @@ static void finish(hr2di_row_sums *rows, uint32_t patch, const walker *w) {
 
 /* Commit keeps no plane where nothing is in the way and no background is before backs. */
 static hr2d_status need_plane(walker *w, const hr2d_allocator *alloc) {
-  if (w->scene->parts.wanted || w->scene == &w->own) return HR2D_OK;
-  w->own = *w->scene;
-  w->own.alloc = *alloc;
-  w->scene = &w->own;
-  return hr2di_scene_need_plane(&w->own, w->watch);
+  if (w->scene == &w->with.scene) return HR2D_OK;
+  const hr2d_status status = hr2di_with_plane_init(&w->with, w->scene, alloc, w->watch);
+  w->scene = &w->with.scene;
+  return status;
 }
 
 /* Beams end at backs only if these are asked for. */
@@ -253,7 +252,7 @@ static hr2d_status make_rows(hr2di_row_sums *rows, const hr2d_linkset *links, wa
 }
 
 static void clear(walker *w, const hr2d_allocator *alloc) {
-  if (w->scene == &w->own) hr2di_scene_clear_plane(&w->own);
+  hr2di_with_plane_clear(&w->with);
   hr2di_walk_clear(&w->walk);
   hr2di_sight_list_clear(&w->seen);
   hr2di_sight_list_clear(&w->part);

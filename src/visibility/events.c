@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/sort.h"
 #include "geometry/vector.h"
+#include "scene/with-plane.h"
 #include "visibility/events-impl.h"
 
 /* Events so near to one another or to an end, as fractions of the patch, are one. */
@@ -218,12 +219,10 @@ hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
                             scene->effect[HR2D_EFFECT_FACING].called_for ||
                             scene->effect[HR2D_EFFECT_BACKGROUND].called_for))
     return HR2D_OK;
-  /* A scene without the effect of occlusion has no plane: a copy of the struct gets one, unless
-     so many walls cross within roundings that there is none. */
-  hr2d_scene with_plane = *scene;
-  finder f = {.scene = &with_plane, .alloc = *alloc, .max = max, .watch = watch};
-  hr2d_status status = hr2di_scene_need_plane(&with_plane, watch);
-  if (!status && with_plane.parts.wanted) status = find(&f, generations);
+  hr2di_with_plane w;
+  finder f = {.scene = &w.scene, .alloc = *alloc, .max = max, .watch = watch};
+  hr2d_status status = hr2di_with_plane_init(&w, scene, alloc, watch);
+  if (!status && w.scene.parts.wanted) status = find(&f, generations);
   events->steps = f.beams.steps;
   if (!status && hr2di_alloc_reserve(alloc, &events->event, &events->capacity, f.count,
                                      sizeof *events->event))
@@ -233,7 +232,7 @@ hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
   hr2di_event_beams_clear(&f.beams);
   hr2di_alloc_free(alloc, f.origin);
   hr2di_alloc_free(alloc, f.found);
-  if (!scene->parts.wanted) hr2di_scene_clear_plane(&with_plane);
+  hr2di_with_plane_clear(&w);
   return status;
 }
 

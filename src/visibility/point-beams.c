@@ -2,7 +2,7 @@
 /* The beams from a point: its view as the walk finds it, in scene coordinates. */
 #include <hr2d/visibility.h>
 
-#include "scene/scene-impl.h"
+#include "scene/with-plane.h"
 #include "visibility/point-view-impl.h"
 
 typedef struct visit {
@@ -85,12 +85,11 @@ static hr2d_status look(const hr2d_scene *scene, size_t patch, double t, visit *
 /* Without the effect of occlusion nobody walks in the plane of a scene, which may have none. */
 static hr2d_status look_past_nothing(const hr2d_scene *scene, size_t patch, double t, visit *v,
                                      hr2di_watch *watch) {
-  hr2d_scene own = *scene;
-  own.effect[HR2D_EFFECT_OCCLUSION].on = 1;
-  if (own.parts.wanted) return look(&own, patch, t, v, watch);
-  hr2d_status status = hr2di_scene_need_plane(&own, watch);
-  if (!status) status = own.unclear.is ? HR2D_ESCENE : look(&own, patch, t, v, watch);
-  hr2di_scene_clear_plane(&own);
+  hr2di_with_plane w;
+  hr2d_status status = hr2di_with_plane_init(&w, scene, &scene->alloc, watch);
+  w.scene.effect[HR2D_EFFECT_OCCLUSION].on = 1;
+  if (!status) status = w.scene.unclear.is ? HR2D_ESCENE : look(&w.scene, patch, t, v, watch);
+  hr2di_with_plane_clear(&w);
   return status;
 }
 
