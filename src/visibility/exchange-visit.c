@@ -2,14 +2,16 @@
 /* Exchange areas row by row.  Threads make the rows of some blocks and keep them; then the
    calling thread shows them in the order of the blocks. */
 #include <hr2d/visibility.h>
+#include <math.h>
 
 #include "base/alloc.h"
 #include "base/sized-struct.h"
 #include "scene/scene-impl.h"
 #include "visibility/row-maker.h"
 
-/* Rows that a thread makes before they are shown: more than threads take to start. */
-enum { ROWS = 1024 };
+/* Rows that a thread makes before they are shown have some 3 MB: more than threads take to
+   start, and to wait for the last one. */
+enum { ENTRIES = 1 << 18, LEAST_ROWS = 256, MOST_ROWS = 1 << 14 };
 
 /* A row of a round, in the memory of its thread. */
 typedef struct kept_row {
@@ -68,21 +70,31 @@ static hr2d_status show_row(visit *v, uint32_t patch) {
   return status ? status : hr2di_watch_work(v->watch, 1 + kept.count / 32);
 }
 
-/* The end of the tasks of a round. */
-static size_t end_of_round(const hr2di_row_maker *m, size_t first) {
-  size_t rows = 0, last = first;
-  for (; last < m->tasks && rows < ROWS * m->workers; last++)
-    rows += m->task[last].last - m->task[last].first;
+/* The end of the tasks of a round of so many rows. */
+static size_t end_of_round(const hr2di_row_maker *m, size_t first, size_t rows) {
+  size_t last = first;
+  for (size_t made = 0; last < m->tasks && made < rows; last++)
+    made += m->task[last].last - m->task[last].first;
   return last;
+}
+
+/* How many rows the next round has, if they are as long as those of this one. */
+static size_t next_rows(const visit *v, size_t rows) {
+  size_t entries = 1;
+  for (size_t k = 0; k < v->maker.workers; k++) entries += v->store[k].used;
+  const double wanted = (double)rows * ENTRIES / (double)entries;
+  return v->maker.workers * (size_t)fmin(fmax(wanted, LEAST_ROWS), MOST_ROWS);
 }
 
 static hr2d_status show_all(visit *v) {
   const hr2di_row_maker *m = &v->maker;
   hr2d_status status = HR2D_OK;
+  size_t rows = LEAST_ROWS * m->workers;
   for (size_t first = 0, last; first < m->tasks && !status; first = last) {
-    last = end_of_round(m, first);
+    last = end_of_round(m, first, rows);
     for (size_t k = 0; k < m->workers; k++) v->store[k].used = 0;
     status = hr2di_row_maker_run(&v->maker, first, last, keep_row, v);
+    rows = next_rows(v, rows);
     for (size_t task = first; task < last && !status; task++)
       for (uint32_t k = m->task[task].first; k < m->task[task].last && !status; k++)
         status = show_row(v, m->scene->runs.patch[k]);
