@@ -92,67 +92,69 @@ static size_t worst_patch(const hr2di_estimator *e, int irradiance, size_t band)
   return found;
 }
 
-/* Sets the source to ρs, or to 1/(A H̄), of the worst patch of each band. */
-static void set_source(hr2di_estimator *e, int irradiance) {
+/* Sets the source to 1/(A H̄) of a patch in each band. */
+static void set_source(hr2di_estimator *e, int choice) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
   for (size_t k = 0; k < eq->field; k++) eq->source[k] = 0;
   for (size_t b = 0; b < t->bands; b++) {
-    const size_t patch = worst_patch(e, irradiance, b);
-    const double least = hr2di_estimator_least(e, irradiance, patch, b);
+    const size_t patch = worst_patch(e, choice, b);
+    const double least = hr2di_estimator_least(e, 1, patch, b);
     for (size_t leaf = 0; leaf < t->leaves && least > 0; leaf++)
       if (t->hierarchy->element[t->leaf[leaf]].patch == patch)
-        eq->source[leaf * t->width + b] = (irradiance ? 1 : hr2di_estimator_rho(e, leaf, b)) /
-                                          least / t->hierarchy->element[patch].length;
+        eq->source[leaf * t->width + b] = 1 / least / t->hierarchy->element[patch].length;
   }
 }
 
-/* Adds up `unit` times the row of the last solve, in one band. */
-static void add_row(hr2di_estimator *e, int irradiance, size_t b, double unit) {
+/* The sums over the row of the last solve in one band, for the average of H and for that of B.
+   The Y of both differ by a factor on one patch: `unit` is ρH̄/B̄ there. */
+static void sum_row(hr2di_estimator *e, size_t b, double unit, double sum[2]) {
   const hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
-  double *const safe = e->safe + (size_t)irradiance * t->bands + b;
+  sum[0] = sum[1] = 0;
   for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
     const double rho = hr2di_estimator_rho(e, leaf, b);
-    double sum = 0;
+    const double area = eq->weight[leaf * t->order];
+    double part[2] = {0, 0};
     for (size_t l = 0; l < t->order; l++) {
       const size_t k = leaf * t->width + l * t->bands + b;
       const double z = ldexp(eq->irradiance[k], e->exponent_of[b]);
-      const double s =
-          irradiance || !(rho > 0) ? 0 : ldexp(eq->source[k], e->exponent_of[b]) / rho;
-      sum += (z + s) * e->residual[k];
+      const double s = rho > 0 ? ldexp(eq->source[k], e->exponent_of[b]) / rho : 0;
+      part[0] += unit * (z + s) * e->residual[k];
+      part[1] += z * e->residual[k];
     }
-    *safe += unit * fabs(sum) * eq->weight[leaf * t->order];
+    for (int h = 0; h < 2; h++) sum[h] += area * fabs(part[h]);
   }
 }
 
-static hr2d_status sum_rows(hr2di_estimator *e, int irradiance) {
-  set_source(e, irradiance);
-  const hr2d_status status = hr2di_estimator_solve(e, tolerance(ROW, contrast(e, irradiance)));
-  for (size_t b = 0; b < e->eq.transport.bands && !status; b++) add_row(e, irradiance, b, 1);
+/* Raises the sums of B and of H by those of the patches chosen for one of them. */
+static hr2d_status sum_rows(hr2di_estimator *e, int choice) {
+  const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
+  const size_t bands = e->eq.transport.bands;
+  set_source(e, choice);
+  const hr2d_status status = hr2di_estimator_solve(e, tolerance(ROW, contrast(e, 1)));
+  for (size_t b = 0; b < bands && !status; b++) {
+    const size_t patch = worst_patch(e, choice, b);
+    const double least = hr2di_estimator_least(e, 0, patch, b);
+    const double ratio = hr2di_estimator_least(e, 1, patch, b) / least;
+    double sum[2];
+    sum_row(e, b, least > 0 ? hr2d_scene_reflectance(scene, patch, b) * ratio : 0, sum);
+    for (int h = 0; h < 2; h++)
+      e->safe[(size_t)h * bands + b] = fmax(e->safe[(size_t)h * bands + b], sum[h]);
+  }
   return status;
 }
 
-/* Sources of B and of H on one patch differ by a factor, and so do their Y.  Returns whether
-   they are on one patch in all bands; then the rows of B are added up from those of H. */
-static int share_rows(hr2di_estimator *e) {
-  const size_t bands = e->eq.transport.bands;
-  const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
-  for (size_t b = 0; b < bands; b++)
+/* Whether the worst averages of B and of H are those of the same patches. */
+static int same_choice(const hr2di_estimator *e) {
+  for (size_t b = 0; b < e->eq.transport.bands; b++)
     if (worst_patch(e, 0, b) != worst_patch(e, 1, b)) return 0;
-  for (size_t b = 0; b < bands; b++) {
-    const size_t patch = worst_patch(e, 0, b);
-    const double least = hr2di_estimator_least(e, 0, patch, b);
-    if (least > 0)
-      add_row(e, 0, b,
-              hr2d_scene_reflectance(scene, patch, b) *
-                  (hr2di_estimator_least(e, 1, patch, b) / least));
-  }
   return 1;
 }
 
+/* The row of one patch serves both its averages, and either may be the larger one. */
 hr2d_status hr2di_safe_sum(hr2di_estimator *e) {
   hr2d_status status = sample(e);
   if (!status) status = sum_rows(e, 1);
-  return status || share_rows(e) ? status : sum_rows(e, 0);
+  return status || same_choice(e) ? status : sum_rows(e, 0);
 }
