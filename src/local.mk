@@ -8,6 +8,7 @@ libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
 libhr2d_core_la_SOURCES = \
 	src/base/alloc.c src/base/alloc.h \
 	src/base/clock.h \
+	src/base/huge-pages.c src/base/huge-pages.h \
 	src/base/constants.c \
 	src/base/krylov.c src/base/krylov.h \
 	src/base/legendre.c src/base/legendre.h \

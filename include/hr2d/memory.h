@@ -19,8 +19,9 @@
 #include <stddef.h>
 
 /**
- * Allocator hooks. hr2d_scene_create() copies them, and every object made from the scene
- * inherits them.
+ * Allocator hooks. Without any, blocks come from malloc(); on Linux those of 2 MiB and more are
+ * asked to be in huge pages. hr2d_scene_create() copies them, and every object made from the
+ * scene inherits them.
  *
  * The functions behave like malloc(), realloc() and free(), and the first two may fail. They
  * must be callable from every thread that uses such an object, and from the threads of a call

@@ -6,14 +6,20 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/huge-pages.h"
+
 static void *default_allocate(void *ctx, size_t bytes) {
   (void)ctx;
-  return malloc(bytes);
+  void *block = malloc(bytes);
+  hr2di_huge_pages_ask(block, bytes);
+  return block;
 }
 
 static void *default_reallocate(void *ctx, void *block, size_t bytes) {
   (void)ctx;
-  return realloc(block, bytes);
+  void *moved = realloc(block, bytes);
+  hr2di_huge_pages_ask(moved, bytes);
+  return moved;
 }
 
 static void default_release(void *ctx, void *block) {

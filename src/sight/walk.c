@@ -211,7 +211,10 @@ static int32_t back(hr2di_walk *w, chains *c, const base *b) {
 }
 
 /* Follows a beam that does not split from half-edge h on.  Returns whether it then splits, in
-   the triangle that *e is; otherwise it has ended behind e->across[*hand]. */
+   the triangle that *e is; otherwise it has ended behind e->across[*hand].
+
+   What is not on the left of any line is on the right of all.  The decision is a branch and not
+   an index: where it is foreseen, the next triangle is read before the signs are known. */
 static int follow(hr2di_walk *w, const chains *c, int32_t h, entry *e, int *hand) {
   const hr2d_point *at = w->in->at;
   const hr2d_point l0 = first(w, c, 0), l1 = last(w, c, 0);
@@ -220,17 +223,23 @@ static int follow(hr2di_walk *w, const chains *c, int32_t h, entry *e, int *hand
     const hr2di_triangle *t = &w->in->triangle[h >> 2];
     const int k = h & 3, to_right = k == 2 ? 0 : k + 1, to_left = k == 0 ? 2 : k - 1;
     const hr2d_point v = at[t->corner[to_left]];
-    const int left = hr2di_orient_sign(l0, r1, v) > 0, right = hr2di_orient_sign(r0, l1, v) < 0;
+    int splits = 0;
     w->steps++;
-    h = t->across[left ? to_right : to_left];
-    if (h >= 0 && !(left && right)) continue;
+    *hand = !(hr2di_orient_sign(l0, r1, v) > 0);
+    if (*hand) {
+      h = t->across[to_left];
+      if (h >= 0) continue;
+    } else {
+      h = t->across[to_right];
+      splits = hr2di_orient_sign(r0, l1, v) < 0;
+      if (h >= 0 && !splits) continue;
+    }
     *e = (entry){at[t->corner[k]],
                  at[t->corner[to_right]],
                  v,
                  {t->across[to_right], t->across[to_left]},
                  t->corner[to_left]};
-    *hand = !left;
-    return left && right;
+    return splits;
   }
 }
 

@@ -12,7 +12,8 @@
 #include "scene/scene-impl.h"
 #include "visibility/row-maker.h"
 
-enum { CHUNK = 1 << 15, MOST_THREADS = 256 };
+/* Entries of the first chunk of a thread, and of the largest; each is twice the one before. */
+enum { CHUNK = 1 << 12, LARGEST_CHUNK = 1 << 19, MOST_THREADS = 256 };
 
 struct hr2d_exchange_rows {
   hr2d_allocator alloc;
@@ -53,10 +54,12 @@ typedef struct builder {
 /* ---- half rows */
 
 static chunk *add_chunk(builder *b, size_t worker, size_t needed) {
-  const size_t room = needed > CHUNK ? needed : CHUNK;
   chunk *c = hr2di_alloc_zero(b->alloc, 1, sizeof *c);
   if (!c) return NULL;
   c->next = b->chunk[worker];
+  size_t room = c->next ? 2 * c->next->room : CHUNK;
+  if (room > LARGEST_CHUNK) room = LARGEST_CHUNK;
+  if (room < needed) room = needed;
   c->room = room;
   b->chunk[worker] = c;
   c->column = hr2di_alloc(b->alloc, room, sizeof *c->column);
