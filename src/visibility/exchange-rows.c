@@ -45,8 +45,6 @@ typedef struct builder {
   half_row *half; /* per patch */
   uint64_t *fill; /* per patch: behind its last entry so far */
   double unit;
-  uint32_t *column; /* a row while it is merged */
-  double *area;
   chunk *chunk[MOST_THREADS];
   hr2d_matrix_counts counts;
 } builder;
@@ -112,22 +110,15 @@ static hr2d_status count_entries(builder *b) {
 
 static hr2d_status reserve_entries(builder *b) {
   hr2d_exchange_rows *r = b->rows;
-  size_t longest = 0;
   if (r->start[r->patches] > SIZE_MAX / sizeof *r->area) return HR2D_ENOMEM;
-  for (size_t i = 0; i < r->patches; i++) {
-    const size_t length = (size_t)(r->start[i + 1] - r->start[i]);
-    if (length > longest) longest = length;
-  }
   const size_t entries = (size_t)r->start[r->patches];
   r->column = hr2di_alloc(b->alloc, entries, sizeof *r->column);
   r->area = hr2di_alloc(b->alloc, entries, sizeof *r->area);
   b->fill = hr2di_alloc(b->alloc, r->patches, sizeof *b->fill);
-  b->column = hr2di_alloc(b->alloc, longest, sizeof *b->column);
-  b->area = hr2di_alloc(b->alloc, longest, sizeof *b->area);
-  return r->column && r->area && b->fill && b->column && b->area ? HR2D_OK : HR2D_ENOMEM;
+  return r->column && r->area && b->fill ? HR2D_OK : HR2D_ENOMEM;
 }
 
-/* The half row of i first, then what others have in column i. */
+/* Puts what others have in column i at the end of row i, and leaves room for its half row. */
 static hr2d_status scatter(builder *b) {
   hr2d_exchange_rows *r = b->rows;
   hr2d_status status = HR2D_OK;
@@ -139,39 +130,40 @@ static hr2d_status scatter(builder *b) {
       r->column[at] = (uint32_t)i | (h->column[k] & HR2DI_PARTIAL);
       r->area[at] = h->area[k];
     }
-    if (h->count > 0) {
-      memcpy(r->column + r->start[i], h->column, h->count * sizeof *r->column);
-      memcpy(r->area + r->start[i], h->area, h->count * sizeof *r->area);
-    }
     status = hr2di_watch_work(b->watch, 1 + h->count / 16);
   }
   return status;
 }
 
-/* Merges the two parts of row i and moves it to `to`; returns its length.  The loop has no
-   branches that depend on the columns but for the end of a part. */
-static size_t merge(builder *b, size_t i, uint64_t first, uint64_t last, uint64_t to) {
-  const size_t half = b->half[i].count, count = (size_t)(last - first);
-  uint32_t *column = b->rows->column + to;
-  double *area = b->rows->area + to;
-  size_t head = 0, tail = half, made = 0, partial = 0;
-  memcpy(b->column, b->rows->column + first, count * sizeof *b->column);
-  memcpy(b->area, b->rows->area + first, count * sizeof *b->area);
-  while (head < half && tail < count) {
-    const uint32_t p = b->column[head] & ~HR2DI_PARTIAL, q = b->column[tail] & ~HR2DI_PARTIAL;
-    const size_t from = p < q ? head : tail;
-    const uint32_t both = p == q ? b->column[head] : 0;
-    column[made] = p < q ? p : q;
-    area[made++] = b->area[from] + (p == q ? b->area[head] : 0);
-    partial += (b->column[from] | both) >> 31;
+/* Merges the half row of i with the entries that end row i, [tail, last), and moves it to `to`;
+   returns its length.  What is written never overtakes what is read: to + made ≤ tail, as there
+   is room for the half row before `tail`.  The loop has no branches that depend on the columns
+   but for the end of a part. */
+static size_t merge(builder *b, size_t i, uint64_t tail, uint64_t last, uint64_t to) {
+  const half_row h = b->half[i];
+  uint32_t *const column = b->rows->column, *const made_column = column + to;
+  double *const area = b->rows->area, *const made_area = area + to;
+  size_t head = 0, made = 0, partial = 0;
+  while (head < h.count && tail < last) {
+    const uint32_t mine = h.column[head], theirs = column[tail];
+    const uint32_t p = mine & ~HR2DI_PARTIAL, q = theirs & ~HR2DI_PARTIAL;
+    const double first = p <= q ? h.area[head] : 0, second = q <= p ? area[tail] : 0;
+    partial += ((p <= q ? mine : 0) | (q <= p ? theirs : 0)) >> 31;
     head += p <= q;
     tail += q <= p;
+    made_column[made] = p < q ? p : q;
+    made_area[made++] = first + second;
   }
-  const size_t rest = head < half ? head : tail, end = head < half ? half : count;
-  for (size_t k = rest; k < end; k++) {
-    column[made] = b->column[k] & ~HR2DI_PARTIAL;
-    area[made++] = b->area[k];
-    partial += b->column[k] >> 31;
+  for (; head < h.count; head++) {
+    made_column[made] = h.column[head] & ~HR2DI_PARTIAL;
+    made_area[made++] = h.area[head];
+    partial += h.column[head] >> 31;
+  }
+  for (; tail < last; tail++) {
+    const uint32_t theirs = column[tail];
+    made_area[made] = area[tail];
+    made_column[made++] = theirs & ~HR2DI_PARTIAL;
+    partial += theirs >> 31;
   }
   b->counts.partial_pairs += partial;
   return made;
@@ -183,7 +175,7 @@ static hr2d_status merge_all(builder *b) {
   uint64_t first = 0, made = 0;
   for (size_t i = 0; i < r->patches && !status; i++) {
     const uint64_t last = r->start[i + 1];
-    const size_t count = merge(b, i, first, last, made);
+    const size_t count = merge(b, i, first + b->half[i].count, last, made);
     r->start[i] = made;
     made += count;
     first = last;
@@ -222,7 +214,6 @@ static hr2d_status join_halves(builder *b) {
   b->watch->told.fraction = 1;
   if (!status) status = reserve_entries(b);
   if (!status) status = scatter(b);
-  free_chunks(b);
   if (!status) status = merge_all(b);
   return status ? status : hr2di_watch_ask(b->watch);
 }
@@ -233,8 +224,6 @@ static hr2d_status build(builder *b, const hr2d_scene *scene, unsigned threads) 
   free_chunks(b);
   hr2di_alloc_free(b->alloc, b->half);
   hr2di_alloc_free(b->alloc, b->fill);
-  hr2di_alloc_free(b->alloc, b->column);
-  hr2di_alloc_free(b->alloc, b->area);
   return status;
 }
 
