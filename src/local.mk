@@ -24,7 +24,7 @@ libhr2d_core_la_SOURCES = \
 	src/base/team.c src/base/team.h \
 	src/base/union-find.h \
 	src/base/version.c \
-	src/base/watch.c src/base/watch.h \
+	src/base/watch.c src/base/watch.h src/base/wide.h \
 	src/geometry/apart.h src/geometry/bernstein-ellipse.c src/geometry/bernstein-ellipse.h \
 	src/geometry/crossings.c src/geometry/crossings.h \
 	src/geometry/cut-points.c src/geometry/cut-points.h \
@@ -123,6 +123,7 @@ libhr2d_core_la_SOURCES = \
 	src/oracle/l1-oracle.c \
 	src/oracle/oracle.c \
 	src/oracle/policy.c \
+	src/oracle/squares.c src/oracle/squares.h \
 	src/blocks/block.c src/blocks/block.h \
 	src/blocks/directions.c \
 	src/blocks/distant.c \

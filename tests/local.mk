@@ -37,6 +37,7 @@ SUITES = \
 	tests/unit/refine/check-validate-ulps \
 	tests/paper/check-theorem \
 	tests/unit/oracle/check-l1 \
+	tests/unit/oracle/check-squares \
 	tests/unit/solution/check-points \
 	tests/unit/solution/check-irradiance-points \
 	tests/unit/solve/check-solve \

@@ -9,7 +9,7 @@
 # of those of the setting.
 set -u
 source=$(cd "$(dirname "$0")/.." && pwd)
-every="gcc-O0 gcc-O1 gcc-O2 gcc-O3-native gcc-lto gcc-fortify gcc-one-thread
+every="gcc-O0 gcc-O1 gcc-O2 gcc-O3-native gcc-lto gcc-fortify gcc-one-thread gcc-no-avx2
   clang-O0 clang-O1 clang-O2 clang-O3-native sanitized thread digits"
 jobs=$(nproc 2>/dev/null || echo 1)
 passed=0 failed=0
@@ -92,6 +92,7 @@ setting() {
     tested "$1" CC=gcc CFLAGS='-g -O2' CPPFLAGS='-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3'
     ;;
   gcc-one-thread) tested "$1" CC=gcc --disable-threads ;;
+  gcc-no-avx2) tested "$1" CC=gcc --disable-avx2 ;;
   gcc-m32) m32 ;;
   *-O3-native) tested "$1" CC="${1%%-*}" CFLAGS='-g -O3 -march=native' ;;
   gcc-O[0-3] | clang-O[0-3]) tested "$1" CC="${1%-*}" CFLAGS="-g -${1#*-}" ;;

@@ -24,6 +24,7 @@
 
 #include <math.h>
 
+#include "base/wide.h"
 #include "geometry/determinant.h"
 #include "geometry/exchange-area-scaled.h"
 #include "geometry/vector.h"
@@ -34,8 +35,8 @@ typedef struct determinants {
 
 /* K/(pq+E) or (pq−E)/K, which are equal, whichever does not cancel; times T over a common
    denominator. */
-static inline double facing_area(determinants o, double p, double q, double e, double ad,
-                                 double bc) {
+HR2DI_PART double facing_area(determinants o, double p, double q, double e, double ad,
+                              double bc) {
   const double k = o.abc + o.cda;
   const double at_ad = (p * o.abd + q * o.cda) + k * ad;
   const double at_bc = (q * o.abc + p * o.cdb) + k * bc;
@@ -50,22 +51,22 @@ typedef struct plain {
   double det, size;
 } plain;
 
-static inline plain cross(double ux, double uy, double vx, double vy) {
+HR2DI_PART plain cross(double ux, double uy, double vx, double vy) {
   return (plain){ux * vy - uy * vx, fabs(ux * vy) + fabs(uy * vx)};
 }
 
-static inline int keeps_digits(plain x) {
+HR2DI_PART int keeps_digits(plain x) {
   return 4 * x.det >= x.size + 0x1p-100;
 }
 
-static inline int surely_negative(plain x) {
+HR2DI_PART int surely_negative(plain x) {
   return x.det <= -0x1p-50 * x.size - 0x1p-900;
 }
 
 /* Returns AF of a well-conditioned facing pair with coordinate differences below 2^50, so that
    no product here leaves 2^±900; 0 if one segment is clearly behind the other; −1 for every
    other pair.  Has no branches, so that the compiler can do several pairs at once. */
-static inline double plain_area(hr2d_point a, hr2d_point b, hr2d_point c, hr2d_point d) {
+HR2DI_PART double plain_area(hr2d_point a, hr2d_point b, hr2d_point c, hr2d_point d) {
   const double ux = b.x - a.x, uy = b.y - a.y, vx = d.x - c.x, vy = d.y - c.y;
   const double wx = c.x - a.x, wy = c.y - a.y, zx = d.x - b.x, zy = d.y - b.y;
   const double sx = d.x - a.x, sy = d.y - a.y, tx = c.x - b.x, ty = c.y - b.y;
@@ -150,7 +151,7 @@ static double area_of(const quadrilateral *s, determinants o) {
 
 /* The determinants with corrections of first order; abc is NaN if these are not enough.  For
    plain coordinates.  Has no branches. */
-static inline determinants corrected(hr2d_point a, hr2d_point b, hr2d_point c, hr2d_point d) {
+HR2DI_PART determinants corrected(hr2d_point a, hr2d_point b, hr2d_point c, hr2d_point d) {
   const hr2di_vector ab = hr2di_vector_difference(b, a), cd = hr2di_vector_difference(d, c);
   const hr2di_vector ac = hr2di_vector_difference(c, a), bd = hr2di_vector_difference(d, b);
   int sure = 1;
@@ -231,11 +232,11 @@ static inline void put(block *p, size_t k, hr2d_segment i, hr2d_segment j) {
   p->cx[k] = j.a.x, p->cy[k] = j.a.y, p->dx[k] = j.b.x, p->dy[k] = j.b.y;
 }
 
-static inline hr2d_segment first(const block *p, size_t k) {
+HR2DI_PART hr2d_segment first(const block *p, size_t k) {
   return (hr2d_segment){{p->ax[k], p->ay[k]}, {p->bx[k], p->by[k]}};
 }
 
-static inline hr2d_segment second(const block *p, size_t k) {
+HR2DI_PART hr2d_segment second(const block *p, size_t k) {
   return (hr2d_segment){{p->cx[k], p->cy[k]}, {p->dx[k], p->dy[k]}};
 }
 
@@ -255,18 +256,28 @@ static size_t collect(block *p, size_t n, double *area, size_t *place) {
   return left;
 }
 
-static void block_areas(block *p, size_t n, double *area) {
+HR2DI_PART void plain_areas_loop(const block *p, size_t n, double *area) {
   for (size_t k = 0; k < n; k++) {
     const hr2d_segment i = first(p, k), j = second(p, k);
     area[k] = plain_area(i.a, i.b, j.a, j.b);
   }
-  size_t place[BLOCK];
-  determinants o[BLOCK];
-  const size_t left = collect(p, n, area, place);
-  for (size_t k = 0; k < left; k++) {
+}
+HR2DI_WIDE(plain_areas, (const block *p, size_t n, double *area), (p, n, area))
+
+HR2DI_PART void all_corrected_loop(const block *p, size_t n, determinants *o) {
+  for (size_t k = 0; k < n; k++) {
     const hr2d_segment i = first(p, k), j = second(p, k);
     o[k] = corrected(i.a, i.b, j.a, j.b);
   }
+}
+HR2DI_WIDE(all_corrected, (const block *p, size_t n, determinants *o), (p, n, o))
+
+static void block_areas(block *p, size_t n, double *area) {
+  plain_areas(p, n, area);
+  size_t place[BLOCK];
+  determinants o[BLOCK];
+  const size_t left = collect(p, n, area, place);
+  all_corrected(p, left, o);
   for (size_t k = 0; k < left; k++) {
     const hr2d_segment i = first(p, k), j = second(p, k);
     area[place[k]] = careful_area(&i, &j, o[k]);

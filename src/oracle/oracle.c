@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The oracles size, size2 and bf, and all by name. */
-#include <float.h>
 #include <hr2d/oracle.h>
 #include <math.h>
 #include <string.h>
 
 #include "geometry/determinant.h"
 #include "oracle/built-in.h"
+#include "oracle/squares.h"
 
 /* Below this a sum of two squares, or its product with another such number, may have
    lost digits to underflow. */
@@ -14,10 +14,6 @@
 
 static double larger(double p, double q) {
   return p > q ? p : q;
-}
-
-static double smaller(double p, double q) {
-  return p < q ? p : q;
 }
 
 static double centre_distance2(const hr2d_element *i, const hr2d_element *j) {
@@ -64,37 +60,24 @@ static hr2d_status estimate_size2(void *ctx, const hr2d_batch *batch, double *er
   return HR2D_OK;
 }
 
-/* A² ≤ ε²r² decides without root or division.  Each side, and the estimate's own
-   square, is off by at most 5 roundings, so that the two can only disagree where
-   the difference is within 16 units in the last place of A².  There the estimate
-   itself decides.  The estimate also decides where underflow may have lost digits: with
-   1e-300 < ε² < 1e20 this shows in a difference below 1e-280. */
-static int doubtful(double excess, double a2) {
-  return !(fabs(excess) - 16 * DBL_EPSILON * a2 > 1e-280);
+/* The estimate also decides where underflow may have lost digits: with 1e-300 < ε² < 1e20 this
+   shows in a difference below 1e-280. */
+static int doubtful(double margin) {
+  return !(margin > 1e-280);
 }
 
-/* The first loop has no branches; if a pair of the batch is doubtful, the second settles it. */
 static hr2d_status accept_squares(const hr2d_batch *batch, double epsilon2, double epsilon,
                                   double (*estimate)(const hr2d_element *,
                                                      const hr2d_element *),
                                   unsigned char *accepted) {
-  const hr2d_element *element = batch->elements;
-  const hr2d_pair *pair = batch->pairs;
-  const size_t count = batch->count;
   const int in_range = epsilon2 > 1e-300 && epsilon2 < 1e20;
-  double margin = 1;
-  for (size_t k = 0; k < count; k++) {
-    const hr2d_element *i = &element[pair[k].first], *j = &element[pair[k].second];
-    const double a = larger(i->length, j->length), a2 = a * a;
-    const double excess = a2 - epsilon2 * centre_distance2(i, j);
-    accepted[k] = excess <= 0;
-    margin = smaller(margin, fabs(excess) - 16 * DBL_EPSILON * a2);
-  }
-  if (in_range && margin > 1e-280) return HR2D_OK;
-  for (size_t k = 0; k < count; k++) {
-    const hr2d_element *i = &element[pair[k].first], *j = &element[pair[k].second];
-    const double a = larger(i->length, j->length), a2 = a * a;
-    if (!in_range || doubtful(a2 - epsilon2 * centre_distance2(i, j), a2))
+  if (!doubtful(hr2di_squares_accept(batch, epsilon2, accepted)) && in_range) return HR2D_OK;
+  for (size_t k = 0; k < batch->count; k++) {
+    const hr2d_element *i = &batch->elements[batch->pairs[k].first];
+    const hr2d_element *j = &batch->elements[batch->pairs[k].second];
+    double a2;
+    const double excess = hr2di_squares_excess(i, j, epsilon2, &a2);
+    if (!in_range || doubtful(hr2di_squares_margin(excess, a2)))
       accepted[k] = estimate(i, j) <= epsilon;
   }
   return HR2D_OK;
