@@ -150,6 +150,7 @@ libhr2d_core_la_SOURCES = \
 	src/solution/solution-impl.h \
 	src/refine/count.c \
 	src/refine/occluded-pairs.c src/refine/occluded-pairs.h \
+	src/refine/partition.c src/refine/partition.h \
 	src/refine/projector.c src/refine/projector.h \
 	src/refine/projector-start.c \
 	src/refine/refine.c \

@@ -32,6 +32,7 @@ SUITES = \
 	tests/unit/formats/check-vs2 \
 	tests/unit/hierarchy/check-hierarchy \
 	tests/unit/refine/check-refine \
+	tests/unit/refine/check-partition \
 	tests/unit/links/check-linkset \
 	tests/unit/refine/check-validate \
 	tests/unit/refine/check-validate-ulps \

@@ -12,38 +12,39 @@ static double smaller(double p, double q) {
 
 #ifdef HR2D_AVX2
 /* Four pairs at a time, each operation as in hr2di_squares_excess().  An element's centre and
-   length are one vector: its fourth part is no number and is cleared. */
+   length are one vector, whose last part is no number and meets no product. */
 _Static_assert(offsetof(hr2d_element, length) == offsetof(hr2d_element, centre) + 16 &&
                    sizeof(hr2d_element) >= offsetof(hr2d_element, centre) + 32,
                "centre, length and one word more are side by side");
 
-HR2DI_AVX2 static inline __m256d centre_and_length(const hr2d_element *e) {
-  const __m256d numbers = _mm256_castsi256_pd(_mm256_set_epi64x(0, -1, -1, -1));
-  return _mm256_and_pd(_mm256_loadu_pd(&e->centre.x), numbers);
-}
+/* Two pairs: x and y of the vectors between their centres, and the longer elements. */
+typedef struct two_pairs {
+  __m256d x, y; /* in the lower half */
+  __m256d a;    /* in the upper half */
+} two_pairs;
 
-/* dx², dy², A², 0 */
-HR2DI_AVX2 static inline __m256d squares_of(const hr2d_element *element, hr2d_pair pair) {
-  const __m256d i = centre_and_length(&element[pair.first]);
-  const __m256d j = centre_and_length(&element[pair.second]);
-  const __m256d v = _mm256_blend_pd(_mm256_sub_pd(j, i), _mm256_max_pd(i, j), 12);
-  return _mm256_mul_pd(v, v);
+HR2DI_AVX2 static inline two_pairs take_two(const hr2d_element *element,
+                                            const hr2d_pair *pair) {
+  const __m256d i0 = _mm256_loadu_pd(&element[pair[0].first].centre.x);
+  const __m256d j0 = _mm256_loadu_pd(&element[pair[0].second].centre.x);
+  const __m256d i1 = _mm256_loadu_pd(&element[pair[1].first].centre.x);
+  const __m256d j1 = _mm256_loadu_pd(&element[pair[1].second].centre.x);
+  const __m256d d0 = _mm256_sub_pd(j0, i0), d1 = _mm256_sub_pd(j1, i1);
+  return (two_pairs){_mm256_unpacklo_pd(d0, d1), _mm256_unpackhi_pd(d0, d1),
+                     _mm256_unpacklo_pd(_mm256_max_pd(i0, j0), _mm256_max_pd(i1, j1))};
 }
 
 HR2DI_AVX2 static double accept_fours(const hr2d_batch *batch, size_t count, double epsilon2,
                                       unsigned char *accepted) {
-  const hr2d_element *e = batch->elements;
   const __m256d sign = _mm256_set1_pd(-0.0), ulps = _mm256_set1_pd(16 * DBL_EPSILON);
   __m256d margin = _mm256_set1_pd(1);
   for (size_t k = 0; k < count; k += 4) {
-    const hr2d_pair *pair = batch->pairs + k;
-    const __m256d s0 = squares_of(e, pair[0]), s1 = squares_of(e, pair[1]);
-    const __m256d s2 = squares_of(e, pair[2]), s3 = squares_of(e, pair[3]);
-    const __m256d low = _mm256_unpacklo_pd(s0, s1), high = _mm256_unpacklo_pd(s2, s3);
-    const __m256d a2 = _mm256_permute2f128_pd(low, high, 0x31);
-    const __m256d r2 =
-        _mm256_permute2f128_pd(_mm256_add_pd(low, _mm256_unpackhi_pd(s0, s1)),
-                               _mm256_add_pd(high, _mm256_unpackhi_pd(s2, s3)), 0x20);
+    const two_pairs p = take_two(batch->elements, batch->pairs + k);
+    const two_pairs q = take_two(batch->elements, batch->pairs + k + 2);
+    const __m256d a = _mm256_permute2f128_pd(p.a, q.a, 0x31), a2 = _mm256_mul_pd(a, a);
+    const __m256d x = _mm256_permute2f128_pd(p.x, q.x, 0x20);
+    const __m256d y = _mm256_permute2f128_pd(p.y, q.y, 0x20);
+    const __m256d r2 = _mm256_add_pd(_mm256_mul_pd(x, x), _mm256_mul_pd(y, y));
     const __m256d excess = _mm256_sub_pd(a2, _mm256_mul_pd(_mm256_set1_pd(epsilon2), r2));
     margin = _mm256_min_pd(
         _mm256_sub_pd(_mm256_andnot_pd(sign, excess), _mm256_mul_pd(ulps, a2)), margin);

@@ -4,11 +4,13 @@
 #include "refine/projector.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "geometry/predicates.h"
 #include "oracle/built-in.h"
+#include "refine/partition.h"
 
 enum { UNWRITTEN = 255 /* no subdivision: marks entries that a callback did not write */ };
 
@@ -172,18 +174,10 @@ hr2d_status hr2di_projector_propose(hr2di_projector *p, const hr2d_pair *pairs, 
   hr2d_status status = reserve(p, refused, count);
   if (!status) status = hr2di_projector_estimate(p, pairs, count);
   if (status) return status;
-  /* No branches, as they would be mispredicted: each pair is written to both arrays. */
-  hr2d_pair *accepted = p->accepted, *stack = refused->pair + refused->count;
-  for (size_t k = 0; k < count; k++) {
-    const hr2d_pair pair = pairs[k];
-    const size_t yes = p->flag[k] != 0;
-    *accepted = pair;
-    *stack = pair;
-    accepted += yes;
-    stack += 1 - yes;
-  }
-  refused->count = (size_t)(stack - refused->pair);
-  return hr2di_projector_accept(p, NULL, (size_t)(accepted - p->accepted));
+  const size_t accepted =
+      hr2di_partition(pairs, p->flag, count, p->accepted, refused->pair + refused->count);
+  refused->count += count - accepted;
+  return hr2di_projector_accept(p, NULL, accepted);
 }
 
 hr2d_status hr2di_projector_propose_clipped(hr2di_projector *p, const hr2d_pair *pairs,
@@ -293,39 +287,49 @@ hr2d_status hr2di_projector_prepare(hr2di_projector *p, hr2d_pair *pairs, size_t
   return HR2D_OK;
 }
 
+_Static_assert(HR2D_SPLIT_FIRST == 0 && HR2D_SPLIT_SECOND == 1 &&
+                   offsetof(hr2d_pair, second) == sizeof(uint32_t),
+               "a split is the place of an element in its pair");
+
 /* The two child pairs of a pair of which one element is split.  The pair is a word with the
    first element in the low half, so that no branch is needed, which would be mispredicted.
-   Returns 0 if the element has no children yet. */
-static inline int split_one(const hr2d_element *element, hr2d_pair pair, unsigned split,
-                            hr2d_pair out[2]) {
-  const unsigned shift = 32 * split;
-  const uint64_t both = (uint64_t)pair.second << 32 | pair.first;
-  const uint64_t child = element[(uint32_t)(both >> shift)].child;
-  const uint64_t left = (both & ~((uint64_t)UINT32_MAX << shift)) | child << shift;
-  const uint64_t right = left + ((uint64_t)1 << shift);
+   Returns the element's left child, 0 if it has no children yet. */
+static inline uint32_t split_one(const hr2d_element *element, const hr2d_pair *pair,
+                                 unsigned split, hr2d_pair out[2]) {
+  static const uint64_t kept[] = {(uint64_t)UINT32_MAX << 32, UINT32_MAX};
+  static const uint64_t one[] = {1, (uint64_t)1 << 32};
+  uint32_t parent;
+  memcpy(&parent, (const char *)pair + split * sizeof parent, sizeof parent);
+  const uint32_t child = element[parent].child;
+  const uint64_t both = (uint64_t)pair->second << 32 | pair->first;
+  const uint64_t left = (both & kept[split]) | child * one[split], right = left + one[split];
   out[0] = (hr2d_pair){(uint32_t)left, (uint32_t)(left >> 32)};
   out[1] = (hr2d_pair){(uint32_t)right, (uint32_t)(right >> 32)};
-  return child != 0;
+  return child;
+}
+
+static inline uint32_t less(uint32_t i, uint32_t j) {
+  return i < j ? i : j;
 }
 
 size_t hr2di_projector_children(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
   const hr2d_element *element = p->hierarchy->element;
   hr2d_pair *out = p->candidate;
-  int ready = 1;
+  uint32_t least = UINT32_MAX;
   for (size_t k = 0; k < count; k++) {
     const unsigned split = p->split[k];
     if (split == HR2D_SPLIT_BOTH) {
       hr2d_pair half[2];
-      ready &= split_one(element, pairs[k], HR2D_SPLIT_FIRST, half);
-      ready &= split_one(element, half[0], HR2D_SPLIT_SECOND, out);
-      ready &= split_one(element, half[1], HR2D_SPLIT_SECOND, out + 2);
+      least = less(least, split_one(element, &pairs[k], HR2D_SPLIT_FIRST, half));
+      least = less(least, split_one(element, &half[0], HR2D_SPLIT_SECOND, out));
+      least = less(least, split_one(element, &half[1], HR2D_SPLIT_SECOND, out + 2));
       out += 4;
     } else {
-      ready &= split_one(element, pairs[k], split, out);
+      least = less(least, split_one(element, &pairs[k], split, out));
       out += 2;
     }
   }
-  return ready ? (size_t)(out - p->candidate) : 0;
+  return least ? (size_t)(out - p->candidate) : 0;
 }
 
 hr2d_status hr2di_projector_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidates,

@@ -86,6 +86,7 @@ static double unfinished(const hr2di_projector *p, const hr2di_stack *stack) {
 }
 
 void hr2di_rounds_measure(hr2di_projector *p) {
+  if (!p->watch->ask) return; /* nobody is told */
   const double done = p->roots_done - unfinished(p, &p->facing) - unfinished(p, &p->clipped) -
                       unfinished(p, &p->unoccluded[0]) - unfinished(p, &p->unoccluded[1]) -
                       unfinished(p, &p->occluded.stack);
