@@ -8,7 +8,7 @@ libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
 libhr2d_core_la_SOURCES = \
 	src/base/alloc.c src/base/alloc.h \
 	src/base/clock.h \
-	src/base/huge-pages.c src/base/huge-pages.h \
+	src/base/large-pages.c src/base/large-pages.h \
 	src/base/constants.c \
 	src/base/krylov.c src/base/krylov.h \
 	src/base/legendre.c src/base/legendre.h \
@@ -144,6 +144,7 @@ libhr2d_core_la_SOURCES = \
 	src/links/linkset.c \
 	src/links/linkset-impl.h \
 	src/links/patch-defect.c src/links/patch-defect.h \
+	src/links/store.c src/links/store.h \
 	src/solution/panels.h \
 	src/solution/point-gather.c \
 	src/solution/solution.c \

@@ -34,6 +34,7 @@ SUITES = \
 	tests/unit/refine/check-refine \
 	tests/unit/refine/check-partition \
 	tests/unit/links/check-linkset \
+	tests/unit/links/check-store \
 	tests/unit/refine/check-validate \
 	tests/unit/refine/check-validate-ulps \
 	tests/paper/check-theorem \

@@ -20,7 +20,7 @@
 
 /**
  * Allocator hooks. Without any, blocks come from malloc(); on Linux those of 2 MiB and more are
- * asked to be in huge pages. hr2d_scene_create() copies them, and every object made from the
+ * asked to be in large pages. hr2d_scene_create() copies them, and every object made from the
  * scene inherits them.
  *
  * The functions behave like malloc(), realloc() and free(), and the first two may fail. They

@@ -70,6 +70,9 @@ typedef struct hr2d_refine_options {
                                                NULL: emission alone */
   hr2d_progress_fn progress;              /**< optional */
   void *progress_ctx;                     /**< given to `progress` */
+  int packed; /**< 1: hr2d_refine() keeps links in about 11 bytes each in the place of 16, where
+                   neighbours share elements, as they do if N is far below L. No digit changes.
+                   Links are made and used more slowly */
 } hr2d_refine_options;
 
 /**
@@ -84,7 +87,7 @@ typedef struct hr2d_refine_options {
 
 /** The defaults: ε = 0.1, level 24, unordered, no budgets, one thread, no callback. */
 #define HR2D_REFINE_OPTIONS_INIT                                                               \
-  { sizeof(hr2d_refine_options), 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL }
+  { sizeof(hr2d_refine_options), 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, 0 }
 
 /**
  * Does what #HR2D_REFINE_OPTIONS_INIT does, for languages without macros: sets all bytes to 0,
@@ -119,8 +122,8 @@ HR2D_API void hr2d_refine_options_init(hr2d_refine_options *options, size_t size
  * Only one thread at a time may refine a hierarchy. Cost O(n² + L). If the scene calls for
  * occlusion, each patch sends beams, which cost what it sees, and each pair whose view
  * something bounds costs a cut of its classes of lines, some 0.5 µs. Memory: 70 bytes per
- * element and 16 per link; while a set with links is refined further, old and new links are
- * held.
+ * element and 16 per link, or 11 (hr2d_refine_options::packed); while a set with links is
+ * refined further, old and new links are held.
  */
 HR2D_API hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options);
 

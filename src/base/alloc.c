@@ -6,20 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/huge-pages.h"
+#include "base/large-pages.h"
 
 static void *default_allocate(void *ctx, size_t bytes) {
   (void)ctx;
-  void *block = malloc(bytes);
-  hr2di_huge_pages_ask(block, bytes);
-  return block;
+  return hr2di_large_pages_malloc(bytes);
 }
 
 static void *default_reallocate(void *ctx, void *block, size_t bytes) {
   (void)ctx;
-  void *moved = realloc(block, bytes);
-  hr2di_huge_pages_ask(moved, bytes);
-  return moved;
+  return hr2di_large_pages_realloc(block, bytes);
 }
 
 static void default_release(void *ctx, void *block) {

@@ -6,7 +6,7 @@
 #include <hr2d/memory.h>
 #include <stddef.h>
 
-/* Hooks that call malloc(), realloc() and free(). */
+/* Hooks that call malloc(), realloc() and free(); large blocks may have large pages. */
 hr2d_allocator hr2di_alloc_default(void);
 
 /* Returns an array of `count` items of `size` bytes, or NULL if there is no memory or the size

@@ -41,10 +41,11 @@ hr2d_status hr2di_components_init(hr2di_components *c, const hr2d_linkset *links
   for (size_t k = 0; k < count; k++) c->parent[k] = (uint32_t)k;
   hr2d_status status = hr2di_watch_work(watch, count / 4);
   if (clusters) join_clusters(c, clusters, patches);
-  for (size_t block = 0; block < links->store.chunks && !status; block++) {
+  for (size_t block = 0; block < hr2di_store_chunks(&links->store) && !status; block++) {
     status = hr2di_watch_work(watch, HR2DI_CHUNK_LINKS / 8);
+    const uint64_t first = (uint64_t)block * HR2DI_CHUNK_LINKS;
     for (size_t k = 0; k < hr2di_store_chunk_size(&links->store, block); k++) {
-      const hr2d_pair pair = links->store.chunk[block][k].pair;
+      const hr2d_pair pair = hr2di_store_link(&links->store, first + k).pair;
       join(c, element[pair.first].patch, element[pair.second].patch);
     }
   }

@@ -47,43 +47,6 @@ void hr2d_linkset_destroy(hr2d_linkset *links) {
   hr2di_alloc_free(&alloc, links);
 }
 
-static hr2d_status add_chunk(hr2di_store *store, const hr2d_allocator *alloc) {
-  if (hr2di_alloc_reserve(alloc, &store->chunk, &store->capacity, store->chunks + 1,
-                          sizeof *store->chunk))
-    return HR2D_ENOMEM;
-  hr2d_link *block = hr2di_alloc(alloc, HR2DI_CHUNK_LINKS, sizeof *block);
-  if (!block) return HR2D_ENOMEM;
-  store->chunk[store->chunks++] = block;
-  return HR2D_OK;
-}
-
-hr2d_status hr2di_store_add(hr2di_store *store, const hr2d_allocator *alloc,
-                            const hr2d_pair *pair, const double *area, size_t count) {
-  while (count > 0) {
-    const size_t at = (size_t)(store->count % HR2DI_CHUNK_LINKS);
-    if (at == 0 && add_chunk(store, alloc)) return HR2D_ENOMEM;
-    hr2d_link *link = store->chunk[store->chunks - 1] + at;
-    const size_t room = HR2DI_CHUNK_LINKS - at, some = count < room ? count : room;
-    for (size_t k = 0; k < some; k++) link[k] = (hr2d_link){pair[k], area[k]};
-    store->count += some;
-    pair += some;
-    area += some;
-    count -= some;
-  }
-  return HR2D_OK;
-}
-
-void hr2di_store_clear(hr2di_store *store, const hr2d_allocator *alloc) {
-  while (store->chunks > 0) hr2di_alloc_free(alloc, store->chunk[--store->chunks]);
-  hr2di_alloc_free(alloc, store->chunk);
-  *store = (hr2di_store){0};
-}
-
-uint64_t hr2di_store_bytes(const hr2di_store *store) {
-  return (uint64_t)store->chunks * HR2DI_CHUNK_LINKS * sizeof(hr2d_link) +
-         (uint64_t)store->capacity * sizeof *store->chunk;
-}
-
 const hr2d_hierarchy *hr2d_linkset_hierarchy(const hr2d_linkset *links) {
   return links->hierarchy;
 }
@@ -97,7 +60,7 @@ uint64_t hr2d_linkset_size(const hr2d_linkset *links) {
 }
 
 hr2d_link hr2d_linkset_get(const hr2d_linkset *links, uint64_t index) {
-  hr2d_link link = *hr2di_store_at(&links->store, index);
+  hr2d_link link = hr2di_store_link(&links->store, index);
   link.exchange_area *= hr2d_scene_unit(links->hierarchy->scene);
   return link;
 }

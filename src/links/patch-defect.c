@@ -10,13 +10,14 @@ hr2d_status hr2di_defect_sum(const hr2d_linkset *links, hr2di_sum *defect, hr2di
   for (size_t k = 0; k < links->hierarchy->scene->patches; k++)
     defect[k] = (hr2di_sum){element[k].length, 0};
   hr2d_status status = hr2di_watch_work(watch, links->hierarchy->scene->patches / 32);
-  for (size_t block = 0; block < store->chunks && !status; block++) {
+  for (size_t block = 0; block < hr2di_store_chunks(store) && !status; block++) {
     status = hr2di_watch_work(watch, HR2DI_CHUNK_LINKS / 8);
+    const uint64_t first = (uint64_t)block * HR2DI_CHUNK_LINKS;
     for (size_t k = 0; k < hr2di_store_chunk_size(store, block); k++) {
-      const hr2d_link *link = &store->chunk[block][k];
-      hr2di_sum_add(&defect[element[link->pair.first].patch], -link->exchange_area);
+      const hr2d_link link = hr2di_store_link(store, first + k);
+      hr2di_sum_add(&defect[element[link.pair.first].patch], -link.exchange_area);
       if (!links->directed)
-        hr2di_sum_add(&defect[element[link->pair.second].patch], -link->exchange_area);
+        hr2di_sum_add(&defect[element[link.pair.second].patch], -link.exchange_area);
     }
   }
   return status;

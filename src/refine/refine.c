@@ -34,17 +34,11 @@ typedef struct storing {
   double area[HR2DI_CANDIDATES];
 } storing;
 
-/* Takes from the budget, before it is allocated, the chunk that `count` more links need, and a
-   longer list of chunks. */
-static hr2d_status afford_links(hr2di_projector *p, const hr2di_store *store, size_t count) {
-  const uint64_t room = (uint64_t)store->chunks * HR2DI_CHUNK_LINKS - store->count;
-  if (count <= room) return HR2D_OK;
-  uint64_t more = HR2DI_CHUNK_LINKS * sizeof(hr2d_link);
-  if (store->chunks == store->capacity)
-    more += (store->capacity ? store->capacity : 8) * sizeof *store->chunk;
-  const hr2d_status status = hr2di_projector_check_budget(p, more);
-  if (!status) p->bytes += more;
-  return status;
+/* Whether the budget has what `count` more links may need.  Slabs become small as it ends. */
+static hr2d_status afford_links(hr2di_projector *p, hr2di_store *store, size_t count) {
+  if (!p->options.max_bytes) return HR2D_OK;
+  store->most_slab = hr2di_projector_left(p) / 8 + 1;
+  return hr2di_projector_check_budget(p, hr2di_store_growth(store, count));
 }
 
 static hr2d_status add_links(storing *s, const hr2d_pair *pairs, const double *area,
@@ -52,7 +46,9 @@ static hr2d_status add_links(storing *s, const hr2d_pair *pairs, const double *a
   hr2d_linkset *links = s->projector->links;
   hr2d_status status = afford_links(s->projector, s->store, count);
   if (status) return status;
+  s->projector->bytes -= hr2di_store_bytes(s->store);
   status = hr2di_store_add(s->store, &links->alloc, pairs, area, count);
+  s->projector->bytes += hr2di_store_bytes(s->store);
   return status ? hr2di_message_fail(&links->message, status, "out of memory after %llu links",
                                      (unsigned long long)s->store->count)
                 : HR2D_OK;
@@ -162,9 +158,9 @@ static void sum_counts(hr2d_linkset *links, const hr2di_projector *p) {
 hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options) {
   hr2d_refine_options used;
   hr2di_projector *p = NULL;
-  hr2di_store made = {0};
   hr2di_watch watch;
   hr2d_status status = hr2di_projector_check_options(links, options, &used);
+  hr2di_store made = {.packs = used.packed != 0};
   hr2di_scene_watch(links->hierarchy->scene, &watch, used.progress, used.progress_ctx,
                     "refine");
   if (!status) status = hr2di_projector_create(links, &used, &watch, &p);

@@ -153,9 +153,10 @@ static hr2d_status take_links(validator *v) {
   const hr2di_store *store = &v->links->store;
   for (uint64_t first = 0; first < store->count; first += AREAS) {
     const uint64_t rest = store->count - first;
-    const size_t count = rest < AREAS ? (size_t)rest : AREAS;
+    size_t count = rest < AREAS ? (size_t)rest : AREAS;
     v->watch.told.fraction = (double)first / (double)store->count;
-    const hr2d_link *link = hr2di_store_at(store, first); /* AREAS divides a chunk */
+    hr2d_link room[HR2DI_READ_LINKS]; /* AREAS divides a chunk, and is not more */
+    const hr2d_link *link = hr2di_store_read(store, first, &count, room);
     const hr2d_status status = check_areas(v, link, count);
     if (status) return status;
     for (size_t k = 0; k < count; k++) {

@@ -15,7 +15,7 @@
 enum { MOST_SLICES = 16, SLICE_BLOCKS = 64 };
 
 static size_t count_slices(const hr2d_linkset *links) {
-  const size_t slices = 1 + links->store.chunks / SLICE_BLOCKS;
+  const size_t slices = 1 + hr2di_store_chunks(&links->store) / SLICE_BLOCKS;
   return slices < MOST_SLICES ? slices : MOST_SLICES;
 }
 
@@ -85,23 +85,59 @@ void hr2di_transport_pull(hr2di_transport *t, const double *leaf_field) {
   pull(t, NULL, leaf_field);
 }
 
-/* Adds the power received over the links of one chunk, both ways unless directed. */
-static void gather_block(const hr2d_link *link, size_t count, size_t bands, int plain,
-                         int directed, const double *up, double *down) {
-  if (plain && !directed) {
-    for (size_t k = 0; k < count; k++) {
-      const hr2d_pair p = link[k].pair;
-      const double area = link[k].exchange_area;
-      down[p.first] += area * up[p.second];
-      down[p.second] += area * up[p.first];
-    }
-    return;
-  }
+/* Adds the power received over some links, both ways unless directed. */
+static void gather_links(const hr2d_link *link, size_t count, size_t bands, int directed,
+                         const double *up, double *down) {
   for (size_t k = 0; k < count; k++) {
     const size_t i = link[k].pair.first * bands, j = link[k].pair.second * bands;
     const double area = link[k].exchange_area;
     for (size_t b = 0; b < bands; b++) down[i + b] += area * up[j + b];
     for (size_t b = 0; b < bands && !directed; b++) down[j + b] += area * up[i + b];
+  }
+}
+
+/* The same for one band and both ways.  Mostly two links share an element: its sum stays in a
+   register, which is faster than to load what was just stored.  Terms are added in the same
+   order. */
+static void gather_both_ways(const hr2d_link *link, size_t count, const double *up,
+                             double *down) {
+  size_t k = 0;
+  for (; k + 2 <= count; k += 2) {
+    const hr2d_pair p = link[k].pair, q = link[k + 1].pair;
+    const double c = link[k].exchange_area, d = link[k + 1].exchange_area;
+    const double up_i = up[p.first], up_j = up[p.second];
+    if (p.first == q.first && p.second != q.second) {
+      down[p.first] = (down[p.first] + c * up_j) + d * up[q.second];
+      down[p.second] += c * up_i;
+      down[q.second] += d * up_i;
+    } else if (p.second == q.second && p.first != q.first) {
+      down[p.second] = (down[p.second] + c * up_i) + d * up[q.first];
+      down[p.first] += c * up_j;
+      down[q.first] += d * up_j;
+    } else {
+      down[p.first] += c * up_j;
+      down[p.second] += c * up_i;
+      down[q.first] += d * up[q.second];
+      down[q.second] += d * up[q.first];
+    }
+  }
+  if (k < count) gather_links(link + k, 1, 1, 0, up, down);
+}
+
+/* Adds the power received over the links of chunk k; `simple` if there is one band and links
+   carry both ways. */
+static void gather_chunk(const hr2di_transport *t, size_t k, int simple, double *down) {
+  const hr2di_store *store = &t->links->store;
+  const size_t count = hr2di_store_chunk_size(store, k);
+  hr2d_link room[HR2DI_READ_LINKS];
+  for (size_t from = 0, some; from < count; from += some) {
+    some = count - from;
+    const hr2d_link *link =
+        hr2di_store_read(store, (uint64_t)k * HR2DI_CHUNK_LINKS + from, &some, room);
+    if (simple)
+      gather_both_ways(link, some, t->up, down);
+    else
+      gather_links(link, some, t->bands, t->links->directed, t->up, down);
   }
 }
 
@@ -175,8 +211,9 @@ static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, u
 static void gather_slice(hr2di_transport *t, hr2di_transport_part part, size_t slice,
                          hr2di_watch *watch) {
   const hr2di_store *store = &t->links->store;
-  const size_t from = slice * store->chunks / t->slices;
-  const size_t to = (slice + 1) * store->chunks / t->slices;
+  const size_t chunks = hr2di_store_chunks(store);
+  const size_t from = slice * chunks / t->slices;
+  const size_t to = (slice + 1) * chunks / t->slices;
   double *down = t->down + slice * t->elements * t->width;
   const uint64_t units = HR2DI_CHUNK_LINKS / 32 * (1 + t->order * t->width / 8);
   if (hr2di_watch_work(watch, t->elements * t->width / 128)) return;
@@ -188,7 +225,7 @@ static void gather_slice(hr2di_transport *t, hr2di_transport_part part, size_t s
     if (t->order > 1)
       gather_orders(t, part, (uint64_t)k * HR2DI_CHUNK_LINKS, count, down);
     else
-      gather_block(store->chunk[k], count, t->bands, plain, t->links->directed, t->up, down);
+      gather_chunk(t, k, plain && !t->links->directed, down);
   }
 }
 

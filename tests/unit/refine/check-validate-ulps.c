@@ -94,7 +94,7 @@ START_TEST(a_little_more_is_refused) {
   test_links t = test_make_links(test_scene(patch, 4), NULL, NULL, NULL, NULL);
   test_refine(&t, 0.5, 6);
   ck_assert_int_eq(hr2d_linkset_validate(t.links), HR2D_OK);
-  hr2d_link *link = &t.links->store.chunk[0][hr2d_linkset_size(t.links) / 2];
+  hr2d_link *link = &t.links->store.open[hr2d_linkset_size(t.links) / 2];
   link->exchange_area += 1e-14;
   ck_assert_int_eq(hr2d_linkset_validate(t.links), HR2D_EINVAL);
   test_free_links(&t);

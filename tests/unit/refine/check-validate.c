@@ -344,7 +344,7 @@ START_TEST(wrong_exchange_areas_are_refused) {
         &(hr2d_refine_options){sizeof(hr2d_refine_options), .epsilon = 0.5, .max_level = 4});
     check_valid(&t);
     for (uint64_t k = 0; k < hr2d_linkset_size(t.links); k++) {
-      hr2d_link *link = &t.links->store.chunk[0][k];
+      hr2d_link *link = &t.links->store.open[k];
       const double right = link->exchange_area;
       const double wrong[] = {right + 1e-12, right - 1e-12,       nextafter(right, 2),
                               -right,        nextafter(right, 0), NAN,
