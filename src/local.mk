@@ -156,6 +156,7 @@ libhr2d_core_la_SOURCES = \
 	src/refine/projector-start.c \
 	src/refine/refine.c \
 	src/refine/rounds.c src/refine/rounds.h \
+	src/refine/rows.c src/refine/rows.h \
 	src/refine/study.c \
 	src/refine/validate-links.c \
 	src/solve/background.c src/solve/background.h \

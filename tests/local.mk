@@ -33,6 +33,7 @@ SUITES = \
 	tests/unit/hierarchy/check-hierarchy \
 	tests/unit/refine/check-refine \
 	tests/unit/refine/check-partition \
+	tests/unit/refine/check-rows \
 	tests/unit/links/check-linkset \
 	tests/unit/links/check-store \
 	tests/unit/refine/check-validate \

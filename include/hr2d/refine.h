@@ -62,9 +62,12 @@ typedef struct hr2d_refine_options {
                               space takes about 60 KiB at least. Never exceeded, except by the
                               second copy that realloc may hold while it moves an array, and
                               by a few words per occluding wall */
-  unsigned threads; /**< for hr2d_refine_count(): 0 for one, or #HR2D_ALL_THREADS; the counts
-                         do not depend on it. An oracle or a policy that is not flagged
-                         thread-safe is called from one thread only */
+  unsigned threads; /**< for hr2d_refine_count(), and for hr2d_refine() of an empty set without
+                         `max_bytes`: 0 for one, or #HR2D_ALL_THREADS; no link, element or
+                         count depends on it. hr2d_refine() shares out patches. An oracle or a
+                         policy that is not flagged thread-safe is called from one thread only;
+                         one that is decides by `a`, `b`, `centre` and `length` of elements, or
+                         divides none */
   const struct hr2d_solution *brightness; /**< for an oracle that needs brightness: a solution
                                                on the same hierarchy, whose B is the weight;
                                                NULL: emission alone */
@@ -123,7 +126,8 @@ HR2D_API void hr2d_refine_options_init(hr2d_refine_options *options, size_t size
  * occlusion, each patch sends beams, which cost what it sees, and each pair whose view
  * something bounds costs a cut of its classes of lines, some 0.5 µs. Memory: 70 bytes per
  * element and 16 per link, or 11 (hr2d_refine_options::packed); while a set with links is
- * refined further, old and new links are held.
+ * refined further, old and new links are held. Each of several threads has a copy of the
+ * elements, and the links of up to 128 patches are held twice.
  */
 HR2D_API hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options);
 

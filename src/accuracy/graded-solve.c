@@ -55,6 +55,7 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_resolution *finene
   hr2di_admissibility separation = {fineness->order, fineness->target, fineness->weight};
   options.epsilon = 0.5; /* the oracle says 0 or 1 */
   options.max_level = UINT32_MAX;
+  options.threads = target->threads;
   options.max_links = target->max_links;
   options.max_bytes = target->max_bytes;
   options.progress = target->progress;

@@ -110,12 +110,16 @@ static void shrink(hr2d_hierarchy *h, size_t capacity) {
   grow(&h->alloc, &h->level, capacity, sizeof *h->level);
 }
 
-void hr2di_hierarchy_truncate(hr2d_hierarchy *h, size_t elements) {
+void hr2di_hierarchy_forget(hr2d_hierarchy *h, size_t elements, unsigned levels) {
   while (h->elements > elements) {
     h->elements -= 2;
     h->element[h->parent[h->elements]].child = 0;
   }
-  h->levels = 0;
+  h->levels = levels;
+}
+
+void hr2di_hierarchy_truncate(hr2d_hierarchy *h, size_t elements) {
+  hr2di_hierarchy_forget(h, elements, 0);
   for (size_t k = 0; k < elements; k++)
     if (h->level[k] > h->levels) h->levels = h->level[k];
   shrink(h, hr2di_hierarchy_first_capacity(elements));

@@ -200,8 +200,7 @@ hr2d_status hr2di_projector_propose_clipped(hr2di_projector *p, const hr2d_pair 
   return status ? status : hr2di_projector_propose(p, p->sorted[1], part, &p->clipped);
 }
 
-/* Halves a leaf within the budgets. */
-static hr2d_status halve(hr2di_projector *p, uint32_t element) {
+hr2d_status hr2di_projector_halve(hr2di_projector *p, uint32_t element) {
   hr2d_hierarchy *h = p->hierarchy;
   if (p->options.max_elements && h->elements + 2 > p->options.max_elements)
     return hr2di_message_fail(&p->links->message, HR2D_EMAX_ELEMENTS,
@@ -276,9 +275,9 @@ hr2d_status hr2di_projector_prepare(hr2di_projector *p, hr2d_pair *pairs, size_t
     }
     hr2d_status status = HR2D_OK;
     if (splits_first(split) && !p->hierarchy->element[pair.first].child)
-      status = halve(p, pair.first);
+      status = hr2di_projector_halve(p, pair.first);
     if (!status && splits_second(split) && !p->hierarchy->element[pair.second].child)
-      status = halve(p, pair.second);
+      status = hr2di_projector_halve(p, pair.second);
     if (status) return status;
     pairs[kept] = pair;
     p->split[kept++] = p->split[k];

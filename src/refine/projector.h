@@ -118,6 +118,9 @@ hr2d_status hr2di_projector_choose_split(hr2di_projector *p, const hr2d_pair *pa
 hr2d_status hr2di_projector_prepare(hr2di_projector *p, hr2d_pair *pairs, size_t *count,
                                     size_t *limited);
 
+/* Halves a leaf within the budgets. */
+hr2d_status hr2di_projector_halve(hr2di_projector *p, uint32_t element);
+
 /* Writes the child pairs of `pairs` to p->candidate.  Returns their number, or 0 if some
    element to be split has no children yet. */
 size_t hr2di_projector_children(hr2di_projector *p, const hr2d_pair *pairs, size_t count);

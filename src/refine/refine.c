@@ -8,6 +8,7 @@
 #include "refine/occluded-pairs.h"
 #include "refine/projector.h"
 #include "refine/rounds.h"
+#include "refine/rows.h"
 #include "scene/scene-impl.h"
 
 /* Runs a projector.  On failure the hierarchy gets its former size. */
@@ -23,7 +24,7 @@ static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
   hr2di_rounds_measure(p);
   if (!status) status = hr2di_projector_fail(p, hr2di_watch_ask(p->watch), "");
   h->refining = 0;
-  if (p->sights) p->counts.visibility_tests = hr2di_patch_sights_tests(p->sights);
+  if (p->sights) p->counts.visibility_tests += hr2di_patch_sights_tests(p->sights);
   if (status) hr2di_hierarchy_truncate(h, elements);
   return status;
 }
@@ -171,8 +172,10 @@ hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options)
   if (s) {
     s->projector = p;
     s->store = &made;
-    status =
-        run(p, store_links, s, links->store.count > 0 ? project_links : hr2di_projector_all);
+    status = run(p, store_links, s,
+                 links->store.count > 0      ? project_links
+                 : hr2di_rows_threads(p) > 1 ? hr2di_rows_project
+                                             : hr2di_projector_all);
   } else if (!status) {
     status =
         hr2di_message_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");

@@ -43,6 +43,7 @@ static unsigned first_stage(const run *r, unsigned stages) {
 static hr2d_status refine_stage(run *r, double epsilon, progress *p) {
   hr2d_refine_options refine = run_refine_options(r->options);
   refine.epsilon = epsilon;
+  refine.threads = options_threads(r->options);
   refine.brightness = r->solution;
   refine.progress = progress_show;
   refine.progress_ctx = p;
