@@ -99,6 +99,7 @@ OUTSIDE = \
 	tests/package/check-headers.sh \
 	tests/package/check-layers.sh \
 	tests/package/check-examples.sh \
+	tests/package/check-python.sh \
 	tests/adversary/check-adversary.sh \
 	tests/adversary/check-adversary-controls.sh
 

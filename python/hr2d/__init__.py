@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Hierarchical radiosity in the plane.
+
+    import numpy as np, hr2d
+    room = hr2d.Scene(background=1.0)
+    room.add([(0, 0), (5, 0), (5, 2.8), (0, 2.8), (0, 2.2)], reflectance=.6, name="shell")
+    room.add([(0, .9), (0, 0)], reflectance=.6, name="parapet")
+    s = room.solve(error=1e-6)
+    s.B, s.H, s.net_flux, s.account
+    s.at("shell/1", np.linspace(0, 1, 101))
+
+The library's manual, with equations and bounds of errors, are its headers, hr2d/hr2d.h.
+"""
+from ._calls import Progress
+from ._errors import (AccuracyError, AccuracyWarning, CallbackError, Error, FileError,
+                      FormatError, InvalidArgument, LimitReached, NoSolution, NotConverged,
+                      OutOfMemory, RangeError, SceneError, StateError, Stopped, Unsupported)
+from ._hr2d import ffi as _ffi
+from ._hr2d import lib as _lib
+from ._scene import Scene, exchange_area, read
+from ._solution import Account, Bounded, Points, Power, Solution
+from ._strategy import SPLIT_BOTH, SPLIT_FIRST, SPLIT_SECOND, Batch, Oracle, Policy
+
+__version__: str = _ffi.string(_lib.hr2d_version()).decode()
+
+__all__ = [
+    "Account", "AccuracyError", "AccuracyWarning", "Batch", "Bounded", "CallbackError", "Error",
+    "FileError", "FormatError", "InvalidArgument", "LimitReached", "NoSolution", "NotConverged",
+    "Oracle", "OutOfMemory", "Points", "Policy", "Power", "Progress", "RangeError",
+    "SPLIT_BOTH", "SPLIT_FIRST", "SPLIT_SECOND", "Scene", "SceneError", "Solution",
+    "StateError", "Stopped", "Unsupported", "exchange_area", "read",
+]

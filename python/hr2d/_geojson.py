@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything that is added to a scene is a GeoJSON text: the library alone knows the rules of
+sides, names and rings."""
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any, Dict
+
+import numpy as np
+
+from ._errors import SceneError
+
+
+def _plain(value: Any) -> Any:
+    """What json.dumps() asks about numpy's numbers and arrays."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    raise TypeError(f"{type(value).__name__} is neither a number nor a list of numbers")
+
+
+def _geometry(shape: Any) -> Any:
+    """The GeoJSON of coordinates, of a GeoJSON mapping, or of an object of shapely."""
+    if not isinstance(shape, Mapping):
+        shape = getattr(shape, "__geo_interface__", shape)
+    if not isinstance(shape, Mapping):
+        points = np.asarray(shape, dtype=np.float64)
+        if points.ndim != 2 or points.shape[0] < 2 or points.shape[1] < 2:
+            raise ValueError("coordinates are two points or more, (x, y) each, not an array of "
+                             f"shape {points.shape}")
+        shape = {"type": "LineString", "coordinates": points[:, :2]}
+    if shape.get("type") == "LinearRing":
+        shape = {**shape, "type": "LineString"}
+    return shape
+
+
+def _feature(shape: Any, properties: Dict[str, Any]) -> Dict[str, Any]:
+    if shape.get("type") == "Feature":
+        old = shape.get("properties") or {}
+        return {**shape, "geometry": shape.get("geometry") and _geometry(shape["geometry"]),
+                "properties": {**old, **properties}}
+    return {"type": "Feature", "properties": properties, "geometry": shape}
+
+
+def text_of(shape: Any, properties: Dict[str, Any]) -> bytes:
+    """The text of a collection; `properties` go before those of its features."""
+    given = {key: value for key, value in properties.items() if value is not None}
+    shape = _geometry(shape)
+    if shape.get("type") == "FeatureCollection":
+        collection = {**shape, "features": [_feature(f, given) for f in shape["features"]]}
+    else:
+        collection = {"type": "FeatureCollection", "features": [_feature(shape, given)]}
+    try:
+        return json.dumps(collection, default=_plain, allow_nan=False).encode()
+    except ValueError as error:
+        raise SceneError(f"{given.get('name') or 'a patch'}: a number is not finite") from error

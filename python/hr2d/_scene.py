@@ -1,0 +1,350 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scenes: patches with emission and reflectance."""
+from __future__ import annotations
+
+import os
+import threading
+from contextlib import contextmanager
+from functools import cached_property
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _draw, _solve
+from ._arrays import doubles, frozen, view, writable
+from ._calls import POLL, Call, ProgressFunction, owned, thread_count
+from ._errors import StateError
+from ._geojson import text_of
+from ._hr2d import ffi, lib
+from ._solution import Solution
+from ._strategy import OracleLike, PolicyLike
+
+Values = Union[float, Sequence[float], np.ndarray]
+PatchLike = Union[int, str]
+
+
+class Scene:
+    """Patches: segments of the plane that emit and reflect light.
+
+    A patch runs from a to b, and its front is on the left.  Patches are added until the first
+    call that needs all of them, for instance solve(); from then on the scene is only read, and
+    several threads may use it.
+
+    `background` is the light from the surroundings, one value or one per band.
+    """
+
+    def __init__(self, background: Optional[Values] = None):
+        pointer = ffi.new("hr2d_scene **")
+        with Call() as call:
+            call.check(lib.hr2d_scene_create(ffi.NULL, pointer))
+        self._raw = owned(pointer[0], lib.hr2d_scene_destroy)
+        lib.hr2d_scene_set_progress(self._raw, POLL, ffi.NULL)
+        self._lock = threading.RLock()
+        self._changing = False
+        self._committed = False
+        if background is not None:
+            self.set_background(background)
+
+    # Adding
+
+    @contextmanager
+    def _change(self, progress: Optional[ProgressFunction] = None) -> Iterator[Call]:
+        """A call that changes the scene: one at a time, and none from a callback of one."""
+        with self._lock:
+            if self._changing:
+                raise StateError("called back from a call that changes the scene")
+            self._changing = True
+            try:
+                with Call(progress) as call:
+                    yield call
+            finally:
+                self._changing = False
+
+    def _message(self) -> Any:
+        return lib.hr2d_scene_message(self._raw)
+
+    def set_background(self, background: Values) -> None:
+        """Sets the light from the surroundings, one value ≥ 0, or one per band."""
+        values = np.atleast_1d(np.ascontiguousarray(background, dtype=np.float64)).ravel()
+        with self._change() as call:
+            call.check(lib.hr2d_scene_set_background(self._raw, doubles(values), values.size),
+                       self._message)
+
+    def add(self, shape: Any, *, emission: Optional[Values] = None,
+            reflectance: Optional[Values] = None, name: Optional[str] = None,
+            sides: Optional[str] = None, faces: Optional[str] = None) -> range:
+        """Adds patches and returns their indices.
+
+        `shape` is a list or an array of k points, which are k − 1 patches; a GeoJSON mapping
+        (geometry, feature or collection of features); or an object with `__geo_interface__`,
+        for instance of shapely.  Several patches are called NAME/1, NAME/2, …
+
+        emission, reflectance
+            One value, or one per band; 0 by default.
+        sides
+            "front", or "both": each patch becomes two, back to back.
+        faces
+            For polygons, "in" for rooms or "out" for obstacles.
+        """
+        return self.add_text(text_of(shape, {"name": name, "emission": emission,
+                                             "reflectance": reflectance, "sides": sides,
+                                             "faces": faces}))
+
+    def add_text(self, text: Union[str, bytes]) -> range:
+        """Adds the patches of the text of a scene file, GeoJSON or .vs2."""
+        data = text.encode() if isinstance(text, str) else bytes(text)
+        with self._change() as call:
+            first = len(self)
+            call.check(lib.hr2d_scene_parse(self._raw, data, len(data)), self._message)
+            return range(first, len(self))
+
+    def add_file(self, path: Union[str, "os.PathLike[str]"]) -> range:
+        """Adds the patches of a scene file, GeoJSON or .vs2."""
+        with self._change() as call:
+            first = len(self)
+            call.check(lib.hr2d_scene_read(self._raw, os.fsencode(path)), self._message,
+                       os.fspath(path))
+            return range(first, len(self))
+
+    def split_crossings(self) -> int:
+        """Cuts patches where they cross, and returns the number of cuts."""
+        cuts = ffi.new("size_t *")
+        with self._change() as call:
+            call.check(lib.hr2d_scene_split_crossings(self._raw, cuts), self._message)
+        return cuts[0]
+
+    def commit(self) -> "Scene":
+        """Checks the patches against each other.  Other calls do it if they need it."""
+        if not self._committed:
+            with self._change() as call:
+                if not self._committed:
+                    call.check(lib.hr2d_scene_commit(self._raw), self._message)
+                    self._committed = True
+        return self
+
+    # Reading
+
+    def __len__(self) -> int:
+        return lib.hr2d_scene_patches(self._raw)
+
+    def __repr__(self) -> str:
+        return f"<hr2d.Scene of {len(self)} patches>"
+
+    def index(self, patch: PatchLike) -> int:
+        """The index of a patch that is given by its name or its index."""
+        if isinstance(patch, str):
+            found = ffi.new("size_t *")
+            if lib.hr2d_scene_find(self._raw, patch.encode(), found):
+                raise KeyError(f"no patch is called {patch!r}")
+            return found[0]
+        index = int(patch)
+        if not 0 <= index < len(self):
+            raise IndexError(f"there is no patch {patch}")
+        return index
+
+    @property
+    def names(self) -> List[str]:
+        """The names of the patches."""
+        return [ffi.string(lib.hr2d_scene_name(self._raw, k)).decode()
+                for k in range(len(self))]
+
+    def _geometry(self) -> Any:
+        ends, lengths = np.empty((len(self), 2, 2)), np.empty(len(self))
+        if len(self):
+            lib.hr2dpy_segments(self._raw, writable(ends), writable(lengths))
+        return ends, lengths
+
+    @property
+    def segments(self) -> np.ndarray:
+        """The ends of the patches, (patches, 2, 2)."""
+        return self._geometry()[0]
+
+    @property
+    def lengths(self) -> np.ndarray:
+        """The lengths of the patches."""
+        return self._geometry()[1]
+
+    @property
+    def bands(self) -> int:
+        """The number of bands."""
+        return lib.hr2d_scene_bands(self.commit()._raw)
+
+    @property
+    def unit(self) -> float:
+        """Scene lengths per unit of the coordinates of elements, a power of two."""
+        return lib.hr2d_scene_unit(self.commit()._raw)
+
+    def _values(self, getter: str) -> np.ndarray:
+        values = np.empty((len(self), self.bands))
+        lib.hr2dpy_scene_values(ffi.addressof(lib, getter), self._raw, writable(values))
+        return frozen(values)
+
+    @cached_property
+    def emission(self) -> np.ndarray:
+        """E of each patch, (patches, bands)."""
+        return self._values("hr2d_scene_emission")
+
+    @cached_property
+    def reflectance(self) -> np.ndarray:
+        """ρ of each patch, (patches, bands)."""
+        return self._values("hr2d_scene_reflectance")
+
+    @property
+    def background(self) -> np.ndarray:
+        """The light from the surroundings, (bands,)."""
+        return np.array([lib.hr2d_scene_background(self._raw, band)
+                         for band in range(self.bands)])
+
+    @property
+    def effects(self) -> Dict[str, str]:
+        """The effects that the scene calls for, each with its reason."""
+        self.commit()
+        found, reason = {}, ffi.new("char **")
+        for effect in range(lib.HR2D_EFFECT_COUNT):
+            if lib.hr2d_scene_effect(self._raw, effect, reason):
+                name = ffi.string(lib.hr2d_effect_name(effect)).decode()
+                found[name] = ffi.string(reason[0]).decode()
+        return found
+
+    # View factors
+
+    def exchange_areas(self, *, sparse: bool = False, threads: Any = 1,
+                       progress: Optional[ProgressFunction] = None) -> Any:
+        """AF_ij = A_i F_ij of all patches in scene lengths: symmetric, bit for bit.
+
+        An array (n, n); with `sparse` a scipy.sparse.csr_matrix over the memory of the library.
+        """
+        self.commit()
+        options = ffi.new("hr2d_matrix_options *", {
+            "struct_size": ffi.sizeof("hr2d_matrix_options"), "threads": thread_count(threads)})
+        if sparse:
+            return self._exchange_rows(options, progress)
+        area = np.empty((len(self), len(self)))
+        with Call(progress) as call:
+            call.check(lib.hr2d_exchange_matrix(self._raw, options, writable(area), ffi.NULL))
+        return area
+
+    def _exchange_rows(self, options: Any, progress: Optional[ProgressFunction]) -> Any:
+        from scipy.sparse import csr_matrix
+
+        pointer, n = ffi.new("hr2d_exchange_rows **"), len(self)
+        with Call(progress) as call:
+            call.check(lib.hr2d_exchange_rows_create(self._raw, options, pointer, ffi.NULL))
+        rows = owned(pointer[0], lib.hr2d_exchange_rows_destroy, self._raw)
+        entries = lib.hr2d_exchange_rows_entries(rows)
+        return csr_matrix((view(lib.hr2d_exchange_rows_area(rows), np.float64, entries, rows),
+                           view(lib.hr2d_exchange_rows_column(rows), np.int32, entries, rows),
+                           view(lib.hr2d_exchange_rows_start(rows), np.int64, n + 1, rows)),
+                          shape=(n, n), copy=False)
+
+    def factors(self, *, sparse: bool = False, threads: Any = 1,
+                progress: Optional[ProgressFunction] = None) -> Any:
+        """View factors F_ij: the part of the light from i that reaches j.
+
+        An array (n, n), or with `sparse` a scipy.sparse.csr_matrix without the zeros.
+        """
+        area = self.exchange_areas(sparse=sparse, threads=threads, progress=progress)
+        lengths = self.lengths
+        if sparse:
+            area.data = area.data / np.repeat(lengths, np.diff(area.indptr))
+            return area
+        area /= lengths[:, None]
+        return area
+
+    # Solving
+
+    def solve(self, *, error: Optional[float] = None, seconds: Optional[float] = None,
+              norm: str = "average", important: Sequence[PatchLike] = (),
+              floor: Optional[float] = None, epsilon: Optional[float] = None,
+              oracle: OracleLike = None, policy: PolicyLike = None,
+              order: Optional[int] = None, max_level: Optional[int] = None,
+              closure: Optional[bool] = None, max_elements: int = 0, max_links: int = 0,
+              max_bytes: int = 0, threads: Any = 1,
+              progress: Optional[ProgressFunction] = None) -> Solution:
+        """Solves for the radiosity, in one of two ways.
+
+        To a target, which is the way without arguments:
+
+        error
+            Relative error of B and H, 1e-6 by default; 0 for as good as doubles allow.
+        seconds
+            Budget of wall time.  Without `error` the best solution that is ready by then.
+        norm
+            "average" or "sup", for points.
+        important
+            Patches, by name or index, whose averages have to reach the target.
+        floor
+            The part of the largest average below which patches count as equally dark.
+
+        If the target is not reached, an AccuracyWarning says why, and the best solution is
+        returned.
+
+        By the paper's algorithm, with one of these:
+
+        epsilon
+            A link is accepted if the oracle estimates its error as at most ε; 0.1 by default.
+        oracle
+            A name ("size", "size2", "bf", "l1", "l1-grid"), an Oracle, or a function that takes
+            a Batch and returns an array.
+        policy
+            A name ("original", "modified") or a Policy.
+        order
+            Legendre coefficients per element, 1 by default.
+        max_level
+            Elements on this level are not divided, 24 by default.
+        closure
+            Whether the exchange of every leaf is made exact; True by default.
+
+        Both take limits, `threads` (a number or "all") and `progress`, a function that is given
+        a Progress up to 20 times a second and returns False to stop.
+        """
+        target = {"error": error, "seconds": seconds, "floor": floor,
+                  "norm": None if norm == "average" else norm,
+                  "important": [self.index(patch) for patch in important] or None}
+        paper = {"epsilon": epsilon, "oracle": oracle, "policy": policy, "order": order,
+                 "max_level": max_level, "closure": closure}
+        limits = {"max_elements": max_elements, "max_links": max_links, "max_bytes": max_bytes,
+                  "threads": thread_count(threads)}
+        of_target = [key for key, value in target.items() if value is not None]
+        of_paper = [key for key, value in paper.items() if value is not None]
+        if of_target and of_paper:
+            raise TypeError(f"{of_paper[0]} does not go with {of_target[0]}: one is for the "
+                            "paper's algorithm, one for a target")
+        self.commit()
+        if of_paper:
+            return _solve.by_links(self, paper, limits, progress)
+        return _solve.to_target(self, target, limits, progress)
+
+    # Pictures
+
+    def plot(self, solution: Optional[Solution] = None, *, ax: Any = None, band: int = 0,
+             cmap: Any = "viridis", points: int = 33, labels: bool = False,
+             colorbar: bool = True) -> Any:
+        """Draws the walls, coloured by B if there is a solution; returns matplotlib's axes.
+
+        Backs and fronts are drawn beside each other, each on the side of its front.
+        """
+        return _draw.plot(self, solution, ax, band, cmap, points, labels, colorbar)
+
+    def _repr_html_(self) -> str:
+        return _draw.scene_html(self)
+
+
+def read(path: Union[str, "os.PathLike[str]"]) -> Scene:
+    """The scene of a file, GeoJSON or .vs2."""
+    scene = Scene()
+    scene.add_file(path)
+    return scene
+
+
+def exchange_area(i: Any, j: Any, occluders: Any = ()) -> float:
+    """AF_ij of two segments ((ax, ay), (bx, by)), with occluders between them."""
+    ends = np.ascontiguousarray([i, j, *occluders], dtype=np.float64)
+    if ends.shape[1:] != (2, 2):
+        raise ValueError("a segment is two points, (x, y) each")
+    area = ffi.new("double *")
+    segment = ffi.cast("hr2d_segment *", doubles(ends))
+    with Call() as call:
+        call.check(lib.hr2d_exchange_area_occluded(segment, segment + 1, segment + 2,
+                                                   len(ends) - 2, ffi.NULL, area))
+    return area[0]

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Solutions: radiosity, irradiance and their errors."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple, Optional, Tuple, Union
+
+import numpy as np
+
+from . import _draw
+from ._arrays import ELEMENT, doubles, frozen, view, writable
+from ._calls import Call
+from ._hr2d import ffi, lib
+
+
+class Bounded(NamedTuple):
+    """A relative error: the most likely one, and one that is not exceeded."""
+
+    estimate: float
+    bound: float
+
+    @classmethod
+    def _of(cls, raw: Any) -> "Bounded":
+        return cls(raw.estimate, raw.bound)
+
+
+class Power(NamedTuple):
+    """Balance of a band: emitted + received = absorbed + escaped."""
+
+    emitted: float
+    received: float
+    absorbed: float
+    escaped: float
+
+
+class Points(NamedTuple):
+    """Values at points, each of the shape of the points and then the bands."""
+
+    B: np.ndarray
+    H: np.ndarray
+
+    @property
+    def net_flux(self) -> np.ndarray:
+        """B − H; negative where the patch gains."""
+        return self.B - self.H
+
+
+@dataclass(frozen=True)
+class Account:
+    """The errors of a solution, and what it took.
+
+    Errors of B and H are relative: of averages over patches, and with `sup` at points.  A
+    solution by links has no errors of H, and its `sup` is of values without a gather.
+    """
+
+    average: Bounded
+    sup: Bounded
+    irradiance: Optional[Bounded]
+    irradiance_sup: Optional[Bounded]
+    order: int
+    elements: int
+    leaves: int
+    links: int
+    seconds: Optional[float]
+    reached: bool
+    reason: str
+
+    @classmethod
+    def _of(cls, raw: Any, reached: bool) -> "Account":
+        return cls(Bounded._of(raw.average), Bounded._of(raw.sup), Bounded._of(raw.irradiance),
+                   Bounded._of(raw.irradiance_sup), raw.order, raw.elements, raw.leaves,
+                   raw.links, raw.seconds, reached, ffi.string(raw.reason).decode())
+
+    def _repr_html_(self) -> str:
+        return _draw.account_html(self)
+
+
+class Solution:
+    """The radiosity of a scene: Scene.solve() makes it."""
+
+    def __init__(self, scene: Any, raw: Any, account: Optional[Account]):
+        self.scene = scene
+        self._raw = raw
+        self._account = account
+
+    def __repr__(self) -> str:
+        return f"<hr2d.Solution of {len(self.scene)} patches, {len(self.elements)} elements>"
+
+    def _averages(self, getter: str) -> np.ndarray:
+        values = np.empty((len(self.scene), self.scene.bands))
+        lib.hr2dpy_values(ffi.addressof(lib, getter), self._raw, *values.shape,
+                          writable(values))
+        return frozen(values)
+
+    @cached_property
+    def B(self) -> np.ndarray:
+        """The radiosity: averages over the patches, (patches, bands), in the unit of E."""
+        return self._averages("hr2d_solution_average")
+
+    @cached_property
+    def H(self) -> np.ndarray:
+        """The irradiance: averages over the patches, (patches, bands)."""
+        return self._averages("hr2d_solution_irradiance")
+
+    @cached_property
+    def net_flux(self) -> np.ndarray:
+        """B − H, (patches, bands); negative where a patch gains."""
+        return self._averages("hr2d_solution_net_flux")
+
+    @cached_property
+    def power(self) -> Tuple[Power, ...]:
+        """The balance of power of each band."""
+        raws = [lib.hr2d_solution_power(self._raw, band) for band in range(self.scene.bands)]
+        return tuple(Power(r.emitted, r.received, r.absorbed, r.escaped) for r in raws)
+
+    @cached_property
+    def account(self) -> Account:
+        """The errors with their bounds, and what the solution took.
+
+        A solution by links is measured at the first use, which takes longer than its solve.
+        """
+        return self._account or self._measured()
+
+    def _measured(self) -> Account:
+        average, sup = ffi.new("hr2d_error *"), ffi.new("hr2d_error *")
+        with Call() as call:
+            call.check(lib.hr2d_solution_error(self._raw, ffi.NULL, average, sup))
+        links = lib.hr2d_solution_links(self._raw)
+        counts = lib.hr2d_linkset_counts(links)
+        order = lib.hr2d_hierarchy_order(lib.hr2d_linkset_hierarchy(links))
+        return Account(Bounded._of(average), Bounded._of(sup), None, None, order,
+                       counts.elements, counts.leaves, counts.links, None, True, "")
+
+    def at(self, patch: Union[int, str], t: Any, *, gather: bool = True) -> Points:
+        """B and H at points of a patch.
+
+        `t` has fractions of the patch in [0, 1], counted from its start, in any shape.  Light
+        is gathered once more with exact kernel and visibility.  Without `gather` the values are
+        those of the elements: faster, and less accurate.
+        """
+        index, t = self.scene.index(patch), np.require(t, np.float64, "C")
+        if not ((t >= 0) & (t <= 1)).all():
+            raise ValueError("t is a fraction of the patch, from 0 to 1")
+        shape = (*np.shape(t), self.scene.bands)
+        if not gather:
+            return Points(self._point_values("hr2d_solution_at", index, t, shape),
+                          self._point_values("hr2d_solution_irradiance_at", index, t, shape))
+        H = np.empty(shape)
+        with Call() as call:
+            call.check(lib.hr2d_solution_gather_irradiance(self._raw, index, doubles(t), t.size,
+                                                           writable(H)))
+        # B' = E + ρ H' is what hr2d_solution_gather() would gather again.
+        return Points(self.scene.emission[index] + self.scene.reflectance[index] * H, H)
+
+    def _point_values(self, getter: str, patch: int, t: np.ndarray, shape: Any) -> np.ndarray:
+        values = np.empty(shape)
+        lib.hr2dpy_point_values(ffi.addressof(lib, getter), self._raw, patch, doubles(t),
+                                t.size, shape[-1], writable(values))
+        return values
+
+    @cached_property
+    def elements(self) -> np.ndarray:
+        """The elements as a structured array over the memory of the library.
+
+        Members are `a`, `b`, `centre`, `length` (in units of Scene.unit), `child` (0 for
+        leaves; the second child follows) and `patch`.
+        """
+        tree = lib.hr2d_linkset_hierarchy(lib.hr2d_solution_links(self._raw))
+        return view(lib.hr2d_hierarchy_elements(tree), ELEMENT,
+                    lib.hr2d_hierarchy_count(tree).elements, self._raw)
+
+    @cached_property
+    def element_B(self) -> np.ndarray:
+        """B of each element, (elements, bands)."""
+        values = np.empty((len(self.elements), self.scene.bands))
+        lib.hr2dpy_element_values(self._raw, *values.shape, writable(values))
+        return frozen(values)
+
+    def _repr_html_(self) -> str:
+        return _draw.solution_html(self)

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The two ways to a solution: to a target error, and by links of an oracle."""
+from __future__ import annotations
+
+import math
+import warnings
+from typing import Any, Dict, Optional
+
+from ._calls import Call, ProgressFunction, constant, owned
+from ._errors import AccuracyWarning, error_of
+from ._hr2d import ffi, lib
+from ._solution import Account, Solution
+from ._strategy import oracle_table, policy_table
+
+NORMS = {"average": lib.HR2D_NORM_AVERAGE, "sup": lib.HR2D_NORM_SUP}
+
+
+def _positive(name: str, value: float) -> float:
+    if not (value > 0 and math.isfinite(value)):
+        raise ValueError(f"{name} is a number above 0, not {value}")
+    return value
+
+
+def _error(error: Optional[float], seconds: Optional[float]) -> float:
+    """In C 0 stands for the default, and a named constant for the smallest error."""
+    if error is None and seconds is None:
+        return 0
+    if error is None or error == 0:
+        return constant("HR2D_SMALLEST_ERROR")
+    return _positive("error", error)
+
+
+def make_target(target: Dict[str, Any], limits: Dict[str, int], keep: list) -> Any:
+    """The struct of a target; `keep` has what it points to."""
+    norm = target["norm"] or "average"
+    if norm not in NORMS:
+        raise ValueError(f'norm is "average" or "sup", not {norm!r}')
+    raw = ffi.new("hr2d_target *")
+    lib.hr2d_target_init(raw, ffi.sizeof("hr2d_target"))
+    raw.error = _error(target["error"], target["seconds"])
+    raw.norm = NORMS[norm]
+    if target["seconds"] is not None:
+        raw.seconds = _positive("seconds", target["seconds"])
+    if target["floor"] is not None:
+        raw.floor = _positive("floor", target["floor"])
+    if target["important"]:
+        keep.append(ffi.new("size_t[]", target["important"]))
+        raw.important, raw.important_count = keep[-1], len(target["important"])
+    for name, value in limits.items():
+        setattr(raw, name, value)
+    return raw
+
+
+def to_target(scene: Any, target: Dict[str, Any], limits: Dict[str, int],
+              progress: Optional[ProgressFunction]) -> Solution:
+    keep: list = []
+    raw = make_target(target, limits, keep)
+    pointer, account = ffi.new("hr2d_solution **"), ffi.new("hr2d_account *")
+    with Call(progress) as call:
+        status = lib.hr2d_solve_to(scene._raw, raw, pointer, account)
+        reached = status == lib.HR2D_OK
+        if pointer[0]:
+            solution = Solution(
+                scene, owned(pointer[0], lib.hr2d_solution_destroy, scene._raw),
+                Account._of(account, reached))
+        if status != lib.HR2D_EACCURACY or not pointer[0] or call.error:
+            call.check(status, lambda: account.reason)
+    if not reached:
+        warnings.warn(solution.account.reason, AccuracyWarning, stacklevel=3)
+    return solution
+
+
+def _refine_options(paper: Dict[str, Any], limits: Dict[str, int]) -> Any:
+    """In C 0 stands for a default, and named constants for the number 0."""
+    raw = ffi.new("hr2d_refine_options *")
+    lib.hr2d_refine_options_init(raw, ffi.sizeof("hr2d_refine_options"))
+    if paper["epsilon"] is not None:
+        raw.epsilon = (paper["epsilon"] if paper["epsilon"] != 0
+                       else constant("HR2D_EPSILON_ZERO"))
+    if paper["max_level"] is not None:
+        raw.max_level = paper["max_level"] or int(constant("HR2D_NO_SUBDIVISION"))
+    for name, value in limits.items():
+        setattr(raw, name, value)
+    return raw
+
+
+def _solve_options(paper: Dict[str, Any], limits: Dict[str, int]) -> Any:
+    raw = ffi.new("hr2d_solve_options *")
+    lib.hr2d_solve_options_init(raw, ffi.sizeof("hr2d_solve_options"))
+    raw.threads = limits["threads"]
+    if paper["closure"] is not None:
+        raw.closure = lib.HR2D_CLOSURE_ON if paper["closure"] else lib.HR2D_CLOSURE_OFF
+    return raw
+
+
+def by_links(scene: Any, paper: Dict[str, Any], limits: Dict[str, int],
+             progress: Optional[ProgressFunction]) -> Solution:
+    hierarchy = ffi.new("hr2d_hierarchy **")
+    links, pointer = ffi.new("hr2d_linkset **"), ffi.new("hr2d_solution **")
+    with Call(progress) as call:
+        call.check(lib.hr2d_hierarchy_create(scene._raw, hierarchy))
+        tree = owned(hierarchy[0], lib.hr2d_hierarchy_destroy, scene._raw)
+        if paper["order"] is not None and lib.hr2d_hierarchy_set_order(tree, paper["order"]):
+            highest = int(constant("HR2D_MAX_ORDER"))
+            raise error_of(lib.HR2D_EINVAL, f"order is a number from 1 to {highest}")
+        oracle, oracle_ctx, oracle_keep = oracle_table(paper["oracle"])
+        policy, policy_ctx, policy_keep = policy_table(paper["policy"])
+        call.check(lib.hr2d_linkset_create(tree, oracle, oracle_ctx, policy, policy_ctx, links))
+        pairs = owned(links[0], lib.hr2d_linkset_destroy, tree, oracle_keep, policy_keep)
+
+        def message() -> Any:
+            return lib.hr2d_linkset_message(pairs)
+
+        call.check(lib.hr2d_refine(pairs, _refine_options(paper, limits)), message)
+        call.check(lib.hr2d_solve(pairs, _solve_options(paper, limits), pointer), message)
+    return Solution(scene, owned(pointer[0], lib.hr2d_solution_destroy, pairs), None)

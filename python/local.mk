@@ -1,0 +1,22 @@
+# The Python package.  tests/package/check-python.sh installs and tests it; see README.md.
+EXTRA_DIST += \
+	python/README.md \
+	python/hr2d/__init__.py \
+	python/hr2d/_arrays.py \
+	python/hr2d/_calls.py \
+	python/hr2d/_draw.py \
+	python/hr2d/_errors.py \
+	python/hr2d/_geojson.py \
+	python/hr2d/_scene.py \
+	python/hr2d/_solution.py \
+	python/hr2d/_solve.py \
+	python/hr2d/_strategy.py \
+	python/hr2d/py.typed \
+	python/hr2d_build.py \
+	python/pyproject.toml \
+	python/setup.py \
+	python/tests/conftest.py \
+	python/tests/test_callbacks.py \
+	python/tests/test_draw.py \
+	python/tests/test_scene.py \
+	python/tests/test_solve.py

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import gc
+import threading
+
+import numpy as np
+import pytest
+
+import hr2d
+from conftest import make_plates, make_room
+
+
+def test_a_furnace_is_white():
+    """A closed room with E = 1 − ρ has B = H = 1."""
+    scene = hr2d.Scene()
+    scene.add([(0, 0), (3, 0), (3, 1)], emission=.25, reflectance=.75)
+    scene.add([(3, 1), (0, 2), (0, 0)], emission=(.5,), reflectance=.5)
+    s = scene.solve()
+    assert s.B == pytest.approx(np.ones((4, 1)), abs=1e-13)
+    assert s.H == pytest.approx(np.ones((4, 1)), abs=1e-13)
+    assert s.net_flux == pytest.approx(np.zeros((4, 1)), abs=1e-13)
+
+
+@pytest.mark.parametrize("error", [1e-3, 1e-6, 1e-10])
+def test_errors_are_within_their_bounds(plates, exact, error):
+    s = plates.solve(error=error)
+    off = np.abs(s.B[:, 0] / exact.averages() - 1).max()
+    assert off <= s.account.average.bound and off <= error and s.account.reached
+
+
+def test_the_bound_of_a_coarse_solution_is_no_smaller_than_its_error(plates, exact):
+    coarse = plates.solve(epsilon=2)
+    off = np.abs(coarse.B[:, 0] / exact.averages() - 1).max()
+    assert 1e-4 < off <= coarse.account.average.bound < 1
+    assert coarse.account.average.estimate == pytest.approx(off, rel=1e-2)
+    assert coarse.account.irradiance is None and coarse.account.order == 1
+
+
+def test_points_are_those_of_nystroem(plates, exact):
+    s = plates.solve(error=1e-11)
+    t = np.array([[0, .1, .5], [.75, .9, 1]])
+    p = s.at("ceiling", t)
+    assert p.H.shape == (2, 3, 1)
+    H = exact.ceiling_irradiance(1 - t.ravel()).reshape(t.shape)
+    assert p.H[..., 0] == pytest.approx(H, rel=1e-10)
+    assert p.B == pytest.approx(.5 * p.H) and np.array_equal(p.net_flux, p.B - p.H)
+    near = s.at("ceiling", t, gather=False)
+    assert near.B == pytest.approx(p.B, rel=1e-4) and s.at(1, .5).B.shape == (1,)
+    assert s.at(1, []).B.shape == (0, 1)
+
+
+def test_without_subdivision_the_ceiling_has_the_factor_of_the_floor():
+    scene = make_plates(.5)
+    s = scene.solve(max_level=0, epsilon=0, closure=False)
+    F = 2 ** .5 - 1
+    assert s.B[:, 0] == pytest.approx([1 / (1 - F * F / 4), F / 2 / (1 - F * F / 4)], rel=1e-13)
+    assert len(s.elements) == 2
+
+
+def test_power_is_balanced(room):
+    power, = room.solve(error=1e-8).power
+    assert power.received > 0 and power.emitted == 0
+    assert power.received == pytest.approx(power.absorbed + power.escaped, rel=1e-10)
+
+
+def test_elements_are_the_trees(room):
+    s = room.solve(epsilon=.3)
+    e = s.elements
+    assert len(e) == s.account.elements and not e.flags.owndata and not e.flags.writeable
+    roots, parents = e[:7], e[e["child"] > 0]
+    assert np.array_equal(roots["patch"], np.arange(7))
+    assert np.array_equal(roots["a"] * room.unit, room.segments[:, 0])
+    assert np.array_equal(e[parents["child"]]["a"], parents["a"])
+    assert np.array_equal(e[parents["child"] + 1]["b"], parents["b"])
+    assert np.array_equal(s.element_B[:7], s.B)
+
+
+def test_views_outlive_their_objects():
+    elements = make_room().solve(epsilon=.3).elements
+    gc.collect()
+    spare = [make_room().solve(epsilon=.3) for _ in range(3)]
+    assert elements["patch"][:7].tolist() == list(range(7)) and spare
+
+
+def test_objects_in_cycles_are_destroyed_in_order():
+    for _ in range(20):
+        room = make_room()
+        room.solution = room.solve(epsilon=.5)
+        room.again = room
+        del room
+        gc.collect()
+
+
+def test_a_target_that_is_not_reached_is_a_warning(room):
+    with pytest.warns(hr2d.AccuracyWarning):
+        s = room.solve(error=1e-15)
+    assert not s.account.reached and s.account.reason
+    assert s.account.average.bound < 1e-6
+
+
+def test_a_budget_gives_the_best_solution(room):
+    s = room.solve(seconds=.2)
+    assert s.account.reached and s.account.seconds < 5
+
+
+def test_important_patches(room):
+    s = room.solve(error=1e-7, important=["table", 0])
+    rest = room.solve(error=1e-11)
+    assert s.B[[5, 0]] == pytest.approx(rest.B[[5, 0]], rel=1e-7)
+
+
+def test_no_solution():
+    scene = hr2d.Scene()
+    scene.add({"type": "Polygon", "coordinates": [[(0, 0), (1, 0), (1, 1), (0, 0)]]},
+              reflectance=1, emission=1, name="mirror")
+    with pytest.raises(hr2d.NoSolution, match="mirror"):
+        scene.solve()
+
+
+@pytest.mark.parametrize("kind, arguments", [
+    (TypeError, {"error": 1e-3, "epsilon": .1}),
+    (ValueError, {"error": -1}), (ValueError, {"error": float("nan")}),
+    (ValueError, {"seconds": 0}), (ValueError, {"norm": "max"}), (ValueError, {"threads": 0}),
+    (ValueError, {"oracle": "best"}), (ValueError, {"policy": "best"}),
+    (ValueError, {"epsilon": -1}), (ValueError, {"order": 33}),
+    (KeyError, {"important": ["x"]}),
+    (hr2d.LimitReached, {"epsilon": .01, "max_links": 5}),
+])
+def test_wrong_arguments(room, kind, arguments):
+    with pytest.raises(kind):
+        room.solve(**arguments)
+
+
+def test_threads_get_the_same_bits(room):
+    results = [None] * 6
+
+    def work(k):
+        results[k] = (room.solve(error=1e-7, threads=(1, 2, "all")[k % 3]).B, room.factors())
+
+    threads = [threading.Thread(target=work, args=(k,)) for k in range(len(results))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(np.array_equal(B, results[0][0]) and np.array_equal(F, results[0][1])
+               for B, F in results)
