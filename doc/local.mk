@@ -27,14 +27,14 @@ doxygen: doc
 .PHONY: doc doxygen
 
 # Each example as a page: its first comment, what it prints, its text.
-doc/examples.dox: doc/local.mk $(EXAMPLES:=.c)
+doc/examples.dox: doc/local.mk $(EXAMPLES:=.c) $(CXX_EXAMPLES:=.cpp)
 	@$(MKDIR_P) doc
-	@for example in $(EXAMPLES); do \
+	@for example in $(EXAMPLES:=.c) $(CXX_EXAMPLES:=.cpp); do \
 	  name=$${example##*/}; \
-	  echo "/** @example $$name.c"; \
+	  echo "/** @example $$name"; \
 	  $(AWK) '!/SPDX/ { last = sub(/ *\*\/ *$$/, ""); sub(/^\/\*/, ""); print } last { exit }' \
-	    "$(srcdir)/$$example.c"; \
-	  echo; echo " It prints"; echo " @verbinclude $$name.expected"; echo "*/"; \
+	    "$(srcdir)/$$example"; \
+	  echo; echo " It prints"; echo " @verbinclude $${name%.*}.expected"; echo "*/"; \
 	done >$@
 CLEANFILES += doc/examples.dox
 

@@ -18,4 +18,7 @@ examples_street_canyon_LDADD = libhr2d.la -lm
 examples_tour_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_tour_LDADD = libhr2d.la
 
-EXTRA_DIST += examples/scenes $(EXAMPLES:=.expected)
+# Built and run by `make installcheck`, with the installed library.
+CXX_EXAMPLES = examples/room
+
+EXTRA_DIST += examples/scenes $(EXAMPLES:=.expected) $(CXX_EXAMPLES:=.cpp) $(CXX_EXAMPLES:=.expected)

@@ -270,8 +270,9 @@ endif
 installcheck-local:
 	DESTDIR='$(DESTDIR)' libdir='$(libdir)' pkgconfigdir='$(pkgconfigdir)' \
 	bindir='$(bindir)' PKG_CONFIG='$(PKG_CONFIG)' CC='$(CC)' CXX='$(CXX)' \
-	$(SHELL) $(srcdir)/tests/package/consumer/run.sh $(srcdir)/tests/package/consumer
+	VERSION='$(VERSION)' $(SHELL) $(srcdir)/tests/package/consumer/run.sh $(srcdir)/tests/package/consumer
 
 EXTRA_DIST += $(OUTSIDE) tests/digits.sh tests/lsan.supp tests/matrix.sh tests/summary.sh \
 	tests/data tests/program/cli tests/threads/race.c tests/package/consumer/main.c \
-	tests/package/consumer/main.cpp tests/package/consumer/run.sh
+	tests/package/consumer/main.cpp tests/package/consumer/run.sh \
+	tests/package/consumer/CMakeLists.txt tests/package/consumer/meson.build

@@ -1,10 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds and runs main.c and main.cpp with what pkg-config says of the installed
-# library.  `make installcheck` sets DESTDIR, libdir, pkgconfigdir, bindir and tools.
+# Builds and runs main.c, main.cpp and examples/room.cpp with what pkg-config says of the installed
+# library, and the former two by CMake and by Meson where these are.  `make installcheck` sets
+# DESTDIR, libdir, pkgconfigdir, bindir, VERSION and tools.
 set -eu
 here=$1
-: "${DESTDIR=}" "${libdir:?}" "${pkgconfigdir:?}" "${bindir:?}"
+: "${DESTDIR=}" "${libdir:?}" "${pkgconfigdir:?}" "${bindir:?}" "${VERSION:?}"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -33,6 +34,10 @@ fi
       $("$PKG_CONFIG" --cflags --libs hr2d)
     "$work/cpp"
     echo "installcheck: C++ ok"
+    $CXX -std=c++11 -Wall -Wextra -Wpedantic -Werror "$here/../../../examples/room.cpp" \
+      -o "$work/room" $("$PKG_CONFIG" --cflags --libs hr2d)
+    "$work/room" | diff -u "$here/../../../examples/room.expected" -
+    echo "installcheck: C++ example ok"
   fi
   if [ -f "$DESTDIR$libdir/libhr2d.a" ]; then
     $CC -std=c11 "$here/main.c" -o "$work/static" $("$PKG_CONFIG" --cflags hr2d) \
@@ -41,4 +46,26 @@ fi
     echo "installcheck: static ok"
   fi
 }
+# by_tool NAME COMMAND...: makes the programs, quietly unless that fails, and runs them.
+by_tool() {
+  tool=$1
+  shift
+  "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
+  "$work/$tool/c"
+  "$work/$tool/cpp"
+  echo "installcheck: $tool ok"
+}
+make_cmake() {
+  # GSL and jansson, which a static library needs, are not below DESTDIR.
+  unset PKG_CONFIG_SYSROOT_DIR
+  cmake -S "$here" -B "$work/cmake" -DVERSION="$VERSION" \
+    -DCMAKE_PREFIX_PATH="$DESTDIR$libdir/.." && cmake --build "$work/cmake"
+}
+make_meson() {
+  meson setup "$work/meson" "$here" && ninja -C "$work/meson"
+}
+if [ -n "$CXX" ]; then
+  ! command -v cmake >/dev/null || (by_tool cmake make_cmake)
+  ! command -v meson >/dev/null || by_tool meson make_meson
+fi
 "$DESTDIR$bindir/hr2d" --version
