@@ -1,8 +1,10 @@
 # Examples use the library as any program does; `make check` compares what they
 # print with NAME.expected.
-EXAMPLES = examples/digits examples/furnace-section examples/own-oracle examples/resume \
+EXAMPLES = examples/conduction examples/digits examples/furnace-section examples/own-oracle examples/resume \
 	examples/solar-panels examples/street-canyon examples/tour
 check_PROGRAMS += $(EXAMPLES)
+examples_conduction_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_conduction_LDADD = libhr2d.la -lm
 examples_digits_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_digits_LDADD = libhr2d.la
 examples_furnace_section_CPPFLAGS = $(PUBLIC_CPPFLAGS)

@@ -70,6 +70,7 @@ tools_hr2d_SOURCES = \
 	tools/cost/table.c \
 	tools/factors/command.c \
 	tools/factors/csv.c \
+	tools/factors/elmer.c \
 	tools/factors/factors.h \
 	tools/factors/json.c \
 	tools/factors/mtx.c \

@@ -291,15 +291,36 @@ read_mtx() { # read_mtx MTX
              for (i = 1; i <= n; i++) for (j = 1; j <= n; j++)
                printf "%s%s", f[i, j] == "" ? "0" : f[i, j], j < n ? "," : "\n" }' "$1"
 }
+# An independent reader of ViewFactors.dat by the rules of Elmer's: the number of factors of each
+# surface, then as many lines i j F_ij.
+read_elmer() { # read_elmer DAT
+  awk '!left { if (NF != 1 || $1 !~ /^[0-9]+$/) exit bad = 1
+               left = $1; n++; next }
+       { if (NF != 3 || $1 != n || $2 < 1 || f[n, $2] != "") exit bad = 1
+         f[n, $2] = $3; left-- }
+       END { if (bad || left) exit 1
+             for (i = 1; i <= n; i++) for (j = 1; j <= n; j++)
+               printf "%s%s", f[i, j] == "" ? "0" : f[i, j], j < n ? "," : "\n" }' "$1"
+}
 for scene in square-room furnace partition castel-del-monte; do
-  succeeds factors "$scenes/$scene.geojson" --csv "$work/f.csv" --mtx "$work/f.mtx"
+  succeeds factors "$scenes/$scene.geojson" --csv "$work/f.csv" --mtx "$work/f.mtx" \
+    --elmer "$work/f.dat"
+  read_elmer "$work/f.dat" >"$work/f.of-elmer"
   sed 1d "$work/f.csv" >"$work/f.numbers"
   read_mtx "$work/f.mtx" >"$work/f.read"
   check "Matrix Market of $scene has the numbers of CSV" cmp -s "$work/f.read" "$work/f.numbers"
+  check "Elmer's file of $scene has them, too" cmp -s "$work/f.of-elmer" "$work/f.numbers"
 done
+sed '$d' "$work/f.dat" >"$work/short.dat"
+sed 2d "$work/f.dat" >"$work/less.dat"
 sed '$d' "$work/f.mtx" >"$work/short.mtx"
 not() { ! "$@" >/dev/null; }
 check "a file that ends early is noticed" not read_mtx "$work/short.mtx"
+check "an Elmer file that ends early is noticed" not read_elmer "$work/short.dat"
+check "an Elmer file with a line less is noticed" not read_elmer "$work/less.dat"
+succeeds factors "$far" --elmer -
+check "Elmer's file goes to standard output" \
+  [ "$(sed -n '1p;3p' "$work/out" | tr '\n' ' ')" = "1 1 " -a "$(wc -l <"$work/out")" -eq 4 ]
 succeeds factors "$far" --mtx -
 check "Matrix Market goes to standard output" \
   [ "$(sed -n 3p "$work/out")" = "2 2 2" -a "$(wc -l <"$work/out")" -eq 5 ]

@@ -33,7 +33,7 @@ mkdir "$new" "$good"
 make_old() {
   rm -rf "$new"
   mkdir "$new"
-  for name in csv json mtx svg png pdf; do echo old >"$new/x.$name"; done
+  for name in csv json mtx dat svg png pdf; do echo old >"$new/x.$name"; done
 }
 # Timing decides how many rows a study or a cost has, but no file of any kind is cut short.
 ends_well() {
@@ -42,6 +42,8 @@ ends_well() {
     [ "$(tail -c 1 "$1" | od -An -tx1 | tr -d ' ')" = 0a ] ;;
   *.mtx) awk '/^%/ { next } !n { n = $3 + 1 } { lines++ } END { exit lines != n }' "$1" &&
     [ "$(tail -c 1 "$1" | od -An -tx1 | tr -d ' ')" = 0a ] ;;
+  *.dat) awk 'NF == 1 { if (left) exit bad = 1; left = $1; next } { left-- }
+    END { exit bad || left }' "$1" ;;
   *.json) [ "$(head -n 1 "$1")$(tail -n 1 "$1")" = '{}' ] ;;
   *.svg) tail -n 2 "$1" | grep -q '</svg>' ;;
   *.pdf) tail -n 1 "$1" | grep -q '%%EOF' ;;
@@ -87,7 +89,7 @@ arguments() { # arguments COMMAND
   stages) echo "solve $scene --multigrid 1:0.5 --eps 0.25 --max-level 5 --no-error --state $new/x.state --csv $new/x.csv" ;;
   study) echo "study $scene --to 0.125 --steps 4 --csv $new/x.csv --json $new/x.json $plot" ;;
   cost) echo "cost $scene --methods size,dense --max-seconds 0.3 --csv $new/x.csv --json $new/x.json $plot" ;;
-  factors) echo "factors $scene --csv $new/x.csv --mtx $new/x.mtx --json $new/x.json" ;;
+  factors) echo "factors $scene --csv $new/x.csv --mtx $new/x.mtx --elmer $new/x.dat --json $new/x.json" ;;
   esac
 }
 undisturbed() { # undisturbed COMMAND: what it should have written

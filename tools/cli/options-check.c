@@ -100,6 +100,7 @@ int options_check_outputs(const options *o) {
   int status = output_check(o->json);
   if (!status) status = output_check(o->csv);
   if (!status) status = output_check(o->mtx);
+  if (!status) status = output_check(o->elmer);
   if (!status) status = output_check(o->state);
   if (!status) status = output_check(o->draw);
   return status ? status : output_check(o->plot);
@@ -107,5 +108,5 @@ int options_check_outputs(const options *o) {
 
 int options_want_table(const options *o) {
   return !o->quiet && !output_is_stdout(o->json) && !output_is_stdout(o->csv) &&
-         !output_is_stdout(o->mtx);
+         !output_is_stdout(o->mtx) && !output_is_stdout(o->elmer);
 }

@@ -89,7 +89,7 @@ typedef struct options {
   unsigned link_level;
   place_list beams_of;
   int link_parents, plot_log, resume;
-  const char *json, *csv, *mtx, *draw, *plot; /* file names; NULL: not given */
+  const char *json, *csv, *mtx, *elmer, *draw, *plot; /* file names; NULL: not given */
 } options;
 
 /* Reads the command line.  Returns 0, or the exit status after an error message.  The strings

@@ -100,6 +100,7 @@ static int report(const factors *f, double start) {
   if (options_want_table(o)) print_factors(f, clock_seconds() - start);
   if (o->csv) status = factors_write_csv(f);
   if (o->mtx && !status) status = factors_write_mtx(f);
+  if (o->elmer && !status) status = factors_write_elmer(f);
   if (o->json && !status) status = factors_write_json(f, o->json);
   return status;
 }

@@ -4,6 +4,7 @@
 #define HR2D_TOOLS_FACTORS_FACTORS_H
 
 #include <hr2d/hr2d.h>
+#include <stdio.h>
 
 #include "cli/options.h"
 
@@ -23,6 +24,9 @@ typedef struct factors {
 /* row.c: returns row i of F_ij with its zeros, which lasts until the next call. */
 const double *factors_row(const factors *f, size_t i);
 
+/* row.c: writes a line "i j F_ij" for each entry of row i that is not 0; both count from 1. */
+void factors_print_entries(const factors *f, size_t i, FILE *stream);
+
 /* How many pairs see nothing of each other. */
 uint64_t factors_unseen(const factors *f);
 
@@ -31,6 +35,9 @@ int factors_write_csv(const factors *f);
 
 /* mtx.c: the entries that are not 0 in the coordinate format of Matrix Market. */
 int factors_write_mtx(const factors *f);
+
+/* elmer.c: the entries that are not 0 as ViewFactors.dat of Elmer. */
+int factors_write_elmer(const factors *f);
 
 /* json.c */
 int factors_write_json(const factors *f, const char *path);
