@@ -44,5 +44,15 @@ if readelf -d "$library" >"$work/dynamic" 2>/dev/null; then
     status=1
   fi
 fi
+# A tarball has no debian/.
+symbols=$HR2D_SRCDIR/debian/libhr2d0.symbols
+if [ -f "$symbols" ]; then
+  sed -n 's/^ \(hr2d_[a-z0-9_]*\)@HR2D_0 .*/\1/p' "$symbols" | sort -u >"$work/packaged"
+  if ! diff "$work/declared" "$work/packaged" >"$work/differences"; then
+    sed -n 's/^< /a header has, debian\/libhr2d0.symbols lacks: /p
+      s/^> /debian\/libhr2d0.symbols has, no header: /p' "$work/differences" >&2
+    status=1
+  fi
+fi
 echo "$(wc -l <"$work/declared") prototypes, $(wc -l <"$work/exported") symbols"
 exit $status
