@@ -56,10 +56,11 @@ by_tool() {
   echo "installcheck: $tool ok"
 }
 make_cmake() {
-  # GSL and jansson, which a static library needs, are not below DESTDIR.
+  # libdir is PREFIX/lib or PREFIX/lib/ARCHITECTURE.  GSL and jansson, which a static library
+  # needs, are not below DESTDIR.
   unset PKG_CONFIG_SYSROOT_DIR
   cmake -S "$here" -B "$work/cmake" -DVERSION="$VERSION" \
-    -DCMAKE_PREFIX_PATH="$DESTDIR$libdir/.." && cmake --build "$work/cmake"
+    -DCMAKE_PREFIX_PATH="$DESTDIR$libdir/..;$DESTDIR$libdir/../.." && cmake --build "$work/cmake"
 }
 make_meson() {
   meson setup "$work/meson" "$here" && ninja -C "$work/meson"
