@@ -9,7 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/clock.h"
 #include "geometry/exchange-area.h"
 #include "timing.h"
 
@@ -101,10 +100,9 @@ static void measure(const char *what, int rounds) {
   double ns[METHODS][MAX_ROUNDS];
   for (int round = -1; round < rounds; round++)
     for (int m = 0; m < METHODS; m++) {
-      const double start = hr2di_clock_now();
+      const double start = cpu_seconds();
       for (int k = 0; k < REPEAT; k++) run[m]();
-      if (round >= 0)
-        ns[m][round] = 1e9 * (hr2di_clock_now() - start) / (REPEAT * (double)PAIRS);
+      if (round >= 0) ns[m][round] = 1e9 * (cpu_seconds() - start) / (REPEAT * (double)PAIRS);
     }
   double median[METHODS];
   for (int m = 0; m < METHODS; m++) median[m] = median_of(ns[m], rounds);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Measures the cost of the public vtables against the plainest recursion that does the same
-   work.
+   work, and of a sweep against the plainest loop over the same links.
 
    Both refine two unit patches at distance 0.1 with max(A)/r ≤ ε, original variant,
-   in rounds that alternate; medians and their ratios are printed.  The recursion
-   grows the same trees (N is counted, too), decides by A² ≤ ε²r², and stores what a
-   link needs, with the textbook's crossed strings. */
+   in rounds that alternate.  Medians of processor time, their ratios, and the bars of these are
+   printed.  The recursion grows the same trees (N is counted, too), decides by A² ≤ ε²r², and
+   stores what a link needs, with the textbook's crossed strings. */
 #include <hr2d/hr2d.h>
 #include <math.h>
 #include <stdint.h>
@@ -13,51 +13,74 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "plain.h"
+#include "solve/transport.h"
 #include "timing.h"
 
-enum { ROUNDS = 7 };
+enum { ROUNDS = 7, SWEEPS = 5 };
 
-static double run_library(hr2d_scene *scene, double epsilon, int stored, uint64_t *links,
+typedef struct set {
+  hr2d_hierarchy *hierarchy;
+  hr2d_linkset *links;
+} set;
+
+static set make_set(hr2d_scene *scene) {
+  set s = {NULL, NULL};
+  if (hr2d_hierarchy_create(scene, &s.hierarchy) ||
+      hr2d_linkset_create(s.hierarchy, NULL, NULL, NULL, NULL, &s.links))
+    exit(EXIT_FAILURE);
+  return s;
+}
+
+static void free_set(set *s) {
+  hr2d_linkset_destroy(s->links);
+  hr2d_hierarchy_destroy(s->hierarchy);
+}
+
+typedef enum work { COUNTED, STORED, PACKED } work;
+
+static double run_library(hr2d_scene *scene, double epsilon, work kind, uint64_t *links,
                           double *bytes) {
-  const double start = hr2di_clock_now();
-  hr2d_hierarchy *hierarchy = NULL;
-  hr2d_linkset *set = NULL;
+  const double start = cpu_seconds();
+  set s = make_set(scene);
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
   hr2d_refine_counts counts = {0};
   options.epsilon = epsilon;
-  if (hr2d_hierarchy_create(scene, &hierarchy) ||
-      hr2d_linkset_create(hierarchy, NULL, NULL, NULL, NULL, &set) ||
-      (stored ? hr2d_refine(set, &options) : hr2d_refine_count(set, &options, &counts)))
+  options.packed = kind == PACKED;
+  if (kind == COUNTED ? hr2d_refine_count(s.links, &options, &counts)
+                      : hr2d_refine(s.links, &options))
     exit(EXIT_FAILURE);
-  const double seconds = hr2di_clock_now() - start;
-  *links = stored ? hr2d_linkset_size(set) : counts.links;
-  *bytes = (double)hr2d_linkset_bytes(set) / (double)*links;
-  hr2d_linkset_destroy(set);
-  hr2d_hierarchy_destroy(hierarchy);
+  const double seconds = cpu_seconds() - start;
+  *links = kind == COUNTED ? counts.links : hr2d_linkset_size(s.links);
+  *bytes = (double)hr2d_linkset_bytes(s.links) / (double)*links;
+  free_set(&s);
   return seconds;
 }
 
-/* Gather, push and pull: the cost of one sweep per link. */
-static double run_sweeps(hr2d_scene *scene, double epsilon, uint64_t *links) {
-  hr2d_hierarchy *hierarchy = NULL;
-  hr2d_linkset *set = NULL;
-  hr2d_solution *solution = NULL;
+/* Gather, push and pull of one transport, and the loop over the same links. */
+static void run_sweeps(hr2d_scene *scene, double epsilon, uint64_t *links, double *library,
+                       double *plain) {
+  set s = make_set(scene);
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
   options.epsilon = epsilon;
-  if (hr2d_hierarchy_create(scene, &hierarchy) ||
-      hr2d_linkset_create(hierarchy, NULL, NULL, NULL, NULL, &set) ||
-      hr2d_refine(set, &options))
+  hr2di_transport t;
+  if (hr2d_refine(s.links, &options) || hr2di_transport_init(&t, s.links, 1, NULL))
     exit(EXIT_FAILURE);
-  const double start = hr2di_clock_now();
-  if (hr2d_solve(set, NULL, &solution)) exit(EXIT_FAILURE);
-  const double seconds = hr2di_clock_now() - start;
-  *links = hr2d_linkset_size(set) * hr2d_solution_work(solution).gathers;
-  hr2d_solution_destroy(solution);
-  hr2d_linkset_destroy(set);
-  hr2d_hierarchy_destroy(hierarchy);
-  return seconds;
+  *links = hr2d_linkset_size(s.links);
+  hr2d_link *copy = malloc((size_t)*links * sizeof *copy);
+  double *field = calloc(2 * t.leaves, sizeof *field);
+  if (!copy || !field) exit(EXIT_FAILURE);
+  for (uint64_t k = 0; k < *links; k++) copy[k] = hr2d_linkset_get(s.links, k);
+  for (size_t k = 0; k < t.leaves; k++) field[k] = 1;
+  hr2di_transport_apply(&t, field, field + t.leaves);
+  const double start = cpu_seconds();
+  for (int k = 0; k < SWEEPS; k++) hr2di_transport_apply(&t, field, field + t.leaves);
+  *library = (cpu_seconds() - start) / SWEEPS;
+  *plain = plain_sweeps(copy, *links, t.elements, SWEEPS) / SWEEPS;
+  free(copy);
+  free(field);
+  hr2di_transport_clear(&t);
+  free_set(&s);
 }
 
 static hr2d_scene *make_scene(void) {
@@ -77,36 +100,63 @@ static hr2d_scene *make_scene(void) {
   return scene;
 }
 
+enum {
+  PLAIN_STORED,
+  LIBRARY_STORED,
+  LIBRARY_PACKED,
+  PLAIN_COUNTED,
+  LIBRARY_COUNTED,
+  PLAIN_REGISTERS,
+  LIBRARY_SWEEP,
+  PLAIN_SWEEP,
+  TIMES
+};
+
+/* A bar of 0 stands for none. */
+static void print(const char *what, double library, double plain, double bar) {
+  printf("%-38s%9.2f%9.2f%8.2f", what, library, plain, library / plain);
+  if (bar > 0) printf("%8.2f  %s", bar, library <= bar * plain ? "holds" : "MISSED");
+  printf("\n");
+}
+
 int main(int argc, char **argv) {
   const double epsilon = argc > 1 ? strtod(argv[1], NULL) : 1. / 256;
   hr2d_scene *scene = make_scene();
-  double time[6][ROUNDS], bytes = 0, unused;
-  uint64_t links[6];
+  double time[TIMES][ROUNDS], bytes = 0, packed = 0, unused;
+  uint64_t links[TIMES];
   for (int k = 0; k < ROUNDS; k++) {
-    time[0][k] = plain_run(0.1, epsilon, 1, &links[0]);
-    time[1][k] = run_library(scene, epsilon, 1, &links[1], &bytes);
-    time[2][k] = plain_run(0.1, epsilon, 0, &links[2]);
-    time[3][k] = run_library(scene, epsilon, 0, &links[3], &unused);
-    time[4][k] = plain_count(0.1, epsilon, &links[4]);
-    time[5][k] = run_sweeps(scene, epsilon, &links[5]);
+    time[PLAIN_STORED][k] = plain_run(0.1, epsilon, 1, &links[PLAIN_STORED]);
+    time[LIBRARY_STORED][k] =
+        run_library(scene, epsilon, STORED, &links[LIBRARY_STORED], &bytes);
+    time[LIBRARY_PACKED][k] =
+        run_library(scene, epsilon, PACKED, &links[LIBRARY_PACKED], &packed);
+    time[PLAIN_COUNTED][k] = plain_run(0.1, epsilon, 0, &links[PLAIN_COUNTED]);
+    time[LIBRARY_COUNTED][k] =
+        run_library(scene, epsilon, COUNTED, &links[LIBRARY_COUNTED], &unused);
+    time[PLAIN_REGISTERS][k] = plain_count(0.1, epsilon, &links[PLAIN_REGISTERS]);
+    run_sweeps(scene, epsilon, &links[LIBRARY_SWEEP], &time[LIBRARY_SWEEP][k],
+               &time[PLAIN_SWEEP][k]);
+    links[PLAIN_SWEEP] = links[LIBRARY_SWEEP];
   }
   hr2d_scene_destroy(scene);
-  if (links[0] != links[1] || links[2] != links[3] || links[0] != links[4]) {
-    fprintf(stderr, "bench_refine: the numbers of links differ\n");
-    return EXIT_FAILURE;
+  double ns[TIMES];
+  for (int k = 0; k < TIMES; k++) {
+    if (links[k] != links[0]) {
+      fprintf(stderr, "bench_refine: the numbers of links differ\n");
+      return EXIT_FAILURE;
+    }
+    ns[k] = 1e9 * median_of(time[k], ROUNDS) / (double)links[k];
   }
-  double median[6];
-  for (int k = 0; k < 6; k++) median[k] = 1e9 * median_of(time[k], ROUNDS) / (double)links[k];
   printf("two unit patches, d = 0.1, epsilon = %g: L = %llu; ns per link, medians of %d\n",
          epsilon, (unsigned long long)links[0], ROUNDS);
-  printf("%-34s%9s%9s%8s\n", "", "library", "plain", "ratio");
-  printf("%-34s%9.2f%9.2f%8.2f\n", "refine, exact areas, stored", median[1], median[0],
-         median[1] / median[0]);
-  printf("%-34s%9.2f%9.2f%8.2f\n", "count, with trees", median[3], median[2],
-         median[3] / median[2]);
-  printf("%-34s%9.2f%9.2f%8.2f\n", "count, plain without trees or N", median[3], median[4],
-         median[3] / median[4]);
-  printf("%-34s%9.2f\n", "solve, per link and sweep", median[5]);
-  printf("%-34s%9.2f\n", "bytes per stored link", bytes);
+  printf("%-38s%9s%9s%8s%8s\n", "", "library", "plain", "ratio", "bar");
+  print("refine, exact areas, stored", ns[LIBRARY_STORED], ns[PLAIN_STORED], 1);
+  print("refine, exact areas, packed", ns[LIBRARY_PACKED], ns[PLAIN_STORED], 0);
+  print("count, with trees", ns[LIBRARY_COUNTED], ns[PLAIN_COUNTED], 0.7);
+  print("count, plain without trees or N", ns[LIBRARY_COUNTED], ns[PLAIN_REGISTERS], 0);
+  print("sweep with push and pull, plain: links", ns[LIBRARY_SWEEP], ns[PLAIN_SWEEP],
+        1.3 / 1.9);
+  print("bytes per stored link", bytes, 16, 0);
+  print("bytes per packed link", packed, 16, 12. / 16);
   return EXIT_SUCCESS;
 }

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/clock.h"
+#include "timing.h"
 
 typedef struct node {
   double ax, ay, bx, by, length;
@@ -72,7 +72,7 @@ static void project(plain *p, uint32_t i, uint32_t j) {
 }
 
 double plain_run(double distance, double epsilon, int stored, uint64_t *links) {
-  const double start = hr2di_clock_now();
+  const double start = cpu_seconds();
   plain p = {.node_capacity = 1024, .link_capacity = 1024, .epsilon2 = epsilon * epsilon};
   p.store = stored;
   p.node = malloc(p.node_capacity * sizeof *p.node);
@@ -81,7 +81,7 @@ double plain_run(double distance, double epsilon, int stored, uint64_t *links) {
   p.node[1] = (node){1, distance, 0, distance, 1, 0};
   p.nodes = 2;
   project(&p, 0, 1);
-  const double seconds = hr2di_clock_now() - start;
+  const double seconds = cpu_seconds() - start;
   *links = p.links;
   free(p.node);
   free(p.link);
@@ -100,7 +100,23 @@ static uint64_t count_in_registers(double xi, double ai, double xj, double aj, d
 }
 
 double plain_count(double distance, double epsilon, uint64_t *links) {
-  const double start = hr2di_clock_now();
+  const double start = cpu_seconds();
   *links = count_in_registers(0.5, 1, 0.5, 1, distance * distance, epsilon * epsilon);
-  return hr2di_clock_now() - start;
+  return cpu_seconds() - start;
+}
+
+double plain_sweeps(const hr2d_link *link, uint64_t links, size_t elements, int sweeps) {
+  double *up = malloc(elements * sizeof *up), *down = malloc(elements * sizeof *down);
+  for (size_t e = 0; e < elements; e++) up[e] = down[e] = 1;
+  const double start = cpu_seconds();
+  for (int sweep = 0; sweep < sweeps; sweep++)
+    for (uint64_t k = 0; k < links; k++) {
+      const hr2d_pair p = link[k].pair;
+      down[p.first] += link[k].exchange_area * up[p.second];
+      down[p.second] += link[k].exchange_area * up[p.first];
+    }
+  const double seconds = cpu_seconds() - start;
+  free(up);
+  free(down);
+  return seconds;
 }
