@@ -12,11 +12,43 @@
 #include "scene/scene-impl.h"
 
 /* A slice needs its own copy of `down`, so there are few slices, with many links each. */
-enum { MOST_SLICES = 16, SLICE_BLOCKS = 64 };
+enum { MOST_SLICES = HR2DI_TRANSPORT_PARTS, SLICE_BLOCKS = 64 };
 
 static size_t count_slices(const hr2d_linkset *links) {
   const size_t slices = 1 + hr2di_store_chunks(&links->store) / SLICE_BLOCKS;
   return slices < MOST_SLICES ? slices : MOST_SLICES;
+}
+
+/* Work of one gather that is worth another thread, in coefficients of blocks. */
+enum { WORTH = 200000 };
+
+/* Cuts the elements into parts over which about the same number of links come in, so that
+   threads need no copies of `down`: each adds up what its elements receive, in the order of the
+   links, and no bit depends on the number of parts. */
+static void cut_parts(hr2di_transport *t) {
+  const uint64_t links = t->links->store.count;
+  const uint64_t work = links * t->order * t->width / WORTH;
+  t->parts = hr2di_team_threads(t->threads);
+  if (t->parts > HR2DI_TRANSPORT_PARTS) t->parts = HR2DI_TRANSPORT_PARTS;
+  if (t->parts > work + 1) t->parts = (size_t)work + 1;
+  if (t->order == 1 || t->slices > 1) t->parts = 1;
+  t->begin[t->parts] = t->elements;
+  if (t->parts == 1) return;
+  double *ends = t->down; /* not yet in use */
+  for (size_t e = 0; e < t->elements; e++) ends[e] = 0;
+  for (uint64_t k = 0; k < links; k++) {
+    const hr2d_pair pair = hr2di_store_link(&t->links->store, k).pair;
+    if (k % 4096 == 0 && hr2di_watch_work(t->watch, 64)) break;
+    ends[pair.first]++;
+    if (!t->links->directed) ends[pair.second]++;
+  }
+  double before = 0, all = 0;
+  for (size_t e = 0; e < t->elements; e++) all += ends[e];
+  size_t part = 1;
+  for (size_t e = 0; e < t->elements && part < t->parts; before += ends[e++])
+    while (part < t->parts && before * (double)t->parts >= (double)part * all)
+      t->begin[part++] = e;
+  while (part < t->parts) t->begin[part++] = t->elements;
 }
 
 hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
@@ -45,6 +77,7 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
   if (!t->leaf || !t->up || !t->down) return HR2D_ENOMEM;
   for (size_t e = 0; e < t->elements; e++)
     if (!h->element[e].child) t->leaf[t->leaves++] = (uint32_t)e;
+  cut_parts(t);
   return hr2di_watch_work(watch, t->elements / 16);
 }
 
@@ -158,12 +191,20 @@ static void add_block(const double *c, size_t order, size_t bands, const double 
 }
 
 /* to_m += Σ_l C_lm from_l */
-static void add_transposed(const double *c, size_t order, size_t bands, const double *from,
-                           double *to) {
+static inline void add_bands_transposed(const double *restrict c, size_t order, size_t bands,
+                                        const double *restrict from, double *restrict to) {
   for (size_t l = 0; l < order; l++)
     for (size_t b = 0; b < bands; b++)
       for (size_t m = 0; m < order; m++)
         to[m * bands + b] += c[l * order + m] * from[l * bands + b];
+}
+
+static void add_transposed(const double *c, size_t order, size_t bands, const double *from,
+                           double *to) {
+  if (bands == 1)
+    add_bands_transposed(c, order, 1, from, to);
+  else
+    add_bands_transposed(c, order, bands, from, to);
 }
 
 /* Both in one pass over the block, for one band; adds in the order of hr2di_dot_strided(). */
@@ -189,9 +230,10 @@ void hr2di_transport_multiply(const double *restrict c, size_t order,
   }
 }
 
-/* The same with blocks, for `count` links from number `first` on. */
+/* The same with blocks, for `count` links from number `first` on, and what the elements
+   [from, to) receive. */
 static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, uint64_t first,
-                          size_t count, double *down) {
+                          size_t count, size_t from, size_t to, double *down) {
   const hr2di_link_blocks *blocks = &t->links->blocks;
   const size_t order = t->order, bands = t->bands, width = t->width;
   for (uint64_t k = first; k < first + count; k++) {
@@ -199,12 +241,14 @@ static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, u
     const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
     const double *c = blocks->value + k * order * order;
     const size_t i = pair.first * width, j = pair.second * width;
-    if (bands == 1 && !t->links->directed) {
+    const int to_i = pair.first >= from && pair.first < to;
+    const int to_j = !t->links->directed && pair.second >= from && pair.second < to;
+    if (bands == 1 && to_i && to_j) {
       hr2di_transport_multiply(c, order, t->up + i, t->up + j, down + i, down + j);
       continue;
     }
-    add_block(c, order, bands, t->up + j, down + i);
-    if (!t->links->directed) add_transposed(c, order, bands, t->up + i, down + j);
+    if (to_i) add_block(c, order, bands, t->up + j, down + i);
+    if (to_j) add_transposed(c, order, bands, t->up + i, down + j);
   }
 }
 
@@ -223,9 +267,25 @@ static void gather_slice(hr2di_transport *t, hr2di_transport_part part, size_t s
     const size_t count = hr2di_store_chunk_size(store, k);
     if (hr2di_watch_work(watch, units)) return;
     if (t->order > 1)
-      gather_orders(t, part, (uint64_t)k * HR2DI_CHUNK_LINKS, count, down);
+      gather_orders(t, part, (uint64_t)k * HR2DI_CHUNK_LINKS, count, 0, t->elements, down);
     else
       gather_chunk(t, k, plain && !t->links->directed, down);
+  }
+}
+
+/* What a part of the elements receives over all links. */
+static void gather_part(hr2di_transport *t, hr2di_transport_part of, size_t part,
+                        hr2di_watch *watch) {
+  const hr2di_store *store = &t->links->store;
+  const size_t from = t->begin[part], to = t->begin[part + 1], width = t->width;
+  const uint64_t units = (uint64_t)HR2DI_READ_LINKS / 32 * (1 + t->order * width / 8);
+  if (hr2di_watch_work(watch, (to - from) * width / 128)) return;
+  memset(t->down + from * width, 0, (to - from) * width * sizeof *t->down);
+  for (uint64_t first = 0; first < store->count; first += HR2DI_READ_LINKS) {
+    const uint64_t rest = store->count - first;
+    if (hr2di_watch_work(watch, units)) return;
+    gather_orders(t, of, first, rest < HR2DI_READ_LINKS ? (size_t)rest : HR2DI_READ_LINKS, from,
+                  to, t->down);
   }
 }
 
@@ -272,14 +332,19 @@ typedef struct slices {
 
 static void gather_one(void *ctx, size_t worker, size_t slice) {
   slices *s = ctx;
-  gather_slice(s->t, s->part, slice, worker == 0 ? s->t->watch : &s->own[slice]);
+  hr2di_watch *watch = worker == 0 ? s->t->watch : &s->own[slice];
+  if (s->t->parts > 1)
+    gather_part(s->t, s->part, slice, watch);
+  else
+    gather_slice(s->t, s->part, slice, watch);
 }
 
 static void gather_slices(hr2di_transport *t, hr2di_transport_part part) {
   slices s = {.t = t, .part = part};
-  const size_t threads = t->slices > 1 ? hr2di_team_threads(t->threads) : 1;
-  for (size_t k = 0; k < t->slices; k++) hr2di_watch_follow(&s.own[k], t->watch);
-  hr2di_team_run(threads, t->slices, gather_one, &s, t->watch);
+  const size_t tasks = t->parts > 1 ? t->parts : t->slices;
+  const size_t threads = tasks > 1 ? hr2di_team_threads(t->threads) : 1;
+  for (size_t k = 0; k < tasks; k++) hr2di_watch_follow(&s.own[k], t->watch);
+  hr2di_team_run(threads, tasks, gather_one, &s, t->watch);
 }
 
 /* Sets t->down to the irradiance of elements over links and clusters, from t->up. */

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Threads that share the elements of a gather above order 1 add up what one thread does, to the
+   last bit. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "solve/transport.h"
+#include "support/slow-scenes.h"
+#include "support/support.h"
+
+enum { PATCHES = 60, ORDER = 9 };
+
+static test_links make(size_t bands, int directed) {
+  hr2d_scene *from = NULL, *scene = NULL;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &from), HR2D_OK);
+  ck_assert_int_eq(slow_add(from, SLOW_SQUARES, PATCHES), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  for (size_t k = 0; k < hr2d_scene_patches(from); k++) {
+    const hr2d_segment s = hr2d_scene_segment(from, k);
+    double emission[3], rho[3];
+    for (size_t b = 0; b < bands; b++) {
+      emission[b] = (double)((k + b) % 5 == 0);
+      rho[b] = 0.3 + 0.1 * (double)b;
+    }
+    const hr2d_patch patch = {.a = s.a,
+                              .b = s.b,
+                              .emission = emission,
+                              .emission_bands = bands,
+                              .reflectance = rho,
+                              .reflectance_bands = bands,
+                              .sides = HR2D_SIDES_FRONT};
+    ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
+  }
+  hr2d_scene_destroy(from);
+  test_commit(scene);
+  test_links t = test_make_links(scene, NULL, NULL, NULL, NULL);
+  hr2d_refine_options options = test_options(0.15, 4);
+  options.ordered = directed;
+  ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
+  ck_assert_int_eq(hr2d_hierarchy_set_order(t.hierarchy, ORDER), HR2D_OK);
+  return t;
+}
+
+/* Parts cover all elements, and there is more than one if there are threads. */
+static void check_parts(const test_links *t, unsigned threads) {
+  hr2di_transport transport;
+  ck_assert_int_eq(hr2di_transport_init(&transport, t->links, threads, NULL), HR2D_OK);
+  ck_assert_uint_ge(transport.parts, threads > 1 ? 2 : 1);
+  ck_assert_uint_le(transport.parts, threads);
+  ck_assert_uint_eq(transport.begin[0], 0);
+  ck_assert_uint_eq(transport.begin[transport.parts], transport.elements);
+  for (size_t k = 0; k < transport.parts; k++)
+    ck_assert_uint_le(transport.begin[k], transport.begin[k + 1]);
+  hr2di_transport_clear(&transport);
+}
+
+START_TEST(parts_change_no_bit) {
+  const size_t bands = _i / 2 ? 3 : 1;
+  test_links t = make(bands, _i % 2);
+  static const unsigned threads[] = {1, 2, 3, 40};
+  double *expected = NULL;
+  size_t count = 0;
+  for (int k = 0; k < 4; k++) {
+    hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+    hr2d_solution *s = NULL;
+    options.threads = threads[k];
+    check_parts(&t, threads[k]);
+    ck_assert_int_eq(hr2d_solve(t.links, &options, &s), HR2D_OK);
+    count = (size_t)hr2d_hierarchy_count(t.hierarchy).elements * bands;
+    double *found = malloc(count * sizeof *found);
+    ck_assert_ptr_nonnull(found);
+    for (size_t e = 0; e < count; e++)
+      found[e] = hr2d_solution_element(s, (uint32_t)(e / bands), e % bands);
+    hr2d_solution_destroy(s);
+    if (!expected) {
+      expected = found;
+      continue;
+    }
+    ck_assert_int_eq(memcmp(found, expected, count * sizeof *found), 0);
+    free(found);
+  }
+  double least = expected[0], most = expected[0];
+  for (size_t e = 0; e < count; e++) {
+    if (expected[e] < least) least = expected[e];
+    if (expected[e] > most) most = expected[e];
+  }
+  printf("%llu links, B from %.3g to %.3g\n", (unsigned long long)hr2d_linkset_size(t.links),
+         least, most);
+  ck_assert(most > least);
+  free(expected);
+  test_free_links(&t);
+}
+END_TEST
+
+TEST_SUITE("parts") {
+  REPEAT_TESTS(4, "gather", parts_change_no_bit);
+}
