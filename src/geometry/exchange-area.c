@@ -23,6 +23,7 @@
 #include "geometry/exchange-area.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #include "base/wide.h"
 #include "geometry/determinant.h"
@@ -256,13 +257,17 @@ static size_t collect(block *p, size_t n, double *area, size_t *place) {
   return left;
 }
 
-HR2DI_PART void plain_areas_loop(const block *p, size_t n, double *area) {
+/* *all tells whether every pair was decided. */
+HR2DI_PART void plain_areas_loop(const block *p, size_t n, double *area, int *all) {
+  int undecided = 0;
   for (size_t k = 0; k < n; k++) {
     const hr2d_segment i = first(p, k), j = second(p, k);
     area[k] = plain_area(i.a, i.b, j.a, j.b);
   }
+  for (size_t k = 0; k < n; k++) undecided |= area[k] < 0;
+  *all = !undecided;
 }
-HR2DI_WIDE(plain_areas, (const block *p, size_t n, double *area), (p, n, area))
+HR2DI_WIDE(plain_areas, (const block *p, size_t n, double *area, int *all), (p, n, area, all))
 
 HR2DI_PART void all_corrected_loop(const block *p, size_t n, determinants *o) {
   for (size_t k = 0; k < n; k++) {
@@ -273,7 +278,9 @@ HR2DI_PART void all_corrected_loop(const block *p, size_t n, determinants *o) {
 HR2DI_WIDE(all_corrected, (const block *p, size_t n, determinants *o), (p, n, o))
 
 static void block_areas(block *p, size_t n, double *area) {
-  plain_areas(p, n, area);
+  int all;
+  plain_areas(p, n, area, &all);
+  if (all) return;
   size_t place[BLOCK];
   determinants o[BLOCK];
   const size_t left = collect(p, n, area, place);
@@ -293,12 +300,49 @@ void hr2di_exchange_areas_between(const hr2d_segment (*pairs)[2], size_t count, 
   }
 }
 
+#ifdef HR2D_AVX2
+_Static_assert(offsetof(hr2d_element, b) == offsetof(hr2d_element, a) + 16,
+               "the ends of an element are one vector");
+
+/* The ends of four elements, each end and coordinate as one vector. */
+HR2DI_AVX2 static inline void put_four(const double *const end[4], double *ax, double *ay,
+                                       double *bx, double *by) {
+  const __m256d e0 = _mm256_loadu_pd(end[0]), e1 = _mm256_loadu_pd(end[1]);
+  const __m256d e2 = _mm256_loadu_pd(end[2]), e3 = _mm256_loadu_pd(end[3]);
+  const __m256d x01 = _mm256_unpacklo_pd(e0, e1), y01 = _mm256_unpackhi_pd(e0, e1);
+  const __m256d x23 = _mm256_unpacklo_pd(e2, e3), y23 = _mm256_unpackhi_pd(e2, e3);
+  _mm256_storeu_pd(ax, _mm256_permute2f128_pd(x01, x23, 0x20));
+  _mm256_storeu_pd(ay, _mm256_permute2f128_pd(y01, y23, 0x20));
+  _mm256_storeu_pd(bx, _mm256_permute2f128_pd(x01, x23, 0x31));
+  _mm256_storeu_pd(by, _mm256_permute2f128_pd(y01, y23, 0x31));
+}
+
+HR2DI_AVX2 static void put_fours(block *p, const hr2d_element *element, const hr2d_pair *pair,
+                                 size_t n) {
+  for (size_t k = 0; k < n; k += 4) {
+    const double *i[4], *j[4];
+    for (size_t m = 0; m < 4; m++) {
+      i[m] = &element[pair[k + m].first].a.x;
+      j[m] = &element[pair[k + m].second].a.x;
+    }
+    put_four(i, p->ax + k, p->ay + k, p->bx + k, p->by + k);
+    put_four(j, p->cx + k, p->cy + k, p->dx + k, p->dy + k);
+  }
+}
+#else
+static void put_fours(block *p, const hr2d_element *element, const hr2d_pair *pair, size_t n) {
+  (void)p, (void)element, (void)pair, (void)n;
+}
+#endif
+
 void hr2di_exchange_areas(const hr2d_element *elements, const hr2d_pair *pairs, size_t count,
                           double *area) {
   block p;
   for (size_t start = 0; start < count; start += BLOCK) {
     const size_t n = count - start < BLOCK ? count - start : BLOCK;
-    for (size_t k = 0; k < n; k++) {
+    const size_t fours = hr2di_wide() ? n & ~(size_t)3 : 0;
+    put_fours(&p, elements, pairs + start, fours);
+    for (size_t k = fours; k < n; k++) {
       const hr2d_element *i = &elements[pairs[start + k].first];
       const hr2d_element *j = &elements[pairs[start + k].second];
       put(&p, k, (hr2d_segment){i->a, i->b}, (hr2d_segment){j->a, j->b});
