@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/legendre.h"
+#include "base/team.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 #include "visibility/point-view.h"
@@ -24,44 +25,81 @@ hr2d_status hr2di_background_set(hr2di_transport *t, const hr2di_row_sums *rows)
   return HR2D_OK;
 }
 
+/* The leaves of a task, and those that are worth another thread. */
+enum { SOME = 16, WORTH = 64 };
+
+/* The work space of a thread. */
 typedef struct looker {
-  hr2di_transport *t;
   hr2di_viewer *viewer;
+  hr2di_watch own; /* but the calling thread has that of the transport */
+  hr2d_status status;
+} looker;
+
+typedef struct lookers {
+  hr2di_transport *t;
   hr2di_basis basis;
   hr2di_rule rule;
-} looker;
+  looker *looker;
+  size_t threads;
+  atomic_int failed;
+} lookers;
 
 /* Subtracts the backs that a leaf sees.  The leaf begins at fraction `from` of its patch and
    has `size` of its length. */
-static hr2d_status take_backs(looker *l, size_t leaf, double from, double size) {
-  hr2di_transport *t = l->t;
+static hr2d_status take_backs(const lookers *all, hr2di_viewer *viewer, size_t leaf,
+                              double from, double size) {
+  hr2di_transport *t = all->t;
   const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
   double *sky = t->sky + leaf * t->order, phi[HR2D_MAX_ORDER];
-  for (size_t q = 0; q < l->rule.points; q++) {
+  for (size_t q = 0; q < all->rule.points; q++) {
     hr2di_view_from seen;
-    const double at = from + size * (0.5 + 0.5 * l->rule.at[q]);
-    const hr2d_status status = hr2di_view_at(l->viewer, patch, at, &seen);
+    const double at = from + size * (0.5 + 0.5 * all->rule.at[q]);
+    const hr2d_status status = hr2di_view_at(viewer, patch, at, &seen);
     if (status) return status;
-    hr2di_basis_at(&l->basis, l->rule.at[q], phi);
-    for (size_t k = 0; k < t->order; k++) sky[k] -= l->rule.weight[q] * seen.back * phi[k];
+    hr2di_basis_at(&all->basis, all->rule.at[q], phi);
+    for (size_t k = 0; k < t->order; k++) sky[k] -= all->rule.weight[q] * seen.back * phi[k];
   }
   return HR2D_OK;
 }
 
-static hr2d_status take_all_backs(hr2di_transport *t) {
+/* Each leaf has its own coefficients, so that no bit depends on threads. */
+static void take_some_backs(void *ctx, size_t worker, size_t task) {
+  lookers *all = ctx;
+  looker *l = &all->looker[worker];
+  const hr2di_transport *t = all->t;
   const hr2d_hierarchy *h = t->hierarchy;
-  looker l = {.t = t};
-  hr2di_basis_init(&l.basis, t->order);
-  hr2di_rule_init(&l.rule, t->order + 6);
-  hr2d_status status = hr2di_viewer_create(h->scene, &t->alloc, t->watch, &l.viewer);
-  for (size_t k = 0; k < t->leaves && !status; k++) {
+  for (size_t k = task * SOME; k < t->leaves && k < (task + 1) * SOME; k++) {
     const hr2d_element *e = &h->element[t->leaf[k]];
+    if (l->status || atomic_load(&all->failed)) return;
     if (hr2di_scene_lit(h->scene, e->patch))
-      status = take_backs(&l, k, hr2di_element_start(h, t->leaf[k]),
-                          e->length / h->element[e->patch].length);
+      l->status = take_backs(all, l->viewer, k, hr2di_element_start(h, t->leaf[k]),
+                             e->length / h->element[e->patch].length);
+    if (l->status) atomic_store(&all->failed, 1);
   }
-  hr2di_viewer_destroy(l.viewer);
-  return status;
+}
+
+static hr2d_status take_all_backs(hr2di_transport *t) {
+  const size_t most = 1 + t->leaves / WORTH, threads = hr2di_team_threads(t->threads);
+  lookers all = {.t = t, .threads = threads < most ? threads : most};
+  hr2di_basis_init(&all.basis, t->order);
+  hr2di_rule_init(&all.rule, t->order + 6);
+  all.looker = hr2di_alloc_zero(&t->alloc, all.threads, sizeof *all.looker);
+  if (!all.looker) return HR2D_ENOMEM;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < all.threads && !status; k++) {
+    looker *l = &all.looker[k];
+    hr2di_watch_follow(&l->own, t->watch);
+    status = hr2di_viewer_create(t->hierarchy->scene, &t->alloc, k == 0 ? t->watch : &l->own,
+                                 &l->viewer);
+  }
+  if (!status)
+    hr2di_team_run(all.threads, (t->leaves + SOME - 1) / SOME, take_some_backs, &all, t->watch);
+  for (size_t k = 0; k < all.threads; k++) {
+    if (!status) status = all.looker[k].status;
+    hr2di_viewer_destroy(all.looker[k].viewer);
+  }
+  hr2di_alloc_free(&t->alloc, all.looker);
+  return status ? status : hr2di_watch_status(t->watch);
 }
 
 /* Sets t->sky to 1 − K1 on patches that light reaches. */

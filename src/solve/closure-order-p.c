@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/team.h"
 #include "blocks/block.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/patch-defect.h"
@@ -51,7 +52,7 @@ static double point_factor(const hr2di_pair_frame *f, double s) {
 }
 
 /* Adds the form factor of `source` to the leaves below `receiver`, by degree. */
-static void add_exact(rows *r, uint32_t receiver, uint32_t source) {
+static void add_exact(const rows *r, uint32_t receiver, uint32_t source, hr2di_watch *watch) {
   const hr2d_hierarchy *h = r->t->hierarchy;
   const size_t order = r->t->order;
   const double start = hr2di_element_start(h, receiver), size = h->element[receiver].length;
@@ -60,7 +61,7 @@ static void add_exact(rows *r, uint32_t receiver, uint32_t source) {
   hr2di_pair_frame_init(&f, h, (hr2d_pair){receiver, source});
   uint32_t leaf = hr2di_hierarchy_first_leaf(h, receiver);
   do {
-    if (hr2di_watch_work(r->t->watch, r->rule.points * (8 + order) / 16)) return;
+    if (hr2di_watch_work(watch, r->rule.points * (8 + order) / 16)) return;
     const double from = (hr2di_element_start(h, leaf) - start) * (whole / size);
     const double part = h->element[leaf].length / size;
     double *exact = r->exact + r->number[leaf] * order;
@@ -73,17 +74,45 @@ static void add_exact(rows *r, uint32_t receiver, uint32_t source) {
   } while (leaf);
 }
 
-static void add_links(rows *r) {
+/* Links that are worth another thread, and the threads at most. */
+enum { WORTH = 1000, MOST_PARTS = 16 };
+
+/* Parts of the patches, one for each thread, which goes through all links: so the form factors
+   of a leaf are summed in the order of the links, and no bit depends on threads. */
+typedef struct parts {
+  const rows *r;
+  size_t count;
+  hr2di_watch own[MOST_PARTS]; /* for parts that the calling thread does not do */
+} parts;
+
+static int takes(const parts *p, size_t part, uint32_t element) {
+  const rows *r = p->r;
+  const size_t patch = r->t->hierarchy->element[element].patch;
+  return patch % p->count == part && !r->closed[patch];
+}
+
+static void add_links(void *ctx, size_t worker, size_t part) {
+  parts *p = ctx;
+  const rows *r = p->r;
   const hr2d_linkset *links = r->t->links;
-  const hr2d_element *element = r->t->hierarchy->element;
+  hr2di_watch *watch = worker == 0 ? r->t->watch : &p->own[part];
   for (uint64_t k = 0; k < links->store.count; k++) {
-    if (k % 64 == 0 && hr2di_watch_work(r->t->watch, 4)) return;
+    if (k % 64 == 0 && hr2di_watch_work(watch, 4)) return;
     if (!links->blocks.distant[k]) continue;
-    const hr2d_pair pair = hr2di_store_at(&links->store, k)->pair;
-    if (!r->closed[element[pair.first].patch]) add_exact(r, pair.first, pair.second);
-    if (!links->directed && !r->closed[element[pair.second].patch])
-      add_exact(r, pair.second, pair.first);
+    const hr2d_pair pair = hr2di_store_link(&links->store, k).pair;
+    if (takes(p, part, pair.first)) add_exact(r, pair.first, pair.second, watch);
+    if (!links->directed && takes(p, part, pair.second))
+      add_exact(r, pair.second, pair.first, watch);
   }
+}
+
+static void add_all_links(const rows *r) {
+  const uint64_t most = 1 + r->t->links->store.count / WORTH;
+  parts p = {.r = r, .count = hr2di_team_threads(r->t->threads)};
+  if (p.count > MOST_PARTS) p.count = MOST_PARTS;
+  if (p.count > most) p.count = (size_t)most;
+  for (size_t k = 0; k < p.count; k++) hr2di_watch_follow(&p.own[k], r->t->watch);
+  hr2di_team_run(p.count, p.count, add_links, &p, r->t->watch);
 }
 
 /* Marks the patches that see patches in every direction. */
@@ -142,7 +171,7 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
     find_closed_by_rows(r, t);
   else
     find_closed(r);
-  add_links(r);
+  add_all_links(r);
   for (size_t k = 0; k < t->leaves; k++) {
     t->failed = hr2di_watch_work(t->watch, 1 + r->product.points * t->order * t->order / 32);
     if (t->failed) return;
