@@ -183,6 +183,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/error-estimate.c src/accuracy/error-estimate.h \
 	src/accuracy/graded-solve.c src/accuracy/graded-solve.h \
 	src/accuracy/importance.c src/accuracy/importance.h \
+	src/accuracy/grader.h src/accuracy/grader-team.c \
 	src/accuracy/mesh-grading.c src/accuracy/mesh-grading.h \
 	src/accuracy/mirror-images.c src/accuracy/mirror-images.h \
 	src/accuracy/predict.c \

@@ -42,7 +42,8 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
                                  .weight = fineness->weight,
                                  .events = &events,
                                  .max_elements = target->max_elements,
-                                 .watch = &watch};
+                                 .watch = &watch,
+                                 .threads = target->threads};
   if (!status) status = hr2di_grading_apply(h, &grading, &a->survey);
   a->events = events.count;
   hr2di_events_clear(&events);

@@ -5,20 +5,18 @@
    front.  Where an end touches the patch no element is far enough: there B ~ x^γ, and an
    element of relative size 2^−D adds an error of about (2^−D/p²)^(1+2γ) to averages, and of
    (2^−D/p²)^γ to B itself. */
-#include "accuracy/mesh-grading.h"
-
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "accuracy/corner-exponent.h"
-#include "accuracy/mirror-images.h"
+#include "accuracy/grader.h"
 #include "base/alloc.h"
 #include "base/sort.h"
+#include "base/team.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
 #include "scene/scene-impl.h"
-#include "visibility/seen-ends.h"
 
 /* An end stands on a patch if it is nearer to its line than this part of its length, and than
    what commit takes for a touch: else the two may see each other through the gap. */
@@ -32,64 +30,30 @@
    are not near. */
 #define FAR 3.0
 
-enum { DEEPEST = 40, STACK = 256 };
-
-/* An end of a patch. */
-typedef struct vertex {
-  hr2d_point at;
-  uint32_t patch;
-  int last; /* the end of the patch, not its start */
-} vertex;
-
-/* A place on a patch where elements end, and how deep they are graded towards it. */
-typedef struct mark {
-  double at;
-  hr2d_point point;
-  unsigned depth;
-} mark;
-
-typedef struct grader {
-  hr2d_hierarchy *h;
-  const hr2di_grading *grading;
-  vertex *vertex; /* by x */
-  size_t vertices;
-  uint32_t *under;         /* for the start and the end of each patch: 1 + the patch on whose
-                              front, between its ends, it stands, or 0 */
-  hr2di_image_points near; /* points in front of the current patch, and near to it: ends of
-                              other patches that it sees, and mirror images */
-  hr2di_seen_ends *seen;   /* NULL: nothing is in the way of anything */
-  mark *mark;              /* of the current patch, by place */
-  size_t marks, mark_capacity;
-  hr2di_survey survey;
-  int all;         /* patches that reflect nothing are divided, too */
-  double target;   /* of the patch under way */
-  double distance; /* and how far ends must be from its elements */
-  double shortest; /* no element of it is a shorter part of it */
-  double last[3];  /* angle and ρ of the last corner, and its exponent */
-} grader;
+enum { DEEPEST = 40, STACK = 256, MANY = 64 /* patches that are worth other threads */ };
 
 static int by_x(const void *a, const void *b) {
-  const vertex *p = a, *q = b;
+  const hr2di_grading_vertex *p = a, *q = b;
   if (p->at.x != q->at.x) return p->at.x < q->at.x ? -1 : 1;
   if (p->patch != q->patch) return p->patch < q->patch ? -1 : 1;
   return p->last - q->last;
 }
 
 static int by_place(const void *a, const void *b) {
-  const mark *p = a, *q = b;
+  const hr2di_grading_mark *p = a, *q = b;
   if (p->at != q->at) return p->at < q->at ? -1 : 1;
   return p->depth < q->depth ? 1 : p->depth > q->depth ? -1 : 0;
 }
 
-static hr2d_status list_vertices(grader *g) {
+static hr2d_status list_vertices(hr2di_grader *g) {
   const hr2d_scene *scene = g->h->scene;
   g->vertex = hr2di_alloc(&g->h->alloc, 2 * scene->patches, sizeof *g->vertex);
   g->under = hr2di_alloc_zero(&g->h->alloc, 2 * scene->patches, sizeof *g->under);
   if (!g->vertex || !g->under) return HR2D_ENOMEM;
   for (uint32_t k = 0; k < scene->patches; k++) {
     const hr2d_segment s = scene->patch[k].scaled;
-    g->vertex[g->vertices++] = (vertex){s.a, k, 0};
-    g->vertex[g->vertices++] = (vertex){s.b, k, 1};
+    g->vertex[g->vertices++] = (hr2di_grading_vertex){s.a, k, 0};
+    g->vertex[g->vertices++] = (hr2di_grading_vertex){s.b, k, 1};
   }
   return hr2di_sort(g->vertex, g->vertices, sizeof *g->vertex, by_x, g->grading->watch);
 }
@@ -102,7 +66,7 @@ static double reflectance(const hr2d_scene *scene, uint32_t patch) {
 }
 
 /* Equal corners often follow each other, so the last exponent is kept. */
-static double exponent_of(grader *g, double angle, double rho) {
+static double exponent_of(hr2di_grader *g, double angle, double rho) {
   if (g->last[0] != angle || g->last[1] != rho) {
     g->last[0] = angle;
     g->last[1] = rho;
@@ -114,7 +78,7 @@ static double exponent_of(grader *g, double angle, double rho) {
 /* How deep elements are graded where two patches meet at angle α and reflect light to and fro.
    A flat corner has a weak singularity: its strength is about the form factor between the
    patches, ½(1 + cos α). */
-static unsigned corner_depth(grader *g, double cosine, double sine, double rho) {
+static unsigned corner_depth(hr2di_grader *g, double cosine, double sine, double rho) {
   const double p = g->grading->order, strength = fmin(1, 2 * rho * (1 + cosine));
   const double gamma = exponent_of(g, atan2(sine, cosine), rho);
   const double slope = g->grading->norm == HR2D_NORM_SUP ? fmax(gamma, 0.05) : 1 + 2 * gamma;
@@ -134,7 +98,8 @@ static unsigned levels_to(const hr2d_scene *scene, uint32_t patch, uint32_t othe
 
 /* The deepest grading that a patch standing on this one asks for: it may lie on either side of
    its foot, or on both. */
-static unsigned depth_at(grader *g, uint32_t patch, const vertex *v, double at) {
+static unsigned depth_at(hr2di_grader *g, uint32_t patch, const hr2di_grading_vertex *v,
+                         double at) {
   const hr2d_scene *scene = g->h->scene;
   const hr2d_segment s = scene->patch[patch].scaled, other = scene->patch[v->patch].scaled;
   const double rho = sqrt(reflectance(scene, patch) * reflectance(scene, v->patch));
@@ -154,22 +119,22 @@ static unsigned depth_at(grader *g, uint32_t patch, const vertex *v, double at) 
   return depth > 0 ? depth + levels_to(scene, patch, v->patch) : 0;
 }
 
-static hr2d_status add_mark(grader *g, double at, hr2d_point point, unsigned depth) {
+static hr2d_status add_mark(hr2di_grader *g, double at, hr2d_point point, unsigned depth) {
   if (hr2di_alloc_reserve(&g->h->alloc, &g->mark, &g->mark_capacity, g->marks + 1,
                           sizeof *g->mark))
     return HR2D_ENOMEM;
-  g->mark[g->marks++] = (mark){at, point, depth};
+  g->mark[g->marks++] = (hr2di_grading_mark){at, point, depth};
   return HR2D_OK;
 }
 
 /* Whether a patch with an end that stands on another patch is in front of that patch. */
-static int rises(const hr2d_scene *scene, uint32_t patch, const vertex *v) {
+static int rises(const hr2d_scene *scene, uint32_t patch, const hr2di_grading_vertex *v) {
   const hr2d_segment s = scene->patch[patch].scaled, other = scene->patch[v->patch].scaled;
   return hr2di_orient(s.a, s.b, v->last ? other.a : other.b) > 0;
 }
 
 /* Adds a vertex to the marks if it is on the patch, to the near points if it is in front. */
-static hr2d_status add_near(grader *g, hr2d_segment patch, hr2d_point v) {
+static hr2d_status add_near(hr2di_grader *g, hr2d_segment patch, hr2d_point v) {
   if (hr2di_ellipse(patch, v) >= FAR) return HR2D_OK;
   if (hr2di_alloc_reserve(&g->h->alloc, &g->near.point, &g->near.capacity, g->near.count + 1,
                           sizeof *g->near.point))
@@ -178,11 +143,24 @@ static hr2d_status add_near(grader *g, hr2d_segment patch, hr2d_point v) {
   return HR2D_OK;
 }
 
+/* The end of a patch stands on this patch. */
+static hr2d_status add_under(hr2di_grader *g, uint32_t end, uint32_t patch) {
+  if (!g->waits) {
+    g->under[end] = patch + 1;
+    return HR2D_OK;
+  }
+  if (hr2di_alloc_reserve(&g->h->alloc, &g->feet, &g->feet_capacity, g->feet_count + 1,
+                          sizeof *g->feet))
+    return HR2D_ENOMEM;
+  g->feet[g->feet_count++] = end;
+  return HR2D_OK;
+}
+
 /* Sorts a vertex into the marks if it is on the patch, into the near ones if it is in front, or
    on the line of the patch with its own patch in front. */
-static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
+static hr2d_status place(hr2di_grader *g, uint32_t patch, uint32_t number) {
   const hr2di_patch *p = &g->h->scene->patch[patch];
-  const vertex *v = &g->vertex[number];
+  const hr2di_grading_vertex *v = &g->vertex[number];
   const hr2d_segment s = p->scaled;
   if (v->patch == patch) return HR2D_OK;
   const double square = p->length * p->length;
@@ -200,12 +178,14 @@ static hr2d_status place(grader *g, uint32_t patch, uint32_t number) {
   const unsigned depth = depth_at(g, patch, v, at);
   if (at < ON_LINE) return add_mark(g, 0, s.a, depth);
   if (at > 1 - ON_LINE) return add_mark(g, 1, s.b, depth);
-  if (rises(g->h->scene, patch, v)) g->under[2 * v->patch + (uint32_t)v->last] = patch + 1;
-  return add_mark(g, at, v->at, depth);
+  const hr2d_status status = rises(g->h->scene, patch, v)
+                                 ? add_under(g, 2 * v->patch + (uint32_t)v->last, patch)
+                                 : HR2D_OK;
+  return status ? status : add_mark(g, at, v->at, depth);
 }
 
 /* Places the vertices that may be near a patch: those in a window of x. */
-static hr2d_status look_around(grader *g, uint32_t patch) {
+static hr2d_status look_around(hr2di_grader *g, uint32_t patch) {
   const hr2di_patch *p = &g->h->scene->patch[patch];
   const double middle = 0.5 * (p->scaled.a.x + p->scaled.b.x);
   const double reach = FAR * p->length;
@@ -226,9 +206,9 @@ static hr2d_status look_around(grader *g, uint32_t patch) {
 }
 
 /* Adds a mark where an end of the patch stands on another one, which has no end there. */
-static hr2d_status add_foot(grader *g, uint32_t patch, int last) {
+static hr2d_status add_foot(hr2di_grader *g, uint32_t patch, int last) {
   const hr2d_segment s = g->h->scene->patch[patch].scaled;
-  const vertex foot = {last ? s.b : s.a, patch, last};
+  const hr2di_grading_vertex foot = {last ? s.b : s.a, patch, last};
   const uint32_t under = g->under[2 * patch + (uint32_t)last];
   return under ? add_mark(g, last, foot.at, depth_at(g, under - 1, &foot, 0.5)) : HR2D_OK;
 }
@@ -237,7 +217,7 @@ unsigned hr2di_grading_generations(double error) {
   return error >= 3e-3 ? 0 : error >= 1e-8 ? 1 : 2;
 }
 
-static hr2d_status add_events(grader *g, uint32_t patch) {
+static hr2d_status add_events(hr2di_grader *g, uint32_t patch) {
   const hr2di_events *events = g->grading->events;
   const hr2d_segment s = g->h->scene->patch[patch].scaled;
   size_t low = 0, high = events ? events->count : 0;
@@ -261,7 +241,7 @@ static hr2d_status add_events(grader *g, uint32_t patch) {
 }
 
 /* Sorts the marks; of equal ones keeps one, with the deepest grading. */
-static void sort_marks(grader *g) {
+static void sort_marks(hr2di_grader *g) {
   size_t kept = 0;
   if (g->marks > 0) qsort(g->mark, g->marks, sizeof *g->mark, by_place);
   for (size_t k = 0; k < g->marks; k++) {
@@ -284,7 +264,7 @@ typedef struct part {
 } part;
 
 /* The first mark that is not before a place, or their number. */
-static size_t first_mark(const grader *g, double place) {
+static size_t first_mark(const hr2di_grader *g, double place) {
   size_t low = 0, high = g->marks;
   while (low < high) {
     const size_t middle = low + (high - low) / 2;
@@ -297,9 +277,9 @@ static size_t first_mark(const grader *g, double place) {
 }
 
 /* The mark inside an element that is nearest to its middle, or NULL. */
-static const mark *mark_inside(const grader *g, const part *e) {
+static const hr2di_grading_mark *mark_inside(const hr2di_grader *g, const part *e) {
   const double margin = 4 * g->shortest, middle = 0.5 * (e->from + e->to);
-  const mark *best = NULL;
+  const hr2di_grading_mark *best = NULL;
   const size_t behind = first_mark(g, middle);
   for (size_t k = behind > 0 ? behind - 1 : 0; k <= behind && k < g->marks; k++) {
     const double at = g->mark[k].at;
@@ -312,7 +292,7 @@ static const mark *mark_inside(const grader *g, const part *e) {
 /* Sorts the points of an element, those nearer than FAR first, and forgets the others; returns
    the least ellipse.  The ellipses of a part of the element lie within its own, so that no
    other point is nearer to the part than FAR. */
-static double sort_near(grader *g, part *e) {
+static double sort_near(hr2di_grader *g, part *e) {
   const hr2d_element *element = &g->h->element[e->element];
   const hr2d_segment s = {element->a, element->b};
   hr2d_point *point = g->near.point;
@@ -330,7 +310,7 @@ static double sort_near(grader *g, part *e) {
   return least;
 }
 
-static int wants_halves(const grader *g, const part *e, double least) {
+static int wants_halves(const hr2di_grader *g, const part *e, double least) {
   const double size = e->to - e->from, margin = 4 * g->shortest;
   if (size < g->shortest || !hr2di_element_divisible(g->h, e->element)) return 0;
   const double reach = g->distance * size + margin;
@@ -346,9 +326,9 @@ static int wants_halves(const grader *g, const part *e, double least) {
   return least < g->distance;
 }
 
-static hr2d_status divide(grader *g, part *e, int *divided) {
+static hr2d_status divide(hr2di_grader *g, part *e, int *divided) {
   hr2d_hierarchy *h = g->h;
-  const mark *inside = mark_inside(g, e);
+  const hr2di_grading_mark *inside = mark_inside(g, e);
   const double least = sort_near(g, e);
   *divided = h->element[e->element].child || inside || wants_halves(g, e, least);
   if (!*divided && e->halvings < g->grading->halvings) {
@@ -375,19 +355,31 @@ double hr2di_grading_shortest(const hr2di_patch *p) {
   return fmax(SHORTEST, ROUNDINGS * DBL_EPSILON * fmax(x, y) / p->length);
 }
 
-static hr2d_status grade_patch(grader *g, uint32_t patch) {
-  part stack[STACK];
-  size_t count = 0;
+/* The target of a patch, and what depends on it. */
+static void aim(hr2di_grader *g, uint32_t patch) {
   const double weight = g->grading->weight ? g->grading->weight[patch] : 1;
-  g->near.count = g->marks = 0;
   g->target = fmin(g->grading->target / weight, 0.5);
   g->distance =
       weight < 1 ? hr2di_ellipse_for(g->target, g->grading->order) : HR2DI_ELLIPSE_DISTANT;
   g->shortest = hr2di_grading_shortest(&g->h->scene->patch[patch]);
+}
+
+static hr2d_status look(hr2di_grader *g, uint32_t patch) {
+  aim(g, patch);
+  g->near.count = g->marks = g->feet_count = 0;
   hr2d_status status = g->seen ? hr2di_seen_ends_look(g->seen, patch) : HR2D_OK;
   if (!status) status = look_around(g, patch);
-  if (!status)
-    status = hr2di_images_add(g->h->scene, patch, FAR, g->seen, &g->near, g->grading->watch);
+  return status
+             ? status
+             : hr2di_images_add(g->h->scene, patch, FAR, g->seen, &g->near, g->grading->watch);
+}
+
+static hr2d_status divide_patch(hr2di_grader *g, uint32_t patch) {
+  part stack[STACK];
+  size_t count = 0;
+  hr2d_status status = HR2D_OK;
+  aim(g, patch);
+  for (size_t k = 0; k < g->feet_count; k++) g->under[g->feet[k]] = patch + 1;
   for (int last = 0; last < 2 && !status; last++) status = add_foot(g, patch, last);
   if (!status) status = add_events(g, patch);
   if (status) return status;
@@ -411,17 +403,24 @@ static hr2d_status grade_patch(grader *g, uint32_t patch) {
 /* Patches that reflect nothing have B = E and are not divided; H of their averages comes
    exactly from the links. Only backs before a background are seen at points of a rule, which
    kinks disturb. */
-static hr2d_status find_backs(grader *g) {
+static hr2d_status find_backs(hr2di_grader *g) {
   const hr2d_scene *scene = g->h->scene;
   return scene->effect[HR2D_EFFECT_BACKGROUND].on
              ? hr2di_side_parts_find_backs(scene, &g->all, g->grading->watch)
              : HR2D_OK;
 }
 
+static int divides(const hr2di_grader *g, uint32_t patch) {
+  const hr2d_scene *scene = g->h->scene;
+  return hr2di_scene_lit(scene, patch) && (g->all || reflectance(scene, patch) > 0);
+}
+
 hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
                                 hr2di_survey *survey) {
   const hr2d_scene *scene = hierarchy->scene;
-  grader g = {.h = hierarchy, .grading = grading, .survey = {1, FAR}, .target = 1};
+  static const hr2di_grader_steps steps = {divides, look, divide_patch};
+  hr2di_grader g = {
+      .steps = &steps, .h = hierarchy, .grading = grading, .survey = {1, FAR}, .target = 1};
   hr2di_seen_ends seen = {0};
   hr2d_status status = list_vertices(&g);
   for (uint32_t k = 0; k < scene->patches && !status; k++) {
@@ -433,9 +432,16 @@ hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *
     g.seen = &seen;
     status = hr2di_seen_ends_init(&seen, scene, &hierarchy->alloc, grading->watch);
   }
-  for (uint32_t k = 0; k < scene->patches && !status; k++)
-    if (hr2di_scene_lit(scene, k) && (g.all || reflectance(scene, k) > 0))
-      status = grade_patch(&g, k);
+  const size_t threads = hr2di_team_threads(grading->threads);
+  if (!status && threads > 1 && scene->patches >= MANY) {
+    status = hr2di_grader_team(&g, threads);
+  } else {
+    for (uint32_t k = 0; k < scene->patches && !status; k++) {
+      if (!divides(&g, k)) continue;
+      status = look(&g, k);
+      if (!status) status = divide_patch(&g, k);
+    }
+  }
   hr2di_seen_ends_clear(&seen);
   hr2di_alloc_free(&hierarchy->alloc, g.vertex);
   hr2di_alloc_free(&hierarchy->alloc, g.under);

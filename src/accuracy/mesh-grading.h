@@ -19,6 +19,7 @@ typedef struct hr2di_grading {
   const hr2di_events *events; /* where elements end; NULL for none */
   uint64_t max_elements;      /* 0 for no limit */
   hr2di_watch *watch;         /* NULL: nobody watches */
+  unsigned threads;           /* as in options */
 } hr2di_grading;
 
 /* The number of generations of events that an error of averages needs, from measurements.  The

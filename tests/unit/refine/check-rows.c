@@ -179,8 +179,35 @@ START_TEST(memory_may_run_out) {
 }
 END_TEST
 
+START_TEST(memory_of_targets_may_run_out) {
+  test_memory m = {.until_failure = -1};
+  const hr2d_allocator hooks = test_hooks(&m);
+  test_links t = make(SLOW_SQUARES, &hooks, NULL, NULL);
+  hr2d_target target = HR2D_TARGET_INIT;
+  target.error = 0.1;
+  target.threads = 3;
+  int failed = 0;
+  hr2d_status status = HR2D_ENOMEM;
+  for (long k = 0; status; k += 1 + k / 8, failed++) {
+    const long live = m.live;
+    hr2d_solution *solution = NULL;
+    m.until_failure = k;
+    m.for_good = (int)(k % 2);
+    status = hr2d_solve_to(t.scene, &target, &solution, NULL);
+    m.until_failure = -1;
+    ck_assert(status == HR2D_OK || status == HR2D_ENOMEM);
+    hr2d_solution_destroy(solution);
+    ck_assert_int_eq(m.live, live);
+  }
+  printf("%d failures of targets\n", failed);
+  ck_assert_int_gt(failed, 20);
+  test_free_links(&t);
+}
+END_TEST
+
 TEST_SUITE("rows") {
   REPEAT_TESTS(2 * SLOW_KINDS, "links", threads_make_the_same);
   ADD_TESTS("sets", elements_may_exist, targets_have_the_same_bits);
-  ADD_TESTS("ends", budgets_and_callbacks_end_it, memory_may_run_out);
+  ADD_TESTS("ends", budgets_and_callbacks_end_it, memory_may_run_out,
+            memory_of_targets_may_run_out);
 }
