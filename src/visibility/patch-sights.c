@@ -121,23 +121,30 @@ hr2d_status hr2di_patch_sights_between(hr2di_patch_sights *s, const hr2di_patch_
                                    pair->part[!turn], whole);
 }
 
-static double part_along(hr2d_segment part, hr2d_segment whole) {
-  return (hr2di_point_along(whole, part.b) - hr2di_point_along(whole, part.a)) /
-         (hr2di_point_along(whole, whole.b) - hr2di_point_along(whole, whole.a));
+static double length_along(hr2d_segment part, hr2d_segment whole) {
+  return hr2di_point_along(whole, part.b) - hr2di_point_along(whole, part.a);
 }
 
+/* Ends of parts are moved onto vertices by at most 4 units in the last place. */
+#define MOVED 0x1p-49
+
 /* A clear sight has all lines between its parts of the two segments.  Walls may cut the
-   segments in several parts. */
+   segments in several parts.  What they leave out is roundings of the ends of parts, and never
+   what lies beyond the foot of a wall: elements below this pair are not looked at again. */
 hr2di_visibility_class hr2di_sights_classify(const hr2di_sight_list *list, size_t first,
                                              hr2d_segment near, hr2d_segment far) {
+  const double of_near = length_along(near, near), of_far = length_along(far, far);
+  const double moved = 2 * MOVED * (double)(list->count - first);
   double whole = 0;
   if (first == list->count) return HR2DI_BLOCKED;
   for (size_t k = first; k < list->count; k++) {
     const hr2di_sight s = hr2di_sight_list_at(list, k);
     if (!hr2di_sight_clear(&s)) return HR2DI_PARTIAL;
-    whole += part_along(list->sight[k].near, near) * part_along(list->sight[k].far, far);
+    whole += length_along(list->sight[k].near, near) / of_near *
+             (length_along(list->sight[k].far, far) / of_far);
   }
-  return whole > 1 - 0x1p-16 ? HR2DI_CLEAR : HR2DI_PARTIAL;
+  return 1 - whole < fmin(moved / of_near + moved / of_far, 0x1p-16) ? HR2DI_CLEAR
+                                                                     : HR2DI_PARTIAL;
 }
 
 uint64_t hr2di_patch_sights_tests(const hr2di_patch_sights *s) {

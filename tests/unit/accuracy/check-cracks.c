@@ -125,6 +125,49 @@ START_TEST(light_changes_within_gaps) {
 }
 END_TEST
 
+/* A plan with eleven decimals.  Lines through the ends of two walls that are nearly in one line
+   pass the feet of others within 1e-11, so that elements end beside feet, and not only there.
+ */
+static const double plan[][6] = {
+    {-3e-11, -0.0, 4.57383802471, -2.01990240447, 1, .5},
+    {4.57383802471, -2.01990240447, 7.44209943908, 4.47494759069, 0, .5},
+    {7.44209943908, 4.47494759069, 2.86826141431, 6.49484999514, 0, .5},
+    {2.86826141431, 6.49484999514, -3e-11, -0.0, 0, .5},
+    {2.141096548688621, 4.848268306199442, 4.24506204009, 3.91911320019, 0, .5},
+    {4.24506204009, 3.91911320019, 2.141096548688621, 4.848268306199442, 0, .5},
+    {4.88539936357, 3.63632686351, 6.714934573464015, 2.828365901773809, 0, .5},
+    {6.714934573464015, 2.828365901773809, 4.88539936357, 3.63632686351, 0, .5},
+    {1.373533634997699, 3.110209856808681, 3.11159208441, 2.34264694315, 0, .5},
+    {3.11159208441, 2.34264694315, 1.373533634997699, 3.110209856808681, 0, .5},
+    {3.75192940789, 2.05986060652, 5.947371659754003, 1.090307452352648, 0, .5},
+    {5.947371659754003, 1.090307452352648, 3.75192940789, 2.05986060652, 0, .5},
+    {3.513247956137045, 4.242297584883309, 3.67484014848, 4.60820462685, 0, .5},
+    {3.67484014848, 4.60820462685, 3.513247956137045, 4.242297584883309, 0, .5},
+    {3.95762648513, 5.24854195034, 4.240412821760488, 5.888879273796394, 0, .5},
+    {4.240412821760488, 5.888879273796394, 3.95762648513, 5.24854195034, 0, .5},
+};
+
+/* Such elements do not see past the wall that stands on them. */
+START_TEST(elements_end_beside_feet) {
+  const size_t patches = sizeof plan / sizeof *plan;
+  hr2d_scene *scene = test_scene(plan, patches);
+  double average[2][16], bound[2];
+  for (int k = 0; k < 2; k++) {
+    hr2d_target how = HR2D_TARGET_INIT;
+    hr2d_solution *solution;
+    hr2d_account a;
+    how.error = k ? 1e-7 : 1e-4;
+    ck_assert_int_eq(hr2d_solve_to(scene, &how, &solution, &a), HR2D_OK);
+    for (size_t p = 0; p < patches; p++) average[k][p] = hr2d_solution_average(solution, p, 0);
+    bound[k] = a.average.bound;
+    hr2d_solution_destroy(solution);
+  }
+  for (size_t p = 0; p < patches; p++)
+    ck_assert_double_le(fabs(average[0][p] / average[1][p] - 1), bound[0] + bound[1]);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 /* With a gap that light leaves by, the values are others. */
 START_TEST(a_wide_gap_is_told) {
   hr2d_scene *scene = plates(.1, .1, 1);
@@ -139,5 +182,5 @@ END_TEST
 
 TEST_SUITE("cracks") {
   ADD_TESTS("plates", plates_face_to_face, plates_that_meet_at_one_end,
-            light_changes_within_gaps, a_wide_gap_is_told);
+            light_changes_within_gaps, elements_end_beside_feet, a_wide_gap_is_told);
 }
