@@ -78,8 +78,8 @@ START_TEST(a_batch_is_decided_as_its_pairs) {
   }
   printf("%s, vectors of four %s: %d pairs accepted, %d refused\n", oracle->name,
          hr2di_wide() ? "on" : "off", met[1], met[0]);
-  ck_assert_int_gt(met[0], 1000);
-  ck_assert_int_gt(met[1], 1000);
+  ck_assert_int_gt(met[0], 100);
+  ck_assert_int_gt(met[1], 100);
 }
 END_TEST
 
@@ -104,9 +104,10 @@ START_TEST(fused_products_have_other_bits) {
   randoms r = randoms_stream(test_seed(), 43);
   static sample s;
   int other = 0;
-  for (int round = test_count(2000); round > 0; round--) {
-    draw(&s, &r);
-    const hr2d_element *i = &s.element[s.pair[0].first], *j = &s.element[s.pair[0].second];
+  draw(&s, &r);
+  s.epsilon = 0.3; /* not a power of two, by which no product is rounded */
+  for (size_t k = 0; k < PAIRS; k++) {
+    const hr2d_element *i = &s.element[s.pair[k].first], *j = &s.element[s.pair[k].second];
     const double e2 = s.epsilon * s.epsilon, dx = j->centre.x - i->centre.x;
     const double dy = j->centre.y - i->centre.y, a = fmax(i->length, j->length);
     double a2;
