@@ -260,6 +260,7 @@ static void check_bytes(int shaded, const hr2d_oracle *oracle, int how, unsigned
   options.max_level = 16;
   options.max_bytes = budget;
   options.threads = threads;
+  options.packed = oracle == hr2d_oracle_bf();
   hr2d_refine_counts counts;
   const hr2d_status status = run(&t, &options, how, &counts);
   const long long most = atomic_load(&m.peak) - before;
