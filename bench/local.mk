@@ -1,7 +1,7 @@
 # Measurements, built and run by `make bench` alone.
 BENCHES = bench/bench-exchange-area bench/bench-refine bench/bench-l1 bench/bench-visibility \
 	bench/bench-accuracy bench/bench-polls bench/bench-prediction \
-	bench/bench-triangulation
+	bench/bench-threads bench/bench-triangulation
 EXTRA_PROGRAMS += $(BENCHES)
 CLEANFILES += $(BENCHES)
 bench_bench_exchange_area_SOURCES = bench/bench-exchange-area.c bench/timing.h
@@ -30,6 +30,11 @@ bench_bench_polls_SOURCES = bench/bench-polls.c tests/support/slow-phases.c \
 	tests/support/slow-phases.h tests/support/slow-scenes.c tests/support/slow-scenes.h
 bench_bench_polls_CPPFLAGS = $(AM_CPPFLAGS)
 bench_bench_polls_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
+bench_bench_threads_SOURCES = bench/bench-threads.c bench/timing.h \
+	tests/support/slow-scenes.c tests/support/slow-scenes.h
+bench_bench_threads_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SCENES='"$(abs_top_srcdir)/examples/scenes"'
+bench_bench_threads_LDFLAGS = -Wl,--wrap=hr2di_team_run
+bench_bench_threads_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_triangulation_SOURCES = bench/bench-triangulation.c bench/timing.h \
 	tests/support/random.c tests/support/random.h
 bench_bench_triangulation_CPPFLAGS = $(AM_CPPFLAGS)
