@@ -153,7 +153,7 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
   hr2di_survey survey;
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "refine");
-  hr2d_status status = hr2di_resolution_survey(scene, &watch, &survey);
+  hr2d_status status = hr2di_resolution_survey(scene, target->threads, &watch, &survey);
   if (status) return status;
   const hr2di_resolution fineness = hr2di_resolution_for(scene, &survey, aim, target->norm);
   const hr2di_resolution finer = hr2di_resolution_finer(&fineness);

@@ -19,9 +19,9 @@ static double digits_per_order(const hr2di_survey *survey, hr2d_norm norm) {
   return norm == HR2D_NORM_SUP ? 1.4 * rate : fmin(2 * rate, 2.8);
 }
 
-hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, hr2di_watch *watch,
-                                    hr2di_survey *survey) {
-  const hr2di_grading grading = {.target = 0.1, .order = 2, .watch = watch};
+hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, unsigned threads,
+                                    hr2di_watch *watch, hr2di_survey *survey) {
+  const hr2di_grading grading = {.target = 0.1, .order = 2, .watch = watch, .threads = threads};
   hr2d_hierarchy *h = NULL;
   hr2d_status status = hr2d_hierarchy_create(scene, &h);
   if (!status) status = hr2di_grading_apply(h, &grading, survey);

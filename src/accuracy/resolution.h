@@ -5,10 +5,10 @@
 
 #include "accuracy/graded-solve.h"
 
-/* Surveys the corners and ends of a scene.  Returns HR2D_OK, HR2D_ENOMEM or the status of the
-   watch. */
-hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, hr2di_watch *watch,
-                                    hr2di_survey *survey);
+/* Surveys the corners and ends of a scene, with threads as in options.  Returns HR2D_OK,
+   HR2D_ENOMEM or the status of the watch. */
+hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, unsigned threads,
+                                    hr2di_watch *watch, hr2di_survey *survey);
 
 /* A first guess at the resolution for an error. */
 hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_survey *survey,

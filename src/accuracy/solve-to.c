@@ -277,7 +277,7 @@ hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
   hr2di_watch watch_of;
   hr2di_scene_watch(scene, &watch_of, watch, &s, "refine");
   if (s.deadline > 0) status = sketch(&s);
-  if (!status) status = hr2di_resolution_survey(scene, &watch_of, &s.survey);
+  if (!status) status = hr2di_resolution_survey(scene, s.given.threads, &watch_of, &s.survey);
   if (!status) status = weigh_patches(&s);
   if (!status && !(s.given.seconds > 0)) {
     status = reach(&s, s.given.error > 0 ? s.given.error : 1e-15);
