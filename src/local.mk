@@ -166,6 +166,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/equation.c src/solve/equation.h \
 	src/solve/equation-power.c \
 	src/solve/existence.c src/solve/existence.h \
+	src/solve/gather-one-way.c src/solve/gather-one-way.h \
 	src/solve/row-sums.c src/solve/row-sums.h \
 	src/solve/solve.c \
 	src/solve/transport.c src/solve/transport.h \

@@ -10,6 +10,7 @@
 #include "base/team.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
+#include "solve/gather-one-way.h"
 
 /* A slice needs its own copy of `down`, so there are few slices, with many links each. */
 enum { MOST_SLICES = HR2DI_TRANSPORT_PARTS, SLICE_BLOCKS = 64 };
@@ -185,26 +186,22 @@ static inline void add_bands(const double *c, size_t order, size_t bands, const 
 static void add_block(const double *c, size_t order, size_t bands, const double *from,
                       double *to) {
   if (bands == 1)
-    add_bands(c, order, 1, from, to);
+    hr2di_gather_rows(c, order, order, from, to);
   else
     add_bands(c, order, bands, from, to);
 }
 
 /* to_m += Σ_l C_lm from_l */
-static inline void add_bands_transposed(const double *restrict c, size_t order, size_t bands,
-                                        const double *restrict from, double *restrict to) {
+static void add_transposed(const double *c, size_t order, size_t bands, const double *from,
+                           double *to) {
+  if (bands == 1) {
+    hr2di_gather_columns(c, order, order, from, to);
+    return;
+  }
   for (size_t l = 0; l < order; l++)
     for (size_t b = 0; b < bands; b++)
       for (size_t m = 0; m < order; m++)
         to[m * bands + b] += c[l * order + m] * from[l * bands + b];
-}
-
-static void add_transposed(const double *c, size_t order, size_t bands, const double *from,
-                           double *to) {
-  if (bands == 1)
-    add_bands_transposed(c, order, 1, from, to);
-  else
-    add_bands_transposed(c, order, bands, from, to);
 }
 
 /* Both in one pass over the block, for one band; adds in the order of hr2di_dot_strided(). */
