@@ -74,6 +74,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/need-plane.c \
 	src/scene/patch-runs.c src/scene/patch-runs.h \
 	src/scene/reachability.c \
+	src/scene/reading-notes.c src/scene/reading-notes.h \
 	src/scene/scene.c \
 	src/scene/scene-impl.h \
 	src/scene/side-layers.c src/scene/side-layers.h \
@@ -86,6 +87,7 @@ libhr2d_core_la_SOURCES = \
 	src/formats/geojson-feature.c \
 	src/formats/geojson-geometry.c \
 	src/formats/geojson-impl.h \
+	src/formats/geojson-meant.c src/formats/geojson-meant.h \
 	src/formats/geojson-text.c src/formats/geojson-text.h \
 	src/formats/geojson-values.c \
 	src/formats/scene-file.c src/formats/scene-file.h \
@@ -108,8 +110,14 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/patch-sights.c src/visibility/patch-sights.h \
 	src/visibility/row-maker.c src/visibility/row-maker.h \
 	src/visibility/row-sum.c src/visibility/row-sum.h \
+	src/visibility/sees-anything.c src/visibility/sees-anything.h \
 	src/visibility/seen-ends.c src/visibility/seen-ends.h \
 	src/visibility/sharing.c src/visibility/sharing.h \
+	src/lint/gaps.c \
+	src/lint/light.c \
+	src/lint/lint.c \
+	src/lint/lint-impl.h \
+	src/lint/warn.c \
 	src/hierarchy/hierarchy.c \
 	src/hierarchy/hierarchy-impl.h \
 	src/hierarchy/push-pull.c src/hierarchy/push-pull.h \

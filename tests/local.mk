@@ -30,6 +30,7 @@ SUITES = \
 	tests/unit/formats/check-geojson \
 	tests/unit/formats/check-memory \
 	tests/unit/formats/check-vs2 \
+	tests/unit/lint/check-mistakes \
 	tests/unit/hierarchy/check-hierarchy \
 	tests/unit/refine/check-refine \
 	tests/unit/refine/check-partition \

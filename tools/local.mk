@@ -25,6 +25,7 @@ tools_hr2d_SOURCES = \
 	tools/cli/options-check.c \
 	tools/cli/scene.c tools/cli/scene.h \
 	tools/cli/values.c tools/cli/values.h \
+	tools/cli/warnings.c tools/cli/warnings.h \
 	tools/info/command.c \
 	tools/run/leaves.c tools/run/leaves.h \
 	tools/run/run.c tools/run/run.h \

@@ -77,6 +77,7 @@
 #include <hr2d/geometry.h>
 #include <hr2d/hierarchy.h>
 #include <hr2d/linkset.h>
+#include <hr2d/lint.h>
 #include <hr2d/memory.h>
 #include <hr2d/options.h>
 #include <hr2d/oracle.h>

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "formats/geojson-impl.h"
+#include "formats/geojson-meant.h"
 
 static void set_label(hr2di_geojson *reader, size_t number, const char *name) {
   if (name && *name)
@@ -70,7 +71,8 @@ hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, 
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "%s: properties: must be an object, not %s", reader->label,
                               hr2di_geojson_kind(properties));
-  hr2d_status status = read_name(reader, name);
+  hr2d_status status = hr2di_geojson_note_feature(reader, feature);
+  if (!status) status = read_name(reader, name);
   if (!status) status = read_light(reader, properties);
   if (!status) status = read_choice(reader, properties, "sides", "front", "both", &both);
   if (!status)

@@ -36,9 +36,17 @@ static hr2d_status read_position(hr2di_geojson *reader, const path *p, size_t k)
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "%s: position %zu: must be an array of two or more numbers",
                               p->place, k + 1);
+  if (size > 2 && json_number_value(json_array_get(position, 2)) != 0)
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_ALTITUDE, "", p->place,
+                    "a scene is a section of the plane: x and y are its coordinates");
   reader->point[k] = (hr2d_point){json_number_value(json_array_get(position, 0)),
                                   json_number_value(json_array_get(position, 1))};
   return HR2D_OK;
+}
+
+static int has_altitude(const path *p, size_t k) {
+  const json_t *z = json_array_get(json_array_get(p->positions, k), 2);
+  return json_number_value(z) != 0;
 }
 
 static hr2d_status read_points(hr2di_geojson *reader, const path *p, size_t *count) {
@@ -61,8 +69,11 @@ static hr2d_status read_points(hr2di_geojson *reader, const path *p, size_t *cou
     if (k && hr2di_point_same(reader->point[k - 1], reader->point[k]))
       return hr2di_message_fail(
           reader->message, HR2D_ESCENE,
-          "%s: segment %zu has no length: positions %zu and %zu are the same", p->place, k, k,
-          k + 1);
+          "%s: segment %zu has no length: positions %zu and %zu are the same%s", p->place, k, k,
+          k + 1,
+          has_altitude(p, k - 1) || has_altitude(p, k)
+              ? " in x and y; third numbers are not used"
+              : "");
   }
   if (p->role != LINE && !hr2di_point_same(reader->point[0], reader->point[n - 1]))
     return hr2di_message_fail(

@@ -10,6 +10,7 @@
 
 #include "base/message.h"
 #include "base/watch.h"
+#include "scene/reading-notes.h"
 
 enum { HR2DI_LABEL_SIZE = 128, HR2DI_PLACE_SIZE = HR2DI_LABEL_SIZE + 64 };
 
@@ -24,6 +25,7 @@ typedef struct hr2di_geojson {
   const hr2d_allocator *alloc;
   hr2di_message *message;
   hr2di_watch *watch;
+  hr2di_notes notes; /* those of the scene, and on this file */
 
   /* The current feature. */
   char label[HR2DI_LABEL_SIZE]; /* feature 3 ("north wall") */

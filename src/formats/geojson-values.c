@@ -25,14 +25,15 @@ static hr2d_status check_value(hr2di_geojson *reader, const char *place, const c
                                const json_t *json, double max) {
   if (!json_is_number(json))
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
-                              "%s: %s: must be a number or an array of numbers, not %s", place,
-                              key, hr2di_geojson_kind(json));
+                              "%s: %s: must be a number or an array of numbers, not %s%s",
+                              place, key, hr2di_geojson_kind(json),
+                              json_is_string(json) ? ": leave out the quotation marks" : "");
   const double value = json_number_value(json);
   if (value >= 0 && value <= max) return HR2D_OK;
   if (max < DBL_MAX)
     return hr2di_message_fail(reader->message, HR2D_ESCENE,
-                              "%s: %s: must be between 0 and %g, not %.17g", place, key, max,
-                              value);
+                              "%s: %s: must be between 0 and %g, not %.17g%s", place, key, max,
+                              value, value > 1 && value <= 100 ? "; 1 is 100 %" : "");
   return hr2di_message_fail(reader->message, HR2D_ESCENE,
                             "%s: %s: must not be negative, not %g", place, key, value);
 }

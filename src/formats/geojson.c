@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "formats/geojson-impl.h"
+#include "formats/geojson-meant.h"
 #include "formats/geojson-text.h"
 #include "formats/scene-file.h"
 #include "scene/scene-impl.h"
@@ -49,16 +50,19 @@ static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
         reader->message, HR2D_ESYNTAX, "not a GeoJSON FeatureCollection: %s",
         json_is_object(root) ? "\"type\" must be a string" : "the outermost value is an array");
   if (strcmp(type, "FeatureCollection") != 0)
-    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
-                              "not a GeoJSON FeatureCollection: \"type\" is %s",
-                              hr2di_message_quote(type).text);
+    return hr2di_message_fail(
+        reader->message, HR2D_ESYNTAX, "not a GeoJSON FeatureCollection: \"type\" is %s%s",
+        hr2di_message_quote(type).text,
+        strcmp(type, "Feature") == 0 ? "; put the feature into \"features\" of a collection"
+                                     : "");
   json_t *features = json_object_get(root, "features");
   if (!json_is_array(features))
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "features: must be an array, not %s",
                               hr2di_geojson_kind(features));
   size_t background_bands;
-  hr2d_status status = read_scene_effects(reader, root, &background_bands);
+  hr2d_status status = hr2di_geojson_note_root(reader, root);
+  if (!status) status = read_scene_effects(reader, root, &background_bands);
   for (size_t k = 0; !status && k < json_array_size(features); k++) {
     reader->watch->told.fraction = 0.5 + 0.5 * (double)k / (double)json_array_size(features);
     status = hr2di_watch_work(reader->watch, 4);
@@ -68,8 +72,11 @@ static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
   }
   /* The background is set last, so that no failure has to take it back.  A file without one
      leaves the background of the scene as it is. */
-  if (status || !background_bands) return status;
-  return hr2d_scene_set_background(reader->scene, reader->background.value, background_bands);
+  if (!status && background_bands)
+    status =
+        hr2d_scene_set_background(reader->scene, reader->background.value, background_bands);
+  if (!status) *hr2di_scene_notes(reader->scene) = reader->notes;
+  return status;
 }
 
 hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size,
@@ -77,7 +84,8 @@ hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size,
   hr2di_geojson reader = {.scene = scene,
                           .alloc = hr2di_scene_allocator(scene),
                           .message = hr2di_scene_message(scene),
-                          .watch = watch};
+                          .watch = watch,
+                          .notes = *hr2di_scene_notes(scene)};
   json_t *root;
   hr2d_status status = hr2di_geojson_load(text, size, &root, reader.message, watch);
   if (status) return status;

@@ -10,6 +10,7 @@
 #include "occlusion/walls.h"
 #include "scene/patch-runs.h"
 #include "scene/plane.h"
+#include "scene/reading-notes.h"
 #include "scene/side-parts.h"
 
 /* Emission and reflectance of a patch.  The segments of a feature, both sides of a patch and
@@ -41,6 +42,7 @@ struct hr2d_scene {
   size_t bands;
   double *background; /* background_bands values; NULL for none */
   size_t background_bands;
+  hr2di_notes notes;
   int exponent;      /* the unit is 2^exponent */
   hr2di_walls walls; /* the occluders; made by commit, as all that follows */
   hr2di_runs runs;
@@ -63,6 +65,7 @@ struct hr2d_scene {
 const hr2d_allocator *hr2di_scene_allocator(const hr2d_scene *scene);
 hr2di_message *hr2di_scene_message(hr2d_scene *scene);
 int hr2di_scene_committed(const hr2d_scene *scene);
+hr2di_notes *hr2di_scene_notes(hr2d_scene *scene);
 
 /* As hr2d_scene_add(), but with the E and ρ of the patch that was added last. */
 hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch);

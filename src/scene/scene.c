@@ -67,6 +67,10 @@ hr2di_message *hr2di_scene_message(hr2d_scene *scene) {
   return &scene->message;
 }
 
+hr2di_notes *hr2di_scene_notes(hr2d_scene *scene) {
+  return &scene->notes;
+}
+
 int hr2di_scene_committed(const hr2d_scene *scene) {
   return scene->committed;
 }

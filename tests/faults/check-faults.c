@@ -48,6 +48,19 @@ static hr2d_status split_crossings(fault_stage *s, uint64_t *sum) {
   return fault_mix_stage(s, sum, status);
 }
 
+static hr2d_status mix_warning(void *ctx, const hr2d_warning *w) {
+  uint64_t *sum = ctx;
+  *sum = fault_mix(*sum, w->text, strlen(w->text));
+  return HR2D_OK;
+}
+
+static hr2d_status lint(fault_stage *s, uint64_t *sum) {
+  uint64_t found = *sum;
+  const hr2d_status status = hr2d_scene_lint(s->scene, mix_warning, &found, NULL);
+  if (!status) *sum = found;
+  return fault_mix_stage(s, sum, status);
+}
+
 static hr2d_status commit(fault_stage *s, uint64_t *sum) {
   const hr2d_status status = hr2d_scene_commit(s->scene);
   for (int e = 0; !status && e < HR2D_EFFECT_COUNT; e++)
@@ -236,6 +249,9 @@ START_TEST(scenes) {
        of_scene, 0);
   PLAY("scene_commit, all forced", {.depth = DEPTH_FILLED, .plan = PLAN_ROOM}, force_and_commit,
        of_scene, 0);
+  PLAY("scene_lint", {.depth = DEPTH_FILLED, .plan = PLAN_CROSSING}, lint, NULL, 0);
+  PLAY("scene_lint, open", {.depth = DEPTH_COMMITTED, .plan = PLAN_OPEN}, lint, NULL, 0);
+  PLAY("scene_lint, room", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, lint, NULL, 0);
   PLAY("scene_commit, many", {.depth = DEPTH_FILLED, .plan = PLAN_BLOCKS}, commit, of_scene,
        60);
 }

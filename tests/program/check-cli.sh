@@ -638,4 +638,26 @@ if truncate -s 3G "$work/long.json" 2>/dev/null; then
 fi
 check "no temporary file is left" no_leftovers
 
+# ---- warnings about a scene
+cat >"$work/loose.geojson" <<EOF
+{"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{"emission":1,"rho":0.5},
+ "geometry":{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,3],[0,3],[0,0]]]}},
+{"type":"Feature","properties":{"name":"stub","sides":"both"},
+ "geometry":{"type":"LineString","coordinates":[[2,0.001],[2,1]]}}]}
+EOF
+for command in info solve; do
+  succeeds "$command" "$work/loose.geojson" --json "$work/w.json"
+  check "$command warns of rho" grep -q 'warning: feature 1: "rho" is not used' "$work/err"
+  check "and of the stub" grep -q 'warning: patch 4 ("stub") ends at .*, 0.001 short' "$work/err"
+  check "in JSON, too" grep -q '"code": "loose-end"' "$work/w.json"
+  succeeds "$command" "$work/loose.geojson" --quiet
+  check "$command --quiet is quiet" [ ! -s "$work/err" ]
+  run "$command" "$work/loose.geojson" --strict
+  check "$command --strict fails" [ "$status" -eq 1 ]
+  check "and says why" grep -q '2 warnings with --strict' "$work/err"
+  succeeds "$command" "$HR2D_SRCDIR/examples/scenes/lit-room.geojson" --strict
+  check "$command has no warning about a sound scene" [ ! -s "$work/err" ]
+done
+
 summary check-cli

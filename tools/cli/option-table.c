@@ -134,6 +134,8 @@ static const option_entry table[] = {
             {COST, "threads; 1 by default, 0 for all processors"}}},
   {"split-crossings", NULL, GROUP_WORK, VALUE(flag, split_crossings),
    .help = {{WITH_SCENE, "cut patches where they cross each other"}}},
+  {"strict", NULL, GROUP_WORK, VALUE(flag, strict),
+   .help = {{INFO | SOLVE, "warnings about the scene are errors"}}},
   {"force", "EFFECT", GROUP_WORK, VALUE(effect, force),
    .help = {{WITH_SCENE, "turn an effect on that the scene does not call for"}}},
 };

@@ -63,7 +63,7 @@ typedef struct options {
   int help, version, quiet;
   int no_closure;
   const char *scene; /* file name; NULL for `pair` */
-  int split_crossings;
+  int split_crossings, strict;
   unsigned force; /* bit 1 << e for each effect e */
   const hr2d_oracle *oracle;
   const hr2d_policy *policy;

@@ -8,8 +8,17 @@
 #include <string.h>
 
 #include "cli/numbers.h"
+#include "cli/warnings.h"
 #include "output/complain.h"
 #include "output/progress.h"
+
+/* What may be the reason why a scene is refused. */
+static void warn_of_refused(const options *o, const hr2d_scene *scene) {
+  warnings w;
+  if (!(o->command & (INFO | SOLVE))) return;
+  warnings_find(o, scene, &w);
+  warnings_release(&w);
+}
 
 int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cuts) {
   progress p;
@@ -28,6 +37,8 @@ int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cut
   progress_clear(&p);
   progress_end();
   if (!status) return 0;
+  if (status != HR2D_STOPPED && status != HR2D_ENOMEM && *scene && hr2d_scene_patches(*scene))
+    warn_of_refused(o, *scene);
   const int code = complain_call(o->scene, *scene ? hr2d_scene_message(*scene) : "", status);
   hr2d_scene_destroy(*scene);
   *scene = NULL;

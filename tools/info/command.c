@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/scene.h"
+#include "cli/warnings.h"
 #include "output/json.h"
 
 typedef struct summary {
@@ -98,7 +99,7 @@ static json_t *patch_entry(const hr2d_scene *scene, size_t k) {
 }
 
 static json_t *document(const options *o, const hr2d_scene *scene, size_t cuts,
-                        const summary *s) {
+                        const summary *s, const warnings *w) {
   json_t *patches = json_array(), *background = json_array(), *reasons = json_object(),
          *root = json_object();
   for (size_t k = 0; k < hr2d_scene_patches(scene); k++)
@@ -122,6 +123,7 @@ static json_t *document(const options *o, const hr2d_scene *scene, size_t cuts,
   json_put(&root, "background", background);
   json_put(&root, "effects", json_effects(scene));
   json_put(&root, "reasons", reasons);
+  json_put(&root, "warnings", json_incref(w->list));
   json_put(&root, "status", json_text("ok"));
   return root;
 }
@@ -132,11 +134,17 @@ int info_command(const options *o) {
   int status = scene_load(o, o->force, &scene, &cuts);
   if (status) return status;
   const summary s = summarise(scene);
+  warnings w;
+  status = warnings_find(o, scene, &w);
   if (options_want_table(o)) {
     scene_print(o, 14, cuts);
     print_summary(scene, &s);
   }
-  if (o->json) status = json_write(document(o, scene, cuts, &s), o->json);
+  if (o->json) {
+    const int writing = json_write(document(o, scene, cuts, &s, &w), o->json);
+    if (!status) status = writing;
+  }
+  warnings_release(&w);
   hr2d_scene_destroy(scene);
   return status;
 }

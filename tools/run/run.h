@@ -7,14 +7,16 @@
 #include <stdint.h>
 
 #include "cli/options.h"
+#include "cli/warnings.h"
 #include "output/progress.h"
 
 typedef struct run {
   const options *options;
   const hr2d_scene *scene;
-  size_t cuts;          /* of --split-crossings */
-  double start;         /* clock_seconds() when the command began */
-  const size_t *places; /* the patches of --at, --links-of, --importance and --beams-of */
+  size_t cuts;              /* of --split-crossings */
+  double start;             /* clock_seconds() when the command began */
+  const size_t *places;     /* the patches of --at, --links-of, --importance and --beams-of */
+  const warnings *warnings; /* about the scene */
   const hr2d_hierarchy *hierarchy;
   const hr2d_linkset *links;
   hr2d_solution *solution;

@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/scene.h"
+#include "cli/warnings.h"
 #include "draw/draw.h"
 #include "output/clock.h"
 #include "output/complain.h"
@@ -39,17 +40,30 @@ static int report(const run *r) {
   return status;
 }
 
-static int solve_scene(const options *o, const hr2d_scene *scene, size_t cuts, double start,
-                       size_t *patches) {
-  int status = find_places(o, scene, patches);
-  if (status) return status;
-  run r = {.options = o, .scene = scene, .cuts = cuts, .start = start, .places = patches};
-  status = run_solve(&r);
-  if (!status || r.inaccurate) {
-    const int reporting = report(&r);
+static int run_and_report(run *r) {
+  int status = run_solve(r);
+  if (!status || r->inaccurate) {
+    const int reporting = report(r);
     if (!status) status = reporting;
   }
-  run_release(&r);
+  run_release(r);
+  return status;
+}
+
+static int solve_scene(const options *o, const hr2d_scene *scene, size_t cuts, double start,
+                       size_t *patches) {
+  warnings w;
+  int status = find_places(o, scene, patches);
+  if (status) return status;
+  status = warnings_find(o, scene, &w);
+  run r = {.options = o,
+           .scene = scene,
+           .cuts = cuts,
+           .start = start,
+           .places = patches,
+           .warnings = &w};
+  if (!status) status = run_and_report(&r);
+  warnings_release(&w);
   return status;
 }
 

@@ -168,6 +168,7 @@ int solve_write_json(const run *r, double total_seconds, const char *path) {
   json_put(&root, "power", power(r));
   json_put(&root, "residual", json_number(hr2d_solution_residual(r->solution)));
   json_put(&root, "error", errors(&r->account));
+  json_put(&root, "warnings", json_incref(r->warnings->list));
   json_put(&root, "status", json_text(r->inaccurate ? "inaccurate" : "ok"));
   return json_write(root, path);
 }

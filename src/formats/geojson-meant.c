@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* GeoJSON files may have members of any name, so that those that are not read cannot be errors.
+   But "emissivity" on a wall is meant to change something. */
+#include "formats/geojson-meant.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define REFLECTANCE "write \"reflectance\": 1 - emissivity"
+#define EMISSION    "write \"emission\", power per scene length"
+#define BANDS       "write \"reflectance\" as an array with a number for each band"
+#define BOTH        "write \"sides\": \"both\""
+#define FACES       "write \"faces\": \"in\" or \"out\""
+#define GREY        "the property is called \"reflectance\""
+#define HEAT        "write \"emission\": emissivity * 5.670374419e-8 * T^4, with T in kelvin"
+
+/* A name in small letters, the property that replaces it, and what to do. */
+typedef struct meant {
+  const char *name, *instead, *advice;
+} meant;
+
+static const meant properties_meant[] = {
+    {"absorptance", "reflectance", "write \"reflectance\": 1 - absorptance"},
+    {"absorptivity", "reflectance", "write \"reflectance\": 1 - absorptivity"},
+    {"albedo", "reflectance", GREY},
+    {"color", "reflectance", BANDS},
+    {"colour", "reflectance", BANDS},
+    {"double_sided", "sides", BOTH},
+    {"doublesided", "sides", BOTH},
+    {"emissivity", "reflectance", REFLECTANCE},
+    {"emit", "emission", EMISSION},
+    {"emittance", "emission", EMISSION},
+    {"epsilon", "reflectance", REFLECTANCE},
+    {"exitance", "emission", EMISSION},
+    {"facing", "faces", FACES},
+    {"flux", "emission", EMISSION},
+    {"heat_flux", "emission", EMISSION},
+    {"power", "emission", EMISSION},
+    {"radiance", "emission", EMISSION},
+    {"radiosity", "emission", EMISSION},
+    {"reflection", "reflectance", GREY},
+    {"reflectivity", "reflectance", GREY},
+    {"rho", "reflectance", GREY},
+    {"side", "sides", BOTH},
+    {"temperature", "emission", HEAT},
+    {"two_sided", "sides", BOTH},
+    {"twosided", "sides", BOTH}};
+
+/* Where the members of the format belong. */
+static const char *const of_properties[] = {"emission", "faces", "name", "reflectance",
+                                            "sides"};
+static const char *const of_scene[] = {"background", "medium"};
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+/* The key in small ASCII letters; longer keys than any in the tables are cut, and match none.
+ */
+typedef struct small {
+  char text[32];
+} small;
+
+static small in_small_letters(const char *key) {
+  small s = {{0}};
+  for (size_t k = 0; k + 1 < sizeof s.text && key[k]; k++)
+    s.text[k] = (char)(key[k] >= 'A' && key[k] <= 'Z' ? key[k] - 'A' + 'a' : key[k]);
+  return s;
+}
+
+static const char *find(const char *const *names, size_t count, const char *key) {
+  for (size_t k = 0; k < count; k++)
+    if (!strcmp(names[k], key)) return names[k];
+  return NULL;
+}
+
+/* A member of the format that is spelled otherwise, and is not there in its right spelling. */
+static int note_spelling(hr2di_geojson *reader, const json_t *object, const char *place,
+                         const char *key, const char *name) {
+  static const char advice[] = "names have small letters";
+  if (!name) return 0;
+  if (strcmp(name, key) != 0 && !hr2di_geojson_member(object, name))
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, place, advice);
+  return 1;
+}
+
+static void note_property(hr2di_geojson *reader, const json_t *properties, const char *key) {
+  const small s = in_small_letters(key);
+  if (note_spelling(reader, properties, reader->label, key,
+                    find(of_properties, COUNT(of_properties), s.text)))
+    return;
+  if (find(of_scene, COUNT(of_scene), s.text))
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_MISPLACED, key, reader->label,
+                    "it belongs into the member \"hr2d\" beside \"features\"");
+  for (size_t k = 0; k < COUNT(properties_meant); k++)
+    if (!strcmp(properties_meant[k].name, s.text) &&
+        !hr2di_geojson_member(properties, properties_meant[k].instead))
+      hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, reader->label,
+                      properties_meant[k].advice);
+}
+
+/* Calls `note` for each member that is not null. */
+static hr2d_status each(hr2di_geojson *reader, const json_t *object,
+                        void (*note)(hr2di_geojson *, const json_t *, const char *)) {
+  json_t *members = (json_t *)(uintptr_t)object; /* iterators change nothing */
+  for (void *at = json_object_iter(members); at; at = json_object_iter_next(members, at)) {
+    const hr2d_status status = hr2di_watch_work(reader->watch, 4);
+    if (status) return status;
+    if (!json_is_null(json_object_iter_value(at)))
+      note(reader, object, json_object_iter_key(at));
+  }
+  return HR2D_OK;
+}
+
+static void note_feature_member(hr2di_geojson *reader, const json_t *feature, const char *key) {
+  const small s = in_small_letters(key);
+  const char *name = find(of_properties, COUNT(of_properties), s.text);
+  int wanted = name && strcmp(name, "name") != 0;
+  for (size_t k = 0; k < COUNT(properties_meant); k++)
+    wanted |= !strcmp(properties_meant[k].name, s.text);
+  (void)feature;
+  if (wanted)
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_MISPLACED, key, reader->label,
+                    "it belongs into the \"properties\" of the feature");
+}
+
+static void note_root_member(hr2di_geojson *reader, const json_t *root, const char *key) {
+  const small s = in_small_letters(key);
+  const char *name = find(of_properties, COUNT(of_properties), s.text);
+  (void)root;
+  if (find(of_scene, COUNT(of_scene), s.text))
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_MISPLACED, key, "the collection",
+                    "it belongs into the member \"hr2d\" beside \"features\"");
+  else if (name && strcmp(name, "name") != 0)
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_MISPLACED, key, "the collection",
+                    "it belongs into the \"properties\" of each feature");
+}
+
+static void note_scene_member(hr2di_geojson *reader, const json_t *members, const char *key) {
+  const small s = in_small_letters(key);
+  if (!note_spelling(reader, members, "hr2d", key, find(of_scene, COUNT(of_scene), s.text)))
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, "hr2d",
+                    "members of \"hr2d\" are \"background\" and \"medium\"");
+}
+
+/* RFC 7946 knows no "crs"; GeoJSON of 2008 does, and some tools write it. */
+static void note_crs(hr2di_geojson *reader, const json_t *root) {
+  const json_t *crs = json_object_get(root, "crs");
+  const char *name =
+      json_string_value(json_object_get(json_object_get(crs, "properties"), "name"));
+  if (name &&
+      (strstr(name, "CRS84") || strstr(name, "EPSG::4326") || strstr(name, "EPSG:4326")))
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_DEGREES, "crs", "the collection",
+                    "project them to metres, for example with ogr2ogr -t_srs");
+}
+
+hr2d_status hr2di_geojson_note_root(hr2di_geojson *reader, const json_t *root) {
+  note_crs(reader, root);
+  hr2d_status status = each(reader, root, note_root_member);
+  if (status) return status;
+  return each(reader, hr2di_geojson_member(root, "hr2d"), note_scene_member);
+}
+
+hr2d_status hr2di_geojson_note_feature(hr2di_geojson *reader, const json_t *feature) {
+  hr2d_status status = each(reader, feature, note_feature_member);
+  if (status) return status;
+  return each(reader, hr2di_geojson_member(feature, "properties"), note_property);
+}

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Warnings about scenes: what was read, the coordinates, gaps and light. */
+#include <math.h>
+
+#include "base/sized-struct.h"
+#include "lint/lint-impl.h"
+
+static const char *const names[HR2D_WARNING_COUNT] = {
+    [HR2D_WARNING_IGNORED] = "ignored",
+    [HR2D_WARNING_MISPLACED] = "misplaced",
+    [HR2D_WARNING_ALTITUDE] = "altitude",
+    [HR2D_WARNING_DEGREES] = "degrees",
+    [HR2D_WARNING_UNITS] = "units",
+    [HR2D_WARNING_LOOSE_END] = "loose-end",
+    [HR2D_WARNING_NARROW_GAP] = "narrow-gap",
+    [HR2D_WARNING_NEAR_COPY] = "near-copy",
+    [HR2D_WARNING_DARK_SCENE] = "dark-scene",
+    [HR2D_WARNING_UNLIT] = "unlit",
+    [HR2D_WARNING_SEES_NOTHING] = "sees-nothing",
+    [HR2D_WARNING_NO_ABSORBER] = "no-absorber",
+};
+
+const char *hr2d_warning_name(hr2d_warning_code code) {
+  return (unsigned)code < HR2D_WARNING_COUNT ? names[code] : NULL;
+}
+
+static hr2d_status warn_of_note(const hr2di_lint *lint, const hr2di_note *n) {
+  const hr2d_warning warning = {.code = n->code};
+  const char *more = n->count > 1 ? ", and later" : "";
+  const hr2di_message_quoted key = hr2di_message_quote(n->key);
+  switch (n->code) {
+  case HR2D_WARNING_ALTITUDE:
+    return hr2di_lint_warn(lint, warning, "%s%s: third numbers of positions are not used: %s",
+                           n->first, more, n->advice);
+  case HR2D_WARNING_DEGREES:
+    return hr2di_lint_warn(lint, warning, "the coordinates are in degrees, as \"crs\" says: %s",
+                           n->advice);
+  default:
+    return hr2di_lint_warn(lint, warning, "%s%s: %s is not used: %s", n->first, more, key.text,
+                           n->advice);
+  }
+}
+
+static hr2d_status warn_of_notes(const hr2di_lint *lint) {
+  const hr2di_notes *notes = &lint->scene->notes;
+  hr2d_status status = HR2D_OK;
+  for (int code = 0; code < HR2D_WARNING_COUNT; code++)
+    for (size_t k = 0; k < notes->count && !status; k++)
+      if (notes->note[k].code == (hr2d_warning_code)code)
+        status = warn_of_note(lint, &notes->note[k]);
+  return status;
+}
+
+typedef struct box {
+  double low[2], high[2];
+  int whole; /* all coordinates are whole numbers */
+} box;
+
+static void enclose(box *b, hr2d_point p) {
+  const double at[2] = {p.x, p.y};
+  for (int k = 0; k < 2; k++) {
+    b->low[k] = fmin(b->low[k], at[k]);
+    b->high[k] = fmax(b->high[k], at[k]);
+    b->whole &= at[k] == floor(at[k]);
+  }
+}
+
+/* A town is less than a degree across, and far from longitude 0 or from the equator. */
+static int looks_like_degrees(const box *b, double across) {
+  const double x = (b->low[0] + b->high[0]) / 2, y = (b->low[1] + b->high[1]) / 2;
+  return fmax(fabs(b->low[0]), fabs(b->high[0])) <= 180 &&
+         fmax(fabs(b->low[1]), fabs(b->high[1])) <= 90 && across < 1 &&
+         fmax(fabs(x), fabs(y)) > 20 * across && !b->whole;
+}
+
+/* Rooms of a hundred metres whose walls all have whole metres are rarer than drawings in
+   centimetres. */
+static int looks_like_centimetres(const box *b, double across) {
+  return b->whole && across >= 100 && across <= 1e5;
+}
+
+static hr2d_status warn_of_coordinates(const hr2di_lint *lint) {
+  box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 1};
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < lint->scene->patches && !status; k++) {
+    status = hr2di_watch_work(lint->watch, 1);
+    enclose(&b, lint->scene->patch[k].given.a);
+    enclose(&b, lint->scene->patch[k].given.b);
+  }
+  const double across = fmax(b.high[0] - b.low[0], b.high[1] - b.low[1]);
+  if (!status && looks_like_degrees(&b, across))
+    status = hr2di_lint_warn(lint, (hr2d_warning){.code = HR2D_WARNING_DEGREES},
+                             "coordinates from (%.9g, %.9g) to (%.9g, %.9g) look like "
+                             "longitude and latitude: project "
+                             "them to metres; in degrees the scene is distorted",
+                             b.low[0], b.low[1], b.high[0], b.high[1]);
+  if (!status && looks_like_centimetres(&b, across))
+    status = hr2di_lint_warn(
+        lint, (hr2d_warning){.code = HR2D_WARNING_UNITS},
+        "coordinates are whole numbers over a range of %.9g, like centimetres or millimetres: "
+        "emission and power are then per centimetre or millimetre, too",
+        across);
+  return status;
+}
+
+static hr2d_status check_options(hr2d_lint_options *o, const hr2d_lint_options *given) {
+  if (hr2di_sized_copy(o, sizeof *o, given)) return HR2D_EINVAL;
+  if (!(o->gap >= 0 && o->gap <= .1)) return HR2D_EINVAL;
+  if (o->gap == 0) o->gap = 1e-3;
+  return HR2D_OK;
+}
+
+hr2d_status hr2d_scene_lint(const hr2d_scene *scene, hr2d_warning_fn warn, void *ctx,
+                            const hr2d_lint_options *options) {
+  hr2d_lint_options o = HR2D_LINT_OPTIONS_INIT;
+  hr2di_watch watch;
+  if (check_options(&o, options)) return HR2D_EINVAL;
+  hr2di_scene_watch(scene, &watch, o.progress, o.progress_ctx, "lint");
+  const hr2di_lint lint = {
+      .scene = scene, .warn = warn, .ctx = ctx, .gap = o.gap, .watch = &watch};
+  hr2d_status status = warn_of_notes(&lint);
+  if (scene->patches == 0) return status;
+  if (!status) status = warn_of_coordinates(&lint);
+  if (!status) status = hr2di_lint_gaps(&lint);
+  if (!status && scene->committed) status = hr2di_lint_light(&lint);
+  return status;
+}

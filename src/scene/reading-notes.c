@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/reading-notes.h"
+
+#include <stdio.h>
+#include <string.h>
+
+void hr2di_notes_add(hr2di_notes *notes, hr2d_warning_code code, const char *key,
+                     const char *place, const char *advice) {
+  hr2di_note *note = notes->note, *const end = note + notes->count;
+  while (note < end && (note->code != code || strcmp(note->key, key) != 0)) note++;
+  if (note == end) {
+    if (notes->count == HR2DI_MOST_NOTES) return;
+    notes->count++;
+    *note = (hr2di_note){.code = code, .advice = advice};
+    snprintf(note->key, sizeof note->key, "%s", key);
+    snprintf(note->first, sizeof note->first, "%s", place);
+  }
+  note->count++;
+}

@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What people write when they draw their first scenes, and what they are told. */
+#include <string.h>
+
+#include "support/support.h"
+
+#define COLLECTION(features) "{\"type\":\"FeatureCollection\",\"features\":[" features "]}"
+#define WITH(members, features)                                                                \
+  "{\"type\":\"FeatureCollection\"," members ",\"features\":[" features "]}"
+#define FEATURE(properties, type, coordinates)                                                 \
+  "{\"type\":\"Feature\",\"properties\":{" properties "},\"geometry\":{\"type\":\"" type       \
+  "\",\"coordinates\":" coordinates "}}"
+#define LINE(properties, coordinates) FEATURE(properties, "LineString", coordinates)
+#define ROOM(properties, coordinates) FEATURE(properties, "Polygon", "[" coordinates "]")
+
+/* A square room with its fronts inside, and a lamp that lights it. */
+#define SQUARE "[[0,0],[4,0],[4,3],[0,3],[0,0]]"
+#define WALLS  ROOM("\"name\":\"room\",\"reflectance\":0.5", SQUARE)
+#define LAMP   LINE("\"name\":\"lamp\",\"emission\":1,\"sides\":\"both\"", "[[1,2.5],[2,2.5]]")
+
+typedef struct mistake {
+  const char *what, *file;
+  hr2d_warning_code code; /* or HR2D_WARNING_COUNT: the file is refused */
+  const char *says;       /* a part of the warning, or of the message of the refusal */
+} mistake;
+
+#define REFUSED HR2D_WARNING_COUNT
+
+static const mistake mistakes[] = {
+    /* 0 */
+    {"fronts of a room look out", COLLECTION(LAMP "," ROOM("\"faces\":\"out\"", SQUARE)),
+     HR2D_WARNING_SEES_NOTHING, "the front of patch 0 (\"lamp\") sees no patch"},
+    {"one wall runs the wrong way",
+     COLLECTION(LAMP "," LINE("", "[[0,0],[4,0],[4,3]]") "," LINE("\"name\":\"wall\"",
+                                                                  "[[0,3],[4,3]]")),
+     HR2D_WARNING_UNLIT, "no light reaches the front of patch 4 (\"wall\")"},
+    {"a lamp looks out", COLLECTION(WALLS "," LINE("\"emission\":1", "[[1,-1],[2,-1]]")),
+     HR2D_WARNING_UNLIT, "swap the ends, or for a polygon \"faces\""},
+    {"a gap of 1 mm",
+     COLLECTION(LAMP "," WALLS "," LINE("\"sides\":\"both\"", "[[2,0.001],[2,1]]")),
+     HR2D_WARNING_LOOSE_END, "0.001 short of patch 2 (\"room/1\")"},
+    {"a gap of a millionth",
+     COLLECTION(LAMP "," WALLS "," LINE("\"name\":\"screen\"", "[[2,0.000001],[2,1]]")),
+     HR2D_WARNING_LOOSE_END, "ends at (2, 1e-06), 1e-06 short of"},
+    /* 5 */
+    {"corners that do not meet",
+     COLLECTION(LAMP "," LINE("\"name\":\"floor\"",
+                              "[[0,0],[3.998,0]]") "," LINE("", "[[4,0],[4,3]]")),
+     HR2D_WARNING_LOOSE_END, "patch 2 (\"floor\") ends at (3.998, 0), 0.002 short of patch 3"},
+    {"a slit between two boxes",
+     COLLECTION(LAMP "," ROOM("\"faces\":\"out\"", "[[0,0],[1,0],[1,1],[0,1],[0,0]]") "," ROOM(
+         "\"faces\":\"out\"", "[[1.0005,0],[2,0],[2,1],[1.0005,1],[1.0005,0]]")),
+     HR2D_WARNING_NEAR_COPY, "only 0.0005 beside it"},
+    {"a narrow opening beside a corner",
+     COLLECTION(LAMP "," WALLS
+                     "," ROOM("\"faces\":\"out\"", "[[1,1],[3,1.2],[3.999,2],[2,2],[1,1]]")),
+     HR2D_WARNING_NARROW_GAP, "an opening of only 0.001 at (3.999, 2)"},
+    {"a wall is drawn twice",
+     COLLECTION(LAMP "," WALLS "," LINE("\"name\":\"again\"", "[[0,0],[4,0]]")), REFUSED,
+     "is a copy of patch 2 (\"room/1\")"},
+    {"twice, the second time inexactly",
+     COLLECTION(LAMP "," WALLS "," LINE("\"name\":\"again\"", "[[0.001,0.001],[3.999,0.001]]")),
+     HR2D_WARNING_NEAR_COPY, "lies along patch"},
+    /* 10 */
+    {"longitude and latitude",
+     COLLECTION(LINE("\"emission\":1", "[[7.468,51.492],[7.469,51.492]]") "," LINE(
+         "", "[[7.469,51.493],[7.468,51.493]]")),
+     HR2D_WARNING_DEGREES, "look like longitude and latitude"},
+    {"degrees by crs",
+     WITH("\"crs\":{\"type\":\"name\",\"properties\":{\"name\":\"urn:ogc:def:crs:OGC:1.3:CRS84"
+          "\"}}",
+          LAMP "," WALLS),
+     HR2D_WARNING_DEGREES, "as \"crs\" says"},
+    {"altitudes", COLLECTION(LAMP "," LINE("", "[[0,0,1],[4,0,2.5]]")), HR2D_WARNING_ALTITUDE,
+     "third numbers of positions are not used"},
+    {"a wall that stands upright in x, y, z", COLLECTION(LINE("", "[[0,0,0],[0,0,3]]")),
+     REFUSED, "the same in x and y; third numbers are not used"},
+    {"centimetres",
+     COLLECTION(LINE("\"emission\":1", "[[0,0],[400,0]]") "," LINE("", "[[400,250],[0,250]]")),
+     HR2D_WARNING_UNITS, "over a range of 400, like centimetres"},
+    /* 15 */
+    {"emissivity", COLLECTION(LAMP "," ROOM("\"emissivity\":0.9", SQUARE)),
+     HR2D_WARNING_IGNORED, "feature 2: \"emissivity\" is not used: write \"reflectance\""},
+    {"rho", COLLECTION(LAMP "," ROOM("\"rho\":0.9", SQUARE)), HR2D_WARNING_IGNORED,
+     "\"rho\" is not used: the property is called \"reflectance\""},
+    {"albedo", COLLECTION(LAMP "," ROOM("\"name\":\"hall\",\"Albedo\":0.9", SQUARE)),
+     HR2D_WARNING_IGNORED, "feature 2 (\"hall\"): \"Albedo\" is not used"},
+    {"a colour", COLLECTION(LAMP "," ROOM("\"colour\":\"red\"", SQUARE)), HR2D_WARNING_IGNORED,
+     "an array with a number for each band"},
+    {"a capital letter", COLLECTION(LAMP "," ROOM("\"Reflectance\":0.9", SQUARE)),
+     HR2D_WARNING_IGNORED, "\"Reflectance\" is not used: names have small letters"},
+    /* 20 */
+    {"a temperature", COLLECTION(LAMP "," ROOM("\"temperature\":300", SQUARE)),
+     HR2D_WARNING_IGNORED, "5.670374419e-8 * T^4"},
+    {"two-sided in other words",
+     COLLECTION(LAMP "," WALLS "," LINE("\"two_sided\":true", "[[1,1],[2,1]]")),
+     HR2D_WARNING_IGNORED, "write \"sides\": \"both\""},
+    {"a background outside of hr2d", WITH("\"background\":1", LAMP "," WALLS),
+     HR2D_WARNING_MISPLACED, "belongs into the member \"hr2d\""},
+    {"a background on a feature", COLLECTION(LAMP "," ROOM("\"background\":1", SQUARE)),
+     HR2D_WARNING_MISPLACED, "\"background\" is not used: it belongs into the member \"hr2d\""},
+    {"another word in hr2d", WITH("\"hr2d\":{\"sky\":1}", LAMP "," WALLS), HR2D_WARNING_IGNORED,
+     "hr2d: \"sky\" is not used: members of \"hr2d\" are \"background\" and \"medium\""},
+    /* 25 */
+    {"properties beside \"properties\"",
+     COLLECTION(WALLS
+                ",{\"type\":\"Feature\",\"emission\":1,\"geometry\":{\"type\":\"LineString"
+                "\",\"coordinates\":[[1,1],[2,1]]}}"),
+     HR2D_WARNING_MISPLACED, "belongs into the \"properties\" of the feature"},
+    {"no light at all", COLLECTION(WALLS), HR2D_WARNING_DARK_SCENE, "no patch emits"},
+    {"only mirrors", COLLECTION(ROOM("\"emission\":1,\"reflectance\":1", SQUARE)),
+     HR2D_WARNING_NO_ABSORBER, "every reflectance of band 0 is 1"},
+    {"percent", COLLECTION(ROOM("\"reflectance\":80", SQUARE)), REFUSED,
+     "reflectance: must be between 0 and 1, not 80; 1 is 100 %"},
+    {"a number as a string", COLLECTION(ROOM("\"reflectance\":\"0.8\"", SQUARE)), REFUSED,
+     "not a string: leave out the quotation marks"},
+    /* 30 */
+    {"a bare feature", LAMP, REFUSED, "put the feature into \"features\" of a collection"},
+    {"a ring that is not closed", COLLECTION(ROOM("", "[[0,0],[4,0],[4,3],[0,3]]")), REFUSED,
+     "a ring must be closed: its last position must repeat the first"},
+    {"points", COLLECTION(FEATURE("", "Point", "[0,0]")), REFUSED,
+     "Point\" has no patches; use LineString"},
+    {"walls that cross",
+     COLLECTION(LAMP "," LINE("", "[[0,0],[4,4]]") "," LINE("", "[[0,3],[4,0]]")), REFUSED,
+     "--split-crossings cuts them there"},
+    {"bands of two lengths",
+     COLLECTION(LINE("\"emission\":[1,2]", "[[0,0],[1,0]]") "," LINE("\"reflectance\":[1,0,0]",
+                                                                     "[[0,0],[0,1]]")),
+     REFUSED, "where patch 0 has 2 bands"},
+    /* 35 */
+    {"a hole that is its outline",
+     COLLECTION(LAMP "," FEATURE("", "Polygon", "[" SQUARE "," SQUARE "]")), HR2D_WARNING_UNLIT,
+     "no light reaches the front of patch 6"},
+    {"a front inside of a wall, under a sky",
+     WITH("\"hr2d\":{\"background\":1}",
+          ROOM("\"faces\":\"out\"", SQUARE) "," LINE("\"name\":\"lamp\"", "[[1,1],[2,1]]")),
+     HR2D_WARNING_SEES_NOTHING, "(\"lamp\") sees no patch and no sky"},
+};
+
+typedef struct hits {
+  const mistake *m;
+  size_t hits, others[HR2D_WARNING_COUNT + 1];
+} hits;
+
+static hr2d_status take(void *ctx, const hr2d_warning *w) {
+  hits *h = ctx;
+  h->others[w->code]++;
+  if (w->code == h->m->code && strstr(w->text, h->m->says)) h->hits++;
+  return HR2D_OK;
+}
+
+START_TEST(each_mistake_has_its_message) {
+  const mistake *m = &mistakes[_i];
+  hits h = {.m = m};
+  hr2d_scene *scene = test_new_scene(NULL);
+  hr2d_status status = hr2d_scene_parse(scene, m->file, strlen(m->file));
+  if (!status) status = hr2d_scene_commit(scene);
+  const char *message = hr2d_scene_message(scene);
+  if (m->code == REFUSED) {
+    ck_assert_msg(status != HR2D_OK, "%s: not refused", m->what);
+    ck_assert_msg(strstr(message, m->says) != NULL, "%s: %s", m->what, message);
+  } else {
+    ck_assert_msg(!status, "%s: %s", m->what, message);
+    ck_assert_int_eq(hr2d_scene_lint(scene, take, &h, NULL), HR2D_OK);
+    ck_assert_msg(h.hits >= 1, "%s: %zu of its code, none with this text", m->what,
+                  h.others[m->code]);
+  }
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+/* The controls: what is meant as it is drawn has no warning. */
+
+static const char *const sound[] = {
+    COLLECTION(LAMP "," WALLS),
+    /* a screen with thin ends, a rounded corner, walls back to back */
+    COLLECTION(LAMP "," WALLS
+                    "," ROOM("\"faces\":\"out\"", "[[1,1],[3,1],[3,1.001],[1,1.001],[1,1]]")),
+    COLLECTION(LAMP
+               "," ROOM("", "[[0,0],[3.999,0],[3.9999,0.0001],[4,0.001],[4,3],[0,3],[0,0]]")),
+    COLLECTION(LAMP "," WALLS "," LINE("\"sides\":\"both\"", "[[2,0],[2,1]]")),
+    /* what a file says in its own words beside those of the format */
+    COLLECTION(LAMP "," ROOM("\"emissivity\":0.5,\"reflectance\":0.5,\"T\":1", SQUARE)),
+    COLLECTION(LAMP "," ROOM("", "[[0,0,0],[4,0,0],[4,3,0],[0,3,0],[0,0,0]]")),
+    /* an obstacle under the sky sees no patch, but the sky */
+    WITH("\"hr2d\":{\"background\":1}", ROOM("\"faces\":\"out\"", SQUARE)),
+};
+
+static hr2d_status refuse(void *ctx, const hr2d_warning *w) {
+  ck_abort_msg("scene %d: %s: %s", *(int *)ctx, hr2d_warning_name(w->code), w->text);
+  return HR2D_OK;
+}
+
+START_TEST(what_is_meant_has_no_warning) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  ck_assert_int_eq(hr2d_scene_parse(scene, sound[_i], strlen(sound[_i])), HR2D_OK);
+  ck_assert_msg(!hr2d_scene_commit(scene), "%s", hr2d_scene_message(scene));
+  ck_assert_int_eq(hr2d_scene_lint(scene, refuse, &_i, NULL), HR2D_OK);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+static hr2d_status stop(void *ctx, const hr2d_warning *w) {
+  ck_assert_uint_eq(w->struct_size, sizeof *w);
+  ++*(int *)ctx;
+  return HR2D_EIO;
+}
+
+static hr2d_status count(void *ctx, const hr2d_warning *w) {
+  (void)w;
+  ++*(int *)ctx;
+  return HR2D_OK;
+}
+
+START_TEST(a_visitor_ends_the_call) {
+  const char *file = COLLECTION(LAMP "," ROOM("\"rho\":1,\"emissivity\":1", SQUARE));
+  hr2d_scene *scene = test_new_scene(NULL);
+  int calls = 0;
+  ck_assert_int_eq(hr2d_scene_parse(scene, file, strlen(file)), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_lint(scene, stop, &calls, NULL), HR2D_EIO);
+  ck_assert_int_eq(calls, 1);
+  ck_assert_int_eq(hr2d_scene_lint(scene, count, &calls, NULL), HR2D_OK);
+  ck_assert_int_eq(calls, 3);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+START_TEST(options_are_checked) {
+  hr2d_lint_options o = HR2D_LINT_OPTIONS_INIT;
+  hr2d_scene *scene = test_new_scene(NULL);
+  int calls = 0;
+  ck_assert_int_eq(hr2d_scene_lint(scene, count, &calls, NULL), HR2D_OK); /* empty */
+  o.struct_size = 1;
+  ck_assert_int_eq(hr2d_scene_lint(scene, count, &calls, &o), HR2D_EINVAL);
+  hr2d_lint_options_init(&o, sizeof o);
+  o.gap = .2;
+  ck_assert_int_eq(hr2d_scene_lint(scene, count, &calls, &o), HR2D_EINVAL);
+  o.gap = -1;
+  ck_assert_int_eq(hr2d_scene_lint(scene, count, &calls, &o), HR2D_EINVAL);
+  ck_assert_int_eq(calls, 0);
+  ck_assert_str_eq(hr2d_warning_name(HR2D_WARNING_LOOSE_END), "loose-end");
+  ck_assert_ptr_null(hr2d_warning_name(HR2D_WARNING_COUNT));
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+/* A file that is refused leaves no notes, and one that is read leaves a bounded number. */
+START_TEST(notes_are_of_what_was_read) {
+  const char *bad = COLLECTION(LINE("\"rho\":1", "[[0,0],[1,0]]") "," LINE("", "[[0,0]]"));
+  char many[4096] = "{\"type\":\"FeatureCollection\",\"hr2d\":{\"a0\":1";
+  for (int k = 1; k < 100; k++)
+    snprintf(many + strlen(many), sizeof many - strlen(many), ",\"a%d\":1", k);
+  strcat(many, "},\"features\":[" LAMP "," WALLS "]}");
+  hr2d_scene *scene = test_new_scene(NULL);
+  int calls = 0;
+  ck_assert_int_eq(hr2d_scene_parse(scene, bad, strlen(bad)), HR2D_ESYNTAX);
+  ck_assert_int_eq(hr2d_scene_lint(scene, count, &calls, NULL), HR2D_OK);
+  ck_assert_int_eq(calls, 0);
+  ck_assert_int_eq(hr2d_scene_parse(scene, many, strlen(many)), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_lint(scene, count, &calls, NULL), HR2D_OK);
+  ck_assert_int_eq(calls, 16);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+TEST_SUITE("mistakes") {
+  REPEAT_TESTS(sizeof mistakes / sizeof *mistakes, "mistakes", each_mistake_has_its_message);
+  REPEAT_TESTS(sizeof sound / sizeof *sound, "controls", what_is_meant_has_no_warning);
+  ADD_TESTS("calls", a_visitor_ends_the_call, options_are_checked, notes_are_of_what_was_read);
+}

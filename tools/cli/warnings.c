@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/warnings.h"
+
+#include "output/complain.h"
+#include "output/progress.h"
+
+/* Lines for each code; the rest is counted. */
+enum { MOST_LINES = 5 };
+
+typedef struct finder {
+  const options *o;
+  const hr2d_scene *scene;
+  warnings *w;
+  int loud;
+} finder;
+
+static json_t *entry(const hr2d_scene *scene, const hr2d_warning *x) {
+  json_t *object = json_object(), *patches = json_array();
+  for (size_t k = 0; k < x->patches; k++) json_push(&patches, json_patch(scene, x->patch[k]));
+  json_put(&object, "code", json_text(hr2d_warning_name(x->code)));
+  json_put(&object, "patches", patches);
+  json_put(&object, "at",
+           x->gap > 0 ? json_numbers((double[]){x->at.x, x->at.y}, 2) : json_null());
+  json_put(&object, "gap", x->gap > 0 ? json_number(x->gap) : json_null());
+  json_put(&object, "text", json_text(x->text));
+  return object;
+}
+
+static hr2d_status take(void *ctx, const hr2d_warning *x) {
+  const finder *f = ctx;
+  json_push(&f->w->list, entry(f->scene, x));
+  if (f->w->count[x->code]++ < MOST_LINES && f->loud)
+    complain(f->o->scene, "warning: %s", x->text);
+  return HR2D_OK;
+}
+
+static size_t count_rest(const finder *f) {
+  size_t count = 0;
+  for (int code = 0; code < HR2D_WARNING_COUNT; code++) {
+    const size_t of_code = f->w->count[code];
+    count += of_code;
+    if (of_code > MOST_LINES && f->loud)
+      complain(f->o->scene, "warning: %zu more of \"%s\"; --json has them all",
+               of_code - MOST_LINES, hr2d_warning_name((hr2d_warning_code)code));
+  }
+  return count;
+}
+
+int warnings_find(const options *o, const hr2d_scene *scene, warnings *w) {
+  progress p;
+  *w = (warnings){.list = json_array()};
+  finder f = {.o = o, .scene = scene, .w = w, .loud = !o->quiet || o->strict};
+  hr2d_lint_options lint = HR2D_LINT_OPTIONS_INIT;
+  progress_start(&p, 1);
+  lint.progress = progress_show;
+  lint.progress_ctx = &p;
+  const hr2d_status status = hr2d_scene_lint(scene, take, &f, &lint);
+  progress_clear(&p);
+  progress_end();
+  if (status) return complain_call(o->scene, "", status);
+  const size_t count = count_rest(&f);
+  if (!count || !o->strict) return 0;
+  return complain(o->scene, "%zu warning%s with --strict", count, count == 1 ? "" : "s");
+}
+
+void warnings_release(warnings *w) {
+  json_decref(w->list);
+  w->list = NULL;
+}
