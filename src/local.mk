@@ -77,6 +77,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/reading-notes.c src/scene/reading-notes.h \
 	src/scene/scene.c \
 	src/scene/scene-impl.h \
+	src/scene/snap.c \
 	src/scene/side-layers.c src/scene/side-layers.h \
 	src/scene/side-parts.c src/scene/side-parts.h \
 	src/scene/split-crossings.c \

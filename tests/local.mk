@@ -27,6 +27,7 @@ SUITES = \
 	tests/unit/scene/check-effect-reasons \
 	tests/unit/scene/check-crossings \
 	tests/unit/scene/check-bent-walls \
+	tests/unit/scene/check-snap \
 	tests/unit/formats/check-geojson \
 	tests/unit/formats/check-memory \
 	tests/unit/formats/check-vs2 \

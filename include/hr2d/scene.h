@@ -228,6 +228,49 @@ HR2D_API void hr2d_scene_set_progress(hr2d_scene *scene, hr2d_progress_fn progre
  */
 HR2D_API hr2d_status hr2d_scene_split_crossings(hr2d_scene *scene, size_t *cuts);
 
+/** What hr2d_scene_snap() did. */
+typedef struct hr2d_snap_report {
+  size_t ends;     /**< ends of patches that were joined to another end */
+  size_t feet;     /**< points that were moved to stand on a patch, or after it */
+  size_t slivers;  /**< patches that have lost their length, and were dropped */
+  size_t copies;   /**< patches that have become copies of others, and were dropped */
+  size_t cuts;     /**< places where patches crossed still, and were cut */
+  double farthest; /**< the farthest that an end was moved, in scene lengths */
+  hr2d_point from; /**< where that end was */
+  hr2d_point to;   /**< where it is now */
+} hr2d_snap_report;
+
+/**
+ * Repairs a drawing whose patches nearly meet.
+ *
+ * - Ends within the tolerance of each other become one point, that of the first patch.
+ * - Ends within the tolerance of another patch stand on it, whether they were short of it or
+ *   beyond. Where patches share a stretch within the tolerance, they are cut at each other's
+ * ends instead, and share these: the names of pieces are those of hr2d_scene_split_crossings().
+ * - Patches that have lost their length are dropped, and so is the later of two patches that
+ * have come to lie on one another with their fronts on the same side.
+ * - Patches that cross still are cut there, as by hr2d_scene_split_crossings().
+ *
+ * An end is joined by at most the tolerance, and moved by at most the tolerance to stand on a
+ * patch; where that patch is moved, too, it follows. Choose a tolerance above the errors of the
+ * drawing, and far below the smallest thing in it: what is smaller is lost.
+ *
+ * @param scene      not yet committed; unchanged on failure. Indices of patches change where
+ *                   some are dropped or cut
+ * @param tolerance  in scene lengths; less than a rounding counts as a rounding
+ * @param report     receives what was done; may be NULL
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  the tolerance is not greater than 0, or not finite
+ * @retval HR2D_ESTATE  the scene is committed
+ * @retval HR2D_ERANGE  as for hr2d_scene_commit()
+ * @retval HR2D_ESCENE  no patch is left, or crossings are left
+ *
+ * Cost O(n log n + k), with k the pairs of patches whose extents are nearer than the tolerance.
+ */
+HR2D_API hr2d_status hr2d_scene_snap(hr2d_scene *scene, double tolerance,
+                                     hr2d_snap_report *report);
+
 /**
  * Checks the patches against each other, scales their coordinates by a power of two and finds
  * the effects that the scene calls for.

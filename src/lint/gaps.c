@@ -270,6 +270,7 @@ static hr2d_status show(const gaps *g, const approach *a) {
   const hr2d_segment given = scene->patch[i].given;
   const hr2d_point at = a->end % 2 ? given.b : given.a;
   const double width = ldexp(a->distance, g->exponent);
+  const double enough = 1.5 * width; /* as a tolerance */
   const hr2d_warning w = {
       .code = code_of(g, a), .patches = 2, .patch = {i, j}, .at = at, .gap = width};
   if (w.code == HR2D_WARNING_NEAR_COPY)
@@ -278,14 +279,16 @@ static hr2d_status show(const gaps *g, const approach *a) {
                            "one wall, give them the same ends, or remove one",
                            first.text, second.text, width, at.x, at.y);
   if (w.code == HR2D_WARNING_LOOSE_END)
-    return hr2di_lint_warn(g->lint, w,
-                           "%s ends at (%.9g, %.9g), %.3g short of %s, and light passes there: "
-                           "if they should meet, move the end",
-                           first.text, at.x, at.y, width, second.text);
-  return hr2di_lint_warn(g->lint, w,
-                         "between %s and %s there is an opening of only %.3g at (%.9g, %.9g): "
-                         "if they should meet, give them the same point",
-                         first.text, second.text, width, at.x, at.y);
+    return hr2di_lint_warn(
+        g->lint, w,
+        "%s ends at (%.9g, %.9g), %.3g short of %s, and light passes there: "
+        "if they should meet, move the end, or use hr2d_scene_snap() or --snap %.2g",
+        first.text, at.x, at.y, width, second.text, enough);
+  return hr2di_lint_warn(
+      g->lint, w,
+      "between %s and %s there is an opening of only %.3g at (%.9g, %.9g): "
+      "if they should meet, give them the same point, or use hr2d_scene_snap() or --snap %.2g",
+      first.text, second.text, width, at.x, at.y, enough);
 }
 
 hr2d_status hr2di_lint_gaps(const hr2di_lint *lint) {

@@ -123,8 +123,26 @@ static int is_between(const hr2d_segment *s, hr2d_point p, hr2d_point q) {
          (hr2di_point_same(s->a, q) && hr2di_point_same(s->b, p));
 }
 
+/* An end that is through another patch by so small a part of its own was meant to touch it. */
+#define OVERSHOOT .02
+
+static double overshoot(const hr2d_segment *s, hr2d_point x) {
+  const double a = hypot(s->a.x - x.x, s->a.y - x.y), b = hypot(s->b.x - x.x, s->b.y - x.y);
+  return fmin(a, b) <= OVERSHOOT * (a + b) ? fmin(a, b) : HUGE_VAL;
+}
+
 static hr2d_status fail_crossing(hr2d_scene *scene, size_t i, size_t j, hr2d_point x) {
   const hr2d_point at = in_scene_lengths(scene, x);
+  const double through =
+      fmin(overshoot(&scene->patch[i].scaled, x), overshoot(&scene->patch[j].scaled, x));
+  if (through < HUGE_VAL)
+    return hr2di_message_fail(
+        &scene->message, HR2D_ESCENE,
+        "%s and %s cross at (%.9g, %.9g), %.3g from an end: hr2d_scene_snap() or --snap %.2g "
+        "lets "
+        "it end there, hr2d_scene_split_crossings() or --split-crossings cuts them",
+        hr2di_patch_label(scene, i).text, hr2di_patch_label(scene, j).text, at.x, at.y,
+        ldexp(through, scene->exponent), ldexp(1.5 * through, scene->exponent));
   return hr2di_message_fail(&scene->message, HR2D_ESCENE,
                             "%s and %s cross at (%.9g, %.9g): hr2d_scene_split_crossings() or "
                             "--split-crossings cuts them there",
@@ -141,6 +159,8 @@ static hr2di_label describe_stretch(const hr2d_scene *scene, const hr2di_meeting
   return label;
 }
 
+#define SNAP "hr2d_scene_snap() or --snap drops it"
+
 static hr2d_status fail_overlap(hr2d_scene *scene, size_t i, size_t j, const hr2di_meeting *m) {
   const hr2d_segment *s = &scene->patch[i].scaled, *t = &scene->patch[j].scaled;
   const hr2di_label first = hr2di_patch_label(scene, i), second = hr2di_patch_label(scene, j);
@@ -154,18 +174,18 @@ static hr2d_status fail_overlap(hr2d_scene *scene, size_t i, size_t j, const hr2
         "back; or use \"sides\": \"both\"",
         first.text, second.text, where.text);
   if (hr2di_point_same(s->a, t->a) && hr2di_point_same(s->b, t->b))
-    return hr2di_message_fail(&scene->message, HR2D_ESCENE, "%s is a copy of %s, %s",
+    return hr2di_message_fail(&scene->message, HR2D_ESCENE, "%s is a copy of %s, %s: " SNAP,
                               second.text, first.text, where.text);
   const int first_inside = is_between(s, m->from, m->to);
   if (first_inside || is_between(t, m->from, m->to))
     return hr2di_message_fail(&scene->message, HR2D_ESCENE,
-                              "%s lies on %s%s with its front on the same side, %s",
+                              "%s lies on %s%s with its front on the same side, %s: " SNAP,
                               first_inside ? first.text : second.text,
                               first_inside ? second.text : first.text, within, where.text);
   return hr2di_message_fail(
       &scene->message, HR2D_ESCENE,
-      "%s and %s lie on one another%s with their fronts on the same side, %s", first.text,
-      second.text, within, where.text);
+      "%s and %s lie on one another%s with their fronts on the same side, %s: " SNAP,
+      first.text, second.text, within, where.text);
 }
 
 static hr2d_status check_pair(void *ctx, size_t i, size_t j) {

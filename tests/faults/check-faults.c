@@ -48,6 +48,13 @@ static hr2d_status split_crossings(fault_stage *s, uint64_t *sum) {
   return fault_mix_stage(s, sum, status);
 }
 
+static hr2d_status snap(fault_stage *s, uint64_t *sum) {
+  hr2d_snap_report report = {0};
+  const hr2d_status status = hr2d_scene_snap(s->scene, 1e-3, &report);
+  if (!status) *sum = fault_mix_count(*sum, report.cuts);
+  return fault_mix_stage(s, sum, status);
+}
+
 static hr2d_status mix_warning(void *ctx, const hr2d_warning *w) {
   uint64_t *sum = ctx;
   *sum = fault_mix(*sum, w->text, strlen(w->text));
@@ -249,6 +256,7 @@ START_TEST(scenes) {
        of_scene, 0);
   PLAY("scene_commit, all forced", {.depth = DEPTH_FILLED, .plan = PLAN_ROOM}, force_and_commit,
        of_scene, 0);
+  PLAY("scene_snap", {.depth = DEPTH_FILLED, .plan = PLAN_CROSSING}, snap, of_scene, 0);
   PLAY("scene_lint", {.depth = DEPTH_FILLED, .plan = PLAN_CROSSING}, lint, NULL, 0);
   PLAY("scene_lint, open", {.depth = DEPTH_COMMITTED, .plan = PLAN_OPEN}, lint, NULL, 0);
   PLAY("scene_lint, room", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, lint, NULL, 0);

@@ -211,9 +211,9 @@ static size_t size_for(const slow_phase *phase) {
   static const struct {
     const char *name;
     size_t count;
-  } known[] = {{"read", 400},     {"split", 400},  {"commit", 300},
-               {"refine l1", 10}, {"gather", 150}, {"write", 200},
-               {"resume", 200},   {"past", 400},   {"events", 400}};
+  } known[] = {{"read", 400},   {"split", 400}, {"commit", 300}, {"refine l1", 10},
+               {"gather", 150}, {"write", 200}, {"resume", 200}, {"past", 400},
+               {"events", 400}, {"snap", 400}};
   for (size_t k = 0; k < sizeof known / sizeof *known; k++)
     if (!strcmp(phase->name, known[k].name)) return known[k].count;
   return 50;

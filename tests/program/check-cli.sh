@@ -659,5 +659,11 @@ for command in info solve; do
   succeeds "$command" "$HR2D_SRCDIR/examples/scenes/lit-room.geojson" --strict
   check "$command has no warning about a sound scene" [ ! -s "$work/err" ]
 done
+succeeds info "$work/loose.geojson" --snap 0.002
+check "--snap tells what it moved" grep -q 'snapped: 0 ends joined, 1 feet moved' "$work/err"
+check "and how far" grep -q 'farthest by 0.001, from (2, 0.001) to (2, 0)' "$work/err"
+check "the stub ends on the floor" lacks '"stub") ends at' "$work/err"
+run info "$work/loose.geojson" --snap 100
+check "--snap refuses to drop all" grep -q 'no patch is longer than the tolerance' "$work/err"
 
 summary check-cli

@@ -157,6 +157,14 @@ static hr2d_status commit(slow_stage *s) {
   return by_scene(s, commit_scene);
 }
 
+static hr2d_status snap_scene(slow_stage *s) {
+  return hr2d_scene_snap(s->scene, 1e-9, NULL);
+}
+
+static hr2d_status snap(slow_stage *s) {
+  return by_scene(s, snap_scene);
+}
+
 static hr2d_status ignore(void *ctx, const hr2d_warning *warning) {
   (void)ctx;
   return warning->text ? HR2D_OK : HR2D_EINVAL;
@@ -312,13 +320,23 @@ static hr2d_status pass(slow_stage *s) {
 }
 
 const slow_phase slow_phases[SLOW_PHASES] = {
-    {"read", make_text, read_file},         {"split", make_crossing, split},
-    {"commit", make_open, commit},          {"events", make_scene, find_events},    {"roots", make_scene, find_roots},
-    {"factors", make_matrix, find_factors}, {"rows", make_scene, find_rows},
-    {"visit", make_scene, visit_rows},      {"refine", make_empty, refine},
-    {"refine l1", make_grid, refine_some},  {"count", make_empty, count_links},
-    {"validate", make_links, validate},     {"solve", make_links, solve},
-    {"gather", make_solution, gather},      {"write", make_solution, write_state},
-    {"resume", make_state, read_state},     {"past", make_open, pass},
+    {"read", make_text, read_file},
+    {"split", make_crossing, split},
+    {"commit", make_open, commit},
+    {"events", make_scene, find_events},
+    {"roots", make_scene, find_roots},
+    {"factors", make_matrix, find_factors},
+    {"rows", make_scene, find_rows},
+    {"visit", make_scene, visit_rows},
+    {"refine", make_empty, refine},
+    {"refine l1", make_grid, refine_some},
+    {"count", make_empty, count_links},
+    {"validate", make_links, validate},
+    {"solve", make_links, solve},
+    {"gather", make_solution, gather},
+    {"write", make_solution, write_state},
+    {"resume", make_state, read_state},
+    {"past", make_open, pass},
     {"lint", make_scene, lint},
+    {"snap", make_crossing, snap},
 };

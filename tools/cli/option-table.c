@@ -134,6 +134,8 @@ static const option_entry table[] = {
             {COST, "threads; 1 by default, 0 for all processors"}}},
   {"split-crossings", NULL, GROUP_WORK, VALUE(flag, split_crossings),
    .help = {{WITH_SCENE, "cut patches where they cross each other"}}},
+  {"snap", "TOL", GROUP_WORK, VALUE(positive, snap),
+   .help = {{WITH_SCENE, "join what is nearer than TOL: ends, feet of walls"}}},
   {"strict", NULL, GROUP_WORK, VALUE(flag, strict),
    .help = {{INFO | SOLVE, "warnings about the scene are errors"}}},
   {"force", "EFFECT", GROUP_WORK, VALUE(effect, force),

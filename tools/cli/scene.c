@@ -20,6 +20,16 @@ static void warn_of_refused(const options *o, const hr2d_scene *scene) {
   warnings_release(&w);
 }
 
+static void tell_snapped(const options *o, const hr2d_snap_report *r) {
+  complain(o->scene,
+           "snapped: %zu ends joined, %zu feet moved, %zu slivers and %zu copies dropped, %zu "
+           "crossings cut",
+           r->ends, r->feet, r->slivers, r->copies, r->cuts);
+  if (r->farthest > 0)
+    complain(o->scene, "snapped: farthest by %.3g, from (%.9g, %.9g) to (%.9g, %.9g)",
+             r->farthest, r->from.x, r->from.y, r->to.x, r->to.y);
+}
+
 int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cuts) {
   progress p;
   *scene = NULL;
@@ -29,6 +39,8 @@ int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cut
   /* Not before: a signal that only sets a flag would not end a read that waits for a pipe. */
   progress_start(&p, o->quiet);
   if (!status) hr2d_scene_set_progress(*scene, progress_show, &p);
+  hr2d_snap_report snapped = {0};
+  if (!status && o->snap > 0) status = hr2d_scene_snap(*scene, o->snap, &snapped);
   if (!status && o->split_crossings) status = hr2d_scene_split_crossings(*scene, cuts);
   for (int e = 0; !status && e < HR2D_EFFECT_COUNT; e++)
     if (force >> e & 1) status = hr2d_scene_force(*scene, (hr2d_effect)e);
@@ -36,6 +48,7 @@ int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cut
   if (*scene) hr2d_scene_set_progress(*scene, NULL, NULL);
   progress_clear(&p);
   progress_end();
+  if (o->snap > 0 && !status && !o->quiet) tell_snapped(o, &snapped);
   if (!status) return 0;
   if (status != HR2D_STOPPED && status != HR2D_ENOMEM && *scene && hr2d_scene_patches(*scene))
     warn_of_refused(o, *scene);
