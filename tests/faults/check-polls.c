@@ -239,18 +239,23 @@ static int stop_once(const slow_phase *phase, slow_kind kind, unsigned threads,
   ck_assert_int_eq(memory.live, 0);
   if (asks == 0) return 0;
   ck_assert_int_eq(phase->prepare(&s), HR2D_OK);
-  for (int turn = 0; turn < 3; turn++) {
+  int ended = 0;
+  for (int turn = 0; turn < 3 && !ended; turn++) {
     const unsigned long most = threads == 1 ? asks : 1;
     w = (witness){.span = 300,
                   .stop_at = 1 + (unsigned long)(test_random(state) * (double)most)};
-    ck_assert_msg((int)phase->run(&s) == REFUSAL, "%s, %s, question %lu of %lu",
-                  slow_name(kind), phase->name, w.stop_at, asks);
+    const int status = (int)phase->run(&s);
+    /* Blocks that a stopped solve has made are kept, so that later ones ask less often. */
+    ended = status == HR2D_OK && w.asks < w.stop_at;
+    if (ended) continue;
+    ck_assert_msg(status == REFUSAL, "%s, %s, question %lu of %lu", slow_name(kind),
+                  phase->name, w.stop_at, asks);
     ck_assert_uint_eq(w.asks, w.stop_at);
     ck_assert_msg(sum_of(&s) == before, "%s, %s, question %lu: something has changed",
                   slow_name(kind), phase->name, w.stop_at);
   }
   w = (witness){.span = 300};
-  ck_assert_int_eq(phase->run(&s), HR2D_OK);
+  if (!ended) ck_assert_int_eq(phase->run(&s), HR2D_OK);
   ck_assert_uint_eq(sum_of(&s), undisturbed);
   slow_clear(&s);
   ck_assert_int_eq(memory.live, 0);
