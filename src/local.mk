@@ -158,6 +158,14 @@ libhr2d_core_la_SOURCES = \
 	src/solution/point-gather.c \
 	src/solution/solution.c \
 	src/solution/solution-impl.h \
+	src/field/field-at.c src/field/field-at.h \
+	src/field/field-impl.h \
+	src/field/field-team.c \
+	src/field/leaves.c src/field/leaves.h \
+	src/field/light.c src/field/light.h \
+	src/field/locate.c src/field/locate.h \
+	src/field/round-view.c src/field/round-view.h \
+	src/field/step-off.c \
 	src/refine/count.c \
 	src/refine/occluded-pairs.c src/refine/occluded-pairs.h \
 	src/refine/partition.c src/refine/partition.h \

@@ -45,6 +45,7 @@ SUITES = \
 	tests/unit/oracle/check-squares \
 	tests/unit/solution/check-points \
 	tests/unit/solution/check-irradiance-points \
+	tests/unit/field/check-field \
 	tests/unit/solve/check-solve \
 	tests/unit/solve/check-background \
 	tests/unit/solve/check-closure \
@@ -121,6 +122,7 @@ tests_libsupport_la_SOURCES = \
 	tests/support/elements.c tests/support/elements.h \
 	tests/support/fault-calls.c tests/support/fault-calls.h \
 	tests/support/fault-stage.c tests/support/fault-stage.h \
+	tests/support/field-stage.c tests/support/field-stage.h \
 	tests/support/grid-plans.c tests/support/grid-plans.h \
 	tests/support/hard-rooms.c tests/support/hard-rooms.h \
 	tests/support/hard.c tests/support/hard.h \
@@ -154,6 +156,7 @@ tests_libsupport_la_SOURCES = \
 	tests/independent/lines-block.c tests/independent/lines-block.h \
 	tests/independent/mpfr-exchange.c tests/independent/mpfr-exchange.h \
 	tests/independent/mpfr-l1.c tests/independent/mpfr-l1.h \
+	tests/independent/open-sweep.c tests/independent/open-sweep.h \
 	tests/independent/pair-frame.c tests/independent/pair-frame.h \
 	tests/independent/point-sweep.c tests/independent/point-sweep.h \
 	tests/independent/sweep-nystrom.c tests/independent/sweep-nystrom.h \

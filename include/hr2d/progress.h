@@ -20,6 +20,7 @@
  * - "rows": row sums and form factors of the background are integrated; 0
  * - "solve": the equation is iterated; part of the digits to gain
  * - "gather": light is gathered at points; part of the points
+ * - "field": light is gathered between the patches; part of the points
  * - "factors": exchange areas of all patches are integrated; part of them
  * - "validate": links are checked; part of the links
  * - "state": a state is read or written; 0

@@ -209,6 +209,18 @@ static hr2d_status gather(fault_stage *s, uint64_t *sum) {
   return status;
 }
 
+static hr2d_status field(fault_stage *s, uint64_t *sum) {
+  static const hr2d_point at[] = {{.5, .5}, {0, 0}, {.1, .7}, {-30, 2}};
+  double mean[8] = {0}, flux[16] = {0}, sky[4];
+  const hr2d_field_options how = {.struct_size = sizeof how, .threads = 2};
+  const hr2d_field_values values = {
+      .struct_size = sizeof values, .mean = mean, .flux = flux, .sky = sky};
+  const hr2d_status status = hr2d_field_at(s->solution, at, 4, &how, &values);
+  if (!status) *sum = fault_mix(*sum, mean, sizeof mean);
+  if (!status) *sum = fault_mix(*sum, flux, sizeof flux);
+  return status;
+}
+
 static hr2d_status matrix(fault_stage *s, uint64_t *sum) {
   hr2d_matrix_options how = HR2D_MATRIX_OPTIONS_INIT;
   how.threads = 1;
@@ -331,6 +343,9 @@ START_TEST(solutions) {
   PLAY("solution_gather", {.depth = DEPTH_SOLVED, .plan = PLAN_ROOM}, gather, NULL, 0);
   PLAY("solution_gather, open", {.depth = DEPTH_SOLVED, .plan = PLAN_OPEN, .order = 4}, gather,
        NULL, 0);
+  PLAY("field_at", {.depth = DEPTH_SOLVED, .plan = PLAN_ROOM}, field, NULL, 0);
+  PLAY("field_at, no plane, order 4", {.depth = DEPTH_SOLVED, .plan = PLAN_PAIR, .order = 4},
+       field, NULL, 0);
 }
 END_TEST
 

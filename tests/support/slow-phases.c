@@ -286,6 +286,25 @@ static hr2d_status gather(slow_stage *s) {
   return by_scene(s, gather_some);
 }
 
+/* From points between the patches, or on them. */
+static hr2d_status look_round(slow_stage *s) {
+  enum { POINTS = 200 };
+  hr2d_point at[POINTS];
+  double mean[POINTS];
+  const size_t n = hr2d_scene_patches(s->scene);
+  for (size_t k = 0; k < POINTS; k++) {
+    const hr2d_point p = hr2d_scene_segment(s->scene, k * 7 % n).a,
+                     q = hr2d_scene_segment(s->scene, k * 13 % n).b;
+    at[k] = (hr2d_point){.25 * p.x + .75 * q.x, .25 * p.y + .75 * q.y};
+  }
+  const hr2d_field_options o = {.struct_size = sizeof o,
+                                .threads = s->threads,
+                                .progress = s->ask,
+                                .progress_ctx = s->ctx};
+  const hr2d_field_values values = {.struct_size = sizeof values, .mean = mean};
+  return hr2d_field_at(s->solution, at, POINTS, &o, &values);
+}
+
 static hr2d_status put_state(slow_stage *s) {
   s->size = 0;
   return hr2d_state_write(s->solution, keep, s);
@@ -339,4 +358,5 @@ const slow_phase slow_phases[SLOW_PHASES] = {
     {"past", make_open, pass},
     {"lint", make_scene, lint},
     {"snap", make_crossing, snap},
+    {"field", make_solution, look_round},
 };

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file field.h
+ * @brief The light at points of the plane between the patches.
+ *
+ * @defgroup field Field: the light between the patches
+ * The light at points of the plane between the patches.
+ *
+ * From a point x the radiosity B(x,ω) is seen in direction ω: that of the patch whose front is
+ * there, the background where nothing is, and 0 at the back of a patch that has only a front.
+ *
+ * | quantity | definition                 | unit      | |
+ * |----------|----------------------------|-----------|----------------------------------------|
+ * | mean     | M = (1/2π) ∫ B dω          | that of E | 1 in a furnace with B = 1 | | flux | Φ
+ * = ∫ (B/2) ω dω           | that of E | a vector; n·Φ = H(n) − H(−n)           | | sky      |
+ * the part of all directions | 1         | in which nothing is                    | | back |
+ * the part of all directions | 1         | in which a black back is               |
+ *
+ * H(n) = ∫ (B/2) n·ω dω over n·ω > 0 is the irradiance of a line through x with normal n. If E
+ * is in W/m², σT⁴ = M gives the mean radiant temperature T.
+ *
+ * **Exactness.** Visibility is exact, and so are the integrals over the B_h of a solution, as
+ * hr2d_solution_at() has it: M has an error of some 1e-15 of the largest B, and Φ of π times as
+ * much. What is left is the error of B_h. If |B_h − B| ≤ e_j on patch j, and x sees j in the
+ * part s_j of all directions, then
+ *
+ *     |δM| ≤ Σ s_j e_j   and   |δΦ| ≤ π Σ s_j e_j,
+ *
+ * which hr2d_field_values::error receives if hr2d_field_options::patch_error has the e_j. With
+ * one e for all patches this is at most e times the part of all directions in which fronts are.
+ *
+ * **Places.** Every point is in one of three kinds of places, #hr2d_place.
+ * - A point on a patch, or nearer to one than 2^-48 of hr2d_scene_unit(), has the limit from
+ * its front: half of its directions see the patch itself. The back of a patch with two sides is
+ * a front as well; of the two the one counts that has the lower number. Where patches meet,
+ * they divide the directions into sectors. The limit is then that along the line that halves a
+ *   sector: one between two fronts if there is one, of these the widest, of equal ones that
+ *   beside the patch of the lowest number. On the inside of a wall the limit is taken at 2^-44
+ *   of the unit.
+ * - A point that sees no front, and no background with light, is outside: within an obstacle,
+ *   or behind the walls of a closed room. It has no number: all values are NaN, but `sky` and
+ *   `back`.
+ * - All other points are between the patches.
+ * @{
+ */
+#ifndef HR2D_FIELD_H
+#define HR2D_FIELD_H
+
+#include <hr2d/geometry.h>
+#include <hr2d/options.h>
+#include <hr2d/progress.h>
+#include <hr2d/scene.h>
+#include <hr2d/solve.h>
+#include <hr2d/status.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Where a point is; see above. */
+typedef enum hr2d_place {
+  HR2D_PLACE_BETWEEN = 0, /**< between the patches */
+  HR2D_PLACE_PATCH,       /**< on a patch: values are limits from its front */
+  HR2D_PLACE_OUTSIDE      /**< where no light can be: values are NaN */
+} hr2d_place;
+
+/** Options of the calls for the field. Start from #HR2D_FIELD_OPTIONS_INIT. */
+typedef struct hr2d_field_options {
+  size_t struct_size;        /**< so that the options can grow */
+  unsigned threads;          /**< 0 for one, or #HR2D_ALL_THREADS; no bit depends on it */
+  hr2d_progress_fn progress; /**< optional; with the phase "field", from the calling thread */
+  void *progress_ctx;        /**< given to `progress` */
+  const double *patch_error; /**< bounds of |B_h − B|, patches × bands, patch by patch, in the
+                                  unit of E; only read; NULL: none are known */
+} hr2d_field_options;
+
+/** The defaults: one thread, no callback, no errors. */
+#define HR2D_FIELD_OPTIONS_INIT                                                                \
+  { sizeof(hr2d_field_options), 0, NULL, NULL, NULL }
+
+/**
+ * Does what #HR2D_FIELD_OPTIONS_INIT does, for languages without macros: sets all bytes to 0,
+ * and `struct_size`.
+ * @param options  the struct
+ * @param size     its size as the caller knows it; may differ from that of the library
+ */
+HR2D_API void hr2d_field_options_init(hr2d_field_options *options, size_t size);
+
+/** What is received for each point, point by point. Start from #HR2D_FIELD_VALUES_INIT. */
+typedef struct hr2d_field_values {
+  size_t struct_size;   /**< so that the struct can grow */
+  double *mean;         /**< receives M, points × bands; NULL: not wanted, as all below */
+  double *flux;         /**< receives Φ, points × bands × 2, x before y */
+  double *error;        /**< receives the bound of |δM|, points × bands; NaN without
+                             hr2d_field_options::patch_error */
+  double *sky;          /**< receives the part of all directions with nothing, points */
+  double *back;         /**< receives the part of all directions with backs, points */
+  unsigned char *place; /**< receives an #hr2d_place each, points */
+} hr2d_field_values;
+
+/** Nothing is wanted. */
+#define HR2D_FIELD_VALUES_INIT                                                                 \
+  { sizeof(hr2d_field_values), NULL, NULL, NULL, NULL, NULL, NULL }
+
+/**
+ * The field at points.
+ * @param solution  a solution
+ * @param at        `count` points in scene coordinates
+ * @param count     number of points
+ * @param options   NULL for the defaults
+ * @param values    what is wanted; the arrays are undefined on failure
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  a coordinate is not finite, or a `struct_size` is too small
+ * @retval HR2D_ESCENE  the scene has no effect of occlusion, and so many patches cross each
+ *                      other within roundings that the plane between them is unknown
+ * @retval other        the status of the progress callback
+ *
+ * Several threads may ask one solution at once. With several threads in the options the hooks
+ * of the scene are called from all of them. Cost: for a call O(leaves), and O(n log n) to
+ * triangulate the plane if the scene does not call for occlusion; for a point some 20 ns for
+ * each triangle of the plane that its view passes, and 0.1 µs to 1 µs for each leaf that it
+ * sees. Points in an order in which neighbours follow each other are found faster.
+ */
+HR2D_API hr2d_status hr2d_field_at(const hr2d_solution *solution, const hr2d_point *at,
+                                   size_t count, const hr2d_field_options *options,
+                                   const hr2d_field_values *values);
+
+#ifdef __cplusplus
+}
+#endif
+/** @} */
+#endif

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The field at points, in groups of neighbours. */
+#include "field/field-at.h"
+
+#include <hr2d/field.h>
+#include <math.h>
+
+#include "base/sized-struct.h"
+
+/* Points of a task. */
+enum { GROUP = 32 };
+
+#define PI 3.14159265358979323846
+
+static hr2d_status take(void *ctx, const hr2di_round_stretch *s) {
+  hr2di_field_looker *l = ctx;
+  l->sum.x = l->worker->view.x;
+  hr2di_light_add(&l->sum, s);
+  return hr2di_watch_status(l->worker->watch);
+}
+
+static int has_background(const hr2d_scene *scene) {
+  for (size_t b = 0; b < scene->bands; b++)
+    if (hr2d_scene_background(scene, b) > 0) return 1;
+  return 0;
+}
+
+static void clear(hr2di_light_sum *sum, size_t bands) {
+  sum->front = sum->back = sum->sky = 0;
+  for (size_t b = 0; b < bands; b++)
+    sum->mean[b] = sum->flux[2 * b] = sum->flux[2 * b + 1] = sum->error[b] = 0;
+}
+
+hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of, hr2d_point x,
+                             hr2di_field_look_at *seen) {
+  const size_t bands = of->solution->bands;
+  hr2di_field_looker l = {.worker = w, .sum = {.of = of, .watch = w->watch}};
+  hr2di_light_sum *sum = &l.sum;
+  int touches;
+  sum->mean = w->room;
+  sum->flux = sum->mean + bands;
+  sum->error = sum->flux + 2 * bands;
+  clear(sum, bands);
+  w->view.take = take;
+  w->view.ctx = &l;
+  const hr2d_status status = hr2di_look_round(&w->view, x, &touches);
+  const int dark = sum->front == 0 && !(sum->sky > 0 && has_background(of->scene));
+  seen->mean = sum->mean;
+  seen->flux = sum->flux;
+  seen->error = sum->error;
+  seen->sky = fmin(sum->sky / (2 * PI), 1);
+  seen->back = fmin(sum->back / (2 * PI), 1);
+  seen->place = dark ? HR2D_PLACE_OUTSIDE : touches ? HR2D_PLACE_PATCH : HR2D_PLACE_BETWEEN;
+  for (size_t b = 0; b < bands; b++) {
+    sum->mean[b] = dark ? NAN : sum->mean[b] / (2 * PI);
+    sum->flux[2 * b] = dark ? NAN : sum->flux[2 * b] / 2;
+    sum->flux[2 * b + 1] = dark ? NAN : sum->flux[2 * b + 1] / 2;
+    sum->error[b] = dark || !of->patch_error ? NAN : sum->error[b] / (2 * PI);
+  }
+  return status;
+}
+
+void hr2di_field_keep(const hr2d_field_values *v, size_t k, size_t bands,
+                      const hr2di_field_look_at *seen) {
+  for (size_t b = 0; b < bands; b++) {
+    if (v->mean) v->mean[k * bands + b] = seen->mean[b];
+    if (v->error) v->error[k * bands + b] = seen->error[b];
+  }
+  for (size_t b = 0; b < 2 * bands && v->flux; b++) v->flux[2 * k * bands + b] = seen->flux[b];
+  if (v->sky) v->sky[k] = seen->sky;
+  if (v->back) v->back[k] = seen->back;
+  if (v->place) v->place[k] = (unsigned char)seen->place;
+}
+
+typedef struct call {
+  const hr2di_light_source *of;
+  const hr2d_point *at;
+  size_t count;
+  const hr2d_field_values *values;
+} call;
+
+static hr2d_status do_group(void *ctx, hr2di_field_worker *w, size_t task) {
+  const call *c = ctx;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = task * GROUP; k < c->count && k < (task + 1) * GROUP && !status; k++) {
+    hr2di_field_look_at seen;
+    const hr2d_point x = hr2di_field_scaled(c->of->scene, c->at[k]);
+    status = hr2di_field_look(w, c->of, x, &seen);
+    if (!status) hr2di_field_keep(c->values, k, c->of->solution->bands, &seen);
+  }
+  return status;
+}
+
+hr2d_status hr2di_field_open(hr2di_field_call *f, const hr2d_solution *solution,
+                             const hr2d_field_options *options,
+                             const hr2d_field_values *values) {
+  const hr2d_scene *scene = solution->hierarchy->scene;
+  *f = (hr2di_field_call){.options = HR2D_FIELD_OPTIONS_INIT, .values = HR2D_FIELD_VALUES_INIT};
+  hr2d_status status = hr2di_sized_copy(&f->options, sizeof f->options, options);
+  if (!status) status = hr2di_sized_copy(&f->values, sizeof f->values, values);
+  if (status) return status;
+  hr2di_scene_watch(scene, &f->watch, f->options.progress, f->options.progress_ctx, "field");
+  status = hr2di_field_scene_init(&f->scene, scene, &f->watch);
+  f->opened = 1;
+  if (!status) status = hr2di_light_source_init(&f->source, solution, &f->watch);
+  f->source.scene = &f->scene.with;
+  f->source.patch_error = f->options.patch_error;
+  f->team = (hr2di_field_team){.scene = &f->scene.with,
+                               .watch = &f->watch,
+                               .threads = f->options.threads,
+                               .needs = 4 * solution->bands};
+  return status;
+}
+
+void hr2di_field_close(hr2di_field_call *f) {
+  if (!f->opened) return;
+  if (f->source.solution) hr2di_light_source_clear(&f->source);
+  hr2di_field_scene_clear(&f->scene);
+}
+
+static int are_finite(const hr2d_point *at, size_t count) {
+  for (size_t k = 0; k < count; k++)
+    if (!isfinite(at[k].x) || !isfinite(at[k].y)) return 0;
+  return 1;
+}
+
+hr2d_status hr2d_field_at(const hr2d_solution *solution, const hr2d_point *at, size_t count,
+                          const hr2d_field_options *options, const hr2d_field_values *values) {
+  if (!are_finite(at, count)) return HR2D_EINVAL;
+  hr2di_field_call f;
+  uint64_t steps = 0;
+  hr2d_status status = hr2di_field_open(&f, solution, options, values);
+  call c = {.of = &f.source, .at = at, .count = count, .values = &f.values};
+  f.team.run = do_group;
+  f.team.ctx = &c;
+  if (!status)
+    status = hr2di_field_team_run(&f.team, count / GROUP + (count % GROUP > 0), &steps);
+  if (!status) status = hr2di_watch_ask(&f.watch);
+  hr2di_field_close(&f);
+  return status;
+}

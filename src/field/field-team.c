@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdatomic.h>
+
+#include "base/alloc.h"
+#include "base/team.h"
+#include "field/field-impl.h"
+
+hr2d_status hr2di_field_scene_init(hr2di_field_scene *s, const hr2d_scene *scene,
+                                   hr2di_watch *watch) {
+  s->with = *scene;
+  s->own = !scene->parts.wanted;
+  const hr2d_status status = s->own ? hr2di_scene_need_plane(&s->with, watch) : HR2D_OK;
+  return !status && s->with.unclear.is ? HR2D_ESCENE : status;
+}
+
+void hr2di_field_scene_clear(hr2di_field_scene *s) {
+  if (s->own) hr2di_scene_clear_plane(&s->with);
+}
+
+typedef struct team {
+  const hr2di_field_team *is;
+  hr2di_field_worker *worker;
+  size_t workers, tasks;
+  atomic_size_t done;
+  atomic_int stop;
+} team;
+
+static hr2d_status hire(team *t) {
+  const hr2d_allocator *alloc = &t->is->scene->alloc;
+  size_t count = hr2di_team_threads(t->is->threads);
+  if (count > t->tasks) count = t->tasks;
+  t->worker = hr2di_alloc_zero(alloc, count, sizeof *t->worker);
+  if (!t->worker) return HR2D_ENOMEM;
+  for (; t->workers < count; t->workers++) {
+    hr2di_field_worker *w = &t->worker[t->workers];
+    w->watch = t->workers == 0 ? t->is->watch : &w->own;
+    hr2di_watch_follow(&w->own, t->is->watch);
+    w->view = (hr2di_round_view){.scene = t->is->scene, .alloc = *alloc, .watch = w->watch};
+    w->room = hr2di_alloc(alloc, t->is->needs, sizeof *w->room);
+    if (!w->room) return HR2D_ENOMEM;
+  }
+  return HR2D_OK;
+}
+
+static void dismiss(team *t, uint64_t *steps) {
+  for (size_t k = 0; k < t->workers; k++) {
+    *steps += t->worker[k].view.steps;
+    hr2di_round_view_clear(&t->worker[k].view);
+    hr2di_alloc_free(&t->is->scene->alloc, t->worker[k].room);
+  }
+  hr2di_alloc_free(&t->is->scene->alloc, t->worker);
+}
+
+/* Every thread looks whether another has failed. */
+static void do_task(void *ctx, size_t worker, size_t task) {
+  team *t = ctx;
+  hr2di_field_worker *w = &t->worker[worker];
+  hr2d_status status = atomic_load(&t->stop) ? HR2D_STOPPED : hr2di_watch_status(w->watch);
+  hr2di_round_view_restart(&w->view);
+  if (!status) status = t->is->run(t->is->ctx, w, task);
+  atomic_fetch_add(&t->done, 1);
+  if (!status || w->status) return;
+  w->status = status;
+  atomic_store(&t->stop, 1);
+}
+
+static void describe(void *of, hr2d_progress *told) {
+  const team *t = of;
+  told->fraction = (double)atomic_load(&t->done) / (double)t->tasks;
+}
+
+/* The status of the first that failed and was not told to stop. */
+hr2d_status hr2di_field_team_run(const hr2di_field_team *is, size_t tasks, uint64_t *steps) {
+  team t = {.is = is, .tasks = tasks};
+  if (tasks == 0) return HR2D_OK;
+  hr2d_status status = hire(&t);
+  if (!status) {
+    hr2di_watch_describe(is->watch, describe, &t);
+    hr2di_team_run(t.workers, tasks, do_task, &t, is->watch);
+    hr2di_watch_describe(is->watch, NULL, NULL);
+  }
+  for (size_t k = 0; k < t.workers && t.worker; k++)
+    if (t.worker[k].status && (!status || status == HR2D_STOPPED)) status = t.worker[k].status;
+  dismiss(&t, steps);
+  return status;
+}

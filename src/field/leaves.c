@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "field/leaves.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "scene/scene-impl.h"
+
+enum { STACK = 128 };
+
+/* An element, and the part of its patch that it covers. */
+typedef struct piece {
+  uint32_t element;
+  double from, to;
+} piece;
+
+/* |φ_l| ≤ √(2l+1), so that B differs from its average by at most Σ |c_l| √(2l+1). */
+static float variation(const hr2d_solution *s, uint32_t element, const double *scale) {
+  const double *value = s->value + element * s->order * s->bands;
+  double most = 0;
+  for (size_t b = 0; b < s->bands; b++) {
+    double sum = 0;
+    for (size_t l = 1; l < s->order; l++)
+      sum += fabs(value[l * s->bands + b]) * sqrt(2 * (double)l + 1);
+    if (sum > 0) most = fmax(most, sum / scale[b]);
+  }
+  return (float)most;
+}
+
+static hr2d_status add_leaves(hr2di_leaves *l, const hr2d_solution *s, size_t patch,
+                              const double *scale, hr2di_watch *watch) {
+  const hr2d_element *element = s->hierarchy->element;
+  piece stack[STACK];
+  size_t count = 0;
+  stack[count++] = (piece){(uint32_t)patch, 0, 1};
+  while (count > 0) {
+    const piece p = stack[--count];
+    const uint32_t child = element[p.element].child;
+    const hr2d_status status = hr2di_watch_work(watch, 1);
+    if (status) return status;
+    if (child && child < s->elements && count < STACK - 2) {
+      const double middle =
+          p.from + hr2di_element_left_part(element, p.element) * (p.to - p.from);
+      stack[count++] = (piece){child + 1, middle, p.to};
+      stack[count++] = (piece){child, p.from, middle};
+      continue;
+    }
+    if (hr2di_alloc_reserve(&l->alloc, &l->leaf, &l->room, l->leaves + 1, sizeof *l->leaf))
+      return HR2D_ENOMEM;
+    l->leaf[l->leaves++] = (hr2di_leaf){p.from, p.element, variation(s, p.element, scale)};
+  }
+  return HR2D_OK;
+}
+
+/* The largest coefficient of each band. */
+static hr2d_status find_scale(const hr2d_solution *s, double *scale, hr2di_watch *watch) {
+  const size_t each = s->order * s->bands;
+  hr2d_status status = HR2D_OK;
+  for (size_t b = 0; b < s->bands; b++) scale[b] = 0;
+  for (size_t e = 0; e < s->elements && !status; e++) {
+    for (size_t k = 0; k < each; k++)
+      scale[k % s->bands] = fmax(scale[k % s->bands], fabs(s->value[e * each + k]));
+    if (e % 16 == 0) status = hr2di_watch_work(watch, 1 + each / 4);
+  }
+  return status;
+}
+
+hr2d_status hr2di_leaves_init(hr2di_leaves *l, const hr2d_solution *solution,
+                              hr2di_watch *watch) {
+  const size_t patches = solution->hierarchy->scene->patches;
+  *l = (hr2di_leaves){.alloc = solution->alloc};
+  l->of_patch = hr2di_alloc(&l->alloc, patches + 1, sizeof *l->of_patch);
+  double *scale = hr2di_alloc(&l->alloc, solution->bands, sizeof *scale);
+  hr2d_status status = l->of_patch && scale ? HR2D_OK : HR2D_ENOMEM;
+  if (!status) status = find_scale(solution, scale, watch);
+  for (size_t k = 0; k < patches && !status; k++) {
+    l->of_patch[k] = l->leaves;
+    status = add_leaves(l, solution, k, scale, watch);
+  }
+  if (!status) l->of_patch[patches] = l->leaves;
+  hr2di_alloc_free(&l->alloc, scale);
+  return status;
+}
+
+void hr2di_leaves_clear(hr2di_leaves *l) {
+  hr2di_alloc_free(&l->alloc, l->leaf);
+  hr2di_alloc_free(&l->alloc, l->of_patch);
+}
+
+size_t hr2di_leaf_at(const hr2di_leaves *l, size_t patch, double at) {
+  size_t low = l->of_patch[patch], high = l->of_patch[patch + 1];
+  while (high - low > 1) {
+    const size_t middle = low + (high - low) / 2;
+    if (l->leaf[middle].from <= at)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}

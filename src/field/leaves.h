@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The leaves of a solution along each patch, for calls that meet them often. */
+#ifndef HR2D_SRC_FIELD_LEAVES_H
+#define HR2D_SRC_FIELD_LEAVES_H
+
+#include "hierarchy/hierarchy-impl.h"
+#include "solution/solution-impl.h"
+
+typedef struct hr2di_leaf {
+  double from;      /* the fraction of the patch where it begins */
+  uint32_t element; /* which may have children that are younger than the solution */
+  float varies;     /* how far B is from its average, at most, as a part of the largest
+                       coefficient of the band; over bands */
+} hr2di_leaf;
+
+typedef struct hr2di_leaves {
+  hr2d_allocator alloc;
+  hr2di_leaf *leaf; /* patch by patch, and along each patch */
+  size_t leaves, room;
+  size_t *of_patch; /* the leaves of patch k are [of_patch[k], of_patch[k + 1]) */
+} hr2di_leaves;
+
+/* HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended by hr2di_leaves_clear() in any
+   case. */
+hr2d_status hr2di_leaves_init(hr2di_leaves *l, const hr2d_solution *solution,
+                              hr2di_watch *watch);
+void hr2di_leaves_clear(hr2di_leaves *l);
+
+/* The end of a leaf as a fraction of its patch. */
+static inline double hr2di_leaf_end(const hr2di_leaves *l, size_t patch, size_t leaf) {
+  return leaf + 1 < l->of_patch[patch + 1] ? l->leaf[leaf + 1].from : 1;
+}
+
+/* The leaf of a patch with a fraction of it. */
+size_t hr2di_leaf_at(const hr2di_leaves *l, size_t patch, double at);
+
+#endif

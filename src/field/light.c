@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ∫ B dω and ∫ B ω dω along what a point sees.
+
+   Between two directions u and v, unit vectors with angles θ_u < θ_v, a constant B gives
+     B (θ_v − θ_u)   and   B (v.y − u.y, u.x − v.x).
+   So does the value of B at the place of a leaf that is nearest to the point.  What differs
+   from that is integrated by Gauss rules: with r(t) = p + t d along the leaf
+     dω = p×d dt / |r|²,   ω = r/|r|.
+   Such an integrand is analytic but at the two complex t where r² = 0, and 0 at the place that
+   is nearest to them.  Panels shrink towards that place, until these t lie outside of the
+   ellipse of HR2DI_NEAR_ELLIPSE, where n points leave an error of ρ^−(2n − p) times the
+   variation of B.  What the smallest panel leaves is that variation on 2^-46 of the leaf. */
+#include "field/light.h"
+
+#include <math.h>
+
+#include "geometry/bernstein-ellipse.h"
+#include "geometry/vector.h"
+#include "solution/panels.h"
+
+static const unsigned char rule_points[HR2DI_LIGHT_RULES] = {3, 5, 8, 12, 18, 26, 36};
+
+/* Variations below this part of the largest B are roundings. */
+#define ROUNDING 0x1p-54
+
+hr2d_status hr2di_light_source_init(hr2di_light_source *of, const hr2d_solution *solution,
+                                    hr2di_watch *watch) {
+  *of = (hr2di_light_source){.solution = solution};
+  hr2di_basis_init(&of->basis, solution->order);
+  for (int k = 0; k < HR2DI_LIGHT_RULES && solution->order > 1; k++)
+    hr2di_rule_init(&of->rule[k], rule_points[k]);
+  return hr2di_leaves_init(&of->leaves, solution, watch);
+}
+
+void hr2di_light_source_clear(hr2di_light_source *of) {
+  hr2di_leaves_clear(&of->leaves);
+}
+
+static hr2d_point unit(hr2d_point v) {
+  const double length = hypot(v.x, v.y);
+  return length > 0 ? (hr2d_point){v.x / length, v.y / length} : v;
+}
+
+/* ∫ ω dω between two directions. */
+static hr2d_point between(hr2d_point right, hr2d_point left) {
+  const hr2d_point u = unit(right), v = unit(left);
+  return (hr2d_point){v.y - u.y, u.x - v.x};
+}
+
+static double angle_between(hr2d_point right, hr2d_point left) {
+  return atan2(hr2di_point_cross(right, left), hr2di_point_dot(right, left));
+}
+
+static void add_constant(hr2di_light_sum *sum, size_t band, double value, double angle,
+                         hr2d_point vector) {
+  sum->mean[band] += value * angle;
+  sum->flux[2 * band] += value * vector.x;
+  sum->flux[2 * band + 1] += value * vector.y;
+}
+
+/* A part of a leaf: the vector from the point to its start, its own, and B on it. */
+typedef struct strip {
+  hr2d_point from, along;
+  double varies;
+  double nearest; /* where B is taken for constant, in [−1,1] of the leaf */
+  const double *coefficient;
+} strip;
+
+/* The rule for a panel around which there is no singularity up to ellipse m. */
+static const hr2di_rule *choose_rule(const hr2di_light_source *of, const strip *s, double m) {
+  const double digits = log(m + sqrt(m * m - 1));
+  const double points =
+      ((double)of->solution->order + log(s->varies / ROUNDING) / digits) / 2 + 1;
+  int k = 0;
+  while (k + 1 < HR2DI_LIGHT_RULES && rule_points[k] < points) k++;
+  return &of->rule[k];
+}
+
+static void add_panel(hr2di_light_sum *sum, const strip *s, hr2di_span panel, double m) {
+  const hr2di_light_source *of = sum->of;
+  const hr2di_rule *rule = choose_rule(of, s, m);
+  const size_t bands = of->solution->bands;
+  const double size = panel.to - panel.from, cross = hr2di_point_cross(s->from, s->along);
+  double xi[HR2DI_RULE_POINTS], weight[HR2DI_RULE_POINTS];
+  hr2d_point ray[HR2DI_RULE_POINTS];
+  for (size_t q = 0; q < rule->points; q++) {
+    const double t = panel.from + size * (0.5 + 0.5 * rule->at[q]);
+    const hr2d_point r = hr2di_block_along(s->from, s->along, t);
+    const double square = hr2di_point_dot(r, r);
+    xi[q] = 2 * t - 1;
+    weight[q] = square > 0 ? size * rule->weight[q] * cross / square : 0;
+    ray[q] = unit(r);
+  }
+  for (size_t b = 0; b < bands; b++) {
+    const double *c = s->coefficient + b;
+    const double nearest = hr2di_basis_sum(&of->basis, s->nearest, c, bands);
+    double mean = 0, x = 0, y = 0;
+    for (size_t q = 0; q < rule->points; q++) {
+      const double part = weight[q] * (hr2di_basis_sum(&of->basis, xi[q], c, bands) - nearest);
+      mean += part;
+      x += part * ray[q].x;
+      y += part * ray[q].y;
+    }
+    sum->mean[b] += mean;
+    sum->flux[2 * b] += x;
+    sum->flux[2 * b + 1] += y;
+  }
+}
+
+/* What the variation of B adds. */
+static void add_variation(hr2di_light_sum *sum, const strip *s, hr2di_span part) {
+  hr2di_panels panels = {.count = 1};
+  panels.stack[0] = part;
+  while (panels.count > 0) {
+    const hr2di_span panel = panels.stack[--panels.count];
+    const hr2d_segment around = {hr2di_block_along(s->from, s->along, panel.from),
+                                 hr2di_block_along(s->from, s->along, panel.to)};
+    const double m = hr2di_ellipse(around, (hr2d_point){0, 0});
+    if (m < HR2DI_NEAR_ELLIPSE && hr2di_panel_halved(&panels, panel)) continue;
+    if (hr2di_watch_work(sum->watch, 1 + sum->of->solution->order * sum->of->solution->bands))
+      return;
+    add_panel(sum, s, panel, fmax(m, HR2DI_NEAR_ELLIPSE));
+  }
+}
+
+/* A leaf between two directions, of which it has the part from `part.from` to `part.to`. */
+static void add_leaf(hr2di_light_sum *sum, const strip *s, hr2di_span part, double angle,
+                     hr2d_point vector) {
+  const hr2d_solution *of = sum->of->solution;
+  for (size_t b = 0; b < of->bands; b++)
+    add_constant(sum, b,
+                 hr2di_basis_sum(&sum->of->basis, s->nearest, s->coefficient + b, of->bands),
+                 angle, vector);
+  if (s->varies > ROUNDING && part.to > part.from) add_variation(sum, s, part);
+}
+
+/* The vector from x to a fraction of a patch, from the end of the patch that is nearer. */
+static hr2d_point to_place(hr2d_point x, hr2d_segment at, double fraction) {
+  const hr2d_point along = hr2di_point_minus(at.b, at.a);
+  return fraction <= 0.5 ? hr2di_block_along(hr2di_point_minus(at.a, x), along, fraction)
+                         : hr2di_block_along(hr2di_point_minus(at.b, x), along, fraction - 1);
+}
+
+static void set_nearest(strip *s, hr2di_span part) {
+  const double t = -hr2di_point_dot(s->from, s->along) / hr2di_point_dot(s->along, s->along);
+  s->nearest = 2 * fmin(fmax(t, part.from), part.to) - 1;
+}
+
+/* The leaves of a stretch, from its right to its left.  Where two of them meet is rounded; they
+   share the direction, so that all of the angle is divided among them. */
+static void add_front(hr2di_light_sum *sum, const hr2di_round_stretch *seen) {
+  const hr2di_light_source *of = sum->of;
+  const hr2d_segment at = of->scene->patch[seen->patch].scaled;
+  const hr2d_point whole = hr2di_point_minus(at.b, at.a);
+  const size_t each = of->solution->order * of->solution->bands;
+  hr2d_point right = seen->right;
+  size_t k = hr2di_leaf_at(&of->leaves, seen->patch, seen->from);
+  for (int last = 0; !last; k++) {
+    const double begin = of->leaves.leaf[k].from;
+    const double end = hr2di_leaf_end(&of->leaves, seen->patch, k), size = end - begin;
+    last = !(end < seen->to);
+    const hr2d_point left = last ? seen->left : to_place(sum->x, at, end);
+    const hr2di_span part = {fmax((seen->from - begin) / size, 0),
+                             fmin((seen->to - begin) / size, 1)};
+    strip s = {.from = to_place(sum->x, at, begin),
+               .along = {size * whole.x, size * whole.y},
+               .varies = of->leaves.leaf[k].varies,
+               .coefficient = of->solution->value + of->leaves.leaf[k].element * each};
+    set_nearest(&s, part);
+    const int all = last && hr2di_point_same(right, seen->right);
+    const double angle = all ? seen->angle : angle_between(right, left);
+    add_leaf(sum, &s, part, angle, between(right, left));
+    if (hr2di_watch_work(sum->watch, 1)) return;
+    right = left;
+  }
+}
+
+void hr2di_light_add(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
+  const hr2di_light_source *of = sum->of;
+  const size_t bands = of->solution->bands;
+  if (s->patch == HR2DI_ROUND_BACK) {
+    sum->back += s->angle;
+  } else if (s->patch == HR2DI_ROUND_SKY) {
+    sum->sky += s->angle;
+    const hr2d_point vector = between(s->right, s->left);
+    for (size_t b = 0; b < bands; b++)
+      add_constant(sum, b, hr2d_scene_background(of->scene, b), s->angle, vector);
+  } else {
+    sum->front += s->angle;
+    for (size_t b = 0; b < bands && of->patch_error; b++)
+      sum->error[b] += s->angle * of->patch_error[s->patch * bands + b];
+    add_front(sum, s);
+  }
+}

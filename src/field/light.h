@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The light that a point gets from what it sees. */
+#ifndef HR2D_SRC_FIELD_LIGHT_H
+#define HR2D_SRC_FIELD_LIGHT_H
+
+#include "base/legendre.h"
+#include "field/leaves.h"
+#include "field/round-view.h"
+
+/* Gauss rules, of more points each. */
+enum { HR2DI_LIGHT_RULES = 7 };
+
+/* What the points of a call have in common. */
+typedef struct hr2di_light_source {
+  const hr2d_solution *solution;
+  const hr2d_scene *scene;
+  hr2di_leaves leaves;
+  hr2di_basis basis;
+  hr2di_rule rule[HR2DI_LIGHT_RULES];
+  const double *patch_error; /* patches × bands, or NULL */
+} hr2di_light_source;
+
+/* HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended by hr2di_light_source_clear() in
+   any case. */
+hr2d_status hr2di_light_source_init(hr2di_light_source *of, const hr2d_solution *solution,
+                                    hr2di_watch *watch);
+void hr2di_light_source_clear(hr2di_light_source *of);
+
+/* The sums of one point, over stretches so far. */
+typedef struct hr2di_light_sum {
+  const hr2di_light_source *of;
+  hr2d_point x; /* where the view is from */
+  hr2di_watch *watch;
+  double *mean;            /* per band: ∫ B dω */
+  double *flux;            /* per band, x and y: ∫ B ω dω */
+  double *error;           /* per band: ∫ of the error of the patch; NULL without errors */
+  double front, back, sky; /* angles */
+} hr2di_light_sum;
+
+/* Adds a stretch of the view from x. */
+void hr2di_light_add(hr2di_light_sum *sum, const hr2di_round_stretch *s);
+
+#endif
