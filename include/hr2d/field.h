@@ -128,6 +128,56 @@ HR2D_API hr2d_status hr2d_field_at(const hr2d_solution *solution, const hr2d_poi
                                    size_t count, const hr2d_field_options *options,
                                    const hr2d_field_values *values);
 
+/** What a point sees of each patch, for hr2d_field_rows_visit(). */
+typedef struct hr2d_field_row {
+  size_t struct_size;    /**< its size as the library knows it */
+  size_t point;          /**< which of the points it is */
+  hr2d_place place;      /**< where the point is */
+  size_t count;          /**< how many patches it sees */
+  const uint32_t *patch; /**< these patches, in ascending order */
+  const double *share;   /**< the part of all directions in which each of them is seen; with
+                              `sky` and `back` they sum to 1 */
+  const double *factor;  /**< the form factor to each of them from a line with the normal, which
+                              may be 0: ½ ∫ n·ω dω over n·ω > 0; NULL without normals */
+  double sky;            /**< the part of all directions with nothing */
+  double back;           /**< the part of all directions with black backs */
+  double sky_factor;     /**< the form factor to nothing; 0 without normals */
+  double back_factor;    /**< the form factor to backs; with all others they sum to 1 */
+} hr2d_field_row;
+
+/**
+ * Takes a row. What it points to is valid until the function returns.
+ * @param ctx  as given to hr2d_field_rows_visit()
+ * @param row  the row
+ * @return HR2D_OK, or a status that ends the call
+ */
+typedef hr2d_status (*hr2d_field_row_fn)(void *ctx, const hr2d_field_row *row);
+
+/**
+ * The view factors of points: Σ share·B is M, and Σ factor·B is H(n), for any B that is
+ * constant on each patch.
+ * @param scene    committed
+ * @param at       `count` points in scene coordinates
+ * @param normal   a vector for each point, of any length but 0; NULL: no form factors
+ * @param count    number of points
+ * @param options  NULL for the defaults; `patch_error` is not used
+ * @param visit    called once for each point, in their order, in the calling thread
+ * @param ctx      given to `visit`
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  a coordinate is not finite, a normal is 0, or `struct_size` is too small
+ * @retval HR2D_ESCENE  as hr2d_field_at()
+ * @retval HR2D_ESTATE  the scene is not committed
+ * @retval other        the status of the visitor or of the progress callback
+ *
+ * Errors are some roundings of 1. Several calls may run on one scene at once. At most 1024 rows
+ * are in memory at once. Cost as hr2d_field_at(), without the leaves.
+ */
+HR2D_API hr2d_status hr2d_field_rows_visit(const hr2d_scene *scene, const hr2d_point *at,
+                                           const hr2d_point *normal, size_t count,
+                                           const hr2d_field_options *options,
+                                           hr2d_field_row_fn visit, void *ctx);
+
 #ifdef __cplusplus
 }
 #endif

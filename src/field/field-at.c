@@ -19,12 +19,6 @@ static hr2d_status take(void *ctx, const hr2di_round_stretch *s) {
   return hr2di_watch_status(l->worker->watch);
 }
 
-static int has_background(const hr2d_scene *scene) {
-  for (size_t b = 0; b < scene->bands; b++)
-    if (hr2d_scene_background(scene, b) > 0) return 1;
-  return 0;
-}
-
 static void clear(hr2di_light_sum *sum, size_t bands) {
   sum->front = sum->back = sum->sky = 0;
   for (size_t b = 0; b < bands; b++)
@@ -44,13 +38,13 @@ hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of
   w->view.take = take;
   w->view.ctx = &l;
   const hr2d_status status = hr2di_look_round(&w->view, x, &touches);
-  const int dark = sum->front == 0 && !(sum->sky > 0 && has_background(of->scene));
+  seen->place = hr2di_field_place(of->scene, sum->front, sum->sky, touches);
+  const int dark = seen->place == HR2D_PLACE_OUTSIDE;
   seen->mean = sum->mean;
   seen->flux = sum->flux;
   seen->error = sum->error;
   seen->sky = fmin(sum->sky / (2 * PI), 1);
   seen->back = fmin(sum->back / (2 * PI), 1);
-  seen->place = dark ? HR2D_PLACE_OUTSIDE : touches ? HR2D_PLACE_PATCH : HR2D_PLACE_BETWEEN;
   for (size_t b = 0; b < bands; b++) {
     sum->mean[b] = dark ? NAN : sum->mean[b] / (2 * PI);
     sum->flux[2 * b] = dark ? NAN : sum->flux[2 * b] / 2;
@@ -118,15 +112,9 @@ void hr2di_field_close(hr2di_field_call *f) {
   hr2di_field_scene_clear(&f->scene);
 }
 
-static int are_finite(const hr2d_point *at, size_t count) {
-  for (size_t k = 0; k < count; k++)
-    if (!isfinite(at[k].x) || !isfinite(at[k].y)) return 0;
-  return 1;
-}
-
 hr2d_status hr2d_field_at(const hr2d_solution *solution, const hr2d_point *at, size_t count,
                           const hr2d_field_options *options, const hr2d_field_values *values) {
-  if (!are_finite(at, count)) return HR2D_EINVAL;
+  if (!hr2di_field_finite(at, count)) return HR2D_EINVAL;
   hr2di_field_call f;
   uint64_t steps = 0;
   hr2d_status status = hr2di_field_open(&f, solution, options, values);

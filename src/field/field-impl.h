@@ -26,6 +26,12 @@ static inline hr2d_point hr2di_field_scaled(const hr2d_scene *scene, hr2d_point 
   return (hr2d_point){ldexp(at.x, -scene->exponent), ldexp(at.y, -scene->exponent)};
 }
 
+/* Whether all coordinates are finite. */
+int hr2di_field_finite(const hr2d_point *at, size_t count);
+
+/* Where a point is that sees fronts and sky under these angles. */
+hr2d_place hr2di_field_place(const hr2d_scene *scene, double front, double sky, int touches);
+
 /* Does one task.  Returns HR2D_OK, or a status that ends the call. */
 typedef struct hr2di_field_worker hr2di_field_worker;
 typedef hr2d_status (*hr2di_field_fn)(void *ctx, hr2di_field_worker *w, size_t task);

@@ -17,6 +17,23 @@ void hr2di_field_scene_clear(hr2di_field_scene *s) {
   if (s->own) hr2di_scene_clear_plane(&s->with);
 }
 
+int hr2di_field_finite(const hr2d_point *at, size_t count) {
+  for (size_t k = 0; k < count; k++)
+    if (!isfinite(at[k].x) || !isfinite(at[k].y)) return 0;
+  return 1;
+}
+
+static int has_background(const hr2d_scene *scene) {
+  for (size_t b = 0; b < scene->bands; b++)
+    if (hr2d_scene_background(scene, b) > 0) return 1;
+  return 0;
+}
+
+hr2d_place hr2di_field_place(const hr2d_scene *scene, double front, double sky, int touches) {
+  if (front == 0 && !(sky > 0 && has_background(scene))) return HR2D_PLACE_OUTSIDE;
+  return touches ? HR2D_PLACE_PATCH : HR2D_PLACE_BETWEEN;
+}
+
 typedef struct team {
   const hr2di_field_team *is;
   hr2di_field_worker *worker;

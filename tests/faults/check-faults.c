@@ -221,6 +221,22 @@ static hr2d_status field(fault_stage *s, uint64_t *sum) {
   return status;
 }
 
+static hr2d_status mix_row(void *ctx, const hr2d_field_row *row) {
+  uint64_t *sum = ctx;
+  *sum = fault_mix_count(*sum, row->count);
+  for (size_t k = 0; k < row->count; k++) *sum = fault_mix_real(*sum, row->factor[k]);
+  return HR2D_OK;
+}
+
+static hr2d_status field_rows(fault_stage *s, uint64_t *sum) {
+  static const hr2d_point at[] = {{.5, .5}, {0, 0}, {.1, .7}, {-30, 2}};
+  uint64_t rows = 0;
+  const hr2d_status status =
+      hr2d_field_rows_visit(s->scene, at, at + 2, 2, NULL, mix_row, &rows);
+  if (!status) *sum = fault_mix_count(*sum, rows);
+  return status;
+}
+
 static hr2d_status matrix(fault_stage *s, uint64_t *sum) {
   hr2d_matrix_options how = HR2D_MATRIX_OPTIONS_INIT;
   how.threads = 1;
@@ -350,6 +366,7 @@ START_TEST(solutions) {
 END_TEST
 
 START_TEST(exchanges) {
+  PLAY("field_rows_visit", {.depth = DEPTH_COMMITTED, .plan = PLAN_OPEN}, field_rows, NULL, 0);
   PLAY("exchange_matrix", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, matrix, NULL, 0);
   PLAY("exchange_matrix by 3", {.depth = DEPTH_COMMITTED, .plan = PLAN_OPEN}, matrix_by_three,
        NULL, 0);

@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* View factors of points.  Threads make the rows of some groups of points and keep them; then
+   the calling thread shows them in the order of the points. */
+#include <hr2d/field.h>
+#include <math.h>
+
+#include "base/alloc.h"
+#include "base/sized-struct.h"
+#include "base/sort.h"
+#include "field/field-impl.h"
+#include "geometry/vector.h"
+
+/* Points of a task, and of a round. */
+enum { GROUP = 32, ROUND = 1024 };
+
+#define PI 3.14159265358979323846
+
+/* What is seen under some of the directions; sorted by patch, and by the place in the view. */
+typedef struct glimpse {
+  uint32_t patch, place;
+  double share, factor;
+} glimpse;
+
+/* A row of a round, in the memory of its task. */
+typedef struct kept_row {
+  size_t first; /* among the entries of the task */
+  size_t count;
+  hr2d_place place;
+  double sky[2], back[2]; /* share, factor */
+} kept_row;
+
+/* The entries of a task. */
+typedef struct store {
+  uint32_t *patch;
+  double *share, *factor;
+  size_t used, room[3];
+} store;
+
+typedef struct visit {
+  const hr2d_scene *scene;
+  const hr2d_allocator *alloc;
+  hr2di_watch *watch;
+  const hr2d_point *at, *normal;
+  size_t first, last; /* the points of the round */
+  store store[ROUND / GROUP];
+  kept_row *kept;
+} visit;
+
+/* One point. */
+typedef struct looker {
+  const hr2d_allocator *alloc;
+  glimpse *glimpse;
+  size_t count, room;
+  hr2d_point normal;
+  int has_normal;
+  kept_row *row;
+  double front;
+} looker;
+
+/* ½ ∫ n·ω dω between two unit vectors, over n·ω > 0.  To the left the sine to the right, s,
+   falls, and behind the horizon on the right it counts as 1, on the left as −1. */
+static double form_factor(hr2d_point n, hr2d_point right, hr2d_point left) {
+  const double above_right = hr2di_point_dot(n, right), above_left = hr2di_point_dot(n, left);
+  const double right_sine = hr2di_point_cross(right, n), left_sine = hr2di_point_cross(left, n);
+  if (above_right > 0 || above_left > 0)
+    return fmax((above_right > 0 ? right_sine : 1) - (above_left > 0 ? left_sine : -1), 0) / 2;
+  /* All of the half plane, or nothing of it. */
+  return hr2di_point_dot(right, left) < -0.5 && right_sine > 0.5 ? 1 : 0;
+}
+
+static hr2d_point unit(hr2d_point v) {
+  const double length = hypot(v.x, v.y);
+  return length > 0 ? (hr2d_point){v.x / length, v.y / length} : v;
+}
+
+static hr2d_status take(void *ctx, const hr2di_round_stretch *s) {
+  looker *l = ctx;
+  const double share = s->angle / (2 * PI);
+  const double factor =
+      l->has_normal ? form_factor(l->normal, unit(s->right), unit(s->left)) : 0;
+  if (!(s->angle > 0)) return HR2D_OK;
+  if (s->patch >= HR2DI_ROUND_SKY) {
+    double *to = s->patch == HR2DI_ROUND_SKY ? l->row->sky : l->row->back;
+    to[0] += share;
+    to[1] += factor;
+    return HR2D_OK;
+  }
+  l->front += share;
+  if (hr2di_alloc_reserve(l->alloc, &l->glimpse, &l->room, l->count + 1, sizeof *l->glimpse))
+    return HR2D_ENOMEM;
+  l->glimpse[l->count] = (glimpse){s->patch, (uint32_t)l->count, share, factor};
+  l->count++;
+  return HR2D_OK;
+}
+
+static int by_patch(const void *left, const void *right) {
+  const glimpse *l = left, *r = right;
+  if (l->patch != r->patch) return l->patch < r->patch ? -1 : 1;
+  return (l->place > r->place) - (l->place < r->place);
+}
+
+/* Adds a row to the entries of a task, with one entry for each patch. */
+static hr2d_status keep(const looker *l, store *s) {
+  const size_t needed = s->used + l->count;
+  if (hr2di_alloc_reserve(l->alloc, &s->patch, &s->room[0], needed, sizeof *s->patch) ||
+      hr2di_alloc_reserve(l->alloc, &s->share, &s->room[1], needed, sizeof *s->share) ||
+      hr2di_alloc_reserve(l->alloc, &s->factor, &s->room[2], needed, sizeof *s->factor))
+    return HR2D_ENOMEM;
+  l->row->first = s->used;
+  for (size_t k = 0; k < l->count; k++) {
+    const glimpse *g = &l->glimpse[k];
+    const int more = k > 0 && g->patch == g[-1].patch;
+    const size_t place = more ? s->used - 1 : s->used;
+    s->patch[place] = g->patch;
+    s->share[place] = g->share + (more ? s->share[place] : 0);
+    s->factor[place] = g->factor + (more ? s->factor[place] : 0);
+    s->used = place + 1;
+  }
+  l->row->count = s->used - l->row->first;
+  return HR2D_OK;
+}
+
+static hr2d_status make_row(visit *v, hr2di_field_worker *w, looker *l, size_t point,
+                            store *s) {
+  int touches;
+  l->row = &v->kept[point - v->first];
+  *l->row = (kept_row){.place = HR2D_PLACE_BETWEEN};
+  l->count = 0;
+  l->front = 0;
+  l->has_normal = v->normal != NULL;
+  if (v->normal) l->normal = unit(v->normal[point]);
+  w->view.take = take;
+  w->view.ctx = l;
+  hr2d_status status =
+      hr2di_look_round(&w->view, hr2di_field_scaled(v->scene, v->at[point]), &touches);
+  l->row->place = hr2di_field_place(v->scene, l->front, l->row->sky[0], touches);
+  if (!status)
+    status = hr2di_sort(l->glimpse, l->count, sizeof *l->glimpse, by_patch, w->watch);
+  return status ? status : keep(l, s);
+}
+
+static hr2d_status do_group(void *ctx, hr2di_field_worker *w, size_t task) {
+  visit *v = ctx;
+  store *s = &v->store[task];
+  looker l = {.alloc = v->alloc};
+  hr2d_status status = HR2D_OK;
+  s->used = 0;
+  for (size_t k = v->first + task * GROUP; k < v->last && k < v->first + (task + 1) * GROUP;
+       k++) {
+    if (!status) status = make_row(v, w, &l, k, s);
+  }
+  hr2di_alloc_free(v->alloc, l.glimpse);
+  return status;
+}
+
+static hr2d_status show_row(const visit *v, size_t point, hr2d_field_row_fn show, void *ctx) {
+  const kept_row *r = &v->kept[point - v->first];
+  const store *s = &v->store[(point - v->first) / GROUP];
+  const hr2d_field_row row = {.struct_size = sizeof row,
+                              .point = point,
+                              .place = r->place,
+                              .count = r->count,
+                              .patch = s->patch ? s->patch + r->first : NULL,
+                              .share = s->share ? s->share + r->first : NULL,
+                              .factor = v->normal && s->factor ? s->factor + r->first : NULL,
+                              .sky = fmin(r->sky[0], 1),
+                              .back = fmin(r->back[0], 1),
+                              .sky_factor = r->sky[1],
+                              .back_factor = r->back[1]};
+  const hr2d_status status = show(ctx, &row);
+  return status ? status : hr2di_watch_work(v->watch, 1 + r->count / 32);
+}
+
+static hr2d_status show_all(visit *v, hr2di_field_team *team, size_t count,
+                            hr2d_field_row_fn show, void *ctx) {
+  hr2d_status status = HR2D_OK;
+  uint64_t steps = 0;
+  for (v->first = 0; v->first < count && !status; v->first = v->last) {
+    v->last = count - v->first > ROUND ? v->first + ROUND : count;
+    status = hr2di_field_team_run(team, (v->last - v->first + GROUP - 1) / GROUP, &steps);
+    for (size_t k = v->first; k < v->last && !status; k++) status = show_row(v, k, show, ctx);
+  }
+  return status;
+}
+
+static hr2d_status run(visit *v, const hr2d_field_options *o, size_t count,
+                       hr2d_field_row_fn show, void *ctx) {
+  hr2di_field_team team = {
+      .scene = v->scene, .watch = v->watch, .threads = o->threads, .run = do_group, .ctx = v};
+  v->kept = hr2di_alloc(v->alloc, count < ROUND ? count : ROUND, sizeof *v->kept);
+  const hr2d_status status = v->kept ? show_all(v, &team, count, show, ctx) : HR2D_ENOMEM;
+  for (size_t k = 0; k < ROUND / GROUP; k++) {
+    hr2di_alloc_free(v->alloc, v->store[k].patch);
+    hr2di_alloc_free(v->alloc, v->store[k].share);
+    hr2di_alloc_free(v->alloc, v->store[k].factor);
+  }
+  hr2di_alloc_free(v->alloc, v->kept);
+  return status ? status : hr2di_watch_ask(v->watch);
+}
+
+static int are_normals(const hr2d_point *normal, size_t count) {
+  for (size_t k = 0; k < count && normal; k++)
+    if (!(hypot(normal[k].x, normal[k].y) > 0)) return 0;
+  return !normal || hr2di_field_finite(normal, count);
+}
+
+hr2d_status hr2d_field_rows_visit(const hr2d_scene *scene, const hr2d_point *at,
+                                  const hr2d_point *normal, size_t count,
+                                  const hr2d_field_options *options, hr2d_field_row_fn show,
+                                  void *ctx) {
+  if (!scene->committed) return HR2D_ESTATE;
+  hr2d_field_options o = HR2D_FIELD_OPTIONS_INIT;
+  hr2d_status status = hr2di_sized_copy(&o, sizeof o, options);
+  if (status || !hr2di_field_finite(at, count) || !are_normals(normal, count))
+    return HR2D_EINVAL;
+  hr2di_watch watch;
+  hr2di_field_scene with;
+  hr2di_scene_watch(scene, &watch, o.progress, o.progress_ctx, "field");
+  status = hr2di_field_scene_init(&with, scene, &watch);
+  visit v = {
+      .scene = &with.with, .alloc = &scene->alloc, .watch = &watch, .at = at, .normal = normal};
+  if (!status) status = run(&v, &o, count, show, ctx);
+  hr2di_field_scene_clear(&with);
+  return status;
+}
