@@ -160,6 +160,7 @@ libhr2d_core_la_SOURCES = \
 	src/solution/solution-impl.h \
 	src/field/field-at.c src/field/field-at.h \
 	src/field/field-impl.h \
+	src/field/field-grid.c \
 	src/field/field-rows.c \
 	src/field/field-team.c \
 	src/field/leaves.c src/field/leaves.h \

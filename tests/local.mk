@@ -46,6 +46,7 @@ SUITES = \
 	tests/unit/solution/check-points \
 	tests/unit/solution/check-irradiance-points \
 	tests/unit/field/check-field \
+	tests/unit/field/check-field-grid \
 	tests/unit/field/check-field-rows \
 	tests/unit/solve/check-solve \
 	tests/unit/solve/check-background \

@@ -21,6 +21,7 @@ static hr2d_status take(void *ctx, const hr2di_round_stretch *s) {
 
 static void clear(hr2di_light_sum *sum, size_t bands) {
   sum->front = sum->back = sum->sky = 0;
+  sum->clearance = HUGE_VAL;
   for (size_t b = 0; b < bands; b++)
     sum->mean[b] = sum->flux[2 * b] = sum->flux[2 * b + 1] = sum->error[b] = 0;
 }
@@ -40,6 +41,8 @@ hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of
   const hr2d_status status = hr2di_look_round(&w->view, x, &touches);
   seen->place = hr2di_field_place(of->scene, sum->front, sum->sky, touches);
   const int dark = seen->place == HR2D_PLACE_OUTSIDE;
+  seen->signature = w->view.signature + sum->groups;
+  seen->clearance = sum->clearance;
   seen->mean = sum->mean;
   seen->flux = sum->flux;
   seen->error = sum->error;

@@ -27,7 +27,9 @@ void hr2di_field_close(hr2di_field_call *f);
 typedef struct hr2di_field_look_at {
   const double *mean, *flux, *error;
   double sky, back;
+  double clearance; /* scaled */
   hr2d_place place;
+  uint64_t signature; /* as that of the view, and of the groups of leaves at which it ends */
 } hr2di_field_look_at;
 
 /* What takes the stretches of a view. */

@@ -82,7 +82,37 @@ hr2d_status hr2di_leaves_init(hr2di_leaves *l, const hr2d_solution *solution,
   return status;
 }
 
+/* φ_l is √(2l+1) at the end of a leaf, and that with the sign of (−1)^l at its start. */
+static int jumps(const hr2d_solution *s, const hr2di_leaf *leaf, const double *most) {
+  const double *before = s->value + leaf[0].element * s->order * s->bands,
+               *after = s->value + leaf[1].element * s->order * s->bands;
+  for (size_t b = 0; b < s->bands; b++) {
+    double jump = 0;
+    for (size_t l = 0; l < s->order; l++) {
+      const double phi = sqrt(2 * (double)l + 1);
+      jump += phi * ((l % 2 ? -after[l * s->bands + b] : after[l * s->bands + b]) -
+                     before[l * s->bands + b]);
+    }
+    if (fabs(jump) > most[b]) return 1;
+  }
+  return 0;
+}
+
+hr2d_status hr2di_leaves_group(hr2di_leaves *l, const hr2d_solution *solution,
+                               const double *most, hr2di_watch *watch) {
+  hr2d_status status = HR2D_OK;
+  l->group = hr2di_alloc(&l->alloc, l->leaves, sizeof *l->group);
+  if (!l->group) return HR2D_ENOMEM;
+  for (size_t k = 0; k < l->leaves && !status; k++) {
+    const int more = k > 0 && jumps(solution, &l->leaf[k - 1], most);
+    l->group[k] = k > 0 ? l->group[k - 1] + (uint32_t)more : 0;
+    status = hr2di_watch_work(watch, 1);
+  }
+  return status;
+}
+
 void hr2di_leaves_clear(hr2di_leaves *l) {
+  hr2di_alloc_free(&l->alloc, l->group);
   hr2di_alloc_free(&l->alloc, l->leaf);
   hr2di_alloc_free(&l->alloc, l->of_patch);
 }

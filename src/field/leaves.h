@@ -17,6 +17,8 @@ typedef struct hr2di_leaves {
   hr2d_allocator alloc;
   hr2di_leaf *leaf; /* patch by patch, and along each patch */
   size_t leaves, room;
+  uint32_t *group; /* of each leaf; neighbours in one group differ by little where they meet; or
+                      NULL */
   size_t *of_patch; /* the leaves of patch k are [of_patch[k], of_patch[k + 1]) */
 } hr2di_leaves;
 
@@ -25,6 +27,11 @@ typedef struct hr2di_leaves {
 hr2d_status hr2di_leaves_init(hr2di_leaves *l, const hr2d_solution *solution,
                               hr2di_watch *watch);
 void hr2di_leaves_clear(hr2di_leaves *l);
+
+/* Makes groups: B jumps by at most `most` of a band between leaves of one group.  HR2D_OK,
+   HR2D_ENOMEM or the status of the watch. */
+hr2d_status hr2di_leaves_group(hr2di_leaves *l, const hr2d_solution *solution,
+                               const double *most, hr2di_watch *watch);
 
 /* The end of a leaf as a fraction of its patch. */
 static inline double hr2di_leaf_end(const hr2di_leaves *l, size_t patch, size_t leaf) {

@@ -146,6 +146,14 @@ static void set_nearest(strip *s, hr2di_span part) {
   s->nearest = 2 * fmin(fmax(t, part.from), part.to) - 1;
 }
 
+/* Adds a group of leaves at an end of a stretch, in any order: SplitMix64. */
+static void add_group(hr2di_light_sum *sum, size_t leaf) {
+  const uint32_t *group = sum->of->leaves.group;
+  uint64_t z = group ? (group[leaf] + UINT64_C(1)) * UINT64_C(0x9e3779b97f4a7c15) : 0;
+  z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+  sum->groups += z ^ z >> 27;
+}
+
 /* The leaves of a stretch, from its right to its left.  Where two of them meet is rounded; they
    share the direction, so that all of the angle is divided among them. */
 static void add_front(hr2di_light_sum *sum, const hr2di_round_stretch *seen) {
@@ -155,6 +163,7 @@ static void add_front(hr2di_light_sum *sum, const hr2di_round_stretch *seen) {
   const size_t each = of->solution->order * of->solution->bands;
   hr2d_point right = seen->right;
   size_t k = hr2di_leaf_at(&of->leaves, seen->patch, seen->from);
+  add_group(sum, k);
   for (int last = 0; !last; k++) {
     const double begin = of->leaves.leaf[k].from;
     const double end = hr2di_leaf_end(&of->leaves, seen->patch, k), size = end - begin;
@@ -173,11 +182,30 @@ static void add_front(hr2di_light_sum *sum, const hr2di_round_stretch *seen) {
     if (hr2di_watch_work(sum->watch, 1)) return;
     right = left;
   }
+  add_group(sum, k - 1);
+}
+
+/* The nearest point of the part of a patch that is seen. */
+static double distance_to(const hr2di_light_sum *sum, const hr2di_round_stretch *s) {
+  const hr2d_segment at = sum->of->scene->patch[s->patch].scaled;
+  const hr2d_point d = hr2di_point_minus(at.b, at.a), e = hr2di_point_minus(sum->x, at.a);
+  const double t = hr2di_point_dot(d, e) / hr2di_point_dot(d, d);
+  const hr2d_point r = to_place(sum->x, at, fmin(fmax(t, s->from), s->to));
+  return hypot(r.x, r.y);
+}
+
+static void see_clearance(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
+  if (s->patch == HR2DI_ROUND_SKY) return;
+  const double near = s->patch == HR2DI_ROUND_BACK
+                          ? fmin(hypot(s->right.x, s->right.y), hypot(s->left.x, s->left.y))
+                          : distance_to(sum, s);
+  sum->clearance = fmin(sum->clearance, near);
 }
 
 void hr2di_light_add(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
   const hr2di_light_source *of = sum->of;
   const size_t bands = of->solution->bands;
+  see_clearance(sum, s);
   if (s->patch == HR2DI_ROUND_BACK) {
     sum->back += s->angle;
   } else if (s->patch == HR2DI_ROUND_SKY) {

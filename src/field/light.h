@@ -35,6 +35,8 @@ typedef struct hr2di_light_sum {
   double *flux;            /* per band, x and y: ∫ B ω dω */
   double *error;           /* per band: ∫ of the error of the patch; NULL without errors */
   double front, back, sky; /* angles */
+  double clearance;        /* how near an end of a stretch or the front of a patch is */
+  uint64_t groups;         /* of the leaves at the ends of stretches, mixed */
 } hr2di_light_sum;
 
 /* Adds a stretch of the view from x. */

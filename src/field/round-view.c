@@ -37,6 +37,15 @@ static double angle_of(hr2d_point right, hr2d_point left) {
   return dot < 0 ? acos(-1) : 0;
 }
 
+/* Adds what is seen to the signature, in any order: SplitMix64. */
+static void sign(hr2di_round_view *v, uint32_t what, uint32_t right, uint32_t left) {
+  uint64_t z =
+      ((uint64_t)right << 32 | left) + (what + UINT64_C(1)) * UINT64_C(0x9e3779b97f4a7c15);
+  z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+  z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
+  v->signature += z ^ z >> 31;
+}
+
 static hr2d_status show(hr2di_round_view *v, hr2di_round_stretch *s) {
   s->angle = angle_of(s->right, s->left);
   const hr2d_status status = hr2di_watch_work(v->watch, 1);
@@ -56,6 +65,7 @@ static double fraction(const hr2di_round_view *v, hr2d_segment patch, hr2d_point
 /* The part of a patch from one place to another; *_end: that is the end of the patch. */
 static hr2d_status show_part(hr2di_round_view *v, uint32_t patch, hr2d_point right,
                              hr2d_point left, int starts, int ends) {
+  sign(v, patch, UINT32_MAX, UINT32_MAX);
   hr2di_round_stretch s = {.patch = patch,
                            .right = hr2di_point_minus(right, v->x),
                            .left = hr2di_point_minus(left, v->x)};
@@ -120,6 +130,7 @@ static hr2d_status end_at(hr2di_round_view *v, int32_t what, uint32_t right, uin
                            .right = hr2di_point_minus(at[right], v->x),
                            .left = hr2di_point_minus(at[left], v->x)};
   if (what == HR2DI_SKY) s.patch = HR2DI_ROUND_SKY;
+  sign(v, (uint32_t)what, right, left);
   if (what != HR2DI_SKY && v->scene->parts.wanted[~what])
     return show_parts(v, (hr2di_wall_side)~what, right, left);
   return show(v, &s);
@@ -297,6 +308,7 @@ hr2d_status hr2di_look_round(hr2di_round_view *v, hr2d_point x, int *touches) {
   int32_t border;
   hr2di_touch touch;
   *touches = 0;
+  v->signature = 0;
   v->x = x;
   if (in->triangles == 0 || !(fmax(fabs(x.x), fabs(x.y)) < FAR)) return see_only_sky(v);
   if (is_corner(in, x)) v->x.x += x.x < in->at[0].x ? -0x1p-50 : 0x1p-50;

@@ -30,7 +30,9 @@ typedef struct hr2di_round_view {
   hr2di_watch *watch;
   hr2di_round_fn take;
   void *ctx;
-  uint64_t steps; /* triangles that were looked through so far */
+  uint64_t steps;     /* triangles that were looked through so far */
+  uint64_t signature; /* of the last view: equal if the same vertices and patches are seen past
+                         and behind each other */
   /* Inside of the view only. */
   int32_t near;
   hr2d_point x;

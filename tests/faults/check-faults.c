@@ -221,6 +221,16 @@ static hr2d_status field(fault_stage *s, uint64_t *sum) {
   return status;
 }
 
+static hr2d_status field_grid(fault_stage *s, uint64_t *sum) {
+  double mean[2 * 40 * 20] = {0};
+  const hr2d_field_grid grid = {sizeof grid, {-.5, -.5}, {1.5, 1.5}, 40, 20, .01};
+  const hr2d_field_options how = {.struct_size = sizeof how, .threads = 2};
+  const hr2d_field_values values = {.struct_size = sizeof values, .mean = mean};
+  const hr2d_status status = hr2d_field_on_grid(s->solution, &grid, &how, &values, NULL);
+  if (!status) *sum = fault_mix(*sum, mean, sizeof mean);
+  return status;
+}
+
 static hr2d_status mix_row(void *ctx, const hr2d_field_row *row) {
   uint64_t *sum = ctx;
   *sum = fault_mix_count(*sum, row->count);
@@ -360,6 +370,7 @@ START_TEST(solutions) {
   PLAY("solution_gather, open", {.depth = DEPTH_SOLVED, .plan = PLAN_OPEN, .order = 4}, gather,
        NULL, 0);
   PLAY("field_at", {.depth = DEPTH_SOLVED, .plan = PLAN_ROOM}, field, NULL, 0);
+  PLAY("field_on_grid", {.depth = DEPTH_SOLVED, .plan = PLAN_ROOM}, field_grid, NULL, 0);
   PLAY("field_at, no plane, order 4", {.depth = DEPTH_SOLVED, .plan = PLAN_PAIR, .order = 4},
        field, NULL, 0);
 }
