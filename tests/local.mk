@@ -99,6 +99,7 @@ OUTSIDE = \
 	tests/program/check-help.sh \
 	tests/program/check-program-faults.sh \
 	tests/program/check-digits.sh \
+	tests/program/check-field.sh \
 	tests/program/check-resume.sh \
 	tests/package/check-constants.sh \
 	tests/package/check-exports.sh \

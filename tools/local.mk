@@ -76,6 +76,12 @@ tools_hr2d_SOURCES = \
 	tools/factors/json.c \
 	tools/factors/mtx.c \
 	tools/factors/row.c \
+	tools/field/command.c \
+	tools/field/csv.c \
+	tools/field/field.h \
+	tools/field/json.c \
+	tools/field/points.c \
+	tools/field/vtk.c \
 	tools/pair/command.c \
 	tools/pair/line.c tools/pair/line.h
 

@@ -35,6 +35,8 @@ static int run(const options *o) {
     return study_command(o);
   case COST:
     return cost_command(o);
+  case FIELD:
+    return field_command(o);
   case FACTORS:
     return factors_command(o);
   default:

@@ -8,7 +8,7 @@
 : "${HR2D_SRCDIR:?names the source directory}"
 . "$HR2D_SRCDIR/tests/program/cli/expect.sh"
 manual=$HR2D_SRCDIR/tools/hr2d.1
-commands="info solve study cost factors pair"
+commands="info solve study cost factors field pair"
 
 sed -n 's/^ *{"\([a-z0-9-]*\)", .*GROUP_.*/\1/p' "$HR2D_SRCDIR/tools/cli/option-table.c" |
   sort >"$work/table"
@@ -34,7 +34,7 @@ for option in help version; do
 done
 while read -r option; do
   check "some command takes --$option" grep -qx "$option" "$work/info" "$work/solve" \
-    "$work/study" "$work/cost" "$work/factors" "$work/pair"
+    "$work/study" "$work/cost" "$work/factors" "$work/field" "$work/pair"
 done <"$work/table"
 
 # ---- --help lists the options that a command takes, in two columns

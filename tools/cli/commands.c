@@ -37,6 +37,12 @@ static const command_entry commands[] = {
      "sum over j; in a closed scene it is 1.\n",
      NULL},
 
+    {"field", FIELD, ON_SCENE, "light at points between the patches",
+     "Solves, and looks from points between the patches: mean radiosity over all\n"
+     "directions, net flux, and the part of all directions that sees the sky.  Points\n"
+     "that no light can reach, outside of rooms or within obstacles, have no numbers.\n",
+     NULL},
+
     {"pair", PAIR, "< PAIRS", "[--oracle NAME] < PAIRS", "exchange areas of pairs of segments",
      "Each line of standard input holds 8 numbers, decimal or hexadecimal,\n"
      "  ax ay bx by cx cy dx dy\n"

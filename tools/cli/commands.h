@@ -26,6 +26,7 @@ int solve_command(const options *o);
 int study_command(const options *o);
 int cost_command(const options *o);
 int factors_command(const options *o);
+int field_command(const options *o);
 int pair_command(const options *o);
 
 #endif

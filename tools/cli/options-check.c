@@ -91,6 +91,8 @@ int options_check(const options *o, const given_options *given) {
   if (o->multigrid.ratio > 0 && o->multigrid.from <= o->epsilon)
     return complain_usage("--multigrid: %g is not greater than --eps %g", o->multigrid.from,
                           o->epsilon);
+  if (o->points && (o->grid.columns || o->box.given || o->vtk))
+    return complain_usage("--points excludes --grid, --box and --vtk");
   if (o->from > 0 && o->to >= o->from)
     return complain_usage("--from %g is not greater than --to %g", o->from, o->to);
   return 0;
@@ -101,6 +103,7 @@ int options_check_outputs(const options *o) {
   if (!status) status = output_check(o->csv);
   if (!status) status = output_check(o->mtx);
   if (!status) status = output_check(o->elmer);
+  if (!status) status = output_check(o->vtk);
   if (!status) status = output_check(o->state);
   if (!status) status = output_check(o->draw);
   return status ? status : output_check(o->plot);
@@ -108,5 +111,5 @@ int options_check_outputs(const options *o) {
 
 int options_want_table(const options *o) {
   return !o->quiet && !output_is_stdout(o->json) && !output_is_stdout(o->csv) &&
-         !output_is_stdout(o->mtx) && !output_is_stdout(o->elmer);
+         !output_is_stdout(o->mtx) && !output_is_stdout(o->elmer) && !output_is_stdout(o->vtk);
 }

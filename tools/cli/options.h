@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 /* One bit each, so that an option can name the commands that it belongs to. */
-enum { INFO = 1, SOLVE = 2, STUDY = 4, FACTORS = 8, PAIR = 16, COST = 32 };
+enum { INFO = 1, SOLVE = 2, STUDY = 4, FACTORS = 8, PAIR = 16, COST = 32, FIELD = 64 };
 
 /* PATCH:T, a point at fraction t of the patch with this index or name.  PATCH alone has no t.
  */
@@ -22,6 +22,17 @@ typedef struct place_list {
   place *items; /* in the order given */
   size_t count;
 } place_list;
+
+/* WxH, nodes of a grid. */
+typedef struct grid_size {
+  unsigned columns, rows; /* 0: not given */
+} grid_size;
+
+/* X0,Y0,X1,Y1. */
+typedef struct grid_box {
+  double side[4];
+  int given;
+} grid_box;
 
 /* FROM:RATIO, a geometric sequence that falls. */
 typedef struct sequence {
@@ -86,11 +97,14 @@ typedef struct options {
   uint64_t max_links, max_elements; /* 0: no limit */
   const char *state;                /* file name; NULL: not given */
   place_list at;
+  grid_size grid; /* of `field` */
+  grid_box box;
+  const char *points; /* file name, or - for standard input */
   place links_of;
   unsigned link_level;
   place_list beams_of;
   int link_parents, plot_log, resume;
-  const char *json, *csv, *mtx, *elmer, *draw, *plot; /* file names; NULL: not given */
+  const char *json, *csv, *mtx, *elmer, *vtk, *draw, *plot; /* file names; NULL: not given */
 } options;
 
 /* Reads the command line.  Returns 0, or the exit status after an error message.  The strings

@@ -76,6 +76,33 @@ int value_patches(const char *option, char *text, value_range range, void *value
   return *text ? 0 : complain_usage("--%s: the name is empty", option);
 }
 
+int value_grid(const char *option, char *text, value_range range, void *value) {
+  grid_size *size = value;
+  char *rows = strchr(text, 'x');
+  uint64_t w = 0, h = 0;
+  if (rows) *rows++ = '\0';
+  if (!rows || number_count(text, range.most, &w) || number_count(rows, range.most, &h) || !w ||
+      !h)
+    return complain_usage("--%s: not WxH with whole numbers from 1 to %llu", option,
+                          (unsigned long long)range.most);
+  *size = (grid_size){(unsigned)w, (unsigned)h};
+  return 0;
+}
+
+int value_box(const char *option, char *text, value_range range, void *value) {
+  grid_box *to = value;
+  (void)range;
+  for (int k = 0; k < 4; k++) {
+    char *end = text ? strchr(text, ',') : NULL;
+    if (end) *end++ = '\0';
+    if (!text || (k < 3) != (end != NULL) || number_real(text, &to->side[k]))
+      return complain_usage("--%s: not four numbers X0,Y0,X1,Y1", option);
+    text = end;
+  }
+  to->given = 1;
+  return 0;
+}
+
 /* The last colon separates, because names may contain others. */
 int value_place(const char *option, char *text, value_range range, void *value) {
   place *p = value;

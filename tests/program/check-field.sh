@@ -1,0 +1,58 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# `hr2d field`: the light at points of a file and of a grid, as a table, CSV, JSON and VTK.
+#
+# Environment: HR2D_PROGRAM, the program; HR2D_SRCDIR, the top of the sources.
+# shellcheck disable=SC2154 # what expect.sh sets
+: "${HR2D_SRCDIR:?names the source directory}"
+. "$HR2D_SRCDIR/tests/program/cli/expect.sh"
+furnace=$work/furnace.geojson
+# side EMISSION REFLECTANCE ENDS: with E = 1 - reflectance, B is 1
+side() {
+  printf '{"type": "Feature", "properties": {"emission": %s, "reflectance": %s},
+    "geometry": {"type": "LineString", "coordinates": [%s]}}' "$@"
+}
+{
+  printf '{"type": "FeatureCollection", "features": ['
+  side 0.5 0.5 '[0, 0], [1, 0]' && printf ,
+  side 0.25 0.75 '[1, 0], [1, 1]' && printf ,
+  side 1 0 '[1, 1], [0, 1]' && printf ,
+  side 0.75 0.25 '[0, 1], [0, 0]' && printf ']}'
+} >"$furnace"
+
+# ---- a furnace: M = 1 and no flux, at points of a file; comments are skipped
+printf '# places\n0.5 0.5\n\n  0.25\t0.75\n-3 0.5\n' >"$work/points"
+succeeds field "$furnace" --points "$work/points" --csv -
+check "a row for each point, and a header" [ "$(wc -l <"$work/out")" -eq 4 ]
+check "the header" grep -qx 'x,y,band,mean,flux_x,flux_y,sky' "$work/out"
+check "M is 1 in the order of the points" awk -F, '
+  NR == 2 { ok = $1 == 0.5 && ($4 - 1)^2 < 1e-26 && $5^2 + $6^2 < 1e-26 && $7 == 0 }
+  NR == 3 { ok = ok && $1 == 0.25 && $2 == 0.75 && ($4 - 1)^2 < 1e-26 }
+  NR == 4 { ok = ok && $4 == "" && $5 == "" && $6 == "" && $7 > 0 }
+  END { exit !ok }' "$work/out"
+printf '0.5 0.5\n' >"$work/one"
+hr2d field "$furnace" --points - --csv - <"$work/one" >"$work/out"
+check "points of standard input" [ "$(wc -l <"$work/out")" -eq 2 ]
+for bad in '1' '1 2 3' '1 x' 'nan 1'; do
+  echo "$bad" >"$work/bad"
+  expect 1 'line 1: not two numbers' field "$furnace" --points "$work/bad"
+done
+expect 1 'cannot be opened' field "$furnace" --points "$work/none"
+
+# ---- a grid
+succeeds field "$furnace" --grid 5x3 --box 0.25,0.25,0.75,0.5 --csv "$work/grid.csv" \
+  --json "$work/grid.json" --vtk "$work/grid.vti" --target-error 1e-6
+check "the table counts the points" grep -q '^points  *15: 15 between' "$work/out"
+check "nodes in rows" [ "$(sed -n '7p' "$work/grid.csv" | cut -d, -f1-3)" = 0.25,0.375,0 ]
+check "JSON has the grid" grep -q '"columns": 5' "$work/grid.json"
+check "and all points" [ "$(grep -c '"place": "between"' "$work/grid.json")" -eq 15 ]
+check "VTK has the nodes" grep -q 'WholeExtent="0 4 0 2 0 0"' "$work/grid.vti"
+# The length of an array stands alone, then the numbers: 12 and 160 digits.
+check "and numbers of 8 bytes" [ "$(grep -A1 'Name="mean0"' "$work/grid.vti" | sed -n 2p |
+  tr -d '\n' | wc -c)" -eq 172 ]
+usage "--grid: not WxH" field "$furnace" --grid 5
+usage "--grid: not WxH" field "$furnace" --grid 0x4
+usage "--box: not four numbers" field "$furnace" --box 1,2,3
+usage "--points excludes" field "$furnace" --points "$work/one" --grid 3x3
+
+summary check-field

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The field as CSV (RFC 4180). */
+#include "output/csv.h"
+
+#include <stdio.h>
+
+#include "field/field.h"
+#include "output/output.h"
+
+int field_write_csv(const field *f, const char *path) {
+  output out;
+  const int status = output_open(&out, path);
+  if (status) return status;
+  fputs("x,y,band,mean,flux_x,flux_y,sky\n", out.stream);
+  for (size_t k = 0; k < f->count * f->bands && !ferror(out.stream); k++) {
+    const size_t point = k / f->bands;
+    fprintf(out.stream, "%.17g,%.17g,%zu,", f->at[point].x, f->at[point].y, k % f->bands);
+    if (f->place[point] == HR2D_PLACE_OUTSIDE)
+      fputs(",,,", out.stream);
+    else
+      fprintf(out.stream, "%.17g,%.17g,%.17g,", f->mean[k], f->flux[2 * k], f->flux[2 * k + 1]);
+    fprintf(out.stream, "%.17g\n", f->sky[point]);
+  }
+  return output_close(&out, 0);
+}

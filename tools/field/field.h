@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The result of `hr2d field`, in three forms. */
+#ifndef HR2D_TOOLS_FIELD_FIELD_H
+#define HR2D_TOOLS_FIELD_FIELD_H
+
+#include "run/run.h"
+
+typedef struct field {
+  const options *options;
+  const hr2d_scene *scene;
+  size_t cuts, bands, count;
+  hr2d_field_grid grid; /* 0 columns: points of a file */
+  hr2d_point *at;
+  double *mean, *flux, *sky;
+  unsigned char *place;
+} field;
+
+/* points.c: reads points "x y", one a line; blank lines and lines that start with # are
+   skipped. Returns 0 or the exit status, as the others do. */
+int field_read_points(field *f, const char *path);
+
+/* csv.c: a row for each point and band: x,y,band,mean,flux_x,flux_y,sky; no numbers outside. */
+int field_write_csv(const field *f, const char *path);
+
+/* json.c */
+int field_write_json(const field *f, const char *path);
+
+/* vtk.c: a grid as VTK image data; outside the numbers are NaN. */
+int field_write_vtk(const field *f, const char *path);
+
+#endif

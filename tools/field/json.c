@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The field as JSON, written point by point. */
+#include "output/json.h"
+
+#include <stdio.h>
+
+#include "field/field.h"
+#include "output/complain.h"
+#include "output/output.h"
+
+static const char *const places[] = {[HR2D_PLACE_BETWEEN] = "between",
+                                     [HR2D_PLACE_PATCH] = "patch",
+                                     [HR2D_PLACE_OUTSIDE] = "outside"};
+
+static json_t *point(const field *f, size_t k) {
+  json_t *object = json_object();
+  json_put(&object, "x", json_number(f->at[k].x));
+  json_put(&object, "y", json_number(f->at[k].y));
+  json_put(&object, "place", json_text(places[f->place[k]]));
+  json_put(&object, "mean", json_numbers(f->mean + k * f->bands, f->bands));
+  json_put(&object, "flux", json_numbers(f->flux + 2 * k * f->bands, 2 * f->bands));
+  json_put(&object, "sky", json_number(f->sky[k]));
+  return object;
+}
+
+/* Writes a value on one line and takes it over; NULL means that an allocation failed. */
+static int write_value(FILE *stream, json_t *value) {
+  if (!value) return complain_memory();
+  const size_t flags = JSON_ENCODE_ANY | JSON_REAL_PRECISION(17);
+  const int bad = json_dumpf(value, stream, flags) && !ferror(stream);
+  json_decref(value);
+  return bad ? complain_memory() : 0;
+}
+
+int field_write_json(const field *f, const char *path) {
+  output out;
+  int status = output_open(&out, path);
+  if (status) return status;
+  fputs("{\n  \"scene\": ", out.stream);
+  status = write_value(out.stream, json_text(f->options->scene));
+  fprintf(out.stream, ",\n  \"columns\": %zu,\n  \"rows\": %zu,\n  \"points\": [",
+          f->grid.columns, f->grid.rows);
+  for (size_t k = 0; k < f->count && !status && !ferror(out.stream); k++) {
+    fputs(k ? ",\n    " : "\n    ", out.stream);
+    status = write_value(out.stream, point(f, k));
+  }
+  fputs("\n  ]\n}\n", out.stream);
+  return output_close(&out, status);
+}
