@@ -1,7 +1,7 @@
 # Measurements, built and run by `make bench` alone.
 BENCHES = bench/bench-exchange-area bench/bench-refine bench/bench-l1 bench/bench-visibility \
 	bench/bench-accuracy bench/bench-polls bench/bench-prediction \
-	bench/bench-threads bench/bench-triangulation
+	bench/bench-threads bench/bench-triangulation bench/bench-field
 EXTRA_PROGRAMS += $(BENCHES)
 CLEANFILES += $(BENCHES)
 bench_bench_exchange_area_SOURCES = bench/bench-exchange-area.c bench/timing.h
@@ -11,6 +11,9 @@ bench_bench_refine_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_visibility_SOURCES = bench/bench-visibility.c bench/timing.h
 bench_bench_visibility_CFLAGS = $(AM_CFLAGS) -fmath-errno -ftrapping-math
 bench_bench_visibility_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
+bench_bench_field_SOURCES = bench/bench-field.c bench/plain.c bench/plain.h bench/timing.h
+bench_bench_field_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SCENES='"$(abs_top_srcdir)/examples/scenes"'
+bench_bench_field_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_l1_SOURCES = bench/bench-l1.c bench/timing.h
 bench_bench_l1_CPPFLAGS = $(AM_CPPFLAGS)
 bench_bench_l1_LDADD = libhr2d-core.la $(GSL_LIBS) $(THREADS_LIBS) -lm

@@ -18,7 +18,8 @@
 /* Cells along a side of a tile, and nodes, with those of the next tile. */
 enum { TILE = 16, SIDE = TILE + 1 };
 
-/* What is kept of a node: whether it is exact (1) or interpolated (−1), these, and then mean, flux and error. */
+/* What is kept of a node: whether it is exact (1) or interpolated (−1), these, and then mean,
+ * flux and error. */
 enum { KNOWN, PLACE, SIGNATURE, CLEARANCE, SKY, BACK, LIGHT };
 
 #define PI 3.14159265358979323846

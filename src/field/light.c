@@ -37,7 +37,7 @@ void hr2di_light_source_clear(hr2di_light_source *of) {
 }
 
 static hr2d_point unit(hr2d_point v) {
-  const double length = hypot(v.x, v.y);
+  const double length = sqrt(hr2di_point_dot(v, v));
   return length > 0 ? (hr2d_point){v.x / length, v.y / length} : v;
 }
 
@@ -89,7 +89,8 @@ static void add_panel(hr2di_light_sum *sum, const strip *s, hr2di_span panel, do
     const double square = hr2di_point_dot(r, r);
     xi[q] = 2 * t - 1;
     weight[q] = square > 0 ? size * rule->weight[q] * cross / square : 0;
-    ray[q] = unit(r);
+    const double far = square > 0 ? 1 / sqrt(square) : 0;
+    ray[q] = (hr2d_point){far * r.x, far * r.y};
   }
   for (size_t b = 0; b < bands; b++) {
     const double *c = s->coefficient + b;
