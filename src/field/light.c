@@ -18,7 +18,8 @@
 #include "geometry/vector.h"
 #include "solution/panels.h"
 
-static const unsigned char rule_points[HR2DI_LIGHT_RULES] = {3, 5, 8, 12, 18, 26, 36};
+static const unsigned char rule_points[HR2DI_LIGHT_RULES] = {2,  3,  4,  5,  6,  7,  8, 9,
+                                                             10, 12, 14, 17, 21, 27, 36};
 
 /* Variations below this part of the largest B are roundings. */
 #define ROUNDING 0x1p-54
@@ -179,6 +180,7 @@ static void add_front(hr2di_light_sum *sum, const hr2di_round_stretch *seen) {
     set_nearest(&s, part);
     const int all = last && hr2di_point_same(right, seen->right);
     const double angle = all ? seen->angle : angle_between(right, left);
+    s.varies *= fmin(fabs(angle), 1); /* as a part of what a wide angle would add */
     add_leaf(sum, &s, part, angle, between(right, left));
     if (hr2di_watch_work(sum->watch, 1)) return;
     right = left;

@@ -8,7 +8,7 @@
 #include "field/round-view.h"
 
 /* Gauss rules, of more points each. */
-enum { HR2DI_LIGHT_RULES = 7 };
+enum { HR2DI_LIGHT_RULES = 15 };
 
 /* What the points of a call have in common. */
 typedef struct hr2di_light_source {
