@@ -8,6 +8,7 @@
     s = room.solve(error=1e-6)
     s.B, s.H, s.net_flux, s.account
     s.at("shell/1", np.linspace(0, 1, 101))
+    s.field(np.mgrid[0:5:200j, 0:2.8:100j])
 
 The library's manual, with equations and bounds of errors, are its headers, hr2d/hr2d.h.
 """
@@ -18,15 +19,15 @@ from ._errors import (AccuracyError, AccuracyWarning, CallbackError, Error, File
 from ._hr2d import ffi as _ffi
 from ._hr2d import lib as _lib
 from ._scene import Scene, exchange_area, read
-from ._solution import Account, Bounded, Points, Power, Solution
+from ._solution import Account, Bounded, Field, Points, Power, Solution
 from ._strategy import SPLIT_BOTH, SPLIT_FIRST, SPLIT_SECOND, Batch, Oracle, Policy
 
 __version__: str = _ffi.string(_lib.hr2d_version()).decode()
 
 __all__ = [
     "Account", "AccuracyError", "AccuracyWarning", "Batch", "Bounded", "CallbackError", "Error",
-    "FileError", "FormatError", "InvalidArgument", "LimitReached", "NoSolution", "NotConverged",
-    "Oracle", "OutOfMemory", "Points", "Policy", "Power", "Progress", "RangeError",
+    "Field", "FileError", "FormatError", "InvalidArgument", "LimitReached", "NoSolution",
+    "NotConverged", "Oracle", "OutOfMemory", "Points", "Policy", "Power", "Progress", "RangeError",
     "SPLIT_BOTH", "SPLIT_FIRST", "SPLIT_SECOND", "Scene", "SceneError", "Solution",
     "StateError", "Stopped", "Unsupported", "exchange_area", "read",
 ]

@@ -30,8 +30,23 @@ def _extent(scene: Any) -> float:
     return float(np.ptp(ends, axis=0).max()) if len(ends) else 1.0
 
 
+def _fill(ax: Any, scene: Any, solution: Any, band: int, filled: int, like: Any) -> None:
+    """The mean radiosity between the walls, in the colours of the walls."""
+    ends = scene.segments.reshape(-1, 2)
+    low, high = ends.min(axis=0), ends.max(axis=0)
+    flat = np.where(high == low, 0.1 * _extent(scene), 0)
+    low, high = low - flat, high + flat
+    steps = np.maximum(2, np.ceil(filled * (high - low) / max(high - low))).astype(int)
+    x, y = (a + (b - a) * (np.arange(n) + .5) / n for a, b, n in zip(low, high, steps))
+    mean = solution.field(np.meshgrid(x, y)).mean[..., band]
+    seen = np.concatenate([mean[np.isfinite(mean)], np.ravel(like.get_array())])
+    like.set_clim(seen.min(), seen.max())
+    ax.imshow(mean, origin="lower", extent=(low[0], high[0], low[1], high[1]),
+              cmap=like.get_cmap(), norm=like.norm, zorder=0)
+
+
 def plot(scene: Any, solution: Any, ax: Any, band: int, cmap: Any, points: int, labels: bool,
-         colorbar: bool) -> Any:
+         colorbar: bool, filled: int) -> Any:
     import matplotlib.pyplot as plt
     from matplotlib.collections import LineCollection
 
@@ -46,12 +61,15 @@ def plot(scene: Any, solution: Any, ax: Any, band: int, cmap: Any, points: int, 
         walls.set_array(_colours(scene, solution, t, band).ravel())
         walls.set_cmap(cmap)
     ax.add_collection(walls)
+    if solution is not None and filled:
+        _fill(ax, scene, solution, band, filled, walls)
     if solution is not None and colorbar:
         ax.figure.colorbar(walls, ax=ax, label="B")
     if labels:
         for name, (a, b) in zip(scene.names, scene.segments):
             ax.annotate(name, (a + b) / 2, fontsize="small", ha="center", va="center")
     ax.set_aspect("equal")
+    ax.use_sticky_edges = False
     ax.autoscale_view()
     return ax
 

@@ -319,12 +319,14 @@ class Scene:
 
     def plot(self, solution: Optional[Solution] = None, *, ax: Any = None, band: int = 0,
              cmap: Any = "viridis", points: int = 33, labels: bool = False,
-             colorbar: bool = True) -> Any:
+             colorbar: bool = True, filled: int = 160) -> Any:
         """Draws the walls, coloured by B if there is a solution; returns matplotlib's axes.
 
-        Backs and fronts are drawn beside each other, each on the side of its front.
+        Backs and fronts are drawn beside each other, each on the side of its front.  The plane
+        between them has the mean radiosity of all directions, at `filled` points in its longer
+        side; 0 for none.
         """
-        return _draw.plot(self, solution, ax, band, cmap, points, labels, colorbar)
+        return _draw.plot(self, solution, ax, band, cmap, points, labels, colorbar, filled)
 
     def _repr_html_(self) -> str:
         return _draw.scene_html(self)

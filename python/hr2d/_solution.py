@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _draw
 from ._arrays import ELEMENT, doubles, frozen, view, writable
-from ._calls import Call
+from ._calls import Call, ProgressFunction, thread_count
 from ._hr2d import ffi, lib
 
 
@@ -44,6 +44,22 @@ class Points(NamedTuple):
     def net_flux(self) -> np.ndarray:
         """B − H; negative where the patch gains."""
         return self.B - self.H
+
+
+class Field(NamedTuple):
+    """The light at points of the plane, each array of the shape of the points.
+
+    Points on a patch have the limit from its front; points that no light can reach have NaN.
+    """
+
+    mean: np.ndarray
+    """The mean radiosity of all directions, (…, bands)."""
+    flux: np.ndarray
+    """∫ (B/2) ω dω, (…, bands, 2): its product with n is H(n) − H(−n)."""
+    sky: np.ndarray
+    """The part of all directions in which nothing is."""
+    place: np.ndarray
+    """0 between the patches, 1 on a patch, 2 where no light can be."""
 
 
 @dataclass(frozen=True)
@@ -152,6 +168,28 @@ class Solution:
                                                            writable(H)))
         # B' = E + ρ H' is what hr2d_solution_gather() would gather again.
         return Points(self.scene.emission[index] + self.scene.reflectance[index] * H, H)
+
+    def field(self, points: Any, *, threads: Any = 1,
+              progress: Optional[ProgressFunction] = None) -> Field:
+        """The light at points of the plane, with exact visibility.
+
+        `points` are x and y, in any shape: `np.mgrid[0:5:200j, 0:3:100j]`, or two arrays.
+        """
+        x, y = np.broadcast_arrays(*np.asarray(points, dtype=np.float64))
+        at = np.stack([x.ravel(), y.ravel()], axis=1)
+        bands = self.scene.bands
+        f = Field(np.empty((*x.shape, bands)), np.empty((*x.shape, bands, 2)),
+                  np.empty(x.shape), np.empty(x.shape, np.uint8))
+        values = ffi.new("hr2d_field_values *", {
+            "struct_size": ffi.sizeof("hr2d_field_values"), "mean": writable(f.mean),
+            "flux": writable(f.flux), "sky": writable(f.sky),
+            "place": ffi.cast("unsigned char *", ffi.from_buffer(f.place))})
+        options = ffi.new("hr2d_field_options *", {
+            "struct_size": ffi.sizeof("hr2d_field_options"), "threads": thread_count(threads)})
+        with Call(progress) as call:
+            call.check(lib.hr2d_field_at(self._raw, ffi.cast("hr2d_point *", doubles(at)),
+                                         len(at), options, values))
+        return f
 
     def _point_values(self, getter: str, patch: int, t: np.ndarray, shape: Any) -> np.ndarray:
         values = np.empty(shape)

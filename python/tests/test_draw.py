@@ -26,6 +26,20 @@ def test_walls_have_the_colours_of_b(room):
     assert len(room.plot().collections[-1].get_segments()) == 7
 
 
+def test_the_plane_is_filled(room):
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    s = room.solve(error=1e-4)
+    axes = room.plot(s, ax=pyplot.figure().gca(), filled=40)
+    image, walls = axes.images[0], axes.collections[0]
+    assert image.get_array().shape[1] == 40 and image.norm is walls.norm
+    # The light of the opening is brighter than any wall.
+    assert walls.get_clim()[1] > .4 > walls.get_array().max()
+    assert not room.plot(s, ax=pyplot.figure().gca(), filled=0).images
+    line = hr2d.Scene()
+    line.add([(0, 0), (1, 0)], emission=1)
+    assert line.plot(line.solve(), ax=pyplot.figure().gca(), filled=8).images
+
+
 def test_fronts_and_backs_are_apart(room):
     pytest.importorskip("matplotlib")
     from matplotlib import pyplot

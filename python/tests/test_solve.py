@@ -56,6 +56,31 @@ def test_without_subdivision_the_ceiling_has_the_factor_of_the_floor():
     assert len(s.elements) == 2
 
 
+def test_the_field_over_a_lamp():
+    """A black lamp of B = 1 is seen in 2 atan(½/h) from the height h, and Φ points to it."""
+    scene = hr2d.Scene()
+    scene.add([(0, 0), (1, 0)], emission=1)
+    s, h = scene.solve(), np.array([[.1, .5, 1], [2, 5, 1000]])
+    f = s.field(np.broadcast_arrays(.5, h))
+    share = np.arctan(.5 / h) / np.pi
+    assert f.mean[..., 0] == pytest.approx(share, rel=1e-12)
+    assert f.flux[..., 0, 1] == pytest.approx(-np.sin(np.pi * share), rel=1e-12)
+    assert f.sky == pytest.approx(1 - share) and (f.place == 0).all()
+    assert np.isnan(s.field([.5, -1]).mean).all() and s.field([.5, 0]).place == 1
+    assert s.field(np.mgrid[0:1:4j, 1:2:3j]).flux.shape == (4, 3, 1, 2)
+
+
+def test_the_field_of_a_furnace():
+    scene = hr2d.Scene()
+    scene.add({"type": "Polygon", "coordinates": [[(0, 0), (4, 0), (4, 3), (0, 3), (0, 0)]]},
+              emission=.5, reflectance=.5)
+    f = scene.solve().field(np.mgrid[-.5:3.5:9j, .5:2.5:5j], threads=2)
+    inside = f.place == 0
+    assert inside.any() and (f.place == 2).any() and np.isnan(f.mean[f.place == 2]).all()
+    assert f.mean[inside] == pytest.approx(1, abs=1e-12)
+    assert f.flux[inside] == pytest.approx(0, abs=1e-12)
+
+
 def test_power_is_balanced(room):
     power, = room.solve(error=1e-8).power
     assert power.received > 0 and power.emitted == 0
