@@ -9,15 +9,17 @@
  * From a point x the radiosity B(x,ω) is seen in direction ω: that of the patch whose front is
  * there, the background where nothing is, and 0 at the back of a patch that has only a front.
  *
- * | quantity | definition                 | unit      | |
- * |----------|----------------------------|-----------|----------------------------------------|
- * | mean     | M = (1/2π) ∫ B dω          | that of E | 1 in a furnace with B = 1 | | flux | Φ
- * = ∫ (B/2) ω dω           | that of E | a vector; n·Φ = H(n) − H(−n)           | | sky      |
- * the part of all directions | 1         | in which nothing is                    | | back |
- * the part of all directions | 1         | in which a black back is               |
+ * | quantity | what it is                 | unit      |
+ * |----------|----------------------------|-----------|
+ * | mean     | M = (1/2π) ∫ B dω          | that of E |
+ * | flux     | Φ = ∫ (B/2) ω dω, a vector | that of E |
+ * | sky      | the part with nothing      | 1         |
+ * | back     | the part with black backs  | 1         |
  *
- * H(n) = ∫ (B/2) n·ω dω over n·ω > 0 is the irradiance of a line through x with normal n. If E
- * is in W/m², σT⁴ = M gives the mean radiant temperature T.
+ * The last two are parts of all directions. In a furnace with B = 1, M is 1 and Φ is 0.
+ *
+ * H(n) = ∫ (B/2) n·ω dω over n·ω > 0 is the irradiance of a line through x with normal n, and
+ * n·Φ = H(n) − H(−n). If E is in W/m², σT⁴ = M gives the mean radiant temperature T.
  *
  * **Exactness.** Visibility is exact, and so are the integrals over the B_h of a solution, as
  * hr2d_solution_at() has it: M has an error of some 1e-15 of the largest B, and at distance d
@@ -32,12 +34,12 @@
  *
  * **Places.** Every point is in one of three kinds of places, #hr2d_place.
  * - A point on a patch, or nearer to one than 2^-48 of hr2d_scene_unit(), has the limit from
- * its front: half of its directions see the patch itself. The back of a patch with two sides is
- * a front as well; of the two the one counts that has the lower number. Where patches meet,
- * they divide the directions into sectors. The limit is then that along the line that halves a
- *   sector: one between two fronts if there is one, of these the widest, of equal ones that
- *   beside the patch of the lowest number. On the inside of a wall the limit is taken at 2^-44
- *   of the unit.
+ *   its front: half of its directions see the patch itself. The back of a patch with two sides
+ *   is a front as well; of the two the one counts that has the lower number. Where patches
+ *   meet, they divide the directions into sectors. The limit is then that along the line that
+ *   halves a sector: one between two fronts if there is one, of these the widest, of equal ones
+ *   that beside the patch of the lowest number. On the inside of a wall the limit is taken at
+ *   2^-44 of the unit.
  * - A point that sees no front, and no background with light, is outside: within an obstacle,
  *   or behind the walls of a closed room. It has no number: all values are NaN, but `sky` and
  *   `back`.

@@ -82,7 +82,7 @@ def test_exceptions_pass_through(plates):
     with pytest.raises(Own, match="here"):
         plates.solve(oracle=broken)
     with pytest.raises(Own):
-        plates.solve(epsilon=1e-3, progress=broken)
+        plates.solve(epsilon=1e-5, progress=broken)
     with pytest.raises(ValueError, match="pairs need"):
         plates.solve(oracle=lambda batch: 1.0)
     with pytest.raises(hr2d.CallbackError, match="nan|NaN"):
