@@ -100,8 +100,8 @@ hr2d_status hr2di_hierarchy_unite(hr2d_hierarchy *hierarchy, hr2d_hierarchy *con
 /* Removes all elements but the first `elements`, and frees their room. */
 void hr2di_hierarchy_truncate(hr2d_hierarchy *hierarchy, size_t elements);
 
-/* Removes them and keeps the room; the deepest of the others is on level `levels`.  Cost: that of
-   the elements that are removed. */
+/* Removes them and keeps the room; the deepest of the others is on level `levels`.  Cost: that
+   of the elements that are removed. */
 void hr2di_hierarchy_forget(hr2d_hierarchy *hierarchy, size_t elements, unsigned levels);
 
 #endif

@@ -75,7 +75,7 @@ typedef struct options {
   int no_closure;
   const char *scene; /* file name; NULL for `pair` */
   int split_crossings, strict;
-  double snap; /* a tolerance; 0: not given */
+  double snap;    /* a tolerance; 0: not given */
   unsigned force; /* bit 1 << e for each effect e */
   const hr2d_oracle *oracle;
   const hr2d_policy *policy;
