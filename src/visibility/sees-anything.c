@@ -20,10 +20,12 @@ hr2d_status hr2di_sees_anything(hr2di_viewer *viewer, size_t patch, int sky, int
   hr2di_view_from seen;
   hr2d_status status = HR2D_OK;
   viewer->show = notice;
+  /* cppcheck-suppress autoVariables ; until the end of this function */
   viewer->ctx = &l;
   for (size_t k = 0; k < sizeof at / sizeof *at && !l.sees && !status; k++)
     status = hr2di_view_at(viewer, patch, at[k], &seen);
   viewer->show = NULL;
+  viewer->ctx = NULL;
   *sees = l.sees;
   return l.sees ? HR2D_OK : status;
 }
