@@ -42,6 +42,8 @@ once needle 5000232
 once squares 5000164
 # Ends of plates beside others, and gaps narrower than elements may be.
 once crack 8 54 7000382 6000167
+# Elements that reach past the foot of a wall.
+once doors 14 52
 
 "$adversary" --runs "$(awk "BEGIN { print int(760 * ${HR2D_TEST_MULTIPLIER-0.1} + 4) }")" \
   --seed "${HR2D_TEST_SEED-1}" --limit 2 || failures=$((failures + 1))

@@ -150,6 +150,27 @@ static void miss(adv_scene *scene, adv_random *r) {
   adv_paint(scene, r, 0.8);
 }
 
+/* A few steps of 2^-40 to 2^-16. */
+static double off_line(adv_random *r) {
+  return adv_chance(r, 0.3) ? 0 : ldexp(adv_int(r, -4, 4), -adv_int(r, 16, 40));
+}
+
+/* Walls with doors in them.  The parts of a wall are nearly in one line, so that the line
+   through the two sides of a door passes the feet of both parts at a tiny distance. */
+static void doors(adv_scene *scene, adv_random *r) {
+  scene->exponent = -40;
+  const double x = adv_real(r, 1.5, 2.5), y = adv_real(r, 1, 2);
+  adv_box(scene, 0, 0, 4, 3);
+  adv_screen(scene, 0, y + off_line(r), adv_real(r, 0.4, 1.3), y);
+  adv_screen(scene, adv_real(r, 2.7, 3.6), y + off_line(r), 4, y + off_line(r));
+  if (adv_chance(r, 0.6)) {
+    adv_screen(scene, x + off_line(r), 0, x, adv_real(r, 0.2, y - 0.1));
+    adv_screen(scene, x + off_line(r), adv_real(r, y + 0.1, 2.8), x + off_line(r), 3);
+  }
+  scene->closed = 1;
+  adv_paint(scene, r, 0.8);
+}
+
 /* A small room inside of the wall of a large one: lengths of 2^-10 beside 4. */
 static void niche(adv_scene *scene, adv_random *r) {
   scene->exponent = -24;
@@ -176,4 +197,5 @@ const adv_kind adv_extreme[] = {
     {"niche", niche, "a niche down to 2^-10"},
     {"crack", crack, "plates down to 2^-44 of each other"},
     {"miss", miss, "a wall that misses a floor by down to 2^-44"},
+    {"doors", doors, "walls with doors, nearly in one line"},
     {NULL, NULL, NULL}};
