@@ -88,7 +88,8 @@ START_TEST(furnaces) {
   const test_paint paint = {.r = &r, .reflectance = 0.9, .isothermal = 1};
   field_stage s = field_stage_of(draw_scene(&r, _i, &paint), 0.5, 1 + (unsigned)_i % 4);
   int inside = 0;
-  for (int k = test_count(200); k > 0; k--) {
+  for (int k = test_count(200); k > 0 || inside == 0; k--) {
+    ck_assert_int_gt(k, -1000);
     const hr2d_point x = draw_point(&r, &s, 0);
     const field_sample f = at(&s, x.x, x.y);
     if (f.place == HR2D_PLACE_OUTSIDE) continue;
@@ -97,7 +98,6 @@ START_TEST(furnaces) {
     ck_assert_double_le(hypot(f.flux[0], f.flux[1]), 1e-13);
     ck_assert_double_eq(f.back, 0);
   }
-  ck_assert_int_gt(inside, 0);
   field_stage_clear(&s);
 }
 END_TEST
