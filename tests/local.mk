@@ -224,7 +224,7 @@ check-long:
 # sanitizers.
 TOO_LONG = tests/unit/accuracy/check-dark tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-known-radiosities tests/unit/accuracy/check-random-accuracy \
-	tests/unit/solve/check-closure \
+	tests/unit/solve/check-closure tests/unit/links/check-store \
 	tests/unit/solution/check-irradiance-points tests/faults/check-polls \
 	tests/unit/accuracy/check-roundings tests/unit/accuracy/check-shadow-edges \
 	tests/unit/accuracy/check-short-patches \
