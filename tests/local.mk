@@ -226,6 +226,7 @@ TOO_LONG = tests/unit/accuracy/check-dark tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-known-radiosities tests/unit/accuracy/check-random-accuracy \
 	tests/unit/solve/check-closure tests/unit/links/check-store tests/unit/solve/check-solve \
 	tests/unit/visibility/check-exchange-rows tests/unit/accuracy/check-cracks \
+	tests/unit/field/check-field-grid \
 	tests/unit/accuracy/check-budgets \
 	tests/unit/solution/check-irradiance-points tests/faults/check-polls \
 	tests/unit/accuracy/check-roundings tests/unit/accuracy/check-shadow-edges \
