@@ -324,7 +324,7 @@ START_TEST(parts_add_up_within_roundings) {
   randoms r = randoms_stream(test_seed(), 4);
   int thin = 0, count = 0;
   double worst = 0;
-  for (int k = test_count(300000); k > 0; k--) {
+  for (size_t k = test_rounds(300000, 20000); k > 0; k--) {
     scene s;
     found f;
     const double angle = random_between(&r, 0, 6.3);
