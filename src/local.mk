@@ -15,6 +15,7 @@ libhr2d_core_la_SOURCES = \
 	src/base/message.c src/base/message.h \
 	src/base/neumaier-sum.h \
 	src/base/options-init.c \
+	src/base/pi.h \
 	src/base/ordered-dot.h \
 	src/base/read-file.c src/base/read-file.h \
 	src/base/scaled-double.h \
@@ -77,7 +78,8 @@ libhr2d_core_la_SOURCES = \
 	src/scene/reading-notes.c src/scene/reading-notes.h \
 	src/scene/scene.c \
 	src/scene/scene-impl.h \
-	src/scene/snap.c \
+	src/scene/snap.c src/scene/snap-impl.h \
+	src/scene/snap-stretches.c \
 	src/scene/side-layers.c src/scene/side-layers.h \
 	src/scene/side-parts.c src/scene/side-parts.h \
 	src/scene/split-crossings.c \

@@ -21,11 +21,10 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/pi.h"
 #include "geometry/apart.h"
 #include "geometry/predicates.h"
 #include "scene/scene-impl.h"
-
-#define PI 3.14159265358979323846
 
 /* An exchange area below this part of that of a clear pair is that of a pair with something in
    the way, and no rounding. */
@@ -39,7 +38,7 @@ static void integrate_error(const hr2di_estimator *e, double *beta) {
       double sum = 0;
       for (size_t l = 1; l < t->order; l++)
         sum += fabs(e->error[k * t->width + l * t->bands + b]) *
-               sqrt(2 / (PI * (double)(l * (2 * l + 1))));
+               sqrt(2 / (HR2DI_PI * (double)(l * (2 * l + 1))));
       beta[t->leaf[k] * t->bands + b] = sum * t->hierarchy->element[t->leaf[k]].length;
     }
 }

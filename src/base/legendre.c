@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/pi.h"
+
 enum { HALF = HR2DI_RULE_POINTS / 2 };
 
 /* P_n and its derivative at `count` points of (-1,1), side by side: one point after the other
@@ -32,12 +34,11 @@ static void evaluate(size_t n, size_t count, const double *x, double *value, dou
    off by less than 0.01/n²; three steps are enough, and one is for rounding.  The weights
    2/((1−x²)P'²) are insensitive to the error that is left, as their derivative is 0. */
 void hr2di_rule_init(hr2di_rule *rule, size_t points) {
-  const double pi = 3.14159265358979323846;
   const size_t n = points, count = (n + 1) / 2;
   double x[HALF], value[HALF], slope[HALF];
   rule->points = n;
   for (size_t k = 0; k < count; k++)
-    x[k] = 2 * k + 1 == n ? 0 : cos(pi * ((double)k + 0.75) / ((double)n + 0.5));
+    x[k] = 2 * k + 1 == n ? 0 : cos(HR2DI_PI * ((double)k + 0.75) / ((double)n + 0.5));
   for (int step = 0; step < 4; step++) {
     evaluate(n, count, x, value, slope);
     for (size_t k = 0; 2 * k + 1 < n; k++) x[k] -= value[k] / slope[k];

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/pi.h"
 #include "clusters/clusters-impl.h"
 #include "clusters/facing.h"
 #include "scene/scene-impl.h"
@@ -104,11 +105,11 @@ static void put_points(const hr2di_clusters *made, const hr2di_linked *c) {
 }
 
 static void put_cosines(hr2di_clusters *made) {
-  const double pi = 3.14159265358979323846;
   double *cosine = made->cosine;
   for (unsigned count = 1; count <= HR2DI_EXPANSION_POINTS; count++)
     for (unsigned n = 0; n < count; n++)
-      for (unsigned k = 0; k < count; k++) *cosine++ = cos(n * (2 * k + 1) * pi / (2 * count));
+      for (unsigned k = 0; k < count; k++)
+        *cosine++ = cos(n * (2 * k + 1) * HR2DI_PI / (2 * count));
 }
 
 /* Numbers the clusters that have links; how many points they have. */

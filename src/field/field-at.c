@@ -5,12 +5,11 @@
 #include <hr2d/field.h>
 #include <math.h>
 
+#include "base/pi.h"
 #include "base/sized-struct.h"
 
 /* Points of a task. */
 enum { GROUP = 32 };
-
-#define PI 3.14159265358979323846
 
 static hr2d_status take(void *ctx, const hr2di_round_stretch *s) {
   hr2di_field_looker *l = ctx;
@@ -46,13 +45,13 @@ hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of
   seen->mean = sum->mean;
   seen->flux = sum->flux;
   seen->error = sum->error;
-  seen->sky = fmin(sum->sky / (2 * PI), 1);
-  seen->back = fmin(sum->back / (2 * PI), 1);
+  seen->sky = fmin(sum->sky / (2 * HR2DI_PI), 1);
+  seen->back = fmin(sum->back / (2 * HR2DI_PI), 1);
   for (size_t b = 0; b < bands; b++) {
-    sum->mean[b] = dark ? NAN : sum->mean[b] / (2 * PI);
+    sum->mean[b] = dark ? NAN : sum->mean[b] / (2 * HR2DI_PI);
     sum->flux[2 * b] = dark ? NAN : sum->flux[2 * b] / 2;
     sum->flux[2 * b + 1] = dark ? NAN : sum->flux[2 * b + 1] / 2;
-    sum->error[b] = dark || !of->patch_error ? NAN : sum->error[b] / (2 * PI);
+    sum->error[b] = dark || !of->patch_error ? NAN : sum->error[b] / (2 * HR2DI_PI);
   }
   return status;
 }
@@ -100,9 +99,9 @@ hr2d_status hr2di_field_open(hr2di_field_call *f, const hr2d_solution *solution,
   status = hr2di_field_scene_init(&f->scene, scene, &f->watch);
   f->opened = 1;
   if (!status) status = hr2di_light_source_init(&f->source, solution, &f->watch);
-  f->source.scene = &f->scene.with;
+  f->source.scene = &f->scene.scene;
   f->source.patch_error = f->options.patch_error;
-  f->team = (hr2di_field_team){.scene = &f->scene.with,
+  f->team = (hr2di_field_team){.scene = &f->scene.scene,
                                .watch = &f->watch,
                                .threads = f->options.threads,
                                .needs = 4 * solution->bands};
@@ -112,7 +111,7 @@ hr2d_status hr2di_field_open(hr2di_field_call *f, const hr2d_solution *solution,
 void hr2di_field_close(hr2di_field_call *f) {
   if (!f->opened) return;
   if (f->source.solution) hr2di_light_source_clear(&f->source);
-  hr2di_field_scene_clear(&f->scene);
+  hr2di_with_plane_clear(&f->scene);
 }
 
 hr2d_status hr2d_field_at(const hr2d_solution *solution, const hr2d_point *at, size_t count,

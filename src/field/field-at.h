@@ -11,7 +11,7 @@ typedef struct hr2di_field_call {
   hr2d_field_options options;
   hr2d_field_values values;
   hr2di_watch watch;
-  hr2di_field_scene scene;
+  hr2di_with_plane scene;
   hr2di_light_source source;
   hr2di_field_team team; /* without the task */
   int opened;

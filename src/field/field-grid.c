@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/pi.h"
 #include "base/sized-struct.h"
 #include "field/field-at.h"
 
@@ -21,8 +22,6 @@ enum { TILE = 16, SIDE = TILE + 1 };
 /* What is kept of a node: whether it is exact (1) or interpolated (−1), these, and then mean,
  * flux and error. */
 enum { KNOWN, PLACE, SIGNATURE, CLEARANCE, SKY, BACK, LIGHT };
-
-#define PI 3.14159265358979323846
 
 /* The least range, as a part of the largest M. */
 #define LEAST_RANGE 1e-6
@@ -127,8 +126,8 @@ static int is_flat(const tile *t, const block *b) {
   if (node_of(t, b->at[0], b->at[1])[PLACE] == HR2D_PLACE_OUTSIDE) return 1;
   for (size_t k = 0; k < c->bands; k++) {
     const size_t flux = LIGHT + c->bands + 2 * k;
-    if (bend(t, b, LIGHT + k) > c->range[k] || bend(t, b, flux) > PI * c->range[k] ||
-        bend(t, b, flux + 1) > PI * c->range[k])
+    if (bend(t, b, LIGHT + k) > c->range[k] || bend(t, b, flux) > HR2DI_PI * c->range[k] ||
+        bend(t, b, flux + 1) > HR2DI_PI * c->range[k])
       return 0;
   }
   return 1;

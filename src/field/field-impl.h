@@ -8,18 +8,12 @@
 #include <math.h>
 
 #include "field/round-view.h"
+#include "scene/with-plane.h"
 
-/* A scene with a plane, which is its own if the scene that is given has none. */
-typedef struct hr2di_field_scene {
-  hr2d_scene with;
-  int own;
-} hr2di_field_scene;
-
-/* HR2D_OK, HR2D_ENOMEM, the status of the watch, or HR2D_ESCENE; to be ended by
-   hr2di_field_scene_clear() in any case. */
-hr2d_status hr2di_field_scene_init(hr2di_field_scene *s, const hr2d_scene *scene,
+/* A scene with a plane, or HR2D_ESCENE if nobody knows how its walls cross; otherwise as
+   hr2di_with_plane_init(). */
+hr2d_status hr2di_field_scene_init(hr2di_with_plane *s, const hr2d_scene *scene,
                                    hr2di_watch *watch);
-void hr2di_field_scene_clear(hr2di_field_scene *s);
 
 /* A point in scaled coordinates. */
 static inline hr2d_point hr2di_field_scaled(const hr2d_scene *scene, hr2d_point at) {

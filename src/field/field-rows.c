@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/pi.h"
 #include "base/sized-struct.h"
 #include "base/sort.h"
 #include "field/field-impl.h"
@@ -12,8 +13,6 @@
 
 /* Points of a task, and of a round. */
 enum { GROUP = 32, ROUND = 1024 };
-
-#define PI 3.14159265358979323846
 
 /* What is seen under some of the directions; sorted by patch, and by the place in the view. */
 typedef struct glimpse {
@@ -75,7 +74,7 @@ static hr2d_point unit(hr2d_point v) {
 
 static hr2d_status take(void *ctx, const hr2di_round_stretch *s) {
   looker *l = ctx;
-  const double share = s->angle / (2 * PI);
+  const double share = s->angle / (2 * HR2DI_PI);
   const double factor =
       l->has_normal ? form_factor(l->normal, unit(s->right), unit(s->left)) : 0;
   if (!(s->angle > 0)) return HR2D_OK;
@@ -214,12 +213,15 @@ hr2d_status hr2d_field_rows_visit(const hr2d_scene *scene, const hr2d_point *at,
   if (status || !hr2di_field_finite(at, count) || !are_normals(normal, count))
     return HR2D_EINVAL;
   hr2di_watch watch;
-  hr2di_field_scene with;
+  hr2di_with_plane with;
   hr2di_scene_watch(scene, &watch, o.progress, o.progress_ctx, "field");
   status = hr2di_field_scene_init(&with, scene, &watch);
-  visit v = {
-      .scene = &with.with, .alloc = &scene->alloc, .watch = &watch, .at = at, .normal = normal};
+  visit v = {.scene = &with.scene,
+             .alloc = &scene->alloc,
+             .watch = &watch,
+             .at = at,
+             .normal = normal};
   if (!status) status = run(&v, &o, count, show, ctx);
-  hr2di_field_scene_clear(&with);
+  hr2di_with_plane_clear(&with);
   return status;
 }

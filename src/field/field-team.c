@@ -5,16 +5,10 @@
 #include "base/team.h"
 #include "field/field-impl.h"
 
-hr2d_status hr2di_field_scene_init(hr2di_field_scene *s, const hr2d_scene *scene,
+hr2d_status hr2di_field_scene_init(hr2di_with_plane *s, const hr2d_scene *scene,
                                    hr2di_watch *watch) {
-  s->with = *scene;
-  s->own = !scene->parts.wanted;
-  const hr2d_status status = s->own ? hr2di_scene_need_plane(&s->with, watch) : HR2D_OK;
-  return !status && s->with.unclear.is ? HR2D_ESCENE : status;
-}
-
-void hr2di_field_scene_clear(hr2di_field_scene *s) {
-  if (s->own) hr2di_scene_clear_plane(&s->with);
+  const hr2d_status status = hr2di_with_plane_init(s, scene, &scene->alloc, watch);
+  return !status && s->scene.unclear.is ? HR2D_ESCENE : status;
 }
 
 int hr2di_field_finite(const hr2d_point *at, size_t count) {

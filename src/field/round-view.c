@@ -153,8 +153,7 @@ static int32_t follow(hr2di_round_view *v, walk *k, uint32_t left, int32_t h, ui
     v->steps++;
     if (steps % 32 == 0 && hr2di_watch_work(v->watch, 16)) break;
     const hr2di_triangle *t = &in->triangle[h >> 2];
-    const int edge = h & 3, to_right = edge == 2 ? 0 : edge + 1,
-              to_left = edge == 0 ? 2 : edge - 1;
+    const int to_right = hr2di_corner_after(h & 3), to_left = hr2di_corner_before(h & 3);
     *apex = t->corner[to_left];
     const int on_left = turn(v, right, in->at[*apex]) > 0,
               on_right = turn(v, end, in->at[*apex]) < 0;
@@ -286,7 +285,7 @@ static hr2d_status look_ahead(hr2di_round_view *v, const hr2di_touch *touch) {
   hr2d_status status = HR2D_OK;
   for (int turns = 0; h >= 0 && !status; turns++) {
     const hr2di_triangle *t = &in->triangle[h >> 2];
-    const int to_left = (h & 3) == 2 ? 0 : (h & 3) + 1, back = (h & 3) == 0 ? 2 : (h & 3) - 1;
+    const int to_left = hr2di_corner_after(h & 3), back = hr2di_corner_before(h & 3);
     const uint32_t right = t->corner[to_left], left = t->corner[back];
     if (turns == 0) status = show_beside(v, touch, 0, hr2di_point_minus(at[right], v->x));
     if (!status) status = walk_from(v, t->across[to_left], right, left);

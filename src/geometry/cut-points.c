@@ -116,15 +116,10 @@ static double key_of(hr2d_point p) {
   return 0.8251 * p.x + 0.5650 * p.y;
 }
 
-static int compare_points(hr2d_point p, hr2d_point q) {
-  if (p.x != q.x) return p.x < q.x ? -1 : 1;
-  return (p.y > q.y) - (p.y < q.y);
-}
-
 static int by_key(const void *left, const void *right) {
   const node *l = left, *r = right;
   if (l->key != r->key) return l->key < r->key ? -1 : 1;
-  if (l->crossing == r->crossing) return compare_points(l->at, r->at);
+  if (l->crossing == r->crossing) return hr2di_point_order(l->at, r->at);
   return (l->crossing > r->crossing) - (l->crossing < r->crossing);
 }
 
@@ -291,7 +286,7 @@ static hr2d_status cut_partners(finder *f) {
 static int by_position(const void *left, const void *right) {
   const hr2di_cut *l = left, *r = right;
   if (l->along != r->along) return l->along < r->along ? -1 : 1;
-  return compare_points(l->at, r->at);
+  return hr2di_point_order(l->at, r->at);
 }
 
 static hr2d_status sort_cuts(finder *f) {

@@ -10,6 +10,12 @@ static inline int hr2di_point_same(hr2d_point p, hr2d_point q) {
   return p.x == q.x && p.y == q.y;
 }
 
+/* By x, then by y; 0 for the same point. */
+static inline int hr2di_point_order(hr2d_point p, hr2d_point q) {
+  if (p.x != q.x) return p.x < q.x ? -1 : 1;
+  return (p.y > q.y) - (p.y < q.y);
+}
+
 /* p − q */
 static inline hr2d_point hr2di_point_minus(hr2d_point p, hr2d_point q) {
   return (hr2d_point){p.x - q.x, p.y - q.y};

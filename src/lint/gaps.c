@@ -10,6 +10,7 @@
 
 #include "base/alloc.h"
 #include "base/sort.h"
+#include "geometry/apart.h"
 #include "geometry/crossings.h"
 #include "geometry/vector.h"
 #include "lint/lint-impl.h"
@@ -55,33 +56,20 @@ static double length(hr2d_segment s) {
   return hypot(s.b.x - s.a.x, s.b.y - s.a.y);
 }
 
-static double distance(hr2d_point p, hr2d_segment s) {
-  const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y, u = hypot(ux, uy);
-  const double t = ((p.x - s.a.x) * (ux / u) + (p.y - s.a.y) * (uy / u)) / u;
-  const double f = fmin(fmax(t, 0), 1);
-  const double x = p.x - s.a.x - f * ux, y = p.y - s.a.y - f * uy;
-  return hypot(x, y);
-}
-
 static int is_touch(const gaps *g, size_t i, size_t j, double d) {
   return d <= 2 * hr2di_crossings_rounding(&g->s[i], &g->s[j]);
 }
 
-static int compare_points(hr2d_point p, hr2d_point q) {
-  if (p.x != q.x) return p.x < q.x ? -1 : 1;
-  return (p.y > q.y) - (p.y < q.y);
-}
-
 static int by_place(const void *left, const void *right) {
   const place *l = left, *r = right;
-  const int c = compare_points(l->at, r->at);
+  const int c = hr2di_point_order(l->at, r->at);
   return c ? c : (l->end > r->end) - (l->end < r->end);
 }
 
 /* By place, the nearest first; then by the numbers of the patches. */
 static int by_nearness(const void *left, const void *right) {
   const approach *l = left, *r = right;
-  const int c = compare_points(l->at, r->at);
+  const int c = hr2di_point_order(l->at, r->at);
   if (c) return c;
   if (l->distance != r->distance) return l->distance < r->distance ? -1 : 1;
   if (l->along != r->along) return l->along ? -1 : 1;
@@ -104,13 +92,13 @@ static int same_wall(hr2d_segment s, hr2d_segment t) {
 static hr2d_status look_at_end(gaps *g, uint32_t end, size_t j) {
   const size_t i = end / 2;
   const hr2d_point p = end_at(g, end), q = end_at(g, end ^ 1);
-  const double d = distance(p, g->s[j]), most = fmin(g->reach[i], g->reach[j]);
+  const double d = hr2di_apart_from_point(g->s[j], p), most = fmin(g->reach[i], g->reach[j]);
   if (is_touch(g, i, j, d)) {
     g->touched[end] = 1;
     return HR2D_OK;
   }
   if (d > most) return HR2D_OK;
-  const double other = distance(q, g->s[j]);
+  const double other = hr2di_apart_from_point(g->s[j], q);
   if (is_touch(g, i, j, other)) return HR2D_OK; /* a wedge: they meet there */
   if (hr2di_alloc_reserve(g->alloc, &g->approach, &g->capacity, g->approaches + 1,
                           sizeof *g->approach))
@@ -189,7 +177,7 @@ static size_t first_at(const gaps *g, hr2d_point p) {
   size_t low = 0, high = 2 * g->count;
   while (low < high) {
     const size_t middle = low + (high - low) / 2;
-    if (compare_points(g->sorted[middle].at, p) < 0)
+    if (hr2di_point_order(g->sorted[middle].at, p) < 0)
       low = middle + 1;
     else
       high = middle;
@@ -203,13 +191,13 @@ static int is_closed(const gaps *g, const approach *a) {
   size_t points = 1;
   for (size_t k = 0; k < points; k++)
     for (size_t m = first_at(g, reached[k]);
-         m < 2 * g->count && !compare_points(g->sorted[m].at, reached[k]); m++) {
+         m < 2 * g->count && !hr2di_point_order(g->sorted[m].at, reached[k]); m++) {
       const uint32_t end = g->sorted[m].end;
       const hr2d_point far = end_at(g, end ^ 1);
       if (end / 2 == a->to || length(g->s[end / 2]) > LONGEST_LINK * a->distance) continue;
-      if (is_touch(g, end / 2, a->to, distance(far, g->s[a->to]))) return 1;
+      if (is_touch(g, end / 2, a->to, hr2di_apart_from_point(g->s[a->to], far))) return 1;
       size_t known = 0;
-      while (known < points && compare_points(reached[known], far)) known++;
+      while (known < points && hr2di_point_order(reached[known], far)) known++;
       if (known == points && points < MOST_LINKS) reached[points++] = far;
     }
   return 0;

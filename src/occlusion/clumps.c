@@ -15,6 +15,7 @@
 #include "base/union-find.h"
 #include "geometry/crossings.h"
 #include "geometry/hull.h"
+#include "geometry/vector.h"
 
 enum { FIRST_ROUND = 64 };
 
@@ -22,18 +23,13 @@ static double length_of(const hr2di_screen *s) {
   return s->points < 2 ? 0 : hypot(s->at[1].x - s->at[0].x, s->at[1].y - s->at[0].y);
 }
 
-static int compare_points(hr2d_point p, hr2d_point q) {
-  if (p.x != q.x) return p.x < q.x ? -1 : 1;
-  return (p.y > q.y) - (p.y < q.y);
-}
-
 /* The longest first. */
 static int by_length(const void *left, const void *right) {
   const hr2di_screen *l = left, *r = right;
   const double here = length_of(l), there = length_of(r);
   if (here != there) return here > there ? -1 : 1;
-  int sign = compare_points(l->at[0], r->at[0]);
-  if (!sign) sign = compare_points(l->at[1], r->at[1]);
+  int sign = hr2di_point_order(l->at[0], r->at[0]);
+  if (!sign) sign = hr2di_point_order(l->at[1], r->at[1]);
   if (!sign) sign = (l->points > r->points) - (l->points < r->points);
   return sign ? sign : (l->joins > r->joins) - (l->joins < r->joins);
 }

@@ -76,6 +76,11 @@ void hr2di_light_release(const hr2d_allocator *alloc, hr2di_light *light);
 /* Removes all patches but the first `patches`. */
 void hr2di_scene_truncate(hr2d_scene *scene, size_t patches);
 
+/* Copies a patch, with a name of its own and another use of the light, so that `patch` can be
+   freed.  A number from 1 on is added to the name.  HR2D_OK, or HR2D_ENOMEM with neither. */
+hr2d_status hr2di_patch_copy(const hr2d_allocator *alloc, const hr2di_patch *patch,
+                             size_t number, hr2di_patch *copy);
+
 /* A patch as messages name it: patch 3 ("wall"). */
 typedef struct hr2di_label {
   char text[112];

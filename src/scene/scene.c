@@ -131,6 +131,20 @@ static hr2d_status add_sides(hr2d_scene *scene, const hr2d_patch *patch, hr2di_l
   return hr2di_message_fail(&scene->message, status, "out of memory for patch %zu", front);
 }
 
+hr2d_status hr2di_patch_copy(const hr2d_allocator *alloc, const hr2di_patch *patch,
+                             size_t number, hr2di_patch *copy) {
+  const size_t size = strlen(patch->name) + 32;
+  *copy = *patch;
+  copy->name = hr2di_alloc(alloc, size, 1);
+  if (!copy->name) return HR2D_ENOMEM;
+  copy->light->users++;
+  if (number)
+    snprintf(copy->name, size, "%s [%zu]", patch->name, number);
+  else
+    snprintf(copy->name, size, "%s", patch->name);
+  return HR2D_OK;
+}
+
 static hr2di_label make_label(size_t index, const char *name) {
   hr2di_label label;
   char numbered[32];

@@ -19,7 +19,7 @@
 #include "base/sort.h"
 #include "geometry/crossings.h"
 #include "geometry/vector.h"
-#include "scene/scene-impl.h"
+#include "scene/snap-impl.h"
 
 #define NONE UINT32_MAX
 
@@ -27,44 +27,12 @@
  */
 enum { MOST_ROUNDS = 64 };
 
-typedef struct vertex {
-  hr2d_point start, at;
-  uint32_t next; /* in its cell, or NONE */
-  uint32_t wall; /* the patch that it stands on, or NONE */
-  double distance;
-} vertex;
-
-typedef struct bend {
-  uint32_t wall, vertex;
-  double along; /* a fraction of the wall */
-} bend;
-
-typedef struct snapper {
-  hr2d_scene *scene; /* a copy of the caller's */
-  const hr2d_allocator *alloc;
-  hr2di_watch *watch;
-  double tolerance; /* scaled */
-  vertex *v;
-  uint32_t vertices;
-  uint32_t *of_end; /* per end 2·patch + e: its vertex */
-  uint32_t *cell;   /* a hash table of the squares that vertices lie in */
-  size_t cells;     /* a power of two */
-  hr2d_segment *box;
-  bend *bend;
-  size_t bends, bend_capacity;
-  hr2d_snap_report report;
-} snapper;
-
-static double distance(hr2d_point p, hr2d_point q) {
-  return hypot(p.x - q.x, p.y - q.y);
-}
-
 static hr2d_point end_of(const hr2d_scene *scene, size_t end) {
   const hr2d_segment *s = &scene->patch[end / 2].scaled;
   return end % 2 ? s->b : s->a;
 }
 
-static uint32_t *cell_at(const snapper *s, double column, double row) {
+static uint32_t *cell_at(const hr2di_snapper *s, double column, double row) {
   uint64_t bits[2];
   const double place[2] = {column + 0., row + 0.}; /* no −0 */
   memcpy(bits, place, sizeof bits);
@@ -74,14 +42,14 @@ static uint32_t *cell_at(const snapper *s, double column, double row) {
 }
 
 /* The nearest vertex within the tolerance, or NONE. */
-static uint32_t find_vertex(const snapper *s, hr2d_point p) {
+static uint32_t find_vertex(const hr2di_snapper *s, hr2d_point p) {
   const double column = floor(p.x / s->tolerance), row = floor(p.y / s->tolerance);
   double least = s->tolerance;
   uint32_t nearest = NONE;
   for (int k = 0; k < 9; k++)
     for (uint32_t m = *cell_at(s, column + k % 3 - 1, row + k / 3 - 1); m != NONE;
          m = s->v[m].next) {
-      const double d = distance(p, s->v[m].start);
+      const double d = hr2di_snap_distance(p, s->v[m].start);
       if (d < least || (d == least && m < nearest)) {
         least = d;
         nearest = m;
@@ -90,13 +58,13 @@ static uint32_t find_vertex(const snapper *s, hr2d_point p) {
   return nearest;
 }
 
-static uint32_t add_vertex(snapper *s, hr2d_point p) {
+static uint32_t add_vertex(hr2di_snapper *s, hr2d_point p) {
   uint32_t *cell = cell_at(s, floor(p.x / s->tolerance), floor(p.y / s->tolerance));
-  s->v[s->vertices] = (vertex){.start = p, .at = p, .next = *cell, .wall = NONE};
+  s->v[s->vertices] = (hr2di_snap_vertex){.start = p, .at = p, .next = *cell, .wall = NONE};
   return *cell = s->vertices++;
 }
 
-static hr2d_status join_ends(snapper *s) {
+static hr2d_status join_ends(hr2di_snapper *s) {
   const size_t ends = 2 * s->scene->patches;
   for (size_t k = 0; k < ends; k++) {
     const hr2d_point p = end_of(s->scene, k);
@@ -112,20 +80,12 @@ static hr2d_status join_ends(snapper *s) {
   return HR2D_OK;
 }
 
-/* The foot of p on the line of a wall, and the fraction where it is. */
-static hr2d_point project(hr2d_point p, hr2d_point a, hr2d_point b, double *t) {
-  const double ux = b.x - a.x, uy = b.y - a.y, u = hypot(ux, uy);
-  *t = ((p.x - a.x) * (ux / u) + (p.y - a.y) * (uy / u)) / u;
-  if (*t > .5) return (hr2d_point){b.x + (*t - 1) * ux, b.y + (*t - 1) * uy};
-  return (hr2d_point){a.x + *t * ux, a.y + *t * uy};
-}
-
-static void look_at_foot(snapper *s, uint32_t v, uint32_t wall) {
+static void look_at_foot(hr2di_snapper *s, uint32_t v, uint32_t wall) {
   const uint32_t a = s->of_end[2 * wall], b = s->of_end[2 * wall + 1];
   double t;
   if (a == b || a == v || b == v) return;
-  const hr2d_point foot = project(s->v[v].start, s->v[a].start, s->v[b].start, &t);
-  const double d = distance(foot, s->v[v].start);
+  const hr2d_point foot = hr2di_snap_project(s->v[v].start, s->v[a].start, s->v[b].start, &t);
+  const double d = hr2di_snap_distance(foot, s->v[v].start);
   if (!(t > 0 && t < 1 && d <= s->tolerance)) return;
   if (s->v[v].wall != NONE &&
       (d > s->v[v].distance || (d == s->v[v].distance && wall > s->v[v].wall)))
@@ -135,7 +95,7 @@ static void look_at_foot(snapper *s, uint32_t v, uint32_t wall) {
 }
 
 static hr2d_status look_at_pair(void *ctx, size_t i, size_t j) {
-  snapper *s = ctx;
+  hr2di_snapper *s = ctx;
   for (size_t e = 0; e < 2; e++) {
     look_at_foot(s, s->of_end[2 * i + e], (uint32_t)j);
     look_at_foot(s, s->of_end[2 * j + e], (uint32_t)i);
@@ -143,40 +103,7 @@ static hr2d_status look_at_pair(void *ctx, size_t i, size_t j) {
   return HR2D_OK;
 }
 
-static int is_near(const snapper *s, uint32_t v, uint32_t wall) {
-  const uint32_t a = s->of_end[2 * wall], b = s->of_end[2 * wall + 1];
-  double t;
-  if (v == a || v == b) return 1;
-  const hr2d_point foot = project(s->v[v].start, s->v[a].start, s->v[b].start, &t);
-  return t > 0 && t < 1 && distance(foot, s->v[v].start) <= s->tolerance;
-}
-
-/* Whether `wall` has to be cut at an end of patch `end` / 2. */
-static hr2d_status look_at_stretch(snapper *s, uint32_t end, uint32_t wall) {
-  const uint32_t v = s->of_end[end], x = s->of_end[end ^ 1];
-  const uint32_t a = s->of_end[2 * wall], b = s->of_end[2 * wall + 1];
-  double t;
-  if (a == b || v == x || v == a || v == b || !is_near(s, v, wall)) return HR2D_OK;
-  if (!is_near(s, x, wall) && !is_near(s, a, end / 2) && !is_near(s, b, end / 2))
-    return HR2D_OK;
-  if (hr2di_alloc_reserve(s->alloc, &s->bend, &s->bend_capacity, s->bends + 1, sizeof *s->bend))
-    return HR2D_ENOMEM;
-  project(s->v[v].start, s->v[a].start, s->v[b].start, &t);
-  s->bend[s->bends++] = (bend){wall, v, t};
-  return HR2D_OK;
-}
-
-static hr2d_status look_at_stretches(void *ctx, size_t i, size_t j) {
-  snapper *s = ctx;
-  hr2d_status status = HR2D_OK;
-  for (uint32_t e = 0; e < 2 && !status; e++)
-    status = look_at_stretch(s, (uint32_t)(2 * i) + e, (uint32_t)j);
-  for (uint32_t e = 0; e < 2 && !status; e++)
-    status = look_at_stretch(s, (uint32_t)(2 * j) + e, (uint32_t)i);
-  return status;
-}
-
-static hr2d_status sweep(snapper *s, hr2d_status (*visit)(void *, size_t, size_t)) {
+static hr2d_status sweep(hr2di_snapper *s, hr2d_status (*visit)(void *, size_t, size_t)) {
   const double r = s->tolerance;
   for (size_t k = 0; k < s->scene->patches; k++) {
     const hr2d_point a = s->v[s->of_end[2 * k]].start, b = s->v[s->of_end[2 * k + 1]].start;
@@ -188,22 +115,23 @@ static hr2d_status sweep(snapper *s, hr2d_status (*visit)(void *, size_t, size_t
 }
 
 /* Whether something moved by more than a rounding. */
-static int place_feet(snapper *s) {
+static int place_feet(hr2di_snapper *s) {
   double most = 0;
   for (uint32_t k = 0; k < s->vertices; k++) {
-    vertex *v = &s->v[k];
+    hr2di_snap_vertex *v = &s->v[k];
     double t;
     if (v->wall == NONE) continue;
-    const vertex *a = &s->v[s->of_end[2 * v->wall]], *b = &s->v[s->of_end[2 * v->wall + 1]];
-    const hr2d_point foot = project(v->start, a->at, b->at, &t);
+    const hr2di_snap_vertex *a = &s->v[s->of_end[2 * v->wall]],
+                            *b = &s->v[s->of_end[2 * v->wall + 1]];
+    const hr2d_point foot = hr2di_snap_project(v->start, a->at, b->at, &t);
     if (!(t > 0 && t < 1)) continue;
-    most = fmax(most, distance(foot, v->at));
+    most = fmax(most, hr2di_snap_distance(foot, v->at));
     v->at = foot;
   }
   return most > 0x1p-52;
 }
 
-static hr2d_status stand(snapper *s) {
+static hr2d_status stand(hr2di_snapper *s) {
   hr2d_status status = sweep(s, look_at_pair);
   for (int round = 0; round < MOST_ROUNDS && !status; round++) {
     status = hr2di_watch_work(s->watch, s->vertices / 4 + 1);
@@ -214,15 +142,11 @@ static hr2d_status stand(snapper *s) {
   return status;
 }
 
-static hr2d_point unscaled(const hr2d_scene *scene, hr2d_point p) {
-  return (hr2d_point){ldexp(p.x, scene->exponent), ldexp(p.y, scene->exponent)};
-}
-
-static void move_end(snapper *s, size_t end) {
+static void move_end(hr2di_snapper *s, size_t end) {
   hr2di_patch *patch = &s->scene->patch[end / 2];
   hr2d_point *given = end % 2 ? &patch->given.b : &patch->given.a;
-  const hr2d_point to = unscaled(s->scene, s->v[s->of_end[end]].at);
-  const double d = distance(*given, to);
+  const hr2d_point to = hr2di_snap_unscaled(s->scene, s->v[s->of_end[end]].at);
+  const double d = hr2di_snap_distance(*given, to);
   if (d > s->report.farthest) {
     s->report.farthest = d;
     s->report.from = *given;
@@ -250,20 +174,15 @@ typedef struct oriented {
   size_t patch;
 } oriented;
 
-static int compare_points(hr2d_point p, hr2d_point q) {
-  if (p.x != q.x) return p.x < q.x ? -1 : 1;
-  return (p.y > q.y) - (p.y < q.y);
-}
-
 static int by_ends(const void *left, const void *right) {
   const oriented *l = left, *r = right;
-  const int a = compare_points(l->s.a, r->s.a), b = compare_points(l->s.b, r->s.b);
+  const int a = hr2di_point_order(l->s.a, r->s.a), b = hr2di_point_order(l->s.b, r->s.b);
   if (a || b) return a ? a : b;
   return (l->patch > r->patch) - (l->patch < r->patch);
 }
 
 /* Marks patches without a length, and later copies of others. */
-static hr2d_status mark(snapper *s, oriented *sorted, unsigned char *drop) {
+static hr2d_status mark(hr2di_snapper *s, oriented *sorted, unsigned char *drop) {
   hr2d_scene *scene = s->scene;
   for (size_t k = 0; k < scene->patches; k++) {
     sorted[k] = (oriented){scene->patch[k].given, k};
@@ -283,7 +202,7 @@ static hr2d_status mark(snapper *s, oriented *sorted, unsigned char *drop) {
   return status;
 }
 
-static hr2d_status drop_what_is_too_much(snapper *s) {
+static hr2d_status drop_what_is_too_much(hr2di_snapper *s) {
   const size_t n = s->scene->patches;
   oriented *sorted = hr2di_alloc(s->alloc, n, sizeof *sorted);
   unsigned char *drop = hr2di_alloc(s->alloc, n, 1);
@@ -294,7 +213,7 @@ static hr2d_status drop_what_is_too_much(snapper *s) {
   return status;
 }
 
-static void release(snapper *s) {
+static void release(hr2di_snapper *s) {
   hr2di_alloc_free(s->alloc, s->v);
   hr2di_alloc_free(s->alloc, s->of_end);
   hr2di_alloc_free(s->alloc, s->cell);
@@ -304,7 +223,7 @@ static void release(snapper *s) {
   s->box = NULL;
 }
 
-static hr2d_status reserve(snapper *s) {
+static hr2d_status reserve(hr2di_snapper *s) {
   const size_t n = s->scene->patches;
   release(s);
   if (n >= NONE / 4) return HR2D_ENOMEM;
@@ -320,93 +239,19 @@ static hr2d_status reserve(snapper *s) {
   return HR2D_OK;
 }
 
-static int by_wall(const void *left, const void *right) {
-  const bend *l = left, *r = right;
-  if (l->wall != r->wall) return l->wall < r->wall ? -1 : 1;
-  if (l->along != r->along) return l->along < r->along ? -1 : 1;
-  return (l->vertex > r->vertex) - (l->vertex < r->vertex);
-}
-
-/* Makes a patch of the piece of `whole` between two vertices; number 0: it is the only one. */
-static hr2d_status make_piece(const snapper *s, const hr2di_patch *whole, hr2d_segment at,
-                              size_t number, hr2di_patch *made) {
-  const size_t size = strlen(whole->name) + 32;
-  *made = *whole;
-  made->scaled = at;
-  made->given = (hr2d_segment){unscaled(s->scene, at.a), unscaled(s->scene, at.b)};
-  made->name = hr2di_alloc(s->alloc, size, 1);
-  if (!made->name) return HR2D_ENOMEM;
-  made->light->users++;
-  if (number)
-    snprintf(made->name, size, "%s [%zu]", whole->name, number);
-  else
-    strcpy(made->name, whole->name);
-  return HR2D_OK;
-}
-
-/* Adds the pieces of a patch that is cut at bends [from, to), which has moved to its vertices.
- */
-static hr2d_status make_pieces(snapper *s, size_t patch, size_t from, size_t to,
-                               hr2d_scene *pieces) {
-  const hr2di_patch *whole = &s->scene->patch[patch];
-  hr2d_point a = whole->scaled.a;
-  size_t number = 0;
-  for (size_t k = from; k <= to; k++) {
-    const hr2d_point b = k < to ? s->v[s->bend[k].vertex].at : whole->scaled.b;
-    if (hr2di_point_same(a, b)) continue; /* the same bend again, found from another patch */
-    const hr2d_status status =
-        make_piece(s, whole, (hr2d_segment){a, b}, from < to ? ++number : 0,
-                   &pieces->patch[pieces->patches]);
-    if (status) return status;
-    pieces->patches++;
-    a = b;
-  }
-  return HR2D_OK;
-}
-
-static void exchange_patches(hr2d_scene *scene, hr2d_scene *other) {
-  hr2di_patch *const patch = scene->patch;
-  const size_t patches = scene->patches, capacity = scene->capacity;
-  scene->patch = other->patch;
-  scene->patches = other->patches;
-  scene->capacity = other->capacity;
-  other->patch = patch;
-  other->patches = patches;
-  other->capacity = capacity;
-}
-
-/* Takes the pieces in the place of all patches; those that are not cut are one piece. */
-static hr2d_status cut_at_bends(snapper *s) {
-  hr2d_scene pieces = {.alloc = *s->alloc};
-  hr2d_status status = hr2di_sort(s->bend, s->bends, sizeof *s->bend, by_wall, s->watch);
-  if (status) return status;
-  pieces.capacity = s->scene->patches + s->bends;
-  pieces.patch = hr2di_alloc(s->alloc, pieces.capacity, sizeof *pieces.patch);
-  if (!pieces.patch) return HR2D_ENOMEM;
-  for (size_t k = 0, m = 0; k < s->scene->patches && !status; k++) {
-    const size_t from = m;
-    while (m < s->bends && s->bend[m].wall == k) m++;
-    status = make_pieces(s, k, from, m, &pieces);
-  }
-  if (!status) exchange_patches(s->scene, &pieces);
-  hr2di_scene_truncate(&pieces, 0);
-  hr2di_alloc_free(s->alloc, pieces.patch);
-  return status;
-}
-
 /* Pieces that bend may come near to other vertices, a few times at most. */
 enum { MOST_CUTS = 16 };
 
 /* Joins ends, and cuts walls where they share a stretch with others, until none is left. */
-static hr2d_status join_and_cut(snapper *s) {
+static hr2d_status join_and_cut(hr2di_snapper *s) {
   hr2d_status status = HR2D_OK;
   for (int round = 0; round < MOST_CUTS && !status; round++) {
     status = reserve(s);
     if (!status) status = join_ends(s);
     for (size_t k = 0; k < 2 * s->scene->patches && !status; k++) move_end(s, k);
-    if (!status) status = sweep(s, look_at_stretches);
+    if (!status) status = sweep(s, hr2di_snap_look_at_stretches);
     if (status || !s->bends) return status;
-    status = cut_at_bends(s);
+    status = hr2di_snap_cut(s);
     if (!status) status = drop_what_is_too_much(s);
   }
   return status
@@ -417,7 +262,7 @@ static hr2d_status join_and_cut(snapper *s) {
                                   MOST_CUTS);
 }
 
-static hr2d_status snap(snapper *s, double tolerance) {
+static hr2d_status snap(hr2di_snapper *s, double tolerance) {
   hr2d_scene *scene = s->scene;
   hr2d_status status = hr2di_scene_scale(scene, s->watch);
   if (status) return status;
@@ -438,15 +283,10 @@ static hr2d_status copy_patches(hr2d_scene *copy, const hr2d_scene *scene) {
   copy->patch = hr2di_alloc(&scene->alloc, scene->patches, sizeof *copy->patch);
   if (!copy->patch) return HR2D_ENOMEM;
   copy->capacity = scene->patches;
-  for (; copy->patches < scene->patches; copy->patches++) {
-    hr2di_patch *made = &copy->patch[copy->patches];
-    const char *name = scene->patch[copy->patches].name;
-    *made = scene->patch[copy->patches];
-    made->name = hr2di_alloc(&scene->alloc, strlen(name) + 1, 1);
-    if (!made->name) return HR2D_ENOMEM;
-    strcpy(made->name, name);
-    made->light->users++;
-  }
+  for (; copy->patches < scene->patches; copy->patches++)
+    if (hr2di_patch_copy(&scene->alloc, &scene->patch[copy->patches], 0,
+                         &copy->patch[copy->patches]))
+      return HR2D_ENOMEM;
   return HR2D_OK;
 }
 
@@ -461,10 +301,10 @@ hr2d_status hr2d_scene_snap(hr2d_scene *scene, double tolerance, hr2d_snap_repor
   hr2di_scene_watch(scene, &watch, NULL, NULL, "snap");
   hr2d_scene copy = {
       .alloc = scene->alloc, .progress = scene->progress, .progress_ctx = scene->progress_ctx};
-  snapper s = {.scene = &copy, .alloc = &scene->alloc, .watch = &watch};
+  hr2di_snapper s = {.scene = &copy, .alloc = &scene->alloc, .watch = &watch};
   hr2d_status status = scene->patches ? copy_patches(&copy, scene) : HR2D_OK;
   if (!status && scene->patches) status = snap(&s, tolerance);
-  if (!status) exchange_patches(scene, &copy);
+  if (!status) hr2di_snap_exchange(scene, &copy);
   if (!status && report) *report = s.report;
   hr2di_scene_truncate(&copy, 0);
   hr2di_alloc_free(s.alloc, copy.patch);

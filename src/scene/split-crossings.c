@@ -39,17 +39,12 @@ typedef struct splitter {
   hr2di_cuts cuts;
 } splitter;
 
-static int compare_points(hr2d_point p, hr2d_point q) {
-  if (p.x != q.x) return p.x < q.x ? -1 : 1;
-  return (p.y > q.y) - (p.y < q.y);
-}
-
 static hr2d_segment undirected(hr2d_segment s) {
-  return compare_points(s.a, s.b) <= 0 ? s : (hr2d_segment){s.b, s.a};
+  return hr2di_point_order(s.a, s.b) <= 0 ? s : (hr2d_segment){s.b, s.a};
 }
 
 static int side_of(const hr2d_segment *s) {
-  return compare_points(s->a, s->b) < 0 ? HR2DI_FORWARD : HR2DI_BACKWARD;
+  return hr2di_point_order(s->a, s->b) < 0 ? HR2DI_FORWARD : HR2DI_BACKWARD;
 }
 
 typedef struct place {
@@ -59,7 +54,7 @@ typedef struct place {
 
 static int by_segment(const void *left, const void *right) {
   const place *l = left, *r = right;
-  const int a = compare_points(l->s.a, r->s.a), b = compare_points(l->s.b, r->s.b);
+  const int a = hr2di_point_order(l->s.a, r->s.a), b = hr2di_point_order(l->s.b, r->s.b);
   if (a || b) return a ? a : b;
   return (l->piece > r->piece) - (l->piece < r->piece);
 }
@@ -83,8 +78,8 @@ static hr2d_status make_walls(splitter *p) {
     }
     for (size_t k = 0; k < p->pieces; k++) {
       const hr2d_segment s = sorted[k].s;
-      if (k == 0 || compare_points(s.a, sorted[k - 1].s.a) ||
-          compare_points(s.b, sorted[k - 1].s.b))
+      if (k == 0 || hr2di_point_order(s.a, sorted[k - 1].s.a) ||
+          hr2di_point_order(s.b, sorted[k - 1].s.b))
         p->wall[p->walls++] = (hr2di_cut_wall){s, 0};
       p->wall[p->walls - 1].sides |= side_of(&p->piece[sorted[k].piece].s);
       p->wall_of[sorted[k].piece] = p->walls - 1;
@@ -144,7 +139,7 @@ static int is_whole(const splitter *p, size_t k) {
 }
 
 static int by_x(const void *left, const void *right) {
-  return compare_points(*(const hr2d_point *)left, *(const hr2d_point *)right);
+  return hr2di_point_order(*(const hr2d_point *)left, *(const hr2d_point *)right);
 }
 
 /* Makes a list of the ends of all patches, by x. */
@@ -251,20 +246,13 @@ static hr2d_status leave_copies_out(splitter *p) {
   return HR2D_OK;
 }
 
-/* Makes a patch of a piece of `whole`.  It has its own name and its own use of the light, so
-   that `whole` can be freed. */
 static hr2d_status make_piece(splitter *p, const hr2di_patch *whole, const piece *part,
                               size_t number, hr2di_patch *made) {
   const int e = p->scene->exponent;
-  const size_t size = strlen(whole->name) + 32;
-  *made = *whole;
+  const hr2d_status status = hr2di_patch_copy(p->alloc, whole, number, made);
   made->given.a = (hr2d_point){ldexp(part->s.a.x, e), ldexp(part->s.a.y, e)};
   made->given.b = (hr2d_point){ldexp(part->s.b.x, e), ldexp(part->s.b.y, e)};
-  made->name = hr2di_alloc(p->alloc, size, 1);
-  if (!made->name) return HR2D_ENOMEM;
-  made->light->users++;
-  snprintf(made->name, size, "%s [%zu]", whole->name, number);
-  return HR2D_OK;
+  return status;
 }
 
 static void free_patch(const hr2d_allocator *alloc, const hr2di_patch *patch) {
@@ -325,7 +313,7 @@ static hr2d_status replace_patches(splitter *p) {
 }
 
 static int by_place(const void *left, const void *right) {
-  return compare_points(*(const hr2d_point *)left, *(const hr2d_point *)right);
+  return hr2di_point_order(*(const hr2d_point *)left, *(const hr2d_point *)right);
 }
 
 static hr2d_status count_places(hr2di_cuts *cuts, size_t *count) {

@@ -137,19 +137,14 @@ hr2d_status hr2di_sight_list_restrict(hr2di_sight_list *l, const hr2di_sight_lis
   return HR2D_OK;
 }
 
-static int compare_points(hr2d_point p, hr2d_point q) {
-  if (p.x != q.x) return p.x < q.x ? -1 : 1;
-  return (p.y > q.y) - (p.y < q.y);
-}
-
 /* By where they begin and end, then by their chains. */
 static int comes_before(const hr2di_sight_list *l, const hr2di_kept_sight *s,
                         const hr2di_kept_sight *t) {
-  int order = compare_points(s->near.a, t->near.a);
-  if (!order) order = compare_points(s->far.a, t->far.a);
+  int order = hr2di_point_order(s->near.a, t->near.a);
+  if (!order) order = hr2di_point_order(s->far.a, t->far.a);
   const size_t count = s->lefts + s->rights, other = t->lefts + t->rights;
   for (size_t k = 0; !order && k < count && k < other; k++)
-    order = compare_points(l->point[s->first + k], l->point[t->first + k]);
+    order = hr2di_point_order(l->point[s->first + k], l->point[t->first + k]);
   return order ? order < 0 : count < other;
 }
 

@@ -221,7 +221,7 @@ static int follow(hr2di_walk *w, const chains *c, int32_t h, entry *e, int *hand
   const hr2d_point r0 = first(w, c, 1), r1 = last(w, c, 1);
   for (;;) {
     const hr2di_triangle *t = &w->in->triangle[h >> 2];
-    const int k = h & 3, to_right = k == 2 ? 0 : k + 1, to_left = k == 0 ? 2 : k - 1;
+    const int k = h & 3, to_right = hr2di_corner_after(k), to_left = hr2di_corner_before(k);
     const hr2d_point v = at[t->corner[to_left]];
     int splits = 0;
     w->steps++;

@@ -46,7 +46,7 @@ static int32_t way_out(const hr2di_mesh *m, int32_t t, int32_t from, uint64_t *r
   *random = *random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
   int k = (int)((*random >> 33) % 3);
   *on = -1;
-  for (int turn = 0; turn < 3; turn++, k = k == 2 ? 0 : k + 1) {
+  for (int turn = 0; turn < 3; turn++, k = hr2di_corner_after(k)) {
     const int32_t h = 4 * t + k;
     if (h == from) continue;
     const int side =

@@ -22,6 +22,15 @@ typedef struct hr2di_triangle {
   int32_t across[3];
 } hr2di_triangle;
 
+/* The corners, and the edges that begin there, after and before number k. */
+static inline int hr2di_corner_after(int k) {
+  return k == 2 ? 0 : k + 1;
+}
+
+static inline int hr2di_corner_before(int k) {
+  return k == 0 ? 2 : k - 1;
+}
+
 /* A part of a wall between two vertices, with none on its inside.  Side 0 is on the left of
    from -> to, side 1 on the right. */
 typedef struct hr2di_wall_edge {

@@ -112,7 +112,7 @@ static int32_t follow(hr2di_event_beams *b, hr2di_border *left, int32_t h, uint3
   for (size_t steps = 1; steps <= b->in->triangles; steps++) {
     if (steps % 32 == 0 && hr2di_watch_work(b->watch, 8)) break;
     const hr2di_triangle *t = &b->in->triangle[h >> 2];
-    const int k = h & 3, to_right = k == 2 ? 0 : k + 1, to_left = k == 0 ? 2 : k - 1;
+    const int k = h & 3, to_right = hr2di_corner_after(k), to_left = hr2di_corner_before(k);
     const hr2d_point at = b->in->at[t->corner[to_left]];
     const int from_right = hr2di_orient_sign(b->right.from, b->right.to, at);
     const int from_left = hr2di_orient_sign(left->from, left->to, at);

@@ -43,8 +43,7 @@ static int32_t follow(walk *k, const hr2di_ray *left, int32_t h, hr2di_ray *v, i
   for (size_t steps = 1; steps <= k->in->triangles; steps++) {
     if (steps % 32 == 0 && hr2di_watch_work(k->w->watch, 16)) break;
     const hr2di_triangle *t = &k->in->triangle[h >> 2];
-    const int edge = h & 3, to_right = edge == 2 ? 0 : edge + 1,
-              to_left = edge == 0 ? 2 : edge - 1;
+    const int to_right = hr2di_corner_after(h & 3), to_left = hr2di_corner_before(h & 3);
     hr2di_ray_aim(e, k->in->at[t->corner[to_left]], t->corner[to_left], v);
     const int on_left = hr2di_ray_turn(e, &k->right, v) > 0,
               on_right = hr2di_ray_turn(e, left, v) < 0;

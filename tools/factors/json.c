@@ -6,21 +6,11 @@
 #include <stdio.h>
 
 #include "factors/factors.h"
-#include "output/complain.h"
 #include "output/output.h"
-
-/* Writes a value on one line and takes it over; NULL means that an allocation failed. */
-static int write_value(FILE *stream, json_t *value) {
-  if (!value) return complain_memory();
-  const size_t flags = JSON_ENCODE_ANY | JSON_REAL_PRECISION(17);
-  const int bad = json_dumpf(value, stream, flags) && !ferror(stream);
-  json_decref(value);
-  return bad ? complain_memory() : 0;
-}
 
 static int write_member(FILE *stream, const char *key, json_t *value) {
   fprintf(stream, ",\n  \"%s\": ", key);
-  return write_value(stream, value);
+  return json_write_value(stream, value);
 }
 
 static json_t *patch_entry(const factors *f, size_t k) {
@@ -41,7 +31,7 @@ static int write_list(FILE *stream, const char *key, const factors *f,
   fprintf(stream, ",\n  \"%s\": [", key);
   for (size_t k = 0; !status && !ferror(stream) && k < f->patches; k++) {
     fputs(k ? ",\n    " : "\n    ", stream);
-    status = write_value(stream, item(f, k));
+    status = json_write_value(stream, item(f, k));
   }
   fputs("\n  ]", stream);
   return status;
@@ -61,7 +51,7 @@ int factors_write_json(const factors *f, const char *path) {
   int status = output_open(&out, path);
   if (status) return status;
   fputs("{\n  \"scene\": ", out.stream);
-  status = write_value(out.stream, json_text(f->options->scene));
+  status = json_write_value(out.stream, json_text(f->options->scene));
   if (!status) status = write_member(out.stream, "cuts", json_count(f->cuts));
   if (!status) status = write_list(out.stream, "patches", f, patch_entry);
   if (!status) status = write_list(out.stream, "factors", f, row);

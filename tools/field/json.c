@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 #include "field/field.h"
-#include "output/complain.h"
 #include "output/output.h"
 
 static const char *const places[] = {[HR2D_PLACE_BETWEEN] = "between",
@@ -23,26 +22,17 @@ static json_t *point(const field *f, size_t k) {
   return object;
 }
 
-/* Writes a value on one line and takes it over; NULL means that an allocation failed. */
-static int write_value(FILE *stream, json_t *value) {
-  if (!value) return complain_memory();
-  const size_t flags = JSON_ENCODE_ANY | JSON_REAL_PRECISION(17);
-  const int bad = json_dumpf(value, stream, flags) && !ferror(stream);
-  json_decref(value);
-  return bad ? complain_memory() : 0;
-}
-
 int field_write_json(const field *f, const char *path) {
   output out;
   int status = output_open(&out, path);
   if (status) return status;
   fputs("{\n  \"scene\": ", out.stream);
-  status = write_value(out.stream, json_text(f->options->scene));
+  status = json_write_value(out.stream, json_text(f->options->scene));
   fprintf(out.stream, ",\n  \"columns\": %zu,\n  \"rows\": %zu,\n  \"points\": [",
           f->grid.columns, f->grid.rows);
   for (size_t k = 0; k < f->count && !status && !ferror(out.stream); k++) {
     fputs(k ? ",\n    " : "\n    ", out.stream);
-    status = write_value(out.stream, point(f, k));
+    status = json_write_value(out.stream, point(f, k));
   }
   fputs("\n  ]\n}\n", out.stream);
   return output_close(&out, status);

@@ -87,6 +87,14 @@ static int write_chunk(const char *text, size_t size, void *stream) {
   return fwrite(text, 1, size, stream) == size ? 0 : -1;
 }
 
+int json_write_value(FILE *stream, json_t *value) {
+  if (!value) return complain_memory();
+  const size_t flags = JSON_ENCODE_ANY | JSON_REAL_PRECISION(17);
+  const int bad = json_dumpf(value, stream, flags) && !ferror(stream);
+  json_decref(value);
+  return bad ? complain_memory() : 0;
+}
+
 int json_write(json_t *document, const char *path) {
   if (!document) return complain_memory();
   output out;

@@ -29,6 +29,10 @@ json_t *json_effects(const hr2d_scene *scene);
 /* {index, name, length} of a patch, to which each report adds what it knows. */
 json_t *json_patch(const hr2d_scene *scene, size_t k);
 
+/* Writes a value on one line with 17 significant digits and takes it over; NULL means that an
+   allocation failed.  Returns 0 or EXIT_FAILED. */
+int json_write_value(FILE *stream, json_t *value);
+
 /* Writes a document with 17 significant digits and takes it over; NULL means that an allocation
    failed.  Returns 0 or EXIT_FAILED. */
 int json_write(json_t *document, const char *path);
