@@ -1,5 +1,6 @@
 # Measurements, built and run by `make bench` alone.
 BENCHES = bench/bench-exchange-area bench/bench-refine bench/bench-l1 bench/bench-visibility \
+	bench/bench-growth bench/bench-shaded-links \
 	bench/bench-accuracy bench/bench-polls bench/bench-prediction \
 	bench/bench-threads bench/bench-triangulation bench/bench-field
 EXTRA_PROGRAMS += $(BENCHES)
@@ -8,9 +9,14 @@ bench_bench_exchange_area_SOURCES = bench/bench-exchange-area.c bench/timing.h
 bench_bench_exchange_area_LDADD = libhr2d-core.la $(THREADS_LIBS)
 bench_bench_refine_SOURCES = bench/bench-refine.c bench/plain.c bench/plain.h bench/timing.h
 bench_bench_refine_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
-bench_bench_visibility_SOURCES = bench/bench-visibility.c bench/timing.h
+PLANS = bench/bars.c bench/bars.h bench/plans.c bench/plans.h bench/timing.h
+bench_bench_visibility_SOURCES = bench/bench-visibility.c bench/rows.c bench/rows.h $(PLANS)
 bench_bench_visibility_CFLAGS = $(AM_CFLAGS) -fmath-errno -ftrapping-math
 bench_bench_visibility_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
+bench_bench_growth_SOURCES = bench/bench-growth.c bench/rows.c bench/rows.h $(PLANS)
+bench_bench_growth_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
+bench_bench_shaded_links_SOURCES = bench/bench-shaded-links.c $(PLANS)
+bench_bench_shaded_links_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_field_SOURCES = bench/bench-field.c bench/plain.c bench/plain.h bench/timing.h
 bench_bench_field_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SCENES='"$(abs_top_srcdir)/examples/scenes"'
 bench_bench_field_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm

@@ -15,8 +15,8 @@ libhr2d_core_la_SOURCES = \
 	src/base/message.c src/base/message.h \
 	src/base/neumaier-sum.h \
 	src/base/options-init.c \
-	src/base/pi.h \
 	src/base/ordered-dot.h \
+	src/base/pi.h \
 	src/base/read-file.c src/base/read-file.h \
 	src/base/scaled-double.h \
 	src/base/sized-struct.h \
