@@ -1,7 +1,8 @@
 # Examples use the library as any program does; `make check` compares what they
 # print with NAME.expected.
 EXAMPLES = examples/conduction examples/digits examples/furnace-section examples/own-oracle \
-	examples/resume examples/room-climate examples/solar-panels examples/street-canyon examples/tour
+	examples/resume examples/room-climate examples/shares examples/solar-panels \
+	examples/street-canyon examples/tour
 check_PROGRAMS += $(EXAMPLES)
 examples_conduction_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_conduction_LDADD = libhr2d.la -lm
@@ -15,6 +16,8 @@ examples_resume_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_resume_LDADD = libhr2d.la
 examples_room_climate_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_room_climate_LDADD = libhr2d.la -lm
+examples_shares_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_shares_LDADD = libhr2d.la -lm
 examples_solar_panels_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_solar_panels_LDADD = libhr2d.la -lm
 examples_street_canyon_CPPFLAGS = $(PUBLIC_CPPFLAGS)

@@ -36,6 +36,7 @@ SUITES = \
 	tests/unit/refine/check-refine \
 	tests/unit/refine/check-partition \
 	tests/unit/refine/check-rows \
+	tests/unit/refine/check-claims \
 	tests/unit/links/check-linkset \
 	tests/unit/links/check-store \
 	tests/unit/refine/check-validate \

@@ -47,6 +47,24 @@ struct hr2d_solution;
 /** As hr2d_refine_options::max_level: patches are not subdivided, as if the level were 0. */
 #define HR2D_NO_SUBDIVISION ((unsigned)-2)
 
+/**
+ * Chooses among pairs before anything is asked about them: whether they face or see each other,
+ * or what the oracle says. So a part of a refinement costs that part of its time, as where
+ * processes share one, or where only some exchanges are of interest.
+ * @param ctx      hr2d_refine_options::claim_ctx
+ * @param batch    pairs of patches, or pairs that come from a subdivision
+ * @param claimed  one per pair, all 1: set to 0, the pair is dropped, with all pairs below it
+ * @return HR2D_OK to continue; any other value ends the refinement with this status
+ */
+typedef hr2d_status (*hr2d_claim_fn)(void *ctx, const hr2d_batch *batch,
+                                     unsigned char *claimed);
+
+/** What the pairs of one row take: those whose first element is of one patch. */
+typedef struct hr2d_row_counts {
+  uint64_t links;            /**< as hr2d_refine_counts::links */
+  uint64_t visibility_tests; /**< as hr2d_refine_counts::visibility_tests */
+} hr2d_row_counts;
+
 /** Options of a refinement. Start from #HR2D_REFINE_OPTIONS_INIT. */
 typedef struct hr2d_refine_options {
   size_t struct_size; /**< so that the options can grow */
@@ -76,6 +94,18 @@ typedef struct hr2d_refine_options {
   int packed; /**< 1: hr2d_refine() keeps links in about 11 bytes each in the place of 16, where
                    neighbours share elements, as they do if N is far below L. No digit changes.
                    Links are made and used more slowly */
+  size_t row_from; /**< a row has the pairs of a patch with all later ones, or with all others
+                        if links are directed. An empty set is filled with rows
+                        [`row_from`, `row_to`) alone, and its links carry their part of the
+                        light. Parts of all rows add up to the whole: links, and all counts
+                        but those of elements */
+  size_t row_to;   /**< 0: the number of patches */
+  hr2d_claim_fn claim; /**< chooses pairs, NULL for all. With `threads` it is called from
+                            several at once, and decides by `a`, `b`, `centre`, `length` and
+                            `patch` of elements */
+  void *claim_ctx;     /**< given to `claim` */
+  hr2d_row_counts *row_counts; /**< receives one per patch, or NULL: which rows take the time,
+                                    so that they can be shared out evenly */
 } hr2d_refine_options;
 
 /**
@@ -90,7 +120,10 @@ typedef struct hr2d_refine_options {
 
 /** The defaults: ε = 0.1, level 24, unordered, no budgets, one thread, no callback. */
 #define HR2D_REFINE_OPTIONS_INIT                                                               \
-  { sizeof(hr2d_refine_options), 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, 0 }
+  {                                                                                            \
+    sizeof(hr2d_refine_options), 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, 0, 0, 0, NULL, NULL,   \
+        NULL                                                                                   \
+  }
 
 /**
  * Does what #HR2D_REFINE_OPTIONS_INIT does, for languages without macros: sets all bytes to 0,
@@ -112,8 +145,9 @@ HR2D_API void hr2d_refine_options_init(hr2d_refine_options *options, size_t size
  * @retval HR2D_OK             success
  * @retval HR2D_ENOMEM         an allocation failed
  * @retval HR2D_EINVAL         ε is NaN, or negative and not #HR2D_EPSILON_ZERO; `struct_size`
- *                             is too small; `ordered` differs from the last refinement; or
- *                             `brightness` is a solution on another hierarchy
+ *                             is too small; `ordered` differs from the last refinement;
+ *                             `brightness` is a solution on another hierarchy; or there are
+ *                             no such rows
  * @retval HR2D_ESTATE         called back from a call that works on the hierarchy
  * @retval HR2D_ECALLBACK      an estimate is NaN or negative, or a subdivision is not a
  *                             HR2D_SPLIT_…

@@ -7,6 +7,7 @@
    so the sums and the union of the trees are the same as with one thread. */
 #include <hr2d/refine.h>
 #include <stdatomic.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/team.h"
@@ -50,7 +51,7 @@ static size_t shares(size_t pairs) {
 }
 
 static unsigned long long task_count(const team *t) {
-  unsigned long long tasks = t->links->hierarchy->scene->patches - t->next_patch;
+  unsigned long long tasks = t->options.row_to - t->next_patch;
   for (int k = 0; k < STACKS; k++) tasks += shares(t->stack[k].count);
   return tasks + shares(t->occluded.stack.count);
 }
@@ -121,9 +122,9 @@ static hr2d_status hire(team *t, size_t k, const hr2d_hierarchy *from) {
    there is no other worker. */
 static hr2d_status begin(team *t) {
   hr2di_projector *p = t->worker[0].projector;
-  const size_t n = t->links->hierarchy->scene->patches;
   hr2d_status status = HR2D_OK;
-  while (t->next_patch < n && !status && hr2di_rounds_waiting(p) < ENOUGH) {
+  t->next_patch = t->options.row_from;
+  while (t->next_patch < t->options.row_to && !status && hr2di_rounds_waiting(p) < ENOUGH) {
     status = hr2di_projector_row(p, t->next_patch++);
     if (!status) status = hr2di_rounds_run(p, t->count > 1 ? ENOUGH : SIZE_MAX);
   }
@@ -265,13 +266,18 @@ static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
                               (unsigned long long)sum.links);
   }
   *counts = sum;
+  if (t->options.row_counts)
+    memset(t->options.row_counts, 0,
+           links->hierarchy->scene->patches * sizeof(hr2d_row_counts));
+  for (size_t k = 0; k < hired; k++)
+    hr2di_projector_add_rows(t->worker[k].projector, t->options.row_counts);
   hr2di_projector_count_elements(links->hierarchy, counts);
   return HR2D_OK;
 }
 
 static int finished(const team *t) {
   const hr2di_projector *p = t->worker[0].projector;
-  return hr2di_rounds_waiting(p) == 0 && t->next_patch == t->links->hierarchy->scene->patches;
+  return hr2di_rounds_waiting(p) == 0 && t->next_patch == t->options.row_to;
 }
 
 static hr2d_status count_as_team(team *t, hr2d_refine_counts *counts) {

@@ -58,8 +58,10 @@ hr2d_status hr2di_occluded_collect(hr2di_projector *p, hr2d_pair pair,
   if (facing_of(&parts) == HR2DI_FACING_NONE) return HR2D_OK;
   hr2di_sight_list_cut(&p->parts, 0);
   set_limits(p);
+  const uint64_t before = hr2di_patch_sights_tests(p->sights);
   const hr2d_status status =
       hr2di_patch_sights_between(p->sights, &parts, &p->parts, &p->found);
+  hr2di_projector_in_row(p, parts.patch[0], 0, hr2di_patch_sights_tests(p->sights) - before);
   if (!status) *view = classify(&p->parts, &parts);
   return fail(p, status);
 }
@@ -190,6 +192,7 @@ static hr2d_status restrict_to(hr2di_projector *p, hr2d_pair child, size_t from,
   hr2d_status status = hr2di_sight_list_restrict(
       &p->parts, list, from, list->count, parts.part[swap], parts.part[!swap], &p->found);
   p->sights->restricted += list->count - from;
+  hr2di_projector_in_row(p, parts.patch[0], 0, list->count - from);
   if (!status) status = hr2di_projector_work(p, 1 + (list->count - from) / 2);
   if (!status) *view = classify(&p->parts, &parts);
   return fail(p, status);

@@ -44,6 +44,11 @@ hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine
     return hr2di_message_fail(message, HR2D_EINVAL,
                               "the links are %s, and a further refinement cannot change that",
                               links->directed ? "directed" : "not directed");
+  const size_t patches = links->hierarchy->scene->patches;
+  if (!options->row_to) options->row_to = patches;
+  if (options->row_from > options->row_to || options->row_to > patches)
+    return hr2di_message_fail(message, HR2D_EINVAL, "rows %zu to %zu of %zu patches",
+                              options->row_from, options->row_to, patches);
   if (options->brightness && options->brightness->hierarchy != links->hierarchy)
     return hr2di_message_fail(message, HR2D_EINVAL, "the brightness is from another hierarchy");
   return HR2D_OK;
@@ -75,6 +80,35 @@ static hr2d_status set_brightness(hr2di_projector *p) {
   }
   for (size_t e = 0; e < h->elements && max > 0; e++) p->brightness[e] /= max;
   return HR2D_OK;
+}
+
+static hr2d_status set_rows(hr2di_projector *p) {
+  const size_t patches = p->hierarchy->scene->patches;
+  if (!p->options.row_counts) return HR2D_OK;
+  p->bytes += patches * sizeof *p->rows;
+  const hr2d_status status = hr2di_projector_check_budget(p, 0);
+  if (status) return status;
+  p->rows = hr2di_alloc_zero(&p->links->alloc, patches, sizeof *p->rows);
+  return p->rows ? HR2D_OK
+                 : hr2di_message_fail(&p->links->message, HR2D_ENOMEM,
+                                      "out of memory for the counts of rows");
+}
+
+void hr2di_projector_add_rows(const hr2di_projector *p, hr2d_row_counts *sum) {
+  for (size_t k = 0; p->rows && k < p->hierarchy->scene->patches; k++) {
+    sum[k].links += p->rows[k].links;
+    sum[k].visibility_tests += p->rows[k].visibility_tests;
+  }
+}
+
+/* The pairs of the rows that are wanted. */
+static double count_roots(const hr2di_projector *p) {
+  const double n = (double)p->hierarchy->scene->patches;
+  const double from = (double)p->options.row_from, to = (double)p->options.row_to;
+  const hr2di_roots *known = &p->links->roots;
+  if (known->clusters)
+    return (double)(known->row[p->options.row_to] - known->row[p->options.row_from]);
+  return (to - from) * (p->directed ? n - 1 : n - (from + to + 1) / 2);
 }
 
 static hr2d_status set_sights(hr2di_projector *p) {
@@ -111,10 +145,9 @@ hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_option
   p->directed = directed_by(links, options);
   p->check_levels = p->hierarchy->levels > options->max_level;
   p->bytes = sizeof *p + hr2di_store_bytes(&links->store);
-  p->roots = (double)p->hierarchy->scene->patches * (double)(p->hierarchy->scene->patches - 1) /
-             (p->directed ? 1 : 2);
-  if (links->roots.clusters) p->roots = (double)links->roots.count;
+  p->roots = count_roots(p);
   hr2d_status status = set_brightness(p);
+  if (!status) status = set_rows(p);
   if (!status) status = set_sights(p);
   if (status)
     hr2di_projector_destroy(p);
@@ -136,6 +169,7 @@ void hr2di_projector_destroy(hr2di_projector *p) {
   if (p->sights) hr2di_patch_sights_clear(p->sights);
   hr2di_alloc_free(alloc, p->sights);
   hr2di_alloc_free(alloc, p->brightness);
+  hr2di_alloc_free(alloc, p->rows);
   hr2di_alloc_free(alloc, p);
 }
 
@@ -145,6 +179,13 @@ typedef struct proposals {
   size_t count;
 } proposals;
 
+static hr2d_status propose_roots(hr2di_projector *p, proposals *roots) {
+  size_t count = roots->count;
+  roots->count = 0;
+  const hr2d_status status = hr2di_projector_claim(p, roots->pair, &count);
+  return status ? status : hr2di_occluded_propose_roots(p, roots->pair, count);
+}
+
 static hr2d_status add_root(hr2di_projector *p, proposals *roots, size_t patch, size_t k) {
   const hr2d_scene *scene = p->hierarchy->scene;
   p->roots_done++;
@@ -153,9 +194,7 @@ static hr2d_status add_root(hr2di_projector *p, proposals *roots, size_t patch, 
     return HR2D_OK;
   }
   roots->pair[roots->count++] = (hr2d_pair){(uint32_t)patch, (uint32_t)k};
-  if (roots->count < HR2DI_CANDIDATES) return HR2D_OK;
-  roots->count = 0;
-  return hr2di_occluded_propose_roots(p, roots->pair, HR2DI_CANDIDATES);
+  return roots->count < HR2DI_CANDIDATES ? HR2D_OK : propose_roots(p, roots);
 }
 
 hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch) {
@@ -171,12 +210,12 @@ hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch) {
   else
     for (size_t k = p->directed ? 0 : patch + 1; k < n && !status; k++)
       if (k != patch) status = add_root(p, &roots, patch, k);
-  return status ? status : hr2di_occluded_propose_roots(p, roots.pair, roots.count);
+  return status ? status : propose_roots(p, &roots);
 }
 
 hr2d_status hr2di_projector_all(hr2di_projector *p) {
   hr2d_status status = HR2D_OK;
-  for (size_t patch = 0; patch < p->hierarchy->scene->patches && !status; patch++) {
+  for (size_t patch = p->options.row_from; patch < p->options.row_to && !status; patch++) {
     status = hr2di_projector_row(p, patch);
     if (!status) status = hr2di_rounds_run(p, SIZE_MAX);
     hr2di_rounds_measure(p);

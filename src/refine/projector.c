@@ -94,6 +94,20 @@ hr2d_status hr2di_projector_check_callback(hr2di_projector *p, hr2d_status statu
                             hr2d_strerror(status));
 }
 
+hr2d_status hr2di_projector_claim(hr2di_projector *p, hr2d_pair *pairs, size_t *count) {
+  if (!p->options.claim || *count == 0) return HR2D_OK;
+  const hr2d_batch batch = make_batch(p, pairs, *count);
+  memset(p->flag, 1, *count);
+  const hr2d_status status = p->options.claim(p->options.claim_ctx, &batch, p->flag);
+  size_t kept = 0;
+  for (size_t k = 0; k < *count; k++) {
+    pairs[kept] = pairs[k];
+    kept += p->flag[k] != 0;
+  }
+  *count = kept;
+  return hr2di_projector_check_callback(p, status, "callback", "claim");
+}
+
 static hr2d_status compare(hr2di_projector *p, const hr2d_batch *batch) {
   const hr2d_linkset *links = p->links;
   for (size_t k = 0; k < batch->count; k++)
@@ -165,6 +179,8 @@ hr2d_status hr2di_projector_count_links(hr2di_projector *p, size_t more) {
 hr2d_status hr2di_projector_accept(hr2di_projector *p, const double *area, size_t count) {
   if (count == 0) return HR2D_OK;
   const hr2d_status status = hr2di_projector_count_links(p, count);
+  for (size_t k = 0; k < count && p->rows; k++)
+    hr2di_projector_in_row(p, p->hierarchy->element[p->accepted[k].first].patch, 1, 0);
   return status || !p->sink ? status : p->sink(p->sink_ctx, p->accepted, area, count);
 }
 
@@ -338,7 +354,7 @@ hr2d_status hr2di_projector_subdivide(hr2di_projector *p, hr2d_pair pair, size_t
   if (!status) status = hr2di_projector_prepare(p, &pair, &count, &held);
   *limited = held > 0;
   *candidates = status || held ? 0 : hr2di_projector_children(p, &pair, 1);
-  return status;
+  return status ? status : hr2di_projector_claim(p, p->candidate, candidates);
 }
 
 void hr2di_projector_count_elements(const hr2d_hierarchy *hierarchy,

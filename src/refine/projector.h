@@ -53,6 +53,7 @@ struct hr2di_projector {
   double roots, roots_done; /* root pairs, all and done so far, for progress */
   double fraction;          /* of them, when it was measured last; see rounds.h */
   unsigned ticks;           /* rounds since then */
+  hr2d_row_counts *rows;    /* per patch, or NULL if nobody asks */
   hr2di_watch *watch;       /* of the thread that uses this */
 
   hr2di_stack facing;  /* refused pairs that face each other fully */
@@ -99,6 +100,20 @@ hr2d_status hr2di_projector_all(hr2di_projector *p);
    pairs that do so in part are pushed on p->clipped, the other refused ones on p->facing. */
 hr2d_status hr2di_projector_propose_clipped(hr2di_projector *p, const hr2d_pair *pairs,
                                             size_t count);
+
+/* Removes the pairs that the claim drops.  Sets p->flag. */
+hr2d_status hr2di_projector_claim(hr2di_projector *p, hr2d_pair *pairs, size_t *count);
+
+/* Counts links, or tests of visibility, in the row of a patch, if anybody asks. */
+static inline void hr2di_projector_in_row(hr2di_projector *p, size_t patch, uint64_t links,
+                                          uint64_t tests) {
+  if (!p->rows) return;
+  p->rows[patch].links += links;
+  p->rows[patch].visibility_tests += tests;
+}
+
+/* Adds what a projector has counted in rows to `sum`, if it has. */
+void hr2di_projector_add_rows(const hr2di_projector *p, hr2d_row_counts *sum);
 
 /* Asks the oracle about pairs; p->partial says which have walls in the way.  Sets p->flag to 1
    for pairs that are acceptable, else to 0. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Refinement with links: into the set, or to a visitor. */
 #include <hr2d/refine.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "geometry/exchange-area.h"
@@ -26,6 +27,10 @@ static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
   h->refining = 0;
   if (p->sights) p->counts.visibility_tests += hr2di_patch_sights_tests(p->sights);
   if (status) hr2di_hierarchy_truncate(h, elements);
+  if (!status && p->rows) {
+    memset(p->options.row_counts, 0, h->scene->patches * sizeof *p->rows);
+    hr2di_projector_add_rows(p, p->options.row_counts);
+  }
   return status;
 }
 
@@ -129,6 +134,7 @@ static hr2d_status project_links(hr2di_projector *p) {
         continue;
       }
       p->counts.partial_links += partial[k];
+      hr2di_projector_in_row(p, p->hierarchy->element[pairs[k].first].patch, 1, 0);
       area[kept] = hr2di_store_at(old, first + k)->exchange_area;
       pairs[kept++] = pairs[k];
     }

@@ -34,6 +34,8 @@ static hr2d_status play(hr2di_projector *p, hr2di_stack *stack) {
     if (status) return status;
     candidates = hr2di_projector_children(p, pairs, count);
   }
+  status = hr2di_projector_claim(p, p->candidate, &candidates);
+  if (status) return status;
   if (stack == &p->facing)
     return hr2di_projector_propose(p, p->candidate, candidates, &p->facing);
   p->counts.facing_tests += candidates;

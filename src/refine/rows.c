@@ -116,8 +116,8 @@ static void describe(void *of, hr2d_progress *told) {
   const rows *all = of;
   told->elements = all->p->hierarchy->elements;
   told->links = atomic_load(&all->links_found);
-  told->fraction =
-      (double)atomic_load(&all->rows_done) / (double)all->p->hierarchy->scene->patches;
+  const size_t wanted = all->p->options.row_to - all->p->options.row_from;
+  told->fraction = wanted > 0 ? (double)atomic_load(&all->rows_done) / (double)wanted : 1;
 }
 
 /* The number in the hierarchy of an element of the copy. */
@@ -231,13 +231,16 @@ static void clear(rows *all) {
 }
 
 static hr2d_status project(rows *all) {
-  const size_t patches = all->p->hierarchy->scene->patches;
+  const size_t last = all->p->options.row_to;
   for (size_t k = 0; k < all->workers; k++)
     if (hire(all, k)) return gather_status(all);
   hr2d_status status = HR2D_OK;
-  for (; all->first < patches && !status; all->first += BAND)
-    status = do_band(all, patches - all->first < BAND ? patches - all->first : BAND);
-  for (size_t k = 0; k < all->workers; k++) sum_up(&all->p->counts, all->worker[k].projector);
+  for (; all->first < last && !status; all->first += BAND)
+    status = do_band(all, last - all->first < BAND ? last - all->first : BAND);
+  for (size_t k = 0; k < all->workers; k++) {
+    sum_up(&all->p->counts, all->worker[k].projector);
+    hr2di_projector_add_rows(all->worker[k].projector, all->p->rows);
+  }
   all->p->roots_done = all->p->roots; /* to be told at the end */
   return status;
 }
@@ -256,6 +259,7 @@ hr2d_status hr2di_rows_project(hr2di_projector *p) {
   all->p = p;
   all->worker = w;
   all->workers = workers;
+  all->first = p->options.row_from;
   all->elements = p->hierarchy->elements;
   all->levels = p->hierarchy->levels;
   hr2di_watch_describe(p->watch, describe, all);

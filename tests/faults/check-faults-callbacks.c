@@ -122,6 +122,22 @@ static hr2d_status count(fault_stage *s, uint64_t *sum) {
   return fault_count(s, sum, &o);
 }
 
+static hr2d_status half(void *ctx, const hr2d_batch *batch, unsigned char *claimed) {
+  (void)ctx;
+  for (size_t k = 0; k < batch->count; k++)
+    claimed[k] = batch->elements[batch->pairs[k].first].patch != 1;
+  return HR2D_OK;
+}
+
+static hr2d_status count_some(fault_stage *s, uint64_t *sum) {
+  hr2d_row_counts row[64];
+  hr2d_refine_options o = fine(0.02, 1);
+  o.row_from = 1;
+  o.claim = half;
+  o.row_counts = row;
+  return fault_count(s, sum, &o);
+}
+
 static hr2d_status count_by_three(fault_stage *s, uint64_t *sum) {
   hr2d_refine_options o = fine(0.005, 3);
   o.max_level = 9;
@@ -225,6 +241,7 @@ static const act acts[] = {
     {"refine, fast", {.depth = DEPTH_COMMITTED, FAST}, refine, 0},
     {"refine again", {.depth = DEPTH_REFINED, SLOW}, refine, 0},
     {"refine_count", {.depth = DEPTH_COMMITTED, FAST}, count, 0},
+    {"refine_count of some", {.depth = DEPTH_COMMITTED, FAST}, count_some, 0},
     {"refine_count by 3", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, count_by_three, 2},
     {"refine_visit", {.depth = DEPTH_COMMITTED, FAST}, visit, 0},
     {"study_run", {.depth = DEPTH_COMMITTED, SLOW}, study, 0},
