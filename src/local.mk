@@ -215,7 +215,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/target.c src/accuracy/target.h \
 	src/state/byte-stream.c src/state/byte-stream.h \
 	src/state/state-impl.h \
-	src/state/state-read.c \
+	src/state/state-read.c src/state/state-scene.c \
 	src/state/state-write.c
 
 lib_LTLIBRARIES += libhr2d.la

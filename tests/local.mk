@@ -84,6 +84,7 @@ SUITES = \
 	tests/unit/visibility/check-point-view \
 	tests/unit/visibility/check-point-view-walls \
 	tests/unit/state/check-state \
+	tests/unit/state/check-state-scene \
 	tests/unit/refine/check-study \
 	tests/hard/check-hard-refine \
 	tests/hard/check-hard-solve \
@@ -147,6 +148,7 @@ tests_libsupport_la_SOURCES = \
 	tests/support/short-rooms.c tests/support/short-rooms.h \
 	tests/support/slow-phases.c tests/support/slow-phases.h \
 	tests/support/slow-scenes.c tests/support/slow-scenes.h \
+	tests/support/tape.c tests/support/tape.h \
 	tests/support/suite.c tests/support/suite.h \
 	tests/support/support.h \
 	tests/support/tables.c tests/support/tables.h \

@@ -89,6 +89,41 @@ HR2D_API hr2d_status hr2d_state_write(const hr2d_solution *solution, hr2d_write_
 HR2D_API hr2d_status hr2d_state_read(hr2d_linkset *links, hr2d_read_fn read, void *ctx,
                                      hr2d_solution **solution);
 
+/**
+ * Writes a committed scene, as for other processes that share its work, or to have it later
+ * without the file that it came from: patches with their names, the background, and the effects
+ * that are forced.
+ * @param scene  a committed scene; unchanged
+ * @param write  receives up to 4096 bytes at a time
+ * @param ctx    given to `write`
+ * @retval HR2D_OK      success
+ * @retval HR2D_ESTATE  the scene is not committed
+ * @retval other        the status of `write`, or of hr2d_scene_set_progress()
+ *
+ * Allocates nothing. Some 60 bytes per patch and 8 per value of E and ρ that patches do not
+ * share. The bytes are the same on all machines.
+ */
+HR2D_API hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_fn write,
+                                            void *ctx);
+
+/**
+ * Reads a scene of hr2d_state_write_scene(), and commits it: all that is made of it has the
+ * bits of the scene that was written.
+ * @param scene  an empty scene; on failure it is empty again
+ * @param read   asked for up to 4096 bytes at a time, and for no byte after the scene
+ * @param ctx    given to `read`
+ * @retval HR2D_OK       success
+ * @retval HR2D_ENOMEM   an allocation failed
+ * @retval HR2D_ESTATE   the scene is committed, or has patches or a background
+ * @retval HR2D_ESYNTAX  this is not a scene, or it is damaged
+ * @retval HR2D_ESCENE   a forged scene that hr2d_scene_add() or hr2d_scene_commit() refuses
+ * @retval other         the status of `read`, or of hr2d_scene_set_progress()
+ *
+ * hr2d_scene_message() says more. Memory: never more than a small multiple of the bytes that
+ * were read. Cost: that of hr2d_scene_commit().
+ */
+HR2D_API hr2d_status hr2d_state_read_scene(hr2d_scene *scene, hr2d_read_fn read, void *ctx);
+
 #ifdef __cplusplus
 }
 #endif

@@ -5,42 +5,11 @@
 #include <string.h>
 
 #include "support/support.h"
-
-/* A state in memory. */
-typedef struct tape {
-  unsigned char *byte;
-  size_t size, at;
-  long until_failure; /* calls that still succeed; negative: no failure */
-  hr2d_status failure;
-  hr2d_linkset *touched; /* refined from inside of each call */
-} tape;
-
-static int fails(tape *t) {
-  return t->until_failure >= 0 && t->until_failure-- == 0;
-}
-
-static hr2d_status record(void *ctx, const void *bytes, size_t size) {
-  tape *t = ctx;
-  if (fails(t)) return t->failure;
-  t->byte = realloc(t->byte, t->size + size);
-  memcpy(t->byte + t->size, bytes, size);
-  t->size += size;
-  return HR2D_OK;
-}
-
-static hr2d_status play(void *ctx, void *bytes, size_t size) {
-  tape *t = ctx;
-  if (fails(t)) return t->failure;
-  if (t->touched) ck_assert_int_eq(hr2d_refine(t->touched, NULL), HR2D_ESTATE);
-  if (t->at + size > t->size) return HR2D_ESYNTAX;
-  memcpy(bytes, t->byte + t->at, size);
-  t->at += size;
-  return HR2D_OK;
-}
+#include "support/tape.h"
 
 static tape write_tape(const hr2d_solution *solution) {
   tape t = {.until_failure = -1};
-  ck_assert_int_eq(hr2d_state_write(solution, record, &t), HR2D_OK);
+  ck_assert_int_eq(hr2d_state_write(solution, tape_record, &t), HR2D_OK);
   return t;
 }
 
@@ -112,7 +81,7 @@ static void check_resumed(const setup *s) {
   b = stage(&through, 0.4, b);
   c = stage(&before, 0.4, c);
   tape t = write_tape(c);
-  ck_assert_int_eq(hr2d_state_read(behind.links, play, &t, &d), HR2D_OK);
+  ck_assert_int_eq(hr2d_state_read(behind.links, tape_play, &t, &d), HR2D_OK);
   ck_assert_uint_eq(t.at, t.size);
   same(&before, c, &behind, d);
   tape again = write_tape(d);
@@ -146,7 +115,7 @@ static hr2d_status read_fresh(tape *t, const setup *s) {
   test_links fresh = make(s);
   hr2d_solution *solution = NULL;
   t->at = 0;
-  const hr2d_status status = hr2d_state_read(fresh.links, play, t, &solution);
+  const hr2d_status status = hr2d_state_read(fresh.links, tape_play, t, &solution);
   if (status) {
     ck_assert_ptr_null(solution);
     ck_assert_uint_eq(hr2d_linkset_size(fresh.links), 0);
@@ -249,7 +218,7 @@ START_TEST(a_state_that_was_made_up_does_no_harm) {
     test_links fresh = make(&plain);
     hr2d_solution *solution = NULL;
     forged.at = 0;
-    const hr2d_status status = hr2d_state_read(fresh.links, play, &forged, &solution);
+    const hr2d_status status = hr2d_state_read(fresh.links, tape_play, &forged, &solution);
     if (status) {
       refused++;
     } else {
@@ -279,7 +248,7 @@ START_TEST(a_state_belongs_to_its_scene_and_method) {
   test_links used = make(&plain);
   hr2d_solution *solution = stage(&used, 1, NULL), *none = NULL;
   t.at = 0;
-  ck_assert_int_eq(hr2d_state_read(used.links, play, &t, &none), HR2D_ESTATE);
+  ck_assert_int_eq(hr2d_state_read(used.links, tape_play, &t, &none), HR2D_ESTATE);
   ck_assert_ptr_null(none);
   hr2d_solution_destroy(solution);
   test_free_links(&used);
@@ -305,9 +274,9 @@ START_TEST(callbacks_may_fail_and_may_not_interfere) {
   t.until_failure = -1;
   t.at = 0;
   t.touched = links.links;
-  ck_assert_int_eq(hr2d_state_read(links.links, play, &t, &solution), HR2D_OK);
+  ck_assert_int_eq(hr2d_state_read(links.links, tape_play, &t, &solution), HR2D_OK);
   tape cut = {.until_failure = 0, .failure = (hr2d_status)77};
-  ck_assert_int_eq(hr2d_state_write(solution, record, &cut), 77);
+  ck_assert_int_eq(hr2d_state_write(solution, tape_record, &cut), 77);
   ck_assert_uint_eq(cut.size, 0);
   hr2d_solution_destroy(solution);
   test_free_links(&links);
@@ -321,7 +290,7 @@ START_TEST(a_solution_to_a_target_has_no_state) {
   hr2d_solution *solution;
   tape t = {.until_failure = -1};
   ck_assert_int_eq(hr2d_solve_to(scene, NULL, &solution, NULL), HR2D_OK);
-  ck_assert_int_eq(hr2d_state_write(solution, record, &t), HR2D_EUNSUPPORTED);
+  ck_assert_int_eq(hr2d_state_write(solution, tape_record, &t), HR2D_EUNSUPPORTED);
   ck_assert_uint_eq(t.size, 0);
   hr2d_solution_destroy(solution);
   hr2d_scene_destroy(scene);
@@ -361,7 +330,7 @@ START_TEST(claims_take_no_memory) {
   const uint64_t claim[] = {4000000000, UINT64_C(1) << 57, 4000000000, 32};
   for (size_t k = 0; k < 4; k++)
     for (size_t b = 0; b < 8; b++) t.byte[32 + 8 * k + b] = (unsigned char)(claim[k] >> 8 * b);
-  ck_assert_int_eq(hr2d_state_read(links.links, play, &t, &solution), HR2D_ESYNTAX);
+  ck_assert_int_eq(hr2d_state_read(links.links, tape_play, &t, &solution), HR2D_ESYNTAX);
   ck_assert_int_le(m.peak - before, 64 * (long long)t.size);
   test_free_links(&links);
   ck_assert_int_eq(m.held, 0);
@@ -379,14 +348,14 @@ static void check_memory(tape *t, int for_good) {
     memory.until_failure = k;
     memory.for_good = for_good;
     t->at = 0;
-    const hr2d_status status = hr2d_state_read(links.links, play, t, &solution);
+    const hr2d_status status = hr2d_state_read(links.links, tape_play, t, &solution);
     failures = memory.failures;
     ck_assert_int_eq(status, failures ? HR2D_ENOMEM : HR2D_OK);
     memory.until_failure = -1;
     memory.for_good = 0;
     t->at = 0;
     if (status)
-      ck_assert_int_eq(hr2d_state_read(links.links, play, t, &solution), HR2D_OK);
+      ck_assert_int_eq(hr2d_state_read(links.links, tape_play, t, &solution), HR2D_OK);
     else
       ck_assert_int_gt(k, 4);
     tape again = write_tape(solution);

@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes a committed scene and reads it back.  The format:
+
+     a line that names it; the number of patches, the bytes of all that is between here and the
+     hash, the bits of the effects that are forced, and the bands of the background, as words;
+     the background;
+     per patch: whether it has the light of the one before, as a half word, and if not, the
+   bands of E and ρ, as words, and their values; the ends, as doubles; the length of the name,
+   as a half word, and the name; the hash of the scene in memory, and that of all bytes.
+
+   What commit finds is not written: it follows from the rest, with the same bits. */
+#include <string.h>
+
+#include "base/alloc.h"
+#include "scene/scene-impl.h"
+#include "state/byte-stream.h"
+#include "state/state-impl.h"
+
+#define TITLE "libhr2d scene 1\n"
+
+enum { TITLE_BYTES = sizeof TITLE - 1, HEAD_WORDS = 4 };
+
+static int is_alike(const hr2d_scene *scene, size_t patch) {
+  return patch > 0 && scene->patch[patch].light == scene->patch[patch - 1].light;
+}
+
+static size_t values_of(const hr2di_patch *p) {
+  return p->emission_bands + p->reflectance_bands;
+}
+
+static uint64_t count_bytes(const hr2d_scene *scene) {
+  uint64_t bytes = 8 * (scene->background_bands + 1);
+  for (size_t k = 0; k < scene->patches; k++) {
+    const hr2di_patch *p = &scene->patch[k];
+    bytes += 4 + 4 * 8 + 4 + strlen(p->name);
+    if (!is_alike(scene, k)) bytes += 8 * (2 + values_of(p));
+  }
+  return bytes;
+}
+
+/* In pieces that fit into the buffer of a writer. */
+static void put_name(hr2di_writer *w, const char *name) {
+  size_t left = strlen(name);
+  hr2di_writer_half(w, (uint32_t)left);
+  while (left > 0) {
+    const size_t some = left < HR2DI_BYTES_AT_ONCE ? left : HR2DI_BYTES_AT_ONCE;
+    hr2di_writer_text(w, name, some);
+    name += some;
+    left -= some;
+  }
+}
+
+static void put_patch(hr2di_writer *w, const hr2di_patch *p, int alike) {
+  hr2di_writer_half(w, (uint32_t)alike);
+  if (!alike) {
+    hr2di_writer_word(w, p->emission_bands);
+    hr2di_writer_word(w, p->reflectance_bands);
+    for (size_t k = 0; k < values_of(p); k++) hr2di_writer_double(w, p->light->value[k]);
+  }
+  const double end[] = {p->given.a.x, p->given.a.y, p->given.b.x, p->given.b.y};
+  for (int k = 0; k < 4; k++) hr2di_writer_double(w, end[k]);
+  put_name(w, p->name);
+}
+
+static uint64_t forced_effects(const hr2d_scene *scene) {
+  uint64_t bits = 0;
+  for (int e = 0; e < HR2D_EFFECT_COUNT; e++) bits |= (uint64_t)scene->effect[e].forced << e;
+  return bits;
+}
+
+hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_fn write, void *ctx) {
+  if (!scene->committed) return HR2D_ESTATE;
+  hr2di_writer w;
+  hr2di_watch watch;
+  hr2di_scene_watch(scene, &watch, NULL, NULL, "state");
+  hr2di_writer_init(&w, write, ctx);
+  hr2di_writer_text(&w, TITLE, TITLE_BYTES);
+  hr2di_writer_word(&w, scene->patches);
+  hr2di_writer_word(&w, count_bytes(scene));
+  hr2di_writer_word(&w, forced_effects(scene));
+  hr2di_writer_word(&w, scene->background_bands);
+  for (size_t k = 0; k < scene->background_bands; k++)
+    hr2di_writer_double(&w, scene->background[k]);
+  for (size_t k = 0; k < scene->patches && !w.status; k++) {
+    const int alike = is_alike(scene, k);
+    put_patch(&w, &scene->patch[k], alike);
+    if (!w.status)
+      w.status = hr2di_watch_work(&watch, 1 + (alike ? 0 : values_of(&scene->patch[k]) / 16));
+  }
+  hr2di_writer_word(&w, hr2di_state_scene(scene, &watch));
+  if (!w.status) w.status = watch.status;
+  return hr2di_writer_end(&w);
+}
+
+typedef struct loading {
+  hr2di_reader reader;
+  hr2di_watch watch;
+  hr2d_scene *scene;
+  double *value; /* of the light of a patch */
+  size_t values;
+  char *name;
+  size_t name_room;
+} loading;
+
+static hr2d_status damaged(loading *l, const char *what) {
+  return hr2di_message_fail(&l->scene->message, HR2D_ESYNTAX, "the scene is damaged: %s", what);
+}
+
+static hr2d_status out_of_memory(loading *l) {
+  return hr2di_message_fail(&l->scene->message, HR2D_ENOMEM, "out of memory for the scene");
+}
+
+/* Announced bytes that were not asked for. */
+static uint64_t left_of(const hr2di_reader *r) {
+  return r->expected + (r->held - r->at);
+}
+
+/* Reads so many doubles, if there are so many: memory grows with what was read. */
+static hr2d_status read_values(loading *l, uint64_t count) {
+  if (count > left_of(&l->reader) / 8) return damaged(l, "its number of bands");
+  for (size_t k = 0; k < count; k++) {
+    if (hr2di_alloc_reserve(&l->scene->alloc, &l->value, &l->values, k + 1, sizeof *l->value))
+      return out_of_memory(l);
+    l->value[k] = hr2di_reader_double(&l->reader);
+    if (l->reader.status) return l->reader.status;
+    const hr2d_status status = k % 256 ? HR2D_OK : hr2di_watch_work(&l->watch, 32);
+    if (status) return status;
+  }
+  return HR2D_OK;
+}
+
+static hr2d_status read_name(loading *l) {
+  const uint32_t size = hr2di_reader_half(&l->reader);
+  if (l->reader.status) return l->reader.status;
+  if (size > left_of(&l->reader)) return damaged(l, "the length of a name");
+  for (uint32_t at = 0, some = 0; at <= size; at += some) {
+    some = size - at < HR2DI_BYTES_AT_ONCE ? size - at : HR2DI_BYTES_AT_ONCE;
+    if (hr2di_alloc_reserve(&l->scene->alloc, &l->name, &l->name_room, at + some + 1, 1))
+      return out_of_memory(l);
+    hr2di_reader_text(&l->reader, l->name + at, some);
+    l->name[at + some] = '\0';
+    if (l->reader.status) return l->reader.status;
+    if (some == 0) break;
+  }
+  return strlen(l->name) == size ? HR2D_OK : damaged(l, "a name");
+}
+
+static hr2d_status read_patch(loading *l) {
+  hr2di_reader *r = &l->reader;
+  hr2d_patch patch = {.sides = HR2D_SIDES_FRONT};
+  const uint32_t alike = hr2di_reader_half(r);
+  hr2d_status status = hr2di_watch_work(&l->watch, 1);
+  if (!status) status = r->status;
+  if (!status && alike > (l->scene->patches > 0)) status = damaged(l, "a patch");
+  if (!status && !alike) {
+    const uint64_t e = hr2di_reader_word(r), rho = hr2di_reader_word(r);
+    if (e > UINT64_MAX / 16 || rho > UINT64_MAX / 16) return damaged(l, "its number of bands");
+    status = r->status ? r->status : read_values(l, e + rho);
+    patch.emission_bands = (size_t)e;
+    patch.reflectance_bands = (size_t)rho;
+    patch.emission = l->value;
+    patch.reflectance = rho > 0 ? l->value + e : l->value;
+  }
+  double *const end[] = {&patch.a.x, &patch.a.y, &patch.b.x, &patch.b.y};
+  for (int k = 0; k < 4; k++) *end[k] = hr2di_reader_double(r);
+  if (!status) status = r->status ? r->status : read_name(l);
+  if (status) return status;
+  patch.name = l->name;
+  return alike ? hr2di_scene_add_alike(l->scene, &patch)
+               : hr2d_scene_add(l->scene, &patch, NULL);
+}
+
+static hr2d_status read_background(loading *l, uint64_t bands) {
+  if (bands == 0) return HR2D_OK;
+  const hr2d_status status = read_values(l, bands);
+  return status ? status : hr2d_scene_set_background(l->scene, l->value, (size_t)bands);
+}
+
+static hr2d_status force_effects(loading *l, uint64_t bits) {
+  if (bits >> HR2D_EFFECT_COUNT) return damaged(l, "its effects");
+  for (int e = 0; e < HR2D_EFFECT_COUNT; e++) l->scene->effect[e].forced = (int)(bits >> e & 1);
+  return HR2D_OK;
+}
+
+static hr2d_status read_all(loading *l) {
+  hr2di_reader *r = &l->reader;
+  char title[TITLE_BYTES];
+  uint64_t head[HEAD_WORDS];
+  hr2di_reader_expect(r, TITLE_BYTES + 8 * HEAD_WORDS);
+  hr2di_reader_text(r, title, TITLE_BYTES);
+  if ((r->status && r->status != HR2D_ESYNTAX) ||
+      (!r->status && memcmp(title, TITLE, TITLE_BYTES) == 0)) {
+    for (int k = 0; k < HEAD_WORDS; k++) head[k] = hr2di_reader_word(r);
+  } else {
+    return hr2di_message_fail(&l->scene->message, HR2D_ESYNTAX,
+                              "this is not a scene of hr2d_state_write_scene()");
+  }
+  if (r->status) return r->status;
+  if (head[1] > UINT64_MAX / 2) return damaged(l, "its size");
+  hr2di_reader_expect(r, head[1] + 8);
+  hr2d_status status = force_effects(l, head[2]);
+  if (!status) status = read_background(l, head[3]);
+  for (uint64_t k = 0; k < head[0] && !status; k++) status = read_patch(l);
+  const uint64_t hash = hr2di_reader_word(r);
+  if (!status && hr2di_reader_end(r)) status = r->status;
+  if (!status) status = hr2d_scene_commit(l->scene);
+  if (!status && hash != hr2di_state_scene(l->scene, &l->watch))
+    status =
+        l->watch.status ? l->watch.status : damaged(l, "its hash is not that of the scene");
+  return status;
+}
+
+/* Says why reading has failed, where nobody has. */
+static hr2d_status explain(loading *l, hr2d_status status) {
+  if (status == HR2D_ESYNTAX && l->reader.status)
+    return damaged(l, "it ends too early, or its hash is not that of its contents");
+  if (status && (status == l->reader.status || l->watch.refused))
+    return hr2di_message_fail(&l->scene->message, status, "reading the scene: %s",
+                              hr2d_strerror(status));
+  return status;
+}
+
+/* As it was before. */
+static void empty(hr2d_scene *scene) {
+  hr2di_scene_truncate(scene, 0);
+  hr2di_alloc_free(&scene->alloc, scene->background);
+  scene->background = NULL;
+  scene->background_bands = 0;
+  scene->committed = 0;
+  hr2di_scene_clear_commit(scene);
+  for (int e = 0; e < HR2D_EFFECT_COUNT; e++) scene->effect[e].forced = 0;
+}
+
+hr2d_status hr2d_state_read_scene(hr2d_scene *scene, hr2d_read_fn read, void *ctx) {
+  if (scene->committed || scene->patches > 0 || scene->background)
+    return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is not empty");
+  loading l = {.scene = scene};
+  hr2di_scene_watch(scene, &l.watch, NULL, NULL, "state");
+  hr2di_reader_init(&l.reader, read, ctx);
+  const hr2d_status status = explain(&l, read_all(&l));
+  hr2di_alloc_free(&scene->alloc, l.value);
+  hr2di_alloc_free(&scene->alloc, l.name);
+  if (status) empty(scene);
+  return status;
+}

@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scenes as bytes: what is made of one that was read has the bits of the one that was written;
+   damaged bytes are refused or do no harm. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/scene-impl.h"
+#include "support/slow-scenes.h"
+#include "support/support.h"
+#include "support/tape.h"
+
+enum { PATCHES = 60 };
+
+static hr2d_scene *make_slow(slow_kind kind) {
+  hr2d_scene *scene = NULL;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  ck_assert_int_eq(slow_add(scene, kind, PATCHES), HR2D_OK);
+  test_commit(scene);
+  return scene;
+}
+
+/* All kinds of patches: with bands of their own, with one for all, with none; two-sided, with
+   lights that are shared, a long name, a background, and a forced effect. */
+static hr2d_scene *make_motley(const hr2d_allocator *hooks) {
+  const double three[] = {1, 0.5, 0}, one = 0.25, sky[] = {0.1, 0.2, 0.3};
+  char name[5000];
+  hr2d_scene *scene = NULL;
+  memset(name, 'n', sizeof name - 1);
+  name[sizeof name - 1] = '\0';
+  ck_assert_int_eq(hr2d_scene_create(hooks, &scene), HR2D_OK);
+  hr2d_patch p = HR2D_PATCH_INIT;
+  p.b.x = 1;
+  p.emission = p.reflectance = three;
+  p.emission_bands = p.reflectance_bands = 3;
+  ck_assert_int_eq(hr2d_scene_add(scene, &p, NULL), HR2D_OK);
+  p = (hr2d_patch){.a = {0.2, 0.5}, .b = {0.8, 0.6}, .sides = HR2D_SIDES_BOTH, .name = name};
+  p.reflectance = &one;
+  p.reflectance_bands = 1;
+  ck_assert_int_eq(hr2d_scene_add(scene, &p, NULL), HR2D_OK);
+  p = (hr2d_patch){.a = {1, 1}, .b = {0, 1}, .name = "dark"};
+  ck_assert_int_eq(hr2d_scene_add(scene, &p, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_set_background(scene, sky, 3), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_force(scene, HR2D_EFFECT_FACING), HR2D_OK);
+  test_commit(scene);
+  return scene;
+}
+
+static tape write_tape(const hr2d_scene *scene) {
+  tape t = {.until_failure = -1};
+  ck_assert_int_eq(hr2d_state_write_scene(scene, tape_record, &t), HR2D_OK);
+  return t;
+}
+
+static hr2d_status read_tape(tape *t, const hr2d_allocator *hooks, hr2d_scene **scene) {
+  t->at = 0;
+  ck_assert_int_eq(hr2d_scene_create(hooks, scene), HR2D_OK);
+  return hr2d_state_read_scene(*scene, tape_play, t);
+}
+
+static void same_scenes(const hr2d_scene *one, const hr2d_scene *other) {
+  ck_assert_uint_eq(hr2d_scene_patches(one), hr2d_scene_patches(other));
+  ck_assert_uint_eq(hr2d_scene_bands(one), hr2d_scene_bands(other));
+  for (size_t k = 0; k < hr2d_scene_patches(one); k++) {
+    const hr2d_segment s = hr2d_scene_segment(one, k), t = hr2d_scene_segment(other, k);
+    ck_assert_int_eq(memcmp(&s, &t, sizeof s), 0);
+    ck_assert_str_eq(hr2d_scene_name(one, k), hr2d_scene_name(other, k));
+    for (size_t b = 0; b < hr2d_scene_bands(one); b++) {
+      ck_assert(hr2d_scene_emission(one, k, b) == hr2d_scene_emission(other, k, b));
+      ck_assert(hr2d_scene_reflectance(one, k, b) == hr2d_scene_reflectance(other, k, b));
+    }
+  }
+  for (size_t b = 0; b < hr2d_scene_bands(one); b++)
+    ck_assert(hr2d_scene_background(one, b) == hr2d_scene_background(other, b));
+  for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
+    const char *reason[2];
+    ck_assert_int_eq(hr2d_scene_effect(one, (hr2d_effect)e, &reason[0]),
+                     hr2d_scene_effect(other, (hr2d_effect)e, &reason[1]));
+    ck_assert_str_eq(reason[0], reason[1]);
+  }
+}
+
+/* The links and B of a coarse solve, as a state. */
+static tape solved(hr2d_scene *scene) {
+  test_links t = test_make_links(scene, NULL, NULL, NULL, NULL);
+  const hr2d_refine_options options = test_options(0.7, 4);
+  hr2d_solution *solution = NULL;
+  tape of = {.until_failure = -1};
+  ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
+  ck_assert_int_eq(hr2d_solve(t.links, NULL, &solution), HR2D_OK);
+  ck_assert_int_eq(hr2d_state_write(solution, tape_record, &of), HR2D_OK);
+  hr2d_solution_destroy(solution);
+  test_free_links(&t);
+  return of;
+}
+
+START_TEST(what_is_read_has_the_same_bits) {
+  hr2d_scene *one = _i < SLOW_KINDS ? make_slow((slow_kind)_i) : make_motley(NULL), *other;
+  tape t = write_tape(one);
+  ck_assert_int_eq(read_tape(&t, NULL, &other), HR2D_OK);
+  ck_assert_uint_eq(t.at, t.size);
+  same_scenes(one, other);
+  tape again = write_tape(other);
+  ck_assert_uint_eq(again.size, t.size);
+  ck_assert_int_eq(memcmp(again.byte, t.byte, t.size), 0);
+  tape of_one = solved(one), of_other = solved(other);
+  ck_assert_uint_eq(of_one.size, of_other.size);
+  ck_assert_int_eq(memcmp(of_one.byte, of_other.byte, of_one.size), 0);
+  free(of_one.byte);
+  free(of_other.byte);
+  free(t.byte);
+  free(again.byte);
+}
+END_TEST
+
+/* Both sides of a patch share a light, before and after. */
+START_TEST(lights_stay_shared) {
+  hr2d_scene *one = make_motley(NULL), *other;
+  tape t = write_tape(one);
+  ck_assert_int_eq(read_tape(&t, NULL, &other), HR2D_OK);
+  ck_assert_ptr_eq(other->patch[1].light, other->patch[2].light);
+  ck_assert_ptr_ne(other->patch[0].light, other->patch[1].light);
+  hr2d_scene_destroy(one);
+  hr2d_scene_destroy(other);
+  free(t.byte);
+}
+END_TEST
+
+/* Each byte changed, and each length. */
+START_TEST(damage_is_found) {
+  hr2d_scene *one = make_slow(SLOW_COMB), *other;
+  tape t = write_tape(one);
+  const size_t size = t.size;
+  for (size_t k = 0; k < size; k++) {
+    t.byte[k] ^= (unsigned char)(1 + k % 255);
+    const hr2d_status status = read_tape(&t, NULL, &other);
+    ck_assert_msg(status != HR2D_OK, "byte %zu", k);
+    ck_assert_uint_eq(hr2d_scene_patches(other), 0);
+    ck_assert_str_ne(hr2d_scene_message(other), "");
+    t.byte[k] ^= (unsigned char)(1 + k % 255);
+    hr2d_scene_destroy(other);
+  }
+  for (t.size = 0; t.size < size; t.size += 1 + t.size / 7) {
+    ck_assert_int_eq(read_tape(&t, NULL, &other), HR2D_ESYNTAX);
+    hr2d_scene_destroy(other);
+  }
+  /* Negative control, after failures into the same scene. */
+  t.size = size / 2;
+  ck_assert_int_eq(read_tape(&t, NULL, &other), HR2D_ESYNTAX);
+  t.size = size;
+  t.at = 0;
+  ck_assert_int_eq(hr2d_state_read_scene(other, tape_play, &t), HR2D_OK);
+  same_scenes(one, other);
+  ck_assert_int_eq(hr2d_state_read_scene(other, tape_play, &t), HR2D_ESTATE);
+  hr2d_scene_destroy(one);
+  hr2d_scene_destroy(other);
+  free(t.byte);
+}
+END_TEST
+
+/* Sizes that the bytes do not have take no memory. */
+START_TEST(claims_take_no_memory) {
+  enum { HEAD = 16, BACKGROUND = HEAD + 24 };
+  hr2d_scene *one = make_motley(NULL), *other = NULL;
+  tape t = write_tape(one);
+  for (int k = 0; k < 4; k++) {
+    test_meter m = {0, 0};
+    const hr2d_allocator hooks = test_metered(&m);
+    unsigned char kept[8];
+    unsigned char *word = t.byte + HEAD + 8 * k;
+    memcpy(kept, word, sizeof kept);
+    memset(word, 0x3f, sizeof kept);
+    ck_assert_int_ne(read_tape(&t, &hooks, &other), HR2D_OK);
+    ck_assert_int_le(m.peak, 64 * (long long)t.size);
+    hr2d_scene_destroy(other);
+    ck_assert_int_eq(m.held, 0);
+    memcpy(word, kept, sizeof kept);
+  }
+  hr2d_scene_destroy(one);
+  free(t.byte);
+}
+END_TEST
+
+START_TEST(callbacks_may_fail) {
+  hr2d_scene *one = make_motley(NULL), *other = NULL;
+  tape t = write_tape(one), cut = {.failure = HR2D_EIO};
+  ck_assert_int_eq(hr2d_state_write_scene(one, tape_record, &cut), HR2D_EIO);
+  t.failure = HR2D_EIO;
+  for (t.until_failure = 0; t.until_failure < 3; t.until_failure++) {
+    const long calls = t.until_failure;
+    ck_assert_int_eq(read_tape(&t, NULL, &other), HR2D_EIO);
+    ck_assert_uint_eq(hr2d_scene_patches(other), 0);
+    hr2d_scene_destroy(other);
+    t.until_failure = calls;
+  }
+  ck_assert_int_eq(hr2d_scene_create(NULL, &other), HR2D_OK);
+  ck_assert_int_eq(hr2d_state_write_scene(other, tape_record, &cut), HR2D_ESTATE);
+  hr2d_scene_destroy(other);
+  hr2d_scene_destroy(one);
+  free(t.byte);
+}
+END_TEST
+
+START_TEST(any_allocation_may_fail) {
+  hr2d_scene *one = make_motley(NULL);
+  tape t = write_tape(one);
+  long failures = 1;
+  for (long k = 0; failures; k++) {
+    test_memory memory = {.until_failure = -1};
+    const hr2d_allocator hooks = test_hooks(&memory);
+    hr2d_scene *other = NULL;
+    ck_assert_int_eq(hr2d_scene_create(&hooks, &other), HR2D_OK);
+    memory.until_failure = k;
+    memory.for_good = (int)(k % 2);
+    t.at = 0;
+    const hr2d_status status = hr2d_state_read_scene(other, tape_play, &t);
+    failures = memory.failures;
+    ck_assert_int_eq(status, failures ? HR2D_ENOMEM : HR2D_OK);
+    ck_assert(!failures || hr2d_scene_patches(other) == 0);
+    ck_assert(failures || k > 4);
+    memory.until_failure = -1;
+    hr2d_scene_destroy(other);
+    ck_assert_int_eq(memory.live, 0);
+  }
+  hr2d_scene_destroy(one);
+  free(t.byte);
+}
+END_TEST
+
+TEST_SUITE("state-scene") {
+  REPEAT_TESTS(SLOW_KINDS + 1, "bits", what_is_read_has_the_same_bits);
+  ADD_TESTS("all", lights_stay_shared, damage_is_found, claims_take_no_memory,
+            callbacks_may_fail, any_allocation_may_fail);
+}
