@@ -121,6 +121,7 @@ libhr2d_core_la_SOURCES = \
 	src/lint/lint.c \
 	src/lint/lint-impl.h \
 	src/lint/warn.c \
+	src/hierarchy/fields.c \
 	src/hierarchy/hierarchy.c \
 	src/hierarchy/hierarchy-impl.h \
 	src/hierarchy/push-pull.c src/hierarchy/push-pull.h \

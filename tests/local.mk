@@ -33,6 +33,7 @@ SUITES = \
 	tests/unit/formats/check-vs2 \
 	tests/unit/lint/check-mistakes \
 	tests/unit/hierarchy/check-hierarchy \
+	tests/unit/hierarchy/check-fields \
 	tests/unit/refine/check-refine \
 	tests/unit/refine/check-partition \
 	tests/unit/refine/check-rows \

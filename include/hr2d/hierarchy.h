@@ -146,6 +146,58 @@ HR2D_API uint32_t hr2d_element_parent(const hr2d_hierarchy *hierarchy, uint32_t 
  */
 HR2D_API uint32_t hr2d_hierarchy_leaf(const hr2d_hierarchy *hierarchy, size_t patch, double t);
 
+/**
+ * Divides a leaf, for trees that are not grown by a refinement: those of another program, or of
+ * another process that shares the work.
+ * @param hierarchy  a hierarchy
+ * @param element    a leaf
+ * @param t          where, as a fraction of the element from its start, in (0, 1)
+ * @param child      receives the left child, the right one is the next; may be NULL
+ * @retval HR2D_OK             success
+ * @retval HR2D_ENOMEM         an allocation failed
+ * @retval HR2D_EINVAL         this is not a leaf; or no double lies there between its ends; or
+ * it is on level 65,535
+ * @retval HR2D_ESTATE         called back from a refinement or a solve on this hierarchy
+ * @retval HR2D_EMAX_ELEMENTS  there would be more than 2³² − 2 elements
+ *
+ * Constant cost. With t = ½ it makes the children that a refinement makes. Only one thread at a
+ * time may change a hierarchy.
+ */
+HR2D_API hr2d_status hr2d_hierarchy_divide(hr2d_hierarchy *hierarchy, uint32_t element,
+                                           double t, uint32_t *child);
+
+/**
+ * Pull (paper, section 2): gives each element with children the values that follow from its
+ * children, by the two-scale relation. For solvers of one's own on the links of a set.
+ *
+ * A field has `order` × `bands` values per element: value l of band b of element k is at
+ * field[(k·order + l)·bands + b], and is the coefficient of φ_l = √(2l+1) P_l(2t−1), with t
+ * from 0 to 1 along the element and hr2d_hierarchy_order() coefficients. Coefficient 0 is the
+ * mean.
+ *
+ * @param hierarchy  a hierarchy
+ * @param bands      at least 1
+ * @param field      the values of leaves are read, all others are set
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  `bands` is 0
+ * @retval other        the status of hr2d_scene_set_progress(); the field has no meaning then
+ *
+ * Thread-safe as long as nothing changes the hierarchy. Cost O(N·p²·bands).
+ */
+HR2D_API hr2d_status hr2d_hierarchy_pull(const hr2d_hierarchy *hierarchy, size_t bands,
+                                         double *field);
+
+/**
+ * Push (paper, section 2): adds to each element what its ancestors have, in terms of its own
+ * φ_l. It is the transpose of the pull in the scalar product Σ A x y over elements.
+ * @param hierarchy,bands,field  as for hr2d_hierarchy_pull(); all values are read, and those of
+ *                               elements that are not roots are changed
+ * @return as hr2d_hierarchy_pull()
+ */
+HR2D_API hr2d_status hr2d_hierarchy_push(const hr2d_hierarchy *hierarchy, size_t bands,
+                                         double *field);
+
 #ifdef __cplusplus
 }
 #endif
