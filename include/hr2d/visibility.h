@@ -279,6 +279,28 @@ typedef hr2d_status (*hr2d_beam_fn)(void *ctx, const hr2d_beam *beam);
 HR2D_API hr2d_status hr2d_beams_visit(const hr2d_scene *scene, size_t patch, double t,
                                       hr2d_beam_fn visit, void *ctx);
 
+/**
+ * What the leaves of a hierarchy see: the parts of all directions, with the weight of Lambert's
+ * cosine, in which a leaf sees patches, and in which it sees backs of patches. The rest up to 1
+ * is the background: the sky view factor of the leaf.
+ * @param hierarchy  a hierarchy
+ * @param row_from   the first patch whose leaves are asked about
+ * @param row_to     the one after the last; 0: all patches from `row_from` on
+ * @param front      one per element, or NULL: receives Σ A_ij F_ij / A_i over patches, set for
+ *                   leaves of these patches
+ * @param back       the same over backs, or NULL, which is cheaper
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  there are no such rows
+ * @retval other        the status of hr2d_scene_set_progress()
+ *
+ * Exact up to roundings, whatever stands in the way, and with no links. Patches that no light
+ * reaches count as any. Thread-safe as long as nothing changes the hierarchy. Cost: the beams
+ * of these patches, and what leaves have of them. Memory: 16 bytes per element and sum.
+ */
+HR2D_API hr2d_status hr2d_leaf_sums(const hr2d_hierarchy *hierarchy, size_t row_from,
+                                    size_t row_to, double *front, double *back);
+
 #ifdef __cplusplus
 }
 #endif

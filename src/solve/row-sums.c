@@ -10,6 +10,8 @@
    does, the lines from a leaf are all lines to the segment where the sight ends. */
 #include "solve/row-sums.h"
 
+#include <hr2d/visibility.h>
+
 #include "base/alloc.h"
 #include "geometry/exchange-area.h"
 #include "geometry/predicates.h"
@@ -171,7 +173,7 @@ static hr2d_status look_at_all(walker *w) {
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < scene->patches && !status; k++) {
     status = hr2di_watch_work(w->watch, 1);
-    if (!status && hr2di_scene_lit(scene, k) &&
+    if (!status && (hr2di_scene_lit(scene, k) || !hr2di_scene_lit(scene, w->patch)) &&
         hr2di_facing_of(&s, &scene->patch[k].scaled) != HR2DI_FACING_NONE)
       status = add_clear(w, w->patch, scene->patch[k].scaled, w->front);
   }
@@ -190,18 +192,21 @@ static hr2d_status look_around(walker *w) {
   return status;
 }
 
-/* Sets the row sums of the leaves of a patch: 1 if it is closed, else the sums over length. */
-static void finish(hr2di_row_sums *rows, uint32_t patch, const walker *w) {
-  const hr2d_hierarchy *h = rows->hierarchy;
-  uint32_t leaf = hr2di_hierarchy_first_leaf(h, patch);
+/* Sets the row sums of the leaves of a patch: 1 if it is closed, else the sums over length.
+   Returns how many there are. */
+static uint64_t finish(const walker *w, uint32_t patch, int closed, double *front,
+                       double *back) {
+  uint64_t leaves = 0;
+  uint32_t leaf = hr2di_hierarchy_first_leaf(w->h, patch);
   do {
-    const double length = h->element[leaf].length;
-    rows->leaves += !rows->closed[patch];
-    if (hr2di_watch_work(rows->watch, 1)) return;
-    rows->front[leaf] = rows->closed[patch] ? 1 : hr2di_sum_total(&w->front[leaf]) / length;
-    if (rows->back) rows->back[leaf] = hr2di_sum_total(&w->back[leaf]) / length;
-    leaf = hr2di_hierarchy_next_leaf(h, leaf, patch);
+    const double length = w->h->element[leaf].length;
+    leaves++;
+    if (hr2di_watch_work(w->watch, 1)) break;
+    if (front) front[leaf] = closed ? 1 : hr2di_sum_total(&w->front[leaf]) / length;
+    if (back) back[leaf] = hr2di_sum_total(&w->back[leaf]) / length;
+    leaf = hr2di_hierarchy_next_leaf(w->h, leaf, patch);
   } while (leaf);
+  return leaves;
 }
 
 /* Commit keeps no plane where nothing is in the way and no background is before backs. */
@@ -245,7 +250,8 @@ static hr2d_status make_rows(hr2di_row_sums *rows, const hr2d_linkset *links, wa
     w->patch = k;
     if (open && !w->kind) status = prepare(w, &rows->alloc);
     if (open && !status) status = look_around(w);
-    finish(rows, k, w);
+    const uint64_t leaves = finish(w, k, !open, rows->front, rows->back);
+    rows->leaves += open ? leaves : 0;
     if (!status) status = hr2di_watch_work(w->watch, 1);
   }
   return status;
@@ -262,6 +268,20 @@ static void clear(walker *w, const hr2d_allocator *alloc) {
   hr2di_alloc_free(alloc, w);
 }
 
+/* HR2D_OK or HR2D_ENOMEM; to be ended by clear() unless *made is NULL. */
+static hr2d_status make_walker(const hr2d_hierarchy *h, const hr2d_allocator *alloc,
+                               hr2di_watch *watch, size_t elements, int backs, walker **made) {
+  walker *w = *made = hr2di_alloc_zero(alloc, 1, sizeof *w);
+  if (!w) return HR2D_ENOMEM;
+  w->h = h;
+  w->scene = h->scene;
+  w->watch = watch;
+  w->walk.alloc = w->seen.alloc = w->part.alloc = *alloc;
+  w->front = hr2di_alloc_zero(alloc, elements, sizeof *w->front);
+  w->back = backs ? hr2di_alloc_zero(alloc, elements, sizeof *w->back) : NULL;
+  return w->front && (w->back || !backs) ? HR2D_OK : HR2D_ENOMEM;
+}
+
 hr2d_status hr2di_row_sums_init(hr2di_row_sums *rows, const hr2di_transport *t, int backs) {
   const hr2d_allocator *alloc = &t->alloc;
   const size_t patches = t->hierarchy->scene->patches;
@@ -270,20 +290,11 @@ hr2d_status hr2di_row_sums_init(hr2di_row_sums *rows, const hr2di_transport *t, 
   rows->back = backs ? hr2di_alloc_zero(alloc, t->elements, sizeof *rows->back) : NULL;
   rows->closed = hr2di_alloc_zero(alloc, patches, 1);
   hr2di_sum *defect = hr2di_alloc(alloc, patches, sizeof *defect);
-  walker *w = hr2di_alloc_zero(alloc, 1, sizeof *w);
-  hr2d_status status = HR2D_ENOMEM;
-  if (w) {
-    w->h = t->hierarchy;
-    w->scene = w->h->scene;
-    w->watch = t->watch;
-    w->walk.alloc = w->seen.alloc = w->part.alloc = *alloc;
-    w->front = hr2di_alloc_zero(alloc, t->elements, sizeof *w->front);
-    w->back = backs ? hr2di_alloc_zero(alloc, t->elements, sizeof *w->back) : NULL;
-    if (rows->front && rows->closed && defect && w->front &&
-        (!backs || (rows->back && w->back)))
-      status = make_rows(rows, t->links, w, defect);
-    clear(w, alloc);
-  }
+  walker *w;
+  hr2d_status status = make_walker(t->hierarchy, alloc, t->watch, t->elements, backs, &w);
+  if (!rows->front || !rows->closed || !defect || (backs && !rows->back)) status = HR2D_ENOMEM;
+  if (!status) status = make_rows(rows, t->links, w, defect);
+  if (w) clear(w, alloc);
   hr2di_alloc_free(alloc, defect);
   return status;
 }
@@ -292,4 +303,26 @@ void hr2di_row_sums_clear(hr2di_row_sums *rows) {
   hr2di_alloc_free(&rows->alloc, rows->front);
   hr2di_alloc_free(&rows->alloc, rows->back);
   hr2di_alloc_free(&rows->alloc, rows->closed);
+}
+
+hr2d_status hr2d_leaf_sums(const hr2d_hierarchy *hierarchy, size_t row_from, size_t row_to,
+                           double *front, double *back) {
+  const hr2d_allocator *alloc = &hierarchy->alloc;
+  const size_t patches = hierarchy->scene->patches;
+  hr2di_watch watch;
+  walker *w;
+  if (row_to == 0) row_to = patches;
+  if (row_from > row_to || row_to > patches) return HR2D_EINVAL;
+  hr2di_scene_watch(hierarchy->scene, &watch, NULL, NULL, "row sums");
+  hr2d_status status =
+      make_walker(hierarchy, alloc, &watch, hierarchy->elements, back != NULL, &w);
+  if (!status) status = prepare(w, alloc);
+  for (size_t k = row_from; k < row_to && !status; k++) {
+    w->patch = (uint32_t)k;
+    status = look_around(w);
+    finish(w, w->patch, 0, front, back);
+    if (!status) status = hr2di_watch_work(&watch, 1);
+  }
+  if (w) clear(w, alloc);
+  return status ? status : hr2di_watch_ask(&watch);
 }

@@ -259,6 +259,34 @@ START_TEST(work_grows_with_what_is_seen) {
 }
 END_TEST
 
+/* For callers: without links, all or some rows, with backs or not. */
+START_TEST(leaves_are_asked_alone) {
+  summed s;
+  sum_up(&s, squares(64), 0.3);
+  const hr2d_hierarchy *h = s.links.hierarchy;
+  double *front = calloc(h->elements, sizeof *front), *back = calloc(h->elements, sizeof *back),
+         *some = calloc(h->elements, sizeof *some);
+  ck_assert_int_eq(hr2d_leaf_sums(h, 0, 0, front, back), HR2D_OK);
+  ck_assert_int_eq(hr2d_leaf_sums(h, 20, 70, some, NULL), HR2D_OK);
+  int between = 0;
+  for (size_t m = 0; m < s.transport.leaves; m++) {
+    const uint32_t leaf = s.transport.leaf[m];
+    const size_t patch = h->element[leaf].patch;
+    ck_assert(front[leaf] == s.rows.front[leaf] && back[leaf] == s.rows.back[leaf]);
+    ck_assert_double_eq_tol(some[leaf], patch >= 20 && patch < 70 ? front[leaf] : 0, 1e-15);
+    between += front[leaf] > 0.1 && front[leaf] < 0.9;
+  }
+  ck_assert_int_gt(between, 100);
+  ck_assert_int_eq(hr2d_leaf_sums(h, 0, 0, NULL, back), HR2D_OK);
+  ck_assert_int_eq(hr2d_leaf_sums(h, 3, 2, front, NULL), HR2D_EINVAL);
+  ck_assert_int_eq(hr2d_leaf_sums(h, 0, 1000, front, NULL), HR2D_EINVAL);
+  free(front);
+  free(back);
+  free(some);
+  release(&s);
+}
+END_TEST
+
 static int has_backs(const double (*at)[4], size_t count) {
   int found;
   hr2d_scene *scene = test_open_scene(at, count);
@@ -289,7 +317,7 @@ END_TEST
 
 TEST_SUITE("row-sums") {
   ADD_TESTS("leaves", rows_are_what_leaves_see, no_back_is_seen_through_a_front,
-            rows_without_a_plane_are_the_same);
+            rows_without_a_plane_are_the_same, leaves_are_asked_alone);
   ADD_TESTS("work", work_grows_with_what_is_seen);
   ADD_TESTS("backs", what_no_patch_covers_is_a_back);
 }
