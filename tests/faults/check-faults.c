@@ -271,6 +271,34 @@ static hr2d_status area(fault_stage *s, uint64_t *sum) {
   return status;
 }
 
+static hr2d_status leaf_sums(fault_stage *s, uint64_t *sum) {
+  static double front[4096], back[4096];
+  const size_t elements = (size_t)hr2d_hierarchy_count(s->hierarchy).elements;
+  ck_assert_uint_le(elements, 4096);
+  memset(front, 0, sizeof front);
+  memset(back, 0, sizeof back);
+  const hr2d_status status = hr2d_leaf_sums(s->hierarchy, 0, 0, front, back);
+  if (!status) *sum = fault_mix(fault_mix(*sum, front, sizeof front), back, sizeof back);
+  return status;
+}
+
+/* On a hierarchy of its own, with one division that is not a half. */
+static hr2d_status fields(fault_stage *s, uint64_t *sum) {
+  hr2d_hierarchy *h = NULL;
+  double field[64] = {0};
+  uint32_t child;
+  hr2d_status status = hr2d_hierarchy_create(s->scene, &h);
+  if (!status) status = hr2d_hierarchy_set_order(h, 4);
+  for (uint32_t k = 0, of = 0; k < 3 && !status; k++, of = child)
+    status = hr2d_hierarchy_divide(h, of, 0.3, &child);
+  field[0] = 1;
+  if (!status) status = hr2d_hierarchy_push(h, 1, field);
+  if (!status) status = hr2d_hierarchy_pull(h, 1, field);
+  if (!status) *sum = fault_mix(*sum, field, sizeof field);
+  hr2d_hierarchy_destroy(h);
+  return status;
+}
+
 #define PLAY(...)                                                                              \
   do {                                                                                         \
     const fault_act act = {__VA_ARGS__};                                                       \
@@ -344,6 +372,10 @@ START_TEST(counts) {
   PLAY("refine_count by 3", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, count_by_three,
        of_links, 60);
   PLAY("refine_visit", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, visit, of_links, 60);
+  PLAY("leaf_sums", {.depth = DEPTH_REFINED, .plan = PLAN_ROOM}, leaf_sums, NULL, 0);
+  PLAY("leaf_sums, open", {.depth = DEPTH_REFINED, .plan = PLAN_OPEN}, leaf_sums, NULL, 0);
+  PLAY("hierarchy_push and _pull", {.depth = DEPTH_COMMITTED, .plan = PLAN_PAIR}, fields, NULL,
+       0);
   PLAY("study_run", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, study, of_links, 0);
   PLAY("linkset_validate", {.depth = DEPTH_REFINED, .plan = PLAN_ROOM}, validate, of_links, 0);
   PLAY("linkset_validate, directed",
