@@ -137,6 +137,7 @@ libhr2d_core_la_SOURCES = \
 	src/oracle/policy.c \
 	src/oracle/squares.c src/oracle/squares.h \
 	src/blocks/block.c src/blocks/block.h \
+	src/blocks/blocks-of-links.c \
 	src/blocks/directions.c \
 	src/blocks/distant.c \
 	src/blocks/line-frame.c \

@@ -271,6 +271,15 @@ static hr2d_status area(fault_stage *s, uint64_t *sum) {
   return status;
 }
 
+static hr2d_status blocks(fault_stage *s, uint64_t *sum) {
+  hr2d_link link[20];
+  double block[20 * 16];
+  for (uint64_t k = 0; k < 20; k++) link[k] = hr2d_linkset_get(s->links, k);
+  const hr2d_status status = hr2d_blocks(s->hierarchy, link, 20, block);
+  if (!status) *sum = fault_mix(*sum, block, sizeof block);
+  return status;
+}
+
 static hr2d_status leaf_sums(fault_stage *s, uint64_t *sum) {
   static double front[4096], back[4096];
   const size_t elements = (size_t)hr2d_hierarchy_count(s->hierarchy).elements;
@@ -372,6 +381,7 @@ START_TEST(counts) {
   PLAY("refine_count by 3", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, count_by_three,
        of_links, 60);
   PLAY("refine_visit", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, visit, of_links, 60);
+  PLAY("blocks", {.depth = DEPTH_REFINED, .plan = PLAN_ROOM, .order = 4}, blocks, NULL, 0);
   PLAY("leaf_sums", {.depth = DEPTH_REFINED, .plan = PLAN_ROOM}, leaf_sums, NULL, 0);
   PLAY("leaf_sums, open", {.depth = DEPTH_REFINED, .plan = PLAN_OPEN}, leaf_sums, NULL, 0);
   PLAY("hierarchy_push and _pull", {.depth = DEPTH_COMMITTED, .plan = PLAN_PAIR}, fields, NULL,
