@@ -2,7 +2,7 @@
 BENCHES = bench/bench-exchange-area bench/bench-refine bench/bench-l1 bench/bench-visibility \
 	bench/bench-growth bench/bench-shaded-links \
 	bench/bench-accuracy bench/bench-polls bench/bench-prediction \
-	bench/bench-threads bench/bench-triangulation bench/bench-field
+	bench/bench-solves bench/bench-threads bench/bench-triangulation bench/bench-field
 EXTRA_PROGRAMS += $(BENCHES)
 CLEANFILES += $(BENCHES)
 bench_bench_exchange_area_SOURCES = bench/bench-exchange-area.c bench/timing.h
@@ -30,6 +30,12 @@ bench_bench_accuracy_SOURCES = bench/bench-accuracy.c bench/dense.c bench/dense.
 bench_bench_accuracy_CPPFLAGS = $(AM_CPPFLAGS) $(LAPACK_CFLAGS) \
 	-DBENCH_DATA='"$(abs_top_srcdir)/tests/data/reference"'
 bench_bench_accuracy_LDADD = libhr2d-core.la $(LAPACK_LIBS) $(GSL_LIBS) $(THREADS_LIBS) -lm
+bench_bench_solves_SOURCES = bench/bench-solves.c bench/many.c bench/many.h bench/plain.c \
+	bench/plain.h bench/timing.h tests/support/random.c tests/support/random.h \
+	tests/support/slow-scenes.c tests/support/slow-scenes.h
+bench_bench_solves_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SOURCE='"$(abs_top_srcdir)"'
+bench_bench_solves_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
+EXTRA_DIST += bench/scenes
 bench_bench_prediction_SOURCES = bench/bench-prediction.c \
 	tests/adversary/kinds.c tests/adversary/kinds.h tests/adversary/kinds-extreme.c \
 	tests/adversary/kinds-open.c tests/adversary/kinds-rooms.c tests/adversary/random.h \

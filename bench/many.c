@@ -96,6 +96,44 @@ static hr2d_scene *make_walls(size_t patches) {
   return commit(scene, status);
 }
 
+static hr2d_point turned(double x, double y, double radius, double angle) {
+  return (hr2d_point){x + radius * cos(angle), y + radius * sin(angle)};
+}
+
+/* Regular polygons with their fronts outside in a square room of bright ceiling, each turned
+   and shifted at random in its own cell. */
+static hr2d_scene *make_polygons(size_t count, size_t corners) {
+  const size_t side = side_of(count);
+  const double cell = 1 / (double)side;
+  hr2d_point at[16];
+  randoms state = {20240301};
+  hr2d_scene *scene = NULL;
+  if (hr2d_scene_create(NULL, &scene)) return NULL;
+  hr2d_status status = add_box(scene, 0, 0, 1, 0, 1);
+  for (size_t k = 0; k < count && !status; k++) {
+    const double radius = cell * (0.1 + 0.2 * random_unit(&state)), free = cell - 2 * radius;
+    const double x = cell * (double)(k % side) + radius + free * random_unit(&state);
+    const double y = cell * (double)(k / side) + radius + free * random_unit(&state);
+    const double angle = 2 * PI * random_unit(&state);
+    for (size_t c = 0; c < corners; c++)
+      at[c] = turned(x, y, radius, angle + 2 * PI * (double)c / (double)corners);
+    status = add_ring(scene, at, corners, 1, 0);
+  }
+  return commit(scene, status);
+}
+
+hr2d_scene *many_random_squares(size_t squares) {
+  return make_polygons(squares, 4);
+}
+
+hr2d_scene *many_fibres(size_t fibres) {
+  return make_polygons(fibres, 16);
+}
+
+hr2d_scene *many_round(size_t patches) {
+  return make_round(patches);
+}
+
 const many_kind many_kinds[] = {
     {"round room", make_round},
     {"squares in a room", make_squares},

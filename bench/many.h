@@ -13,4 +13,10 @@ typedef struct many_kind {
 extern const many_kind many_kinds[];
 extern const size_t many_kind_count;
 
+/* Committed scenes, or NULL: squares, or fibres of 16 sides, anywhere in a closed box, and a
+   round room. */
+hr2d_scene *many_random_squares(size_t squares);
+hr2d_scene *many_fibres(size_t fibres);
+hr2d_scene *many_round(size_t patches);
+
 #endif
