@@ -103,11 +103,16 @@ typedef struct hr2d_target {
   double floor;              /**< an average counts as no less than this part of the largest
                                   average of its band; from 0 to 1; 0 stands for
                                   #HR2D_FLOOR */
+  int no_error;              /**< not 0: no error is measured. The first solve that is expected
+                                  to reach the target stands, mostly within the target, and
+                                  all errors of the account are infinite. Saves the time for
+                                  the account: for interactive work, and for series of scenes
+                                  that are alike */
 } hr2d_target;
 
 /** The defaults: 1e-6 in averages, no budget, all patches, one thread, no callback. */
 #define HR2D_TARGET_INIT                                                                       \
-  { sizeof(hr2d_target), 0, HR2D_NORM_AVERAGE, 0, NULL, 0, 0, 0, 0, 0, NULL, NULL, 0 }
+  { sizeof(hr2d_target), 0, HR2D_NORM_AVERAGE, 0, NULL, 0, 0, 0, 0, 0, NULL, NULL, 0, 0 }
 
 /**
  * Does what #HR2D_TARGET_INIT does, for languages without macros: sets all bytes to 0, and
@@ -155,7 +160,8 @@ typedef struct hr2d_account {
  *                  hierarchy and links; the caller destroys it
  * @param account   receives the errors and the work; may be NULL
  * @retval HR2D_OK             the target is reached; or `error` is #HR2D_SMALLEST_ERROR, and
- *                             the solution is as good as a budget or doubles allow
+ *                             the solution is as good as a budget or doubles allow; or
+ *                             `no_error` is set, and nothing is said about the error
  * @retval HR2D_EACCURACY      the target was not reached, because a budget ran out or double
  *                             precision does not suffice; see hr2d_account::reason. The best
  *                             solution so far is returned with its errors. The errors are
@@ -199,7 +205,7 @@ typedef struct hr2d_prediction {
  * bench/bench-prediction.c measures both on all kinds of scenes of the adversary.
  *
  * @param scene       committed
- * @param target      NULL for the defaults
+ * @param target      NULL for the defaults; with `no_error` the time is that without an account
  * @param prediction  receives the cost
  * @return as hr2d_solve_to(), but an exhausted budget gives HR2D_EMAX_ELEMENTS, HR2D_EMAX_LINKS
  *         or HR2D_EMAX_BYTES
@@ -214,7 +220,8 @@ HR2D_API hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *ta
  * below. The bound is this distance plus the bound of the reference.
  *
  * @param solution  its scene must still exist
- * @param how       threads, budgets, progress, important patches, floor; `error` is the
+ * @param how       threads, budgets, progress, important patches, floor, but not `no_error`;
+ *                  `error` is the
  *                  smallest relative distance that must be distinguished from 0; here both 0
  *                  and #HR2D_SMALLEST_ERROR stand for 1e-14. The budgets hold for each
  *                  reference. NULL for the defaults

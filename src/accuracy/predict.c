@@ -163,7 +163,8 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
   trial coarse = {0};
   status = try_coarse(scene, target, &coarse);
   if (!status) status = measure(scene, NULL, &fineness, target, &first, &solve);
-  if (!status) status = measure(scene, &first, &finer, target, &second, &error);
+  if (!status && !target->no_error)
+    status = measure(scene, &first, &finer, target, &second, &error);
   if (!status) {
     p->order = fineness.order;
     p->elements = solve.elements;
@@ -176,7 +177,7 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
     const double points = (double)hr2di_contacts_points(first.links) * coarse.point *
                           sqrt((double)solve.leaves / (double)coarse.leaves);
     p->seconds = CALLS * coarse.seconds + solve.make + error.make + REST * gathers +
-                 (reflects ? points : 0);
+                 (reflects && !target->no_error ? points : 0);
     set_range(p);
   }
   hr2di_graded_clear(&first);

@@ -158,6 +158,7 @@ hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target
   hr2d_status status = hr2di_target_init(&target, scene, how, FINEST);
   if (status) return status;
   listener l = {.progress = target.progress, .ctx = target.progress_ctx};
+  target.no_error = 0;
   target.progress = listen;
   target.progress_ctx = &l;
   const double finest = fmax(target.error, FINEST);

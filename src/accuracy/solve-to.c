@@ -138,10 +138,13 @@ static hr2d_status attempt(search *s, const hr2di_resolution *fineness) {
   if (!status) status = hr2di_graded_solve(&answer, &s->target, &s->message);
   add_times(&s->account, &answer);
   const double start = hr2di_clock_now();
-  if (!status)
+  if (!status && !s->given.no_error) {
     status = hr2di_error_estimate(&answer, fineness, &s->target, &errors, &s->message);
-  s->account.error_seconds += hr2di_clock_now() - start;
-  if (!status) {
+    s->account.error_seconds += hr2di_clock_now() - start;
+  }
+  if (!status && s->given.no_error) {
+    keep(s, &answer, &unknown);
+  } else if (!status) {
     const double error = worst_of(&errors, s->target.norm).estimate;
     s->account.kernels += errors.kernels;
     if (!s->best.solution || error < error_of(s) || !isfinite(error_of(s))) {
@@ -190,7 +193,7 @@ static hr2d_status reach(search *s, double error) {
       fineness.order++;
       continue;
     }
-    if (status || is_reached(s, error)) return status;
+    if (status || s->given.no_error || is_reached(s, error)) return status;
     stuck = error_of(s) > 0.5 * before ? stuck + 1 : 0;
     before = error_of(s);
     raised = !hr2di_resolution_raise(&fineness, &s->best.survey, before / (0.5 * error));
@@ -223,26 +226,27 @@ static hr2d_status reach_step_by_step(search *s) {
 
 /* The status of the whole search, with a reason if the target was not reached.  A spent budget
    is HR2D_EACCURACY, with a solution or without one; HR2D_OK if there is a solution of known
-   error and the target error is 0. */
+   error, or of one that nobody asked for, and the target error is 0. */
 static hr2d_status settle(search *s, hr2d_status status) {
+  const int is_known = s->given.no_error ? s->best.solution && s->best.hierarchy->order > 1
+                                         : isfinite(error_of(s));
   if (s->progress_status) {
     give_reason(s, "stopped by the callback");
     return s->progress_status;
   }
   const int is_spent = is_budget(status) || (status == HR2D_STOPPED && s->late);
   if (status == HR2D_STOPPED && s->late)
-    give_reason(s, isfinite(error_of(s))
-                       ? "the time is used up"
-                       : "the time does not suffice for a solution of known error");
+    give_reason(s, is_known ? "the time is used up"
+                            : "the time does not suffice for a solution of known error");
   else if (status && status != HR2D_EACCURACY)
     give_reason(s, s->message.text);
-  if (is_spent || (status == HR2D_ENOT_CONVERGED && isfinite(error_of(s))))
-    status = HR2D_EACCURACY;
-  if (!status && s->best.solution && !isfinite(s->error.bound)) {
+  if (is_spent || (status == HR2D_ENOT_CONVERGED && is_known)) status = HR2D_EACCURACY;
+  if (!status && s->best.solution && !isfinite(s->error.bound) && !s->given.no_error) {
     give_reason(s, "the error has no finite bound");
     status = HR2D_EACCURACY;
   }
-  const int all_there_is = !(s->given.error > 0) && isfinite(s->error.bound);
+  const int all_there_is =
+      !(s->given.error > 0) && (s->given.no_error ? is_known : isfinite(s->error.bound));
   return status == HR2D_EACCURACY && all_there_is ? HR2D_OK : status;
 }
 

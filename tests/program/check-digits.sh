@@ -17,7 +17,7 @@ far=$scenes/par-far.geojson
 
 # ---- what contradicts itself
 for option in "--oracle l1" "--eps 0.1" "--variant original" "--multigrid 1:0.5" "--order 2" \
-  "--max-level 9" --no-closure --no-error; do
+  "--max-level 9" --no-closure; do
   for target in "--target-error 1e-3" "--time-budget 1"; do
     # shellcheck disable=SC2086
     usage "${target% *} and ${option%% *} exclude each other" solve "$far" $option $target
@@ -227,6 +227,14 @@ for key in estimate bound sup_estimate sup_bound; do
   check "no error: $key" grep -q "^    \"$key\": null" "$work/t.json"
   check "nor of H: $key" grep -q "^      \"$key\": null" "$work/t.json"
 done
+succeeds solve "$scenes/square-room.geojson" --target-error 1e-8 --no-error --json "$work/t.json"
+check "no error of a target, no line" lacks '^error' "$work/out"
+check "and none in the file" grep -q '^    "bound": null' "$work/t.json"
+check "but digits" small "$(true_error square_rho0.9 "$work/t.json")" 1e-8
+unmeasured=$(value kernels "$work/t.json")
+succeeds solve "$scenes/square-room.geojson" --target-error 1e-8 --json "$work/t.json"
+check "the error costs more kernels than $unmeasured" [ "$(value kernels "$work/t.json")" -gt \
+  "$unmeasured" ]
 succeeds solve "$scenes/occluders-200.geojson" --eps 1 --json "$work/t.json"
 check "nor of 406 patches" grep -q '^    "bound": null' "$work/t.json"
 

@@ -127,7 +127,7 @@ static const option_entry table[] = {
   {"error", NULL, GROUP_METHOD, VALUE(flag, error),
    .help = {{SOLVE, "measure the error (default for up to 200 patches)"}}},
   {"no-error", NULL, GROUP_METHOD, VALUE(flag, no_error),
-   .help = {{SOLVE, "do not measure it (default for more)"}}, .rules = NOT_WITH_TARGET},
+   .help = {{SOLVE, "do not measure it (default for more without a target)"}}},
   {"state", "FILE", GROUP_METHOD, VALUE(file, state),
    .help = {{SOLVE, "keep each stage in FILE, or go on from there"}},
    .rules = IS_OUTPUT | NOT_WITH_TARGET},

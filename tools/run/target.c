@@ -25,6 +25,7 @@ static hr2d_target make_target(const run *r, progress *p) {
   target.important = run_important(r);
   target.important_count = o->importance.count;
   target.floor = o->floor;
+  target.no_error = o->no_error;
   target.threads = options_threads(o);
   target.max_elements = o->max_elements;
   target.max_links = o->max_links;
@@ -48,6 +49,11 @@ static int complain_of_error(const run *r) {
                   fmax(b->estimate, h->estimate), fmax(b->bound, h->bound));
 }
 
+/* Errors that nobody asked for are not printed. */
+static void forget_errors(hr2d_account *a) {
+  a->average = a->sup = a->irradiance = a->irradiance_sup = (hr2d_error){NAN, NAN};
+}
+
 int run_target(run *r, progress *p) {
   const hr2d_target target = make_target(r, p);
   const hr2d_status status = hr2d_solve_to(r->scene, &target, &r->solution, &r->account);
@@ -56,6 +62,7 @@ int run_target(run *r, progress *p) {
   if (status && status != HR2D_EACCURACY)
     return complain_call(r->options->scene, r->account.reason, status);
   if (!r->solution) return complain(r->options->scene, "%s", r->account.reason);
+  if (r->options->no_error) forget_errors(&r->account);
   r->links = hr2d_solution_links(r->solution);
   r->hierarchy = hr2d_linkset_hierarchy(r->links);
   r->work = hr2d_solution_work(r->solution);
@@ -86,8 +93,7 @@ static hr2d_status compare(run *r, progress *p) {
 
 int run_error(run *r, progress *p) {
   const options *o = r->options;
-  hr2d_account *a = &r->account;
-  a->average = a->sup = a->irradiance = a->irradiance_sup = (hr2d_error){NAN, NAN};
+  forget_errors(&r->account);
   if (o->no_error || (!o->error && hr2d_scene_patches(r->scene) > FEW_PATCHES)) return 0;
   const double start = clock_seconds();
   const hr2d_status status = compare(r, p);

@@ -58,6 +58,43 @@ START_TEST(targets_without_meaning_are_refused) {
 }
 END_TEST
 
+/* Kernels that an answer without an account takes: those of one hr2d_solve() on its links. */
+START_TEST(without_an_account_nothing_is_spent_on_the_error) {
+  hr2d_scene *scene = test_named_scene("square_rho0.9");
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_account with, without;
+  hr2d_solution *measured, *plain;
+  hr2d_prediction all, part;
+  target.error = 1e-8;
+  ck_assert_int_eq(hr2d_solve_to(scene, &target, &measured, &with), HR2D_OK);
+  ck_assert_int_eq(hr2d_predict(scene, &target, &all), HR2D_OK);
+  target.no_error = 1;
+  ck_assert_int_eq(hr2d_solve_to(scene, &target, &plain, &without), HR2D_OK);
+  ck_assert_int_eq(hr2d_predict(scene, &target, &part), HR2D_OK);
+  ck_assert_uint_eq(without.solves, 1);
+  ck_assert_double_eq(without.error_seconds, 0);
+  ck_assert_uint_eq(without.kernels, hr2d_solution_work(plain).kernels);
+  ck_assert(isinf(without.average.estimate) && isinf(without.irradiance_sup.bound));
+  for (size_t k = 0; k < 4; k++) {
+    const double b = hr2d_solution_average(measured, k, 0);
+    ck_assert_double_eq_tol(hr2d_solution_average(plain, k, 0), b, 1e-8 * b);
+  }
+  ck_assert_uint_lt(part.bytes, all.bytes);
+  /* Negative control: the account takes kernels, and is finite. */
+  ck_assert_uint_gt(with.kernels, without.kernels);
+  ck_assert_double_gt(with.error_seconds, 0);
+  ck_assert_double_le(with.average.estimate, 1e-8);
+  hr2d_solution_destroy(plain);
+  hr2d_solution_destroy(measured);
+  target.error = HR2D_SMALLEST_ERROR;
+  target.seconds = 0.05;
+  ck_assert_int_eq(hr2d_solve_to(scene, &target, &plain, &without), HR2D_OK);
+  ck_assert_uint_gt(without.order, 1);
+  hr2d_solution_destroy(plain);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 START_TEST(defaults_and_older_structs) {
   hr2d_scene *scene = test_named_scene("square_rho0.9");
   hr2d_solution *plain, *small;
@@ -321,7 +358,8 @@ END_TEST
 
 TEST_SUITE("target calls") {
   ADD_TESTS("options", targets_without_meaning_are_refused, defaults_and_older_structs,
-            importance_spares_links, predictions_count_right);
+            importance_spares_links, predictions_count_right,
+            without_an_account_nothing_is_spent_on_the_error);
   ADD_TESTS("budgets", time_runs_out, other_budgets_hold, memory_may_run_out,
             a_callback_stops_it_anywhere);
   REPEAT_TESTS(2, "budgets", dust_is_not_divided_for_ever);
