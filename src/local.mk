@@ -189,6 +189,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/equation.c src/solve/equation.h \
 	src/solve/equation-power.c \
 	src/solve/existence.c src/solve/existence.h \
+	src/solve/gather-blocks.c src/solve/gather-blocks.h \
 	src/solve/gather-one-way.c src/solve/gather-one-way.h \
 	src/solve/row-sums.c src/solve/row-sums.h \
 	src/solve/solve.c \

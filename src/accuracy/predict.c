@@ -15,13 +15,13 @@
 #include "blocks/block.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
-#include "solve/transport.h"
+#include "solve/gather-blocks.h"
 
 enum { SAMPLES = 256, PRODUCTS = 64, RUNS = 5, POINTS = 4 };
 
 /* The time of one solve is within this factor of what is predicted; see set_range(). */
 #define SURE 2.0
-enum { ATTEMPTS = 8, MORE = 2 };
+enum { ATTEMPTS = 8, MORE = 2, MOST_BANDS = 4 };
 
 #define SHORT 0.02
 
@@ -67,14 +67,15 @@ static hr2d_status time_blocks(const hr2di_graded *a, size_t order, hr2di_watch 
   return status;
 }
 
-/* The time for one block's product, both ways. */
-static double time_product(size_t order) {
-  double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER] = {0}, field[4][HR2D_MAX_ORDER] = {{0}};
+/* The time for one block's product, both ways, of MOST_BANDS at most. */
+static double time_product(size_t order, size_t bands) {
+  double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER] = {0};
+  double field[4][MOST_BANDS * HR2D_MAX_ORDER] = {{0}};
   double min = HUGE_VAL;
   for (int run = 0; run < 5; run++) {
     const double start = hr2di_clock_now();
     for (int k = 0; k < PRODUCTS; k++)
-      hr2di_transport_multiply(block, order, field[0], field[1], field[2], field[3]);
+      hr2di_gather_both(block, order, order, bands, field[0], field[1], field[2], field[3]);
     min = fmin(min, hr2di_clock_now() - start);
   }
   return min / PRODUCTS;
@@ -91,7 +92,8 @@ static hr2d_status measure(const hr2d_scene *scene, const hr2di_graded *from,
                             : hr2di_graded_refine(a, scene, fineness, target, &message);
   if (status) return status;
   const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(a->hierarchy);
-  const double bands = (double)scene->bands;
+  const size_t timed = scene->bands < MOST_BANDS ? scene->bands : MOST_BANDS;
+  const double bands = (double)scene->bands / (double)timed;
   c->elements = counts.elements;
   c->leaves = counts.leaves;
   c->links = hr2d_linkset_size(a->links);
@@ -100,8 +102,8 @@ static hr2d_status measure(const hr2d_scene *scene, const hr2di_graded *from,
   hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "coefficients");
   status = time_blocks(a, fineness->order, &watch, &c->make);
   c->make = c->make / (double)hr2di_team_threads(target->threads) + a->refine_seconds;
-  c->gather =
-      time_product(fineness->order) * bands * ((double)c->links + 1.5 * (double)c->elements);
+  c->gather = time_product(fineness->order, timed) * bands *
+              ((double)c->links + 1.5 * (double)c->elements);
   return status;
 }
 

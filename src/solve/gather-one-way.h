@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What one element of a pair receives over the block of the link, in one band: half of
-   hr2di_transport_multiply() each, with its bits. */
+   hr2di_gather_both() each, with its bits. */
 #ifndef HR2D_SRC_SOLVE_GATHER_ONE_WAY_H
 #define HR2D_SRC_SOLVE_GATHER_ONE_WAY_H
 

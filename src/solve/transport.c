@@ -6,11 +6,10 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/ordered-dot.h"
 #include "base/team.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
-#include "solve/gather-one-way.h"
+#include "solve/gather-blocks.h"
 
 /* A slice needs its own copy of `down`, so there are few slices, with many links each. */
 enum { MOST_SLICES = HR2DI_TRANSPORT_PARTS, SLICE_BLOCKS = 64 };
@@ -175,77 +174,25 @@ static void gather_chunk(const hr2di_transport *t, size_t k, int simple, double 
   }
 }
 
-/* to_l += Σ_m C_lm from_m */
-static inline void add_bands(const double *c, size_t order, size_t bands, const double *from,
-                             double *to) {
-  for (size_t l = 0; l < order; l++)
-    for (size_t b = 0; b < bands; b++)
-      to[l * bands + b] += hr2di_dot_strided(c + l * order, from + b, bands, order);
-}
-
-static void add_block(const double *c, size_t order, size_t bands, const double *from,
-                      double *to) {
-  if (bands == 1)
-    hr2di_gather_rows(c, order, order, from, to);
-  else
-    add_bands(c, order, bands, from, to);
-}
-
-/* to_m += Σ_l C_lm from_l */
-static void add_transposed(const double *c, size_t order, size_t bands, const double *from,
-                           double *to) {
-  if (bands == 1) {
-    hr2di_gather_columns(c, order, order, from, to);
-    return;
-  }
-  for (size_t l = 0; l < order; l++)
-    for (size_t b = 0; b < bands; b++)
-      for (size_t m = 0; m < order; m++)
-        to[m * bands + b] += c[l * order + m] * from[l * bands + b];
-}
-
-/* Both in one pass over the block, for one band; adds in the order of hr2di_dot_strided(). */
-void hr2di_transport_multiply(const double *restrict c, size_t order,
-                              const double *restrict up_i, const double *restrict up_j,
-                              double *restrict down_i, double *restrict down_j) {
-  for (size_t l = 0; l < order; l++) {
-    const double *row = c + l * order, here = up_i[l];
-    double s0 = 0, s1 = 0, s2 = 0, s3 = 0, rest = 0;
-    size_t m = 0;
-    for (; m + 4 <= order; m += 4) {
-      s0 += row[m] * up_j[m];
-      s1 += row[m + 1] * up_j[m + 1];
-      s2 += row[m + 2] * up_j[m + 2];
-      s3 += row[m + 3] * up_j[m + 3];
-      for (size_t k = m; k < m + 4; k++) down_j[k] += row[k] * here;
-    }
-    for (; m < order; m++) {
-      rest += row[m] * up_j[m];
-      down_j[m] += row[m] * here;
-    }
-    down_i[l] += hr2di_dot_four(s0, s1, s2, s3) + rest;
-  }
-}
-
 /* The same with blocks, for `count` links from number `first` on, and what the elements
    [from, to) receive. */
 static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, uint64_t first,
                           size_t count, size_t from, size_t to, double *down) {
   const hr2di_link_blocks *blocks = &t->links->blocks;
-  const size_t order = t->order, bands = t->bands, width = t->width;
+  const size_t order = t->order, bands = t->bands, width = t->width, stride = blocks->order;
   for (uint64_t k = first; k < first + count; k++) {
     if (part == HR2DI_DISTANT_LINKS && !blocks->distant[k]) continue;
     const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
-    const double *c = blocks->value + k * order * order;
+    const double *c = blocks->value + k * stride * stride;
     const size_t i = pair.first * width, j = pair.second * width;
     const int to_i = pair.first >= from && pair.first < to;
     const int to_j = !t->links->directed && pair.second >= from && pair.second < to;
-    if (bands == 1 && to_i && to_j) {
-      hr2di_transport_multiply(c, order, t->up + i, t->up + j, down + i, down + j);
-      continue;
-    }
-    if (to_i) add_block(c, order, bands, t->up + j, down + i);
-    if (to_j) add_transposed(c, order, bands, t->up + i, down + j);
+    if (to_i && to_j)
+      hr2di_gather_both(c, stride, order, bands, t->up + i, t->up + j, down + i, down + j);
+    else if (to_i)
+      hr2di_gather_block(c, stride, order, bands, t->up + j, down + i);
+    else if (to_j)
+      hr2di_gather_transposed(c, stride, order, bands, t->up + i, down + j);
   }
 }
 
@@ -383,8 +330,8 @@ void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *
   hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, radiosity, irradiance);
   const size_t square = t->order * t->order;
   for (size_t k = 0; k < t->leaves && t->closure && !t->failed; k++)
-    add_block(t->closure + k * square, t->order, t->bands, radiosity + k * t->width,
-              irradiance + k * t->width);
+    hr2di_gather_block(t->closure + k * square, t->order, t->order, t->bands,
+                       radiosity + k * t->width, irradiance + k * t->width);
 }
 
 void hr2di_transport_add_background(const hr2di_transport *t, const double *light,

@@ -60,10 +60,6 @@ void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
    below it, at order 1: of links over which it receives, or over which it sends. */
 void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor);
 
-/* down_i += C up_j and down_j += Cᵀ up_i of one block. */
-void hr2di_transport_multiply(const double *block, size_t order, const double *up_i,
-                              const double *up_j, double *down_i, double *down_j);
-
 /* Adds the irradiance from a background with `light` per band. */
 void hr2di_transport_add_background(const hr2di_transport *t, const double *light,
                                     double *irradiance);
