@@ -187,7 +187,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/closure-mean.c src/solve/closure-order-p.c \
 	src/solve/energy-balance.c src/solve/energy-balance.h \
 	src/solve/equation.c src/solve/equation.h \
-	src/solve/equation-power.c \
+	src/solve/equation-part.c src/solve/equation-part.h src/solve/equation-power.c \
 	src/solve/existence.c src/solve/existence.h \
 	src/solve/gather-blocks.c src/solve/gather-blocks.h \
 	src/solve/gather-one-way.c src/solve/gather-one-way.h \
@@ -209,6 +209,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/graded-solve.c src/accuracy/graded-solve.h \
 	src/accuracy/importance.c src/accuracy/importance.h \
 	src/accuracy/grader.h src/accuracy/grader-team.c \
+	src/accuracy/kinks.c src/accuracy/kinks.h \
 	src/accuracy/mesh-grading.c src/accuracy/mesh-grading.h \
 	src/accuracy/mirror-images.c src/accuracy/mirror-images.h \
 	src/accuracy/predict.c \

@@ -53,6 +53,7 @@ SUITES = \
 	tests/unit/solve/check-solve \
 	tests/unit/solve/check-background \
 	tests/unit/solve/check-closure \
+	tests/unit/solve/check-equation-part \
 	tests/unit/solve/check-row-sums \
 	tests/unit/solve/check-lengths \
 	tests/unit/refine/check-occlusion \
@@ -72,6 +73,7 @@ SUITES = \
 	tests/unit/accuracy/check-random-accuracy \
 	tests/unit/accuracy/check-target-calls \
 	tests/unit/accuracy/check-importance \
+	tests/unit/accuracy/check-kinks \
 	tests/unit/accuracy/check-short-patches \
 	tests/unit/accuracy/check-budgets \
 	tests/unit/accuracy/check-cracks \

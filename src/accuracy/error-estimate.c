@@ -117,35 +117,46 @@ static double margin_of(const hr2di_resolution *f) {
   return HIDDEN / (1 - ratio * ratio * ratio);
 }
 
-static hr2d_status run(const hr2di_graded *finer, const hr2di_graded *answer,
-                       const hr2di_resolution *fineness, const hr2d_target *target,
-                       hr2di_error_pair *errors) {
+static hr2d_status run(const hr2di_graded *answer, const hr2di_resolution *fineness,
+                       const hr2d_target *target, hr2di_error_pair *errors) {
   hr2di_estimator e;
-  hr2d_status status = hr2di_estimator_init(&e, finer, answer, target);
+  hr2d_status status = hr2di_estimator_init(&e, answer, target);
   e.margin = margin_of(fineness);
   if (!status) status = measure(&e, errors);
-  errors->kernels = e.eq.kernels;
   hr2di_estimator_clear(&e);
   return status;
 }
 
-hr2d_status hr2di_error_estimate(const hr2di_graded *answer, const hr2di_resolution *fineness,
+void hr2di_error_prepare(hr2di_graded *answer, const hr2di_resolution *fineness) {
+  answer->links->block_order = hr2di_resolution_finer(fineness).order;
+}
+
+/* The trees and links of the answer are those of K⁺ while its order is, and its clusters are as
+   accurate. */
+hr2d_status hr2di_error_estimate(hr2di_graded *answer, const hr2di_resolution *fineness,
                                  const hr2d_target *target, hr2di_error_pair *errors,
                                  hr2di_message *message) {
   const hr2di_resolution finer = hr2di_resolution_finer(fineness);
-  hr2di_graded held;
+  hr2d_linkset *links = answer->links;
+  const hr2di_roots roots = links->roots;
+  const unsigned order = answer->hierarchy->order;
   *errors = (hr2di_error_pair){0};
-  hr2d_status status = hr2di_graded_reorder(&held, answer, &finer, target, message);
-  if (!status) {
-    status = run(&held, answer, fineness, target, errors);
-    errors->bytes = hr2di_graded_bytes(&held);
-    if (status)
-      hr2di_message_fail(message, status, "%s",
-                         hr2d_linkset_message(held.links)[0] ? hr2d_linkset_message(held.links)
-                                                             : hr2d_strerror(status));
+  hr2d_status status = HR2D_OK;
+  if (roots.clusters) {
+    links->roots.accuracy = finer.cluster_accuracy;
+    status =
+        hr2di_clusters_finer(roots.clusters, finer.cluster_accuracy, &links->roots.clusters);
   }
-  hr2di_graded_clear(&held);
-  return status;
+  answer->hierarchy->order = finer.order;
+  if (!status) status = run(answer, fineness, target, errors);
+  answer->hierarchy->order = order;
+  if (links->roots.clusters != roots.clusters) hr2di_clusters_destroy(links->roots.clusters);
+  links->roots = roots;
+  links->block_order = 0;
+  if (!status) status = hr2di_link_blocks_trim(&links->blocks, order, &links->alloc);
+  if (!status) return status;
+  const char *own = hr2d_linkset_message(links);
+  return hr2di_message_fail(message, status, "%s", own[0] ? own : hr2d_strerror(status));
 }
 
 /* The order has to tell, and clusters of another accuracy. */

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "accuracy/importance.h"
 #include "base/alloc.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
@@ -54,23 +55,51 @@ void hr2di_estimator_set_most(hr2di_estimator *e, const double *field) {
   hr2di_estimator_lift(e, e->most);
 }
 
+/* Coefficients that the part lacks hardly matter to light that is reflected twice: the part
+   takes that on. */
+static size_t order_of_part(size_t order) {
+  return order < 4 ? 2 : order / 2;
+}
+
+static void scale(const hr2di_estimator *e, const hr2di_equation *eq, double *field, int sign) {
+  for (size_t k = 0; k < eq->field; k++)
+    field[k] = ldexp(field[k], sign * e->exponent_of[k % eq->transport.bands]);
+}
+
 /* Solves with the source of each band scaled to about 1, by a power of two: squares of the
    unknowns would underflow where the error is tiny. */
-hr2d_status hr2di_estimator_solve(hr2di_estimator *e, double tolerance) {
-  hr2di_equation *eq = &e->eq;
+static hr2d_status solve(hr2di_estimator *e, hr2di_equation *eq, double tolerance) {
   const size_t bands = eq->transport.bands;
   for (size_t k = 0; k < eq->field; k++) eq->y[k] = 0;
   for (size_t b = 0; b < bands; b++) {
     double max = 0;
     for (size_t k = b; k < eq->field; k += bands) max = fmax(max, fabs(eq->source[k]));
     e->exponent_of[b] = max > 0 ? ilogb(max) : 0;
-    for (size_t k = b; k < eq->field; k += bands)
-      eq->source[k] = ldexp(eq->source[k], -e->exponent_of[b]);
   }
+  scale(e, eq, eq->source, -1);
   eq->options.tolerance = tolerance;
   const hr2d_status status = hr2di_equation_solve(eq);
-  for (size_t k = 0; k < eq->field; k++)
-    eq->radiosity[k] = ldexp(eq->radiosity[k], e->exponent_of[k % bands]);
+  scale(e, eq, eq->source, 1);
+  scale(e, eq, eq->radiosity, 1);
+  scale(e, eq, eq->irradiance, 1);
+  return status;
+}
+
+hr2d_status hr2di_estimator_solve(hr2di_estimator *e, double tolerance) {
+  hr2di_equation *eq = &e->eq, *part = &e->part;
+  if (e->whole) return solve(e, eq, tolerance);
+  hr2di_equation_part_take(part, eq, eq->source, part->source);
+  const hr2d_status status = solve(e, part, tolerance);
+  if (status == HR2D_ENOT_CONVERGED) {
+    e->whole = 1;
+    return solve(e, eq, tolerance);
+  }
+  for (size_t k = 0; k < eq->field; k++) {
+    eq->radiosity[k] = eq->source[k];
+    eq->irradiance[k] = 0;
+  }
+  hr2di_equation_part_give(part, eq, part->radiosity, eq->radiosity);
+  hr2di_equation_part_give(part, eq, part->irradiance, eq->irradiance);
   return status;
 }
 
@@ -86,6 +115,26 @@ double hr2di_estimator_least(const hr2di_estimator *e, int irradiance, size_t pa
                              size_t band) {
   return fmax(hr2di_estimator_value(e, irradiance, patch, band),
               e->floor[(size_t)irradiance * e->eq.transport.bands + band]);
+}
+
+/* The least of min least/max least over the bands. */
+static double contrast(const hr2di_estimator *e, int irradiance) {
+  const size_t bands = e->eq.transport.bands, patches = e->values / bands;
+  double ratio = 1;
+  for (size_t b = 0; b < bands; b++) {
+    double min = HUGE_VAL, max = 0;
+    for (size_t k = 0; k < patches; k++) {
+      const double least = hr2di_estimator_least(e, irradiance, k, b);
+      if (least > 0 && hr2di_is_important(e->target, k)) min = fmin(min, least);
+      max = fmax(max, least);
+    }
+    if (max > 0) ratio = fmin(ratio, min / max);
+  }
+  return ratio;
+}
+
+double hr2di_estimator_tolerance(const hr2di_estimator *e, double part) {
+  return fmax(part * fmin(contrast(e, 0), contrast(e, 1)), 1e-14);
 }
 
 static void set_floors(hr2di_estimator *e) {
@@ -132,18 +181,21 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
   return HR2D_OK;
 }
 
-hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *finer,
-                                 const hr2di_graded *answer, const hr2d_target *target) {
+hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
+                                 const hr2d_target *target) {
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   options.threads = target->threads;
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;
   *e = (hr2di_estimator){.coarse = answer->solution,
                          .target = target,
+                         .bent = answer->bent,
                          .exponent = answer->survey.exponent,
-                         .contacts.alloc = finer->links->alloc};
-  hr2d_status status = hr2di_equation_init(&e->eq, finer->links, &options);
-  if (!status) status = reserve(e, &finer->links->alloc);
+                         .contacts.alloc = answer->links->alloc};
+  hr2d_status status = hr2di_equation_init(&e->eq, answer->links, &options);
+  if (!status) status = reserve(e, &answer->links->alloc);
+  if (!status)
+    status = hr2di_equation_part(&e->part, &e->eq, order_of_part(e->eq.transport.order));
   if (status) return status;
   hr2di_basis_init(&e->basis, e->eq.transport.order);
   hr2di_rule_init(&e->rule, e->eq.transport.order + 2);
@@ -155,5 +207,6 @@ void hr2di_estimator_clear(hr2di_estimator *e) {
   hr2di_contacts_clear(&e->contacts);
   hr2di_alloc_free(&e->contacts.alloc, e->space);
   hr2di_alloc_free(&e->contacts.alloc, e->exponent_of);
+  hr2di_equation_part_clear(&e->part);
   hr2di_equation_clear(&e->eq);
 }

@@ -7,17 +7,20 @@
 #include "accuracy/corner-residuals.h"
 #include "accuracy/graded-solve.h"
 #include "base/legendre.h"
-#include "solve/equation.h"
+#include "solve/equation-part.h"
 
 /* What roundings may be, relative to the largest value. */
 #define HR2DI_ESTIMATOR_ROUNDING (16 * DBL_EPSILON)
 
 typedef struct hr2di_estimator {
   hr2di_equation eq;
+  hr2di_equation part; /* of `eq`, with fewer coefficients: where light has been reflected */
+  int whole;           /* the part does not suffice */
   const hr2d_solution *coarse;
   const hr2d_target *target;
-  double exponent; /* γ, the least of the corners */
-  double margin;   /* of bounds over estimates */
+  const double *bent; /* see hr2di_graded */
+  double exponent;    /* γ, the least of the corners */
+  double margin;      /* of bounds over estimates */
   hr2di_contacts contacts;
   hr2di_basis basis;
   hr2di_rule rule;
@@ -39,14 +42,14 @@ typedef struct hr2di_estimator {
   double *point[2];   /* per band: errors at points, of B and of H */
   double *narrow[2];  /* per band: errors at points beside gaps that nothing resolves */
   double *stray[2];   /* per band: what roundings may be at points */
-  int *exponent_of;   /* per band: what the last solve was scaled by */
+  int *exponent_of;   /* per band: what a solve is scaled by */
 } hr2di_estimator;
 
-/* Makes an estimator of a solved answer, with the operator of `finer`.  Returns HR2D_OK, or a
-   status with a message in the links of `finer`.  The estimator must not be moved; call
-   hr2di_estimator_clear() in any case. */
-hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *finer,
-                                 const hr2di_graded *answer, const hr2d_target *target);
+/* Makes an estimator of a solved answer; its trees and links are those of the finer operator.
+   Returns HR2D_OK, or a status with a message in the links.  The estimator must not be moved;
+   call hr2di_estimator_clear() in any case. */
+hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
+                                 const hr2d_target *target);
 void hr2di_estimator_clear(hr2di_estimator *e);
 
 /* Whether the watch has stopped, or a gather has failed: fields have no meaning then. */
@@ -68,8 +71,14 @@ double hr2di_estimator_rho(const hr2di_estimator *e, size_t leaf, size_t band);
 /* Averages of a field over the patches. */
 void hr2di_estimator_averages(hr2di_estimator *e, const double *field, double *average);
 
-/* Solves the equation for its source.  Returns HR2D_OK or the status of the solve. */
+/* Solves for the source of the equation; changes its y.  The part does it, unless e->whole is
+   set: then the other coefficients of the radiosity are those of the source, and of the
+   irradiance 0.  Returns HR2D_OK or the status of the solve. */
 hr2d_status hr2di_estimator_solve(hr2di_estimator *e, double tolerance);
+
+/* The tolerance for a solve that is to be right to `part` also where it is darkest: the norm of
+   a solve has the largest values, and dark patches have errors, too. */
+double hr2di_estimator_tolerance(const hr2di_estimator *e, double part);
 
 /* An average of the solution: of B, or of H. */
 double hr2di_estimator_value(const hr2di_estimator *e, int irradiance, size_t patch,

@@ -3,6 +3,7 @@
 #include "accuracy/graded-solve.h"
 
 #include "accuracy/admissibility.h"
+#include "base/alloc.h"
 #include "base/clock.h"
 #include "links/linkset-impl.h"
 #include "scene/scene-impl.h"
@@ -26,7 +27,7 @@ static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
   return status;
 }
 
-/* Divides the elements. */
+/* Divides the elements.  Without events all are halved, if fineness->halvings says so. */
 static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
                          const hr2d_target *target) {
   hr2d_hierarchy *h = a->hierarchy;
@@ -34,17 +35,21 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
   hr2di_watch watch;
   hr2di_scene_watch(h->scene, &watch, target->progress, target->progress_ctx, "refine");
   hr2d_status status = find_events(&events, h, fineness->generations, &watch);
+  const int chosen = fineness->kinks > 0 && fineness->lights && events.count > 0;
   const hr2di_grading grading = {.target = fineness->target,
                                  .norm = fineness->norm,
                                  .order = fineness->order,
                                  .corner_levels = fineness->corner_levels,
-                                 .halvings = fineness->halvings,
+                                 .halvings = chosen ? 0 : fineness->halvings,
                                  .weight = fineness->weight,
-                                 .events = &events,
+                                 .events = chosen ? NULL : &events,
                                  .max_elements = target->max_elements,
                                  .watch = &watch,
                                  .threads = target->threads};
   if (!status) status = hr2di_grading_apply(h, &grading, &a->survey);
+  if (!status && chosen)
+    status = hr2di_kinks_cut(h, &events, fineness->lights, fineness->kinks,
+                             target->max_elements, &watch, &a->bent);
   a->events = events.count;
   hr2di_events_clear(&events);
   return status;
@@ -96,18 +101,6 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
   return explain(a, status, message);
 }
 
-hr2d_status hr2di_graded_reorder(hr2di_graded *a, const hr2di_graded *from,
-                                 const hr2di_resolution *fineness, const hr2d_target *target,
-                                 hr2di_message *message) {
-  const double start = hr2di_clock_now();
-  *a = (hr2di_graded){.survey = from->survey, .events = from->events};
-  hr2d_status status = hr2di_hierarchy_clone(from->hierarchy, &a->hierarchy);
-  if (!status) a->hierarchy->order = fineness->order;
-  if (!status) status = link_elements(a, fineness, target);
-  a->refine_seconds = hr2di_clock_now() - start;
-  return explain(a, status, message);
-}
-
 hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2d_target *target,
                                hr2di_message *message) {
   const double start = hr2di_clock_now();
@@ -125,6 +118,7 @@ hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2d_target *target,
 }
 
 void hr2di_graded_clear(hr2di_graded *a) {
+  if (a->hierarchy) hr2di_alloc_free(&a->hierarchy->alloc, a->bent);
   hr2d_solution_destroy(a->solution);
   hr2d_linkset_destroy(a->links);
   hr2d_hierarchy_destroy(a->hierarchy);

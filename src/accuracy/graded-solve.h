@@ -6,6 +6,7 @@
 
 #include <hr2d/accuracy.h>
 
+#include "accuracy/kinks.h"
 #include "accuracy/mesh-grading.h"
 #include "base/message.h"
 
@@ -20,8 +21,11 @@ typedef struct hr2di_resolution {
   int crowded;            /* it has very many */
   unsigned generations;   /* elements end at events of so many generations */
   unsigned halvings;      /* additional ones of every element, if there are too many events */
-  const double *weight;   /* per patch: the factor from a relative error of its radiosity to
-                             one of the value asked for; NULL: 1 */
+  double kinks;           /* the error that events inside elements may make; 0: elements end at
+                             all events */
+  const hr2di_lights *lights; /* of patches, to tell which events matter */
+  const double *weight;       /* per patch: the factor from a relative error of its radiosity to
+                                 one of the value asked for; NULL: 1 */
 } hr2di_resolution;
 
 typedef struct hr2di_graded {
@@ -29,6 +33,7 @@ typedef struct hr2di_graded {
   hr2d_linkset *links;
   hr2d_solution *solution; /* NULL until solved */
   hr2di_survey survey;
+  double *bent; /* see hr2di_kinks_cut(); NULL: no event is left inside an element */
   uint64_t events;
   uint64_t kernels;
   double refine_seconds, coefficients_seconds, solve_seconds;
@@ -39,12 +44,6 @@ typedef struct hr2di_graded {
 hr2d_status hr2di_graded_refine(hr2di_graded *answer, const hr2d_scene *scene,
                                 const hr2di_resolution *fineness, const hr2d_target *target,
                                 hr2di_message *message);
-
-/* Takes the elements of another graded solve, and links them for the order of `fineness`;
-   returns likewise. */
-hr2d_status hr2di_graded_reorder(hr2di_graded *answer, const hr2di_graded *from,
-                                 const hr2di_resolution *fineness, const hr2d_target *target,
-                                 hr2di_message *message);
 
 /* Solves on them; returns likewise. */
 hr2d_status hr2di_graded_solve(hr2di_graded *answer, const hr2d_target *target,

@@ -97,8 +97,39 @@ static void multiply(hr2di_equation *eq, const hr2d_solution *solution, const wa
   }
 }
 
-static hr2d_status weigh(const hr2di_graded *coarse, const hr2d_target *target,
-                         double *weight) {
+static void set_weights(const hr2d_scene *scene, const double *product, double *weight) {
+  for (size_t k = 0; k < scene->patches; k++) {
+    weight[k] = LEAST;
+    for (size_t b = 0; b < scene->bands; b++)
+      weight[k] = fmax(weight[k], product[k * scene->bands + b]);
+    weight[k] = fmin(weight[k], 1);
+  }
+}
+
+static hr2d_status set_lights(hr2di_equation *eq, const hr2d_solution *solution,
+                              const wanted *w, hr2di_lights *lights) {
+  hr2di_transport *t = &eq->transport;
+  const size_t patches = t->hierarchy->scene->patches, values = patches * t->bands;
+  lights->radiosity = hr2di_alloc(&t->alloc, values, sizeof *lights->radiosity);
+  lights->importance = hr2di_alloc(&t->alloc, values, sizeof *lights->importance);
+  if (!lights->radiosity || !lights->importance) return HR2D_ENOMEM;
+  hr2di_transport_pull(t, eq->radiosity);
+  for (size_t k = 0; k < values; k++) {
+    const size_t patch = k / t->bands, b = k % t->bands;
+    lights->radiosity[k] = hr2d_solution_average(solution, patch, b);
+    lights->importance[k] = w->most[b] > 0 ? t->up[patch * t->width + b] / w->most[b] : 0;
+  }
+  return hr2di_watch_work(t->watch, values / 8);
+}
+
+void hr2di_lights_clear(hr2di_lights *lights, const hr2d_scene *scene) {
+  hr2di_alloc_free(&scene->alloc, lights->radiosity);
+  hr2di_alloc_free(&scene->alloc, lights->importance);
+  *lights = (hr2di_lights){0};
+}
+
+static hr2d_status weigh(const hr2di_graded *coarse, const hr2d_target *target, double *weight,
+                         hr2di_lights *lights) {
   const hr2d_scene *scene = coarse->hierarchy->scene;
   const hr2d_allocator *alloc = &coarse->links->alloc;
   const size_t values = scene->patches * scene->bands;
@@ -120,30 +151,33 @@ static hr2d_status weigh(const hr2di_graded *coarse, const hr2d_target *target,
     want(coarse->solution, hr2d_solution_irradiance, target, w.most, w.of_h, &eq.watch);
     status = hr2di_watch_status(&eq.watch);
     if (!status) status = solve_adjoint(&eq, &w);
-    if (!status) multiply(&eq, coarse->solution, &w, product);
+    if (!status && lights) status = set_lights(&eq, coarse->solution, &w, lights);
+    if (!status && weight) multiply(&eq, coarse->solution, &w, product);
     if (!status) status = hr2di_watch_status(&eq.watch);
   }
-  for (size_t k = 0; k < scene->patches && !status; k++) {
-    weight[k] = LEAST;
-    for (size_t b = 0; b < scene->bands; b++)
-      weight[k] = fmax(weight[k], product[k * scene->bands + b]);
-    weight[k] = fmin(weight[k], 1);
-  }
+  if (!status && weight) set_weights(scene, product, weight);
   hr2di_alloc_free(alloc, space);
   hr2di_equation_clear(&eq);
   return status;
 }
 
+/* Whether something else than the scene or memory ended a coarse solve. */
+static int is_spared(hr2d_status status) {
+  return status == HR2D_EMAX_ELEMENTS || status == HR2D_EMAX_LINKS ||
+         status == HR2D_EMAX_BYTES || status == HR2D_ENOT_CONVERGED;
+}
+
 hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *target, double *weight,
-                             hr2di_message *message) {
+                             hr2di_lights *lights, hr2di_message *message) {
   const hr2di_resolution fineness = {.order = 2, .target = 0.1, .norm = target->norm};
   hr2di_graded coarse;
   hr2d_status status = hr2di_graded_refine(&coarse, scene, &fineness, target, message);
   if (!status) status = hr2di_graded_solve(&coarse, target, message);
   if (!status) {
-    status = weigh(&coarse, target, weight);
+    status = weigh(&coarse, target, weight, lights);
     if (status) hr2di_message_fail(message, status, "importance: %s", hr2d_strerror(status));
   }
   hr2di_graded_clear(&coarse);
-  return status;
+  if (status && lights) hr2di_lights_clear(lights, scene);
+  return !weight && is_spared(status) ? HR2D_OK : status;
 }

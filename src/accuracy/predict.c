@@ -7,6 +7,7 @@
 
 #include "accuracy/corner-residuals.h"
 #include "accuracy/error-estimate.h"
+#include "accuracy/importance.h"
 #include "accuracy/resolution.h"
 #include "accuracy/target.h"
 #include "base/alloc.h"
@@ -25,18 +26,18 @@ enum { ATTEMPTS = 8, MORE = 2, MOST_BANDS = 4 };
 
 #define SHORT 0.02
 
-/* Gathers of an account of the error: terms of the series, and solves that are not to full
-   precision, for the error, two sums without signs, and roundings (see error-estimate.c). */
-#define ERROR_GATHERS    12
-#define ERROR_ITERATIONS 1.6
+/* Gathers of an account of the error, with the finer operator (see error-estimate.c); and
+   iterations, in terms of those of the solve, with a part of it of half the order. */
+#define ERROR_GATHERS    16
+#define ERROR_ITERATIONS 2.5
 
 #define CALLS 2.5  /* times the coarse solve: work that does not depend on the order */
 #define REST  1.75 /* of gathers, for work that is not counted: fields set up and copied */
 
-/* The cost of an operator: seconds to make its links and blocks, and seconds of one gather. */
+/* Seconds to make links and blocks, and of one gather: of the solve, of the finer operator, and
+   of its part. */
 typedef struct cost {
-  uint64_t elements, leaves, links, bytes;
-  double make, gather;
+  double make, gather, finer, part;
 } cost;
 
 /* A coarse solve: its iterations, which hardly depend on the order, its time, for calls that
@@ -84,26 +85,34 @@ static double time_product(size_t order, size_t bands) {
 /* A gather multiplies each block.  What push and pull, closure and the Krylov method do per
    element was measured to take four products, and closure to make about as much as distant
    blocks; such shares hardly depend on the machine. */
-static hr2d_status measure(const hr2d_scene *scene, const hr2di_graded *from,
-                           const hr2di_resolution *fineness, const hr2d_target *target,
-                           hr2di_graded *a, cost *c) {
-  hr2di_message message;
-  hr2d_status status = from ? hr2di_graded_reorder(a, from, fineness, target, &message)
-                            : hr2di_graded_refine(a, scene, fineness, target, &message);
-  if (status) return status;
+static double time_gather(const hr2di_graded *a, size_t order) {
+  const size_t bands = a->hierarchy->scene->bands;
+  const size_t timed = bands < MOST_BANDS ? bands : MOST_BANDS;
+  const double products = (double)hr2d_linkset_size(a->links) +
+                          1.5 * (double)hr2d_hierarchy_count(a->hierarchy).elements;
+  return time_product(order, timed) * products * ((double)bands / (double)timed);
+}
+
+/* Blocks are made once, for the finer operator if there is an account. */
+static hr2d_status measure(const hr2di_resolution *fineness, const hr2d_target *target,
+                           hr2di_graded *a, cost *c, hr2d_prediction *p) {
+  const hr2d_scene *scene = a->hierarchy->scene;
+  const unsigned finer = hr2di_resolution_finer(fineness).order;
+  const unsigned made = target->no_error ? fineness->order : finer;
   const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(a->hierarchy);
-  const size_t timed = scene->bands < MOST_BANDS ? scene->bands : MOST_BANDS;
-  const double bands = (double)scene->bands / (double)timed;
-  c->elements = counts.elements;
-  c->leaves = counts.leaves;
-  c->links = hr2d_linkset_size(a->links);
-  c->bytes = hr2di_graded_bytes(a) + c->links * (8 * fineness->order * fineness->order + 1);
+  p->order = fineness->order;
+  p->elements = counts.elements;
+  p->leaves = counts.leaves;
+  p->links = hr2d_linkset_size(a->links);
+  p->bytes = hr2di_graded_bytes(a) + p->links * (8 * made * made + 1);
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "coefficients");
-  status = time_blocks(a, fineness->order, &watch, &c->make);
+  const hr2d_status status = time_blocks(a, made, &watch, &c->make);
   c->make = c->make / (double)hr2di_team_threads(target->threads) + a->refine_seconds;
-  c->gather = time_product(fineness->order, timed) * bands *
-              ((double)c->links + 1.5 * (double)c->elements);
+  c->gather = time_gather(a, fineness->order);
+  if (target->no_error) return status;
+  c->finer = time_gather(a, finer);
+  c->part = time_gather(a, finer / 2);
   return status;
 }
 
@@ -157,33 +166,31 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
   hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "refine");
   hr2d_status status = hr2di_resolution_survey(scene, target->threads, &watch, &survey);
   if (status) return status;
-  const hr2di_resolution fineness = hr2di_resolution_for(scene, &survey, aim, target->norm);
-  const hr2di_resolution finer = hr2di_resolution_finer(&fineness);
-  hr2di_graded first = {0}, second = {0};
-  cost solve = {0}, error = {0};
-  const int reflects = scene->effect[HR2D_EFFECT_INTERREFLECTION].on;
+  hr2di_message message;
+  hr2di_lights lights = {0};
+  if (hr2di_resolution_wants_lights(scene, target))
+    status = hr2di_importance(scene, target, NULL, &lights, &message);
+  const hr2di_resolution fineness = hr2di_resolution_for(scene, &survey, aim, target->norm,
+                                                         lights.radiosity ? &lights : NULL);
+  hr2di_graded a = {0};
+  cost c = {0};
   trial coarse = {0};
-  status = try_coarse(scene, target, &coarse);
-  if (!status) status = measure(scene, NULL, &fineness, target, &first, &solve);
-  if (!status && !target->no_error)
-    status = measure(scene, &first, &finer, target, &second, &error);
+  if (!status) status = try_coarse(scene, target, &coarse);
+  if (!status) status = hr2di_graded_refine(&a, scene, &fineness, target, &message);
+  if (!status) status = measure(&fineness, target, &a, &c, p);
   if (!status) {
-    p->order = fineness.order;
-    p->elements = solve.elements;
-    p->leaves = solve.leaves;
-    p->links = solve.links;
-    p->bytes = solve.bytes + error.bytes;
-    const double gathers =
-        coarse.iterations * solve.gather +
-        (ERROR_GATHERS + ERROR_ITERATIONS * coarse.iterations) * error.gather;
-    const double points = (double)hr2di_contacts_points(first.links) * coarse.point *
-                          sqrt((double)solve.leaves / (double)coarse.leaves);
-    p->seconds = CALLS * coarse.seconds + solve.make + error.make + REST * gathers +
-                 (reflects && !target->no_error ? points : 0);
+    const int gathers_points =
+        scene->effect[HR2D_EFFECT_INTERREFLECTION].on && !target->no_error;
+    const double points = (double)hr2di_contacts_points(a.links) * coarse.point *
+                          sqrt((double)p->leaves / (double)coarse.leaves);
+    const double gathers = coarse.iterations * c.gather + ERROR_GATHERS * c.finer +
+                           ERROR_ITERATIONS * coarse.iterations * c.part;
+    p->seconds =
+        CALLS * coarse.seconds + c.make + REST * gathers + (gathers_points ? points : 0);
     set_range(p);
   }
-  hr2di_graded_clear(&first);
-  hr2di_graded_clear(&second);
+  hr2di_graded_clear(&a);
+  hr2di_lights_clear(&lights, scene);
   return status;
 }
 

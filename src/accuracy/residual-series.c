@@ -9,12 +9,21 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
+#include "accuracy/importance.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 #include "solve/closure.h"
 
-enum { TERMS = 4 };
+enum { TERMS = 5, FEW_TERMS = 2, ROUNDS = 6 };
+
+/* The relative accuracy of a solve for what the first terms leave. */
+#define REST 1e-6
+
+/* The part of the error that may be left, and how much less is left after a round at least. */
+#define ENOUGH  0.05
+#define SLOWEST 0.5
 
 void hr2di_residual_reflect(hr2di_equation *eq, double *field) {
   hr2di_equation_gather(eq, field);
@@ -60,22 +69,97 @@ void hr2di_residual_set(hr2di_estimator *e) {
     const size_t leaf = k / t->width, m = k % t->width;
     const int exact = m < t->bands && hr2di_balance_closed(&eq->balance, leaf);
     e->rest[k] = e->kept[k] - (exact ? hr2di_balance_at(&eq->balance, t, leaf, m) : 0);
-    e->error[k] = 0;
+    e->error[k] = eq->irradiance[k] = 0;
   }
   eq->background = 0;
 }
 
-/* B − B_h: the first terms of the series, and its tail. */
-static hr2d_status sum_series(hr2di_estimator *e) {
+/* The largest average of a field, relative to that of B. */
+static double worst_average(hr2di_estimator *e, const double *field) {
+  const size_t bands = e->eq.transport.bands;
+  double *average = e->rounding[0], worst = 0;
+  hr2di_estimator_averages(e, field, average);
+  for (size_t k = 0; k < e->values; k++) {
+    const double least = hr2di_estimator_least(e, 0, k / bands, k % bands);
+    if (least > 0 && hr2di_is_important(e->target, k / bands))
+      worst = fmax(worst, fabs(average[k]) / least);
+  }
+  return worst;
+}
+
+/* Sets the source to r + ρK(B − B_h) − (B − B_h), what is left to solve for, and H to that of
+   B − B_h. */
+static void set_rest(hr2di_estimator *e) {
+  hr2di_equation *eq = &e->eq;
+  hr2di_equation_gather(eq, e->error);
+  for (size_t k = 0; k < eq->field; k++)
+    eq->source[k] =
+        e->residual[k] + eq->root_rho[k] * eq->root_rho[k] * eq->irradiance[k] - e->error[k];
+}
+
+/* Sets e->error to the first terms, and the source to the last of them. */
+static void sum_terms(hr2di_estimator *e, int terms) {
   hr2di_equation *eq = &e->eq;
   for (size_t k = 0; k < eq->field; k++) eq->source[k] = e->error[k] = e->residual[k];
-  for (int term = 1; term <= TERMS; term++) {
+  for (int term = 1; term < terms; term++) {
     hr2di_residual_reflect(eq, eq->source);
-    for (size_t k = 0; k < eq->field && term < TERMS; k++) e->error[k] += eq->source[k];
+    for (size_t k = 0; k < eq->field; k++) e->error[k] += eq->source[k];
   }
-  const hr2d_status status = hr2di_estimator_solve(e, 1e-6);
+}
+
+/* Adds to e->error what is left to solve for, by the part of the equation, and by it again
+   while that makes what is left smaller.  Returns HR2D_OK with e->whole set if it does not:
+   light that is reflected many times in a narrow gap or corner has too many coefficients. */
+static hr2d_status add_rest(hr2di_estimator *e) {
+  hr2di_equation *eq = &e->eq;
+  double *const irradiance = eq->b;
+  double before = HUGE_VAL;
+  set_rest(e);
+  for (int round = 0; round < ROUNDS; round++) {
+    memcpy(irradiance, eq->irradiance, eq->field * sizeof *irradiance);
+    const hr2d_status status = hr2di_estimator_solve(e, hr2di_estimator_tolerance(e, REST));
+    if (status || e->whole) return status;
+    memcpy(eq->irradiance, irradiance, eq->field * sizeof *irradiance);
+    const double all = worst_average(e, e->error), more = worst_average(e, eq->radiosity);
+    if (round > 0 && more > SLOWEST * before) break;
+    if (round > 0 && more <= ENOUGH * all) return HR2D_OK;
+    for (size_t k = 0; k < eq->field; k++) e->error[k] += eq->radiosity[k];
+    set_rest(e);
+    before = more;
+  }
+  e->whole = 1;
+  return hr2di_watch_status(eq->transport.watch);
+}
+
+static hr2d_status sum_series(hr2di_estimator *e) {
+  hr2di_equation *eq = &e->eq;
+  sum_terms(e, FEW_TERMS);
+  hr2d_status status = add_rest(e);
+  if (status || !e->whole) return status;
+  sum_terms(e, TERMS);
+  for (size_t k = 0; k < eq->field; k++) e->error[k] -= eq->source[k];
+  status = hr2di_estimator_solve(e, REST);
   for (size_t k = 0; k < eq->field; k++) e->error[k] += eq->radiosity[k];
+  hr2di_equation_gather(eq, e->error);
   return status;
+}
+
+/* Of the effect of a kink inside an element, which falls like p⁻³, coefficients p and p + 1
+   show 1 − (p/(p+2))³.  Kinks count where they make a good part of these. */
+#define KINK 0.5
+
+static void saturate_kinks(hr2di_estimator *e) {
+  const hr2di_transport *t = &e->eq.transport;
+  const size_t order = e->coarse->order;
+  const double ratio = (double)order / (double)t->order, theta = 1 - ratio * ratio * ratio;
+  for (size_t k = 0; k < t->leaves; k++)
+    for (size_t b = 0; b < t->bands; b++) {
+      double *residual = e->residual + k * t->width + b, seen = 0;
+      for (size_t l = order; l < t->order; l++) seen = hypot(seen, residual[l * t->bands]);
+      const double kinks = e->bent[t->leaf[k] * t->bands + b];
+      if (!(kinks > 0) || ldexp(kinks, -e->eq.exponent[b]) < KINK * seen) continue;
+      for (size_t l = order; l < t->order; l++) residual[l * t->bands] /= theta;
+    }
 }
 
 hr2d_status hr2di_residual_solve(hr2di_estimator *e) {
@@ -86,6 +170,7 @@ hr2d_status hr2di_residual_solve(hr2di_estimator *e) {
   if (!status)
     status = hr2di_contacts_saturate(&e->contacts, &eq->transport, e->coarse->order,
                                      e->exponent, e->residual);
+  if (!status && e->bent) saturate_kinks(e);
   return status ? status : sum_series(e);
 }
 
@@ -129,11 +214,10 @@ static void add_all_nearby(hr2di_estimator *e) {
   }
 }
 
-/* Errors of averages and points, from B − B_h. */
+/* Errors of averages and points, from B − B_h and its irradiance. */
 void hr2di_residual_measure(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
-  hr2di_equation_gather(eq, e->error);
   hr2di_estimator_averages(e, eq->irradiance, e->average[0]);
   for (size_t k = 0; k < e->values; k++) e->average[1][k] += e->average[0][k];
   hr2di_estimator_averages(e, e->error, e->average[0]);

@@ -45,26 +45,44 @@ static unsigned generations_for(double aim, hr2d_norm norm) {
   return aim >= 0.05 ? 1 : aim >= 1e-4 ? 2 : aim >= 1e-7 ? 3 : 4;
 }
 
+static int is_hidden(const hr2d_scene *scene) {
+  return scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
+         scene->effect[HR2D_EFFECT_FACING].called_for ||
+         scene->effect[HR2D_EFFECT_BACKGROUND].called_for;
+}
+
+/* More than LIT patches have too many events to look at one by one for a few digits, and more
+   than MANY_LIT for any.  Shares of events add up to KINKS times the target: they are without
+   signs, and of all patches together. */
+enum { LIT = 128, MANY_LIT = 1000 };
+#define KINKS 0.5
+
+int hr2di_resolution_wants_lights(const hr2d_scene *scene, const hr2d_target *target) {
+  const size_t most = target->error < CROWDED_AIM ? MANY_LIT : LIT;
+  return target->norm == HR2D_NORM_AVERAGE && is_hidden(scene) && scene->patches <= most &&
+         !(target->seconds > 0);
+}
+
 /* In narrow corners with much reflection light is reflected to and fro often, and errors with
    it.  So the error must be smaller there by γ², from measurements at 10° to 150° and ρ up to
    0.999. */
 hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_survey *survey,
-                                      double aim, hr2d_norm norm) {
+                                      double aim, hr2d_norm norm, const hr2di_lights *lights) {
   const double error = aim * fmax(survey->exponent * survey->exponent, 1e-3);
   const double order = ceil(log(EASY / error) / digits_per_order(survey, norm));
-  const int hidden = scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
-                     scene->effect[HR2D_EFFECT_FACING].called_for ||
-                     scene->effect[HR2D_EFFECT_BACKGROUND].called_for;
+  const int hidden = is_hidden(scene);
   const double least = aim < THREE ? 3 : 2;
   hr2di_resolution f = {.order = (unsigned)fmin(fmax(order, least), HR2D_MAX_ORDER - 2),
                         .target = fmin(0.25 * error, 1),
                         .cluster_accuracy = fmax(0.02 * error, 1e-14),
                         .norm = norm,
                         .hidden = hidden,
+                        .kinks = lights ? KINKS * aim : 0,
+                        .lights = lights,
                         .generations = hidden ? generations_for(aim, norm) : 0};
   if (is_crowded(scene, hidden) && aim >= CROWDED_AIM) {
     f.order = f.order < 3 ? 3 : f.order;
-    f.generations = 0;
+    f.generations = f.kinks > 0;
     f.halvings = aim >= 3e-2 ? 0 : aim >= 3e-3 ? 1 : 2;
   }
   f.crowded = is_crowded(scene, hidden);
@@ -74,6 +92,16 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
 /* Doubles have no more digits than that; after an overflow the factor may be larger. */
 #define MOST_FACTOR 1e16
 
+/* Events inside elements make less.  If that has not been enough before, all of them count;
+   returns 0 then, and 1 otherwise. */
+static int raise_kinks(hr2di_resolution *f, double factor) {
+  if (!(f->kinks > 0)) return 0;
+  f->kinks = f->corner_levels > 0 ? 0 : f->kinks / (4 * factor);
+  if (f->kinks > 0) return 1;
+  if (f->crowded && f->halvings > 0) f->generations = 0; /* elements are halved instead */
+  return 0;
+}
+
 int hr2di_resolution_raise(hr2di_resolution *f, const hr2di_survey *survey, double factor) {
   const double gamma = survey->exponent;
   const double slope = f->norm == HR2D_NORM_SUP ? fmax(gamma, 0.05) : 1 + 2 * gamma;
@@ -82,6 +110,10 @@ int hr2di_resolution_raise(hr2di_resolution *f, const hr2di_survey *survey, doub
   const double more = fmax(ceil(log(factor) / digits_per_order(survey, f->norm)), 1);
   f->cluster_accuracy = fmax(f->cluster_accuracy / factor, 1e-14);
   f->order = (unsigned)fmin(f->order + more, HR2D_MAX_ORDER - 2);
+  if (raise_kinks(f, factor)) {
+    f->corner_levels += (unsigned)fmax(ceil(log2(factor) / slope), 1);
+    return 0;
+  }
   f->corner_levels += (unsigned)fmax(ceil(log2(factor) / slope), 1);
   if (f->crowded && f->generations == 0 && f->halvings < MOST_HALVINGS)
     f->halvings++;

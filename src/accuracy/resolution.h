@@ -10,9 +10,12 @@
 hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, unsigned threads,
                                     hr2di_watch *watch, hr2di_survey *survey);
 
-/* A first guess at the resolution for an error. */
+/* Whether lights of patches help: to choose events for a target of averages. */
+int hr2di_resolution_wants_lights(const hr2d_scene *scene, const hr2d_target *target);
+
+/* A first guess at the resolution for an error; with lights of patches, or NULL. */
 hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_survey *survey,
-                                      double error, hr2d_norm norm);
+                                      double error, hr2d_norm norm, const hr2di_lights *lights);
 
 /* Raises the resolution, so that the error may fall by `factor`.  Returns 0, or -1 if it cannot
    be finer. */

@@ -14,6 +14,7 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "accuracy/importance.h"
 #include "accuracy/residual-series.h"
@@ -23,10 +24,6 @@
 #define ROW    1e-2
 #define SAMPLE 1e-1
 
-static double tolerance(double part, double contrast) {
-  return fmax(part * contrast, 1e-14);
-}
-
 /* A random bit, the same on every machine (the finalizer of MurmurHash3). */
 static int is_turned(uint64_t k) {
   uint64_t x = k + 1;
@@ -35,41 +32,23 @@ static int is_turned(uint64_t k) {
   return (int)((x ^ (x >> 33)) & 1);
 }
 
-/* The least of min least/max least over the bands: the norm of a solve has the largest values,
-   and dark patches have errors, too. */
-static double contrast(const hr2di_estimator *e, int irradiance) {
-  const size_t bands = e->eq.transport.bands, patches = e->values / bands;
-  double ratio = 1;
-  for (size_t b = 0; b < bands; b++) {
-    double min = HUGE_VAL, max = 0;
-    for (size_t k = 0; k < patches; k++) {
-      const double least = hr2di_estimator_least(e, irradiance, k, b);
-      if (least > 0 && hr2di_is_important(e->target, k)) min = fmin(min, least);
-      max = fmax(max, least);
-    }
-    if (max > 0) ratio = fmin(ratio, min / max);
-  }
-  return ratio;
-}
-
 /* Sets e->rounding to the root of the squares of Mσ, for averages of B and of H, and of the
    errors themselves: B is off by σr and ρ times what H is.  Changes e->most and e->error. */
 static hr2d_status sample(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   hr2di_transport *t = &eq->transport;
   double *const own = e->most, *const first = e->error;
-  const double dark = fmin(contrast(e, 0), contrast(e, 1));
   for (size_t k = 0; k < eq->field; k++)
     eq->source[k] = is_turned(k / t->width) ? -e->residual[k] : e->residual[k];
   hr2di_estimator_averages(e, eq->source, own);
   hr2di_residual_reflect(eq, eq->source);
   hr2di_estimator_averages(e, eq->irradiance, first);
-  const hr2d_status status = hr2di_estimator_solve(e, tolerance(SAMPLE, dark));
+  const hr2d_status status = hr2di_estimator_solve(e, hr2di_estimator_tolerance(e, SAMPLE));
   if (status) return status;
   hr2di_transport_pull(t, eq->irradiance);
   for (size_t k = 0; k < e->values; k++) {
     const size_t patch = k / t->bands, b = k % t->bands;
-    const double h = first[k] + ldexp(t->up[patch * t->width + b], e->exponent_of[b]);
+    const double h = first[k] + t->up[patch * t->width + b];
     const double rho = hr2d_scene_reflectance(t->hierarchy->scene, patch, b);
     e->rounding[0][k] = hypot(e->average[0][k], own[k] + rho * h);
     e->rounding[1][k] = hypot(e->average[1][k], h);
@@ -118,13 +97,27 @@ static void sum_row(hr2di_estimator *e, size_t b, double unit, double sum[2]) {
     double part[2] = {0, 0};
     for (size_t l = 0; l < t->order; l++) {
       const size_t k = leaf * t->width + l * t->bands + b;
-      const double z = ldexp(eq->irradiance[k], e->exponent_of[b]);
-      const double s = rho > 0 ? ldexp(eq->source[k], e->exponent_of[b]) / rho : 0;
-      part[0] += unit * (z + s) * e->residual[k];
-      part[1] += z * e->residual[k];
+      const double s = rho > 0 ? eq->source[k] / rho : 0;
+      part[0] += unit * (eq->irradiance[k] + s) * e->residual[k];
+      part[1] += eq->irradiance[k] * e->residual[k];
     }
     for (int h = 0; h < 2; h++) sum[h] += area * fabs(part[h]);
   }
+}
+
+/* Residuals have the coefficients that the part of the equation lacks.  Z has them from two
+   gathers, between which the part takes on what is left. */
+static hr2d_status complete(hr2di_estimator *e, int choice) {
+  hr2di_equation *eq = &e->eq;
+  double *const first = e->error;
+  memcpy(first, eq->radiosity, eq->field * sizeof *first);
+  hr2di_residual_reflect(eq, eq->radiosity);
+  for (size_t k = 0; k < eq->field; k++) eq->source[k] += eq->radiosity[k] - first[k];
+  const hr2d_status status = hr2di_estimator_solve(e, hr2di_estimator_tolerance(e, ROW));
+  for (size_t k = 0; k < eq->field; k++) first[k] += eq->radiosity[k];
+  hr2di_equation_gather(eq, first);
+  set_source(e, choice);
+  return status;
 }
 
 /* Raises the sums of B and of H by those of the patches chosen for one of them. */
@@ -132,7 +125,8 @@ static hr2d_status sum_rows(hr2di_estimator *e, int choice) {
   const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
   const size_t bands = e->eq.transport.bands;
   set_source(e, choice);
-  const hr2d_status status = hr2di_estimator_solve(e, tolerance(ROW, contrast(e, 1)));
+  hr2d_status status = hr2di_estimator_solve(e, hr2di_estimator_tolerance(e, ROW));
+  if (!status && !e->whole) status = complete(e, choice);
   for (size_t b = 0; b < bands && !status; b++) {
     const size_t patch = worst_patch(e, choice, b);
     const double least = hr2di_estimator_least(e, 0, patch, b);

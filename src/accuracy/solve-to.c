@@ -34,6 +34,7 @@ typedef struct search {
   hr2di_graded best;
   hr2di_resolution fineness; /* of the best */
   double *weight;            /* per patch, where importance is asked for */
+  hr2di_lights lights;       /* of patches, where there are events */
   hr2d_account account;      /* of the best, with all times */
   hr2d_error error;          /* of the best, the larger one of B and H */
   double rounding;           /* the part of its bound that is rounding */
@@ -135,6 +136,7 @@ static hr2d_status attempt(search *s, const hr2di_resolution *fineness) {
   hr2di_error_pair errors;
   hr2d_status status =
       hr2di_graded_refine(&answer, s->scene, fineness, &s->target, &s->message);
+  if (!status && !s->given.no_error) hr2di_error_prepare(&answer, fineness);
   if (!status) status = hr2di_graded_solve(&answer, &s->target, &s->message);
   add_times(&s->account, &answer);
   const double start = hr2di_clock_now();
@@ -146,7 +148,6 @@ static hr2d_status attempt(search *s, const hr2di_resolution *fineness) {
     keep(s, &answer, &unknown);
   } else if (!status) {
     const double error = worst_of(&errors, s->target.norm).estimate;
-    s->account.kernels += errors.kernels;
     if (!s->best.solution || error < error_of(s) || !isfinite(error_of(s))) {
       keep(s, &answer, &errors);
       s->fineness = *fineness;
@@ -169,7 +170,8 @@ static int is_rounding(const search *s) {
 
 /* The resolution to begin with: no coarser than the best one so far, which was not enough. */
 static hr2di_resolution first_resolution(const search *s, double error) {
-  hr2di_resolution guess = hr2di_resolution_for(s->scene, &s->survey, error, s->target.norm);
+  hr2di_resolution guess = hr2di_resolution_for(s->scene, &s->survey, error, s->target.norm,
+                                                s->lights.radiosity ? &s->lights : NULL);
   hr2di_resolution finer = s->fineness;
   guess.weight = s->weight;
   const int known = s->best.solution && isfinite(error_of(s));
@@ -250,11 +252,15 @@ static hr2d_status settle(search *s, hr2d_status status) {
   return status == HR2D_EACCURACY && all_there_is ? HR2D_OK : status;
 }
 
+/* Without lights of patches elements end at all events. */
 static hr2d_status weigh_patches(search *s) {
-  if (!s->given.important) return HR2D_OK;
-  s->weight = hr2di_alloc(&s->scene->alloc, s->scene->patches, sizeof *s->weight);
-  if (!s->weight) return HR2D_ENOMEM;
-  return hr2di_importance(s->scene, &s->target, s->weight, &s->message);
+  hr2di_lights *lights = hr2di_resolution_wants_lights(s->scene, &s->given) ? &s->lights : NULL;
+  if (!s->given.important && !lights) return HR2D_OK;
+  if (s->given.important) {
+    s->weight = hr2di_alloc(&s->scene->alloc, s->scene->patches, sizeof *s->weight);
+    if (!s->weight) return HR2D_ENOMEM;
+  }
+  return hr2di_importance(s->scene, &s->target, s->weight, lights, &s->message);
 }
 
 /* Hands the best solution over; it owns its hierarchy and its links from then on. */
@@ -263,6 +269,7 @@ static void hand_over(search *s, hr2d_solution **solution) {
   if (!*solution) return;
   (*solution)->own_hierarchy = s->best.hierarchy;
   (*solution)->own_links = s->best.links;
+  hr2di_alloc_free(&s->scene->alloc, s->best.bent);
   s->best = (hr2di_graded){0};
 }
 
@@ -298,6 +305,7 @@ hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
   s.account.seconds = hr2di_clock_now() - s.start;
   if (account) *account = s.account;
   hr2di_graded_clear(&s.best);
+  hr2di_lights_clear(&s.lights, scene);
   hr2di_alloc_free(&scene->alloc, s.weight);
   hr2di_target_clear(&s.given, scene);
   return status;

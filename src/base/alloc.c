@@ -63,6 +63,10 @@ int hr2di_alloc_reserve(const hr2d_allocator *alloc, void *array, size_t *capaci
   return 0;
 }
 
+void *hr2di_alloc_shrink(const hr2d_allocator *alloc, void *block, size_t count, size_t size) {
+  return alloc->reallocate(alloc->ctx, block, count * size > 0 ? count * size : 1);
+}
+
 void hr2di_alloc_free(const hr2d_allocator *alloc, void *block) {
   if (block) alloc->release(alloc->ctx, block);
 }

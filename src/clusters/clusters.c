@@ -15,8 +15,9 @@
 /* NEAR pairs are handed over at a time.  A link costs as much as its points times those of
    the other, a pair of patches as much as WORTH of these.  Where so FEW pairs of patches are
    left, and walls may be in the way, they are put off until rows tell which see each other.
-   Sines below a part in SLACK of the digits do not matter. */
-enum { NEAR = 256, WORTH = 8, FEW = 256, SLACK = 64 };
+   Sines below a part in SLACK of the digits do not matter, nor to links that are ten times as
+   accurate. */
+enum { NEAR = 256, WORTH = 8, FEW = 256, SLACK = 640 };
 
 /* What looking into two clusters may cost, as work. */
 enum { LOOKS = 100 };

@@ -23,6 +23,10 @@ typedef hr2d_status (*hr2di_near_fn)(void *ctx, const hr2d_pair *pairs, size_t c
 hr2d_status hr2di_clusters_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
                                   double accuracy, hr2di_near_fn near, void *ctx,
                                   hr2di_watch *watch, hr2di_clusters **clusters);
+/* The same links, more accurate: what they exchange differs by what those of `of` lack. HR2D_OK
+   or HR2D_ENOMEM. */
+hr2d_status hr2di_clusters_finer(const hr2di_clusters *of, double accuracy,
+                                 hr2di_clusters **clusters);
 void hr2di_clusters_destroy(hr2di_clusters *clusters);
 
 /* The number of cluster links, each for both directions. */

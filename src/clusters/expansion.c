@@ -3,6 +3,7 @@
 #include "clusters/expansion.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/pi.h"
@@ -20,6 +21,14 @@ double hr2di_expansion_degree(double accuracy, double m) {
   return log(1 / accuracy) / log(m + sqrt(m * m - 1));
 }
 
+static void set_counts(hr2di_expansion *far, double accuracy) {
+  for (int k = 0; k < 2; k++) {
+    const double degree =
+        far->half[k] > 0 ? hr2di_expansion_degree(accuracy, far->reach[k] / far->half[k]) : 0;
+    far->count[k] = (unsigned)fmin(fmax(ceil(degree), 1), HR2DI_EXPANSION_POINTS);
+  }
+}
+
 /* What is APART along the longer direction of half h is (APART−1)·h away from the cluster,
    so that along a shorter one m ≥ (APART−1)·h/half. */
 hr2di_expansion hr2di_expansion_of(const hr2di_cluster *c, double accuracy) {
@@ -31,10 +40,8 @@ hr2di_expansion hr2di_expansion_of(const hr2di_cluster *c, double accuracy) {
   for (int k = 0; k < 2; k++) {
     far.reach[k] = fmax(APART * far.half[k], (APART - 1) * longer);
     if (far.half[k] == longer) far.reach[k] = APART * longer;
-    const double degree =
-        far.half[k] > 0 ? hr2di_expansion_degree(accuracy, far.reach[k] / far.half[k]) : 0;
-    far.count[k] = (unsigned)fmin(fmax(ceil(degree), 1), HR2DI_EXPANSION_POINTS);
   }
+  set_counts(&far, accuracy);
   return far;
 }
 
@@ -157,4 +164,43 @@ hr2d_status hr2di_clusters_keep(hr2di_clusters *made, const hr2di_cluster_tree *
   if (!status) put_linked(made, tree, far, number);
   hr2di_alloc_free(&tree->alloc, number);
   return status;
+}
+
+static void put_finer(hr2di_clusters *made, const hr2di_clusters *of) {
+  put_cosines(made);
+  memcpy(made->home, of->home, of->scene->patches * sizeof *made->home);
+  memcpy(made->link, of->link, of->links * sizeof *made->link);
+  for (size_t k = 0; k < of->linked_count; k++) {
+    hr2di_linked *linked = &made->linked[k];
+    *linked = of->linked[k];
+    set_counts(&linked->far, made->accuracy);
+    linked->first = made->points;
+    made->points += hr2di_expansion_points(&linked->far);
+    put_points(made, linked);
+  }
+}
+
+hr2d_status hr2di_clusters_finer(const hr2di_clusters *of, double accuracy,
+                                 hr2di_clusters **clusters) {
+  hr2di_clusters *made = hr2di_alloc_zero(&of->alloc, 1, sizeof *made);
+  if (!made) return HR2D_ENOMEM;
+  *made = (hr2di_clusters){.alloc = of->alloc, .scene = of->scene, .accuracy = accuracy};
+  size_t points = 0;
+  for (size_t k = 0; k < of->linked_count; k++) {
+    hr2di_expansion far = of->linked[k].far;
+    set_counts(&far, accuracy);
+    points += hr2di_expansion_points(&far);
+  }
+  if (of->links > 0) made->link = hr2di_alloc(&of->alloc, of->links, sizeof *made->link);
+  hr2d_status status = made->link || of->links == 0 ? HR2D_OK : HR2D_ENOMEM;
+  if (!status && of->links > 0) status = reserve(made, of->linked_count, points);
+  if (status) {
+    hr2di_clusters_destroy(made);
+    return status;
+  }
+  made->links = made->link_capacity = of->links;
+  made->linked_count = of->linked_count;
+  if (of->links > 0) put_finer(made, of);
+  *clusters = made;
+  return HR2D_OK;
 }

@@ -3,6 +3,7 @@
 #include "links/link-blocks.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/team.h"
@@ -147,6 +148,20 @@ hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order, unsigned t
   else
     links->blocks = made;
   return status;
+}
+
+hr2d_status hr2di_link_blocks_trim(hr2di_link_blocks *b, size_t order,
+                                   const hr2d_allocator *alloc) {
+  if (order >= b->order || b->links == 0) return HR2D_OK;
+  double *to = b->value;
+  for (uint64_t k = 0; k < b->links; k++)
+    for (size_t l = 0; l < order; l++, to += order)
+      memmove(to, b->value + (k * b->order + l) * b->order, order * sizeof *to);
+  b->order = order;
+  to = hr2di_alloc_shrink(alloc, b->value, (size_t)b->links, order * order * sizeof *to);
+  if (!to) return HR2D_ENOMEM;
+  b->value = to;
+  return HR2D_OK;
 }
 
 void hr2di_link_blocks_clear(hr2di_link_blocks *blocks, const hr2d_allocator *alloc) {

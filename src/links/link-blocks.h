@@ -22,6 +22,10 @@ typedef struct hr2di_link_blocks {
 hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order, unsigned threads,
                                    hr2di_watch *watch);
 
+/* Keeps the first coefficients of all blocks alone.  HR2D_OK or HR2D_ENOMEM. */
+hr2d_status hr2di_link_blocks_trim(hr2di_link_blocks *blocks, size_t order,
+                                   const hr2d_allocator *alloc);
+
 void hr2di_link_blocks_clear(hr2di_link_blocks *blocks, const hr2d_allocator *alloc);
 
 #endif

@@ -60,7 +60,8 @@ static hr2d_status integrate_rows(hr2di_equation *s) {
 /* Makes the blocks that an order above 1 needs, unless a former solve has made them. */
 static hr2d_status integrate_blocks(hr2di_equation *s) {
   hr2d_linkset *links = s->links;
-  const unsigned order = links->hierarchy->order;
+  const size_t own = links->hierarchy->order;
+  const size_t order = own > 1 && links->block_order > own ? links->block_order : own;
   if (order == 1 || (links->blocks.order == order && links->blocks.links == links->store.count))
     return HR2D_OK;
   const double start = hr2di_clock_now();
@@ -90,17 +91,41 @@ static hr2d_status set_surfaces(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   const hr2d_scene *scene = t->hierarchy->scene;
   for (size_t k = 0; k < s->items && !status; k++) {
-    if (k % 1024 == 0) status = hr2di_watch_work(&s->watch, 1024 * (1 + t->bands) / 2);
+    if (k % 1024 == 0) status = hr2di_watch_work(t->watch, 1024 * (1 + t->bands) / 2);
     const hr2d_element *e = &t->hierarchy->element[t->leaf[k / t->order]];
     s->weight[k] = e->length;
-    for (size_t b = 0; b < t->bands; b++) {
-      const int constant = k % t->order == 0;
-      s->source[k * t->bands + b] =
-          constant ? ldexp(hr2d_scene_emission(scene, e->patch, b), -s->exponent[b]) : 0;
+    for (size_t b = 0; b < t->bands; b++)
       s->root_rho[k * t->bands + b] = sqrt(hr2d_scene_reflectance(scene, e->patch, b));
-    }
   }
   return status;
+}
+
+hr2d_status hr2di_equation_reserve(hr2di_equation *s) {
+  const hr2di_transport *t = &s->transport;
+  s->items = t->leaves * t->order;
+  s->field = t->leaves * t->width;
+  s->space = hr2di_alloc_zero(&s->links->alloc, s->items + 7 * s->field + 3 * t->bands,
+                              sizeof *s->space);
+  if (!s->space) return HR2D_ENOMEM;
+  double **const field[] = {&s->source, &s->root_rho, &s->radiosity, &s->irradiance,
+                            &s->y,      &s->b,        &s->work};
+  s->weight = s->space;
+  for (size_t k = 0; k < 7; k++) *field[k] = s->space + s->items + k * s->field;
+  s->norm[0] = s->space + s->items + 7 * s->field;
+  s->norm[1] = s->norm[0] + t->bands;
+  s->light = s->norm[1] + t->bands;
+  return set_surfaces(s);
+}
+
+/* E is constant on leaves. */
+static hr2d_status set_source(hr2di_equation *s) {
+  const hr2di_transport *t = &s->transport;
+  for (size_t k = 0; k < t->leaves; k++)
+    for (size_t b = 0; b < t->bands; b++)
+      s->source[k * t->width + b] = ldexp(
+          hr2d_scene_emission(t->hierarchy->scene, t->hierarchy->element[t->leaf[k]].patch, b),
+          -s->exponent[b]);
+  return hr2di_watch_work(t->watch, t->leaves * t->bands / 4);
 }
 
 hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
@@ -124,21 +149,12 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
   if (!status) status = hr2di_watch_work(&s->watch, t->leaves * t->width / 4);
   if (status) return status;
   hr2di_watch_phase(&s->watch, "solve");
-  s->items = t->leaves * t->order;
-  s->field = t->leaves * t->width;
-  s->space = hr2di_alloc_zero(&s->links->alloc, s->items + 7 * s->field + 3 * t->bands,
-                              sizeof *s->space);
   s->exponent = hr2di_alloc(&s->links->alloc, t->bands, sizeof *s->exponent);
-  if (!s->space || !s->exponent) return HR2D_ENOMEM;
-  double **const field[] = {&s->source, &s->root_rho, &s->radiosity, &s->irradiance,
-                            &s->y,      &s->b,        &s->work};
-  s->weight = s->space;
-  for (size_t k = 0; k < 7; k++) *field[k] = s->space + s->items + k * s->field;
-  s->norm[0] = s->space + s->items + 7 * s->field;
-  s->norm[1] = s->norm[0] + t->bands;
-  s->light = s->norm[1] + t->bands;
+  if (!s->exponent) return HR2D_ENOMEM;
+  status = hr2di_equation_reserve(s);
+  if (status) return status;
   set_exponents(s);
-  return set_surfaces(s);
+  return set_source(s);
 }
 
 /* out = √ρ K √ρ in */
@@ -177,9 +193,10 @@ static hr2d_status report(void *ctx, double residual) {
   s->looks++;
   if (s->transport.failed) return s->transport.failed;
   const double digits = residual > 0 ? log(residual) / log(s->options.tolerance) : 1;
-  s->watch.told.fraction = fmin(fmax(digits, 0), 1);
-  s->watch.told.residual = residual;
-  return hr2di_watch_ask(&s->watch);
+  hr2di_watch *watch = s->transport.watch;
+  watch->told.fraction = fmin(fmax(digits, 0), 1);
+  watch->told.residual = residual;
+  return hr2di_watch_ask(watch);
 }
 
 static hr2di_krylov_system make_system(hr2di_equation *s) {
@@ -192,7 +209,7 @@ static hr2di_krylov_system make_system(hr2di_equation *s) {
                                .scale = scale,
                                .report = report,
                                .ctx = s,
-                               .watch = &s->watch,
+                               .watch = s->transport.watch,
                                .tolerance = s->options.tolerance,
                                .max_iterations = s->options.max_iterations};
 }

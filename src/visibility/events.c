@@ -5,6 +5,8 @@
    side. */
 #include "visibility/events.h"
 
+#include <math.h>
+
 #include "base/alloc.h"
 #include "base/sort.h"
 #include "geometry/vector.h"
@@ -13,6 +15,9 @@
 
 /* Events so near to one another or to an end, as fractions of the patch, are one. */
 #define ALIKE 1e-12
+
+/* Of what light that passes an end beside the patch makes. */
+#define LARGEST 1e100
 
 typedef struct candidate {
   hr2di_event event;
@@ -25,8 +30,9 @@ typedef struct finder {
   size_t max;
   hr2di_watch *watch;
   hr2di_event_beams beams;
-  unsigned generation; /* of what is found now */
-  candidate *origin;   /* events of the generation before */
+  const candidate *from; /* the event that is looked from; NULL in generation 1 */
+  unsigned generation;   /* of what is found now */
+  candidate *origin;     /* events of the generation before */
   size_t origins, origin_capacity;
   candidate *found;
   size_t count, capacity;
@@ -52,11 +58,54 @@ static hr2d_status settle(finder *f) {
     candidate *last = kept > 0 ? &f->found[kept - 1] : NULL;
     if (!last || last->event.patch != c.event.patch || c.event.at - last->event.at >= ALIKE)
       f->found[kept++] = c;
-    else if (c.event.generation < last->event.generation)
+    else if (c.event.generation < last->event.generation ||
+             (c.event.generation == last->event.generation &&
+              c.event.spread > last->event.spread))
       *last = c;
   }
   f->count = kept;
   return kept > f->max ? HR2D_EMAX_ELEMENTS : HR2D_OK;
+}
+
+/* Exactly on a line along an axis. */
+static hr2d_point point_on(const hr2d_scene *scene, uint32_t patch, double t) {
+  const hr2d_segment s = scene->patch[patch].scaled;
+  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y, u = 1 - t;
+  return t < 0.5 ? (hr2d_point){s.a.x + t * dx, s.a.y + t * dy}
+                 : (hr2d_point){s.b.x - u * dx, s.b.y - u * dy};
+}
+
+/* The sine of the angle between a vector and a patch. */
+static double sine_to(const hr2d_scene *scene, uint32_t patch, hr2d_point v) {
+  const hr2d_segment s = scene->patch[patch].scaled;
+  const hr2d_point u = hr2di_point_minus(s.b, s.a);
+  return fabs(u.x * v.y - u.y * v.x) / scene->patch[patch].length / hypot(v.x, v.y);
+}
+
+/* While x moves, the line through u turns by cos θ dx/|xu|, and y moves by |uy|/cos θ_y of
+   that. B(y) is seen in the part ½ cos²θ/|xu| of dH/dx. */
+static double spread_to(const finder *f, hr2d_point x, uint32_t patch, hr2d_point u) {
+  const hr2d_point y = f->beams.at, xy = hr2di_point_minus(y, x);
+  const double xu = hypot(u.x - x.x, u.y - x.y), uy = hypot(y.x - u.x, y.y - u.y);
+  const double cosine = sine_to(f->scene, patch, xy);
+  const double seen = 0.5 * cosine * cosine / xu;
+  if (!f->from) return seen;
+  const double move = cosine * uy / (xu * sine_to(f->scene, f->from->event.patch, xy));
+  return seen * pow(move, (double)f->generation - 1);
+}
+
+/* At a foot, which is looked past no vertex, H itself jumps. */
+static hr2di_event event_at(const finder *f, uint32_t patch, double at, uint32_t via) {
+  hr2di_event e = {.patch = patch, .at = at, .generation = f->generation, .spread = LARGEST};
+  if (f->from) {
+    e.origin = f->from->event.patch;
+    e.origin_at = f->from->event.at;
+  }
+  if (via == HR2DI_NO_VERTEX) return e;
+  const hr2d_point x = point_on(f->scene, patch, at);
+  const double spread = spread_to(f, x, patch, f->beams.in->at[via]);
+  if (spread < LARGEST) e.spread = spread;
+  return e;
 }
 
 static hr2d_status add(finder *f, uint32_t patch, double at, uint32_t via) {
@@ -68,20 +117,12 @@ static hr2d_status add(finder *f, uint32_t patch, double at, uint32_t via) {
   }
   if (hr2di_alloc_reserve(&f->alloc, &f->found, &f->capacity, f->count + 1, sizeof *f->found))
     return HR2D_ENOMEM;
-  f->found[f->count++] = (candidate){{patch, at, f->generation}, via};
+  f->found[f->count++] = (candidate){event_at(f, patch, at, via), via};
   return HR2D_OK;
 }
 
 static hr2d_status take(void *ctx, uint32_t patch, double at, uint32_t via) {
   return add(ctx, patch, at, via);
-}
-
-/* Exactly on a line along an axis. */
-static hr2d_point point_on(const hr2d_scene *scene, hr2di_event e) {
-  const hr2d_segment s = scene->patch[e.patch].scaled;
-  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y, t = e.at, u = 1 - t;
-  return t < 0.5 ? (hr2d_point){s.a.x + t * dx, s.a.y + t * dy}
-                 : (hr2d_point){s.b.x - u * dx, s.b.y - u * dy};
 }
 
 static int reflects(const hr2d_scene *scene, size_t patch) {
@@ -161,7 +202,8 @@ static hr2d_status look_from_events(finder *f, unsigned generation) {
   f->generation = generation;
   for (size_t k = 0; k < f->origins && !status; k++) {
     const candidate c = f->origin[k];
-    const hr2d_point at = point_on(f->scene, c.event);
+    const hr2d_point at = point_on(f->scene, c.event.patch, c.event.at);
+    f->from = &f->origin[k];
     const hr2di_side_part *part = part_at(f->scene, c.event.patch, at);
     if (part->patch == c.event.patch && part->side != HR2DI_HIDDEN)
       status = hr2di_event_beams_from_part(&f->beams, at, part, c.via);

@@ -21,6 +21,10 @@ typedef struct hr2di_event {
   double at;           /* fraction of the patch, inside (0,1) */
   unsigned generation; /* 1: both vertices are of the scene; 2: an event of generation 1 takes
                           the place of the source's end; … */
+  uint32_t origin;     /* of generation 2 and later: the patch of that event, and its place */
+  double origin_at;
+  double spread; /* where B has a jump at the end of the source, or a derivative of B at the
+                    origin, that is so many times as large in the next derivative of H here */
 } hr2di_event;
 
 typedef struct hr2di_events {

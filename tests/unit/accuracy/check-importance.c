@@ -256,8 +256,8 @@ static hr2d_scene *cancelling(void) {
                                    {-0.67547532811692501, 0.55948141082320935},
                                    {-0.96738976154862322, 0.19218300233310698},
                                    {-1, 0}};
-  const double rho[WALLS] = {2.50173e-05, 3.13575e-06, 4.89525e-06, 1.75486e-05,
-                             7.19037e-06, 2.48643e-05, 6.79653e-06, 1.78912e-05};
+  const double rho[WALLS] = {1.78071e-05, 3.72691e-05, 1.43256e-05, 9.38753e-06,
+                             7.56705e-06, 2.34441e-05, 8.37781e-06, 2.97592e-05};
   hr2d_scene *scene = test_new_scene(NULL);
   for (int k = 0; k < COUNT; k++) {
     const int wall = k - FLOOR, other = wall - WALLS;

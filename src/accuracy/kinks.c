@@ -1,0 +1,325 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A kink in B and in its importance Z inside an element of length h is missed by p
+   coefficients. They leave remainders (I − P)B and (I − P)Z, and the error is the sum of ∫
+   (I−P)B (I−P)Z.  Of a jump J in the derivative of number g, at fraction x of the element, the
+   remainder is about
+
+     J a,   a = 0.3 h^g (4x(1−x))^(g/2 + ¼) p^(−g − ½)/2^(g−1)
+
+   in the mean over the element: each integration divides by the wave number p/(h √(x(1−x))) of
+   the highest polynomials.  So the event has the share h J_B J_Z a².
+
+   While x moves past a vertex u, the border of the view passes the end of a source in
+   generation 1, and an event y of the generation before in a later one.  With dH/dx = ½
+   cos²θ/|xu| B(y) the jump in H is `spread` times that at y, of B itself or of its derivative:
+   hr2di_event has it.
+
+   B itself jumps by no more than its largest value.  Where x passes the line of a thin wall,
+   both of its sides come into view, and the jump may be twice as large.  The events that seem
+   to matter are looked at: their jumps are second differences of what a point sees, with the
+   radiosities of whole patches. */
+#include "accuracy/kinks.h"
+
+#include <math.h>
+
+#include "accuracy/mesh-grading.h"
+#include "base/alloc.h"
+#include "scene/scene-impl.h"
+#include "visibility/point-view.h"
+
+/* Of second differences, as a part of the patch. */
+#define STEP 1e-6
+
+/* Of what is allowed, events may have this in bounds of their shares. */
+#define UNKNOWN 0.25
+
+/* A leaf with events first ≤ k < last inside. */
+typedef struct leaf {
+  uint32_t element;
+  double from, to; /* of the patch */
+  size_t first, last;
+  double sum; /* of the shares of its events */
+  size_t best;
+} leaf;
+
+typedef struct cutter {
+  hr2d_hierarchy *h;
+  const hr2d_scene *scene;
+  const hr2di_events *events;
+  const hr2di_lights *lights;
+  size_t bands;
+  hr2di_viewer *viewer;
+  hr2di_watch *watch;
+  double *most;         /* 2·bands: the largest B, and the largest importance */
+  double *jump;         /* events × 2·bands: of H from B, and from the importance, or more */
+  double *strength;     /* per event: of the jumps of B and of its importance */
+  unsigned char *known; /* per event: its jumps are no bounds */
+  leaf *heap;           /* the one with the largest sum first */
+  size_t count, capacity;
+  double total;
+} cutter;
+
+/* sum += weight · what falls on a point from B, and from the importance. */
+static hr2d_status look(cutter *w, size_t patch, double at, double weight, double *sum) {
+  hr2di_view_from seen;
+  const hr2d_status status = hr2di_view_at(w->viewer, patch, at, &seen);
+  if (status) return status;
+  for (size_t k = 0; k < seen.count; k++) {
+    const double part = weight * seen.glimpse[k].sine;
+    const size_t from = seen.glimpse[k].patch * w->bands;
+    for (size_t b = 0; b < w->bands; b++) {
+      sum[b] += part * w->lights->radiosity[from + b];
+      sum[w->bands + b] += part * w->lights->importance[from + b];
+    }
+  }
+  for (size_t b = 0; b < w->bands && w->scene->effect[HR2D_EFFECT_BACKGROUND].on; b++)
+    sum[b] += weight * seen.sky * hr2d_scene_background(w->scene, b);
+  return HR2D_OK;
+}
+
+static hr2d_status look_around(cutter *w, const hr2di_event *e, double *jump) {
+  for (size_t b = 0; b < 2 * w->bands; b++) jump[b] = 0;
+  const double step = fmin(STEP, 0.5 * fmin(e->at, 1 - e->at));
+  const double unit = 1 / (step * w->scene->patch[e->patch].length);
+  hr2d_status status = look(w, e->patch, e->at, -2 * unit, jump);
+  if (!status) status = look(w, e->patch, e->at - step, unit, jump);
+  return status ? status : look(w, e->patch, e->at + step, unit, jump);
+}
+
+/* The first event that is not before a place. */
+static size_t find(const hr2di_events *events, uint32_t patch, double at) {
+  size_t low = 0, high = events->count;
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    const hr2di_event *e = &events->event[middle];
+    if (e->patch < patch || (e->patch == patch && e->at < at))
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+/* The event that another one comes from, or that itself. */
+static size_t origin_of(const cutter *c, size_t k) {
+  const hr2di_event *e = &c->events->event[k];
+  const size_t from = find(c->events, e->origin, e->origin_at);
+  return from < c->events->count && c->events->event[from].patch == e->origin &&
+                 c->events->event[from].generation < e->generation
+             ? from
+             : k;
+}
+
+/* The importance of light that y reflects is ρ times what falls there, as its radiosity is. */
+static void take_over(cutter *c, size_t k, size_t from) {
+  const hr2di_event *e = &c->events->event[k];
+  for (size_t b = 0; b < 2 * c->bands; b++)
+    c->jump[k * 2 * c->bands + b] = e->spread *
+                                    hr2d_scene_reflectance(c->scene, e->origin, b % c->bands) *
+                                    c->jump[from * 2 * c->bands + b];
+}
+
+static void set_strength(cutter *c, size_t k) {
+  const double *jump = c->jump + k * 2 * c->bands;
+  c->strength[k] = 0;
+  for (size_t b = 0; b < c->bands; b++) {
+    const double rho = hr2d_scene_reflectance(c->scene, c->events->event[k].patch, b);
+    c->strength[k] = fmax(c->strength[k], rho * fabs(jump[b]) * fabs(jump[c->bands + b]));
+  }
+}
+
+/* Replaces the bounds of an event by its jumps. */
+static hr2d_status know(cutter *c, size_t k) {
+  const size_t from = origin_of(c, k);
+  hr2d_status status = HR2D_OK;
+  if (c->known[k]) return status;
+  if (from != k) {
+    status = know(c, from);
+    take_over(c, k, from);
+  } else {
+    status = look_around(c, &c->events->event[k], c->jump + k * 2 * c->bands);
+  }
+  c->known[k] = 1;
+  set_strength(c, k);
+  return status;
+}
+
+static hr2d_status set_bounds(cutter *c) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < c->scene->patches; k++)
+    for (size_t b = 0; b < c->bands; b++) {
+      const size_t at = k * c->bands + b;
+      c->most[b] = fmax(c->most[b], c->lights->radiosity[at]);
+      c->most[c->bands + b] = fmax(c->most[c->bands + b], c->lights->importance[at]);
+    }
+  for (unsigned g = 1, any = 1; any && !status; g++) {
+    any = 0;
+    for (size_t k = 0; k < c->events->count && !status; k++) {
+      const hr2di_event *e = &c->events->event[k];
+      if (e->generation != g) continue;
+      any = 1;
+      const size_t from = origin_of(c, k);
+      if (from != k) take_over(c, k, from);
+      for (size_t b = 0; b < 2 * c->bands && from == k; b++)
+        c->jump[k * 2 * c->bands + b] = 2 * e->spread * c->most[b];
+      set_strength(c, k);
+      status = hr2di_watch_work(c->watch, 1 + c->bands / 8);
+    }
+  }
+  return status;
+}
+
+/* a; 0 for an event too near to an end of the leaf. */
+static double remainder_of(const cutter *c, const leaf *l, const hr2di_event *e) {
+  const double margin = 4 * hr2di_grading_shortest(&c->scene->patch[e->patch]);
+  if (e->at <= l->from + margin || e->at >= l->to - margin) return 0;
+  const double x = (e->at - l->from) / (l->to - l->from), round = 4 * x * (1 - x);
+  const double h = c->h->element[l->element].length, g = e->generation, p = c->h->order;
+  return 0.6 * pow(0.5 * h / p, g) * pow(round, 0.5 * g + 0.25) / sqrt(p);
+}
+
+static double share_of(const cutter *c, const leaf *l, size_t k) {
+  const double a = remainder_of(c, l, &c->events->event[k]);
+  return c->h->element[l->element].length * c->strength[k] * a * a;
+}
+
+static void weigh_leaf(const cutter *c, leaf *l) {
+  double most = 0;
+  l->sum = 0;
+  for (size_t k = l->first; k < l->last; k++) {
+    const double share = share_of(c, l, k);
+    l->sum += share;
+    if (!(share > most)) continue;
+    most = share;
+    l->best = k;
+  }
+}
+
+/* Adds a leaf to the heap, if any event is left in it. */
+static hr2d_status push(cutter *c, leaf l) {
+  weigh_leaf(c, &l);
+  if (!(l.sum > 0)) return HR2D_OK;
+  if (hr2di_alloc_reserve(&c->h->alloc, &c->heap, &c->capacity, c->count + 1, sizeof *c->heap))
+    return HR2D_ENOMEM;
+  size_t at = c->count++;
+  for (; at > 0 && c->heap[(at - 1) / 2].sum < l.sum; at = (at - 1) / 2)
+    c->heap[at] = c->heap[(at - 1) / 2];
+  c->heap[at] = l;
+  c->total += l.sum;
+  return HR2D_OK;
+}
+
+static leaf pop(cutter *c) {
+  const leaf top = c->heap[0], last = c->heap[--c->count];
+  size_t at = 0;
+  for (size_t child; (child = 2 * at + 1) < c->count; at = child) {
+    if (child + 1 < c->count && c->heap[child + 1].sum > c->heap[child].sum) child++;
+    if (c->heap[child].sum <= last.sum) break;
+    c->heap[at] = c->heap[child];
+  }
+  if (c->count > 0) c->heap[at] = last;
+  c->total -= top.sum;
+  if (top.sum > c->total) { /* few digits of the others were left */
+    c->total = 0;
+    for (size_t k = 0; k < c->count; k++) c->total += c->heap[k].sum;
+  }
+  return top;
+}
+
+static hr2d_status push_all(cutter *c, double least) {
+  const hr2d_hierarchy *h = c->h;
+  hr2d_status status = HR2D_OK;
+  for (uint32_t k = 0; k < h->elements && !status; k++) {
+    const hr2d_element *e = &h->element[k];
+    status = hr2di_watch_work(c->watch, 1);
+    if (e->child || status) continue;
+    leaf l = {.element = k, .from = hr2di_element_start(h, k)};
+    l.to = l.from + e->length / h->scene->patch[e->patch].length;
+    l.first = find(c->events, e->patch, l.from);
+    l.last = find(c->events, e->patch, l.to);
+    for (size_t m = l.first; m < l.last && !status; m++)
+      if (share_of(c, &l, m) > least) status = know(c, m);
+    if (l.first < l.last && !status) status = push(c, l);
+  }
+  return status;
+}
+
+/* Divides the leaf with the largest shares at the largest of them; or finds out how large that
+   is. */
+static hr2d_status cut(cutter *c) {
+  const leaf l = pop(c);
+  if (!c->known[l.best]) {
+    const hr2d_status status = know(c, l.best);
+    return status ? status : push(c, l);
+  }
+  const hr2di_event *e = &c->events->event[l.best];
+  const hr2d_segment s = c->scene->patch[e->patch].scaled;
+  const hr2d_point at = {s.a.x + e->at * (s.b.x - s.a.x), s.a.y + e->at * (s.b.y - s.a.y)};
+  hr2d_status status = hr2di_hierarchy_reserve(c->h);
+  if (status) return status;
+  const uint32_t child =
+      hr2di_element_divide(c->h, l.element, (e->at - l.from) / (l.to - l.from), at);
+  status = push(c, (leaf){child, l.from, e->at, l.first, l.best, 0, 0});
+  return status ? status : push(c, (leaf){child + 1, e->at, l.to, l.best + 1, l.last, 0, 0});
+}
+
+static hr2d_status run(cutter *c, double allowed, uint64_t max_elements) {
+  hr2d_status status = set_bounds(c);
+  if (!status) status = push_all(c, UNKNOWN * allowed / (double)c->events->count);
+  while (c->count > 0 && c->total > allowed && !status) {
+    if (max_elements && c->h->elements + 2 > max_elements) return HR2D_EMAX_ELEMENTS;
+    status = hr2di_watch_work(c->watch, 4 + (c->heap[0].last - c->heap[0].first));
+    if (!status) status = cut(c);
+  }
+  return status;
+}
+
+/* Squares of remainders of several events add up. */
+static void add_remainder(const cutter *c, const leaf *l, size_t k, double *bent) {
+  const hr2di_event *e = &c->events->event[k];
+  const double a = remainder_of(c, l, e);
+  for (size_t b = 0; b < c->bands; b++) {
+    const double rho = hr2d_scene_reflectance(c->scene, e->patch, b);
+    double *of = &bent[l->element * c->bands + b];
+    *of = hypot(*of, rho * c->jump[k * 2 * c->bands + b] * a);
+  }
+}
+
+static hr2d_status measure(const cutter *c, double **bent) {
+  *bent = hr2di_alloc_zero(&c->h->alloc, c->h->elements, c->bands * sizeof **bent);
+  if (!*bent) return HR2D_ENOMEM;
+  for (size_t k = 0; k < c->count && !hr2di_watch_work(c->watch, 1); k++)
+    for (size_t m = c->heap[k].first; m < c->heap[k].last; m++)
+      add_remainder(c, &c->heap[k], m, *bent);
+  return hr2di_watch_status(c->watch);
+}
+
+hr2d_status hr2di_kinks_cut(hr2d_hierarchy *hierarchy, const hr2di_events *events,
+                            const hr2di_lights *lights, double allowed, uint64_t max_elements,
+                            hr2di_watch *watch, double **bent) {
+  const hr2d_allocator *alloc = &hierarchy->alloc;
+  const size_t count = events->count, values = 2 * hierarchy->scene->bands;
+  cutter c = {.h = hierarchy,
+              .scene = hierarchy->scene,
+              .events = events,
+              .lights = lights,
+              .bands = hierarchy->scene->bands,
+              .watch = watch};
+  *bent = NULL;
+  if (count == 0) return HR2D_OK;
+  c.most = hr2di_alloc_zero(alloc, values, sizeof *c.most);
+  c.jump = hr2di_alloc(alloc, count, values * sizeof *c.jump);
+  c.strength = hr2di_alloc(alloc, count, sizeof *c.strength);
+  c.known = hr2di_alloc_zero(alloc, count, 1);
+  hr2d_status status = c.most && c.jump && c.strength && c.known ? HR2D_OK : HR2D_ENOMEM;
+  if (!status) status = hr2di_viewer_create(c.scene, alloc, watch, &c.viewer);
+  if (!status) status = run(&c, allowed, max_elements);
+  if (!status) status = measure(&c, bent);
+  hr2di_viewer_destroy(c.viewer);
+  hr2di_alloc_free(alloc, c.most);
+  hr2di_alloc_free(alloc, c.jump);
+  hr2di_alloc_free(alloc, c.strength);
+  hr2di_alloc_free(alloc, c.known);
+  hr2di_alloc_free(alloc, c.heap);
+  return status;
+}
