@@ -58,7 +58,7 @@ void hr2di_estimator_set_most(hr2di_estimator *e, const double *field) {
 /* Coefficients that the part lacks hardly matter to light that is reflected twice: the part
    takes that on. */
 static size_t order_of_part(size_t order) {
-  return order < 4 ? 2 : order / 2;
+  return order < 9 ? 2 : order / 3;
 }
 
 static void scale(const hr2di_estimator *e, const hr2di_equation *eq, double *field, int sign) {

@@ -11,15 +11,16 @@
 #include <math.h>
 #include <string.h>
 
-#include "accuracy/importance.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 #include "solve/closure.h"
 
 enum { TERMS = 5, FEW_TERMS = 2, ROUNDS = 6 };
 
-/* The relative accuracy of a solve for what the first terms leave. */
-#define REST 1e-6
+/* The relative accuracy of a solve for what the first terms leave; less is enough where what is
+   left is solved for again. */
+#define REST  1e-6
+#define ROUND 1e-2
 
 /* The part of the error that may be left, and how much less is left after a round at least. */
 #define ENOUGH  0.05
@@ -81,8 +82,7 @@ static double worst_average(hr2di_estimator *e, const double *field) {
   hr2di_estimator_averages(e, field, average);
   for (size_t k = 0; k < e->values; k++) {
     const double least = hr2di_estimator_least(e, 0, k / bands, k % bands);
-    if (least > 0 && hr2di_is_important(e->target, k / bands))
-      worst = fmax(worst, fabs(average[k]) / least);
+    if (least > 0) worst = fmax(worst, fabs(average[k]) / least);
   }
   return worst;
 }
@@ -117,7 +117,7 @@ static hr2d_status add_rest(hr2di_estimator *e) {
   set_rest(e);
   for (int round = 0; round < ROUNDS; round++) {
     memcpy(irradiance, eq->irradiance, eq->field * sizeof *irradiance);
-    const hr2d_status status = hr2di_estimator_solve(e, hr2di_estimator_tolerance(e, REST));
+    const hr2d_status status = hr2di_estimator_solve(e, hr2di_estimator_tolerance(e, ROUND));
     if (status || e->whole) return status;
     memcpy(eq->irradiance, irradiance, eq->field * sizeof *irradiance);
     const double all = worst_average(e, e->error), more = worst_average(e, eq->radiosity);

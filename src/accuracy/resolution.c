@@ -53,9 +53,9 @@ static int is_hidden(const hr2d_scene *scene) {
 
 /* More than LIT patches have too many events to look at one by one for a few digits, and more
    than MANY_LIT for any.  Shares of events add up to KINKS times the target: they are without
-   signs, and of all patches together. */
+   signs and of all patches together, but coarse. */
 enum { LIT = 128, MANY_LIT = 1000 };
-#define KINKS 0.5
+#define KINKS 0.25
 
 int hr2di_resolution_wants_lights(const hr2d_scene *scene, const hr2d_target *target) {
   const size_t most = target->error < CROWDED_AIM ? MANY_LIT : LIT;

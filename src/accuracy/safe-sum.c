@@ -21,7 +21,7 @@
 #include "scene/scene-impl.h"
 
 /* Relative, of solves of rows and of samples. */
-#define ROW    1e-2
+#define ROW    3e-2
 #define SAMPLE 1e-1
 
 /* A random bit, the same on every machine (the finalizer of MurmurHash3). */
