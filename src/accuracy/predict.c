@@ -27,12 +27,17 @@ enum { ATTEMPTS = 8, MORE = 2, MOST_BANDS = 4 };
 #define SHORT 0.02
 
 /* Gathers of an account of the error, with the finer operator (see error-estimate.c); and
-   iterations, in terms of those of the solve, with a part of it of half the order. */
-#define ERROR_GATHERS    16
+   iterations, in terms of those of the solve, with a part of it of a third of the order. */
+#define ERROR_GATHERS    20
 #define ERROR_ITERATIONS 2.5
 
-#define CALLS 2.5  /* times the coarse solve: work that does not depend on the order */
-#define REST  1.75 /* of gathers, for work that is not counted: fields set up and copied */
+/* Times the coarse solve: work that does not depend on the order.  It is more with lights of
+   patches, and where nothing is reflected there are hardly any gathers. */
+#define CALLS      3.5
+#define CALLS_LIT  5
+#define CALLS_DARK 2.5
+
+#define REST 1.75 /* of gathers, for work that is not counted: fields set up and copied */
 
 /* Seconds to make links and blocks, and of one gather: of the solve, of the finer operator, and
    of its part. */
@@ -112,7 +117,7 @@ static hr2d_status measure(const hr2di_resolution *fineness, const hr2d_target *
   c->gather = time_gather(a, fineness->order);
   if (target->no_error) return status;
   c->finer = time_gather(a, finer);
-  c->part = time_gather(a, finer / 2);
+  c->part = time_gather(a, (finer + 2) / 3);
   return status;
 }
 
@@ -179,14 +184,14 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
   if (!status) status = hr2di_graded_refine(&a, scene, &fineness, target, &message);
   if (!status) status = measure(&fineness, target, &a, &c, p);
   if (!status) {
-    const int gathers_points =
-        scene->effect[HR2D_EFFECT_INTERREFLECTION].on && !target->no_error;
+    const int reflects = scene->effect[HR2D_EFFECT_INTERREFLECTION].on;
     const double points = (double)hr2di_contacts_points(a.links) * coarse.point *
                           sqrt((double)p->leaves / (double)coarse.leaves);
     const double gathers = coarse.iterations * c.gather + ERROR_GATHERS * c.finer +
                            ERROR_ITERATIONS * coarse.iterations * c.part;
-    p->seconds =
-        CALLS * coarse.seconds + c.make + REST * gathers + (gathers_points ? points : 0);
+    const double calls = !reflects ? CALLS_DARK : lights.radiosity ? CALLS_LIT : CALLS;
+    p->seconds = calls * coarse.seconds + c.make + (reflects ? REST * gathers : 0) +
+                 (reflects && !target->no_error ? points : 0);
     set_range(p);
   }
   hr2di_graded_clear(&a);
