@@ -10,9 +10,12 @@
    the highest polynomials.  So the event has the share h J_B J_Z a².
 
    While x moves past a vertex u, the border of the view passes the end of a source in
-   generation 1, and an event y of the generation before in a later one.  With dH/dx = ½
-   cos²θ/|xu| B(y) the jump in H is `spread` times that at y, of B itself or of its derivative:
-   hr2di_event has it.
+   generation 1, and an event y of the generation before in a later one.  As
+
+     dH/dx = ½ cos²θ/|xu| B(y),
+
+   the jump in H is `spread` times that at y, of B itself or of its derivative: hr2di_event has
+   it.
 
    B itself jumps by no more than its largest value.  Where x passes the line of a thin wall,
    both of its sides come into view, and the jump may be twice as large.  The events that seem
@@ -146,6 +149,7 @@ static hr2d_status know(cutter *c, size_t k) {
 
 static hr2d_status set_bounds(cutter *c) {
   hr2d_status status = HR2D_OK;
+  for (size_t b = 0; b < c->bands; b++) c->most[b] = hr2d_scene_background(c->scene, b);
   for (size_t k = 0; k < c->scene->patches; k++)
     for (size_t b = 0; b < c->bands; b++) {
       const size_t at = k * c->bands + b;
