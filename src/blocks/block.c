@@ -41,6 +41,13 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
   return room ? HR2D_OK : HR2D_ENOMEM;
 }
 
+hr2d_status hr2di_integrator_points(hr2di_integrator *w, size_t points) {
+  hr2di_alloc_free(&w->alloc, w->phi_far);
+  hr2di_rule_init(&w->far, points);
+  w->phi_far = table(w, &w->far);
+  return w->phi_far ? HR2D_OK : HR2D_ENOMEM;
+}
+
 void hr2di_integrator_clear(hr2di_integrator *w) {
   hr2di_alloc_free(&w->alloc, w->phi_far);
   hr2di_alloc_free(&w->alloc, w->rule);

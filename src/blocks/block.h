@@ -47,6 +47,10 @@ typedef struct hr2di_integrator {
 hr2d_status hr2di_integrator_init(hr2di_integrator *work, const hr2d_hierarchy *hierarchy,
                                   const hr2d_allocator *alloc, size_t order,
                                   hr2di_watch *watch);
+
+/* Takes so many points for each element of a distant pair, in the place of two more than the
+   order.  HR2D_OK or HR2D_ENOMEM. */
+hr2d_status hr2di_integrator_points(hr2di_integrator *work, size_t points);
 void hr2di_integrator_clear(hr2di_integrator *work);
 
 /* Integrates the block of a pair: order × order numbers, row l for the first element.  `area`
