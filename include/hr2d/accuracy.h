@@ -142,7 +142,7 @@ typedef struct hr2d_account {
   double refine_seconds;       /**< time for elements and links, over all solves */
   double coefficients_seconds; /**< time for blocks, of the solve and of its error */
   double solve_seconds;        /**< time for the iterations */
-  double error_seconds;        /**< time for estimates and bounds, without that for their blocks */
+  double error_seconds;        /**< time for estimates and bounds, not for their blocks */
   double seconds;              /**< total time */
   char reason[160];            /**< why the target was not reached; "" if it was */
 } hr2d_account;
@@ -188,7 +188,7 @@ typedef struct hr2d_prediction {
   uint64_t elements;    /**< N */
   uint64_t leaves;      /**< elements without children */
   uint64_t links;       /**< L */
-  uint64_t bytes;       /**< memory of elements, links and blocks, while the error is measured */
+  uint64_t bytes;       /**< memory of elements, links and blocks at most */
   double seconds;       /**< wall time of hr2d_solve_to(), its account of the error included */
   double least_seconds; /**< the range of that time begins here */
   double most_seconds;  /**< and ends here, with the solves that follow if the first one does
