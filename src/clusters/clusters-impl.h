@@ -38,6 +38,9 @@ struct hr2di_clusters {
 hr2d_status hr2di_clusters_keep(hr2di_clusters *made, const hr2di_cluster_tree *tree,
                                 const hr2di_expansion *far);
 
+/* Keeps what another one keeps, with the points that the accuracy asks for. */
+hr2d_status hr2di_clusters_keep_finer(hr2di_clusters *made, const hr2di_clusters *of);
+
 /* T_n at point k of `count`, by n·count + k. */
 static inline const double *hr2di_clusters_cosines(const hr2di_clusters *c, unsigned count) {
   return c->cosine + (size_t)(count - 1) * count * (2 * count - 1) / 6;

@@ -289,6 +289,19 @@ hr2d_status hr2di_clusters_create(const hr2d_scene *scene, const hr2d_allocator 
   return status;
 }
 
+hr2d_status hr2di_clusters_finer(const hr2di_clusters *of, double accuracy,
+                                 hr2di_clusters **clusters) {
+  hr2di_clusters *made = hr2di_alloc_zero(&of->alloc, 1, sizeof *made);
+  if (!made) return HR2D_ENOMEM;
+  *made = (hr2di_clusters){.alloc = of->alloc, .scene = of->scene, .accuracy = accuracy};
+  const hr2d_status status = hr2di_clusters_keep_finer(made, of);
+  if (status)
+    hr2di_clusters_destroy(made);
+  else
+    *clusters = made;
+  return status;
+}
+
 void hr2di_clusters_destroy(hr2di_clusters *clusters) {
   if (!clusters) return;
   const hr2d_allocator alloc = clusters->alloc;

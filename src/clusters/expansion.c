@@ -166,41 +166,30 @@ hr2d_status hr2di_clusters_keep(hr2di_clusters *made, const hr2di_cluster_tree *
   return status;
 }
 
-static void put_finer(hr2di_clusters *made, const hr2di_clusters *of) {
-  put_cosines(made);
-  memcpy(made->home, of->home, of->scene->patches * sizeof *made->home);
-  memcpy(made->link, of->link, of->links * sizeof *made->link);
-  for (size_t k = 0; k < of->linked_count; k++) {
-    hr2di_linked *linked = &made->linked[k];
-    *linked = of->linked[k];
-    set_counts(&linked->far, made->accuracy);
-    linked->first = made->points;
-    made->points += hr2di_expansion_points(&linked->far);
-    put_points(made, linked);
-  }
+/* A cluster with its counts, and its points behind those that are there. */
+static void put_finer(hr2di_clusters *made, hr2di_linked linked) {
+  set_counts(&linked.far, made->accuracy);
+  linked.first = made->points;
+  made->linked[made->linked_count++] = linked;
+  made->points += hr2di_expansion_points(&linked.far);
+  put_points(made, &made->linked[made->linked_count - 1]);
 }
 
-hr2d_status hr2di_clusters_finer(const hr2di_clusters *of, double accuracy,
-                                 hr2di_clusters **clusters) {
-  hr2di_clusters *made = hr2di_alloc_zero(&of->alloc, 1, sizeof *made);
-  if (!made) return HR2D_ENOMEM;
-  *made = (hr2di_clusters){.alloc = of->alloc, .scene = of->scene, .accuracy = accuracy};
+hr2d_status hr2di_clusters_keep_finer(hr2di_clusters *made, const hr2di_clusters *of) {
   size_t points = 0;
+  if (of->links == 0) return HR2D_OK;
   for (size_t k = 0; k < of->linked_count; k++) {
     hr2di_expansion far = of->linked[k].far;
-    set_counts(&far, accuracy);
+    set_counts(&far, made->accuracy);
     points += hr2di_expansion_points(&far);
   }
-  if (of->links > 0) made->link = hr2di_alloc(&of->alloc, of->links, sizeof *made->link);
-  hr2d_status status = made->link || of->links == 0 ? HR2D_OK : HR2D_ENOMEM;
-  if (!status && of->links > 0) status = reserve(made, of->linked_count, points);
-  if (status) {
-    hr2di_clusters_destroy(made);
-    return status;
-  }
+  made->link = hr2di_alloc(&made->alloc, of->links, sizeof *made->link);
+  const hr2d_status status = reserve(made, of->linked_count, points);
+  if (!made->link || status) return HR2D_ENOMEM;
   made->links = made->link_capacity = of->links;
-  made->linked_count = of->linked_count;
-  if (of->links > 0) put_finer(made, of);
-  *clusters = made;
+  memcpy(made->link, of->link, of->links * sizeof *made->link);
+  memcpy(made->home, of->home, of->scene->patches * sizeof *made->home);
+  put_cosines(made);
+  for (size_t k = 0; k < of->linked_count; k++) put_finer(made, of->linked[k]);
   return HR2D_OK;
 }
