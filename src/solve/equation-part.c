@@ -28,12 +28,14 @@ static double *first_of(const hr2d_allocator *alloc, const double *from, size_t 
   return to;
 }
 
-/* The first rows and columns of the blocks of closure. */
-static double *first_squares(const hr2di_transport *t, const double *closure, size_t all) {
-  const size_t order = t->order;
-  double *to = hr2di_alloc(&t->alloc, t->leaves, order * order * sizeof *to);
-  for (size_t k = 0; k < t->leaves * order && to; k++)
-    memcpy(to + k * order, closure + (k / order * all + k % order) * all, order * sizeof *to);
+/* The first rows and columns of `count` blocks. */
+static double *first_squares(const hr2d_allocator *alloc, const double *from, uint64_t count,
+                             size_t all, size_t order) {
+  const size_t row = order * sizeof *from;
+  if (count > SIZE_MAX / order / row) return NULL;
+  double *to = hr2di_alloc(alloc, (size_t)count, order * row);
+  for (size_t k = 0; k < (size_t)count * order && to; k++)
+    memcpy(to + k * order, from + (k / order * all + k % order) * all, row);
   return to;
 }
 
@@ -43,14 +45,22 @@ static hr2d_status set_transport(hr2di_transport *t, const hr2di_transport *of, 
   t->width = order * t->bands;
   t->sweeps = 0;
   t->trees = (hr2di_push_pull){0};
-  t->up = t->down = t->closure = t->sky = t->mean = NULL;
+  t->up = t->down = t->closure = t->sky = t->mean = t->blocks.value = NULL;
   const hr2d_status status =
       hr2di_push_pull_init(&t->trees, t->hierarchy, &t->alloc, order, t->bands, t->watch);
   if (status) return status;
   t->up = hr2di_alloc(&t->alloc, t->elements, t->width * sizeof *t->up);
   t->down = hr2di_alloc(&t->alloc, t->elements * t->slices, t->width * sizeof *t->down);
-  if (of->closure) t->closure = first_squares(t, of->closure, of->order);
-  return t->up && t->down && (t->closure || !of->closure) ? HR2D_OK : HR2D_ENOMEM;
+  if (of->closure)
+    t->closure = first_squares(&t->alloc, of->closure, t->leaves, of->order, order);
+  if (of->blocks.value)
+    t->blocks.value =
+        first_squares(&t->alloc, of->blocks.value, of->blocks.links, of->blocks.order, order);
+  t->blocks.order = order;
+  return t->up && t->down && (t->closure || !of->closure) &&
+                 (t->blocks.value || !of->blocks.value)
+             ? HR2D_OK
+             : HR2D_ENOMEM;
 }
 
 hr2d_status hr2di_equation_part(hr2di_equation *part, const hr2di_equation *whole,
@@ -78,5 +88,6 @@ void hr2di_equation_part_clear(hr2di_equation *part) {
   hr2di_alloc_free(&t->alloc, t->up);
   hr2di_alloc_free(&t->alloc, t->down);
   hr2di_alloc_free(&t->alloc, t->closure);
+  hr2di_alloc_free(&t->alloc, t->blocks.value);
   hr2di_alloc_free(&t->alloc, part->space);
 }

@@ -4,6 +4,7 @@
 #include "solve/gather-blocks.h"
 
 #include "base/ordered-dot.h"
+#include "base/wide.h"
 #include "solve/gather-one-way.h"
 
 enum { FEW = 4 };
@@ -31,37 +32,36 @@ void hr2di_gather_transposed(const double *c, size_t stride, size_t order, size_
         to[m * bands + b] += c[l * stride + m] * from[l * bands + b];
 }
 
-/* One coefficient, both ways. */
-static inline void add_entry(double entry, size_t bands, const double *restrict from,
-                             const double *restrict here, double *restrict sum,
-                             double *restrict to) {
-  for (size_t b = 0; b < bands; b++) {
-    sum[b] += entry * from[b];
-    to[b] += entry * here[b];
-  }
-}
-
-/* For FEW bands at most. */
-static inline void add_both(const double *restrict c, size_t stride, size_t order, size_t bands,
-                            const double *restrict up_i, const double *restrict up_j,
-                            double *restrict down_i, double *restrict down_j) {
+/* FEW rows of `bands` values each are one array to the compiler. */
+HR2DI_PART void add_both(const double *restrict c, size_t stride, size_t order, size_t bands,
+                         const double *restrict up_i, const double *restrict up_j,
+                         double *restrict down_i, double *restrict down_j) {
   for (size_t l = 0; l < order; l++) {
-    const double *row = c + l * stride, *here = up_i + l * bands;
-    double s[4][FEW] = {{0}}, rest[FEW] = {0};
+    const double *row = c + l * stride;
+    double s[4 * FEW] = {0}, rest[FEW] = {0}, here[4 * FEW], entry[4 * FEW];
+    for (size_t q = 0; q < 4 * bands; q++) here[q] = up_i[l * bands + q % bands];
     size_t m = 0;
-    for (; m + 4 <= order; m += 4)
-      for (size_t k = 0; k < 4; k++)
-        add_entry(row[m + k], bands, up_j + (m + k) * bands, here, s[k],
-                  down_j + (m + k) * bands);
+    for (; m + 4 <= order; m += 4) {
+      const double *from = up_j + m * bands;
+      double *to = down_j + m * bands;
+      for (size_t q = 0; q < 4 * bands; q++) entry[q] = row[m + q / bands];
+      for (size_t q = 0; q < 4 * bands; q++) s[q] += entry[q] * from[q];
+      for (size_t q = 0; q < 4 * bands; q++) to[q] += entry[q] * here[q];
+    }
     for (; m < order; m++)
-      add_entry(row[m], bands, up_j + m * bands, here, rest, down_j + m * bands);
+      for (size_t b = 0; b < bands; b++) {
+        rest[b] += row[m] * up_j[m * bands + b];
+        down_j[m * bands + b] += row[m] * here[b];
+      }
     for (size_t b = 0; b < bands; b++)
-      down_i[l * bands + b] += hr2di_dot_four(s[0][b], s[1][b], s[2][b], s[3][b]) + rest[b];
+      down_i[l * bands + b] +=
+          hr2di_dot_four(s[b], s[bands + b], s[2 * bands + b], s[3 * bands + b]) + rest[b];
   }
 }
 
-void hr2di_gather_both(const double *c, size_t stride, size_t order, size_t bands,
-                       const double *up_i, const double *up_j, double *down_i, double *down_j) {
+HR2DI_PART void few_loop(const double *c, size_t stride, size_t order, size_t bands,
+                         const double *up_i, const double *up_j, double *down_i,
+                         double *down_j) {
   switch (bands) {
   case 1:
     add_both(c, stride, order, 1, up_i, up_j, down_i, down_j);
@@ -72,11 +72,21 @@ void hr2di_gather_both(const double *c, size_t stride, size_t order, size_t band
   case 3:
     add_both(c, stride, order, 3, up_i, up_j, down_i, down_j);
     return;
-  case FEW:
-    add_both(c, stride, order, FEW, up_i, up_j, down_i, down_j);
-    return;
   default:
-    hr2di_gather_block(c, stride, order, bands, up_j, down_i);
-    hr2di_gather_transposed(c, stride, order, bands, up_i, down_j);
+    add_both(c, stride, order, FEW, up_i, up_j, down_i, down_j);
   }
+}
+HR2DI_WIDE(few,
+           (const double *c, size_t stride, size_t order, size_t bands, const double *up_i,
+            const double *up_j, double *down_i, double *down_j),
+           (c, stride, order, bands, up_i, up_j, down_i, down_j))
+
+void hr2di_gather_both(const double *c, size_t stride, size_t order, size_t bands,
+                       const double *up_i, const double *up_j, double *down_i, double *down_j) {
+  if (bands <= FEW) {
+    few(c, stride, order, bands, up_i, up_j, down_i, down_j);
+    return;
+  }
+  hr2di_gather_block(c, stride, order, bands, up_j, down_i);
+  hr2di_gather_transposed(c, stride, order, bands, up_i, down_j);
 }

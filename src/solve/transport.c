@@ -55,6 +55,7 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
                                  unsigned threads, hr2di_watch *watch) {
   const hr2d_hierarchy *h = links->hierarchy;
   *t = (hr2di_transport){.links = links,
+                         .blocks = links->blocks,
                          .hierarchy = h,
                          .alloc = links->alloc,
                          .order = h->order,
@@ -178,7 +179,7 @@ static void gather_chunk(const hr2di_transport *t, size_t k, int simple, double 
    [from, to) receive. */
 static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, uint64_t first,
                           size_t count, size_t from, size_t to, double *down) {
-  const hr2di_link_blocks *blocks = &t->links->blocks;
+  const hr2di_link_blocks *blocks = &t->blocks;
   const size_t order = t->order, bands = t->bands, width = t->width, stride = blocks->order;
   for (uint64_t k = first; k < first + count; k++) {
     if (part == HR2DI_DISTANT_LINKS && !blocks->distant[k]) continue;

@@ -13,6 +13,7 @@ enum { HR2DI_TRANSPORT_PARTS = 16 /* at most */ };
 
 typedef struct hr2di_transport {
   const hr2d_linkset *links;
+  hr2di_link_blocks blocks; /* of the links, above order 1 */
   const hr2d_hierarchy *hierarchy;
   hr2d_allocator alloc;
   hr2di_push_pull trees;
