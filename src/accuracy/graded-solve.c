@@ -3,6 +3,7 @@
 #include "accuracy/graded-solve.h"
 
 #include "accuracy/admissibility.h"
+#include "accuracy/long-leaves.h"
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "links/linkset-impl.h"
@@ -40,7 +41,6 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
                                  .norm = fineness->norm,
                                  .order = fineness->order,
                                  .corner_levels = fineness->corner_levels,
-                                 .halvings = chosen ? 0 : fineness->halvings,
                                  .weight = fineness->weight,
                                  .events = chosen ? NULL : &events,
                                  .max_elements = target->max_elements,
@@ -50,6 +50,8 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
   if (!status && chosen)
     status = hr2di_kinks_cut(h, &events, fineness->lights, fineness->kinks,
                              target->max_elements, &watch, &a->bent);
+  if (!status && !chosen && fineness->halvings > 0)
+    status = hr2di_long_leaves_halve(h, fineness->halvings, target->max_elements, &watch);
   a->events = events.count;
   hr2di_events_clear(&events);
   return status;

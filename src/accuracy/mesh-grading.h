@@ -14,7 +14,6 @@ typedef struct hr2di_grading {
   hr2d_norm norm;             /* of that error */
   unsigned order;             /* of the elements */
   unsigned corner_levels;     /* levels at corners beyond what the target asks for */
-  unsigned halvings;          /* additional ones of every element */
   const double *weight;       /* per patch, see hr2di_resolution; NULL: 1 */
   const hr2di_events *events; /* where elements end; NULL for none */
   uint64_t max_elements;      /* 0 for no limit */

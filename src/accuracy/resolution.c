@@ -82,9 +82,9 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
                         .lights = lights,
                         .generations = hidden ? generations_for(aim, norm) : 0};
   if (is_crowded(scene, hidden) && aim >= CROWDED_AIM) {
-    f.order = f.order < 3 ? 3 : f.order;
+    f.order = (unsigned)fmax(f.order, aim >= THREE ? 3 : 4);
     f.generations = f.kinks > 0;
-    f.halvings = aim >= 3e-2 ? 0 : aim >= 3e-3 ? 1 : 2;
+    f.halvings = aim < THREE;
   }
   f.crowded = is_crowded(scene, hidden);
   return f;
