@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blocks take the places of elements from fractions of their patches, with more digits than
-   coordinates.  What halving alone has made is in its place.  Other fractions are rounded: δ is
-   how far an element is off its place, or its coordinates are, up to a rounding.  Far from the
-   origin that is much in terms of small elements.  Let d be the distance of a pair of elements,
-   of lengths A_i and A_j, or the shorter length if that is more.
+   coordinates.  What halves and quarters alone have made is in its place.  Other fractions are
+   rounded: δ is how far an element is off its place, or its coordinates are, up to a rounding.
+   Far from the origin that is much in terms of small elements.  Let d be the distance of a pair
+   of elements, of lengths A_i and A_j, or the shorter length if that is more.
 
    G ≤ 1/2r, and a shift of either point by δ changes G by no more than 2δ/r². Where r ≥ d,
    ∫1/r² over a line is at most π/d, so that the exchange area changes by
@@ -62,7 +62,7 @@ static int have_corner(const hr2d_scene *scene, uint32_t i, uint32_t j) {
 /* How far elements are off. */
 typedef struct offsets {
   double *offset;       /* δ by coordinates */
-  unsigned char *exact; /* halving alone has made it */
+  unsigned char *exact; /* halves and quarters alone have made it */
 } offsets;
 
 /* ΔAF; `decide` where coordinates count for all elements. */
@@ -150,8 +150,8 @@ static void find_places(const hr2d_hierarchy *h, offsets *is, hr2di_watch *watch
   for (uint32_t k = 0; k < h->elements && !hr2di_watch_work(watch, 1); k++) {
     const uint32_t parent = h->parent[k];
     is->offset[k] = offset_of(h, k);
-    is->exact[k] = parent == k ||
-                   (is->exact[parent] && hr2di_element_left_part(h->element, parent) == 0.5);
+    const double part = parent == k ? 0.5 : hr2di_element_left_part(h->element, parent);
+    is->exact[k] = parent == k || (is->exact[parent] && 4 * part == rint(4 * part));
   }
 }
 

@@ -20,10 +20,10 @@ typedef struct hr2di_resolution {
   int hidden;             /* the scene has visibility events */
   int crowded;            /* it has very many */
   unsigned generations;   /* elements end at events of so many generations */
-  unsigned halvings; /* where there are too many events: the longest elements are halved, to
-                        the effect of so many halvings of all */
-  double kinks;      /* the error that events inside elements may make; 0: elements end at
-                        all events */
+  unsigned halvings;      /* how often the longest elements are halved where there are too many
+                             events, see long-leaves.h */
+  double kinks;           /* the error that events inside elements may make; 0: elements end at
+                             all events */
   const hr2di_lights *lights; /* of patches, to tell which events matter */
   const double *weight;       /* per patch: the factor from a relative error of its radiosity to
                                  one of the value asked for; NULL: 1 */

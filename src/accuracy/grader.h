@@ -14,11 +14,12 @@ typedef struct hr2di_grading_vertex {
   int last; /* the end of the patch, not its start */
 } hr2di_grading_vertex;
 
-/* A place on a patch where elements end, and how deep they are graded towards it. */
+/* A place on a patch where elements end, and how they are graded towards it: in halves to a
+   size of 2^−halves, and in quarters to one of 2^−depth. */
 typedef struct hr2di_grading_mark {
   double at;
   hr2d_point point;
-  unsigned depth;
+  unsigned depth, halves;
 } hr2di_grading_mark;
 
 typedef struct hr2di_grader hr2di_grader;

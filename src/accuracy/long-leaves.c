@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A kink inside an element of length h makes an error of h³ or so (see kinks.c), and there are
-   the more kinks inside it the longer it is: the error of a leaf is about h⁴.  To halve a leaf
-   divides its part by 8.  The sum of all parts falls most where the longest leaves are halved.
- */
+/* A kink inside an element of length h makes an error of about h³ (see kinks.c).  Two halves of
+   an element make a quarter of that, so that the sum over all leaves falls most where the
+   longest ones are halved. */
 #include "accuracy/long-leaves.h"
 
 #include <math.h>
 
 #include "scene/scene-impl.h"
+
+/* What may be left of the sum; to halve all leaves leaves a quarter. */
+#define LEFT 0.125
 
 /* Lengths are tried in steps of a third of a halving. */
 #define STEP 0.79370052598409974 /* 2^−⅓ */
@@ -19,13 +21,14 @@ static int divides(const hr2d_scene *scene, const hr2d_element *e) {
   return !e->child && rho > 0 && hr2di_scene_lit(scene, e->patch);
 }
 
-/* The sum of h⁴ if no leaf is longer than `longest`. */
+/* The sum of h³ if no leaf is longer than `longest`. */
 static double sum_parts(const hr2d_hierarchy *h, double longest, hr2di_watch *watch) {
   double sum = 0;
   for (size_t k = 0; k < h->elements && !hr2di_watch_work(watch, 1); k++) {
+    if (!divides(h->scene, &h->element[k])) continue;
     double length = h->element[k].length, count = 1;
     for (; length > longest; count *= 2) length *= 0.5;
-    if (divides(h->scene, &h->element[k])) sum += count * pow(length, 4);
+    sum += count * length * length * length;
   }
   return sum;
 }
@@ -37,10 +40,10 @@ static double find_longest(const hr2d_hierarchy *h) {
   return max;
 }
 
-hr2d_status hr2di_long_leaves_halve(hr2d_hierarchy *h, unsigned halvings, uint64_t max_elements,
+hr2d_status hr2di_long_leaves_halve(hr2d_hierarchy *h, unsigned times, uint64_t max_elements,
                                     hr2di_watch *watch) {
   double longest = find_longest(h);
-  const double enough = sum_parts(h, longest, watch) * pow(0.125, halvings);
+  const double enough = sum_parts(h, longest, watch) * pow(LEFT, times);
   while (!hr2di_watch_status(watch) && sum_parts(h, longest, watch) > enough) longest *= STEP;
   for (uint32_t k = 0; k < h->elements; k++) {
     if (hr2di_watch_work(watch, 1)) return hr2di_watch_status(watch);

@@ -30,10 +30,13 @@
    are not near. */
 #define FAR 3.0
 
-/* Elements shrink to this part towards a corner, which is at an ellipse of 2.2 then: they
-   converge faster there than where ends are at HR2DI_ELLIPSE_DISTANT, in three quarters of the
-   elements that halves would make. */
-#define SMALLER 0.375
+/* What elements beside a corner make of averages falls with their length like h^(1+2γ), so that
+   short ones need not converge as fast: below 2^−LONG of that they shrink to quarters.  Such an
+   element has the corner at an ellipse of 5/3.  Places of quarters are as exact as of halves.
+ */
+#define LONG    5
+#define QUARTER 0.25
+#define BEHIND  1.66
 
 enum { DEEPEST = 40, STACK = 256, MANY = 64 /* patches that are worth other threads */ };
 
@@ -80,18 +83,28 @@ static double exponent_of(hr2di_grader *g, double angle, double rho) {
   return g->last[2];
 }
 
-/* How deep elements are graded where two patches meet at angle α and reflect light to and fro.
-   A flat corner has a weak singularity: its strength is about the form factor between the
+/* How elements are graded where two patches meet at angle α and reflect light to and fro. A
+   flat corner has a weak singularity: its strength is about the form factor between the
    patches, ½(1 + cos α). */
-static unsigned corner_depth(hr2di_grader *g, double cosine, double sine, double rho) {
+static hr2di_grading_mark grade_corner(hr2di_grader *g, double cosine, double sine,
+                                       double rho) {
   const double p = g->grading->order, strength = fmin(1, 2 * rho * (1 + cosine));
   const double gamma = exponent_of(g, atan2(sine, cosine), rho);
-  const double slope = g->grading->norm == HR2D_NORM_SUP ? fmax(gamma, 0.05) : 1 + 2 * gamma;
+  const int sup = g->grading->norm == HR2D_NORM_SUP;
+  const double slope = sup ? fmax(gamma, 0.05) : 1 + 2 * gamma;
   const double digits = log2(strength / g->target) / slope;
-  if (!(strength > g->target)) return g->grading->corner_levels;
+  hr2di_grading_mark m = {.depth = g->grading->corner_levels,
+                          .halves = sup ? 2 * DEEPEST : (unsigned)ceil(LONG / slope)};
+  if (!(strength > g->target)) return m;
   g->survey.exponent = fmin(g->survey.exponent, gamma);
-  const double depth = ceil(digits - 2 * log2(p) + 1.5);
-  return (unsigned)fmin(fmax(depth, 2), DEEPEST) + g->grading->corner_levels;
+  m.depth += (unsigned)fmin(fmax(ceil(digits - 2 * log2(p) + 1.5), 2), DEEPEST);
+  return m;
+}
+
+/* Both of two gradings in one. */
+static void deepen(hr2di_grading_mark *mark, const hr2di_grading_mark *by) {
+  mark->depth = by->depth > mark->depth ? by->depth : mark->depth;
+  mark->halves = by->halves > mark->halves ? by->halves : mark->halves;
 }
 
 /* The corner of a shorter patch is as fine on this one as on that, whose average counts as
@@ -103,8 +116,8 @@ static unsigned levels_to(const hr2d_scene *scene, uint32_t patch, uint32_t othe
 
 /* The deepest grading that a patch standing on this one asks for: it may lie on either side of
    its foot, or on both. */
-static unsigned depth_at(hr2di_grader *g, uint32_t patch, const hr2di_grading_vertex *v,
-                         double at) {
+static hr2di_grading_mark grade_at(hr2di_grader *g, uint32_t patch,
+                                   const hr2di_grading_vertex *v, double at) {
   const hr2d_scene *scene = g->h->scene;
   const hr2d_segment s = scene->patch[patch].scaled, other = scene->patch[v->patch].scaled;
   const double rho = sqrt(reflectance(scene, patch) * reflectance(scene, v->patch));
@@ -113,22 +126,25 @@ static unsigned depth_at(hr2di_grader *g, uint32_t patch, const hr2di_grading_ve
   const hr2d_point u = {(s.b.x - s.a.x), (s.b.y - s.a.y)};
   const hr2d_point w = {far.x - v->at.x, far.y - v->at.y};
   const double along = (u.x * w.x + u.y * w.y) / scale, up = (u.x * w.y - u.y * w.x) / scale;
-  if (!(rho > 0) || !(up > 0)) return 0;
-  unsigned depth = 0;
+  hr2di_grading_mark m = {.depth = 0};
+  if (!(rho > 0) || !(up > 0)) return m;
   /* Its front looks along u if it leads downwards. */
-  if (v->last && at < 1) depth = corner_depth(g, along, up, rho);
-  if (!v->last && at > 0) {
-    const unsigned back = corner_depth(g, -along, up, rho);
-    depth = back > depth ? back : depth;
-  }
-  return depth > 0 ? depth + levels_to(scene, patch, v->patch) : 0;
+  if (v->last && at < 1) m = grade_corner(g, along, up, rho);
+  if (!v->last && at > 0) m = grade_corner(g, -along, up, rho);
+  const unsigned levels = m.depth > 0 ? levels_to(scene, patch, v->patch) : 0;
+  m.depth += levels;
+  m.halves += levels;
+  return m;
 }
 
-static hr2d_status add_mark(hr2di_grader *g, double at, hr2d_point point, unsigned depth) {
+static hr2d_status add_mark(hr2di_grader *g, double at, hr2d_point point,
+                            hr2di_grading_mark mark) {
   if (hr2di_alloc_reserve(&g->h->alloc, &g->mark, &g->mark_capacity, g->marks + 1,
                           sizeof *g->mark))
     return HR2D_ENOMEM;
-  g->mark[g->marks++] = (hr2di_grading_mark){at, point, depth};
+  mark.at = at;
+  mark.point = point;
+  g->mark[g->marks++] = mark;
   return HR2D_OK;
 }
 
@@ -180,13 +196,13 @@ static hr2d_status place(hr2di_grader *g, uint32_t patch, uint32_t number) {
   if (above < -least) return HR2D_OK;
   if (at < -ON_LINE || at > 1 + ON_LINE)
     return rises(g->h->scene, patch, v) ? add_near(g, s, v->at) : HR2D_OK;
-  const unsigned depth = depth_at(g, patch, v, at);
-  if (at < ON_LINE) return add_mark(g, 0, s.a, depth);
-  if (at > 1 - ON_LINE) return add_mark(g, 1, s.b, depth);
+  const hr2di_grading_mark mark = grade_at(g, patch, v, at);
+  if (at < ON_LINE) return add_mark(g, 0, s.a, mark);
+  if (at > 1 - ON_LINE) return add_mark(g, 1, s.b, mark);
   const hr2d_status status = rises(g->h->scene, patch, v)
                                  ? add_under(g, 2 * v->patch + (uint32_t)v->last, patch)
                                  : HR2D_OK;
-  return status ? status : add_mark(g, at, v->at, depth);
+  return status ? status : add_mark(g, at, v->at, mark);
 }
 
 /* Places the vertices that may be near a patch: those in a window of x. */
@@ -215,7 +231,7 @@ static hr2d_status add_foot(hr2di_grader *g, uint32_t patch, int last) {
   const hr2d_segment s = g->h->scene->patch[patch].scaled;
   const hr2di_grading_vertex foot = {last ? s.b : s.a, patch, last};
   const uint32_t under = g->under[2 * patch + (uint32_t)last];
-  return under ? add_mark(g, last, foot.at, depth_at(g, under - 1, &foot, 0.5)) : HR2D_OK;
+  return under ? add_mark(g, last, foot.at, grade_at(g, under - 1, &foot, 0.5)) : HR2D_OK;
 }
 
 unsigned hr2di_grading_generations(double error) {
@@ -240,7 +256,7 @@ static hr2d_status add_events(hr2di_grader *g, uint32_t patch) {
         events->event[low].generation > hr2di_grading_generations(g->target))
       continue;
     const hr2d_point point = {s.a.x + at * (s.b.x - s.a.x), s.a.y + at * (s.b.y - s.a.y)};
-    status = add_mark(g, at, point, 0);
+    status = add_mark(g, at, point, (hr2di_grading_mark){.depth = 0});
   }
   return status;
 }
@@ -251,8 +267,7 @@ static void sort_marks(hr2di_grader *g) {
   if (g->marks > 0) qsort(g->mark, g->marks, sizeof *g->mark, by_place);
   for (size_t k = 0; k < g->marks; k++) {
     if (kept > 0 && g->mark[k].at - g->mark[kept - 1].at < 16 * g->shortest) {
-      if (g->mark[k].depth > g->mark[kept - 1].depth)
-        g->mark[kept - 1].depth = g->mark[k].depth;
+      deepen(&g->mark[kept - 1], &g->mark[k]);
       continue;
     }
     g->mark[kept++] = g->mark[k];
@@ -321,11 +336,12 @@ static double cut_towards(const hr2di_grader *g, const part *e,
   const double from = fabs(mark->at - e->from), to = fabs(mark->at - e->to);
   const int touches = from <= margin || to <= margin;
   /* An event may keep an element from touching a corner that it is near to. */
-  const int near = mark->depth > 0 && from + to < g->distance * size;
+  const int near = mark->depth > 0 && from + to < fmin(g->distance, BEHIND) * size;
   const double least = 1.001 * ldexp(1, -(int)mark->depth);
   if (!(touches || near) || !(size > least)) return 0;
-  if (!touches || 0.5 * size <= least) return 0.5;
-  return from <= to ? SMALLER : 1 - SMALLER;
+  if (!touches || 0.5 * size <= least || size > 1.001 * ldexp(1, -(int)mark->halves))
+    return 0.5;
+  return from <= to ? QUARTER : 1 - QUARTER;
 }
 
 /* Where an element is divided, as a part of it; 0: nowhere. */
@@ -343,8 +359,7 @@ static double cut_of(const hr2di_grader *g, const part *e, double least) {
 static void divide_at(hr2di_grader *g, uint32_t element, double cut) {
   const hr2d_element *e = &g->h->element[element];
   const hr2d_point end = cut < 0.5 ? e->a : e->b;
-  const double t = 2 * fmin(cut, 1 - cut);
-  const hr2d_point at = {end.x + t * (e->centre.x - end.x), end.y + t * (e->centre.y - end.y)};
+  const hr2d_point at = {0.5 * (end.x + e->centre.x), 0.5 * (end.y + e->centre.y)};
   if (cut == 0.5)
     hr2di_element_halve(g->h, element);
   else

@@ -50,23 +50,27 @@ uint32_t hr2di_element_halve(hr2d_hierarchy *hierarchy, uint32_t element);
 uint32_t hr2di_element_divide(hr2d_hierarchy *hierarchy, uint32_t element, double part,
                               hr2d_point at);
 
-/* The length of an element's left child as a fraction of the element; ½ if it was halved. */
+/* left / (left + right), exact for halves and quarters. */
+static inline double hr2di_part_of(double left, double right) {
+  if (left == right) return 0.5;
+  return right == 3 * left ? 0.25 : left == 3 * right ? 0.75 : left / (left + right);
+}
+
+/* The length of an element's left child as a fraction of the element. */
 static inline double hr2di_element_left_part(const hr2d_element *element, uint32_t at) {
-  const double left = element[element[at].child].length;
-  const double right = element[element[at].child + 1].length;
-  return left == right ? 0.5 : left / (left + right);
+  const hr2d_element *child = element + element[at].child;
+  return hr2di_part_of(child[0].length, child[1].length);
 }
 
 /* That of the right child, with its own digits where it is much shorter. */
 static inline double hr2di_element_right_part(const hr2d_element *element, uint32_t at) {
-  const double left = element[element[at].child].length;
-  const double right = element[element[at].child + 1].length;
-  return left == right ? 0.5 : right / (left + right);
+  const hr2d_element *child = element + element[at].child;
+  return hr2di_part_of(child[1].length, child[0].length);
 }
 
 /* Returns the child that holds the point at fraction *t of an element; *t becomes the fraction
-   of this child, exact for halves.  A point on the border of the children belongs to the left
-   one if `before` is set, else to the right one. */
+   of this child, exact for halves and quarters.  A point on the border of the children belongs
+   to the left one if `before` is set, else to the right one. */
 static inline uint32_t hr2di_element_child_at(const hr2d_element *element, uint32_t at,
                                               double *t, int before) {
   const double left = hr2di_element_left_part(element, at);
@@ -75,7 +79,8 @@ static inline uint32_t hr2di_element_child_at(const hr2d_element *element, uint3
   return element[at].child + (uint32_t)right;
 }
 
-/* The start of an element as a fraction of its patch; exact if all divisions were halvings. */
+/* The start of an element as a fraction of its patch; exact if all divisions were into halves
+   or quarters. */
 double hr2di_element_start(const hr2d_hierarchy *hierarchy, uint32_t element);
 
 /* Walks the leaves below the element `top` in their order on the patch: the first leaf, and the
