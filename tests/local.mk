@@ -101,6 +101,7 @@ SUITES = \
 
 OUTSIDE = \
 	tests/adversary/check-adversary.sh \
+	tests/docs/check-docs.sh \
 	tests/program/check-cli.sh \
 	tests/program/check-help.sh \
 	tests/program/check-program-faults.sh \
@@ -220,6 +221,7 @@ AM_TESTS_ENVIRONMENT = \
 	HR2D_SCENES='$(abs_top_srcdir)/examples/scenes'; export HR2D_SCENES; \
 	HR2D_PROGRAM='$(abs_top_builddir)/tools/hr2d$(EXEEXT)'; export HR2D_PROGRAM; \
 	HR2D_EXAMPLES='$(EXAMPLES)'; export HR2D_EXAMPLES; \
+	HR2D_CFLAGS='$(CFLAGS) $(HR2D_CFLAGS) $(LDFLAGS)'; export HR2D_CFLAGS; \
 	CC='$(CC)'; export CC; CXX='$(CXX)'; export CXX; NM='$(NM)'; export NM;
 
 check-long:
@@ -291,7 +293,8 @@ installcheck-local:
 	bindir='$(bindir)' PKG_CONFIG='$(PKG_CONFIG)' CC='$(CC)' CXX='$(CXX)' \
 	VERSION='$(VERSION)' $(SHELL) $(srcdir)/tests/package/consumer/run.sh $(srcdir)/tests/package/consumer
 
-EXTRA_DIST += $(OUTSIDE) tests/digits.sh tests/lsan.supp tests/matrix.sh tests/summary.sh \
+EXTRA_DIST += $(OUTSIDE) tests/docs/blocks.awk tests/docs/compare.awk tests/docs/pages.sh \
+	tests/digits.sh tests/lsan.supp tests/matrix.sh tests/summary.sh \
 	tests/data tests/program/cli tests/threads/race.c tests/package/consumer/main.c \
 	tests/package/consumer/main.cpp tests/package/consumer/run.sh \
 	tests/package/consumer/CMakeLists.txt tests/package/consumer/meson.build

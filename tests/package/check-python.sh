@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The Python package, installed by pip without a network against the library that was just built,
-# passes its own tests.  Skipped where Python, its packages or a shared library is missing; where
+# passes its own tests, and does what the pages with Python show.  Skipped where Python, its packages or a shared library is missing; where
 # CI is set, missing packages are a failure.
 set -eu
 # setuptools comes first: it refuses to follow distutils, which numpy imports.
@@ -44,3 +44,17 @@ folder=$(find "$work/prefix" -type d -name hr2d -path '*-packages/hr2d')
 export PYTHONPATH="${folder%/hr2d}" PYTHONDONTWRITEBYTECODE=1 MPLBACKEND=Agg MPLCONFIGDIR="$work"
 cd "$work"
 "$python" -m pytest -q -p no:cacheprovider python/tests
+
+. "$HR2D_SRCDIR/tests/docs/pages.sh"
+make_reader "$work/bin"
+printf '#!/bin/sh\nexec %s "$@"\n' "$python" >"$work/bin/python3"
+chmod +x "$work/bin/python3"
+all_pages >"$work/pages"
+pages=0
+while read -r page; do
+  needs_python "$HR2D_SRCDIR/$page" || continue
+  run_page "$HR2D_SRCDIR/$page" "$work/page" || exit 1
+  pages=$((pages + 1))
+done <"$work/pages"
+echo "$pages pages"
+[ "$pages" -gt 0 ]
