@@ -16,6 +16,7 @@ EXTRA_DIST += \
 	doc/architecture-figure.sh \
 	doc/figures.sh \
 	doc/figures \
+	doc/howto \
 	doc/tutorial \
 	doc/site.awk \
 	doc/site.css

@@ -29,7 +29,7 @@ while read -r page; do
     check "$page shows what happens" run_page "$HR2D_SRCDIR/$page" "$work/page"
   fi
 done <"$work/pages"
-check "there are pages" [ "$(wc -l <"$work/pages")" -ge 15 ]
+check "there are pages" [ "$(wc -l <"$work/pages")" -ge 25 ]
 
 # ---- commands that are shown and not run name commands and options that exist
 # unknown PAGE...: options of `hr2d COMMAND` in code, which the program does not know
