@@ -18,15 +18,33 @@ EXTRA_DIST += \
 	doc/figures \
 	doc/howto \
 	doc/tutorial \
+	doc/check-links.awk \
+	doc/footer.html \
+	doc/header.html.in \
+	doc/label.awk \
+	doc/manual.awk \
+	doc/menu.awk \
 	doc/site.awk \
 	doc/site.css
 
-doc: doc/Doxyfile doc/examples.dox include/hr2d/version.h
+doc: doc/Doxyfile doc/examples.dox doc/header.html doc/manual.dox include/hr2d/version.h
 	@test -n '$(DOXYGEN)' || { echo "doxygen was not found by configure" >&2; exit 1; }
 	rm -rf html
 	$(DOXYGEN) doc/Doxyfile
+	$(AWK) -f $(srcdir)/doc/check-links.awk html/*.html html/*.html
 doxygen: doc
 .PHONY: doc doxygen
+
+# The head of each page, with the menu, which is the list of pages in doc/README.md.
+doc/header.html: doc/header.html.in doc/README.md doc/label.awk doc/menu.awk
+	@$(MKDIR_P) doc
+	@$(AWK) -f $(srcdir)/doc/label.awk -f $(srcdir)/doc/menu.awk $(srcdir)/doc/README.md \
+	  $(srcdir)/doc/header.html.in >$@
+
+# The manual page of the program.
+doc/manual.dox: tools/hr2d.1 doc/manual.awk
+	@$(MKDIR_P) doc
+	@$(AWK) -f $(srcdir)/doc/manual.awk $(srcdir)/tools/hr2d.1 >$@
 
 # Each example as a page: its first comment, what it prints, its text.
 doc/examples.dox: doc/local.mk $(EXAMPLES:=.c) $(CXX_EXAMPLES:=.cpp)
@@ -38,7 +56,7 @@ doc/examples.dox: doc/local.mk $(EXAMPLES:=.c) $(CXX_EXAMPLES:=.cpp)
 	    "$(srcdir)/$$example"; \
 	  echo; echo " It prints"; echo " @verbinclude $${name%.*}.expected"; echo "*/"; \
 	done >$@
-CLEANFILES += doc/examples.dox
+CLEANFILES += doc/examples.dox doc/header.html doc/manual.dox
 
 # `make figures` draws the figures of README.md, doc/occlusion.md, doc/theorem.md and doc/cost.md
 # into the source tree, from sweeps that a second run resumes.

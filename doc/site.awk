@@ -1,34 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# site.awk -v top=DIR FILE: a Markdown page as Doxygen wants it.  Doxygen's input filter.
+# awk -v top=DIR -f label.awk -f site.awk FILE: a Markdown page as Doxygen wants it.  Doxygen's
+# input filter.
 #
 # Pages are written for a plain forge view: links are paths from the page, with #heading behind.
 # Here headings get labels, and links of pages, headers and examples become references to these.
-# In doc/README.md, which is the table of contents, the first link to a page makes it a subpage,
-# and so does a link to a table of doc/figures, which gets a title.
+# A table of doc/figures gets a title.
 # A link to anything else in the tree becomes plain text.  Lines keep their numbers.
-
-# The letters and digits of a heading, or of the part behind # of a link to it.
-function letters(text) {
-  text = tolower(text)
-  gsub(/[^a-z0-9]/, "", text)
-  return text
-}
-
-# The label of a page by its path from the top, of a heading in it if one is given.
-function label(path, heading) {
-  if (path == "README.md" && heading == "") return "index"
-  sub(/\.md$/, "", path)
-  gsub(/[^A-Za-z0-9]/, "_", path)
-  return tolower(path) (heading == "" ? "" : "-" heading)
-}
-
-# A path without . and ..
-function clean(path) {
-  path = path "/"
-  while (sub(/\/\.\//, "/", path) || sub(/[^\/]*[^\/.][^\/]*\/\.\.\//, "", path)) {}
-  sub(/\/$/, "", path)
-  return path
-}
 
 # What replaces [text](target).
 function link(text, target,    path, part, name) {
@@ -39,18 +16,13 @@ function link(text, target,    path, part, name) {
   path = path == "" ? page : clean(folder path)
   name = path
   sub(/.*\//, "", name)
-  if (path ~ /\.md$/) {
-    if (part == "" && path != "README.md" && !(path in seen) &&
-        (page == "doc/README.md" || path ~ /^doc\/figures\//)) {
-      seen[path] = 1
-      return "@subpage " label(path, "") " \"" text "\""
-    }
-    return "[" text "](@ref " label(path, letters(part)) ")"
-  }
+  if (path ~ /\.md$/) return "[" text "](@ref " label(path, letters(part)) ")"
   if (path ~ /^include\/.*\.h$/ || path ~ /^examples\/.*\.c$/)
     return "[" text "](@ref " name ")"
   if (path == "NEWS" || path == "COPYING") return "<a href=\"" name "\">" text "</a>"
   if (path ~ /^include\/hr2d\/?$/) return "<a href=\"files.html\">" text "</a>"
+  if (path ~ /^examples\/?$/) return "<a href=\"examples.html\">" text "</a>"
+  if (path == "tools/hr2d.1") return "[" text "](@ref tools_hr2d_1)"
   return text
 }
 
@@ -117,7 +89,7 @@ fenced || /^ *(```|~~~)/ || (/^    / && (blank || indented)) {
 # The line below a title is blank.
 blank && titled == 1 {
   titled = 2
-  if (page ~ /^doc\// && page != "doc/README.md") $0 = "\\tableofcontents"
+  if (page ~ /^doc\/[a-z-]*\.md$/) $0 = "\\tableofcontents"
 }
 { held = held $0 "\n" }
 blank { flush() }

@@ -59,6 +59,55 @@ printf '    hr2d solve SCENE \\\n      --epps 2\nand `hr2d sulve X`\n' >"$work/p
 check "an option that does not exist would be found" \
   [ "$(unknown "$work/page.md" | tr '\n' ,)" = 'hr2d solve --epps,hr2d sulve,' ]
 
+# ---- links
+# astray PAGE...: links of pages, by their paths from the top, that lead to no file
+astray() {
+  for page; do
+    grep -o '\[[^][]*\]([^()]*)' "$page" | sed 's/.*](//; s/[)#].*//' | grep -v -e '^$' -e '^[a-z]*:' |
+      while read -r link; do
+        [ -e "$(dirname "$page")/$link" ] || echo "$page: $link"
+      done
+  done
+}
+cd "$HR2D_SRCDIR" || exit 99
+# shellcheck disable=SC2046
+check "links of pages lead to files; not: $(astray $(cat "$work/pages"))" \
+  [ -z "$(astray $(cat "$work/pages"))" ]
+printf '[a](page.md) and [b](none.md#x), [c](https://d.e)\n' >"$work/page.md"
+check "one that does not would be found" \
+  [ "$(astray "$work/page.md")" = "$work/page.md: none.md" ]
+
+# unlisted LIST: pages that doc/README.md, the menu of the site, does not have
+unlisted() {
+  grep -v -e '^doc/README.md' -e '^doc/figures/' "$work/pages" | while read -r page; do
+    case $page in
+    doc/*) grep -q -F "](${page#doc/})" "$1" ;;
+    *) grep -q -F "](../$page)" "$1" ;;
+    esac || echo "$page"
+  done
+}
+check "doc/README.md lists all pages; not $(unlisted doc/README.md)" \
+  [ -z "$(unlisted doc/README.md)" ]
+grep -v vs2 doc/README.md >"$work/page.md"
+check "a page that is not in it would be found" \
+  [ "$(unlisted "$work/page.md")" = doc/tutorial/vs2.md ]
+
+# `make doc` looks at the links of the site.
+leads() {
+  mkdir -p "$work/site" && echo '<a id="there"></a>' >"$work/site/b.html"
+  echo "$1" >"$work/site/a.html"
+  awk -f doc/check-links.awk "$work"/site/*.html "$work"/site/*.html 2>"$work/found"
+}
+leads_astray() {
+  ! leads "$1"
+}
+check "links that lead somewhere" \
+  leads '<a href="b.html#there">, <a href="#here" id="here">, <a href="https://a.b/c">'
+for link in '<a href="c.html">' '<a href="b.html#here">' '<a href="#there">' '<img src="c.png">' \
+  '<script src="https://a.b/c.js">' '<link href="https://a.b/c.css">' 'no link'; do
+  check "would be found: $link" leads_astray "$link"
+done
+
 # ---- without these, a page with mistakes would pass
 page() { # page LINE...
   printf '%s\n' "$@" >"$work/page.md"
