@@ -27,6 +27,14 @@ EXTRA_DIST += \
 	doc/site.awk \
 	doc/site.css
 
+dist_doc_DATA = NEWS README.md
+
+# `make install-html` installs the site.
+html-local: doc
+install-html-local: doc
+	$(MKDIR_P) '$(DESTDIR)$(htmldir)/html'
+	cp -R html/. '$(DESTDIR)$(htmldir)/html'
+
 doc: doc/Doxyfile doc/examples.dox doc/header.html doc/manual.dox include/hr2d/version.h
 	@test -n '$(DOXYGEN)' || { echo "doxygen was not found by configure" >&2; exit 1; }
 	rm -rf html

@@ -28,4 +28,29 @@ examples_tour_LDADD = libhr2d.la
 # Built and run by `make installcheck`, with the installed library.
 CXX_EXAMPLES = examples/room
 
-EXTRA_DIST += examples/scenes $(EXAMPLES:=.expected) $(CXX_EXAMPLES:=.cpp) $(CXX_EXAMPLES:=.expected)
+# Installed as text: programs to copy, and scenes.
+examplesdir = $(docdir)/examples
+dist_examples_DATA = $(EXAMPLES:=.c) $(CXX_EXAMPLES:=.cpp)
+scenesdir = $(examplesdir)/scenes
+dist_scenes_DATA = \
+	examples/scenes/README.md \
+	examples/scenes/blk1.vs2 \
+	examples/scenes/castel-del-monte.geojson \
+	examples/scenes/corner.geojson \
+	examples/scenes/enfilade.geojson \
+	examples/scenes/furnace-enclosure.geojson \
+	examples/scenes/furnace.geojson \
+	examples/scenes/lit-room.geojson \
+	examples/scenes/occ128.vs2 \
+	examples/scenes/occluders-200.geojson \
+	examples/scenes/orth-far.geojson \
+	examples/scenes/orth-near.geojson \
+	examples/scenes/par-far.geojson \
+	examples/scenes/par-near.geojson \
+	examples/scenes/partition.geojson \
+	examples/scenes/screened-room.geojson \
+	examples/scenes/solar-panels.geojson \
+	examples/scenes/square-room.geojson \
+	examples/scenes/street-canyon.geojson
+
+EXTRA_DIST += $(EXAMPLES:=.expected) $(CXX_EXAMPLES:=.expected)

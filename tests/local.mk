@@ -290,6 +290,7 @@ endif
 # An outside program, in C and in C++, against the files that `make install` installed.
 installcheck-local:
 	DESTDIR='$(DESTDIR)' libdir='$(libdir)' pkgconfigdir='$(pkgconfigdir)' \
+	docdir='$(docdir)' \
 	bindir='$(bindir)' PKG_CONFIG='$(PKG_CONFIG)' CC='$(CC)' CXX='$(CXX)' \
 	VERSION='$(VERSION)' $(SHELL) $(srcdir)/tests/package/consumer/run.sh $(srcdir)/tests/package/consumer
 

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds and runs main.c, main.cpp and examples/room.cpp with what pkg-config says of the installed
 # library, and the former two by CMake and by Meson where these are.  `make installcheck` sets
-# DESTDIR, libdir, pkgconfigdir, bindir, VERSION and tools.
+# DESTDIR, docdir, libdir, pkgconfigdir, bindir, VERSION and tools.
 set -eu
 here=$1
-: "${DESTDIR=}" "${libdir:?}" "${pkgconfigdir:?}" "${bindir:?}" "${VERSION:?}"
+: "${DESTDIR=}" "${docdir:?}" "${libdir:?}" "${pkgconfigdir:?}" "${bindir:?}" "${VERSION:?}"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -70,3 +70,10 @@ if [ -n "$CXX" ]; then
   ! command -v meson >/dev/null || by_tool meson make_meson
 fi
 "$DESTDIR$bindir/hr2d" --version
+
+# The examples are installed, and the program reads their scenes.
+examples=$DESTDIR$docdir/examples
+$CC -std=c11 "$examples/digits.c" -o "$work/digits" $("$PKG_CONFIG" --cflags --libs hr2d)
+"$work/digits" | diff -u "$here/../../../examples/digits.expected" -
+"$DESTDIR$bindir/hr2d" solve "$examples/scenes/lit-room.geojson" --quiet --json "$work/room.json"
+echo "installcheck: examples ok"
