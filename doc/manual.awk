@@ -8,7 +8,8 @@ function text(s) {
   gsub(/\\\(\*r/, "ρ", s); gsub(/\\\(\*e/, "ε", s); gsub(/\\\(\*p/, "π", s)
   gsub(/\\\(\*w/, "ω", s); gsub(/\\\(\*S/, "Σ", s); gsub(/\\\(is/, "∫", s)
   gsub(/\\\(->/, "→", s); gsub(/\\\(-&gt;/, "→", s); gsub(/\\\(mu/, "×", s); gsub(/\\\(sr/, "√", s)
-  gsub(/\\\(S2/, "²", s); gsub(/\\\(pt/, "∝", s); gsub(/\\\(~~/, "≈", s); gsub(/\\\(:u/, "ü", s); gsub(/\\\(dq/, "\"", s)
+  gsub(/\\\(S2/, "²", s); gsub(/\\\(pt/, "∝", s); gsub(/\\\(~~/, "≈", s)
+  gsub(/\\\(:u/, "ü", s); gsub(/\\\(dq/, "\"", s)
   if (s ~ /\\/) { print FILENAME ":" FNR ": " s >"/dev/stderr"; failed = 1 }
   return s
 }
@@ -79,8 +80,8 @@ NR == 1 {
 /^\.RE/ { close_list(); level--; next }
 /^\.PP/ { close_list(); print "<p>"; next }
 /^\.br/ { print "<br>"; next }
-/^\.nf/ { print "<pre class=\"fragment\">"; verbatim = 1; next }
-/^\.fi/ { print "</pre>"; verbatim = 0; next }
+/^\.nf/ { print "<pre class=\"fragment\">"; next }
+/^\.fi/ { print "</pre>"; next }
 /^\.[^BIR]/ { print FILENAME ":" FNR ": " $0 >"/dev/stderr"; failed = 1; next }
 tag { print "<dt>" line($0) "</dt>\n<dd>"; tag = 0; next }
 { print line($0) }

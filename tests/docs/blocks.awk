@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # blocks.awk -v out=FOLDER PAGE: what a page tells its reader to save and to run.
 #
-# A block with a language is a file, if the line above it ends with its name, as in "Save it as
-# `room.geojson`:".  A block `console` has commands behind "$ ", lines that go on behind "> ", and
-# the output below each.  FOLDER gets the text of step K as K and K.expected, and FOLDER/steps a
+# A block `console` has commands behind "$ ", lines that go on behind "> ", and the output below
+# each.  Any other block is a file, and the line above it ends with its name, as in "Save it as
+# `room.geojson`:".  FOLDER gets the text of step K as K and K.expected, and FOLDER/steps a
 # line for each: "file K LINE NAME" or "command K LINE fails|succeeds".  A command may fail if the
 # page shows it, by "$ echo $?" as the next one.
 function wrong(line, what) {
@@ -23,12 +23,13 @@ function open_command(text) {
 /^```/ && !inside {
   inside = FNR
   language = substr($0, 4)
-  if (language != "" && language != "console") {
+  if (language != "console") {
     if (!match(above, /`[^`]+`:$/)) {
       wrong(FNR, "the line above does not end with the name of this file: `NAME`:")
-      language = ""
+      known = 0
       next
     }
+    known = 1
     at[++steps] = FNR
     kind[steps] = "file"
     name[steps] = substr(above, RSTART + 1, RLENGTH - 3)
@@ -44,7 +45,7 @@ inside && language == "console" {
   else { print >(out "/" steps ".expected"); shown = FNR }
   next
 }
-inside && language != "" { print >(out "/" steps); next }
+inside && known { print >(out "/" steps); next }
 !inside && NF { above = $0; sub(/[ \t]+$/, "", above) }
 
 END {

@@ -151,6 +151,8 @@ page '```console' '$ hr2d info none.geojson' "$no_file" '```'
 check "a command that fails unseen would be found" is_refused
 page '```console' 'hr2d info none.geojson' '```'
 check "a command without a prompt would be found" is_refused
+page '```' '$ true' '```'
+check "a block that is neither a file nor commands would be found" is_refused
 page 'a file' '```json' '{}' '```'
 check "a file without a name would be found" is_refused
 page '```console' '$ exit 0' '$ false' '```'
