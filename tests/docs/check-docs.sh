@@ -59,6 +59,20 @@ printf '    hr2d solve SCENE \\\n      --epps 2\nand `hr2d sulve X`\n' >"$work/p
 check "an option that does not exist would be found" \
   [ "$(unknown "$work/page.md" | tr '\n' ,)" = 'hr2d solve --epps,hr2d sulve,' ]
 
+# ---- structs that can grow
+# absent PAGE: those of the headers that the tables of the page do not have
+absent() {
+  awk '/^typedef struct/ { name = $3 } / size_t struct_size;/ { print name }' \
+    "$HR2D_SRCDIR"/include/hr2d/*.h | while read -r name; do
+    grep -q "^|.*\`$name\`" "$1" || echo "$name"
+  done
+}
+compatibility=$HR2D_SRCDIR/doc/compatibility.md
+check "doc/compatibility.md has all structs that can grow; not $(absent "$compatibility")" \
+  [ -z "$(absent "$compatibility")" ]
+sed 's/`hr2d_beam`//' "$compatibility" >"$work/page.md"
+check "one that it lacks would be found" [ "$(absent "$work/page.md")" = hr2d_beam ]
+
 # ---- links
 # astray PAGE...: links of pages, by their paths from the top, that lead to no file
 astray() {
