@@ -178,8 +178,8 @@ hr2d_status hr2di_facing_in_part_find(const hr2d_scene *scene, const hr2di_hull 
   finder f = {.scene = scene, .least = UINT32_MAX, .watch = watch};
   *found = (hr2di_first_pair){0};
   hr2d_status status = find_least(&f, hull);
-  const size_t i = f.least;
-  for (size_t j = i + 1; j < scene->patches && !found->exists && !status; j++) {
+  const size_t n = scene->patches, i = f.least < n ? f.least : n; /* so that i + 1 is not 0 */
+  for (size_t j = i + 1; j < n && !found->exists && !status; j++) {
     if (j % 16 == 0) status = hr2di_watch_work(watch, 8);
     if (hr2di_facing_of(&scene->patch[i].scaled, &scene->patch[j].scaled) == HR2DI_FACING_PART)
       *found = (hr2di_first_pair){1, i, j};
