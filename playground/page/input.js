@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mouse, touch, keys and controls.
+
+import { $, showLegend, showMessage } from "./panel.js";
+import { Scale } from "./palette.js";
+
+const GRAB = 10; // pixels around what is grabbed
+const FINGER = 22;
+const SNAP = 9;
+const REST = 500; // milliseconds after the last arrow key
+const STEP = 1 / 200; // of the scene, for an arrow key
+const LEAP = 10;
+
+/** Pointers on the plan: move walls or draw them; drag the empty plan to shift the view. */
+class Pointer {
+  constructor(page) {
+    this.page = page;
+    this.drag = null;
+    const plan = $("plan");
+    plan.addEventListener("pointerdown", (event) => this.down(event));
+    plan.addEventListener("pointermove", (event) => this.move(event));
+    plan.addEventListener("pointerup", (event) => this.up(event));
+    plan.addEventListener("pointercancel", (event) => this.up(event));
+    plan.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+  }
+
+  at(event) {
+    return this.page.view.toScene([event.offsetX, event.offsetY]);
+  }
+
+  reach(event) {
+    return (event.pointerType === "touch" ? FINGER : GRAB) / this.page.view.scale;
+  }
+
+  down(event) {
+    if (event.button !== 0 || this.drag) return;
+    const { page } = this;
+    const at = this.at(event);
+    $("plan").setPointerCapture(event.pointerId);
+    if (document.querySelector("input[name=tool]:checked").value === "draw") return this.draw(at);
+    const found = page.scene.at(at, this.reach(event));
+    page.choose(found ? found.wall : -1);
+    this.drag = found ? this.grab(found, at) : { kind: "shift", at: [event.offsetX, event.offsetY] };
+  }
+
+  draw(at) {
+    const { scene, view } = this.page;
+    const from = scene.snap(at, SNAP / view.scale) ?? at;
+    this.drag = { kind: "draw", from, start: scene.copy() };
+  }
+
+  grab({ wall, grabbed }, at) {
+    const { scene } = this.page;
+    const ends = scene.endsToMove(wall, grabbed, $("how").value);
+    return { kind: "move", at, wall, grabbed, ends, start: scene.copy() };
+  }
+
+  move(event) {
+    const at = this.at(event);
+    if (!this.drag) return this.page.point(at, this.reach(event));
+    this.drag.moved = true;
+    this[`${this.drag.kind}To`](at, event);
+  }
+
+  moveTo(at) {
+    const { scene, view } = this.page;
+    const { ends, start, wall, grabbed } = this.drag;
+    const by = [at[0] - this.drag.at[0], at[1] - this.drag.at[1]];
+    if (grabbed === "wall") {
+      scene.move(ends, start, by);
+    } else {
+      const from = start.walls[wall][grabbed];
+      const to = [from[0] + by[0], from[1] + by[1]];
+      scene.moveEnd(ends, start, from, scene.snap(to, SNAP / view.scale, ends) ?? to);
+    }
+    this.page.moving();
+  }
+
+  drawTo(at) {
+    const { page, drag } = this;
+    page.scene = drag.start.copy();
+    const to = page.scene.snap(at, SNAP / page.view.scale) ?? at;
+    if (to[0] === drag.from[0] && to[1] === drag.from[1]) return;
+    page.chosen = page.scene.add(drag.from, to);
+    page.moving();
+  }
+
+  shiftTo(at, event) {
+    const { view } = this.page;
+    const now = [event.offsetX, event.offsetY];
+    view.centre[0] -= (now[0] - this.drag.at[0]) / view.scale;
+    view.centre[1] += (now[1] - this.drag.at[1]) / view.scale;
+    this.drag.at = now;
+    this.page.show();
+  }
+
+  up() {
+    const { drag, page } = this;
+    this.drag = null;
+    if (!drag?.moved) return;
+    if (drag.kind === "shift") page.changed();
+    else page.edited();
+  }
+
+  wheel(event) {
+    event.preventDefault();
+    this.page.view.zoom(Math.exp(-0.0015 * event.deltaY), [event.offsetX, event.offsetY]);
+    this.page.show();
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => this.page.changed(), REST);
+  }
+}
+
+/** Keys on the plan. */
+class Keys {
+  constructor(page) {
+    this.page = page;
+    $("plan").addEventListener("keydown", (event) => this.down(event));
+    document.addEventListener("keydown", (event) => this.history(event));
+  }
+
+  down(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const act = this.action(event);
+    if (!act) return;
+    event.preventDefault();
+    act();
+  }
+
+  action({ key, shiftKey }) {
+    const { page } = this;
+    const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    if (arrows[key]) return page.chosen < 0 ? null : () => this.nudge(arrows[key], shiftKey);
+    const zoom = (factor) => () => {
+      page.view.zoom(factor);
+      page.changed();
+    };
+    const actions = {
+      n: () => this.step(1),
+      PageDown: () => this.step(1),
+      p: () => this.step(-1),
+      PageUp: () => this.step(-1),
+      Delete: () => page.deleteWall(),
+      Backspace: () => page.deleteWall(),
+      Escape: () => page.choose(-1),
+      "[": () => page.stepElement(-1),
+      "]": () => page.stepElement(1),
+      "+": zoom(1.25),
+      "-": zoom(0.8),
+      0: () => fit(page),
+    };
+    return actions[key.length === 1 ? key.toLowerCase() : key];
+  }
+
+  step(by) {
+    const { page } = this;
+    const count = page.scene.walls.length;
+    if (count) page.choose((Math.max(page.chosen, by > 0 ? -1 : 0) + by + count) % count);
+  }
+
+  nudge([x, y], far) {
+    const { page } = this;
+    const length = page.scene.size() * STEP * (far ? LEAP : 1);
+    const ends = page.scene.endsToMove(page.chosen, "wall", $("how").value);
+    page.scene.move(ends, page.scene.copy(), [x * length, y * length]);
+    page.moving();
+    $("under").textContent = page.describe(page.chosen);
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => page.edited(), REST);
+  }
+
+  history(event) {
+    if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
+    const key = event.key.toLowerCase();
+    const back = key === "z" && !event.shiftKey;
+    const forth = key === "y" || (key === "z" && event.shiftKey);
+    if (!back && !forth) return;
+    event.preventDefault();
+    if (back) this.page.undo();
+    else this.page.redo();
+  }
+}
+
+function fit(page) {
+  page.view.fit(page.scene.bounds());
+  page.changed();
+}
+
+/** A slider with a number beside it: `set` while it slides, and then the edit is complete. */
+function sliderAndNumber(page, id, set) {
+  const slider = $(id);
+  const number = $(`${id}-number`);
+  slider.addEventListener("input", () => {
+    number.value = slider.value;
+    set(Number(slider.value));
+    page.moving();
+  });
+  slider.addEventListener("change", () => page.edited());
+  number.addEventListener("change", () => {
+    if (!number.checkValidity() || number.value === "") return showMessage(number.validationMessage || "a number is missing");
+    set(Number(number.value));
+    page.edited();
+  });
+}
+
+function listenToWalls(page) {
+  const chosen = () => page.scene.walls[page.chosen];
+  sliderAndNumber(page, "emission", (v) => (chosen().emission[page.band] = v));
+  sliderAndNumber(page, "reflectance", (v) => (chosen().reflectance[page.band] = v));
+  sliderAndNumber(page, "background", (v) => (page.scene.background[page.band] = v));
+  $("wall").addEventListener("change", (event) => page.choose(event.target.value === "" ? -1 : Number(event.target.value)));
+  $("both").addEventListener("change", (event) => {
+    chosen().both = event.target.checked;
+    page.edited();
+  });
+  $("flip").addEventListener("click", () => {
+    const w = chosen();
+    [w.a, w.b] = [w.b, w.a];
+    page.edited();
+  });
+  $("delete").addEventListener("click", () => page.deleteWall());
+  $("add").addEventListener("click", () => {
+    const [x, y] = page.view.centre;
+    const half = page.scene.size() / 10;
+    page.addWall([x - half, y], [x + half, y]);
+    $("plan").focus();
+  });
+}
+
+function listenToAnswers(page) {
+  const chooseMethod = () => {
+    const method = document.querySelector("input[name=method]:checked").value;
+    for (const row of document.querySelectorAll(".of-target")) row.hidden = method !== "target";
+    for (const row of document.querySelectorAll(".of-epsilon")) row.hidden = method !== "epsilon";
+  };
+  for (const radio of document.querySelectorAll("input[name=method]"))
+    radio.addEventListener("change", () => {
+      chooseMethod();
+      page.changed();
+    });
+  chooseMethod();
+  $("error").addEventListener("change", () => page.changed());
+  $("oracle").addEventListener("change", () => page.changed());
+  $("epsilon").addEventListener("input", () => page.sliding());
+  $("epsilon").addEventListener("change", () => page.changed());
+  $("stop").addEventListener("click", () => page.halt());
+}
+
+function listenToPicture(page) {
+  for (const id of ["show-light", "show-elements", "show-links"])
+    $(id).addEventListener("change", () => page.show());
+  $("shape").addEventListener("change", (event) => {
+    page.scale = new Scale(page.scale.top, event.target.value);
+    showLegend(page.scale);
+    page.colour();
+    page.show();
+  });
+  $("band").addEventListener("change", (event) => {
+    page.band = Number(event.target.value);
+    if (page.field) page.rescale();
+    page.colour();
+    page.show();
+  });
+  $("zoom-in").addEventListener("click", () => (page.view.zoom(1.25), page.changed()));
+  $("zoom-out").addEventListener("click", () => (page.view.zoom(0.8), page.changed()));
+  $("fit").addEventListener("click", () => fit(page));
+  new ResizeObserver(() => {
+    const { width, height } = page.view;
+    page.view.resize();
+    if (page.view.width !== width || page.view.height !== height) fit(page);
+    page.show();
+  }).observe($("plan"));
+}
+
+async function openSafely(page, read, what) {
+  try {
+    await page.openFile(await read(), what);
+  } catch (error) {
+    showMessage(`${what}: ${error.message}`);
+  }
+}
+
+/** The examples of the menu; the first one is opened. */
+async function listenToFiles(page) {
+  const menu = $("example");
+  const openExample = () =>
+    openSafely(page, async () => (await fetch(`scenes/${menu.value}`)).text(), menu.value);
+  for (const file of await (await fetch("scenes/list.json")).json())
+    menu.add(new Option(file.replace(/\.geojson$/, ""), file));
+  menu.value = "lit-room.geojson";
+  menu.addEventListener("change", openExample);
+  $("load").addEventListener("click", () => $("file").click());
+  $("file").addEventListener("change", async (event) => {
+    const [file] = event.target.files;
+    event.target.value = "";
+    if (file) await openSafely(page, () => file.text(), file.name);
+  });
+  $("save").addEventListener("click", () => page.save());
+  $("undo").addEventListener("click", () => page.undo());
+  $("redo").addEventListener("click", () => page.redo());
+  await openExample();
+}
+
+export async function listen(page) {
+  new Pointer(page);
+  new Keys(page);
+  listenToWalls(page);
+  listenToAnswers(page);
+  listenToPicture(page);
+  await listenToFiles(page);
+}

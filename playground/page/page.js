@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page: what a user does, and what follows from it.  While something moves, sketches come
+// from one worker; when it is let go, the exact answer comes from the other.
+
+import { Answer } from "./answer.js";
+import { Engine } from "./engine.js";
+import { listen } from "./input.js";
+import { Scale } from "./palette.js";
+import {
+  $, namesOf, short, showLegend, showLists, showMessage, showNumbers, showStatus, showStudy,
+  showValues, showWall,
+} from "./panel.js";
+import { Scene } from "./scene.js";
+import { View } from "./view.js";
+
+const BUDGET = 30; // milliseconds for a sketch
+const SLIDE_BUDGET = 300;
+const CELL = 4; // pixels for a node of an exact field
+const MOST_LINKS = 3e6;
+const MOST_STEPS = 200; // of undo
+
+export class Page {
+  constructor(engine) {
+    this.engine = engine;
+    this.view = new View($("plan"));
+    this.scene = new Scene();
+    this.past = [];
+    this.future = [];
+    this.chosen = -1;
+    this.band = 0;
+    this.path = [];
+    this.study = { rows: [], slope: 0 };
+    this.scale = new Scale(1, "root");
+  }
+
+  // The scene.
+
+  async openFile(text, what) {
+    const patches = await this.ask({ task: "open", text });
+    this.scene = Scene.fromPatches(patches);
+    this.past = [];
+    this.future = [];
+    this.begin();
+    this.view.fit(this.scene.bounds());
+    showMessage(patches.cuts ? `${what}: walls were cut where they cross, ${patches.cuts} times.` : "");
+    this.changed();
+  }
+
+  /** A fast job as a promise. */
+  ask(message) {
+    return new Promise((resolve, reject) => {
+      this.engine.sketch(message, (data) => {
+        if (data.part === "done") resolve(data);
+        if (data.part === "failed") reject(new Error(data.message));
+      });
+    });
+  }
+
+  /** Forgets what belongs to the last scene. */
+  begin() {
+    this.chosen = -1;
+    this.band = Math.min(this.band, this.scene.bands - 1);
+    this.answer = null;
+    this.field = null;
+    this.view.image = null;
+    this.path = [];
+    this.study = { rows: [], slope: 0 };
+    this.top = Math.max(1, ...this.scene.walls.flatMap((w) => w.emission).map((e) => 2 * e));
+    this.top = Math.max(this.top, ...this.scene.background.map((e) => 2 * e));
+    this.kept = this.scene.copy();
+    showLists(this.scene, this.band);
+  }
+
+  /** Takes a step of history back or forth. */
+  travel(from, to) {
+    if (!from.length) return;
+    to.push(this.scene.copy());
+    this.scene = from.pop();
+    this.kept = this.scene.copy();
+    this.chosen = Math.min(this.chosen, this.scene.walls.length - 1);
+    showLists(this.scene, this.band);
+    this.changed();
+  }
+
+  undo() {
+    this.travel(this.past, this.future);
+  }
+
+  redo() {
+    this.travel(this.future, this.past);
+  }
+
+  /** After an edit that is complete. */
+  edited() {
+    this.past.push(this.kept);
+    if (this.past.length > MOST_STEPS) this.past.shift();
+    this.future = [];
+    this.kept = this.scene.copy();
+    showLists(this.scene, this.band);
+    this.changed();
+  }
+
+  choose(wall) {
+    this.chosen = wall;
+    this.path = [];
+    this.show();
+    const w = this.scene.walls[wall];
+    if (w) $("under").textContent = this.describe(wall);
+  }
+
+  describe(wall) {
+    const w = this.scene.walls[wall];
+    const point = (p) => `(${short(p[0])}, ${short(p[1])})`;
+    const patch = this.scene.patchOf(wall);
+    const known = this.answer && patch < this.answer.averages.length / (2 * this.scene.bands);
+    const light = known ? `, B = ${short(this.answer.average(patch, this.band))}` : "";
+    return (
+      `${w.name}, from ${point(w.a)} to ${point(w.b)}: E = ${short(w.emission[this.band])}, ` +
+      `ρ = ${short(w.reflectance[this.band])}${light}`
+    );
+  }
+
+  addWall(a, b) {
+    this.chosen = this.scene.add(a, b);
+    this.edited();
+  }
+
+  deleteWall() {
+    if (this.chosen < 0) return;
+    this.scene.walls.splice(this.chosen, 1);
+    this.chosen = Math.min(this.chosen, this.scene.walls.length - 1);
+    this.path = [];
+    this.edited();
+  }
+
+  save() {
+    const url = URL.createObjectURL(
+      new Blob([this.scene.toGeoJSON()], { type: "application/geo+json" }),
+    );
+    const link = document.createElement("a");
+    link.href = url;
+    link.download = "scene.geojson";
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(url), 1000);
+  }
+
+  // Answers.
+
+  method() {
+    const epsilon = document.querySelector("input[name=method]:checked").value === "epsilon";
+    const oracle = $("oracle").value;
+    if (!epsilon) return { error: Number($("error").value), oracle };
+    return { epsilon: this.epsilon(), oracle, mostLinks: MOST_LINKS };
+  }
+
+  epsilon() {
+    return 2 ** Number($("epsilon").value);
+  }
+
+  /** While something moves. */
+  moving() {
+    showStatus("moving", "Moving: a sketch");
+    this.engine.stop();
+    this.job({ task: "sketch", budget: BUDGET });
+    this.show();
+  }
+
+  /** While ε slides. */
+  sliding() {
+    const { oracle, epsilon } = this.method();
+    showStatus("moving", "ε slides");
+    this.engine.stop();
+    this.job({ task: "slide", oracle, epsilon, budget: SLIDE_BUDGET });
+  }
+
+  job(message) {
+    const scene = this.scene.copy();
+    this.engine.sketch(
+      { ...message, text: scene.toGeoJSON(), area: this.view.area() },
+      (data) => this.take(data, scene, false),
+    );
+  }
+
+  /** When something has changed and rests: the exact answer. */
+  changed() {
+    this.engine.settle();
+    const scene = this.scene.copy();
+    if (!scene.walls.length) return this.showNothing();
+    showStatus("busy", "Solving …");
+    $("progress").removeAttribute("value");
+    const { width, height } = this.view;
+    this.engine.exact(
+      {
+        task: "exact",
+        text: scene.toGeoJSON(),
+        method: this.method(),
+        area: this.view.area(),
+        cells: (width * height) / CELL ** 2,
+        study: true,
+      },
+      (data) => this.take(data, scene, true),
+    );
+    this.show();
+  }
+
+  /** Ends a solve that takes too long. */
+  halt() {
+    this.engine.stop();
+    showStatus("stopped", "Stopped");
+  }
+
+  showNothing() {
+    this.engine.stop();
+    this.answer = null;
+    this.field = null;
+    this.view.image = null;
+    showStatus("exact", "No walls: draw some, or choose an example");
+    this.show();
+  }
+
+  /** A part of an answer for a scene. */
+  take(data, scene, exact) {
+    const { part } = data;
+    if (part === "failed") return this.takeFailure(data, exact);
+    if (part === "progress" && exact) {
+      $("progress").value = data.fraction;
+      showStatus("busy", `Solving: ${data.phase}`);
+    }
+    if (data.elements) this.takeSolution(data, scene, exact);
+    if (data.field) this.takeField(data.field, scene, exact);
+    if (part === "account") this.answer.account = data.account;
+    if (part === "study") this.study = data;
+    if (exact && part === "done") showStatus("exact", this.verdict());
+    this.show();
+  }
+
+  takeFailure({ message, stopped }, exact) {
+    if (stopped && !exact) return showStatus("moving", "Let go to solve: this takes longer");
+    showMessage(message);
+    showStatus("error", "No answer for these walls");
+  }
+
+  takeSolution(data, scene, exact) {
+    this.answer = new Answer(data, scene.bands);
+    this.path = [];
+    this.solved = scene;
+    this.exact = exact;
+    if (!$("message").textContent.includes("cut where")) showMessage("");
+    if (exact) showValues(this.answer, namesOf(scene));
+  }
+
+  /** Colours keep their meaning while something moves. */
+  takeField(field, scene, exact) {
+    this.field = { ...field, bands: scene.bands };
+    if (exact || !this.scaled) this.rescale();
+    this.colour();
+  }
+
+  /** The brightest of nearly all light is the end of the scale. */
+  rescale() {
+    const { mean, bands } = this.field;
+    const values = mean.filter((v, k) => k % bands === this.band && v >= 0).sort();
+    const top = values.length ? values[Math.floor(0.995 * (values.length - 1))] : 1;
+    this.scale = new Scale(top, $("shape").value);
+    this.scaled = true;
+    showLegend(this.scale);
+  }
+
+  colour() {
+    if (this.field) this.view.setField(this.field, this.field.bands, this.band, this.scale);
+  }
+
+  verdict() {
+    const { missed } = this.answer.account;
+    if (missed) return missed;
+    const dark = this.answer.averages.every((v) => v === 0);
+    if (dark) return "Solved: all is dark, nothing emits";
+    return "Solved";
+  }
+
+  // The picture.
+
+  show() {
+    if (this.frame) return;
+    this.frame = requestAnimationFrame(() => {
+      this.frame = 0;
+      this.paint();
+    });
+  }
+
+  paint() {
+    const { view, scene, answer } = this;
+    view.clear();
+    if ($("show-light").checked) view.paintField();
+    view.paintWalls(scene);
+    if (answer) view.paintLeaves(answer, this.scale, this.band, $("show-elements").checked);
+    const links = answer && this.path.length ? answer.linksOf(this.path) : [];
+    if (answer && $("show-links").checked && this.path.length) view.paintLinks(answer, this.path, links);
+    if (scene.walls[this.chosen]) view.paintChosen(scene.walls[this.chosen]);
+    this.showPanel(links);
+  }
+
+  showPanel(links) {
+    showWall(this.scene, this.chosen, this.band, this.top);
+    $("undo").disabled = !this.past.length;
+    $("redo").disabled = !this.future.length;
+    $("epsilon-value").textContent = short(this.epsilon());
+    if (!this.answer) return;
+    showNumbers(this.answer, this.exact);
+    showStudy(this.study, this.answer.account);
+    if (this.path.length) $("under").textContent = this.describeElement(links.length);
+  }
+
+  describeElement(links) {
+    const { answer, path } = this;
+    const name = namesOf(this.solved)[answer.patch(path[0])];
+    const B = short(answer.value(path[0], this.band));
+    return `${name}, element on level ${path.length - 1}: B = ${B}, ${links} links`;
+  }
+
+  /** Shows the links of the element at a point of the scene, and the light there. */
+  point(at, within) {
+    if (!this.answer) return;
+    const leaf = this.answer.leafAt(at, within);
+    const path = leaf < 0 ? [] : this.answer.path(leaf);
+    const moved = path[0] !== this.path[0];
+    this.path = path;
+    if (leaf < 0) $("under").textContent = this.lightAt(at);
+    if (moved) this.show();
+  }
+
+  lightAt([x, y]) {
+    const f = this.field;
+    if (!f) return "\u00a0";
+    const column = Math.round(((x - f.low[0]) / (f.high[0] - f.low[0])) * (f.columns - 1));
+    const row = Math.round(((y - f.low[1]) / (f.high[1] - f.low[1])) * (f.rows - 1));
+    const inside = column >= 0 && row >= 0 && column < f.columns && row < f.rows;
+    const mean = inside ? f.mean[(row * f.columns + column) * f.bands + this.band] : NaN;
+    const place = `(${short(x)}, ${short(y)})`;
+    return Number.isNaN(mean) ? `${place}: no light can be here` : `${place}: mean radiosity ${short(mean)}`;
+  }
+
+  /** Goes from element to element of the chosen wall. */
+  stepElement(by) {
+    if (!this.answer || this.chosen < 0) return;
+    const leaves = this.answer.leavesOf(this.solved.patchOf(this.chosen));
+    const now = leaves.indexOf(this.path[0]);
+    const next = now < 0 ? 0 : (now + by + leaves.length) % leaves.length;
+    this.path = this.answer.path(leaves[next]);
+    this.show();
+  }
+}
+
+async function start() {
+  try {
+    const page = new Page(await Engine.create("hr2d.wasm"));
+    page.view.resize();
+    await listen(page);
+  } catch (error) {
+    showStatus("error", "The library could not be loaded");
+    showMessage(`${error.message}. Serve this folder over HTTP: a browser opens no modules from a file.`);
+  }
+}
+
+start();

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The panel: what it shows of a scene and of an answer.
+
+import { drawChart } from "./chart.js";
+
+const TICKS = 6;
+
+export const $ = (id) => document.getElementById(id);
+
+/** A number in few digits. */
+export function short(value) {
+  if (!Number.isFinite(value)) return "unknown";
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(2);
+  return String(Number(value.toPrecision(4)));
+}
+
+const whole = (value) => value.toLocaleString("en");
+const tiny = (value) => (Number.isFinite(value) ? value.toExponential(1) : "not known");
+
+export function showStatus(state, text) {
+  const status = $("status");
+  status.dataset.state = state;
+  if (status.textContent !== text) status.textContent = text;
+  const busy = state === "busy";
+  $("stop").hidden = !busy;
+  $("progress").hidden = !busy;
+}
+
+export function showMessage(text) {
+  $("message").textContent = text;
+  $("message").hidden = !text;
+}
+
+function showList(list, rows) {
+  list.replaceChildren(
+    ...rows.flatMap(([term, text]) => {
+      const dt = document.createElement("dt");
+      const dd = document.createElement("dd");
+      dt.textContent = term;
+      dd.textContent = text;
+      return [dt, dd];
+    }),
+  );
+}
+
+/** N, L and, of an exact answer, its errors. */
+export function showNumbers(answer, exact) {
+  const a = answer.account;
+  const rows = [
+    ["elements N", whole(a.elements)],
+    ["links L", whole(a.links)],
+    ["order p", String(a.order)],
+  ];
+  if (exact) {
+    const known = a.average.bound > 0 || a.average.estimate > 0;
+    rows.push(
+      ["error of averages", known ? `about ${tiny(a.average.estimate)}` : "…"],
+      ["  at most", known ? tiny(a.average.bound) : "…"],
+      ["error at points", known ? `about ${tiny(a.sup.estimate)}` : "…"],
+    );
+    if (answer.seconds) rows.push(["time", `${short(answer.seconds)} s`]);
+  }
+  showList($("numbers"), rows);
+}
+
+/** Every average with all its digits. */
+export function showValues(answer, names) {
+  const rows = [];
+  for (let patch = 0; patch < names.length; patch++)
+    for (let band = 0; band < answer.bands; band++) {
+      const row = document.createElement("tr");
+      const cells = [names[patch], band, answer.average(patch, band), answer.average(patch, band, 1)];
+      for (const text of cells) row.insertCell().textContent = String(text);
+      rows.push(row);
+    }
+  $("values").tBodies[0].replaceChildren(...rows);
+}
+
+/** The names of all patches, in their order. */
+export function namesOf(scene) {
+  return scene.walls.flatMap((w) => (w.both ? [w.name, `${w.name} (back)`] : [w.name]));
+}
+
+export function showLegend(scale) {
+  const canvas = $("legend");
+  const context = canvas.getContext("2d");
+  const image = context.createImageData(canvas.width, 1);
+  for (let k = 0; k < canvas.width; k++)
+    scale.put(image.data, 4 * k, scale.value(k / (canvas.width - 1)));
+  context.putImageData(image, 0, 0);
+  $("legend-ticks").replaceChildren(
+    ...Array.from({ length: TICKS }, (_, k) => {
+      const tick = document.createElement("span");
+      tick.textContent = short(scale.value(k / (TICKS - 1)));
+      return tick;
+    }),
+  );
+}
+
+export function showStudy(study, now) {
+  drawChart($("chart"), study, now);
+  const rows = study.rows.filter((r) => r.links > 0);
+  if (!rows.length) {
+    $("chart-text").textContent = "No links: no light reaches anything here.";
+    return;
+  }
+  const last = rows.at(-1);
+  const slope = study.slope ? `; L grows like N to the power of ${study.slope.toFixed(2)}` : "";
+  const ring = now ? ` The ring is the answer that is shown: N = ${whole(now.elements)}, L = ${whole(now.links)}.` : "";
+  $("chart-text").textContent =
+    `The paper’s algorithm for ε from ${short(rows[0].epsilon)} to ${short(last.epsilon)}: ` +
+    `up to N = ${whole(last.elements)} and L = ${whole(last.links)}${slope}.${ring}`;
+}
+
+/** Fills the controls of the chosen wall, or switches them off. */
+export function showWall(scene, chosen, band, top) {
+  const wall = scene.walls[chosen];
+  const pair = (id, value, most) => {
+    if (most) $(id).max = Math.max(most, value);
+    if (document.activeElement !== $(id)) $(id).value = value;
+    if (document.activeElement !== $(`${id}-number`)) $(`${id}-number`).value = value;
+  };
+  for (const id of ["emission", "emission-number", "reflectance", "reflectance-number", "both", "flip", "delete"])
+    $(id).disabled = !wall;
+  $("wall").value = wall ? String(chosen) : "";
+  pair("emission", wall ? wall.emission[band] : 0, top);
+  pair("reflectance", wall ? wall.reflectance[band] : 0);
+  pair("background", scene.background[band], top);
+  $("both").checked = Boolean(wall?.both);
+}
+
+function option(value, text) {
+  const o = document.createElement("option");
+  o.value = value;
+  o.textContent = text;
+  return o;
+}
+
+/** The lists that depend on the scene alone. */
+export function showLists(scene, band) {
+  $("wall").replaceChildren(option("", "none"), ...scene.walls.map((w, k) => option(k, w.name)));
+  $("band").replaceChildren(...scene.background.map((_, k) => option(k, `${k + 1} of ${scene.bands}`)));
+  $("band").value = String(band);
+  document.querySelector(".of-bands").hidden = scene.bands === 1;
+}

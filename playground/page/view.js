@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The plan: light, walls, elements and links on a canvas.
+
+const MARGIN = 28; // pixels around the scene
+const OUTSIDE = 2; // hr2d_place
+const DARK = "#10141a";
+const CHOSEN = "#ff3d9a";
+
+export class View {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.context = canvas.getContext("2d");
+    this.scale = 1; // pixels per scene length
+    this.centre = [0, 0]; // of the canvas, in scene lengths
+    this.image = null;
+  }
+
+  /** Takes the size that the page gives the canvas. */
+  resize() {
+    const ratio = devicePixelRatio || 1;
+    this.width = this.canvas.clientWidth;
+    this.height = this.canvas.clientHeight;
+    this.canvas.width = Math.round(this.width * ratio);
+    this.canvas.height = Math.round(this.height * ratio);
+    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  }
+
+  fit({ low, high }) {
+    const width = Math.max(high[0] - low[0], 1e-9);
+    const height = Math.max(high[1] - low[1], 1e-9);
+    this.scale = Math.min(
+      (this.width - 2 * MARGIN) / width,
+      (this.height - 2 * MARGIN) / height,
+    );
+    this.centre = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
+  }
+
+  zoom(factor, about = [this.width / 2, this.height / 2]) {
+    const fixed = this.toScene(about);
+    this.scale *= factor;
+    const now = this.toScene(about);
+    this.centre = [this.centre[0] + fixed[0] - now[0], this.centre[1] + fixed[1] - now[1]];
+  }
+
+  toScreen([x, y]) {
+    return [
+      this.width / 2 + (x - this.centre[0]) * this.scale,
+      this.height / 2 - (y - this.centre[1]) * this.scale,
+    ];
+  }
+
+  toScene([x, y]) {
+    return [
+      this.centre[0] + (x - this.width / 2) / this.scale,
+      this.centre[1] - (y - this.height / 2) / this.scale,
+    ];
+  }
+
+  /** What of the plane is to be seen. */
+  area() {
+    const [x0, y1] = this.toScene([0, 0]);
+    const [x1, y0] = this.toScene([this.width, this.height]);
+    return { low: [x0, y0], high: [x1, y1] };
+  }
+
+  /** Keeps a field as an image with a pixel for each node. */
+  setField(field, bands, band, colours) {
+    const { columns, rows, mean, place } = field;
+    const image = new ImageData(columns, rows);
+    for (let row = 0; row < rows; row++)
+      for (let column = 0; column < columns; column++) {
+        const node = (rows - 1 - row) * columns + column; // row 0 of the grid is the lowest
+        if (place[node] === OUTSIDE) continue;
+        colours.put(image.data, 4 * (row * columns + column), mean[node * bands + band]);
+      }
+    const canvas = document.createElement("canvas");
+    canvas.width = columns;
+    canvas.height = rows;
+    canvas.getContext("2d").putImageData(image, 0, 0);
+    this.image = { canvas, low: field.low, high: field.high, columns, rows };
+  }
+
+  clear() {
+    this.context.fillStyle = getComputedStyle(this.canvas).backgroundColor;
+    this.context.fillRect(0, 0, this.width, this.height);
+  }
+
+  /** A node is the middle of its pixel. */
+  paintField() {
+    if (!this.image) return;
+    const { canvas, low, high, columns, rows } = this.image;
+    const [x0, y1] = this.toScreen(low);
+    const [x1, y0] = this.toScreen(high);
+    const dx = (x1 - x0) / Math.max(1, columns - 1);
+    const dy = (y1 - y0) / Math.max(1, rows - 1);
+    this.context.imageSmoothingEnabled = true;
+    this.context.imageSmoothingQuality = "high";
+    this.context.drawImage(canvas, x0 - dx / 2, y0 - dy / 2, x1 - x0 + dx, y1 - y0 + dy);
+  }
+
+  line(p, q, width, style) {
+    const c = this.context;
+    c.beginPath();
+    c.moveTo(...p);
+    c.lineTo(...q);
+    c.lineWidth = width;
+    c.strokeStyle = style;
+    c.stroke();
+  }
+
+  /** The normal to the front, in pixels on the screen. */
+  front(a, b) {
+    const p = this.toScreen(a);
+    const q = this.toScreen(b);
+    const length = Math.hypot(q[0] - p[0], q[1] - p[1]) || 1;
+    return [(q[1] - p[1]) / length, -(q[0] - p[0]) / length];
+  }
+
+  paintWalls(scene) {
+    this.context.lineCap = "round";
+    for (const w of scene.walls) this.line(this.toScreen(w.a), this.toScreen(w.b), 4, DARK);
+  }
+
+  /** The leaves in the colours of their radiosity, along their fronts. */
+  paintLeaves(answer, colours, band, ticks) {
+    const { elements, stride } = answer;
+    const shift = ([x, y], n, by) => [x + by * n[0], y + by * n[1]];
+    const leaves = [];
+    for (let at = 0; at < elements.length; at += stride) if (!elements[at + 5]) leaves.push(at);
+    this.context.lineCap = "butt";
+    for (const at of leaves) {
+      const [p, q, n] = this.element(answer, at);
+      this.line(shift(p, n, 4.5), shift(q, n, 4.5), 6.5, DARK);
+    }
+    for (const at of leaves) {
+      const [p, q, n] = this.element(answer, at);
+      this.line(shift(p, n, 4.5), shift(q, n, 4.5), 4.5, colours.css(elements[at + 6 + band]));
+      if (ticks) this.line(shift(p, n, 0), shift(p, n, 9), 1.2, "#ffffff");
+    }
+  }
+
+  /** The ends of an element on the screen, and the normal to its front. */
+  element({ elements }, at) {
+    const a = [elements[at], elements[at + 1]];
+    const b = [elements[at + 2], elements[at + 3]];
+    return [this.toScreen(a), this.toScreen(b), this.front(a, b)];
+  }
+
+  middle(answer, element) {
+    const [p, q, n] = this.element(answer, element * answer.stride);
+    return [(p[0] + q[0]) / 2 + 4.5 * n[0], (p[1] + q[1]) / 2 + 4.5 * n[1]];
+  }
+
+  /** The links of the elements on a path from a leaf to its root. */
+  paintLinks(answer, path, links) {
+    this.context.lineCap = "round";
+    const lines = links.map(([near, far]) => [
+      this.middle(answer, near),
+      this.middle(answer, far),
+    ]);
+    for (const [p, q] of lines) this.line(p, q, 3, "rgb(0 0 0 / 45%)");
+    for (const [p, q] of lines) this.line(p, q, 1.2, "#ffffff");
+    if (!path.length) return;
+    const [p, q] = this.element(answer, path[0] * answer.stride);
+    this.line(p, q, 10, DARK);
+    this.line(p, q, 6, "#ffffff");
+  }
+
+  paintChosen(wall) {
+    const ends = [this.toScreen(wall.a), this.toScreen(wall.b)];
+    this.context.lineCap = "round";
+    this.line(...ends, 3, CHOSEN);
+    for (const [x, y] of ends) {
+      this.context.fillStyle = "#ffffff";
+      this.context.fillRect(x - 6, y - 6, 12, 12);
+      this.context.fillStyle = CHOSEN;
+      this.context.fillRect(x - 4, y - 4, 8, 8);
+    }
+    this.paintFront(wall, ends);
+  }
+
+  /** An arrow to the front of the chosen wall. */
+  paintFront(wall, [p, q]) {
+    const n = this.front(wall.a, wall.b);
+    const m = [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
+    const tip = [m[0] + 16 * n[0], m[1] + 16 * n[1]];
+    const t = [-n[1], n[0]];
+    const barb = (side) => [tip[0] - 6 * n[0] + side * 5 * t[0], tip[1] - 6 * n[1] + side * 5 * t[1]];
+    for (const [width, style] of [[5, "#ffffff"], [2.5, CHOSEN]]) {
+      this.line(m, tip, width, style);
+      this.line(barb(1), tip, width, style);
+      this.line(barb(-1), tip, width, style);
+    }
+  }
+}

@@ -1,0 +1,516 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tests the page in a real browser: check-page.py PAGE HR2D SCENES [PICTURES].
+
+PAGE is the folder of the page, HR2D the native program, whose digits are expected, and SCENES
+the folder of the examples.  Screenshots go to PICTURES.
+"""
+
+import functools
+import http.server
+import json
+import math
+import os
+import subprocess
+import sys
+import threading
+import time
+
+from webdriver import Browser
+
+PAGE, HR2D, SCENES = sys.argv[1:4]
+PICTURES = sys.argv[4] if len(sys.argv) > 4 else None
+ERROR = "1e-4"
+SLOW = {"occluders-200.geojson": "1e-2"}  # examples that take a minute at ERROR
+# Relative difference of digits.  The expansions of clusters, from 256 patches on, stand at nodes
+# that come from cos(), whose last bit is not the same in all C libraries.
+SAME = 1e-15
+SAME_WITH_CLUSTERS = 1e-13
+CLUSTERS = 256
+FLUID = 10  # sketches a second, at least, on a machine that does other things, too
+HICCUP = 250  # milliseconds that the page may not hear a user, at most
+CONTRAST = 4.5  # WCAG 2.1, level AA
+
+TAB, DELETE, RIGHT, CONTROL = "\ue004", "\ue017", "\ue014", "\ue009"
+STATE = "return document.getElementById('status').dataset.state"
+
+tests = []
+
+
+def test(function):
+    tests.append(function)
+    return function
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *arguments):
+        pass
+
+
+def serve():
+    handler = functools.partial(Quiet, directory=PAGE)
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    return f"http://127.0.0.1:{server.server_port}/"
+
+
+def native(path, *how):
+    """B of every patch and band from the program."""
+    out = subprocess.run(
+        [HR2D, "solve", path, *how, "--quiet", "--json", "-"], capture_output=True, text=True
+    )
+    assert out.returncode == 0, out.stderr
+    return [value for patch in json.loads(out.stdout)["patches"] for value in patch["average"]]
+
+
+class Playground:
+    """The page as a user has it."""
+
+    def __init__(self, browser, url):
+        self.browser = browser
+        self.url = url
+
+    def open(self):
+        self.browser.open(self.url)
+        self.settle()
+
+    def settle(self, state="exact"):
+        """Waits for the exact answer."""
+        try:
+            self.browser.wait(STATE + " === arguments[0]", state)
+        except TimeoutError:
+            said = self.browser.run("return document.body.innerText")
+            raise AssertionError(f"never {state}: {said[:500]}") from None
+
+    def pick(self, css, value):
+        """Chooses an entry of a menu."""
+        self.browser.run(
+            "const e = document.querySelector(arguments[0]);"
+            "e.value = arguments[1]; e.dispatchEvent(new Event('change'));"
+            "document.getElementById('status').dataset.state = 'asked'",
+            css,
+            value,
+        )
+
+    def example(self, name, error=ERROR):
+        self.browser.run("document.getElementById('error').value = arguments[0]", error)
+        self.pick("#example", name)
+        self.settle()
+
+    def values(self):
+        """B of every patch and band as the page shows it."""
+        texts = self.browser.run(
+            "return [...document.querySelectorAll('#values tbody tr')].map(r => r.cells[2].textContent)"
+        )
+        return [float(text) for text in texts]
+
+    def walls(self):
+        return self.browser.run("return document.getElementById('wall').options.length - 1")
+
+    def under(self):
+        return self.browser.run("return document.getElementById('under').textContent")
+
+    def message(self):
+        return self.browser.run(
+            "const m = document.getElementById('message'); return m.hidden ? '' : m.textContent"
+        )
+
+    def saved(self):
+        """The text of the file that Save gives."""
+        path = os.path.join(self.browser.folder, "scene.geojson")
+        if os.path.exists(path):
+            os.remove(path)
+        self.browser.click("#save")
+        end = time.monotonic() + 20
+        while not os.path.exists(path) and time.monotonic() < end:
+            time.sleep(0.05)
+        return path
+
+    def at(self, name, x, y):
+        """Where a point of an example is on the screen: the plan is fitted to the example."""
+        with open(os.path.join(SCENES, name), encoding="utf-8") as file:
+            points = list(positions(json.load(file)))
+        low = [min(p[k] for p in points) for k in (0, 1)]
+        high = [max(p[k] for p in points) for k in (0, 1)]
+        left, top, width, height = self.browser.run(
+            "const p = document.getElementById('plan'); const r = p.getBoundingClientRect();"
+            "return [r.left + p.clientLeft, r.top + p.clientTop, p.clientWidth, p.clientHeight]"
+        )
+        margin = 28
+        scale = min((width - 2 * margin) / (high[0] - low[0]), (height - 2 * margin) / (high[1] - low[1]))
+        return (
+            round(left + width / 2 + (x - (low[0] + high[0]) / 2) * scale),
+            round(top + height / 2 - (y - (low[1] + high[1]) / 2) * scale),
+        )
+
+    def drag(self, start, end, steps=12, milliseconds=25):
+        """Presses, moves and lets go."""
+        path = [
+            [round(start[k] + (end[k] - start[k]) * n / steps) for k in (0, 1)]
+            for n in range(1, steps + 1)
+        ]
+        self.browser.mouse(
+            {"type": "pointerMove", "x": start[0], "y": start[1]},
+            {"type": "pointerDown", "button": 0},
+            *({"type": "pointerMove", "x": x, "y": y, "duration": milliseconds} for x, y in path),
+            {"type": "pointerUp", "button": 0},
+        )
+
+
+def positions(value):
+    """All positions of a GeoJSON text."""
+    if isinstance(value, dict):
+        for part in value.values():
+            yield from positions(part)
+    elif isinstance(value, list):
+        if len(value) >= 2 and all(isinstance(v, (int, float)) for v in value):
+            yield value
+        else:
+            for part in value:
+                yield from positions(part)
+
+
+def difference(found, expected):
+    """The largest relative difference; infinite if the numbers of values differ."""
+    if len(found) != len(expected):
+        return math.inf
+    return max(abs(f - e) / (abs(e) or 1) for f, e in zip(found, expected))
+
+
+@test
+def loads_without_errors_and_from_its_own_server_only(page):
+    page.open()
+    assert page.browser.errors() == [], page.browser.errors()
+    names = page.browser.run("return performance.getEntriesByType('resource').map(e => e.name)")
+    foreign = [name for name in names if not name.startswith(page.url)]
+    assert len(names) > 5 and foreign == [], foreign
+
+
+@test
+def every_example_has_the_digits_of_the_program(page):
+    names = json.load(open(os.path.join(PAGE, "scenes", "list.json"), encoding="utf-8"))
+    assert sorted(names) == sorted(n for n in os.listdir(SCENES) if not n.endswith(".md"))
+    for name in names:
+        error = SLOW.get(name, ERROR)
+        page.example(name, error)
+        expected = native(os.path.join(SCENES, name), "--target-error", error)
+        off = difference(page.values(), expected)
+        print(f"    {name}: {off:.1e}")
+        assert off <= (SAME if len(expected) < CLUSTERS else SAME_WITH_CLUSTERS), f"{name}: {off}"
+
+
+@test
+def the_comparison_of_digits_would_notice_another_answer(page):
+    path = os.path.join(SCENES, "lit-room.geojson")
+    page.example("lit-room.geojson", "1e-2")
+    off = difference(page.values(), native(path, "--target-error", "1e-6"))
+    assert off > 1e-12, off
+
+
+@test
+def the_paper_s_algorithm_has_the_digits_of_the_program(page):
+    path = os.path.join(SCENES, "screened-room.geojson")
+    page.example("screened-room.geojson")
+    page.browser.click("input[name=method][value=epsilon]")
+    for oracle, power in (("size", "-2"), ("l1", "-8")):
+        page.browser.run("document.getElementById('epsilon').value = arguments[0]", power)
+        page.pick("#oracle", oracle)
+        page.settle()
+        expected = native(path, "--eps", str(2.0 ** float(power)), "--oracle", oracle)
+        off = difference(page.values(), expected)
+        assert off <= SAME, f"{oracle}: {off}"
+    page.browser.click("input[name=method][value=target]")
+    page.settle()
+
+
+@test
+def l_against_n_follows_epsilon(page):
+    page.example("square-room.geojson")
+    page.browser.click("input[name=method][value=epsilon]")
+    page.settle()
+    rings = []
+    for power in ("0", "-3"):
+        page.browser.run(
+            "const e = document.getElementById('epsilon'); e.value = arguments[0];"
+            "e.dispatchEvent(new Event('input'))",
+            power,
+        )
+        time.sleep(0.5)
+        rings.append(page.browser.run("return document.querySelector('#chart .now')?.getAttribute('cx')"))
+    assert None not in rings and float(rings[0]) < float(rings[1]), rings
+    assert page.browser.run("return document.querySelectorAll('#chart .dot').length") >= 10
+    page.browser.click("input[name=method][value=target]")
+    page.settle()
+
+
+@test
+def a_dragged_wall_changes_b_fluently(page):
+    name = "partition.geojson"
+    page.example(name)
+    before = page.values()
+    page.browser.run(
+        "window.seen = []; new MutationObserver(() => seen.push(performance.now()))"
+        ".observe(document.getElementById('numbers'), {childList: true})"
+    )
+    start, end = page.at(name, 5.3, 1.0), page.at(name, 5.2, 1.4)
+    page.drag(start, end, steps=40)
+    seen = page.browser.run("return window.seen")
+    page.settle()
+    after = page.values()
+    assert difference(after, before) > 1e-3
+    assert len(seen) > 2, "nothing moved before the wall was let go"
+    rate = (len(seen) - 1) / max(seen[-1] - seen[0], 1) * 1000
+    print(f"    {rate:.0f} sketches a second")
+    assert rate > FLUID, rate
+    # What is shown is what the program says about what is saved.
+    off = difference(after, native(page.saved(), "--target-error", ERROR))
+    assert off <= SAME, off
+
+
+@test
+def a_drag_of_nothing_changes_nothing(page):
+    name = "partition.geojson"
+    page.example(name)
+    before = page.values()
+    page.drag(page.at(name, 1.2, 3.3), page.at(name, 1.6, 3.5))
+    page.settle()
+    assert page.values() == before
+
+
+@test
+def walls_that_cross_are_explained_and_undone(page):
+    name = "square-room.geojson"
+    page.example(name)
+    before = page.values()
+    page.browser.click("input[name=tool][value=draw]")
+    page.drag(page.at(name, 0.5, 0.5), page.at(name, 1.1, 0.6))
+    page.settle("error")
+    assert "cross" in page.message(), page.message()
+    page.browser.click("input[name=tool][value=move]")
+    page.browser.click("#undo")
+    page.settle()
+    assert page.message() == "" and page.values() == before
+
+
+@test
+def a_drawn_wall_throws_a_shadow(page):
+    name = "square-room.geojson"
+    page.example(name)
+    count, before = page.walls(), page.values()
+    page.browser.click("input[name=tool][value=draw]")
+    page.drag(page.at(name, 0.3, 0.4), page.at(name, 0.7, 0.4))
+    page.browser.click("input[name=tool][value=move]")
+    page.settle()
+    assert page.walls() == count + 1
+    assert difference(page.values()[: len(before)], before) > 1e-3
+
+
+@test
+def sliders_change_b(page):
+    page.example("lit-room.geojson")
+    page.pick("#wall", "0")
+    page.browser.run("document.getElementById('status').dataset.state = 'exact'")
+    before = page.values()
+    page.browser.run(
+        "const e = document.getElementById('reflectance'); e.value = 0.9;"
+        "for (const kind of ['input', 'change']) e.dispatchEvent(new Event(kind))"
+    )
+    page.settle()
+    assert difference(page.values(), before) > 1e-3
+
+
+@test
+def the_links_of_the_element_under_the_pointer_are_shown(page):
+    name = "screened-room.geojson"
+    page.example(name)
+    x, y = page.at(name, 0.5, 0)
+    page.browser.mouse({"type": "pointerMove", "x": x, "y": y - 3})
+    page.browser.wait("return /[1-9]\\d* links/.test(document.getElementById('under').textContent)")
+    x, y = page.at(name, 0.2, 0.3)
+    page.browser.mouse({"type": "pointerMove", "x": x, "y": y})
+    page.browser.wait("return /mean radiosity [\\d.]+/.test(document.getElementById('under').textContent)")
+
+
+@test
+def all_can_be_done_by_keys(page):
+    page.open()
+    page.example("partition.geojson")
+    browser = page.browser
+    browser.run("document.activeElement.blur(); window.scrollTo(0, 0)")
+    for presses in range(40):
+        browser.press(TAB)
+        if browser.run("return document.activeElement.id") == "plan":
+            break
+    assert 0 < presses < 20, presses
+    outline = browser.run(
+        "const s = getComputedStyle(document.activeElement); return [s.outlineStyle, s.outlineWidth]"
+    )
+    assert outline[0] == "solid" and float(outline[1][:-2]) >= 2, outline
+
+    count, before = page.walls(), page.values()
+    for _ in range(40):
+        browser.press("n")
+        if page.under().startswith("table"):
+            break
+    assert page.under().startswith("table"), page.under()
+    browser.press(RIGHT, RIGHT, RIGHT)
+    page.settle("moving")
+    page.settle()
+    moved = page.values()
+    assert difference(moved, before) > 1e-6
+    browser.press("]")
+    browser.wait("return / links/.test(document.getElementById('under').textContent)")
+    browser.press(DELETE)
+    page.settle()
+    assert page.walls() == count - 1
+    for _ in range(2):
+        keys = [{"type": "keyDown", "value": CONTROL}, {"type": "keyDown", "value": "z"}]
+        keys += [{"type": "keyUp", "value": "z"}, {"type": "keyUp", "value": CONTROL}]
+        browser.call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": keys}]})
+        page.settle()
+    assert page.walls() == count and page.values() == before
+
+
+@test
+def what_is_saved_is_loaded_again(page):
+    for name in ("lit-room.geojson", "partition.geojson", "street-canyon.geojson"):
+        page.example(name)
+        before = page.values()
+        with open(page.saved(), encoding="utf-8") as file:
+            text = file.read()
+        path = os.path.join(page.browser.folder, "again.geojson")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        page.example("corner.geojson")
+        assert page.values() != before
+        page.browser.run("document.getElementById('status').dataset.state = 'asked'")
+        page.browser.type("#file", path)
+        page.settle()
+        assert page.values() == before, name
+        with open(page.saved(), encoding="utf-8") as file:
+            assert file.read() == text, name
+
+
+@test
+def a_file_that_is_no_scene_is_refused_with_its_reason(page):
+    page.example("corner.geojson")
+    before = page.values()
+    path = os.path.join(page.browser.folder, "broken.geojson")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write('{"type": "FeatureCollection", "features": [7]}')
+    page.browser.type("#file", path)
+    page.browser.wait("return !document.getElementById('message').hidden")
+    assert page.message().startswith("broken.geojson: ") and len(page.message()) > 30, page.message()
+    assert page.values() == before
+
+
+@test
+def the_page_never_hangs_and_a_solve_can_be_stopped(page):
+    page.open()
+    page.browser.run(
+        "window.longest = 0; let last = performance.now();"
+        "setInterval(() => { const now = performance.now();"
+        "longest = Math.max(longest, now - last); last = now }, 10)"
+    )
+    page.browser.run("document.getElementById('error').value = '1e-9'")
+    page.pick("#example", "occluders-200.geojson")
+    page.settle("busy")
+    time.sleep(2)
+    assert page.browser.run(STATE) == "busy"
+    page.browser.click("#stop")
+    page.settle("stopped")
+    longest = page.browser.run("return window.longest")
+    print(f"    {longest:.0f} ms at most without an ear for the user")
+    assert longest < HICCUP, longest
+    page.example("corner.geojson")
+
+
+@test
+def every_control_has_a_name_and_texts_have_contrast(page):
+    page.open()
+    browser = page.browser
+    css = "input:not([hidden]), select, button, canvas[tabindex], svg[role], progress"
+    found = browser.call("POST", "/elements", {"using": "css selector", "value": css})
+    shown = 0
+    for reference in found:
+        (element,) = reference.values()
+        if not browser.call("GET", f"/element/{element}/displayed"):
+            continue
+        shown += 1
+        label = browser.call("GET", f"/element/{element}/computedlabel")
+        assert label.strip(), browser.call("GET", f"/element/{element}/property/outerHTML")
+    assert shown > 20, shown
+    worst = browser.run(CONTRASTS)
+    assert worst[0] >= CONTRAST, worst
+    # The measure itself sees grey on white.
+    browser.run("document.querySelector('.keys').style.color = '#aaaaaa'")
+    assert browser.run(CONTRASTS)[0] < CONTRAST
+
+
+CONTRASTS = """
+const channel = (v) => (v /= 255) <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
+const light = (rgb) => 0.2126 * channel(rgb[0]) + 0.7152 * channel(rgb[1]) + 0.0722 * channel(rgb[2]);
+const numbers = (css) => css.match(/[\\d.]+/g).map(Number);
+const ground = (e) => {
+  for (; e; e = e.parentElement) {
+    const c = numbers(getComputedStyle(e).backgroundColor);
+    if (c.length === 3 || c[3] > 0) return c;
+  }
+  return [255, 255, 255];
+};
+let worst = [Infinity, ""];
+for (const e of document.querySelectorAll("body *")) {
+  const own = [...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim());
+  if (!own || !e.checkVisibility() || e.disabled || e.namespaceURI.endsWith("svg")) continue;
+  const a = light(numbers(getComputedStyle(e).color)), b = light(ground(e));
+  const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+  if (ratio < worst[0]) worst = [ratio, e.outerHTML.slice(0, 80)];
+}
+return worst;
+"""
+
+
+@test
+def a_phone_shows_all_within_its_width(page):
+    browser = page.browser
+    size = {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True}
+    command = "Emulation.setDeviceMetricsOverride"
+    browser.call("POST", "/goog/cdp/execute", {"cmd": command, "params": size})
+    page.open()
+    assert browser.run("return innerWidth") == 390
+    assert browser.run("return document.documentElement.scrollWidth") <= 390
+    take_picture(page, "phone")
+    browser.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.clearDeviceMetricsOverride", "params": {}})
+
+
+def take_picture(page, name):
+    if PICTURES:
+        os.makedirs(PICTURES, exist_ok=True)
+        page.browser.screenshot(os.path.join(PICTURES, name + ".png"))
+
+
+def main():
+    browser = Browser(1400, 1000)
+    failed = 0
+    try:
+        page = Playground(browser, serve())
+        page.open()
+        for function in tests:
+            start = time.monotonic()
+            title = function.__name__.replace("_", " ")
+            try:
+                function(page)
+                print(f"ok   {title}, {time.monotonic() - start:.1f} s")
+            except Exception as error:  # the next test may still say something
+                failed += 1
+                print(f"FAIL {title}: {type(error).__name__}: {error}")
+                take_picture(page, function.__name__)
+                page.open()
+            sys.stdout.flush()
+    finally:
+        browser.close()
+    print(f"{len(tests) - failed} passed, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
