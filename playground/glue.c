@@ -4,6 +4,8 @@
 #include <hr2d/hr2d.h>
 #include <stdlib.h>
 
+enum { FITTED = 6 }; /* rows of a study that show how L grows */
+
 /* Visible to the page; the linker begins with these. */
 #define PAGE(name) __attribute__((export_name(#name))) name
 
@@ -133,10 +135,11 @@ hr2d_status PAGE(play_solve_to)(play *p, double error) {
 }
 
 static hr2d_status refine_and_solve(play *p, const hr2d_oracle *oracle, double epsilon,
-                                    double max_links, double tolerance) {
+                                    unsigned levels, double max_links, double tolerance) {
   hr2d_refine_options how = HR2D_REFINE_OPTIONS_INIT;
   hr2d_solve_options solve = HR2D_SOLVE_OPTIONS_INIT;
   how.epsilon = epsilon;
+  how.max_level = levels;
   how.max_links = (uint64_t)max_links;
   how.progress = solve.progress = ask_page;
   solve.tolerance = tolerance;
@@ -146,12 +149,13 @@ static hr2d_status refine_and_solve(play *p, const hr2d_oracle *oracle, double e
   return status ? status : hr2d_solve(p->links, &solve, &p->solution);
 }
 
-/* The paper's algorithm: an oracle by its name, and ε. */
+/* The paper's algorithm: an oracle by its name, and ε.  For `levels`, `max_links` and
+   `tolerance` 0 is the default. */
 hr2d_status PAGE(play_solve_epsilon)(play *p, const char *oracle, double epsilon,
-                                     double max_links, double tolerance) {
+                                     unsigned levels, double max_links, double tolerance) {
   drop_solution(p);
   const hr2d_status status =
-      refine_and_solve(p, hr2d_oracle_find(oracle), epsilon, max_links, tolerance);
+      refine_and_solve(p, hr2d_oracle_find(oracle), epsilon, levels, max_links, tolerance);
   return fail(p, status, p->links ? hr2d_linkset_message(p->links) : NULL);
 }
 
@@ -262,7 +266,7 @@ static size_t study_rows(play *p, hr2d_linkset *links, const double *epsilon, si
 }
 
 /* Counts N and L for each ε, until L would exceed a budget: two numbers for each.  Then the
-   slope of log L on log N, or 0.  Returns how many were counted. */
+   slope of log L on log N over the last of them, or 0.  Returns how many were counted. */
 size_t PAGE(play_study)(play *p, const char *oracle, const double *epsilon, size_t count,
                         double max_links, double *out) {
   hr2d_hierarchy *hierarchy = NULL;
@@ -277,7 +281,7 @@ size_t PAGE(play_study)(play *p, const char *oracle, const double *epsilon, size
     out[2 * k] = (double)rows[k].counts.elements;
     out[2 * k + 1] = (double)rows[k].counts.links;
   }
-  if (done) (void)hr2d_study_fit_rows(rows, done, &fit);
+  if (done >= FITTED) (void)hr2d_study_fit_rows(rows + done - FITTED, FITTED, &fit);
   out[2 * count] = fit.slope;
   hr2d_linkset_destroy(links);
   hr2d_hierarchy_destroy(hierarchy);

@@ -31,6 +31,10 @@ class Thread {
     if (!this.job || data.id !== this.job.id) return;
     const { receive } = this.job;
     if (data.part === "done" || data.part === "failed") this.job = null;
+    if (data.broken) {
+      this.worker.terminate();
+      this.start();
+    }
     receive(data);
   }
 

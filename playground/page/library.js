@@ -133,10 +133,13 @@ export class Library {
     this.check(this.calls.play_solve_to(this.play, error));
   }
 
-  /** The paper's algorithm. */
-  solveEpsilon(oracle, epsilon, mostLinks = 0, tolerance = 0) {
+  /** The paper's algorithm; 0 is the default of each limit. */
+  solveEpsilon(oracle, epsilon, { levels = 0, mostLinks = 0, tolerance = 0 } = {}) {
+    const { calls, play } = this;
     this.lendText(oracle, (name) =>
-      this.check(this.calls.play_solve_epsilon(this.play, name, epsilon, mostLinks, tolerance)),
+      this.check(
+        calls.play_solve_epsilon(play, name, epsilon, levels, mostLinks, tolerance),
+      ),
     );
   }
 

@@ -7,7 +7,7 @@ import { Engine } from "./engine.js";
 import { listen } from "./input.js";
 import { Scale } from "./palette.js";
 import {
-  $, namesOf, short, showLegend, showLists, showMessage, showNumbers, showStatus, showStudy,
+  $, namesOf, short, showLegend, showLists, showMessage, showNumbers, showProgress, showStatus, showStudy,
   showValues, showWall,
 } from "./panel.js";
 import { Scene } from "./scene.js";
@@ -162,6 +162,7 @@ export class Page {
     showStatus("moving", "Moving: a sketch");
     this.engine.stop();
     this.job({ task: "sketch", budget: BUDGET });
+    this.path = [];
     this.show();
   }
 
@@ -187,7 +188,6 @@ export class Page {
     const scene = this.scene.copy();
     if (!scene.walls.length) return this.showNothing();
     showStatus("busy", "Solving …");
-    $("progress").removeAttribute("value");
     const { width, height } = this.view;
     this.engine.exact(
       {
@@ -222,10 +222,7 @@ export class Page {
   take(data, scene, exact) {
     const { part } = data;
     if (part === "failed") return this.takeFailure(data, exact);
-    if (part === "progress" && exact) {
-      $("progress").value = data.fraction;
-      showStatus("busy", `Solving: ${data.phase}`);
-    }
+    if (part === "progress" && exact) showProgress(data);
     if (data.elements) this.takeSolution(data, scene, exact);
     if (data.field) this.takeField(data.field, scene, exact);
     if (part === "account") this.answer.account = data.account;
@@ -309,6 +306,7 @@ export class Page {
     showNumbers(this.answer, this.exact);
     showStudy(this.study, this.answer.account);
     if (this.path.length) $("under").textContent = this.describeElement(links.length);
+    else if (!this.exact && this.chosen >= 0) $("under").textContent = this.describe(this.chosen);
   }
 
   describeElement(links) {

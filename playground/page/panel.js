@@ -25,6 +25,13 @@ export function showStatus(state, text) {
   const busy = state === "busy";
   $("stop").hidden = !busy;
   $("progress").hidden = !busy;
+  if (busy) $("progress").removeAttribute("value");
+}
+
+/** The phase is not spoken by a reader of the screen: it would never be silent. */
+export function showProgress({ phase, fraction }) {
+  $("progress").value = fraction;
+  $("progress").title = phase;
 }
 
 export function showMessage(text) {

@@ -3,8 +3,28 @@
 
 const MARGIN = 28; // pixels around the scene
 const OUTSIDE = 2; // hr2d_place
+const LEAST_TICKED = 3; // pixels; ends of shorter elements would be a blot
 const DARK = "#10141a";
 const CHOSEN = "#ff3d9a";
+
+/** Nodes without light take the mean colour of neighbours that have some, so that the smooth image
+    does not fade before a wall. */
+function spread({ data, width, height }) {
+  const lit = Uint8Array.from({ length: width * height }, (_, k) => data[4 * k + 3] && 1);
+  for (let k = 0; k < lit.length; k++) {
+    if (lit[k]) continue;
+    const sum = [0, 0, 0, 0];
+    const column = k % width;
+    for (const dx of [-1, 0, 1])
+      for (const dy of [-width, 0, width]) {
+        const other = k + dx + dy;
+        if (column + dx < 0 || column + dx >= width || !lit[other]) continue;
+        for (let c = 0; c < 4; c++) sum[c] += data[4 * other + c];
+      }
+    const count = sum[3] / 255;
+    if (count) for (let c = 0; c < 4; c++) data[4 * k + c] = sum[c] / count;
+  }
+}
 
 export class View {
   constructor(canvas) {
@@ -73,6 +93,7 @@ export class View {
         if (place[node] === OUTSIDE) continue;
         colours.put(image.data, 4 * (row * columns + column), mean[node * bands + band]);
       }
+    spread(image);
     const canvas = document.createElement("canvas");
     canvas.width = columns;
     canvas.height = rows;
@@ -135,7 +156,8 @@ export class View {
     for (const at of leaves) {
       const [p, q, n] = this.element(answer, at);
       this.line(shift(p, n, 4.5), shift(q, n, 4.5), 4.5, colours.css(elements[at + 6 + band]));
-      if (ticks) this.line(shift(p, n, 0), shift(p, n, 9), 1.2, "#ffffff");
+      const long = Math.hypot(q[0] - p[0], q[1] - p[1]) >= LEAST_TICKED;
+      if (ticks && long) this.line(shift(p, n, 0), shift(p, n, 9), 1.2, "#ffffff");
     }
   }
 

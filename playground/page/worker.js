@@ -9,9 +9,17 @@ const STUDY = Array.from({ length: 17 }, (_, k) => 2 ** (1 - k / 2)); // ε from
 const STUDY_MILLISECONDS = 1500;
 const ERROR_SECONDS = 5;
 const PROGRESS_MILLISECONDS = 100;
+const LEAST_CELLS = 300;
+const MOST_CELLS = 12000;
 const COARSE = 3; // times wider cells of the first field of an exact answer
 
 let library = null;
+
+// Of a sketch: elements of a 32nd of a wall at the least, whose light is cheap to add up in the
+// field, and an ε above that of an answer which nobody could tell from a better one.
+const ROUGH = 1e-4;
+const SKETCH = { levels: 5, tolerance: ROUGH };
+const FINEST = 0.35;
 
 // What fits into the time while walls are dragged: learned from one answer to the next.
 const pace = { epsilon: 0.5, cells: 1500 };
@@ -58,17 +66,17 @@ function learn(took, allowed, value, power) {
   return value * Math.min(1.5, Math.max(0.4, factor));
 }
 
-/** A coarse solution that is ready within about half of the budget; its ε. */
-function solveWithin(budget) {
+/** A coarse solution that is ready within a third of the budget or so; its ε. */
+function solveWithin(id, budget) {
   for (;;) {
     const start = performance.now();
-    watch(0, start + 2 * budget);
+    watch(id, start + 2 * budget);
     try {
-      library.solveEpsilon("size", pace.epsilon, 0, 1e-4);
+      library.solveEpsilon("size", pace.epsilon, SKETCH);
       const epsilon = pace.epsilon;
       const took = performance.now() - start;
       // Time grows like L, which grows like ε⁻¹ here.
-      pace.epsilon = Math.min(4, Math.max(0.1, pace.epsilon / learn(took, budget / 2, 1, 0.5)));
+      pace.epsilon = Math.min(4, Math.max(FINEST, pace.epsilon / learn(took, budget / 3, 1, 0.5)));
       return epsilon;
     } catch (error) {
       if (!error.stopped || pace.epsilon > 1e3) throw error;
@@ -96,14 +104,14 @@ const tasks = {
     const start = performance.now();
     watch(id);
     library.open(text);
-    const epsilon = solveWithin(budget);
+    const epsilon = solveWithin(id, budget);
     const middle = performance.now();
     const answer = { ...solution(false), epsilon };
     watch(id);
     answer.field = field(area, pace.cells, 0.05);
     const left = budget - (middle - start);
     pace.cells = learn(performance.now() - middle, Math.max(left, budget / 3), pace.cells, 0.7);
-    pace.cells = Math.min(12000, Math.max(300, pace.cells));
+    pace.cells = Math.min(MOST_CELLS, Math.max(LEAST_CELLS, pace.cells));
     return answer;
   },
 
@@ -112,7 +120,7 @@ const tasks = {
     watch(id);
     library.open(text);
     watch(id, performance.now() + budget);
-    library.solveEpsilon(oracle, epsilon, 0, 1e-4);
+    library.solveEpsilon(oracle, epsilon, { tolerance: ROUGH });
     return solution(true);
   },
 
@@ -122,7 +130,7 @@ const tasks = {
     const post = (part, value) => postMessage({ id, part, ...value });
     watch(id);
     library.open(text);
-    if (method.epsilon) library.solveEpsilon(method.oracle, method.epsilon, method.mostLinks);
+    if (method.epsilon) library.solveEpsilon(method.oracle, method.epsilon, method);
     else library.solveTo(method.error);
     post("solution", { ...solution(true), seconds: (performance.now() - start) / 1000 });
     post("field", { field: field(area, cells / COARSE ** 2, 0.02) });
@@ -140,9 +148,10 @@ const tasks = {
 };
 
 function fail(id, error) {
-  const known = error instanceof LibraryError;
-  postMessage({ id, part: "failed", message: error.message, stopped: known && error.stopped });
-  if (!known) throw error;
+  const { message, stopped } = error;
+  // After any other error nobody knows what is in the memory of the library.
+  const broken = !(error instanceof LibraryError);
+  postMessage({ id, part: "failed", message, stopped: Boolean(stopped), broken });
 }
 
 onmessage = async ({ data }) => {
