@@ -29,4 +29,4 @@ for package in gsl jansson; do
   tar -xf "$package"_*.orig.tar.* -C "$package-new" --strip-components=1
   mv "$package-new" "$package"
 done
-rm -rf lists cache
+rm -rf parts lists cache
