@@ -55,6 +55,7 @@ SUITES = \
 	tests/unit/solve/check-closure \
 	tests/unit/solve/check-equation-part \
 	tests/unit/solve/check-row-sums \
+	tests/unit/solve/check-adopt \
 	tests/unit/solve/check-lengths \
 	tests/unit/refine/check-occlusion \
 	tests/unit/scene/check-effects \

@@ -171,11 +171,30 @@ static hr2d_status check_sign(hr2di_equation *s) {
   return HR2D_OK;
 }
 
+/* Takes B on leaves as it is, and its irradiance. */
+static hr2d_status adopt(hr2di_equation *s, const double *field) {
+  const hr2di_transport *t = &s->transport;
+  int finite = 1;
+  for (size_t k = 0; k < s->field; k++) {
+    const double given = field[t->leaf[k / t->width] * t->width + k % t->width];
+    s->radiosity[k] = ldexp(given, -s->exponent[k % t->bands]);
+    finite &= isfinite(given) != 0;
+  }
+  if (!finite)
+    return hr2di_message_fail(&s->links->message, HR2D_EINVAL,
+                              "a value that is given is not finite");
+  hr2di_equation_gather(s, s->radiosity);
+  return t->failed;
+}
+
+/* With a `field` it is adopted. */
 static hr2d_status solve(hr2d_linkset *links, const hr2d_solve_options *options,
-                         hr2d_solution **solution) {
+                         const double *field, hr2d_solution **solution) {
   hr2di_equation eq;
   hr2d_status status = hr2di_equation_init(&eq, links, options);
-  if (!status && links->hierarchy->scene->effect[HR2D_EFFECT_INTERREFLECTION].on) {
+  if (!status && field) {
+    status = adopt(&eq, field);
+  } else if (!status && links->hierarchy->scene->effect[HR2D_EFFECT_INTERREFLECTION].on) {
     if (options->start) status = warm_start(&eq);
     if (!status) status = hr2di_equation_solve(&eq);
     if (!status) status = hr2di_equation_settle_power(&eq);
@@ -192,8 +211,8 @@ static hr2d_status solve(hr2d_linkset *links, const hr2d_solve_options *options,
 }
 
 /* During the solve callbacks may change neither the links nor the hierarchy. */
-hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *given,
-                       hr2d_solution **solution) {
+static hr2d_status run(hr2d_linkset *links, const hr2d_solve_options *given,
+                       const double *field, hr2d_solution **solution) {
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   if (hr2di_sized_copy(&options, sizeof options, given))
     return hr2di_message_fail(&links->message, HR2D_EINVAL, "struct_size is not set");
@@ -201,14 +220,24 @@ hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *given,
   hr2di_watch watch;
   hr2di_scene_watch(links->hierarchy->scene, &watch, options.progress, options.progress_ctx,
                     "rows");
-  if (!status) status = hr2di_existence_check(links, &watch);
+  if (!status && !field) status = hr2di_existence_check(links, &watch);
   if (status) return status;
   links->solving = 1;
   atomic_fetch_add(&links->hierarchy->readers, 1);
-  status = solve(links, &options, solution);
+  status = solve(links, &options, field, solution);
   atomic_fetch_sub(&links->hierarchy->readers, 1);
   links->solving = 0;
   if (status == HR2D_ENOMEM)
     hr2di_message_fail(&links->message, status, "out of memory for the solve");
   return status;
+}
+
+hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *given,
+                       hr2d_solution **solution) {
+  return run(links, given, NULL, solution);
+}
+
+hr2d_status hr2d_solution_adopt(hr2d_linkset *links, const hr2d_solve_options *given,
+                                const double *field, hr2d_solution **solution) {
+  return run(links, given, field, solution);
 }

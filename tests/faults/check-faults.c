@@ -271,6 +271,17 @@ static hr2d_status area(fault_stage *s, uint64_t *sum) {
   return status;
 }
 
+static hr2d_status adopt(fault_stage *s, uint64_t *sum) {
+  static double field[4096];
+  hr2d_solution *made = NULL;
+  ck_assert_uint_le(
+      4 * hr2d_hierarchy_count(s->hierarchy).elements * hr2d_scene_bands(s->scene), 4096);
+  const hr2d_status status = hr2d_solution_adopt(s->links, NULL, field, &made);
+  if (!status) *sum = fault_mix_real(*sum, hr2d_solution_average(made, 0, 0));
+  hr2d_solution_destroy(made);
+  return status;
+}
+
 static hr2d_status blocks(fault_stage *s, uint64_t *sum) {
   hr2d_link link[20];
   double block[20 * 16];
@@ -381,6 +392,8 @@ START_TEST(counts) {
   PLAY("refine_count by 3", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, count_by_three,
        of_links, 60);
   PLAY("refine_visit", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, visit, of_links, 60);
+  PLAY("solution_adopt", {.depth = DEPTH_REFINED, .plan = PLAN_ROOM, .order = 4}, adopt,
+       of_links, 0);
   PLAY("blocks", {.depth = DEPTH_REFINED, .plan = PLAN_ROOM, .order = 4}, blocks, NULL, 0);
   PLAY("leaf_sums", {.depth = DEPTH_REFINED, .plan = PLAN_ROOM}, leaf_sums, NULL, 0);
   PLAY("leaf_sums, open", {.depth = DEPTH_REFINED, .plan = PLAN_OPEN}, leaf_sums, NULL, 0);
