@@ -7,6 +7,7 @@ libhr2d_core_la_CFLAGS = $(AM_CFLAGS) $(THREADS_CFLAGS)
 libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
 libhr2d_core_la_SOURCES = \
 	src/base/alloc.c src/base/alloc.h \
+	src/base/black-body.c \
 	src/base/clock.h \
 	src/base/large-pages.c src/base/large-pages.h \
 	src/base/constants.c \
@@ -84,6 +85,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/side-parts.c src/scene/side-parts.h \
 	src/scene/split-crossings.c \
 	src/scene/plane.c src/scene/plane.h \
+	src/scene/thermal.c \
 	src/scene/wall-pieces.c src/scene/wall-pieces.h \
 	src/scene/with-plane.c src/scene/with-plane.h \
 	src/formats/geojson.c \
@@ -92,6 +94,7 @@ libhr2d_core_la_SOURCES = \
 	src/formats/geojson-impl.h \
 	src/formats/geojson-meant.c src/formats/geojson-meant.h \
 	src/formats/geojson-text.c src/formats/geojson-text.h \
+	src/formats/geojson-thermal.c \
 	src/formats/geojson-values.c \
 	src/formats/scene-file.c src/formats/scene-file.h \
 	src/formats/vs2.c \
@@ -162,6 +165,7 @@ libhr2d_core_la_SOURCES = \
 	src/solution/point-gather.c \
 	src/solution/solution.c \
 	src/solution/solution-impl.h \
+	src/solution/temperature.c \
 	src/field/field-at.c src/field/field-at.h \
 	src/field/field-impl.h \
 	src/field/field-grid.c \

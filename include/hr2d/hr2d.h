@@ -21,6 +21,7 @@
  * - hr2d_solve_to() makes hierarchy, links and solution for a target error (accuracy.h).
  * - hr2d_state_write() saves a stage of a long solve (state.h).
  * - hr2d_field_at() computes the light at points between the patches (field.h).
+ * - hr2d_scene_add_thermal() adds patches of given temperature or heat flux (thermal.h).
  * - hr2d_exchange_area() computes the exchange of two segments (geometry.h).
  * - hr2d_exchange_rows_create() does it for all patches, with occluders (visibility.h).
  * - hr2d_study_run() measures L against N (study.h).
@@ -91,6 +92,7 @@
 #include <hr2d/state.h>
 #include <hr2d/status.h>
 #include <hr2d/study.h>
+#include <hr2d/thermal.h>
 #include <hr2d/version.h>
 #include <hr2d/visibility.h>
 

@@ -115,7 +115,7 @@ static double reflect(const sketcher *s, const double *h, double *b) {
       const double next =
           hr2d_scene_emission(s->scene, k, m) + hr2d_scene_reflectance(s->scene, k, m) * h[at];
       change = fmax(change, fabs(next - b[at]));
-      most = fmax(most, next);
+      most = fmax(most, fabs(next));
       b[at] = next;
     }
     if (change > 0) worst = fmax(worst, change / most);

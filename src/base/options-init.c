@@ -33,6 +33,10 @@ void hr2d_target_init(hr2d_target *target, size_t size) {
   set_defaults(target, size);
 }
 
+void hr2d_thermal_init(hr2d_thermal *thermal, size_t size) {
+  set_defaults(thermal, size);
+}
+
 void hr2d_patch_init(hr2d_patch *patch) {
   *patch = (hr2d_patch)HR2D_PATCH_INIT;
 }

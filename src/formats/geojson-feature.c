@@ -73,7 +73,8 @@ hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, 
                               hr2di_geojson_kind(properties));
   hr2d_status status = hr2di_geojson_note_feature(reader, feature);
   if (!status) status = read_name(reader, name);
-  if (!status) status = read_light(reader, properties);
+  if (!status) status = hr2di_geojson_thermal(reader, properties);
+  if (!status && !reader->thermal.given) status = read_light(reader, properties);
   if (!status) status = read_choice(reader, properties, "sides", "front", "both", &both);
   if (!status)
     status = read_choice(reader, properties, "faces", "in", "out", &reader->faces_out);

@@ -126,8 +126,12 @@ static hr2d_status add_segment(hr2di_geojson *reader, hr2d_point a, hr2d_point b
   patch.b = b;
   status = hr2di_watch_work(reader->watch, 4);
   if (status) return status;
-  status = reader->added++ ? hr2di_scene_add_alike(reader->scene, &patch)
-                           : hr2d_scene_add(reader->scene, &patch, NULL);
+  if (reader->added++)
+    status = hr2di_scene_add_alike(reader->scene, &patch);
+  else if (reader->thermal.given)
+    status = hr2d_scene_add_thermal(reader->scene, &patch, &reader->thermal, NULL);
+  else
+    status = hr2d_scene_add(reader->scene, &patch, NULL);
   if (!status || status == HR2D_ENOMEM) return status;
   return hr2di_message_fail(reader->message, status, "%s: %s", reader->label,
                             reader->message->text);

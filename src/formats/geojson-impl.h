@@ -5,6 +5,7 @@
 
 #include <hr2d/memory.h>
 #include <hr2d/scene.h>
+#include <hr2d/thermal.h>
 #include <jansson.h>
 #include <stddef.h>
 
@@ -30,8 +31,14 @@ typedef struct hr2di_geojson {
   /* The current feature. */
   char label[HR2DI_LABEL_SIZE]; /* feature 3 ("north wall") */
   hr2d_patch patch;             /* the members that its segments have in common */
+  hr2d_thermal thermal;         /* theirs, too, unless none is given */
   int faces_out;                /* fronts of its polygons look out */
   size_t segments, added;
+
+  /* The wavelengths that the scene had, if this file has others. */
+  double *former;
+  size_t formers;
+  int replaced;
 
   /* Buffers that are kept from feature to feature. */
   hr2di_values background, emission, reflectance;
@@ -46,6 +53,17 @@ hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, 
 
 /* Adds the patches of the current feature. */
 hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry);
+
+/* Reads the thermal properties of the current feature. */
+hr2d_status hr2di_geojson_thermal(hr2di_geojson *reader, const json_t *properties);
+
+/* Reads wavelengths, which the scene has from now on, and the temperature of the background from
+   the member "hr2d". */
+hr2d_status hr2di_geojson_spectrum(hr2di_geojson *reader, const json_t *members,
+                                   size_t *background_bands);
+
+/* Gives the scene its former wavelengths back if the file could not be read. */
+void hr2di_geojson_end_spectrum(hr2di_geojson *reader, hr2d_status status);
 
 /* Reads a number or a non-empty array of numbers, each in [0,max], from `json` into `values`.
    *count becomes the number of values; 0 if `json` is NULL, which leaves `values` unchanged.

@@ -6,13 +6,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#define REFLECTANCE "write \"reflectance\": 1 - emissivity"
-#define EMISSION    "write \"emission\", power per scene length"
-#define BANDS       "write \"reflectance\" as an array with a number for each band"
-#define BOTH        "write \"sides\": \"both\""
-#define FACES       "write \"faces\": \"in\" or \"out\""
-#define GREY        "the property is called \"reflectance\""
-#define HEAT        "write \"emission\": emissivity * 5.670374419e-8 * T^4, with T in kelvin"
+#define REFLECTANCE                                                                            \
+  "write \"reflectance\": 1 - emissivity, or a \"temperature\" or \"flux\" beside it"
+#define EMISSION "write \"emission\", power per scene length"
+#define BANDS    "write \"reflectance\" as an array with a number for each band"
+#define BOTH     "write \"sides\": \"both\""
+#define FACES    "write \"faces\": \"in\" or \"out\""
+#define GREY     "the property is called \"reflectance\""
+#define HEAT     "write \"flux\", the net heat flux that leaves, or \"emission\""
 
 /* A name in small letters, the property that replaces it, and what to do. */
 typedef struct meant {
@@ -27,14 +28,13 @@ static const meant properties_meant[] = {
     {"colour", "reflectance", BANDS},
     {"double_sided", "sides", BOTH},
     {"doublesided", "sides", BOTH},
-    {"emissivity", "reflectance", REFLECTANCE},
     {"emit", "emission", EMISSION},
     {"emittance", "emission", EMISSION},
     {"epsilon", "reflectance", REFLECTANCE},
     {"exitance", "emission", EMISSION},
     {"facing", "faces", FACES},
-    {"flux", "emission", EMISSION},
-    {"heat_flux", "emission", EMISSION},
+    {"heat_flux", "emission", HEAT},
+    {"kelvin", "temperature", "the property is called \"temperature\""},
     {"power", "emission", EMISSION},
     {"radiance", "emission", EMISSION},
     {"radiosity", "emission", EMISSION},
@@ -42,14 +42,14 @@ static const meant properties_meant[] = {
     {"reflectivity", "reflectance", GREY},
     {"rho", "reflectance", GREY},
     {"side", "sides", BOTH},
-    {"temperature", "emission", HEAT},
     {"two_sided", "sides", BOTH},
     {"twosided", "sides", BOTH}};
 
 /* Where the members of the format belong. */
-static const char *const of_properties[] = {"emission", "faces", "name", "reflectance",
-                                            "sides"};
-static const char *const of_scene[] = {"background", "medium"};
+static const char *const of_properties[] = {"emission", "emissivity",  "faces", "flux",
+                                            "name",     "reflectance", "sides", "temperature"};
+static const char *const of_scene[] = {"background", "background_temperature", "medium",
+                                       "wavelengths"};
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
@@ -82,8 +82,17 @@ static int note_spelling(hr2di_geojson *reader, const json_t *object, const char
   return 1;
 }
 
+/* Emissivity takes part only beside a temperature or a flux. */
+static int is_lonely(const json_t *properties, const char *key) {
+  return !strcmp(key, "emissivity") && !hr2di_geojson_member(properties, "temperature") &&
+         !hr2di_geojson_member(properties, "flux") &&
+         !hr2di_geojson_member(properties, "reflectance");
+}
+
 static void note_property(hr2di_geojson *reader, const json_t *properties, const char *key) {
   const small s = in_small_letters(key);
+  if (is_lonely(properties, key))
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, reader->label, REFLECTANCE);
   if (note_spelling(reader, properties, reader->label, key,
                     find(of_properties, COUNT(of_properties), s.text)))
     return;
@@ -138,7 +147,8 @@ static void note_scene_member(hr2di_geojson *reader, const json_t *members, cons
   const small s = in_small_letters(key);
   if (!note_spelling(reader, members, "hr2d", key, find(of_scene, COUNT(of_scene), s.text)))
     hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, "hr2d",
-                    "members of \"hr2d\" are \"background\" and \"medium\"");
+                    "members of \"hr2d\" are \"background\" and \"medium\", "
+                    "\"background_temperature\" and \"wavelengths\"");
 }
 
 /* RFC 7946 knows no "crs"; GeoJSON of 2008 does, and some tools write it. */

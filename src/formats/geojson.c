@@ -40,6 +40,7 @@ static hr2d_status read_scene_effects(hr2di_geojson *reader, const json_t *root,
   hr2d_status status = hr2di_geojson_values(reader, "hr2d", "background",
                                             hr2di_geojson_member(members, "background"),
                                             DBL_MAX, &reader->background, background_bands);
+  if (!status) status = hr2di_geojson_spectrum(reader, members, background_bands);
   return status ? status : read_medium(reader, members);
 }
 
@@ -90,6 +91,7 @@ hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size,
   hr2d_status status = hr2di_geojson_load(text, size, &root, reader.message, watch);
   if (status) return status;
   status = read_collection(&reader, root);
+  hr2di_geojson_end_spectrum(&reader, status);
 
   json_decref(root);
   hr2di_alloc_free(reader.alloc, reader.background.value);

@@ -6,7 +6,7 @@
 
 static int emits(const hr2d_scene *scene, size_t patch) {
   for (size_t band = 0; band < scene->bands; band++)
-    if (hr2d_scene_emission(scene, patch, band) > 0) return 1;
+    if (hr2d_scene_emission(scene, patch, band) != 0) return 1;
   return 0;
 }
 

@@ -13,8 +13,8 @@ hr2d_status hr2di_scene_check_bands(hr2d_scene *scene, hr2di_watch *watch) {
   const hr2d_status status = hr2di_watch_work(watch, scene->patches / 16);
   if (status) return hr2di_scene_fail(scene, status, watch, "");
   for (size_t k = 0; k < scene->patches; k++) {
-    const hr2di_patch *p = &scene->patch[k];
-    const size_t count[] = {p->emission_bands, p->reflectance_bands};
+    const hr2di_light *light = scene->patch[k].light;
+    const size_t count[] = {light->emission_bands, light->reflectance_bands};
     for (int c = 0; c < 2; c++) {
       if (count[c] <= 1) continue;
       if (bands > 1 && count[c] != bands)

@@ -54,9 +54,9 @@ hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
   if (scene->patches == 0)
     return hr2di_message_fail(&scene->message, HR2D_ESCENE, "the scene has no patches");
   hr2d_status (*const part[])(hr2d_scene *, hr2di_watch *) = {
-      hr2di_scene_check_bands,    check_background, hr2di_scene_scale,
-      hr2di_scene_check_overlaps, make_walls,       hr2di_scene_analyse_effects,
-      hr2di_scene_find_light,     keep_plane};
+      hr2di_scene_check_bands,     check_background,           hr2di_scene_check_thermal,
+      hr2di_scene_scale,           hr2di_scene_check_overlaps, make_walls,
+      hr2di_scene_analyse_effects, hr2di_scene_find_light,     keep_plane};
   const size_t parts = sizeof part / sizeof *part;
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, NULL, NULL, "commit");

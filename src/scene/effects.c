@@ -66,7 +66,7 @@ static hr2d_status analyse_materials(hr2d_scene *scene, hr2di_watch *watch) {
       if (hr2d_scene_reflectance(scene, k, band) > 0)
         set(scene, HR2D_EFFECT_INTERREFLECTION, 1, "%s reflects",
             hr2di_patch_label(scene, k).text);
-      if (hr2d_scene_emission(scene, k, band) > 0)
+      if (hr2d_scene_emission(scene, k, band) != 0)
         set(scene, HR2D_EFFECT_EMISSION, 1, "%s emits", hr2di_patch_label(scene, k).text);
     }
   return status;

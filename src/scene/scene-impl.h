@@ -4,6 +4,7 @@
 #define HR2D_SRC_SCENE_SCENE_IMPL_H
 
 #include <hr2d/scene.h>
+#include <hr2d/thermal.h>
 
 #include "base/message.h"
 #include "base/watch.h"
@@ -13,12 +14,17 @@
 #include "scene/reading-notes.h"
 #include "scene/side-parts.h"
 
-/* Emission and reflectance of a patch.  The segments of a feature, both sides of a patch and
-   the pieces of a patch share one: otherwise a file of many values and many segments would take
-   memory for the product of their numbers. */
+/* Emission and reflectance of a patch, and its thermal properties.  The segments of a feature,
+   both sides of a patch and the pieces of a patch share one: otherwise a file of many values
+   and many segments would take memory for the product of their numbers. */
 typedef struct hr2di_light {
   size_t users;
-  double value[]; /* emission, then reflectance */
+  size_t emission_bands; /* 0, 1 or as many as the scene has; so are the other two */
+  size_t reflectance_bands;
+  size_t emissivity_bands;
+  hr2d_heat heat;
+  double given;   /* T or q; 0 without heat */
+  double value[]; /* emission, then reflectance, then emissivity */
 } hr2di_light;
 
 typedef struct hr2di_patch {
@@ -27,8 +33,6 @@ typedef struct hr2di_patch {
   double length;       /* of the scaled segment; set by commit */
   char *name;
   hr2di_light *light;
-  size_t emission_bands; /* 0, 1 or as many as the scene has */
-  size_t reflectance_bands;
 } hr2di_patch;
 
 struct hr2d_scene {
@@ -42,6 +46,8 @@ struct hr2d_scene {
   size_t bands;
   double *background; /* background_bands values; NULL for none */
   size_t background_bands;
+  double *wavelength; /* that divide the spectrum into bands; NULL for none */
+  size_t wavelengths;
   hr2di_notes notes;
   int exponent;      /* the unit is 2^exponent */
   hr2di_walls walls; /* the occluders; made by commit, as all that follows */
@@ -67,7 +73,12 @@ hr2di_message *hr2di_scene_message(hr2d_scene *scene);
 int hr2di_scene_committed(const hr2d_scene *scene);
 hr2di_notes *hr2di_scene_notes(hr2d_scene *scene);
 
-/* As hr2d_scene_add(), but with the E and ρ of the patch that was added last. */
+/* As hr2d_scene_add(), with thermal properties, which are valid, or NULL.  With a flux E may be
+   negative. */
+hr2d_status hr2di_scene_add(hr2d_scene *scene, const hr2d_patch *patch,
+                            const hr2d_thermal *thermal, size_t *index);
+
+/* As hr2d_scene_add(), but with the light of the patch that was added last. */
 hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch);
 
 /* Ends one use of a light; the last frees it.  NULL is allowed. */
@@ -87,6 +98,12 @@ typedef struct hr2di_label {
 } hr2di_label;
 
 hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch);
+
+/* Of the patch that is to be added next, with a name or NULL. */
+hr2di_label hr2di_new_patch_label(const hr2d_scene *scene, const char *name);
+
+/* The part of the black body's emission that a band of the wavelengths has; 1 without them. */
+double hr2di_scene_band_part(const hr2d_scene *scene, double kelvin, size_t band);
 
 /* Removes the plane and its side parts. */
 void hr2di_scene_clear_plane(hr2d_scene *scene);
@@ -108,6 +125,7 @@ hr2d_status hr2di_scene_need_plane(hr2d_scene *scene, hr2di_watch *watch);
 
 /* Parts of commit, in the order of their calls.  Each leaves a message if it fails. */
 hr2d_status hr2di_scene_check_bands(hr2d_scene *scene, hr2di_watch *watch);
+hr2d_status hr2di_scene_check_thermal(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_scale(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_analyse_effects(hr2d_scene *scene, hr2di_watch *watch);

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scene object: adding patches, committing, reading back. */
-#include <assert.h>
 #include <math.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -42,6 +40,7 @@ void hr2d_scene_destroy(hr2d_scene *scene) {
   hr2di_scene_truncate(scene, 0);
   hr2di_alloc_free(&scene->alloc, scene->patch);
   hr2di_alloc_free(&scene->alloc, scene->background);
+  hr2di_alloc_free(&scene->alloc, scene->wavelength);
   hr2di_scene_clear_commit(scene);
   const hr2d_allocator alloc = scene->alloc;
   hr2di_alloc_free(&alloc, scene);
@@ -87,17 +86,24 @@ static char *make_name(hr2d_scene *scene, const char *name, size_t index, int ba
   return made;
 }
 
-/* Makes a light with one user.  The part before its values takes no more room than a double, so
-   one double more than there are values is enough. */
-static hr2di_light *make_light(const hr2d_scene *scene, const hr2d_patch *patch) {
-  static_assert(offsetof(hr2di_light, value) <= sizeof(double), "counts of users are small");
+/* Makes a light with one user. */
+static hr2di_light *make_light(const hr2d_scene *scene, const hr2d_patch *patch,
+                               const hr2d_thermal *thermal) {
+  const size_t head = (sizeof(hr2di_light) + sizeof(double) - 1) / sizeof(double);
   const size_t e = patch->emission_bands, r = patch->reflectance_bands;
-  if (e > SIZE_MAX - 1 - r) return NULL;
-  hr2di_light *light = hr2di_alloc(&scene->alloc, e + r + 1, sizeof(double));
+  const size_t emissivities = thermal ? thermal->emissivity_bands : 0;
+  if (e > SIZE_MAX / 4 || r > SIZE_MAX / 4 || emissivities > SIZE_MAX / 4) return NULL;
+  hr2di_light *light = hr2di_alloc(&scene->alloc, head + e + r + emissivities, sizeof(double));
   if (!light) return NULL;
-  light->users = 1;
+  *light = (hr2di_light){.users = 1,
+                         .emission_bands = e,
+                         .reflectance_bands = r,
+                         .emissivity_bands = emissivities,
+                         .heat = thermal ? thermal->given : HR2D_HEAT_NONE,
+                         .given = thermal ? thermal->value : 0};
   for (size_t k = 0; k < e; k++) light->value[k] = patch->emission[k];
   for (size_t k = 0; k < r; k++) light->value[e + k] = patch->reflectance[k];
+  for (size_t k = 0; k < emissivities; k++) light->value[e + r + k] = thermal->emissivity[k];
   return light;
 }
 
@@ -106,10 +112,7 @@ static hr2d_status add_side(hr2d_scene *scene, const hr2d_patch *patch, size_t i
   if (hr2di_alloc_reserve(&scene->alloc, &scene->patch, &scene->capacity, scene->patches + 1,
                           sizeof *scene->patch))
     return HR2D_ENOMEM;
-  hr2di_patch made = {.given = {patch->a, patch->b},
-                      .emission_bands = patch->emission_bands,
-                      .reflectance_bands = patch->reflectance_bands,
-                      .light = light};
+  hr2di_patch made = {.given = {patch->a, patch->b}, .light = light};
   if (back) made.given = (hr2d_segment){patch->b, patch->a};
   made.name = make_name(scene, patch->name, index, back);
   if (!made.name) return HR2D_ENOMEM;
@@ -161,6 +164,10 @@ hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch) {
   return make_label(patch, scene->patch[patch].name);
 }
 
+hr2di_label hr2di_new_patch_label(const hr2d_scene *scene, const char *name) {
+  return make_label(scene->patches, name);
+}
+
 static hr2d_status check_values(hr2d_scene *scene, const char *label, const char *what,
                                 const double *value, size_t count, double max) {
   if (count > 0 && !value)
@@ -196,7 +203,10 @@ static hr2d_status check_segment(hr2d_scene *scene, const hr2d_patch *patch,
   return HR2D_OK;
 }
 
-static hr2d_status check_light(hr2d_scene *scene, const hr2d_patch *patch, const char *label) {
+/* E and ρ of a patch with thermal properties follow from these, which are checked already. */
+static hr2d_status check_light(hr2d_scene *scene, const hr2d_patch *patch,
+                               const hr2d_thermal *thermal, const char *label) {
+  if (thermal) return HR2D_OK;
   hr2d_status status =
       check_values(scene, label, "emission", patch->emission, patch->emission_bands, HUGE_VAL);
   return status ? status
@@ -204,29 +214,31 @@ static hr2d_status check_light(hr2d_scene *scene, const hr2d_patch *patch, const
                                patch->reflectance_bands, 1);
 }
 
-hr2d_status hr2d_scene_add(hr2d_scene *scene, const hr2d_patch *patch, size_t *index) {
+hr2d_status hr2di_scene_add(hr2d_scene *scene, const hr2d_patch *patch,
+                            const hr2d_thermal *thermal, size_t *index) {
   if (scene->committed)
     return hr2di_message_fail(&scene->message, HR2D_ESTATE,
                               "a committed scene takes no more patches");
   const size_t front = scene->patches;
   const hr2di_label label = make_label(front, patch->name);
   hr2d_status status = check_segment(scene, patch, label.text);
-  if (!status) status = check_light(scene, patch, label.text);
-  if (!status) status = add_sides(scene, patch, make_light(scene, patch));
+  if (!status) status = check_light(scene, patch, thermal, label.text);
+  if (!status) status = add_sides(scene, patch, make_light(scene, patch, thermal));
   if (!status && index) *index = front;
   return status;
+}
+
+hr2d_status hr2d_scene_add(hr2d_scene *scene, const hr2d_patch *patch, size_t *index) {
+  return hr2di_scene_add(scene, patch, NULL, index);
 }
 
 hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch) {
   hr2d_status status =
       check_segment(scene, patch, make_label(scene->patches, patch->name).text);
   if (status) return status;
-  const hr2di_patch *last = &scene->patch[scene->patches - 1];
-  hr2d_patch alike = *patch;
-  alike.emission_bands = last->emission_bands;
-  alike.reflectance_bands = last->reflectance_bands;
-  last->light->users++;
-  return add_sides(scene, &alike, last->light);
+  hr2di_light *light = scene->patch[scene->patches - 1].light;
+  light->users++;
+  return add_sides(scene, patch, light);
 }
 
 hr2d_status hr2d_scene_set_background(hr2d_scene *scene, const double *background,
@@ -319,13 +331,13 @@ static double band_value(const double *value, size_t bands, size_t band) {
 }
 
 double hr2d_scene_emission(const hr2d_scene *scene, size_t patch, size_t band) {
-  const hr2di_patch *p = &scene->patch[patch];
-  return band_value(p->light->value, p->emission_bands, band);
+  const hr2di_light *light = scene->patch[patch].light;
+  return band_value(light->value, light->emission_bands, band);
 }
 
 double hr2d_scene_reflectance(const hr2d_scene *scene, size_t patch, size_t band) {
-  const hr2di_patch *p = &scene->patch[patch];
-  return band_value(p->light->value + p->emission_bands, p->reflectance_bands, band);
+  const hr2di_light *light = scene->patch[patch].light;
+  return band_value(light->value + light->emission_bands, light->reflectance_bands, band);
 }
 
 double hr2d_scene_background(const hr2d_scene *scene, size_t band) {

@@ -79,7 +79,7 @@ static void set_exponents(hr2di_equation *s) {
   for (size_t b = 0; b < scene->bands; b++) {
     double max = hr2d_scene_background(scene, b);
     for (size_t k = 0; k < scene->patches; k++)
-      max = fmax(max, hr2d_scene_emission(scene, k, b));
+      max = fmax(max, fabs(hr2d_scene_emission(scene, k, b)));
     s->exponent[b] = max > 0 ? ilogb(max) : 0;
     s->light[b] = ldexp(hr2d_scene_background(scene, b), -s->exponent[b]);
   }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Light that neither is absorbed nor escapes has nowhere to go: in a component of
    patches linked to each other, closed and with ρ = 1 throughout, ∫(E + ρH − B) = 0
-   forces ∫E = 0. */
+   forces ∫E = 0.  Where E is the flux of patches with thermal properties, ∫E = 0 leaves B
+   unknown by a constant: temperatures have no level. */
 #include "solve/existence.h"
 
 #include <math.h>
@@ -42,6 +43,21 @@ static void sum_up(const hr2d_scene *scene, exchange *e) {
   }
 }
 
+static hr2d_status refuse(hr2d_linkset *links, size_t patch, size_t band) {
+  const hr2d_scene *scene = links->hierarchy->scene;
+  const hr2di_label label = hr2di_patch_label(scene, patch);
+  if (hr2d_scene_heat(scene, patch, NULL) == HR2D_HEAT_FLUX)
+    return hr2di_message_fail(
+        &links->message, HR2D_ENO_SOLUTION,
+        "no solution: %s is in a closed part of the scene where no patch has a given "
+        "temperature, so that given fluxes cannot tell how hot it is",
+        label.text);
+  return hr2di_message_fail(&links->message, HR2D_ENO_SOLUTION,
+                            "no solution in band %zu: %s emits into a closed part of the scene "
+                            "where every reflectance is 1, so that light has nowhere to go",
+                            band, label.text);
+}
+
 /* Checks one band: no patch may emit in a component that is closed and absorbs nothing.
    Exchange over links of clusters is known to their accuracy only. */
 static hr2d_status check_band(hr2d_linkset *links, exchange *e, size_t band,
@@ -56,13 +72,10 @@ static hr2d_status check_band(hr2d_linkset *links, exchange *e, size_t band,
   for (size_t k = 0; k < scene->patches; k++) {
     const size_t root = hr2di_component(&e->components, k);
     if (absorbs[root] || hr2di_sum_total(&e->escape[root]) > closed * e->length[root] ||
-        !(hr2d_scene_emission(scene, k, band) > 0))
+        (!(hr2d_scene_emission(scene, k, band) > 0) &&
+         hr2d_scene_heat(scene, k, NULL) != HR2D_HEAT_FLUX))
       continue;
-    return hr2di_message_fail(
-        &links->message, HR2D_ENO_SOLUTION,
-        "no solution in band %zu: %s emits into a closed part of the scene "
-        "where every reflectance is 1, so that light has nowhere to go",
-        band, hr2di_patch_label(scene, k).text);
+    return refuse(links, k, band);
   }
   return HR2D_OK;
 }

@@ -147,12 +147,43 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
                                         "a radiosity is beyond what a double can represent");
 }
 
+/* The first patch with a negative flux; as many as there are patches if there is none. */
+static size_t find_taker(const hr2d_scene *scene) {
+  size_t k = 0;
+  while (k < scene->patches && hr2d_scene_emission(scene, k, 0) >= 0) k++;
+  return k;
+}
+
+/* Refuses a negative average of B, in the only band: only scenes of one band have fluxes. */
+static hr2d_status check_averages(hr2di_equation *s, double min) {
+  hr2di_transport *t = &s->transport;
+  const hr2d_scene *scene = t->hierarchy->scene;
+  double high = 0;
+  size_t lowest = 0;
+  hr2di_transport_pull(t, s->radiosity);
+  if (t->failed) return t->failed;
+  for (size_t k = 0; k < scene->patches; k++) {
+    high = fmax(high, t->up[k * t->width]);
+    if (t->up[k * t->width] < t->up[lowest * t->width]) lowest = k;
+  }
+  const double low = t->up[lowest * t->width];
+  if (low >= -min * high && (low >= 0 || high > 0)) return HR2D_OK;
+  return hr2di_message_fail(
+      &s->links->message, HR2D_ENO_SOLUTION,
+      "no solution: %s would send a negative radiosity, %.4g: the negative fluxes of the scene "
+      "take away more heat than there is",
+      hr2di_patch_label(scene, lowest).text, ldexp(low, s->exponent[0]));
+}
+
 /* If B = Q + ρKB and neither K nor Q is negative, then B is negative somewhere if and only if
    ΣK^kρ^kQ diverges: with the positive left eigenvector v of the radius λ, (1−λ)vB = vQ.  At an
-   order above 1 B may be slightly negative for other reasons. */
+   order above 1 B may be slightly negative for other reasons.  With a negative flux of a patch
+   Q is negative, and the average of B on a patch tells whether so much heat can leave it. */
 static hr2d_status check_sign(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   const double min = t->order > 1 ? 1e-2 : 1e-6;
+  const size_t taker = find_taker(t->hierarchy->scene);
+  if (taker < t->hierarchy->scene->patches) return check_averages(s, min);
   for (size_t b = 0; b < t->bands; b++) {
     double low = 0, high = 0;
     const hr2d_status status = hr2di_watch_work(t->watch, t->leaves / 16);

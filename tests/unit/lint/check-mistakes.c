@@ -90,8 +90,8 @@ static const mistake mistakes[] = {
     {"a capital letter", COLLECTION(LAMP "," ROOM("\"Reflectance\":0.9", SQUARE)),
      HR2D_WARNING_IGNORED, "\"Reflectance\" is not used: names have small letters"},
     /* 20 */
-    {"a temperature", COLLECTION(LAMP "," ROOM("\"temperature\":300", SQUARE)),
-     HR2D_WARNING_IGNORED, "5.670374419e-8 * T^4"},
+    {"a temperature in other words", COLLECTION(LAMP "," ROOM("\"kelvin\":300", SQUARE)),
+     HR2D_WARNING_IGNORED, "the property is called \"temperature\""},
     {"two-sided in other words",
      COLLECTION(LAMP "," WALLS "," LINE("\"two_sided\":true", "[[1,1],[2,1]]")),
      HR2D_WARNING_IGNORED, "write \"sides\": \"both\""},
@@ -181,6 +181,8 @@ static const char *const sound[] = {
     COLLECTION(LAMP "," WALLS "," LINE("\"sides\":\"both\"", "[[2,0],[2,1]]")),
     /* what a file says in its own words beside those of the format */
     COLLECTION(LAMP "," ROOM("\"emissivity\":0.5,\"reflectance\":0.5,\"T\":1", SQUARE)),
+    COLLECTION(LAMP "," ROOM("\"temperature\":300,\"emissivity\":0.5", SQUARE)),
+    COLLECTION(LAMP "," ROOM("\"emission\":1,\"reflectance\":0,\"temperature\":300", SQUARE)),
     COLLECTION(LAMP "," ROOM("", "[[0,0,0],[4,0,0],[4,3,0],[0,3,0],[0,0,0]]")),
     /* an obstacle under the sky sees no patch, but the sky */
     WITH("\"hr2d\":{\"background\":1}", ROOM("\"faces\":\"out\"", SQUARE)),

@@ -1,0 +1,231 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file thermal.h
+ * @brief Patches with a temperature or a net heat flux, and the temperatures that follow.
+ *
+ * @defgroup thermal Thermal: temperatures and heat fluxes
+ * Patches with a temperature or a net heat flux, and the temperatures that follow.
+ *
+ * Lengths are in metres, E, B, H and q in W/m², T in kelvin, σ is #HR2D_STEFAN_BOLTZMANN.
+ *
+ * | given       | in the equation B = E + ρH | found              |
+ * |-------------|----------------------------|--------------------|
+ * | T and ε     | ρ = 1 − ε, E = (1 − ρ)σT⁴  | q = E − (1 − ρ)H   |
+ * | q and ε     | ρ = 1, E = q               | σT⁴ = H + q/ε      |
+ *
+ * q is the net heat flux that leaves the patch into the scene. It is 0 on an insulated, that is
+ * adiabatic, wall, and negative where heat is taken away. Kirchhoff's law holds for the doubles
+ * themselves: E has the factor 1 − ρ of absorption, in which ε is rounded. So a closed room of
+ * one temperature is in equilibrium to all digits, for any ε. The answer is that of a scene
+ * with these E and ρ, bit for bit.
+ *
+ * **Average and points.** On a patch of given q, T differs from point to point. The temperature
+ * of the patch is that of its average H + q/ε, the mean of T⁴; for points there is
+ * hr2d_solution_gather_temperature(). The two sides of a patch do not exchange heat: each has
+ * the q that is given.
+ *
+ * **Which scenes have a solution.** Patches of given q that exchange heat only with each other,
+ * in a closed part of the scene, have none, or have one at every temperature: hr2d_solve() and
+ * hr2d_solve_to() return HR2D_ENO_SOLUTION. They do so, too, if a patch loses so much that B
+ * would be negative. If B is positive and H + q/ε is not, the patch is marked:
+ * HR2D_TEMPERATURE_IMPOSSIBLE. It cannot lose so much heat, even at 0 K.
+ *
+ * **Bands.** With hr2d_scene_set_wavelengths() bands are parts of the spectrum, and ε has a
+ * value for each. A patch of given T emits in each band its part of the black body,
+ * hr2d_black_body_part(). A patch of given q needs a scene of one band, because its T divides
+ * what it emits among the bands.
+ *
+ * examples/adiabatic-walls.c computes a furnace.
+ * @{
+ */
+#ifndef HR2D_THERMAL_H
+#define HR2D_THERMAL_H
+
+#include <hr2d/accuracy.h>
+#include <hr2d/scene.h>
+#include <hr2d/solve.h>
+#include <hr2d/status.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** σ, W/(m² K⁴): CODATA 2018, where it is exact but for digits that are left out. */
+#define HR2D_STEFAN_BOLTZMANN 5.670374419e-8
+
+/** c₂ = hc/k, m K: CODATA 2018, as above. */
+#define HR2D_SECOND_RADIATION_CONSTANT 0.01438776877
+
+/** The most wavelengths of a scene: each patch of given T has an E for each of their bands. */
+#define HR2D_MAX_WAVELENGTHS 511
+
+/** What is given of a patch. */
+typedef enum hr2d_heat {
+  HR2D_HEAT_NONE = 0,    /**< E and ρ */
+  HR2D_HEAT_TEMPERATURE, /**< T and ε */
+  HR2D_HEAT_FLUX         /**< q and ε */
+} hr2d_heat;
+
+/** The thermal properties of a patch. Start from #HR2D_THERMAL_INIT. */
+typedef struct hr2d_thermal {
+  size_t struct_size;       /**< so that the struct can grow */
+  hr2d_heat given;          /**< what `value` is: a temperature or a flux */
+  double value;             /**< T ≥ 0 in kelvin, or q in W/m² */
+  const double *emissivity; /**< ε in (0,1] with a flux, in [0,1] with a temperature; copied */
+  size_t emissivity_bands;  /**< number of values in `emissivity`: one per band, or one for all;
+                                 0: ε = 1 */
+} hr2d_thermal;
+
+/** A black patch of which nothing is given yet. */
+#define HR2D_THERMAL_INIT                                                                      \
+  { sizeof(hr2d_thermal), HR2D_HEAT_NONE, 0, NULL, 0 }
+
+/**
+ * Does what #HR2D_THERMAL_INIT does, for languages without macros: sets all bytes to 0, and
+ * `struct_size`.
+ * @param thermal  the struct
+ * @param size     its size as the caller knows it; may differ from that of the library
+ */
+HR2D_API void hr2d_thermal_init(hr2d_thermal *thermal, size_t size);
+
+/**
+ * Adds a patch of given temperature or flux; otherwise like hr2d_scene_add().
+ * @param scene    not yet committed
+ * @param patch    its ends, its name and its sides; without emission and reflectance
+ * @param thermal  what is given; copied
+ * @param index    receives the index of the (front) patch; may be NULL
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  as hr2d_scene_add(); `patch` has emission or reflectance; `given` is
+ *                      none of both; or `struct_size` is not set
+ * @retval HR2D_ESTATE  the scene is committed
+ * @retval HR2D_ESCENE  as hr2d_scene_add(); T is negative, so large that E is beyond a double,
+ *                      or not finite; q is not finite; ε is outside of its range; or several ε
+ *                      are given that are not one for each band of the wavelengths
+ *
+ * hr2d_scene_emission() and hr2d_scene_reflectance() return E and ρ of the table above.
+ */
+HR2D_API hr2d_status hr2d_scene_add_thermal(hr2d_scene *scene, const hr2d_patch *patch,
+                                            const hr2d_thermal *thermal, size_t *index);
+
+/**
+ * Divides the spectrum into bands: `count` wavelengths make `count` + 1 bands. The first band
+ * has all shorter wavelengths, the last one all longer ones, so that no heat is left out.
+ * @param scene       not yet committed, without patches of given temperature or flux
+ * @param wavelength  in micrometres, above 0 and rising; copied
+ * @param count       number of wavelengths, at most #HR2D_MAX_WAVELENGTHS; 0 for one band, as
+ *                    before the first call
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_ESTATE  the scene is committed, or has patches of given temperature or flux
+ * @retval HR2D_ESCENE  a wavelength is not finite, not above 0, or not above the one before; or
+ *                      there are too many
+ *
+ * hr2d_scene_commit() returns HR2D_ESCENE if other arrays of the scene have another number of
+ * bands, and HR2D_EUNSUPPORTED if there are several bands and a patch of given flux.
+ */
+HR2D_API hr2d_status hr2d_scene_set_wavelengths(hr2d_scene *scene, const double *wavelength,
+                                                size_t count);
+
+/**
+ * What is given of a patch.
+ * @param scene,patch  a scene and the index of a patch
+ * @param value        receives T or q; NaN if neither is given; may be NULL
+ * @return which of them it is
+ */
+HR2D_API hr2d_heat hr2d_scene_heat(const hr2d_scene *scene, size_t patch, double *value);
+
+/**
+ * The emissivity of a patch in one band, as it was given.
+ * @param scene,patch  a scene and the index of a patch
+ * @param band         below hr2d_scene_bands()
+ * @return ε; NaN if neither T nor q is given
+ */
+HR2D_API double hr2d_scene_emissivity(const hr2d_scene *scene, size_t patch, size_t band);
+
+/**
+ * σT⁴, what a black body emits over all wavelengths.
+ * @param kelvin  T
+ * @return W/m²; the relative error is at most 2·2^-52
+ */
+HR2D_API double hr2d_black_body(double kelvin);
+
+/**
+ * The part of σT⁴ that a black body emits between two wavelengths: the fraction
+ * f(λT) = (15/π⁴) ∫ u³/(eᵘ − 1) du over u > c₂/(λT), at `to` less that at `from`.
+ * @param kelvin  T ≥ 0
+ * @param from    the shorter wavelength in micrometres, ≥ 0
+ * @param to      the longer one; may be infinite
+ * @return the part, in [0,1]; NaN for other arguments. The relative error is at most
+ *         (20 + 4x)·2^-52, with x = c₂/(`to` T), as long as the part is above 1e-300
+ */
+HR2D_API double hr2d_black_body_part(double kelvin, double from, double to);
+
+/** How a temperature is known. */
+typedef enum hr2d_temperature_state {
+  HR2D_TEMPERATURE_NONE = 0,   /**< the patch has E and ρ: it is not known */
+  HR2D_TEMPERATURE_GIVEN,      /**< it was given */
+  HR2D_TEMPERATURE_FOUND,      /**< it follows from the flux */
+  HR2D_TEMPERATURE_IMPOSSIBLE, /**< H + q/ε is negative: the patch cannot lose so much */
+  HR2D_TEMPERATURE_UNLIT       /**< no heat reaches the patch: it has 0 K where it sees out, and
+                                    in a closed room any temperature */
+} hr2d_temperature_state;
+
+/** What is received for each patch. Start from #HR2D_TEMPERATURES_INIT. */
+typedef struct hr2d_temperatures {
+  size_t struct_size;    /**< so that the struct can grow */
+  double *kelvin;        /**< receives T; NaN unless it is given or found; NULL: not wanted, as
+                              all below */
+  double *estimate;      /**< receives the most likely error of T, in kelvin */
+  double *bound;         /**< receives the bound of the error of T, in kelvin */
+  double *heat;          /**< receives the heat that leaves the patch: q, over all bands, times
+                              its length, in W per metre */
+  double *heat_estimate; /**< receives the most likely error of it */
+  double *heat_bound;    /**< receives the bound of the error of it */
+  unsigned char *state;  /**< receives an #hr2d_temperature_state each */
+} hr2d_temperatures;
+
+/** Nothing is wanted. */
+#define HR2D_TEMPERATURES_INIT                                                                 \
+  { sizeof(hr2d_temperatures), NULL, NULL, NULL, NULL, NULL, NULL, NULL }
+
+/**
+ * The temperatures of all patches, and the heat that they give.
+ *
+ * Errors follow from those of H. With the relative error e of hr2d_account::irradiance and the
+ * floor of the target, |δH| ≤ e·max(H, floor·max H), and |δ(σT⁴)| ≤ |δH| for a patch of given
+ * q. A patch of given T has no error of T, one of given q none of its heat.
+ *
+ * @param solution      a solution
+ * @param target        that of hr2d_solve_to(), for its floor and its important patches; NULL
+ *                      for the defaults
+ * @param account       that of hr2d_solve_to(); NULL: errors are NaN, and so they are for
+ *                      patches that are not important
+ * @param temperatures  what is wanted: arrays with an item for each patch
+ * @retval HR2D_OK      success
+ * @retval HR2D_EINVAL  a `struct_size` is not set, or `target` is not valid
+ *
+ * Cost O(n·bands).
+ */
+HR2D_API hr2d_status hr2d_solution_temperatures(const hr2d_solution *solution,
+                                                const hr2d_target *target,
+                                                const hr2d_account *account,
+                                                const hr2d_temperatures *temperatures);
+
+/**
+ * T at points of a patch: given, or from H of hr2d_solution_gather_irradiance().
+ * @param solution,patch,t,count  as for hr2d_solution_gather()
+ * @param kelvin                  receives `count` values; NaN where T is not known, or
+ *                                H + q/ε is negative
+ * @return as hr2d_solution_gather(), with its cost
+ */
+HR2D_API hr2d_status hr2d_solution_gather_temperature(const hr2d_solution *solution,
+                                                      size_t patch, const double *t,
+                                                      size_t count, double *kelvin);
+
+#ifdef __cplusplus
+}
+#endif
+/** @} */
+#endif

@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Patches of given temperature or net flux.
+
+   Given T: ρ = 1 − ε and E = (1 − ρ)σT⁴, per band its part of it.  The factor is 1 − ρ and not
+   ε: the equation absorbs 1 − ρ of H, and a room of one temperature is in equilibrium only if
+   the patch emits with the same factor.  1 − ρ is exact for ρ ≥ ½, and has one rounding else.
+   Given q: B = H + q, which is E = q with ρ = 1. */
+#include <hr2d/thermal.h>
+#include <math.h>
+#include <stdint.h>
+
+#include "base/alloc.h"
+#include "base/sized-struct.h"
+#include "scene/scene-impl.h"
+
+static hr2d_status refuse(hr2d_scene *scene, hr2d_status status, const hr2d_patch *patch,
+                          const char *why) {
+  const hr2di_label label = hr2di_new_patch_label(scene, patch->name);
+  return hr2di_message_fail(&scene->message, status, "%s: %s", label.text, why);
+}
+
+static hr2d_status check_value(hr2d_scene *scene, const hr2d_patch *patch,
+                               const hr2d_thermal *t) {
+  if (t->given != HR2D_HEAT_TEMPERATURE && t->given != HR2D_HEAT_FLUX)
+    return refuse(scene, HR2D_EINVAL, patch, "neither a temperature nor a flux is given");
+  if (patch->emission_bands || patch->reflectance_bands)
+    return refuse(scene, HR2D_EINVAL, patch,
+                  "emission and reflectance follow from what is given, and cannot be set");
+  if (!isfinite(t->value))
+    return refuse(scene, HR2D_ESCENE, patch,
+                  t->given == HR2D_HEAT_FLUX ? "flux is not finite"
+                                             : "temperature is not finite");
+  if (t->given == HR2D_HEAT_FLUX) return HR2D_OK;
+  if (t->value < 0)
+    return refuse(scene, HR2D_ESCENE, patch,
+                  "temperature is negative: it is in kelvin, which is °C + 273.15");
+  if (!isfinite(hr2d_black_body(t->value)))
+    return refuse(scene, HR2D_ESCENE, patch, "temperature is too large for a double");
+  return HR2D_OK;
+}
+
+static hr2d_status check_emissivity(hr2d_scene *scene, const hr2d_patch *patch,
+                                    const hr2d_thermal *t) {
+  if (t->emissivity_bands && !t->emissivity)
+    return refuse(scene, HR2D_EINVAL, patch, "emissivity: a number of bands but no values");
+  if (t->emissivity_bands > 1 && t->emissivity_bands != scene->wavelengths + 1)
+    return refuse(scene, HR2D_ESCENE, patch,
+                  scene->wavelengths
+                      ? "emissivity: the wavelengths of the scene make another number of bands"
+                      : "emissivity has several bands, and the scene has no wavelengths");
+  for (size_t k = 0; k < t->emissivity_bands; k++) {
+    const double e = t->emissivity[k];
+    if (!(e >= 0 && e <= 1))
+      return refuse(scene, HR2D_ESCENE, patch, "emissivity is not between 0 and 1");
+    if (e == 0 && t->given == HR2D_HEAT_FLUX)
+      return refuse(scene, HR2D_ESCENE, patch,
+                    "emissivity is 0: with a flux its temperature would be unknown");
+  }
+  return HR2D_OK;
+}
+
+static double emissivity_of(const hr2d_thermal *t, size_t band) {
+  return t->emissivity_bands ? t->emissivity[t->emissivity_bands > 1 ? band : 0] : 1;
+}
+
+double hr2di_scene_band_part(const hr2d_scene *scene, double kelvin, size_t band) {
+  const size_t count = scene->wavelengths;
+  if (!count) return 1;
+  return hr2d_black_body_part(kelvin, band ? scene->wavelength[band - 1] : 0,
+                              band < count ? scene->wavelength[band] : HUGE_VAL);
+}
+
+/* Room for E and ρ per band, in `value`. */
+static void set_light(const hr2d_scene *scene, const hr2d_thermal *t, double *value,
+                      hr2d_patch *patch) {
+  const int flux = t->given == HR2D_HEAT_FLUX;
+  const size_t bands = flux ? 1 : scene->wavelengths + 1;
+  double *rho = value + bands;
+  for (size_t b = 0; b < bands; b++) {
+    rho[b] = flux ? 1 : 1 - emissivity_of(t, b);
+    const double part = flux ? 1 : hr2di_scene_band_part(scene, t->value, b);
+    value[b] = flux ? t->value : (1 - rho[b]) * (part * hr2d_black_body(t->value));
+  }
+  patch->emission = value;
+  patch->reflectance = rho;
+  patch->emission_bands = bands;
+  patch->reflectance_bands = t->emissivity_bands > 1 ? bands : 1;
+}
+
+hr2d_status hr2d_scene_add_thermal(hr2d_scene *scene, const hr2d_patch *given,
+                                   const hr2d_thermal *thermal, size_t *index) {
+  hr2d_thermal t = HR2D_THERMAL_INIT;
+  hr2d_patch patch = *given;
+  if (scene->committed)
+    return hr2di_message_fail(&scene->message, HR2D_ESTATE,
+                              "a committed scene takes no more patches");
+  if (!thermal || hr2di_sized_copy(&t, sizeof t, thermal))
+    return refuse(scene, HR2D_EINVAL, given, "the struct_size of its hr2d_thermal is not set");
+  hr2d_status status = check_value(scene, given, &t);
+  if (!status) status = check_emissivity(scene, given, &t);
+  if (status) return status;
+  double *value = hr2di_alloc(&scene->alloc, scene->wavelengths + 1, 2 * sizeof *value);
+  if (!value) return refuse(scene, HR2D_ENOMEM, given, "out of memory");
+  set_light(scene, &t, value, &patch);
+  status = hr2di_scene_add(scene, &patch, &t, index);
+  hr2di_alloc_free(&scene->alloc, value);
+  return status;
+}
+
+hr2d_heat hr2d_scene_heat(const hr2d_scene *scene, size_t patch, double *value) {
+  const hr2di_light *light = scene->patch[patch].light;
+  if (value) *value = light->heat == HR2D_HEAT_NONE ? NAN : light->given;
+  return light->heat;
+}
+
+double hr2d_scene_emissivity(const hr2d_scene *scene, size_t patch, size_t band) {
+  const hr2di_light *light = scene->patch[patch].light;
+  const double *value = light->value + light->emission_bands + light->reflectance_bands;
+  if (light->heat == HR2D_HEAT_NONE) return NAN;
+  return light->emissivity_bands ? value[light->emissivity_bands > 1 ? band : 0] : 1;
+}
+
+static int has_heat(const hr2d_scene *scene) {
+  size_t k = 0;
+  while (k < scene->patches && scene->patch[k].light->heat == HR2D_HEAT_NONE) k++;
+  return k < scene->patches;
+}
+
+hr2d_status hr2d_scene_set_wavelengths(hr2d_scene *scene, const double *wavelength,
+                                       size_t count) {
+  if (scene->committed || has_heat(scene))
+    return hr2di_message_fail(&scene->message, HR2D_ESTATE, "wavelengths: the scene %s already",
+                              scene->committed ? "is committed" : "has temperatures or fluxes");
+  if (count > HR2D_MAX_WAVELENGTHS)
+    return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                              "wavelengths: %zu are too many: at most %d", count,
+                              HR2D_MAX_WAVELENGTHS);
+  for (size_t k = 0; k < count; k++)
+    if (!(wavelength[k] > (k ? wavelength[k - 1] : 0) && isfinite(wavelength[k])))
+      return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                                "wavelengths: number %zu is not above %s, or not finite", k + 1,
+                                k ? "the one before" : "0");
+  double *copy = count ? hr2di_alloc(&scene->alloc, count, sizeof *copy) : NULL;
+  if (count && !copy)
+    return hr2di_message_fail(&scene->message, HR2D_ENOMEM,
+                              "out of memory for the wavelengths");
+  for (size_t k = 0; k < count; k++) copy[k] = wavelength[k];
+  hr2di_alloc_free(&scene->alloc, scene->wavelength);
+  scene->wavelength = copy;
+  scene->wavelengths = count;
+  return HR2D_OK;
+}
+
+/* The part of commit: bands are known now. */
+hr2d_status hr2di_scene_check_thermal(hr2d_scene *scene, hr2di_watch *watch) {
+  const size_t bands = scene->wavelengths + 1;
+  const hr2d_status status = hr2di_watch_work(watch, scene->patches / 16);
+  if (status) return hr2di_scene_fail(scene, status, watch, "");
+  if (bands > 1 && scene->bands == 1) scene->bands = bands;
+  if (bands > 1 && scene->bands != bands)
+    return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                              "the scene has %zu bands where its wavelengths make %zu",
+                              scene->bands, bands);
+  for (size_t k = 0; k < scene->patches; k++) {
+    const hr2d_heat heat = scene->patch[k].light->heat;
+    if (heat == HR2D_HEAT_NONE || scene->bands == 1) continue;
+    if (bands == 1)
+      return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                                "%s has a %s, and the scene has %zu bands without wavelengths",
+                                hr2di_patch_label(scene, k).text,
+                                heat == HR2D_HEAT_FLUX ? "flux" : "temperature", scene->bands);
+    if (heat == HR2D_HEAT_FLUX)
+      return hr2di_message_fail(
+          &scene->message, HR2D_EUNSUPPORTED,
+          "%s has a flux, and the scene has %zu bands: a temperature that "
+          "is not known divides no spectrum",
+          hr2di_patch_label(scene, k).text, scene->bands);
+  }
+  return HR2D_OK;
+}

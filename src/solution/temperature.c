@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Temperatures and heat from a solution.
+
+   Given q: σT⁴ = f with f = H + q/ε.  If f is known to δ, T lies between those of f − δ and
+   f + δ, and T is concave in f: the lower distance is the larger one.  With f ≥ 0 but f < δ the
+   interval begins at 0 K. */
+#include <float.h>
+#include <hr2d/thermal.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/sized-struct.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "scene/scene-impl.h"
+#include "solution/solution-impl.h"
+
+typedef struct reader {
+  const hr2d_solution *solution;
+  const hr2d_scene *scene;
+  double floor;
+  hr2d_error error; /* of H, relative */
+} reader;
+
+/* The temperature of a black body with σT⁴ = f. */
+static double temperature_of(double f) {
+  return sqrt(sqrt(f / HR2D_STEFAN_BOLTZMANN));
+}
+
+/* q/ε of a patch with a flux. */
+static double excess(const hr2d_scene *scene, size_t patch) {
+  double flux;
+  hr2d_scene_heat(scene, patch, &flux);
+  return flux / hr2d_scene_emissivity(scene, patch, 0);
+}
+
+static double largest_irradiance(const hr2d_solution *s, size_t band) {
+  double max = 0;
+  for (size_t k = 0; k < s->hierarchy->scene->patches; k++)
+    max = fmax(max, hr2d_solution_irradiance(s, k, band));
+  return max;
+}
+
+static void put(double *array, size_t k, double value) {
+  if (array) array[k] = value;
+}
+
+static double error_of_temperature(double f, double off) {
+  return fmax(temperature_of(f) - temperature_of(fmax(f - off, 0)),
+              temperature_of(f + off) - temperature_of(f));
+}
+
+/* H of one band counts as no less than the floor. */
+static double counted(const reader *r, size_t patch, size_t band, double largest) {
+  return fmax(hr2d_solution_irradiance(r->solution, patch, band), r->floor * largest);
+}
+
+/* Of a patch with a flux in the only band. */
+static hr2d_temperature_state find(const reader *r, size_t k, double largest,
+                                   const hr2d_temperatures *to) {
+  const double h = hr2d_solution_irradiance(r->solution, k, 0), more = excess(r->scene, k);
+  const double f = h + more, rounding = 4 * DBL_EPSILON * (h + fabs(more));
+  const double base = counted(r, k, 0, largest);
+  if (!hr2di_scene_lit(r->scene, k)) return HR2D_TEMPERATURE_UNLIT;
+  if (f < 0) return HR2D_TEMPERATURE_IMPOSSIBLE;
+  put(to->kelvin, k, temperature_of(f));
+  put(to->estimate, k, error_of_temperature(f, r->error.estimate * base));
+  put(to->bound, k,
+      error_of_temperature(f, r->error.bound * base + rounding) +
+          2 * DBL_EPSILON * temperature_of(f));
+  return HR2D_TEMPERATURE_FOUND;
+}
+
+static hr2d_temperature_state state_of(const reader *r, size_t k, double largest,
+                                       const hr2d_temperatures *to) {
+  double value;
+  const hr2d_heat heat = hr2d_scene_heat(r->scene, k, &value);
+  put(to->kelvin, k, NAN);
+  put(to->estimate, k, NAN);
+  put(to->bound, k, NAN);
+  if (heat == HR2D_HEAT_NONE) return HR2D_TEMPERATURE_NONE;
+  if (heat == HR2D_HEAT_FLUX) return find(r, k, largest, to);
+  put(to->kelvin, k, value);
+  put(to->estimate, k, 0);
+  put(to->bound, k, 0);
+  return HR2D_TEMPERATURE_GIVEN;
+}
+
+/* A·Σ(E − (1−ρ)H), added up band by band in the arrays. */
+static void add_heat(const reader *r, size_t band, double largest,
+                     const hr2d_temperatures *to) {
+  for (size_t k = 0; k < r->scene->patches; k++) {
+    const double length = hr2d_scene_length(r->scene, k);
+    const double absorbance = 1 - hr2d_scene_reflectance(r->scene, k, band);
+    const double off = length * absorbance * counted(r, k, band, largest);
+    const double rounding = 4 * DBL_EPSILON * length *
+                            (fabs(hr2d_scene_emission(r->scene, k, band)) +
+                             absorbance * hr2d_solution_irradiance(r->solution, k, band));
+    if (to->heat) to->heat[k] += length * hr2d_solution_net_flux(r->solution, k, band);
+    if (to->heat_estimate) to->heat_estimate[k] += absorbance > 0 ? r->error.estimate * off : 0;
+    if (to->heat_bound)
+      to->heat_bound[k] += absorbance > 0 ? r->error.bound * off + rounding : rounding;
+  }
+}
+
+/* With important patches only these have errors that are known. */
+static void forget(const hr2d_scene *scene, const hr2d_target *target,
+                   const hr2d_temperatures *to) {
+  if (!target->important_count) return;
+  double *const array[] = {to->estimate, to->bound, to->heat_estimate, to->heat_bound};
+  for (size_t a = 0; a < sizeof array / sizeof *array; a++) {
+    if (!array[a]) continue;
+    /* Errors are not negative; the sign tells which patches are important. */
+    for (size_t k = 0; k < target->important_count; k++) {
+      double *at = &array[a][target->important[k]];
+      *at = -fabs(*at);
+    }
+    for (size_t k = 0; k < scene->patches; k++)
+      array[a][k] = signbit(array[a][k]) ? fabs(array[a][k]) : NAN;
+  }
+}
+
+static hr2d_status take_arguments(const hr2d_solution *solution, const hr2d_target *given,
+                                  const hr2d_temperatures *wanted, hr2d_target *target,
+                                  hr2d_temperatures *to) {
+  const size_t patches = solution->hierarchy->scene->patches;
+  if (!wanted || hr2di_sized_copy(to, sizeof *to, wanted) ||
+      hr2di_sized_copy(target, sizeof *target, given))
+    return HR2D_EINVAL;
+  if (!(target->floor >= 0 && target->floor <= 1)) return HR2D_EINVAL;
+  if (!target->important && target->important_count) return HR2D_EINVAL;
+  for (size_t k = 0; k < target->important_count; k++)
+    if (target->important[k] >= patches) return HR2D_EINVAL;
+  return HR2D_OK;
+}
+
+hr2d_status hr2d_solution_temperatures(const hr2d_solution *solution, const hr2d_target *given,
+                                       const hr2d_account *account,
+                                       const hr2d_temperatures *temperatures) {
+  const hr2d_scene *scene = solution->hierarchy->scene;
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_temperatures to = HR2D_TEMPERATURES_INIT;
+  if (take_arguments(solution, given, temperatures, &target, &to)) return HR2D_EINVAL;
+  const reader r = {.solution = solution,
+                    .scene = scene,
+                    .floor = target.floor > 0 ? target.floor : HR2D_FLOOR,
+                    .error = account ? account->irradiance : (hr2d_error){NAN, NAN}};
+  double *const sum[] = {to.heat, to.heat_estimate, to.heat_bound};
+  for (size_t a = 0; a < sizeof sum / sizeof *sum; a++)
+    if (sum[a]) memset(sum[a], 0, scene->patches * sizeof *sum[a]);
+  for (size_t band = 0; band < solution->bands; band++) {
+    const double largest = largest_irradiance(solution, band);
+    add_heat(&r, band, largest, &to);
+    for (size_t k = 0; k < scene->patches && band == 0; k++) {
+      const hr2d_temperature_state state = state_of(&r, k, largest, &to);
+      if (to.state) to.state[k] = (unsigned char)state;
+    }
+  }
+  forget(scene, &target, &to);
+  return HR2D_OK;
+}
+
+hr2d_status hr2d_solution_gather_temperature(const hr2d_solution *solution, size_t patch,
+                                             const double *t, size_t count, double *kelvin) {
+  const hr2d_scene *scene = solution->hierarchy->scene;
+  double value;
+  const hr2d_heat heat = hr2d_scene_heat(scene, patch, &value);
+  const int lit = hr2di_scene_lit(scene, patch);
+  if (heat != HR2D_HEAT_FLUX || !lit) {
+    for (size_t k = 0; k < count; k++) kelvin[k] = heat == HR2D_HEAT_TEMPERATURE ? value : NAN;
+    return HR2D_OK;
+  }
+  /* A scene with fluxes has one band. */
+  const hr2d_status status = hr2d_solution_gather_irradiance(solution, patch, t, count, kelvin);
+  for (size_t k = 0; k < count && !status; k++) {
+    const double f = kelvin[k] + excess(scene, patch);
+    kelvin[k] = f >= 0 ? temperature_of(f) : NAN;
+  }
+  return status;
+}
