@@ -1,9 +1,11 @@
 # Examples use the library as any program does; `make check` compares what they
 # print with NAME.expected.
-EXAMPLES = examples/conduction examples/digits examples/furnace-section examples/own-oracle \
-	examples/resume examples/room-climate examples/shares examples/solar-panels \
-	examples/street-canyon examples/tour
+EXAMPLES = examples/adiabatic-walls examples/conduction examples/digits \
+	examples/furnace-section examples/own-oracle examples/resume examples/room-climate \
+	examples/shares examples/solar-panels examples/street-canyon examples/tour
 check_PROGRAMS += $(EXAMPLES)
+examples_adiabatic_walls_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_adiabatic_walls_LDADD = libhr2d.la -lm
 examples_conduction_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_conduction_LDADD = libhr2d.la -lm
 examples_digits_CPPFLAGS = $(PUBLIC_CPPFLAGS)

@@ -5,6 +5,7 @@ AM_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/src -I$(srcdir)/tests $(GSL_CFLAGS)
 LDADD = tests/libsupport.la libhr2d-core.la $(CHECK_LIBS) $(MPFR_LIBS) $(THREADS_LIBS)
 
 SUITES = \
+	tests/unit/base/check-black-body \
 	tests/unit/base/check-options \
 	tests/unit/base/check-status \
 	tests/unit/geometry/check-geometry \
@@ -47,6 +48,8 @@ SUITES = \
 	tests/unit/oracle/check-squares \
 	tests/unit/solution/check-points \
 	tests/unit/solution/check-irradiance-points \
+	tests/unit/solution/check-temperatures \
+	tests/unit/solution/check-thermal-calls \
 	tests/unit/field/check-field \
 	tests/unit/field/check-field-grid \
 	tests/unit/field/check-field-rows \

@@ -27,6 +27,7 @@ tools_hr2d_SOURCES = \
 	tools/cli/values.c tools/cli/values.h \
 	tools/cli/warnings.c tools/cli/warnings.h \
 	tools/info/command.c \
+	tools/run/heat.c \
 	tools/run/leaves.c tools/run/leaves.h \
 	tools/run/run.c tools/run/run.h \
 	tools/run/state.c tools/run/state.h \

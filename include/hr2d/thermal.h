@@ -200,8 +200,8 @@ typedef struct hr2d_temperatures {
  * @param solution      a solution
  * @param target        that of hr2d_solve_to(), for its floor and its important patches; NULL
  *                      for the defaults
- * @param account       that of hr2d_solve_to(); NULL: errors are NaN, and so they are for
- *                      patches that are not important
+ * @param account       that of hr2d_solve_to(); NULL: errors that follow from those of H are
+ *                      NaN. All errors are NaN for patches that are not important
  * @param temperatures  what is wanted: arrays with an item for each patch
  * @retval HR2D_OK      success
  * @retval HR2D_EINVAL  a `struct_size` is not set, or `target` is not valid

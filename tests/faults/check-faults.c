@@ -36,6 +36,20 @@ static hr2d_status add_patch(fault_stage *s, uint64_t *sum) {
   return fault_mix_stage(s, sum, status);
 }
 
+/* The wavelengths may be set although the patch was not added. */
+static hr2d_status add_thermal(fault_stage *s, uint64_t *sum) {
+  static const double at[] = {1, 2, 3, 4}, e[] = {.1, .2, .3, .4, .5};
+  const hr2d_patch patch = {.a = {3, 3}, .b = {4, 5}, .sides = HR2D_SIDES_BOTH};
+  const hr2d_thermal thermal = {.struct_size = sizeof thermal,
+                                .given = HR2D_HEAT_TEMPERATURE,
+                                .value = 500,
+                                .emissivity = e,
+                                .emissivity_bands = 5};
+  hr2d_status status = hr2d_scene_set_wavelengths(s->scene, at, 4);
+  if (!status) status = hr2d_scene_add_thermal(s->scene, &patch, &thermal, NULL);
+  return fault_mix_stage(s, sum, status);
+}
+
 static hr2d_status set_background(fault_stage *s, uint64_t *sum) {
   static const double sky[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
   return fault_mix_stage(s, sum, hr2d_scene_set_background(s->scene, sky, 10));
@@ -90,6 +104,17 @@ static const char geojson[] =
 
 static hr2d_status parse_geojson(fault_stage *s, uint64_t *sum) {
   return fault_mix_stage(s, sum, hr2d_scene_parse(s->scene, geojson, sizeof geojson - 1));
+}
+
+static const char warm[] =
+    "{\"type\":\"FeatureCollection\",\"hr2d\":{\"wavelengths\":[3,8],\"background_"
+    "temperature\":"
+    "300},\"features\":[{\"type\":\"Feature\",\"properties\":{\"temperature\":900,"
+    "\"emissivity\":[0.5,0.9,1]},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[[0,0],"
+    "[2,0],[2,1]]}}]}";
+
+static hr2d_status parse_thermal(fault_stage *s, uint64_t *sum) {
+  return fault_mix_stage(s, sum, hr2d_scene_parse(s->scene, warm, sizeof warm - 1));
 }
 
 static hr2d_status read_file(fault_stage *s, uint64_t *sum, const char *name) {
@@ -330,6 +355,8 @@ START_TEST(scenes) {
   PLAY("scene_add", {.depth = DEPTH_SCENE}, add_patch, of_scene, 0);
   PLAY("scene_add to others", {.depth = DEPTH_FILLED, .plan = PLAN_ROOM}, add_patch, of_scene,
        0);
+  PLAY("scene_add_thermal", {.depth = DEPTH_SCENE}, add_thermal, of_scene, 0);
+  PLAY("scene_parse, thermal", {.depth = DEPTH_SCENE}, parse_thermal, of_scene, 0);
   PLAY("scene_set_background", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, set_background,
        of_scene, 0);
   PLAY("scene_parse", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, parse_geojson, of_scene, 0);

@@ -80,6 +80,21 @@ static int look(field *f, const hr2d_solution *solution) {
   return status ? complain_call(f->options->scene, "", status) : 0;
 }
 
+double field_temperature(const field *f, size_t point) {
+  double sum = 0;
+  for (size_t b = 0; b < f->bands; b++) sum += f->mean[point * f->bands + b];
+  return sqrt(sqrt(sum / HR2D_STEFAN_BOLTZMANN));
+}
+
+static void print_temperatures(const field *f) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (size_t k = 0; k < f->count; k++) {
+    low = fmin(low, field_temperature(f, k)); /* which pass over NaN */
+    high = fmax(high, field_temperature(f, k));
+  }
+  if (high >= low) printf("mean radiant temperature %.9g to %.9g K\n", low, high);
+}
+
 static void print_field(const field *f, double seconds) {
   size_t of_place[3] = {0};
   for (size_t k = 0; k < f->count; k++) of_place[f->place[k]]++;
@@ -97,6 +112,7 @@ static void print_field(const field *f, double seconds) {
     if (high >= low)
       printf("band %-4zu mean %.9g to %.9g, |flux| to %.9g\n", b, low, high, flux);
   }
+  if (f->heat) print_temperatures(f);
   printf("seconds   total %.3f\n", seconds);
 }
 
@@ -133,6 +149,7 @@ int field_command(const options *o) {
   if (status) return status;
   f.scene = scene;
   f.bands = hr2d_scene_bands(scene);
+  f.heat = run_heat_exists(scene);
   status = o->points ? field_read_points(&f, o->points) : set_grid(&f);
   if (!status) status = solve_and_look(&f, start);
   free(f.at);

@@ -11,7 +11,8 @@ int field_write_csv(const field *f, const char *path) {
   output out;
   const int status = output_open(&out, path);
   if (status) return status;
-  fputs("x,y,band,mean,flux_x,flux_y,sky\n", out.stream);
+  fputs("x,y,band,mean,flux_x,flux_y,sky", out.stream);
+  fputs(f->heat ? ",temperature\n" : "\n", out.stream);
   for (size_t k = 0; k < f->count * f->bands && !ferror(out.stream); k++) {
     const size_t point = k / f->bands;
     fprintf(out.stream, "%.17g,%.17g,%zu,", f->at[point].x, f->at[point].y, k % f->bands);
@@ -19,7 +20,11 @@ int field_write_csv(const field *f, const char *path) {
       fputs(",,,", out.stream);
     else
       fprintf(out.stream, "%.17g,%.17g,%.17g,", f->mean[k], f->flux[2 * k], f->flux[2 * k + 1]);
-    fprintf(out.stream, "%.17g\n", f->sky[point]);
+    fprintf(out.stream, "%.17g", f->sky[point]);
+    if (f->heat) fputc(',', out.stream);
+    if (f->heat && f->place[point] != HR2D_PLACE_OUTSIDE)
+      fprintf(out.stream, "%.17g", field_temperature(f, point));
+    fputc('\n', out.stream);
   }
   return output_close(&out, 0);
 }

@@ -13,13 +13,18 @@ typedef struct field {
   hr2d_point *at;
   double *mean, *flux, *sky;
   unsigned char *place;
+  int heat; /* some patch has a temperature or a flux: T is written, too */
 } field;
+
+/* The mean radiant temperature at a point, σT⁴ = ΣM over the bands. */
+double field_temperature(const field *f, size_t point);
 
 /* points.c: reads points "x y", one a line; blank lines and lines that start with # are
    skipped. Returns 0 or the exit status, as the others do. */
 int field_read_points(field *f, const char *path);
 
-/* csv.c: a row for each point and band: x,y,band,mean,flux_x,flux_y,sky; no numbers outside. */
+/* csv.c: a row for each point and band: x,y,band,mean,flux_x,flux_y,sky, and with heat
+   temperature; no numbers outside. */
 int field_write_csv(const field *f, const char *path);
 
 /* json.c */

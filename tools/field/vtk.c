@@ -51,6 +51,11 @@ static double sky(const field *f, size_t point, size_t band, size_t k) {
   return f->sky[point];
 }
 
+static double temperature(const field *f, size_t point, size_t band, size_t k) {
+  (void)band, (void)k;
+  return field_temperature(f, point);
+}
+
 static double kind(const field *f, size_t point, size_t band, size_t k) {
   (void)band, (void)k;
   return f->place[point];
@@ -101,6 +106,7 @@ int field_write_vtk(const field *f, const char *path) {
   }
   write_array(f, out.stream, "sky", 0, 1, sky);
   write_array(f, out.stream, "place", 0, 1, kind);
+  if (f->heat) write_array(f, out.stream, "temperature", 0, 1, temperature);
   fputs("</PointData>\n</Piece>\n</ImageData>\n</VTKFile>\n", out.stream);
   return output_close(&out, 0);
 }

@@ -61,6 +61,30 @@ double run_mean_at(const run *r, size_t patch, double t);
 /* B and H at the point of --at number k, in all bands.  Returns 0 or the exit status. */
 int run_place(const run *r, size_t k, double *radiosity, double *irradiance);
 
+/* Temperatures and heat of all patches, for scenes in which some patch has a temperature or a
+   flux. */
+typedef struct run_heat {
+  int exists;     /* 0 for other scenes */
+  double *kelvin; /* the first of six arrays in one block */
+  unsigned char *state;
+  hr2d_temperatures of; /* where they are */
+} run_heat;
+
+/* Asks the solution.  Returns 0 or the exit status; in both cases the heat has to be
+   released. */
+int run_heat_find(const run *r, run_heat *heat);
+void run_heat_release(run_heat *heat);
+
+/* Whether some patch of a scene has a temperature or a flux. */
+int run_heat_exists(const hr2d_scene *scene);
+
+/* T where H arrives on a patch, in a scene of one band if its flux is given; NaN if it is not
+   known. */
+double run_heat_at(const hr2d_scene *scene, size_t patch, double irradiance);
+
+/* "found" */
+const char *run_heat_word(unsigned char state);
+
 /* The difference of incoming and outgoing power of a band, relative to the incoming power. */
 double run_power_error(const hr2d_power *p);
 

@@ -28,6 +28,20 @@ static int find_places(const options *o, const hr2d_scene *scene, size_t *patche
   return status;
 }
 
+/* A flux that no temperature allows is an error, after the report. */
+static int check_heat(const run *r) {
+  run_heat heat;
+  int status = run_heat_find(r, &heat);
+  for (size_t k = 0; heat.exists && !status && k < hr2d_scene_patches(r->scene); k++)
+    if (heat.state[k] == HR2D_TEMPERATURE_IMPOSSIBLE)
+      status = complain(r->options->scene,
+                        "patch %zu (\"%s\") cannot lose so much heat: it would have to be "
+                        "colder than 0 K",
+                        k, hr2d_scene_name(r->scene, k));
+  run_heat_release(&heat);
+  return status;
+}
+
 static int report(const run *r) {
   const options *o = r->options;
   int status = 0;
@@ -37,7 +51,7 @@ static int report(const run *r) {
   if (o->csv && !status) status = solve_write_csv(r, o->csv);
   if (o->draw && !status) status = draw_run(r, o->draw);
   if (o->json && !status) status = solve_write_json(r, total, o->json);
-  return status;
+  return status ? status : check_heat(r);
 }
 
 static int run_and_report(run *r) {

@@ -4,6 +4,7 @@
 
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_sf_legendre.h>
+#include <math.h>
 #include <stdio.h>
 
 #include "output/complain.h"
@@ -15,6 +16,7 @@ typedef struct writer {
   const run *run;
   FILE *stream;
   size_t patch, order, bands;
+  int heat;                            /* the last column is T */
   gsl_integration_glfixed_table *rule; /* with a point for each coefficient of a leaf */
 } writer;
 
@@ -44,6 +46,12 @@ static void write_coefficients(const writer *w, const piece *p) {
   }
 }
 
+static void write_temperature(const writer *w, double irradiance) {
+  const double kelvin = run_heat_at(w->run->scene, w->patch, irradiance);
+  fputc(',', w->stream);
+  if (!isnan(kelvin)) fprintf(w->stream, "%.17g", kelvin);
+}
+
 static int write_leaf(void *ctx, const piece *p) {
   const writer *w = ctx;
   const hr2d_element *e = &hr2d_hierarchy_elements(w->run->hierarchy)[p->element];
@@ -54,12 +62,15 @@ static int write_leaf(void *ctx, const piece *p) {
           e->a.y * unit, e->b.x * unit, e->b.y * unit);
   for (size_t b = 0; b < w->bands; b++)
     fprintf(w->stream, ",%.17g", hr2d_solution_element(w->run->solution, p->element, b));
+  double first = 0; /* H of the first band */
   for (size_t b = 0; b < w->bands; b++) {
     double mean = 0;
     expand(w, p, hr2d_solution_irradiance_at, b, 1, &mean);
     fprintf(w->stream, ",%.17g", mean);
+    if (b == 0) first = mean;
   }
   write_coefficients(w, p);
+  if (w->heat) write_temperature(w, first);
   return fputc('\n', w->stream) == EOF;
 }
 
@@ -69,6 +80,7 @@ static void write_header(const writer *w) {
   for (size_t b = 0; b < w->bands; b++) fprintf(w->stream, ",H%zu", b);
   for (size_t b = 0; b < w->bands; b++)
     for (size_t l = 1; l < w->order; l++) fprintf(w->stream, ",B%zuc%zu", b, l);
+  if (w->heat) fputs(",T", w->stream);
   fputc('\n', w->stream);
 }
 
@@ -79,7 +91,8 @@ int solve_write_csv(const run *r, const char *path) {
   writer w = {.run = r,
               .stream = out.stream,
               .order = r->account.order,
-              .bands = hr2d_scene_bands(r->scene)};
+              .bands = hr2d_scene_bands(r->scene),
+              .heat = run_heat_exists(r->scene)};
   w.rule = gsl_integration_glfixed_table_alloc(w.order);
   if (!w.rule) return output_close(&out, complain_memory());
   write_header(&w);

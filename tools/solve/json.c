@@ -15,15 +15,35 @@ static json_t *per_band(const run *r, size_t patch,
   return array;
 }
 
+static json_t *error_of(double estimate, double bound) {
+  json_t *object = json_object();
+  json_put(&object, "estimate", json_number(estimate));
+  json_put(&object, "bound", json_number(bound));
+  return object;
+}
+
+/* Keys of scenes with temperatures or fluxes; null where a temperature is not known. */
+static void put_heat(json_t **patch, const run_heat *heat, size_t k) {
+  const hr2d_temperatures *of = &heat->of;
+  json_put(patch, "temperature", json_number(of->kelvin[k]));
+  json_put(patch, "temperature_error", error_of(of->estimate[k], of->bound[k]));
+  json_put(patch, "temperature_state", json_text(run_heat_word(of->state[k])));
+  json_put(patch, "heat", json_number(of->heat[k]));
+  json_put(patch, "heat_error", error_of(of->heat_estimate[k], of->heat_bound[k]));
+}
+
 static json_t *patches(const run *r) {
-  json_t *list = json_array();
+  run_heat heat;
+  json_t *list = run_heat_find(r, &heat) ? NULL : json_array();
   for (size_t k = 0; k < hr2d_scene_patches(r->scene); k++) {
     json_t *patch = json_patch(r->scene, k);
     json_put(&patch, "average", per_band(r, k, hr2d_solution_average));
     json_put(&patch, "irradiance", per_band(r, k, hr2d_solution_irradiance));
     json_put(&patch, "net_flux", per_band(r, k, hr2d_solution_net_flux));
+    if (heat.exists && list) put_heat(&patch, &heat, k);
     json_push(&list, patch);
   }
+  run_heat_release(&heat);
   return list;
 }
 
@@ -35,6 +55,9 @@ static json_t *place_entry(const run *r, size_t k) {
   json_put(&entry, "t", json_number(r->options->at.items[k].t));
   json_put(&entry, "value", entry ? json_numbers(value, bands) : NULL);
   json_put(&entry, "irradiance", entry ? json_numbers(value + bands, bands) : NULL);
+  if (entry && run_heat_exists(r->scene))
+    json_put(&entry, "temperature",
+             json_number(run_heat_at(r->scene, r->places[k], value[bands])));
   free(value);
   return entry;
 }

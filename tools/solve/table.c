@@ -32,6 +32,30 @@ static void print_patches(const run *r) {
   puts("");
 }
 
+/* Temperatures and the heat that leaves, with the bounds of their errors if they are known. */
+static int print_heat(const run *r) {
+  run_heat heat;
+  const int status = run_heat_find(r, &heat);
+  const int width = table_name_width(r->scene);
+  if (heat.exists && !status) {
+    table_patch_titles(width);
+    printf("  %14s  %8s  %14s  %8s\n", "T in K", "at most", "heat in W/m", "at most");
+  }
+  for (size_t k = 0; heat.exists && !status && k < hr2d_scene_patches(r->scene); k++) {
+    if (!table_patch(r->scene, k, width)) continue;
+    if (isnan(heat.of.kelvin[k]))
+      printf("  %14s  %8s", run_heat_word(heat.state[k]), "");
+    else if (heat.state[k] == HR2D_TEMPERATURE_GIVEN)
+      printf("  %14.9g  %8s", heat.of.kelvin[k], "given");
+    else
+      printf("  %14.9g  %8.1e", heat.of.kelvin[k], heat.of.bound[k]);
+    printf("  %14.9g  %8.1e\n", heat.of.heat[k], heat.of.heat_bound[k]);
+  }
+  if (heat.exists) puts("");
+  run_heat_release(&heat);
+  return status;
+}
+
 /* B and H at the points of --at.  Values of a high order have more digits than constants. */
 static int print_places(const run *r) {
   const options *o = r->options;
@@ -46,6 +70,8 @@ static int print_places(const run *r) {
     for (size_t b = 0; b < bands; b++) printf(" %.*g", digits, value[b]);
     printf("  H");
     for (size_t b = 0; b < bands; b++) printf(" %.*g", digits, value[bands + b]);
+    const double kelvin = run_heat_at(r->scene, r->places[k], value[bands]);
+    if (!isnan(kelvin)) printf("  T %.*g", digits, kelvin);
     puts("");
   }
   if (o->at.count) puts("");
@@ -153,7 +179,8 @@ int solve_print(const run *r, double total_seconds) {
   scene_print(r->options, 10, r->cuts);
   print_method(r);
   print_patches(r);
-  const int status = print_places(r);
+  int status = print_heat(r);
+  if (!status) status = print_places(r);
   print_counts(r, &counts);
   printf("order     p = %u\n", r->account.order);
   print_power(r);
