@@ -11,6 +11,7 @@ EXTRA_DIST += \
 	doc/occlusion.md \
 	doc/scene-files.md \
 	doc/speed.md \
+	doc/temperatures.md \
 	doc/testing.md \
 	doc/theorem.md \
 	doc/architecture-figure.sh \

@@ -82,6 +82,7 @@ tools_hr2d_SOURCES = \
 	tools/field/field.h \
 	tools/field/json.c \
 	tools/field/points.c \
+	tools/field/temperature.c \
 	tools/field/vtk.c \
 	tools/pair/command.c \
 	tools/pair/line.c tools/pair/line.h

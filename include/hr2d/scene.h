@@ -364,7 +364,7 @@ HR2D_API hr2d_status hr2d_scene_find(const hr2d_scene *scene, const char *name, 
  * The emission of a patch in one band.
  * @param scene,patch  a scene and the index of a patch
  * @param band         below hr2d_scene_bands()
- * @return E, power per scene length
+ * @return E, power per scene length; negative only on a patch of given flux (thermal.h)
  */
 HR2D_API double hr2d_scene_emission(const hr2d_scene *scene, size_t patch, size_t band);
 

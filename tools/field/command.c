@@ -80,12 +80,6 @@ static int look(field *f, const hr2d_solution *solution) {
   return status ? complain_call(f->options->scene, "", status) : 0;
 }
 
-double field_temperature(const field *f, size_t point) {
-  double sum = 0;
-  for (size_t b = 0; b < f->bands; b++) sum += f->mean[point * f->bands + b];
-  return sqrt(sqrt(sum / HR2D_STEFAN_BOLTZMANN));
-}
-
 static void print_temperatures(const field *f) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (size_t k = 0; k < f->count; k++) {

@@ -16,7 +16,7 @@ typedef struct field {
   int heat; /* some patch has a temperature or a flux: T is written, too */
 } field;
 
-/* The mean radiant temperature at a point, σT⁴ = ΣM over the bands. */
+/* temperature.c: the mean radiant temperature at a point, σT⁴ = ΣM over the bands. */
 double field_temperature(const field *f, size_t point);
 
 /* points.c: reads points "x y", one a line; blank lines and lines that start with # are
