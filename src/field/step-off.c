@@ -141,13 +141,13 @@ static int look_round(turn *t, int32_t h) {
 static void look_beside(turn *t, int32_t side) {
   const hr2di_wall_edge *edge = &t->in->edge[(uint32_t)side >> 1];
   const hr2d_point from = t->in->at[edge->from], to = t->in->at[edge->to];
-  t->best = (sector){.fronts = -1, .patch = HR2DI_NOBODY};
+  sector half[2];
   for (uint32_t k = 0; k < 2; k++) {
-    t->now = (sector){.patch = HR2DI_NOBODY, .angle = acos(-1), .first = HR2DI_SKY};
-    t->now.right = k == 0 ? unit(from, to) : unit(to, from);
-    add_side(t->scene, ((uint32_t)side & ~1u) | k, t->centre, 0, &t->now);
-    end_sector(t);
+    half[k] = (sector){.patch = HR2DI_NOBODY, .angle = acos(-1), .first = HR2DI_SKY};
+    half[k].right = k == 0 ? unit(from, to) : unit(to, from);
+    add_side(t->scene, ((uint32_t)side & ~1u) | k, t->centre, 0, &half[k]);
   }
+  t->best = better(&half[1], &half[0]) ? half[1] : half[0];
 }
 
 /* The direction that halves the best sector. */
