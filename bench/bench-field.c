@@ -7,18 +7,11 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "plain.h"
 #include "timing.h"
 
 enum { COLUMNS = 1000, ROWS = 700, RUNS = 3 };
-
-static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static double unit(void) {
   double seconds[RUNS];
@@ -54,15 +47,15 @@ static hr2d_status measure(const char *file, double error) {
   if (!status) status = hr2d_scene_read(scene, file);
   if (!status) status = hr2d_scene_commit(scene);
   if (!status && hr2d_scene_bands(scene) > 8) status = HR2D_EINVAL;
-  const double begin = now();
+  const double begin = cpu_seconds();
   if (!status) status = hr2d_solve_to(scene, &target, &solution, NULL);
-  const double solved = now();
+  const double solved = cpu_seconds();
   if (!status) {
     const hr2d_field_grid grid = grid_around(scene);
     const hr2d_field_values values = {.struct_size = sizeof values, .mean = mean};
     status = hr2d_field_on_grid(solution, &grid, NULL, &values, &counts);
   }
-  const double end = now(), u = unit();
+  const double end = cpu_seconds(), u = unit();
   if (!status)
     printf(
         "%s: u %.4f s, solve %.1f u, grid %.1f u; %llu views, %llu of %d nodes interpolated, "

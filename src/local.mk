@@ -166,6 +166,8 @@ libhr2d_core_la_SOURCES = \
 	src/solution/solution.c \
 	src/solution/solution-impl.h \
 	src/solution/temperature.c \
+	src/field/border-map.c src/field/border-map.h \
+	src/field/borders.c src/field/borders.h \
 	src/field/field-at.c src/field/field-at.h \
 	src/field/field-impl.h \
 	src/field/field-grid.c \

@@ -21,8 +21,7 @@ static hr2d_status take(void *ctx, const hr2di_round_stretch *s) {
 static void clear(hr2di_light_sum *sum, size_t bands) {
   sum->front = sum->back = sum->sky = 0;
   sum->clearance = HUGE_VAL;
-  for (size_t b = 0; b < bands; b++)
-    sum->mean[b] = sum->flux[2 * b] = sum->flux[2 * b + 1] = sum->error[b] = 0;
+  for (size_t b = 0; b < bands; b++) sum->mean[b] = sum->error[b] = 0;
 }
 
 hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of, hr2d_point x,
@@ -32,25 +31,26 @@ hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of
   hr2di_light_sum *sum = &l.sum;
   int touches;
   sum->mean = w->room;
-  sum->flux = sum->mean + bands;
-  sum->error = sum->flux + 2 * bands;
+  double *flux = sum->mean + bands;
+  sum->error = flux + 2 * bands;
   clear(sum, bands);
+  for (size_t k = 0; k < 2 * bands; k++) flux[k] = 0;
+  sum->flux = of->wants_flux ? flux : NULL;
   w->view.take = take;
   w->view.ctx = &l;
   const hr2d_status status = hr2di_look_round(&w->view, x, &touches);
   seen->place = hr2di_field_place(of->scene, sum->front, sum->sky, touches);
   const int dark = seen->place == HR2D_PLACE_OUTSIDE;
-  seen->signature = w->view.signature + sum->groups;
-  seen->clearance = sum->clearance;
+  seen->clearance = sqrt(sum->clearance);
   seen->mean = sum->mean;
-  seen->flux = sum->flux;
+  seen->flux = flux;
   seen->error = sum->error;
   seen->sky = fmin(sum->sky / (2 * HR2DI_PI), 1);
   seen->back = fmin(sum->back / (2 * HR2DI_PI), 1);
   for (size_t b = 0; b < bands; b++) {
     sum->mean[b] = dark ? NAN : sum->mean[b] / (2 * HR2DI_PI);
-    sum->flux[2 * b] = dark ? NAN : sum->flux[2 * b] / 2;
-    sum->flux[2 * b + 1] = dark ? NAN : sum->flux[2 * b + 1] / 2;
+    flux[2 * b] = dark ? NAN : flux[2 * b] / 2;
+    flux[2 * b + 1] = dark ? NAN : flux[2 * b + 1] / 2;
     sum->error[b] = dark || !of->patch_error ? NAN : sum->error[b] / (2 * HR2DI_PI);
   }
   return status;
@@ -100,6 +100,8 @@ hr2d_status hr2di_field_open(hr2di_field_call *f, const hr2d_solution *solution,
   f->opened = 1;
   if (!status) status = hr2di_light_source_init(&f->source, solution, &f->watch);
   f->source.scene = &f->scene.scene;
+  f->source.wants_flux = f->values.flux != NULL;
+  f->source.lit_sky = hr2di_field_lit_sky(scene);
   f->source.patch_error = f->options.patch_error;
   f->team = (hr2di_field_team){.scene = &f->scene.scene,
                                .watch = &f->watch,

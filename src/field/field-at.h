@@ -29,7 +29,6 @@ typedef struct hr2di_field_look_at {
   double sky, back;
   double clearance; /* scaled */
   hr2d_place place;
-  uint64_t signature; /* as that of the view, and of the groups of leaves at which it ends */
 } hr2di_field_look_at;
 
 /* What takes the stretches of a view. */

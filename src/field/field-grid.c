@@ -2,10 +2,14 @@
 /* The field on a grid.  It is cut into tiles, and each tile by itself into blocks: what a node
    receives does not depend on threads.
 
-   Where all points of a block see the same ends of patches, M is analytic.  A block has 3 × 3
-   nodes that are exact.  With M − I₁ = O(h²) for the interpolation of degree 1 through its
-   corners, that of degree 2 through all nine has an error of O(h³): it is taken if the first is
-   within the tolerance at the other five.  Else the block is divided in four. */
+   With a tolerance τ, every view may be off by VIEW τ.  A block has 3 × 3 nodes with views, and
+   is interpolated between them, linearly in x and in y, if
+   - the jumps of the slope of M at all borders of light in the block cost at most KINK τ;
+   - the nine miss the interpolation of degree 1 through the corners by at most BEND τ: where M
+     is smooth, with a second derivative that changes little between nodes, what is between the
+     nine is off by half of that in both directions together;
+   - no end of what they see is nearer than the next of the nine, so that M is smooth enough.
+   Else the block is divided in four.  BEND/2 is far enough below 1 − KINK − VIEW. */
 #include <hr2d/field.h>
 #include <math.h>
 #include <stdatomic.h>
@@ -14,45 +18,75 @@
 #include "base/alloc.h"
 #include "base/pi.h"
 #include "base/sized-struct.h"
+#include "field/border-map.h"
 #include "field/field-at.h"
 
-/* Cells along a side of a tile, and nodes, with those of the next tile. */
-enum { TILE = 16, SIDE = TILE + 1 };
+#define VIEW 0.125
+#define KINK 0.25
+#define BEND 0.8
 
-/* What is kept of a node: whether it is exact (1) or interpolated (−1), these, and then mean,
- * flux and error. */
-enum { KNOWN, PLACE, SIGNATURE, CLEARANCE, SKY, BACK, LIGHT };
+/* Nodes along a side of the largest block, with one before it and one after it. */
+enum { TILE = HR2DI_TILE, SIDE = TILE + 3 };
+
+/* What is kept of a node: whether it has a view (1) or is interpolated (−1), these, and then
+ * mean, flux and error. */
+enum { KNOWN, PLACE, CLEARANCE, SKY, BACK, LIGHT };
+
+/* So many nodes for each place where borders of light begin make it worth while to find them.
+ */
+enum { SOURCES = 4 };
 
 /* The least range, as a part of the largest M. */
 #define LEAST_RANGE 1e-6
+
+/* Where a front goes out of sight, blocks whose nodes see fronts, or a sky with light, in less
+   than this part of directions are divided: there may be a place that sees none. */
+#define LEAST_LIT 0.25
 
 typedef struct grid_call {
   hr2di_field_call f;
   hr2d_field_grid grid;
   size_t bands, each; /* doubles per node */
-  size_t tiles[2];    /* along a row, and rows of them */
+  size_t items;       /* of these, up to which any is wanted */
   double *first;      /* M at the first node of each tile */
   double *range;      /* of M per band, times the tolerance */
-  double cell;        /* how far nodes are apart at most, scaled */
+  double *view;       /* what of that views may take */
+  int coarse;         /* whether nodes may be interpolated */
+  hr2di_borders borders;
+  hr2di_border_map map; /* with the tiles */
   atomic_uint_fast64_t exact, interpolated;
 } grid_call;
 
-/* One tile of a worker. */
+/* One tile of a worker.  Its own nodes are those of its block but the first column and row,
+   with what is before the first tiles and after the last ones. */
 typedef struct tile {
   grid_call *call;
   hr2di_field_worker *worker;
-  double *node; /* SIDE × SIDE */
-  size_t at[2]; /* its first node */
+  size_t number;
+  double *node;                         /* SIDE × SIDE, the block from (1, 1) on */
+  size_t at[2];                         /* the node before the block */
+  int own_low[2], own_high[2], size[2]; /* counted from there; the last of the block */
   uint64_t exact, interpolated;
 } tile;
 
-/* A block of nodes [at, at + size]² of a tile. */
+/* A block of nodes of a tile. */
 typedef struct block {
-  int at[2], size;
+  int low[2], high[2];
 } block;
 
 static double *node_of(const tile *t, int column, int row) {
   return t->node + (size_t)(row * SIDE + column) * t->call->each;
+}
+
+static int middle(const block *b, int k) {
+  return b->low[k] + (b->high[k] - b->low[k]) / 2;
+}
+
+/* The k-th of its nine nodes. */
+static double *support(const tile *t, const block *b, int k) {
+  const int column[] = {b->low[0], middle(b, 0), b->high[0]},
+            row[] = {b->low[1], middle(b, 1), b->high[1]};
+  return node_of(t, column[k % 3], row[k / 3]);
 }
 
 static double place_on(double low, double high, size_t k, size_t count) {
@@ -61,7 +95,6 @@ static double place_on(double low, double high, size_t k, size_t count) {
   return t < 0.5 ? low + t * (high - low) : high - (1 - t) * (high - low);
 }
 
-/* Nodes beyond the grid are points as well. */
 static hr2d_point point_of(const grid_call *c, size_t column, size_t row) {
   const hr2d_field_grid *g = &c->grid;
   return (hr2d_point){place_on(g->low.x, g->high.x, column, g->columns),
@@ -78,7 +111,6 @@ static hr2d_status look(tile *t, int column, int row) {
   const hr2d_status status = hr2di_field_look(t->worker, &c->f.source, x, &seen);
   node[KNOWN] = 1;
   node[PLACE] = seen.place;
-  memcpy(&node[SIGNATURE], &seen.signature, sizeof(double));
   node[CLEARANCE] = seen.clearance;
   node[SKY] = seen.sky;
   node[BACK] = seen.back;
@@ -89,29 +121,47 @@ static hr2d_status look(tile *t, int column, int row) {
   return status;
 }
 
-/* Whether the nine nodes of a block see the same, and nothing that is nearer to one of them
-   than the next node: beside an end of a leaf M varies as far as it is away. */
+/* The longer of the two parts of a block. */
+static double longer_part(const block *b, int k) {
+  return b->high[k] - middle(b, k);
+}
+
+/* Whether M is smooth in a block but for borders of light, and these are faint. */
 static int is_even(const tile *t, const block *b) {
-  const double *first = node_of(t, b->at[0], b->at[1]);
+  const grid_call *c = t->call;
+  const double *first = support(t, b, 0);
+  const double near =
+      hypot(longer_part(b, 0) * c->map.step.x, longer_part(b, 1) * c->map.step.y);
+  const int dark = first[PLACE] == HR2D_PLACE_OUTSIDE;
+  hr2di_map_block on = {.cell = {longer_part(b, 0), longer_part(b, 1)}};
+  double least_lit = 1;
+  int lit;
   for (int k = 0; k < 9; k++) {
-    const double *node =
-        node_of(t, b->at[0] + k % 3 * b->size / 2, b->at[1] + k / 3 * b->size / 2);
-    if (node[CLEARANCE] < t->call->cell * b->size / 2 || node[PLACE] == HR2D_PLACE_PATCH ||
-        node[PLACE] != first[PLACE] ||
-        memcmp(&node[SIGNATURE], &first[SIGNATURE], sizeof(double)) != 0)
+    const double *node = support(t, b, k);
+    least_lit = fmin(least_lit, 1 - node[BACK] - (c->f.source.lit_sky ? 0 : node[SKY]));
+    if (node[CLEARANCE] < near || node[PLACE] == HR2D_PLACE_PATCH ||
+        node[PLACE] != first[PLACE])
       return 0;
   }
-  return 1;
+  for (int k = 0; k < 2; k++) {
+    on.low[k] = (double)(t->at[k] + (size_t)b->low[k]);
+    on.high[k] = (double)(t->at[k] + (size_t)b->high[k]);
+  }
+  if (!(hr2di_border_map_error(&c->map, t->number, &on, &lit) <= KINK)) return 0;
+  return !lit || (!dark && least_lit > LEAST_LIT);
+}
+
+/* Where the j-th of three nodes is along a block. */
+static double part_of(const block *b, int k, int j) {
+  return j == 1 ? (double)(middle(b, k) - b->low[k]) / (b->high[k] - b->low[k]) : j / 2.0;
 }
 
 /* Item k of the nine nodes minus its interpolation through the corners, the largest. */
 static double bend(const tile *t, const block *b, size_t k) {
   double v[3][3], most = 0;
-  for (int j = 0; j < 9; j++)
-    v[j / 3][j % 3] =
-        node_of(t, b->at[0] + j % 3 * b->size / 2, b->at[1] + j / 3 * b->size / 2)[k];
+  for (int j = 0; j < 9; j++) v[j / 3][j % 3] = support(t, b, j)[k];
   for (int j = 0; j < 9; j++) {
-    const double x = j % 3 / 2.0, y = j / 3 / 2.0;
+    const double x = part_of(b, 0, j % 3), y = part_of(b, 1, j / 3);
     const double plain =
         (1 - y) * ((1 - x) * v[0][0] + x * v[0][2]) + y * ((1 - x) * v[2][0] + x * v[2][2]);
     most = fmax(most, fabs(v[j / 3][j % 3] - plain));
@@ -121,164 +171,238 @@ static double bend(const tile *t, const block *b, size_t k) {
 
 static int is_flat(const tile *t, const block *b) {
   const grid_call *c = t->call;
-  const double most = c->grid.tolerance;
-  if (bend(t, b, SKY) > most || bend(t, b, BACK) > most) return 0;
-  if (node_of(t, b->at[0], b->at[1])[PLACE] == HR2D_PLACE_OUTSIDE) return 1;
+  const hr2d_field_values *v = &c->f.values;
+  const double most = BEND * c->grid.tolerance;
+  if ((v->sky && bend(t, b, SKY) > most) || (v->back && bend(t, b, BACK) > most)) return 0;
+  if (support(t, b, 0)[PLACE] == HR2D_PLACE_OUTSIDE) return 1;
   for (size_t k = 0; k < c->bands; k++) {
     const size_t flux = LIGHT + c->bands + 2 * k;
-    if (bend(t, b, LIGHT + k) > c->range[k] || bend(t, b, flux) > HR2DI_PI * c->range[k] ||
-        bend(t, b, flux + 1) > HR2DI_PI * c->range[k])
+    const double light = BEND * c->range[k];
+    if (bend(t, b, LIGHT + k) > light || (v->flux && (bend(t, b, flux) > HR2DI_PI * light ||
+                                                      bend(t, b, flux + 1) > HR2DI_PI * light)))
       return 0;
   }
   return 1;
 }
 
-/* Weights of the values at 0, ½ and 1 for degree 2. */
-static void weights(double t, double w[3]) {
-  w[0] = (2 * t - 1) * (t - 1);
-  w[1] = 4 * t * (1 - t);
-  w[2] = t * (2 * t - 1);
+/* Between which of the three a node lies, and how far. */
+typedef struct between {
+  int low, high; /* as numbers from the lowest node of the block on */
+  double part;
+} between;
+
+static between between_of(const block *b, int k, int node) {
+  const int m = middle(b, k), low = node < m ? b->low[k] : m, high = node < m ? m : b->high[k];
+  return (between){low, high, high > low ? (double)(node - low) / (high - low) : 0};
 }
 
 static void interpolate(tile *t, const block *b, int column, int row) {
-  double *node = node_of(t, b->at[0] + column, b->at[1] + row), x[3], y[3];
+  double *node = node_of(t, column, row);
   if (node[KNOWN] != 0) return;
-  weights((double)column / b->size, x);
-  weights((double)row / b->size, y);
-  for (size_t k = SKY; k < t->call->each; k++) node[k] = 0;
-  for (int j = 0; j < 9; j++) {
-    const double *from =
-        node_of(t, b->at[0] + j % 3 * b->size / 2, b->at[1] + j / 3 * b->size / 2);
-    for (size_t k = SKY; k < t->call->each; k++) node[k] += x[j % 3] * y[j / 3] * from[k];
-  }
-  node[PLACE] = node_of(t, b->at[0], b->at[1])[PLACE];
-  node[SKY] = fmin(fmax(node[SKY], 0), 1);
-  node[BACK] = fmin(fmax(node[BACK], 0), 1);
+  const between x = between_of(b, 0, column), y = between_of(b, 1, row);
+  const double *ll = node_of(t, x.low, y.low), *hl = node_of(t, x.high, y.low),
+               *lh = node_of(t, x.low, y.high), *hh = node_of(t, x.high, y.high);
+  for (size_t k = SKY; k < t->call->items; k++)
+    node[k] = (1 - y.part) * ((1 - x.part) * ll[k] + x.part * hl[k]) +
+              y.part * ((1 - x.part) * lh[k] + x.part * hh[k]);
+  node[PLACE] = ll[PLACE];
   node[KNOWN] = -1;
+}
+
+static int is_done(const block *b) {
+  return b->high[0] - b->low[0] <= 2 && b->high[1] - b->low[1] <= 2;
+}
+
+/* The parts of a block along one side: one if it is short. */
+static int split(const block *b, int k, int part[2][2]) {
+  const int m = b->high[k] - b->low[k] > 2 ? middle(b, k) : b->high[k];
+  part[0][0] = b->low[k];
+  part[0][1] = part[1][0] = m;
+  part[1][1] = b->high[k];
+  return m < b->high[k] ? 2 : 1;
 }
 
 /* The nodes of a block, by interpolation or in four blocks. */
 static hr2d_status fill(tile *t, const block *whole) {
-  block stack[16];
+  block stack[32];
   int count = 0;
   hr2d_status status = HR2D_OK;
   stack[count++] = *whole;
   while (count > 0 && !status) {
     const block b = stack[--count];
-    if (t->at[0] + (size_t)b.at[0] >= t->call->grid.columns ||
-        t->at[1] + (size_t)b.at[1] >= t->call->grid.rows)
-      continue;
-    for (int j = 0; j < 9 && !status; j++)
-      status = look(t, b.at[0] + j % 3 * b.size / 2, b.at[1] + j / 3 * b.size / 2);
-    if (status || b.size == 2) continue;
+    for (int j = 0; j < 9 && !status; j++) {
+      const int column[] = {b.low[0], middle(&b, 0), b.high[0]},
+                row[] = {b.low[1], middle(&b, 1), b.high[1]};
+      status = look(t, column[j % 3], row[j / 3]);
+    }
+    if (status || is_done(&b)) continue;
     if (is_even(t, &b) && is_flat(t, &b)) {
-      for (int k = 0; k < (b.size + 1) * (b.size + 1); k++)
-        interpolate(t, &b, k % (b.size + 1), k / (b.size + 1));
+      for (int row = b.low[1]; row <= b.high[1]; row++)
+        for (int column = b.low[0]; column <= b.high[0]; column++)
+          interpolate(t, &b, column, row);
       continue;
     }
-    for (int j = 0; j < 4; j++)
-      stack[count++] =
-          (block){{b.at[0] + j % 2 * b.size / 2, b.at[1] + j / 2 * b.size / 2}, b.size / 2};
+    int x[2][2], y[2][2];
+    const int columns = split(&b, 0, x), rows = split(&b, 1, y);
+    for (int j = 0; j < columns * rows; j++)
+      stack[count++] = (block){{x[j % columns][0], y[j / columns][0]},
+                               {x[j % columns][1], y[j / columns][1]}};
   }
   return status;
-}
-
-static size_t least(size_t a, size_t b) {
-  return a < b ? a : b;
 }
 
 /* The nodes of a tile that are its own. */
 static void keep(tile *t) {
   const grid_call *c = t->call;
-  const size_t columns = least(c->grid.columns - t->at[0], TILE),
-               rows = least(c->grid.rows - t->at[1], TILE);
-  for (size_t k = 0; k < columns * rows; k++) {
-    const size_t column = k % columns, row = k / columns;
-    const double *node = node_of(t, (int)column, (int)row);
-    const hr2di_field_look_at seen = {.mean = node + LIGHT,
-                                      .flux = node + LIGHT + c->bands,
-                                      .error = node + LIGHT + 3 * c->bands,
-                                      .sky = node[SKY],
-                                      .back = node[BACK],
-                                      .place = (hr2d_place)node[PLACE]};
-    hr2di_field_keep(&c->f.values, (t->at[1] + row) * c->grid.columns + t->at[0] + column,
-                     c->bands, &seen);
-    t->interpolated += node[KNOWN] < 0;
-  }
+  for (int row = t->own_low[1]; row <= t->own_high[1]; row++)
+    for (int column = t->own_low[0]; column <= t->own_high[0]; column++) {
+      const double *node = node_of(t, column, row);
+      const hr2di_field_look_at seen = {.mean = node + LIGHT,
+                                        .flux = node + LIGHT + c->bands,
+                                        .error = node + LIGHT + 3 * c->bands,
+                                        .sky = node[SKY],
+                                        .back = node[BACK],
+                                        .place = (hr2d_place)node[PLACE]};
+      hr2di_field_keep(&c->f.values,
+                       (t->at[1] + (size_t)row) * c->grid.columns + t->at[0] + (size_t)column,
+                       c->bands, &seen);
+      t->interpolated += node[KNOWN] < 0;
+    }
+}
+
+static size_t samples(size_t nodes) {
+  return (nodes + TILE - 1) / TILE;
+}
+
+/* Along a side with so many nodes; tile `number` of so many. */
+static void set_side(tile *t, int k, size_t number, size_t tiles, size_t nodes) {
+  const size_t left = nodes - number * TILE; /* nodes from the one before the block on */
+  const int last = number + 1 == tiles;
+  t->at[k] = number * TILE;
+  t->own_low[k] = number == 0 ? 0 : 2;
+  t->own_high[k] = last ? (int)left - 1 : TILE + 1;
+  t->size[k] = last ? (int)left - 2 : TILE + 1;
 }
 
 static tile tile_of(grid_call *c, hr2di_field_worker *w, size_t task) {
-  tile t = {.call = c, .worker = w, .node = w->room + 4 * c->bands};
-  t.at[0] = task % c->tiles[0] * TILE;
-  t.at[1] = task / c->tiles[0] * TILE;
+  tile t = {.call = c, .worker = w, .number = task, .node = w->room + 4 * c->bands};
+  set_side(&t, 0, task % c->map.tiles[0], c->map.tiles[0], c->grid.columns);
+  set_side(&t, 1, task / c->map.tiles[0], c->map.tiles[1], c->grid.rows);
   for (size_t k = 0; k < SIDE * SIDE; k++) t.node[k * c->each + KNOWN] = 0;
   return t;
 }
 
+/* M at each 16th node of each 16th row. */
 static hr2d_status do_first(void *ctx, hr2di_field_worker *w, size_t task) {
   grid_call *c = ctx;
-  tile t = tile_of(c, w, task);
-  const hr2d_status status = look(&t, 0, 0);
-  memcpy(c->first + task * c->bands, t.node + LIGHT, c->bands * sizeof *c->first);
+  const size_t along = samples(c->grid.columns);
+  const hr2d_point at = point_of(c, task % along * TILE, task / along * TILE);
+  hr2di_field_look_at seen;
+  const hr2d_status status =
+      hr2di_field_look(w, &c->f.source, hr2di_field_scaled(c->f.source.scene, at), &seen);
+  memcpy(c->first + task * c->bands, seen.mean, c->bands * sizeof *c->first);
+  atomic_fetch_add(&c->exact, 1);
   return status;
 }
 
-/* Blocks may reach over the last nodes of the grid. */
 static hr2d_status do_tile(void *ctx, hr2di_field_worker *w, size_t task) {
   grid_call *c = ctx;
   tile t = tile_of(c, w, task);
-  const size_t columns = least(c->grid.columns - t.at[0], TILE),
-               rows = least(c->grid.rows - t.at[1], TILE);
-  const block all = {{0, 0}, TILE};
+  const block all = {{1, 1}, {t.size[0], t.size[1]}};
   hr2d_status status = HR2D_OK;
-  if (c->grid.tolerance > 0 && columns > 1 && rows > 1) status = fill(&t, &all);
-  for (size_t k = 0; k < columns * rows && !status; k++)
-    if (node_of(&t, (int)(k % columns), (int)(k / columns))[KNOWN] == 0)
-      status = look(&t, (int)(k % columns), (int)(k / columns));
+  if (c->coarse) status = fill(&t, &all);
+  for (int row = t.own_low[1]; row <= t.own_high[1] && !status; row++)
+    for (int column = t.own_low[0]; column <= t.own_high[0] && !status; column++)
+      if (node_of(&t, column, row)[KNOWN] == 0) status = look(&t, column, row);
   if (!status) keep(&t);
   atomic_fetch_add(&c->exact, t.exact);
   atomic_fetch_add(&c->interpolated, t.interpolated);
   return status;
 }
 
-/* Where a border of light passes over a jump of B_h, the slope of M jumps.  Within a block the
-   border turns by less than 1 in most cases, so that M misses by less than the jump over 2π. */
-static hr2d_status find_range(grid_call *c) {
+static void find_range(grid_call *c) {
+  const size_t count = samples(c->grid.columns) * samples(c->grid.rows);
   for (size_t b = 0; b < c->bands; b++) {
     double low = HUGE_VAL, high = -HUGE_VAL;
-    for (size_t k = 0; k < c->tiles[0] * c->tiles[1]; k++) {
+    for (size_t k = 0; k < count; k++) {
       low = fmin(low, c->first[k * c->bands + b]); /* which pass over NaN */
       high = fmax(high, c->first[k * c->bands + b]);
     }
     c->range[b] = high < low ? 0 : c->grid.tolerance * fmax(high - low, LEAST_RANGE * high);
+    c->view[b] = VIEW * c->range[b];
   }
-  return hr2di_leaves_group(&c->f.source.leaves, c->f.source.solution, c->range, &c->f.watch);
+}
+
+/* Borders and their map. */
+static hr2d_status find_borders(grid_call *c) {
+  const hr2d_field_values *v = &c->f.values;
+  const hr2di_border_scale scale = {c->range, v->sky || v->back ? c->grid.tolerance : HUGE_VAL};
+  const hr2d_status status = hr2di_borders_find(&c->borders, &c->f.source, &scale, &c->f.watch);
+  return status ? status
+                : hr2di_border_map_init(&c->map, &c->borders, &c->f.source.scene->alloc,
+                                        &c->f.watch);
+}
+
+/* Gets ready for interpolation, unless there are so many ends that it would not pay. */
+static hr2d_status prepare(grid_call *c, uint64_t *steps) {
+  hr2di_light_source *of = &c->f.source;
+  hr2di_field_team *team = &c->f.team;
+  team->run = do_first;
+  hr2d_status status =
+      hr2di_field_team_run(team, samples(c->grid.columns) * samples(c->grid.rows), steps);
+  if (status) return status;
+  find_range(c);
+  status = hr2di_light_source_relax(of, c->view, &c->f.watch);
+  if (!status) status = hr2di_leaves_group(&of->leaves, of->solution, c->view, &c->f.watch);
+  c->coarse = !status && c->grid.columns > 4 && c->grid.rows > 4 && c->map.step.x != 0 &&
+              c->map.step.y != 0 &&
+              hr2di_borders_sources(of) <= c->grid.columns * c->grid.rows / SOURCES;
+  return c->coarse ? find_borders(c) : status;
 }
 
 static hr2d_status run(grid_call *c, uint64_t *steps) {
   const hr2d_allocator *alloc = &c->f.source.scene->alloc;
-  const size_t tiles = c->tiles[0] * c->tiles[1];
+  const size_t count = samples(c->grid.columns) * samples(c->grid.rows);
   hr2di_field_team *team = &c->f.team;
   hr2d_status status = HR2D_OK;
   team->ctx = c;
   team->needs = 4 * c->bands + SIDE * SIDE * c->each;
-  c->first = hr2di_alloc(alloc, tiles, c->bands * sizeof *c->first);
+  c->first = hr2di_alloc(alloc, count, c->bands * sizeof *c->first);
   c->range = hr2di_alloc(alloc, c->bands, sizeof *c->range);
-  if (!c->first || !c->range) status = HR2D_ENOMEM;
-  team->run = do_first;
-  if (!status && c->grid.tolerance > 0) status = hr2di_field_team_run(team, tiles, steps);
-  if (!status && c->grid.tolerance > 0) status = find_range(c);
+  c->view = hr2di_alloc(alloc, c->bands, sizeof *c->view);
+  if (!c->first || !c->range || !c->view) status = HR2D_ENOMEM;
+  if (!status && c->grid.tolerance > 0) status = prepare(c, steps);
   team->run = do_tile;
-  if (!status) status = hr2di_field_team_run(team, tiles, steps);
+  if (!status) status = hr2di_field_team_run(team, c->map.tiles[0] * c->map.tiles[1], steps);
   hr2di_alloc_free(alloc, c->first);
   hr2di_alloc_free(alloc, c->range);
+  hr2di_alloc_free(alloc, c->view);
+  if (c->coarse) {
+    hr2di_border_map_clear(&c->map);
+    hr2di_borders_clear(&c->borders);
+  }
   return status ? status : hr2di_watch_ask(&c->f.watch);
 }
 
-static double cell_of(const hr2d_field_grid *g, const hr2d_scene *scene) {
-  const double x = g->columns > 1 ? (g->high.x - g->low.x) / (double)(g->columns - 1) : 0,
-               y = g->rows > 1 ? (g->high.y - g->low.y) / (double)(g->rows - 1) : 0;
-  return ldexp(hypot(x, y), -scene->exponent);
+/* Tiles and the distance of nodes, along one side.  The first and the last node are beside the
+   blocks: in many pictures they lie along walls. */
+static size_t tiles_along(size_t nodes) {
+  return nodes > 3 ? (nodes - 3 + TILE - 1) / TILE : 1;
+}
+
+static double step_of(double low, double high, size_t nodes) {
+  return nodes > 1 ? high / (double)(nodes - 1) - low / (double)(nodes - 1) : 0;
+}
+
+static void set_map(grid_call *c, const hr2d_scene *scene) {
+  const hr2d_field_grid *g = &c->grid;
+  const hr2d_point low = hr2di_field_scaled(scene, g->low),
+                   high = hr2di_field_scaled(scene, g->high);
+  c->map.low = low;
+  c->map.step =
+      (hr2d_point){step_of(low.x, high.x, g->columns), step_of(low.y, high.y, g->rows)};
+  c->map.tiles[0] = tiles_along(g->columns);
+  c->map.tiles[1] = tiles_along(g->rows);
 }
 
 static int is_valid(const hr2d_field_grid *g) {
@@ -295,10 +419,9 @@ hr2d_status hr2d_field_on_grid(const hr2d_solution *solution, const hr2d_field_g
   hr2d_status status = hr2di_sized_copy(&c.grid, sizeof c.grid, grid);
   if (status || !is_valid(&c.grid)) return HR2D_EINVAL;
   c.each = LIGHT + 4 * c.bands;
-  c.cell = cell_of(&c.grid, solution->hierarchy->scene);
-  c.tiles[0] = (c.grid.columns + TILE - 1) / TILE;
-  c.tiles[1] = (c.grid.rows + TILE - 1) / TILE;
+  set_map(&c, solution->hierarchy->scene);
   status = hr2di_field_open(&c.f, solution, options, values);
+  c.items = c.f.values.flux || c.f.values.error ? c.each : LIGHT + c.bands;
   if (!status) status = run(&c, &steps);
   hr2di_field_close(&c.f);
   if (!status && counts)

@@ -23,6 +23,9 @@ static inline hr2d_point hr2di_field_scaled(const hr2d_scene *scene, hr2d_point 
 /* Whether all coordinates are finite. */
 int hr2di_field_finite(const hr2d_point *at, size_t count);
 
+/* Whether there is light where nothing stands. */
+int hr2di_field_lit_sky(const hr2d_scene *scene);
+
 /* Where a point is that sees fronts and sky under these angles. */
 hr2d_place hr2di_field_place(const hr2d_scene *scene, double front, double sky, int touches);
 

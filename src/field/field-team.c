@@ -17,14 +17,14 @@ int hr2di_field_finite(const hr2d_point *at, size_t count) {
   return 1;
 }
 
-static int has_background(const hr2d_scene *scene) {
+int hr2di_field_lit_sky(const hr2d_scene *scene) {
   for (size_t b = 0; b < scene->bands; b++)
     if (hr2d_scene_background(scene, b) > 0) return 1;
   return 0;
 }
 
 hr2d_place hr2di_field_place(const hr2d_scene *scene, double front, double sky, int touches) {
-  if (front == 0 && !(sky > 0 && has_background(scene))) return HR2D_PLACE_OUTSIDE;
+  if (front == 0 && !(sky > 0 && hr2di_field_lit_sky(scene))) return HR2D_PLACE_OUTSIDE;
   return touches ? HR2D_PLACE_PATCH : HR2D_PLACE_BETWEEN;
 }
 

@@ -9,8 +9,8 @@
 typedef struct hr2di_leaf {
   double from;      /* the fraction of the patch where it begins */
   uint32_t element; /* which may have children that are younger than the solution */
-  float varies;     /* how far B is from its average, at most, as a part of the largest
-                       coefficient of the band; over bands */
+  float level;      /* the average of B, and how far B is from it, at most, as parts of the */
+  float varies;     /* largest coefficient of the band; the largest over bands */
 } hr2di_leaf;
 
 typedef struct hr2di_leaves {
@@ -20,12 +20,14 @@ typedef struct hr2di_leaves {
   uint32_t *group; /* of each leaf; neighbours in one group differ by little where they meet; or
                       NULL */
   size_t *of_patch; /* the leaves of patch k are [of_patch[k], of_patch[k + 1]) */
+  double *scale;    /* per band: the largest coefficient */
 } hr2di_leaves;
 
-/* HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended by hr2di_leaves_clear() in any
-   case. */
+/* With `most` leaves are merged: an element takes their place from which B differs by at most
+   most[b] in band b.  NULL: all are kept.  HR2D_OK, HR2D_ENOMEM or the status of the watch; to
+   be ended by hr2di_leaves_clear() in any case. */
 hr2d_status hr2di_leaves_init(hr2di_leaves *l, const hr2d_solution *solution,
-                              hr2di_watch *watch);
+                              const double *most, hr2di_watch *watch);
 void hr2di_leaves_clear(hr2di_leaves *l);
 
 /* Makes groups: B jumps by at most `most` of a band between leaves of one group.  HR2D_OK,

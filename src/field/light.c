@@ -9,11 +9,20 @@
    Such an integrand is analytic but at the two complex t where r² = 0, and 0 at the place that
    is nearest to them.  Panels shrink towards that place, until these t lie outside of the
    ellipse of HR2DI_NEAR_ELLIPSE, where n points leave an error of ρ^−(2n − p) times the
-   variation of B.  What the smallest panel leaves is that variation on 2^-46 of the leaf. */
+   variation of B.  What the smallest panel leaves is that variation on 2^-46 of the leaf.
+
+   If an error is allowed, a rule takes a leaf that is far as a whole.  With the point at ξ₀ in
+   the complex plane of the leaf's [−1,1], dω = Im dξ/(ξ − ξ₀), and a rule of n points is exact
+   for (B(ξ) − B(ξ₀))/(ξ − ξ₀), a polynomial of degree below 2n.  What is left is that of
+   B(ξ₀)/(ξ − ξ₀), which is 2 B(ξ₀) Q_n(ξ₀)/P_n(ξ₀) with the second Legendre function Q_n: about
+   2π B(ξ₀) ρ^−(2n+1), and (2n + 1) times that, at most, as a part of the angle. With |P_l(ξ₀)|
+   ≤ ρ^l this gives 4 (2n + 1) (c₀ ρ^−2n + Σ |c_l| √(2l+1) ρ^(p−1−2n)), in which 4 has a factor
+   of 2 to spare. */
 #include "field/light.h"
 
 #include <math.h>
 
+#include "base/alloc.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/vector.h"
 #include "solution/panels.h"
@@ -24,17 +33,65 @@ static const unsigned char rule_points[HR2DI_LIGHT_RULES] = {2,  3,  4,  5,  6, 
 /* Variations below this part of the largest B are roundings. */
 #define ROUNDING 0x1p-54
 
+/* Of the allowed error, what takes the merging of leaves, and what the rules. */
+#define MERGED 0.75
+#define RULED  0.25
+
 hr2d_status hr2di_light_source_init(hr2di_light_source *of, const hr2d_solution *solution,
                                     hr2di_watch *watch) {
-  *of = (hr2di_light_source){.solution = solution};
+  *of = (hr2di_light_source){.solution = solution, .allowed = ROUNDING};
   hr2di_basis_init(&of->basis, solution->order);
-  for (int k = 0; k < HR2DI_LIGHT_RULES && solution->order > 1; k++)
-    hr2di_rule_init(&of->rule[k], rule_points[k]);
-  return hr2di_leaves_init(&of->leaves, solution, watch);
+  for (int k = 0; k < HR2DI_LIGHT_RULES; k++) hr2di_rule_init(&of->rule[k], rule_points[k]);
+  return hr2di_leaves_init(&of->leaves, solution, NULL, watch);
 }
 
 void hr2di_light_source_clear(hr2di_light_source *of) {
+  hr2di_alloc_free(&of->leaves.alloc, of->far);
   hr2di_leaves_clear(&of->leaves);
+}
+
+/* The size m of an ellipse with ρ^power = value. */
+static double ellipse_of(double value, double power) {
+  const double rho = value > 1 ? pow(value, 1 / power) : 1;
+  return (rho + 1 / rho) / 2;
+}
+
+static hr2di_light_far far_of(const hr2di_light_source *of, const hr2di_leaf *leaf) {
+  hr2di_light_far far;
+  for (int k = 0; k < HR2DI_LIGHT_FAR; k++) {
+    const double n = rule_points[k], degree = (double)of->solution->order - 1;
+    const double most = 4 * (2 * n + 1) / of->allowed;
+    const double from = 2 * n > degree
+                            ? fmax(ellipse_of(2 * most * leaf->level, 2 * n),
+                                   ellipse_of(2 * most * leaf->varies, 2 * n - degree))
+                            : HUGE_VAL;
+    far.from[k] = (float)fmax(from, HR2DI_NEAR_ELLIPSE);
+  }
+  return far;
+}
+
+hr2d_status hr2di_light_source_relax(hr2di_light_source *of, const double *most,
+                                     hr2di_watch *watch) {
+  const size_t bands = of->solution->bands;
+  const hr2d_allocator alloc = of->leaves.alloc;
+  double *merged = hr2di_alloc(&alloc, bands, sizeof *merged);
+  if (!merged) return HR2D_ENOMEM;
+  double least = 1;
+  for (size_t b = 0; b < bands; b++) {
+    merged[b] = MERGED * most[b];
+    if (of->leaves.scale[b] > 0) least = fmin(least, most[b] / of->leaves.scale[b]);
+  }
+  hr2di_leaves_clear(&of->leaves);
+  hr2d_status status = hr2di_leaves_init(&of->leaves, of->solution, merged, watch);
+  hr2di_alloc_free(&alloc, merged);
+  of->allowed = fmax(RULED * least, ROUNDING);
+  if (!status) of->far = hr2di_alloc(&alloc, of->leaves.leaves, sizeof *of->far);
+  if (!status && !of->far) status = HR2D_ENOMEM;
+  for (size_t k = 0; k < of->leaves.leaves && !status; k++) {
+    of->far[k] = far_of(of, &of->leaves.leaf[k]);
+    status = hr2di_watch_work(watch, 10);
+  }
+  return status;
 }
 
 static hr2d_point unit(hr2d_point v) {
@@ -55,6 +112,7 @@ static double angle_between(hr2d_point right, hr2d_point left) {
 static void add_constant(hr2di_light_sum *sum, size_t band, double value, double angle,
                          hr2d_point vector) {
   sum->mean[band] += value * angle;
+  if (!sum->flux) return;
   sum->flux[2 * band] += value * vector.x;
   sum->flux[2 * band + 1] += value * vector.y;
 }
@@ -71,15 +129,16 @@ typedef struct strip {
 static const hr2di_rule *choose_rule(const hr2di_light_source *of, const strip *s, double m) {
   const double digits = log(m + sqrt(m * m - 1));
   const double points =
-      ((double)of->solution->order + log(s->varies / ROUNDING) / digits) / 2 + 1;
+      ((double)of->solution->order + log(s->varies / of->allowed) / digits) / 2 + 1;
   int k = 0;
   while (k + 1 < HR2DI_LIGHT_RULES && rule_points[k] < points) k++;
   return &of->rule[k];
 }
 
-static void add_panel(hr2di_light_sum *sum, const strip *s, hr2di_span panel, double m) {
+/* What B on a panel is more than at the nearest place; or all of B. */
+static void add_panel(hr2di_light_sum *sum, const strip *s, hr2di_span panel,
+                      const hr2di_rule *rule, int all) {
   const hr2di_light_source *of = sum->of;
-  const hr2di_rule *rule = choose_rule(of, s, m);
   const size_t bands = of->solution->bands;
   const double size = panel.to - panel.from, cross = hr2di_point_cross(s->from, s->along);
   double xi[HR2DI_RULE_POINTS], weight[HR2DI_RULE_POINTS];
@@ -90,20 +149,23 @@ static void add_panel(hr2di_light_sum *sum, const strip *s, hr2di_span panel, do
     const double square = hr2di_point_dot(r, r);
     xi[q] = 2 * t - 1;
     weight[q] = square > 0 ? size * rule->weight[q] * cross / square : 0;
+    if (!sum->flux) continue;
     const double far = square > 0 ? 1 / sqrt(square) : 0;
     ray[q] = (hr2d_point){far * r.x, far * r.y};
   }
   for (size_t b = 0; b < bands; b++) {
     const double *c = s->coefficient + b;
-    const double nearest = hr2di_basis_sum(&of->basis, s->nearest, c, bands);
+    const double nearest = all ? 0 : hr2di_basis_sum(&of->basis, s->nearest, c, bands);
     double mean = 0, x = 0, y = 0;
     for (size_t q = 0; q < rule->points; q++) {
       const double part = weight[q] * (hr2di_basis_sum(&of->basis, xi[q], c, bands) - nearest);
       mean += part;
+      if (!sum->flux) continue;
       x += part * ray[q].x;
       y += part * ray[q].y;
     }
     sum->mean[b] += mean;
+    if (!sum->flux) continue;
     sum->flux[2 * b] += x;
     sum->flux[2 * b + 1] += y;
   }
@@ -121,19 +183,8 @@ static void add_variation(hr2di_light_sum *sum, const strip *s, hr2di_span part)
     if (m < HR2DI_NEAR_ELLIPSE && hr2di_panel_halved(&panels, panel)) continue;
     if (hr2di_watch_work(sum->watch, 1 + sum->of->solution->order * sum->of->solution->bands))
       return;
-    add_panel(sum, s, panel, fmax(m, HR2DI_NEAR_ELLIPSE));
+    add_panel(sum, s, panel, choose_rule(sum->of, s, fmax(m, HR2DI_NEAR_ELLIPSE)), 0);
   }
-}
-
-/* A leaf between two directions, of which it has the part from `part.from` to `part.to`. */
-static void add_leaf(hr2di_light_sum *sum, const strip *s, hr2di_span part, double angle,
-                     hr2d_point vector) {
-  const hr2d_solution *of = sum->of->solution;
-  for (size_t b = 0; b < of->bands; b++)
-    add_constant(sum, b,
-                 hr2di_basis_sum(&sum->of->basis, s->nearest, s->coefficient + b, of->bands),
-                 angle, vector);
-  if (s->varies > ROUNDING && part.to > part.from) add_variation(sum, s, part);
 }
 
 /* The vector from x to a fraction of a patch, from the end of the patch that is nearer. */
@@ -148,12 +199,39 @@ static void set_nearest(strip *s, hr2di_span part) {
   s->nearest = 2 * fmin(fmax(t, part.from), part.to) - 1;
 }
 
-/* Adds a group of leaves at an end of a stretch, in any order: SplitMix64. */
-static void add_group(hr2di_light_sum *sum, size_t leaf) {
-  const uint32_t *group = sum->of->leaves.group;
-  uint64_t z = group ? (group[leaf] + UINT64_C(1)) * UINT64_C(0x9e3779b97f4a7c15) : 0;
-  z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-  sum->groups += z ^ z >> 27;
+/* A leaf between two directions, of which it has the part from `part.from` to `part.to`.
+   angle: between them, or below 0 if it is not known. */
+static void add_near(hr2di_light_sum *sum, strip *s, hr2di_span part, hr2d_point right,
+                     hr2d_point left, double angle) {
+  const hr2di_light_source *of = sum->of;
+  const size_t bands = of->solution->bands;
+  if (angle < 0) angle = angle_between(right, left);
+  const hr2d_point vector = sum->flux ? between(right, left) : (hr2d_point){0, 0};
+  set_nearest(s, part);
+  /* As a part of what a wide angle would add; an error that is allowed is one of the angle. */
+  if (!of->far) s->varies *= fmin(fabs(angle), 1);
+  for (size_t b = 0; b < bands; b++)
+    add_constant(sum, b, hr2di_basis_sum(&of->basis, s->nearest, s->coefficient + b, bands),
+                 angle, vector);
+  if (s->varies > of->allowed && part.to > part.from) add_variation(sum, s, part);
+}
+
+/* The first rule that may take a part of leaf k as a whole, seen from x; NULL if it is near. */
+static const hr2di_rule *far_rule(const hr2di_light_source *of, size_t k, const strip *s,
+                                  hr2di_span part) {
+  if (!of->far) return NULL;
+  const hr2d_point from = hr2di_block_along(s->from, s->along, part.from),
+                   to = hr2di_block_along(s->from, s->along, part.to),
+                   all = hr2di_point_minus(to, from);
+  const double m = (sqrt(hr2di_point_dot(from, from)) + sqrt(hr2di_point_dot(to, to))) /
+                   sqrt(hr2di_point_dot(all, all));
+  for (int n = 0; n < HR2DI_LIGHT_FAR; n++)
+    if (m >= of->far[k].from[n]) return &of->rule[n];
+  return NULL;
+}
+
+static void see_end(hr2di_light_sum *sum, hr2d_point at) {
+  sum->clearance = fmin(sum->clearance, hr2di_point_dot(at, at));
 }
 
 /* The leaves of a stretch, from its right to its left.  Where two of them meet is rounded; they
@@ -165,7 +243,6 @@ static void add_front(hr2di_light_sum *sum, const hr2di_round_stretch *seen) {
   const size_t each = of->solution->order * of->solution->bands;
   hr2d_point right = seen->right;
   size_t k = hr2di_leaf_at(&of->leaves, seen->patch, seen->from);
-  add_group(sum, k);
   for (int last = 0; !last; k++) {
     const double begin = of->leaves.leaf[k].from;
     const double end = hr2di_leaf_end(&of->leaves, seen->patch, k), size = end - begin;
@@ -177,43 +254,31 @@ static void add_front(hr2di_light_sum *sum, const hr2di_round_stretch *seen) {
                .along = {size * whole.x, size * whole.y},
                .varies = of->leaves.leaf[k].varies,
                .coefficient = of->solution->value + of->leaves.leaf[k].element * each};
-    set_nearest(&s, part);
-    const int all = last && hr2di_point_same(right, seen->right);
-    const double angle = all ? seen->angle : angle_between(right, left);
-    s.varies *= fmin(fabs(angle), 1); /* as a part of what a wide angle would add */
-    add_leaf(sum, &s, part, angle, between(right, left));
+    const hr2di_rule *rule = far_rule(of, k, &s, part);
+    if (rule)
+      add_panel(sum, &s, part, rule, 1);
+    else
+      add_near(sum, &s, part, right, left,
+               last && hr2di_point_same(right, seen->right) ? seen->angle : -1);
     if (hr2di_watch_work(sum->watch, 1)) return;
+    if (!last && of->leaves.group && of->leaves.group[k] != of->leaves.group[k + 1])
+      see_end(sum, left);
     right = left;
   }
-  add_group(sum, k - 1);
-}
-
-/* The nearest point of the part of a patch that is seen. */
-static double distance_to(const hr2di_light_sum *sum, const hr2di_round_stretch *s) {
-  const hr2d_segment at = sum->of->scene->patch[s->patch].scaled;
-  const hr2d_point d = hr2di_point_minus(at.b, at.a), e = hr2di_point_minus(sum->x, at.a);
-  const double t = hr2di_point_dot(d, e) / hr2di_point_dot(d, d);
-  const hr2d_point r = to_place(sum->x, at, fmin(fmax(t, s->from), s->to));
-  return hypot(r.x, r.y);
-}
-
-static void see_clearance(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
-  if (s->patch == HR2DI_ROUND_SKY) return;
-  const double near = s->patch == HR2DI_ROUND_BACK
-                          ? fmin(hypot(s->right.x, s->right.y), hypot(s->left.x, s->left.y))
-                          : distance_to(sum, s);
-  sum->clearance = fmin(sum->clearance, near);
 }
 
 void hr2di_light_add(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
   const hr2di_light_source *of = sum->of;
   const size_t bands = of->solution->bands;
-  see_clearance(sum, s);
+  if (s->patch != HR2DI_ROUND_SKY) {
+    see_end(sum, s->right);
+    see_end(sum, s->left);
+  }
   if (s->patch == HR2DI_ROUND_BACK) {
     sum->back += s->angle;
   } else if (s->patch == HR2DI_ROUND_SKY) {
     sum->sky += s->angle;
-    const hr2d_point vector = between(s->right, s->left);
+    const hr2d_point vector = sum->flux ? between(s->right, s->left) : (hr2d_point){0, 0};
     for (size_t b = 0; b < bands; b++)
       add_constant(sum, b, hr2d_scene_background(of->scene, b), s->angle, vector);
   } else {

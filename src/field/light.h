@@ -10,13 +10,26 @@
 /* Gauss rules, of more points each. */
 enum { HR2DI_LIGHT_RULES = 15 };
 
+/* Those of the first of these rules may take a whole leaf that is far enough. */
+enum { HR2DI_LIGHT_FAR = 5 };
+
+/* From which size of the ellipse through the point on a rule may take a leaf. */
+typedef struct hr2di_light_far {
+  float from[HR2DI_LIGHT_FAR];
+} hr2di_light_far;
+
 /* What the points of a call have in common. */
 typedef struct hr2di_light_source {
   const hr2d_solution *solution;
   const hr2d_scene *scene;
   hr2di_leaves leaves;
+  double allowed;       /* the error of ∫ B dω along a leaf, as a part of its angle times the
+                           largest coefficient */
+  hr2di_light_far *far; /* of each leaf; NULL: none is far */
   hr2di_basis basis;
   hr2di_rule rule[HR2DI_LIGHT_RULES];
+  int wants_flux;
+  int lit_sky;               /* whether there is light where nothing stands */
   const double *patch_error; /* patches × bands, or NULL */
 } hr2di_light_source;
 
@@ -26,17 +39,21 @@ hr2d_status hr2di_light_source_init(hr2di_light_source *of, const hr2d_solution 
                                     hr2di_watch *watch);
 void hr2di_light_source_clear(hr2di_light_source *of);
 
+/* From now on the field may have an error of `most` per band, of M, and π times that of Φ.
+   HR2D_OK, HR2D_ENOMEM or the status of the watch. */
+hr2d_status hr2di_light_source_relax(hr2di_light_source *of, const double *most,
+                                     hr2di_watch *watch);
+
 /* The sums of one point, over stretches so far. */
 typedef struct hr2di_light_sum {
   const hr2di_light_source *of;
   hr2d_point x; /* where the view is from */
   hr2di_watch *watch;
   double *mean;            /* per band: ∫ B dω */
-  double *flux;            /* per band, x and y: ∫ B ω dω */
+  double *flux;            /* per band, x and y: ∫ B ω dω; NULL: not wanted */
   double *error;           /* per band: ∫ of the error of the patch; NULL without errors */
   double front, back, sky; /* angles */
-  double clearance;        /* how near an end of a stretch or the front of a patch is */
-  uint64_t groups;         /* of the leaves at the ends of stretches, mixed */
+  double clearance;        /* the square of how near an end of a stretch or a jump of B is */
 } hr2di_light_sum;
 
 /* Adds a stretch of the view from x. */

@@ -37,15 +37,6 @@ static double angle_of(hr2d_point right, hr2d_point left) {
   return dot < 0 ? acos(-1) : 0;
 }
 
-/* Adds what is seen to the signature, in any order: SplitMix64. */
-static void sign(hr2di_round_view *v, uint32_t what, uint32_t right, uint32_t left) {
-  uint64_t z =
-      ((uint64_t)right << 32 | left) + (what + UINT64_C(1)) * UINT64_C(0x9e3779b97f4a7c15);
-  z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-  v->signature += z ^ z >> 31;
-}
-
 static hr2d_status show(hr2di_round_view *v, hr2di_round_stretch *s) {
   s->angle = angle_of(s->right, s->left);
   const hr2d_status status = hr2di_watch_work(v->watch, 1);
@@ -63,10 +54,10 @@ static double fraction(const hr2di_round_view *v, hr2d_segment patch, hr2d_point
 }
 
 /* The part of a patch from one place to another; *_end: that is the end of the patch. */
-static hr2d_status show_part(hr2di_round_view *v, uint32_t patch, hr2d_point right,
-                             hr2d_point left, int starts, int ends) {
-  sign(v, patch, UINT32_MAX, UINT32_MAX);
+static hr2d_status show_part(hr2di_round_view *v, hr2di_wall_side side, uint32_t patch,
+                             hr2d_point right, hr2d_point left, int starts, int ends) {
   hr2di_round_stretch s = {.patch = patch,
+                           .what = ~(int32_t)side,
                            .right = hr2di_point_minus(right, v->x),
                            .left = hr2di_point_minus(left, v->x)};
   if (patch != HR2DI_NOBODY) {
@@ -113,7 +104,7 @@ static hr2d_status show_parts(hr2di_round_view *v, hr2di_wall_side side, uint32_
     const hr2d_segment *whole =
         p->patch == HR2DI_NOBODY ? &p->at : &v->scene->patch[p->patch].scaled;
     if (!inside && m + 1 < among.last && turn(v, last, p->at.b) < 0) continue;
-    status = show_part(v, p->patch, since, inside ? p->at.b : last,
+    status = show_part(v, side, p->patch, since, inside ? p->at.b : last,
                        starts && hr2di_point_same(p->at.a, whole->a),
                        (inside || left == end) && hr2di_point_same(p->at.b, whole->b));
     if (!inside) break;
@@ -127,10 +118,10 @@ static hr2d_status show_parts(hr2di_round_view *v, hr2di_wall_side side, uint32_
 static hr2d_status end_at(hr2di_round_view *v, int32_t what, uint32_t right, uint32_t left) {
   const hr2d_point *at = v->scene->plane.triangulation.at;
   hr2di_round_stretch s = {.patch = HR2DI_ROUND_BACK,
+                           .what = what,
                            .right = hr2di_point_minus(at[right], v->x),
                            .left = hr2di_point_minus(at[left], v->x)};
   if (what == HR2DI_SKY) s.patch = HR2DI_ROUND_SKY;
-  sign(v, (uint32_t)what, right, left);
   if (what != HR2DI_SKY && v->scene->parts.wanted[~what])
     return show_parts(v, (hr2di_wall_side)~what, right, left);
   return show(v, &s);
@@ -244,8 +235,10 @@ static hr2d_status see_sky_around(hr2di_round_view *v) {
   /* A direction away from the box: less than a half circle from each of its sides. */
   const double sr = 1 / hypot(r.x, r.y), sl = 1 / hypot(l.x, l.y);
   const hr2d_point away = {-(sr * r.x + sl * l.x), -(sr * r.y + sl * l.y)};
-  hr2di_round_stretch one = {.patch = HR2DI_ROUND_SKY, .right = l, .left = away};
-  hr2di_round_stretch two = {.patch = HR2DI_ROUND_SKY, .right = away, .left = r};
+  hr2di_round_stretch one = {
+      .patch = HR2DI_ROUND_SKY, .what = HR2DI_SKY, .right = l, .left = away};
+  hr2di_round_stretch two = {
+      .patch = HR2DI_ROUND_SKY, .what = HR2DI_SKY, .right = away, .left = r};
   const hr2d_status status = show(v, &one);
   return status ? status : show(v, &two);
 }
@@ -254,7 +247,8 @@ static hr2d_status see_only_sky(hr2di_round_view *v) {
   hr2d_status status = HR2D_OK;
   for (int k = 0; k < 2 && !status; k++) {
     const double x = k == 0 ? 1 : -1;
-    hr2di_round_stretch s = {.patch = HR2DI_ROUND_SKY, .right = {x, 0}, .left = {-x, 0}};
+    hr2di_round_stretch s = {
+        .patch = HR2DI_ROUND_SKY, .what = HR2DI_SKY, .right = {x, 0}, .left = {-x, 0}};
     status = show(v, &s);
   }
   return status;
@@ -277,22 +271,32 @@ static hr2d_status show_beside(hr2di_round_view *v, const hr2di_touch *t, int le
   return s.angle > 0 ? v->take(v->ctx, &s) : HR2D_OK;
 }
 
+hr2d_status hr2di_look_between(hr2di_round_view *v, int32_t first, int32_t *last) {
+  const hr2di_triangulation *in = &v->scene->plane.triangulation;
+  int32_t h = first;
+  hr2d_status status = HR2D_OK;
+  v->x = in->at[in->triangle[h >> 2].corner[h & 3]];
+  while (h >= 0 && !status) {
+    const hr2di_triangle *t = &in->triangle[h >> 2];
+    const int to_left = hr2di_corner_after(h & 3), back = hr2di_corner_before(h & 3);
+    *last = 4 * (h >> 2) + back;
+    status = walk_from(v, t->across[to_left], t->corner[to_left], t->corner[back]);
+    h = t->across[back];
+  }
+  return status;
+}
+
 /* From the vertex where walls meet, through the triangles between two of them. */
 static hr2d_status look_ahead(hr2di_round_view *v, const hr2di_touch *touch) {
   const hr2di_triangulation *in = &v->scene->plane.triangulation;
-  const hr2d_point *at = in->at;
-  int32_t h = touch->first;
-  hr2d_status status = HR2D_OK;
-  for (int turns = 0; h >= 0 && !status; turns++) {
-    const hr2di_triangle *t = &in->triangle[h >> 2];
-    const int to_left = hr2di_corner_after(h & 3), back = hr2di_corner_before(h & 3);
-    const uint32_t right = t->corner[to_left], left = t->corner[back];
-    if (turns == 0) status = show_beside(v, touch, 0, hr2di_point_minus(at[right], v->x));
-    if (!status) status = walk_from(v, t->across[to_left], right, left);
-    h = t->across[back];
-    if (h < 0 && !status) status = show_beside(v, touch, 1, hr2di_point_minus(at[left], v->x));
-  }
-  return status;
+  const int32_t h = touch->first;
+  const uint32_t right = in->triangle[h >> 2].corner[hr2di_corner_after(h & 3)];
+  int32_t last = h;
+  hr2d_status status = show_beside(v, touch, 0, hr2di_point_minus(in->at[right], v->x));
+  if (!status) status = hr2di_look_between(v, h, &last);
+  if (status) return status;
+  const uint32_t left = in->triangle[last >> 2].corner[last & 3];
+  return show_beside(v, touch, 1, hr2di_point_minus(in->at[left], v->x));
 }
 
 /* Whether x is a corner of the box, where it sees the plane only from a little farther out. */
@@ -307,7 +311,6 @@ hr2d_status hr2di_look_round(hr2di_round_view *v, hr2d_point x, int *touches) {
   int32_t border;
   hr2di_touch touch;
   *touches = 0;
-  v->signature = 0;
   v->x = x;
   if (in->triangles == 0 || !(fmax(fabs(x.x), fabs(x.y)) < FAR)) return see_only_sky(v);
   if (is_corner(in, x)) v->x.x += x.x < in->at[0].x ? -0x1p-50 : 0x1p-50;

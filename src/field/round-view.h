@@ -12,7 +12,8 @@
 
 /* What is seen from a direction on the right to one on the left. */
 typedef struct hr2di_round_stretch {
-  uint32_t patch;         /* or what else it is */
+  uint32_t patch; /* or what else it is */
+  int32_t what;   /* the side of a wall on which it ends, as in hr2di_triangle::across */
   hr2d_point right, left; /* vectors from the point, of any length */
   double angle;           /* between them, from 0 to π */
   double from, to;        /* the part of the patch, fractions; 0 and 1 if all of it is seen */
@@ -30,9 +31,7 @@ typedef struct hr2di_round_view {
   hr2di_watch *watch;
   hr2di_round_fn take;
   void *ctx;
-  uint64_t steps;     /* triangles that were looked through so far */
-  uint64_t signature; /* of the last view: equal if the same vertices and patches are seen past
-                         and behind each other */
+  uint64_t steps; /* triangles that were looked through so far */
   /* Inside of the view only. */
   int32_t near;
   hr2d_point x;
@@ -53,6 +52,11 @@ static inline void hr2di_round_view_restart(hr2di_round_view *v) {
    Signs that decide what is seen are exact: walls are where the plane of the scene has them.
    Angles are accurate to 4·2^-53. */
 hr2d_status hr2di_look_round(hr2di_round_view *v, hr2d_point x, int *touches);
+
+/* Looks from the vertex that half-edge `first` leaves along a wall, through the triangles on
+   its left, up to the next wall, along which *last comes to the vertex.  Stretches come from
+   the right to the left.  Returns as hr2di_look_round(). */
+hr2d_status hr2di_look_between(hr2di_round_view *v, int32_t first, int32_t *last);
 
 void hr2di_round_view_clear(hr2di_round_view *v);
 

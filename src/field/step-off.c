@@ -46,8 +46,7 @@ static double place_on(hr2d_segment s, hr2d_point x) {
   return fmin(fmax(hr2di_point_dot(d, e) / hr2di_point_dot(d, d), 0), 1);
 }
 
-/* The patch on a side of a wall at x, or HR2DI_NOBODY. */
-static uint32_t patch_at(const hr2d_scene *scene, hr2di_wall_side side, hr2d_point x) {
+uint32_t hr2di_patch_beside(const hr2d_scene *scene, hr2di_wall_side side, hr2d_point x) {
   const hr2di_side_parts *parts = &scene->parts;
   if (!parts->wanted[side]) return HR2DI_NOBODY;
   const hr2di_parts of = parts->of_side[side].parts;
@@ -66,7 +65,7 @@ static uint32_t patch_at(const hr2d_scene *scene, hr2di_wall_side side, hr2d_poi
 
 static void add_side(const hr2d_scene *scene, hr2di_wall_side side, hr2d_point x, int left,
                      sector *s) {
-  const uint32_t patch = patch_at(scene, side, x);
+  const uint32_t patch = hr2di_patch_beside(scene, side, x);
   s->beside[left] = patch;
   s->fronts += patch != HR2DI_NOBODY;
   if (patch < s->patch) s->patch = patch;

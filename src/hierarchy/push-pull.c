@@ -52,7 +52,7 @@ void hr2di_push_pull_clear(hr2di_push_pull *p) {
   hr2di_alloc_free(&p->alloc, p->pair_of);
 }
 
-static const double *relation_of(const hr2di_push_pull *p, uint32_t element) {
+const double *hr2di_push_pull_relation(const hr2di_push_pull *p, uint32_t element) {
   const size_t pair = p->pair_of ? p->pair_of[element] : 0;
   return p->relation + 2 * pair * p->order * p->order;
 }
@@ -107,7 +107,7 @@ void hr2di_push_pull_up(const hr2di_push_pull *p, const double *spread, double *
                        here);
       continue;
     }
-    const double *relation = relation_of(p, e);
+    const double *relation = hr2di_push_pull_relation(p, e);
     for (size_t k = 0; k < width; k++) here[k] = 0;
     add_up(p, relation, part, left, here);
     add_up(p, relation + p->order * p->order, 1 - part, right, here);
@@ -146,6 +146,6 @@ void hr2di_push_pull_down(const hr2di_push_pull *p, const double *spread, double
       continue;
     }
     const int right = e == element[parent].child + 1;
-    add_down(p, relation_of(p, parent) + (right ? square : 0), from, here);
+    add_down(p, hr2di_push_pull_relation(p, parent) + (right ? square : 0), from, here);
   }
 }

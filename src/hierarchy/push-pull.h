@@ -34,4 +34,8 @@ void hr2di_push_pull_up(const hr2di_push_pull *p, const double *spread, double *
    pull in the scalar product Σ A x y. */
 void hr2di_push_pull_down(const hr2di_push_pull *p, const double *spread, double *field);
 
+/* Of an element with children, for the left child and then the right one: order × order
+   numbers each, φ_l(element) = Σ_k relation[l·order + k] φ_k(child). */
+const double *hr2di_push_pull_relation(const hr2di_push_pull *p, uint32_t element);
+
 #endif
