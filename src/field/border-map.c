@@ -7,7 +7,7 @@
 #include "base/pi.h"
 
 /* Borders of a tile; where there are more no node is interpolated. */
-enum { CROWD = 1024 };
+enum { CROWD = 256 };
 
 /* A ray in nodes, with lengths along it as they are in the plane. */
 typedef struct ray {
@@ -102,6 +102,10 @@ void hr2di_border_map_clear(hr2di_border_map *m) {
   hr2di_alloc_free(&m->alloc, m->list);
 }
 
+int hr2di_border_map_crowded(const hr2di_border_map *m, size_t tile) {
+  return m->first[tile + 1] - m->first[tile] > CROWD;
+}
+
 /* The slope jumps by s across a line.  Linear interpolation over a length h across misses at
    most s h/4, and along a side of a cell it meets n h of it, with n the normal of the line. */
 static double error_of(const hr2di_border_map *m, const hr2di_border *b, double near,
@@ -115,7 +119,6 @@ double hr2di_border_map_error(const hr2di_border_map *m, size_t tile, const hr2d
                               int *lit) {
   double sum = 0;
   *lit = 0;
-  if (m->first[tile + 1] - m->first[tile] > CROWD) return HUGE_VAL;
   for (size_t n = m->first[tile]; n < m->first[tile + 1]; n++) {
     const hr2di_border *border = &m->borders->border[m->list[n]];
     ray r = ray_of(m, border);

@@ -26,6 +26,9 @@ hr2d_status hr2di_border_map_init(hr2di_border_map *m, const hr2di_borders *bord
                                   const hr2d_allocator *alloc, hr2di_watch *watch);
 void hr2di_border_map_clear(hr2di_border_map *m);
 
+/* Whether a tile has so many borders that none of its nodes is interpolated. */
+int hr2di_border_map_crowded(const hr2di_border_map *m, size_t tile);
+
 /* A rectangle of nodes, and the longest sides of cells in it over which M is linear. */
 typedef struct hr2di_map_block {
   double low[2], high[2], cell[2];

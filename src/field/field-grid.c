@@ -310,7 +310,7 @@ static hr2d_status do_tile(void *ctx, hr2di_field_worker *w, size_t task) {
   tile t = tile_of(c, w, task);
   const block all = {{1, 1}, {t.size[0], t.size[1]}};
   hr2d_status status = HR2D_OK;
-  if (c->coarse) status = fill(&t, &all);
+  if (c->coarse && !hr2di_border_map_crowded(&c->map, task)) status = fill(&t, &all);
   for (int row = t.own_low[1]; row <= t.own_high[1] && !status; row++)
     for (int column = t.own_low[0]; column <= t.own_high[0] && !status; column++)
       if (node_of(&t, column, row)[KNOWN] == 0) status = look(&t, column, row);

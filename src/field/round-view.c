@@ -139,15 +139,16 @@ typedef struct walk {
 static int32_t follow(hr2di_round_view *v, walk *k, uint32_t left, int32_t h, uint32_t *apex,
                       int *splits) {
   const hr2di_triangulation *in = &v->scene->plane.triangulation;
-  const hr2d_point right = in->at[k->right], end = in->at[left];
+  const hr2d_point x = v->x, right = in->at[k->right], end = in->at[left];
   for (size_t steps = 1; steps <= in->triangles; steps++) {
     v->steps++;
     if (steps % 32 == 0 && hr2di_watch_work(v->watch, 16)) break;
     const hr2di_triangle *t = &in->triangle[h >> 2];
     const int to_right = hr2di_corner_after(h & 3), to_left = hr2di_corner_before(h & 3);
     *apex = t->corner[to_left];
-    const int on_left = turn(v, right, in->at[*apex]) > 0,
-              on_right = turn(v, end, in->at[*apex]) < 0;
+    const hr2d_point at = in->at[*apex];
+    const int on_left = hr2di_orient_sign(x, right, at) > 0,
+              on_right = hr2di_orient_sign(x, end, at) < 0;
     *splits = on_left && on_right;
     k->beyond[0] = t->across[to_right];
     k->beyond[1] = t->across[to_left];
