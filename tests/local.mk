@@ -111,6 +111,7 @@ OUTSIDE = \
 	tests/program/check-program-faults.sh \
 	tests/program/check-digits.sh \
 	tests/program/check-field.sh \
+	tests/program/check-vti.sh \
 	tests/program/check-resume.sh \
 	tests/package/check-constants.sh \
 	tests/package/check-exports.sh \
@@ -300,6 +301,7 @@ installcheck-local:
 
 EXTRA_DIST += $(OUTSIDE) tests/docs/blocks.awk tests/docs/compare.awk tests/docs/pages.sh \
 	tests/digits.sh tests/lsan.supp tests/matrix.sh tests/summary.sh \
-	tests/data tests/program/cli tests/threads/race.c tests/package/consumer/main.c \
+	tests/data tests/program/cli tests/program/vti.py tests/threads/race.c \
+	tests/package/consumer/main.c \
 	tests/package/consumer/main.cpp tests/package/consumer/run.sh \
 	tests/package/consumer/CMakeLists.txt tests/package/consumer/meson.build

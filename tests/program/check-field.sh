@@ -50,6 +50,29 @@ check "VTK has the nodes" grep -q 'WholeExtent="0 4 0 2 0 0"' "$work/grid.vti"
 # The length of an array stands alone, then the numbers: 12 and 160 digits.
 check "and numbers of 8 bytes" [ "$(grep -A1 'Name="mean0"' "$work/grid.vti" | sed -n 2p |
   tr -d '\n' | wc -c)" -eq 172 ]
+
+# ---- what is outside is marked in each format
+printf '0.5 0.5\n2 2\n' >"$work/two"
+succeeds field "$furnace" --points "$work/two" --csv "$work/two.csv" --json "$work/two.json"
+check "the table counts them" grep -q '^points  *2: 1 between.* 1 outside' "$work/out"
+check "CSV has no numbers" grep -q '^2,2,0,,,,' "$work/two.csv"
+check "JSON says outside, and null" sh -c 'tr -d " \n" <"$1" |
+  grep -q "\"place\":\"outside\",\"mean\":\[null\],\"flux\":\[null,null\]"' - "$work/two.json"
+
+# ---- a tolerance: most nodes are interpolated, all within it
+room=$HR2D_SRCDIR/examples/scenes/partition.geojson
+succeeds field "$room" --grid 120x80 --csv "$work/exact.csv"
+check "without one none is" lacks '^grid' "$work/out"
+succeeds field "$room" --grid 120x80 --csv "$work/some.csv" --tolerance 0.01
+check "many are" awk '/^grid/ { n = $2 } END { exit !(n > 1000) }' "$work/out"
+# M is between 0 and 0.6: column 4 of one file and column 11 of the other.
+paste -d, "$work/exact.csv" "$work/some.csv" >"$work/both.csv"
+check "within it" awk -F, 'NR > 1 && ($4 - $11)^2 > 0.006^2 { bad = 1 }
+  NR > 1 && ($4 == "") != ($11 == "") { bad = 1 } END { exit bad }' "$work/both.csv"
+check "but not exact" awk -F, 'NR > 1 && ($4 - $11)^2 > 1e-10 { some = 1 } END { exit !some }' \
+  "$work/both.csv"
+usage "--tolerance: '2' is not a number" field "$furnace" --tolerance 2
+usage "--points excludes" field "$furnace" --points "$work/one" --tolerance 0.1
 usage "--grid: not WxH" field "$furnace" --grid 5
 usage "--grid: not WxH" field "$furnace" --grid 0x4
 usage "--box: not four numbers" field "$furnace" --box 1,2,3

@@ -102,6 +102,8 @@ static const option_entry table[] = {
    .help = {{FIELD, "where the grid begins and ends (around all patches)"}}},
   {"points", "FILE|-", GROUP_QUESTION, VALUE(path, points),
    .help = {{FIELD, "instead of a grid, lines \"x y\"; - is standard input"}}},
+  {"tolerance", "T", GROUP_QUESTION, VALUE(part, tolerance),
+   .help = {{FIELD, "interpolate nodes of a grid within T of the range"}}},
 
   {"oracle", "NAME", GROUP_METHOD, VALUE(oracle, oracle),
    .help = {{SOLVE | STUDY | PAIR, "size (default), size2, bf, l1 or l1-grid"}},

@@ -91,8 +91,8 @@ int options_check(const options *o, const given_options *given) {
   if (o->multigrid.ratio > 0 && o->multigrid.from <= o->epsilon)
     return complain_usage("--multigrid: %g is not greater than --eps %g", o->multigrid.from,
                           o->epsilon);
-  if (o->points && (o->grid.columns || o->box.given || o->vtk))
-    return complain_usage("--points excludes --grid, --box and --vtk");
+  if (o->points && (o->grid.columns || o->box.given || o->vtk || o->tolerance > 0))
+    return complain_usage("--points excludes --grid, --box, --tolerance and --vtk");
   if (o->from > 0 && o->to >= o->from)
     return complain_usage("--from %g is not greater than --to %g", o->from, o->to);
   return 0;

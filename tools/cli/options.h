@@ -100,6 +100,7 @@ typedef struct options {
   grid_size grid; /* of `field` */
   grid_box box;
   const char *points; /* file name, or - for standard input */
+  double tolerance;   /* of a grid; 0: every node is exact */
   place links_of;
   unsigned link_level;
   place_list beams_of;

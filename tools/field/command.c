@@ -39,6 +39,7 @@ static int set_grid(field *f) {
   hr2d_field_grid *g = &f->grid;
   *g = (hr2d_field_grid)HR2D_FIELD_GRID_INIT;
   set_box(f);
+  g->tolerance = f->options->tolerance;
   const double width = fabs(g->high.x - g->low.x), height = fabs(g->high.y - g->low.y),
                longer = fmax(width, height);
   g->columns = f->options->grid.columns ? f->options->grid.columns : nodes_along(width, longer);
@@ -55,7 +56,7 @@ static int set_grid(field *f) {
   return f->at ? 0 : complain_memory();
 }
 
-/* Every point is exact, those of a grid as well. */
+/* Every point is exact, those of a grid as well if it has no tolerance. */
 static int look(field *f, const hr2d_solution *solution) {
   progress p;
   progress_start(&p, f->options->quiet);
@@ -74,7 +75,10 @@ static int look(field *f, const hr2d_solution *solution) {
                                 .flux = f->flux,
                                 .sky = f->sky,
                                 .place = f->place};
-  const hr2d_status status = hr2d_field_at(solution, f->at, f->count, &how, &to);
+  const hr2d_status status =
+      f->grid.tolerance > 0
+          ? hr2d_field_on_grid(solution, &f->grid, &how, &to, &f->counts)
+          : hr2d_field_at(solution, f->at, f->count, &how, &to);
   progress_clear(&p);
   progress_end();
   return status ? complain_call(f->options->scene, "", status) : 0;
@@ -96,6 +100,9 @@ static void print_field(const field *f, double seconds) {
   printf("points    %zu: %zu between the patches, %zu on patches, %zu outside\n", f->count,
          of_place[HR2D_PLACE_BETWEEN], of_place[HR2D_PLACE_PATCH],
          of_place[HR2D_PLACE_OUTSIDE]);
+  if (f->grid.tolerance > 0)
+    printf("grid      %llu of %zu nodes interpolated\n",
+           (unsigned long long)f->counts.interpolated, f->count);
   for (size_t b = 0; b < f->bands; b++) {
     double low = HUGE_VAL, high = -HUGE_VAL, flux = 0;
     for (size_t k = b; k < f->count * f->bands; k += f->bands) {

@@ -13,7 +13,8 @@ typedef struct field {
   hr2d_point *at;
   double *mean, *flux, *sky;
   unsigned char *place;
-  int heat; /* some patch has a temperature or a flux: T is written, too */
+  int heat;                 /* some patch has a temperature or a flux: T is written, too */
+  hr2d_field_counts counts; /* of a grid with a tolerance */
 } field;
 
 /* temperature.c: the mean radiant temperature at a point, σT⁴ = ΣM over the bands. */
