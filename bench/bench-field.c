@@ -2,16 +2,22 @@
 /* The light on grids of 1000 × 700 nodes within 1e-3 of its range, in units u: the time of the
    plainest recursion that stores 983,056 links, in the same run.
 
-   usage: bench-field [SCENE [EPSILON]] */
+   usage: bench-field [SCENE [ERROR]] */
 #include <hr2d/hr2d.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "bars.h"
 #include "plain.h"
+#include "plans.h"
 #include "timing.h"
 
 enum { COLUMNS = 1000, ROWS = 700, RUNS = 3 };
+
+/* Units allowed. */
+#define PARTITION_BAR 60
+#define FIBRES_BAR    1000
 
 static double unit(void) {
   double seconds[RUNS];
@@ -36,43 +42,69 @@ static hr2d_field_grid grid_around(const hr2d_scene *scene) {
   return g;
 }
 
-static hr2d_status measure(const char *file, double error) {
-  hr2d_scene *scene = NULL;
+static void measure(const char *name, const hr2d_scene *scene, double error, double bar) {
   hr2d_solution *solution = NULL;
   hr2d_field_counts counts;
-  double *mean = malloc(sizeof *mean * COLUMNS * ROWS * 8);
+  double *mean = malloc(sizeof *mean * COLUMNS * ROWS * hr2d_scene_bands(scene));
   hr2d_target target = HR2D_TARGET_INIT;
   target.error = error;
-  hr2d_status status = mean ? hr2d_scene_create(NULL, &scene) : HR2D_ENOMEM;
-  if (!status) status = hr2d_scene_read(scene, file);
-  if (!status) status = hr2d_scene_commit(scene);
-  if (!status && hr2d_scene_bands(scene) > 8) status = HR2D_EINVAL;
+  if (!mean) bars_fail("out of memory");
   const double begin = cpu_seconds();
-  if (!status) status = hr2d_solve_to(scene, &target, &solution, NULL);
+  hr2d_status status = hr2d_solve_to(scene, &target, &solution, NULL);
+  if (status && !solution) bars_fail(hr2d_strerror(status));
+  const hr2d_field_grid grid = grid_around(scene);
+  const hr2d_field_values values = {.struct_size = sizeof values, .mean = mean};
   const double solved = cpu_seconds();
-  if (!status) {
-    const hr2d_field_grid grid = grid_around(scene);
-    const hr2d_field_values values = {.struct_size = sizeof values, .mean = mean};
-    status = hr2d_field_on_grid(solution, &grid, NULL, &values, &counts);
-  }
+  status = hr2d_field_on_grid(solution, &grid, NULL, &values, &counts);
+  if (status) bars_fail(hr2d_strerror(status));
   const double end = cpu_seconds(), u = unit();
-  if (!status)
-    printf(
-        "%s: u %.4f s, solve %.1f u, grid %.1f u; %llu views, %llu of %d nodes interpolated, "
-        "%.1f triangles and %.2f us a view\n",
-        file, u, (solved - begin) / u, (end - solved) / u, (unsigned long long)counts.exact,
-        (unsigned long long)counts.interpolated, COLUMNS * ROWS,
-        (double)counts.triangles / (double)counts.exact,
-        1e6 * (end - solved) / (double)counts.exact);
+  printf("%-10s %7zu %8.4f %8.1f %8.1f %8llu %8llu %8.1f %8.2f\n", name,
+         hr2d_scene_patches(scene), u, (solved - begin) / u, (end - solved) / u,
+         (unsigned long long)counts.exact, (unsigned long long)counts.interpolated,
+         (double)counts.triangles / (double)counts.exact,
+         1e6 * (end - solved) / (double)counts.exact);
+  if (bar > 0) bars_hold(name, (end - solved) / u, bar);
   hr2d_solution_destroy(solution);
-  hr2d_scene_destroy(scene);
   free(mean);
-  return status;
+}
+
+static void measure_file(const char *name, const char *file, double error, double bar) {
+  hr2d_scene *scene = NULL;
+  if (hr2d_scene_create(NULL, &scene)) bars_fail("no scene");
+  if (hr2d_scene_read(scene, file) || hr2d_scene_commit(scene))
+    bars_fail(hr2d_scene_message(scene));
+  measure(name, scene, error, bar);
+  hr2d_scene_destroy(scene);
+}
+
+/* Sections of 1000 fibres in a room, of which each tenth shines. */
+static void measure_fibres(void) {
+  hr2d_scene *drawn = plan_scene(plan_fibres, 8000, 0), *scene = NULL;
+  if (hr2d_scene_create(NULL, &scene)) bars_fail("no scene");
+  for (size_t k = 0; k < hr2d_scene_patches(drawn); k++) {
+    const hr2d_segment at = hr2d_scene_segment(drawn, k);
+    const double emission = k >= 4 && (k - 4) / 8 % 10 == 0, reflectance = 0.5;
+    hr2d_patch patch = HR2D_PATCH_INIT;
+    patch.a = at.a;
+    patch.b = at.b;
+    patch.emission = &emission;
+    patch.reflectance = &reflectance;
+    patch.emission_bands = patch.reflectance_bands = 1;
+    if (hr2d_scene_add(scene, &patch, NULL)) bars_fail(hr2d_scene_message(scene));
+  }
+  if (hr2d_scene_commit(scene)) bars_fail(hr2d_scene_message(scene));
+  measure("fibres", scene, 0.05, FIBRES_BAR);
+  hr2d_scene_destroy(scene);
+  hr2d_scene_destroy(drawn);
 }
 
 int main(int argc, char **argv) {
-  const char *file = argc > 1 ? argv[1] : BENCH_SCENES "/partition.geojson";
-  const hr2d_status status = measure(file, argc > 2 ? atof(argv[2]) : 1e-3);
-  if (status) fprintf(stderr, "bench-field: %s: %s\n", file, hr2d_strerror(status));
-  return status != HR2D_OK;
+  puts("scene      patches  u, sec.  solve,u   grid,u    views   interp. triang./v.  us/view");
+  if (argc > 1) {
+    measure_file("scene", argv[1], argc > 2 ? atof(argv[2]) : 1e-3, 0);
+    return EXIT_SUCCESS;
+  }
+  measure_file("partition", BENCH_SCENES "/partition.geojson", 1e-3, PARTITION_BAR);
+  measure_fibres();
+  return bars_status();
 }

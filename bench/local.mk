@@ -17,7 +17,7 @@ bench_bench_growth_SOURCES = bench/bench-growth.c bench/rows.c bench/rows.h $(PL
 bench_bench_growth_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_shaded_links_SOURCES = bench/bench-shaded-links.c $(PLANS)
 bench_bench_shaded_links_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
-bench_bench_field_SOURCES = bench/bench-field.c bench/plain.c bench/plain.h bench/timing.h
+bench_bench_field_SOURCES = bench/bench-field.c bench/plain.c bench/plain.h $(PLANS)
 bench_bench_field_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SCENES='"$(abs_top_srcdir)/examples/scenes"'
 bench_bench_field_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_l1_SOURCES = bench/bench-l1.c bench/timing.h

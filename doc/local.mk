@@ -8,6 +8,7 @@ EXTRA_DIST += \
 	doc/cost.md \
 	doc/fuzzing.md \
 	doc/hard-cases.md \
+	doc/field.md \
 	doc/occlusion.md \
 	doc/scene-files.md \
 	doc/speed.md \
