@@ -158,6 +158,60 @@ START_TEST(tolerances_are_met) {
 }
 END_TEST
 
+/* A black room of two halves, and a lamp in the left half that shines through a slit: on the
+   right the light is a strip that is much narrower than blocks are. */
+static field_stage draw_slit(randoms *r) {
+  const double y = random_between(r, 0.2, 0.8), wide = pow(10, random_between(r, -4, -2)),
+               lamp = random_between(r, 0.1, 0.8), high = pow(10, random_between(r, -3, -1));
+  return field_stage_flat(test_scene((const double[][6]){{0, 0, 1, 0, 0, 0},
+                                                         {1, 0, 2, 0, 0, 0},
+                                                         {2, 0, 2, 1, 0, 0},
+                                                         {2, 1, 1, 1, 0, 0},
+                                                         {1, 1, 0, 1, 0, 0},
+                                                         {0, 1, 0, lamp + high, 0, 0},
+                                                         {0, lamp + high, 0, lamp, 1, 0},
+                                                         {0, lamp, 0, 0, 0, 0},
+                                                         {1, 0, 1, y, 0, 0},
+                                                         {1, y, 1, 0, 0, 0},
+                                                         {1, y + wide, 1, 1, 0, 0},
+                                                         {1, 1, 1, y + wide, 0, 0}},
+                                     12));
+}
+
+/* Those of the half with the strip where there is more light than this. */
+static size_t lit_nodes(const sheet *s, double least) {
+  size_t count = 0;
+  for (size_t k = 0; k < s->nodes; k++)
+    count += k % s->grid.columns > s->grid.columns / 2 && s->mean[k] > least;
+  return count;
+}
+
+/* No strip of light is missed between views. */
+START_TEST(strips_behind_slits) {
+  randoms r = randoms_stream(test_seed(), 500);
+  size_t lit = 0, interpolated = 0;
+  for (int turn = test_count(40); turn > 0; turn--) {
+    field_stage s = draw_slit(&r);
+    hr2d_field_grid grid = around(&s, 203, 99);
+    sheet exact = by_points(s.solution, grid);
+    grid.tolerance = 1e-4;
+    sheet some = draw_sheet(s.solution, grid, 1);
+    const gap g = compare(&some, &exact);
+    const double allowed = grid.tolerance * range_of(&exact);
+    ck_assert_uint_eq(g.places, 0);
+    ck_assert_double_le(g.mean, allowed);
+    lit += lit_nodes(&exact, 3 * allowed);
+    interpolated += some.counts.interpolated;
+    free_sheet(&exact);
+    free_sheet(&some);
+    field_stage_clear(&s);
+  }
+  /* Negative controls: there are such strips, and nodes that were interpolated. */
+  ck_assert_uint_gt(lit, 0);
+  ck_assert_uint_gt(interpolated, 0);
+}
+END_TEST
+
 /* Without a tolerance all nodes are exact; in an empty room few are needed with one. */
 START_TEST(exact_and_coarse) {
   field_stage s = field_stage_of(test_scene((const double[][6]){{0, 0, 2, 0, 1, .5},
@@ -226,6 +280,6 @@ START_TEST(statuses_of_grids) {
 END_TEST
 
 TEST_SUITE("field grid") {
-  ADD_TESTS("field grid", exact_and_coarse, statuses_of_grids);
+  ADD_TESTS("field grid", exact_and_coarse, strips_behind_slits, statuses_of_grids);
   REPEAT_TESTS(plan_class_count + 4, "field grid", tolerances_are_met);
 }
