@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes a committed scene and reads it back.  The format:
 
-     a line that names it; the number of patches, the bytes of all that is between here and the
-     hash, the bits of the effects that are forced, and the bands of the background, as words;
-     the background;
-     per patch: whether it has the light of the one before, as a half word, and if not, the
-   bands of E and ρ, as words, and their values; the ends, as doubles; the length of the name,
-   as a half word, and the name; the hash of the scene in memory, and that of all bytes.
+   - a line that names it;
+   - the number of patches, the bytes of all that is between here and the hash, the bits of the
+     effects that are forced, the bands of the background and the number of wavelengths, as
+     words;
+   - the background and the wavelengths;
+   - per patch: whether it has the light of the one before, as a half word; if not, what heat is
+     given, the bands of E, ρ and ε, as words, the heat and their values; the ends; the length
+   of the name, as a half word, and the name;
+   - the hash of the scene in memory, and that of all bytes.
 
    What commit finds is not written: it follows from the rest, with the same bits. */
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -18,22 +23,22 @@
 
 #define TITLE "libhr2d scene 1\n"
 
-enum { TITLE_BYTES = sizeof TITLE - 1, HEAD_WORDS = 4 };
+enum { TITLE_BYTES = sizeof TITLE - 1, HEAD_WORDS = 5 };
 
 static int is_alike(const hr2d_scene *scene, size_t patch) {
   return patch > 0 && scene->patch[patch].light == scene->patch[patch - 1].light;
 }
 
-static size_t values_of(const hr2di_patch *p) {
-  return p->emission_bands + p->reflectance_bands;
+static size_t values_of(const hr2di_light *l) {
+  return l->emission_bands + l->reflectance_bands + l->emissivity_bands;
 }
 
 static uint64_t count_bytes(const hr2d_scene *scene) {
-  uint64_t bytes = 8 * (scene->background_bands + 1);
+  uint64_t bytes = 8 * (scene->background_bands + scene->wavelengths + 1);
   for (size_t k = 0; k < scene->patches; k++) {
     const hr2di_patch *p = &scene->patch[k];
     bytes += 4 + 4 * 8 + 4 + strlen(p->name);
-    if (!is_alike(scene, k)) bytes += 8 * (2 + values_of(p));
+    if (!is_alike(scene, k)) bytes += 8 * (5 + values_of(p->light));
   }
   return bytes;
 }
@@ -50,13 +55,18 @@ static void put_name(hr2di_writer *w, const char *name) {
   }
 }
 
+static void put_light(hr2di_writer *w, const hr2di_light *l) {
+  hr2di_writer_word(w, (uint64_t)l->heat);
+  hr2di_writer_word(w, l->emission_bands);
+  hr2di_writer_word(w, l->reflectance_bands);
+  hr2di_writer_word(w, l->emissivity_bands);
+  hr2di_writer_double(w, l->given);
+  for (size_t k = 0; k < values_of(l); k++) hr2di_writer_double(w, l->value[k]);
+}
+
 static void put_patch(hr2di_writer *w, const hr2di_patch *p, int alike) {
   hr2di_writer_half(w, (uint32_t)alike);
-  if (!alike) {
-    hr2di_writer_word(w, p->emission_bands);
-    hr2di_writer_word(w, p->reflectance_bands);
-    for (size_t k = 0; k < values_of(p); k++) hr2di_writer_double(w, p->light->value[k]);
-  }
+  if (!alike) put_light(w, p->light);
   const double end[] = {p->given.a.x, p->given.a.y, p->given.b.x, p->given.b.y};
   for (int k = 0; k < 4; k++) hr2di_writer_double(w, end[k]);
   put_name(w, p->name);
@@ -79,13 +89,16 @@ hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_fn write,
   hr2di_writer_word(&w, count_bytes(scene));
   hr2di_writer_word(&w, forced_effects(scene));
   hr2di_writer_word(&w, scene->background_bands);
+  hr2di_writer_word(&w, scene->wavelengths);
   for (size_t k = 0; k < scene->background_bands; k++)
     hr2di_writer_double(&w, scene->background[k]);
+  for (size_t k = 0; k < scene->wavelengths; k++) hr2di_writer_double(&w, scene->wavelength[k]);
   for (size_t k = 0; k < scene->patches && !w.status; k++) {
     const int alike = is_alike(scene, k);
     put_patch(&w, &scene->patch[k], alike);
     if (!w.status)
-      w.status = hr2di_watch_work(&watch, 1 + (alike ? 0 : values_of(&scene->patch[k]) / 16));
+      w.status =
+          hr2di_watch_work(&watch, 1 + (alike ? 0 : values_of(scene->patch[k].light) / 16));
   }
   hr2di_writer_word(&w, hr2di_state_scene(scene, &watch));
   if (!w.status) w.status = watch.status;
@@ -145,35 +158,72 @@ static hr2d_status read_name(loading *l) {
   return strlen(l->name) == size ? HR2D_OK : damaged(l, "a name");
 }
 
+/* What hr2d_scene_add_thermal() makes: E may be negative on a patch of given flux. */
+static int is_thermal(const hr2d_patch *patch, const hr2d_thermal *t) {
+  const int flux = t->given == HR2D_HEAT_FLUX;
+  int valid = isfinite(t->value) != 0;
+  for (size_t k = 0; k < patch->emission_bands; k++)
+    valid &= isfinite(patch->emission[k]) && (flux || patch->emission[k] >= 0);
+  for (size_t k = 0; k < patch->reflectance_bands; k++)
+    valid &= patch->reflectance[k] >= 0 && patch->reflectance[k] <= 1;
+  for (size_t k = 0; k < t->emissivity_bands; k++)
+    valid &= t->emissivity[k] >= (flux ? DBL_MIN : 0) && t->emissivity[k] <= 1;
+  return valid;
+}
+
+/* Its arrays are in l->value. */
+static hr2d_status read_light(loading *l, hr2d_patch *patch, hr2d_thermal *t) {
+  hr2di_reader *r = &l->reader;
+  uint64_t bands[3];
+  const uint64_t heat = hr2di_reader_word(r);
+  for (int k = 0; k < 3; k++) bands[k] = hr2di_reader_word(r);
+  t->value = hr2di_reader_double(r);
+  if (r->status) return r->status;
+  if (heat > HR2D_HEAT_FLUX) return damaged(l, "what is given of a patch");
+  for (int k = 0; k < 3; k++)
+    if (bands[k] > UINT64_MAX / 32) return damaged(l, "its number of bands");
+  const hr2d_status status = read_values(l, bands[0] + bands[1] + bands[2]);
+  if (status) return status;
+  t->given = (hr2d_heat)heat;
+  patch->emission_bands = (size_t)bands[0];
+  patch->reflectance_bands = (size_t)bands[1];
+  t->emissivity_bands = (size_t)bands[2];
+  patch->emission = l->value;
+  patch->reflectance = bands[1] > 0 ? l->value + bands[0] : NULL;
+  t->emissivity = bands[2] > 0 ? l->value + bands[0] + bands[1] : NULL;
+  return HR2D_OK;
+}
+
 static hr2d_status read_patch(loading *l) {
   hr2di_reader *r = &l->reader;
   hr2d_patch patch = {.sides = HR2D_SIDES_FRONT};
+  hr2d_thermal thermal = HR2D_THERMAL_INIT;
   const uint32_t alike = hr2di_reader_half(r);
   hr2d_status status = hr2di_watch_work(&l->watch, 1);
   if (!status) status = r->status;
   if (!status && alike > (l->scene->patches > 0)) status = damaged(l, "a patch");
-  if (!status && !alike) {
-    const uint64_t e = hr2di_reader_word(r), rho = hr2di_reader_word(r);
-    if (e > UINT64_MAX / 16 || rho > UINT64_MAX / 16) return damaged(l, "its number of bands");
-    status = r->status ? r->status : read_values(l, e + rho);
-    patch.emission_bands = (size_t)e;
-    patch.reflectance_bands = (size_t)rho;
-    patch.emission = l->value;
-    patch.reflectance = rho > 0 ? l->value + e : l->value;
-  }
+  if (!status && !alike) status = read_light(l, &patch, &thermal);
   double *const end[] = {&patch.a.x, &patch.a.y, &patch.b.x, &patch.b.y};
   for (int k = 0; k < 4; k++) *end[k] = hr2di_reader_double(r);
   if (!status) status = r->status ? r->status : read_name(l);
   if (status) return status;
   patch.name = l->name;
-  return alike ? hr2di_scene_add_alike(l->scene, &patch)
-               : hr2d_scene_add(l->scene, &patch, NULL);
+  if (alike) return hr2di_scene_add_alike(l->scene, &patch);
+  if (thermal.given == HR2D_HEAT_NONE) return hr2d_scene_add(l->scene, &patch, NULL);
+  if (!is_thermal(&patch, &thermal)) return damaged(l, "the heat of a patch");
+  return hr2di_scene_add(l->scene, &patch, &thermal, NULL);
 }
 
 static hr2d_status read_background(loading *l, uint64_t bands) {
   if (bands == 0) return HR2D_OK;
   const hr2d_status status = read_values(l, bands);
   return status ? status : hr2d_scene_set_background(l->scene, l->value, (size_t)bands);
+}
+
+static hr2d_status read_wavelengths(loading *l, uint64_t count) {
+  if (count == 0) return HR2D_OK;
+  const hr2d_status status = read_values(l, count);
+  return status ? status : hr2d_scene_set_wavelengths(l->scene, l->value, (size_t)count);
 }
 
 static hr2d_status force_effects(loading *l, uint64_t bits) {
@@ -200,6 +250,7 @@ static hr2d_status read_all(loading *l) {
   hr2di_reader_expect(r, head[1] + 8);
   hr2d_status status = force_effects(l, head[2]);
   if (!status) status = read_background(l, head[3]);
+  if (!status) status = read_wavelengths(l, head[4]);
   for (uint64_t k = 0; k < head[0] && !status; k++) status = read_patch(l);
   const uint64_t hash = hr2di_reader_word(r);
   if (!status && hr2di_reader_end(r)) status = r->status;
@@ -226,13 +277,16 @@ static void empty(hr2d_scene *scene) {
   hr2di_alloc_free(&scene->alloc, scene->background);
   scene->background = NULL;
   scene->background_bands = 0;
+  hr2di_alloc_free(&scene->alloc, scene->wavelength);
+  scene->wavelength = NULL;
+  scene->wavelengths = 0;
   scene->committed = 0;
   hr2di_scene_clear_commit(scene);
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++) scene->effect[e].forced = 0;
 }
 
 hr2d_status hr2d_state_read_scene(hr2d_scene *scene, hr2d_read_fn read, void *ctx) {
-  if (scene->committed || scene->patches > 0 || scene->background)
+  if (scene->committed || scene->patches > 0 || scene->background || scene->wavelengths)
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is not empty");
   loading l = {.scene = scene};
   hr2di_scene_watch(scene, &l.watch, NULL, NULL, "state");

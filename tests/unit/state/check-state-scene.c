@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes as bytes: what is made of one that was read has the bits of the one that was written;
    damaged bytes are refused or do no harm. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -79,6 +80,39 @@ static void same_scenes(const hr2d_scene *one, const hr2d_scene *other) {
   }
 }
 
+/* T, q and ε, with wavelengths or without. */
+static hr2d_scene *make_thermal(int bands) {
+  static const double micrometres[] = {3, 8}, epsilon[] = {0.9, 0.5, 0.2};
+  hr2d_scene *scene = NULL;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  if (bands) ck_assert_int_eq(hr2d_scene_set_wavelengths(scene, micrometres, 2), HR2D_OK);
+  const hr2d_point corner[] = {{0, 0}, {2, 0}, {1, 1.5}, {0, 0}};
+  for (int k = 0; k < 3; k++) {
+    const hr2d_patch patch = {.a = corner[k], .b = corner[k + 1]};
+    hr2d_thermal t = HR2D_THERMAL_INIT;
+    const int flux = k == 2 && !bands;
+    t.given = flux ? HR2D_HEAT_FLUX : HR2D_HEAT_TEMPERATURE;
+    t.value = flux ? -20 : 300 + 100 * k;
+    t.emissivity = epsilon;
+    t.emissivity_bands = bands ? 3 : 1;
+    ck_assert_int_eq(hr2d_scene_add_thermal(scene, &patch, &t, NULL), HR2D_OK);
+  }
+  test_commit(scene);
+  return scene;
+}
+
+static void same_heat(const hr2d_scene *one, const hr2d_scene *other) {
+  for (size_t k = 0; k < hr2d_scene_patches(one); k++) {
+    double given[2];
+    ck_assert_int_eq(hr2d_scene_heat(one, k, &given[0]), hr2d_scene_heat(other, k, &given[1]));
+    ck_assert(given[0] == given[1] || (isnan(given[0]) && isnan(given[1])));
+    for (size_t b = 0; b < hr2d_scene_bands(one); b++) {
+      const double e = hr2d_scene_emissivity(one, k, b), f = hr2d_scene_emissivity(other, k, b);
+      ck_assert(e == f || (isnan(e) && isnan(f)));
+    }
+  }
+}
+
 /* The links and B of a coarse solve, as a state. */
 static tape solved(hr2d_scene *scene) {
   test_links t = test_make_links(scene, NULL, NULL, NULL, NULL);
@@ -94,11 +128,15 @@ static tape solved(hr2d_scene *scene) {
 }
 
 START_TEST(what_is_read_has_the_same_bits) {
-  hr2d_scene *one = _i < SLOW_KINDS ? make_slow((slow_kind)_i) : make_motley(NULL), *other;
+  hr2d_scene *one = _i < SLOW_KINDS    ? make_slow((slow_kind)_i)
+                    : _i == SLOW_KINDS ? make_motley(NULL)
+                                       : make_thermal(_i - SLOW_KINDS - 1);
+  hr2d_scene *other;
   tape t = write_tape(one);
   ck_assert_int_eq(read_tape(&t, NULL, &other), HR2D_OK);
   ck_assert_uint_eq(t.at, t.size);
   same_scenes(one, other);
+  same_heat(one, other);
   tape again = write_tape(other);
   ck_assert_uint_eq(again.size, t.size);
   ck_assert_int_eq(memcmp(again.byte, t.byte, t.size), 0);
@@ -162,7 +200,7 @@ START_TEST(claims_take_no_memory) {
   enum { HEAD = 16, BACKGROUND = HEAD + 24 };
   hr2d_scene *one = make_motley(NULL), *other = NULL;
   tape t = write_tape(one);
-  for (int k = 0; k < 4; k++) {
+  for (int k = 0; k < 5; k++) {
     test_meter m = {0, 0};
     const hr2d_allocator hooks = test_metered(&m);
     unsigned char kept[8];
@@ -227,7 +265,7 @@ START_TEST(any_allocation_may_fail) {
 END_TEST
 
 TEST_SUITE("state-scene") {
-  REPEAT_TESTS(SLOW_KINDS + 1, "bits", what_is_read_has_the_same_bits);
+  REPEAT_TESTS(SLOW_KINDS + 3, "bits", what_is_read_has_the_same_bits);
   ADD_TESTS("all", lights_stay_shared, damage_is_found, claims_take_no_memory,
             callbacks_may_fail, any_allocation_may_fail);
 }
