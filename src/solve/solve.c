@@ -175,6 +175,10 @@ static hr2d_status check_averages(hr2di_equation *s, double min) {
       hr2di_patch_label(scene, lowest).text, ldexp(low, s->exponent[0]));
 }
 
+/* The roundings of row sums, as a part of the light from the background: what a leaf gets of it
+   that sees it edge-on, or not at all. */
+#define ROW_ROUNDING 1e-12
+
 /* If B = Q + ρKB and neither K nor Q is negative, then B is negative somewhere if and only if
    ΣK^kρ^kQ diverges: with the positive left eigenvector v of the radius λ, (1−λ)vB = vQ.  At an
    order above 1 B may be slightly negative for other reasons.  With a negative flux of a patch
@@ -192,6 +196,7 @@ static hr2d_status check_sign(hr2di_equation *s) {
       low = fmin(low, s->radiosity[k * t->width + b]);
       high = fmax(high, s->radiosity[k * t->width + b]);
     }
+    high = fmax(high, ROW_ROUNDING / min * (s->background ? s->light[b] : 0));
     if (low < -min * high || (low < 0 && high == 0))
       return hr2di_message_fail(
           &s->links->message, HR2D_ENOT_CONVERGED,

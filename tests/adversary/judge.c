@@ -165,7 +165,7 @@ void adv_judge_claims(const adv_claims *one, const adv_claims *two, adv_outcome 
 
 /* A budget of time gives no such disproof: the finer solve may have been lucky. */
 void adv_judge_end(const adv_answer *coarse, const adv_answer *fine, adv_outcome *outcome) {
-  int gave_up = coarse->status == HR2D_EACCURACY && coarse->seconds < coarse->question.seconds;
+  int gave_up = coarse->status == HR2D_EACCURACY && !strstr(coarse->account.reason, "the time");
   int disproved = gave_up && fine->status == HR2D_OK &&
                   fine->question.error <= coarse->question.error &&
                   fine->question.norm == coarse->question.norm;

@@ -69,6 +69,38 @@ START_TEST(light_comes_into_open_rooms) {
 }
 END_TEST
 
+/* All that comes in through a slit of a wall goes past the wall: where nothing else reflects, B
+   is a rounding, of either sign, and no reason to refuse the scene. */
+START_TEST(a_wall_beside_its_window_is_dark) {
+  static const double from[] = {0.6457061767578125, 0.6267852783203125};
+  const hr2d_segment wall[] = {{{4, from[0]}, {4, 3}},
+                               {{4, 3}, {0, 3}},
+                               {{0, 3}, {0, 0}},
+                               {{0, 0}, {4, 0}},
+                               {{4, 0}, {4, from[1]}}};
+  for (int reflecting = 0; reflecting < 5; reflecting++) {
+    hr2d_scene *scene = test_new_scene(NULL);
+    for (int k = 0; k < 5; k++)
+      test_add_patch(scene, wall[k], 0, k == reflecting ? 0.09375 : 0, HR2D_SIDES_FRONT);
+    set_background(scene, 1);
+    test_commit(scene);
+    hr2d_target target = HR2D_TARGET_INIT;
+    hr2d_solution *solution = NULL;
+    target.error = 1e-9;
+    const hr2d_status status = hr2d_solve_to(scene, &target, &solution, NULL);
+    ck_assert(status == HR2D_OK || status == HR2D_EACCURACY);
+    const double b = hr2d_solution_average(solution, (size_t)reflecting, 0);
+    if (wall[reflecting].a.x == 4 && wall[reflecting].b.x == 4)
+      ck_assert_double_le(fabs(b), 1e-15);
+    else
+      ck_assert_double_gt(b, 1e-5);
+    hr2d_solution_destroy(solution);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
 TEST_SUITE("background") {
-  ADD_TESTS("received", nothing_comes_into_closed_rooms, light_comes_into_open_rooms);
+  ADD_TESTS("received", nothing_comes_into_closed_rooms, light_comes_into_open_rooms,
+            a_wall_beside_its_window_is_dark);
 }
