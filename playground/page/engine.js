@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two workers.  One answers fast while something moves: of the jobs that wait for it only the
+// Two workers.  One answers fast while something moves: of the sketches that wait for it only the
 // last one counts.  The other one computes exact answers, and is replaced when nobody wants its
 // answer any more: a call of the library cannot hear a message before it ends.
 
@@ -54,8 +54,21 @@ export class Engine {
     const module = await WebAssembly.compile(await answer.arrayBuffer());
     engine.fast = new Thread(module);
     engine.slow = new Thread(module);
+    engine.asked = [];
     engine.waiting = null;
     return engine;
+  }
+
+  /** The answer of a fast job that is never forgotten. */
+  ask(message) {
+    return new Promise((resolve, reject) => {
+      const receive = (data) => {
+        if (data.part === "done") resolve(data);
+        if (data.part === "failed") reject(new Error(data.message));
+      };
+      this.asked.push({ message, receive, lasting: true });
+      this.next();
+    });
   }
 
   /** A fast job; one that has not begun when the next one comes is forgotten. */
@@ -65,19 +78,21 @@ export class Engine {
   }
 
   next() {
-    if (this.fast.job || !this.waiting) return;
-    const { message, receive } = this.waiting;
-    this.waiting = null;
-    this.fast.send(message, (data) => {
-      receive(data);
+    if (this.fast.job) return;
+    const job = this.asked.shift() ?? this.waiting;
+    if (!job) return;
+    if (job === this.waiting) this.waiting = null;
+    this.current = job;
+    this.fast.send(job.message, (data) => {
+      job.receive(data);
       if (!this.fast.job) this.next();
     });
   }
 
-  /** Forgets the fast jobs, whose answers would come after something better. */
+  /** Forgets the sketches, which would come after something better. */
   settle() {
     this.waiting = null;
-    if (this.fast.job) this.fast.job.receive = () => this.next();
+    if (this.fast.job && !this.current.lasting) this.current.receive = () => {};
   }
 
   /** An exact job, in the place of the one that may be running. */

@@ -21,6 +21,7 @@ class Pointer {
     plan.addEventListener("pointermove", (event) => this.move(event));
     plan.addEventListener("pointerup", (event) => this.up(event));
     plan.addEventListener("pointercancel", (event) => this.up(event));
+    plan.addEventListener("pointerleave", () => this.drag || this.page.leave());
     plan.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
   }
 
@@ -182,7 +183,7 @@ class Keys {
 }
 
 function fit(page) {
-  page.view.fit(page.scene.bounds());
+  page.view.fit(page.scene.bounds(true));
   page.changed();
 }
 

@@ -36,28 +36,20 @@ export class Page {
   // The scene.
 
   async openFile(text, what) {
-    const patches = await this.ask({ task: "open", text });
+    const patches = await this.engine.ask({ task: "open", text });
     this.scene = Scene.fromPatches(patches);
     this.past = [];
     this.future = [];
     this.begin();
-    this.view.fit(this.scene.bounds());
-    showMessage(patches.cuts ? `${what}: walls were cut where they cross, ${patches.cuts} times.` : "");
+    this.view.fit(this.scene.bounds(true));
+    const { cuts } = patches;
+    showMessage(cuts ? `${what}: walls were cut where they cross, at ${cuts} places.` : "", "note");
     this.changed();
-  }
-
-  /** A fast job as a promise. */
-  ask(message) {
-    return new Promise((resolve, reject) => {
-      this.engine.sketch(message, (data) => {
-        if (data.part === "done") resolve(data);
-        if (data.part === "failed") reject(new Error(data.message));
-      });
-    });
   }
 
   /** Forgets what belongs to the last scene. */
   begin() {
+    performance.clearMarks("sketch");
     this.chosen = -1;
     this.band = Math.min(this.band, this.scene.bands - 1);
     this.answer = null;
@@ -92,6 +84,9 @@ export class Page {
 
   /** After an edit that is complete. */
   edited() {
+    if (this.scene.toGeoJSON() === this.kept.toGeoJSON()) return this.changed();
+    showMessage("");
+    this.study = { rows: [], slope: 0 };
     this.past.push(this.kept);
     if (this.past.length > MOST_STEPS) this.past.shift();
     this.future = [];
@@ -196,7 +191,6 @@ export class Page {
         method: this.method(),
         area: this.view.area(),
         cells: (width * height) / CELL ** 2,
-        study: true,
       },
       (data) => this.take(data, scene, true),
     );
@@ -225,9 +219,9 @@ export class Page {
     if (part === "progress" && exact) showProgress(data);
     if (data.elements) this.takeSolution(data, scene, exact);
     if (data.field) this.takeField(data.field, scene, exact);
-    if (part === "account") this.answer.account = data.account;
-    if (part === "study") this.study = data;
-    if (exact && part === "done") showStatus("exact", this.verdict());
+    if (part === "account") Object.assign(this.answer, { account: data.account, measured: true });
+    if (data.rows) this.study = data;
+    if (part === "answered") showStatus("exact", this.verdict());
     this.show();
   }
 
@@ -242,7 +236,8 @@ export class Page {
     this.path = [];
     this.solved = scene;
     this.exact = exact;
-    if (!$("message").textContent.includes("cut where")) showMessage("");
+    if ($("message").dataset.kind === "failure") showMessage("");
+    if (!exact) performance.mark("sketch");
     if (exact) showValues(this.answer, namesOf(scene));
   }
 
@@ -264,14 +259,15 @@ export class Page {
   }
 
   colour() {
-    if (this.field) this.view.setField(this.field, this.field.bands, this.band, this.scale);
+    if (!this.field) return;
+    this.view.setField(this.field, this.field.bands, this.band, this.scale, !this.exact);
   }
 
   verdict() {
     const { missed } = this.answer.account;
     if (missed) return missed;
     const dark = this.answer.averages.every((v) => v === 0);
-    if (dark) return "Solved: all is dark, nothing emits";
+    if (dark) return "Solved: all is dark. Give a wall emission";
     return "Solved";
   }
 
@@ -316,6 +312,13 @@ export class Page {
     return `${name}, element on level ${path.length - 1}: B = ${B}, ${links} links`;
   }
 
+  /** The pointer has left the plan. */
+  leave() {
+    this.path = [];
+    $("under").textContent = this.scene.walls[this.chosen] ? this.describe(this.chosen) : "\u00a0";
+    this.show();
+  }
+
   /** Shows the links of the element at a point of the scene, and the light there. */
   point(at, within) {
     if (!this.answer) return;
@@ -340,7 +343,7 @@ export class Page {
 
   /** Goes from element to element of the chosen wall. */
   stepElement(by) {
-    if (!this.answer || this.chosen < 0) return;
+    if (!this.answer || !this.solved.walls[this.chosen]) return;
     const leaves = this.answer.leavesOf(this.solved.patchOf(this.chosen));
     const now = leaves.indexOf(this.path[0]);
     const next = now < 0 ? 0 : (now + by + leaves.length) % leaves.length;

@@ -34,7 +34,9 @@ export function showProgress({ phase, fraction }) {
   $("progress").title = phase;
 }
 
-export function showMessage(text) {
+/** A note stays until the next edit, a failure until the next answer. */
+export function showMessage(text, kind = "failure") {
+  $("message").dataset.kind = kind;
   $("message").textContent = text;
   $("message").hidden = !text;
 }
@@ -60,11 +62,11 @@ export function showNumbers(answer, exact) {
     ["order p", String(a.order)],
   ];
   if (exact) {
-    const known = a.average.bound > 0 || a.average.estimate > 0;
+    const say = (text) => (answer.measured ? text : "…");
     rows.push(
-      ["error of averages", known ? `about ${tiny(a.average.estimate)}` : "…"],
-      ["  at most", known ? tiny(a.average.bound) : "…"],
-      ["error at points", known ? `about ${tiny(a.sup.estimate)}` : "…"],
+      ["error of averages", say(`about ${tiny(a.average.estimate)}`)],
+      ["at most", say(tiny(a.average.bound))],
+      ["error at points", say(`about ${tiny(a.sup.estimate)}`)],
     );
     if (answer.seconds) rows.push(["time", `${short(answer.seconds)} s`]);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The walls that a user edits, and their text: GeoJSON as doc/scene-files.md describes it.
 
+const FAR_LONGER = 8;
+
 const distance = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1]);
 const same = (p, q) => p[0] === q[0] && p[1] === q[1];
 const alike = (x, y) => x.length === y.length && x.every((v, k) => v === y[k]);
@@ -17,6 +19,14 @@ function isBackOf(back, front) {
     alike(back.reflectance, front.reflectance)
   );
 }
+
+function around(walls) {
+  const x = walls.flatMap((w) => [w.a[0], w.b[0]]);
+  const y = walls.flatMap((w) => [w.a[1], w.b[1]]);
+  return { low: [Math.min(...x), Math.min(...y)], high: [Math.max(...x), Math.max(...y)] };
+}
+
+const extent = ({ low, high }) => Math.max(high[0] - low[0], high[1] - low[1]);
 
 export class Scene {
   constructor() {
@@ -80,17 +90,21 @@ export class Scene {
     return k;
   }
 
-  /** The rectangle around all walls. */
-  bounds() {
-    const x = this.walls.flatMap((w) => [w.a[0], w.b[0]]);
-    const y = this.walls.flatMap((w) => [w.a[1], w.b[1]]);
-    if (!x.length) return { low: [0, 0], high: [1, 1] };
-    return { low: [Math.min(...x), Math.min(...y)], high: [Math.max(...x), Math.max(...y)] };
+  /** The rectangle around all walls; or without those that are far longer than all others
+      together, such as the ground under a few things. */
+  bounds(useful = false) {
+    if (!this.walls.length) return { low: [0, 0], high: [1, 1] };
+    if (!useful) return around(this.walls);
+    const lengths = this.walls.map((w) => distance(w.a, w.b));
+    const rest = this.walls.filter((_, k) => {
+      const others = this.walls.filter((_, other) => lengths[other] < lengths[k] / FAR_LONGER);
+      return !others.length || lengths[k] < FAR_LONGER * extent(around(others));
+    });
+    return around(rest);
   }
 
   size() {
-    const { low, high } = this.bounds();
-    return Math.max(high[0] - low[0], high[1] - low[1]) || 1;
+    return extent(this.bounds(true)) || 1;
   }
 
   /** The ends at a point, as [wall, "a" or "b"]. */

@@ -83,8 +83,8 @@ export class View {
     return { low: [x0, y0], high: [x1, y1] };
   }
 
-  /** Keeps a field as an image with a pixel for each node. */
-  setField(field, bands, band, colours) {
+  /** Keeps a field as an image with a pixel for each node; that of a sketch is coarse. */
+  setField(field, bands, band, colours, coarse) {
     const { columns, rows, mean, place } = field;
     const image = new ImageData(columns, rows);
     for (let row = 0; row < rows; row++)
@@ -93,7 +93,7 @@ export class View {
         if (place[node] === OUTSIDE) continue;
         colours.put(image.data, 4 * (row * columns + column), mean[node * bands + band]);
       }
-    spread(image);
+    if (coarse) spread(image);
     const canvas = document.createElement("canvas");
     canvas.width = columns;
     canvas.height = rows;

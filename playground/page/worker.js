@@ -125,25 +125,24 @@ const tasks = {
   },
 
   /** The answer with its error, then its field, and the study of L against N. */
-  exact({ id, text, method, area, cells, study }) {
+  exact({ id, text, method, area, cells }) {
     const start = performance.now();
     const post = (part, value) => postMessage({ id, part, ...value });
     watch(id);
     library.open(text);
     if (method.epsilon) library.solveEpsilon(method.oracle, method.epsilon, method);
     else library.solveTo(method.error);
-    post("solution", { ...solution(true), seconds: (performance.now() - start) / 1000 });
+    const measured = !method.epsilon;
+    post("solution", { ...solution(true), measured, seconds: (performance.now() - start) / 1000 });
     post("field", { field: field(area, cells / COARSE ** 2, 0.02) });
     post("field", { field: field(area, cells, 0.01) });
     if (method.epsilon) {
       library.measureError(1e-6, ERROR_SECONDS);
       post("account", { account: library.account() });
     }
-    if (study) {
-      watch(id, performance.now() + STUDY_MILLISECONDS);
-      post("study", library.study(method.oracle, STUDY));
-    }
-    return {};
+    post("answered", {});
+    watch(id, performance.now() + STUDY_MILLISECONDS);
+    return library.study(method.oracle, STUDY);
   },
 };
 
