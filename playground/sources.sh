@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# sources.sh FOLDER: brings the Debian sources of GSL and jansson into FOLDER/gsl and FOLDER/jansson.
+# sources.sh FOLDER: brings the sources of GSL and jansson into FOLDER/gsl and FOLDER/jansson.
 # apt takes them from the mirrors that this machine already uses.  Its lists and caches stay as
 # they are: all is done in FOLDER, and root is not needed.
 set -eu

@@ -8,7 +8,8 @@ const BOTTOM = 34;
 const TOP = 10;
 const RIGHT = 12;
 
-const power = (k) => (k < 4 ? String(10 ** k) : `10${[...String(k)].map((d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]).join("")}`);
+const power = (k) =>
+  k < 4 ? String(10 ** k) : `10${[...String(k)].map((d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]).join("")}`;
 
 function element(name, attributes, text = "") {
   const e = document.createElementNS("http://www.w3.org/2000/svg", name);
@@ -41,8 +42,15 @@ function frame(svg, x, y) {
     svg.append(element("line", { x1: LEFT, x2: WIDTH - RIGHT, y1: at, y2: at, class: "grid" }));
     svg.append(element("text", { x: LEFT - 6, y: at + 4, class: "end" }, power(k)));
   }
-  svg.append(element("text", { x: (LEFT + WIDTH) / 2, y: HEIGHT - 3, class: "middle" }, "elements N"));
-  const side = { x: 0, y: 0, class: "middle", transform: `translate(11 ${HEIGHT / 2 - 12}) rotate(-90)` };
+  svg.append(
+    element("text", { x: (LEFT + WIDTH) / 2, y: HEIGHT - 3, class: "middle" }, "elements N"),
+  );
+  const side = {
+    x: 0,
+    y: 0,
+    class: "middle",
+    transform: `translate(11 ${HEIGHT / 2 - 12}) rotate(-90)`,
+  };
   svg.append(element("text", side, "links L"));
 }
 
@@ -53,13 +61,25 @@ export function drawChart(svg, study, now) {
   const dots = study.rows.filter((r) => r.links > 0);
   const all = now && now.links > 0 ? [...dots, now] : dots;
   if (!all.length) return;
-  const x = axis(all.map((r) => r.elements), LEFT, WIDTH - RIGHT);
-  const y = axis(all.map((r) => r.links), HEIGHT - BOTTOM, TOP);
+  const x = axis(
+    all.map((r) => r.elements),
+    LEFT,
+    WIDTH - RIGHT,
+  );
+  const y = axis(
+    all.map((r) => r.links),
+    HEIGHT - BOTTOM,
+    TOP,
+  );
   frame(svg, x, y);
   const path = dots.map((r) => `${x.at(r.elements)},${y.at(r.links)}`).join(" ");
   svg.append(element("polyline", { points: path, class: "curve" }));
   for (const r of dots)
-    svg.append(element("circle", { cx: x.at(r.elements), cy: y.at(r.links), r: 3.2, class: "dot" }));
+    svg.append(
+      element("circle", { cx: x.at(r.elements), cy: y.at(r.links), r: 3.2, class: "dot" }),
+    );
   if (now && now.links > 0)
-    svg.append(element("circle", { cx: x.at(now.elements), cy: y.at(now.links), r: 7, class: "now" }));
+    svg.append(
+      element("circle", { cx: x.at(now.elements), cy: y.at(now.links), r: 7, class: "now" }),
+    );
 }

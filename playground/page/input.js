@@ -38,10 +38,13 @@ class Pointer {
     const { page } = this;
     const at = this.at(event);
     $("plan").setPointerCapture(event.pointerId);
-    if (document.querySelector("input[name=tool]:checked").value === "draw") return this.draw(at);
+    if (document.querySelector("input[name=tool]:checked").value === "draw")
+      return this.draw(at);
     const found = page.scene.at(at, this.reach(event));
     page.choose(found ? found.wall : -1);
-    this.drag = found ? this.grab(found, at) : { kind: "shift", at: [event.offsetX, event.offsetY] };
+    this.drag = found
+      ? this.grab(found, at)
+      : { kind: "shift", at: [event.offsetX, event.offsetY] };
   }
 
   draw(at) {
@@ -130,7 +133,12 @@ class Keys {
 
   action({ key, shiftKey }) {
     const { page } = this;
-    const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const arrows = {
+      ArrowLeft: [-1, 0],
+      ArrowRight: [1, 0],
+      ArrowUp: [0, 1],
+      ArrowDown: [0, -1],
+    };
     if (arrows[key]) return page.chosen < 0 ? null : () => this.nudge(arrows[key], shiftKey);
     const zoom = (factor) => () => {
       page.view.zoom(factor);
@@ -198,7 +206,8 @@ function sliderAndNumber(page, id, set) {
   });
   slider.addEventListener("change", () => page.edited());
   number.addEventListener("change", () => {
-    if (!number.checkValidity() || number.value === "") return showMessage(number.validationMessage || "a number is missing");
+    if (!number.checkValidity() || number.value === "")
+      return showMessage(number.validationMessage || "a number is missing");
     set(Number(number.value));
     page.edited();
   });
@@ -209,7 +218,9 @@ function listenToWalls(page) {
   sliderAndNumber(page, "emission", (v) => (chosen().emission[page.band] = v));
   sliderAndNumber(page, "reflectance", (v) => (chosen().reflectance[page.band] = v));
   sliderAndNumber(page, "background", (v) => (page.scene.background[page.band] = v));
-  $("wall").addEventListener("change", (event) => page.choose(event.target.value === "" ? -1 : Number(event.target.value)));
+  $("wall").addEventListener("change", (event) =>
+    page.choose(event.target.value === "" ? -1 : Number(event.target.value)),
+  );
   $("both").addEventListener("change", (event) => {
     chosen().both = event.target.checked;
     page.edited();
@@ -232,7 +243,8 @@ function listenToAnswers(page) {
   const chooseMethod = () => {
     const method = document.querySelector("input[name=method]:checked").value;
     for (const row of document.querySelectorAll(".of-target")) row.hidden = method !== "target";
-    for (const row of document.querySelectorAll(".of-epsilon")) row.hidden = method !== "epsilon";
+    for (const row of document.querySelectorAll(".of-epsilon"))
+      row.hidden = method !== "epsilon";
   };
   for (const radio of document.querySelectorAll("input[name=method]"))
     radio.addEventListener("change", () => {
@@ -281,14 +293,14 @@ async function openSafely(page, read, what) {
   }
 }
 
-/** The examples of the menu; the first one is opened. */
+/** The examples of the menu; one of them is opened. */
 async function listenToFiles(page) {
   const menu = $("example");
   const openExample = () =>
     openSafely(page, async () => (await fetch(`scenes/${menu.value}`)).text(), menu.value);
   for (const file of await (await fetch("scenes/list.json")).json())
     menu.add(new Option(file.replace(/\.geojson$/, ""), file));
-  menu.value = "lit-room.geojson";
+  menu.value = "partition.geojson";
   menu.addEventListener("change", openExample);
   $("load").addEventListener("click", () => $("file").click());
   $("file").addEventListener("change", async (event) => {

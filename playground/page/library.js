@@ -137,9 +137,7 @@ export class Library {
   solveEpsilon(oracle, epsilon, { levels = 0, mostLinks = 0, tolerance = 0 } = {}) {
     const { calls, play } = this;
     this.lendText(oracle, (name) =>
-      this.check(
-        calls.play_solve_epsilon(play, name, epsilon, levels, mostLinks, tolerance),
-      ),
+      this.check(calls.play_solve_epsilon(play, name, epsilon, levels, mostLinks, tolerance)),
     );
   }
 
@@ -192,7 +190,16 @@ export class Library {
     return this.lend(count, (place) => {
       const mean = this.numbers(values, (at) =>
         this.check(
-          this.calls.play_field(this.play, ...low, ...high, columns, rows, tolerance, at, place),
+          this.calls.play_field(
+            this.play,
+            ...low,
+            ...high,
+            columns,
+            rows,
+            tolerance,
+            at,
+            place,
+          ),
         ),
       );
       return { mean, place: new Uint8Array(this.calls.memory.buffer, place, count).slice() };
@@ -207,7 +214,12 @@ export class Library {
         let done = 0;
         const v = this.numbers(2 * epsilons.length + 1, (at) => {
           done = this.calls.play_study(
-            this.play, name, eps, epsilons.length, MOST_STUDY_LINKS, at,
+            this.play,
+            name,
+            eps,
+            epsilons.length,
+            MOST_STUDY_LINKS,
+            at,
           );
         });
         const rows = epsilons

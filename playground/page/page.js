@@ -7,8 +7,18 @@ import { Engine } from "./engine.js";
 import { listen } from "./input.js";
 import { Scale } from "./palette.js";
 import {
-  $, namesOf, short, showLegend, showLists, showMessage, showNumbers, showProgress, showStatus, showStudy,
-  showValues, showWall,
+  $,
+  namesOf,
+  short,
+  showLegend,
+  showLists,
+  showMessage,
+  showNumbers,
+  showProgress,
+  showStatus,
+  showStudy,
+  showValues,
+  showWall,
 } from "./panel.js";
 import { Scene } from "./scene.js";
 import { View } from "./view.js";
@@ -43,7 +53,10 @@ export class Page {
     this.begin();
     this.view.fit(this.scene.bounds(true));
     const { cuts } = patches;
-    showMessage(cuts ? `${what}: walls were cut where they cross, at ${cuts} places.` : "", "note");
+    showMessage(
+      cuts ? `${what}: walls were cut where they cross, at ${cuts} places.` : "",
+      "note",
+    );
     this.changed();
   }
 
@@ -65,6 +78,7 @@ export class Page {
 
   /** Takes a step of history back or forth. */
   travel(from, to) {
+    this.record();
     if (!from.length) return;
     to.push(this.scene.copy());
     this.scene = from.pop();
@@ -82,15 +96,20 @@ export class Page {
     this.travel(this.future, this.past);
   }
 
-  /** After an edit that is complete. */
-  edited() {
-    if (this.scene.toGeoJSON() === this.kept.toGeoJSON()) return this.changed();
-    showMessage("");
-    this.study = { rows: [], slope: 0 };
+  /** Keeps a step of history if anything has changed since the last one. */
+  record() {
+    if (this.scene.toGeoJSON() === this.kept.toGeoJSON()) return;
     this.past.push(this.kept);
     if (this.past.length > MOST_STEPS) this.past.shift();
-    this.future = [];
+    this.future.length = 0;
     this.kept = this.scene.copy();
+  }
+
+  /** After an edit that is complete. */
+  edited() {
+    this.record();
+    showMessage("");
+    this.study = { rows: [], slope: 0 };
     showLists(this.scene, this.band);
     this.changed();
   }
@@ -219,7 +238,8 @@ export class Page {
     if (part === "progress" && exact) showProgress(data);
     if (data.elements) this.takeSolution(data, scene, exact);
     if (data.field) this.takeField(data.field, scene, exact);
-    if (part === "account") Object.assign(this.answer, { account: data.account, measured: true });
+    if (part === "account")
+      Object.assign(this.answer, { account: data.account, measured: true });
     if (data.rows) this.study = data;
     if (part === "answered") showStatus("exact", this.verdict());
     this.show();
@@ -288,7 +308,8 @@ export class Page {
     view.paintWalls(scene);
     if (answer) view.paintLeaves(answer, this.scale, this.band, $("show-elements").checked);
     const links = answer && this.path.length ? answer.linksOf(this.path) : [];
-    if (answer && $("show-links").checked && this.path.length) view.paintLinks(answer, this.path, links);
+    if (answer && $("show-links").checked && this.path.length)
+      view.paintLinks(answer, this.path, links);
     if (scene.walls[this.chosen]) view.paintChosen(scene.walls[this.chosen]);
     this.showPanel(links);
   }
@@ -298,11 +319,13 @@ export class Page {
     $("undo").disabled = !this.past.length;
     $("redo").disabled = !this.future.length;
     $("epsilon-value").textContent = short(this.epsilon());
+    $("epsilon").setAttribute("aria-valuetext", short(this.epsilon()));
     if (!this.answer) return;
     showNumbers(this.answer, this.exact);
     showStudy(this.study, this.answer.account);
     if (this.path.length) $("under").textContent = this.describeElement(links.length);
-    else if (!this.exact && this.chosen >= 0) $("under").textContent = this.describe(this.chosen);
+    else if (!this.exact && this.chosen >= 0)
+      $("under").textContent = this.describe(this.chosen);
   }
 
   describeElement(links) {
@@ -315,7 +338,9 @@ export class Page {
   /** The pointer has left the plan. */
   leave() {
     this.path = [];
-    $("under").textContent = this.scene.walls[this.chosen] ? this.describe(this.chosen) : "\u00a0";
+    $("under").textContent = this.scene.walls[this.chosen]
+      ? this.describe(this.chosen)
+      : "\u00a0";
     this.show();
   }
 
@@ -338,7 +363,9 @@ export class Page {
     const inside = column >= 0 && row >= 0 && column < f.columns && row < f.rows;
     const mean = inside ? f.mean[(row * f.columns + column) * f.bands + this.band] : NaN;
     const place = `(${short(x)}, ${short(y)})`;
-    return Number.isNaN(mean) ? `${place}: no light can be here` : `${place}: mean radiosity ${short(mean)}`;
+    return Number.isNaN(mean)
+      ? `${place}: no light can be here`
+      : `${place}: mean radiosity ${short(mean)}`;
   }
 
   /** Goes from element to element of the chosen wall. */
@@ -359,7 +386,7 @@ async function start() {
     await listen(page);
   } catch (error) {
     showStatus("error", "The library could not be loaded");
-    showMessage(`${error.message}. Serve this folder over HTTP: a browser opens no modules from a file.`);
+    showMessage(error.message);
   }
 }
 

@@ -79,7 +79,12 @@ export function showValues(answer, names) {
   for (let patch = 0; patch < names.length; patch++)
     for (let band = 0; band < answer.bands; band++) {
       const row = document.createElement("tr");
-      const cells = [names[patch], band, answer.average(patch, band), answer.average(patch, band, 1)];
+      const cells = [
+        names[patch],
+        band,
+        answer.average(patch, band),
+        answer.average(patch, band, 1),
+      ];
       for (const text of cells) row.insertCell().textContent = String(text);
       rows.push(row);
     }
@@ -116,7 +121,9 @@ export function showStudy(study, now) {
   }
   const last = rows.at(-1);
   const slope = study.slope ? `; L grows like N to the power of ${study.slope.toFixed(2)}` : "";
-  const ring = now ? ` The ring is the answer that is shown: N = ${whole(now.elements)}, L = ${whole(now.links)}.` : "";
+  const ring = now
+    ? ` The ring is the answer that is shown: N = ${whole(now.elements)}, L = ${whole(now.links)}.`
+    : "";
   $("chart-text").textContent =
     `The paper’s algorithm for ε from ${short(rows[0].epsilon)} to ${short(last.epsilon)}: ` +
     `up to N = ${whole(last.elements)} and L = ${whole(last.links)}${slope}.${ring}`;
@@ -130,7 +137,15 @@ export function showWall(scene, chosen, band, top) {
     if (document.activeElement !== $(id)) $(id).value = value;
     if (document.activeElement !== $(`${id}-number`)) $(`${id}-number`).value = value;
   };
-  for (const id of ["emission", "emission-number", "reflectance", "reflectance-number", "both", "flip", "delete"])
+  for (const id of [
+    "emission",
+    "emission-number",
+    "reflectance",
+    "reflectance-number",
+    "both",
+    "flip",
+    "delete",
+  ])
     $(id).disabled = !wall;
   $("wall").value = wall ? String(chosen) : "";
   pair("emission", wall ? wall.emission[band] : 0, top);
@@ -148,8 +163,13 @@ function option(value, text) {
 
 /** The lists that depend on the scene alone. */
 export function showLists(scene, band) {
-  $("wall").replaceChildren(option("", "none"), ...scene.walls.map((w, k) => option(k, w.name)));
-  $("band").replaceChildren(...scene.background.map((_, k) => option(k, `${k + 1} of ${scene.bands}`)));
+  $("wall").replaceChildren(
+    option("", "none"),
+    ...scene.walls.map((w, k) => option(k, w.name)),
+  );
+  $("band").replaceChildren(
+    ...scene.background.map((_, k) => option(k, `${k + 1} of ${scene.bands}`)),
+  );
   $("band").value = String(band);
   document.querySelector(".of-bands").hidden = scene.bands === 1;
 }

@@ -127,7 +127,11 @@ export class Scene {
       is joined, "figure" for all that hangs together, "alone" for this wall. */
   endsToMove(wall, grabbed, how) {
     const w = this.walls[wall];
-    if (how === "figure") return this.figureOf(wall).flatMap((k) => [[k, "a"], [k, "b"]]);
+    if (how === "figure")
+      return this.figureOf(wall).flatMap((k) => [
+        [k, "a"],
+        [k, "b"],
+      ]);
     const own = grabbed === "wall" ? ["a", "b"] : [grabbed];
     if (how === "alone") return own.map((end) => [wall, end]);
     return own.flatMap((end) => this.endsAt(w[end]));

@@ -207,8 +207,14 @@ export class View {
     const m = [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
     const tip = [m[0] + 16 * n[0], m[1] + 16 * n[1]];
     const t = [-n[1], n[0]];
-    const barb = (side) => [tip[0] - 6 * n[0] + side * 5 * t[0], tip[1] - 6 * n[1] + side * 5 * t[1]];
-    for (const [width, style] of [[5, "#ffffff"], [2.5, CHOSEN]]) {
+    const barb = (side) => [
+      tip[0] - 6 * n[0] + side * 5 * t[0],
+      tip[1] - 6 * n[1] + side * 5 * t[1],
+    ];
+    for (const [width, style] of [
+      [5, "#ffffff"],
+      [2.5, CHOSEN],
+    ]) {
       this.line(m, tip, width, style);
       this.line(barb(1), tip, width, style);
       this.line(barb(-1), tip, width, style);

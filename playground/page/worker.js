@@ -76,7 +76,10 @@ function solveWithin(id, budget) {
       const epsilon = pace.epsilon;
       const took = performance.now() - start;
       // Time grows like L, which grows like ε⁻¹ here.
-      pace.epsilon = Math.min(4, Math.max(FINEST, pace.epsilon / learn(took, budget / 3, 1, 0.5)));
+      pace.epsilon = Math.min(
+        4,
+        Math.max(FINEST, pace.epsilon / learn(took, budget / 3, 1, 0.5)),
+      );
       return epsilon;
     } catch (error) {
       if (!error.stopped || pace.epsilon > 1e3) throw error;
@@ -133,7 +136,11 @@ const tasks = {
     if (method.epsilon) library.solveEpsilon(method.oracle, method.epsilon, method);
     else library.solveTo(method.error);
     const measured = !method.epsilon;
-    post("solution", { ...solution(true), measured, seconds: (performance.now() - start) / 1000 });
+    post("solution", {
+      ...solution(true),
+      measured,
+      seconds: (performance.now() - start) / 1000,
+    });
     post("field", { field: field(area, cells / COARSE ** 2, 0.02) });
     post("field", { field: field(area, cells, 0.01) });
     if (method.epsilon) {

@@ -21,8 +21,8 @@ PAGE, HR2D, SCENES = sys.argv[1:4]
 PICTURES = sys.argv[4] if len(sys.argv) > 4 else None
 ERROR = "1e-4"
 SLOW = {"occluders-200.geojson": "1e-2"}  # examples that take a minute at ERROR
-# Relative difference of digits.  The expansions of clusters, from 256 patches on, stand at nodes
-# that come from cos(), whose last bit is not the same in all C libraries.
+# Relative difference of digits.  The expansions of clusters, from 256 patches on, stand at
+# nodes that come from cos(), whose last bit is not the same in all C libraries.
 SAME = 1e-15
 SAME_WITH_CLUSTERS = 1e-13
 CLUSTERS = 256
@@ -30,7 +30,7 @@ FLUID = 6  # sketches a second, at least, also on a machine that is busy with ot
 HICCUP = 250  # milliseconds that the page may not hear a user, at most
 CONTRAST = 4.5  # WCAG 2.1, level AA
 
-TAB, DELETE, RIGHT, CONTROL = "\ue004", "\ue017", "\ue014", "\ue009"
+TAB, DELETE, LEFT, RIGHT, CONTROL = "\ue004", "\ue017", "\ue012", "\ue014", "\ue009"
 STATE = "return document.getElementById('status').dataset.state"
 
 tests = []
@@ -99,7 +99,8 @@ class Playground:
     def values(self):
         """B of every patch and band as the page shows it."""
         texts = self.browser.run(
-            "return [...document.querySelectorAll('#values tbody tr')].map(r => r.cells[2].textContent)"
+            "return [...document.querySelectorAll('#values tbody tr')]"
+            ".map(row => row.cells[2].textContent)"
         )
         return [float(text) for text in texts]
 
@@ -136,7 +137,10 @@ class Playground:
             "return [r.left + p.clientLeft, r.top + p.clientTop, p.clientWidth, p.clientHeight]"
         )
         margin = 28
-        scale = min((width - 2 * margin) / (high[0] - low[0]), (height - 2 * margin) / (high[1] - low[1]))
+        scale = min(
+            (width - 2 * margin) / (high[0] - low[0]),
+            (height - 2 * margin) / (high[1] - low[1]),
+        )
         return (
             round(left + width / 2 + (x - (low[0] + high[0]) / 2) * scale),
             round(top + height / 2 - (y - (low[1] + high[1]) / 2) * scale),
@@ -151,7 +155,10 @@ class Playground:
         self.browser.mouse(
             {"type": "pointerMove", "x": start[0], "y": start[1]},
             {"type": "pointerDown", "button": 0},
-            *({"type": "pointerMove", "x": x, "y": y, "duration": milliseconds} for x, y in path),
+            *(
+                {"type": "pointerMove", "x": x, "y": y, "duration": milliseconds}
+                for x, y in path
+            ),
             {"type": "pointerUp", "button": 0},
         )
 
@@ -195,7 +202,9 @@ def every_example_has_the_digits_of_the_program(page):
         expected = native(os.path.join(SCENES, name), "--target-error", error)
         off = difference(page.values(), expected)
         print(f"    {name}: {off:.1e}")
-        assert off <= (SAME if len(expected) < CLUSTERS else SAME_WITH_CLUSTERS), f"{name}: {off}"
+        assert off <= (
+            SAME if len(expected) < CLUSTERS else SAME_WITH_CLUSTERS
+        ), f"{name}: {off}"
 
 
 @test
@@ -235,7 +244,9 @@ def l_against_n_follows_epsilon(page):
             power,
         )
         time.sleep(0.5)
-        rings.append(page.browser.run("return document.querySelector('#chart .now')?.getAttribute('cx')"))
+        rings.append(
+            page.browser.run("return document.querySelector('#chart .now')?.getAttribute('cx')")
+        )
     assert None not in rings and float(rings[0]) < float(rings[1]), rings
     page.browser.wait("return document.querySelectorAll('#chart .dot').length >= 10")
     page.browser.click("input[name=method][value=target]")
@@ -322,10 +333,21 @@ def the_links_of_the_element_under_the_pointer_are_shown(page):
     page.example(name)
     x, y = page.at(name, 0.5, 0)
     page.browser.mouse({"type": "pointerMove", "x": x, "y": y - 3})
-    page.browser.wait("return /[1-9]\\d* links/.test(document.getElementById('under').textContent)")
+    page.browser.wait(
+        "return /[1-9]\\d* links/.test(document.getElementById('under').textContent)"
+    )
     x, y = page.at(name, 0.2, 0.3)
     page.browser.mouse({"type": "pointerMove", "x": x, "y": y})
-    page.browser.wait("return /mean radiosity [\\d.]+/.test(document.getElementById('under').textContent)")
+    page.browser.wait(
+        "return /mean radiosity [\\d.]+/.test(document.getElementById('under').textContent)"
+    )
+
+
+def undo(page):
+    kinds = (("keyDown", CONTROL), ("keyDown", "z"), ("keyUp", "z"), ("keyUp", CONTROL))
+    keys = [{"type": kind, "value": key} for kind, key in kinds]
+    source = {"type": "key", "id": "keys", "actions": keys}
+    page.browser.call("POST", "/actions", {"actions": [source]})
 
 
 @test
@@ -340,7 +362,8 @@ def all_can_be_done_by_keys(page):
             break
     assert 0 < presses < 20, presses
     outline = browser.run(
-        "const s = getComputedStyle(document.activeElement); return [s.outlineStyle, s.outlineWidth]"
+        "const s = getComputedStyle(document.activeElement);"
+        "return [s.outlineStyle, s.outlineWidth]"
     )
     assert outline[0] == "solid" and float(outline[1][:-2]) >= 2, outline
 
@@ -361,11 +384,26 @@ def all_can_be_done_by_keys(page):
     page.settle()
     assert page.walls() == count - 1
     for _ in range(2):
-        keys = [{"type": "keyDown", "value": CONTROL}, {"type": "keyDown", "value": "z"}]
-        keys += [{"type": "keyUp", "value": "z"}, {"type": "keyUp", "value": CONTROL}]
-        browser.call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": keys}]})
+        undo(page)
         page.settle()
     assert page.walls() == count and page.values() == before
+
+
+@test
+def an_edit_that_has_just_begun_can_be_undone(page):
+    page.example("corner.geojson")
+    before = page.values()
+    page.pick("#wall", "0")
+    page.browser.run("document.getElementById('plan').focus()")
+    page.browser.press(LEFT)
+    undo(page)
+    page.settle()
+    time.sleep(0.6)  # longer than a key rests before it counts
+    page.settle()
+    assert page.values() == before
+    page.browser.click("#redo")
+    page.settle()
+    assert difference(page.values(), before) > 1e-6
 
 
 @test
@@ -397,7 +435,9 @@ def a_file_that_is_no_scene_is_refused_with_its_reason(page):
         file.write('{"type": "FeatureCollection", "features": [7]}')
     page.browser.type("#file", path)
     page.browser.wait("return !document.getElementById('message').hidden")
-    assert page.message().startswith("broken.geojson: ") and len(page.message()) > 30, page.message()
+    assert (
+        page.message().startswith("broken.geojson: ") and len(page.message()) > 30
+    ), page.message()
     assert page.values() == before
 
 
@@ -446,7 +486,7 @@ def every_control_has_a_name_and_texts_have_contrast(page):
 
 CONTRASTS = """
 const channel = (v) => (v /= 255) <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
-const light = (rgb) => 0.2126 * channel(rgb[0]) + 0.7152 * channel(rgb[1]) + 0.0722 * channel(rgb[2]);
+const light = ([r, g, b]) => 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
 const numbers = (css) => css.match(/[\\d.]+/g).map(Number);
 const ground = (e) => {
   for (; e; e = e.parentElement) {
@@ -477,7 +517,11 @@ def a_phone_shows_all_within_its_width(page):
     assert browser.run("return innerWidth") == 390
     assert browser.run("return document.documentElement.scrollWidth") <= 390
     take_picture(page, "phone")
-    browser.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.clearDeviceMetricsOverride", "params": {}})
+    browser.call(
+        "POST",
+        "/goog/cdp/execute",
+        {"cmd": "Emulation.clearDeviceMetricsOverride", "params": {}},
+    )
 
 
 def take_picture(page, name):

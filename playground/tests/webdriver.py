@@ -33,7 +33,10 @@ class Browser:
     def __init__(self, width, height):
         self.folder = tempfile.mkdtemp(prefix="playground-")
         self.driver = subprocess.Popen(
-            ["chromedriver", "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+            ["chromedriver", "--port=0"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
         )
         self.root = f"http://127.0.0.1:{self._port()}"
         profile = os.path.join(self.folder, "profile")
@@ -57,9 +60,13 @@ class Browser:
         raise RuntimeError("chromedriver has ended")
 
     def call(self, method, path, body=None):
-        data = json.dumps(body if body is not None else {}).encode() if method == "POST" else None
+        data = (
+            json.dumps(body if body is not None else {}).encode() if method == "POST" else None
+        )
         url = self.root + (self.session if path != "/session" else "") + path
-        request = urllib.request.Request(url, data, {"Content-Type": "application/json"}, method=method)
+        request = urllib.request.Request(
+            url, data, {"Content-Type": "application/json"}, method=method
+        )
         try:
             with DIRECT.open(request, timeout=120) as answer:
                 return json.load(answer)["value"]
@@ -100,8 +107,12 @@ class Browser:
         self.call("POST", f"/element/{self.find(css)}/click")
 
     def press(self, *keys):
-        actions = [{"type": kind, "value": key} for key in keys for kind in ("keyDown", "keyUp")]
-        self.call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": actions}]})
+        actions = [
+            {"type": kind, "value": key} for key in keys for kind in ("keyDown", "keyUp")
+        ]
+        self.call(
+            "POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": actions}]}
+        )
 
     def mouse(self, *actions):
         source = {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}}
