@@ -304,7 +304,10 @@ export class Page {
   paint() {
     const { view, scene, answer } = this;
     view.clear();
-    if ($("show-light").checked) view.paintField();
+    if ($("show-light").checked) {
+      view.paintField();
+      view.wipeBacks(scene);
+    }
     view.paintWalls(scene);
     if (answer) view.paintLeaves(answer, this.scale, this.band, $("show-elements").checked);
     const links = answer && this.path.length ? answer.linksOf(this.path) : [];

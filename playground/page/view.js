@@ -98,11 +98,12 @@ export class View {
     canvas.width = columns;
     canvas.height = rows;
     canvas.getContext("2d").putImageData(image, 0, 0);
-    this.image = { canvas, low: field.low, high: field.high, columns, rows };
+    this.image = { canvas, low: field.low, high: field.high, columns, rows, place, coarse };
   }
 
   clear() {
-    this.context.fillStyle = getComputedStyle(this.canvas).backgroundColor;
+    this.ground = getComputedStyle(this.canvas).backgroundColor;
+    this.context.fillStyle = this.ground;
     this.context.fillRect(0, 0, this.width, this.height);
   }
 
@@ -117,6 +118,44 @@ export class View {
     this.context.imageSmoothingEnabled = true;
     this.context.imageSmoothingQuality = "high";
     this.context.drawImage(canvas, x0 - dx / 2, y0 - dy / 2, x1 - x0 + dx, y1 - y0 + dy);
+  }
+
+  /** Whether no light is at the node that is nearest to a point on the screen. */
+  outside(point) {
+    const { low, high, columns, rows, place } = this.image;
+    const [x, y] = this.toScene(point);
+    const column = Math.round(((x - low[0]) / (high[0] - low[0])) * (columns - 1));
+    const row = Math.round(((y - low[1]) / (high[1] - low[1])) * (rows - 1));
+    const known = column >= 0 && row >= 0 && column < columns && row < rows;
+    return !known || place[row * columns + column] === OUTSIDE;
+  }
+
+  /** Wipes off what the wide pixels of a sketch show behind walls where no light is. */
+  wipeBacks(scene) {
+    if (!this.image?.coarse) return;
+    const { low, high, columns } = this.image;
+    const pixel = ((high[0] - low[0]) / (columns - 1)) * this.scale;
+    for (const wall of scene.walls) if (!wall.both) this.wipeBack(wall, pixel);
+  }
+
+  wipeBack(wall, pixel) {
+    const p = this.toScreen(wall.a);
+    const q = this.toScreen(wall.b);
+    const n = this.front(wall.a, wall.b);
+    const u = [-n[1], n[0]]; // along the wall
+    const length = Math.hypot(q[0] - p[0], q[1] - p[1]);
+    const step = Math.max(pixel / 5, length / 400);
+    const depth = 2 * pixel;
+    const at = (s, behind) => [
+      p[0] + s * u[0] - behind * n[0],
+      p[1] + s * u[1] - behind * n[1],
+    ];
+    this.context.lineCap = "butt";
+    // Beyond the ends of a wall, as at a corner of a room, only where that is not the end of it.
+    const further = (s) => (s < 0 ? s - pixel : s > length ? s + pixel : s);
+    for (let s = -depth; s < length + depth; s += step)
+      if (this.outside(at(s, depth)) && this.outside(at(further(s), depth)))
+        this.line(at(s, 0), at(s, depth), step + 1, this.ground);
   }
 
   line(p, q, width, style) {
