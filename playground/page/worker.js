@@ -4,7 +4,7 @@
 
 import { Library, LibraryError } from "./library.js";
 
-const MOST_LINKS_SHOWN = 1e6;
+const MOST_LINKS_SHOWN = 4e6; // more than an answer may have
 const STUDY = Array.from({ length: 17 }, (_, k) => 2 ** (1 - k / 2)); // ε from 2 to 1/128
 const STUDY_MILLISECONDS = 1500;
 const ERROR_SECONDS = 5;
