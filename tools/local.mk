@@ -32,19 +32,27 @@ tools_hr2d_SOURCES = \
 	tools/run/run.c tools/run/run.h \
 	tools/run/state.c tools/run/state.h \
 	tools/run/target.c \
+	tools/draw/arrows.c \
 	tools/draw/bands.c \
 	tools/draw/beams.c \
+	tools/draw/contour-labels.c \
+	tools/draw/contours.c \
 	tools/draw/draw.c tools/draw/draw.h \
+	tools/draw/fill.c \
 	tools/draw/joints.c \
 	tools/draw/labels.c \
 	tools/draw/layout.c \
 	tools/draw/legend.c \
+	tools/draw/legend-scale.c \
 	tools/draw/links.c \
 	tools/draw/neighbours.c \
 	tools/draw/obstacles.c \
 	tools/draw/pen.c \
 	tools/draw/picture.h \
+	tools/draw/raster.c \
 	tools/draw/scale.c \
+	tools/draw/shade.c \
+	tools/draw/title.c \
 	tools/solve/command.c \
 	tools/solve/csv.c \
 	tools/solve/json.c \

@@ -6,7 +6,7 @@
    one is reported. */
 #include "cli/option-table.h"
 
-enum { MAX_LEVEL = 1000, MAX_THREADS = 1024, MAX_STEPS = 10000 };
+enum { MAX_LEVEL = 1000, MAX_THREADS = 1024, MAX_STEPS = 10000, MAX_CONTOURS = 30 };
 
 /* clang-format off */
 #define MEMBER(reader, m)     _Generic(((options *)0)->m, type_of_##reader: offsetof(options, m))
@@ -48,8 +48,29 @@ static const option_entry table[] = {
   {"resume", NULL, GROUP_OUTPUT, VALUE(flag, resume),
    .help = {{STUDY, "count only what the file of --csv does not have yet"}}},
   {"draw", "FILE", GROUP_OUTPUT, VALUE(picture, draw),
-   .help = {{SOLVE, "the scene coloured by B, as .svg, .png or .pdf"}},
+   .help = {{SOLVE, "the scene filled with its light, as .svg, .png or .pdf"},
+            {FIELD, "a picture of the light, as .svg, .png or .pdf"}},
    .rules = IS_OUTPUT},
+  {"quantity", "NAME", GROUP_OUTPUT, VALUE(light, quantity),
+   .help = {{FIELD, "fill with mean (default), flux, sky or temperature"}},
+   .needs = "draw"},
+  {"no-fill", NULL, GROUP_OUTPUT, VALUE(flag, no_fill),
+   .help = {{SOLVE, "leave the room white"}}, .needs = "draw"},
+  {"band", "NAME", GROUP_OUTPUT, VALUE(band, band),
+   .help = {{FIELD, "a number from 0, all, or rgb: true colour (of 3 bands)"}},
+   .needs = "draw"},
+  {"exposure", "X", GROUP_OUTPUT, VALUE(positive, exposure),
+   .help = {{FIELD, "in true colour: 1/X is white (chosen by default)"}},
+   .needs = "draw"},
+  {"contours", "N", GROUP_OUTPUT, WHOLE(contours, 1, MAX_CONTOURS),
+   .help = {{SOLVE | FIELD, "with about N isolines at round values"}}, .needs = "draw"},
+  {"arrows", NULL, GROUP_OUTPUT, VALUE(flag, arrows),
+   .help = {{SOLVE | FIELD, "with arrows along the flux"}}, .needs = "draw"},
+  {"log", NULL, GROUP_OUTPUT, VALUE(flag, log_scale),
+   .help = {{SOLVE | FIELD, "a logarithmic scale (default where most is dark)"}},
+   .needs = "draw"},
+  {"linear", NULL, GROUP_OUTPUT, VALUE(flag, linear_scale),
+   .help = {{FIELD, "a linear scale"}}, .needs = "draw"},
   {"links-of", "PATCH:T", GROUP_OUTPUT, VALUE(place, links_of),
    .help = {{SOLVE, "draw the links that serve this point, too"}}, .needs = "draw"},
   {"link-level", "K", GROUP_OUTPUT, WHOLE(link_level, 0, MAX_LEVEL),

@@ -79,12 +79,30 @@ static int check_parents(const options *o) {
   return 0;
 }
 
+/* What a picture cannot show at once. */
+static int check_picture(const options *o) {
+  if (o->log_scale && o->linear_scale)
+    return complain_usage("--log and --linear exclude each other");
+  if (o->no_fill && o->quantity != QUANTITY_MEAN)
+    return complain_usage("--no-fill and --quantity exclude each other");
+  if (o->quantity != QUANTITY_MEAN && (o->band == BAND_RGB || o->exposure > 0))
+    return complain_usage("true colour is for --quantity mean");
+  if ((o->band == BAND_RGB || o->exposure > 0) && (o->log_scale || o->linear_scale))
+    return complain_usage("true colour excludes --log and --linear");
+  if (o->exposure > 0 && o->band != BAND_RGB && o->band != BAND_DEFAULT)
+    return complain_usage("--exposure is for true colour and excludes --band");
+  if (o->quantity == QUANTITY_SKY && o->band >= 0)
+    return complain_usage("the sky has no --band");
+  return 0;
+}
+
 int options_check(const options *o, const given_options *given) {
   int status = check_outputs(o);
   if (!status) status = check_target(o, given);
   if (!status) status = check_predict(o, given);
   if (!status) status = check_needs(given);
   if (!status) status = check_parents(o);
+  if (!status) status = check_picture(o);
   if (status) return status;
   if (o->resume && (!o->csv || output_is_stdout(o->csv)))
     return complain_usage("--resume needs --csv with a file");

@@ -83,7 +83,8 @@ static options make_defaults(void) {
                    .max_seconds = 10,
                    .methods = (1U << METHOD_COUNT) - 1,
                    .against = {{AGAINST_SECONDS}, 1},
-                   .link_level = NO_LEVEL};
+                   .link_level = NO_LEVEL,
+                   .band = BAND_DEFAULT};
 }
 
 int options_read(int argc, char **argv, options *o) {

@@ -66,6 +66,18 @@ typedef enum method {
   METHOD_COUNT
 } method;
 
+/* What a picture shows of the light between the patches. */
+typedef enum light {
+  QUANTITY_MEAN,
+  QUANTITY_FLUX,
+  QUANTITY_SKY,
+  QUANTITY_TEMPERATURE,
+  QUANTITY_COUNT
+} light;
+
+/* The bands that a picture shows; a number from 0 on is one band. */
+enum { BAND_DEFAULT = -3, BAND_RGB = -2, BAND_ALL = -1 };
+
 /* As link_level: --link-level is not given. */
 #define NO_LEVEL UINT_MAX
 
@@ -101,11 +113,17 @@ typedef struct options {
   grid_box box;
   const char *points; /* file name, or - for standard input */
   double tolerance;   /* of a grid; 0: every node is exact */
+  light quantity;     /* of a picture */
+  int band;           /* a number, or one of BAND_... */
+  unsigned contours;  /* 0: none */
+  double exposure;    /* 0: chosen */
+  int no_fill, arrows, log_scale, linear_scale;
   place links_of;
   unsigned link_level;
   place_list beams_of;
   int link_parents, plot_log, resume;
-  const char *json, *csv, *mtx, *elmer, *vtk, *draw, *plot; /* file names; NULL: not given */
+  const char *json, *csv, *mtx, *elmer, *vtk, *draw, *plot,
+      *watch; /* file names; NULL: not given */
 } options;
 
 /* Reads the command line.  Returns 0, or the exit status after an error message.  The strings

@@ -207,6 +207,27 @@ int value_methods(const char *option, char *text, value_range range, void *value
   }
 }
 
+int value_light(const char *option, char *text, value_range range, void *value) {
+  static const char *const known[] = {"mean", "flux", "sky", "temperature"};
+  const size_t k = find_name(known, QUANTITY_COUNT, text, strlen(text));
+  (void)range;
+  *(light *)value = (light)k;
+  return k < QUANTITY_COUNT ? 0
+                            : complain_usage("--%s: '%s' is none of mean, flux, sky, "
+                                             "temperature",
+                                             option, text);
+}
+
+int value_band(const char *option, char *text, value_range range, void *value) {
+  const int all = !strcmp(text, "all"), rgb = !strcmp(text, "rgb");
+  uint64_t k = 0;
+  (void)range;
+  if (!all && !rgb && (number_count(text, INT_MAX, &k)))
+    return complain_usage("--%s: '%s' is neither a number nor all nor rgb", option, text);
+  *(int *)value = all ? BAND_ALL : rgb ? BAND_RGB : (int)k;
+  return 0;
+}
+
 /* Each quantity once. */
 int value_against(const char *option, char *text, value_range range, void *value) {
   against_list *list = value;

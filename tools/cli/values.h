@@ -19,7 +19,7 @@ typedef int value_reader(const char *option, char *text, value_range range, void
 value_reader value_flag, value_positive, value_part, value_unsigned, value_count, value_path,
     value_file, value_picture, value_patches, value_place, value_places, value_sequence,
     value_grid, value_box, value_oracle, value_policy, value_norm, value_effect, value_methods,
-    value_against;
+    value_against, value_light, value_band;
 
 /* The types of the values. */
 typedef int type_of_flag;                  /* set to 1; there is no text */
@@ -42,5 +42,7 @@ typedef hr2d_norm type_of_norm;
 typedef unsigned type_of_effect;      /* the bit of the effect is set */
 typedef unsigned type_of_methods;     /* a bit for each method of a list with commas */
 typedef against_list type_of_against; /* a list with commas */
+typedef light type_of_light;
+typedef int type_of_band; /* a number from 0, or BAND_ALL or BAND_RGB */
 
 #endif

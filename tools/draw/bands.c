@@ -64,8 +64,7 @@ static void set_gradient(const picture *p, const stroke *s, const piece *e) {
   cairo_pattern_t *pattern = cairo_pattern_create_linear(a.x, a.y, b.x, b.y);
   for (int k = 0; k <= stops; k++) {
     const double at = (double)k / stops;
-    const colour c =
-        palette_viridis(scale_position(p, run_mean_at(p->run, patch, leaves_at(e, at))));
+    const colour c = scale_colour(p, shade_of_point(p, patch, leaves_at(e, at)));
     cairo_pattern_add_color_stop_rgb(pattern, at, c.r, c.g, c.b);
   }
   cairo_set_source(p->cr, pattern);
@@ -79,7 +78,7 @@ static int fill_piece(void *ctx, const piece *e) {
   if (p->run->account.order > 1 && leaf)
     set_gradient(p, b->stroke, e);
   else
-    pen_colour(p->cr, palette_viridis(scale_position(p, run_mean(p->run, e->element))));
+    pen_colour(p->cr, scale_colour(p, shade_of_element(p, e->element)));
   outline(p, b->stroke, e->t0, fmin(1, e->t1 + OVERLAP / b->stroke->length));
   cairo_fill(p->cr);
   return 0;
@@ -131,11 +130,17 @@ static int draw_ticks(picture *p, size_t patch) {
   return status;
 }
 
+/* Without a band a wall has a white rim, so that it is seen in the dark. */
 static int draw_wall(picture *p, const stroke *s) {
   cairo_move_to(p->cr, s->a.x, s->a.y);
   cairo_line_to(p->cr, s->b.x, s->b.y);
+  if (!p->coloured) {
+    pen_grey(p->cr, 0.9);
+    cairo_set_line_width(p->cr, 3);
+    cairo_stroke_preserve(p->cr);
+  }
   pen_grey(p->cr, 0.1);
-  cairo_set_line_width(p->cr, fine(p, 1.2));
+  cairo_set_line_width(p->cr, p->coloured ? fine(p, 1.2) : 1.4);
   cairo_stroke(p->cr);
   const hr2d_point a = beside(s, 0, p->band + 4), b = beside(s, 1, p->band + 4);
   const int status = obstacles_add(p, s->a, s->b);
@@ -145,8 +150,8 @@ static int draw_wall(picture *p, const stroke *s) {
 int bands_draw(picture *p) {
   const size_t count = hr2d_scene_patches(p->run->scene);
   int status = 0;
-  for (size_t k = 0; !status && k < count; k++) status = draw_band(p, k);
-  for (size_t k = 0; !status && k < count; k++) status = draw_ticks(p, k);
+  for (size_t k = 0; p->coloured && !status && k < count; k++) status = draw_band(p, k);
+  for (size_t k = 0; p->coloured && !status && k < count; k++) status = draw_ticks(p, k);
   for (size_t k = 0; !status && k < count; k++) status = draw_wall(p, &p->strokes[k]);
   return status;
 }

@@ -95,7 +95,7 @@ static hr2d_status draw_beam(void *ctx, const hr2d_beam *b) {
 int beams_draw(picture *p) {
   const place_list *of = &p->run->options->beams_of;
   const size_t *patch = run_beamed(p->run);
-  const box frame = layout_frame(p);
+  const box frame = p->frame;
   hr2d_status status = HR2D_OK;
   cairo_save(p->cr);
   cairo_rectangle(p->cr, frame.x0, frame.y0, frame.x1 - frame.x0, frame.y1 - frame.y0);

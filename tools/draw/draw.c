@@ -5,6 +5,16 @@
 #include "draw/picture.h"
 #include "output/complain.h"
 
+int draw_check_scene(const options *o, const hr2d_scene *scene) {
+  const size_t bands = hr2d_scene_bands(scene);
+  if ((o->band == BAND_RGB || o->exposure > 0) && bands != 3)
+    return complain_usage("true colour needs a scene of 3 bands, and this one has %zu", bands);
+  if (o->band >= 0 && (size_t)o->band >= bands)
+    return complain_usage("--band: the scene has no band %d, only 0 to %zu", o->band,
+                          bands - 1);
+  return EXIT_DONE;
+}
+
 #if HAVE_CAIRO
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
@@ -25,16 +35,29 @@ static cairo_status_t write_bytes(void *stream, const unsigned char *bytes, unsi
                                                 : CAIRO_STATUS_WRITE_ERROR;
 }
 
+static void clip(const picture *p) {
+  const box *f = &p->frame;
+  cairo_rectangle(p->cr, f->x0, f->y0, f->x1 - f->x0, f->y1 - f->y0);
+  cairo_clip(p->cr);
+}
+
 static int draw_page(picture *p) {
   pen_grey(p->cr, 1);
   cairo_paint(p->cr);
-  legend_draw_title(p);
+  title_draw(p);
+  cairo_save(p->cr);
+  if (p->run->options->box.given) clip(p);
+  if (p->filled) fill_draw(p);
+  contours_draw(p);
   int status = beams_draw(p);
   if (!status) status = links_draw(p);
   if (!status) status = bands_draw(p);
   links_draw_point(p);
   beams_draw_points(p);
+  cairo_restore(p->cr);
   if (!status) status = labels_draw(p);
+  if (!status) status = arrows_draw(p);
+  if (!status) status = contours_label(p);
   legend_draw(p);
   cairo_show_page(p->cr);
   return status;
@@ -85,13 +108,18 @@ static int measure(picture *p) {
 
 int draw_run(const run *r, const char *path) {
   picture p = {.run = r};
-  int status = scale_choose(&p);
-  if (!status) status = links_find(&p);
+  shade_choose(&p);
+  int status = links_find(&p);
   if (!status) status = labels_choose(&p);
   if (!status) status = measure(&p);
+  if (!status) status = scale_choose(&p);
+  if (!status && (p.filled || r->options->contours)) status = fill_make(&p);
+  if (!status) status = contours_make(&p);
   if (!status) status = draw_file(&p, path);
   for (size_t k = 0; k < p.name_count; k++) free(p.name[k].text);
   free(p.strokes);
+  free(p.raster.at);
+  contours_release(&p);
   free(p.path);
   free(p.region.far);
   free(p.obstacles.lines);

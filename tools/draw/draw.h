@@ -9,7 +9,12 @@
    after an error message. */
 int draw_check(const char *path);
 
-/* Draws the scene coloured by B, and if they are given the links of --links-of and the beams of
+/* Whether the scene has the bands that a picture is to show.  Returns 0, or EXIT_USAGE after an
+   error message. */
+int draw_check_scene(const options *o, const hr2d_scene *scene);
+
+/* Draws the scene coloured by B and filled with its light, and if they are given the links of
+   --links-of and the beams of
    --beams-of.  Returns 0 or the exit status. */
 int draw_run(const run *r, const char *path);
 

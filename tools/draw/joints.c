@@ -10,6 +10,7 @@ enum { MOST_COMPARED = 2000 };
 
 #define THICKEST 8.0
 #define THINNEST 1.5
+#define SLIM     0.07 /* of the shorter side of a scene that is filled */
 #define TOUCH    0.05 /* two points that are closer are the same point */
 #define TURN     6.283185307179586
 
@@ -76,7 +77,9 @@ static double narrowest(const picture *p) {
 static double choose_band(const picture *p) {
   const size_t count = hr2d_scene_patches(p->run->scene);
   if (count > MOST_COMPARED) return THINNEST;
-  return fmax(THINNEST, fmin(THICKEST, 0.4 * narrowest(p)));
+  const double side = p->scale * fmin(p->size.x, p->size.y);
+  const double thickest = p->filled && side > 0 ? fmin(THICKEST, SLIM * side) : THICKEST;
+  return fmax(THINNEST, fmin(thickest, 0.4 * narrowest(p)));
 }
 
 static int is_twin(const stroke *s, const stroke *o) {
@@ -85,7 +88,7 @@ static int is_twin(const stroke *s, const stroke *o) {
 
 void joints_make(picture *p) {
   const size_t count = hr2d_scene_patches(p->run->scene);
-  p->band = choose_band(p);
+  p->band = p->coloured ? choose_band(p) : THINNEST;
   if (count > MOST_COMPARED) return;
   for (size_t k = 0; k < count; k++) {
     stroke *s = &p->strokes[k];

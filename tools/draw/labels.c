@@ -69,9 +69,14 @@ int labels_choose(picture *p) {
   return EXIT_DONE;
 }
 
+static int within(const box *b, const box *frame) {
+  return b->x0 > frame->x0 && b->y0 > frame->y0 && b->x1 < frame->x1 && b->y1 < frame->y1;
+}
+
 static int is_free(const picture *p, const box *b) {
   const box clear = {b->x0 - 3, b->y0 - 2, b->x1 + 3, b->y1 + 2};
-  if (b->x0 < 4 || b->x1 > p->width - 4 || b->y0 < 50 || b->y1 > p->height - 4) return 0;
+  if (b->x0 < 4 || b->x1 > p->width - 4 || b->y0 < 58 || b->y1 > p->height - 4) return 0;
+  if (p->run->options->box.given && !within(b, &p->frame)) return 0;
   return !obstacles_meet(p, &clear);
 }
 
@@ -116,7 +121,20 @@ static int find_box(const picture *p, const stroke *s, double width, box *b) {
   return 0;
 }
 
+/* A plate on which a name can be read whatever is behind it. */
+static void draw_plate(const picture *p, const box *b) {
+  cairo_rectangle(p->cr, b->x0 - 2.5, b->y0 - 0.5, b->x1 - b->x0 + 5, b->y1 - b->y0 + 1);
+  cairo_set_source_rgba(p->cr, 1, 1, 1, 0.8);
+  cairo_fill(p->cr);
+}
+
 static void write_name(const picture *p, const char *name, const box *b) {
+  if (p->filled || p->contours.count) {
+    draw_plate(p, b);
+    pen_grey(p->cr, 0.1);
+    pen_write(p->cr, b->x0, b->y1 - 2.5, name);
+    return;
+  }
   cairo_move_to(p->cr, b->x0, b->y1 - 2.5);
   cairo_text_path(p->cr, name);
   pen_grey(p->cr, 1);

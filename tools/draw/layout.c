@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page: its width is fixed, its height depends on the scene. */
+/* The page: as wide and as high as the scene takes of it. */
 #include "draw/picture.h"
 
 #if HAVE_CAIRO
@@ -9,12 +9,18 @@
 #include "output/complain.h"
 
 #define PAGE_WIDTH   800.0
-#define LEAST_HEIGHT 300.0
-#define MOST_SCENE   600.0 /* height of a scene */
+#define LEAST_HEIGHT 300.0 /* where the legend stands beside the scene */
+#define MOST_SCENE   600.0 /* height of a scene, */
+#define MOST_TALL    960.0 /* and of a tall one */
 #define TITLE        62.0
 #define FOOT         46.0
-#define LEGEND       112.0
+#define FLAT_FOOT    74.0 /* with the legend in it */
+#define LEGEND       120.0
 #define MARGIN       34.0
+
+/* A scene so many times as wide as high has its legend below, one so tall more of the page. */
+#define FLAT 2.3
+#define TALL 2.0
 
 typedef struct margins {
   double left, right, top, bottom;
@@ -23,6 +29,12 @@ typedef struct margins {
 hr2d_point layout_point(const picture *p, hr2d_point e) {
   return (hr2d_point){p->origin.x + (e.x - p->low.x) * p->scale,
                       p->origin.y - (e.y - p->low.y) * p->scale};
+}
+
+hr2d_point layout_scene_point(const picture *p, double x, double y) {
+  const double unit = hr2d_scene_unit(p->run->scene);
+  return (hr2d_point){unit * (p->low.x + (x - p->origin.x) / p->scale),
+                      unit * (p->low.y - (y - p->origin.y) / p->scale)};
 }
 
 double layout_tree_height(const picture *p) {
@@ -34,7 +46,13 @@ static const hr2d_element *root(const picture *p, size_t patch) {
   return &hr2d_hierarchy_elements(p->run->hierarchy)[patch];
 }
 
-static hr2d_point bounds(picture *p) {
+static void set_bounds(picture *p, hr2d_point low, hr2d_point high) {
+  p->low = low;
+  p->size = (hr2d_point){high.x - low.x, high.y - low.y};
+}
+
+static void take_bounds(picture *p) {
+  const grid_box *given = &p->run->options->box;
   hr2d_point low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
   for (size_t k = 0; k < hr2d_scene_patches(p->run->scene); k++) {
     const hr2d_element *e = root(p, k);
@@ -43,14 +61,21 @@ static hr2d_point bounds(picture *p) {
     high.x = fmax(high.x, fmax(e->a.x, e->b.x));
     high.y = fmax(high.y, fmax(e->a.y, e->b.y));
   }
-  p->low = low;
-  return (hr2d_point){high.x - low.x, high.y - low.y};
+  if (given->given) {
+    const double unit = hr2d_scene_unit(p->run->scene);
+    low.x = fmin(given->side[0], given->side[2]) / unit;
+    low.y = fmin(given->side[1], given->side[3]) / unit;
+    high.x = fmax(given->side[0], given->side[2]) / unit;
+    high.y = fmax(given->side[1], given->side[3]) / unit;
+  }
+  set_bounds(p, low, high);
 }
 
 /* Room for the names of upright patches, on the side of their backs. */
 static margins choose_margins(const picture *p) {
   margins m = {MARGIN, MARGIN, 12, 12};
   if (p->name_count) m.top = m.bottom = 24;
+  if (p->run->options->box.given) return m;
   pen_font(p->cr, 10, 0);
   for (size_t k = 0; k < p->name_count; k++) {
     const hr2d_element *e = root(p, p->name[k].patch);
@@ -78,10 +103,6 @@ void layout_draw_dot(const picture *p, const stroke *s, double t) {
   cairo_stroke(p->cr);
 }
 
-box layout_frame(const picture *p) {
-  return (box){0.4 * MARGIN, TITLE - 6, p->width - LEGEND, p->height - FOOT};
-}
-
 static int make_strokes(picture *p) {
   const size_t count = hr2d_scene_patches(p->run->scene);
   p->strokes = calloc(count, sizeof *p->strokes);
@@ -99,18 +120,43 @@ static int make_strokes(picture *p) {
   return EXIT_DONE;
 }
 
+/* A part of the page of whole pixels of a PNG, which has two in a point. */
+static box whole_pixels(box b) {
+  return (box){ceil(2 * b.x0) / 2, ceil(2 * b.y0) / 2, floor(2 * b.x1) / 2,
+               floor(2 * b.y1) / 2};
+}
+
+static void set_frame(picture *p, double legend, double foot) {
+  const double edge = 0.4 * MARGIN;
+  p->frame = (box){edge, TITLE - 6, p->width - fmax(edge, legend), p->height - foot};
+  if (p->run->options->box.given)
+    p->frame = (box){p->origin.x, p->origin.y - p->size.y * p->scale,
+                     p->origin.x + p->size.x * p->scale, p->origin.y};
+  p->frame = whole_pixels(p->frame);
+}
+
+/* Scale, page and place of the scene on it. */
+static void set_page(picture *p, margins m) {
+  const int plain = !p->path_count && !p->run->options->beams_of.count;
+  const double aspect = p->size.x / p->size.y;
+  p->flat = plain && aspect > FLAT;
+  const double legend = p->flat ? 0 : LEGEND, foot = p->flat ? FLAT_FOOT : FOOT;
+  const double most = aspect * TALL < 1 ? MOST_TALL : MOST_SCENE;
+  p->scale = fmin((PAGE_WIDTH - m.left - m.right - legend) / p->size.x, most / p->size.y);
+  const double width = m.left + p->size.x * p->scale + m.right + legend;
+  const double height = TITLE + m.top + p->size.y * p->scale + m.bottom + foot;
+  p->width = plain ? ceil(fmin(PAGE_WIDTH, fmax(title_width(p), width))) : PAGE_WIDTH;
+  p->height = ceil(fmax(p->flat ? 0 : LEAST_HEIGHT, height));
+  p->origin.x = m.left + 0.5 * (p->width - width);
+  p->origin.y = p->height - foot - m.bottom - 0.5 * (p->height - height);
+  set_frame(p, legend, foot);
+}
+
 int layout_make(picture *p) {
-  const hr2d_point size = bounds(p);
-  const margins m = choose_margins(p);
-  const double room = PAGE_WIDTH - m.left - m.right - LEGEND;
-  p->scale = fmin(room / size.x, MOST_SCENE / size.y);
-  if (!isfinite(p->scale))
+  take_bounds(p);
+  set_page(p, choose_margins(p));
+  if (!(isfinite(p->scale) && p->scale > 0))
     return complain(p->run->options->draw, "the scene is too small to draw");
-  const double height = TITLE + m.top + size.y * p->scale + m.bottom + FOOT;
-  p->width = PAGE_WIDTH;
-  p->height = ceil(fmax(LEAST_HEIGHT, height));
-  p->origin.x = m.left + 0.5 * (room - size.x * p->scale);
-  p->origin.y = p->height - FOOT - m.bottom - 0.5 * (p->height - height);
   const int status = make_strokes(p);
   if (!status) joints_make(p);
   return status;

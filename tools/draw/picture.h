@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "output/palette.h"
+#include "output/ticks.h"
 #include "run/run.h"
 
 #if HAVE_CAIRO
@@ -33,6 +34,36 @@ typedef struct line {
 typedef struct box {
   double x0, y0, x1, y1;
 } box;
+
+/* What is shown of one place: a number, or three in true colour.  NaN: nothing. */
+typedef struct shade {
+  double v[3];
+} shade;
+
+/* Shades at points of the page, row by row from the top. */
+typedef struct raster {
+  size_t columns, rows;
+  double x, y; /* the first point on the page */
+  double step; /* points between two of them */
+  double work; /* triangles of the plane per point, where none is interpolated */
+  shade *at;
+} raster;
+
+/* An isoline on the page. */
+typedef struct contour {
+  double level;
+  hr2d_point *point;
+  size_t count;
+  double length;
+} contour;
+
+typedef struct contours {
+  contour *items;
+  size_t count;
+  ticks levels;
+} contours;
+
+#define CONTOUR_WIDTH 0.9
 
 /* The lines that labels must keep clear of. */
 typedef struct obstacles {
@@ -69,9 +100,21 @@ typedef struct picture {
   double scale;      /* points per element unit */
   hr2d_point low;    /* lower left corner of the scene, in element units */
   hr2d_point origin; /* where `low` is on the page */
+  hr2d_point size;   /* of the scene, or of the box that is shown, in element units */
+  box frame;         /* the part of the page that is for the scene */
+  int flat;          /* the legend lies below the scene */
   double band;       /* thickness of the coloured bands */
-  double lo, hi;     /* of the colour scale */
+  light quantity;
+  int filled;      /* with the light between the patches */
+  int coloured;    /* bands show B; otherwise they are left out */
+  int rgb;         /* in true colour, */
+  double exposure; /* times B or M */
+  double lo, hi;   /* of the colour scale */
   int logarithmic;
+  double work;   /* of a view, in triangles of the plane */
+  int beyond;    /* there is more than `hi`, in the colour of `hi` */
+  raster raster; /* of the light, if it is drawn */
+  contours contours;
   caption name[MAX_NAMES];
   size_t name_count;
   stroke *strokes;             /* one per patch */
@@ -89,11 +132,53 @@ typedef struct picture {
 
 /* Functions that return an int return 0, or the exit status after an error message. */
 
-/* scale.c: the range of B over the leaves, and whether the colour scale is logarithmic. */
+/* shade.c: which bands and quantity are shown. */
+void shade_choose(picture *p);
+
+/* The shade of B or M, by the values of all bands. */
+typedef double (*shade_value)(const void *ctx, size_t item, size_t band);
+shade shade_of(const picture *p, shade_value get, const void *ctx, size_t item);
+
+/* The shade of B on an element, and at a point of a patch. */
+shade shade_of_element(const picture *p, uint32_t element);
+shade shade_of_point(const picture *p, size_t patch, double t);
+
+/* The number of a shade; of true colour the mean of the three. */
+double shade_number(const picture *p, shade s);
+
+/* scale.c: the range of colours, by B over the leaves and, where the picture is filled, by
+   the light at some points. */
 int scale_choose(picture *p);
 
 /* The place of a value on the colour scale, in [0,1]. */
 double scale_position(const picture *p, double value);
+
+/* The colour of a shade, and of a place on the scale. */
+colour scale_colour(const picture *p, shade s);
+colour scale_colour_at(const picture *p, double position);
+
+/* raster.c: looks from points of the frame, `step` points apart, with a tolerance as in
+   hr2d_field_grid. */
+int raster_make(const picture *p, double step, double tolerance, raster *to);
+
+/* fill.c: the light between the patches. */
+int fill_make(picture *p);
+void fill_draw(const picture *p);
+
+/* contours.c: with --contours, isolines of the light. */
+int contours_make(picture *p);
+void contours_draw(const picture *p);
+void contours_release(picture *p);
+
+/* Black or white, whatever can be read on the colour of a level. */
+colour contours_ink(const picture *p, double level);
+
+/* contour-labels.c: their numbers. */
+int contours_label(picture *p);
+
+/* arrows.c: with --arrows, the direction of the flux, and what it means. */
+int arrows_draw(picture *p);
+void arrows_draw_key(const picture *p);
 
 /* layout.c: page size, scale and strokes. */
 int layout_make(picture *p);
@@ -105,8 +190,8 @@ hr2d_point layout_point(const picture *p, hr2d_point element);
 hr2d_point layout_along(const stroke *s, double t);
 void layout_draw_dot(const picture *p, const stroke *s, double t);
 
-/* The part of the page that has neither title nor legend. */
-box layout_frame(const picture *p);
+/* A point of the page in scene coordinates. */
+hr2d_point layout_scene_point(const picture *p, double x, double y);
 
 /* The height of the trees behind patches; 0 if no links are drawn. */
 double layout_tree_height(const picture *p);
@@ -141,9 +226,15 @@ int neighbours_draw(picture *p);
 int neighbours_draw_parents(picture *p);
 void neighbours_draw_key(const picture *p);
 
-/* legend.c */
-void legend_draw_title(const picture *p);
+/* title.c */
+double title_width(const picture *p);
+void title_draw(const picture *p);
+
+/* legend.c: the scale of lengths, and keys to what is drawn; calls the next. */
 void legend_draw(const picture *p);
+
+/* legend-scale.c: what the colours mean. */
+void legend_draw_scale(const picture *p);
 
 /* obstacles.c: adds a line that labels must not cross, or the diagonals of a box. */
 int obstacles_add(picture *p, hr2d_point a, hr2d_point b);

@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/scene.h"
+#include "draw/draw.h"
 #include "field/field.h"
 #include "output/clock.h"
 #include "output/complain.h"
@@ -117,13 +118,14 @@ static void print_field(const field *f, double seconds) {
   printf("seconds   total %.3f\n", seconds);
 }
 
-static int report(const field *f, double start) {
+static int report(const field *f, const run *r, double start) {
   const options *o = f->options;
   int status = 0;
   if (options_want_table(o)) print_field(f, clock_seconds() - start);
   if (o->csv) status = field_write_csv(f, o->csv);
   if (o->json && !status) status = field_write_json(f, o->json);
   if (o->vtk && !status) status = field_write_vtk(f, o->vtk);
+  if (o->draw && !status) status = draw_run(r, o->draw);
   return status;
 }
 
@@ -134,7 +136,7 @@ static int solve_and_look(field *f, double start) {
   int status = run_solve(&r);
   if (!status || r.inaccurate) {
     int looking = look(f, r.solution);
-    if (!looking) looking = report(f, start);
+    if (!looking) looking = report(f, &r, start);
     if (!status) status = looking;
   }
   run_release(&r);
@@ -145,13 +147,15 @@ int field_command(const options *o) {
   const double start = clock_seconds();
   hr2d_scene *scene = NULL;
   field f = {.options = o};
-  int status = options_check_outputs(o);
+  int status = o->draw ? draw_check(o->draw) : 0;
+  if (!status) status = options_check_outputs(o);
   if (!status) status = scene_load(o, o->force, &scene, &f.cuts);
   if (status) return status;
   f.scene = scene;
   f.bands = hr2d_scene_bands(scene);
   f.heat = run_heat_exists(scene);
-  status = o->points ? field_read_points(&f, o->points) : set_grid(&f);
+  status = draw_check_scene(o, scene);
+  if (!status) status = o->points ? field_read_points(&f, o->points) : set_grid(&f);
   if (!status) status = solve_and_look(&f, start);
   free(f.at);
   free(f.mean);

@@ -10,6 +10,12 @@ typedef struct colour {
 /* The perceptually uniform scale viridis, dark to light. */
 colour palette_viridis(double t);
 
+/* The perceptually uniform scale inferno, black over red to pale yellow, as of what glows. */
+colour palette_inferno(double t);
+
+/* A part of linear light as a part of an sRGB channel. */
+double palette_srgb(double linear);
+
 /* Orange to dark red, for lines on white: viridis has no such colours. */
 colour palette_ember(double t);
 

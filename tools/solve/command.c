@@ -69,6 +69,8 @@ static int solve_scene(const options *o, const hr2d_scene *scene, size_t cuts, d
   warnings w;
   int status = find_places(o, scene, patches);
   if (status) return status;
+  status = draw_check_scene(o, scene);
+  if (status) return status;
   status = warnings_find(o, scene, &w);
   run r = {.options = o,
            .scene = scene,

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the colours mean: the scale, upright beside the scene or level below it. */
+#include "draw/picture.h"
+
+#if HAVE_CAIRO
+#include <math.h>
+#include <stdio.h>
+
+#include "output/ticks.h"
+
+#define SIDE     24.0
+#define BAR      14.0
+#define TALLEST  280.0
+#define WIDEST   280.0
+#define LEADING  13.0
+#define INTERVAL 40.0 /* between two ticks, at least */
+
+enum { LINES = 3 };
+
+/* Heading and lines of explanation. */
+typedef struct legend {
+  const char *heading;
+  char line[LINES][48];
+  int lines;
+} legend;
+
+/* The bar: at the value lo it is at (x, y), at hi `length` further, to the right or above. */
+typedef struct bar {
+  double x, y, length;
+  int level;
+} bar;
+
+static void describe_bands(const picture *p, legend *l) {
+  const int band = p->run->options->band;
+  const size_t bands = hr2d_scene_bands(p->run->scene);
+  char *text = l->line[l->lines++];
+  const size_t size = sizeof l->line[0];
+  if (band >= 0)
+    snprintf(text, size, "band %d, unit of E", band);
+  else if (bands > 1)
+    snprintf(text, size, "mean of %zu bands", bands);
+  else
+    snprintf(text, size, "in the unit of E");
+}
+
+static legend describe(const picture *p) {
+  legend l = {.heading = "radiosity B"};
+  const size_t size = sizeof l.line[0];
+  if (p->filled && p->coloured)
+    snprintf(l.line[l.lines++], size, "strips: %sB", p->rgb ? "" : "radiosity ");
+  if (p->rgb) {
+    l.heading = "true colour";
+    snprintf(l.line[0], size, "red, green, blue");
+    snprintf(l.line[1], size, "exposure %.3g", p->exposure);
+    l.lines = 2;
+    if (p->run->options->contours) snprintf(l.line[l.lines++], size, "isolines: mean");
+    return l;
+  }
+  if (p->filled) l.heading = "mean light M";
+  if (p->quantity == QUANTITY_FLUX) l.heading = "flux |Φ|";
+  if (p->quantity == QUANTITY_TEMPERATURE) {
+    l.heading = "temperature";
+    snprintf(l.line[0], size, "mean radiant, K");
+    snprintf(l.line[1], size, "strips: of B");
+    l.lines = 2;
+  } else if (p->quantity == QUANTITY_SKY) {
+    l.heading = "seen sky";
+    snprintf(l.line[l.lines++], size, "of all directions");
+  } else
+    describe_bands(p, &l);
+  return l;
+}
+
+/* True colour has a scale of greys, from black to the light that is white. */
+static colour colour_at(const picture *p, double part) {
+  const double grey = palette_srgb(part);
+  return p->rgb ? (colour){grey, grey, grey} : scale_colour_at(p, part);
+}
+
+/* A tip at the end of the bar: there is more. */
+static void draw_tip(const picture *p, const bar *b) {
+  const double x = b->level ? b->x + b->length + 1 : b->x;
+  const double y = b->level ? b->y - BAR : b->y - b->length - 1;
+  cairo_move_to(p->cr, x, y);
+  cairo_line_to(p->cr, x + (b->level ? 0 : BAR), y + (b->level ? BAR : 0));
+  cairo_line_to(p->cr, x + (b->level ? 9 : 0.5 * BAR), y + (b->level ? 0.5 * BAR : -9));
+  cairo_close_path(p->cr);
+  pen_colour(p->cr, colour_at(p, 1));
+  cairo_fill_preserve(p->cr);
+  pen_grey(p->cr, 0.25);
+  cairo_set_line_width(p->cr, 0.5);
+  cairo_stroke(p->cr);
+}
+
+static void fill_bar(const picture *p, const bar *b) {
+  const double dx = b->level ? b->length : 0, dy = b->level ? 0 : -b->length;
+  cairo_pattern_t *pattern = cairo_pattern_create_linear(b->x, b->y, b->x + dx, b->y + dy);
+  for (int k = 0; k <= 64; k++) {
+    const colour c = colour_at(p, k / 64.);
+    cairo_pattern_add_color_stop_rgb(pattern, k / 64., c.r, c.g, c.b);
+  }
+  if (b->level)
+    cairo_rectangle(p->cr, b->x, b->y - BAR, b->length, BAR);
+  else
+    cairo_rectangle(p->cr, b->x, b->y - b->length, BAR, b->length);
+  cairo_set_source(p->cr, pattern);
+  cairo_fill_preserve(p->cr);
+  pen_grey(p->cr, 0.25);
+  cairo_set_line_width(p->cr, 0.5);
+  cairo_stroke(p->cr);
+  cairo_pattern_destroy(pattern);
+  if (p->beyond) draw_tip(p, b);
+}
+
+static void draw_tick(const picture *p, const bar *b, double part, const char *label) {
+  const double x = b->level ? b->x + part * b->length : b->x + BAR;
+  const double y = b->level ? b->y : b->y - part * b->length;
+  cairo_move_to(p->cr, x, y);
+  cairo_line_to(p->cr, x + (b->level ? 0 : 4), y + (b->level ? 4 : 0));
+  cairo_stroke(p->cr);
+  if (b->level)
+    pen_write(p->cr, x - 0.5 * pen_text_width(p->cr, label), y + 15, label);
+  else
+    pen_write(p->cr, x + 7, y + 3.5, label);
+}
+
+static void draw_ticks(const picture *p, const bar *b) {
+  ticks t;
+  const int most = b->level || b->length > 160 ? 6 : 4;
+  ticks_make(&t, p->rgb ? 0 : p->lo, p->rgb ? 1 / p->exposure : p->hi, p->logarithmic, most);
+  pen_font(p->cr, 10, 0);
+  pen_grey(p->cr, 0.2);
+  for (int k = 0; k < t.count; k++) {
+    char label[32];
+    ticks_label(&t, k, label, sizeof label);
+    draw_tick(p, b, p->rgb ? p->exposure * t.value[k] : scale_position(p, t.value[k]), label);
+  }
+}
+
+static void draw_lines(const picture *p, const legend *l, double x, double y) {
+  pen_font(p->cr, 10, 0);
+  pen_grey(p->cr, 0.3);
+  for (int k = 0; k < l->lines; k++) pen_write(p->cr, x, y + k * LEADING, l->line[k]);
+}
+
+static void draw_upright(const picture *p, const legend *l) {
+  const double x = p->width - 100, top = 69 + LEADING * (l->lines + 1) + (p->beyond ? 6 : 0);
+  const double length = fmin(TALLEST, p->height - top - 52);
+  const bar b = {x, top + length, length, 0};
+  pen_grey(p->cr, 0.1);
+  pen_font(p->cr, 10.5, 1);
+  pen_write(p->cr, x, 69, l->heading);
+  draw_lines(p, l, x, 69 + LEADING);
+  fill_bar(p, &b);
+  draw_ticks(p, &b);
+}
+
+static void draw_level(const picture *p, const legend *l) {
+  const double length = fmin(WIDEST, 0.45 * p->width);
+  const bar b = {p->width - SIDE - 14 - length, p->height - 26, length, 1};
+  double x = b.x;
+  pen_grey(p->cr, 0.1);
+  pen_font(p->cr, 10.5, 1);
+  pen_write(p->cr, x, b.y - BAR - 8, l->heading);
+  x += pen_text_width(p->cr, l->heading) + 10;
+  for (int k = 0; k < l->lines; k++) {
+    const char *comma = k + 1 < l->lines ? "," : "";
+    char text[64];
+    snprintf(text, sizeof text, "%s%s", l->line[k], comma);
+    pen_font(p->cr, 10, 0);
+    pen_grey(p->cr, 0.3);
+    pen_write(p->cr, x, b.y - BAR - 8, text);
+    x += pen_text_width(p->cr, text) + 5;
+  }
+  fill_bar(p, &b);
+  draw_ticks(p, &b);
+}
+
+void legend_draw_scale(const picture *p) {
+  const legend l = describe(p);
+  if (!p->coloured && !p->filled) return;
+  if (p->flat)
+    draw_level(p, &l);
+  else
+    draw_upright(p, &l);
+}
+#endif
