@@ -5,6 +5,7 @@ tools_hr2d_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(PUBLIC_CPPFLAGS) -I$(srcdir)/t
 tools_hr2d_LDADD = libhr2d.la $(GSL_LIBS) $(JANSSON_LIBS) $(CAIRO_LIBS) -lm
 tools_hr2d_SOURCES = \
 	tools/main.c \
+	tools/output/apng.c tools/output/apng.h \
 	tools/output/clock.c tools/output/clock.h \
 	tools/output/complain.c tools/output/complain.h \
 	tools/output/csv.c tools/output/csv.h \
@@ -53,6 +54,7 @@ tools_hr2d_SOURCES = \
 	tools/draw/scale.c \
 	tools/draw/shade.c \
 	tools/draw/title.c \
+	tools/draw/watch.c \
 	tools/solve/command.c \
 	tools/solve/csv.c \
 	tools/solve/json.c \

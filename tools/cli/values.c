@@ -60,6 +60,14 @@ int value_picture(const char *option, char *text, value_range range, void *value
   return 0;
 }
 
+int value_film(const char *option, char *text, value_range range, void *value) {
+  (void)range;
+  *(const char **)value = text;
+  if (suffix_of(text) != SUFFIX_PNG)
+    return complain_usage("--%s: '%s' does not end in .png", option, text);
+  return 0;
+}
+
 int value_part(const char *option, char *text, value_range range, void *value) {
   double *x = value;
   (void)range;

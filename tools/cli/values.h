@@ -19,7 +19,7 @@ typedef int value_reader(const char *option, char *text, value_range range, void
 value_reader value_flag, value_positive, value_part, value_unsigned, value_count, value_path,
     value_file, value_picture, value_patches, value_place, value_places, value_sequence,
     value_grid, value_box, value_oracle, value_policy, value_norm, value_effect, value_methods,
-    value_against, value_light, value_band;
+    value_against, value_light, value_band, value_film;
 
 /* The types of the values. */
 typedef int type_of_flag;                  /* set to 1; there is no text */
@@ -30,6 +30,7 @@ typedef uint64_t type_of_count;            /* in the range */
 typedef const char *type_of_path;          /* a file, or - for standard output */
 typedef const char *type_of_file;          /* a file that can be read back */
 typedef const char *type_of_picture;       /* a file with the suffix of a picture format */
+typedef const char *type_of_film;          /* a .png file */
 typedef place_list type_of_patches;        /* a patch is appended; there is room for it */
 typedef place type_of_place;               /* PATCH:T */
 typedef place_list type_of_places;         /* PATCH:T is appended; there is room for it */

@@ -18,4 +18,8 @@ int draw_check_scene(const options *o, const hr2d_scene *scene);
    --beams-of.  Returns 0 or the exit status. */
 int draw_run(const run *r, const char *path);
 
+/* watch.c: an animation for falling epsilon, of elements, links and light; `r` is the run with
+   --eps.  Returns 0 or the exit status. */
+int draw_watch(const run *r, const char *path);
+
 #endif

@@ -14,9 +14,6 @@
 /* Triangles of the plane that all views may pass, some seconds of work. */
 #define MOST_WORK 1.5e8
 
-/* The colours of a scale. */
-#define LEVELS 192.0
-
 /* What interpolation may add, in steps of the scale from 0 to 1. */
 #define STEP 4e-3
 
@@ -45,10 +42,9 @@ static uint32_t byte_of(double part) {
   return (uint32_t)(255 * fmin(1, fmax(0, part)) + 0.5);
 }
 
-/* So few colours that the file is small, and steps are not seen. */
 static uint32_t pixel_of(const picture *p, shade s) {
-  if (!p->rgb) s.v[0] = floor(LEVELS * fmin(1, fmax(0, scale_position(p, s.v[0]))) + 0.5);
-  const colour c = p->rgb ? scale_colour(p, s) : scale_colour_at(p, s.v[0] / LEVELS);
+  if (!p->rgb) s.v[0] = floor(p->levels * fmin(1, fmax(0, scale_position(p, s.v[0]))) + 0.5);
+  const colour c = p->rgb ? scale_colour(p, s) : scale_colour_at(p, s.v[0] / p->levels);
   return 0xff000000 | byte_of(c.r) << 16 | byte_of(c.g) << 8 | byte_of(c.b);
 }
 

@@ -51,7 +51,7 @@ static void set_bounds(picture *p, hr2d_point low, hr2d_point high) {
   p->size = (hr2d_point){high.x - low.x, high.y - low.y};
 }
 
-static void take_bounds(picture *p) {
+void layout_bounds(picture *p) {
   const grid_box *given = &p->run->options->box;
   hr2d_point low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
   for (size_t k = 0; k < hr2d_scene_patches(p->run->scene); k++) {
@@ -103,7 +103,7 @@ void layout_draw_dot(const picture *p, const stroke *s, double t) {
   cairo_stroke(p->cr);
 }
 
-static int make_strokes(picture *p) {
+int layout_strokes(picture *p) {
   const size_t count = hr2d_scene_patches(p->run->scene);
   p->strokes = calloc(count, sizeof *p->strokes);
   if (!p->strokes) return complain_memory();
@@ -117,6 +117,7 @@ static int make_strokes(picture *p) {
     s->front =
         s->length > 0 ? (hr2d_point){dy / s->length, -dx / s->length} : (hr2d_point){0, 0};
   }
+  joints_make(p);
   return EXIT_DONE;
 }
 
@@ -153,12 +154,10 @@ static void set_page(picture *p, margins m) {
 }
 
 int layout_make(picture *p) {
-  take_bounds(p);
+  layout_bounds(p);
   set_page(p, choose_margins(p));
   if (!(isfinite(p->scale) && p->scale > 0))
     return complain(p->run->options->draw, "the scene is too small to draw");
-  const int status = make_strokes(p);
-  if (!status) joints_make(p);
-  return status;
+  return layout_strokes(p);
 }
 #endif

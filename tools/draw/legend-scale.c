@@ -8,12 +8,11 @@
 
 #include "output/ticks.h"
 
-#define SIDE     24.0
-#define BAR      14.0
-#define TALLEST  280.0
-#define WIDEST   280.0
-#define LEADING  13.0
-#define INTERVAL 40.0 /* between two ticks, at least */
+#define SIDE    24.0
+#define BAR     14.0
+#define TALLEST 280.0
+#define WIDEST  280.0
+#define LEADING 13.0
 
 enum { LINES = 3 };
 
@@ -112,20 +111,26 @@ static void fill_bar(const picture *p, const bar *b) {
   if (p->beyond) draw_tip(p, b);
 }
 
-static void draw_tick(const picture *p, const bar *b, double part, const char *label) {
+/* `free` is where the label before ends on a level bar; returns where this one ends. */
+static double draw_tick(const picture *p, const bar *b, double part, const char *label,
+                        double free) {
   const double x = b->level ? b->x + part * b->length : b->x + BAR;
   const double y = b->level ? b->y : b->y - part * b->length;
+  const double half = 0.5 * pen_text_width(p->cr, label);
   cairo_move_to(p->cr, x, y);
   cairo_line_to(p->cr, x + (b->level ? 0 : 4), y + (b->level ? 4 : 0));
   cairo_stroke(p->cr);
+  if (b->level && x - half < free + 5) return free;
   if (b->level)
-    pen_write(p->cr, x - 0.5 * pen_text_width(p->cr, label), y + 15, label);
+    pen_write(p->cr, x - half, y + 15, label);
   else
     pen_write(p->cr, x + 7, y + 3.5, label);
+  return x + half;
 }
 
 static void draw_ticks(const picture *p, const bar *b) {
   ticks t;
+  double free = 0;
   const int most = b->level || b->length > 160 ? 6 : 4;
   ticks_make(&t, p->rgb ? 0 : p->lo, p->rgb ? 1 / p->exposure : p->hi, p->logarithmic, most);
   pen_font(p->cr, 10, 0);
@@ -133,7 +138,8 @@ static void draw_ticks(const picture *p, const bar *b) {
   for (int k = 0; k < t.count; k++) {
     char label[32];
     ticks_label(&t, k, label, sizeof label);
-    draw_tick(p, b, p->rgb ? p->exposure * t.value[k] : scale_position(p, t.value[k]), label);
+    free = draw_tick(p, b, p->rgb ? p->exposure * t.value[k] : scale_position(p, t.value[k]),
+                     label, free);
   }
 }
 

@@ -110,6 +110,7 @@ typedef struct picture {
   int rgb;         /* in true colour, */
   double exposure; /* times B or M */
   double lo, hi;   /* of the colour scale */
+  double levels;   /* so many colours of the scale are used to fill */
   int logarithmic;
   double work;   /* of a view, in triangles of the plane */
   int beyond;    /* there is more than `hi`, in the colour of `hi` */
@@ -183,6 +184,10 @@ void arrows_draw_key(const picture *p);
 /* layout.c: page size, scale and strokes. */
 int layout_make(picture *p);
 
+/* Parts of that: `low` and `size`; and, where scale and origin are known, the strokes. */
+void layout_bounds(picture *p);
+int layout_strokes(picture *p);
+
 /* A point in element units, on the page. */
 hr2d_point layout_point(const picture *p, hr2d_point element);
 
@@ -196,7 +201,7 @@ hr2d_point layout_scene_point(const picture *p, double x, double y);
 /* The height of the trees behind patches; 0 if no links are drawn. */
 double layout_tree_height(const picture *p);
 
-/* joints.c: the thickness of the bands, cuts and twins. */
+/* joints.c: the thickness of the bands, cuts and twins; layout.c calls it. */
 void joints_make(picture *p);
 
 /* The distance of a point from a stroke. */

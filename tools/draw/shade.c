@@ -5,6 +5,9 @@
 #if HAVE_CAIRO
 #include <math.h>
 
+/* So few that a file is small, and that steps are not seen. */
+#define LEVELS 192
+
 /* The constant of Stefan and Boltzmann, W/(m² K⁴). */
 #define SIGMA 5.670374419e-8
 
@@ -12,6 +15,7 @@ void shade_choose(picture *p) {
   const options *o = p->run->options;
   const int three = hr2d_scene_bands(p->run->scene) == 3;
   p->quantity = o->quantity;
+  p->levels = LEVELS;
   p->filled = !o->no_fill && !o->links_of.patch && !o->beams_of.count;
   p->coloured = p->quantity == QUANTITY_MEAN || p->quantity == QUANTITY_TEMPERATURE;
   p->rgb = o->band == BAND_RGB ||

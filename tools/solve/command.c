@@ -50,6 +50,7 @@ static int report(const run *r) {
   if (options_want_table(o)) status = solve_print(r, total);
   if (o->csv && !status) status = solve_write_csv(r, o->csv);
   if (o->draw && !status) status = draw_run(r, o->draw);
+  if (o->watch && !status) status = draw_watch(r, o->watch);
   if (o->json && !status) status = solve_write_json(r, total, o->json);
   return status ? status : check_heat(r);
 }
@@ -87,7 +88,7 @@ int solve_command(const options *o) {
   const double start = clock_seconds();
   hr2d_scene *scene = NULL;
   size_t cuts = 0;
-  int status = o->draw ? draw_check(o->draw) : 0;
+  int status = o->draw ? draw_check(o->draw) : o->watch ? draw_check(o->watch) : 0;
   if (!status) status = options_check_outputs(o);
   if (!status) status = scene_load(o, o->force, &scene, &cuts);
   if (status) return status;
