@@ -124,28 +124,39 @@ END
 # series SCENE ORACLE VARIANT COLOUR POINTTYPE: one ε in five is enough for the eye
 series() {
   cat <<END
-'$out/$1-$2-$3.csv' using 2:(\$4/\$2**2) every 5::1 with points pointtype $5 pointsize 0.45 \
-  linecolor rgb '$4' title '$2, $3: slope $(printf %.2f "$(field "$1" "$2" "$3" slope)")', \\
+'$out/$1-$2-$3.csv' using 2:(\$4/\$2**2) every 5::1 with points pointtype $5 pointsize 0.9 \
+  linewidth 1.2 linecolor rgb '$4' title '$2, $3', \\
 END
 }
 
-# comparison SCENE: L/N², which stays between two bounds where L = Θ(N²)
+# slopes SCENE: the least and the greatest slope of the oracles and variants in the diagram
+slopes() {
+  for oracle in l1 size bf; do
+    for variant in original modified; do field "$1" "$oracle" "$variant" slope; done
+  done | sort -n | awk 'NR == 1 { least = $1 } { most = $1 }
+    END { printf "slopes of log L: %.2f to %.2f", least, most }'
+}
+
+# comparison SCENE KEY: L/N², which stays between two bounds where L = Θ(N²)
 comparison() {
   cat <<END
-set title "$(what "$1")" font ',12'
-set xlabel 'elements N'
-set ylabel 'L/N^2'
+set title "$(what "$1")" font ',15'
+set xlabel 'elements N' font ',15'
+set ylabel 'L/N^2' font ',15'
+set tics font ',13'
 set logscale x
 set format x '10^{%T}'
 set xrange [20:50000]
-set yrange [0:0.14]
-set key top right spacing 1.15 samplen 1 font ',10'
+set yrange [0:0.08]
+set ytics 0.02
+set label 1 "$(slopes "$1")" at graph 0.97, graph 0.94 right font ',13'
+$2
 plot $(series "$1" l1 original '#440154' 7)
 $(series "$1" l1 modified '#b070c8' 6)
-$(series "$1" size original '#21918c' 7)
-$(series "$1" size modified '#70d0b0' 6)
-$(series "$1" bf original '#c05800' 7)
-$(series "$1" bf modified '#f0a850' 6)
+$(series "$1" size original '#21918c' 5)
+$(series "$1" size modified '#60c0a0' 4)
+$(series "$1" bf original '#c05800' 9)
+$(series "$1" bf modified '#f0a040' 8)
 1/0 notitle
 END
 }
@@ -210,7 +221,13 @@ set multiplot layout 2,1
 $(diagram orth-near)
 $(diagram orth-far)
 END
-plot oracles 800 740 <<END
+plot oracles 1000 900 <<END
+set multiplot layout 2,2 margins 0.11,0.98,0.17,0.94 spacing 0.13,0.16
+$(comparison par-near "set key at screen 0.53, screen 0.045 center center maxrows 2 reverse Left samplen 1 font ',15' width 2")
+$(comparison par-far "unset key")
+$(comparison orth-near "unset key")
+$(comparison orth-far "unset key")
+END
 set multiplot layout 2,2
 $(comparison par-near)
 $(comparison par-far)

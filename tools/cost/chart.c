@@ -10,7 +10,7 @@
 #include "output/complain.h"
 #include "output/gnuplot.h"
 
-enum { MOST_CURVES = 16, WIDTH = 900, HEIGHT = 640 };
+enum { MOST_CURVES = 16, MOST_ROWS = 1024, WIDTH = 900, HEIGHT = 640 };
 
 /* Parts of the width: kept for names, of a character; of the height: of a line; and the gap
    between a curve and its name. */
@@ -29,6 +29,8 @@ typedef struct curve {
 typedef struct chart {
   const cost *cost;
   against quantity;
+  const cost_row *rows[MOST_ROWS]; /* those that are drawn, method after method */
+  size_t row_count;
   double worst, best, least, most; /* decades of error and of the quantity */
   curve curves[MOST_CURVES];
   size_t count;
@@ -53,11 +55,47 @@ static double decade_of_cost(const chart *d, const cost_row *row) {
   return log10(cost_quantity(row, d->quantity));
 }
 
+/* A target is sometimes reached by more digits, or later, than a stricter one. */
+static int is_beaten(const chart *d, const cost_row *row) {
+  const cost *c = d->cost;
+  for (size_t k = 0; k < c->count; k++) {
+    const cost_row *other = &c->rows[k];
+    const double error = decade_of_error(d, other) - decade_of_error(d, row);
+    const double price = decade_of_cost(d, other) - decade_of_cost(d, row);
+    if (other->method == row->method && error <= 0 && price <= 0 &&
+        (error < 0 || price < 0 || other < row))
+      return 1;
+  }
+  return 0;
+}
+
+/* Keeps the rows of its method in the order of falling errors. */
+static void insert_row(chart *d, const cost_row *row) {
+  size_t k = d->row_count++;
+  for (; k && d->rows[k - 1]->method == row->method &&
+         decade_of_error(d, d->rows[k - 1]) < decade_of_error(d, row);
+       k--)
+    d->rows[k] = d->rows[k - 1];
+  d->rows[k] = row;
+}
+
+/* All rows, but of an automatic method the best for each error: its curve never goes back. */
+static void choose_rows(chart *d) {
+  for (size_t k = 0; k < d->cost->count && d->row_count < MOST_ROWS; k++) {
+    const cost_row *row = &d->cost->rows[k];
+    const method m = row->method->id;
+    if (m != METHOD_AUTO && m != METHOD_AUTO_SOLVE)
+      d->rows[d->row_count++] = row;
+    else if (!is_beaten(d, row))
+      insert_row(d, row);
+  }
+}
+
 static void measure(chart *d) {
   d->worst = d->most = -INFINITY;
   d->best = d->least = INFINITY;
-  for (size_t k = 0; k < d->cost->count; k++) {
-    const cost_row *row = &d->cost->rows[k];
+  for (size_t k = 0; k < d->row_count; k++) {
+    const cost_row *row = d->rows[k];
     d->worst = fmax(d->worst, decade_of_error(d, row));
     d->best = fmin(d->best, decade_of_error(d, row));
     d->most = fmax(d->most, decade_of_cost(d, row));
@@ -88,9 +126,9 @@ static hr2d_point on_chart(const chart *d, const cost_row *row) {
 }
 
 static void find_curves(chart *d) {
-  for (size_t k = 0; k < d->cost->count; k++) {
-    const cost_row *row = &d->cost->rows[k];
-    const int begins = !k || row->method != d->cost->rows[k - 1].method;
+  for (size_t k = 0; k < d->row_count; k++) {
+    const cost_row *row = d->rows[k];
+    const int begins = !k || row->method != d->rows[k - 1]->method;
     if (begins && d->count == MOST_CURVES) return;
     curve *v = &d->curves[begins ? d->count++ : d->count - 1];
     if (begins) v->method = row->method;
@@ -113,10 +151,10 @@ static int crosses(const curve *v, hr2d_point label, hr2d_point a, hr2d_point b)
 }
 
 static int is_clear_of_curves(const chart *d, const curve *v, hr2d_point label) {
-  const cost_row *rows = d->cost->rows;
-  for (size_t k = 1; k < d->cost->count; k++)
-    if (rows[k].method == rows[k - 1].method &&
-        crosses(v, label, on_chart(d, &rows[k - 1]), on_chart(d, &rows[k])))
+  const cost_row *const *rows = d->rows;
+  for (size_t k = 1; k < d->row_count; k++)
+    if (rows[k]->method == rows[k - 1]->method &&
+        crosses(v, label, on_chart(d, rows[k - 1]), on_chart(d, rows[k])))
       return 0;
   return 1;
 }
@@ -197,9 +235,9 @@ static void write_data(FILE *script, const chart *d, size_t panel) {
   size_t k = 0;
   for (size_t j = 0; j < d->count; j++) {
     fprintf(script, "$curve%zu_%zu << END\n", panel, j);
-    for (; k < d->cost->count && d->cost->rows[k].method == d->curves[j].method; k++)
-      fprintf(script, "%.17g %.17g\n", pow(10, decade_of_error(d, &d->cost->rows[k])),
-              cost_quantity(&d->cost->rows[k], d->quantity));
+    for (; k < d->row_count && d->rows[k]->method == d->curves[j].method; k++)
+      fprintf(script, "%.17g %.17g\n", pow(10, decade_of_error(d, d->rows[k])),
+              cost_quantity(d->rows[k], d->quantity));
     fputs("END\n", script);
   }
 }
@@ -218,6 +256,7 @@ static void write_curves(FILE *script, const chart *d, size_t panel) {
 
 static void make_panel(chart *d, const cost *c, against quantity) {
   *d = (chart){.cost = c, .quantity = quantity};
+  choose_rows(d);
   measure(d);
   find_curves(d);
   for (size_t k = 0; k < d->count; k++) place_label(d, k);

@@ -100,7 +100,7 @@ static void draw_links(const picture *p) {
   const colour c = palette_ember(0.5);
   pen_colour(p->cr, (colour){1 - ink * (1 - c.r), 1 - ink * (1 - c.g), 1 - ink * (1 - c.b)});
   cairo_set_antialias(p->cr, CAIRO_ANTIALIAS_NONE);
-  cairo_set_line_width(p->cr, 0.8);
+  cairo_set_line_width(p->cr, 1.05 / PIXELS);
   for (uint64_t k = 0; k < count && count <= MOST_LINES; k++) {
     const hr2d_pair pair = hr2d_linkset_get(p->run->links, k).pair;
     const hr2d_point a = layout_point(p, elements[pair.first].centre);
