@@ -166,26 +166,28 @@ power() {
   awk -v k="$1" 'BEGIN { printf "%.17g", 2 ^ k }'
 }
 
-# The picture of README.md; its SVG has five times the bytes.
+# The pictures of README.md: a room full of light, and the algorithm at work.
 "$hr2d" solve "$scenes/partition.geojson" --target-error 1e-4 --quiet \
   --draw "$out/partition.png"
+"$hr2d" solve "$screened" --eps 0.7 --multigrid 4:0.646765 --no-error --quiet \
+  --watch "$out/watch.png"
 
 # What a point sees, for occlusion.md.
 "$hr2d" solve "$scenes/partition.geojson" --eps 1 --quiet \
   --draw "$out/beams.png" --beams-of window:0.5
 
 # Figures 1 to 4: the paper's analysis, with its oracle and its modification.
-draw figure-1 par-near --eps 16 --variant modified
+draw figure-1 par-near --eps 16 --variant modified --no-fill
 draw figure-2 par-near --eps 0.25 --variant modified --links-of bottom:0.3
 draw figure-3 par-near --eps 0.25 --variant modified --links-of bottom:0.49 --link-level 5
 draw figure-4 par-far --eps 0.5 --variant modified --links-of bottom:0.3 --link-level 1 \
   --link-parents
 
 # Figures 5 and 6: the scenes of the experiments.
-draw figure-5-near par-near --eps 0.25
-draw figure-5-far par-far --eps 0.0625
-draw figure-6-near orth-near --eps 0.125
-draw figure-6-far orth-far --eps 0.0625
+draw figure-5-near par-near --eps 0.25 --no-fill
+draw figure-5-far par-far --eps 0.0625 --no-fill
+draw figure-6-near orth-near --eps 0.125 --no-fill
+draw figure-6-far orth-far --eps 0.0625 --no-fill
 
 # Ranges of ε that take N from some dozens to some thousands; elements are as long as
 # their distance times ε, so that distant patches need a smaller one.

@@ -23,7 +23,7 @@
 #define SHOWN    1000 /* milliseconds */
 #define LAST     3000
 #define FINE     0.002 /* the tolerance of the light, which is small */
-#define LEVELS   40.0  /* colours, as a film of more is large */
+#define LEVELS   28.0  /* colours, as a film of more is large */
 #define MOST_INK 9.0   /* the opacity of links, times the square root of their number */
 
 enum { STAGES = 7, MOST_STAGES = 60, MOST_LINES = 1500 };
@@ -100,7 +100,7 @@ static void draw_links(const picture *p) {
   const colour c = palette_ember(0.5);
   pen_colour(p->cr, (colour){1 - ink * (1 - c.r), 1 - ink * (1 - c.g), 1 - ink * (1 - c.b)});
   cairo_set_antialias(p->cr, CAIRO_ANTIALIAS_NONE);
-  cairo_set_line_width(p->cr, 1.05 / PIXELS);
+  cairo_set_line_width(p->cr, 1 / PIXELS);
   for (uint64_t k = 0; k < count && count <= MOST_LINES; k++) {
     const hr2d_pair pair = hr2d_linkset_get(p->run->links, k).pair;
     const hr2d_point a = layout_point(p, elements[pair.first].centre);
