@@ -112,6 +112,7 @@ OUTSIDE = \
 	tests/program/check-digits.sh \
 	tests/program/check-field.sh \
 	tests/program/check-vti.sh \
+	tests/program/check-pictures.sh \
 	tests/program/check-resume.sh \
 	tests/package/check-constants.sh \
 	tests/package/check-exports.sh \
@@ -183,6 +184,11 @@ else
 check-local:
 	@echo "make check needs Check and MPFR; configure did not find them" >&2; exit 1
 endif
+
+# What check-pictures.sh looks at pictures with.
+check_PROGRAMS += tests/program/pixels
+tests_program_pixels_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(CAIRO_CFLAGS)
+tests_program_pixels_LDADD = $(CAIRO_LIBS)
 
 # The adversary knows of the library what a user knows: public headers, exported symbols.  `make
 # adversary RUNS=20000` prints the tables of many runs.
