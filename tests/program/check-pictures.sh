@@ -54,7 +54,7 @@ usage "--band: 'red' is neither a number nor all nor rgb" field "$furnace" --dra
 usage "--watch: 'a.svg' does not end in .png" solve "$black" --watch a.svg
 usage "--target-error and --watch exclude each other" solve "$black" --target-error 1e-3 --watch a.png
 
-run solve "$black" --quiet --draw "$work/probe.svg"
+run solve "$black" --quiet --eps 4 --draw "$work/probe.svg"
 if grep -q 'without cairo' "$work/err"; then
   echo "skipped: pictures, for want of cairo"
   summary check-pictures
@@ -76,15 +76,15 @@ is_no_xml() {
   ! is_xml "$1"
 }
 for quantity in mean flux sky temperature; do
-  succeeds field "$block" --quiet --eps 0.5 --quantity $quantity --contours 6 --arrows \
+  succeeds field "$block" --quiet --eps 4 --quantity $quantity --contours 6 --arrows \
     --draw "$work/$quantity.svg"
   check "SVG of $quantity is XML" is_xml "$work/$quantity.svg"
 done
 head -c -9 "$work/mean.svg" >"$work/half.svg"
 check "half an SVG would be found" is_no_xml "$work/half.svg"
-succeeds solve "$block" --quiet --eps 0.5 --contours 4 --arrows --draw "$work/block.pdf"
+succeeds solve "$block" --quiet --eps 4 --contours 4 --arrows --draw "$work/block.pdf"
 check "PDF" magic "$work/block.pdf" 25504446
-succeeds solve "$block" --quiet --eps 0.5 --draw "$work/block.png"
+succeeds solve "$block" --quiet --eps 4 --draw "$work/block.png"
 check "PNG" "$pixels" "$work/block.png" >"$work/size"
 head -c 5000 "$work/block.png" >"$work/half.png"
 is_no_png() {
@@ -94,7 +94,7 @@ check "half a PNG would be found" is_no_png "$work/half.png"
 
 # pixel FILE X Y: the colour in the middle of a scene of the unit square, by parts of its width.
 # The square is where a picture without names or light has its walls, in points of the page.
-succeeds solve "$block" --quiet --eps 0.5 --no-fill --draw "$work/plain.svg"
+succeeds solve "$block" --quiet --eps 4 --no-fill --draw "$work/plain.svg"
 wall() { # wall FILE: x, y and size of the square on the page
   sed -n 's/.*stroke-width:1.2;.* d="M \([0-9.]*\) \([0-9.]*\) L \([0-9.]*\) \([0-9.]*\) "\/>.*/\1 \2 \3 \4/p' \
     "$1" | awk '{ for (k = 1; k < 5; k += 2) { if (!n || $k < x) x = $k; if (!n || $k > X) X = $k
@@ -118,9 +118,9 @@ check "between the walls is light" is_coloured "$work/block.png" 0.2 0.7
 check "behind the block, too" is_coloured "$work/block.png" 0.5 0.8
 check "the block is empty" is_white "$work/block.png" 0.5 0.5
 check "outside of the room is nothing" is_white "$work/block.png" 1.03 0.8
-succeeds solve "$block" --quiet --eps 0.5 --no-fill --draw "$work/white.png"
+succeeds solve "$block" --quiet --eps 4 --no-fill --draw "$work/white.png"
 check "--no-fill leaves the room white" is_white "$work/white.png" 0.2 0.7
-succeeds solve "$block" --quiet --eps 0.5 --beams-of lamp:0.5 --draw "$work/beams.png"
+succeeds solve "$block" --quiet --eps 4 --beams-of lamp:0.5 --draw "$work/beams.png"
 check "and so do beams" is_white "$work/beams.png" 0.45 0.8
 
 # ---- true colour: B = 1 is white, and with an exposure of a half it is grey: 188 in sRGB
@@ -133,7 +133,7 @@ succeeds field "$furnace" --quiet --band all --draw "$work/all.png"
 check "and has a colour on a scale" is_coloured "$work/all.png" 0.3 0.6
 
 # ---- isolines of the black room: M is the angle of the lamp, as a part of all directions
-succeeds solve "$black" --quiet --contours 8 --draw "$work/black.svg"
+succeeds solve "$black" --quiet --eps 1 --contours 8 --draw "$work/black.svg"
 # lines FILE: the vertices of all isolines, x y in the square
 vertices() {
   sed -n 's/.*stroke-width:0.9;.* d="\([^"]*\)".*/\1/p' "$1" | tr -d 'MLZ' |
@@ -178,7 +178,7 @@ succeeds field "$black" --quiet --box 0.2,0.4,0.6,0.5 --draw "$work/part.svg"
 check "a part of the plane: $(aspect "$work/part.svg")" between "$(aspect "$work/part.svg")" 1.9 3
 
 # ---- a film: its frames, and that all of its bytes are as PNG wants them
-succeeds solve "$block" --quiet --eps 0.5 --multigrid 4:0.5 --watch "$work/film.png"
+succeeds solve "$block" --quiet --eps 4 --multigrid 32:0.5 --watch "$work/film.png"
 check "what plays no films shows the first frame" "$pixels" "$work/film.png" >"$work/size"
 cat >"$work/film.py" <<'END'
 import struct, sys, zlib

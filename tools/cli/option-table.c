@@ -72,7 +72,7 @@ static const option_entry table[] = {
   {"linear", NULL, GROUP_OUTPUT, VALUE(flag, linear_scale),
    .help = {{FIELD, "a linear scale"}}, .needs = "draw"},
   {"watch", "FILE", GROUP_OUTPUT, VALUE(film, watch),
-   .help = {{SOLVE, "a film of elements, links and light as epsilon falls, .png"}},
+   .help = {{SOLVE, "a film (.png) of elements, links and light as E falls"}},
    .rules = IS_OUTPUT | NOT_WITH_TARGET},
   {"links-of", "PATCH:T", GROUP_OUTPUT, VALUE(place, links_of),
    .help = {{SOLVE, "draw the links that serve this point, too"}}, .needs = "draw"},

@@ -42,31 +42,37 @@ static void describe_bands(const picture *p, legend *l) {
     snprintf(text, size, "in the unit of E");
 }
 
-static legend describe(const picture *p) {
-  legend l = {.heading = "radiosity B"};
+static legend describe_true_colour(const picture *p) {
+  legend l = {.heading = "true colour", .lines = 2};
   const size_t size = sizeof l.line[0];
-  if (p->filled && p->coloured)
-    snprintf(l.line[l.lines++], size, "strips: %sB", p->rgb ? "" : "radiosity ");
-  if (p->rgb) {
-    l.heading = "true colour";
-    snprintf(l.line[0], size, "red, green, blue");
-    snprintf(l.line[1], size, "exposure %.3g", p->exposure);
-    l.lines = 2;
-    if (p->run->options->contours) snprintf(l.line[l.lines++], size, "isolines: mean");
-    return l;
-  }
-  if (p->filled) l.heading = "mean light M";
-  if (p->quantity == QUANTITY_FLUX) l.heading = "flux |Φ|";
-  if (p->quantity == QUANTITY_TEMPERATURE) {
+  snprintf(l.line[0], size, "red, green, blue");
+  snprintf(l.line[1], size, "exposure %.3g", p->exposure);
+  if (p->run->options->contours) snprintf(l.line[l.lines++], size, "isolines: mean");
+  return l;
+}
+
+static legend describe(const picture *p) {
+  legend l = {.heading = p->filled ? "mean light M" : "radiosity B"};
+  const size_t size = sizeof l.line[0];
+  if (p->rgb) return describe_true_colour(p);
+  switch (p->quantity) {
+  case QUANTITY_TEMPERATURE:
     l.heading = "temperature";
-    snprintf(l.line[0], size, "mean radiant, K");
-    snprintf(l.line[1], size, "strips: of B");
-    l.lines = 2;
-  } else if (p->quantity == QUANTITY_SKY) {
+    snprintf(l.line[l.lines++], size, "mean radiant, K");
+    snprintf(l.line[l.lines++], size, "strips: of B");
+    break;
+  case QUANTITY_SKY:
     l.heading = "seen sky";
     snprintf(l.line[l.lines++], size, "of all directions");
-  } else
+    break;
+  case QUANTITY_FLUX:
+    l.heading = "flux |Φ|";
     describe_bands(p, &l);
+    break;
+  default:
+    if (p->filled) snprintf(l.line[l.lines++], size, "strips: radiosity B");
+    describe_bands(p, &l);
+  }
   return l;
 }
 

@@ -202,7 +202,7 @@ static int make_frames(watch *w, run *r) {
   r->links = r->own_links;
   int status = EXIT_DONE;
   for (uint32_t k = 0; k < w->film.frames && !status; k++) {
-    const double epsilon = epsilon_of(o, k);
+    const double epsilon = k + 1 < w->film.frames ? epsilon_of(o, k) : o->epsilon;
     status = solve_frame(r, epsilon);
     if (!status) status = draw_frame(w, r, epsilon);
     if (!status)
@@ -229,6 +229,7 @@ int draw_watch(const run *r, const char *path) {
   watch w = {.whole = r, .page = {.run = r}};
   shade_choose(&w.page);
   w.page.levels = LEVELS;
+  w.page.filled = 1;
   set_page(&w.page);
   if (!(isfinite(w.page.scale) && w.page.scale > 0))
     return complain(path, "the scene is too small to draw");
