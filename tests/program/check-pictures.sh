@@ -132,6 +132,15 @@ check "half exposed it is grey: $(pixel "$work/grey.png" 0.3 0.6)" \
 succeeds field "$furnace" --quiet --band all --draw "$work/all.png"
 check "and has a colour on a scale" is_coloured "$work/all.png" 0.3 0.6
 
+# ---- without light there is nothing to fill, and no scale to choose
+room "$work/dark.geojson" "$(patch floor 0 0.5 '[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]')"
+for quantity in mean flux sky temperature; do
+  succeeds field "$work/dark.geojson" --quiet --quantity $quantity --contours 5 --arrows --log \
+    --draw "$work/dark.svg"
+  check "a dark scene is XML" is_xml "$work/dark.svg"
+  check "of numbers" lacks 'nan\|inf[^o]' "$work/dark.svg"
+done
+
 # ---- isolines of the black room: M is the angle of the lamp, as a part of all directions
 succeeds solve "$black" --quiet --eps 1 --contours 8 --draw "$work/black.svg"
 # lines FILE: the vertices of all isolines, x y in the square

@@ -94,7 +94,7 @@ static void choose_linear(picture *p, const sample *s) {
     return;
   }
   if (p->quantity != QUANTITY_TEMPERATURE && p->lo < 0.5 * bright) p->lo = 0;
-  p->hi = most - p->lo > 2 * (bright - p->lo) ? bright : most;
+  p->hi = bright > p->lo && most - p->lo > 2 * (bright - p->lo) ? bright : most;
   p->beyond = p->hi < most;
 }
 
@@ -110,7 +110,7 @@ static void choose_logarithmic(picture *p, const sample *s) {
 
 static void choose_filled(picture *p, const sample *s) {
   const options *o = p->run->options;
-  if (!s->count) return;
+  if (!s->count) return; /* a scene without light */
   if (p->rgb) {
     const double white = part_of(s, WHITE);
     p->exposure = white > 0 ? 1 / white : 1;
@@ -135,6 +135,7 @@ static void choose_plain(picture *p) {
 
 /* A range that is no point. */
 static void open_range(picture *p) {
+  if (!(p->lo <= p->hi)) p->lo = p->hi = 0; /* nothing is shown */
   if (p->hi - p->lo > 1e-9 * fabs(p->hi)) return;
   const double margin = p->hi > 0 ? 0.5 * p->hi : 1;
   p->lo = fmax(0, p->lo - margin);
@@ -147,6 +148,7 @@ int scale_choose(picture *p) {
   sample s = {NULL, 0};
   p->lo = INFINITY;
   p->hi = -INFINITY;
+  p->exposure = 1;
   for (size_t k = 0; p->coloured && !status && k < hr2d_scene_patches(p->run->scene); k++)
     status = leaves_walk(p->run->hierarchy, k, 0, widen_by_leaf, p);
   if ((p->filled || p->run->options->contours) && !status) status = take_sample(p, &s);
