@@ -140,6 +140,8 @@ for quantity in mean flux sky temperature; do
   check "a dark scene is XML" is_xml "$work/dark.svg"
   check "of numbers" lacks 'nan\|inf[^o]' "$work/dark.svg"
 done
+succeeds solve "$work/dark.geojson" --quiet --draw "$work/dark.png"
+check "and stays white" is_white "$work/dark.png" 0.3 0.6
 
 # ---- isolines of the black room: M is the angle of the lamp, as a part of all directions
 succeeds solve "$black" --quiet --eps 1 --contours 8 --draw "$work/black.svg"

@@ -110,7 +110,6 @@ static void choose_logarithmic(picture *p, const sample *s) {
 
 static void choose_filled(picture *p, const sample *s) {
   const options *o = p->run->options;
-  if (!s->count) return; /* a scene without light */
   if (p->rgb) {
     const double white = part_of(s, WHITE);
     p->exposure = white > 0 ? 1 / white : 1;
@@ -152,6 +151,7 @@ int scale_choose(picture *p) {
   for (size_t k = 0; p->coloured && !status && k < hr2d_scene_patches(p->run->scene); k++)
     status = leaves_walk(p->run->hierarchy, k, 0, widen_by_leaf, p);
   if ((p->filled || p->run->options->contours) && !status) status = take_sample(p, &s);
+  if (!(part_of(&s, 1) > 0)) p->filled = 0; /* without light the scene stays white */
   if (p->filled && !status)
     choose_filled(p, &s);
   else if (!status)
