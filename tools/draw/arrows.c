@@ -119,7 +119,7 @@ int arrows_draw(picture *p) {
 }
 
 void arrows_draw_key(const picture *p) {
-  const double x = 200, y = p->height - 20;
+  const double x = 176, y = p->height - 20 - 22 * ((p->path_count > 0) + (p->seen > 0));
   draw_arrow(p->cr, (hr2d_point){x, y - 3.5}, (hr2d_point){LONGEST, 0});
   pen_font(p->cr, 10, 0);
   pen_grey(p->cr, 0.2);

@@ -56,8 +56,8 @@ static int draw_page(picture *p) {
   beams_draw_points(p);
   cairo_restore(p->cr);
   if (!status) status = labels_draw(p);
-  if (!status) status = arrows_draw(p);
   if (!status) status = contours_label(p);
+  if (!status) status = arrows_draw(p);
   legend_draw(p);
   cairo_show_page(p->cr);
   return status;

@@ -146,7 +146,8 @@ static void set_page(picture *p, margins m) {
   p->scale = fmin((PAGE_WIDTH - m.left - m.right - legend) / p->size.x, most / p->size.y);
   const double width = m.left + p->size.x * p->scale + m.right + legend;
   const double height = TITLE + m.top + p->size.y * p->scale + m.bottom + foot;
-  p->width = plain ? ceil(fmin(PAGE_WIDTH, fmax(title_width(p), width))) : PAGE_WIDTH;
+  const double least = fmax(title_width(p), p->run->options->arrows ? ARROW_KEY : 0);
+  p->width = plain ? ceil(fmin(PAGE_WIDTH, fmax(least, width))) : PAGE_WIDTH;
   p->height = ceil(fmax(p->flat ? 0 : LEAST_HEIGHT, height));
   p->origin.x = m.left + 0.5 * (p->width - width);
   p->origin.y = p->height - foot - m.bottom - 0.5 * (p->height - height);

@@ -11,7 +11,7 @@
 #define SIDE    24.0
 #define BAR     14.0
 #define TALLEST 280.0
-#define WIDEST  280.0
+#define WIDEST  250.0
 #define LEADING 13.0
 
 enum { LINES = 3 };

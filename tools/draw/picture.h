@@ -64,6 +64,7 @@ typedef struct contours {
 } contours;
 
 #define CONTOUR_WIDTH 0.9
+#define ARROW_KEY     530.0 /* points from the left that the key of arrows takes */
 
 /* The lines that labels must keep clear of. */
 typedef struct obstacles {

@@ -125,20 +125,6 @@ void run_release(run *r) {
   *r = (run){0};
 }
 
-double run_mean(const run *r, uint32_t element) {
-  const size_t bands = hr2d_scene_bands(r->scene);
-  double sum = 0;
-  for (size_t b = 0; b < bands; b++) sum += hr2d_solution_element(r->solution, element, b);
-  return sum / (double)bands;
-}
-
-double run_mean_at(const run *r, size_t patch, double t) {
-  const size_t bands = hr2d_scene_bands(r->scene);
-  double sum = 0;
-  for (size_t b = 0; b < bands; b++) sum += hr2d_solution_at(r->solution, patch, t, b);
-  return sum / (double)bands;
-}
-
 double run_power_error(const hr2d_power *p) {
   const double in = p->emitted + p->received;
   return in > 0 ? fabs(in - p->absorbed - p->escaped) / in : 0;

@@ -52,12 +52,6 @@ const size_t *run_important(const run *r);
 /* Those of --beams-of. */
 const size_t *run_beamed(const run *r);
 
-/* B averaged over an element and over the bands. */
-double run_mean(const run *r, uint32_t element);
-
-/* B at a point of a patch, averaged over the bands. */
-double run_mean_at(const run *r, size_t patch, double t);
-
 /* B and H at the point of --at number k, in all bands.  Returns 0 or the exit status. */
 int run_place(const run *r, size_t k, double *radiosity, double *irradiance);
 
