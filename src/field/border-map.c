@@ -6,7 +6,7 @@
 #include "base/alloc.h"
 #include "base/pi.h"
 
-/* Borders of a tile; where there are more no node is interpolated. */
+/* Borders of a tile that are kept. */
 enum { CROWD = 256 };
 
 /* A ray in nodes, with lengths along it as they are in the plane. */
@@ -41,10 +41,10 @@ static double place(const ray *r, int k, double t) {
 
 /* Counts a border in first[tile + 1], or puts it into the lists, from first[tile] on. */
 static void cross_tile(hr2di_border_map *m, size_t tile, uint32_t border) {
-  if (m->list)
-    m->list[m->first[tile]++] = border;
-  else
+  if (!m->list)
     m->first[tile + 1]++;
+  else if (!m->crowded[tile])
+    m->list[m->first[tile]++] = border;
 }
 
 /* The tiles of a row that a ray crosses. */
@@ -85,9 +85,13 @@ hr2d_status hr2di_border_map_init(hr2di_border_map *m, const hr2di_borders *bord
   m->margin[0] = 1e-6 + 0x1p-40 / fabs(m->step.x);
   m->margin[1] = 1e-6 + 0x1p-40 / fabs(m->step.y);
   m->first = hr2di_alloc_zero(alloc, tiles + 1, sizeof *m->first);
-  if (!m->first) return HR2D_ENOMEM;
+  m->crowded = hr2di_alloc_zero(alloc, tiles, 1);
+  if (!m->first || !m->crowded) return HR2D_ENOMEM;
   hr2d_status status = cross_tiles(m, watch);
-  for (size_t k = 0; k < tiles; k++) m->first[k + 1] += m->first[k];
+  for (size_t k = 0; k < tiles; k++) {
+    m->crowded[k] = m->first[k + 1] > CROWD;
+    m->first[k + 1] = m->first[k] + (m->crowded[k] ? 0 : m->first[k + 1]);
+  }
   m->list = hr2di_alloc(alloc, m->first[tiles] + 1, sizeof *m->list);
   if (!m->list) return HR2D_ENOMEM;
   if (!status) status = cross_tiles(m, watch);
@@ -98,12 +102,9 @@ hr2d_status hr2di_border_map_init(hr2di_border_map *m, const hr2di_borders *bord
 }
 
 void hr2di_border_map_clear(hr2di_border_map *m) {
+  hr2di_alloc_free(&m->alloc, m->crowded);
   hr2di_alloc_free(&m->alloc, m->first);
   hr2di_alloc_free(&m->alloc, m->list);
-}
-
-int hr2di_border_map_crowded(const hr2di_border_map *m, size_t tile) {
-  return m->first[tile + 1] - m->first[tile] > CROWD;
 }
 
 /* The slope jumps by s across a line.  Linear interpolation over a length h across misses at

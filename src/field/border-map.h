@@ -15,19 +15,18 @@ typedef struct hr2di_border_map {
   const hr2di_borders *borders;
   hr2d_point low, step;
   size_t tiles[2];
-  double margin[2]; /* what counts as touched, in nodes */
-  size_t *first;    /* the borders that cross tile k are list[first[k]] to list[first[k + 1]] */
+  double margin[2];       /* what counts as touched, in nodes */
+  unsigned char *crowded; /* whether a tile has so many that they are not kept */
+  size_t *first; /* the borders that cross tile k are list[first[k]] to list[first[k + 1]] */
   uint32_t *list;
 } hr2di_border_map;
 
-/* With low, step and tiles set.  HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended
+/* With low, step and tiles set.  A tile may have too many borders: then none of its nodes is to
+   be interpolated.  HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended
    by hr2di_border_map_clear() in any case. */
 hr2d_status hr2di_border_map_init(hr2di_border_map *m, const hr2di_borders *borders,
                                   const hr2d_allocator *alloc, hr2di_watch *watch);
 void hr2di_border_map_clear(hr2di_border_map *m);
-
-/* Whether a tile has so many borders that none of its nodes is interpolated. */
-int hr2di_border_map_crowded(const hr2di_border_map *m, size_t tile);
 
 /* A rectangle of nodes, and the longest sides of cells in it over which M is linear. */
 typedef struct hr2di_map_block {

@@ -96,7 +96,10 @@ static double reach_of(const search *s, hr2d_point r, const hr2di_round_stretch 
   return across != 0 ? fmax(hr2di_point_cross(p, d) / across, 1) : 1;
 }
 
+/* What there is too much of ends the search like a stop. */
 static hr2d_status put(hr2di_borders *to, hr2di_border border) {
+  to->many = to->count >= to->most;
+  if (to->many) return HR2D_STOPPED;
   if (hr2di_alloc_reserve(&to->alloc, &to->border, &to->room, to->count + 1,
                           sizeof *to->border))
     return HR2D_ENOMEM;
@@ -308,14 +311,16 @@ size_t hr2di_borders_sources(const hr2di_light_source *of) {
 }
 
 hr2d_status hr2di_borders_find(hr2di_borders *b, const hr2di_light_source *of,
-                               const hr2di_border_scale *scale, hr2di_watch *watch) {
+                               const hr2di_border_scale *scale, size_t most,
+                               hr2di_watch *watch) {
   const hr2d_allocator alloc = of->scene->alloc;
-  *b = (hr2di_borders){.alloc = alloc};
+  *b = (hr2di_borders){.alloc = alloc, .most = most};
   search s = {.to = b, .of = of, .scale = scale, .watch = watch};
   s.view = (hr2di_round_view){
       .scene = of->scene, .alloc = alloc, .watch = watch, .take = take, .ctx = &s};
   int32_t *first = first_walls(&of->scene->plane.triangulation, &alloc);
-  const hr2d_status status = first ? find(&s, first) : HR2D_ENOMEM;
+  hr2d_status status = first ? find(&s, first) : HR2D_ENOMEM;
+  if (b->many) status = HR2D_OK;
   hr2di_alloc_free(&alloc, first);
   hr2di_alloc_free(&alloc, s.seen);
   hr2di_round_view_clear(&s.view);

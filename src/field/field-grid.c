@@ -36,6 +36,9 @@ enum { KNOWN, PLACE, CLEARANCE, SKY, BACK, LIGHT };
  */
 enum { SOURCES = 4 };
 
+/* For each tile, on the average; with more borders most tiles would be crowded. */
+enum { BORDERS = 64 };
+
 /* The least range, as a part of the largest M. */
 #define LEAST_RANGE 1e-6
 
@@ -310,7 +313,7 @@ static hr2d_status do_tile(void *ctx, hr2di_field_worker *w, size_t task) {
   tile t = tile_of(c, w, task);
   const block all = {{1, 1}, {t.size[0], t.size[1]}};
   hr2d_status status = HR2D_OK;
-  if (c->coarse && !hr2di_border_map_crowded(&c->map, task)) status = fill(&t, &all);
+  if (c->coarse && !c->borders.many && !c->map.crowded[task]) status = fill(&t, &all);
   for (int row = t.own_low[1]; row <= t.own_high[1] && !status; row++)
     for (int column = t.own_low[0]; column <= t.own_high[0] && !status; column++)
       if (node_of(&t, column, row)[KNOWN] == 0) status = look(&t, column, row);
@@ -337,10 +340,13 @@ static void find_range(grid_call *c) {
 static hr2d_status find_borders(grid_call *c) {
   const hr2d_field_values *v = &c->f.values;
   const hr2di_border_scale scale = {c->range, v->sky || v->back ? c->grid.tolerance : HUGE_VAL};
-  const hr2d_status status = hr2di_borders_find(&c->borders, &c->f.source, &scale, &c->f.watch);
-  return status ? status
-                : hr2di_border_map_init(&c->map, &c->borders, &c->f.source.scene->alloc,
-                                        &c->f.watch);
+  const hr2d_status status =
+      hr2di_borders_find(&c->borders, &c->f.source, &scale,
+                         BORDERS * c->map.tiles[0] * c->map.tiles[1], &c->f.watch);
+  return status || c->borders.many
+             ? status
+             : hr2di_border_map_init(&c->map, &c->borders, &c->f.source.scene->alloc,
+                                     &c->f.watch);
 }
 
 /* Gets ready for interpolation, unless there are so many ends that it would not pay. */
