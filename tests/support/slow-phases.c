@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "support/slow-phases.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -305,6 +306,30 @@ static hr2d_status look_round(slow_stage *s) {
   return hr2d_field_at(s->solution, at, POINTS, &o, &values);
 }
 
+/* On a grid that is fine enough for borders of light to be looked for. */
+static hr2d_status draw_light(slow_stage *s) {
+  const size_t side = 20 + 4 * (size_t)sqrt((double)hr2d_scene_patches(s->scene));
+  hr2d_field_grid grid = HR2D_FIELD_GRID_INIT;
+  grid.low = grid.high = hr2d_scene_segment(s->scene, 0).a;
+  for (size_t k = 0; k < hr2d_scene_patches(s->scene); k++) {
+    const hr2d_point p = hr2d_scene_segment(s->scene, k).a;
+    grid.low = (hr2d_point){fmin(grid.low.x, p.x), fmin(grid.low.y, p.y)};
+    grid.high = (hr2d_point){fmax(grid.high.x, p.x), fmax(grid.high.y, p.y)};
+  }
+  grid.columns = grid.rows = side;
+  grid.tolerance = 0.01;
+  const hr2d_field_options o = {.struct_size = sizeof o,
+                                .threads = s->threads,
+                                .progress = s->ask,
+                                .progress_ctx = s->ctx};
+  double *mean = malloc(side * side * sizeof *mean);
+  if (!mean) return HR2D_ENOMEM;
+  const hr2d_field_values values = {.struct_size = sizeof values, .mean = mean};
+  const hr2d_status status = hr2d_field_on_grid(s->solution, &grid, &o, &values, NULL);
+  free(mean);
+  return status;
+}
+
 static hr2d_status put_state(slow_stage *s) {
   s->size = 0;
   return hr2d_state_write(s->solution, keep, s);
@@ -359,4 +384,5 @@ const slow_phase slow_phases[SLOW_PHASES] = {
     {"lint", make_scene, lint},
     {"snap", make_crossing, snap},
     {"field", make_solution, look_round},
+    {"grid", make_solution, draw_light},
 };
