@@ -8,7 +8,10 @@
    - the nine miss the interpolation of degree 1 through the corners by at most BEND τ: where M
      is smooth, with a second derivative that changes little between nodes, what is between the
      nine is off by half of that in both directions together;
-   - no end of what they see is nearer than the next of the nine, so that M is smooth enough.
+   - no end of what they see is nearer than the next of the nine;
+   - one more view on each line through the middle, half way between two of the nine, is as it
+     would be interpolated, to PROBE τ.  There the error of a function that turns from bending
+     one way to the other is largest, which the nine do not show.
    Else the block is divided in four.  BEND/2 is far enough below 1 − KINK − VIEW. */
 #include <hr2d/field.h>
 #include <math.h>
@@ -21,9 +24,10 @@
 #include "field/border-map.h"
 #include "field/field-at.h"
 
-#define VIEW 0.125
-#define KINK 0.25
-#define BEND 0.8
+#define VIEW  0.125
+#define KINK  0.25
+#define BEND  0.8
+#define PROBE 0.4
 
 /* Nodes along a side of the largest block, with one before it and one after it. */
 enum { TILE = HR2DI_TILE, SIDE = TILE + 3 };
@@ -66,6 +70,7 @@ typedef struct tile {
   grid_call *call;
   hr2di_field_worker *worker;
   size_t number;
+  double *probe;                        /* items of one node */
   double *node;                         /* SIDE × SIDE, the block from (1, 1) on */
   size_t at[2];                         /* the node before the block */
   int own_low[2], own_high[2], size[2]; /* counted from there; the last of the block */
@@ -172,18 +177,25 @@ static double bend(const tile *t, const block *b, size_t k) {
   return most;
 }
 
-static int is_flat(const tile *t, const block *b) {
-  const grid_call *c = t->call;
+/* What item k may be off by; HUGE_VAL if it is not wanted. */
+static double limit_of(const grid_call *c, size_t k) {
   const hr2d_field_values *v = &c->f.values;
-  const double most = BEND * c->grid.tolerance;
-  if ((v->sky && bend(t, b, SKY) > most) || (v->back && bend(t, b, BACK) > most)) return 0;
-  if (support(t, b, 0)[PLACE] == HR2D_PLACE_OUTSIDE) return 1;
-  for (size_t k = 0; k < c->bands; k++) {
-    const size_t flux = LIGHT + c->bands + 2 * k;
-    const double light = BEND * c->range[k];
-    if (bend(t, b, LIGHT + k) > light || (v->flux && (bend(t, b, flux) > HR2DI_PI * light ||
-                                                      bend(t, b, flux + 1) > HR2DI_PI * light)))
-      return 0;
+  if (k == SKY) return v->sky ? c->grid.tolerance : HUGE_VAL;
+  if (k == BACK) return v->back ? c->grid.tolerance : HUGE_VAL;
+  if (k < LIGHT + c->bands) return c->range[k - LIGHT];
+  if (!v->flux || k >= LIGHT + 3 * c->bands) return HUGE_VAL;
+  return HR2DI_PI * c->range[(k - LIGHT - c->bands) / 2];
+}
+
+/* The items that have numbers where a block is. */
+static size_t items_of(const tile *t, const block *b) {
+  return support(t, b, 0)[PLACE] == HR2D_PLACE_OUTSIDE ? LIGHT : t->call->items;
+}
+
+static int is_flat(const tile *t, const block *b) {
+  for (size_t k = SKY; k < items_of(t, b); k++) {
+    const double limit = limit_of(t->call, k);
+    if (limit < HUGE_VAL && bend(t, b, k) > BEND * limit) return 0;
   }
   return 1;
 }
@@ -199,17 +211,45 @@ static between between_of(const block *b, int k, int node) {
   return (between){low, high, high > low ? (double)(node - low) / (high - low) : 0};
 }
 
-static void interpolate(tile *t, const block *b, int column, int row) {
-  double *node = node_of(t, column, row);
-  if (node[KNOWN] != 0) return;
+/* Items of a node by interpolation. */
+static void interpolate_to(const tile *t, const block *b, int column, int row, double *to) {
   const between x = between_of(b, 0, column), y = between_of(b, 1, row);
   const double *ll = node_of(t, x.low, y.low), *hl = node_of(t, x.high, y.low),
                *lh = node_of(t, x.low, y.high), *hh = node_of(t, x.high, y.high);
   for (size_t k = SKY; k < t->call->items; k++)
-    node[k] = (1 - y.part) * ((1 - x.part) * ll[k] + x.part * hl[k]) +
-              y.part * ((1 - x.part) * lh[k] + x.part * hh[k]);
-  node[PLACE] = ll[PLACE];
+    to[k] = (1 - y.part) * ((1 - x.part) * ll[k] + x.part * hl[k]) +
+            y.part * ((1 - x.part) * lh[k] + x.part * hh[k]);
+}
+
+static void interpolate(tile *t, const block *b, int column, int row) {
+  double *node = node_of(t, column, row);
+  if (node[KNOWN] != 0) return;
+  interpolate_to(t, b, column, row, node);
+  node[PLACE] = support(t, b, 0)[PLACE];
   node[KNOWN] = -1;
+}
+
+/* Looks from a node between two of the nine: *fits says whether it is as it would be
+   interpolated. */
+static hr2d_status probe_at(tile *t, const block *b, int column, int row, int *fits) {
+  double *to = t->probe;
+  const hr2d_status status = look(t, column, row);
+  const double *node = node_of(t, column, row);
+  interpolate_to(t, b, column, row, to);
+  *fits = node[PLACE] == support(t, b, 0)[PLACE];
+  for (size_t k = SKY; k < items_of(t, b) && *fits; k++) {
+    const double limit = limit_of(t->call, k);
+    *fits = !(limit < HUGE_VAL) || fabs(node[k] - to[k]) <= PROBE * limit;
+  }
+  return status;
+}
+
+/* Along both lines through the middle. */
+static hr2d_status probe(tile *t, const block *b, int *fits) {
+  const int x = middle(b, 0), y = middle(b, 1);
+  hr2d_status status = probe_at(t, b, x + (b->high[0] - x) / 2, y, fits);
+  if (!status && *fits) status = probe_at(t, b, x, y + (b->high[1] - y) / 2, fits);
+  return status;
 }
 
 static int is_done(const block *b) {
@@ -239,7 +279,9 @@ static hr2d_status fill(tile *t, const block *whole) {
       status = look(t, column[j % 3], row[j / 3]);
     }
     if (status || is_done(&b)) continue;
-    if (is_even(t, &b) && is_flat(t, &b)) {
+    int fits = is_even(t, &b) && is_flat(t, &b);
+    if (fits) status = probe(t, &b, &fits);
+    if (fits) {
       for (int row = b.low[1]; row <= b.high[1]; row++)
         for (int column = b.low[0]; column <= b.high[0]; column++)
           interpolate(t, &b, column, row);
@@ -288,7 +330,8 @@ static void set_side(tile *t, int k, size_t number, size_t tiles, size_t nodes) 
 }
 
 static tile tile_of(grid_call *c, hr2di_field_worker *w, size_t task) {
-  tile t = {.call = c, .worker = w, .number = task, .node = w->room + 4 * c->bands};
+  tile t = {.call = c, .worker = w, .number = task, .probe = w->room + 4 * c->bands};
+  t.node = t.probe + c->each;
   set_side(&t, 0, task % c->map.tiles[0], c->map.tiles[0], c->grid.columns);
   set_side(&t, 1, task / c->map.tiles[0], c->map.tiles[1], c->grid.rows);
   for (size_t k = 0; k < SIDE * SIDE; k++) t.node[k * c->each + KNOWN] = 0;
@@ -372,7 +415,7 @@ static hr2d_status run(grid_call *c, uint64_t *steps) {
   hr2di_field_team *team = &c->f.team;
   hr2d_status status = HR2D_OK;
   team->ctx = c;
-  team->needs = 4 * c->bands + SIDE * SIDE * c->each;
+  team->needs = 4 * c->bands + (1 + SIDE * SIDE) * c->each;
   c->first = hr2di_alloc(alloc, count, c->bands * sizeof *c->first);
   c->range = hr2di_alloc(alloc, c->bands, sizeof *c->range);
   c->view = hr2di_alloc(alloc, c->bands, sizeof *c->view);
