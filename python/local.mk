@@ -19,4 +19,5 @@ EXTRA_DIST += \
 	python/tests/test_callbacks.py \
 	python/tests/test_draw.py \
 	python/tests/test_scene.py \
-	python/tests/test_solve.py
+	python/tests/test_solve.py \
+	python/tests/test_thermal.py

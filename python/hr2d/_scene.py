@@ -30,10 +30,12 @@ class Scene:
     call that needs all of them, for instance solve(); from then on the scene is only read, and
     several threads may use it.
 
-    `background` is the light from the surroundings, one value or one per band.
+    `background` is the light from the surroundings, one value or one per band.  `wavelengths`
+    in µm, rising, divide the spectrum of temperatures into bands, one more than they are.
     """
 
-    def __init__(self, background: Optional[Values] = None):
+    def __init__(self, background: Optional[Values] = None, *,
+                 wavelengths: Optional[Values] = None):
         pointer = ffi.new("hr2d_scene **")
         with Call() as call:
             call.check(lib.hr2d_scene_create(ffi.NULL, pointer))
@@ -44,6 +46,11 @@ class Scene:
         self._committed = False
         if background is not None:
             self.set_background(background)
+        if wavelengths is not None:
+            borders = np.atleast_1d(np.ascontiguousarray(wavelengths, dtype=np.float64)).ravel()
+            with self._change() as call:
+                call.check(lib.hr2d_scene_set_wavelengths(self._raw, doubles(borders),
+                                                          borders.size), self._message)
 
     # Adding
 
@@ -71,8 +78,10 @@ class Scene:
                        self._message)
 
     def add(self, shape: Any, *, emission: Optional[Values] = None,
-            reflectance: Optional[Values] = None, name: Optional[str] = None,
-            sides: Optional[str] = None, faces: Optional[str] = None) -> range:
+            reflectance: Optional[Values] = None, temperature: Optional[float] = None,
+            flux: Optional[float] = None, emissivity: Optional[Values] = None,
+            name: Optional[str] = None, sides: Optional[str] = None,
+            faces: Optional[str] = None) -> range:
         """Adds patches and returns their indices.
 
         `shape` is a list or an array of k points, which are k − 1 patches; a GeoJSON mapping
@@ -81,13 +90,20 @@ class Scene:
 
         emission, reflectance
             One value, or one per band; 0 by default.
+        temperature, flux
+            In place of these: T in kelvin, or the net heat flux that leaves in W/m², 0 on an
+            insulated wall.
+        emissivity
+            With a temperature or a flux: one value, or one per band; 1 by default.
         sides
             "front", or "both": each patch becomes two, back to back.
         faces
             For polygons, "in" for rooms or "out" for obstacles.
         """
         return self.add_text(text_of(shape, {"name": name, "emission": emission,
-                                             "reflectance": reflectance, "sides": sides,
+                                             "reflectance": reflectance,
+                                             "temperature": temperature, "flux": flux,
+                                             "emissivity": emissivity, "sides": sides,
                                              "faces": faces}))
 
     def add_text(self, text: Union[str, bytes]) -> range:

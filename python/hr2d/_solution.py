@@ -46,6 +46,29 @@ class Points(NamedTuple):
         return self.B - self.H
 
 
+class Temperatures(NamedTuple):
+    """Temperatures of patches and the heat that leaves them, with bounds of their errors.
+
+    Bounds are NaN where the solve did not measure errors of H.
+    """
+
+    kelvin: np.ndarray
+    """T of the average; NaN unless it is given or found."""
+    bound: np.ndarray
+    """The error of T in kelvin is no larger."""
+    heat: np.ndarray
+    """W per metre, over all bands; negative where a patch gains."""
+    heat_bound: np.ndarray
+    """The error of the heat is no larger."""
+    state: Tuple[str, ...]
+    """"none", "given", "found", "impossible" (it cannot lose so much), "unlit"."""
+
+
+STATES = {lib.HR2D_TEMPERATURE_NONE: "none", lib.HR2D_TEMPERATURE_GIVEN: "given",
+          lib.HR2D_TEMPERATURE_FOUND: "found", lib.HR2D_TEMPERATURE_UNLIT: "unlit",
+          lib.HR2D_TEMPERATURE_IMPOSSIBLE: "impossible"}
+
+
 class Field(NamedTuple):
     """The light at points of the plane, each array of the shape of the points.
 
@@ -95,10 +118,11 @@ class Account:
 class Solution:
     """The radiosity of a scene: Scene.solve() makes it."""
 
-    def __init__(self, scene: Any, raw: Any, account: Optional[Account]):
+    def __init__(self, scene: Any, raw: Any, account: Optional[Account], told: Any = None):
         self.scene = scene
         self._raw = raw
         self._account = account
+        self._told = told or (ffi.NULL, ffi.NULL)  # target and account of hr2d_solve_to()
 
     def __repr__(self) -> str:
         return f"<hr2d.Solution of {len(self.scene)} patches, {len(self.elements)} elements>"
@@ -123,6 +147,20 @@ class Solution:
     def net_flux(self) -> np.ndarray:
         """B − H, (patches, bands); negative where a patch gains."""
         return self._averages("hr2d_solution_net_flux")
+
+    @cached_property
+    def temperatures(self) -> Temperatures:
+        """Temperatures, and the heat that leaves each patch."""
+        found = [np.empty(len(self.scene)) for _ in range(4)]
+        state = np.empty(len(self.scene), np.uint8)
+        to = ffi.new("hr2d_temperatures *", {
+            "struct_size": ffi.sizeof("hr2d_temperatures"), "kelvin": writable(found[0]),
+            "bound": writable(found[1]), "heat": writable(found[2]),
+            "heat_bound": writable(found[3]),
+            "state": ffi.cast("unsigned char *", ffi.from_buffer(state))})
+        with Call() as call:
+            call.check(lib.hr2d_solution_temperatures(self._raw, *self._told[:2], to))
+        return Temperatures(*map(frozen, found), tuple(STATES[s] for s in state))
 
     @cached_property
     def power(self) -> Tuple[Power, ...]:

@@ -44,7 +44,9 @@ static void put(double *array, size_t k, double value) {
   if (array) array[k] = value;
 }
 
+/* fmax() passes over NaN. */
 static double error_of_temperature(double f, double off) {
+  if (isnan(off)) return NAN;
   return fmax(temperature_of(f) - temperature_of(fmax(f - off, 0)),
               temperature_of(f + off) - temperature_of(f));
 }

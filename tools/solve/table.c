@@ -32,6 +32,14 @@ static void print_patches(const run *r) {
   puts("");
 }
 
+static void print_bounded(double value, double bound) {
+  printf("  %14.9g", value);
+  if (isnan(bound))
+    printf("  %8s", "unknown");
+  else
+    printf("  %8.1e", bound);
+}
+
 /* Temperatures and the heat that leaves, with the bounds of their errors if they are known. */
 static int print_heat(const run *r) {
   run_heat heat;
@@ -48,8 +56,9 @@ static int print_heat(const run *r) {
     else if (heat.state[k] == HR2D_TEMPERATURE_GIVEN)
       printf("  %14.9g  %8s", heat.of.kelvin[k], "given");
     else
-      printf("  %14.9g  %8.1e", heat.of.kelvin[k], heat.of.bound[k]);
-    printf("  %14.9g  %8.1e\n", heat.of.heat[k], heat.of.heat_bound[k]);
+      print_bounded(heat.of.kelvin[k], heat.of.bound[k]);
+    print_bounded(heat.of.heat[k], heat.of.heat_bound[k]);
+    puts("");
   }
   if (heat.exists) puts("");
   run_heat_release(&heat);

@@ -262,6 +262,11 @@ START_TEST(the_call_checks_its_arguments) {
     ck_assert_int_eq(isnan(bound[k]) != 0, k != 1);
     ck_assert_int_eq(isnan(heat_bound[k]) != 0, k != 1);
   }
+  ck_assert_int_eq(hr2d_solution_temperatures(solution, NULL, NULL, &to), HR2D_OK);
+  for (int k = 0; k < 4; k++) ck_assert_int_eq(isnan(bound[k]) != 0, k % 2);
+  account.irradiance = (hr2d_error){INFINITY, INFINITY};
+  ck_assert_int_eq(hr2d_solution_temperatures(solution, NULL, &account, &to), HR2D_OK);
+  for (int k = 0; k < 4; k++) ck_assert_int_eq(isinf(bound[k]) != 0, k % 2);
   target.important = none;
   target.important_count = 1;
   ck_assert_int_eq(hr2d_solution_temperatures(solution, &target, &account, &to), HR2D_EINVAL);

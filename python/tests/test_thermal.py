@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import numpy as np
+import pytest
+
+import hr2d
+
+SIGMA = 5.670374419e-8
+
+
+def make_muffle(load, **kind):
+    """A heater on the left, a load on the right, insulated walls between them."""
+    scene = hr2d.Scene(**kind)
+    scene.add([(0, 1), (0, 0)], temperature=1200, name="heater")
+    scene.add([(0, 0), (2, 0)], flux=0, emissivity=.4, name="floor")
+    scene.add([(2, 0), (2, 1)], name="load", **load)
+    scene.add([(2, 1), (0, 1)], flux=0, emissivity=.7, name="ceiling")
+    return scene
+
+
+def test_between_two_plates_is_the_mean_of_the_fourth_powers():
+    t = make_muffle({"temperature": 600}).solve(error=1e-9).temperatures
+    middle = ((1200. ** 4 + 600. ** 4) / 2) ** .25
+    assert t.kelvin == pytest.approx([1200, middle, 600, middle], rel=1e-9)
+    assert (np.abs(t.kelvin - [1200, middle, 600, middle]) <= t.bound + 1e-11).all()
+    assert t.state == ("given", "found", "given", "found")
+    assert t.heat[0] == pytest.approx(-t.heat[2]) and t.heat[1] == t.heat[3] == 0
+    assert t.heat[0] > t.heat_bound[0] > 0
+
+
+def test_one_source_heats_all():
+    t = make_muffle({"flux": 0}).solve().temperatures
+    assert t.kelvin == pytest.approx(np.full(4, 1200), rel=1e-12)
+    links = make_muffle({"flux": 0}).solve(epsilon=.1).temperatures
+    assert links.kelvin == pytest.approx(t.kelvin) and np.isnan(links.bound[1])
+
+
+def test_what_cannot_be_is_said():
+    with pytest.raises(hr2d.Error, match="negative radiosity"):
+        make_muffle({"flux": -1e6}).solve()
+    with pytest.raises(hr2d.SceneError, match="cannot both be given"):
+        hr2d.Scene().add([(0, 0), (1, 0)], temperature=1, flux=1)
+
+
+def test_wavelengths_make_bands():
+    scene = hr2d.Scene(wavelengths=[3, 8])
+    scene.add([(0, 0), (1, 0), (0, 1), (0, 0)], temperature=900, emissivity=[.2, .5, .9])
+    assert scene.bands == 3
+    s = scene.solve()
+    assert s.H.sum(axis=1) == pytest.approx(np.full(3, SIGMA * 900. ** 4))
+    assert s.temperatures.heat == pytest.approx(np.zeros(3), abs=1e-8)
