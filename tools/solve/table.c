@@ -29,7 +29,6 @@ static void print_patches(const run *r) {
          "average H", "B - H");
   for (size_t k = 0; k < hr2d_scene_patches(r->scene); k++)
     if (table_patch(r->scene, k, width)) print_values(r, k, 7 + width + 14);
-  puts("");
 }
 
 static void print_bounded(double value, double bound) {
@@ -60,7 +59,6 @@ static int print_heat(const run *r) {
     print_bounded(heat.of.heat[k], heat.of.heat_bound[k]);
     puts("");
   }
-  if (heat.exists) puts("");
   run_heat_release(&heat);
   return status;
 }
@@ -189,6 +187,7 @@ int solve_print(const run *r, double total_seconds) {
   print_method(r);
   print_patches(r);
   int status = print_heat(r);
+  puts("");
   if (!status) status = print_places(r);
   print_counts(r, &counts);
   printf("order     p = %u\n", r->account.order);
