@@ -122,6 +122,9 @@ HR2D_API hr2d_status hr2d_scene_add_thermal(hr2d_scene *scene, const hr2d_patch 
  * @retval HR2D_ESCENE  a wavelength is not finite, not above 0, or not above the one before; or
  *                      there are too many
  *
+ * A file may have them, too. If the scene has patches of given temperature or flux already, a
+ * file with other wavelengths is refused with HR2D_ESTATE.
+ *
  * hr2d_scene_commit() returns HR2D_ESCENE if other arrays of the scene have another number of
  * bands, and HR2D_EUNSUPPORTED if there are several bands and a patch of given flux.
  */

@@ -12,15 +12,15 @@
    Errors.  x has three roundings, which e^{-x} raises to 3x/2 units of 2^-52; sums of positive
    terms, D₃ and powers add some units.  Differences of tails above 4, or of heads below 4, lose
    no more than a factor of 8, since they are taken over widths above 1 only.  Over a width
-   h ≤ 1 a Gauss rule of 12 points integrates g itself, which is analytic but at 2πi n, n ≠ 0.
-   The Bernstein ellipse of ±1 through those poles has the parameter ρ ≥ 4π − 1 > 11, so that
-   the rule misses less than 11^-24 = 1e-25 of the largest g on it. */
+   h ≤ 1 a Gauss rule of 12 points integrates g itself, which is analytic but at 2πin, n ≠ 0.
+   The Bernstein ellipse of parameter 11/h has half axes below 3: it stays away from those
+   poles, and g is at most some 1000/h² times its mean there.  The rule misses (11/h)^-24 <
+   1e-24 of that. */
 #include <gsl/gsl_sf_debye.h>
 #include <hr2d/thermal.h>
 #include <math.h>
 
 #include "base/legendre.h"
-#include "base/pi.h"
 
 /* 15/π⁴, rounded. */
 #define SCALE 0.15398973382026504

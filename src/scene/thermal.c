@@ -7,7 +7,6 @@
    Given q: B = H + q, which is E = q with ρ = 1. */
 #include <hr2d/thermal.h>
 #include <math.h>
-#include <stdint.h>
 
 #include "base/alloc.h"
 #include "base/sized-struct.h"

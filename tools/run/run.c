@@ -126,8 +126,9 @@ void run_release(run *r) {
 }
 
 double run_power_error(const hr2d_power *p) {
-  const double in = p->emitted + p->received;
-  return in > 0 ? fabs(in - p->absorbed - p->escaped) / in : 0;
+  /* Negative fluxes may leave less of what comes in than is absorbed. */
+  const double in = p->emitted + p->received, most = fmax(in, p->absorbed);
+  return most > 0 ? fabs(in - p->absorbed - p->escaped) / most : 0;
 }
 
 uint64_t run_peak_bytes(void) {
