@@ -7,7 +7,8 @@
      J a,   a = 0.3 h^g (4x(1−x))^(g/2 + ¼) p^(−g − ½)/2^(g−1)
 
    in the mean over the element: each integration divides by the wave number p/(h √(x(1−x))) of
-   the highest polynomials.  So the event has the share h J_B J_Z a².
+   the highest polynomials.  The remainders of events add up in squares, and those of B from one
+   event meet those of Z from another: the leaf has the share h √(Σ(J_B a)²) √(Σ(J_Z a)²).
 
    While x moves past a vertex u, the border of the view passes the end of a source in
    generation 1, and an event y of the generation before in a later one.  As
@@ -33,16 +34,16 @@
 /* Of second differences, as a part of the patch. */
 #define STEP 1e-6
 
-/* Of what is allowed, events may have this in bounds of their shares. */
-#define UNKNOWN 0.25
+/* Of jumps in terms of the largest B, and of shares: their squares and sums are finite. */
+#define LARGEST 1e100
 
 /* A leaf with events first ≤ k < last inside. */
 typedef struct leaf {
   uint32_t element;
   double from, to; /* of the patch */
   size_t first, last;
-  double sum; /* of the shares of its events */
-  size_t best;
+  double sum;  /* its share */
+  size_t best; /* event, to divide it at */
 } leaf;
 
 typedef struct cutter {
@@ -55,7 +56,6 @@ typedef struct cutter {
   hr2di_watch *watch;
   double *most;         /* 2·bands: the largest B, and the largest importance */
   double *jump;         /* events × 2·bands: of H from B, and from the importance, or more */
-  double *strength;     /* per event: of the jumps of B and of its importance */
   unsigned char *known; /* per event: its jumps are no bounds */
   leaf *heap;           /* the one with the largest sum first */
   size_t count, capacity;
@@ -122,15 +122,6 @@ static void take_over(cutter *c, size_t k, size_t from) {
                                     c->jump[from * 2 * c->bands + b];
 }
 
-static void set_strength(cutter *c, size_t k) {
-  const double *jump = c->jump + k * 2 * c->bands;
-  c->strength[k] = 0;
-  for (size_t b = 0; b < c->bands; b++) {
-    const double rho = hr2d_scene_reflectance(c->scene, c->events->event[k].patch, b);
-    c->strength[k] = fmax(c->strength[k], rho * fabs(jump[b]) * fabs(jump[c->bands + b]));
-  }
-}
-
 /* Replaces the bounds of an event by its jumps. */
 static hr2d_status know(cutter *c, size_t k) {
   const size_t from = origin_of(c, k);
@@ -143,7 +134,6 @@ static hr2d_status know(cutter *c, size_t k) {
     status = look_around(c, &c->events->event[k], c->jump + k * 2 * c->bands);
   }
   c->known[k] = 1;
-  set_strength(c, k);
   return status;
 }
 
@@ -166,7 +156,6 @@ static hr2d_status set_bounds(cutter *c) {
       if (from != k) take_over(c, k, from);
       for (size_t b = 0; b < 2 * c->bands && from == k; b++)
         c->jump[k * 2 * c->bands + b] = 2 * e->spread * c->most[b];
-      set_strength(c, k);
       status = hr2di_watch_work(c->watch, 1 + c->bands / 8);
     }
   }
@@ -178,25 +167,47 @@ static double remainder_of(const cutter *c, const leaf *l, const hr2di_event *e)
   const double margin = 4 * hr2di_grading_shortest(&c->scene->patch[e->patch]);
   if (e->at <= l->from + margin || e->at >= l->to - margin) return 0;
   const double x = (e->at - l->from) / (l->to - l->from), round = 4 * x * (1 - x);
-  const double h = c->h->element[l->element].length, g = e->generation, p = c->h->order;
-  return 0.6 * pow(0.5 * h / p, g) * pow(round, 0.5 * g + 0.25) / sqrt(p);
+  const double p = c->h->order;
+  const double step = 0.5 * c->h->element[l->element].length * sqrt(round) / p;
+  double a = 0.6 * sqrt(sqrt(round) / p);
+  for (unsigned g = 0; g < e->generation; g++) a *= step;
+  return a;
 }
 
-static double share_of(const cutter *c, const leaf *l, size_t k) {
-  const double a = remainder_of(c, l, &c->events->event[k]);
-  return c->h->element[l->element].length * c->strength[k] * a * a;
+/* What an event adds to the square of the remainder of B in a band, relative to the largest B;
+   or of its importance, if `of` is `bands` more. */
+static double square_of(const cutter *c, const leaf *l, size_t k, size_t of) {
+  const double jump = fabs(c->jump[k * 2 * c->bands + of]) / c->most[of];
+  const double rest = fmin(jump, LARGEST) * remainder_of(c, l, &c->events->event[k]);
+  return rest * rest;
+}
+
+/* The share of a leaf in one band; if it is larger than l->sum it becomes that, and l->best the
+   event that makes the largest parts of both remainders. */
+static void weigh_band(const cutter *c, leaf *l, size_t b) {
+  const uint32_t patch = c->h->element[l->element].patch;
+  const double unit = c->h->element[l->element].length * c->most[b] * c->most[c->bands + b];
+  double sum[2] = {0, 0}, most = 0;
+  for (size_t k = l->first; k < l->last; k++) {
+    sum[0] += square_of(c, l, k, b);
+    sum[1] += square_of(c, l, k, c->bands + b);
+  }
+  const double rho = hr2d_scene_reflectance(c->scene, patch, b);
+  const double share = fmin(rho * unit * sqrt(sum[0]) * sqrt(sum[1]), LARGEST);
+  if (!(share > l->sum)) return;
+  l->sum = share;
+  for (size_t k = l->first; k < l->last; k++) {
+    const double part =
+        square_of(c, l, k, b) / sum[0] + square_of(c, l, k, c->bands + b) / sum[1];
+    if (part > most) l->best = k;
+    most = fmax(most, part);
+  }
 }
 
 static void weigh_leaf(const cutter *c, leaf *l) {
-  double most = 0;
   l->sum = 0;
-  for (size_t k = l->first; k < l->last; k++) {
-    const double share = share_of(c, l, k);
-    l->sum += share;
-    if (!(share > most)) continue;
-    most = share;
-    l->best = k;
-  }
+  for (size_t b = 0; b < c->bands; b++)
+    if (c->most[b] > 0 && c->most[c->bands + b] > 0) weigh_band(c, l, b);
 }
 
 /* Adds a leaf to the heap, if any event is left in it. */
@@ -230,7 +241,7 @@ static leaf pop(cutter *c) {
   return top;
 }
 
-static hr2d_status push_all(cutter *c, double least) {
+static hr2d_status push_all(cutter *c) {
   const hr2d_hierarchy *h = c->h;
   hr2d_status status = HR2D_OK;
   for (uint32_t k = 0; k < h->elements && !status; k++) {
@@ -241,15 +252,12 @@ static hr2d_status push_all(cutter *c, double least) {
     l.to = l.from + e->length / h->scene->patch[e->patch].length;
     l.first = find(c->events, e->patch, l.from);
     l.last = find(c->events, e->patch, l.to);
-    for (size_t m = l.first; m < l.last && !status; m++)
-      if (share_of(c, &l, m) > least) status = know(c, m);
     if (l.first < l.last && !status) status = push(c, l);
   }
   return status;
 }
 
-/* Divides the leaf with the largest shares at the largest of them; or finds out how large that
-   is. */
+/* Divides the leaf with the largest share at its best event; or finds out about that. */
 static hr2d_status cut(cutter *c) {
   const leaf l = pop(c);
   if (!c->known[l.best]) {
@@ -269,7 +277,7 @@ static hr2d_status cut(cutter *c) {
 
 static hr2d_status run(cutter *c, double allowed, uint64_t max_elements) {
   hr2d_status status = set_bounds(c);
-  if (!status) status = push_all(c, UNKNOWN * allowed / (double)c->events->count);
+  if (!status) status = push_all(c);
   while (c->count > 0 && c->total > allowed && !status) {
     if (max_elements && c->h->elements + 2 > max_elements) return HR2D_EMAX_ELEMENTS;
     status = hr2di_watch_work(c->watch, 4 + (c->heap[0].last - c->heap[0].first));
@@ -313,16 +321,14 @@ hr2d_status hr2di_kinks_cut(hr2d_hierarchy *hierarchy, const hr2di_events *event
   if (count == 0) return HR2D_OK;
   c.most = hr2di_alloc_zero(alloc, values, sizeof *c.most);
   c.jump = hr2di_alloc(alloc, count, values * sizeof *c.jump);
-  c.strength = hr2di_alloc(alloc, count, sizeof *c.strength);
   c.known = hr2di_alloc_zero(alloc, count, 1);
-  hr2d_status status = c.most && c.jump && c.strength && c.known ? HR2D_OK : HR2D_ENOMEM;
+  hr2d_status status = c.most && c.jump && c.known ? HR2D_OK : HR2D_ENOMEM;
   if (!status) status = hr2di_viewer_create(c.scene, alloc, watch, &c.viewer);
   if (!status) status = run(&c, allowed, max_elements);
   if (!status) status = measure(&c, bent);
   hr2di_viewer_destroy(c.viewer);
   hr2di_alloc_free(alloc, c.most);
   hr2di_alloc_free(alloc, c.jump);
-  hr2di_alloc_free(alloc, c.strength);
   hr2di_alloc_free(alloc, c.known);
   hr2di_alloc_free(alloc, c.heap);
   return status;

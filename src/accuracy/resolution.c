@@ -53,10 +53,10 @@ static int is_hidden(const hr2d_scene *scene) {
 
 /* What backs hide of a background is seen at points of rules, which kinks inside elements
    disturb: elements end at all events there.  More than LIT patches have too many events to
-   look at one by one for a few digits, and more than MANY_LIT for any.  Shares of events add up
-   to KINKS times the target: they are without signs and of all patches together, but coarse. */
+   look at one by one for a few digits, and more than MANY_LIT for any.  Shares of leaves
+   may add up to KINKS times the target: they are without signs and of all patches together. */
 enum { LIT = 128, MANY_LIT = 1000 };
-#define KINKS 0.25
+#define KINKS 2
 
 int hr2di_resolution_wants_lights(const hr2d_scene *scene, const hr2d_target *target) {
   const size_t most = target->error < CROWDED_AIM ? MANY_LIT : LIT;
