@@ -78,6 +78,7 @@ SUITES = \
 	tests/unit/accuracy/check-target-calls \
 	tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-kinks \
+	tests/unit/accuracy/check-long-leaves \
 	tests/unit/accuracy/check-short-patches \
 	tests/unit/accuracy/check-budgets \
 	tests/unit/accuracy/check-cracks \
