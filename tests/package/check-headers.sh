@@ -48,5 +48,5 @@ program() {
   fi
 }
 program hr2d.h '@code' '@endcode' "$HR2D_SRCDIR/include/hr2d/hr2d.h"
-program README.md '^```c' '^```$' "$HR2D_SRCDIR/README.md"
+program README.md '^```c$' '^```$' "$HR2D_SRCDIR/README.md"
 exit $status

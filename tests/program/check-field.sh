@@ -61,9 +61,9 @@ check "JSON says outside, and null" sh -c 'tr -d " \n" <"$1" |
 
 # ---- a tolerance: most nodes are interpolated, all within it
 room=$HR2D_SRCDIR/examples/scenes/partition.geojson
-succeeds field "$room" --grid 120x80 --csv "$work/exact.csv"
+succeeds field "$room" --target-error 1e-6 --grid 120x80 --csv "$work/exact.csv"
 check "without one none is" lacks '^grid' "$work/out"
-succeeds field "$room" --grid 120x80 --csv "$work/some.csv" --tolerance 0.01
+succeeds field "$room" --target-error 1e-6 --grid 120x80 --csv "$work/some.csv" --tolerance 0.01
 check "many are" awk '/^grid/ { n = $2 } END { exit !(n > 1000) }' "$work/out"
 # M is between 0 and 0.6: column 4 of one file and column 11 of the other.
 paste -d, "$work/exact.csv" "$work/some.csv" >"$work/both.csv"
