@@ -115,6 +115,7 @@ OUTSIDE = \
 	tests/program/check-vti.sh \
 	tests/program/check-pictures.sh \
 	tests/program/check-resume.sh \
+	tests/program/check-temperatures.sh \
 	tests/package/check-constants.sh \
 	tests/package/check-exports.sh \
 	tests/package/check-headers.sh \

@@ -72,7 +72,7 @@ static hr2d_status warn_of_no_absorber(const hr2di_lint *lint) {
   if (band == scene->bands) return HR2D_OK;
   return hr2di_lint_warn(lint, (hr2d_warning){.code = HR2D_WARNING_NO_ABSORBER},
                          "every reflectance of band %zu is 1: a closed room has no solution; "
-                         "give some patch a reflectance below 1",
+                         "give some patch a reflectance below 1, or a \"temperature\"",
                          band);
 }
 
@@ -81,9 +81,10 @@ hr2d_status hr2di_lint_light(const hr2di_lint *lint) {
   const int lit = scene->effect[HR2D_EFFECT_EMISSION].called_for;
   hr2d_status status = HR2D_OK;
   if (!lit)
-    status = hr2di_lint_warn(lint, (hr2d_warning){.code = HR2D_WARNING_DARK_SCENE},
-                             "no patch emits and there is no background, so that B is 0 "
-                             "everywhere: write \"emission\", or a \"background\" in \"hr2d\"");
+    status = hr2di_lint_warn(
+        lint, (hr2d_warning){.code = HR2D_WARNING_DARK_SCENE},
+        "no patch emits and there is no background, so that B is 0 "
+        "everywhere: write \"emission\" or \"temperature\", or a \"background\" in \"hr2d\"");
   if (!status && lit) status = warn_of_dark(lint);
   if (!status && lit) status = warn_of_views(lint);
   return status ? status : warn_of_no_absorber(lint);

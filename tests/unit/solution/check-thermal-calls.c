@@ -282,6 +282,29 @@ START_TEST(the_call_checks_its_arguments) {
 }
 END_TEST
 
+/* Pieces of a patch keep what is given, and so do both sides. */
+START_TEST(pieces_keep_what_is_given) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  hr2d_patch patch = test_patch(0, 0, 2, 0);
+  const double e = .25;
+  const hr2d_thermal t = {sizeof t, HR2D_HEAT_FLUX, -7, &e, 1};
+  size_t cuts;
+  double value;
+  patch.sides = HR2D_SIDES_BOTH;
+  ck_assert_int_eq(hr2d_scene_add_thermal(scene, &patch, &t, NULL), HR2D_OK);
+  ck_assert_int_eq(add(scene, (const double[]){1, -1, 1, 1}, T, 300, NULL, 0), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_split_crossings(scene, &cuts), HR2D_OK);
+  ck_assert_uint_eq(hr2d_scene_patches(scene), 6);
+  for (size_t k = 0; k < 6; k++) {
+    ck_assert_int_eq(hr2d_scene_heat(scene, k, &value), k < 4 ? Q : T);
+    ck_assert_double_eq(value, k < 4 ? -7 : 300);
+    ck_assert_double_eq(hr2d_scene_emissivity(scene, k, 0), k < 4 ? .25 : 1);
+    ck_assert_double_eq(hr2d_scene_emission(scene, k, 0), k < 4 ? -7 : hr2d_black_body(300));
+  }
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 /* Files. */
 
 #define FILE_OF(hr2d, properties)                                                              \
@@ -379,7 +402,8 @@ TEST_SUITE("thermal calls") {
   ADD_TESTS("calls", wrong_properties_are_refused, what_was_given_is_returned,
             wrong_wavelengths_are_refused, each_band_is_in_equilibrium,
             fluxes_alone_have_no_solution, who_loses_too_much_is_named,
-            where_no_heat_arrives_nothing_is_known, the_call_checks_its_arguments);
+            where_no_heat_arrives_nothing_is_known, the_call_checks_its_arguments,
+            pieces_keep_what_is_given);
   ADD_TESTS("files", files_have_thermal_properties, wrong_files_are_refused,
             files_have_wavelengths);
 }
