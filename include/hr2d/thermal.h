@@ -118,6 +118,7 @@ HR2D_API hr2d_status hr2d_scene_add_thermal(hr2d_scene *scene, const hr2d_patch 
  *                    before the first call
  * @retval HR2D_OK      success
  * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  a number of wavelengths without values
  * @retval HR2D_ESTATE  the scene is committed, or has patches of given temperature or flux
  * @retval HR2D_ESCENE  a wavelength is not finite, not above 0, or not above the one before; or
  *                      there are too many

@@ -130,6 +130,9 @@ hr2d_status hr2d_scene_set_wavelengths(hr2d_scene *scene, const double *waveleng
   if (scene->committed || has_heat(scene))
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "wavelengths: the scene %s already",
                               scene->committed ? "is committed" : "has temperatures or fluxes");
+  if (count && !wavelength)
+    return hr2di_message_fail(&scene->message, HR2D_EINVAL,
+                              "wavelengths: a number of them but no values");
   if (count > HR2D_MAX_WAVELENGTHS)
     return hr2di_message_fail(&scene->message, HR2D_ESCENE,
                               "wavelengths: %zu are too many: at most %d", count,

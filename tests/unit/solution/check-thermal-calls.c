@@ -107,6 +107,7 @@ START_TEST(wrong_wavelengths_are_refused) {
   hr2d_scene *scene = test_new_scene(NULL);
   for (size_t k = 0; k < 6; k++)
     ck_assert_int_eq(hr2d_scene_set_wavelengths(scene, wrong[k], 2), HR2D_ESCENE);
+  ck_assert_int_eq(hr2d_scene_set_wavelengths(scene, NULL, 2), HR2D_EINVAL);
   for (size_t k = 0; k <= HR2D_MAX_WAVELENGTHS; k++) many[k] = (double)(k + 1);
   ck_assert_int_eq(hr2d_scene_set_wavelengths(scene, many, HR2D_MAX_WAVELENGTHS + 1),
                    HR2D_ESCENE);
