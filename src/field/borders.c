@@ -209,9 +209,10 @@ static hr2d_status look_from_end(search *s, int32_t h) {
     s->count = 0;
     status = hr2di_look_between(&s->view, h, &last);
     if (!status && s->count > 0) status = add_sector(s, h, last);
+    if (status) return status;
     const uint32_t side = (uint32_t)~in->triangle[last >> 2].across[last & 3];
     h = in->edge[side >> 1].half_edge[1 - (side & 1)];
-  } while (h != start && !status);
+  } while (h != start);
   return status;
 }
 
