@@ -172,8 +172,8 @@ typedef struct hr2d_field_counts {
  * - Blocks of up to 16 × 16 nodes are interpolated linearly between 3 × 3 views. First all
  *   borders of light are found, the lines across which the slope of M jumps, each with a bound
  *   of its jump. What those in a block cost is bounded by the tolerance, so that none is missed
- *   between views. Between borders M is smooth, and the views themselves show how much it bends.
- *   Other blocks are divided.
+ *   between views. Between borders M is smooth, and the views themselves, with two more between
+ *   them, show how much it bends. Other blocks are divided.
  *
  * Tests find the tolerance kept at all nodes of random scenes
  * (tests/unit/field/check-field-grid.c). Flux is held to π times the tolerance, shares to the
@@ -184,8 +184,8 @@ typedef struct hr2d_field_counts {
  * a view of each end of a patch, and then of some nodes; of a room with 30 patches on 1000 × 700
  * nodes within 1e-3 about every 8th. Memory beside the values: 2.9 KB times (6 + 4·bands) for
  * each thread, 8 bytes times bands for 256 nodes, 56 bytes for each border, of which each end
- * begins as many as it sees ends, and 4 bytes for each tile of 16 × 16 nodes that a border
- * crosses.
+ * begins as many as it sees ends, but at most 64 for each tile of 16 × 16 nodes, and 4 bytes for
+ * each of up to 256 borders that cross a tile. Where there are more, all nodes have views.
  */
 HR2D_API hr2d_status hr2d_field_on_grid(const hr2d_solution *solution,
                                         const hr2d_field_grid *grid,
