@@ -9,15 +9,15 @@
 
 enum { BITS = 256 };
 
-/* f(λT), λT in µm K, as tables of five digits have it (Siegel and Howell, Thermal Radiation
-   Heat Transfer; Modest, Radiative Heat Transfer).  Their c₂ is up to 2e-5 larger, which is one
-   unit of their last digit.  At Wien's 2897.772 the part is 0.250055. */
+/* f(λT), λT in µm K, to the five digits that textbooks of heat transfer tabulate.  Their c₂ is
+   up to 2e-5 larger, which is one unit of their last digit.  At Wien's 2897.772 the part is
+   0.250055. */
 static const double table[][2] = {{1000, .00032},  {2000, .06673},  {2897.772, .250055},
                                   {3000, .27322},  {4000, .48085},  {4107.3, .5},
                                   {5000, .63371},  {6000, .73777},  {8000, .85624},
                                   {10000, .91415}, {20000, .98555}, {50000, .99890}};
 
-START_TEST(published_tables_are_met) {
+START_TEST(tabulated_digits_are_met) {
   for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
     const double part = hr2d_black_body_part(1000, 0, table[k][0] / 1000);
     const double rest = hr2d_black_body_part(250, table[k][0] / 250, INFINITY);
@@ -164,6 +164,6 @@ START_TEST(another_constant_is_noticed) {
 END_TEST
 
 TEST_SUITE("black body") {
-  ADD_TESTS("parts", published_tables_are_met, the_bound_of_the_header_holds, bands_sum_to_one,
+  ADD_TESTS("parts", tabulated_digits_are_met, the_bound_of_the_header_holds, bands_sum_to_one,
             limits_are_kept, another_constant_is_noticed);
 }
