@@ -57,8 +57,8 @@ hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry
 /* Reads the thermal properties of the current feature. */
 hr2d_status hr2di_geojson_thermal(hr2di_geojson *reader, const json_t *properties);
 
-/* Reads wavelengths, which the scene has from now on, and the temperature of the background from
-   the member "hr2d". */
+/* Reads wavelengths, which the scene has from now on, and the temperature of the background
+   from the member "hr2d". */
 hr2d_status hr2di_geojson_spectrum(hr2di_geojson *reader, const json_t *members,
                                    size_t *background_bands);
 

@@ -76,10 +76,9 @@ static int look(field *f, const hr2d_solution *solution) {
                                 .flux = f->flux,
                                 .sky = f->sky,
                                 .place = f->place};
-  const hr2d_status status =
-      f->grid.tolerance > 0
-          ? hr2d_field_on_grid(solution, &f->grid, &how, &to, &f->counts)
-          : hr2d_field_at(solution, f->at, f->count, &how, &to);
+  const hr2d_status status = f->grid.tolerance > 0
+                                 ? hr2d_field_on_grid(solution, &f->grid, &how, &to, &f->counts)
+                                 : hr2d_field_at(solution, f->at, f->count, &how, &to);
   progress_clear(&p);
   progress_end();
   return status ? complain_call(f->options->scene, "", status) : 0;
