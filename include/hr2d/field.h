@@ -184,9 +184,9 @@ typedef struct hr2d_field_counts {
  * a view of each end of a patch, and then of some nodes; of a room with 30 patches on 1000 ×
  * 700 nodes within 1e-3 about every 7th. Memory beside the values: 2.9 KB times (6 + 4·bands)
  * for each thread, 8 bytes times bands for 256 nodes, 56 bytes for each border, of which each
- * end begins as many as it sees ends, but at most 64 for each tile of 16 × 16 nodes, and 4
- * bytes for each of up to 256 borders that cross a tile. Where there are more, all nodes have
- * views.
+ * end begins as many as it sees ends, but at most 65,536 or 64 for each tile of 16 × 16 nodes,
+ * and 4 bytes for each of up to 256 borders that cross a tile. Where there are more, all nodes
+ * have views.
  */
 HR2D_API hr2d_status hr2d_field_on_grid(const hr2d_solution *solution,
                                         const hr2d_field_grid *grid,

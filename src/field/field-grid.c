@@ -40,8 +40,9 @@ enum { KNOWN, PLACE, CLEARANCE, SKY, BACK, LIGHT };
  */
 enum { SOURCES = 4 };
 
-/* For each tile, on the average; with more borders most tiles would be crowded. */
-enum { BORDERS = 64 };
+/* For each tile, on the average; with more borders most tiles would be crowded.  So many are
+   few for any grid. */
+enum { BORDERS = 64, FEW_BORDERS = 65536 };
 
 /* The least range, as a part of the largest M. */
 #define LEAST_RANGE 1e-6
@@ -382,10 +383,11 @@ static void find_range(grid_call *c) {
 /* Borders and their map. */
 static hr2d_status find_borders(grid_call *c) {
   const hr2d_field_values *v = &c->f.values;
+  const size_t tiles = c->map.tiles[0] * c->map.tiles[1],
+               most = tiles < FEW_BORDERS / BORDERS ? FEW_BORDERS : BORDERS * tiles;
   const hr2di_border_scale scale = {c->range, v->sky || v->back ? c->grid.tolerance : HUGE_VAL};
   const hr2d_status status =
-      hr2di_borders_find(&c->borders, &c->f.source, &scale,
-                         BORDERS * c->map.tiles[0] * c->map.tiles[1], &c->f.watch);
+      hr2di_borders_find(&c->borders, &c->f.source, &scale, most, &c->f.watch);
   return status || c->borders.many
              ? status
              : hr2di_border_map_init(&c->map, &c->borders, &c->f.source.scene->alloc,
