@@ -104,12 +104,13 @@ static hr2d_status measure(const hr2di_resolution *fineness, const hr2d_target *
   const hr2d_scene *scene = a->hierarchy->scene;
   const unsigned finer = hr2di_resolution_finer(fineness).order;
   const unsigned made = target->no_error ? fineness->order : finer;
+  const unsigned part = target->no_error ? 0 : (finer + 2) / 3;
   const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(a->hierarchy);
   p->order = fineness->order;
   p->elements = counts.elements;
   p->leaves = counts.leaves;
   p->links = hr2d_linkset_size(a->links);
-  p->bytes = hr2di_graded_bytes(a) + p->links * (8 * made * made + 1);
+  p->bytes = hr2di_graded_bytes(a) + p->links * (8 * (made * made + part * part) + 1);
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "coefficients");
   const hr2d_status status = time_blocks(a, made, &watch, &c->make);
@@ -117,7 +118,7 @@ static hr2d_status measure(const hr2di_resolution *fineness, const hr2d_target *
   c->gather = time_gather(a, fineness->order);
   if (target->no_error) return status;
   c->finer = time_gather(a, finer);
-  c->part = time_gather(a, (finer + 2) / 3);
+  c->part = time_gather(a, part);
   return status;
 }
 

@@ -32,7 +32,7 @@ void hr2di_gather_transposed(const double *c, size_t stride, size_t order, size_
         to[m * bands + b] += c[l * stride + m] * from[l * bands + b];
 }
 
-/* FEW rows of `bands` values each are one array to the compiler. */
+/* Four coefficients with `bands` values each are one array, which fills wide vectors. */
 HR2DI_PART void add_both(const double *restrict c, size_t stride, size_t order, size_t bands,
                          const double *restrict up_i, const double *restrict up_j,
                          double *restrict down_i, double *restrict down_j) {
