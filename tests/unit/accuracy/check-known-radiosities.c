@@ -14,15 +14,16 @@ static double kappa_of(const double (*patch)[6], size_t count) {
   return 1 / (1 - most);
 }
 
-/* B at ¼ and ½ after one more gather. */
+/* B at ¼ and ½ after one more gather, relative to the largest of them. */
 static double point_error(const radiosity_scene *s, const hr2d_solution *solution) {
-  double worst = 0;
+  double worst = 0, most = 0;
+  for (size_t k = 0; k < s->patches; k++) most = fmax(most, fmax(s->quarter[k], s->half[k]));
   for (size_t k = 0; k < s->patches; k++) {
     double value[2];
     ck_assert_int_eq(hr2d_solution_gather(solution, k, (const double[]){.25, .5}, 2, value),
                      HR2D_OK);
-    worst = fmax(worst, fabs(value[0] / s->quarter[k] - 1));
-    worst = fmax(worst, fabs(value[1] / s->half[k] - 1));
+    worst = fmax(worst, fabs(value[0] - s->quarter[k]) / most);
+    worst = fmax(worst, fabs(value[1] - s->half[k]) / most);
   }
   return worst;
 }
@@ -46,7 +47,9 @@ START_TEST(targets_are_met_on_reference_scenes) {
       ck_assert_msg(accuracy_is_bounded(a.average, error, 1e-14, rounding),
                     "%s at %g: %g above %g", s->name, target[q], error, a.average.bound);
       accuracy_compare(&t, a.average, error, 1e-14, rounding);
-      if (q == 3) ck_assert_double_le(point_error(s, solution), s->patches > 4 ? 1e-10 : 1e-12);
+      /* Kinks that do not matter to averages stay inside elements, and points show them. */
+      ck_assert_double_le(point_error(s, solution), a.sup.bound + 1e-13);
+      if (q == 3) ck_assert_double_le(point_error(s, solution), s->patches > 4 ? 1e-8 : 1e-12);
       hr2d_solution_destroy(solution);
     }
     hr2d_scene_destroy(scene);
