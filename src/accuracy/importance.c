@@ -161,15 +161,33 @@ static hr2d_status weigh(const hr2di_graded *coarse, const hr2d_target *target, 
   return status;
 }
 
+/* What the caller's callback said: it may use any status. */
+typedef struct listener {
+  const hr2d_target *target;
+  hr2d_status said;
+} listener;
+
+static hr2d_status listen(void *ctx, const hr2d_progress *progress) {
+  listener *l = ctx;
+  l->said = l->target->progress(l->target->progress_ctx, progress);
+  return l->said;
+}
+
 /* Whether something else than the scene or memory ended a coarse solve. */
 static int is_spared(hr2d_status status) {
   return status == HR2D_EMAX_ELEMENTS || status == HR2D_EMAX_LINKS ||
          status == HR2D_EMAX_BYTES || status == HR2D_ENOT_CONVERGED;
 }
 
-hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *target, double *weight,
+hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *given, double *weight,
                              hr2di_lights *lights, hr2di_message *message) {
-  const hr2di_resolution fineness = {.order = 2, .target = 0.1, .norm = target->norm};
+  const hr2di_resolution fineness = {.order = 2, .target = 0.1, .norm = given->norm};
+  listener l = {.target = given};
+  hr2d_target heard = *given, *target = &heard;
+  if (given->progress) {
+    heard.progress = listen;
+    heard.progress_ctx = &l;
+  }
   hr2di_graded coarse;
   hr2d_status status = hr2di_graded_refine(&coarse, scene, &fineness, target, message);
   if (!status) status = hr2di_graded_solve(&coarse, target, message);
@@ -179,5 +197,5 @@ hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *target,
   }
   hr2di_graded_clear(&coarse);
   if (status && lights) hr2di_lights_clear(lights, scene);
-  return !weight && is_spared(status) ? HR2D_OK : status;
+  return !weight && !l.said && is_spared(status) ? HR2D_OK : status;
 }
