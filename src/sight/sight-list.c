@@ -122,9 +122,10 @@ hr2d_status hr2di_sight_list_restrict(hr2di_sight_list *l, const hr2di_sight_lis
                                       hr2d_segment far, hr2di_sight_list *whole) {
   for (size_t k = first; k < last; k++) {
     hr2di_kept_sight kept = from->sight[k];
-    /* Each of four steps keeps at most one point more than there was. */
+    /* Each of four steps keeps at most one point more than there was, behind the room for what
+       is left: points + 4 and points + 1, + 2, + 3, + 4. */
     const size_t points = kept.lefts + kept.rights;
-    hr2d_status status = reserve(l, 1, 5 * points + 10);
+    hr2d_status status = reserve(l, 1, 5 * points + 14);
     if (status) return status;
     narrowing n = {hr2di_sight_list_at(from, k), l->point + l->points + points + 4};
     if (!clip(&n, &kept.near, near, HR2DI_SIGHT_A, HR2DI_SIGHT_B) ||

@@ -6,8 +6,11 @@
 #include <check.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "independent/mpfr-exchange.h"
+#include "sight/sight-list.h"
 #include "sight/sight.h"
 #include "support/plane.h"
 #include "support/support.h"
@@ -436,7 +439,62 @@ START_TEST(turned_round_it_is_the_same) {
 }
 END_TEST
 
+/* Blocks that end with a mark. */
+enum { HEAD = 16, MARK = 0x5a };
+
+static void check_mark(unsigned char *block) {
+  size_t size;
+  memcpy(&size, block, sizeof size);
+  for (size_t k = 0; k < HEAD; k++) ck_assert_uint_eq(block[HEAD + size + k], MARK);
+}
+
+static void *marked_reallocate(void *ctx, void *old, size_t size) {
+  (void)ctx;
+  unsigned char *before = old ? (unsigned char *)old - HEAD : NULL;
+  if (before) check_mark(before);
+  unsigned char *block = realloc(before, size + 2 * HEAD);
+  ck_assert_ptr_nonnull(block);
+  memcpy(block, &size, sizeof size);
+  memset(block + HEAD + size, MARK, HEAD);
+  return block + HEAD;
+}
+
+static void *marked_allocate(void *ctx, size_t size) {
+  return marked_reallocate(ctx, NULL, size);
+}
+
+static void marked_release(void *ctx, void *old) {
+  (void)ctx;
+  if (!old) return;
+  check_mark((unsigned char *)old - HEAD);
+  free((unsigned char *)old - HEAD);
+}
+
+/* The middles of two plates: each of four steps adds a point, from wherever the list has ended
+   in its room. */
+START_TEST(steps_stay_in_their_room) {
+  static const hr2d_segment near = {{0, 0}, {1, 0}}, far = {{1, 1}, {0, 1}};
+  static const hr2d_segment mid = {{0.25, 0}, {0.75, 0}}, of_far = {{0.75, 1}, {0.25, 1}};
+  static const hr2d_point left[] = {{0.1, 0.5}}, right[] = {{0.9, 0.5}};
+  const hr2d_allocator hooks = {
+      .allocate = marked_allocate, .reallocate = marked_reallocate, .release = marked_release};
+  for (size_t before = 0; before < 200; before++) {
+    hr2di_sight_list from = {.alloc = hooks}, to = {.alloc = hooks};
+    const hr2di_sight s = {left, right, 1, 1, 0};
+    ck_assert_int_eq(hr2di_sight_list_add(&from, &s, near, far), HR2D_OK);
+    for (size_t k = 0; k < before; k++)
+      ck_assert_int_eq(hr2di_sight_list_add(&to, &s, near, far), HR2D_OK);
+    ck_assert_int_eq(hr2di_sight_list_restrict(&to, &from, 0, 1, mid, of_far, NULL), HR2D_OK);
+    ck_assert_uint_eq(to.count, before + 1);
+    ck_assert_uint_ge(to.sight[before].lefts + to.sight[before].rights, 2);
+    hr2di_sight_list_clear(&from);
+    hr2di_sight_list_clear(&to);
+  }
+}
+END_TEST
+
 TEST_SUITE("sight") {
   ADD_TESTS("sight", moved_ends_leave_what_the_definition_says, parts_add_up_within_roundings,
-            areas_are_those_of_strings, areas_near_underflow, turned_round_it_is_the_same);
+            areas_are_those_of_strings, areas_near_underflow, turned_round_it_is_the_same,
+            steps_stay_in_their_room);
 }
