@@ -230,12 +230,6 @@ $(comparison par-far "unset key")
 $(comparison orth-near "unset key")
 $(comparison orth-far "unset key")
 END
-set multiplot layout 2,2
-$(comparison par-near)
-$(comparison par-far)
-$(comparison orth-near)
-$(comparison orth-far)
-END
 
 # cost NAME SCENE: seconds and links against error, with the rows; for each method a row of
 # cost-table.md: of the runs that come to an error the quickest, its seconds and links

@@ -6,6 +6,7 @@ function text(s) {
   gsub(/\\fI/, "<em>", s); gsub(/\\f[PR]/, "</em>", s)
   gsub(/\\-/, "-", s); gsub(/\\~/, "\\&#160;", s); gsub(/\\&amp;/, "", s); gsub(/\\e/, "\\&#92;", s)
   gsub(/\\\(\*r/, "ρ", s); gsub(/\\\(\*e/, "ε", s); gsub(/\\\(\*p/, "π", s)
+  gsub(/\\\(\*F/, "Φ", s); gsub(/\\\(\*s/, "σ", s)
   gsub(/\\\(\*w/, "ω", s); gsub(/\\\(\*S/, "Σ", s); gsub(/\\\(is/, "∫", s)
   gsub(/\\\(->/, "→", s); gsub(/\\\(-&gt;/, "→", s); gsub(/\\\(mu/, "×", s); gsub(/\\\(sr/, "√", s)
   gsub(/\\\(S2/, "²", s); gsub(/\\\(pt/, "∝", s); gsub(/\\\(~~/, "≈", s)

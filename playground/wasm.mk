@@ -27,7 +27,7 @@ GSL = blas/blas cblas/dasum cblas/daxpy cblas/dcopy cblas/ddot cblas/dgemm cblas
 	cblas/dnrm2 cblas/drot cblas/dscal cblas/dtrmm cblas/dtrmv cblas/dtrsm cblas/dtrsv \
 	cblas/xerbla err/error err/stream fit/linear integration/qk integration/qk15 \
 	linalg/householder linalg/qr matrix/matrix matrix/rowcol matrix/submatrix matrix/view \
-	specfunc/psi vector/copy vector/init vector/subvector vector/vector vector/view
+	specfunc/debye specfunc/psi vector/copy vector/init vector/subvector vector/vector vector/view
 JANSSON = error hashtable hashtable_seed load memory strbuffer strconv utf value
 
 OBJECTS = $(patsubst %.c,playground/wasm/object/%.o,$(filter %.c,$(CORE))) \

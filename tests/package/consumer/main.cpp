@@ -5,7 +5,7 @@
 #include <hr2d/hr2d.h>
 #include <iostream>
 
-// B of a lit floor's ceiling, ρ·AF and no more, for options that are given or not.
+// B at a point of a lit floor's ceiling, for options that are given or not.
 static double solve(const hr2d_target *target) {
   const double one = 1, half = 0.5;
   hr2d_patch floor = HR2D_PATCH_INIT, ceiling = HR2D_PATCH_INIT;
@@ -20,10 +20,10 @@ static double solve(const hr2d_target *target) {
                   !hr2d_scene_add(scene, &floor, nullptr) &&
                   !hr2d_scene_add(scene, &ceiling, nullptr) && !hr2d_scene_commit(scene) &&
                   !hr2d_solve_to(scene, target, &solution, nullptr);
-  const double average = ok ? hr2d_solution_average(solution, 1, 0) : -1;
+  const double value = ok ? hr2d_solution_at(solution, 1, 0.3, 0) : -1;
   hr2d_solution_destroy(solution);
   hr2d_scene_destroy(scene);
-  return average;
+  return value;
 }
 
 // Zeros, the macro and the function give what no options give, bit for bit; another target does

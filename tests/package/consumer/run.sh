@@ -73,6 +73,7 @@ fi
 
 # The examples are installed, and the program reads their scenes.
 examples=$DESTDIR$docdir/examples
+# shellcheck disable=SC2046 # its words are several arguments
 $CC -std=c11 "$examples/digits.c" -o "$work/digits" $("$PKG_CONFIG" --cflags --libs hr2d)
 "$work/digits" | diff -u "$here/../../../examples/digits.expected" -
 "$DESTDIR$bindir/hr2d" solve "$examples/scenes/lit-room.geojson" --quiet --json "$work/room.json"
