@@ -10,6 +10,9 @@ const alike = (x, y) => x.length === y.length && x.every((v, k) => v === y[k]);
 /** One number where a scene is grey. */
 const value = (bands) => (bands.length === 1 ? bands[0] : bands);
 
+/** E is negative on a wall from which heat is taken alone: a net flux is E with a ρ of 1. */
+const isFlux = (w) => w.emission.some((e) => e < 0) && w.reflectance.every((r) => r === 1);
+
 function isBackOf(back, front) {
   return (
     back.name === `${front.name} (back)` &&
@@ -57,8 +60,12 @@ export class Scene {
   toGeoJSON() {
     const features = this.walls.map((w, k) => {
       const properties = { name: w.name || `wall ${k + 1}` };
-      properties.emission = value(w.emission);
-      properties.reflectance = value(w.reflectance);
+      if (isFlux(w)) {
+        properties.flux = value(w.emission);
+      } else {
+        properties.emission = value(w.emission);
+        properties.reflectance = value(w.reflectance);
+      }
       if (w.both) properties.sides = "both";
       return {
         type: "Feature",
