@@ -165,24 +165,11 @@ static void measure_all_views(void) {
 
 /* Seconds of commit alone. */
 static double commit_seconds(plan_fn draw, int n, int lamps) {
-  plan p = {0};
-  hr2d_scene *scene = NULL;
-  draw(&p, n);
-  if (hr2d_scene_create(NULL, &scene)) bars_fail("no scene");
-  for (size_t k = 0; k < p.count; k++) {
-    const double one = 1;
-    hr2d_patch patch = HR2D_PATCH_INIT;
-    patch.a = p.segment[k].a;
-    patch.b = p.segment[k].b;
-    patch.emission = &one;
-    patch.emission_bands = !lamps || k < (size_t)lamps;
-    if (hr2d_scene_add(scene, &patch, NULL)) bars_fail(hr2d_scene_message(scene));
-  }
+  hr2d_scene *scene = plan_patches(draw, n, lamps);
   const double start = cpu_seconds();
   if (hr2d_scene_commit(scene)) bars_fail(hr2d_scene_message(scene));
   const double seconds = cpu_seconds() - start;
   hr2d_scene_destroy(scene);
-  free(p.segment);
   return seconds;
 }
 

@@ -201,7 +201,7 @@ void plan_segments(plan *p, int n) {
   if (n > 0) scatter(p, n, 0.15, 0.15, put_segment);
 }
 
-hr2d_scene *plan_scene(plan_fn draw, int n, int forced) {
+hr2d_scene *plan_patches(plan_fn draw, int n, int lamps) {
   plan p = {0};
   hr2d_scene *scene = NULL;
   draw(&p, n);
@@ -212,12 +212,17 @@ hr2d_scene *plan_scene(plan_fn draw, int n, int forced) {
     patch.a = p.segment[k].a;
     patch.b = p.segment[k].b;
     patch.emission = &one;
-    patch.emission_bands = 1;
+    patch.emission_bands = !lamps || k < (size_t)lamps;
     if (hr2d_scene_add(scene, &patch, NULL)) bars_fail(hr2d_scene_message(scene));
   }
+  free(p.segment);
+  return scene;
+}
+
+hr2d_scene *plan_scene(plan_fn draw, int n, int forced) {
+  hr2d_scene *scene = plan_patches(draw, n, 0);
   if (forced && hr2d_scene_force(scene, HR2D_EFFECT_OCCLUSION)) bars_fail("not forced");
   if (hr2d_scene_commit(scene)) bars_fail(hr2d_scene_message(scene));
-  free(p.segment);
   return scene;
 }
 

@@ -25,6 +25,9 @@ void plan_tiny(plan *p, int n);
 void plan_open(plan *p, int n);     /* a round room with nothing in it */
 void plan_segments(plan *p, int n); /* of length 0.3/√n, each with one front */
 
+/* A scene that is not committed, of which the first `lamps` patches emit; 0: all. */
+hr2d_scene *plan_patches(plan_fn draw, int n, int lamps);
+
 /* A committed scene; with `forced`, occlusion is on in any case. */
 hr2d_scene *plan_scene(plan_fn draw, int n, int forced);
 

@@ -165,7 +165,6 @@ libhr2d_core_la_SOURCES = \
 	src/solution/point-gather.c \
 	src/solution/solution.c \
 	src/solution/solution-impl.h \
-	src/solution/temperature.c \
 	src/field/border-map.c src/field/border-map.h \
 	src/field/borders.c src/field/borders.h \
 	src/field/field-at.c src/field/field-at.h \
@@ -215,6 +214,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/graded-solve.c src/accuracy/graded-solve.h \
 	src/accuracy/importance.c src/accuracy/importance.h \
 	src/accuracy/grader.h src/accuracy/grader-team.c \
+	src/accuracy/grading-marks.c \
 	src/accuracy/kinks.c src/accuracy/kinks.h \
 	src/accuracy/long-leaves.c src/accuracy/long-leaves.h \
 	src/accuracy/mesh-grading.c src/accuracy/mesh-grading.h \
@@ -224,6 +224,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/solution-error.c \
 	src/accuracy/solve-to.c \
 	src/accuracy/target.c src/accuracy/target.h \
+	src/accuracy/temperature.c \
 	src/state/byte-stream.c src/state/byte-stream.h \
 	src/state/state-impl.h \
 	src/state/state-read.c src/state/state-scene.c \

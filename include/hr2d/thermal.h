@@ -208,6 +208,7 @@ typedef struct hr2d_temperatures {
  *                      NaN. All errors are NaN for patches that are not important
  * @param temperatures  what is wanted: arrays with an item for each patch
  * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed; with important patches only
  * @retval HR2D_EINVAL  a `struct_size` is not set, or `target` is not valid
  *
  * Cost O(n·bands).

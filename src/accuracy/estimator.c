@@ -55,12 +55,6 @@ void hr2di_estimator_set_most(hr2di_estimator *e, const double *field) {
   hr2di_estimator_lift(e, e->most);
 }
 
-/* Coefficients that the part lacks hardly matter to light that is reflected twice: the part
-   takes that on. */
-static size_t order_of_part(size_t order) {
-  return order < 9 ? 2 : order / 3;
-}
-
 static void scale(const hr2di_estimator *e, const hr2di_equation *eq, double *field, int sign) {
   for (size_t k = 0; k < eq->field; k++)
     field[k] = ldexp(field[k], sign * e->exponent_of[k % eq->transport.bands]);
@@ -195,7 +189,8 @@ hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
   hr2d_status status = hr2di_equation_init(&e->eq, answer->links, &options);
   if (!status) status = reserve(e, &answer->links->alloc);
   if (!status)
-    status = hr2di_equation_part(&e->part, &e->eq, order_of_part(e->eq.transport.order));
+    status = hr2di_equation_part(&e->part, &e->eq,
+                                 hr2di_estimator_part_order(e->eq.transport.order));
   if (status) return status;
   hr2di_basis_init(&e->basis, e->eq.transport.order);
   hr2di_rule_init(&e->rule, e->eq.transport.order + 2);

@@ -45,6 +45,12 @@ typedef struct hr2di_estimator {
   int *exponent_of;   /* per band: what a solve is scaled by */
 } hr2di_estimator;
 
+/* The order of the part of an equation.  Coefficients that it lacks hardly matter to light that
+   is reflected twice: the part takes that on. */
+static inline size_t hr2di_estimator_part_order(size_t order) {
+  return order < 9 ? 2 : order / 3;
+}
+
 /* Makes an estimator of a solved answer; its trees and links are those of the finer operator.
    Returns HR2D_OK, or a status with a message in the links.  The estimator must not be moved;
    call hr2di_estimator_clear() in any case. */

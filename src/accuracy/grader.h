@@ -57,6 +57,24 @@ struct hr2di_grader {
   double last[3];  /* angle and ρ of the last corner, and its exponent */
 };
 
+/* Elements that are graded towards an end have it at an ellipse of 3; ends farther than that
+   are not near. */
+#define HR2DI_GRADING_FAR 3.0
+
+/* grading-marks.c: */
+
+/* Sets the vertices, and no feet.  HR2D_OK, HR2D_ENOMEM or the status of the watch, as all. */
+hr2d_status hr2di_grading_list_vertices(hr2di_grader *g);
+
+/* The largest reflectance of a patch in any band. */
+double hr2di_grading_reflectance(const hr2d_scene *scene, uint32_t patch);
+
+/* Adds the vertices that are near to a patch to its marks and its near points. */
+hr2d_status hr2di_grading_look_around(hr2di_grader *g, uint32_t patch);
+
+/* Adds marks at the feet of a patch and at its events, and sorts all. */
+hr2d_status hr2di_grading_set_marks(hr2di_grader *g, uint32_t patch);
+
 /* Looks from all patches and divides them, on several threads: patches look on any of them, and
    are divided in their order by the calling one.  No bit depends on the number of threads. */
 hr2d_status hr2di_grader_team(hr2di_grader *g, size_t threads);

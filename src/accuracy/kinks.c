@@ -28,6 +28,7 @@
 
 #include "accuracy/mesh-grading.h"
 #include "base/alloc.h"
+#include "geometry/vector.h"
 #include "scene/scene-impl.h"
 #include "visibility/point-view.h"
 
@@ -75,8 +76,6 @@ static hr2d_status look(cutter *w, size_t patch, double at, double weight, doubl
       sum[w->bands + b] += part * w->lights->importance[from + b];
     }
   }
-  for (size_t b = 0; b < w->bands && w->scene->effect[HR2D_EFFECT_BACKGROUND].on; b++)
-    sum[b] += weight * seen.sky * hr2d_scene_background(w->scene, b);
   return HR2D_OK;
 }
 
@@ -139,7 +138,6 @@ static hr2d_status know(cutter *c, size_t k) {
 
 static hr2d_status set_bounds(cutter *c) {
   hr2d_status status = HR2D_OK;
-  for (size_t b = 0; b < c->bands; b++) c->most[b] = hr2d_scene_background(c->scene, b);
   for (size_t k = 0; k < c->scene->patches; k++)
     for (size_t b = 0; b < c->bands; b++) {
       const size_t at = k * c->bands + b;
@@ -265,8 +263,7 @@ static hr2d_status cut(cutter *c) {
     return status ? status : push(c, l);
   }
   const hr2di_event *e = &c->events->event[l.best];
-  const hr2d_segment s = c->scene->patch[e->patch].scaled;
-  const hr2d_point at = {s.a.x + e->at * (s.b.x - s.a.x), s.a.y + e->at * (s.b.y - s.a.y)};
+  const hr2d_point at = hr2di_point_at(c->scene->patch[e->patch].scaled, e->at);
   hr2d_status status = hr2di_hierarchy_reserve(c->h);
   if (status) return status;
   const uint32_t child =

@@ -7,6 +7,7 @@
 
 #include "accuracy/corner-residuals.h"
 #include "accuracy/error-estimate.h"
+#include "accuracy/estimator.h"
 #include "accuracy/importance.h"
 #include "accuracy/resolution.h"
 #include "accuracy/target.h"
@@ -27,7 +28,7 @@ enum { ATTEMPTS = 8, MORE = 2, MOST_BANDS = 4 };
 #define SHORT 0.02
 
 /* Gathers of an account of the error, with the finer operator (see error-estimate.c); and
-   iterations, in terms of those of the solve, with a part of it of a third of the order. */
+   iterations, in terms of those of the solve, with a part of it (see estimator.h). */
 #define ERROR_GATHERS    20
 #define ERROR_ITERATIONS 2.5
 
@@ -104,7 +105,7 @@ static hr2d_status measure(const hr2di_resolution *fineness, const hr2d_target *
   const hr2d_scene *scene = a->hierarchy->scene;
   const unsigned finer = hr2di_resolution_finer(fineness).order;
   const unsigned made = target->no_error ? fineness->order : finer;
-  const unsigned part = target->no_error ? 0 : (finer + 2) / 3;
+  const size_t part = target->no_error ? 0 : hr2di_estimator_part_order(finer);
   const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(a->hierarchy);
   p->order = fineness->order;
   p->elements = counts.elements;

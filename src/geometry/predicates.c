@@ -5,6 +5,7 @@
 #include "geometry/determinant.h"
 #include "geometry/orient-exact.h"
 #include "geometry/orient-sign.h"
+#include "geometry/vector.h"
 
 hr2di_scaled hr2di_orient_scaled(hr2d_point a, hr2d_point b, hr2d_point c) {
   hr2di_vector u, w;
@@ -35,12 +36,8 @@ double hr2di_line_crossing(hr2d_point a, hr2d_point b, hr2d_point p, hr2d_point 
   return u / (u - v);
 }
 
-/* From the end that is nearer. */
 hr2d_point hr2di_line_crossing_at(hr2d_segment s, hr2d_point p, hr2d_point q) {
-  const double t = hr2di_line_crossing(p, q, s.a, s.b);
-  if (t > 0.5)
-    return (hr2d_point){s.b.x + (1 - t) * (s.a.x - s.b.x), s.b.y + (1 - t) * (s.a.y - s.b.y)};
-  return (hr2d_point){s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)};
+  return hr2di_point_at(s, hr2di_line_crossing(p, q, s.a, s.b));
 }
 
 int hr2d_orientation(hr2d_point a, hr2d_point b, hr2d_point c) {

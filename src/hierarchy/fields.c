@@ -1,19 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Trees and fields of callers: division of an element, push and pull. */
-#include <math.h>
-
 #include "base/alloc.h"
 #include "geometry/vector.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "hierarchy/push-pull.h"
 #include "scene/scene-impl.h"
-
-static hr2d_point point_at(const hr2d_element *e, double t) {
-  if (t > 0.5)
-    return (hr2d_point){e->b.x - (1 - t) * (e->b.x - e->a.x),
-                        e->b.y - (1 - t) * (e->b.y - e->a.y)};
-  return (hr2d_point){e->a.x + t * (e->b.x - e->a.x), e->a.y + t * (e->b.y - e->a.y)};
-}
 
 hr2d_status hr2d_hierarchy_divide(hr2d_hierarchy *hierarchy, uint32_t element, double t,
                                   uint32_t *child) {
@@ -22,7 +13,7 @@ hr2d_status hr2d_hierarchy_divide(hr2d_hierarchy *hierarchy, uint32_t element, d
       !(t > 0 && t < 1) || hierarchy->level[element] == UINT16_MAX)
     return HR2D_EINVAL;
   const hr2d_element *e = &hierarchy->element[element];
-  const hr2d_point at = t == 0.5 ? e->centre : point_at(e, t);
+  const hr2d_point at = t == 0.5 ? e->centre : hr2di_point_at((hr2d_segment){e->a, e->b}, t);
   if (hr2di_point_same(at, e->a) || hr2di_point_same(at, e->b) || !(t * e->length > 0) ||
       !((1 - t) * e->length > 0))
     return HR2D_EINVAL;

@@ -45,8 +45,7 @@ static inline hr2d_point hr2di_snap_project(hr2d_point p, hr2d_point a, hr2d_poi
                                             double *t) {
   const double ux = b.x - a.x, uy = b.y - a.y, u = hypot(ux, uy);
   *t = ((p.x - a.x) * (ux / u) + (p.y - a.y) * (uy / u)) / u;
-  if (*t > .5) return (hr2d_point){b.x + (*t - 1) * ux, b.y + (*t - 1) * uy};
-  return (hr2d_point){a.x + *t * ux, a.y + *t * uy};
+  return hr2di_point_at((hr2d_segment){a, b}, *t);
 }
 
 static inline hr2d_point hr2di_snap_unscaled(const hr2d_scene *scene, hr2d_point p) {

@@ -67,14 +67,6 @@ static hr2d_status settle(finder *f) {
   return kept > f->max ? HR2D_EMAX_ELEMENTS : HR2D_OK;
 }
 
-/* Exactly on a line along an axis. */
-static hr2d_point point_on(const hr2d_scene *scene, uint32_t patch, double t) {
-  const hr2d_segment s = scene->patch[patch].scaled;
-  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y, u = 1 - t;
-  return t < 0.5 ? (hr2d_point){s.a.x + t * dx, s.a.y + t * dy}
-                 : (hr2d_point){s.b.x - u * dx, s.b.y - u * dy};
-}
-
 /* The sine of the angle between a vector and a patch. */
 static double sine_to(const hr2d_scene *scene, uint32_t patch, hr2d_point v) {
   const hr2d_segment s = scene->patch[patch].scaled;
@@ -102,7 +94,7 @@ static hr2di_event event_at(const finder *f, uint32_t patch, double at, uint32_t
     e.origin_at = f->from->event.at;
   }
   if (via == HR2DI_NO_VERTEX) return e;
-  const hr2d_point x = point_on(f->scene, patch, at);
+  const hr2d_point x = hr2di_point_at(f->scene->patch[patch].scaled, at);
   const double spread = spread_to(f, x, patch, f->beams.in->at[via]);
   if (spread < LARGEST) e.spread = spread;
   return e;
@@ -202,7 +194,7 @@ static hr2d_status look_from_events(finder *f, unsigned generation) {
   f->generation = generation;
   for (size_t k = 0; k < f->origins && !status; k++) {
     const candidate c = f->origin[k];
-    const hr2d_point at = point_on(f->scene, c.event.patch, c.event.at);
+    const hr2d_point at = hr2di_point_at(f->scene->patch[c.event.patch].scaled, c.event.at);
     f->from = &f->origin[k];
     const hr2di_side_part *part = part_at(f->scene, c.event.patch, at);
     if (part->patch == c.event.patch && part->side != HR2DI_HIDDEN)

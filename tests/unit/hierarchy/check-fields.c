@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Trees that are divided by hand, and push and pull of fields on them: against polynomials,
    which have their own coefficients on every element, and against a gather of the library. */
+#include <gsl/gsl_sf_legendre.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,17 +49,6 @@ static void grow(randoms *r, hr2d_hierarchy *h, int divisions, double *start, do
   }
 }
 
-static double legendre(int l, double x) {
-  double before = 1, here = x;
-  if (l == 0) return 1;
-  for (int k = 1; k < l; k++) {
-    const double next = ((2 * k + 1) * x * here - k * before) / (k + 1);
-    before = here;
-    here = next;
-  }
-  return here;
-}
-
 /* A polynomial of degree below MOST_ORDER along a patch. */
 static double polynomial(const double *c, int order, double t) {
   double sum = 0;
@@ -74,7 +64,7 @@ static double coefficient(const double *c, int order, int l, double start, doubl
     const int points = 4000 << fine;
     for (int k = 0; k < points; k++) {
       const double x = (k + 0.5) / points;
-      sum[fine] += polynomial(c, order, start + x * (end - start)) * legendre(l, 2 * x - 1);
+      sum[fine] += polynomial(c, order, start + x * (end - start)) * gsl_sf_legendre_Pl(l, 2 * x - 1);
     }
     sum[fine] *= sqrt(2 * l + 1) / points;
   }
@@ -188,7 +178,7 @@ static void leaf_coefficients(const hr2d_solution *s, const hr2d_hierarchy *h, u
       const double x = (k + 0.5) / (POINTS << fine), share = (fine ? 4. : -1.) / 3;
       const double b = hr2d_solution_at(s, e->patch, from + x * (to - from), 0);
       for (size_t l = 0; l < order; l++)
-        c[l] += share * b * sqrt(2. * (double)l + 1) * legendre((int)l, 2 * x - 1) /
+        c[l] += share * b * sqrt(2. * (double)l + 1) * gsl_sf_legendre_Pl((int)l, 2 * x - 1) /
                 (POINTS << fine);
     }
 }

@@ -9,6 +9,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "accuracy/importance.h"
+#include "accuracy/target.h"
 #include "base/sized-struct.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
@@ -104,47 +106,27 @@ static void add_heat(const reader *r, size_t band, double largest,
   }
 }
 
-/* With important patches only these have errors that are known. */
+/* Errors of patches that are not important are not known. */
 static void forget(const hr2d_scene *scene, const hr2d_target *target,
                    const hr2d_temperatures *to) {
-  if (!target->important_count) return;
   double *const array[] = {to->estimate, to->bound, to->heat_estimate, to->heat_bound};
-  for (size_t a = 0; a < sizeof array / sizeof *array; a++) {
-    if (!array[a]) continue;
-    /* Errors are not negative; the sign tells which patches are important. */
-    for (size_t k = 0; k < target->important_count; k++) {
-      double *at = &array[a][target->important[k]];
-      *at = -fabs(*at);
-    }
-    for (size_t k = 0; k < scene->patches; k++)
-      array[a][k] = signbit(array[a][k]) ? fabs(array[a][k]) : NAN;
-  }
-}
-
-static hr2d_status take_arguments(const hr2d_solution *solution, const hr2d_target *given,
-                                  const hr2d_temperatures *wanted, hr2d_target *target,
-                                  hr2d_temperatures *to) {
-  const size_t patches = solution->hierarchy->scene->patches;
-  if (!wanted || hr2di_sized_copy(to, sizeof *to, wanted) ||
-      hr2di_sized_copy(target, sizeof *target, given))
-    return HR2D_EINVAL;
-  if (!(target->floor >= 0 && target->floor <= 1)) return HR2D_EINVAL;
-  if (!target->important && target->important_count) return HR2D_EINVAL;
-  for (size_t k = 0; k < target->important_count; k++)
-    if (target->important[k] >= patches) return HR2D_EINVAL;
-  return HR2D_OK;
+  for (size_t k = 0; k < scene->patches && target->important; k++)
+    for (size_t a = 0; a < sizeof array / sizeof *array; a++)
+      if (!hr2di_is_important(target, k)) put(array[a], k, NAN);
 }
 
 hr2d_status hr2d_solution_temperatures(const hr2d_solution *solution, const hr2d_target *given,
                                        const hr2d_account *account,
                                        const hr2d_temperatures *temperatures) {
   const hr2d_scene *scene = solution->hierarchy->scene;
-  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_target target;
   hr2d_temperatures to = HR2D_TEMPERATURES_INIT;
-  if (take_arguments(solution, given, temperatures, &target, &to)) return HR2D_EINVAL;
+  if (!temperatures || hr2di_sized_copy(&to, sizeof to, temperatures)) return HR2D_EINVAL;
+  const hr2d_status status = hr2di_target_init(&target, scene, given, HR2D_DEFAULT_ERROR);
+  if (status) return status;
   const reader r = {.solution = solution,
                     .scene = scene,
-                    .floor = target.floor > 0 ? target.floor : HR2D_FLOOR,
+                    .floor = target.floor,
                     .error = account ? account->irradiance : (hr2d_error){NAN, NAN}};
   double *const sum[] = {to.heat, to.heat_estimate, to.heat_bound};
   for (size_t a = 0; a < sizeof sum / sizeof *sum; a++)
@@ -158,6 +140,7 @@ hr2d_status hr2d_solution_temperatures(const hr2d_solution *solution, const hr2d
     }
   }
   forget(scene, &target, &to);
+  hr2di_target_clear(&target, scene);
   return HR2D_OK;
 }
 
