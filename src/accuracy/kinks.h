@@ -15,9 +15,9 @@ typedef struct hr2di_lights {
 /* Divides leaves at events, those that make the largest part of the error first, until the
    events inside elements make no more than `allowed`.  `bent` receives, for elements × bands,
    what the events that are left inside a leaf make of B beyond its polynomials, in the mean; 0
-   for other elements.  The scene has no background.  It is from the hooks of the hierarchy, and NULL without events. HR2D_OK;
-   or, with a part of the divisions done, HR2D_ENOMEM, HR2D_EMAX_ELEMENTS or the status of the
-   watch. */
+   for other elements.  The scene has no background.  It is from the hooks of the hierarchy, and
+   NULL without events. HR2D_OK; or, with a part of the divisions done, HR2D_ENOMEM,
+   HR2D_EMAX_ELEMENTS or the status of the watch. */
 hr2d_status hr2di_kinks_cut(hr2d_hierarchy *hierarchy, const hr2di_events *events,
                             const hr2di_lights *lights, double allowed, uint64_t max_elements,
                             hr2di_watch *watch, double **bent);
