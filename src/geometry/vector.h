@@ -29,8 +29,8 @@ static inline double hr2di_point_cross(hr2d_point u, hr2d_point v) {
   return u.x * v.y - u.y * v.x;
 }
 
-/* The point at the fraction t of a segment, from the end that is nearer: exactly on a line along
-   an axis. */
+/* The point at the fraction t of a segment, from the end that is nearer: exactly on a line
+   along an axis. */
 static inline hr2d_point hr2di_point_at(hr2d_segment s, double t) {
   const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y, u = 1 - t;
   return t > 0.5 ? (hr2d_point){s.b.x - u * dx, s.b.y - u * dy}
