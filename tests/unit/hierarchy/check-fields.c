@@ -64,7 +64,8 @@ static double coefficient(const double *c, int order, int l, double start, doubl
     const int points = 4000 << fine;
     for (int k = 0; k < points; k++) {
       const double x = (k + 0.5) / points;
-      sum[fine] += polynomial(c, order, start + x * (end - start)) * gsl_sf_legendre_Pl(l, 2 * x - 1);
+      sum[fine] +=
+          polynomial(c, order, start + x * (end - start)) * gsl_sf_legendre_Pl(l, 2 * x - 1);
     }
     sum[fine] *= sqrt(2 * l + 1) / points;
   }
