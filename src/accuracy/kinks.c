@@ -20,8 +20,8 @@
 
    B itself jumps by no more than its largest value.  Where x passes the line of a thin wall,
    both of its sides come into view, and the jump may be twice as large.  The events that seem
-   to matter are looked at: their jumps are second differences of what a point sees, with the
-   radiosities of whole patches. */
+   to matter are looked at: their jumps are second differences of what a point sees close beside
+   the vertex, with the radiosities of whole patches.  The rest of the view is smooth there. */
 #include "accuracy/kinks.h"
 
 #include <math.h>
@@ -34,6 +34,9 @@
 
 /* Of second differences, as a part of the patch. */
 #define STEP 1e-6
+
+/* How many steps beside the vertex a view ends: what is seen past it moves by one. */
+#define BESIDE 4
 
 /* Of jumps in terms of the largest B, and of shares: their squares and sums are finite. */
 #define LARGEST 1e100
@@ -63,10 +66,11 @@ typedef struct cutter {
   double total;
 } cutter;
 
-/* sum += weight · what falls on a point from B, and from the importance. */
-static hr2d_status look(cutter *w, size_t patch, double at, double weight, double *sum) {
+/* sum += weight · what falls on a point between two places from B, and from the importance. */
+static hr2d_status look(cutter *w, size_t patch, double at, const hr2d_point border[2],
+                        double weight, double *sum) {
   hr2di_view_from seen;
-  const hr2d_status status = hr2di_view_at(w->viewer, patch, at, &seen);
+  const hr2d_status status = hr2di_view_between(w->viewer, patch, at, border, &seen);
   if (status) return status;
   for (size_t k = 0; k < seen.count; k++) {
     const double part = weight * seen.glimpse[k].sine;
@@ -82,10 +86,16 @@ static hr2d_status look(cutter *w, size_t patch, double at, double weight, doubl
 static hr2d_status look_around(cutter *w, const hr2di_event *e, double *jump) {
   for (size_t b = 0; b < 2 * w->bands; b++) jump[b] = 0;
   const double step = fmin(STEP, 0.5 * fmin(e->at, 1 - e->at));
-  const double unit = 1 / (step * w->scene->patch[e->patch].length);
-  hr2d_status status = look(w, e->patch, e->at, -2 * unit, jump);
-  if (!status) status = look(w, e->patch, e->at - step, unit, jump);
-  return status ? status : look(w, e->patch, e->at + step, unit, jump);
+  const double move = step * w->scene->patch[e->patch].length;
+  const hr2d_point at = hr2di_point_at(w->scene->patch[e->patch].scaled, e->at),
+                   to = hr2di_point_minus(e->past, at);
+  /* Of a foot the border is no place: all is looked at. */
+  const double side = BESIDE * move / hypot(to.x, to.y);
+  const hr2d_point border[2] = {{e->past.x + side * to.y, e->past.y - side * to.x},
+                                {e->past.x - side * to.y, e->past.y + side * to.x}};
+  hr2d_status status = look(w, e->patch, e->at, border, -2 / move, jump);
+  if (!status) status = look(w, e->patch, e->at - step, border, 1 / move, jump);
+  return status ? status : look(w, e->patch, e->at + step, border, 1 / move, jump);
 }
 
 /* The first event that is not before a place. */

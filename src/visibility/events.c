@@ -93,9 +93,10 @@ static hr2di_event event_at(const finder *f, uint32_t patch, double at, uint32_t
     e.origin = f->from->event.patch;
     e.origin_at = f->from->event.at;
   }
+  e.past = hr2di_point_at(f->scene->patch[patch].scaled, at);
   if (via == HR2DI_NO_VERTEX) return e;
-  const hr2d_point x = hr2di_point_at(f->scene->patch[patch].scaled, at);
-  const double spread = spread_to(f, x, patch, f->beams.in->at[via]);
+  const double spread = spread_to(f, e.past, patch, f->beams.in->at[via]);
+  e.past = f->beams.in->at[via];
   if (spread < LARGEST) e.spread = spread;
   return e;
 }

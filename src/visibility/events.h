@@ -23,8 +23,10 @@ typedef struct hr2di_event {
                           the place of the source's end; … */
   uint32_t origin;     /* of generation 2 and later: the patch of that event, and its place */
   double origin_at;
-  double spread; /* where B has a jump at the end of the source, or a derivative of B at the
-                    origin, that is so many times as large in the next derivative of H here */
+  hr2d_point past; /* the vertex on the line that is nearest, in coordinates of
+                      hr2di_patch::scaled; of a foot its own place */
+  double spread;   /* where B has a jump at the end of the source, or a derivative of B at the
+                      origin, that is so many times as large in the next derivative of H here */
 } hr2di_event;
 
 typedef struct hr2di_events {

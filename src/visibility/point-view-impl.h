@@ -104,9 +104,10 @@ struct hr2di_viewer {
 /* Adds what a stretch shows.  HR2D_OK, HR2D_ENOMEM or the status of `show`. */
 hr2d_status hr2di_view_add(hr2di_viewer *w, const hr2di_stretch *s);
 
-/* Adds all that the eye sees, in the order of directions where something can be in the way,
-   else in that of patches.  HR2D_OK, HR2D_ENOMEM or the status of the watch. */
-hr2d_status hr2di_view_walk(hr2di_viewer *w);
+/* Adds all that the eye sees: in the order of directions, between two rays that were measured,
+   or between the horizons for NULL; or in the order of patches.  HR2D_OK, HR2D_ENOMEM or the
+   status of the watch. */
+hr2d_status hr2di_view_walk(hr2di_viewer *w, const hr2di_ray border[2]);
 hr2d_status hr2di_view_all(hr2di_viewer *w);
 
 #endif

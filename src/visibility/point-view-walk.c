@@ -195,7 +195,7 @@ static const hr2di_side_part *part_at(const hr2di_viewer *w) {
 }
 
 /* A patch that is a rounding behind another one, or that is but dust, sees only backs. */
-hr2d_status hr2di_view_walk(hr2di_viewer *w) {
+hr2d_status hr2di_view_walk(hr2di_viewer *w, const hr2di_ray border[2]) {
   const hr2d_scene *scene = w->scene;
   const hr2di_triangulation *in = &scene->plane.triangulation;
   const hr2di_side_part *part = part_at(w);
@@ -207,8 +207,10 @@ hr2d_status hr2di_view_walk(hr2di_viewer *w) {
   walk k = {.w = w,
             .in = in,
             .own = {in->edge_of[of_wall[wall]], in->edge_of[of_wall[wall + 1]]},
-            .right = hr2di_ray_horizon(1, side & 1 ? edge->from : edge->to)};
-  const hr2di_ray left = hr2di_ray_horizon(-1, side & 1 ? edge->to : edge->from);
+            .right =
+                border ? border[0] : hr2di_ray_horizon(1, side & 1 ? edge->from : edge->to)};
+  const hr2di_ray left =
+      border ? border[1] : hr2di_ray_horizon(-1, side & 1 ? edge->to : edge->from);
   w->seeing = (hr2di_stretch){.patch = HR2DI_SEEN_NOTHING, .right = k.right, .left = k.right};
   w->frames = 0;
   hr2d_status status = push(w, &left, 0);

@@ -48,14 +48,16 @@ static hr2d_status sort_glimpses(hr2di_viewer *w) {
   return status;
 }
 
-hr2d_status hr2di_view_at(hr2di_viewer *viewer, size_t patch, double t, hr2di_view_from *seen) {
-  hr2di_viewer *w = viewer;
-  const int hidden = w->scene->effect[HR2D_EFFECT_OCCLUSION].on;
-  hr2di_eye_init(&w->eye, w->scene->patch[patch].scaled, patch, t);
+static int is_hidden(const hr2di_viewer *w) {
+  return w->scene->effect[HR2D_EFFECT_OCCLUSION].on;
+}
+
+static hr2d_status look(hr2di_viewer *w, const hr2di_ray border[2], hr2di_view_from *seen) {
+  const int hidden = is_hidden(w);
   w->glimpses = 0;
   w->back = (hr2di_sum){0, 0};
   hr2d_status status = hr2di_watch_work(w->watch, 1);
-  if (!status) status = hidden ? hr2di_view_walk(w) : hr2di_view_all(w);
+  if (!status) status = hidden ? hr2di_view_walk(w, border) : hr2di_view_all(w);
   if (!status && hidden) status = sort_glimpses(w);
   if (status) return status;
   const hr2di_glimpse *glimpse = hidden ? w->sorted : w->glimpse;
@@ -67,4 +69,21 @@ hr2d_status hr2di_view_at(hr2di_viewer *viewer, size_t patch, double t, hr2di_vi
                             .back = fmin(hr2di_sum_total(&w->back), 1)};
   seen->sky = fmax(1 - seen->front - seen->back, 0);
   return HR2D_OK;
+}
+
+hr2d_status hr2di_view_at(hr2di_viewer *viewer, size_t patch, double t, hr2di_view_from *seen) {
+  hr2di_eye_init(&viewer->eye, viewer->scene->patch[patch].scaled, patch, t);
+  return look(viewer, NULL, seen);
+}
+
+hr2d_status hr2di_view_between(hr2di_viewer *viewer, size_t patch, double t,
+                               const hr2d_point border[2], hr2di_view_from *seen) {
+  hr2di_ray ray[2];
+  hr2di_eye_init(&viewer->eye, viewer->scene->patch[patch].scaled, patch, t);
+  for (int k = 0; k < 2; k++) {
+    ray[k] = hr2di_ray_to(&viewer->eye, border[k]);
+    hr2di_ray_measure(&viewer->eye, &ray[k]);
+  }
+  const int all = !(ray[0].height > 0) || !(ray[1].height > 0) || !is_hidden(viewer);
+  return look(viewer, all ? NULL : ray, seen);
 }

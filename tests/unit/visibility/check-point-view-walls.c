@@ -11,7 +11,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "geometry/vector.h"
 #include "independent/point-sweep.h"
+#include "scene/scene-impl.h"
 #include "support/grid-plans.h"
 #include "support/plane.h"
 #include "support/support.h"
@@ -68,7 +70,7 @@ static void stage_clear(stage *s) {
   free(s->sine);
 }
 
-static void sweep(stage *s, size_t patch, real t) {
+static void sweep(stage *s, size_t patch, real t, const real border[2]) {
   const sweep_patches all = {s->n, (const double(*)[4])s->at};
   const sweep_frame frame = sweep_frame_at(&all, patch, t);
   const size_t spans = sweep_all(&all, &frame, s->span);
@@ -76,20 +78,27 @@ static void sweep(stage *s, size_t patch, real t) {
   for (size_t k = 0; k < spans; k++) {
     const size_t seen = s->span[k].seen;
     const size_t place = seen == SWEEP_BACK ? s->n : seen == SWEEP_SKY ? s->n + 1 : seen;
-    const real middle = (s->span[k].low + s->span[k].high) / 2;
-    s->sine[place] += (double)(cosl(middle) * sinl((s->span[k].high - s->span[k].low) / 2));
+    const real low = fmaxl(s->span[k].low, border[0]), high = fminl(s->span[k].high, border[1]);
+    if (low < high) s->sine[place] += (double)(cosl((low + high) / 2) * sinl((high - low) / 2));
   }
 }
 
-/* The largest difference to the sweep from t, which needs long doubles. */
-static double compare(stage *s, const hr2di_view_from *seen, size_t patch, real t) {
+/* The largest difference to the sweep from t between two angles, which needs long doubles. */
+static double compare_between(stage *s, const hr2di_view_from *seen, size_t patch, real t,
+                              const real border[2]) {
   if (!test_has_long_double()) return 0;
-  sweep(s, patch, t);
-  double worst = fmax(fabs(seen->back - s->sine[s->n]), fabs(seen->sky - s->sine[s->n + 1]));
+  sweep(s, patch, t, border);
+  double worst = fabs(seen->back - s->sine[s->n]);
   for (size_t k = 0; k < seen->count; k++)
     s->sine[seen->glimpse[k].patch] -= seen->glimpse[k].sine;
   for (size_t k = 0; k < s->n; k++) worst = fmax(worst, fabs(s->sine[k]));
   return worst;
+}
+
+static double compare(stage *s, const hr2di_view_from *seen, size_t patch, real t) {
+  if (!test_has_long_double()) return 0;
+  const double worst = compare_between(s, seen, patch, t, (real[]){-2, 2});
+  return fmax(worst, fabs(seen->sky - s->sine[s->n + 1]));
 }
 
 static void expect_near(const plan *p, double error, double most, size_t patch, double t) {
@@ -294,8 +303,62 @@ START_TEST(the_same_bits_every_time) {
 }
 END_TEST
 
+/* A place in a direction from a point of a patch, in the units of the scene's own. */
+static hr2d_point place_at(const stage *s, size_t patch, double t, double angle, double far) {
+  const hr2d_segment at = s->scene->patch[patch].scaled;
+  const hr2d_point from = hr2di_point_at(at, t), along = hr2di_point_minus(at.b, at.a);
+  const double x = far * sin(angle), y = far * cos(angle);
+  return (hr2d_point){from.x + x * along.x - y * along.y, from.y + x * along.y + y * along.x};
+}
+
+/* Between two rays: the sums over patches are those of the sweep between their angles. */
+START_TEST(parts_of_views) {
+  randoms r = randoms_stream(test_seed(), 50 + _i);
+  double worst = 0, control = 0;
+  for (int k = test_count(1000); k > 0; k--) {
+    plan p = grid_plan(&r, _i);
+    stage s = stage_of(plan_try_scene(&p, NULL));
+    const int occluded = hr2d_scene_effect(s.scene, HR2D_EFFECT_OCCLUSION, NULL);
+    for (int m = 0; m < 20 && occluded; m++) {
+      const size_t patch = (size_t)(random_bits(&r) % s.n);
+      const double t = random_unit(&r), wide = m % 2 ? 1e-4 : 1;
+      const double right = random_between(&r, -1.5, 1.5),
+                   left = right - wide * random_unit(&r) * (right + 1.5);
+      const hr2d_point border[2] = {place_at(&s, patch, t, right, random_between(&r, .01, 3)),
+                                    place_at(&s, patch, t, left, random_between(&r, .01, 3))};
+      hr2di_view_from seen;
+      ck_assert_int_eq(hr2di_view_between(s.viewer, patch, t, border, &seen), HR2D_OK);
+      const double error = compare_between(&s, &seen, patch, t, (real[]){left, right});
+      expect_near(&p, error, 1e-12, patch, t);
+      worst = fmax(worst, error);
+      control = fmax(control, compare_between(&s, &seen, patch, t, (real[]){left, right + .1}));
+    }
+    stage_clear(&s);
+    plan_free(&p);
+  }
+  printf("%s: parts, to a sweep %.1e; a wider one %.1e\n", _i ? "closed" : "open", worst,
+         control);
+  ck_assert(!test_has_long_double() || control > 1e-3);
+}
+END_TEST
+
+/* Where a place is behind the patch all of the view is seen. */
+START_TEST(a_place_behind_is_no_border) {
+  randoms r = randoms_stream(test_seed(), 60);
+  plan p = draw_squares(&r, 4, 0);
+  stage s = stage_of(plan_try_scene(&p, NULL));
+  const hr2d_point border[2] = {place_at(&s, 0, .3, 2, 1), place_at(&s, 0, .3, 0, 1)};
+  hr2di_view_from seen;
+  ck_assert_int_eq(hr2di_view_between(s.viewer, 0, .3, border, &seen), HR2D_OK);
+  ck_assert_double_eq_tol(seen.front, 1, 1e-14);
+  stage_clear(&s);
+  plan_free(&p);
+}
+END_TEST
+
 TEST_SUITE("point view among walls") {
-  REPEAT_TESTS(2, "sweep", walls_on_a_grid, ends_and_feet, many_squares);
-  ADD_TESTS("sweep", jittered_rooms, a_rounding_behind_another, a_moved_patch_is_noticed);
+  REPEAT_TESTS(2, "sweep", walls_on_a_grid, ends_and_feet, many_squares, parts_of_views);
+  ADD_TESTS("sweep", jittered_rooms, a_rounding_behind_another, a_moved_patch_is_noticed,
+            a_place_behind_is_no_border);
   ADD_TESTS("calls", the_same_bits_every_time);
 }
