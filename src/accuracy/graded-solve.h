@@ -17,13 +17,15 @@ typedef struct hr2di_resolution {
   double cluster_accuracy; /* relative accuracy of links between clusters of patches */
   hr2d_norm norm;
   unsigned corner_levels; /* levels at corners beyond what the target asks for */
+  double distance;        /* the ellipse at which ends in front of elements may be */
   int hidden;             /* the scene has visibility events */
   int crowded;            /* it has very many */
   unsigned generations;   /* elements end at events of so many generations */
   unsigned halvings;      /* how often the longest elements are halved where there are too many
                              events, see long-leaves.h */
-  double kinks;           /* the error that events inside elements may make; 0: elements end at
-                             all events */
+  double kinks;           /* the shares of error that events inside elements may make; 0:
+                             elements end at all events */
+  unsigned raises;        /* how often it was made finer */
   const hr2di_lights *lights; /* of patches, to tell which events matter */
   const double *weight;       /* per patch: the factor from a relative error of its radiosity to
                                  one of the value asked for; NULL: 1 */

@@ -180,8 +180,10 @@ static int is_spared(hr2d_status status) {
 }
 
 hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *given, double *weight,
-                             hr2di_lights *lights, hr2di_message *message) {
-  const hr2di_resolution fineness = {.order = 2, .target = 0.1, .norm = given->norm};
+                             hr2di_lights *lights, hr2di_survey *survey,
+                             hr2di_message *message) {
+  const hr2di_resolution fineness = {
+      .order = weight ? 2 : 1, .target = 0.1, .norm = given->norm};
   listener l = {.target = given};
   hr2d_target heard = *given, *target = &heard;
   if (given->progress) {
@@ -190,6 +192,7 @@ hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *given, 
   }
   hr2di_graded coarse;
   hr2d_status status = hr2di_graded_refine(&coarse, scene, &fineness, target, message);
+  if (!status && survey) *survey = coarse.survey;
   if (!status) status = hr2di_graded_solve(&coarse, target, message);
   if (!status) {
     status = weigh(&coarse, target, weight, lights);

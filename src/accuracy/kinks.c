@@ -61,6 +61,8 @@ typedef struct cutter {
   double *most;         /* 2·bands: the largest B, and the largest importance */
   double *jump;         /* events × 2·bands: of H from B, and from the importance, or more */
   unsigned char *known; /* per event: its jumps are no bounds */
+  double (*square)[2];  /* of the events in the leaf that is weighed: what they add to those of
+                           both remainders */
   leaf *heap;           /* the one with the largest sum first */
   size_t count, capacity;
   double total;
@@ -170,24 +172,23 @@ static hr2d_status set_bounds(cutter *c) {
   return status;
 }
 
-/* a; 0 for an event too near to an end of the leaf. */
+/* a²; 0 for an event too near to an end of the leaf. */
 static double remainder_of(const cutter *c, const leaf *l, const hr2di_event *e) {
   const double margin = 4 * hr2di_grading_shortest(&c->scene->patch[e->patch]);
   if (e->at <= l->from + margin || e->at >= l->to - margin) return 0;
   const double x = (e->at - l->from) / (l->to - l->from), round = 4 * x * (1 - x);
-  const double p = c->h->order;
-  const double step = 0.5 * c->h->element[l->element].length * sqrt(round) / p;
-  double a = 0.6 * sqrt(sqrt(round) / p);
+  const double p = c->h->order, h = c->h->element[l->element].length;
+  const double step = 0.25 * h * h * round / (p * p);
+  double a = 0.36 * sqrt(round) / p;
   for (unsigned g = 0; g < e->generation; g++) a *= step;
   return a;
 }
 
 /* What an event adds to the square of the remainder of B in a band, relative to the largest B;
    or of its importance, if `of` is `bands` more. */
-static double square_of(const cutter *c, const leaf *l, size_t k, size_t of) {
-  const double jump = fabs(c->jump[k * 2 * c->bands + of]) / c->most[of];
-  const double rest = fmin(jump, LARGEST) * remainder_of(c, l, &c->events->event[k]);
-  return rest * rest;
+static double square_of(const cutter *c, double remainder, size_t k, size_t of) {
+  const double jump = fmin(fabs(c->jump[k * 2 * c->bands + of]) / c->most[of], LARGEST);
+  return jump * jump * remainder;
 }
 
 /* The share of a leaf in one band; if it is larger than l->sum it becomes that, and l->best the
@@ -195,18 +196,19 @@ static double square_of(const cutter *c, const leaf *l, size_t k, size_t of) {
 static void weigh_band(const cutter *c, leaf *l, size_t b) {
   const uint32_t patch = c->h->element[l->element].patch;
   const double unit = c->h->element[l->element].length * c->most[b] * c->most[c->bands + b];
-  double sum[2] = {0, 0}, most = 0;
+  double sum[2] = {0, 0};
   for (size_t k = l->first; k < l->last; k++) {
-    sum[0] += square_of(c, l, k, b);
-    sum[1] += square_of(c, l, k, c->bands + b);
+    const double remainder = remainder_of(c, l, &c->events->event[k]);
+    for (size_t m = 0; m < 2; m++)
+      sum[m] += c->square[k][m] = square_of(c, remainder, k, b + m * c->bands);
   }
   const double rho = hr2d_scene_reflectance(c->scene, patch, b);
   const double share = fmin(rho * unit * sqrt(sum[0]) * sqrt(sum[1]), LARGEST);
   if (!(share > l->sum)) return;
   l->sum = share;
+  double most = 0;
   for (size_t k = l->first; k < l->last; k++) {
-    const double part =
-        square_of(c, l, k, b) / sum[0] + square_of(c, l, k, c->bands + b) / sum[1];
+    const double part = c->square[k][0] / sum[0] + c->square[k][1] / sum[1];
     if (part > most) l->best = k;
     most = fmax(most, part);
   }
@@ -265,11 +267,25 @@ static hr2d_status push_all(cutter *c) {
   return status;
 }
 
+/* Of events with bounds that are so much of the largest one all are looked at together: each
+   time all those in the leaf are weighed again. */
+#define TOGETHER 0.25
+
+/* Finds out about the best event of a leaf, and about those that seem to matter about as much.
+   Bounds of B and of its importance are in proportion. */
+static hr2d_status look_into(cutter *c, const leaf *l) {
+  const double least = TOGETHER * c->square[l->best][0];
+  hr2d_status status = know(c, l->best);
+  for (size_t k = l->first; k < l->last && !status; k++)
+    if (!c->known[k] && c->square[k][0] >= least) status = know(c, k);
+  return status;
+}
+
 /* Divides the leaf with the largest share at its best event; or finds out about that. */
 static hr2d_status cut(cutter *c) {
   const leaf l = pop(c);
   if (!c->known[l.best]) {
-    const hr2d_status status = know(c, l.best);
+    const hr2d_status status = look_into(c, &l);
     return status ? status : push(c, l);
   }
   const hr2di_event *e = &c->events->event[l.best];
@@ -296,7 +312,7 @@ static hr2d_status run(cutter *c, double allowed, uint64_t max_elements) {
 /* Squares of remainders of several events add up. */
 static void add_remainder(const cutter *c, const leaf *l, size_t k, double *bent) {
   const hr2di_event *e = &c->events->event[k];
-  const double a = remainder_of(c, l, e);
+  const double a = sqrt(remainder_of(c, l, e));
   for (size_t b = 0; b < c->bands; b++) {
     const double rho = hr2d_scene_reflectance(c->scene, e->patch, b);
     double *of = &bent[l->element * c->bands + b];
@@ -329,7 +345,8 @@ hr2d_status hr2di_kinks_cut(hr2d_hierarchy *hierarchy, const hr2di_events *event
   c.most = hr2di_alloc_zero(alloc, values, sizeof *c.most);
   c.jump = hr2di_alloc(alloc, count, values * sizeof *c.jump);
   c.known = hr2di_alloc_zero(alloc, count, 1);
-  hr2d_status status = c.most && c.jump && c.known ? HR2D_OK : HR2D_ENOMEM;
+  c.square = hr2di_alloc(alloc, count, sizeof *c.square);
+  hr2d_status status = c.most && c.jump && c.known && c.square ? HR2D_OK : HR2D_ENOMEM;
   if (!status) status = hr2di_viewer_create(c.scene, alloc, watch, &c.viewer);
   if (!status) status = run(&c, allowed, max_elements);
   if (!status) status = measure(&c, bent);
@@ -337,6 +354,7 @@ hr2d_status hr2di_kinks_cut(hr2d_hierarchy *hierarchy, const hr2di_events *event
   hr2di_alloc_free(alloc, c.most);
   hr2di_alloc_free(alloc, c.jump);
   hr2di_alloc_free(alloc, c.known);
+  hr2di_alloc_free(alloc, c.square);
   hr2di_alloc_free(alloc, c.heap);
   return status;
 }

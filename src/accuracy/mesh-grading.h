@@ -14,6 +14,7 @@ typedef struct hr2di_grading {
   hr2d_norm norm;             /* of that error */
   unsigned order;             /* of the elements */
   unsigned corner_levels;     /* levels at corners beyond what the target asks for */
+  double distance;            /* the ellipse at which ends may be; 0: HR2DI_ELLIPSE_DISTANT */
   const double *weight;       /* per patch, see hr2di_resolution; NULL: 1 */
   const hr2di_events *events; /* where elements end; NULL for none */
   uint64_t max_elements;      /* 0 for no limit */
@@ -35,7 +36,7 @@ typedef struct hr2di_survey {
 /* Divides elements, also of trees that are graded already:
    - at visibility events, and where the end of a patch stands on another patch;
    - towards corners, geometrically;
-   - until every end in front of an element is at an ellipse of HR2DI_ELLIPSE_DISTANT or more.
+   - until every end in front of an element is at an ellipse of `distance` or more.
    Patches that reflect nothing have B = E and stay whole.  Returns HR2D_OK; or, with a part of
    the divisions done, HR2D_ENOMEM, HR2D_EMAX_ELEMENTS or the status of the watch. */
 hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,

@@ -168,15 +168,16 @@ static void set_range(hr2d_prediction *p) {
 static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
                            hr2d_prediction *p) {
   const double aim = target->error > 0 ? target->error : 1e-13;
-  hr2di_survey survey;
+  hr2di_survey survey = {0};
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "refine");
-  hr2d_status status = hr2di_resolution_survey(scene, target->threads, &watch, &survey);
-  if (status) return status;
+  hr2d_status status = HR2D_OK;
   hr2di_message message;
   hr2di_lights lights = {0};
   if (hr2di_resolution_wants_lights(scene, target))
-    status = hr2di_importance(scene, target, NULL, &lights, &message);
+    status = hr2di_importance(scene, target, NULL, &lights, &survey, &message);
+  if (!status && !(survey.ellipse > 0))
+    status = hr2di_resolution_survey(scene, target->threads, &watch, &survey);
   const hr2di_resolution fineness = hr2di_resolution_for(scene, &survey, aim, target->norm,
                                                          lights.radiosity ? &lights : NULL);
   hr2di_graded a = {0};

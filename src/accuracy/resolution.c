@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "geometry/bernstein-ellipse.h"
 #include "scene/scene-impl.h"
 
 #define EASY 0.06
@@ -53,10 +54,8 @@ static int is_hidden(const hr2d_scene *scene) {
 
 /* What backs hide of a background is seen at points of rules, which kinks inside elements
    disturb: elements end at all events there.  More than LIT patches have too many events to
-   look at one by one for a few digits, and more than MANY_LIT for any.  Shares of leaves
-   may add up to KINKS times the target: they are without signs and of all patches together. */
-enum { LIT = 128, MANY_LIT = 1000 };
-#define KINKS 2
+   look at one by one for a few digits, and more than MANY_LIT for any. */
+enum { LIT = 512, MANY_LIT = 1000 };
 
 int hr2di_resolution_wants_lights(const hr2d_scene *scene, const hr2d_target *target) {
   const size_t most = target->error < CROWDED_AIM ? MANY_LIT : LIT;
@@ -64,13 +63,37 @@ int hr2di_resolution_wants_lights(const hr2d_scene *scene, const hr2d_target *ta
          !scene->effect[HR2D_EFFECT_BACKGROUND].on && !(target->seconds > 0);
 }
 
+/* What shares of leaves may add up to.  They are without signs and of all n patches together.
+   Of the error of one patch they are a part of about 1/n, and signs of as many leaves at least
+   take about √n of that.  In rooms of 30 to 400 patches this is what an error of half the
+   target leaves room for. */
+static double shares_for(const hr2d_scene *scene, double aim) {
+  const double n = (double)scene->patches;
+  return aim * fmax(2, 0.03 * n * sqrt(n));
+}
+
+/* Errors of many corners and elements add up. */
+#define MANY_PARTS 0.25
+
+/* From CROWD_LIT patches on there are so many links that fewer of a higher order take less
+   time, and the ends in front of an element are among many others.  For few digits the shares
+   that are left may be larger, as elements are as much too fine. */
+enum { CROWD_LIT = 128, CROWD_ORDER = 5, FEW_DIGITS = 3 };
+
+static void spare_elements(hr2di_resolution *f, double aim) {
+  f->order = f->order > CROWD_ORDER ? f->order : CROWD_ORDER;
+  f->distance = hr2di_ellipse_for(aim, f->order);
+  if (aim >= CROWDED_AIM) f->kinks *= FEW_DIGITS;
+}
+
 /* In narrow corners with much reflection light is reflected to and fro often, and errors with
    it.  So the error must be smaller there by γ², from measurements at 10° to 150° and ρ up to
    0.999. */
 hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_survey *survey,
                                       double aim, hr2d_norm norm, const hr2di_lights *lights) {
+  const double many = is_crowded(scene, is_hidden(scene)) && lights ? MANY_PARTS : 1;
   const double error = aim * fmax(survey->exponent * survey->exponent, 1e-3);
-  const double order = ceil(log(EASY / error) / digits_per_order(survey, norm));
+  const double order = ceil(log(EASY / (many * error)) / digits_per_order(survey, norm));
   const int hidden = is_hidden(scene);
   const double least = aim < THREE ? 3 : 2;
   hr2di_resolution f = {.order = (unsigned)fmin(fmax(order, least), HR2D_MAX_ORDER - 2),
@@ -78,7 +101,8 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
                         .cluster_accuracy = fmax(0.02 * error, 1e-14),
                         .norm = norm,
                         .hidden = hidden,
-                        .kinks = lights ? KINKS * aim : 0,
+                        .distance = HR2DI_ELLIPSE_DISTANT,
+                        .kinks = lights ? shares_for(scene, aim) : 0,
                         .lights = lights,
                         .generations = hidden ? generations_for(aim, norm) : 0};
   if (is_crowded(scene, hidden) && aim >= CROWDED_AIM) {
@@ -87,17 +111,19 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
     f.halvings = aim < THREE;
   }
   f.crowded = is_crowded(scene, hidden);
+  if (f.crowded && lights && scene->patches > CROWD_LIT) spare_elements(&f, aim);
   return f;
 }
 
 /* Doubles have no more digits than that; after an overflow the factor may be larger. */
 #define MOST_FACTOR 1e16
 
-/* Events inside elements make less.  If that has not been enough before, all of them count;
-   returns 0 then, and 1 otherwise. */
+/* Events inside elements make less.  If that has not been enough before, all of them count, of
+   very many only after another time; returns 0 then, and 1 otherwise. */
 static int raise_kinks(hr2di_resolution *f, double factor) {
   if (!(f->kinks > 0)) return 0;
-  f->kinks = f->corner_levels > 0 ? 0 : f->kinks / (4 * factor);
+  const unsigned most = f->crowded ? 2 : 1;
+  f->kinks = f->raises > most ? 0 : f->kinks / (ldexp(2, (int)f->raises) * factor);
   if (f->kinks > 0) return 1;
   if (f->crowded && f->halvings > 0) f->generations = 0; /* elements are halved instead */
   return 0;
@@ -108,6 +134,8 @@ int hr2di_resolution_raise(hr2di_resolution *f, const hr2di_survey *survey, doub
   const double slope = f->norm == HR2D_NORM_SUP ? fmax(gamma, 0.05) : 1 + 2 * gamma;
   if (f->order + 2 >= HR2D_MAX_ORDER) return -1;
   factor = fmin(factor, MOST_FACTOR);
+  f->raises++;
+  f->distance = HR2DI_ELLIPSE_DISTANT;
   const double more = fmax(ceil(log(factor) / digits_per_order(survey, f->norm)), 1);
   f->cluster_accuracy = fmax(f->cluster_accuracy / factor, 1e-14);
   f->order = (unsigned)fmin(f->order + more, HR2D_MAX_ORDER - 2);

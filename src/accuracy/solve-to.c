@@ -252,7 +252,8 @@ static hr2d_status settle(search *s, hr2d_status status) {
   return status == HR2D_EACCURACY && all_there_is ? HR2D_OK : status;
 }
 
-/* Without lights of patches elements end at all events. */
+/* Without lights of patches elements end at all events.  The elements for weights are also a
+   survey, but of averages only. */
 static hr2d_status weigh_patches(search *s) {
   hr2di_lights *lights = hr2di_resolution_wants_lights(s->scene, &s->given) ? &s->lights : NULL;
   if (!s->given.important && !lights) return HR2D_OK;
@@ -260,7 +261,8 @@ static hr2d_status weigh_patches(search *s) {
     s->weight = hr2di_alloc(&s->scene->alloc, s->scene->patches, sizeof *s->weight);
     if (!s->weight) return HR2D_ENOMEM;
   }
-  return hr2di_importance(s->scene, &s->target, s->weight, lights, &s->message);
+  return hr2di_importance(s->scene, &s->target, s->weight, lights,
+                          s->target.norm == HR2D_NORM_AVERAGE ? &s->survey : NULL, &s->message);
 }
 
 /* Hands the best solution over; it owns its hierarchy and its links from then on. */
@@ -288,8 +290,9 @@ hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
   hr2di_watch watch_of;
   hr2di_scene_watch(scene, &watch_of, watch, &s, "refine");
   if (s.deadline > 0) status = sketch(&s);
-  if (!status) status = hr2di_resolution_survey(scene, s.given.threads, &watch_of, &s.survey);
   if (!status) status = weigh_patches(&s);
+  if (!status && !(s.survey.ellipse > 0))
+    status = hr2di_resolution_survey(scene, s.given.threads, &watch_of, &s.survey);
   if (!status && !(s.given.seconds > 0)) {
     status = reach(&s, s.given.error > 0 ? s.given.error : 1e-15);
     if (is_budget(status) && !s.progress_status) status = reach_step_by_step(&s);

@@ -34,7 +34,7 @@ hr2d_status hr2di_view_add(hr2di_viewer *w, const hr2di_stretch *s) {
   hr2di_glimpse g = {.patch = s->patch,
                      .sine = fmin(hr2di_ray_half_sine(&s->right, &s->left), 1)};
   if (!(g.sine > 0)) return HR2D_OK;
-  if (s->patch < HR2DI_SEEN_NOTHING) find_part(w, s, &g.from, &g.to);
+  if (s->patch < HR2DI_SEEN_NOTHING && !w->sines_only) find_part(w, s, &g.from, &g.to);
   if (w->show) return w->show(w->ctx, s, &g);
   if (s->patch == HR2DI_SEEN_NOBODY) {
     hr2di_sum_add(&w->back, g.sine);

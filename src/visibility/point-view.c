@@ -85,5 +85,8 @@ hr2d_status hr2di_view_between(hr2di_viewer *viewer, size_t patch, double t,
     hr2di_ray_measure(&viewer->eye, &ray[k]);
   }
   const int all = !(ray[0].height > 0) || !(ray[1].height > 0) || !is_hidden(viewer);
-  return look(viewer, all ? NULL : ray, seen);
+  viewer->sines_only = 1;
+  const hr2d_status status = look(viewer, all ? NULL : ray, seen);
+  viewer->sines_only = 0;
+  return status;
 }

@@ -54,8 +54,8 @@ hr2d_status hr2di_view_at(hr2di_viewer *viewer, size_t patch, double t, hr2di_vi
 
 /* The part of that view between the rays through two places, border[0] on the right of
    border[1], in coordinates of hr2di_patch::scaled; `sky` has all the rest.  It enters the
-   triangles between the rays only.  It is the whole view where a place is not in front of the
-   patch, or where nothing can be in the way. */
+   triangles between the rays only, and may leave fractions of patches unset.  It is the whole
+   view where a place is not in front of the patch, or where nothing can be in the way. */
 hr2d_status hr2di_view_between(hr2di_viewer *viewer, size_t patch, double t,
                                const hr2d_point border[2], hr2di_view_from *seen);
 

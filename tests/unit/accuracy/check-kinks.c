@@ -79,7 +79,7 @@ static size_t leaves_for(const hr2d_scene *scene, double allowed) {
   hr2di_message message;
   double *bent;
   target.floor = HR2D_FLOOR;
-  ck_assert_int_eq(hr2di_importance(scene, &target, NULL, &lights, &message), HR2D_OK);
+  ck_assert_int_eq(hr2di_importance(scene, &target, NULL, &lights, NULL, &message), HR2D_OK);
   ck_assert_int_eq(hr2d_hierarchy_create(scene, &h), HR2D_OK);
   h->order = 4;
   ck_assert_int_eq(hr2di_kinks_cut(h, &events, &lights, allowed, 0, NULL, &bent), HR2D_OK);
