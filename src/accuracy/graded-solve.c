@@ -104,10 +104,11 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
   return explain(a, status, message);
 }
 
-hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2d_target *target,
-                               hr2di_message *message) {
+hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2di_resolution *fineness,
+                               const hr2d_target *target, hr2di_message *message) {
   const double start = hr2di_clock_now();
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+  options.tolerance = fineness->tolerance;
   options.threads = target->threads;
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;

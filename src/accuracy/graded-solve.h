@@ -15,6 +15,7 @@ typedef struct hr2di_resolution {
   unsigned order;
   double target;           /* relative error that corners are graded for */
   double cluster_accuracy; /* relative accuracy of links between clusters of patches */
+  double tolerance;        /* of the solve; 0: the least */
   hr2d_norm norm;
   unsigned corner_levels; /* levels at corners beyond what the target asks for */
   double distance;        /* the ellipse at which ends in front of elements may be */
@@ -49,8 +50,8 @@ hr2d_status hr2di_graded_refine(hr2di_graded *answer, const hr2d_scene *scene,
                                 hr2di_message *message);
 
 /* Solves on them; returns likewise. */
-hr2d_status hr2di_graded_solve(hr2di_graded *answer, const hr2d_target *target,
-                               hr2di_message *message);
+hr2d_status hr2di_graded_solve(hr2di_graded *answer, const hr2di_resolution *fineness,
+                               const hr2d_target *target, hr2di_message *message);
 
 void hr2di_graded_clear(hr2di_graded *answer);
 

@@ -15,6 +15,9 @@
 #include "solution/solution-impl.h"
 #include "solve/equation.h"
 
+/* Of a solve for lights alone: even those of dark patches have some digits. */
+#define LIGHTS 1e-9
+
 /* The least weight, so that no patch is entirely unimportant. */
 #define LEAST 1e-12
 
@@ -106,13 +109,32 @@ static void set_weights(const hr2d_scene *scene, const double *product, double *
   }
 }
 
+/* The least average that is larger than 0, relative to the largest, over all bands; no less
+   than the floor. */
+static double contrast_of(const hr2d_solution *solution, average_of *average,
+                          const hr2d_target *target) {
+  const hr2d_scene *scene = solution->hierarchy->scene;
+  double least = 1;
+  for (size_t b = 0; b < scene->bands; b++) {
+    const double max = largest(solution, average, b);
+    for (size_t k = 0; k < scene->patches; k++) {
+      const double is = average(solution, k, b);
+      if (is > 0) least = fmin(least, fmax(is / max, target->floor));
+    }
+  }
+  return least;
+}
+
 static hr2d_status set_lights(hr2di_equation *eq, const hr2d_solution *solution,
-                              const wanted *w, hr2di_lights *lights) {
+                              const hr2d_target *target, const wanted *w,
+                              hr2di_lights *lights) {
   hr2di_transport *t = &eq->transport;
   const size_t patches = t->hierarchy->scene->patches, values = patches * t->bands;
   lights->radiosity = hr2di_alloc(&t->alloc, values, sizeof *lights->radiosity);
   lights->importance = hr2di_alloc(&t->alloc, values, sizeof *lights->importance);
   if (!lights->radiosity || !lights->importance) return HR2D_ENOMEM;
+  lights->contrast = fmin(contrast_of(solution, hr2d_solution_average, target),
+                          contrast_of(solution, hr2d_solution_irradiance, target));
   hr2di_transport_pull(t, eq->radiosity);
   for (size_t k = 0; k < values; k++) {
     const size_t patch = k / t->bands, b = k % t->bands;
@@ -151,7 +173,7 @@ static hr2d_status weigh(const hr2di_graded *coarse, const hr2d_target *target, 
     want(coarse->solution, hr2d_solution_irradiance, target, w.most, w.of_h, &eq.watch);
     status = hr2di_watch_status(&eq.watch);
     if (!status) status = solve_adjoint(&eq, &w);
-    if (!status && lights) status = set_lights(&eq, coarse->solution, &w, lights);
+    if (!status && lights) status = set_lights(&eq, coarse->solution, target, &w, lights);
     if (!status && weight) multiply(&eq, coarse->solution, &w, product);
     if (!status) status = hr2di_watch_status(&eq.watch);
   }
@@ -182,8 +204,10 @@ static int is_spared(hr2d_status status) {
 hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *given, double *weight,
                              hr2di_lights *lights, hr2di_survey *survey,
                              hr2di_message *message) {
-  const hr2di_resolution fineness = {
-      .order = weight ? 2 : 1, .target = 0.1, .norm = given->norm};
+  const hr2di_resolution fineness = {.order = weight ? 2 : 1,
+                                     .target = 0.1,
+                                     .tolerance = weight ? 0 : LIGHTS,
+                                     .norm = given->norm};
   listener l = {.target = given};
   hr2d_target heard = *given, *target = &heard;
   if (given->progress) {
@@ -193,7 +217,7 @@ hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *given, 
   hr2di_graded coarse;
   hr2d_status status = hr2di_graded_refine(&coarse, scene, &fineness, target, message);
   if (!status && survey) *survey = coarse.survey;
-  if (!status) status = hr2di_graded_solve(&coarse, target, message);
+  if (!status) status = hr2di_graded_solve(&coarse, &fineness, target, message);
   if (!status) {
     status = weigh(&coarse, target, weight, lights);
     if (status) hr2di_message_fail(message, status, "importance: %s", hr2d_strerror(status));

@@ -10,6 +10,7 @@
    light on the patch does to all errors together; see importance.h. */
 typedef struct hr2di_lights {
   double *radiosity, *importance;
+  double contrast; /* the least average of B or of H that counts, relative to the largest */
 } hr2di_lights;
 
 /* Divides leaves at events, those that make the largest part of the error first, until the

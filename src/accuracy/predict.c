@@ -141,7 +141,7 @@ static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target
   hr2di_message message;
   const hr2di_resolution coarse = {.order = 2, .target = 0.1, .norm = target->norm};
   hr2d_status status = hr2di_graded_refine(&a, scene, &coarse, target, &message);
-  if (!status) status = hr2di_graded_solve(&a, target, &message);
+  if (!status) status = hr2di_graded_solve(&a, &coarse, target, &message);
   t->seconds = hr2di_clock_now() - start;
   if (!status) {
     t->iterations = 2 + (double)hr2d_solution_work(a.solution).iterations;

@@ -72,6 +72,18 @@ static double shares_for(const hr2d_scene *scene, double aim) {
   return aim * fmax(2, 0.03 * n * sqrt(n));
 }
 
+/* What is left of the residual is off by so much of the target at most, as 1/(1 − ρ) of it is
+   left of B, and B of the darkest patch counts as much as that of the brightest. */
+#define UNSOLVED 0.01
+
+static double tolerance_for(const hr2d_scene *scene, const hr2di_lights *lights, double aim) {
+  double lost = 1;
+  for (size_t k = 0; k < scene->patches; k++)
+    for (size_t b = 0; b < scene->bands; b++)
+      lost = fmin(lost, 1 - hr2d_scene_reflectance(scene, k, b));
+  return fmax(UNSOLVED * aim * lights->contrast * lost, HR2D_DEFAULT_TOLERANCE);
+}
+
 /* Errors of many corners and elements add up. */
 #define MANY_PARTS 0.25
 
@@ -99,6 +111,7 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
   hr2di_resolution f = {.order = (unsigned)fmin(fmax(order, least), HR2D_MAX_ORDER - 2),
                         .target = fmin(0.25 * error, 1),
                         .cluster_accuracy = fmax(0.02 * error, 1e-14),
+                        .tolerance = lights ? tolerance_for(scene, lights, aim) : 0,
                         .norm = norm,
                         .hidden = hidden,
                         .distance = HR2DI_ELLIPSE_DISTANT,
@@ -135,6 +148,7 @@ int hr2di_resolution_raise(hr2di_resolution *f, const hr2di_survey *survey, doub
   if (f->order + 2 >= HR2D_MAX_ORDER) return -1;
   factor = fmin(factor, MOST_FACTOR);
   f->raises++;
+  f->tolerance = fmax(f->tolerance / factor, HR2D_DEFAULT_TOLERANCE);
   f->distance = HR2DI_ELLIPSE_DISTANT;
   const double more = fmax(ceil(log(factor) / digits_per_order(survey, f->norm)), 1);
   f->cluster_accuracy = fmax(f->cluster_accuracy / factor, 1e-14);

@@ -137,7 +137,7 @@ static hr2d_status attempt(search *s, const hr2di_resolution *fineness) {
   hr2d_status status =
       hr2di_graded_refine(&answer, s->scene, fineness, &s->target, &s->message);
   if (!status && !s->given.no_error) hr2di_error_prepare(&answer, fineness);
-  if (!status) status = hr2di_graded_solve(&answer, &s->target, &s->message);
+  if (!status) status = hr2di_graded_solve(&answer, fineness, &s->target, &s->message);
   add_times(&s->account, &answer);
   const double start = hr2di_clock_now();
   if (!status && !s->given.no_error) {
