@@ -12,7 +12,8 @@
 
 #define EASY 0.06
 
-/* Two coefficients reach an error below this so seldom that to try takes longer. */
+/* Two coefficients, or none of the events, reach an error below this so seldom that to try
+   takes longer; with events to be chosen from also somewhat larger ones. */
 #define THREE 3e-3
 
 static double digits_per_order(const hr2di_survey *survey, hr2d_norm norm) {
@@ -63,13 +64,18 @@ int hr2di_resolution_wants_lights(const hr2d_scene *scene, const hr2d_target *ta
          !scene->effect[HR2D_EFFECT_BACKGROUND].on && !(target->seconds > 0);
 }
 
+/* From CROWD_LIT patches on there are so many links that fewer of a higher order take less
+   time, and the ends in front of an element are among many others.  For few digits the shares
+   that are left may be larger, as elements are as much too fine. */
+enum { CROWD_LIT = 128, CROWD_ORDER = 5, FEW_DIGITS = 3 };
+
 /* What shares of leaves may add up to.  They are without signs and of all n patches together.
-   Of the error of one patch they are a part of about 1/n, and signs of as many leaves at least
-   take about √n of that.  In rooms of 30 to 400 patches this is what an error of half the
-   target leaves room for. */
+   Of the error of one patch they are a part of about 1/n where light goes everywhere, and signs
+   of as many leaves at least take about √n of that.  Few patches may be rooms in a row, where
+   the light of the last comes by one door after the other. */
 static double shares_for(const hr2d_scene *scene, double aim) {
   const double n = (double)scene->patches;
-  return aim * fmax(2, 0.03 * n * sqrt(n));
+  return aim * (n > CROWD_LIT ? 0.03 * n * sqrt(n) : 2);
 }
 
 /* What is left of the residual is off by so much of the target at most, as 1/(1 − ρ) of it is
@@ -87,11 +93,6 @@ static double tolerance_for(const hr2d_scene *scene, const hr2di_lights *lights,
 /* Errors of many corners and elements add up. */
 #define MANY_PARTS 0.25
 
-/* From CROWD_LIT patches on there are so many links that fewer of a higher order take less
-   time, and the ends in front of an element are among many others.  For few digits the shares
-   that are left may be larger, as elements are as much too fine. */
-enum { CROWD_LIT = 128, CROWD_ORDER = 5, FEW_DIGITS = 3 };
-
 static void spare_elements(hr2di_resolution *f, double aim) {
   f->order = f->order > CROWD_ORDER ? f->order : CROWD_ORDER;
   f->distance = hr2di_ellipse_for(aim, f->order);
@@ -107,7 +108,7 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
   const double error = aim * fmax(survey->exponent * survey->exponent, 1e-3);
   const double order = ceil(log(EASY / (many * error)) / digits_per_order(survey, norm));
   const int hidden = is_hidden(scene);
-  const double least = aim < THREE ? 3 : 2;
+  const double least = aim < THREE || lights ? 3 : 2;
   hr2di_resolution f = {.order = (unsigned)fmin(fmax(order, least), HR2D_MAX_ORDER - 2),
                         .target = fmin(0.25 * error, 1),
                         .cluster_accuracy = fmax(0.02 * error, 1e-14),
@@ -123,6 +124,7 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
     f.generations = f.kinks > 0;
     f.halvings = aim < THREE;
   }
+  if (lights && aim <= THREE && f.generations == 0) f.generations = 1;
   f.crowded = is_crowded(scene, hidden);
   if (f.crowded && lights && scene->patches > CROWD_LIT) spare_elements(&f, aim);
   return f;
