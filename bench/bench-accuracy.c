@@ -192,7 +192,7 @@ static void print_order(const radiosity_scene *known, unsigned order) {
     hr2di_message message = {0};
     const double start = hr2di_clock_now();
     hr2d_status status = hr2di_graded_refine(&answer, scene, &fineness, &target, &message);
-    if (!status) status = hr2di_graded_solve(&answer, &target, &message);
+    if (!status) status = hr2di_graded_solve(&answer, &fineness, &target, &message);
     time[k] = hr2di_clock_now() - start;
     if (status) die(known->name, status);
     error = radiosity_average_error(known, answer.solution);
