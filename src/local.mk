@@ -117,6 +117,7 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/row-maker.c src/visibility/row-maker.h \
 	src/visibility/row-sum.c src/visibility/row-sum.h \
 	src/visibility/sees-anything.c src/visibility/sees-anything.h \
+	src/visibility/seen-backs.c src/visibility/seen-backs.h \
 	src/visibility/seen-ends.c src/visibility/seen-ends.h \
 	src/visibility/sharing.c src/visibility/sharing.h \
 	src/lint/gaps.c \

@@ -68,6 +68,7 @@ SUITES = \
 	tests/unit/visibility/check-exchange-matrix \
 	tests/unit/visibility/check-exchange-rows \
 	tests/unit/visibility/check-patch-sights \
+	tests/unit/visibility/check-seen-backs \
 	tests/unit/visibility/check-seen-ends \
 	tests/unit/blocks/check-blocks \
 	tests/unit/blocks/check-directions \
@@ -86,6 +87,7 @@ SUITES = \
 	tests/unit/accuracy/check-roundings \
 	tests/unit/accuracy/check-shadow-edges \
 	tests/unit/clusters/check-clusters \
+	tests/unit/clusters/check-root-pairs \
 	tests/unit/accuracy/check-corner \
 	tests/unit/visibility/check-events \
 	tests/unit/visibility/check-point-beams \

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pairs come as clusters are walked, and are sorted as a refinement without clusters would
+/* Pairs come as beams or clusters find them, and are sorted as a refinement of all pairs would
    take them: by counting, first by their second patch, then by their first. */
 #include "clusters/root-pairs.h"
 
@@ -7,19 +7,58 @@
 
 #include "base/alloc.h"
 #include "scene/scene-impl.h"
+#include "visibility/row-maker.h"
+
+/* Where patches see no more others than that in the mean, clusters find nothing to link that
+   would be worth their search. */
+enum { FEW_SEEN = 100 };
 
 typedef struct collector {
   hr2di_roots *roots;
   const hr2d_allocator *alloc;
+  size_t most;  /* pairs that beams may find */
+  int too_many; /* they found more */
 } collector;
+
+static hr2d_status reserve(const collector *c, size_t more) {
+  hr2di_roots *r = c->roots;
+  return hr2di_alloc_reserve(c->alloc, &r->pair, &r->capacity, r->count + more, sizeof *r->pair)
+             ? HR2D_ENOMEM
+             : HR2D_OK;
+}
 
 static hr2d_status collect(void *ctx, const hr2d_pair *pairs, size_t count) {
   const collector *c = ctx;
+  const hr2d_status status = reserve(c, count);
+  if (status) return status;
+  memcpy(c->roots->pair + c->roots->count, pairs, count * sizeof *pairs);
+  c->roots->count += count;
+  return HR2D_OK;
+}
+
+static hr2d_status collect_row(void *ctx, size_t worker, const hr2di_row *row) {
+  collector *c = ctx;
   hr2di_roots *r = c->roots;
-  if (hr2di_alloc_reserve(c->alloc, &r->pair, &r->capacity, r->count + count, sizeof *r->pair))
-    return HR2D_ENOMEM;
-  memcpy(r->pair + r->count, pairs, count * sizeof *pairs);
-  r->count += count;
+  (void)worker;
+  c->too_many = row->count > c->most - r->count;
+  if (c->too_many) return HR2D_STOPPED;
+  const hr2d_status status = reserve(c, row->count);
+  for (size_t k = 0; k < row->count && !status; k++) {
+    const uint32_t p = row->patch, q = row->column[k] & ~HR2DI_PARTIAL;
+    r->pair[r->count++] = p < q ? (hr2d_pair){p, q} : (hr2d_pair){q, p};
+  }
+  return status;
+}
+
+/* Half rows have each pair once or twice. */
+static hr2d_status find_by_beams(collector *c, const hr2d_scene *scene, hr2di_watch *watch) {
+  hr2di_row_maker maker;
+  hr2d_status status = hr2di_row_maker_init(&maker, scene, 1, 0, watch);
+  c->most = FEW_SEEN * scene->patches;
+  if (!status) status = hr2di_row_maker_run(&maker, 0, maker.tasks, collect_row, c);
+  hr2di_row_maker_clear(&maker);
+  if (!c->too_many) return status;
+  c->roots->count = 0;
   return HR2D_OK;
 }
 
@@ -49,6 +88,22 @@ static hr2d_status sort_by(const hr2d_pair *from, hr2d_pair *to, size_t count, s
   return status;
 }
 
+/* Keeps one of equal pairs, and counts the rows anew. */
+static hr2d_status drop_doubles(hr2di_roots *r, size_t patches, hr2di_watch *watch) {
+  size_t kept = 0;
+  hr2d_status status = HR2D_OK;
+  for (size_t i = 0, k = 0; i < patches && !status; i++) {
+    const size_t last = r->row[i + 1], first = kept;
+    for (; k < last; k++)
+      if (kept == first || r->pair[k].second != r->pair[kept - 1].second)
+        r->pair[kept++] = r->pair[k];
+    r->row[i] = first;
+    status = hr2di_watch_work(watch, 1 + (last - first) / 64);
+  }
+  r->row[patches] = r->count = kept;
+  return status;
+}
+
 static hr2d_status sort_pairs(hr2di_roots *r, size_t patches, const hr2d_allocator *alloc,
                               hr2di_watch *watch) {
   hr2d_pair *sorted = hr2di_alloc(alloc, r->count, sizeof *sorted);
@@ -56,18 +111,21 @@ static hr2d_status sort_pairs(hr2di_roots *r, size_t patches, const hr2d_allocat
   hr2d_status status = sorted && r->row ? HR2D_OK : HR2D_ENOMEM;
   if (!status) status = sort_by(r->pair, sorted, r->count, r->row, patches, 0, watch);
   if (!status) status = sort_by(sorted, r->pair, r->count, r->row, patches, 1, watch);
+  if (!status) status = drop_doubles(r, patches, watch);
   hr2di_alloc_free(alloc, sorted);
   return status;
 }
 
 hr2d_status hr2di_roots_init(hr2di_roots *roots, const hr2d_scene *scene,
                              const hr2d_allocator *alloc, double accuracy, hr2di_watch *watch) {
-  collector c = {roots, alloc};
+  const int shaded = scene->effect[HR2D_EFFECT_OCCLUSION].on;
+  collector c = {.roots = roots, .alloc = alloc};
   *roots = (hr2di_roots){.accuracy = accuracy};
-  hr2d_status status =
-      hr2di_clusters_create(scene, alloc, accuracy, collect, &c, watch, &roots->clusters);
-  if (!status) status = sort_pairs(roots, scene->patches, alloc, watch);
-  return status;
+  hr2d_status status = shaded ? find_by_beams(&c, scene, watch) : HR2D_OK;
+  if (!status && (!shaded || c.too_many))
+    status =
+        hr2di_clusters_create(scene, alloc, accuracy, collect, &c, watch, &roots->clusters);
+  return status ? status : sort_pairs(roots, scene->patches, alloc, watch);
 }
 
 void hr2di_roots_clear(hr2di_roots *roots, const hr2d_allocator *alloc) {

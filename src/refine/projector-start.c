@@ -106,7 +106,7 @@ static double count_roots(const hr2di_projector *p) {
   const double n = (double)p->hierarchy->scene->patches;
   const double from = (double)p->options.row_from, to = (double)p->options.row_to;
   const hr2di_roots *known = &p->links->roots;
-  if (known->clusters)
+  if (known->row)
     return (double)(known->row[p->options.row_to] - known->row[p->options.row_from]);
   return (to - from) * (p->directed ? n - 1 : n - (from + to + 1) / 2);
 }
@@ -204,7 +204,7 @@ hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch) {
   roots.count = 0;
   hr2d_status status = hr2di_projector_work(p, 1 + n / 16);
   if (status) return hr2di_projector_fail(p, status, "");
-  if (known->clusters)
+  if (known->row)
     for (size_t k = known->row[patch]; k < known->row[patch + 1] && !status; k++)
       status = add_root(p, &roots, patch, known->pair[k].second);
   else

@@ -11,6 +11,7 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 #include "visibility/point-view.h"
+#include "visibility/seen-backs.h"
 
 /* A form factor up to this cannot be told from rounding. */
 #define NONE 1e-14
@@ -37,6 +38,7 @@ typedef struct looker {
 
 typedef struct lookers {
   hr2di_transport *t;
+  const unsigned char *sees; /* per patch: whether it may see a back */
   hr2di_basis basis;
   hr2di_rule rule;
   looker *looker;
@@ -71,16 +73,16 @@ static void take_some_backs(void *ctx, size_t worker, size_t task) {
   for (size_t k = task * SOME; k < t->leaves && k < (task + 1) * SOME; k++) {
     const hr2d_element *e = &h->element[t->leaf[k]];
     if (l->status || atomic_load(&all->failed)) return;
-    if (hr2di_scene_lit(h->scene, e->patch))
+    if (all->sees[e->patch] && hr2di_scene_lit(h->scene, e->patch))
       l->status = take_backs(all, l->viewer, k, hr2di_element_start(h, t->leaf[k]),
                              e->length / h->element[e->patch].length);
     if (l->status) atomic_store(&all->failed, 1);
   }
 }
 
-static hr2d_status take_all_backs(hr2di_transport *t) {
+static hr2d_status take_all_backs(hr2di_transport *t, const unsigned char *sees) {
   const size_t most = 1 + t->leaves / WORTH, threads = hr2di_team_threads(t->threads);
-  lookers all = {.t = t, .threads = threads < most ? threads : most};
+  lookers all = {.t = t, .sees = sees, .threads = threads < most ? threads : most};
   hr2di_basis_init(&all.basis, t->order);
   hr2di_rule_init(&all.rule, t->order + 6);
   all.looker = hr2di_alloc_zero(&t->alloc, all.threads, sizeof *all.looker);
@@ -138,11 +140,12 @@ static void clear_closed(hr2di_transport *t) {
 }
 
 hr2d_status hr2di_background_set_order_p(hr2di_transport *t) {
-  int backs = 0;
+  unsigned char *sees = NULL;
   t->sky = hr2di_alloc_zero(&t->alloc, t->leaves * t->order, sizeof *t->sky);
   hr2d_status status = t->sky ? take_rows(t) : HR2D_ENOMEM;
-  if (!status) status = hr2di_side_parts_find_backs(t->hierarchy->scene, &backs, t->watch);
-  if (!status && backs) status = take_all_backs(t);
+  if (!status) status = hr2di_seen_backs(t->hierarchy->scene, &t->alloc, &sees, t->watch);
+  if (!status && sees) status = take_all_backs(t, sees);
+  hr2di_alloc_free(&t->alloc, sees);
   if (!status) clear_closed(t);
   return status;
 }

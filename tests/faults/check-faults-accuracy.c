@@ -121,8 +121,15 @@ START_TEST(clusters) {
 }
 END_TEST
 
-START_TEST(clusters_without_links_are_solved) {
-  ck_assert_uint_eq(cluster_links(PLAN_BLOCKS), 0);
+START_TEST(beams) {
+  fault_stage s;
+  uint64_t sum = 0;
+  fault_stage_make(&s, &(fault_setting){.depth = DEPTH_COMMITTED, .plan = PLAN_BLOCKS});
+  ck_assert_int_eq(reach_roughly(&s, &sum), HR2D_OK);
+  ck_assert_ptr_null(hr2d_solution_links(s.result)->roots.clusters);
+  ck_assert_ptr_nonnull(hr2d_solution_links(s.result)->roots.row);
+  fault_stage_end(&s);
+  play("solve_to, beams", DEPTH_COMMITTED, PLAN_BLOCKS, reach_roughly, 12);
 }
 END_TEST
 
@@ -134,5 +141,5 @@ START_TEST(predictions) {
 END_TEST
 
 TEST_SUITE("faults of targets") {
-  ADD_TESTS("memory", targets, clusters, clusters_without_links_are_solved, predictions);
+  ADD_TESTS("memory", targets, clusters, beams, predictions);
 }

@@ -87,7 +87,7 @@ START_TEST(too_few_questions_are_noticed) {
   static const struct {
     const char *name;
     size_t count;
-  } calls[] = {{"commit", 2500},  {"events", 2000}, {"roots", 250},
+  } calls[] = {{"commit", 2500},  {"events", 2000}, {"roots", 500},
                {"factors", 1500}, {"rows", 1500},   {"visit", 1500},
                {"refine", 250},   {"count", 250},   {"validate", 250}};
   for (size_t k = 0; k < sizeof calls / sizeof *calls; k++) {

@@ -88,7 +88,7 @@ static void fill(hr2d_scene *scene, fault_plan plan) {
     ck_assert_int_eq(hr2d_scene_set_background(scene, sky, 1), HR2D_OK);
     break;
   case PLAN_ROWS:
-    add_rows(scene, 130);
+    add_rows(scene, 220);
     break;
   }
 }

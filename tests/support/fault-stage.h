@@ -25,7 +25,7 @@ typedef enum fault_plan {
   PLAN_OPEN,     /* two walls and an obstacle under a sky, in part dark */
   PLAN_PAIR,     /* two walls that face each other */
   PLAN_CROSSING, /* two bars that cross in a room; cannot be committed */
-  PLAN_BLOCKS,   /* so many patches that they are clustered, too close for clusters to link */
+  PLAN_BLOCKS,   /* so many patches that beams find the pairs */
   PLAN_ROWS      /* so many that they are clustered, and clusters are linked */
 } fault_plan;
 
