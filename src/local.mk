@@ -157,6 +157,7 @@ libhr2d_core_la_SOURCES = \
 	src/clusters/transport.c \
 	src/clusters/tree.c src/clusters/tree.h \
 	src/links/components.c src/links/components.h \
+	src/links/former-blocks.c src/links/former-blocks.h \
 	src/links/link-blocks.c src/links/link-blocks.h \
 	src/links/linkset.c \
 	src/links/linkset-impl.h \
@@ -212,6 +213,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/rounding-bound.c src/accuracy/rounding-bound.h \
 	src/accuracy/sketch.c src/accuracy/sketch.h \
 	src/accuracy/error-estimate.c src/accuracy/error-estimate.h \
+	src/accuracy/error-shares.c src/accuracy/error-shares.h \
 	src/accuracy/graded-solve.c src/accuracy/graded-solve.h \
 	src/accuracy/importance.c src/accuracy/importance.h \
 	src/accuracy/grader.h src/accuracy/grader-team.c \
@@ -220,6 +222,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/long-leaves.c src/accuracy/long-leaves.h \
 	src/accuracy/mesh-grading.c src/accuracy/mesh-grading.h \
 	src/accuracy/mirror-images.c src/accuracy/mirror-images.h \
+	src/accuracy/point-grid.c src/accuracy/point-grid.h \
 	src/accuracy/predict.c \
 	src/accuracy/resolution.c src/accuracy/resolution.h \
 	src/accuracy/solution-error.c \

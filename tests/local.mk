@@ -77,6 +77,7 @@ SUITES = \
 	tests/unit/accuracy/check-known-radiosities \
 	tests/unit/accuracy/check-random-accuracy \
 	tests/unit/accuracy/check-target-calls \
+	tests/unit/accuracy/check-error-shares \
 	tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-kinks \
 	tests/unit/accuracy/check-long-leaves \

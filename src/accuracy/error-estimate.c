@@ -6,6 +6,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "accuracy/error-shares.h"
 #include "accuracy/estimator.h"
 #include "accuracy/gap-residuals.h"
 #include "accuracy/importance.h"
@@ -13,6 +14,7 @@
 #include "accuracy/rounding-bound.h"
 #include "accuracy/safe-sum.h"
 #include "accuracy/shadow-residuals.h"
+#include "base/alloc.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 
@@ -117,12 +119,29 @@ static double margin_of(const hr2di_resolution *f) {
   return HIDDEN / (1 - ratio * ratio * ratio);
 }
 
-static hr2d_status run(const hr2di_graded *answer, const hr2di_resolution *fineness,
+/* Tells what to divide if the error is not half of what it should be. */
+static hr2d_status find_shares(hr2di_estimator *e, hr2di_graded *answer,
+                               const hr2di_resolution *fineness,
+                               const hr2di_error_pair *errors) {
+  const hr2d_allocator *alloc = &answer->hierarchy->alloc;
+  const double worst = fmax(errors->average.estimate, errors->irradiance.estimate);
+  if (worst <= HR2DI_ERROR_MARGIN * fineness->aim || !isfinite(worst)) return HR2D_OK;
+  answer->depth = hr2di_alloc_zero(alloc, answer->hierarchy->elements, sizeof *answer->depth);
+  if (!answer->depth) return HR2D_ENOMEM;
+  const hr2d_status status = hr2di_error_shares(e, fineness->aim, worst, answer->depth);
+  if (!status) return HR2D_OK;
+  hr2di_alloc_free(alloc, answer->depth);
+  answer->depth = NULL;
+  return status == HR2D_ENOMEM ? status : HR2D_OK; /* the errors are known */
+}
+
+static hr2d_status run(hr2di_graded *answer, const hr2di_resolution *fineness,
                        const hr2d_target *target, hr2di_error_pair *errors) {
   hr2di_estimator e;
   hr2d_status status = hr2di_estimator_init(&e, answer, target);
   e.margin = margin_of(fineness);
   if (!status) status = measure(&e, errors);
+  if (!status && fineness->shares) status = find_shares(&e, answer, fineness, errors);
   hr2di_estimator_clear(&e);
   return status;
 }
@@ -153,7 +172,8 @@ hr2d_status hr2di_error_estimate(hr2di_graded *answer, const hr2di_resolution *f
   if (links->roots.clusters != roots.clusters) hr2di_clusters_destroy(links->roots.clusters);
   links->roots = roots;
   links->block_order = 0;
-  if (!status) status = hr2di_link_blocks_trim(&links->blocks, order, &links->alloc);
+  if (!status && !answer->depth)
+    status = hr2di_link_blocks_trim(&links->blocks, order, &links->alloc);
   if (!status) return status;
   const char *own = hr2d_linkset_message(links);
   return hr2di_message_fail(message, status, "%s", own[0] ? own : hr2d_strerror(status));

@@ -5,6 +5,9 @@
 
 #include "accuracy/graded-solve.h"
 
+/* An estimate is within a factor of 2 of the error: it has to be below this part of the aim. */
+#define HR2DI_ERROR_MARGIN 0.5
+
 typedef struct hr2di_error_pair {
   hr2d_error average; /* of the worst patch, or of the one that importance is asked for */
   hr2d_error sup;

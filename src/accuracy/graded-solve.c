@@ -3,6 +3,7 @@
 #include "accuracy/graded-solve.h"
 
 #include "accuracy/admissibility.h"
+#include "accuracy/error-shares.h"
 #include "accuracy/long-leaves.h"
 #include "base/alloc.h"
 #include "base/clock.h"
@@ -104,6 +105,23 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
   return explain(a, status, message);
 }
 
+hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
+                                const hr2di_resolution *fineness, const hr2d_target *target,
+                                hr2di_message *message) {
+  const double start = hr2di_clock_now();
+  hr2di_watch watch;
+  *a = (hr2di_graded){.survey = coarse->survey, .events = coarse->events};
+  hr2di_scene_watch(coarse->hierarchy->scene, &watch, target->progress, target->progress_ctx,
+                    "refine");
+  hr2d_status status = hr2di_error_shares_divide(coarse->hierarchy, coarse->depth,
+                                                 target->max_elements, &watch, &a->hierarchy);
+  if (!status) a->hierarchy->order = fineness->order;
+  if (!status) status = link_elements(a, fineness, target);
+  if (!status) a->links->former = coarse->links;
+  a->refine_seconds = hr2di_clock_now() - start;
+  return explain(a, status, message);
+}
+
 hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2di_resolution *fineness,
                                const hr2d_target *target, hr2di_message *message) {
   const double start = hr2di_clock_now();
@@ -113,6 +131,7 @@ hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2di_resolution *fineness
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;
   const hr2d_status status = hr2d_solve(a->links, &options, &a->solution);
+  a->links->former = NULL;
   if (status) return explain(a, status, message);
   const hr2d_solve_work work = hr2d_solution_work(a->solution);
   a->kernels = work.kernels;
@@ -123,6 +142,7 @@ hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2di_resolution *fineness
 
 void hr2di_graded_clear(hr2di_graded *a) {
   if (a->hierarchy) hr2di_alloc_free(&a->hierarchy->alloc, a->bent);
+  if (a->hierarchy) hr2di_alloc_free(&a->hierarchy->alloc, a->depth);
   hr2d_solution_destroy(a->solution);
   hr2d_linkset_destroy(a->links);
   hr2d_hierarchy_destroy(a->hierarchy);

@@ -12,6 +12,7 @@
 
 /* How fine a graded solve is. */
 typedef struct hr2di_resolution {
+  double aim; /* the error */
   unsigned order;
   double target;           /* relative error that corners are graded for */
   double cluster_accuracy; /* relative accuracy of links between clusters of patches */
@@ -24,6 +25,7 @@ typedef struct hr2di_resolution {
   unsigned generations;   /* elements end at events of so many generations */
   unsigned halvings;      /* how often the longest elements are halved where there are too many
                              events, see long-leaves.h */
+  int shares;             /* errors that are too large name the elements that make them */
   double kinks;           /* the shares of error that events inside elements may make; 0:
                              elements end at all events */
   unsigned raises;        /* how often it was made finer */
@@ -37,7 +39,9 @@ typedef struct hr2di_graded {
   hr2d_linkset *links;
   hr2d_solution *solution; /* NULL until solved */
   hr2di_survey survey;
-  double *bent; /* see hr2di_kinks_cut(); NULL: no event is left inside an element */
+  double *bent;         /* see hr2di_kinks_cut(); NULL: no event is left inside an element */
+  unsigned char *depth; /* per element: how often a leaf is to be halved so that the aim is
+                           reached; NULL: unknown */
   uint64_t events;
   uint64_t kernels;
   double refine_seconds, coefficients_seconds, solve_seconds;
@@ -46,6 +50,11 @@ typedef struct hr2di_graded {
 /* Makes trees and links.  Returns HR2D_OK, or a status with a reason in `message`.  Call
    hr2di_graded_clear() in either case. */
 hr2d_status hr2di_graded_refine(hr2di_graded *answer, const hr2d_scene *scene,
+                                const hr2di_resolution *fineness, const hr2d_target *target,
+                                hr2di_message *message);
+
+/* The same, with the elements of `coarse` divided as its `depth` says. */
+hr2d_status hr2di_graded_divide(hr2di_graded *answer, const hr2di_graded *coarse,
                                 const hr2di_resolution *fineness, const hr2d_target *target,
                                 hr2di_message *message);
 

@@ -1,15 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds the walls near a patch in the tree of boxes. */
+/* Finds the walls near a patch in the tree of boxes, and of many points those in front of or
+   behind a wall in a grid. */
 #include "accuracy/mirror-images.h"
 
 #include <float.h>
 #include <math.h>
 
+#include "accuracy/point-grid.h"
 #include "base/alloc.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
 #include "occlusion/wall-tree.h"
 #include "scene/scene-impl.h"
+
+/* So many points are worth a grid. */
+enum { MANY = 64 };
 
 typedef struct mirror {
   const hr2d_scene *scene;
@@ -17,6 +22,7 @@ typedef struct mirror {
   double max;
   hr2di_image_points *points;
   size_t count;
+  hr2di_point_grid grid; /* of the points, if there are many */
   hr2di_watch *watch;
 } mirror;
 
@@ -63,6 +69,21 @@ static hr2d_status add_image(mirror *m, hr2d_segment wall, const double side[2],
   return HR2D_OK;
 }
 
+/* The images of the points whose foot may be on the wall. */
+static hr2d_status add_strip(mirror *m, hr2d_segment wall, const double side[2]) {
+  const hr2di_point_grid *g = &m->grid;
+  hr2d_status status = HR2D_OK;
+  for (uint32_t row = 0; row < g->rows && !status; row++) {
+    const hr2di_grid_span span = hr2di_point_grid_strip(g, row, wall);
+    const size_t start = (size_t)row * g->columns;
+    const uint32_t last = g->first[start + span.to];
+    status = hr2di_watch_work(m->watch, 1);
+    for (uint32_t k = g->first[start + span.from]; k < last && !status; k++)
+      status = add_image(m, wall, side, m->points->point[g->number[k]]);
+  }
+  return status;
+}
+
 static hr2d_status add_wall(mirror *m, hr2d_segment wall) {
   const hr2d_segment s = m->patch->scaled;
   const double of_a = hr2di_orient(wall.a, wall.b, s.a),
@@ -70,6 +91,7 @@ static hr2d_status add_wall(mirror *m, hr2d_segment wall) {
   const double side[] = {fmax(of_a, of_b), fmin(of_a, of_b)};
   hr2d_status status = add_image(m, wall, side, s.a);
   if (!status) status = add_image(m, wall, side, s.b);
+  if (m->grid.rows > 0) return status ? status : add_strip(m, wall, side);
   for (size_t k = 0; k < m->count && !status; k++) {
     status = hr2di_watch_work(m->watch, 1);
     if (!status) status = add_image(m, wall, side, m->points->point[k]);
@@ -77,10 +99,8 @@ static hr2d_status add_wall(mirror *m, hr2d_segment wall) {
   return status;
 }
 
-hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max,
-                             const hr2di_seen_ends *seen, hr2di_image_points *points,
-                             hr2di_watch *watch) {
-  mirror m = {scene, &scene->patch[patch], max, points, points->count, watch};
+static hr2d_status look_at_walls(mirror *m, uint32_t patch, const hr2di_seen_ends *seen) {
+  const hr2d_scene *scene = m->scene;
   uint32_t stack[2 * HR2DI_BOX_DEPTH];
   size_t waiting = 0;
   hr2d_status status = HR2D_OK;
@@ -88,15 +108,32 @@ hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max
   while (waiting > 0 && !status) {
     const uint32_t number = stack[--waiting];
     const hr2di_box *box = &scene->walls.box[number];
-    status = hr2di_watch_work(watch, 1);
-    if (status || !is_near(m.patch, box)) continue;
+    status = hr2di_watch_work(m->watch, 1);
+    if (status || !is_near(m->patch, box)) continue;
     if (box->wall == HR2DI_NO_WALL) {
       stack[waiting++] = box->below;
       stack[waiting++] = box->below + 1;
     } else if (box->wall != scene->walls.of_segment[patch] &&
                (!seen || hr2di_seen_ends_has_wall(seen, box->wall))) {
-      status = add_wall(&m, scene->walls.wall[box->wall].at);
+      status = add_wall(m, scene->walls.wall[box->wall].at);
     }
   }
+  return status;
+}
+
+hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max,
+                             const hr2di_seen_ends *seen, hr2di_image_points *points,
+                             hr2di_watch *watch) {
+  mirror m = {.scene = scene,
+              .patch = &scene->patch[patch],
+              .max = max,
+              .points = points,
+              .count = points->count,
+              .watch = watch};
+  hr2d_status status = HR2D_OK;
+  if (m.count >= MANY)
+    status = hr2di_point_grid_init(&m.grid, points->point, m.count, &scene->alloc, watch);
+  if (!status) status = look_at_walls(&m, patch, seen);
+  hr2di_point_grid_clear(&m.grid, &scene->alloc);
   return status;
 }

@@ -139,7 +139,11 @@ static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target
   const double start = hr2di_clock_now();
   hr2di_graded a;
   hr2di_message message;
-  const hr2di_resolution coarse = {.order = 2, .target = 0.1, .norm = target->norm};
+  const hr2di_resolution coarse = {
+      .order = 2,
+      .target = 0.1,
+      .norm = target->norm,
+      .tolerance = hr2di_resolution_tolerance(scene, target->floor, target->error)};
   hr2d_status status = hr2di_graded_refine(&a, scene, &coarse, target, &message);
   if (!status) status = hr2di_graded_solve(&a, &coarse, target, &message);
   t->seconds = hr2di_clock_now() - start;

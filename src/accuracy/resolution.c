@@ -82,12 +82,12 @@ static double shares_for(const hr2d_scene *scene, double aim) {
    left of B, and B of the darkest patch counts as much as that of the brightest. */
 #define UNSOLVED 0.01
 
-static double tolerance_for(const hr2d_scene *scene, const hr2di_lights *lights, double aim) {
+double hr2di_resolution_tolerance(const hr2d_scene *scene, double contrast, double aim) {
   double lost = 1;
   for (size_t k = 0; k < scene->patches; k++)
     for (size_t b = 0; b < scene->bands; b++)
       lost = fmin(lost, 1 - hr2d_scene_reflectance(scene, k, b));
-  return fmax(UNSOLVED * aim * lights->contrast * lost, HR2D_DEFAULT_TOLERANCE);
+  return fmax(UNSOLVED * aim * contrast * lost, HR2D_DEFAULT_TOLERANCE);
 }
 
 /* Errors of many corners and elements add up. */
@@ -109,24 +109,27 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
   const double order = ceil(log(EASY / (many * error)) / digits_per_order(survey, norm));
   const int hidden = is_hidden(scene);
   const double least = aim < THREE || lights ? 3 : 2;
-  hr2di_resolution f = {.order = (unsigned)fmin(fmax(order, least), HR2D_MAX_ORDER - 2),
-                        .target = fmin(0.25 * error, 1),
-                        .cluster_accuracy = fmax(0.02 * error, 1e-14),
-                        .tolerance = lights ? tolerance_for(scene, lights, aim) : 0,
-                        .norm = norm,
-                        .hidden = hidden,
-                        .distance = HR2DI_ELLIPSE_DISTANT,
-                        .kinks = lights ? shares_for(scene, aim) : 0,
-                        .lights = lights,
-                        .generations = hidden ? generations_for(aim, norm) : 0};
+  hr2di_resolution f = {
+      .aim = aim,
+      .order = (unsigned)fmin(fmax(order, least), HR2D_MAX_ORDER - 2),
+      .target = fmin(0.25 * error, 1),
+      .cluster_accuracy = fmax(0.02 * error, 1e-14),
+      .tolerance = lights ? hr2di_resolution_tolerance(scene, lights->contrast, aim) : 0,
+      .norm = norm,
+      .hidden = hidden,
+      .distance = HR2DI_ELLIPSE_DISTANT,
+      .kinks = lights ? shares_for(scene, aim) : 0,
+      .lights = lights,
+      .generations = hidden ? generations_for(aim, norm) : 0};
   if (is_crowded(scene, hidden) && aim >= CROWDED_AIM) {
     f.order = (unsigned)fmax(f.order, aim >= THREE ? 3 : 4);
     f.generations = f.kinks > 0;
-    f.halvings = aim < THREE;
   }
   if (lights && aim <= THREE && f.generations == 0) f.generations = 1;
   f.crowded = is_crowded(scene, hidden);
   if (f.crowded && lights && scene->patches > CROWD_LIT) spare_elements(&f, aim);
+  f.shares = f.crowded && norm == HR2D_NORM_AVERAGE && !lights;
+  if (f.crowded && aim >= CROWDED_AIM && !f.shares) f.halvings = aim < THREE;
   return f;
 }
 

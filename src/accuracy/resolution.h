@@ -17,6 +17,10 @@ int hr2di_resolution_wants_lights(const hr2d_scene *scene, const hr2d_target *ta
 hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_survey *survey,
                                       double error, hr2d_norm norm, const hr2di_lights *lights);
 
+/* What a solve may leave in its residual for an error of averages, the darkest of which are
+   `contrast` times the brightest. */
+double hr2di_resolution_tolerance(const hr2d_scene *scene, double contrast, double aim);
+
 /* Raises the resolution, so that the error may fall by `factor`.  Returns 0, or -1 if it cannot
    be finer. */
 int hr2di_resolution_raise(hr2di_resolution *fineness, const hr2di_survey *survey,

@@ -107,7 +107,7 @@ static void sum_row(hr2di_estimator *e, size_t b, double unit, double sum[2]) {
 
 /* Residuals have the coefficients that the part of the equation lacks.  Z has them from two
    gathers, between which the part takes on what is left. */
-static hr2d_status complete(hr2di_estimator *e, int choice) {
+static hr2d_status complete(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   double *const first = e->error;
   memcpy(first, eq->radiosity, eq->field * sizeof *first);
@@ -116,8 +116,12 @@ static hr2d_status complete(hr2di_estimator *e, int choice) {
   const hr2d_status status = hr2di_estimator_solve(e, hr2di_estimator_tolerance(e, ROW));
   for (size_t k = 0; k < eq->field; k++) first[k] += eq->radiosity[k];
   hr2di_equation_gather(eq, first);
-  set_source(e, choice);
   return status;
+}
+
+hr2d_status hr2di_safe_row(hr2di_estimator *e) {
+  const hr2d_status status = hr2di_estimator_solve(e, hr2di_estimator_tolerance(e, ROW));
+  return status || e->whole ? status : complete(e);
 }
 
 /* Raises the sums of B and of H by those of the patches chosen for one of them. */
@@ -125,8 +129,8 @@ static hr2d_status sum_rows(hr2di_estimator *e, int choice) {
   const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
   const size_t bands = e->eq.transport.bands;
   set_source(e, choice);
-  hr2d_status status = hr2di_estimator_solve(e, hr2di_estimator_tolerance(e, ROW));
-  if (!status && !e->whole) status = complete(e, choice);
+  const hr2d_status status = hr2di_safe_row(e);
+  set_source(e, choice);
   for (size_t b = 0; b < bands && !status; b++) {
     const size_t patch = worst_patch(e, choice, b);
     const double least = hr2di_estimator_least(e, 0, patch, b);

@@ -17,9 +17,6 @@
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 
-/* An estimate is within a factor of 2 of the error. */
-#define MARGIN 0.5
-
 enum { ATTEMPTS = 8, LEAST_SAFE = 6 };
 
 /* The best graded solve so far, and the time and work of all. */
@@ -67,7 +64,7 @@ static double error_of(const search *s) {
 }
 
 static int is_reached(const search *s, double error) {
-  return error_of(s) <= MARGIN * error || s->error.bound <= error;
+  return error_of(s) <= HR2DI_ERROR_MARGIN * error || s->error.bound <= error;
 }
 
 static void add_times(hr2d_account *sum, const hr2di_graded *answer) {
@@ -130,12 +127,14 @@ static hr2d_status sketch(search *s) {
   return s->late ? HR2D_STOPPED : status;
 }
 
-/* Solves once, estimates the error, and keeps the graded solve if it is the best so far. */
-static hr2d_status attempt(search *s, const hr2di_resolution *fineness) {
+/* Solves once, estimates the error, and keeps the graded solve if it is the best so far.  With
+   `dividing` the elements are those of the best, divided. */
+static hr2d_status attempt(search *s, const hr2di_resolution *fineness, int dividing) {
   hr2di_graded answer;
   hr2di_error_pair errors;
   hr2d_status status =
-      hr2di_graded_refine(&answer, s->scene, fineness, &s->target, &s->message);
+      dividing ? hr2di_graded_divide(&answer, &s->best, fineness, &s->target, &s->message)
+               : hr2di_graded_refine(&answer, s->scene, fineness, &s->target, &s->message);
   if (!status && !s->given.no_error) hr2di_error_prepare(&answer, fineness);
   if (!status) status = hr2di_graded_solve(&answer, fineness, &s->target, &s->message);
   add_times(&s->account, &answer);
@@ -174,6 +173,9 @@ static hr2di_resolution first_resolution(const search *s, double error) {
                                                 s->lights.radiosity ? &s->lights : NULL);
   hr2di_resolution finer = s->fineness;
   guess.weight = s->weight;
+  /* Under a background of their own temperature scenes are isothermal to all digits. */
+  if (!guess.lights && !s->given.no_error && !s->scene->effect[HR2D_EFFECT_BACKGROUND].on)
+    guess.tolerance = hr2di_resolution_tolerance(s->scene, s->given.floor, error);
   const int known = s->best.solution && isfinite(error_of(s));
   const int is_finer =
       known && !hr2di_resolution_raise(&finer, &s->best.survey, error_of(s) / (0.5 * error)) &&
@@ -186,9 +188,9 @@ static hr2d_status reach(search *s, double error) {
   if (s->best.solution && is_reached(s, error)) return HR2D_OK;
   hr2di_resolution fineness = first_resolution(s, error);
   double before = HUGE_VAL;
-  int stuck = 0, raised = 1;
+  int stuck = 0, raised = 1, dividing = 0;
   for (int k = 0; k < ATTEMPTS && (stuck < 2 || !is_rounding(s)) && raised; k++) {
-    const hr2d_status status = attempt(s, &fineness);
+    const hr2d_status status = attempt(s, &fineness, dividing);
     /* At a low order rows of K may exceed 1 in narrow corners, even with closure. */
     if (status == HR2D_ENOT_CONVERGED && !s->progress_status && k + 1 < ATTEMPTS &&
         fineness.order < LEAST_SAFE) {
@@ -198,7 +200,9 @@ static hr2d_status reach(search *s, double error) {
     if (status || s->given.no_error || is_reached(s, error)) return status;
     stuck = error_of(s) > 0.5 * before ? stuck + 1 : 0;
     before = error_of(s);
-    raised = !hr2di_resolution_raise(&fineness, &s->best.survey, before / (0.5 * error));
+    dividing = s->best.depth && !stuck;
+    raised =
+        dividing || !hr2di_resolution_raise(&fineness, &s->best.survey, before / (0.5 * error));
   }
   if (error_of(s) <= error) return HR2D_OK;
   give_reason(s, stuck > 0 && is_rounding(s)
@@ -269,9 +273,14 @@ static hr2d_status weigh_patches(search *s) {
 static void hand_over(search *s, hr2d_solution **solution) {
   *solution = s->best.solution;
   if (!*solution) return;
+  hr2d_linkset *links = s->best.links;
+  if (s->best.depth &&
+      hr2di_link_blocks_trim(&links->blocks, s->best.hierarchy->order, &links->alloc))
+    hr2di_link_blocks_clear(&links->blocks, &links->alloc); /* a solve makes them again */
   (*solution)->own_hierarchy = s->best.hierarchy;
   (*solution)->own_links = s->best.links;
   hr2di_alloc_free(&s->scene->alloc, s->best.bent);
+  hr2di_alloc_free(&s->scene->alloc, s->best.depth);
   s->best = (hr2di_graded){0};
 }
 

@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/team.h"
 #include "blocks/block.h"
+#include "links/former-blocks.h"
 #include "links/linkset-impl.h"
 #include "scene/scene-impl.h"
 
@@ -24,6 +25,7 @@ typedef struct worker {
 typedef struct maker {
   const hr2d_linkset *links;
   hr2di_link_blocks *blocks;
+  hr2di_former_blocks former;
   worker *worker;
   size_t threads;
   hr2di_watch *watch; /* of the calling thread */
@@ -59,21 +61,30 @@ static void check_bound(double area, double *block, size_t order) {
   for (size_t k = 1; k < order * order; k++) block[k] = 0;
 }
 
+static hr2d_status make_one(const maker *m, hr2di_integrator *work, uint64_t k) {
+  const hr2d_link *link = hr2di_store_at(&m->links->store, k);
+  const size_t order = m->blocks->order, square = order * order;
+  double *block = m->blocks->value + k * square;
+  const double *known = hr2di_former_block(&m->former, link->pair, &m->blocks->distant[k]);
+  if (known) {
+    memcpy(block, known, square * sizeof *block);
+    return hr2di_watch_work(work->watch, 1);
+  }
+  int distant;
+  const hr2d_status status =
+      hr2di_block(work, link->pair, link->exchange_area, block, &distant);
+  if (status) return status;
+  if (is_tiny(m->links->hierarchy, link->pair)) block[0] = link->exchange_area;
+  check_bound(link->exchange_area, block, order);
+  m->blocks->distant[k] = (unsigned char)distant;
+  return HR2D_OK;
+}
+
 static hr2d_status make_some(const maker *m, hr2di_integrator *work, uint64_t from,
                              uint64_t to) {
-  const size_t square = m->blocks->order * m->blocks->order;
-  for (uint64_t k = from; k < to; k++) {
-    const hr2d_link *link = hr2di_store_at(&m->links->store, k);
-    double *block = m->blocks->value + k * square;
-    int distant;
-    const hr2d_status status =
-        hr2di_block(work, link->pair, link->exchange_area, block, &distant);
-    if (status) return status;
-    if (is_tiny(m->links->hierarchy, link->pair)) block[0] = link->exchange_area;
-    check_bound(link->exchange_area, block, m->blocks->order);
-    m->blocks->distant[k] = (unsigned char)distant;
-  }
-  return HR2D_OK;
+  hr2d_status status = HR2D_OK;
+  for (uint64_t k = from; k < to && !status; k++) status = make_one(m, work, k);
+  return status;
 }
 
 static void make_chunk(void *ctx, size_t number, size_t chunk) {
@@ -119,7 +130,8 @@ static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made, unsigned th
              .watch = watch};
   m.worker = hr2di_alloc_zero(alloc, m.threads, sizeof *m.worker);
   if (!m.worker) return HR2D_ENOMEM;
-  hr2d_status status = HR2D_OK;
+  hr2d_status status =
+      hr2di_former_blocks_init(&m.former, links->former, made->order, alloc, watch);
   size_t started = 0;
   while (started < m.threads && !status) {
     worker *w = &m.worker[started];
@@ -135,6 +147,7 @@ static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made, unsigned th
     made->kernels += m.worker[--started].work.kernels;
     hr2di_integrator_clear(&m.worker[started].work);
   }
+  hr2di_former_blocks_clear(&m.former, alloc);
   hr2di_alloc_free(alloc, m.worker);
   return status;
 }

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which elements make the errors that are too large. */
+#ifndef HR2D_SRC_ACCURACY_ERROR_SHARES_H
+#define HR2D_SRC_ACCURACY_ERROR_SHARES_H
+
+#include "accuracy/estimator.h"
+
+/* Sets depth, per element of the hierarchy: how often each leaf is to be halved, and its halves
+   with it, so that the errors of averages which are above a quarter of `target` fall below half
+   of it; 0 for elements with children.  The estimator has measured errors and the largest of
+   them is `worst`; changes its other fields.  Returns HR2D_OK or the status of a solve. */
+hr2d_status hr2di_error_shares(hr2di_estimator *e, double target, double worst,
+                               unsigned char *depth);
+
+/* A hierarchy with the same elements, its leaves halved so often.  Returns HR2D_OK,
+   HR2D_ENOMEM, HR2D_EMAX_ELEMENTS or the status of the watch. */
+hr2d_status hr2di_error_shares_divide(const hr2d_hierarchy *from, const unsigned char *depth,
+                                      uint64_t max_elements, hr2di_watch *watch,
+                                      hr2d_hierarchy **divided);
+
+#endif

@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Elements that make errors which are too large are divided, and others keep what they had. */
+#include <hr2d/hr2d.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "accuracy/admissibility.h"
+#include "accuracy/error-shares.h"
+#include "accuracy/point-grid.h"
+#include "base/alloc.h"
+#include "links/linkset-impl.h"
+#include "support/plane.h"
+#include "support/slow-scenes.h"
+#include "support/support.h"
+
+static hr2d_scene *squares(size_t patches) {
+  hr2d_scene *scene = NULL;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  ck_assert_int_eq(slow_add(scene, SLOW_SQUARES, patches), HR2D_OK);
+  test_commit(scene);
+  return scene;
+}
+
+static hr2d_hierarchy *trees(const hr2d_scene *scene, unsigned order) {
+  hr2d_hierarchy *h = NULL;
+  ck_assert_int_eq(hr2d_hierarchy_create(scene, &h), HR2D_OK);
+  ck_assert_int_eq(hr2d_hierarchy_set_order(h, order), HR2D_OK);
+  return h;
+}
+
+START_TEST(leaves_are_halved_so_often) {
+  hr2d_scene *scene = squares(40);
+  hr2d_hierarchy *h = trees(scene, 3), *divided = NULL;
+  const size_t n = hr2d_scene_patches(scene);
+  unsigned char *depth = calloc(n, 1);
+  depth[3] = 1;
+  depth[7] = 3;
+  ck_assert_int_eq(hr2di_error_shares_divide(h, depth, 0, NULL, &divided), HR2D_OK);
+  ck_assert_uint_eq(hr2d_hierarchy_count(divided).leaves, n + 1 + 7);
+  for (size_t k = 0; k < n; k++) ck_assert_int_eq(divided->element[k].child > 0, depth[k] > 0);
+  ck_assert_uint_eq(hr2d_hierarchy_count(h).elements, n);
+  hr2d_hierarchy_destroy(divided);
+  ck_assert_int_eq(hr2di_error_shares_divide(h, depth, n + 15, NULL, &divided),
+                   HR2D_EMAX_ELEMENTS);
+  ck_assert_ptr_null(divided);
+  ck_assert_int_eq(hr2di_error_shares_divide(h, depth, n + 16, NULL, &divided), HR2D_OK);
+  free(depth);
+  hr2d_hierarchy_destroy(divided);
+  hr2d_hierarchy_destroy(h);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+/* Links of elements that are as they are, with blocks of order 4. */
+static hr2d_linkset *linked(hr2d_hierarchy *h, const hr2d_linkset *former) {
+  hr2d_linkset *links = NULL;
+  hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
+  hr2di_admissibility separation = {4, 1e-3, NULL};
+  options.epsilon = 0.5;
+  ck_assert_int_eq(hr2d_linkset_create(h, hr2di_admissibility_oracle(), &separation,
+                                       hr2di_admissibility_fixed_leaves(), NULL, &links),
+                   HR2D_OK);
+  ck_assert_int_eq(hr2d_refine(links, &options), HR2D_OK);
+  links->former = former;
+  ck_assert_int_eq(hr2di_link_blocks_init(links, 4, 1, NULL), HR2D_OK);
+  return links;
+}
+
+static int same_blocks(const hr2di_link_blocks *a, const hr2di_link_blocks *b) {
+  return a->links == b->links && a->order == b->order &&
+         memcmp(a->value, b->value, a->links * a->order * a->order * sizeof *a->value) == 0 &&
+         memcmp(a->distant, b->distant, a->links) == 0;
+}
+
+/* Blocks that are taken over are those that would be made, bit for bit. */
+START_TEST(blocks_are_taken_over) {
+  hr2d_scene *scene = squares(120);
+  hr2d_hierarchy *h = trees(scene, 4), *divided = NULL;
+  unsigned char *depth = calloc(hr2d_scene_patches(scene), 1);
+  depth[1] = depth[9] = depth[50] = 1;
+  hr2d_linkset *former = linked(h, NULL);
+  ck_assert_int_eq(hr2di_error_shares_divide(h, depth, 0, NULL, &divided), HR2D_OK);
+  hr2d_linkset *fresh = linked(divided, NULL), *taken = linked(divided, former);
+  ck_assert(same_blocks(&fresh->blocks, &taken->blocks));
+  ck_assert_uint_gt(taken->blocks.kernels, 0);
+  ck_assert_uint_lt(4 * taken->blocks.kernels, fresh->blocks.kernels);
+  former->blocks.value[0] += 1;
+  hr2d_linkset *wrong = linked(divided, former);
+  ck_assert(!same_blocks(&fresh->blocks, &wrong->blocks));
+  free(depth);
+  hr2d_linkset_destroy(wrong);
+  hr2d_linkset_destroy(taken);
+  hr2d_linkset_destroy(fresh);
+  hr2d_linkset_destroy(former);
+  hr2d_hierarchy_destroy(divided);
+  hr2d_hierarchy_destroy(h);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+/* The largest relative difference of averages. */
+static double most_off(const hr2d_solution *a, const hr2d_solution *b, size_t patches) {
+  double most = 0;
+  for (size_t k = 0; k < patches; k++) {
+    const double x = hr2d_solution_average(a, k, 0), y = hr2d_solution_average(b, k, 0);
+    most = fmax(most, fabs(x - y) / y);
+  }
+  return most;
+}
+
+/* Halving all leaves took 22,000 elements for 1e-3, and reached 2e-5. */
+START_TEST(few_elements_suffice) {
+  hr2d_scene *scene = squares(1000);
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_account account, finer;
+  hr2d_solution *solution = NULL, *reference = NULL;
+  target.error = 1e-3;
+  ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &account), HR2D_OK);
+  target.error = 1e-4;
+  ck_assert_int_eq(hr2d_solve_to(scene, &target, &reference, &finer), HR2D_OK);
+  const double error = most_off(solution, reference, hr2d_scene_patches(scene));
+  printf("%llu solves, %llu elements, error %.1e, about %.1e, at most %.1e\n",
+         (unsigned long long)account.solves, (unsigned long long)account.elements, error,
+         account.average.estimate, account.average.bound);
+  ck_assert_uint_gt(account.solves, 1);
+  ck_assert_uint_lt(account.elements, 11000);
+  ck_assert_double_le(error, 1e-3);
+  ck_assert_double_le(error, account.average.bound + finer.average.bound);
+  hr2d_solution_destroy(reference);
+  hr2d_solution_destroy(solution);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+enum { POINTS = 2000, SEGMENTS = 200 };
+
+static int is_in_spans(const hr2di_point_grid *g, hr2d_segment s, uint32_t number) {
+  for (uint32_t row = 0; row < g->rows; row++) {
+    const hr2di_grid_span span = hr2di_point_grid_strip(g, row, s);
+    const size_t start = (size_t)row * g->columns;
+    for (uint32_t k = g->first[start + span.from]; k < g->first[start + span.to]; k++)
+      if (g->number[k] == number) return 1;
+  }
+  return 0;
+}
+
+static size_t count_in_spans(const hr2di_point_grid *g, hr2d_segment s) {
+  size_t count = 0;
+  for (uint32_t row = 0; row < g->rows; row++) {
+    const hr2di_grid_span span = hr2di_point_grid_strip(g, row, s);
+    const size_t start = (size_t)row * g->columns;
+    count += g->first[start + span.to] - g->first[start + span.from];
+  }
+  return count;
+}
+
+/* Short segments in all directions, along the axes, too; every fourth point is on a line. */
+START_TEST(strips_have_their_points) {
+  static hr2d_point point[POINTS];
+  const hr2d_allocator alloc = hr2di_alloc_default();
+  randoms r = randoms_stream(test_seed(), 23);
+  hr2di_point_grid g;
+  size_t inside = 0, looked_at = 0;
+  for (int k = 0; k < POINTS; k++)
+    point[k] = (hr2d_point){random_unit(&r), k % 4 ? 0.3 * random_unit(&r) : 0.125};
+  ck_assert_int_eq(hr2di_point_grid_init(&g, point, POINTS, &alloc, NULL), HR2D_OK);
+  for (int k = 0; k < SEGMENTS; k++) {
+    const hr2d_point a = {random_unit(&r), random_unit(&r)};
+    const double angle = k % 5 ? 6.3 * random_unit(&r) : 1.5707963267948966 * (k % 4);
+    const hr2d_segment s = {a, plane_polar(a, 0.02, angle)};
+    for (uint32_t m = 0; m < POINTS; m++) {
+      const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y;
+      const double at =
+          ((point[m].x - a.x) * ux + (point[m].y - a.y) * uy) / (ux * ux + uy * uy);
+      if (!(at > 0 && at < 1)) continue;
+      ck_assert(is_in_spans(&g, s, m));
+      inside++;
+    }
+    looked_at += count_in_spans(&g, s);
+  }
+  printf("%zu points in strips, %zu looked at, of %d\n", inside, looked_at, POINTS * SEGMENTS);
+  ck_assert_uint_gt(inside, SEGMENTS);
+  ck_assert_uint_lt(looked_at, POINTS * SEGMENTS / 4);
+  hr2di_point_grid_clear(&g, &alloc);
+}
+END_TEST
+
+/* Equal points, and points on one line, have one cell across. */
+START_TEST(grids_may_be_flat) {
+  static const hr2d_point point[] = {{1, 2}, {1, 2}, {1, 2}, {1, 5}};
+  const hr2d_allocator alloc = hr2di_alloc_default();
+  const hr2d_segment across = {{0, 0}, {2, 0}}, beside = {{3, 0}, {4, 0}};
+  for (size_t count = 1; count <= 4; count++) {
+    hr2di_point_grid g;
+    ck_assert_int_eq(hr2di_point_grid_init(&g, point, count, &alloc, NULL), HR2D_OK);
+    ck_assert_uint_eq(count_in_spans(&g, across), count);
+    ck_assert_uint_eq(count_in_spans(&g, beside), 0);
+    hr2di_point_grid_clear(&g, &alloc);
+  }
+}
+END_TEST
+
+TEST_SUITE("error shares") {
+  ADD_TESTS("division", leaves_are_halved_so_often, blocks_are_taken_over,
+            few_elements_suffice);
+  ADD_TESTS("grid", strips_have_their_points, grids_may_be_flat);
+}
