@@ -6,6 +6,7 @@ EXTRA_DIST += \
 	doc/architecture.md \
 	doc/compatibility.md \
 	doc/cost.md \
+	doc/distributed.md \
 	doc/fuzzing.md \
 	doc/hard-cases.md \
 	doc/field.md \

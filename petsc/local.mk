@@ -1,0 +1,36 @@
+# libhr2d-petsc, a library of its own over the public headers of libhr2d and over PETSc, and the
+# program hr2d-mpi; configure --with-petsc.
+EXTRA_DIST += petsc/libhr2d-petsc.map
+if WITH_PETSC
+lib_LTLIBRARIES += libhr2d-petsc.la
+libhr2d_petsc_la_CPPFLAGS = -DHR2DP_BUILDING -D_POSIX_C_SOURCE=200809L $(PUBLIC_CPPFLAGS) \
+	-I$(srcdir)/petsc/include $(PETSC_CFLAGS)
+libhr2d_petsc_la_CFLAGS = $(HR2D_CFLAGS)
+libhr2d_petsc_la_LIBADD = libhr2d.la $(PETSC_LIBS) $(MPI_LIBS) -lm
+libhr2d_petsc_la_LDFLAGS = -version-info 0:0:0 -no-undefined
+if HAVE_VERSION_SCRIPT
+libhr2d_petsc_la_LDFLAGS += -Wl,--version-script=$(srcdir)/petsc/libhr2d-petsc.map
+libhr2d_petsc_la_DEPENDENCIES = libhr2d.la petsc/libhr2d-petsc.map
+endif
+libhr2d_petsc_la_SOURCES = \
+	petsc/agree.c \
+	petsc/balance.c petsc/balance.h \
+	petsc/closure.c petsc/closure.h \
+	petsc/equation.c petsc/equation.h \
+	petsc/exact-sum.h \
+	petsc/exchange.c petsc/exchange.h \
+	petsc/exchange-shapes.c \
+	petsc/hr2dp.c petsc/hr2dp-impl.h \
+	petsc/krylov.c petsc/krylov.h \
+	petsc/memory.c \
+	petsc/power.c \
+	petsc/share.c petsc/share.h \
+	petsc/solve.c \
+	petsc/transport.c petsc/transport.h \
+	petsc/trees.c petsc/trees.h petsc/trees-impl.h \
+	petsc/units.c petsc/units.h
+include_HEADERS += petsc/include/hr2d-petsc.h
+pkgconfig_DATA += hr2d-petsc.pc
+else
+EXTRA_DIST += petsc/include/hr2d-petsc.h
+endif

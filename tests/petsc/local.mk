@@ -1,0 +1,22 @@
+# Tests of libhr2d-petsc on several ranks; without PETSc the scripts say so and are skipped.
+PETSC_TESTS = tests/petsc/check-petsc.sh
+EXTRA_DIST += $(PETSC_TESTS) tests/petsc/ranks.sh
+TESTS += $(PETSC_TESTS)
+if WITH_PETSC
+RANKED = tests/petsc/check-ranks
+check_PROGRAMS += $(RANKED)
+tests_petsc_check_ranks_SOURCES = tests/petsc/check-ranks.c \
+	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h
+tests_petsc_check_ranks_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/petsc/include \
+	-I$(srcdir)/tests $(PETSC_CFLAGS)
+tests_petsc_check_ranks_LDADD = libhr2d-petsc.la libhr2d.la $(PETSC_LIBS) $(MPI_LIBS) -lm
+
+# These tests alone, without the programs of the others.
+check-petsc: $(RANKED)
+	@passed=0; failed=0; $(AM_TESTS_ENVIRONMENT) \
+	for test in $(PETSC_TESTS); do \
+	  if $(SHELL) $(srcdir)/$$test; then passed=$$((passed + 1)); else failed=$$((failed + 1)); fi; \
+	done; \
+	echo "$$passed passed, $$failed failed"; test $$failed = 0
+endif
+.PHONY: check-petsc

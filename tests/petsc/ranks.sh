@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# For the tests of several ranks: a folder of their own, and `ranks N PROGRAM...`, which starts
+# them.  A test is skipped if there is no PETSc, unless HR2D_NEED_PETSC is set.
+: "${HR2D_BUILDDIR:=.}" "${HR2D_SRCDIR:=.}" "${MPIEXEC:=mpirun}"
+programs=$HR2D_BUILDDIR/tests/petsc
+if [ ! -x "$programs/check-ranks" ]; then
+  echo "SKIP: built without PETSc; configure --with-petsc"
+  [ -n "${HR2D_NEED_PETSC-}" ] && exit 1
+  exit 77
+fi
+work=$(mktemp -d) || exit 99
+trap 'rm -rf "$work"' EXIT
+# Ranks share processors here, and a container may have no other user than root.
+OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
+OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
+OMP_NUM_THREADS=1
+export OMPI_ALLOW_RUN_AS_ROOT OMPI_ALLOW_RUN_AS_ROOT_CONFIRM OMPI_MCA_mpi_yield_when_idle
+export OMPI_MCA_rmaps_base_oversubscribe OMPI_MCA_btl_vader_single_copy_mechanism
+export OMP_NUM_THREADS
+
+ranks() { # ranks N COMMAND...
+  count=$1
+  shift
+  timeout 300 "$MPIEXEC" -n "$count" "$@"
+}
+failed=0
+check() { # check WHAT COMMAND...: the command succeeds
+  what=$1
+  shift
+  "$@" && return
+  echo "FAIL: $what"
+  failed=1
+}
