@@ -112,9 +112,9 @@ static PetscErrorCode find_rows(hr2dpi_transport *t, double *row) {
   hr2dp *p = t->p;
   const size_t leaves = p->trees.leaves, field = leaves * p->bands;
   double *one = hr2dpi_alloc(p, 2 * field, sizeof *one);
-  PetscCall(hr2dpi_agree(p, one ? HR2D_OK : HR2D_ENOMEM));
-  for (size_t k = 0; k < field; k++) one[k] = 1;
-  const PetscErrorCode failed = hr2dpi_transport_apply(t, one, one + field);
+  PetscErrorCode failed = hr2dpi_agree(p, one ? HR2D_OK : HR2D_ENOMEM);
+  for (size_t k = 0; k < field && !failed; k++) one[k] = 1;
+  if (!failed) failed = hr2dpi_transport_apply(t, one, one + field);
   for (size_t k = 0; k < leaves && !failed; k++) row[k] = one[field + k * p->bands];
   hr2dpi_free(p, one);
   PetscCall(failed);

@@ -178,26 +178,37 @@ static hr2d_status follow_all(shapes *s) {
   return status;
 }
 
-/* The halo from the answers, which come in the order of the shapes. */
-static PetscErrorCode make_halo(shapes *s) {
-  hr2dp *p = s->p;
-  PetscSFNode *remote = hr2dpi_alloc(p, s->needed, sizeof *remote);
-  PetscFunctionBegin;
-  PetscCall(hr2dpi_agree(p, remote ? HR2D_OK : HR2D_ENOMEM));
-  size_t k = 0;
-  for (int r = 0; r < p->ranks; r++)
+/* The answers come in the order of the shapes.  Returns how many there are. */
+static size_t read_answers(const shapes *s, PetscSFNode *remote) {
+  size_t count = 0;
+  for (int r = 0; r < s->p->ranks; r++)
     for (int at = 0; at < s->answers.count[r]; at += (int)sizeof(uint32_t)) {
       uint32_t element;
       memcpy(&element, s->answers.bytes + s->answers.start[r] + at, sizeof element);
-      remote[k++] = (PetscSFNode){r, (PetscInt)element};
+      remote[count++] = (PetscSFNode){r, (PetscInt)element};
     }
+  return count;
+}
+
+static PetscErrorCode set_halo(shapes *s, PetscSFNode *remote) {
+  PetscFunctionBegin;
+  hr2dp *p = s->p;
   const PetscInt elements = (PetscInt)hr2d_hierarchy_count(p->hierarchy).elements;
+  p->trees.halos = read_answers(s, remote);
   PetscCall(PetscSFCreate(p->comm, &p->trees.halo));
-  PetscCall(PetscSFSetGraph(p->trees.halo, elements, (PetscInt)k, s->mine, PETSC_COPY_VALUES,
-                            remote, PETSC_COPY_VALUES));
+  PetscCall(PetscSFSetGraph(p->trees.halo, elements, (PetscInt)p->trees.halos, s->mine,
+                            PETSC_COPY_VALUES, remote, PETSC_COPY_VALUES));
   PetscCall(PetscSFSetUp(p->trees.halo));
-  p->trees.halos = k;
-  hr2dpi_free(p, remote);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode make_halo(shapes *s) {
+  PetscFunctionBegin;
+  PetscSFNode *remote = hr2dpi_alloc(s->p, s->needed, sizeof *remote);
+  PetscErrorCode failed = hr2dpi_agree(s->p, remote ? HR2D_OK : HR2D_ENOMEM);
+  if (!failed) failed = set_halo(s, remote);
+  hr2dpi_free(s->p, remote);
+  PetscCall(failed);
   PetscFunctionReturn(0);
 }
 

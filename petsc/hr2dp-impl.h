@@ -65,7 +65,6 @@ struct hr2dp {
   hr2dp_counts counts;
   int directed;
   int refined;   /* there are links */
-  int broken;    /* memory was out when links were to be dropped */
   uint64_t hash; /* of the scene */
   hr2d_status status;
   char message[400];

@@ -178,9 +178,8 @@ static hr2d_status take_options(hr2dp *p, const hr2d_refine_options *given,
 static void start_again(hr2dp *p) {
   (void)hr2dpi_trees_clear(p);
   hr2dpi_share_clear(p);
-  p->refined = 0;
+  p->refined = p->units.placed = 0;
   p->counts = (hr2dp_counts){.struct_size = sizeof p->counts};
-  p->broken = hr2dpi_share_init(p) != HR2D_OK;
 }
 
 static PetscErrorCode refine(hr2dp *p, const hr2d_refine_options *options) {
@@ -196,8 +195,8 @@ PetscErrorCode hr2dp_refine(hr2dp *p, const hr2d_refine_options *given) {
   hr2d_refine_options options;
   hr2dpi_begin(p);
   PetscCall(hr2dpi_agree(p, take_options(p, given, &options)));
-  PetscCall(hr2dpi_agree(p, p->broken ? HR2D_ENOMEM : HR2D_OK));
-  const PetscErrorCode failed = refine(p, &options);
+  PetscErrorCode failed = hr2dpi_agree(p, p->links ? HR2D_OK : hr2dpi_share_init(p));
+  if (!failed) failed = refine(p, &options);
   if (failed) start_again(p);
   PetscCall(failed);
   PetscFunctionReturn(0);

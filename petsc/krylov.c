@@ -171,10 +171,11 @@ PetscErrorCode hr2dpi_krylov(const hr2dpi_krylov_system *system, const double *b
   hr2dp *p = system->p;
   state s = {.system = system, .bands = p->bands, .size = system->size * p->bands, .y = y};
   double *space = hr2dpi_alloc_zero(p, FIELDS * s.size + SCALARS * s.bands, sizeof *space);
-  PetscCall(hr2dpi_agree(p, space ? HR2D_OK : HR2D_ENOMEM));
-  for (size_t k = 0; k < FIELDS; k++) s.field[k] = space + k * s.size;
-  for (size_t k = 0; k < SCALARS; k++) s.scalar[k] = space + FIELDS * s.size + k * s.bands;
-  const PetscErrorCode failed = iterate(&s, b);
+  PetscErrorCode failed = hr2dpi_agree(p, space ? HR2D_OK : HR2D_ENOMEM);
+  for (size_t k = 0; k < FIELDS && !failed; k++) s.field[k] = space + k * s.size;
+  for (size_t k = 0; k < SCALARS && !failed; k++)
+    s.scalar[k] = space + FIELDS * s.size + k * s.bands;
+  if (!failed) failed = iterate(&s, b);
   hr2dpi_free(p, space);
   *residual = s.residual;
   *found = s.found;

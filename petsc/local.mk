@@ -24,6 +24,7 @@ libhr2d_petsc_la_SOURCES = \
 	petsc/krylov.c petsc/krylov.h \
 	petsc/memory.c \
 	petsc/power.c \
+	petsc/save.c \
 	petsc/share.c petsc/share.h \
 	petsc/solve.c \
 	petsc/transport.c petsc/transport.h \

@@ -21,16 +21,6 @@ static hr2d_status make_set(hr2dp *p, hr2d_hierarchy **hierarchy, hr2d_linkset *
   return status;
 }
 
-hr2d_status hr2dpi_share_init(hr2dp *p) {
-  hr2d_status status = make_set(p, &p->hierarchy, &p->links);
-  if (status || p->units.cut == 0) return status;
-  p->top = hr2dpi_alloc_zero(p, 1, sizeof *p->top);
-  if (!p->top) return HR2D_ENOMEM;
-  status = make_set(p, &p->top->hierarchy[0], &p->top->links[0]);
-  if (!status && p->rank == 0) status = make_set(p, &p->top->hierarchy[1], &p->top->links[1]);
-  return status;
-}
-
 void hr2dpi_share_clear(hr2dp *p) {
   hr2d_linkset_destroy(p->links);
   hr2d_hierarchy_destroy(p->hierarchy);
@@ -45,6 +35,17 @@ void hr2dpi_share_clear(hr2dp *p) {
   p->hierarchy = NULL;
   p->repeated = NULL;
   p->repeats = 0;
+}
+
+hr2d_status hr2dpi_share_init(hr2dp *p) {
+  hr2dpi_share_clear(p);
+  hr2d_status status = make_set(p, &p->hierarchy, &p->links);
+  if (status || p->units.cut == 0) return status;
+  p->top = hr2dpi_alloc_zero(p, 1, sizeof *p->top);
+  if (!p->top) return HR2D_ENOMEM;
+  status = make_set(p, &p->top->hierarchy[0], &p->top->links[0]);
+  if (!status && p->rank == 0) status = make_set(p, &p->top->hierarchy[1], &p->top->links[1]);
+  return status;
 }
 
 /* What rows take, counted at COARSER·ε.  A link there stands for several below. */

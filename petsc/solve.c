@@ -176,13 +176,11 @@ PetscErrorCode hr2dp_operator(hr2dp *p, const hr2d_solve_options *given, Mat *k)
   PetscCheck(p->refined, p->comm, PETSC_ERR_ARG_WRONGSTATE, "there was no refinement");
   PetscCall(hr2dpi_agree(p, take_options(p, given, &options)));
   hr2dpi_equation *s = hr2dpi_alloc_zero(p, 1, sizeof *s);
-  PetscCall(hr2dpi_agree(p, s ? HR2D_OK : HR2D_ENOMEM));
-  PetscErrorCode failed = hr2dpi_equation_init(s, p, &options);
+  PetscErrorCode failed = hr2dpi_agree(p, s ? HR2D_OK : HR2D_ENOMEM);
+  if (!failed) failed = hr2dpi_equation_init(s, p, &options);
   if (!failed) failed = make_shell(p, s, k);
-  if (failed) {
-    hr2dpi_equation_clear(s);
-    hr2dpi_free(p, s);
-  }
+  if (failed && s) hr2dpi_equation_clear(s);
+  if (failed) hr2dpi_free(p, s);
   PetscCall(failed);
   PetscFunctionReturn(0);
 }

@@ -15,7 +15,8 @@ hr2d_status hr2dpi_transport_init(hr2dpi_transport *t, hr2dp *p) {
   t->up = hr2dpi_alloc_zero(p, elements, p->bands * sizeof *t->up);
   t->bin = hr2dpi_alloc_zero(p, elements, p->bands * sizeof *t->bin);
   t->scale = hr2dpi_alloc(p, elements, sizeof *t->scale);
-  if (!t->up || !t->bin || !t->scale) return HR2D_ENOMEM;
+  t->above = hr2dpi_alloc(p, p->trees.tops, p->bands * sizeof *t->above);
+  if (!t->up || !t->bin || !t->scale || !t->above) return HR2D_ENOMEM;
   const hr2d_element *element = hr2d_hierarchy_elements(p->hierarchy);
   for (size_t e = 0; e < elements; e++) t->scale[e] = hr2dpi_bin_scale(element[e].length);
   return HR2D_OK;
@@ -27,6 +28,7 @@ void hr2dpi_transport_clear(hr2dpi_transport *t) {
   hr2dpi_free(p, t->up);
   hr2dpi_free(p, t->bin);
   hr2dpi_free(p, t->scale);
+  hr2dpi_free(p, t->above);
   if (t->send != t->receive) hr2dpi_free(p, t->send);
   hr2dpi_free(p, t->receive);
   hr2dpi_free(p, t->closure);
@@ -112,19 +114,15 @@ static void gather_links(hr2dpi_transport *t, int sends, double size) {
 /* Adds up bins of elements above the cut. */
 static PetscErrorCode add_top(hr2dpi_transport *t) {
   PetscFunctionBegin;
-  hr2dp *p = t->p;
+  const hr2dp *p = t->p;
   const size_t bands = p->bands, count = p->trees.tops;
-  if (count == 0) PetscFunctionReturn(0);
-  hr2dpi_bin *bin = hr2dpi_alloc(p, count, bands * sizeof *bin);
-  PetscCall(hr2dpi_agree(p, bin ? HR2D_OK : HR2D_ENOMEM));
   for (size_t k = 0; k < count; k++)
-    memcpy(bin + k * bands, t->bin + p->trees.top[k] * bands, bands * sizeof *bin);
-  const int failed =
-      MPI_Allreduce(MPI_IN_PLACE, bin, (int)(2 * count * bands), MPI_DOUBLE, MPI_SUM, p->comm);
+    memcpy(t->above + k * bands, t->bin + p->trees.top[k] * bands, bands * sizeof *t->above);
+  if (count > 0)
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, t->above, (int)(2 * count * bands), MPI_DOUBLE,
+                               MPI_SUM, p->comm));
   for (size_t k = 0; k < count; k++)
-    memcpy(t->bin + p->trees.top[k] * bands, bin + k * bands, bands * sizeof *bin);
-  hr2dpi_free(p, bin);
-  PetscCallMPI(failed);
+    memcpy(t->bin + p->trees.top[k] * bands, t->above + k * bands, bands * sizeof *t->above);
   PetscFunctionReturn(0);
 }
 

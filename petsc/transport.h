@@ -8,14 +8,15 @@
 
 typedef struct hr2dpi_transport {
   hr2dp *p;
-  double *up;      /* elements × bands: radiosity, then irradiance */
-  hr2dpi_bin *bin; /* elements × bands: power received */
-  double *scale;   /* per element: σ of bins for a radiosity of 1 */
-  double *receive; /* closure: factors per element for the push; NULL: light spreads evenly */
-  double *send;    /* the same for the pull; equal to `receive` unless links are directed */
-  double *closure; /* per own leaf: what roundings leave of its row sum; NULL for none */
-  double *sky;     /* per own leaf: form factor of the background; NULL for none */
-  double *mean;    /* per patch: this mean; NULL for none */
+  double *up;        /* elements × bands: radiosity, then irradiance */
+  hr2dpi_bin *bin;   /* elements × bands: power received */
+  hr2dpi_bin *above; /* those of elements above the cut, in their order */
+  double *scale;     /* per element: σ of bins for a radiosity of 1 */
+  double *receive;   /* closure: factors per element for the push; NULL: light spreads evenly */
+  double *send;      /* the same for the pull; equal to `receive` unless links are directed */
+  double *closure;   /* per own leaf: what roundings leave of its row sum; NULL for none */
+  double *sky;       /* per own leaf: form factor of the background; NULL for none */
+  double *mean;      /* per patch: this mean; NULL for none */
   uint64_t sweeps;
   uint64_t row_sums; /* leaves of this rank whose sums were integrated */
 } hr2dpi_transport;

@@ -137,11 +137,14 @@ static PetscErrorCode share_out(hr2dp *p, const hr2dpi_places *at) {
   PetscFunctionBegin;
   if (p->units.placed || p->ranks == 1 || p->units.count > INT_MAX) PetscFunctionReturn(0);
   double *weight = hr2dpi_alloc_zero(p, p->units.count, sizeof *weight);
-  PetscCall(hr2dpi_agree(p, weight ? HR2D_OK : HR2D_ENOMEM));
-  weigh_units(p, at, weight);
-  PetscCall(hr2dpi_max_doubles(p, weight, (int)p->units.count));
-  hr2dpi_ranges_cut(p, weight, &p->units.leaves);
+  PetscErrorCode failed = hr2dpi_agree(p, weight ? HR2D_OK : HR2D_ENOMEM);
+  if (!failed) {
+    weigh_units(p, at, weight);
+    failed = hr2dpi_max_doubles(p, weight, (int)p->units.count);
+  }
+  if (!failed) hr2dpi_ranges_cut(p, weight, &p->units.leaves);
   hr2dpi_free(p, weight);
+  PetscCall(failed);
   PetscFunctionReturn(0);
 }
 

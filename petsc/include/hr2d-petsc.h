@@ -217,6 +217,35 @@ HR2DP_API PetscErrorCode hr2dp_solve(hr2dp *p, const hr2d_solve_options *options
  */
 HR2DP_API PetscErrorCode hr2dp_averages(hr2dp *p, Vec v, double *average);
 
+/**
+ * Saves B, so that a run can go on from there on any number of ranks. Links are not saved: they
+ * are made again as fast as they would be read.
+ * @param p       refined
+ * @param b       of hr2dp_vector()
+ * @param viewer  PETSCVIEWERBINARY or PETSCVIEWERHDF5, open for writing
+ * @return 0 or a failure of PETSc
+ *
+ * 8 bytes for each leaf and band. The bytes do not depend on the number of ranks.
+ */
+HR2DP_API PetscErrorCode hr2dp_save(hr2dp *p, Vec b, PetscViewer viewer);
+
+/**
+ * Loads what hr2dp_save() has saved: refines to the ε of the state, and gives its B.
+ * @param p        without links; of the scene, the oracle and the policy of the state
+ * @param options  as for the refinements that led to the state, or NULL; `epsilon` does not
+ *                 matter
+ * @param viewer   of the same kind, open for reading
+ * @param b        receives B, to start the next hr2dp_solve() with; the caller destroys it
+ * @param epsilon  receives the ε of the state; may be NULL
+ * @return 0; PETSC_ERR_LIB with HR2D_EINVAL for another scene, oracle, policy or other options,
+ *         HR2D_ESYNTAX for a damaged state, or a failure of hr2dp_refine(); or a failure of
+ * PETSc
+ *
+ * A sum of hashes detects damage of B.
+ */
+HR2DP_API PetscErrorCode hr2dp_load(hr2dp *p, const hr2d_refine_options *options,
+                                    PetscViewer viewer, Vec *b, double *epsilon);
+
 #ifdef __cplusplus
 }
 #endif

@@ -226,7 +226,7 @@ int main(int argc, char **argv) {
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
   for (size_t k = 0; petsc_case_at(k); k++) {
     if (argc > 1 && (size_t)atoi(argv[1]) != k) continue;
-    hr2d_scene *scene = petsc_case_scene(petsc_case_at(k));
+    hr2d_scene *scene = petsc_case_scene(petsc_case_at(k), NULL);
     PetscCheck(scene, PETSC_COMM_SELF, PETSC_ERR_LIB, "%s: no scene", petsc_case_at(k)->name);
     PetscCall(run(petsc_case_at(k), scene, &failed));
     hr2d_scene_destroy(scene);

@@ -1,15 +1,25 @@
 # Tests of libhr2d-petsc on several ranks; without PETSc the scripts say so and are skipped.
-PETSC_TESTS = tests/petsc/check-petsc.sh
+PETSC_TESTS = tests/petsc/check-petsc.sh tests/petsc/check-failures.sh \
+	tests/petsc/check-state.sh
 EXTRA_DIST += $(PETSC_TESTS) tests/petsc/ranks.sh
 TESTS += $(PETSC_TESTS)
 if WITH_PETSC
-RANKED = tests/petsc/check-ranks
+RANKED = tests/petsc/check-rank-faults tests/petsc/check-rank-state tests/petsc/check-ranks
 check_PROGRAMS += $(RANKED)
+RANKED_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/petsc/include -I$(srcdir)/tests $(PETSC_CFLAGS)
+RANKED_LDADD = libhr2d-petsc.la libhr2d.la $(PETSC_LIBS) $(MPI_LIBS) -lm
 tests_petsc_check_ranks_SOURCES = tests/petsc/check-ranks.c \
 	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h
-tests_petsc_check_ranks_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/petsc/include \
-	-I$(srcdir)/tests $(PETSC_CFLAGS)
-tests_petsc_check_ranks_LDADD = libhr2d-petsc.la libhr2d.la $(PETSC_LIBS) $(MPI_LIBS) -lm
+tests_petsc_check_ranks_CPPFLAGS = $(RANKED_CPPFLAGS)
+tests_petsc_check_ranks_LDADD = $(RANKED_LDADD)
+tests_petsc_check_rank_faults_SOURCES = tests/petsc/check-rank-faults.c \
+	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h
+tests_petsc_check_rank_faults_CPPFLAGS = $(RANKED_CPPFLAGS)
+tests_petsc_check_rank_faults_LDADD = $(RANKED_LDADD)
+tests_petsc_check_rank_state_SOURCES = tests/petsc/check-rank-state.c \
+	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h
+tests_petsc_check_rank_state_CPPFLAGS = $(RANKED_CPPFLAGS)
+tests_petsc_check_rank_state_LDADD = $(RANKED_LDADD)
 
 # These tests alone, without the programs of the others.
 check-petsc: $(RANKED)

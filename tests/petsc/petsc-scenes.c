@@ -117,9 +117,15 @@ const petsc_case *petsc_case_at(size_t k) {
   return k < sizeof cases / sizeof *cases ? &cases[k] : NULL;
 }
 
-hr2d_scene *petsc_case_scene(const petsc_case *c) {
+const petsc_case *petsc_case_named(const char *name) {
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+    if (!strcmp(cases[k].name, name)) return &cases[k];
+  return NULL;
+}
+
+hr2d_scene *petsc_case_scene(const petsc_case *c, const hr2d_allocator *hooks) {
   hr2d_scene *scene = NULL;
-  hr2d_status status = hr2d_scene_create(NULL, &scene);
+  hr2d_status status = hr2d_scene_create(hooks, &scene);
   if (!status) status = c->add(scene);
   if (!status) status = hr2d_scene_commit(scene);
   if (!status) return scene;

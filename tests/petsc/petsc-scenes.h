@@ -20,7 +20,10 @@ typedef struct petsc_case {
 /* The k-th case, or NULL behind the last. */
 const petsc_case *petsc_case_at(size_t k);
 
-/* Its committed scene, or NULL. */
-hr2d_scene *petsc_case_scene(const petsc_case *c);
+/* The case of that name, or NULL. */
+const petsc_case *petsc_case_named(const char *name);
+
+/* Its committed scene, or NULL; hooks as of hr2d_scene_create(). */
+hr2d_scene *petsc_case_scene(const petsc_case *c, const hr2d_allocator *hooks);
 
 #endif

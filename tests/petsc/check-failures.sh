@@ -1,0 +1,25 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# An allocation that fails on one of two ranks makes both return; valgrind finds nothing wrong on
+# two ranks.
+# shellcheck disable=SC2154 # what ranks.sh sets
+. "${HR2D_SRCDIR:=.}/tests/petsc/ranks.sh"
+ranks 2 "$programs/check-rank-faults" >"$work/out" 2>&1
+status=$?
+check "all ranks return: $(cat "$work/out")" [ $status -eq 0 ]
+check "allocations did fail: $(cat "$work/out")" [ "$(grep -c 'allocations failed' "$work/out")" = 2 ]
+
+# ---- memory of two ranks; what MPI and PETSc keep is their own
+if command -v valgrind >/dev/null; then
+  # Case 13 has walls, bands, a sky and a halo.
+  "$HR2D_BUILDDIR/libtool" --mode=execute timeout 300 "$MPIEXEC" -n 2 valgrind --quiet \
+    --suppressions=/usr/share/openmpi/openmpi-valgrind.supp --error-exitcode=0 \
+    "$programs/check-ranks" 13 >"$work/out" 2>"$work/valgrind"
+  check "the case ran under valgrind: $(cat "$work/valgrind")" grep -q bits "$work/out"
+  check "no error of this library: $(grep -B 3 -A 12 'hr2d' "$work/valgrind" | head -40)" \
+    [ "$(grep -c 'hr2dp\|libhr2d' "$work/valgrind")" = 0 ]
+else
+  echo "no valgrind: memory of two ranks is not looked at"
+  [ -z "${HR2D_NEED_PETSC-}" ] || failed=1
+fi
+exit $failed
