@@ -1,7 +1,7 @@
 # Tests of libhr2d-petsc on several ranks; without PETSc the scripts say so and are skipped.
 PETSC_TESTS = tests/petsc/check-petsc.sh tests/petsc/check-failures.sh \
-	tests/petsc/check-state.sh
-EXTRA_DIST += $(PETSC_TESTS) tests/petsc/ranks.sh
+	tests/petsc/check-program.sh tests/petsc/check-state.sh
+EXTRA_DIST += $(PETSC_TESTS) tests/petsc/ranks.sh tests/petsc/same-averages.py
 TESTS += $(PETSC_TESTS)
 if WITH_PETSC
 RANKED = tests/petsc/check-rank-faults tests/petsc/check-rank-state tests/petsc/check-ranks
@@ -22,7 +22,7 @@ tests_petsc_check_rank_state_CPPFLAGS = $(RANKED_CPPFLAGS)
 tests_petsc_check_rank_state_LDADD = $(RANKED_LDADD)
 
 # These tests alone, without the programs of the others.
-check-petsc: $(RANKED)
+check-petsc: $(RANKED) hr2d-mpi tools/hr2d
 	@passed=0; failed=0; $(AM_TESTS_ENVIRONMENT) \
 	for test in $(PETSC_TESTS); do \
 	  if $(SHELL) $(srcdir)/$$test; then passed=$$((passed + 1)); else failed=$$((failed + 1)); fi; \

@@ -5,6 +5,11 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+/* Another program may use these files. */
+#ifndef PROGRAM_NAME
+#define PROGRAM_NAME "hr2d"
+#endif
+
 enum { LINE = 2048 };
 
 static void one_line(char *text) {
@@ -21,7 +26,7 @@ int complain(const char *where, const char *format, ...) {
   snprintf(place, sizeof place, "%s", where ? where : "");
   one_line(place);
   one_line(line);
-  fprintf(stderr, "hr2d: %s%s%s\n", place, where ? ": " : "", line);
+  fprintf(stderr, PROGRAM_NAME ": %s%s%s\n", place, where ? ": " : "", line);
   return EXIT_FAILED;
 }
 
@@ -32,7 +37,7 @@ int complain_usage(const char *format, ...) {
   vsnprintf(line, sizeof line, format, arguments);
   va_end(arguments);
   one_line(line);
-  fprintf(stderr, "hr2d: %s; try 'hr2d --help'\n", line);
+  fprintf(stderr, PROGRAM_NAME ": %s; try '" PROGRAM_NAME " --help'\n", line);
   return EXIT_USAGE;
 }
 

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The program hr2d-mpi: all ranks run it, and rank 0 reads, writes and speaks. */
+#ifndef HR2D_PETSC_PROGRAM_H
+#define HR2D_PETSC_PROGRAM_H
+
+#include <hr2d-petsc.h>
+
+#include "cli/options.h"
+#include "output/progress.h"
+
+typedef struct job {
+  const options *options;
+  int rank, ranks;
+  hr2d_scene *scene;
+  size_t cuts; /* of --split-crossings */
+  hr2dp *p;
+  Vec b, h;
+  hr2dp_report report; /* of the last stage, but counters over all stages */
+  double resumed;      /* ε of the state that the run started from; 0: none */
+  double start, refine_seconds, solve_seconds;
+} job;
+
+/* scene.c: rank 0 reads the scene, the others get it.  Returns 0 or the exit status, the same
+   on all ranks. */
+int job_load_scene(job *j);
+
+/* run.c: refines and solves.  Returns 0 or the exit status. */
+int job_run(job *j);
+
+/* report.c: the table and --json, by rank 0.  Returns 0 or the exit status, the same on all
+   ranks. */
+int job_report(job *j);
+
+/* Gives all ranks the status of rank 0. */
+int job_agree(int status);
+
+/* A call of the library failed: rank 0 says why.  Returns the exit status. */
+int job_complain(const job *j, PetscErrorCode code);
+
+#endif

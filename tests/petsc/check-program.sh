@@ -1,0 +1,76 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# hr2d-mpi solve has the result of hr2d solve, says what is wrong once, keeps its state, and ends
+# within 10 seconds when a rank is killed; the run goes on from its last file.
+#
+# Environment: HR2D_PROGRAM, the program hr2d.
+# shellcheck disable=SC2154 # what ranks.sh sets
+. "${HR2D_SRCDIR:=.}/tests/petsc/ranks.sh"
+: "${HR2D_PROGRAM:=$HR2D_BUILDDIR/tools/hr2d}"
+program=$HR2D_BUILDDIR/hr2d-mpi
+scenes=$HR2D_SRCDIR/examples/scenes
+
+for scene in lit-room solar-panels partition furnace-enclosure; do
+  file=$scenes/$scene.geojson
+  "$HR2D_PROGRAM" solve "$file" --no-error --quiet --eps 0.1 --json "$work/one" 2>"$work/errors"
+  ranks 3 "$program" solve "$file" --quiet --eps 0.1 --json "$work/three" 2>>"$work/errors"
+  check "$scene as hr2d solve: $(cat "$work/errors")" \
+    python3 "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/three"
+done
+"$HR2D_PROGRAM" solve "$scenes/lit-room.geojson" --no-error --quiet --eps 0.2 --json "$work/one"
+check "a difference would be found" \
+  eval '! python3 "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/three" 2>"$work/out"'
+
+# ---- what is wrong is said by one rank
+says() { # says STATUS TEXT ARGUMENTS...: mpirun adds lines of its own
+  wanted=$1 text=$2
+  shift 2
+  ranks 2 "$program" "$@" >"$work/out" 2>"$work/errors"
+  status=$?
+  check "$*: status $wanted; was $status" [ $status -eq "$wanted" ]
+  check "$*: says '$text' once: $(cat "$work/errors")" \
+    [ "$(grep -c -e "^hr2d-mpi: .*$text" "$work/errors")" = 1 ]
+}
+room=$scenes/lit-room.geojson
+says 2 "unknown option '--epss'" solve "$room" --epss 1
+says 2 "the only command is solve" info "$room"
+says 2 "has no --order yet" solve "$room" --order 4
+says 1 "cannot open" solve "$work/nothing"
+says 1 "more than 100 links are needed" solve "$room" --max-links 100
+says 1 "needs the brightness of a former solution" \
+  solve "$room" --oracle bf --multigrid 0.5:0.5 --eps 0.1
+
+# ---- a state, and another scene
+state=$work/state
+ranks 2 "$program" solve "$room" --quiet --multigrid 0.8:0.5 --eps 0.2 --state "$state"
+check "a state is kept" [ -s "$state" ]
+ranks 3 "$program" solve "$room" --eps 0.1 --state "$state" --json "$work/on" >"$work/out"
+check "a run goes on from it" grep -q "from epsilon 0.2" "$work/out"
+"$HR2D_PROGRAM" solve "$room" --no-error --quiet --multigrid 0.2:0.5 --eps 0.1 --json "$work/one"
+check "to the result of a run without a stop" \
+  python3 "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/on"
+says 1 "the state is of another scene" solve "$scenes/par-near.geojson" --state "$state"
+
+# ---- a rank that is killed
+plates=$scenes/par-near.geojson
+"$MPIEXEC" -n 2 "$program" solve "$plates" --quiet --multigrid 1:0.5 --eps 0.001 \
+  --state "$work/killed" >"$work/out" 2>"$work/errors" &
+job=$!
+waited=0
+until [ -s "$work/killed" ] || [ $waited -ge 300 ]; do
+  sleep 0.1
+  waited=$((waited + 1))
+done
+victim=$(ps -o pid=,comm= --ppid $job | awk '/hr2d-mpi/ { print $1; exit }')
+check "the job runs" [ -n "$victim" ]
+begin=$(date +%s)
+kill -9 "$victim"
+wait $job
+status=$?
+end=$(date +%s)
+check "the job ends; was $status" [ $status -ne 0 ]
+check "within 10 seconds; took $((end - begin))" [ $((end - begin)) -le 10 ]
+check "with a message: $(cat "$work/errors")" grep -q "signal 9" "$work/errors"
+ranks 1 "$program" solve "$plates" --eps 0.1 --state "$work/killed" >"$work/out"
+check "and the run goes on from its last file" grep -q "from epsilon" "$work/out"
+exit $failed
