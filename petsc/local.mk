@@ -31,6 +31,7 @@ libhr2d_petsc_la_SOURCES = \
 	petsc/trees.c petsc/trees.h petsc/trees-impl.h \
 	petsc/units.c petsc/units.h
 bin_PROGRAMS += hr2d-mpi
+dist_man_MANS += petsc/hr2d-mpi.1
 hr2d_mpi_CPPFLAGS = -D_POSIX_C_SOURCE=200809L -DPROGRAM_NAME='"hr2d-mpi"' $(PUBLIC_CPPFLAGS) \
 	-I$(srcdir)/petsc/include -I$(srcdir)/petsc/program -I$(srcdir)/tools $(PETSC_CFLAGS) \
 	$(GSL_CFLAGS) $(JANSSON_CFLAGS)
@@ -60,5 +61,5 @@ hr2d_mpi_SOURCES = \
 include_HEADERS += petsc/include/hr2d-petsc.h
 pkgconfig_DATA += hr2d-petsc.pc
 else
-EXTRA_DIST += petsc/include/hr2d-petsc.h
+EXTRA_DIST += petsc/include/hr2d-petsc.h petsc/hr2d-mpi.1
 endif

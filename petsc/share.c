@@ -250,15 +250,25 @@ PetscErrorCode hr2dpi_share_refine(hr2dp *p, const hr2d_refine_options *options)
   PetscFunctionReturn(0);
 }
 
-size_t hr2dpi_share_read(const hr2dp *p, uint64_t *next, hr2d_link *link, size_t room) {
-  const uint64_t links = hr2d_linkset_size(p->links);
-  size_t count = 0, skip = 0;
-  while (skip < p->repeats && p->repeated[skip] < *next) skip++;
-  for (; count < room && *next < links; ++*next) {
-    if (skip < p->repeats && p->repeated[skip] == *next)
+/* Repeated links are few: they are taken out of what was read. */
+static size_t drop_repeated(const hr2dp *p, uint64_t first, hr2d_link *link, size_t count) {
+  size_t kept = 0, skip = 0;
+  while (skip < p->repeats && p->repeated[skip] < first) skip++;
+  if (skip == p->repeats || p->repeated[skip] >= first + count) return count;
+  for (size_t k = 0; k < count; k++)
+    if (skip < p->repeats && p->repeated[skip] == first + k)
       skip++;
     else
-      link[count++] = hr2d_linkset_get(p->links, *next);
+      link[kept++] = link[k];
+  return kept;
+}
+
+size_t hr2dpi_share_read(const hr2dp *p, uint64_t *next, hr2d_link *link, size_t room) {
+  size_t kept = 0;
+  while (kept == 0 && *next < hr2d_linkset_size(p->links)) {
+    const size_t count = hr2d_linkset_read(p->links, *next, room, link);
+    kept = drop_repeated(p, *next, link, count);
+    *next += count;
   }
-  return count;
+  return kept;
 }

@@ -94,21 +94,48 @@ static inline void add(hr2dpi_transport *t, uint32_t to, uint32_t from, double a
     hr2dpi_bin_add(&t->bin[to * bands + b], scale, area * t->up[from * bands + b]);
 }
 
+static void add_links(hr2dpi_transport *t, const hr2d_link *link, size_t count, int sends,
+                      double size) {
+  const hr2dp *p = t->p;
+  const double unit = 1 / hr2d_scene_unit(p->scene); /* a power of two */
+  for (size_t k = 0; k < count; k++) {
+    const hr2d_pair pair = link[k].pair;
+    const double area = link[k].exchange_area * unit;
+    if (!p->directed || !sends) add(t, pair.first, pair.second, area, size);
+    if (!p->directed || sends) add(t, pair.second, pair.first, area, size);
+  }
+}
+
+/* The same for one band and both ways.  The compiler keeps bins of one link in registers; terms
+   may be added in any order. */
+static void add_both_ways(hr2dpi_transport *t, const hr2d_link *link, size_t count,
+                          double size) {
+  const double unit = 1 / hr2d_scene_unit(t->p->scene);
+  const double *restrict up = t->up, *restrict scale = t->scale;
+  hr2dpi_bin *restrict bin = t->bin;
+  for (size_t k = 0; k < count; k++) {
+    const uint32_t i = link[k].pair.first, j = link[k].pair.second;
+    const double area = link[k].exchange_area * unit;
+    hr2dpi_bin to_i = bin[i], to_j = bin[j];
+    hr2dpi_bin_add(&to_i, scale[i] * size, area * up[j]);
+    hr2dpi_bin_add(&to_j, scale[j] * size, area * up[i]);
+    bin[i] = to_i;
+    bin[j] = to_j;
+  }
+}
+
 /* Gathers over own links; with `sends`, the other way over directed links. */
 static void gather_links(hr2dpi_transport *t, int sends, double size) {
   const hr2dp *p = t->p;
-  const double unit = 1 / hr2d_scene_unit(p->scene); /* a power of two */
   hr2d_link link[BATCH];
   uint64_t next = 0;
   size_t count;
   memset(t->bin, 0, p->trees.elements * p->bands * sizeof *t->bin);
   while ((count = hr2dpi_share_read(p, &next, link, BATCH)) > 0)
-    for (size_t k = 0; k < count; k++) {
-      const hr2d_pair pair = link[k].pair;
-      const double area = link[k].exchange_area * unit;
-      if (!p->directed || !sends) add(t, pair.first, pair.second, area, size);
-      if (!p->directed || sends) add(t, pair.second, pair.first, area, size);
-    }
+    if (p->bands == 1 && !p->directed)
+      add_both_ways(t, link, count, size);
+    else
+      add_links(t, link, count, sends, size);
 }
 
 /* Adds up bins of elements above the cut. */

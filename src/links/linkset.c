@@ -65,6 +65,22 @@ hr2d_link hr2d_linkset_get(const hr2d_linkset *links, uint64_t index) {
   return link;
 }
 
+size_t hr2d_linkset_read(const hr2d_linkset *links, uint64_t first, size_t count,
+                         hr2d_link *link) {
+  const double unit = hr2d_scene_unit(links->hierarchy->scene);
+  const hr2di_store *store = &links->store;
+  hr2d_link room[HR2DI_READ_LINKS];
+  const uint64_t rest = first < store->count ? store->count - first : 0;
+  if (count > rest) count = (size_t)rest;
+  for (size_t at = 0, some; at < count; at += some) {
+    some = count - at;
+    const hr2d_link *from = hr2di_store_read(store, first + at, &some, room);
+    for (size_t k = 0; k < some; k++)
+      link[at + k] = (hr2d_link){from[k].pair, from[k].exchange_area * unit};
+  }
+  return count;
+}
+
 int hr2d_linkset_directed(const hr2d_linkset *links) {
   return links->directed;
 }

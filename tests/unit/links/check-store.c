@@ -100,6 +100,30 @@ static double radiosity(hr2d_linkset *links) {
   return b;
 }
 
+/* Links of hr2d_linkset_read() are those of hr2d_linkset_get(), wherever a piece begins and
+ * ends. */
+static void read_pieces(const hr2d_linkset *links) {
+  static const size_t sizes[] = {1, 7, 255, 4096, 5000};
+  const uint64_t count = hr2d_linkset_size(links);
+  hr2d_link link[5001];
+  for (size_t m = 0; m < sizeof sizes / sizeof *sizes; m++)
+    for (uint64_t first = 0, next; first <= count; first = next) {
+      const size_t wanted = sizes[m];
+      link[wanted].exchange_area = -1;
+      const size_t had = hr2d_linkset_read(links, first, wanted, link);
+      ck_assert_uint_eq(had, count - first < wanted ? count - first : wanted);
+      ck_assert(link[wanted].exchange_area == -1);
+      for (size_t k = 0; k < had; k++) {
+        const hr2d_link one = hr2d_linkset_get(links, first + k);
+        ck_assert(same(&one, &link[k]));
+      }
+      next = first + (first / 3000 % 2 ? 2999 : wanted); /* from the middle of pieces, too */
+      if (m < 2 && first == 0) next = 4096 - wanted + 1; /* few of the short ones */
+      if (m < 2 && first > 4096) next = first + count / 10;
+    }
+  ck_assert_uint_eq(hr2d_linkset_read(links, count + 5, 1, link), 0);
+}
+
 /* Two patches: 10⁹ links would take 10.7 GB, and the places in the store of larger numbers of
    elements take no more. */
 START_TEST(packing_changes_no_digit_and_saves_memory) {
@@ -114,6 +138,7 @@ START_TEST(packing_changes_no_digit_and_saves_memory) {
     options.epsilon = 1. / 200;
     ck_assert_int_eq(hr2d_refine(t[k].links, &options), HR2D_OK);
     ck_assert_int_eq(hr2d_linkset_validate(t[k].links), HR2D_OK);
+    read_pieces(t[k].links);
   }
   const uint64_t count = hr2d_linkset_size(t[0].links);
   ck_assert_uint_eq(count, hr2d_linkset_size(t[1].links));
