@@ -22,14 +22,6 @@ static PetscErrorCode set_missing(hr2dpi_balance *b, hr2dpi_transport *t, double
   PetscFunctionReturn(0);
 }
 
-/* Numbers components from 0 by their first patches; returns how many there are. */
-static size_t number_all(const hr2dp *p, const hr2dpi_exchange *x, uint32_t *number) {
-  size_t count = 0;
-  for (size_t k = 0; k < p->patches; k++)
-    number[k] = x->component[k] == k ? (uint32_t)count++ : number[x->component[k]];
-  return count;
-}
-
 /* Adds up lengths and what is missing of each component: sum[2c] and sum[2c + 1]. */
 static void tally(const hr2dpi_balance *b, const uint32_t *number, hr2dpi_sum *sum) {
   for (size_t k = 0; k < b->t->p->trees.leaves; k++) {
@@ -41,7 +33,7 @@ static void tally(const hr2dpi_balance *b, const uint32_t *number, hr2dpi_sum *s
 }
 
 /* Keeps the balanced components; m is 0 in closed ones and in others. */
-static void choose(hr2dpi_balance *b, size_t all, uint32_t *number, const hr2dpi_sum *sum,
+static void choose(hr2dpi_balance *b, size_t all, const uint32_t *number, const hr2dpi_sum *sum,
                    uint32_t *kept, unsigned char *closed) {
   for (size_t c = 0; c < all; c++) {
     const double length = hr2dpi_sum_total(&sum[2 * c]);
@@ -57,20 +49,20 @@ static void choose(hr2dpi_balance *b, size_t all, uint32_t *number, const hr2dpi
 }
 
 /* Collective parts are only entered together. */
-static PetscErrorCode find_by(hr2dpi_balance *b, hr2dpi_transport *t, size_t all,
-                              uint32_t *number, double *one) {
+static PetscErrorCode find_by(hr2dpi_balance *b, hr2dpi_transport *t, const hr2dpi_exchange *x,
+                              double *one) {
   PetscFunctionBegin;
   hr2dp *p = t->p;
   PetscCall(set_missing(b, t, one));
-  hr2dpi_sum *sum = hr2dpi_alloc_zero(p, 2 * all, sizeof *sum);
-  uint32_t *kept = hr2dpi_alloc(p, all, sizeof *kept);
-  unsigned char *closed = hr2dpi_alloc(p, all, 1);
+  hr2dpi_sum *sum = hr2dpi_alloc_zero(p, 2 * x->count, sizeof *sum);
+  uint32_t *kept = hr2dpi_alloc(p, x->count, sizeof *kept);
+  unsigned char *closed = hr2dpi_alloc(p, x->count, 1);
   PetscErrorCode failed = hr2dpi_agree(p, sum && kept && closed ? HR2D_OK : HR2D_ENOMEM);
   if (!failed) {
-    tally(b, number, sum);
-    failed = hr2dpi_sum_all(p, sum, 2 * all);
+    tally(b, x->number, sum);
+    failed = hr2dpi_sum_all(p, sum, 2 * x->count);
   }
-  if (!failed) choose(b, all, number, sum, kept, closed);
+  if (!failed) choose(b, x->count, x->number, sum, kept, closed);
   hr2dpi_free(p, sum);
   hr2dpi_free(p, kept);
   hr2dpi_free(p, closed);
@@ -81,14 +73,12 @@ static PetscErrorCode find_by(hr2dpi_balance *b, hr2dpi_transport *t, size_t all
 static PetscErrorCode find(hr2dpi_balance *b, hr2dpi_transport *t, const hr2dpi_exchange *x) {
   PetscFunctionBegin;
   hr2dp *p = t->p;
-  uint32_t *number = hr2dpi_alloc(p, p->patches, sizeof *number);
   double *one = hr2dpi_alloc(p, 2 * p->trees.leaves, p->bands * sizeof *one);
   b->component = hr2dpi_alloc(p, p->trees.leaves, sizeof *b->component);
   b->missing = hr2dpi_alloc(p, p->trees.leaves, sizeof *b->missing);
-  const int room = number && one && b->component && b->missing;
+  const int room = one && b->component && b->missing;
   PetscErrorCode failed = hr2dpi_agree(p, room ? HR2D_OK : HR2D_ENOMEM);
-  if (!failed) failed = find_by(b, t, number_all(p, x, number), number, one);
-  hr2dpi_free(p, number);
+  if (!failed) failed = find_by(b, t, x, one);
   hr2dpi_free(p, one);
   PetscCall(failed);
   PetscFunctionReturn(0);

@@ -62,6 +62,8 @@ PetscErrorCode hr2dpi_equation_init(hr2dpi_equation *s, hr2dp *p,
   PetscCall(hr2dpi_agree(p, reserve(s)));
   PetscCall(hr2dpi_exchange_find(&s->exchange, p));
   PetscCall(hr2dpi_agree(p, hr2dpi_exchange_check(&s->exchange, p)));
+  PetscCall(hr2dpi_agree(
+      p, hr2dpi_transport_join(&s->transport, s->exchange.number, s->exchange.count)));
   PetscCall(hr2dpi_closure_set(&s->transport, &s->exchange, closure));
   if (s->transport.closure && !p->directed)
     PetscCall(hr2dpi_balance_init(&s->balance, &s->transport, &s->exchange));

@@ -78,11 +78,14 @@ typedef struct hr2dpi_bin {
 
 #define HR2DPI_TAIL 0x1p-24
 
+/* Below this σ the rests would be denormal. */
+#define HR2DPI_LEAST_SCALE 0x1.8p-900
+
 /* σ for sums with Σ|t| ≤ size. */
 static inline double hr2dpi_bin_scale(double size) {
   int exponent;
   (void)frexp(size, &exponent);
-  return ldexp(1.5, exponent > -900 ? exponent + 1 : -900);
+  return fmax(ldexp(1.5, exponent + 1), HR2DPI_LEAST_SCALE);
 }
 
 static inline void hr2dpi_bin_add(hr2dpi_bin *bin, double scale, double term) {

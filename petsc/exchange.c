@@ -54,11 +54,13 @@ static hr2d_status reserve(hr2dpi_exchange *x, const hr2dp *p, hr2dpi_bin **bin,
   x->length = hr2dpi_alloc(p, p->patches, sizeof *x->length);
   x->defect = hr2dpi_alloc(p, p->patches, sizeof *x->defect);
   x->component = hr2dpi_alloc(p, p->patches, sizeof *x->component);
+  x->number = hr2dpi_alloc(p, p->patches, sizeof *x->number);
   x->closed = hr2dpi_alloc(p, p->patches, 1);
   x->linked = hr2dpi_alloc_zero(p, p->patches, 1);
   *bin = hr2dpi_alloc_zero(p, p->patches, sizeof **bin);
   *other = hr2dpi_alloc(p, p->patches, sizeof **other);
-  if (!x->length || !x->defect || !x->component || !x->closed || !x->linked || !*bin || !*other)
+  if (!x->length || !x->defect || !x->component || !x->number || !x->closed || !x->linked ||
+      !*bin || !*other)
     return HR2D_ENOMEM;
   for (uint32_t k = 0; k < p->patches; k++) {
     x->length[k] = element[k].length;
@@ -82,6 +84,12 @@ static PetscErrorCode join_ranks(hr2dpi_exchange *x, hr2dp *p, uint32_t *other) 
   PetscFunctionReturn(0);
 }
 
+/* The number of a component is lower than those of components with later first patches. */
+static void number_components(hr2dpi_exchange *x, const hr2dp *p) {
+  for (size_t k = 0; k < p->patches; k++)
+    x->number[k] = x->component[k] == k ? (uint32_t)x->count++ : x->number[x->component[k]];
+}
+
 static PetscErrorCode add_ranks(hr2dpi_exchange *x, hr2dp *p, hr2dpi_bin *bin) {
   PetscFunctionBegin;
   PetscCallMPI(
@@ -102,6 +110,7 @@ static PetscErrorCode find_by(hr2dpi_exchange *x, hr2dp *p, hr2d_status status, 
   read_links(x, p, bin);
   PetscCall(add_ranks(x, p, bin));
   PetscCall(join_ranks(x, p, other));
+  number_components(x, p);
   PetscFunctionReturn(0);
 }
 
@@ -122,6 +131,7 @@ void hr2dpi_exchange_clear(hr2dpi_exchange *x, const hr2dp *p) {
   hr2dpi_free(p, x->length);
   hr2dpi_free(p, x->defect);
   hr2dpi_free(p, x->component);
+  hr2dpi_free(p, x->number);
   hr2dpi_free(p, x->closed);
   hr2dpi_free(p, x->linked);
 }

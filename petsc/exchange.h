@@ -10,6 +10,8 @@ typedef struct hr2dpi_exchange {
   double *length;        /* per patch, in units of the scene */
   double *defect;        /* per patch: A − Σ AF over its links */
   uint32_t *component;   /* per patch: the first patch that it exchanges light with */
+  uint32_t *number;      /* per patch: its component, numbered from 0 by their first patches */
+  size_t count;          /* of components */
   unsigned char *closed; /* per patch: sees patches in every direction */
   unsigned char *linked; /* per patch: has links */
 } hr2dpi_exchange;

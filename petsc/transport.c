@@ -22,12 +22,23 @@ hr2d_status hr2dpi_transport_init(hr2dpi_transport *t, hr2dp *p) {
   return HR2D_OK;
 }
 
+hr2d_status hr2dpi_transport_join(hr2dpi_transport *t, const uint32_t *component,
+                                  size_t count) {
+  t->component = component;
+  t->components = count;
+  t->size = hr2dpi_alloc(t->p, count, sizeof *t->size);
+  t->sigma = hr2dpi_alloc(t->p, t->p->trees.elements, sizeof *t->sigma);
+  return t->size && t->sigma ? HR2D_OK : HR2D_ENOMEM;
+}
+
 void hr2dpi_transport_clear(hr2dpi_transport *t) {
   const hr2dp *p = t->p;
   if (!p) return;
   hr2dpi_free(p, t->up);
   hr2dpi_free(p, t->bin);
   hr2dpi_free(p, t->scale);
+  hr2dpi_free(p, t->sigma);
+  hr2dpi_free(p, t->size);
   hr2dpi_free(p, t->above);
   if (t->send != t->receive) hr2dpi_free(p, t->send);
   hr2dpi_free(p, t->receive);
@@ -62,70 +73,76 @@ static PetscErrorCode pull(hr2dpi_transport *t, const double *spread, const doub
   PetscFunctionReturn(0);
 }
 
-static double largest_of(const hr2dpi_transport *t, const uint32_t *list, size_t count,
-                         double most) {
+static void find_largest(hr2dpi_transport *t, const uint32_t *list, size_t count) {
+  const hr2d_element *element = hr2d_hierarchy_elements(t->p->hierarchy);
   const size_t bands = t->p->bands;
-  for (size_t k = 0; k < count; k++)
-    for (size_t b = 0; b < bands; b++) most = fmax(most, fabs(t->up[list[k] * bands + b]));
-  return most;
+  for (size_t k = 0; k < count; k++) {
+    double *size = &t->size[t->component[element[list[k]].patch]];
+    for (size_t b = 0; b < bands; b++) *size = fmax(*size, fabs(t->up[list[k] * bands + b]));
+  }
 }
 
-/* A power of two above every |up|, twice as large as need be for the roundings of areas. */
-static PetscErrorCode find_size(hr2dpi_transport *t, double *size) {
+/* Sets σ of all elements.  A component has its own bound, so that a dark one has all digits: a
+   power of two above every |up|, twice as large as need be for the roundings of areas. */
+static PetscErrorCode set_sigma(hr2dpi_transport *t) {
   PetscFunctionBegin;
   const hr2dpi_trees *trees = &t->p->trees;
-  double most = largest_of(t, trees->own, trees->owned, 0);
-  most = largest_of(t, trees->top, trees->tops, most);
-  PetscCall(hr2dpi_max_doubles(t->p, &most, 1));
-  int exponent;
-  (void)frexp(most, &exponent);
-  *size = most > 0 ? ldexp(1, exponent + 1) : 1;
+  const hr2d_element *element = hr2d_hierarchy_elements(t->p->hierarchy);
+  for (size_t c = 0; c < t->components; c++) t->size[c] = 0;
+  find_largest(t, trees->own, trees->owned);
+  find_largest(t, trees->top, trees->tops);
+  PetscCall(hr2dpi_max_doubles(t->p, t->size, (int)t->components));
+  for (size_t c = 0; c < t->components; c++) {
+    int exponent;
+    (void)frexp(t->size[c], &exponent);
+    t->size[c] = t->size[c] > 0 ? ldexp(1, exponent + 1) : 1;
+  }
+  for (size_t e = 0; e < trees->elements; e++)
+    t->sigma[e] =
+        fmax(t->scale[e] * t->size[t->component[element[e].patch]], HR2DPI_LEAST_SCALE);
   PetscFunctionReturn(0);
 }
 
 enum { BATCH = 256 };
 
 /* Adds what `to` receives from `from`. */
-static inline void add(hr2dpi_transport *t, uint32_t to, uint32_t from, double area,
-                       double size) {
+static inline void add(hr2dpi_transport *t, uint32_t to, uint32_t from, double area) {
   const size_t bands = t->p->bands;
-  const double scale = t->scale[to] * size;
+  const double scale = t->sigma[to];
   for (size_t b = 0; b < bands; b++)
     hr2dpi_bin_add(&t->bin[to * bands + b], scale, area * t->up[from * bands + b]);
 }
 
-static void add_links(hr2dpi_transport *t, const hr2d_link *link, size_t count, int sends,
-                      double size) {
+static void add_links(hr2dpi_transport *t, const hr2d_link *link, size_t count, int sends) {
   const hr2dp *p = t->p;
   const double unit = 1 / hr2d_scene_unit(p->scene); /* a power of two */
   for (size_t k = 0; k < count; k++) {
     const hr2d_pair pair = link[k].pair;
     const double area = link[k].exchange_area * unit;
-    if (!p->directed || !sends) add(t, pair.first, pair.second, area, size);
-    if (!p->directed || sends) add(t, pair.second, pair.first, area, size);
+    if (!p->directed || !sends) add(t, pair.first, pair.second, area);
+    if (!p->directed || sends) add(t, pair.second, pair.first, area);
   }
 }
 
 /* The same for one band and both ways.  The compiler keeps bins of one link in registers; terms
    may be added in any order. */
-static void add_both_ways(hr2dpi_transport *t, const hr2d_link *link, size_t count,
-                          double size) {
+static void add_both_ways(hr2dpi_transport *t, const hr2d_link *link, size_t count) {
   const double unit = 1 / hr2d_scene_unit(t->p->scene);
-  const double *restrict up = t->up, *restrict scale = t->scale;
+  const double *restrict up = t->up, *restrict sigma = t->sigma;
   hr2dpi_bin *restrict bin = t->bin;
   for (size_t k = 0; k < count; k++) {
     const uint32_t i = link[k].pair.first, j = link[k].pair.second;
     const double area = link[k].exchange_area * unit;
     hr2dpi_bin to_i = bin[i], to_j = bin[j];
-    hr2dpi_bin_add(&to_i, scale[i] * size, area * up[j]);
-    hr2dpi_bin_add(&to_j, scale[j] * size, area * up[i]);
+    hr2dpi_bin_add(&to_i, sigma[i], area * up[j]);
+    hr2dpi_bin_add(&to_j, sigma[j], area * up[i]);
     bin[i] = to_i;
     bin[j] = to_j;
   }
 }
 
 /* Gathers over own links; with `sends`, the other way over directed links. */
-static void gather_links(hr2dpi_transport *t, int sends, double size) {
+static void gather_links(hr2dpi_transport *t, int sends) {
   const hr2dp *p = t->p;
   hr2d_link link[BATCH];
   uint64_t next = 0;
@@ -133,9 +150,9 @@ static void gather_links(hr2dpi_transport *t, int sends, double size) {
   memset(t->bin, 0, p->trees.elements * p->bands * sizeof *t->bin);
   while ((count = hr2dpi_share_read(p, &next, link, BATCH)) > 0)
     if (p->bands == 1 && !p->directed)
-      add_both_ways(t, link, count, size);
+      add_both_ways(t, link, count);
     else
-      add_links(t, link, count, sends, size);
+      add_links(t, link, count, sends);
 }
 
 /* Adds up bins of elements above the cut. */
@@ -168,9 +185,8 @@ static void divide(hr2dpi_transport *t, const uint32_t *list, size_t count) {
 static PetscErrorCode gather(hr2dpi_transport *t, int sends) {
   PetscFunctionBegin;
   hr2dpi_trees *trees = &t->p->trees;
-  double size;
-  PetscCall(find_size(t, &size));
-  gather_links(t, sends, size);
+  PetscCall(set_sigma(t));
+  gather_links(t, sends);
   PetscCall(PetscSFReduceBegin(trees->halo, trees->unit[1], t->bin, t->bin, MPI_SUM));
   PetscCall(PetscSFReduceEnd(trees->halo, trees->unit[1], t->bin, t->bin, MPI_SUM));
   PetscCall(add_top(t));

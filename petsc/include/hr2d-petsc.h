@@ -22,7 +22,7 @@
  * **Same bits.** No bit of B depends on the number of ranks. Sums over links and over leaves
  * are exact, or are rounded in a way that does not depend on their order. Counts of a
  * refinement are those of one process; of a further refinement (multigridding) all but the
- * visibility tests. B differs from that of hr2d_solve() by roundings of the brightest B.
+ * visibility tests. B differs from that of hr2d_solve() by roundings.
  *
  * **Limits of this version.** Elements carry one constant (order 1). Oracles that read the
  * brightness of a former solution get emission alone, and cannot be refined further.

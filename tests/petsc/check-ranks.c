@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Refines and solves each case over all ranks, and on rank 0 alone by libhr2d.  Counts must be
-   equal, B and H equal to 1e-12 of the largest.  Prints a line for each case with the hash of
-   all bits of B and H, which the script compares between numbers of ranks. */
+   equal, B and H equal to 1e-12 of the largest on each patch.  Prints a line for each case with
+   the hash of all bits of B and H, which the script compares between numbers of ranks. */
 #include <hr2d-petsc.h>
 #include <inttypes.h>
 #include <math.h>
@@ -77,38 +77,43 @@ static int same_counts(const petsc_case *c, const hr2d_refine_counts *a,
   return same;
 }
 
-/* Compares a field on leaves with that of one process, leaf by leaf from left to right. */
-static double compare(const alone *a, const double *field, int irradiance) {
-  const hr2d_scene *scene = hr2d_hierarchy_scene(a->hierarchy);
+/* The difference of a field from that of one process on one patch, leaf by leaf from left to
+   right, relative to its largest value there; moves *field behind the patch. */
+static double compare_patch(const alone *a, uint32_t patch, const double **field,
+                            int irradiance) {
   const hr2d_element *element = hr2d_hierarchy_elements(a->hierarchy);
-  const size_t bands = hr2d_scene_bands(scene);
+  const size_t bands = hr2d_scene_bands(hr2d_hierarchy_scene(a->hierarchy));
   uint32_t stack[1200];
-  size_t at = 0;
-  double most = 0, off = 0;
-  for (uint32_t k = 0; k < hr2d_scene_patches(scene); k++) {
-    size_t depth = 0;
-    double from = 0;
-    stack[depth++] = k;
-    while (depth > 0) {
-      const uint32_t e = stack[--depth];
-      if (element[e].child) {
-        stack[depth++] = element[e].child + 1;
-        stack[depth++] = element[e].child;
-        continue;
-      }
-      const double size = element[e].length / element[k].length;
-      for (size_t b = 0; b < bands; b++, at++) {
-        const double value =
-            irradiance ? hr2d_solution_irradiance_at(a->solution, k, from + size / 2, b)
-                       : hr2d_solution_element(a->solution, e, b);
-        most = fmax(most, fabs(value));
-        off = fmax(off, fabs(value - field[at]));
-        if (!isfinite(field[at])) off = HUGE_VAL;
-      }
-      from += size;
+  size_t depth = 0;
+  double most = 0, off = 0, from = 0;
+  stack[depth++] = patch;
+  while (depth > 0) {
+    const uint32_t e = stack[--depth];
+    const double size = element[e].length / element[patch].length;
+    if (element[e].child) {
+      stack[depth++] = element[e].child + 1;
+      stack[depth++] = element[e].child;
+      continue;
     }
+    for (size_t b = 0; b < bands; b++) {
+      const double value =
+          irradiance ? hr2d_solution_irradiance_at(a->solution, patch, from + size / 2, b)
+                     : hr2d_solution_element(a->solution, e, b);
+      const double other = *(*field)++;
+      most = fmax(most, fabs(value));
+      off = isfinite(other) ? fmax(off, fabs(value - other)) : HUGE_VAL;
+    }
+    from += size;
   }
   return most > 0 ? off / most : off;
+}
+
+/* The largest one of all patches. */
+static double compare(const alone *a, const double *field, int irradiance) {
+  double worst = 0;
+  for (uint32_t k = 0; k < hr2d_scene_patches(hr2d_hierarchy_scene(a->hierarchy)); k++)
+    worst = fmax(worst, compare_patch(a, k, &field, irradiance));
+  return worst;
 }
 
 static uint64_t hash_of(uint64_t hash, const double *field, size_t count) {

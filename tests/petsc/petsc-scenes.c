@@ -77,6 +77,13 @@ static hr2d_status two_rooms(hr2d_scene *scene) {
   return status ? status : add_square(scene, 5, 0, 1, 0.3, &half, &half, 1);
 }
 
+/* The same where one is much darker than the other. */
+static hr2d_status dim_room(hr2d_scene *scene) {
+  static const double dim = 1e-18;
+  const hr2d_status status = add_square(scene, 0, 0, 1, 0.2, &one, &half, 1);
+  return status ? status : add_square(scene, 5, 0, 1, 0.3, &dim, &half, 1);
+}
+
 /* A plate of 1 beside one of 1e-6. */
 static hr2d_status short_plate(hr2d_scene *scene) {
   hr2d_status status = add(scene, 0, 0, 1, 0, &one, &half, 1);
@@ -110,6 +117,7 @@ static const petsc_case cases[] = {
     {"full room", full_room, .epsilon = 0.2},
     {"full room, bf", full_room, .oracle = hr2d_oracle_bf, .epsilon = 0.01},
     {"two rooms", two_rooms, .epsilon = 0.1},
+    {"dim room", dim_room, .epsilon = 0.1},
     {"short plate", short_plate, .epsilon = 0.1},
 };
 
