@@ -1,3 +1,4 @@
+# shellcheck shell=sh disable=SC2034 # what the tests use
 # SPDX-License-Identifier: GPL-3.0-or-later
 # For the tests of several ranks: a folder of their own, and `ranks N PROGRAM...`, which starts
 # them.  A test is skipped if there is no PETSc, unless HR2D_NEED_PETSC is set.
