@@ -7,7 +7,7 @@ libhr2d_core_la_CFLAGS = $(AM_CFLAGS) $(THREADS_CFLAGS)
 libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
 libhr2d_core_la_SOURCES = \
 	src/base/alloc.c src/base/alloc.h \
-	src/base/black-body.c \
+	src/base/black-body.c src/base/black-body.h \
 	src/base/clock.h \
 	src/base/large-pages.c src/base/large-pages.h \
 	src/base/constants.c \
@@ -85,6 +85,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/side-parts.c src/scene/side-parts.h \
 	src/scene/split-crossings.c \
 	src/scene/plane.c src/scene/plane.h \
+	src/scene/settled.c src/scene/settled.h \
 	src/scene/thermal.c \
 	src/scene/wall-pieces.c src/scene/wall-pieces.h \
 	src/scene/with-plane.c src/scene/with-plane.h \
@@ -215,6 +216,8 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/error-estimate.c src/accuracy/error-estimate.h \
 	src/accuracy/error-shares.c src/accuracy/error-shares.h \
 	src/accuracy/graded-solve.c src/accuracy/graded-solve.h \
+	src/accuracy/heat-balance.c src/accuracy/heat-balance.h \
+	src/accuracy/heat-solve.c src/accuracy/heat-solve.h \
 	src/accuracy/importance.c src/accuracy/importance.h \
 	src/accuracy/grader.h src/accuracy/grader-team.c \
 	src/accuracy/grading-marks.c \
@@ -226,7 +229,8 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/predict.c \
 	src/accuracy/resolution.c src/accuracy/resolution.h \
 	src/accuracy/solution-error.c \
-	src/accuracy/solve-to.c \
+	src/accuracy/solve-to.c src/accuracy/solve-to.h \
+	src/accuracy/solve-to-call.c \
 	src/accuracy/target.c src/accuracy/target.h \
 	src/accuracy/temperature.c \
 	src/state/byte-stream.c src/state/byte-stream.h \

@@ -172,7 +172,8 @@ typedef struct hr2d_account {
  * @retval HR2D_ENOMEM         an allocation failed
  * @retval HR2D_EINVAL         a member of `target` is not valid
  * @retval HR2D_ESTATE         the scene is not committed
- * @retval HR2D_ENO_SOLUTION   as hr2d_solve()
+ * @retval HR2D_ENO_SOLUTION   as hr2d_solve(), or a patch of given flux would be colder than
+ *                             0 K, see thermal.h
  * @retval HR2D_ENOT_CONVERGED as hr2d_solve()
  * @retval other               the status of the progress callback
  *

@@ -155,6 +155,8 @@ typedef struct hr2d_solve_work {
  *                             `start` is on another hierarchy
  * @retval HR2D_ESTATE         the set was never refined, or the call comes from a callback of a
  *                             call that refines or solves these links
+ * @retval HR2D_EUNSUPPORTED   the scene has several bands and patches of given flux, see
+ *                             thermal.h
  * @retval HR2D_ENO_SOLUTION   light is emitted in a closed part of the scene in which nothing
  *                             absorbs; the message names the patch. Without light B is 0 there
  * @retval HR2D_ENOT_CONVERGED `max_iterations` are done, or rows of links exceed 1 so far that

@@ -31,9 +31,15 @@
  * HR2D_TEMPERATURE_IMPOSSIBLE. It cannot lose so much heat, even at 0 K.
  *
  * **Bands.** With hr2d_scene_set_wavelengths() bands are parts of the spectrum, and ε has a
- * value for each. A patch of given T emits in each band its part of the black body,
- * hr2d_black_body_part(). A patch of given q needs a scene of one band, because its T divides
- * what it emits among the bands.
+ * value for each. A patch of given T emits in each band its part f_b of the black body,
+ * hr2d_black_body_part(). So does a patch of given q, whose T divides what it emits among the
+ * bands: B_b = ε_b f_b(T)σT⁴ + (1 − ε_b)H_b. In several bands such a patch has one T, and q is
+ * the mean over its length: Σ_b ε_b (f_b(T)σT⁴ − H̄_b) = q with the averages H̄_b. (In one band
+ * every point of it has this q, and a T of its own. Short pieces of a wall bring both
+ * together.) These T are unique. hr2d_solve_to() finds them, by Newton's method over linear
+ * solves, and its account has their part of the error; hr2d_solve() returns
+ * HR2D_EUNSUPPORTED. Where T would be below 0 K, HR2D_ENO_SOLUTION is returned. E and ρ of the
+ * scene are then those of the sum over the bands, q and 1.
  *
  * examples/adiabatic-walls.c computes a furnace.
  * @{
@@ -127,7 +133,7 @@ HR2D_API hr2d_status hr2d_scene_add_thermal(hr2d_scene *scene, const hr2d_patch 
  * file with other wavelengths is refused with HR2D_ESTATE.
  *
  * hr2d_scene_commit() returns HR2D_ESCENE if other arrays of the scene have another number of
- * bands, and HR2D_EUNSUPPORTED if there are several bands and a patch of given flux.
+ * bands.
  */
 HR2D_API hr2d_status hr2d_scene_set_wavelengths(hr2d_scene *scene, const double *wavelength,
                                                 size_t count);
@@ -199,7 +205,9 @@ typedef struct hr2d_temperatures {
  *
  * Errors follow from those of H. With the relative error e of hr2d_account::irradiance and the
  * floor of the target, |δH| ≤ e·max(H, floor·max H), and |δ(σT⁴)| ≤ |δH| for a patch of given
- * q. A patch of given T has no error of T, one of given q none of its heat.
+ * q. In several bands errors of H change all unknown T together: what is told for them is what
+ * errors of this size do to each T at worst, and it needs the `target` of the solve. A patch of
+ * given T has no error of T, one of given q none of its heat.
  *
  * @param solution      a solution
  * @param target        that of hr2d_solve_to(), for its floor and its important patches; NULL
@@ -219,7 +227,8 @@ HR2D_API hr2d_status hr2d_solution_temperatures(const hr2d_solution *solution,
                                                 const hr2d_temperatures *temperatures);
 
 /**
- * T at points of a patch: given, or from H of hr2d_solution_gather_irradiance().
+ * T at points of a patch: given, from H of hr2d_solution_gather_irradiance(), or in several
+ * bands that of the patch.
  * @param solution,patch,t,count  as for hr2d_solution_gather()
  * @param kelvin                  receives `count` values; NaN where T is not known, or
  *                                H + q/ε is negative

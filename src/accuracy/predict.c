@@ -8,6 +8,7 @@
 #include "accuracy/corner-residuals.h"
 #include "accuracy/error-estimate.h"
 #include "accuracy/estimator.h"
+#include "accuracy/heat-solve.h"
 #include "accuracy/importance.h"
 #include "accuracy/resolution.h"
 #include "accuracy/target.h"
@@ -15,7 +16,7 @@
 #include "base/clock.h"
 #include "base/team.h"
 #include "blocks/block.h"
-#include "scene/scene-impl.h"
+#include "scene/settled.h"
 #include "solution/solution-impl.h"
 #include "solve/gather-blocks.h"
 
@@ -26,6 +27,9 @@ enum { SAMPLES = 256, PRODUCTS = 64, RUNS = 5, POINTS = 4 };
 enum { ATTEMPTS = 8, MORE = 2, MOST_BANDS = 4 };
 
 #define SHORT 0.02
+
+/* Times the solve: with temperatures to be found. */
+#define HEAT 2.5
 
 /* Gathers of an account of the error, with the finer operator (see error-estimate.c); and
    iterations, in terms of those of the solve, with a part of it (see estimator.h). */
@@ -206,11 +210,26 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
   return status;
 }
 
+/* Of a scene whose temperatures are not known: a solve with a guess of them, and one more. */
+static hr2d_status predict_heat(const hr2d_scene *scene, const hr2d_target *target,
+                                hr2d_prediction *prediction) {
+  hr2d_scene *settled;
+  hr2d_status status = hr2di_heat_guess(scene, &settled);
+  if (status) return status;
+  status = hr2d_predict(settled, target, prediction);
+  hr2di_settled_destroy(settled);
+  prediction->seconds *= HEAT;
+  prediction->least_seconds *= HEAT;
+  prediction->most_seconds *= HEAT;
+  return status;
+}
+
 hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *target,
                          hr2d_prediction *prediction) {
   hr2d_target used;
   *prediction = (hr2d_prediction){0};
   if (!scene->committed) return HR2D_ESTATE;
+  if (hr2di_scene_is_unsettled(scene)) return predict_heat(scene, target, prediction);
   hr2d_status status = hr2di_target_init(&used, scene, target, HR2D_DEFAULT_ERROR);
   if (status) return status;
   const double start = hr2di_clock_now();

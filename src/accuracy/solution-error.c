@@ -7,7 +7,7 @@
 #include "accuracy/target.h"
 #include "base/alloc.h"
 #include "hierarchy/hierarchy-impl.h"
-#include "scene/scene-impl.h"
+#include "scene/settled.h"
 #include "solution/solution-impl.h"
 
 /* A reference is good enough if its bound is at most this part of the distance. */
@@ -116,7 +116,8 @@ static hr2d_status compare(const hr2d_solution *solution, const hr2d_target *tar
                            hr2d_error *average, hr2d_error *sup, int *enough) {
   hr2d_solution *reference = NULL;
   hr2d_account account;
-  hr2d_status status = hr2d_solve_to(solution->hierarchy->scene, target, &reference, &account);
+  hr2d_status status = hr2d_solve_to(hr2di_scene_origin(solution->hierarchy->scene), target,
+                                     &reference, &account);
   *enough = status == HR2D_EACCURACY;
   if (reference && !isfinite(account.average.bound)) {
     hr2d_solution_destroy(reference);

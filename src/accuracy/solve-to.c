@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Solves to a target: guesses a resolution, solves, estimates the error, and raises the
    resolution while the error is above the target. */
-#include <hr2d/accuracy.h>
+#include "accuracy/solve-to.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -284,12 +285,9 @@ static void hand_over(search *s, hr2d_solution **solution) {
   s->best = (hr2di_graded){0};
 }
 
-hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
-                          hr2d_solution **solution, hr2d_account *account) {
+hr2d_status hr2di_solve_to(const hr2d_scene *scene, const hr2d_target *target,
+                           hr2d_solution **solution, hr2d_account *account) {
   search s = {.scene = scene, .start = hr2di_clock_now(), .error = {HUGE_VAL, HUGE_VAL}};
-  *solution = NULL;
-  if (account) *account = (hr2d_account){0};
-  if (!scene->committed) return HR2D_ESTATE;
   hr2d_status status = hr2di_target_init(&s.given, scene, target, HR2D_DEFAULT_ERROR);
   if (status) return status;
   s.target = s.given;

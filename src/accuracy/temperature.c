@@ -3,7 +3,7 @@
 
    Given q: σT⁴ = f with f = H + q/ε.  If f is known to δ, T lies between those of f − δ and
    f + δ, and T is concave in f: the lower distance is the larger one.  With f ≥ 0 but f < δ the
-   interval begins at 0 K. */
+   interval begins at 0 K.  In several bands f and δ are those of the heat balance. */
 #include <float.h>
 #include <hr2d/thermal.h>
 #include <math.h>
@@ -11,9 +11,10 @@
 
 #include "accuracy/importance.h"
 #include "accuracy/target.h"
+#include "base/black-body.h"
 #include "base/sized-struct.h"
 #include "hierarchy/hierarchy-impl.h"
-#include "scene/scene-impl.h"
+#include "scene/settled.h"
 #include "solution/solution-impl.h"
 
 typedef struct reader {
@@ -22,11 +23,6 @@ typedef struct reader {
   double floor;
   hr2d_error error; /* of H, relative */
 } reader;
-
-/* The temperature of a black body with σT⁴ = f. */
-static double temperature_of(double f) {
-  return sqrt(sqrt(f / HR2D_STEFAN_BOLTZMANN));
-}
 
 /* q/ε of a patch with a flux. */
 static double excess(const hr2d_scene *scene, size_t patch) {
@@ -49,8 +45,8 @@ static void put(double *array, size_t k, double value) {
 /* fmax() passes over NaN. */
 static double error_of_temperature(double f, double off) {
   if (isnan(off)) return NAN;
-  return fmax(temperature_of(f) - temperature_of(fmax(f - off, 0)),
-              temperature_of(f + off) - temperature_of(f));
+  return fmax(hr2di_black_body_kelvin(f) - hr2di_black_body_kelvin(fmax(f - off, 0)),
+              hr2di_black_body_kelvin(f + off) - hr2di_black_body_kelvin(f));
 }
 
 /* H of one band counts as no less than the floor. */
@@ -66,11 +62,25 @@ static hr2d_temperature_state find(const reader *r, size_t k, double largest,
   const double base = counted(r, k, 0, largest);
   if (!hr2di_scene_lit(r->scene, k)) return HR2D_TEMPERATURE_UNLIT;
   if (f < 0) return HR2D_TEMPERATURE_IMPOSSIBLE;
-  put(to->kelvin, k, temperature_of(f));
+  put(to->kelvin, k, hr2di_black_body_kelvin(f));
   put(to->estimate, k, error_of_temperature(f, r->error.estimate * base));
   put(to->bound, k,
       error_of_temperature(f, r->error.bound * base + rounding) +
-          2 * DBL_EPSILON * temperature_of(f));
+          2 * DBL_EPSILON * hr2di_black_body_kelvin(f));
+  return HR2D_TEMPERATURE_FOUND;
+}
+
+/* Of a patch with a flux in several bands. */
+static hr2d_temperature_state find_settled(const reader *r, size_t k,
+                                           const hr2d_temperatures *to) {
+  const hr2di_found *found = &r->scene->found[k];
+  const double f = fmax(found->radiance, 0), kelvin = hr2di_black_body_kelvin(f);
+  const int known = !isnan(r->error.bound);
+  if (!hr2di_scene_lit(r->scene, k)) return HR2D_TEMPERATURE_UNLIT;
+  put(to->kelvin, k, kelvin);
+  put(to->estimate, k, error_of_temperature(f, known ? found->estimate : NAN));
+  put(to->bound, k,
+      error_of_temperature(f, known ? found->bound : NAN) + 2 * DBL_EPSILON * kelvin);
   return HR2D_TEMPERATURE_FOUND;
 }
 
@@ -82,11 +92,24 @@ static hr2d_temperature_state state_of(const reader *r, size_t k, double largest
   put(to->estimate, k, NAN);
   put(to->bound, k, NAN);
   if (heat == HR2D_HEAT_NONE) return HR2D_TEMPERATURE_NONE;
-  if (heat == HR2D_HEAT_FLUX) return find(r, k, largest, to);
+  if (heat == HR2D_HEAT_FLUX)
+    return r->scene->found ? find_settled(r, k, to) : find(r, k, largest, to);
   put(to->kelvin, k, value);
   put(to->estimate, k, 0);
   put(to->bound, k, 0);
   return HR2D_TEMPERATURE_GIVEN;
+}
+
+/* The heat of patches with a flux in several bands was given; its balance is off by a part of
+   the error of T only. */
+static void put_given_heat(const hr2d_scene *scene, const hr2d_temperatures *to) {
+  double flux;
+  for (size_t k = 0; k < scene->patches && scene->found; k++) {
+    if (hr2d_scene_heat(scene, k, &flux) != HR2D_HEAT_FLUX) continue;
+    put(to->heat, k, flux * hr2d_scene_length(scene, k));
+    put(to->heat_estimate, k, 0);
+    put(to->heat_bound, k, DBL_EPSILON * fabs(flux * hr2d_scene_length(scene, k)));
+  }
 }
 
 /* A·Σ(E − (1−ρ)H), added up band by band in the arrays. */
@@ -139,26 +162,33 @@ hr2d_status hr2d_solution_temperatures(const hr2d_solution *solution, const hr2d
       if (to.state) to.state[k] = (unsigned char)state;
     }
   }
+  put_given_heat(scene, &to);
   forget(scene, &target, &to);
   hr2di_target_clear(&target, scene);
   return HR2D_OK;
 }
 
+/* What does not change along a patch: given, in several bands, or not known. */
+static double kelvin_of_patch(const hr2d_scene *scene, size_t patch) {
+  double value;
+  const hr2d_heat heat = hr2d_scene_heat(scene, patch, &value);
+  if (heat != HR2D_HEAT_FLUX) return heat == HR2D_HEAT_TEMPERATURE ? value : NAN;
+  if (!scene->found || !hr2di_scene_lit(scene, patch)) return NAN;
+  return hr2di_black_body_kelvin(fmax(scene->found[patch].radiance, 0));
+}
+
 hr2d_status hr2d_solution_gather_temperature(const hr2d_solution *solution, size_t patch,
                                              const double *t, size_t count, double *kelvin) {
   const hr2d_scene *scene = solution->hierarchy->scene;
-  double value;
-  const hr2d_heat heat = hr2d_scene_heat(scene, patch, &value);
-  const int lit = hr2di_scene_lit(scene, patch);
-  if (heat != HR2D_HEAT_FLUX || !lit) {
-    for (size_t k = 0; k < count; k++) kelvin[k] = heat == HR2D_HEAT_TEMPERATURE ? value : NAN;
+  if (hr2d_scene_heat(scene, patch, NULL) != HR2D_HEAT_FLUX || scene->found ||
+      !hr2di_scene_lit(scene, patch)) {
+    for (size_t k = 0; k < count; k++) kelvin[k] = kelvin_of_patch(scene, patch);
     return HR2D_OK;
   }
-  /* A scene with fluxes has one band. */
   const hr2d_status status = hr2d_solution_gather_irradiance(solution, patch, t, count, kelvin);
   for (size_t k = 0; k < count && !status; k++) {
     const double f = kelvin[k] + excess(scene, patch);
-    kelvin[k] = f >= 0 ? temperature_of(f) : NAN;
+    kelvin[k] = f >= 0 ? hr2di_black_body_kelvin(f) : NAN;
   }
   return status;
 }

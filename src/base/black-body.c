@@ -16,6 +16,8 @@
    The Bernstein ellipse of parameter 11/h has half axes below 3: it stays away from those
    poles, and g is at most some 1000/h² times its mean there.  The rule misses (11/h)^-24 <
    1e-24 of that. */
+#include "base/black-body.h"
+
 #include <gsl/gsl_sf_debye.h>
 #include <hr2d/thermal.h>
 #include <math.h>
@@ -74,4 +76,22 @@ double hr2d_black_body_part(double kelvin, double from, double to) {
   if (low >= MIDDLE) return tail(low) - tail(high);
   if (high <= MIDDLE) return head(high) - head(low);
   return 1 - head(low) - tail(high);
+}
+
+double hr2di_black_body_kelvin(double emitted) {
+  return sqrt(sqrt(emitted / HR2D_STEFAN_BOLTZMANN));
+}
+
+/* x⁴/(eˣ − 1) */
+static double rise(double x) {
+  return x < 700 ? x * spectrum(x) : 0;
+}
+
+/* As f depends on x = c₂/(λT) alone, d(fT⁴)/d(T⁴) = f + ¼ T df/dT, and T df/dT of the part
+   below λ is (15/π⁴) x⁴/(eˣ − 1). */
+double hr2di_black_body_rise(double kelvin, double from, double to) {
+  const double part = hr2d_black_body_part(kelvin, from, to);
+  const double x = HR2D_SECOND_RADIATION_CONSTANT * 1e6 / kelvin;
+  const double low = to < HUGE_VAL ? x / to : 0, high = from > 0 ? x / from : HUGE_VAL;
+  return fmin(fmax(part + SCALE / 4 * (rise(low) - rise(high)), 0), 1);
 }

@@ -65,6 +65,8 @@ struct hr2d_scene {
     int forced;
     char reason[400];
   } effect[HR2D_EFFECT_COUNT];
+  const hr2d_scene *origin;  /* of a settled scene, see settled.h; otherwise NULL, */
+  struct hr2di_found *found; /* as this; per patch */
 };
 
 /* For readers of scene files. */

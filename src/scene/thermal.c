@@ -171,12 +171,6 @@ hr2d_status hr2di_scene_check_thermal(hr2d_scene *scene, hr2di_watch *watch) {
                                 "%s has a %s, and the scene has %zu bands without wavelengths",
                                 hr2di_patch_label(scene, k).text,
                                 heat == HR2D_HEAT_FLUX ? "flux" : "temperature", scene->bands);
-    if (heat == HR2D_HEAT_FLUX)
-      return hr2di_message_fail(
-          &scene->message, HR2D_EUNSUPPORTED,
-          "%s has a flux, and the scene has %zu bands: a temperature that "
-          "is not known divides no spectrum",
-          hr2di_patch_label(scene, k).text, scene->bands);
   }
   return HR2D_OK;
 }

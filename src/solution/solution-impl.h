@@ -13,6 +13,7 @@ struct hr2d_solution {
   const hr2d_hierarchy *hierarchy;
   hr2d_hierarchy *own_hierarchy; /* made by hr2d_solve_to(), destroyed with the solution */
   hr2d_linkset *own_links;       /* likewise */
+  hr2d_scene *own_scene;         /* a settled scene, likewise; mostly NULL */
   size_t elements;               /* of the hierarchy when this was solved */
   size_t order, bands;
   double *value;      /* elements × order × bands, Legendre coefficients of B */

@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/legendre.h"
 #include "hierarchy/hierarchy-impl.h"
+#include "scene/settled.h"
 #include "solution/solution-impl.h"
 
 void hr2d_solution_destroy(hr2d_solution *solution) {
@@ -15,6 +16,7 @@ void hr2d_solution_destroy(hr2d_solution *solution) {
   hr2di_alloc_free(&alloc, solution->power);
   hr2d_linkset_destroy(solution->own_links);
   hr2d_hierarchy_destroy(solution->own_hierarchy);
+  hr2di_settled_destroy(solution->own_scene);
   hr2di_alloc_free(&alloc, solution);
 }
 

@@ -58,13 +58,17 @@ static hr2d_status refuse(hr2d_linkset *links, size_t patch, size_t band) {
                             band, label.text);
 }
 
-/* Checks one band: no patch may emit in a component that is closed and absorbs nothing.
-   Exchange over links of clusters is known to their accuracy only. */
+/* Exchange over links of clusters is known to their accuracy only. */
+static double closed_below(const hr2d_linkset *links) {
+  const double by_clusters = links->roots.clusters ? 10 * links->roots.accuracy : 0;
+  return fmax(HR2DI_DEFECT_NO_ESCAPE, by_clusters);
+}
+
+/* Checks one band: no patch may emit in a component that is closed and absorbs nothing. */
 static hr2d_status check_band(hr2d_linkset *links, exchange *e, size_t band,
                               unsigned char *absorbs) {
   const hr2d_scene *scene = links->hierarchy->scene;
-  const double by_clusters = links->roots.clusters ? 10 * links->roots.accuracy : 0;
-  const double closed = fmax(HR2DI_DEFECT_NO_ESCAPE, by_clusters);
+  const double closed = closed_below(links);
   for (size_t k = 0; k < scene->patches; k++) absorbs[k] = 0;
   for (size_t k = 0; k < scene->patches; k++)
     if (hr2d_scene_reflectance(scene, k, band) < 1)
@@ -76,6 +80,25 @@ static hr2d_status check_band(hr2d_linkset *links, exchange *e, size_t band,
          hr2d_scene_heat(scene, k, NULL) != HR2D_HEAT_FLUX))
       continue;
     return refuse(links, k, band);
+  }
+  return HR2D_OK;
+}
+
+/* Patches of given flux in several bands give in one band what they absorb in another. */
+static hr2d_status check_heat(hr2d_linkset *links, exchange *e, unsigned char *absorbs) {
+  const hr2d_scene *scene = links->hierarchy->scene;
+  for (size_t k = 0; k < scene->patches; k++) absorbs[k] = 0;
+  for (size_t k = 0; k < scene->patches; k++)
+    for (size_t band = 0; band < scene->bands; band++)
+      if (hr2d_scene_reflectance(scene, k, band) < 1 &&
+          hr2d_scene_heat(scene, k, NULL) != HR2D_HEAT_FLUX)
+        absorbs[hr2di_component(&e->components, k)] = 1;
+  for (size_t k = 0; k < scene->patches; k++) {
+    const size_t root = hr2di_component(&e->components, k);
+    if (!absorbs[root] && hr2d_scene_heat(scene, k, NULL) == HR2D_HEAT_FLUX &&
+        hr2di_scene_lit(scene, k) &&
+        !(hr2di_sum_total(&e->escape[root]) > closed_below(links) * e->length[root]))
+      return refuse(links, k, 0);
   }
   return HR2D_OK;
 }
@@ -101,7 +124,8 @@ static hr2d_status sum_exchange(const hr2d_linkset *links, exchange *e, hr2di_wa
 
 hr2d_status hr2di_existence_check(hr2d_linkset *links, hr2di_watch *watch) {
   const hr2d_scene *scene = links->hierarchy->scene;
-  if (!some_patch_absorbs_nothing(scene)) return HR2D_OK;
+  const int heat = scene->found != NULL;
+  if (!heat && !some_patch_absorbs_nothing(scene)) return HR2D_OK;
   const hr2d_allocator *alloc = &links->alloc;
   exchange e = {.escape = hr2di_alloc(alloc, scene->patches, sizeof *e.escape),
                 .length = hr2di_alloc(alloc, scene->patches, sizeof *e.length)};
@@ -114,6 +138,7 @@ hr2d_status hr2di_existence_check(hr2d_linkset *links, hr2di_watch *watch) {
                        watch->refused ? hr2d_strerror(status) : "out of memory for the solve");
   for (size_t band = 0; band < scene->bands && !status; band++)
     status = check_band(links, &e, band, absorbs);
+  if (!status && heat) status = check_heat(links, &e, absorbs);
   hr2di_components_clear(&e.components);
   hr2di_alloc_free(alloc, e.escape);
   hr2di_alloc_free(alloc, e.length);

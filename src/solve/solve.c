@@ -7,7 +7,7 @@
 #include "base/neumaier-sum.h"
 #include "base/sized-struct.h"
 #include "hierarchy/hierarchy-impl.h"
-#include "scene/scene-impl.h"
+#include "scene/settled.h"
 #include "solution/solution-impl.h"
 #include "solve/closure.h"
 #include "solve/equation.h"
@@ -26,6 +26,10 @@ static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *
                               (int)o->closure);
   if (o->start && o->start->hierarchy != links->hierarchy)
     return hr2di_message_fail(message, HR2D_EINVAL, "the warm start is from another hierarchy");
+  if (hr2di_scene_is_unsettled(links->hierarchy->scene))
+    return hr2di_message_fail(message, HR2D_EUNSUPPORTED,
+                              "patches of given flux need hr2d_solve_to() in several bands: "
+                              "their temperatures divide what they emit among the bands");
   if (links->counts.elements == 0)
     return hr2di_message_fail(message, HR2D_ESTATE, "the link set was never refined");
   return HR2D_OK;

@@ -99,6 +99,8 @@ START_TEST(targets) {
   play("solve_to, open", DEPTH_COMMITTED, PLAN_OPEN, reach, 50);
   play("solve_to, at points", DEPTH_COMMITTED, PLAN_ROOM, reach_everywhere, 40);
   play("solve_to, one patch", DEPTH_COMMITTED, PLAN_ROOM, reach_some, 40);
+  play("solve_to, heat", DEPTH_COMMITTED, PLAN_HEAT, reach, 100);
+  play("solve_to, heat, one patch", DEPTH_COMMITTED, PLAN_HEAT, reach_some, 40);
   play("solve_to, 2 threads", DEPTH_COMMITTED, PLAN_OPEN, reach_by_two, 30);
 }
 END_TEST
@@ -135,6 +137,7 @@ END_TEST
 
 START_TEST(predictions) {
   play("predict", DEPTH_COMMITTED, PLAN_ROOM, predict, 10);
+  play("predict, heat", DEPTH_COMMITTED, PLAN_HEAT, predict, 10);
   play("solution_error", DEPTH_SOLVED, PLAN_PAIR, measure, 40);
   play("solution_error, occluded", DEPTH_SOLVED, PLAN_ROOM, measure, 20);
 }

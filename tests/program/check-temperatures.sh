@@ -51,6 +51,27 @@ check "JSON has it" [ "$(grep -c '"temperature": 866\.90' "$work/field.json")" -
 succeeds field "$work/square.geojson" --grid 3x3 --vtk "$work/field.vti"
 check "VTK has it" grep -q 'Name="temperature"' "$work/field.vti"
 
+# ---- in two bands, of which each has its own emissivity, symmetry is the same
+sed 's/"features"/"hr2d": {"wavelengths": [4]}, &/; s/"emissivity": 0.5/"emissivity": [0.5, 0.5]/' \
+  "$work/square.geojson" >"$work/bands.geojson"
+succeeds solve "$work/bands.geojson" --target-error 1e-9 --at floor:0.2 --json "$work/b.json" \
+  --csv "$work/b.csv"
+check "temperatures in bands" [ "$(grep -c '^ .* 866\.90' "$work/out")" -eq 2 ]
+check "one for the whole patch" grep -q '^at floor:0.2 .* T 866\.90' "$work/out"
+check "CSV has them" awk -F, '$2 == "top" && ($NF - 866.9093)^2 > 1e-6 { bad = 1 }
+  $2 == "top" { n++ } END { exit bad || !n }' "$work/b.csv"
+check "JSON, too" [ "$(grep -c '"temperature": 866\.90' "$work/b.json")" -eq 3 ]
+succeeds field "$work/bands.geojson" --points "$work/points" --csv "$work/bfield.csv" \
+  --target-error 1e-6
+check "and a field" awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "temperature") c = k }
+  NR == 2 { ok = ($c - 866.9093)^2 < 1e-2 } END { exit !ok }' "$work/bfield.csv"
+expect 1 'fluxes in several bands need --target-error' solve "$work/bands.geojson"
+succeeds info "$work/bands.geojson"
+sed 's/"flux": 0, "emissivity"/"flux": -20000, "emissivity"/' "$work/bands.geojson" \
+  >"$work/coldbands.geojson"
+expect 1 'floor.* cannot lose so much heat' solve "$work/coldbands.geojson" \
+  --target-error 1e-6
+
 # ---- what cannot be
 square -20000 >"$work/cold.geojson"
 expect 1 'floor") cannot lose so much heat' solve "$work/cold.geojson" --json "$work/cold.json"

@@ -61,6 +61,22 @@ static void add_rows(hr2d_scene *scene, int across) {
   }
 }
 
+/* One wall of a room has a temperature, the others a flux. */
+static void add_heat(hr2d_scene *scene) {
+  static const double at[3][4] = {{0, 0, 2, 0}, {2, 0, 0, 1}, {0, 1, 0, 0}};
+  static const double wavelength[2] = {3, 8}, emissivity[3] = {.5, .25, 1};
+  ck_assert_int_eq(hr2d_scene_set_wavelengths(scene, wavelength, 2), HR2D_OK);
+  for (int k = 0; k < 3; k++) {
+    const hr2d_patch patch = {.a = {at[k][0], at[k][1]}, .b = {at[k][2], at[k][3]}};
+    const hr2d_thermal thermal = {.struct_size = sizeof thermal,
+                                  .given = k ? HR2D_HEAT_FLUX : HR2D_HEAT_TEMPERATURE,
+                                  .value = k ? 0 : 1000,
+                                  .emissivity = emissivity,
+                                  .emissivity_bands = 3};
+    ck_assert_int_eq(hr2d_scene_add_thermal(scene, &patch, &thermal, NULL), HR2D_OK);
+  }
+}
+
 static void fill(hr2d_scene *scene, fault_plan plan) {
   static const double dim[2] = {.25, .5}, one = 1, sky[2] = {1, .5};
   switch (plan) {
@@ -77,6 +93,9 @@ static void fill(hr2d_scene *scene, fault_plan plan) {
   case PLAN_PAIR:
     add(scene, (const double[]){0, 0, 1, 0}, NULL, &one, 1, .5, HR2D_SIDES_FRONT);
     add(scene, (const double[]){1, .25, 0, .25}, NULL, NULL, 0, .5, HR2D_SIDES_FRONT);
+    break;
+  case PLAN_HEAT:
+    add_heat(scene);
     break;
   case PLAN_CROSSING:
     add_room(scene, dim, 1);

@@ -24,6 +24,7 @@ typedef enum fault_plan {
   PLAN_ROOM,     /* a closed room of two bands with a lamp of two sides in it */
   PLAN_OPEN,     /* two walls and an obstacle under a sky, in part dark */
   PLAN_PAIR,     /* two walls that face each other */
+  PLAN_HEAT,     /* a room of three bands with walls of given flux */
   PLAN_CROSSING, /* two bars that cross in a room; cannot be committed */
   PLAN_BLOCKS,   /* so many patches that beams find the pairs */
   PLAN_ROWS      /* so many that they are clustered, and clusters are linked */

@@ -167,6 +167,13 @@ hr2d_status cost_dense(cost *c, const cost_method *m) {
     snprintf(c->message, sizeof c->message, "a full matrix does not know the background");
     return HR2D_EUNSUPPORTED;
   }
+  for (size_t k = 0; k < hr2d_scene_patches(c->scene); k++)
+    if (hr2d_scene_bands(c->scene) > 1 &&
+        hr2d_scene_heat(c->scene, k, NULL) == HR2D_HEAT_FLUX) {
+      snprintf(c->message, sizeof c->message,
+               "a full matrix does not know fluxes in several bands");
+      return HR2D_EUNSUPPORTED;
+    }
   while (pace_allows(&p) && length * MOST_PIECES >= 1) {
     cost_row row;
     const double start = clock_seconds();

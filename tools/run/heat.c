@@ -14,11 +14,15 @@ int run_heat_exists(const hr2d_scene *scene) {
   return k < hr2d_scene_patches(scene);
 }
 
-double run_heat_at(const hr2d_scene *scene, size_t patch, double irradiance) {
-  double given;
-  const hr2d_heat heat = hr2d_scene_heat(scene, patch, &given);
+double run_heat_at(const run *r, size_t patch, double irradiance) {
+  const double middle = 0.5;
+  double given, kelvin;
+  const hr2d_heat heat = hr2d_scene_heat(r->scene, patch, &given);
   if (heat != HR2D_HEAT_FLUX) return given;
-  const double f = irradiance + given / hr2d_scene_emissivity(scene, patch, 0);
+  if (hr2d_scene_bands(r->scene) > 1)
+    return hr2d_solution_gather_temperature(r->solution, patch, &middle, 1, &kelvin) ? NAN
+                                                                                     : kelvin;
+  const double f = irradiance + given / hr2d_scene_emissivity(r->scene, patch, 0);
   return f >= 0 ? sqrt(sqrt(f / HR2D_STEFAN_BOLTZMANN)) : NAN;
 }
 

@@ -47,7 +47,7 @@ static void write_coefficients(const writer *w, const piece *p) {
 }
 
 static void write_temperature(const writer *w, double irradiance) {
-  const double kelvin = run_heat_at(w->run->scene, w->patch, irradiance);
+  const double kelvin = run_heat_at(w->run, w->patch, irradiance);
   fputc(',', w->stream);
   if (!isnan(kelvin)) fprintf(w->stream, "%.17g", kelvin);
 }

@@ -57,7 +57,7 @@ static json_t *place_entry(const run *r, size_t k) {
   json_put(&entry, "irradiance", entry ? json_numbers(value + bands, bands) : NULL);
   if (entry && run_heat_exists(r->scene))
     json_put(&entry, "temperature",
-             json_number(run_heat_at(r->scene, r->places[k], value[bands])));
+             json_number(run_heat_at(r, r->places[k], value[bands])));
   free(value);
   return entry;
 }

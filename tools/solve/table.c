@@ -77,7 +77,7 @@ static int print_places(const run *r) {
     for (size_t b = 0; b < bands; b++) printf(" %.*g", digits, value[b]);
     printf("  H");
     for (size_t b = 0; b < bands; b++) printf(" %.*g", digits, value[bands + b]);
-    const double kelvin = run_heat_at(r->scene, r->places[k], value[bands]);
+    const double kelvin = run_heat_at(r, r->places[k], value[bands]);
     if (!isnan(kelvin)) printf("  T %.*g", digits, kelvin);
     puts("");
   }

@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "accuracy/heat-balance.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "links/linkset-impl.h"
+#include "solve/closure.h"
+
+/* B and H are accurate to 1e-13, and Newton's method needs no more of its steps than that each
+   gains some digits. */
+#define BALANCED   1e-13
+#define ROUNDINGS  1e-10
+#define STEP_ERROR 1e-5
+#define STEP_SOLVE 1e-8
+
+enum { ARRAYS = 9, ROOTS = 100, STEPS = 50, HALVINGS = 8, MOST_SOLVES = 2000 };
+
+static int is_unknown(const hr2d_scene *scene, size_t k) {
+  return hr2d_scene_heat(scene, k, NULL) == HR2D_HEAT_FLUX && hr2di_scene_lit(scene, k);
+}
+
+static hr2d_status reserve(hr2di_heat_balance *h) {
+  const hr2d_scene *scene = h->scene;
+  for (size_t k = 0; k < scene->patches; k++) h->count += (size_t)is_unknown(scene, k);
+  h->patch = hr2di_alloc(&scene->alloc, h->count + 1, sizeof *h->patch);
+  h->space =
+      hr2di_alloc_zero(&scene->alloc, (ARRAYS + scene->bands) * h->count, sizeof *h->space);
+  h->average = hr2di_alloc(&scene->alloc, scene->patches * scene->bands, sizeof *h->average);
+  if (!h->patch || !h->space || !h->average) return HR2D_ENOMEM;
+  double **const array[ARRAYS] = {&h->radiance, &h->defect, &h->size,  &h->slope, &h->length,
+                                  &h->step,     &h->old,    &h->right, &h->gain};
+  for (size_t k = 0; k < ARRAYS; k++) *array[k] = h->space + k * h->count;
+  h->emission = h->space + ARRAYS * h->count;
+  size_t at = 0;
+  for (size_t k = 0; k < scene->patches; k++) {
+    if (!is_unknown(scene, k)) continue;
+    h->length[at] = scene->patch[k].length;
+    h->radiance[at] = scene->found[k].radiance;
+    h->patch[at++] = k;
+  }
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_heat_balance_init(hr2di_heat_balance *h, hr2d_scene *settled,
+                                    hr2d_linkset *links, const hr2d_target *target) {
+  hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+  options.threads = target->threads;
+  options.progress = target->progress;
+  options.progress_ctx = target->progress_ctx;
+  *h = (hr2di_heat_balance){.scene = settled};
+  hr2d_status status = hr2di_equation_init(&h->eq, links, &options);
+  if (!status) status = reserve(h);
+  if (status) hr2di_message_fail(&links->message, status, "%s", hr2d_strerror(status));
+  return status;
+}
+
+void hr2di_heat_balance_clear(hr2di_heat_balance *h) {
+  hr2di_equation_clear(&h->eq);
+  hr2di_alloc_free(&h->scene->alloc, h->patch);
+  hr2di_alloc_free(&h->scene->alloc, h->space);
+  hr2di_alloc_free(&h->scene->alloc, h->average);
+}
+
+/* E of the scene, or what h->emission has of the unknown patches alone. */
+static hr2d_status set_source(hr2di_heat_balance *h, int alone) {
+  hr2di_equation *eq = &h->eq;
+  const hr2di_transport *t = &eq->transport;
+  const size_t bands = t->bands;
+  double *of = h->average; /* of patches, for a while */
+  for (size_t k = 0; k < h->scene->patches; k++)
+    for (size_t b = 0; b < bands; b++)
+      of[k * bands + b] = alone ? 0 : hr2d_scene_emission(h->scene, k, b);
+  for (size_t m = 0; m < h->count * bands && alone; m++)
+    of[h->patch[m / bands] * bands + m % bands] = h->emission[m];
+  memset(eq->source, 0, eq->field * sizeof *eq->source);
+  memset(eq->y, 0, eq->field * sizeof *eq->y);
+  for (size_t k = 0; k < t->leaves; k++)
+    for (size_t b = 0; b < bands; b++)
+      eq->source[k * t->width + b] =
+          ldexp(of[t->hierarchy->element[t->leaf[k]].patch * bands + b], -eq->exponent[b]);
+  return hr2di_watch_work(&eq->watch, (h->scene->patches + t->leaves * t->order) * bands / 2);
+}
+
+/* The averages of a leaf field over patches. */
+static hr2d_status take_averages(hr2di_heat_balance *h, const double *field, double *average) {
+  hr2di_transport *t = &h->eq.transport;
+  const size_t values = h->scene->patches * t->bands;
+  hr2di_transport_pull(t, field);
+  for (size_t m = 0; m < values; m++)
+    average[m] =
+        ldexp(t->up[m / t->bands * t->width + m % t->bands], h->eq.exponent[m % t->bands]);
+  return t->failed ? t->failed : hr2di_watch_work(&h->eq.watch, values / 4);
+}
+
+static hr2d_status solve(hr2di_heat_balance *h, int alone) {
+  hr2di_equation *eq = &h->eq;
+  hr2d_status status = set_source(h, alone);
+  eq->background = !alone;
+  eq->looks = 0;
+  eq->options.tolerance = alone ? STEP_SOLVE : HR2D_DEFAULT_TOLERANCE;
+  if (!status) status = hr2di_equation_solve(eq);
+  if (!status && !alone) status = hr2di_equation_settle_power(eq);
+  if (status) return status;
+  h->solves++;
+  hr2di_closure_move_mean(&eq->transport, eq->radiosity, eq->irradiance);
+  return take_averages(h, eq->irradiance, h->average);
+}
+
+/* g, its size and D for h->radiance. */
+static hr2d_status evaluate(hr2di_heat_balance *h) {
+  const size_t bands = h->scene->bands;
+  for (size_t k = 0; k < h->count; k++)
+    hr2di_settled_set(h->scene, h->patch[k], h->radiance[k]);
+  const hr2d_status status = solve(h, 0);
+  h->worst = 0;
+  h->power = 0;
+  for (size_t k = 0; k < h->count && !status; k++) {
+    const size_t patch = h->patch[k];
+    double flux;
+    hr2d_scene_heat(h->scene, patch, &flux);
+    h->defect[k] = -flux;
+    h->size[k] = fabs(flux);
+    h->slope[k] = 0;
+    for (size_t b = 0; b < bands; b++) {
+      const double emitted = hr2d_scene_emission(h->scene, patch, b);
+      const double absorbed =
+          (1 - hr2d_scene_reflectance(h->scene, patch, b)) * h->average[patch * bands + b];
+      h->defect[k] += emitted - absorbed;
+      h->size[k] += fabs(emitted) + fabs(absorbed);
+      h->slope[k] += hr2di_settled_rise(h->scene, patch, b);
+    }
+    h->power += h->length[k] * fabs(h->defect[k]);
+    if (h->size[k] > 0) h->worst = fmax(h->worst, fabs(h->defect[k]) / h->size[k]);
+  }
+  return status;
+}
+
+static void set_emission(hr2di_heat_balance *h, const double *radiance) {
+  const size_t bands = h->scene->bands;
+  for (size_t m = 0; m < h->count * bands; m++)
+    h->emission[m] =
+        hr2di_settled_rise(h->scene, h->patch[m / bands], m % bands) * radiance[m / bands];
+}
+
+/* out = D⁻¹C in */
+static void apply(void *ctx, const double *in, double *out) {
+  hr2di_heat_balance *h = ctx;
+  const size_t bands = h->scene->bands;
+  set_emission(h, in);
+  if (!h->failed) h->failed = solve(h, 1);
+  for (size_t k = 0; k < h->count; k++) {
+    const size_t patch = h->patch[k];
+    out[k] = 0;
+    for (size_t b = 0; b < bands && !h->failed; b++)
+      out[k] += (1 - hr2d_scene_reflectance(h->scene, patch, b)) *
+                h->average[patch * bands + b] / h->slope[k];
+  }
+}
+
+static void scale(void *ctx, const double *y, double *norm) {
+  const hr2di_heat_balance *h = ctx;
+  (void)y;
+  *norm = 0;
+  for (size_t k = 0; k < h->count; k++) *norm += h->length[k] * (h->right[k] * h->right[k]);
+  *norm = sqrt(*norm);
+}
+
+static hr2d_status report(void *ctx, double residual) {
+  const hr2di_heat_balance *h = ctx;
+  (void)residual;
+  return h->failed;
+}
+
+hr2d_status hr2di_heat_balance_spread(hr2di_heat_balance *h, const double *off,
+                                      double *radiance) {
+  double residual;
+  const hr2di_krylov_system system = {.alloc = &h->scene->alloc,
+                                      .size = h->count,
+                                      .bands = 1,
+                                      .weight = h->length,
+                                      .apply = apply,
+                                      .scale = scale,
+                                      .report = report,
+                                      .ctx = h,
+                                      .watch = &h->eq.watch,
+                                      .tolerance = STEP_ERROR,
+                                      .max_iterations = MOST_SOLVES};
+  for (size_t k = 0; k < h->count; k++) {
+    h->right[k] = off[k] / h->slope[k];
+    radiance[k] = h->right[k];
+  }
+  h->failed = HR2D_OK;
+  const hr2d_status status = hr2di_krylov(&system, h->right, radiance, &residual);
+  return h->failed ? h->failed : status;
+}
+
+static double emitted(const hr2d_scene *scene, size_t patch) {
+  double sum = 0;
+  for (size_t b = 0; b < scene->bands; b++) sum += hr2d_scene_emission(scene, patch, b);
+  return sum;
+}
+
+/* S with Σ E_b = P > 0: between P/max a and P/min a, by Newton's method, or by halving where
+   that leaves the interval. */
+static double radiance_of(hr2d_scene *scene, size_t patch, double power, double guess) {
+  double low = HUGE_VAL, high = 0;
+  for (size_t b = 0; b < scene->bands; b++) {
+    const double s = power / (1 - hr2d_scene_reflectance(scene, patch, b));
+    low = fmin(low, s);
+    high = fmax(high, s);
+  }
+  double s = fmin(fmax(guess, low), high);
+  for (int k = 0; k < ROOTS && high > low; k++) {
+    double rise = 0;
+    hr2di_settled_set(scene, patch, s);
+    const double over = emitted(scene, patch) - power;
+    if (fabs(over) <= DBL_EPSILON * power) break;
+    if (over > 0)
+      high = s;
+    else
+      low = s;
+    for (size_t b = 0; b < scene->bands; b++) rise += hr2di_settled_rise(scene, patch, b);
+    const double next = s - over / rise;
+    s = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  return s;
+}
+
+/* A part of the step.  The unknown of the step is what a patch emits in all bands, P: then only
+   its spectrum is not linear.  Below 0 K it is. */
+static void take_step(hr2di_heat_balance *h, int halvings) {
+  for (size_t k = 0; k < h->count; k++) {
+    hr2di_settled_set(h->scene, h->patch[k], h->old[k]);
+    const double power = emitted(h->scene, h->patch[k]) + ldexp(h->gain[k], -halvings);
+    const double rest = 1 - hr2d_scene_reflectance(h->scene, h->patch[k], h->scene->bands - 1);
+    h->radiance[k] =
+        power > 0 ? radiance_of(h->scene, h->patch[k], power, h->old[k]) : power / rest;
+  }
+}
+
+/* One step from `old`, halved while the balance is not better.  Along the step g falls in
+   proportion at first, and so does ΣA|g|. */
+static hr2d_status improve(hr2di_heat_balance *h) {
+  const double before = h->power;
+  const int rounding = h->worst < ROUNDINGS;
+  for (size_t k = 0; k < h->count; k++) {
+    h->old[k] = h->radiance[k];
+    h->defect[k] = -h->defect[k];
+  }
+  hr2d_status status = hr2di_heat_balance_spread(h, h->defect, h->step);
+  for (size_t k = 0; k < h->count; k++) h->gain[k] = h->slope[k] * h->step[k];
+  for (int m = 0; m <= HALVINGS && !status; m++) {
+    take_step(h, m);
+    status = hr2di_watch_work(&h->eq.watch, 50 * h->count * h->scene->bands);
+    if (!status) status = evaluate(h);
+    if (h->power < before || rounding) break;
+  }
+  return status;
+}
+
+hr2d_status hr2di_heat_balance_settle(hr2di_heat_balance *h) {
+  hr2di_message *message = &h->eq.links->message;
+  hr2d_status status = evaluate(h);
+  double before = HUGE_VAL;
+  for (int k = 0; k < STEPS && !status && h->worst > BALANCED; k++) {
+    if (before < ROUNDINGS && h->worst > 0.5 * before) break;
+    before = h->worst;
+    status = improve(h);
+  }
+  if (!status && !(h->worst < ROUNDINGS))
+    status = hr2di_message_fail(message, HR2D_ENOT_CONVERGED,
+                                "the temperatures of patches of given flux do not settle: "
+                                "their heat is off by %.1e of itself",
+                                h->worst);
+  else if (status && !message->text[0])
+    hr2di_message_fail(message, status, "heat balance: %s", hr2d_strerror(status));
+  return status;
+}
+
+hr2d_status hr2di_heat_balance_respond(hr2di_heat_balance *h, const double *radiance,
+                                       double *radiosity, double *irradiance) {
+  set_emission(h, radiance);
+  hr2d_status status = solve(h, 1);
+  if (!status)
+    memcpy(irradiance, h->average, h->scene->patches * h->scene->bands * sizeof *irradiance);
+  return status ? status : take_averages(h, h->eq.radiosity, radiosity);
+}

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The temperatures of patches of given flux in several bands, on the links of one solve.
+
+   The unknowns are S_k = σT_k⁴ of the patches k of given flux.  With a = 1 − ρ, the part f of
+   the black body, and H̄ the average irradiance of a patch, which the radiosity equation gives
+   for the emissions E_kb = a_kb f_b(T_k) S_k, the heat balance is
+
+     g_k(S) = Σ_b (E_kb − a_kb H̄_kb) − q_k = 0.
+
+   E_kb rises with S_k, and every H̄ with every E.  So g is off-diagonally antitone; and as no
+   more than all that is emitted can arrive, Σ A_k g_k rises with each S_j, strictly unless what
+   j emits comes back to these patches in full.  Such a g is an M-function (Rheinboldt 1970):
+   it has one zero, and g(S) ≤ g(S') implies S ≤ S'.  J = ∂g/∂S is an M-matrix, J⁻¹ ≥ 0.
+
+   Newton's step J δ = −g has J = D − C, D_k = Σ_b E'_kb.  C v are averages of one linear solve
+   with the emissions E' v, and D⁻¹C has a spectral radius below 1: BiCGSTAB takes few solves.
+   A step is one of what patches emit in all bands, Σ_b E_kb: then only their spectra are not
+   linear.  It is halved while |g| does not fall. */
+#ifndef HR2D_SRC_ACCURACY_HEAT_BALANCE_H
+#define HR2D_SRC_ACCURACY_HEAT_BALANCE_H
+
+#include <hr2d/accuracy.h>
+
+#include "scene/settled.h"
+#include "solve/equation.h"
+
+typedef struct hr2di_heat_balance {
+  hr2d_scene *scene; /* settled */
+  hr2di_equation eq;
+  size_t count;     /* patches of given flux that heat reaches */
+  size_t *patch;    /* their indices */
+  double *space;    /* holds all arrays below, of `count` values unless said otherwise */
+  double *radiance; /* S */
+  double *defect;   /* g */
+  double *size;     /* of its terms */
+  double *slope;    /* D */
+  double *length;   /* A */
+  double *step, *gain, *old, *right;
+  double *emission; /* count × bands */
+  double *average;  /* patches × bands: of B or of H, after a solve */
+  double worst;     /* the largest |g|/size */
+  double power;     /* ΣA|g| */
+  unsigned solves;
+  hr2d_status failed; /* of a solve within a Krylov step */
+} hr2di_heat_balance;
+
+/* Sets up the balance on links of the settled scene.  Call hr2di_heat_balance_clear() in any
+   case; the struct must not be moved. */
+hr2d_status hr2di_heat_balance_init(hr2di_heat_balance *balance, hr2d_scene *settled,
+                                    hr2d_linkset *links, const hr2d_target *target);
+void hr2di_heat_balance_clear(hr2di_heat_balance *balance);
+
+/* Finds S, from that of the scene on; the scene has it then, with E.  HR2D_OK,
+   HR2D_ENOT_CONVERGED, HR2D_ENOMEM or the status of the progress callback, with a message of
+   the links. */
+hr2d_status hr2di_heat_balance_settle(hr2di_heat_balance *balance);
+
+/* radiance = J⁻¹ off: how far S is off if the averages of the balance are. Both have `count`
+   values; `off` ≥ 0. */
+hr2d_status hr2di_heat_balance_spread(hr2di_heat_balance *balance, const double *off,
+                                      double *radiance);
+
+/* The averages over all patches, per band, of the B and H that changes of S alone make. */
+hr2d_status hr2di_heat_balance_respond(hr2di_heat_balance *balance, const double *radiance,
+                                       double *radiosity, double *irradiance);
+
+#endif

@@ -1,0 +1,372 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Patches of given flux in several bands: temperatures, a solve with them, and the errors.
+
+   A coarse solve gives temperatures, and how errors of H grow.  A solve for the target follows
+   with them; the heat balance is settled again on its links, which changes the temperatures by
+   about the error of the coarse solve.
+
+   Errors.  Let the account state |δH̄| ≤ eN for a given E, with N_kb = max(H̄, floor·max H̄).
+   Then g is off by at most e·n, n_k = Σ_b a_kb N_kb, and by what is left of it; as g is an
+   M-function, |δS| ≤ J⁻¹(en + |g|).  The emissions E'|δS| make further errors of B and H, which
+   one more solve gives, for K and J⁻¹ have no negative entry.  At points they are at most
+   max E'|δS|/a: a radiosity of this size everywhere covers its reflections. */
+#include "accuracy/heat-solve.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "accuracy/heat-balance.h"
+#include "accuracy/importance.h"
+#include "accuracy/solve-to.h"
+#include "accuracy/target.h"
+#include "base/alloc.h"
+#include "base/clock.h"
+#include "base/sized-struct.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "links/linkset-impl.h"
+#include "solution/solution-impl.h"
+
+/* The target of the coarse solve; the change of E beyond which the account is made anew; the
+   part of an aim that is left to what the growth of errors does not tell. */
+#define COARSE 1e-5
+#define MOVED  0.1
+#define SURE   0.9
+
+/* Of the heat of a patch: it is at 0 K. */
+#define ROUND 1e-9
+
+enum { FINE_SOLVES = 4 };
+
+/* How much an error of 1 of H, relative, makes of further errors: in averages of B and H, and
+   at points. */
+typedef struct growth {
+  double average, irradiance, sup;
+} growth;
+
+typedef struct heat_search {
+  const hr2d_scene *scene;
+  hr2d_scene *settled;
+  hr2d_target given; /* complete */
+  hr2d_target how;   /* for solves: the patches of given flux are important, too */
+  size_t *important;
+  double start;
+  hr2d_solution *solution;
+  hr2d_account account; /* of it, with the work of all */
+  growth growth;
+  double moved; /* the largest relative change of E since the account */
+  double left;  /* the largest part of n that the balance is off by */
+} heat_search;
+
+hr2d_status hr2di_heat_guess(const hr2d_scene *scene, hr2d_scene **settled) {
+  const hr2d_status status = hr2di_settled_create(scene, settled);
+  if (status) return status;
+  double most = 0, flux, heat = 0;
+  for (size_t b = 0; b < scene->bands; b++) most += hr2d_scene_background(scene, b);
+  for (size_t k = 0; k < scene->patches; k++) {
+    double sum = 0, value;
+    const hr2d_heat given = hr2d_scene_heat(scene, k, &value);
+    for (size_t b = 0; b < scene->bands && given == HR2D_HEAT_NONE; b++)
+      sum += hr2d_scene_emission(scene, k, b);
+    most = fmax(most, given == HR2D_HEAT_TEMPERATURE ? hr2d_black_body(value) : sum);
+    if (given == HR2D_HEAT_FLUX) heat = fmax(heat, fabs(value));
+  }
+  if (!(most > 0)) most = heat;
+  for (size_t k = 0; k < scene->patches; k++)
+    if (hr2d_scene_heat(scene, k, &flux) == HR2D_HEAT_FLUX && hr2di_scene_lit(scene, k))
+      hr2di_settled_set(*settled, k, most + fmax(flux, 0));
+  return HR2D_OK;
+}
+
+/* The errors of patches that are asked for need those of patches of given flux. */
+static hr2d_status set_important(heat_search *s) {
+  const size_t patches = s->scene->patches;
+  size_t count = 0;
+  s->how.important = NULL;
+  s->how.important_count = 0;
+  if (!s->given.important) return HR2D_OK;
+  s->important = hr2di_alloc(&s->scene->alloc, patches, sizeof *s->important);
+  if (!s->important) return HR2D_ENOMEM;
+  for (size_t k = 0; k < patches; k++)
+    if (hr2di_is_important(&s->given, k) ||
+        hr2d_scene_heat(s->scene, k, NULL) == HR2D_HEAT_FLUX)
+      s->important[count++] = k;
+  s->how.important = s->important;
+  s->how.important_count = count;
+  return HR2D_OK;
+}
+
+static hr2d_status fail(heat_search *s, hr2d_status status, const char *why) {
+  snprintf(s->account.reason, sizeof s->account.reason, "%.150s",
+           why && *why ? why : hr2d_strerror(status));
+  return status;
+}
+
+static void add_work(hr2d_account *sum, const hr2d_account *more) {
+  sum->solves += more->solves;
+  sum->kernels += more->kernels;
+  sum->refine_seconds += more->refine_seconds;
+  sum->coefficients_seconds += more->coefficients_seconds;
+  sum->solve_seconds += more->solve_seconds;
+  sum->error_seconds += more->error_seconds;
+}
+
+/* A solve with the temperatures as they are, in the place of the last. */
+static hr2d_status solve(heat_search *s, double part_of_time) {
+  const hr2d_account before = s->account;
+  hr2d_solution_destroy(s->solution);
+  s->solution = NULL;
+  s->how.seconds = 0;
+  if (s->given.seconds > 0)
+    s->how.seconds =
+        fmax(1e-3, part_of_time * (s->start + s->given.seconds - hr2di_clock_now()));
+  const hr2d_status status = hr2di_solve_to(s->settled, &s->how, &s->solution, &s->account);
+  add_work(&s->account, &before);
+  if (s->solution && s->solution->own_links->counts.elements == 0) {
+    hr2d_solution_destroy(s->solution);
+    s->solution = NULL;
+    return fail(s, HR2D_EACCURACY,
+                "the time does not suffice for the temperatures of patches of given flux");
+  }
+  return status;
+}
+
+static double largest(const double *average, size_t patches, size_t bands, size_t band) {
+  double max = 0;
+  for (size_t k = 0; k < patches; k++) max = fmax(max, average[k * bands + band]);
+  return max;
+}
+
+/* n, in h->old, from the averages of H after a solve. */
+static void set_unit_errors(heat_search *s, hr2di_heat_balance *h) {
+  const size_t bands = s->scene->bands;
+  for (size_t k = 0; k < h->count; k++) h->old[k] = 0;
+  for (size_t b = 0; b < bands; b++) {
+    const double least = s->given.floor * largest(h->average, s->scene->patches, bands, b);
+    for (size_t k = 0; k < h->count; k++)
+      h->old[k] += (1 - hr2d_scene_reflectance(s->settled, h->patch[k], b)) *
+                   fmax(h->average[h->patch[k] * bands + b], least);
+  }
+  s->left = 0;
+  for (size_t k = 0; k < h->count; k++)
+    if (h->size[k] > 0)
+      s->left = fmax(s->left, (fabs(h->defect[k]) + 4 * DBL_EPSILON * h->size[k]) / h->old[k]);
+}
+
+/* The largest error of a patch that counts, relative to averages but to no less than the
+   floor. */
+static double worst_of(const heat_search *s, const double *off, const double *average) {
+  const size_t bands = s->scene->bands;
+  double worst = 0;
+  for (size_t b = 0; b < bands; b++) {
+    const double least = s->given.floor * largest(average, s->scene->patches, bands, b);
+    for (size_t k = 0; k < s->scene->patches; k++)
+      if (hr2di_is_important(&s->given, k) && off[k * bands + b] > 0)
+        worst = fmax(worst, off[k * bands + b] / fmax(average[k * bands + b], least));
+  }
+  return worst;
+}
+
+static double worst_point(const heat_search *s, const hr2di_heat_balance *h,
+                          const double *radiosity) {
+  const size_t bands = s->scene->bands;
+  double worst = 0;
+  for (size_t b = 0; b < bands; b++) {
+    double off = 0;
+    for (size_t k = 0; k < h->count; k++)
+      off = fmax(off, hr2di_settled_rise(s->settled, h->patch[k], b) * h->step[k] /
+                          (1 - hr2d_scene_reflectance(s->settled, h->patch[k], b)));
+    if (off > 0) worst = fmax(worst, off / largest(radiosity, s->scene->patches, bands, b));
+  }
+  return worst;
+}
+
+/* Sets the growth; h->step becomes J⁻¹n. */
+static hr2d_status measure_growth(heat_search *s, hr2di_heat_balance *h) {
+  const size_t values = s->scene->patches * s->scene->bands;
+  double *space = hr2di_alloc(&s->scene->alloc, 4 * values, sizeof *space);
+  if (!space) return HR2D_ENOMEM;
+  double *b = space, *irradiance = space + values, *db = space + 2 * values,
+         *dh = space + 3 * values;
+  set_unit_errors(s, h);
+  memcpy(irradiance, h->average, values * sizeof *irradiance);
+  for (size_t k = 0; k < values; k++) {
+    const size_t patch = k / s->scene->bands, band = k % s->scene->bands;
+    b[k] = hr2d_scene_emission(s->settled, patch, band) +
+           hr2d_scene_reflectance(s->settled, patch, band) * irradiance[k];
+  }
+  hr2d_status status = hr2di_heat_balance_spread(h, h->old, h->step);
+  for (size_t k = 0; k < h->count; k++) h->step[k] = fmax(h->step[k], 0);
+  if (!status) status = hr2di_heat_balance_respond(h, h->step, db, dh);
+  if (!status)
+    s->growth = (growth){worst_of(s, db, b), worst_of(s, dh, irradiance), worst_point(s, h, b)};
+  hr2di_alloc_free(&s->scene->alloc, space);
+  return status;
+}
+
+static void keep_emission(const heat_search *s, const hr2di_heat_balance *h, double *emission) {
+  const size_t bands = s->scene->bands;
+  for (size_t m = 0; m < h->count * bands; m++)
+    emission[m] = hr2d_scene_emission(s->settled, h->patch[m / bands], m % bands);
+}
+
+static void measure_move(heat_search *s, const hr2di_heat_balance *h, const double *before) {
+  const size_t bands = s->scene->bands;
+  s->moved = 0;
+  for (size_t b = 0; b < bands; b++) {
+    double max = 0;
+    for (size_t k = 0; k < s->scene->patches; k++)
+      max = fmax(max, hr2d_scene_emission(s->settled, k, b));
+    for (size_t k = 0; k < h->count; k++) {
+      const double is = hr2d_scene_emission(s->settled, h->patch[k], b);
+      const double change = fabs(is - before[k * bands + b]);
+      if (change > 0) s->moved = fmax(s->moved, change / fmax(is, s->given.floor * max));
+    }
+  }
+}
+
+/* Refuses patches that would have to be colder than 0 K by more than roundings; names the one
+   that lacks most. */
+static hr2d_status check_cold(heat_search *s, const hr2di_heat_balance *h) {
+  size_t least = 0;
+  char why[160];
+  for (size_t k = 0; k < h->count; k++) {
+    if (h->radiance[k] < h->radiance[least]) least = k;
+    if (h->radiance[k] < 0 && h->radiance[k] >= -ROUND * h->size[k])
+      hr2di_settled_set(s->settled, h->patch[k], 0);
+  }
+  if (!h->count || h->radiance[least] >= -ROUND * h->size[least]) return HR2D_OK;
+  snprintf(why, sizeof why,
+           "no solution: %.80s cannot lose so much heat: it would have to be colder than 0 K",
+           hr2di_patch_label(s->scene, h->patch[least]).text);
+  return fail(s, HR2D_ENO_SOLUTION, why);
+}
+
+/* The errors of the balance go to the patches. */
+static void put_errors(heat_search *s, const hr2di_heat_balance *h) {
+  const hr2d_error e = s->account.irradiance;
+  for (size_t k = 0; k < h->count; k++) {
+    hr2di_found *found = &s->settled->found[h->patch[k]];
+    found->estimate = e.estimate * h->step[k];
+    found->bound = (e.bound + s->left) * h->step[k];
+  }
+}
+
+/* Settles the temperatures on the links of the solution, and measures what errors make. */
+static hr2d_status settle(heat_search *s) {
+  hr2di_heat_balance h;
+  const double start = hr2di_clock_now();
+  hr2d_linkset *links = s->solution->own_links;
+  hr2d_status status = hr2di_heat_balance_init(&h, s->settled, links, &s->how);
+  double *before = hr2di_alloc(&s->scene->alloc, h.count * s->scene->bands + 1, sizeof *before);
+  if (!status && !before) status = HR2D_ENOMEM;
+  if (!status) {
+    keep_emission(s, &h, before);
+    status = hr2di_heat_balance_settle(&h);
+  }
+  if (!status) measure_move(s, &h, before);
+  if (!status)
+    status = check_cold(s, &h);
+  else
+    fail(s, status, hr2d_linkset_message(links));
+  s->account.solves += h.solves;
+  s->account.solve_seconds += hr2di_clock_now() - start;
+  if (!status && !s->given.no_error) status = measure_growth(s, &h);
+  if (!status && !s->given.no_error) put_errors(s, &h);
+  hr2di_alloc_free(&s->scene->alloc, before);
+  hr2di_heat_balance_clear(&h);
+  return status;
+}
+
+/* The solution with the settled temperatures, on the same links. */
+static hr2d_status renew(heat_search *s) {
+  hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+  hr2d_solution *made = NULL, *old = s->solution;
+  options.threads = s->how.threads;
+  options.progress = s->how.progress;
+  options.progress_ctx = s->how.progress_ctx;
+  const hr2d_status status = hr2d_solve(old->own_links, &options, &made);
+  if (status) return fail(s, status, hr2d_linkset_message(old->own_links));
+  made->own_links = old->own_links;
+  made->own_hierarchy = old->own_hierarchy;
+  made->own_scene = s->settled;
+  old->own_links = NULL;
+  old->own_hierarchy = NULL;
+  hr2d_solution_destroy(old);
+  s->solution = made;
+  s->account.solves++;
+  return HR2D_OK;
+}
+
+/* Errors of E that the account does not know; it was made for slightly other E. */
+static void raise_errors(heat_search *s) {
+  const hr2d_error e = s->account.irradiance;
+  hr2d_error *const error[] = {&s->account.average, &s->account.irradiance, &s->account.sup,
+                               &s->account.irradiance_sup};
+  const double by[] = {s->growth.average, s->growth.irradiance, s->growth.sup, s->growth.sup};
+  for (int k = 0; k < 4; k++) {
+    error[k]->estimate = error[k]->estimate * (1 + s->moved) + e.estimate * by[k];
+    error[k]->bound = error[k]->bound * (1 + 10 * s->moved) + (e.bound + s->left) * by[k];
+  }
+}
+
+static double growth_of(const heat_search *s) {
+  return s->given.norm == HR2D_NORM_SUP ? s->growth.sup
+                                        : fmax(s->growth.average, s->growth.irradiance);
+}
+
+static int is_usable(const heat_search *s, hr2d_status status) {
+  return s->solution && (!status || status == HR2D_EACCURACY);
+}
+
+/* Coarse temperatures, and how errors grow. */
+static hr2d_status approach(heat_search *s) {
+  s->how.no_error = 1;
+  s->how.norm = HR2D_NORM_AVERAGE;
+  s->how.error = fmax(s->given.error, COARSE);
+  hr2d_status status = solve(s, 0.3);
+  if (is_usable(s, status)) status = settle(s);
+  s->how.no_error = s->given.no_error;
+  s->how.norm = s->given.norm;
+  s->how.error =
+      s->given.error > 0 ? SURE * s->given.error / (1 + growth_of(s)) : HR2D_SMALLEST_ERROR;
+  return status;
+}
+
+static hr2d_status reach(heat_search *s) {
+  hr2d_status status = approach(s), settled = status;
+  for (int k = 0; k < FINE_SOLVES && !settled; k++) {
+    status = solve(s, 1);
+    settled = is_usable(s, status) ? settle(s) : status;
+    if (!settled && s->moved <= MOVED) break;
+  }
+  if (!settled) settled = renew(s);
+  if (settled) return settled;
+  if (!s->given.no_error) raise_errors(s);
+  return status;
+}
+
+hr2d_status hr2di_heat_solve(const hr2d_scene *scene, const hr2d_target *target,
+                             hr2d_solution **solution, hr2d_account *account) {
+  heat_search s = {.scene = scene, .start = hr2di_clock_now(), .how = HR2D_TARGET_INIT};
+  hr2d_status status = hr2di_target_init(&s.given, scene, target, HR2D_DEFAULT_ERROR);
+  if (status) return status;
+  s.how = s.given;
+  status = set_important(&s);
+  if (!status) status = hr2di_heat_guess(scene, &s.settled);
+  if (!status) status = reach(&s);
+  s.account.seconds = hr2di_clock_now() - s.start;
+  if (status && status != HR2D_EACCURACY) {
+    hr2d_solution_destroy(s.solution);
+    s.solution = NULL;
+  }
+  if (s.solution)
+    *solution = s.solution;
+  else
+    hr2di_settled_destroy(s.settled);
+  if (account) *account = s.account;
+  hr2di_alloc_free(&scene->alloc, s.important);
+  hr2di_target_clear(&s.given, scene);
+  return status;
+}

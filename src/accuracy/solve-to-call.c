@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* hr2d_solve_to(): where temperatures couple the bands, they are found first. */
+#include "accuracy/heat-solve.h"
+#include "accuracy/solve-to.h"
+#include "scene/settled.h"
+
+hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
+                          hr2d_solution **solution, hr2d_account *account) {
+  *solution = NULL;
+  if (account) *account = (hr2d_account){0};
+  if (!scene->committed) return HR2D_ESTATE;
+  return hr2di_scene_is_unsettled(scene) ? hr2di_heat_solve(scene, target, solution, account)
+                                         : hr2di_solve_to(scene, target, solution, account);
+}

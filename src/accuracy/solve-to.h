@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solving a scene of known E and ρ to a target. */
+#ifndef HR2D_SRC_ACCURACY_SOLVE_TO_H
+#define HR2D_SRC_ACCURACY_SOLVE_TO_H
+
+#include <hr2d/accuracy.h>
+
+/* hr2d_solve_to() of a committed scene that is not unsettled.  The caller has set *solution to
+   NULL and *account, which may be NULL, to 0. */
+hr2d_status hr2di_solve_to(const hr2d_scene *scene, const hr2d_target *target,
+                           hr2d_solution **solution, hr2d_account *account);
+
+#endif

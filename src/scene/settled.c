@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scene/settled.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "base/black-body.h"
+
+int hr2di_scene_is_unsettled(const hr2d_scene *scene) {
+  size_t k = 0;
+  if (scene->bands == 1 || scene->found) return 0;
+  while (k < scene->patches && scene->patch[k].light->heat != HR2D_HEAT_FLUX) k++;
+  return k < scene->patches;
+}
+
+const hr2d_scene *hr2di_scene_origin(const hr2d_scene *scene) {
+  return scene->origin ? scene->origin : scene;
+}
+
+/* A light of its own for patch k, with a value of each kind for each band. */
+static hr2di_light *own_light(const hr2d_scene *scene, size_t k) {
+  const size_t head = (sizeof(hr2di_light) + sizeof(double) - 1) / sizeof(double);
+  const size_t bands = scene->bands;
+  hr2di_light *light = hr2di_alloc_zero(&scene->alloc, head + 3 * bands, sizeof(double));
+  if (!light) return NULL;
+  *light = (hr2di_light){.users = 1,
+                         .emission_bands = bands,
+                         .reflectance_bands = bands,
+                         .emissivity_bands = bands,
+                         .heat = HR2D_HEAT_FLUX,
+                         .given = scene->patch[k].light->given};
+  for (size_t b = 0; b < bands; b++) {
+    light->value[2 * bands + b] = hr2d_scene_emissivity(scene, k, b);
+    light->value[bands + b] = 1 - light->value[2 * bands + b];
+  }
+  return light;
+}
+
+hr2d_status hr2di_settled_create(const hr2d_scene *scene, hr2d_scene **settled) {
+  hr2d_scene *made = hr2di_alloc(&scene->alloc, 1, sizeof *made);
+  if (!made) return HR2D_ENOMEM;
+  *made = *scene;
+  made->origin = scene;
+  made->patch = hr2di_alloc(&scene->alloc, scene->patches, sizeof *made->patch);
+  made->found = hr2di_alloc_zero(&scene->alloc, scene->patches, sizeof *made->found);
+  hr2d_status status = made->patch && made->found ? HR2D_OK : HR2D_ENOMEM;
+  for (size_t k = 0; k < scene->patches && made->patch; k++) made->patch[k] = scene->patch[k];
+  for (size_t k = 0; k < scene->patches && !status; k++) {
+    if (scene->patch[k].light->heat != HR2D_HEAT_FLUX) continue;
+    hr2di_light *light = own_light(scene, k);
+    if (light) made->patch[k].light = light;
+    status = light ? HR2D_OK : HR2D_ENOMEM;
+  }
+  if (status) {
+    hr2di_settled_destroy(made);
+    return status;
+  }
+  *settled = made;
+  return HR2D_OK;
+}
+
+void hr2di_settled_destroy(hr2d_scene *settled) {
+  if (!settled) return;
+  const hr2d_scene *origin = settled->origin;
+  for (size_t k = 0; k < settled->patches && settled->patch; k++)
+    if (settled->patch[k].light != origin->patch[k].light)
+      hr2di_alloc_free(&settled->alloc, settled->patch[k].light);
+  hr2di_alloc_free(&settled->alloc, settled->patch);
+  hr2di_alloc_free(&settled->alloc, settled->found);
+  const hr2d_allocator alloc = settled->alloc;
+  hr2di_alloc_free(&alloc, settled);
+}
+
+/* Below 0 K all emission, which is negative, is in the band of the longest waves, as in the
+   limit of 0 K: so it rises steadily. */
+static double kelvin_of(double radiance) {
+  return radiance > 0 ? hr2di_black_body_kelvin(radiance) : 0;
+}
+
+void hr2di_settled_set(hr2d_scene *settled, size_t patch, double radiance) {
+  hr2di_light *light = settled->patch[patch].light;
+  const double kelvin = kelvin_of(radiance);
+  settled->found[patch].radiance = radiance;
+  for (size_t b = 0; b < settled->bands; b++)
+    light->value[b] = (1 - light->value[settled->bands + b]) *
+                      (hr2di_scene_band_part(settled, kelvin, b) * radiance);
+}
+
+double hr2di_settled_rise(const hr2d_scene *settled, size_t patch, size_t band) {
+  const size_t last = settled->wavelengths;
+  const double kelvin = kelvin_of(settled->found[patch].radiance);
+  const double rise = hr2di_black_body_rise(kelvin, band ? settled->wavelength[band - 1] : 0,
+                                            band < last ? settled->wavelength[band] : HUGE_VAL);
+  return (1 - hr2d_scene_reflectance(settled, patch, band)) * rise;
+}
