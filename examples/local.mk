@@ -1,8 +1,9 @@
 # Examples use the library as any program does; `make check` compares what they
 # print with NAME.expected.
 EXAMPLES = examples/adiabatic-walls examples/conduction examples/digits \
-	examples/furnace-section examples/own-oracle examples/resume examples/room-climate \
-	examples/shares examples/solar-panels examples/street-canyon examples/tour
+	examples/frame-cavity examples/furnace-section examples/own-oracle examples/paint-oven \
+	examples/resume examples/room-climate examples/shares examples/solar-panels \
+	examples/street-canyon examples/tour
 check_PROGRAMS += $(EXAMPLES)
 examples_adiabatic_walls_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_adiabatic_walls_LDADD = libhr2d.la -lm
@@ -10,10 +11,14 @@ examples_conduction_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_conduction_LDADD = libhr2d.la -lm
 examples_digits_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_digits_LDADD = libhr2d.la
+examples_frame_cavity_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_frame_cavity_LDADD = libhr2d.la -lm
 examples_furnace_section_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_furnace_section_LDADD = libhr2d.la -lm
 examples_own_oracle_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_own_oracle_LDADD = libhr2d.la -lm
+examples_paint_oven_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_paint_oven_LDADD = libhr2d.la -lm
 examples_resume_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_resume_LDADD = libhr2d.la
 examples_room_climate_CPPFLAGS = $(PUBLIC_CPPFLAGS)
