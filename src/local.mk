@@ -70,6 +70,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/checks.c \
 	src/scene/commit.c \
 	src/scene/effects.c \
+	src/scene/emissivity.c src/scene/emissivity.h \
 	src/scene/find-occluder.c src/scene/find-occluder.h \
 	src/scene/facing-in-part.c src/scene/facing-in-part.h \
 	src/scene/in-between.c src/scene/in-between.h \

@@ -48,6 +48,7 @@ SUITES = \
 	tests/unit/oracle/check-squares \
 	tests/unit/solution/check-points \
 	tests/unit/solution/check-irradiance-points \
+	tests/unit/solution/check-emissivity \
 	tests/unit/solution/check-heat-bands \
 	tests/unit/solution/check-temperatures \
 	tests/unit/solution/check-thermal-calls \

@@ -174,7 +174,9 @@ typedef struct hr2d_account {
  * @retval HR2D_ESTATE         the scene is not committed
  * @retval HR2D_ENO_SOLUTION   as hr2d_solve(), or a patch of given flux would be colder than
  *                             0 K, see thermal.h
- * @retval HR2D_ENOT_CONVERGED as hr2d_solve()
+ * @retval HR2D_ENOT_CONVERGED as hr2d_solve(), or ε falls so fast with T that temperatures do
+ *                             not settle
+ * @retval HR2D_ECALLBACK      a function gives no emissivity, see thermal.h
  * @retval other               the status of the progress callback
  *
  * Different scenes, and one scene, may be solved from different threads. Cost: L is O(N) at a

@@ -98,6 +98,7 @@ HR2D_API hr2d_status hr2d_state_read(hr2d_linkset *links, hr2d_read_fn read, voi
  * @param ctx    given to `write`
  * @retval HR2D_OK      success
  * @retval HR2D_ESTATE  the scene is not committed
+ * @retval HR2D_EUNSUPPORTED  a patch of given flux has an emissivity that depends on T
  * @retval other        the status of `write`, or of hr2d_scene_set_progress()
  *
  * Allocates nothing. Some 60 bytes per patch and 8 per value of E and ρ that patches do not

@@ -41,7 +41,14 @@
  * HR2D_EUNSUPPORTED. Where T would be below 0 K, HR2D_ENO_SOLUTION is returned. E and ρ of the
  * scene are then those of the sum over the bands, q and 1.
  *
- * examples/adiabatic-walls.c computes a furnace.
+ * **Emissivity that depends on temperature** is a table or a function. On a patch of given T it
+ * is a number. On one of given q it is a part of the equation for T: in one band of
+ * ε(T)(σT⁴ − H) = q alone, from point to point; in several bands of the heat balance, where 1 −
+ * ε reflects. If the left-hand side rises with T there is one T; with an ε that falls faster
+ * than that there may be several, and one is found, or in several bands HR2D_ENOT_CONVERGED is
+ * returned.
+ *
+ * examples/adiabatic-walls.c computes a furnace, examples/paint-oven.c a published one.
  * @{
  */
 #ifndef HR2D_THERMAL_H
@@ -73,6 +80,18 @@ typedef enum hr2d_heat {
   HR2D_HEAT_FLUX         /**< q and ε */
 } hr2d_heat;
 
+/**
+ * An emissivity that depends on temperature.
+ * @param ctx     hr2d_thermal::emissivity_ctx
+ * @param kelvin  T ≥ 0
+ * @param band    the band; 0 if there is one
+ * @return ε as of hr2d_thermal::emissivity; another value ends the call with HR2D_ECALLBACK, or
+ *         leaves NaN for T. The same T must get the same ε. With hr2d_scene_add_thermal() it is
+ *         called for a given T alone; otherwise, as long as the scene exists, from any thread
+ *         that works with it
+ */
+typedef double (*hr2d_emissivity_fn)(void *ctx, double kelvin, size_t band);
+
 /** The thermal properties of a patch. Start from #HR2D_THERMAL_INIT. */
 typedef struct hr2d_thermal {
   size_t struct_size;       /**< so that the struct can grow */
@@ -81,11 +100,17 @@ typedef struct hr2d_thermal {
   const double *emissivity; /**< ε in (0,1] with a flux, in [0,1] with a temperature; copied */
   size_t emissivity_bands;  /**< number of values in `emissivity`: one per band, or one for all;
                                  0: ε = 1 */
+  const double *kelvin; /**< for a table: the temperatures of its entries, which rise; copied */
+  size_t kelvins;       /**< their number; `emissivity` has `emissivity_bands` values for each,
+                             entry by entry. Between entries ε is on a straight line, beyond
+                             them it is that of the last. 0: ε does not depend on T */
+  hr2d_emissivity_fn emissivity_of; /**< in the place of values: a function; NULL: none */
+  void *emissivity_ctx;             /**< given to `emissivity_of` */
 } hr2d_thermal;
 
 /** A black patch of which nothing is given yet. */
 #define HR2D_THERMAL_INIT                                                                      \
-  { sizeof(hr2d_thermal), HR2D_HEAT_NONE, 0, NULL, 0 }
+  { sizeof(hr2d_thermal), HR2D_HEAT_NONE, 0, NULL, 0, NULL, 0, NULL, NULL }
 
 /**
  * Does what #HR2D_THERMAL_INIT does, for languages without macros: sets all bytes to 0, and
@@ -104,11 +129,14 @@ HR2D_API void hr2d_thermal_init(hr2d_thermal *thermal, size_t size);
  * @retval HR2D_OK      success
  * @retval HR2D_ENOMEM  an allocation failed
  * @retval HR2D_EINVAL  as hr2d_scene_add(); `patch` has emission or reflectance; `given` is
- *                      none of both; or `struct_size` is not set
+ *                      none of both; there are both values and a function for ε, or a table
+ *                      without values; or `struct_size` is not set
+ * @retval HR2D_ECALLBACK  `emissivity_of` gives no emissivity for a given T
  * @retval HR2D_ESTATE  the scene is committed
  * @retval HR2D_ESCENE  as hr2d_scene_add(); T is negative, so large that E is beyond a double,
  *                      or not finite; q is not finite; ε is outside of its range; or several ε
- *                      are given that are not one for each band of the wavelengths
+ *                      are given that are not one for each band of the wavelengths; or the
+ *                      temperatures of a table are negative or do not rise
  *
  * hr2d_scene_emission() and hr2d_scene_reflectance() return E and ρ of the table above.
  */
@@ -150,9 +178,30 @@ HR2D_API hr2d_heat hr2d_scene_heat(const hr2d_scene *scene, size_t patch, double
  * The emissivity of a patch in one band, as it was given.
  * @param scene,patch  a scene and the index of a patch
  * @param band         below hr2d_scene_bands()
- * @return ε; NaN if neither T nor q is given
+ * @return ε; NaN if neither T nor q is given, or if q is and ε depends on T. Of a given T it is
+ *         that of this T
  */
 HR2D_API double hr2d_scene_emissivity(const hr2d_scene *scene, size_t patch, size_t band);
+
+/**
+ * The emissivity of a patch at a temperature.
+ * @param scene,patch  a scene and the index of a patch
+ * @param band         below hr2d_scene_bands()
+ * @param kelvin       T ≥ 0; does not matter unless q is given and ε depends on T
+ * @return ε; NaN if neither T nor q is given
+ */
+HR2D_API double hr2d_scene_emissivity_at(const hr2d_scene *scene, size_t patch, size_t band,
+                                         double kelvin);
+
+/**
+ * The temperature of a patch on which H arrives: given, or in a scene of one band the root of
+ * ε(T)(σT⁴ − H) = q.
+ * @param scene,patch  a scene and the index of a patch
+ * @param irradiance   H ≥ 0 in W/m²
+ * @return T; NaN if it is not known, or cannot be
+ */
+HR2D_API double hr2d_scene_temperature(const hr2d_scene *scene, size_t patch,
+                                       double irradiance);
 
 /**
  * σT⁴, what a black body emits over all wavelengths.

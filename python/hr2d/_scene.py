@@ -94,7 +94,8 @@ class Scene:
             In place of these: T in kelvin, or the net heat flux that leaves in W/m², 0 on an
             insulated wall.
         emissivity
-            With a temperature or a flux: one value, or one per band; 1 by default.
+            With a temperature or a flux: one value, or one per band, or a table of entries
+            [T, value] or [T, value per band, …]; 1 by default.
         sides
             "front", or "both": each patch becomes two, back to back.
         faces

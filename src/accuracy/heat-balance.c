@@ -6,8 +6,10 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/black-body.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/linkset-impl.h"
+#include "scene/emissivity.h"
 #include "solve/closure.h"
 
 /* B and H are accurate to 1e-13, and Newton's method needs no more of its steps than that each
@@ -16,6 +18,9 @@
 #define ROUNDINGS  1e-10
 #define STEP_ERROR 1e-5
 #define STEP_SOLVE 1e-8
+
+/* Of what E gains with S, against that of a constant ε. */
+#define LEAST_SLOPE 0.05
 
 enum { ARRAYS = 9, ROOTS = 100, STEPS = 50, HALVINGS = 8, MOST_SOLVES = 2000 };
 
@@ -27,17 +32,19 @@ static hr2d_status reserve(hr2di_heat_balance *h) {
   const hr2d_scene *scene = h->scene;
   for (size_t k = 0; k < scene->patches; k++) h->count += (size_t)is_unknown(scene, k);
   h->patch = hr2di_alloc(&scene->alloc, h->count + 1, sizeof *h->patch);
-  h->space =
-      hr2di_alloc_zero(&scene->alloc, (ARRAYS + scene->bands) * h->count, sizeof *h->space);
+  h->space = hr2di_alloc_zero(&scene->alloc, (ARRAYS + 2 * scene->bands) * h->count + 1,
+                              sizeof *h->space);
   h->average = hr2di_alloc(&scene->alloc, scene->patches * scene->bands, sizeof *h->average);
   if (!h->patch || !h->space || !h->average) return HR2D_ENOMEM;
   double **const array[ARRAYS] = {&h->radiance, &h->defect, &h->size,  &h->slope, &h->length,
                                   &h->step,     &h->old,    &h->right, &h->gain};
   for (size_t k = 0; k < ARRAYS; k++) *array[k] = h->space + k * h->count;
   h->emission = h->space + ARRAYS * h->count;
+  h->rise = h->emission + scene->bands * h->count;
   size_t at = 0;
   for (size_t k = 0; k < scene->patches; k++) {
     if (!is_unknown(scene, k)) continue;
+    h->depends |= hr2di_emissivity_depends(hr2di_scene_origin(scene), k);
     h->length[at] = scene->patch[k].length;
     h->radiance[at] = scene->found[k].radiance;
     h->patch[at++] = k;
@@ -110,12 +117,56 @@ static hr2d_status solve(hr2di_heat_balance *h, int alone) {
   return take_averages(h, eq->irradiance, h->average);
 }
 
+/* E and ρ for h->radiance. */
+static hr2d_status set_radiance(hr2di_heat_balance *h) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < h->count && !status; k++) {
+    status = hr2di_settled_set(h->scene, h->patch[k], h->radiance[k]);
+    if (status)
+      hr2di_message_fail(
+          &h->eq.links->message, status,
+          "the function of the emissivity of %s gives a value that is not in (0,1]",
+          hr2di_patch_label(h->scene, h->patch[k]).text);
+  }
+  return status || !h->depends ? status : hr2di_equation_set_surfaces(&h->eq);
+}
+
+/* ∂E_b/∂S, with the change of ε of what is absorbed and sent back: where ε depends on T, B has
+   ε'(f_b S − H̄_b) besides. */
+static double rise_of(const hr2di_heat_balance *h, size_t patch, size_t band) {
+  const double rise = hr2di_settled_rise(h->scene, patch, band);
+  const double radiance = h->scene->found[patch].radiance;
+  const hr2d_scene *scene = hr2di_scene_origin(h->scene);
+  if (!(radiance > 0) || !hr2di_emissivity_depends(scene, patch)) return rise;
+  const double kelvin = hr2di_black_body_kelvin(radiance);
+  const double black = hr2d_scene_emission(h->scene, patch, band) /
+                       (1 - hr2d_scene_reflectance(h->scene, patch, band));
+  return rise + hr2di_emissivity_slope(scene, patch, band, kelvin) / (4 * radiance) *
+                    (black - h->average[patch * h->scene->bands + band]);
+}
+
+/* D and E' of an unknown patch.  With an ε that falls so fast that heat would not rise with T,
+   they are those of a constant ε. */
+static void set_slope(hr2di_heat_balance *h, size_t k) {
+  const size_t bands = h->scene->bands;
+  double plain = 0;
+  h->slope[k] = 0;
+  for (size_t b = 0; b < bands; b++) {
+    h->rise[k * bands + b] = rise_of(h, h->patch[k], b);
+    h->slope[k] += h->rise[k * bands + b];
+    plain += hr2di_settled_rise(h->scene, h->patch[k], b);
+  }
+  if (h->slope[k] >= LEAST_SLOPE * plain) return;
+  for (size_t b = 0; b < bands; b++)
+    h->rise[k * bands + b] = hr2di_settled_rise(h->scene, h->patch[k], b);
+  h->slope[k] = plain;
+}
+
 /* g, its size and D for h->radiance. */
 static hr2d_status evaluate(hr2di_heat_balance *h) {
   const size_t bands = h->scene->bands;
-  for (size_t k = 0; k < h->count; k++)
-    hr2di_settled_set(h->scene, h->patch[k], h->radiance[k]);
-  const hr2d_status status = solve(h, 0);
+  hr2d_status status = set_radiance(h);
+  if (!status) status = solve(h, 0);
   h->worst = 0;
   h->power = 0;
   for (size_t k = 0; k < h->count && !status; k++) {
@@ -124,15 +175,14 @@ static hr2d_status evaluate(hr2di_heat_balance *h) {
     hr2d_scene_heat(h->scene, patch, &flux);
     h->defect[k] = -flux;
     h->size[k] = fabs(flux);
-    h->slope[k] = 0;
     for (size_t b = 0; b < bands; b++) {
       const double emitted = hr2d_scene_emission(h->scene, patch, b);
       const double absorbed =
           (1 - hr2d_scene_reflectance(h->scene, patch, b)) * h->average[patch * bands + b];
       h->defect[k] += emitted - absorbed;
       h->size[k] += fabs(emitted) + fabs(absorbed);
-      h->slope[k] += hr2di_settled_rise(h->scene, patch, b);
     }
+    set_slope(h, k);
     h->power += h->length[k] * fabs(h->defect[k]);
     if (h->size[k] > 0) h->worst = fmax(h->worst, fabs(h->defect[k]) / h->size[k]);
   }
@@ -142,8 +192,7 @@ static hr2d_status evaluate(hr2di_heat_balance *h) {
 static void set_emission(hr2di_heat_balance *h, const double *radiance) {
   const size_t bands = h->scene->bands;
   for (size_t m = 0; m < h->count * bands; m++)
-    h->emission[m] =
-        hr2di_settled_rise(h->scene, h->patch[m / bands], m % bands) * radiance[m / bands];
+    h->emission[m] = h->rise[m] * radiance[m / bands];
 }
 
 /* out = D⁻¹C in */
@@ -231,9 +280,14 @@ static double radiance_of(hr2d_scene *scene, size_t patch, double power, double 
 }
 
 /* A part of the step.  The unknown of the step is what a patch emits in all bands, P: then only
-   its spectrum is not linear.  Below 0 K it is. */
+   its spectrum is not linear.  Below 0 K it is.  Where ε depends on T the unknown is S, which
+   stays above 0. */
 static void take_step(hr2di_heat_balance *h, int halvings) {
   for (size_t k = 0; k < h->count; k++) {
+    if (hr2di_emissivity_depends(hr2di_scene_origin(h->scene), h->patch[k])) {
+      h->radiance[k] = fmax(h->old[k] + ldexp(h->step[k], -halvings), h->old[k] / 16);
+      continue;
+    }
     hr2di_settled_set(h->scene, h->patch[k], h->old[k]);
     const double power = emitted(h->scene, h->patch[k]) + ldexp(h->gain[k], -halvings);
     const double rest = 1 - hr2d_scene_reflectance(h->scene, h->patch[k], h->scene->bands - 1);

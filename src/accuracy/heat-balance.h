@@ -15,7 +15,10 @@
    Newton's step J δ = −g has J = D − C, D_k = Σ_b E'_kb.  C v are averages of one linear solve
    with the emissions E' v, and D⁻¹C has a spectral radius below 1: BiCGSTAB takes few solves.
    A step is one of what patches emit in all bands, Σ_b E_kb: then only their spectra are not
-   linear.  It is halved while |g| does not fall. */
+   linear.  It is halved while |g| does not fall.
+
+   Where ε depends on T, ρ does as well, and E' has a part of it.  If ε falls with T the theorem
+   need not hold: errors are then those of a linear problem near the T that is found. */
 #ifndef HR2D_SRC_ACCURACY_HEAT_BALANCE_H
 #define HR2D_SRC_ACCURACY_HEAT_BALANCE_H
 
@@ -37,10 +40,12 @@ typedef struct hr2di_heat_balance {
   double *length;   /* A */
   double *step, *gain, *old, *right;
   double *emission; /* count × bands */
+  double *rise;     /* likewise: ∂E/∂S */
   double *average;  /* patches × bands: of B or of H, after a solve */
   double worst;     /* the largest |g|/size */
   double power;     /* ΣA|g| */
   unsigned solves;
+  int depends;        /* the ε of some patch depends on T */
   hr2d_status failed; /* of a solve within a Krylov step */
 } hr2di_heat_balance;
 

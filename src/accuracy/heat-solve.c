@@ -60,7 +60,7 @@ typedef struct heat_search {
 } heat_search;
 
 hr2d_status hr2di_heat_guess(const hr2d_scene *scene, hr2d_scene **settled) {
-  const hr2d_status status = hr2di_settled_create(scene, settled);
+  hr2d_status status = hr2di_settled_create(scene, settled);
   if (status) return status;
   double most = 0, flux, heat = 0;
   for (size_t b = 0; b < scene->bands; b++) most += hr2d_scene_background(scene, b);
@@ -73,10 +73,14 @@ hr2d_status hr2di_heat_guess(const hr2d_scene *scene, hr2d_scene **settled) {
     if (given == HR2D_HEAT_FLUX) heat = fmax(heat, fabs(value));
   }
   if (!(most > 0)) most = heat;
-  for (size_t k = 0; k < scene->patches; k++)
-    if (hr2d_scene_heat(scene, k, &flux) == HR2D_HEAT_FLUX && hr2di_scene_lit(scene, k))
-      hr2di_settled_set(*settled, k, most + fmax(flux, 0));
-  return HR2D_OK;
+  for (size_t k = 0; k < scene->patches && !status; k++)
+    if (hr2d_scene_heat(scene, k, &flux) == HR2D_HEAT_FLUX)
+      status =
+          hr2di_settled_set(*settled, k, hr2di_scene_lit(scene, k) ? most + fmax(flux, 0) : 0);
+  if (!status) return HR2D_OK;
+  hr2di_settled_destroy(*settled);
+  *settled = NULL;
+  return status;
 }
 
 /* The errors of patches that are asked for need those of patches of given flux. */
@@ -175,7 +179,7 @@ static double worst_point(const heat_search *s, const hr2di_heat_balance *h,
   for (size_t b = 0; b < bands; b++) {
     double off = 0;
     for (size_t k = 0; k < h->count; k++)
-      off = fmax(off, hr2di_settled_rise(s->settled, h->patch[k], b) * h->step[k] /
+      off = fmax(off, fabs(h->rise[k * bands + b]) * h->step[k] /
                           (1 - hr2d_scene_reflectance(s->settled, h->patch[k], b)));
     if (off > 0) worst = fmax(worst, off / largest(radiosity, s->scene->patches, bands, b));
   }
@@ -355,7 +359,13 @@ hr2d_status hr2di_heat_solve(const hr2d_scene *scene, const hr2d_target *target,
   s.how = s.given;
   status = set_important(&s);
   if (!status) status = hr2di_heat_guess(scene, &s.settled);
-  if (!status) status = reach(&s);
+  if (!status)
+    status = reach(&s);
+  else
+    fail(&s, status,
+         status == HR2D_ECALLBACK
+             ? "a function of emissivity gives a value that is not in (0,1]"
+             : "");
   s.account.seconds = hr2di_clock_now() - s.start;
   if (status && status != HR2D_EACCURACY) {
     hr2d_solution_destroy(s.solution);

@@ -14,6 +14,7 @@
 #include "base/black-body.h"
 #include "base/sized-struct.h"
 #include "hierarchy/hierarchy-impl.h"
+#include "scene/emissivity.h"
 #include "scene/settled.h"
 #include "solution/solution-impl.h"
 
@@ -23,13 +24,6 @@ typedef struct reader {
   double floor;
   hr2d_error error; /* of H, relative */
 } reader;
-
-/* q/ε of a patch with a flux. */
-static double excess(const hr2d_scene *scene, size_t patch) {
-  double flux;
-  hr2d_scene_heat(scene, patch, &flux);
-  return flux / hr2d_scene_emissivity(scene, patch, 0);
-}
 
 static double largest_irradiance(const hr2d_solution *s, size_t band) {
   double max = 0;
@@ -54,18 +48,30 @@ static double counted(const reader *r, size_t patch, size_t band, double largest
   return fmax(hr2d_solution_irradiance(r->solution, patch, band), r->floor * largest);
 }
 
-/* Of a patch with a flux in the only band. */
+/* How far T is off if H is: T rises with H. */
+static double error_of_found(const reader *r, size_t k, double h, double off) {
+  const double f = hr2di_emissivity_radiance(r->scene, k, h);
+  if (!hr2di_emissivity_depends(r->scene, k) || !(off < h)) return error_of_temperature(f, off);
+  const double kelvin = hr2di_black_body_kelvin(f);
+  const double low = hr2di_emissivity_radiance(r->scene, k, h - off);
+  const double high = hr2di_emissivity_radiance(r->scene, k, h + off);
+  return fmax(kelvin - hr2di_black_body_kelvin(fmax(low, 0)),
+              hr2di_black_body_kelvin(high) - kelvin);
+}
+
+/* Of a patch with a flux in the only band.  A function that gives no emissivity leaves NaN. */
 static hr2d_temperature_state find(const reader *r, size_t k, double largest,
                                    const hr2d_temperatures *to) {
-  const double h = hr2d_solution_irradiance(r->solution, k, 0), more = excess(r->scene, k);
-  const double f = h + more, rounding = 4 * DBL_EPSILON * (h + fabs(more));
+  const double h = hr2d_solution_irradiance(r->solution, k, 0);
+  const double f = hr2di_emissivity_radiance(r->scene, k, h);
+  const double rounding = 4 * DBL_EPSILON * (h + fabs(f - h));
   const double base = counted(r, k, 0, largest);
   if (!hr2di_scene_lit(r->scene, k)) return HR2D_TEMPERATURE_UNLIT;
   if (f < 0) return HR2D_TEMPERATURE_IMPOSSIBLE;
   put(to->kelvin, k, hr2di_black_body_kelvin(f));
-  put(to->estimate, k, error_of_temperature(f, r->error.estimate * base));
+  put(to->estimate, k, error_of_found(r, k, h, r->error.estimate * base));
   put(to->bound, k,
-      error_of_temperature(f, r->error.bound * base + rounding) +
+      error_of_found(r, k, h, r->error.bound * base + rounding) +
           2 * DBL_EPSILON * hr2di_black_body_kelvin(f));
   return HR2D_TEMPERATURE_FOUND;
 }
@@ -187,7 +193,7 @@ hr2d_status hr2d_solution_gather_temperature(const hr2d_solution *solution, size
   }
   const hr2d_status status = hr2d_solution_gather_irradiance(solution, patch, t, count, kelvin);
   for (size_t k = 0; k < count && !status; k++) {
-    const double f = kelvin[k] + excess(scene, patch);
+    const double f = hr2di_emissivity_radiance(scene, patch, kelvin[k]);
     kelvin[k] = f >= 0 ? hr2di_black_body_kelvin(f) : NAN;
   }
   return status;

@@ -44,6 +44,49 @@ static hr2d_status choose(hr2di_geojson *reader, const json_t *properties, const
   return HR2D_OK;
 }
 
+/* A table [[T, ε], …]; with bands [[T, ε₀, ε₁, …], …].  Its numbers come into a row of ε for
+   each entry, and the temperatures behind them. */
+static hr2d_status read_table(hr2di_geojson *reader, const json_t *json) {
+  const size_t entries = json_array_size(json),
+               width = json_array_size(json_array_get(json, 0));
+  hr2di_values *values = &reader->reflectance;
+  hr2d_thermal *t = &reader->thermal;
+  if (hr2di_alloc_reserve(reader->alloc, &values->value, &values->capacity,
+                          entries * (width ? width : 1), sizeof *values->value))
+    return hr2di_message_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", reader->label);
+  for (size_t k = 0; k < entries; k++) {
+    const json_t *entry = json_array_get(json, k);
+    if (!json_is_array(entry) || width < 2 || json_array_size(entry) != width)
+      return hr2di_message_fail(
+          reader->message, HR2D_ESYNTAX,
+          "%s: emissivity: the entries of a table must be [T, emissivity], "
+          "or have one emissivity for each band",
+          reader->label);
+    for (size_t m = 0; m < width; m++) {
+      hr2d_status status = hr2di_watch_work(reader->watch, 1);
+      double *to = m ? &values->value[k * (width - 1) + m - 1]
+                     : &values->value[entries * (width - 1) + k];
+      if (!status)
+        status = read_number(reader, reader->label, "emissivity", json_array_get(entry, m), to);
+      if (status) return status;
+    }
+  }
+  t->emissivity = values->value;
+  t->emissivity_bands = width - 1;
+  t->kelvin = values->value + entries * (width - 1);
+  t->kelvins = entries;
+  return HR2D_OK;
+}
+
+static hr2d_status read_emissivity(hr2di_geojson *reader, const json_t *json) {
+  hr2d_thermal *t = &reader->thermal;
+  if (json_is_array(json_array_get(json, 0))) return read_table(reader, json);
+  const hr2d_status status = hr2di_geojson_values(reader, reader->label, "emissivity", json, 1,
+                                                  &reader->reflectance, &t->emissivity_bands);
+  if (!status && t->emissivity_bands) t->emissivity = reader->reflectance.value;
+  return status;
+}
+
 hr2d_status hr2di_geojson_thermal(hr2di_geojson *reader, const json_t *properties) {
   const json_t *json;
   const char *key = NULL;
@@ -52,14 +95,9 @@ hr2d_status hr2di_geojson_thermal(hr2di_geojson *reader, const json_t *propertie
   hr2d_status status = choose(reader, properties, &json, &key);
   if (status || !json) return status;
   status = read_number(reader, reader->label, key, json, &t->value);
-  if (!status)
-    status = hr2di_geojson_values(reader, reader->label, "emissivity",
-                                  hr2di_geojson_member(properties, "emissivity"), 1,
-                                  &reader->reflectance, &t->emissivity_bands);
-  if (status) return status;
   t->given = *key == 't' ? HR2D_HEAT_TEMPERATURE : HR2D_HEAT_FLUX;
-  t->emissivity = t->emissivity_bands ? reader->reflectance.value : NULL;
-  return HR2D_OK;
+  return status ? status
+                : read_emissivity(reader, hr2di_geojson_member(properties, "emissivity"));
 }
 
 /* The wavelengths of a former file may be said again. */

@@ -24,7 +24,11 @@ typedef struct hr2di_light {
   size_t emissivity_bands;
   hr2d_heat heat;
   double given;   /* T or q; 0 without heat */
-  double value[]; /* emission, then reflectance, then emissivity */
+  size_t kelvins; /* for which there is an emissivity; 0: for all T the same */
+  hr2d_emissivity_fn emissivity_of; /* NULL: none */
+  void *emissivity_ctx;
+  double value[]; /* emission, then reflectance, then emissivity, for each of the kelvins, then
+                     these */
 } hr2di_light;
 
 typedef struct hr2di_patch {

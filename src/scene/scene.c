@@ -91,19 +91,28 @@ static hr2di_light *make_light(const hr2d_scene *scene, const hr2d_patch *patch,
                                const hr2d_thermal *thermal) {
   const size_t head = (sizeof(hr2di_light) + sizeof(double) - 1) / sizeof(double);
   const size_t e = patch->emission_bands, r = patch->reflectance_bands;
-  const size_t emissivities = thermal ? thermal->emissivity_bands : 0;
-  if (e > SIZE_MAX / 4 || r > SIZE_MAX / 4 || emissivities > SIZE_MAX / 4) return NULL;
-  hr2di_light *light = hr2di_alloc(&scene->alloc, head + e + r + emissivities, sizeof(double));
+  const size_t kelvins = thermal ? thermal->kelvins : 0;
+  const size_t emissivities = thermal ? thermal->emissivity_bands * (kelvins ? kelvins : 1) : 0;
+  if (e > SIZE_MAX / 8 || r > SIZE_MAX / 8 || emissivities > SIZE_MAX / 8 ||
+      kelvins > SIZE_MAX / 8)
+    return NULL;
+  hr2di_light *light =
+      hr2di_alloc(&scene->alloc, head + e + r + emissivities + kelvins, sizeof(double));
   if (!light) return NULL;
   *light = (hr2di_light){.users = 1,
                          .emission_bands = e,
                          .reflectance_bands = r,
-                         .emissivity_bands = emissivities,
+                         .emissivity_bands = thermal ? thermal->emissivity_bands : 0,
                          .heat = thermal ? thermal->given : HR2D_HEAT_NONE,
-                         .given = thermal ? thermal->value : 0};
+                         .given = thermal ? thermal->value : 0,
+                         .kelvins = kelvins,
+                         .emissivity_of = thermal ? thermal->emissivity_of : NULL,
+                         .emissivity_ctx = thermal ? thermal->emissivity_ctx : NULL};
   for (size_t k = 0; k < e; k++) light->value[k] = patch->emission[k];
   for (size_t k = 0; k < r; k++) light->value[e + k] = patch->reflectance[k];
   for (size_t k = 0; k < emissivities; k++) light->value[e + r + k] = thermal->emissivity[k];
+  for (size_t k = 0; k < kelvins; k++)
+    light->value[e + r + emissivities + k] = thermal->kelvin[k];
   return light;
 }
 

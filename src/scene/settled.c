@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/black-body.h"
+#include "scene/emissivity.h"
 
 int hr2di_scene_is_unsettled(const hr2d_scene *scene) {
   size_t k = 0;
@@ -29,10 +30,6 @@ static hr2di_light *own_light(const hr2d_scene *scene, size_t k) {
                          .emissivity_bands = bands,
                          .heat = HR2D_HEAT_FLUX,
                          .given = scene->patch[k].light->given};
-  for (size_t b = 0; b < bands; b++) {
-    light->value[2 * bands + b] = hr2d_scene_emissivity(scene, k, b);
-    light->value[bands + b] = 1 - light->value[2 * bands + b];
-  }
   return light;
 }
 
@@ -77,13 +74,28 @@ static double kelvin_of(double radiance) {
   return radiance > 0 ? hr2di_black_body_kelvin(radiance) : 0;
 }
 
-void hr2di_settled_set(hr2d_scene *settled, size_t patch, double radiance) {
+/* ε and ρ at a temperature. */
+static hr2d_status set_emissivity(hr2d_scene *settled, size_t patch, double kelvin) {
+  const size_t bands = settled->bands;
+  hr2di_light *light = settled->patch[patch].light;
+  for (size_t b = 0; b < bands; b++) {
+    const double e = hr2d_scene_emissivity_at(settled->origin, patch, b, kelvin);
+    if (!(e > 0 && e <= 1)) return HR2D_ECALLBACK;
+    light->value[2 * bands + b] = e;
+    light->value[bands + b] = 1 - e;
+  }
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_settled_set(hr2d_scene *settled, size_t patch, double radiance) {
   hr2di_light *light = settled->patch[patch].light;
   const double kelvin = kelvin_of(radiance);
   settled->found[patch].radiance = radiance;
+  const hr2d_status status = set_emissivity(settled, patch, kelvin);
   for (size_t b = 0; b < settled->bands; b++)
     light->value[b] = (1 - light->value[settled->bands + b]) *
                       (hr2di_scene_band_part(settled, kelvin, b) * radiance);
+  return status;
 }
 
 double hr2di_settled_rise(const hr2d_scene *settled, size_t patch, size_t band) {

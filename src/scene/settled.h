@@ -23,14 +23,16 @@ int hr2di_scene_is_unsettled(const hr2d_scene *scene);
 /* The scene that a settled scene is of; others are their own. */
 const hr2d_scene *hr2di_scene_origin(const hr2d_scene *scene);
 
-/* Makes a settled scene; its patches of given flux have 0 K.  HR2D_OK or HR2D_ENOMEM. */
+/* Makes a settled scene; its patches of given flux have no E and ρ yet.  HR2D_OK or
+ * HR2D_ENOMEM. */
 hr2d_status hr2di_settled_create(const hr2d_scene *scene, hr2d_scene **settled);
 void hr2di_settled_destroy(hr2d_scene *settled); /* NULL is allowed */
 
-/* Gives a patch of given flux its σT⁴, and E and ρ that follow. */
-void hr2di_settled_set(hr2d_scene *settled, size_t patch, double radiance);
+/* Gives a patch of given flux its σT⁴, and ε, E and ρ that follow.  HR2D_ECALLBACK if the
+   function of its emissivity gives none. */
+hr2d_status hr2di_settled_set(hr2d_scene *settled, size_t patch, double radiance);
 
-/* ∂E_b/∂(σT⁴), which is not negative: Planck's spectrum rises with T everywhere. */
+/* ∂E_b/∂(σT⁴) with this ε, which is not negative: Planck's spectrum rises with T everywhere. */
 double hr2di_settled_rise(const hr2d_scene *settled, size_t patch, size_t band);
 
 #endif

@@ -7,9 +7,11 @@
    Given q: B = H + q, which is E = q with ρ = 1. */
 #include <hr2d/thermal.h>
 #include <math.h>
+#include <stdint.h>
 
 #include "base/alloc.h"
 #include "base/sized-struct.h"
+#include "scene/emissivity.h"
 #include "scene/scene-impl.h"
 
 static hr2d_status refuse(hr2d_scene *scene, hr2d_status status, const hr2d_patch *patch,
@@ -38,16 +40,43 @@ static hr2d_status check_value(hr2d_scene *scene, const hr2d_patch *patch,
   return HR2D_OK;
 }
 
-static hr2d_status check_emissivity(hr2d_scene *scene, const hr2d_patch *patch,
-                                    const hr2d_thermal *t) {
+/* Temperatures of a table. */
+static hr2d_status check_kelvins(hr2d_scene *scene, const hr2d_patch *patch,
+                                 const hr2d_thermal *t) {
+  if (!t->kelvins) return HR2D_OK;
+  if (!t->kelvin || !t->emissivity_bands)
+    return refuse(scene, HR2D_EINVAL, patch,
+                  "emissivity: a table has temperatures, and values for each");
+  if (t->kelvins > SIZE_MAX / 8 / t->emissivity_bands)
+    return refuse(scene, HR2D_ENOMEM, patch, "emissivity: the table is too large");
+  for (size_t k = 0; k < t->kelvins; k++)
+    if (!(t->kelvin[k] >= 0 && isfinite(t->kelvin[k]) &&
+          (!k || t->kelvin[k] > t->kelvin[k - 1])))
+      return refuse(scene, HR2D_ESCENE, patch,
+                    "emissivity: the temperatures of a table must rise, from 0 K or more");
+  return HR2D_OK;
+}
+
+/* The numbers of values. */
+static hr2d_status check_counts(hr2d_scene *scene, const hr2d_patch *patch,
+                                const hr2d_thermal *t) {
   if (t->emissivity_bands && !t->emissivity)
     return refuse(scene, HR2D_EINVAL, patch, "emissivity: a number of bands but no values");
+  if (t->emissivity_of && (t->emissivity_bands || t->kelvins))
+    return refuse(scene, HR2D_EINVAL, patch, "emissivity: both values and a function");
   if (t->emissivity_bands > 1 && t->emissivity_bands != scene->wavelengths + 1)
     return refuse(scene, HR2D_ESCENE, patch,
                   scene->wavelengths
                       ? "emissivity: the wavelengths of the scene make another number of bands"
                       : "emissivity has several bands, and the scene has no wavelengths");
-  for (size_t k = 0; k < t->emissivity_bands; k++) {
+  return check_kelvins(scene, patch, t);
+}
+
+static hr2d_status check_emissivity(hr2d_scene *scene, const hr2d_patch *patch,
+                                    const hr2d_thermal *t) {
+  const hr2d_status status = check_counts(scene, patch, t);
+  if (status) return status;
+  for (size_t k = 0; k < t->emissivity_bands * (t->kelvins ? t->kelvins : 1); k++) {
     const double e = t->emissivity[k];
     if (!(e >= 0 && e <= 1))
       return refuse(scene, HR2D_ESCENE, patch, "emissivity is not between 0 and 1");
@@ -58,15 +87,29 @@ static hr2d_status check_emissivity(hr2d_scene *scene, const hr2d_patch *patch,
   return HR2D_OK;
 }
 
-static double emissivity_of(const hr2d_thermal *t, size_t band) {
-  return t->emissivity_bands ? t->emissivity[t->emissivity_bands > 1 ? band : 0] : 1;
-}
-
 double hr2di_scene_band_part(const hr2d_scene *scene, double kelvin, size_t band) {
   const size_t count = scene->wavelengths;
   if (!count) return 1;
   return hr2d_black_body_part(kelvin, band ? scene->wavelength[band - 1] : 0,
                               band < count ? scene->wavelength[band] : HUGE_VAL);
+}
+
+/* Of a given T the emissivity is known: in the place of a table or a function come its values,
+   in `value`. */
+static hr2d_status fix_emissivity(hr2d_scene *scene, const hr2d_patch *patch, hr2d_thermal *t,
+                                  double *value) {
+  if (t->given == HR2D_HEAT_FLUX || !(t->kelvins || t->emissivity_of)) return HR2D_OK;
+  for (size_t b = 0; b < scene->wavelengths + 1; b++) {
+    value[b] = hr2di_emissivity_of(t, b, t->value);
+    if (!(value[b] >= 0 && value[b] <= 1))
+      return refuse(scene, HR2D_ECALLBACK, patch,
+                    "the function of its emissivity gives a value that is not in [0,1]");
+  }
+  t->emissivity = value;
+  t->emissivity_bands = scene->wavelengths + 1;
+  t->kelvins = 0;
+  t->emissivity_of = NULL;
+  return HR2D_OK;
 }
 
 /* Room for E and ρ per band, in `value`. */
@@ -76,7 +119,7 @@ static void set_light(const hr2d_scene *scene, const hr2d_thermal *t, double *va
   const size_t bands = flux ? 1 : scene->wavelengths + 1;
   double *rho = value + bands;
   for (size_t b = 0; b < bands; b++) {
-    rho[b] = flux ? 1 : 1 - emissivity_of(t, b);
+    rho[b] = flux ? 1 : 1 - hr2di_emissivity_of(t, b, t->value);
     const double part = flux ? 1 : hr2di_scene_band_part(scene, t->value, b);
     value[b] = flux ? t->value : (1 - rho[b]) * (part * hr2d_black_body(t->value));
   }
@@ -98,10 +141,14 @@ hr2d_status hr2d_scene_add_thermal(hr2d_scene *scene, const hr2d_patch *given,
   hr2d_status status = check_value(scene, given, &t);
   if (!status) status = check_emissivity(scene, given, &t);
   if (status) return status;
-  double *value = hr2di_alloc(&scene->alloc, scene->wavelengths + 1, 2 * sizeof *value);
+  const size_t bands = scene->wavelengths + 1;
+  double *value = hr2di_alloc(&scene->alloc, bands, 3 * sizeof *value);
   if (!value) return refuse(scene, HR2D_ENOMEM, given, "out of memory");
-  set_light(scene, &t, value, &patch);
-  status = hr2di_scene_add(scene, &patch, &t, index);
+  status = fix_emissivity(scene, given, &t, value + 2 * bands);
+  if (!status) {
+    set_light(scene, &t, value, &patch);
+    status = hr2di_scene_add(scene, &patch, &t, index);
+  }
   hr2di_alloc_free(&scene->alloc, value);
   return status;
 }
@@ -110,13 +157,6 @@ hr2d_heat hr2d_scene_heat(const hr2d_scene *scene, size_t patch, double *value) 
   const hr2di_light *light = scene->patch[patch].light;
   if (value) *value = light->heat == HR2D_HEAT_NONE ? NAN : light->given;
   return light->heat;
-}
-
-double hr2d_scene_emissivity(const hr2d_scene *scene, size_t patch, size_t band) {
-  const hr2di_light *light = scene->patch[patch].light;
-  const double *value = light->value + light->emission_bands + light->reflectance_bands;
-  if (light->heat == HR2D_HEAT_NONE) return NAN;
-  return light->emissivity_bands ? value[light->emissivity_bands > 1 ? band : 0] : 1;
 }
 
 static int has_heat(const hr2d_scene *scene) {

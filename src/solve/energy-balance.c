@@ -87,7 +87,8 @@ static void clear_sums(const hr2di_balance *b, const hr2di_transport *t) {
 }
 
 /* Sets ∫m, ∫(1−ρ) + ∫m, and this less ∫(1−ρ)m. */
-static void set_losses(hr2di_balance *b, const hr2di_transport *t) {
+void hr2di_balance_set_losses(hr2di_balance *b, const hr2di_transport *t) {
+  for (size_t k = 0; k < 2 * b->count + 3 * b->count * t->bands; k++) b->length[k] = 0;
   clear_sums(b, t);
   for (size_t k = 0; k < t->leaves; k++) {
     if (!hr2di_balance_holds(b, k)) continue;
@@ -111,14 +112,14 @@ hr2d_status hr2di_balance_init(hr2di_balance *b, hr2di_transport *t) {
   const hr2d_status status = find_components(b, t);
   if (status || b->count == 0) return status;
   const size_t values = b->count * t->bands;
-  b->length = hr2di_alloc_zero(&b->alloc, 2 * b->count + 3 * values, sizeof *b->length);
+  b->length = hr2di_alloc(&b->alloc, 2 * b->count + 3 * values, sizeof *b->length);
   b->sum = hr2di_alloc(&b->alloc, values, sizeof *b->sum);
   if (!b->length || !b->sum) return HR2D_ENOMEM;
   b->escape = b->length + b->count;
   b->loss = b->escape + b->count;
   b->level = b->loss + values;
   b->response = b->level + values;
-  set_losses(b, t);
+  hr2di_balance_set_losses(b, t);
   return HR2D_OK;
 }
 

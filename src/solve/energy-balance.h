@@ -33,6 +33,9 @@ typedef struct hr2di_balance {
 /* Finds the components of a symmetric K with closure.  Returns HR2D_OK, HR2D_ENOMEM or the
    status of the watch.  Call hr2di_balance_clear() in any case. */
 hr2d_status hr2di_balance_init(hr2di_balance *b, hr2di_transport *t);
+
+/* Takes ρ of the scene, for a start or when it has changed. */
+void hr2di_balance_set_losses(hr2di_balance *b, const hr2di_transport *t);
 void hr2di_balance_clear(hr2di_balance *b);
 
 /* Sets c from a source and the light of the background per band, or NULL; c is 0 where nothing

@@ -100,6 +100,11 @@ static hr2d_status set_surfaces(hr2di_equation *s) {
   return status;
 }
 
+hr2d_status hr2di_equation_set_surfaces(hr2di_equation *s) {
+  if (s->balance.count > 0) hr2di_balance_set_losses(&s->balance, &s->transport);
+  return set_surfaces(s);
+}
+
 hr2d_status hr2di_equation_reserve(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   s->items = t->leaves * t->order;

@@ -42,6 +42,9 @@ hr2d_status hr2di_equation_init(hr2di_equation *eq, hr2d_linkset *links,
                                 const hr2d_solve_options *options);
 void hr2di_equation_clear(hr2di_equation *eq);
 
+/* Takes √ρ of the scene where it has changed.  Returns HR2D_OK or the status of the watch. */
+hr2d_status hr2di_equation_set_surfaces(hr2di_equation *eq);
+
 /* Makes the fields of an equation that has its transport, all 0 but weights and √ρ.  Returns
    HR2D_OK, HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_equation_reserve(hr2di_equation *eq);

@@ -17,6 +17,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/emissivity.h"
 #include "scene/scene-impl.h"
 #include "state/byte-stream.h"
 #include "state/state-impl.h"
@@ -80,6 +81,8 @@ static uint64_t forced_effects(const hr2d_scene *scene) {
 
 hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_fn write, void *ctx) {
   if (!scene->committed) return HR2D_ESTATE;
+  for (size_t k = 0; k < scene->patches; k++)
+    if (hr2di_emissivity_depends(scene, k)) return HR2D_EUNSUPPORTED;
   hr2di_writer w;
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, NULL, NULL, "state");

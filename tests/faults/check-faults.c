@@ -50,6 +50,35 @@ static hr2d_status add_thermal(fault_stage *s, uint64_t *sum) {
   return fault_mix_stage(s, sum, status);
 }
 
+static double fading(void *ctx, double kelvin, size_t band) {
+  (void)ctx;
+  return 1 / (1 + kelvin / 1000 + (double)band);
+}
+
+/* A table, and a function at a given temperature. */
+static hr2d_status add_table(fault_stage *s, uint64_t *sum) {
+  static const double at[] = {300, 600}, e[] = {.1, .2};
+  const hr2d_patch patch = {.a = {3, 3}, .b = {4, 5}};
+  hr2d_thermal thermal = {.struct_size = sizeof thermal,
+                          .given = HR2D_HEAT_FLUX,
+                          .emissivity = e,
+                          .emissivity_bands = 1,
+                          .kelvin = at,
+                          .kelvins = 2};
+  const hr2d_status status = hr2d_scene_add_thermal(s->scene, &patch, &thermal, NULL);
+  if (!status) *sum = fault_mix_real(*sum, hr2d_scene_emissivity_at(s->scene, 0, 0, 450));
+  return fault_mix_stage(s, sum, status);
+}
+
+static hr2d_status add_function(fault_stage *s, uint64_t *sum) {
+  const hr2d_patch patch = {.a = {3, 3}, .b = {4, 5}};
+  const hr2d_thermal thermal = {.struct_size = sizeof thermal,
+                                .given = HR2D_HEAT_TEMPERATURE,
+                                .value = 500,
+                                .emissivity_of = fading};
+  return fault_mix_stage(s, sum, hr2d_scene_add_thermal(s->scene, &patch, &thermal, NULL));
+}
+
 static hr2d_status set_background(fault_stage *s, uint64_t *sum) {
   static const double sky[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
   return fault_mix_stage(s, sum, hr2d_scene_set_background(s->scene, sky, 10));
@@ -356,6 +385,8 @@ START_TEST(scenes) {
   PLAY("scene_add to others", {.depth = DEPTH_FILLED, .plan = PLAN_ROOM}, add_patch, of_scene,
        0);
   PLAY("scene_add_thermal", {.depth = DEPTH_SCENE}, add_thermal, of_scene, 0);
+  PLAY("scene_add_thermal, table", {.depth = DEPTH_SCENE}, add_table, of_scene, 0);
+  PLAY("scene_add_thermal, function", {.depth = DEPTH_SCENE}, add_function, of_scene, 0);
   PLAY("scene_parse, thermal", {.depth = DEPTH_SCENE}, parse_thermal, of_scene, 0);
   PLAY("scene_set_background", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, set_background,
        of_scene, 0);

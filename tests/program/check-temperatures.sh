@@ -72,6 +72,19 @@ sed 's/"flux": 0, "emissivity"/"flux": -20000, "emissivity"/' "$work/bands.geojs
 expect 1 'floor.* cannot lose so much heat' solve "$work/coldbands.geojson" \
   --target-error 1e-6
 
+# ---- a table of emissivities: 0.5 at 866.9 K changes nothing in the symmetric room
+sed 's/"emissivity": 0.5/"emissivity": [[0, 0.1], [1733.8186, 0.9]]/' "$work/square.geojson" \
+  >"$work/table.geojson"
+sed 's/"features"/"hr2d": {"wavelengths": [4]}, &/' "$work/table.geojson" >"$work/tables.geojson"
+for scene in table tables; do
+  succeeds solve "$work/$scene.geojson" --target-error 1e-9 --at floor:0.5 --csv "$work/t.csv"
+  check "$scene: temperatures" [ "$(grep -c '^ .* 866\.90' "$work/out")" -eq 2 ]
+  check "$scene: at a point" grep -q '^at floor:0.5 .* T 866\.90' "$work/out"
+  check "$scene: CSV" awk -F, '$2 == "floor" && ($NF < 600 || $NF > 1000) { bad = 1 }
+    $2 == "floor" { n++ } END { exit bad || !n }' "$work/t.csv"
+  succeeds info "$work/$scene.geojson"
+done
+
 # ---- what cannot be
 square -20000 >"$work/cold.geojson"
 expect 1 'floor") cannot lose so much heat' solve "$work/cold.geojson" --json "$work/cold.json"

@@ -16,14 +16,12 @@ int run_heat_exists(const hr2d_scene *scene) {
 
 double run_heat_at(const run *r, size_t patch, double irradiance) {
   const double middle = 0.5;
-  double given, kelvin;
-  const hr2d_heat heat = hr2d_scene_heat(r->scene, patch, &given);
-  if (heat != HR2D_HEAT_FLUX) return given;
-  if (hr2d_scene_bands(r->scene) > 1)
-    return hr2d_solution_gather_temperature(r->solution, patch, &middle, 1, &kelvin) ? NAN
-                                                                                     : kelvin;
-  const double f = irradiance + given / hr2d_scene_emissivity(r->scene, patch, 0);
-  return f >= 0 ? sqrt(sqrt(f / HR2D_STEFAN_BOLTZMANN)) : NAN;
+  double kelvin;
+  if (hr2d_scene_heat(r->scene, patch, NULL) != HR2D_HEAT_FLUX ||
+      hr2d_scene_bands(r->scene) == 1)
+    return hr2d_scene_temperature(r->scene, patch, irradiance);
+  return hr2d_solution_gather_temperature(r->solution, patch, &middle, 1, &kelvin) ? NAN
+                                                                                   : kelvin;
 }
 
 const char *run_heat_word(unsigned char state) {

@@ -553,6 +553,6 @@ TEST_SUITE("heat-bands") {
             a_furnace_of_black_walls_is_a_network, a_shield_between_plates_has_one_temperature,
             a_room_is_that_of_a_dense_solver);
   ADD_TESTS("other", bounds_of_temperatures_hold, divided_walls_come_to_one_band,
-            temperatures_scale, a_long_way_of_heat_takes_few_solves, threads_do_not_matter, scenes_without_a_solution_are_refused,
-            links_of_ones_own_are_refused);
+            temperatures_scale, a_long_way_of_heat_takes_few_solves, threads_do_not_matter,
+            scenes_without_a_solution_are_refused, links_of_ones_own_are_refused);
 }

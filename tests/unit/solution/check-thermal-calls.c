@@ -283,9 +283,13 @@ START_TEST(pieces_keep_what_is_given) {
   hr2d_scene *scene = test_new_scene(NULL);
   hr2d_patch patch = test_patch(0, 0, 2, 0);
   const double e = .25;
-  const hr2d_thermal t = {sizeof t, HR2D_HEAT_FLUX, -7, &e, 1};
+  hr2d_thermal t = HR2D_THERMAL_INIT;
   size_t cuts;
   double value;
+  t.given = HR2D_HEAT_FLUX;
+  t.value = -7;
+  t.emissivity = &e;
+  t.emissivity_bands = 1;
   patch.sides = HR2D_SIDES_BOTH;
   ck_assert_int_eq(hr2d_scene_add_thermal(scene, &patch, &t, NULL), HR2D_OK);
   ck_assert_int_eq(add(scene, (const double[]){1, -1, 1, 1}, T, 300, NULL, 0), HR2D_OK);
