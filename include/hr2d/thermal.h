@@ -38,7 +38,8 @@
  * every point of it has this q, and a T of its own. Short pieces of a wall bring both
  * together.) These T are unique. hr2d_solve_to() finds them, by Newton's method over linear
  * solves, and its account has their part of the error; hr2d_solve() returns
- * HR2D_EUNSUPPORTED. Where T would be below 0 K, HR2D_ENO_SOLUTION is returned. E and ρ of the
+ * HR2D_EUNSUPPORTED. hr2d_target::seconds is a budget of the solves; the temperatures take some
+ * iterations more. Where T would be below 0 K, HR2D_ENO_SOLUTION is returned. E and ρ of the
  * scene are then those of the sum over the bands, q and 1.
  *
  * **Emissivity that depends on temperature** is a table or a function. On a patch of given T it

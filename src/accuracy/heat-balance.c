@@ -22,6 +22,9 @@
 /* Of what E gains with S, against that of a constant ε. */
 #define LEAST_SLOPE 0.05
 
+/* Work for the parts of the black body of a band, in units of a watch. */
+enum { PLANCK = 10 };
+
 enum { ARRAYS = 9, ROOTS = 100, STEPS = 50, HALVINGS = 8, MOST_SOLVES = 2000 };
 
 static int is_unknown(const hr2d_scene *scene, size_t k) {
@@ -121,6 +124,8 @@ static hr2d_status solve(hr2di_heat_balance *h, int alone) {
 static hr2d_status set_radiance(hr2di_heat_balance *h) {
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < h->count && !status; k++) {
+    status = hr2di_watch_work(&h->eq.watch, PLANCK * h->scene->bands);
+    if (status) break;
     status = hr2di_settled_set(h->scene, h->patch[k], h->radiance[k]);
     if (status)
       hr2di_message_fail(
@@ -172,6 +177,7 @@ static hr2d_status evaluate(hr2di_heat_balance *h) {
   for (size_t k = 0; k < h->count && !status; k++) {
     const size_t patch = h->patch[k];
     double flux;
+    status = hr2di_watch_work(&h->eq.watch, 3 * PLANCK * bands);
     hr2d_scene_heat(h->scene, patch, &flux);
     h->defect[k] = -flux;
     h->size[k] = fabs(flux);
@@ -282,8 +288,10 @@ static double radiance_of(hr2d_scene *scene, size_t patch, double power, double 
 /* A part of the step.  The unknown of the step is what a patch emits in all bands, P: then only
    its spectrum is not linear.  Below 0 K it is.  Where ε depends on T the unknown is S, which
    stays above 0. */
-static void take_step(hr2di_heat_balance *h, int halvings) {
-  for (size_t k = 0; k < h->count; k++) {
+static hr2d_status take_step(hr2di_heat_balance *h, int halvings) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < h->count && !status; k++) {
+    status = hr2di_watch_work(&h->eq.watch, 16 * PLANCK * h->scene->bands);
     if (hr2di_emissivity_depends(hr2di_scene_origin(h->scene), h->patch[k])) {
       h->radiance[k] = fmax(h->old[k] + ldexp(h->step[k], -halvings), h->old[k] / 16);
       continue;
@@ -294,6 +302,7 @@ static void take_step(hr2di_heat_balance *h, int halvings) {
     h->radiance[k] =
         power > 0 ? radiance_of(h->scene, h->patch[k], power, h->old[k]) : power / rest;
   }
+  return status;
 }
 
 /* One step from `old`, halved while the balance is not better.  Along the step g falls in
@@ -308,8 +317,7 @@ static hr2d_status improve(hr2di_heat_balance *h) {
   hr2d_status status = hr2di_heat_balance_spread(h, h->defect, h->step);
   for (size_t k = 0; k < h->count; k++) h->gain[k] = h->slope[k] * h->step[k];
   for (int m = 0; m <= HALVINGS && !status; m++) {
-    take_step(h, m);
-    status = hr2di_watch_work(&h->eq.watch, 50 * h->count * h->scene->bands);
+    status = take_step(h, m);
     if (!status) status = evaluate(h);
     if (h->power < before || rounding) break;
   }

@@ -59,10 +59,13 @@ typedef struct heat_search {
   double left;  /* the largest part of n that the balance is off by */
 } heat_search;
 
-hr2d_status hr2di_heat_guess(const hr2d_scene *scene, hr2d_scene **settled) {
+hr2d_status hr2di_heat_guess(const hr2d_scene *scene, const hr2d_target *target,
+                             hr2d_scene **settled) {
   hr2d_status status = hr2di_settled_create(scene, settled);
   if (status) return status;
   double most = 0, flux, heat = 0;
+  hr2di_watch watch;
+  hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "solve");
   for (size_t b = 0; b < scene->bands; b++) most += hr2d_scene_background(scene, b);
   for (size_t k = 0; k < scene->patches; k++) {
     double sum = 0, value;
@@ -74,9 +77,12 @@ hr2d_status hr2di_heat_guess(const hr2d_scene *scene, hr2d_scene **settled) {
   }
   if (!(most > 0)) most = heat;
   for (size_t k = 0; k < scene->patches && !status; k++)
-    if (hr2d_scene_heat(scene, k, &flux) == HR2D_HEAT_FLUX)
+    if (hr2d_scene_heat(scene, k, &flux) == HR2D_HEAT_FLUX) {
+      status = hr2di_watch_work(&watch, 10 * scene->bands);
+      if (status) break;
       status =
           hr2di_settled_set(*settled, k, hr2di_scene_lit(scene, k) ? most + fmax(flux, 0) : 0);
+    }
   if (!status) return HR2D_OK;
   hr2di_settled_destroy(*settled);
   *settled = NULL;
@@ -310,8 +316,11 @@ static void raise_errors(heat_search *s) {
                                &s->account.irradiance_sup};
   const double by[] = {s->growth.average, s->growth.irradiance, s->growth.sup, s->growth.sup};
   for (int k = 0; k < 4; k++) {
-    error[k]->estimate = error[k]->estimate * (1 + s->moved) + e.estimate * by[k];
-    error[k]->bound = error[k]->bound * (1 + 10 * s->moved) + (e.bound + s->left) * by[k];
+    error[k]->estimate *= 1 + s->moved;
+    error[k]->bound *= 1 + 10 * s->moved;
+    if (!(by[k] > 0)) continue;
+    error[k]->estimate += e.estimate * by[k];
+    error[k]->bound += (e.bound + s->left) * by[k];
   }
 }
 
@@ -341,7 +350,7 @@ static hr2d_status approach(heat_search *s) {
 static hr2d_status reach(heat_search *s) {
   hr2d_status status = approach(s), settled = status;
   for (int k = 0; k < FINE_SOLVES && !settled; k++) {
-    status = solve(s, 1);
+    status = solve(s, 0.6);
     settled = is_usable(s, status) ? settle(s) : status;
     if (!settled && s->moved <= MOVED) break;
   }
@@ -358,7 +367,7 @@ hr2d_status hr2di_heat_solve(const hr2d_scene *scene, const hr2d_target *target,
   if (status) return status;
   s.how = s.given;
   status = set_important(&s);
-  if (!status) status = hr2di_heat_guess(scene, &s.settled);
+  if (!status) status = hr2di_heat_guess(scene, &s.how, &s.settled);
   if (!status)
     status = reach(&s);
   else

@@ -214,7 +214,11 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
 static hr2d_status predict_heat(const hr2d_scene *scene, const hr2d_target *target,
                                 hr2d_prediction *prediction) {
   hr2d_scene *settled;
-  hr2d_status status = hr2di_heat_guess(scene, &settled);
+  hr2d_target used;
+  hr2d_status status = hr2di_target_init(&used, scene, target, HR2D_DEFAULT_ERROR);
+  if (status) return status;
+  status = hr2di_heat_guess(scene, &used, &settled);
+  hr2di_target_clear(&used, scene);
   if (status) return status;
   status = hr2d_predict(settled, target, prediction);
   hr2di_settled_destroy(settled);

@@ -285,10 +285,11 @@ void hr2d_scene_set_progress(hr2d_scene *scene, hr2d_progress_fn progress, void 
 
 void hr2di_scene_watch(const hr2d_scene *scene, hr2di_watch *watch, hr2d_progress_fn progress,
                        void *ctx, const char *phase) {
+  const hr2d_scene *own = scene->origin ? scene->origin : scene;
   if (progress)
     hr2di_watch_init(watch, progress, ctx, phase);
   else
-    hr2di_watch_init(watch, scene->progress, scene->progress_ctx, phase);
+    hr2di_watch_init(watch, own->progress, own->progress_ctx, phase);
 }
 
 hr2d_status hr2di_scene_fail(hr2d_scene *scene, hr2d_status status, const hr2di_watch *watch,

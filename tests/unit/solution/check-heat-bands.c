@@ -524,6 +524,43 @@ START_TEST(scenes_without_a_solution_are_refused) {
 }
 END_TEST
 
+static hr2d_status count_or_stop(void *ctx, const hr2d_progress *progress) {
+  int *left = ctx;
+  (void)progress;
+  return (*left)-- > 0 ? HR2D_OK : HR2D_STOPPED;
+}
+
+/* The callback of the scene is asked, stops the search at each of its questions, and is not
+   asked any more once it is gone. */
+START_TEST(callbacks_end_the_search) {
+  const wall w[3] = {{{0, 0, 4, 0}, T, 1000, {.3, .5, .9}},
+                     {{4, 0, 0, 3}, Q, 0, {.9, .5, .2}},
+                     {{0, 3, 0, 0}, Q, -1, {.4, .8, .9}}};
+  hr2d_scene *scene = make(w, 3, wavelength, BANDS - 1);
+  hr2d_solution *solution = NULL;
+  hr2d_status status = HR2D_STOPPED;
+  int asked = 0;
+  for (int most = 0; status == HR2D_STOPPED && most < 100000; most += 1 + most / 8) {
+    int left = most;
+    hr2d_scene_set_progress(scene, count_or_stop, &left);
+    status = hr2d_solve_to(scene, NULL, &solution, NULL);
+    ck_assert((solution == NULL) == (status != HR2D_OK));
+    asked += status == HR2D_STOPPED;
+  }
+  ck_assert_int_eq(status, HR2D_OK);
+  ck_assert_int_gt(asked, 10);
+  int left = 0;
+  double t = .5, value[BANDS];
+  hr2d_scene_set_progress(scene, count_or_stop, &left);
+  hr2d_scene_set_progress(scene, NULL, NULL);
+  for (int k = 0; k < 50; k++)
+    ck_assert_int_eq(hr2d_solution_gather(solution, 1, &t, 1, value), HR2D_OK);
+  ck_assert_int_eq(left, 0);
+  hr2d_solution_destroy(solution);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 /* hr2d_solve() does not find temperatures, and says so. */
 START_TEST(links_of_ones_own_are_refused) {
   const wall w[3] = {{{0, 0, 4, 0}, T, 100, {.3, .5, .9}},
@@ -554,5 +591,6 @@ TEST_SUITE("heat-bands") {
             a_room_is_that_of_a_dense_solver);
   ADD_TESTS("other", bounds_of_temperatures_hold, divided_walls_come_to_one_band,
             temperatures_scale, a_long_way_of_heat_takes_few_solves, threads_do_not_matter,
-            scenes_without_a_solution_are_refused, links_of_ones_own_are_refused);
+            scenes_without_a_solution_are_refused, callbacks_end_the_search,
+            links_of_ones_own_are_refused);
 }
