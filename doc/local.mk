@@ -13,6 +13,7 @@ EXTRA_DIST += \
 	doc/occlusion.md \
 	doc/scene-files.md \
 	doc/speed.md \
+	doc/sun-and-sky.md \
 	doc/temperatures.md \
 	doc/testing.md \
 	doc/theorem.md \

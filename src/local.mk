@@ -69,6 +69,7 @@ libhr2d_core_la_SOURCES = \
 	src/occlusion/walls.c src/occlusion/walls.h \
 	src/scene/checks.c \
 	src/scene/commit.c \
+	src/scene/daylight.c \
 	src/scene/effects.c \
 	src/scene/emissivity.c src/scene/emissivity.h \
 	src/scene/find-occluder.c src/scene/find-occluder.h \
@@ -87,6 +88,10 @@ libhr2d_core_la_SOURCES = \
 	src/scene/split-crossings.c \
 	src/scene/plane.c src/scene/plane.h \
 	src/scene/settled.c src/scene/settled.h \
+	src/scene/sky.c src/scene/sky.h src/scene/sky-arcs.c \
+	src/scene/sun.c \
+	src/scene/sun-beams.c src/scene/sun-beams.h \
+	src/scene/sunlight.c src/scene/sunlight.h \
 	src/scene/thermal.c \
 	src/scene/wall-pieces.c src/scene/wall-pieces.h \
 	src/scene/with-plane.c src/scene/with-plane.h \
@@ -95,6 +100,7 @@ libhr2d_core_la_SOURCES = \
 	src/formats/geojson-geometry.c \
 	src/formats/geojson-impl.h \
 	src/formats/geojson-meant.c src/formats/geojson-meant.h \
+	src/formats/geojson-sun.c \
 	src/formats/geojson-text.c src/formats/geojson-text.h \
 	src/formats/geojson-thermal.c \
 	src/formats/geojson-values.c \
@@ -191,6 +197,7 @@ libhr2d_core_la_SOURCES = \
 	src/refine/rows.c src/refine/rows.h \
 	src/refine/study.c \
 	src/refine/validate-links.c \
+	src/solve/outside.c src/solve/outside.h \
 	src/solve/background.c src/solve/background.h \
 	src/solve/closure.c src/solve/closure.h \
 	src/solve/closure-mean.c src/solve/closure-order-p.c \

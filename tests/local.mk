@@ -29,6 +29,7 @@ SUITES = \
 	tests/unit/scene/check-crossings \
 	tests/unit/scene/check-bent-walls \
 	tests/unit/scene/check-snap \
+	tests/unit/scene/check-sunlight \
 	tests/unit/formats/check-geojson \
 	tests/unit/formats/check-memory \
 	tests/unit/formats/check-vs2 \
@@ -57,6 +58,8 @@ SUITES = \
 	tests/unit/field/check-field-rows \
 	tests/unit/solve/check-solve \
 	tests/unit/solve/check-background \
+	tests/unit/solve/check-sky \
+	tests/unit/solve/check-sun \
 	tests/unit/solve/check-closure \
 	tests/unit/solve/check-equation-part \
 	tests/unit/solve/check-row-sums \

@@ -16,6 +16,9 @@
  * | sky      | the part with nothing      | 1         |
  * | back     | the part with black backs  | 1         |
  *
+ * Where the light of a sun arrives (daylight.h), its irradiance I in direction d adds I/π to M
+ * and −I d/|d| to Φ; the border of that light counts for one of its sides.
+ *
  * The last two are parts of all directions. In a furnace with B = 1, M is 1 and Φ is 0.
  *
  * H(n) = ∫ (B/2) n·ω dω over n·ω > 0 is the irradiance of a line through x with normal n, and
@@ -40,9 +43,9 @@
  *   halves a sector: one between two fronts if there is one, of these the widest, of equal ones
  *   that beside the patch of the lowest number. On the inside of a wall the limit is taken at
  *   2^-44 of the unit.
- * - A point that sees no front, and no background with light, is outside: within an obstacle,
- *   or behind the walls of a closed room. It has no number: all values are NaN, but `sky` and
- *   `back`.
+ * - A point that sees no front, and no background with light or sun, is outside: within an
+ * obstacle, or behind the walls of a closed room. It has no number: all values are NaN, but
+ * `sky` and `back`.
  * - All other points are between the patches.
  * @{
  */

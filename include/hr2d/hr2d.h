@@ -22,6 +22,7 @@
  * - hr2d_state_write() saves a stage of a long solve (state.h).
  * - hr2d_field_at() computes the light at points between the patches (field.h).
  * - hr2d_scene_add_thermal() adds patches of given temperature or heat flux (thermal.h).
+ * - hr2d_scene_set_sun() lights the scene by a sun (daylight.h).
  * - hr2d_exchange_area() computes the exchange of two segments (geometry.h).
  * - hr2d_exchange_rows_create() does it for all patches, with occluders (visibility.h).
  * - hr2d_study_run() measures L against N (study.h).
@@ -76,6 +77,7 @@
 #define HR2D_H
 
 #include <hr2d/accuracy.h>
+#include <hr2d/daylight.h>
 #include <hr2d/field.h>
 #include <hr2d/geometry.h>
 #include <hr2d/hierarchy.h>

@@ -126,7 +126,7 @@ HR2D_API void hr2d_solve_options_init(hr2d_solve_options *options, size_t size);
  */
 typedef struct hr2d_power {
   double emitted;  /**< ∫ E */
-  double received; /**< power that comes in from the background */
+  double received; /**< power that comes in from the background and the suns */
   double absorbed; /**< ∫ (1−ρ) H, with H the irradiance */
   double escaped;  /**< power that leaves through the openings of the scene, or meets the back
                         of a patch that has only a front: B·(A − Σ AF) */
@@ -242,7 +242,8 @@ HR2D_API hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t 
 
 /**
  * The irradiance H at points of a patch after one more gather: H' = ∫ G V B_h and what arrives
- * from the background, with G and V exact. Patches that reflect nothing have it, too.
+ * from the background and the sun, with G and V exact. Patches that reflect nothing have it,
+ * too.
  * @param solution,patch,t,count  as for hr2d_solution_gather()
  * @param value                   receives `count` × bands values in the unit of E
  * @return as hr2d_solution_gather(), with its cost
@@ -280,8 +281,8 @@ HR2D_API double hr2d_solution_element(const hr2d_solution *solution, uint32_t el
                                       size_t band);
 
 /**
- * The average over a patch of the irradiance H, which arrives from other patches and from the
- * background.
+ * The average over a patch of the irradiance H, which arrives from other patches, from the
+ * background and from the sun. Without the last part it is H less hr2d_scene_sunlight().
  * @param solution,patch,band  a solution, the index of a patch and a band
  * @return H, power per length, in the unit of E
  */

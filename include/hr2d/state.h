@@ -91,8 +91,8 @@ HR2D_API hr2d_status hr2d_state_read(hr2d_linkset *links, hr2d_read_fn read, voi
 
 /**
  * Writes a committed scene, as for other processes that share its work, or to have it later
- * without the file that it came from: patches with their names, the background, and the effects
- * that are forced.
+ * without the file that it came from: patches with their names, the background, the suns, and
+ * the effects that are forced.
  * @param scene  a committed scene; unchanged
  * @param write  receives up to 4096 bytes at a time
  * @param ctx    given to `write`
@@ -115,7 +115,7 @@ HR2D_API hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_
  * @param ctx    given to `read`
  * @retval HR2D_OK       success
  * @retval HR2D_ENOMEM   an allocation failed
- * @retval HR2D_ESTATE   the scene is committed, or has patches or a background
+ * @retval HR2D_ESTATE   the scene is committed, or has patches, a background or a sun
  * @retval HR2D_ESYNTAX  this is not a scene, or it is damaged
  * @retval HR2D_ESCENE   a forged scene that hr2d_scene_add() or hr2d_scene_commit() refuses
  * @retval other         the status of `read`, or of hr2d_scene_set_progress()

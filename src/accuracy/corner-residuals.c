@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/legendre.h"
+#include "geometry/predicates.h"
 #include "geometry/vector.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
@@ -13,8 +14,11 @@
 /* Contacts that are gathered at: a gather takes as long as there are patches. */
 enum { MOST = 64, FEW = 8, MANY = 1000 };
 
-/* How far beside a foot, in terms of the leaf: residuals change like x^γ there. */
-#define BESIDE 0x1p-20
+/* How far beside a foot, in terms of the leaf: residuals change like x^γ there.  But what is
+   no farther than a few roundings of coordinates may be seen from the other side of the foot.
+ */
+#define BESIDE    0x1p-20
+#define ROUNDINGS (4 * HR2DI_TOUCH)
 
 static double view_between(const hr2d_scene *scene, const hr2d_element *ends,
                            const hr2d_element *begins) {
@@ -128,7 +132,8 @@ static double place_of(const hr2di_transport *t, uint32_t leaf, int begins) {
   if (!begins && hr2di_point_same(e->b, s.b)) return 1;
   const double from = hr2di_element_start(t->hierarchy, t->leaf[leaf]);
   const double size = e->length / t->hierarchy->scene->patch[e->patch].length;
-  return from + (begins ? BESIDE : 1 - BESIDE) * size;
+  const double beside = fmin(fmax(BESIDE, ROUNDINGS / e->length), 0.5);
+  return from + (begins ? beside : 1 - beside) * size;
 }
 
 /* B' − B_h at the vertex. */

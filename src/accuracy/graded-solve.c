@@ -18,15 +18,14 @@ enum { MOST_EVENTS = 30000, MANY = 256 };
 /* Finds the events of `generations` generations, or of as many as MOST_EVENTS has room for. */
 static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
                                unsigned generations, hr2di_watch *watch) {
-  hr2d_status status = HR2D_OK;
-  while (generations > 0) {
-    status = hr2di_events_init(events, h->scene, &h->alloc, generations--, MOST_EVENTS, watch);
+  for (;; generations--) {
+    const hr2d_status status =
+        hr2di_events_init(events, h->scene, &h->alloc, generations, MOST_EVENTS, watch);
     if (status != HR2D_EMAX_ELEMENTS) return status;
     hr2di_events_clear(events);
     *events = (hr2di_events){0};
-    status = HR2D_OK;
+    if (generations == 0) return HR2D_OK;
   }
-  return status;
 }
 
 /* Divides the elements.  Without events all are halved, if fineness->halvings says so. */

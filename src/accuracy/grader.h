@@ -11,7 +11,8 @@
 typedef struct hr2di_grading_vertex {
   hr2d_point at;
   uint32_t patch;
-  int last; /* the end of the patch, not its start */
+  int last;   /* the end of the patch, not its start */
+  int inside; /* neither: a border of sunlight, where B jumps */
 } hr2di_grading_vertex;
 
 /* A place on a patch where elements end, and how they are graded towards it: in halves to a

@@ -33,7 +33,9 @@ static int by_x(const void *a, const void *b) {
   const hr2di_grading_vertex *p = a, *q = b;
   if (p->at.x != q->at.x) return p->at.x < q->at.x ? -1 : 1;
   if (p->patch != q->patch) return p->patch < q->patch ? -1 : 1;
-  return p->last - q->last;
+  if (p->last != q->last) return p->last - q->last;
+  if (p->inside != q->inside) return p->inside - q->inside;
+  return (p->at.y > q->at.y) - (p->at.y < q->at.y);
 }
 
 static int by_place(const void *a, const void *b) {
@@ -44,14 +46,18 @@ static int by_place(const void *a, const void *b) {
 
 hr2d_status hr2di_grading_list_vertices(hr2di_grader *g) {
   const hr2d_scene *scene = g->h->scene;
-  g->vertex = hr2di_alloc(&g->h->alloc, 2 * scene->patches, sizeof *g->vertex);
+  const hr2di_sunlight *sun = &scene->sunlight;
+  g->vertex = hr2di_alloc(&g->h->alloc, 2 * scene->patches + sun->borders, sizeof *g->vertex);
   g->under = hr2di_alloc_zero(&g->h->alloc, 2 * scene->patches, sizeof *g->under);
   if (!g->vertex || !g->under) return HR2D_ENOMEM;
   for (uint32_t k = 0; k < scene->patches; k++) {
     const hr2d_segment s = scene->patch[k].scaled;
-    g->vertex[g->vertices++] = (hr2di_grading_vertex){s.a, k, 0};
-    g->vertex[g->vertices++] = (hr2di_grading_vertex){s.b, k, 1};
+    g->vertex[g->vertices++] = (hr2di_grading_vertex){s.a, k, 0, 0};
+    g->vertex[g->vertices++] = (hr2di_grading_vertex){s.b, k, 1, 0};
   }
+  for (size_t k = 0; k < sun->borders; k++)
+    g->vertex[g->vertices++] =
+        (hr2di_grading_vertex){sun->border[k].point, sun->border[k].patch, 0, 1};
   return hr2di_sort(g->vertex, g->vertices, sizeof *g->vertex, by_x, g->grading->watch);
 }
 
@@ -180,6 +186,7 @@ static hr2d_status place(hr2di_grader *g, uint32_t patch, uint32_t number) {
   const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y;
   const double at = ((v->at.x - s.a.x) * ux + (v->at.y - s.a.y) * uy) / square;
   const double least = fmin(ON_LINE, HR2DI_TOUCH / p->length);
+  if (v->inside) return above > least ? add_near(g, s, v->at) : HR2D_OK;
   if (above > least && g->seen && !hr2di_seen_ends_has(g->seen, v->patch, v->last))
     return HR2D_OK;
   if (above > least) return add_near(g, s, v->at);
@@ -219,7 +226,7 @@ hr2d_status hr2di_grading_look_around(hr2di_grader *g, uint32_t patch) {
 /* Adds a mark where an end of the patch stands on another one, which has no end there. */
 static hr2d_status add_foot(hr2di_grader *g, uint32_t patch, int last) {
   const hr2d_segment s = g->h->scene->patch[patch].scaled;
-  const hr2di_grading_vertex foot = {last ? s.b : s.a, patch, last};
+  const hr2di_grading_vertex foot = {last ? s.b : s.a, patch, last, 0};
   const uint32_t under = g->under[2 * patch + (uint32_t)last];
   return under ? add_mark(g, last, foot.at, grade_at(g, under - 1, &foot, 0.5)) : HR2D_OK;
 }

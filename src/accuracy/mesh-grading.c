@@ -11,6 +11,7 @@
 #include "base/team.h"
 #include "geometry/bernstein-ellipse.h"
 #include "scene/scene-impl.h"
+#include "solve/outside.h"
 
 /* Elements are no shorter than this part of their patch, and than so many roundings of its
    coordinates: then their lengths are known to 0.1 %. */
@@ -185,11 +186,12 @@ static hr2d_status divide_patch(hr2di_grader *g, uint32_t patch) {
 }
 
 /* Patches that reflect nothing have B = E and are not divided; H of their averages comes
-   exactly from the links. Only backs before a background are seen at points of a rule, which
-   kinks disturb. */
+   exactly from the links. Only backs before a background, and pieces of the sky, are seen at
+   points of a rule, which kinks disturb. */
 static hr2d_status find_backs(hr2di_grader *g) {
   const hr2d_scene *scene = g->h->scene;
-  return scene->effect[HR2D_EFFECT_BACKGROUND].on
+  g->all = hr2di_outside_has_pieces(scene);
+  return hr2di_outside_wants_sky(scene) && !g->all
              ? hr2di_side_parts_find_backs(scene, &g->all, g->grading->watch)
              : HR2D_OK;
 }

@@ -24,6 +24,8 @@ typedef struct mirror {
   size_t count;
   hr2di_point_grid grid; /* of the points, if there are many */
   hr2di_watch *watch;
+  const hr2di_sun_border *border; /* on the patch */
+  size_t borders;
 } mirror;
 
 /* Whether a box is nearer to the patch than the patch is long. */
@@ -91,6 +93,8 @@ static hr2d_status add_wall(mirror *m, hr2d_segment wall) {
   const double side[] = {fmax(of_a, of_b), fmin(of_a, of_b)};
   hr2d_status status = add_image(m, wall, side, s.a);
   if (!status) status = add_image(m, wall, side, s.b);
+  for (size_t k = 0; k < m->borders && !status; k++)
+    status = add_image(m, wall, side, m->border[k].point);
   if (m->grid.rows > 0) return status ? status : add_strip(m, wall, side);
   for (size_t k = 0; k < m->count && !status; k++) {
     status = hr2di_watch_work(m->watch, 1);
@@ -131,6 +135,7 @@ hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max
               .count = points->count,
               .watch = watch};
   hr2d_status status = HR2D_OK;
+  m.border = hr2di_sunlight_borders(scene, patch, &m.borders);
   if (m.count >= MANY)
     status = hr2di_point_grid_init(&m.grid, points->point, m.count, &scene->alloc, watch);
   if (!status) status = look_at_walls(&m, patch, seen);

@@ -23,6 +23,7 @@
 #include <math.h>
 
 #include "accuracy/coordinate-rounding.h"
+#include "scene/scene-impl.h"
 #include "solve/closure.h"
 
 /* Of 1 − Σ. */
@@ -124,6 +125,34 @@ static void add_rows(hr2di_estimator *e) {
   }
 }
 
+/* A border of sunlight is off its place by ACROSS at most, across the light, of coordinates
+   below 2: the mean of H_sun by that part of the irradiance. */
+#define ACROSS (4 * DBL_EPSILON)
+
+/* Of the factor of an arc of the sky. */
+#define ARC (16 * DBL_EPSILON)
+
+static void add_sun(hr2di_estimator *e) {
+  const hr2di_transport *t = &e->eq.transport;
+  const hr2d_scene *scene = t->hierarchy->scene;
+  for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++)
+    for (size_t b = 0; b < t->bands; b++) {
+      const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
+      size_t parts;
+      hr2di_sunlight_of(scene, patch, b, &parts);
+      const int seen =
+          scene->sky.pieces > 0 && e->eq.outside && e->eq.outside[leaf * t->width + b] != 0;
+      const double sky = seen ? hr2di_sky_most(scene, b) : 0;
+      for (int h = 0; h < 2 && sky > 0; h++)
+        e->off[h][leaf * t->bands + b] += ARC * ldexp(sky, -e->eq.exponent[b]);
+      if (parts == 0) continue;
+      const double borders = 2 * (double)parts * ACROSS / scene->patch[patch].length;
+      const double off = ldexp(hr2d_scene_sun(scene, b).irradiance, -e->eq.exponent[b]) *
+                         fmin(borders + DIFFERENCE, 1);
+      for (int h = 0; h < 2; h++) e->off[h][leaf * t->bands + b] += off;
+    }
+}
+
 /* Sets e->own from |H|: to what stands for |B_i| where H is told. */
 static void set_own(hr2di_estimator *e) {
   const hr2di_transport *t = &e->eq.transport;
@@ -141,6 +170,7 @@ hr2d_status hr2di_rounding_bound(hr2di_estimator *e, int reflects) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
   add_rows(e);
+  if (hr2di_scene_has_sun(t->hierarchy->scene) || t->hierarchy->scene->sky.pieces) add_sun(e);
   hr2di_estimator_set_most(e, e->kept);
   set_own(e);
   const hr2di_levels levels = {e->most, e->own, eq->light};

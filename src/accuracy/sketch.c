@@ -79,10 +79,17 @@ static void sum_rows(sketcher *s) {
   }
 }
 
-/* The irradiance of a patch from the background. */
-static double from_sky(const sketcher *s, size_t patch, size_t band) {
+/* The irradiance of a patch from the background, the sun, and the sky as if it saw the same
+   part of each piece. */
+static double from_outside(const sketcher *s, size_t patch, size_t band) {
   if (!s->scene->effect[HR2D_EFFECT_BACKGROUND].on) return 0;
-  return fmax(1 - s->row[patch], 0) * hr2d_scene_background(s->scene, band);
+  double light = hr2d_scene_background(s->scene, band);
+  for (size_t k = 0; k < s->scene->sky.pieces; k++) {
+    hr2di_sines part[2];
+    const int parts = hr2di_sky_front(s->scene, patch, k, part);
+    light += hr2di_sky_factor(part, parts, -1, 1) * hr2di_sky_beyond(s->scene, k, band);
+  }
+  return fmax(1 - s->row[patch], 0) * light + hr2d_scene_sunlight(s->scene, patch, band);
 }
 
 /* H = ΣFB + sL.  Returns HR2D_OK or the status of the watch. */
@@ -92,7 +99,7 @@ static hr2d_status gather(const sketcher *s, const double *b, double *h, hr2di_w
   const size_t bands = s->bands;
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < s->scene->patches * bands; k++)
-    h[k] = from_sky(s, k / bands, k % bands);
+    h[k] = from_outside(s, k / bands, k % bands);
   for (uint64_t k = 0; k < store->count && !status; k++) {
     const hr2d_link *link = hr2di_store_at(store, k);
     const size_t i = link->pair.first, j = link->pair.second;
@@ -152,7 +159,7 @@ static void sum_power(const sketcher *s, hr2d_solution *made) {
       const size_t at = k * s->bands + m;
       const double length = unit * patch[k].length;
       p->emitted += length * hr2d_scene_emission(s->scene, k, m);
-      p->received += length * from_sky(s, k, m);
+      p->received += length * from_outside(s, k, m);
       p->absorbed +=
           length * (1 - hr2d_scene_reflectance(s->scene, k, m)) * made->irradiance[at];
       p->escaped += length * fmax(1 - s->row[k], 0) * made->value[at];
@@ -184,7 +191,7 @@ static hr2d_status solve(sketcher *s, hr2di_graded *a) {
   s->row = space + values;
   sum_rows(s);
   for (size_t k = 0; k < values; k++)
-    made->irradiance[k] = from_sky(s, k / s->bands, k % s->bands);
+    made->irradiance[k] = from_outside(s, k / s->bands, k % s->bands);
   reflect(s, made->irradiance, made->value);
   const hr2d_status status = sweep(s, made, space);
   if (!status) sum_power(s, made);

@@ -69,7 +69,10 @@ static int same_kind(thing one, thing other) {
 static double jump_between(const search *s, thing one, thing other) {
   double jump = same_kind(one, other) ? 0 : 1 / s->scale->share;
   for (size_t b = 0; b < s->of->solution->bands; b++) {
-    const double apart = fabs(value_of(s->of, one, b) - value_of(s->of, other, b));
+    const int sky = (one.patch == HR2DI_ROUND_SKY) != (other.patch == HR2DI_ROUND_SKY);
+    const double spread =
+        sky ? hr2di_sky_most(s->of->scene, b) - hr2di_sky_least(s->of->scene, b) : 0;
+    const double apart = fabs(value_of(s->of, one, b) - value_of(s->of, other, b)) + spread;
     if (apart > 0) jump = fmax(jump, apart / s->scale->band[b]);
   }
   return jump;
@@ -281,6 +284,34 @@ static hr2d_status add_wall(search *s, const hr2di_wall_edge *edge) {
                                    .lit = 1});
 }
 
+/* M itself jumps where the light of a sun goes by an end of a wall, as far as it may go, and
+   its slope where an edge of a piece of the sky comes into sight. */
+static hr2d_status add_ray(search *s, hr2d_point end, hr2d_point d) {
+  const double length = hypot(d.x, d.y);
+  return put(s->to, (hr2di_border){.from = end,
+                                   .along = {d.x / length, d.y / length},
+                                   .reach = HUGE_VAL,
+                                   .jump = HUGE_VAL,
+                                   .lit = 1});
+}
+
+static hr2d_status add_edge(search *s, hr2d_point end, double bearing) {
+  const hr2d_point e = hr2di_sky_direction(bearing);
+  return add_ray(s, end, (hr2d_point){-e.x, -e.y});
+}
+
+static hr2d_status add_suns(search *s, hr2d_point end) {
+  const hr2d_scene *scene = s->of->scene;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < scene->sun_bands && !status; k++)
+    if (scene->sun[k].irradiance > 0) status = add_ray(s, end, scene->sun[k].direction);
+  for (size_t k = 0; k < scene->sky.pieces && !status; k++) {
+    status = add_edge(s, end, scene->sky.piece[k].from);
+    if (!status) status = add_edge(s, end, scene->sky.piece[k].to);
+  }
+  return status;
+}
+
 /* One half-edge along a wall from each end of walls, or -1. */
 static int32_t *first_walls(const hr2di_triangulation *in, const hr2d_allocator *alloc) {
   int32_t *first = hr2di_alloc(alloc, in->vertices, sizeof *first);
@@ -299,6 +330,8 @@ static hr2d_status find(search *s, const int32_t *first) {
   for (size_t k = 0; k < in->edges && !status; k++) status = add_wall(s, &in->edge[k]);
   for (size_t k = 0; k < in->vertices && !status; k++)
     if (first[k] >= 0) status = look_from_end(s, first[k]);
+  for (size_t k = 0; k < in->vertices && !status; k++)
+    if (first[k] >= 0) status = add_suns(s, in->at[k]);
   for (size_t k = 0; k < 2 * in->edges && !status; k++)
     if (scene->parts.wanted[k]) status = look_from_parts(s, scene->parts.of_side[k].parts);
   for (size_t k = 0; k < scene->patches && !status; k++) status = look_from_jumps(s, k);

@@ -20,7 +20,7 @@ int hr2di_field_finite(const hr2d_point *at, size_t count) {
 int hr2di_field_lit_sky(const hr2d_scene *scene) {
   for (size_t b = 0; b < scene->bands; b++)
     if (hr2d_scene_background(scene, b) > 0) return 1;
-  return 0;
+  return hr2di_scene_has_sun(scene) || hr2di_scene_has_sky(scene);
 }
 
 hr2d_place hr2di_field_place(const hr2d_scene *scene, double front, double sky, int touches) {

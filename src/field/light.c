@@ -23,6 +23,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/pi.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/vector.h"
 #include "solution/panels.h"
@@ -267,6 +268,46 @@ static void add_front(hr2di_light_sum *sum, const hr2di_round_stretch *seen) {
   }
 }
 
+/* Parallel light of irradiance I is B = 2I δ(ω + d), which is seen in a direction from the
+   right one on and before the left one. */
+static void add_suns(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
+  const hr2d_scene *scene = sum->of->scene;
+  for (size_t b = 0; b < sum->of->solution->bands; b++) {
+    const hr2d_sun sun = hr2d_scene_sun(scene, b);
+    if (!(sun.irradiance > 0)) continue;
+    const hr2d_point to = unit((hr2d_point){-sun.direction.x, -sun.direction.y});
+    const double right = hr2di_point_cross(s->right, to), left = hr2di_point_cross(to, s->left);
+    const int behind = hr2di_point_dot(s->right, to) < 0 && right == 0;
+    if (right >= 0 && left > 0 && !behind) add_constant(sum, b, 2 * sun.irradiance, 1, to);
+  }
+}
+
+/* Adds an arc of the sky from an angle on, counterclockwise from +x. */
+static void add_arc(hr2di_light_sum *sum, size_t piece, double from, double angle) {
+  const hr2d_scene *scene = sum->of->scene;
+  const hr2d_point right = {cos(from), sin(from)},
+                   left = {cos(from + angle), sin(from + angle)};
+  const hr2d_point vector = sum->flux ? between(right, left) : (hr2d_point){0, 0};
+  for (size_t b = 0; b < sum->of->solution->bands; b++)
+    add_constant(sum, b, hr2di_sky_beyond(scene, piece, b), angle, vector);
+}
+
+/* What the pieces of the sky send beyond the background. */
+static void add_pieces(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
+  const hr2di_sky *sky = &sum->of->scene->sky;
+  const double begin = atan2(s->right.y, s->right.x), end = begin + s->angle;
+  for (size_t k = 0; k < sky->pieces; k++) {
+    const double size = (sky->piece[k].to - sky->piece[k].from) * (HR2DI_PI / 180);
+    const double first = (90 - sky->piece[k].to) * (HR2DI_PI / 180);
+    const double turns = floor((begin - first) / (2 * HR2DI_PI));
+    for (int turn = 0; turn < 3; turn++) {
+      const double from = first + (turns + turn) * 2 * HR2DI_PI;
+      const double low = fmax(from, begin), high = fmin(from + size, end);
+      if (high > low) add_arc(sum, k, low, high - low);
+    }
+  }
+}
+
 void hr2di_light_add(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
   const hr2di_light_source *of = sum->of;
   const size_t bands = of->solution->bands;
@@ -281,6 +322,8 @@ void hr2di_light_add(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
     const hr2d_point vector = sum->flux ? between(s->right, s->left) : (hr2d_point){0, 0};
     for (size_t b = 0; b < bands; b++)
       add_constant(sum, b, hr2d_scene_background(of->scene, b), s->angle, vector);
+    add_pieces(sum, s);
+    add_suns(sum, s);
   } else {
     sum->front += s->angle;
     for (size_t b = 0; b < bands && of->patch_error; b++)

@@ -3,6 +3,7 @@
 #ifndef HR2D_SRC_FORMATS_GEOJSON_IMPL_H
 #define HR2D_SRC_FORMATS_GEOJSON_IMPL_H
 
+#include <hr2d/daylight.h>
 #include <hr2d/memory.h>
 #include <hr2d/scene.h>
 #include <hr2d/thermal.h>
@@ -12,6 +13,7 @@
 #include "base/message.h"
 #include "base/watch.h"
 #include "scene/reading-notes.h"
+#include "scene/sky.h"
 
 enum { HR2DI_LABEL_SIZE = 128, HR2DI_PLACE_SIZE = HR2DI_LABEL_SIZE + 64 };
 
@@ -40,6 +42,11 @@ typedef struct hr2di_geojson {
   size_t formers;
   int replaced;
 
+  /* What the scene gets once nothing else can fail; NULL without a sun. */
+  hr2d_sun *sun;
+  size_t suns;
+  hr2di_sky sky; /* the same; without pieces there is none */
+
   /* Buffers that are kept from feature to feature. */
   hr2di_values background, emission, reflectance;
   hr2d_point *point;
@@ -61,6 +68,10 @@ hr2d_status hr2di_geojson_thermal(hr2di_geojson *reader, const json_t *propertie
    from the member "hr2d". */
 hr2d_status hr2di_geojson_spectrum(hr2di_geojson *reader, const json_t *members,
                                    size_t *background_bands);
+
+/* Read the suns and the sky from the member "hr2d", valid ones. */
+hr2d_status hr2di_geojson_sky(hr2di_geojson *reader, const json_t *members);
+hr2d_status hr2di_geojson_sun(hr2di_geojson *reader, const json_t *members);
 
 /* Gives the scene its former wavelengths back if the file could not be read. */
 void hr2di_geojson_end_spectrum(hr2di_geojson *reader, hr2d_status status);

@@ -48,8 +48,8 @@ static const meant properties_meant[] = {
 /* Where the members of the format belong. */
 static const char *const of_properties[] = {"emission", "emissivity",  "faces", "flux",
                                             "name",     "reflectance", "sides", "temperature"};
-static const char *const of_scene[] = {"background", "background_temperature", "medium",
-                                       "wavelengths"};
+static const char *const of_scene[] = {
+    "background", "background_temperature", "medium", "sky", "sun", "wavelengths"};
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
@@ -148,7 +148,7 @@ static void note_scene_member(hr2di_geojson *reader, const json_t *members, cons
   if (!note_spelling(reader, members, "hr2d", key, find(of_scene, COUNT(of_scene), s.text)))
     hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, "hr2d",
                     "members of \"hr2d\" are \"background\" and \"medium\", "
-                    "\"background_temperature\" and \"wavelengths\"");
+                    "\"background_temperature\", \"sky\", \"sun\" and \"wavelengths\"");
 }
 
 /* RFC 7946 knows no "crs"; GeoJSON of 2008 does, and some tools write it. */

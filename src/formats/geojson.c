@@ -41,6 +41,8 @@ static hr2d_status read_scene_effects(hr2di_geojson *reader, const json_t *root,
                                             hr2di_geojson_member(members, "background"),
                                             DBL_MAX, &reader->background, background_bands);
   if (!status) status = hr2di_geojson_spectrum(reader, members, background_bands);
+  if (!status) status = hr2di_geojson_sun(reader, members);
+  if (!status) status = hr2di_geojson_sky(reader, members);
   return status ? status : read_medium(reader, members);
 }
 
@@ -71,11 +73,19 @@ static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
     /* Freed bit by bit: a large tree at once takes long, and cannot be stopped. */
     json_array_set_new(features, k, json_null());
   }
-  /* The background is set last, so that no failure has to take it back.  A file without one
-     leaves the background of the scene as it is. */
+  /* The background is set last, so that no failure has to take it back, and then sun and sky,
+     which cannot fail.  A file without one leaves that of the scene as it is. */
   if (!status && background_bands)
     status =
         hr2d_scene_set_background(reader->scene, reader->background.value, background_bands);
+  if (!status && reader->sun) {
+    hr2di_scene_take_sun(reader->scene, reader->sun, reader->suns);
+    reader->sun = NULL;
+  }
+  if (!status && reader->sky.pieces) {
+    hr2di_scene_take_sky(reader->scene, &reader->sky);
+    reader->sky = (hr2di_sky){0};
+  }
   if (!status) *hr2di_scene_notes(reader->scene) = reader->notes;
   return status;
 }
@@ -95,6 +105,8 @@ hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size,
 
   json_decref(root);
   hr2di_alloc_free(reader.alloc, reader.background.value);
+  hr2di_alloc_free(reader.alloc, reader.sun);
+  hr2di_sky_clear(&reader.sky, reader.alloc);
   hr2di_alloc_free(reader.alloc, reader.emission.value);
   hr2di_alloc_free(reader.alloc, reader.reflectance.value);
   hr2di_alloc_free(reader.alloc, reader.point);

@@ -83,8 +83,9 @@ hr2d_status hr2di_lint_light(const hr2di_lint *lint) {
   if (!lit)
     status = hr2di_lint_warn(
         lint, (hr2d_warning){.code = HR2D_WARNING_DARK_SCENE},
-        "no patch emits and there is no background, so that B is 0 "
-        "everywhere: write \"emission\" or \"temperature\", or a \"background\" in \"hr2d\"");
+        "no patch emits, and there is neither a background nor a sun, so that B is 0 "
+        "everywhere: write \"emission\" or \"temperature\", or a \"background\" or a \"sun\" "
+        "in \"hr2d\"");
   if (!status && lit) status = warn_of_dark(lint);
   if (!status && lit) status = warn_of_views(lint);
   return status ? status : warn_of_no_absorber(lint);

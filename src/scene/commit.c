@@ -3,16 +3,22 @@
 #include "base/alloc.h"
 #include "scene/scene-impl.h"
 
-static hr2d_status check_background(hr2d_scene *scene, hr2di_watch *watch) {
-  (void)watch;
-  const size_t bands = scene->background_bands;
+/* Light from outside may have one value for all bands, too. */
+static hr2d_status check_outside(hr2d_scene *scene, const char *what, size_t bands) {
   if (bands <= 1 || bands == scene->bands) return HR2D_OK;
   if (scene->bands > 1)
     return hr2di_message_fail(&scene->message, HR2D_ESCENE,
-                              "the background has %zu bands where the patches have %zu", bands,
+                              "the %s has %zu bands where the patches have %zu", what, bands,
                               scene->bands);
   scene->bands = bands;
   return HR2D_OK;
+}
+
+static hr2d_status check_all_outside(hr2d_scene *scene, hr2di_watch *watch) {
+  (void)watch;
+  hr2d_status status = check_outside(scene, "background", scene->background_bands);
+  if (!status) status = check_outside(scene, "sky", scene->sky.pieces ? scene->sky.bands : 0);
+  return status ? status : check_outside(scene, "sun", scene->sun_bands);
 }
 
 static hr2d_status make_walls(hr2d_scene *scene, hr2di_watch *watch) {
@@ -48,15 +54,28 @@ static hr2d_status keep_plane(hr2d_scene *scene, hr2di_watch *watch) {
       label_of_wall(scene, wall[0]).text, label_of_wall(scene, wall[1]).text);
 }
 
+static hr2d_status find_sunlight(hr2d_scene *scene, hr2di_watch *watch) {
+  if (!hr2di_scene_has_sun(scene) && !scene->sky.pieces) return HR2D_OK;
+  if (!scene->parts.wanted) return HR2D_OK; /* a sky without light */
+  const hr2d_status status = hr2di_sunlight_init(&scene->sunlight, scene, watch);
+  return status ? hr2di_scene_fail(scene, status, watch, "the light of the sun") : HR2D_OK;
+}
+
 hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
   if (scene->committed)
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");
   if (scene->patches == 0)
     return hr2di_message_fail(&scene->message, HR2D_ESCENE, "the scene has no patches");
-  hr2d_status (*const part[])(hr2d_scene *, hr2di_watch *) = {
-      hr2di_scene_check_bands,     check_background,           hr2di_scene_check_thermal,
-      hr2di_scene_scale,           hr2di_scene_check_overlaps, make_walls,
-      hr2di_scene_analyse_effects, hr2di_scene_find_light,     keep_plane};
+  hr2d_status (*const part[])(hr2d_scene *, hr2di_watch *) = {hr2di_scene_check_bands,
+                                                              check_all_outside,
+                                                              hr2di_scene_check_thermal,
+                                                              hr2di_scene_scale,
+                                                              hr2di_scene_check_overlaps,
+                                                              make_walls,
+                                                              hr2di_scene_analyse_effects,
+                                                              hr2di_scene_find_light,
+                                                              keep_plane,
+                                                              find_sunlight};
   const size_t parts = sizeof part / sizeof *part;
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, NULL, NULL, "commit");

@@ -72,15 +72,22 @@ static hr2d_status analyse_materials(hr2d_scene *scene, hr2di_watch *watch) {
   return status;
 }
 
+/* The light of the sun comes in from the surroundings, too. */
 static void analyse_background(hr2d_scene *scene) {
   set(scene, HR2D_EFFECT_BACKGROUND, 0, "no light comes in from the surroundings");
+  for (size_t k = scene->sun_bands; k-- > 0;)
+    if (scene->sun[k].irradiance > 0)
+      set(scene, HR2D_EFFECT_BACKGROUND, 1, "the sun sends %g", scene->sun[k].irradiance);
   for (size_t band = scene->bands; band-- > 0;) {
     const double background = hr2d_scene_background(scene, band);
     if (!(background > 0)) continue;
     set(scene, HR2D_EFFECT_BACKGROUND, 1, "the surroundings send %g", background);
-    if (!scene->effect[HR2D_EFFECT_EMISSION].on)
-      set(scene, HR2D_EFFECT_EMISSION, 1, "the surroundings send light in");
   }
+  for (size_t k = scene->sky.pieces * scene->sky.bands; k-- > 0;)
+    if (scene->sky.value[k] > 0)
+      set(scene, HR2D_EFFECT_BACKGROUND, 1, "a piece of the sky sends %g", scene->sky.value[k]);
+  if (scene->effect[HR2D_EFFECT_BACKGROUND].on && !scene->effect[HR2D_EFFECT_EMISSION].on)
+    set(scene, HR2D_EFFECT_EMISSION, 1, "the surroundings send light in");
 }
 
 static int is_earlier(const hr2di_first_pair *than, size_t i, size_t j) {

@@ -13,6 +13,8 @@
 #include "scene/plane.h"
 #include "scene/reading-notes.h"
 #include "scene/side-parts.h"
+#include "scene/sky.h"
+#include "scene/sunlight.h"
 
 /* Emission and reflectance of a patch, and its thermal properties.  The segments of a feature,
    both sides of a patch and the pieces of a patch share one: otherwise a file of many values
@@ -50,6 +52,9 @@ struct hr2d_scene {
   size_t bands;
   double *background; /* background_bands values; NULL for none */
   size_t background_bands;
+  hr2di_sky sky;
+  hr2d_sun *sun; /* sun_bands of them; NULL for none */
+  size_t sun_bands;
   double *wavelength; /* that divide the spectrum into bands; NULL for none */
   size_t wavelengths;
   hr2di_notes notes;
@@ -62,7 +67,8 @@ struct hr2d_scene {
     int is;           /* during commit: there can be no plane, */
     uint32_t wall[2]; /* as of these walls, and too many others, nobody knows how they cross */
   } unclear;
-  unsigned char *dark; /* per patch: 1 if no light reaches it; NULL if light reaches all */
+  hr2di_sunlight sunlight; /* of the suns */
+  unsigned char *dark;     /* per patch: 1 if no light reaches it; NULL if light reaches all */
   struct {
     int on;
     int called_for; /* on although not forced */
@@ -78,6 +84,12 @@ const hr2d_allocator *hr2di_scene_allocator(const hr2d_scene *scene);
 hr2di_message *hr2di_scene_message(hr2d_scene *scene);
 int hr2di_scene_committed(const hr2d_scene *scene);
 hr2di_notes *hr2di_scene_notes(hr2d_scene *scene);
+
+/* Whether a sun is valid; `number` is for the message.  HR2D_OK or HR2D_ESCENE. */
+hr2d_status hr2di_scene_check_sun(hr2d_scene *scene, const hr2d_sun *sun, size_t number);
+
+/* The scene owns an array of valid suns from its hooks from now on. */
+void hr2di_scene_take_sun(hr2d_scene *scene, hr2d_sun *sun, size_t bands);
 
 /* As hr2d_scene_add(), with thermal properties, which are valid, or NULL.  With a flux E may be
    negative. */
@@ -136,6 +148,19 @@ hr2d_status hr2di_scene_scale(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_analyse_effects(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_find_light(hr2d_scene *scene, hr2di_watch *watch);
+
+static inline int hr2di_scene_has_sun(const hr2d_scene *scene) {
+  for (size_t k = 0; k < scene->sun_bands; k++)
+    if (scene->sun[k].irradiance > 0) return 1;
+  return 0;
+}
+
+/* Whether a piece of the sky has light. */
+static inline int hr2di_scene_has_sky(const hr2d_scene *scene) {
+  for (size_t k = 0; k < scene->sky.pieces * scene->sky.bands; k++)
+    if (scene->sky.value[k] > 0) return 1;
+  return 0;
+}
 
 static inline int hr2di_scene_lit(const hr2d_scene *scene, size_t patch) {
   return !scene->dark || !scene->dark[patch];

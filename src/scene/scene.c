@@ -25,6 +25,7 @@ void hr2di_scene_clear_commit(hr2d_scene *scene) {
   hr2di_runs_clear(&scene->runs);
   scene->runs = (hr2di_runs){.alloc = scene->alloc};
   hr2di_scene_clear_plane(scene);
+  hr2di_sunlight_clear(&scene->sunlight, &scene->alloc);
   hr2di_alloc_free(&scene->alloc, scene->dark);
   scene->dark = NULL;
   scene->bands = 1;
@@ -40,6 +41,8 @@ void hr2d_scene_destroy(hr2d_scene *scene) {
   hr2di_scene_truncate(scene, 0);
   hr2di_alloc_free(&scene->alloc, scene->patch);
   hr2di_alloc_free(&scene->alloc, scene->background);
+  hr2di_alloc_free(&scene->alloc, scene->sun);
+  hr2di_sky_clear(&scene->sky, &scene->alloc);
   hr2di_alloc_free(&scene->alloc, scene->wavelength);
   hr2di_scene_clear_commit(scene);
   const hr2d_allocator alloc = scene->alloc;

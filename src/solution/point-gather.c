@@ -206,6 +206,20 @@ static int is_at_edge(const hr2di_glimpse *seen, const edge *q) {
          seen->to >= q->at - q->step;
 }
 
+/* Adds what the pieces of the sky send beyond the background. */
+static void add_sky(gatherer *g, size_t patch, const hr2di_view_from *seen) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  for (size_t k = 0; k < scene->sky.pieces; k++) {
+    hr2di_sines part[2];
+    const int parts = hr2di_sky_front(scene, patch, k, part);
+    double factor = 0;
+    for (size_t m = 0; m < seen->arcs; m++)
+      factor += hr2di_sky_factor(part, parts, seen->arc[m][0], seen->arc[m][1]);
+    for (size_t b = 0; b < g->solution->bands && factor > 0; b++)
+      g->value[b] += factor * hr2di_sky_beyond(scene, k, b);
+  }
+}
+
 /* Sets the irradiance from everything but the patch that makes a wedge, which may be NULL.
  *wedge is the form factor of that patch, and *others that of everything else. */
 static hr2d_status look(gatherer *g, size_t patch, double t, const edge *without,
@@ -220,7 +234,10 @@ static hr2d_status look(gatherer *g, size_t patch, double t, const edge *without
   *wedge = 0;
   *others = seen.sky + seen.back;
   for (size_t b = 0; b < g->solution->bands; b++)
-    g->value[b] = background ? seen.sky * hr2d_scene_background(scene, b) : 0;
+    g->value[b] = background ? seen.sky * hr2d_scene_background(scene, b) +
+                                   hr2d_scene_sunlight_at(scene, patch, t, b)
+                             : 0;
+  add_sky(g, patch, &seen);
   for (size_t k = 0; k < seen.count; k++) {
     const int at_edge = is_at_edge(&seen.glimpse[k], without);
     *(at_edge ? wedge : others) += seen.glimpse[k].sine;

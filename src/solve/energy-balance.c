@@ -131,14 +131,13 @@ void hr2di_balance_clear(hr2di_balance *b) {
 }
 
 void hr2di_balance_set(hr2di_balance *b, const hr2di_transport *t, const double *source,
-                       const double *background) {
+                       const double *outside) {
   clear_sums(b, t);
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t band = 0; band < t->bands && hr2di_balance_holds(b, k); band++) {
       const double area = leaf_of(t, k)->length;
       hr2di_sum_add(sum_of(b, t, k, band), area * source[k * t->width + band]);
-      if (background && t->sky)
-        hr2di_sum_add(sum_of(b, t, k, band), area * (t->sky[k * t->order] * background[band]));
+      if (outside) hr2di_sum_add(sum_of(b, t, k, band), area * outside[k * t->width + band]);
     }
   for (size_t k = 0; k < b->count * t->bands; k++)
     b->level[k] = b->loss[k] > 0 ? hr2di_sum_total(&b->sum[k]) / b->loss[k] : 0;

@@ -4,11 +4,11 @@
 
    With m = 1 − K1, which is 0 where a component is closed, write B = c + z and H = c + h.  Then
      h = Kz + S − mc,   z = Q − (1−ρ)c + ρh
-   for a source Q and irradiance S from the background.  As K is symmetric, the power that is
-   absorbed and the power that escapes add up to the power that comes in,
-     ∫(1−ρ)H + ∫mB = ∫Q + ∫S,   and   c = (∫Q + ∫S)/(∫(1−ρ) + ∫m)   makes   ∫(1−ρ)h + ∫mz = 0.
-   c is the part that grows like 1/(∫(1−ρ) + ∫m), and it is as accurate as this denominator;
-   1−ρ is exact for ρ ≥ ½.  z does not grow, so the roundings of Kz become roundings of c. */
+   for a source Q and irradiance S from outside of the scene.  As K is symmetric, the power that
+   is absorbed and the power that escapes add up to the power that comes in, ∫(1−ρ)H + ∫mB = ∫Q
+   + ∫S,   and   c = (∫Q + ∫S)/(∫(1−ρ) + ∫m)   makes   ∫(1−ρ)h + ∫mz = 0. c is the part that
+   grows like 1/(∫(1−ρ) + ∫m), and it is as accurate as this denominator; 1−ρ is exact for ρ ≥
+   ½.  z does not grow, so the roundings of Kz become roundings of c. */
 #ifndef HR2D_SRC_SOLVE_ENERGY_BALANCE_H
 #define HR2D_SRC_SOLVE_ENERGY_BALANCE_H
 
@@ -38,10 +38,10 @@ hr2d_status hr2di_balance_init(hr2di_balance *b, hr2di_transport *t);
 void hr2di_balance_set_losses(hr2di_balance *b, const hr2di_transport *t);
 void hr2di_balance_clear(hr2di_balance *b);
 
-/* Sets c from a source and the light of the background per band, or NULL; c is 0 where nothing
-   is lost. */
+/* Sets c from a source and the irradiance from outside of the scene, or NULL; c is 0 where
+   nothing is lost. */
 void hr2di_balance_set(hr2di_balance *b, const hr2di_transport *t, const double *source,
-                       const double *background);
+                       const double *outside);
 
 /* Corrects c by the amount that ∫(1−ρ)h + ∫mz is off 0, for h = Kz + S − mc and
    z = Q − (1−ρ)c + ρh. */

@@ -15,6 +15,7 @@
 #include "scene/scene-impl.h"
 #include "solve/background.h"
 #include "solve/closure.h"
+#include "solve/outside.h"
 #include "solve/row-sums.h"
 
 /* Whether a patch reflects; if none does, closure has nothing to correct. */
@@ -45,7 +46,7 @@ static hr2d_status integrate_rows_order_p(hr2di_equation *s, int closure, int ba
 static hr2d_status integrate_rows(hr2di_equation *s) {
   const int closure =
       s->options.closure != HR2D_CLOSURE_OFF && reflects(s->links->hierarchy->scene);
-  const int background = s->links->hierarchy->scene->effect[HR2D_EFFECT_BACKGROUND].on;
+  const int background = hr2di_outside_wants_sky(s->links->hierarchy->scene);
   if (!closure && !background) return HR2D_OK;
   if (s->transport.order > 1) return integrate_rows_order_p(s, closure, background);
   hr2di_row_sums rows;
@@ -77,7 +78,7 @@ static hr2d_status integrate_blocks(hr2di_equation *s) {
 static void set_exponents(hr2di_equation *s) {
   const hr2d_scene *scene = s->links->hierarchy->scene;
   for (size_t b = 0; b < scene->bands; b++) {
-    double max = hr2d_scene_background(scene, b);
+    double max = fmax(hr2di_sky_most(scene, b), hr2d_scene_sun(scene, b).irradiance);
     for (size_t k = 0; k < scene->patches; k++)
       max = fmax(max, fabs(hr2d_scene_emission(scene, k, b)));
     s->exponent[b] = max > 0 ? ilogb(max) : 0;
@@ -133,6 +134,15 @@ static hr2d_status set_source(hr2di_equation *s) {
   return hr2di_watch_work(t->watch, t->leaves * t->bands / 4);
 }
 
+static hr2d_status set_outside(hr2di_equation *s) {
+  const hr2di_transport *t = &s->transport;
+  const hr2d_scene *scene = t->hierarchy->scene;
+  if (!t->sky && !hr2di_scene_has_sun(scene) && !hr2di_outside_has_pieces(scene))
+    return HR2D_OK;
+  s->outside = hr2di_alloc(&s->links->alloc, s->field, sizeof *s->outside);
+  return s->outside ? hr2di_outside_set(t, s->light, s->exponent, s->outside) : HR2D_ENOMEM;
+}
+
 hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
                                 const hr2d_solve_options *options) {
   *s = (hr2di_equation){.links = links, .options = *options, .background = 1};
@@ -159,7 +169,8 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
   status = hr2di_equation_reserve(s);
   if (status) return status;
   set_exponents(s);
-  return set_source(s);
+  status = set_outside(s);
+  return status ? status : set_source(s);
 }
 
 /* out = √ρ K √ρ in */
@@ -219,22 +230,27 @@ static hr2di_krylov_system make_system(hr2di_equation *s) {
                                .max_iterations = s->options.max_iterations};
 }
 
+static void add_outside(const hr2di_equation *s, double *irradiance) {
+  if (!s->background || !s->outside) return;
+  for (size_t k = 0; k < s->field; k++) irradiance[k] += s->outside[k];
+}
+
 /* H = KB + S */
 void hr2di_equation_gather(hr2di_equation *s, const double *radiosity) {
   hr2di_transport_apply(&s->transport, radiosity, s->irradiance);
-  if (s->background) hr2di_transport_add_background(&s->transport, s->light, s->irradiance);
+  add_outside(s, s->irradiance);
 }
 
 /* h = Kz + S − mc */
 static void gather_rest(hr2di_equation *s, const double *z, double *out) {
   hr2di_transport_apply(&s->transport, z, out);
-  if (s->background) hr2di_transport_add_background(&s->transport, s->light, out);
+  add_outside(s, out);
   hr2di_balance_release(&s->balance, &s->transport, out);
 }
 
 void hr2di_equation_balance(hr2di_equation *s) {
   if (s->balance.count > 0)
-    hr2di_balance_set(&s->balance, &s->transport, s->source, s->background ? s->light : NULL);
+    hr2di_balance_set(&s->balance, &s->transport, s->source, s->background ? s->outside : NULL);
 }
 
 hr2d_status hr2di_equation_solve(hr2di_equation *s) {
@@ -317,5 +333,6 @@ void hr2di_equation_clear(hr2di_equation *s) {
   hr2di_balance_clear(&s->balance);
   hr2di_transport_clear(&s->transport);
   hr2di_alloc_free(&s->links->alloc, s->space);
+  hr2di_alloc_free(&s->links->alloc, s->outside);
   hr2di_alloc_free(&s->links->alloc, s->exponent);
 }

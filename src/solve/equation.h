@@ -17,6 +17,7 @@ typedef struct hr2di_equation {
   hr2di_transport transport;
   hr2di_balance balance;
   int background;   /* light comes in from the surroundings */
+  double *outside;  /* a field: the irradiance that this light makes; NULL for none */
   int *exponent;    /* per band: E, B and H are 2^exponent times the values held here */
   size_t items;     /* leaves × order */
   size_t field;     /* items × bands */

@@ -66,7 +66,7 @@ static void add_escape(const hr2di_equation *s, size_t leaf, size_t band, hr2di_
   if (!hr2di_balance_holds(&s->balance, leaf)) {
     hr2di_sum_add(escaped, area * s->radiosity[at]);
     hr2di_sum_add(escaped, -area * s->irradiance[at]);
-    if (t->sky) hr2di_sum_add(escaped, area * (t->sky[leaf * t->order] * s->light[band]));
+    if (s->outside) hr2di_sum_add(escaped, area * s->outside[at]);
     return;
   }
   for (size_t l = 0; l < t->order; l++)
@@ -85,7 +85,7 @@ static hr2d_power sum_power(const hr2di_equation *s, size_t band) {
     const double area = s->weight[k * t->order];
     hr2di_sum_add(&emitted, area * s->source[at]);
     hr2di_sum_add(&absorbed, area * (absorbance * s->irradiance[at]));
-    if (t->sky) hr2di_sum_add(&received, area * (t->sky[k * t->order] * s->light[band]));
+    if (s->outside) hr2di_sum_add(&received, area * s->outside[at]);
     add_escape(s, k, band, &escaped);
   }
   const double unit = hr2d_scene_unit(scene);

@@ -334,9 +334,3 @@ void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *
     hr2di_gather_block(t->closure + k * square, t->order, t->order, t->bands,
                        radiosity + k * t->width, irradiance + k * t->width);
 }
-
-void hr2di_transport_add_background(const hr2di_transport *t, const double *light,
-                                    double *irradiance) {
-  for (size_t k = 0; k < t->leaves * t->order && t->sky; k++)
-    for (size_t b = 0; b < t->bands; b++) irradiance[k * t->bands + b] += t->sky[k] * light[b];
-}

@@ -61,8 +61,4 @@ void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
    below it, at order 1: of links over which it receives, or over which it sends. */
 void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor);
 
-/* Adds the irradiance from a background with `light` per band. */
-void hr2di_transport_add_background(const hr2di_transport *t, const double *light,
-                                    double *irradiance);
-
 #endif

@@ -4,8 +4,9 @@
    - a line that names it;
    - the number of patches, the bytes of all that is between here and the hash, the bits of the
      effects that are forced, the bands of the background and the number of wavelengths, as
-     words;
-   - the background and the wavelengths;
+     words; with daylight, for which the line is another one, the numbers of suns,
+     of pieces of the sky and of bands of these as well;
+   - the background, the wavelengths, the suns, and the pieces with their values;
    - per patch: whether it has the light of the one before, as a half word; if not, what heat is
      given, the bands of E, ρ and ε, as words, the heat and their values; the ends; the length
    of the name, as a half word, and the name;
@@ -22,9 +23,10 @@
 #include "state/byte-stream.h"
 #include "state/state-impl.h"
 
-#define TITLE "libhr2d scene 1\n"
+#define TITLE     "libhr2d scene 1\n"
+#define DAY_TITLE "libhr2d scene 2\n"
 
-enum { TITLE_BYTES = sizeof TITLE - 1, HEAD_WORDS = 5 };
+enum { TITLE_BYTES = sizeof TITLE - 1, HEAD_WORDS = 5, DAY_WORDS = 3, SUN_DOUBLES = 3 };
 
 static int is_alike(const hr2d_scene *scene, size_t patch) {
   return patch > 0 && scene->patch[patch].light == scene->patch[patch - 1].light;
@@ -36,6 +38,8 @@ static size_t values_of(const hr2di_light *l) {
 
 static uint64_t count_bytes(const hr2d_scene *scene) {
   uint64_t bytes = 8 * (scene->background_bands + scene->wavelengths + 1);
+  bytes += 8 * SUN_DOUBLES * (uint64_t)scene->sun_bands;
+  bytes += 8 * (uint64_t)scene->sky.pieces * (2 + scene->sky.bands);
   for (size_t k = 0; k < scene->patches; k++) {
     const hr2di_patch *p = &scene->patch[k];
     bytes += 4 + 4 * 8 + 4 + strlen(p->name);
@@ -79,6 +83,41 @@ static uint64_t forced_effects(const hr2d_scene *scene) {
   return bits;
 }
 
+static int has_day(const hr2d_scene *scene) {
+  return scene->sun_bands || scene->sky.pieces;
+}
+
+static void put_head(hr2di_writer *w, const hr2d_scene *scene) {
+  hr2di_writer_text(w, has_day(scene) ? DAY_TITLE : TITLE, TITLE_BYTES);
+  hr2di_writer_word(w, scene->patches);
+  hr2di_writer_word(w, count_bytes(scene));
+  hr2di_writer_word(w, forced_effects(scene));
+  hr2di_writer_word(w, scene->background_bands);
+  hr2di_writer_word(w, scene->wavelengths);
+  if (!has_day(scene)) return;
+  hr2di_writer_word(w, scene->sun_bands);
+  hr2di_writer_word(w, scene->sky.pieces);
+  hr2di_writer_word(w, scene->sky.bands);
+}
+
+static void put_lights(hr2di_writer *w, const hr2d_scene *scene) {
+  for (size_t k = 0; k < scene->background_bands; k++)
+    hr2di_writer_double(w, scene->background[k]);
+  for (size_t k = 0; k < scene->wavelengths; k++) hr2di_writer_double(w, scene->wavelength[k]);
+  for (size_t k = 0; k < scene->sun_bands; k++) {
+    hr2di_writer_double(w, scene->sun[k].direction.x);
+    hr2di_writer_double(w, scene->sun[k].direction.y);
+    hr2di_writer_double(w, scene->sun[k].irradiance);
+  }
+  const hr2di_sky *sky = &scene->sky;
+  for (size_t k = 0; k < sky->pieces; k++) {
+    hr2di_writer_double(w, sky->piece[k].from);
+    hr2di_writer_double(w, sky->piece[k].to);
+    for (size_t b = 0; b < sky->bands; b++)
+      hr2di_writer_double(w, sky->value[k * sky->bands + b]);
+  }
+}
+
 hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_fn write, void *ctx) {
   if (!scene->committed) return HR2D_ESTATE;
   for (size_t k = 0; k < scene->patches; k++)
@@ -87,15 +126,8 @@ hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_fn write,
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, NULL, NULL, "state");
   hr2di_writer_init(&w, write, ctx);
-  hr2di_writer_text(&w, TITLE, TITLE_BYTES);
-  hr2di_writer_word(&w, scene->patches);
-  hr2di_writer_word(&w, count_bytes(scene));
-  hr2di_writer_word(&w, forced_effects(scene));
-  hr2di_writer_word(&w, scene->background_bands);
-  hr2di_writer_word(&w, scene->wavelengths);
-  for (size_t k = 0; k < scene->background_bands; k++)
-    hr2di_writer_double(&w, scene->background[k]);
-  for (size_t k = 0; k < scene->wavelengths; k++) hr2di_writer_double(&w, scene->wavelength[k]);
+  put_head(&w, scene);
+  put_lights(&w, scene);
   for (size_t k = 0; k < scene->patches && !w.status; k++) {
     const int alike = is_alike(scene, k);
     put_patch(&w, &scene->patch[k], alike);
@@ -229,6 +261,43 @@ static hr2d_status read_wavelengths(loading *l, uint64_t count) {
   return status ? status : hr2d_scene_set_wavelengths(l->scene, l->value, (size_t)count);
 }
 
+/* hr2d_sun is three doubles. */
+static hr2d_status read_suns(loading *l, uint64_t count) {
+  if (count == 0) return HR2D_OK;
+  if (count > UINT64_MAX / 32) return damaged(l, "its number of suns");
+  hr2d_status status = read_values(l, SUN_DOUBLES * count);
+  if (status) return status;
+  hr2d_sun *sun = hr2di_alloc(&l->scene->alloc, (size_t)count, sizeof *sun);
+  if (!sun) return out_of_memory(l);
+  for (size_t k = 0; k < count; k++) {
+    const double *v = l->value + SUN_DOUBLES * k;
+    sun[k] = (hr2d_sun){{v[0], v[1]}, v[2]};
+  }
+  status = hr2d_scene_set_sun(l->scene, sun, (size_t)count);
+  hr2di_alloc_free(&l->scene->alloc, sun);
+  return status;
+}
+
+/* Of each piece its two bearings, and its values. */
+static hr2d_status read_sky(loading *l, uint64_t pieces, uint64_t bands) {
+  if (pieces == 0) return HR2D_OK;
+  if (pieces > HR2DI_SKY_PIECES || bands > UINT64_MAX / 32 / HR2DI_SKY_PIECES)
+    return damaged(l, "its sky");
+  hr2d_status status = read_values(l, pieces * (2 + bands));
+  if (status) return status;
+  const size_t count = (size_t)pieces, each = (size_t)bands + 2;
+  hr2d_sky_piece *piece = hr2di_alloc(&l->scene->alloc, count, sizeof *piece);
+  if (!piece) return out_of_memory(l);
+  for (size_t k = 0; k < count; k++) {
+    const double *v = l->value + k * each;
+    piece[k] = (hr2d_sky_piece){v[0], v[1]};
+    for (size_t b = 0; b < each - 2; b++) l->value[k * (each - 2) + b] = v[2 + b];
+  }
+  status = hr2d_scene_set_sky(l->scene, piece, count, l->value, (size_t)bands);
+  hr2di_alloc_free(&l->scene->alloc, piece);
+  return status;
+}
+
 static hr2d_status force_effects(loading *l, uint64_t bits) {
   if (bits >> HR2D_EFFECT_COUNT) return damaged(l, "its effects");
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++) l->scene->effect[e].forced = (int)(bits >> e & 1);
@@ -238,12 +307,16 @@ static hr2d_status force_effects(loading *l, uint64_t bits) {
 static hr2d_status read_all(loading *l) {
   hr2di_reader *r = &l->reader;
   char title[TITLE_BYTES];
-  uint64_t head[HEAD_WORDS];
+  uint64_t head[HEAD_WORDS + DAY_WORDS] = {0};
   hr2di_reader_expect(r, TITLE_BYTES + 8 * HEAD_WORDS);
   hr2di_reader_text(r, title, TITLE_BYTES);
-  if ((r->status && r->status != HR2D_ESYNTAX) ||
+  const int sunny = !r->status && memcmp(title, DAY_TITLE, TITLE_BYTES) == 0;
+  if ((r->status && r->status != HR2D_ESYNTAX) || sunny ||
       (!r->status && memcmp(title, TITLE, TITLE_BYTES) == 0)) {
     for (int k = 0; k < HEAD_WORDS; k++) head[k] = hr2di_reader_word(r);
+    if (sunny && !r->status) hr2di_reader_expect(r, 8 * DAY_WORDS);
+    for (int k = 0; k < DAY_WORDS && sunny && !r->status; k++)
+      head[HEAD_WORDS + k] = hr2di_reader_word(r);
   } else {
     return hr2di_message_fail(&l->scene->message, HR2D_ESYNTAX,
                               "this is not a scene of hr2d_state_write_scene()");
@@ -254,6 +327,8 @@ static hr2d_status read_all(loading *l) {
   hr2d_status status = force_effects(l, head[2]);
   if (!status) status = read_background(l, head[3]);
   if (!status) status = read_wavelengths(l, head[4]);
+  if (!status) status = read_suns(l, head[HEAD_WORDS]);
+  if (!status) status = read_sky(l, head[HEAD_WORDS + 1], head[HEAD_WORDS + 2]);
   for (uint64_t k = 0; k < head[0] && !status; k++) status = read_patch(l);
   const uint64_t hash = hr2di_reader_word(r);
   if (!status && hr2di_reader_end(r)) status = r->status;
@@ -280,6 +355,8 @@ static void empty(hr2d_scene *scene) {
   hr2di_alloc_free(&scene->alloc, scene->background);
   scene->background = NULL;
   scene->background_bands = 0;
+  hr2di_scene_take_sun(scene, NULL, 0);
+  hr2di_sky_clear(&scene->sky, &scene->alloc);
   hr2di_alloc_free(&scene->alloc, scene->wavelength);
   scene->wavelength = NULL;
   scene->wavelengths = 0;
@@ -289,7 +366,8 @@ static void empty(hr2d_scene *scene) {
 }
 
 hr2d_status hr2d_state_read_scene(hr2d_scene *scene, hr2d_read_fn read, void *ctx) {
-  if (scene->committed || scene->patches > 0 || scene->background || scene->wavelengths)
+  if (scene->committed || scene->patches > 0 || scene->background || scene->wavelengths ||
+      scene->sun || scene->sky.pieces)
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is not empty");
   loading l = {.scene = scene};
   hr2di_scene_watch(scene, &l.watch, NULL, NULL, "state");

@@ -25,6 +25,18 @@ uint64_t hr2di_state_scene(const hr2d_scene *scene, hr2di_watch *watch) {
   }
   for (size_t band = 0; band < scene->bands; band++)
     hash = hr2di_hash_double(hash, hr2d_scene_background(scene, band));
+  for (size_t k = 0; k < scene->sun_bands; k++) {
+    const hr2d_sun sun = scene->sun[k];
+    hash = hr2di_hash_double(hash, sun.direction.x);
+    hash = hr2di_hash_double(hash, sun.direction.y);
+    hash = hr2di_hash_double(hash, sun.irradiance);
+  }
+  for (size_t k = 0; k < scene->sky.pieces; k++) {
+    hash = hr2di_hash_double(hash, scene->sky.piece[k].from);
+    hash = hr2di_hash_double(hash, scene->sky.piece[k].to);
+    for (size_t b = 0; b < scene->sky.bands; b++)
+      hash = hr2di_hash_double(hash, scene->sky.value[k * scene->sky.bands + b]);
+  }
   return hash;
 }
 

@@ -114,6 +114,17 @@ static hr2d_status add(finder *f, uint32_t patch, double at, uint32_t via) {
   return HR2D_OK;
 }
 
+/* Generation 0: at a border of sunlight H jumps. */
+static hr2d_status add_borders(finder *f) {
+  const hr2di_sunlight *l = &f->scene->sunlight;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < l->borders && !status; k++) {
+    status = hr2di_watch_work(f->watch, 1);
+    if (!status) status = add(f, l->border[k].patch, l->border[k].at, HR2DI_NO_VERTEX);
+  }
+  return status;
+}
+
 static hr2d_status take(void *ctx, uint32_t patch, double at, uint32_t via) {
   return add(ctx, patch, at, via);
 }
@@ -204,6 +215,33 @@ static hr2d_status look_from_events(finder *f, unsigned generation) {
   return status;
 }
 
+/* B jumps at a border of sunlight as it does at the end of a patch. */
+static hr2d_status look_from_borders(finder *f) {
+  const hr2di_sunlight *l = &f->scene->sunlight;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < l->borders && !status; k++) {
+    const hr2di_sun_border *b = &l->border[k];
+    status = hr2di_watch_work(f->watch, 1 + f->scene->bands / 32);
+    if (status || !reflects(f->scene, b->patch)) continue;
+    const hr2di_side_part *part = part_at(f->scene, b->patch, b->point);
+    if (part->patch == b->patch && part->side != HR2DI_HIDDEN)
+      status = hr2di_event_beams_from_part(&f->beams, b->point, part, HR2DI_NO_VERTEX);
+  }
+  return status;
+}
+
+/* H of the sky has a kink where the edge of a piece comes into sight.  It is cut at whatever it
+   jumps by. */
+static hr2d_status add_kinks(finder *f) {
+  const hr2di_sunlight *l = &f->scene->sunlight;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < l->kinks && !status; k++) {
+    status = hr2di_watch_work(f->watch, 1);
+    if (!status) status = add(f, l->kink[k].patch, l->kink[k].at, HR2DI_NO_VERTEX);
+  }
+  return status;
+}
+
 /* The fraction of s at which p, on it but for rounding, lies. */
 static double fraction_of(hr2d_segment s, hr2d_point p) {
   const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
@@ -234,8 +272,11 @@ static hr2d_status find(finder *f, unsigned generations) {
   hr2d_status status = hr2di_event_beams_init(&f->beams, f->scene, &f->alloc, f->watch);
   f->beams.take = take;
   f->beams.ctx = f;
-  if (!status) status = look_from_ends(f);
-  if (!status) status = add_feet(f);
+  if (!status) status = add_borders(f);
+  if (!status && generations > 0) status = look_from_ends(f);
+  if (!status && generations > 0) status = look_from_borders(f);
+  if (!status && generations > 0) status = add_kinks(f);
+  if (!status && generations > 0) status = add_feet(f);
   if (!status) status = settle(f);
   for (unsigned g = 2; g <= generations && !status; g++) {
     status = look_from_events(f, g);
@@ -250,9 +291,10 @@ hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
                               const hr2d_allocator *alloc, unsigned generations, size_t max,
                               hr2di_watch *watch) {
   *events = (hr2di_events){.alloc = *alloc};
-  if (generations == 0 || !(scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
-                            scene->effect[HR2D_EFFECT_FACING].called_for ||
-                            scene->effect[HR2D_EFFECT_BACKGROUND].called_for))
+  if ((generations == 0 && scene->sunlight.borders == 0) ||
+      !(scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
+        scene->effect[HR2D_EFFECT_FACING].called_for ||
+        scene->effect[HR2D_EFFECT_BACKGROUND].called_for))
     return HR2D_OK;
   hr2di_with_plane w;
   finder f = {.scene = &w.scene, .alloc = *alloc, .max = max, .watch = watch};

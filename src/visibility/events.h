@@ -19,8 +19,9 @@
 typedef struct hr2di_event {
   uint32_t patch;
   double at;           /* fraction of the patch, inside (0,1) */
-  unsigned generation; /* 1: both vertices are of the scene; 2: an event of generation 1 takes
-                          the place of the source's end; … */
+  unsigned generation; /* 0: a border of sunlight, where B itself jumps; 1: both vertices are of
+                          the scene, or one of them is such a border; 2: an event of generation
+                          1 takes the place of the source's end; … */
   uint32_t origin;     /* of generation 2 and later: the patch of that event, and its place */
   double origin_at;
   hr2d_point past; /* the vertex on the line that is nearest, in coordinates of
@@ -36,13 +37,13 @@ typedef struct hr2di_events {
   uint64_t steps; /* triangles that were entered to find them */
 } hr2di_events;
 
-/* Finds all events up to `generations` of a committed scene, at most `max` of them.  There are
-   none if the scene calls neither for occlusion nor for facing nor for a background; forced
-   effects do not count.  Returns HR2D_OK, HR2D_ENOMEM, the status of the watch, or
-   HR2D_EMAX_ELEMENTS if there are more than `max`.  Call hr2di_events_clear() in any case.
-   It takes beams through the triangles of the plane from each end of a patch, and in later
-   generations from each event: the cost is that of the triangles which they enter, 0.01 to
-   0.1 µs each.  These are as many as the ends that are seen, and those passed on the way; a
+/* Finds all events up to `generations`, which may be 0, of a committed scene, at most `max` of
+   them.  There are none if the scene calls neither for occlusion nor for facing nor for a
+   background; forced effects do not count.  Returns HR2D_OK, HR2D_ENOMEM, the status of the
+   watch, or HR2D_EMAX_ELEMENTS if there are more than `max`.  Call hr2di_events_clear() in any
+   case. It takes beams through the triangles of the plane from each end of a patch, and in
+   later generations from each event: the cost is that of the triangles which they enter, 0.01
+   to 0.1 µs each.  These are as many as the ends that are seen, and those passed on the way; a
    scene without the effect of occlusion gets its plane first, in O(n log n). */
 hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
                               const hr2d_allocator *alloc, unsigned generations, size_t max,

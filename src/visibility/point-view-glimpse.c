@@ -28,9 +28,18 @@ static void find_part(const hr2di_viewer *w, const hr2di_stretch *s, double *fro
   }
 }
 
+static hr2d_status add_arc(hr2di_viewer *w, const hr2di_stretch *s) {
+  if (!w->scene->sky.pieces) return HR2D_OK;
+  if (hr2di_alloc_reserve(&w->alloc, &w->arc, &w->arc_room, w->arcs + 1, sizeof *w->arc))
+    return HR2D_ENOMEM;
+  w->arc[w->arcs][0] = s->left.sine;
+  w->arc[w->arcs++][1] = s->right.sine;
+  return HR2D_OK;
+}
+
 hr2d_status hr2di_view_add(hr2di_viewer *w, const hr2di_stretch *s) {
-  if (s->patch == HR2DI_SEEN_NOTHING || (s->patch == HR2DI_SEEN_SKY && !w->show))
-    return HR2D_OK;
+  if (s->patch == HR2DI_SEEN_NOTHING) return HR2D_OK;
+  if (s->patch == HR2DI_SEEN_SKY && !w->show) return add_arc(w, s);
   hr2di_glimpse g = {.patch = s->patch,
                      .sine = fmin(hr2di_ray_half_sine(&s->right, &s->left), 1)};
   if (!(g.sine > 0)) return HR2D_OK;

@@ -26,6 +26,7 @@ void hr2di_viewer_destroy(hr2di_viewer *viewer) {
   hr2di_alloc_free(&alloc, viewer->span);
   hr2di_alloc_free(&alloc, viewer->glimpse);
   hr2di_alloc_free(&alloc, viewer->sorted);
+  hr2di_alloc_free(&alloc, viewer->arc);
   hr2di_alloc_free(&alloc, viewer->order);
   hr2di_alloc_free(&alloc, viewer);
 }
@@ -49,12 +50,13 @@ static hr2d_status sort_glimpses(hr2di_viewer *w) {
 }
 
 static int is_hidden(const hr2di_viewer *w) {
-  return w->scene->effect[HR2D_EFFECT_OCCLUSION].on;
+  return w->scene->effect[HR2D_EFFECT_OCCLUSION].on ||
+         (w->scene->sky.pieces && w->scene->parts.wanted);
 }
 
 static hr2d_status look(hr2di_viewer *w, const hr2di_ray border[2], hr2di_view_from *seen) {
   const int hidden = is_hidden(w);
-  w->glimpses = 0;
+  w->glimpses = w->arcs = 0;
   w->back = (hr2di_sum){0, 0};
   hr2d_status status = hr2di_watch_work(w->watch, 1);
   if (!status) status = hidden ? hr2di_view_walk(w, border) : hr2di_view_all(w);
@@ -65,6 +67,8 @@ static hr2d_status look(hr2di_viewer *w, const hr2di_ray border[2], hr2di_view_f
   for (size_t k = 0; k < w->glimpses; k++) hr2di_sum_add(&front, glimpse[k].sine);
   *seen = (hr2di_view_from){.glimpse = glimpse,
                             .count = w->glimpses,
+                            .arc = (const double(*)[2])w->arc,
+                            .arcs = w->arcs,
                             .front = fmin(hr2di_sum_total(&front), 1),
                             .back = fmin(hr2di_sum_total(&w->back), 1)};
   seen->sky = fmax(1 - seen->front - seen->back, 0);

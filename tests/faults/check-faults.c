@@ -84,6 +84,30 @@ static hr2d_status set_background(fault_stage *s, uint64_t *sum) {
   return fault_mix_stage(s, sum, hr2d_scene_set_background(s->scene, sky, 10));
 }
 
+static hr2d_status set_sky(fault_stage *s, uint64_t *sum) {
+  static const hr2d_sky_piece piece[] = {{-90, 10}, {10, 80}};
+  static const double value[] = {1, 2, 3, 4};
+  return fault_mix_stage(s, sum, hr2d_scene_set_sky(s->scene, piece, 2, value, 2));
+}
+
+static hr2d_status set_sun(fault_stage *s, uint64_t *sum) {
+  static const hr2d_sun suns[] = {{{1, -2}, 1}, {{0, 0}, 0}, {{-1, -1}, 2}};
+  return fault_mix_stage(s, sum, hr2d_scene_set_sun(s->scene, suns, 3));
+}
+
+/* The sun may be set although the scene was not committed. */
+static hr2d_status commit_sunny(fault_stage *s, uint64_t *sum) {
+  static const hr2d_sun sun = {{1, -2}, 1};
+  static const hr2d_sky_piece piece = {-20, 30};
+  static const double value = 2;
+  hr2d_status status = hr2d_scene_set_sun(s->scene, &sun, 1);
+  if (!status) status = hr2d_scene_set_sky(s->scene, &piece, 1, &value, 1);
+  if (!status) status = hr2d_scene_commit(s->scene);
+  for (size_t k = 0; !status && k < hr2d_scene_patches(s->scene); k++)
+    *sum = fault_mix_real(*sum, hr2d_scene_sunlight(s->scene, k, 0));
+  return fault_mix_stage(s, sum, status);
+}
+
 static hr2d_status split_crossings(fault_stage *s, uint64_t *sum) {
   size_t cuts = 0;
   const hr2d_status status = hr2d_scene_split_crossings(s->scene, &cuts);
@@ -144,6 +168,16 @@ static const char warm[] =
 
 static hr2d_status parse_thermal(fault_stage *s, uint64_t *sum) {
   return fault_mix_stage(s, sum, hr2d_scene_parse(s->scene, warm, sizeof warm - 1));
+}
+
+static const char sunny[] =
+    "{\"type\":\"FeatureCollection\",\"hr2d\":{\"background\":1,\"sun\":{\"bearing\":[30,60],"
+    "\"irradiance\":800},\"sky\":[[-90,0,[1,2]],[0,90,3]]},\"features\":[{\"type\":\"Feature\","
+    "\"properties\":{},"
+    "\"geometry\":{\"type\":\"LineString\",\"coordinates\":[[0,0],[2,0],[2,1]]}}]}";
+
+static hr2d_status parse_sunny(fault_stage *s, uint64_t *sum) {
+  return fault_mix_stage(s, sum, hr2d_scene_parse(s->scene, sunny, sizeof sunny - 1));
 }
 
 static hr2d_status read_file(fault_stage *s, uint64_t *sum, const char *name) {
@@ -390,6 +424,12 @@ START_TEST(scenes) {
   PLAY("scene_parse, thermal", {.depth = DEPTH_SCENE}, parse_thermal, of_scene, 0);
   PLAY("scene_set_background", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, set_background,
        of_scene, 0);
+  PLAY("scene_set_sky", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, set_sky, of_scene, 0);
+  PLAY("scene_set_sun", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, set_sun, of_scene, 0);
+  PLAY("scene_commit, sun", {.depth = DEPTH_FILLED, .plan = PLAN_PAIR}, commit_sunny, of_scene,
+       0);
+  PLAY("scene_parse, sun", {.depth = DEPTH_FILLED, .plan = PLAN_PAIR}, parse_sunny, of_scene,
+       0);
   PLAY("scene_parse", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, parse_geojson, of_scene, 0);
   PLAY("scene_read", {.depth = DEPTH_SCENE}, read_geojson, of_scene, 0);
   PLAY("scene_read of .vs2", {.depth = DEPTH_SCENE}, read_vs2, of_scene, 0);

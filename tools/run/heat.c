@@ -14,6 +14,12 @@ int run_heat_exists(const hr2d_scene *scene) {
   return k < hr2d_scene_patches(scene);
 }
 
+int run_sun_exists(const hr2d_scene *scene) {
+  size_t b = 0;
+  while (b < hr2d_scene_bands(scene) && !(hr2d_scene_sun(scene, b).irradiance > 0)) b++;
+  return b < hr2d_scene_bands(scene);
+}
+
 double run_heat_at(const run *r, size_t patch, double irradiance) {
   const double middle = 0.5;
   double kelvin;

@@ -85,4 +85,7 @@ double run_power_error(const hr2d_power *p);
 /* The peak memory of the process. */
 uint64_t run_peak_bytes(void);
 
+/* Whether a sun lights the scene. */
+int run_sun_exists(const hr2d_scene *scene);
+
 #endif

@@ -17,6 +17,7 @@ typedef struct writer {
   FILE *stream;
   size_t patch, order, bands;
   int heat;                            /* the last column is T */
+  int sun;                             /* there are columns for what comes straight from it */
   gsl_integration_glfixed_table *rule; /* with a point for each coefficient of a leaf */
 } writer;
 
@@ -69,6 +70,9 @@ static int write_leaf(void *ctx, const piece *p) {
     fprintf(w->stream, ",%.17g", mean);
     if (b == 0) first = mean;
   }
+  for (size_t b = 0; b < w->bands && w->sun; b++)
+    fprintf(w->stream, ",%.17g",
+            hr2d_scene_sunlight_over(w->run->scene, w->patch, p->t0, p->t1, b));
   write_coefficients(w, p);
   if (w->heat) write_temperature(w, first);
   return fputc('\n', w->stream) == EOF;
@@ -78,6 +82,7 @@ static void write_header(const writer *w) {
   fputs("patch,name,t0,t1,ax,ay,bx,by", w->stream);
   for (size_t b = 0; b < w->bands; b++) fprintf(w->stream, ",B%zu", b);
   for (size_t b = 0; b < w->bands; b++) fprintf(w->stream, ",H%zu", b);
+  for (size_t b = 0; b < w->bands && w->sun; b++) fprintf(w->stream, ",S%zu", b);
   for (size_t b = 0; b < w->bands; b++)
     for (size_t l = 1; l < w->order; l++) fprintf(w->stream, ",B%zuc%zu", b, l);
   if (w->heat) fputs(",T", w->stream);
@@ -92,7 +97,8 @@ int solve_write_csv(const run *r, const char *path) {
               .stream = out.stream,
               .order = r->account.order,
               .bands = hr2d_scene_bands(r->scene),
-              .heat = run_heat_exists(r->scene)};
+              .heat = run_heat_exists(r->scene),
+              .sun = run_sun_exists(r->scene)};
   w.rule = gsl_integration_glfixed_table_alloc(w.order);
   if (!w.rule) return output_close(&out, complain_memory());
   write_header(&w);

@@ -15,6 +15,15 @@ static json_t *per_band(const run *r, size_t patch,
   return array;
 }
 
+/* What comes straight from the sun, over a patch or at a fraction t of it; t < 0: over it. */
+static json_t *sunlight(const run *r, size_t patch, double t) {
+  json_t *array = json_array();
+  for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++)
+    json_push(&array, json_number(t < 0 ? hr2d_scene_sunlight(r->scene, patch, b)
+                                        : hr2d_scene_sunlight_at(r->scene, patch, t, b)));
+  return array;
+}
+
 static json_t *error_of(double estimate, double bound) {
   json_t *object = json_object();
   json_put(&object, "estimate", json_number(estimate));
@@ -40,6 +49,7 @@ static json_t *patches(const run *r) {
     json_put(&patch, "average", per_band(r, k, hr2d_solution_average));
     json_put(&patch, "irradiance", per_band(r, k, hr2d_solution_irradiance));
     json_put(&patch, "net_flux", per_band(r, k, hr2d_solution_net_flux));
+    if (run_sun_exists(r->scene)) json_put(&patch, "sunlight", sunlight(r, k, -1));
     if (heat.exists && list) put_heat(&patch, &heat, k);
     json_push(&list, patch);
   }
@@ -55,6 +65,8 @@ static json_t *place_entry(const run *r, size_t k) {
   json_put(&entry, "t", json_number(r->options->at.items[k].t));
   json_put(&entry, "value", entry ? json_numbers(value, bands) : NULL);
   json_put(&entry, "irradiance", entry ? json_numbers(value + bands, bands) : NULL);
+  if (entry && run_sun_exists(r->scene))
+    json_put(&entry, "sunlight", sunlight(r, r->places[k], r->options->at.items[k].t));
   if (entry && run_heat_exists(r->scene))
     json_put(&entry, "temperature",
              json_number(run_heat_at(r, r->places[k], value[bands])));

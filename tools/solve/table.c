@@ -16,17 +16,21 @@ static void print_values(const run *r, size_t patch, int indent) {
   for (size_t b = 0; b < bands; b++) {
     if (b) printf("%*s", indent, "");
     if (bands > 1) printf("  %4zu", b);
-    printf("  %12.6g  %12.6g  %12.6g\n", hr2d_solution_average(r->solution, patch, b),
+    printf("  %12.6g  %12.6g  %12.6g", hr2d_solution_average(r->solution, patch, b),
            hr2d_solution_irradiance(r->solution, patch, b),
            hr2d_solution_net_flux(r->solution, patch, b));
+    if (run_sun_exists(r->scene)) printf("  %12.6g", hr2d_scene_sunlight(r->scene, patch, b));
+    puts("");
   }
 }
 
 static void print_patches(const run *r) {
   const int width = table_name_width(r->scene);
   table_patch_titles(width);
-  printf("%s  %12s  %12s  %12s\n", hr2d_scene_bands(r->scene) > 1 ? "  band" : "", "average B",
+  printf("%s  %12s  %12s  %12s", hr2d_scene_bands(r->scene) > 1 ? "  band" : "", "average B",
          "average H", "B - H");
+  if (run_sun_exists(r->scene)) printf("  %12s", "H of the sun");
+  puts("");
   for (size_t k = 0; k < hr2d_scene_patches(r->scene); k++)
     if (table_patch(r->scene, k, width)) print_values(r, k, 7 + width + 14);
 }
@@ -77,6 +81,10 @@ static int print_places(const run *r) {
     for (size_t b = 0; b < bands; b++) printf(" %.*g", digits, value[b]);
     printf("  H");
     for (size_t b = 0; b < bands; b++) printf(" %.*g", digits, value[bands + b]);
+    if (run_sun_exists(r->scene)) printf("  sun");
+    for (size_t b = 0; b < bands && run_sun_exists(r->scene); b++)
+      printf(" %.*g", digits,
+             hr2d_scene_sunlight_at(r->scene, r->places[k], o->at.items[k].t, b));
     const double kelvin = run_heat_at(r, r->places[k], value[bands]);
     if (!isnan(kelvin)) printf("  T %.*g", digits, kelvin);
     puts("");

@@ -196,6 +196,89 @@ END_TEST
 #define WALL     FEATURE("\"reflectance\":[0.5,0.5]", "LineString", "[[0,0],[1,0]]")
 #define BAD_WALL FEATURE("\"reflectance\":2", "LineString", "[[0,0],[1,0]]")
 
+#define WITH_SUN(sun)                                                                          \
+  "{\"type\":\"FeatureCollection\",\"hr2d\":{\"sun\":" sun "},\"features\":[]}"
+
+#define WITH_SKY(sky)                                                                          \
+  "{\"type\":\"FeatureCollection\",\"hr2d\":{\"sky\":" sky "},\"features\":[]}"
+
+START_TEST(skies_are_pieces) {
+  static const struct {
+    const char *text, *phrase;
+    hr2d_status status;
+  } bad[] = {
+      {WITH_SKY("1"), "must be an array of [from, to, radiosity], not a number", HR2D_ESYNTAX},
+      {WITH_SKY("[]"), "not an empty one", HR2D_ESYNTAX},
+      {WITH_SKY("[[1,2]]"), "piece 0 must be [from, to, radiosity]", HR2D_ESYNTAX},
+      {WITH_SKY("[[1,2,\"x\"]]"), "must be a number, not a string", HR2D_ESYNTAX},
+      {WITH_SKY("[[1,2,[1,2]],[3,4,[1,2,3]]]"), "2 bands where another one has 3", HR2D_ESCENE},
+      {WITH_SKY("[[1,3,1],[2,4,1]]"), "overlap", HR2D_ESCENE},
+      {WITH_SKY("[[3,1,1]]"), "is no piece", HR2D_ESCENE},
+      {WITH_SKY("[[1,3,-1]]"), "0 or more", HR2D_ESCENE},
+  };
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+    hr2d_scene *scene = file_parsed(WITH_SKY("[[-90,0,[3,4]],[0,90,5]]"));
+    ck_assert_int_eq(file_parse(scene, bad[k].text), bad[k].status);
+    test_expect_message(scene, bad[k].phrase);
+    ck_assert_double_eq(hr2d_scene_sky(scene, -45, 1), 4);
+    ck_assert_double_eq(hr2d_scene_sky(scene, 45, 1), 5);
+    ck_assert_double_eq(hr2d_scene_sky(scene, 180, 1), 0);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
+START_TEST(suns_have_directions_or_bearings) {
+  hr2d_scene *scene =
+      file_parsed(WITH_SUN("{\"bearing\":[0,90,-90,180,450,30],\"irradiance\":2}"));
+  static const hr2d_point way[] = {{0, -1}, {-1, 0}, {1, 0}, {0, 1}, {-1, 0}};
+  for (size_t k = 0; k < 5; k++) {
+    ck_assert_double_eq(hr2d_scene_sun(scene, k).direction.x, way[k].x);
+    ck_assert_double_eq(hr2d_scene_sun(scene, k).direction.y, way[k].y);
+    ck_assert_double_eq(hr2d_scene_sun(scene, k).irradiance, 2);
+  }
+  ck_assert_double_eq_tol(hr2d_scene_sun(scene, 5).direction.x, -0.5, 1e-15);
+  ck_assert_int_eq(file_parse(scene, WITH_SUN("{\"direction\":[3,-4],\"irradiance\":[1,0.5]}")),
+                   HR2D_OK);
+  ck_assert_double_eq(hr2d_scene_sun(scene, 1).direction.y, -4);
+  ck_assert_double_eq(hr2d_scene_sun(scene, 1).irradiance, 0.5);
+  ck_assert_int_eq(
+      file_parse(scene, WITH_SUN("{\"direction\":[[1,0],[0,1]],\"irradiance\":1}")), HR2D_OK);
+  ck_assert_double_eq(hr2d_scene_sun(scene, 1).direction.y, 1);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+START_TEST(what_is_no_sun_is_refused) {
+  static const struct {
+    const char *text, *phrase;
+    hr2d_status status;
+  } cases[] = {
+      {WITH_SUN("1"), "sun: must be an object, not a number", HR2D_ESYNTAX},
+      {WITH_SUN("{\"irradiance\":1}"), "needs a direction", HR2D_ESCENE},
+      {WITH_SUN("{\"direction\":[1,0],\"bearing\":3,\"irradiance\":1}"), "one of these",
+       HR2D_ESCENE},
+      {WITH_SUN("{\"bearing\":3}"), "irradiance must have a value", HR2D_ESYNTAX},
+      {WITH_SUN("{\"bearing\":[],\"irradiance\":1}"), "bearing must have a value",
+       HR2D_ESYNTAX},
+      {WITH_SUN("{\"bearing\":\"up\",\"irradiance\":1}"), "not a string", HR2D_ESYNTAX},
+      {WITH_SUN("{\"bearing\":[1,2,3],\"irradiance\":[1,2]}"),
+       "irradiance has 2 values where there are 3 suns", HR2D_ESCENE},
+      {WITH_SUN("{\"direction\":[0,0],\"irradiance\":1}"), "is no direction", HR2D_ESCENE},
+      {WITH_SUN("{\"direction\":[0,1,2],\"irradiance\":1}"), "must be [dx, dy]", HR2D_ESYNTAX},
+      {WITH_SUN("{\"direction\":[0,1],\"irradiance\":-1}"), "0 or more", HR2D_ESCENE},
+      {WITH_SUN("{\"direction\":[0,1],\"irradiance\":{}}"), "not an object", HR2D_ESYNTAX},
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    hr2d_scene *scene = file_parsed(WITH_SUN("{\"direction\":[3,-4],\"irradiance\":7}"));
+    ck_assert_int_eq(file_parse(scene, cases[k].text), cases[k].status);
+    test_expect_message(scene, cases[k].phrase);
+    ck_assert_double_eq(hr2d_scene_sun(scene, 0).irradiance, 7);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
 static void expect_background(hr2d_scene *scene, double first, double second) {
   ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
   ck_assert_uint_eq(hr2d_scene_bands(scene), 2);
@@ -620,8 +703,9 @@ TEST_SUITE("geojson") {
             shipped_rooms_are_closed_and_face_inwards, the_scenes_of_the_paper_are_as_drawn,
             the_furnace_emits_as_its_temperatures_say);
   ADD_TESTS("content", properties_reach_every_patch_of_a_feature, both_sides_are_two_patches,
-            what_says_nothing_adds_nothing,
-            the_background_is_that_of_the_last_file_that_has_one, coordinates_keep_every_bit);
+            what_says_nothing_adds_nothing, skies_are_pieces, suns_have_directions_or_bearings,
+            what_is_no_sun_is_refused, the_background_is_that_of_the_last_file_that_has_one,
+            coordinates_keep_every_bit);
   ADD_TESTS("rings", ring_order_does_not_matter, extreme_rings_have_an_inside,
             holes_face_the_inside_of_their_polygon);
   ADD_TESTS("refusals", every_malformed_file_is_refused_with_its_reason,

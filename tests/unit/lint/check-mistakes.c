@@ -99,8 +99,9 @@ static const mistake mistakes[] = {
      HR2D_WARNING_MISPLACED, "belongs into the member \"hr2d\""},
     {"a background on a feature", COLLECTION(LAMP "," ROOM("\"background\":1", SQUARE)),
      HR2D_WARNING_MISPLACED, "\"background\" is not used: it belongs into the member \"hr2d\""},
-    {"another word in hr2d", WITH("\"hr2d\":{\"sky\":1}", LAMP "," WALLS), HR2D_WARNING_IGNORED,
-     "hr2d: \"sky\" is not used: members of \"hr2d\" are \"background\" and \"medium\""},
+    {"another word in hr2d", WITH("\"hr2d\":{\"clouds\":1}", LAMP "," WALLS),
+     HR2D_WARNING_IGNORED,
+     "hr2d: \"clouds\" is not used: members of \"hr2d\" are \"background\" and \"medium\""},
     /* 25 */
     {"properties beside \"properties\"",
      COLLECTION(WALLS

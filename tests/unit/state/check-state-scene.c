@@ -22,7 +22,7 @@ static hr2d_scene *make_slow(slow_kind kind) {
 
 /* All kinds of patches: with bands of their own, with one for all, with none; two-sided, with
    lights that are shared, a long name, a background, and a forced effect. */
-static hr2d_scene *make_motley(const hr2d_allocator *hooks) {
+static hr2d_scene *make_motley_under(const hr2d_allocator *hooks, int sunny) {
   const double three[] = {1, 0.5, 0}, one = 0.25, sky[] = {0.1, 0.2, 0.3};
   char name[5000];
   hr2d_scene *scene = NULL;
@@ -41,9 +41,18 @@ static hr2d_scene *make_motley(const hr2d_allocator *hooks) {
   p = (hr2d_patch){.a = {1, 1}, .b = {0, 1}, .name = "dark"};
   ck_assert_int_eq(hr2d_scene_add(scene, &p, NULL), HR2D_OK);
   ck_assert_int_eq(hr2d_scene_set_background(scene, sky, 3), HR2D_OK);
+  const hr2d_sun suns[] = {{{1, -2}, 3}, {{0, 0}, 0}, {{-1, -0.1}, 5}};
+  const hr2d_sky_piece piece[] = {{-90, 10}, {10, 80}};
+  const double light[] = {1, 2, 3, 4, 5, 6};
+  if (sunny) ck_assert_int_eq(hr2d_scene_set_sun(scene, suns, 3), HR2D_OK);
+  if (sunny) ck_assert_int_eq(hr2d_scene_set_sky(scene, piece, 2, light, 3), HR2D_OK);
   ck_assert_int_eq(hr2d_scene_force(scene, HR2D_EFFECT_FACING), HR2D_OK);
   test_commit(scene);
   return scene;
+}
+
+static hr2d_scene *make_motley(const hr2d_allocator *hooks) {
+  return make_motley_under(hooks, 0);
 }
 
 static tape write_tape(const hr2d_scene *scene) {
@@ -72,6 +81,15 @@ static void same_scenes(const hr2d_scene *one, const hr2d_scene *other) {
   }
   for (size_t b = 0; b < hr2d_scene_bands(one); b++)
     ck_assert(hr2d_scene_background(one, b) == hr2d_scene_background(other, b));
+  for (size_t b = 0; b < hr2d_scene_bands(one); b++) {
+    const hr2d_sun s = hr2d_scene_sun(one, b), t = hr2d_scene_sun(other, b);
+    ck_assert(s.irradiance == t.irradiance && s.direction.x == t.direction.x &&
+              s.direction.y == t.direction.y);
+    for (double at = -180; at < 180; at += 20)
+      ck_assert(hr2d_scene_sky(one, at, b) == hr2d_scene_sky(other, at, b));
+    for (size_t k = 0; k < hr2d_scene_patches(one); k++)
+      ck_assert(hr2d_scene_sunlight(one, k, b) == hr2d_scene_sunlight(other, k, b));
+  }
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
     const char *reason[2];
     ck_assert_int_eq(hr2d_scene_effect(one, (hr2d_effect)e, &reason[0]),
@@ -128,9 +146,10 @@ static tape solved(hr2d_scene *scene) {
 }
 
 START_TEST(what_is_read_has_the_same_bits) {
-  hr2d_scene *one = _i < SLOW_KINDS    ? make_slow((slow_kind)_i)
-                    : _i == SLOW_KINDS ? make_motley(NULL)
-                                       : make_thermal(_i - SLOW_KINDS - 1);
+  hr2d_scene *one = _i < SLOW_KINDS       ? make_slow((slow_kind)_i)
+                    : _i == SLOW_KINDS    ? make_motley(NULL)
+                    : _i < SLOW_KINDS + 3 ? make_thermal(_i - SLOW_KINDS - 1)
+                                          : make_motley_under(NULL, 1);
   hr2d_scene *other;
   tape t = write_tape(one);
   ck_assert_int_eq(read_tape(&t, NULL, &other), HR2D_OK);
@@ -165,7 +184,7 @@ END_TEST
 
 /* Each byte changed, and each length. */
 START_TEST(damage_is_found) {
-  hr2d_scene *one = make_slow(SLOW_COMB), *other;
+  hr2d_scene *one = _i ? make_motley_under(NULL, 1) : make_slow(SLOW_COMB), *other;
   tape t = write_tape(one);
   const size_t size = t.size;
   for (size_t k = 0; k < size; k++) {
@@ -219,7 +238,7 @@ START_TEST(claims_take_no_memory) {
 END_TEST
 
 START_TEST(callbacks_may_fail) {
-  hr2d_scene *one = make_motley(NULL), *other = NULL;
+  hr2d_scene *one = make_motley_under(NULL, 1), *other = NULL;
   tape t = write_tape(one), cut = {.failure = HR2D_EIO};
   ck_assert_int_eq(hr2d_state_write_scene(one, tape_record, &cut), HR2D_EIO);
   t.failure = HR2D_EIO;
@@ -239,7 +258,7 @@ START_TEST(callbacks_may_fail) {
 END_TEST
 
 START_TEST(any_allocation_may_fail) {
-  hr2d_scene *one = make_motley(NULL);
+  hr2d_scene *one = make_motley_under(NULL, 1);
   tape t = write_tape(one);
   long failures = 1;
   for (long k = 0; failures; k++) {
@@ -265,7 +284,8 @@ START_TEST(any_allocation_may_fail) {
 END_TEST
 
 TEST_SUITE("state-scene") {
-  REPEAT_TESTS(SLOW_KINDS + 3, "bits", what_is_read_has_the_same_bits);
-  ADD_TESTS("all", lights_stay_shared, damage_is_found, claims_take_no_memory,
-            callbacks_may_fail, any_allocation_may_fail);
+  REPEAT_TESTS(SLOW_KINDS + 4, "bits", what_is_read_has_the_same_bits);
+  REPEAT_TESTS(2, "damage", damage_is_found);
+  ADD_TESTS("all", lights_stay_shared, claims_take_no_memory, callbacks_may_fail,
+            any_allocation_may_fail);
 }

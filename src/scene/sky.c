@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The pieces of the sky: setting them, and their values. */
+#include "scene/sky.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "scene/scene-impl.h"
+
+static double value_of(const hr2di_sky *sky, size_t piece, size_t band) {
+  return sky->value[piece * sky->bands + (sky->bands == 1 ? 0 : band)];
+}
+
+double hr2di_sky_beyond(const hr2d_scene *scene, size_t piece, size_t band) {
+  return value_of(&scene->sky, piece, band) - hr2d_scene_background(scene, band);
+}
+
+double hr2di_sky_most(const hr2d_scene *scene, size_t band) {
+  double most = hr2d_scene_background(scene, band);
+  for (size_t k = 0; k < scene->sky.pieces; k++)
+    most = fmax(most, value_of(&scene->sky, k, band));
+  return most;
+}
+
+double hr2di_sky_least(const hr2d_scene *scene, size_t band) {
+  double least = hr2d_scene_background(scene, band);
+  for (size_t k = 0; k < scene->sky.pieces; k++)
+    least = fmin(least, value_of(&scene->sky, k, band));
+  return least;
+}
+
+static int is_piece(hr2d_sky_piece p) {
+  return isfinite(p.from) && isfinite(p.to) && p.from < p.to && p.to - p.from <= 360;
+}
+
+/* Whether two pieces share an arc: one of them begins inside the other. */
+static int overlap(hr2d_sky_piece p, hr2d_sky_piece q) {
+  const double ahead = hr2di_sky_turned(q.from - p.from),
+               behind = hr2di_sky_turned(p.from - q.from);
+  return ahead < p.to - p.from || behind < q.to - q.from;
+}
+
+static hr2d_status check_pieces(hr2d_scene *scene, const hr2d_sky_piece *piece, size_t pieces) {
+  if (pieces > HR2DI_SKY_PIECES)
+    return hr2di_message_fail(&scene->message, HR2D_ESCENE, "sky: %zu pieces are more than %d",
+                              pieces, (int)HR2DI_SKY_PIECES);
+  for (size_t k = 0; k < pieces; k++) {
+    if (!is_piece(piece[k]))
+      return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                                "sky: from %g to %g degrees is no piece of the sky",
+                                piece[k].from, piece[k].to);
+    for (size_t m = 0; m < k; m++)
+      if (overlap(piece[m], piece[k]))
+        return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                                  "sky: the pieces from %g and from %g degrees overlap",
+                                  piece[m].from, piece[k].from);
+  }
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_scene_check_sky(hr2d_scene *scene, const hr2d_sky_piece *piece, size_t pieces,
+                                  const double *value, size_t bands) {
+  if (scene->committed)
+    return hr2di_message_fail(&scene->message, HR2D_ESTATE, "a committed scene takes no sky");
+  if (pieces && (!piece || !value || !bands))
+    return hr2di_message_fail(&scene->message, HR2D_EINVAL, "sky: pieces without values");
+  for (size_t k = 0; k < pieces * bands; k++)
+    if (!(value[k] >= 0) || !isfinite(value[k]))
+      return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                                "sky: radiosity %g is not a number of 0 or more", value[k]);
+  return check_pieces(scene, piece, pieces);
+}
+
+void hr2di_scene_take_sky(hr2d_scene *scene, const hr2di_sky *sky) {
+  hr2di_sky_clear(&scene->sky, &scene->alloc);
+  scene->sky = *sky;
+}
+
+hr2d_status hr2d_scene_set_sky(hr2d_scene *scene, const hr2d_sky_piece *piece, size_t pieces,
+                               const double *value, size_t bands) {
+  const hr2d_status status = hr2di_scene_check_sky(scene, piece, pieces, value, bands);
+  if (status) return status;
+  hr2di_sky sky = {.pieces = pieces, .bands = bands};
+  sky.piece = hr2di_alloc(&scene->alloc, pieces, sizeof *sky.piece);
+  sky.value = hr2di_alloc(&scene->alloc, pieces * bands, sizeof *sky.value);
+  if (!sky.piece || !sky.value) {
+    hr2di_sky_clear(&sky, &scene->alloc);
+    return hr2di_message_fail(&scene->message, HR2D_ENOMEM, "out of memory for the sky");
+  }
+  for (size_t k = 0; k < pieces; k++) sky.piece[k] = piece[k];
+  for (size_t k = 0; k < pieces * bands; k++) sky.value[k] = value[k];
+  hr2di_scene_take_sky(scene, &sky);
+  return HR2D_OK;
+}
+
+double hr2d_scene_sky(const hr2d_scene *scene, double bearing, size_t band) {
+  const hr2di_sky *sky = &scene->sky;
+  for (size_t k = 0; k < sky->pieces; k++)
+    if (hr2di_sky_turned(bearing - sky->piece[k].from) < sky->piece[k].to - sky->piece[k].from)
+      return value_of(sky, k, band);
+  return hr2d_scene_background(scene, band);
+}
