@@ -226,6 +226,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/graded-solve.c src/accuracy/graded-solve.h \
 	src/accuracy/heat-balance.c src/accuracy/heat-balance.h \
 	src/accuracy/heat-solve.c src/accuracy/heat-solve.h \
+	src/accuracy/halved-leaves.c src/accuracy/halved-leaves.h \
 	src/accuracy/importance.c src/accuracy/importance.h \
 	src/accuracy/grader.h src/accuracy/grader-team.c \
 	src/accuracy/grading-marks.c \

@@ -12,10 +12,4 @@
 hr2d_status hr2di_error_shares(hr2di_estimator *e, double target, double worst,
                                unsigned char *depth);
 
-/* A hierarchy with the same elements, its leaves halved so often.  Returns HR2D_OK,
-   HR2D_ENOMEM, HR2D_EMAX_ELEMENTS or the status of the watch. */
-hr2d_status hr2di_error_shares_divide(const hr2d_hierarchy *from, const unsigned char *depth,
-                                      uint64_t max_elements, hr2di_watch *watch,
-                                      hr2d_hierarchy **divided);
-
 #endif

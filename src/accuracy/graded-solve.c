@@ -3,7 +3,7 @@
 #include "accuracy/graded-solve.h"
 
 #include "accuracy/admissibility.h"
-#include "accuracy/error-shares.h"
+#include "accuracy/halved-leaves.h"
 #include "accuracy/long-leaves.h"
 #include "base/alloc.h"
 #include "base/clock.h"
@@ -112,8 +112,8 @@ hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
   *a = (hr2di_graded){.survey = coarse->survey, .events = coarse->events};
   hr2di_scene_watch(coarse->hierarchy->scene, &watch, target->progress, target->progress_ctx,
                     "refine");
-  hr2d_status status = hr2di_error_shares_divide(coarse->hierarchy, coarse->depth,
-                                                 target->max_elements, &watch, &a->hierarchy);
+  hr2d_status status = hr2di_halved_leaves(coarse->hierarchy, coarse->depth,
+                                           target->max_elements, &watch, &a->hierarchy);
   if (!status) a->hierarchy->order = fineness->order;
   if (!status) status = link_elements(a, fineness, target);
   if (!status) a->links->former = coarse->links;

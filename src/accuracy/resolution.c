@@ -87,7 +87,7 @@ double hr2di_resolution_tolerance(const hr2d_scene *scene, double contrast, doub
   for (size_t k = 0; k < scene->patches; k++)
     for (size_t b = 0; b < scene->bands; b++)
       lost = fmin(lost, 1 - hr2d_scene_reflectance(scene, k, b));
-  return fmax(UNSOLVED * aim * contrast * lost, HR2D_DEFAULT_TOLERANCE);
+  return fmin(fmax(UNSOLVED * aim * contrast * lost, HR2D_DEFAULT_TOLERANCE), UNSOLVED);
 }
 
 /* Errors of many corners and elements add up. */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "accuracy/admissibility.h"
-#include "accuracy/error-shares.h"
+#include "accuracy/halved-leaves.h"
 #include "accuracy/point-grid.h"
 #include "base/alloc.h"
 #include "links/linkset-impl.h"
@@ -36,15 +36,14 @@ START_TEST(leaves_are_halved_so_often) {
   unsigned char *depth = calloc(n, 1);
   depth[3] = 1;
   depth[7] = 3;
-  ck_assert_int_eq(hr2di_error_shares_divide(h, depth, 0, NULL, &divided), HR2D_OK);
+  ck_assert_int_eq(hr2di_halved_leaves(h, depth, 0, NULL, &divided), HR2D_OK);
   ck_assert_uint_eq(hr2d_hierarchy_count(divided).leaves, n + 1 + 7);
   for (size_t k = 0; k < n; k++) ck_assert_int_eq(divided->element[k].child > 0, depth[k] > 0);
   ck_assert_uint_eq(hr2d_hierarchy_count(h).elements, n);
   hr2d_hierarchy_destroy(divided);
-  ck_assert_int_eq(hr2di_error_shares_divide(h, depth, n + 15, NULL, &divided),
-                   HR2D_EMAX_ELEMENTS);
+  ck_assert_int_eq(hr2di_halved_leaves(h, depth, n + 15, NULL, &divided), HR2D_EMAX_ELEMENTS);
   ck_assert_ptr_null(divided);
-  ck_assert_int_eq(hr2di_error_shares_divide(h, depth, n + 16, NULL, &divided), HR2D_OK);
+  ck_assert_int_eq(hr2di_halved_leaves(h, depth, n + 16, NULL, &divided), HR2D_OK);
   free(depth);
   hr2d_hierarchy_destroy(divided);
   hr2d_hierarchy_destroy(h);
@@ -80,7 +79,7 @@ START_TEST(blocks_are_taken_over) {
   unsigned char *depth = calloc(hr2d_scene_patches(scene), 1);
   depth[1] = depth[9] = depth[50] = 1;
   hr2d_linkset *former = linked(h, NULL);
-  ck_assert_int_eq(hr2di_error_shares_divide(h, depth, 0, NULL, &divided), HR2D_OK);
+  ck_assert_int_eq(hr2di_halved_leaves(h, depth, 0, NULL, &divided), HR2D_OK);
   hr2d_linkset *fresh = linked(divided, NULL), *taken = linked(divided, former);
   ck_assert(same_blocks(&fresh->blocks, &taken->blocks));
   ck_assert_uint_gt(taken->blocks.kernels, 0);
