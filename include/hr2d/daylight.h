@@ -20,9 +20,10 @@
  * and opaque.
  *
  * hr2d_solve_to() ends elements at the borders of the light, so that its error bounds hold
- * as without a sun. Suns of many bands may have more than 16 lit parts for each patch; then elements
- * do not end there, and the estimate sees what the order leaves out (doc/sun-and-sky.md). hr2d_solve() takes elements as they are: H_sun is right in the average over
- * each, and its polynomials follow it only where elements end at its borders.
+ * as without a sun. Suns of many bands may have more than 16 lit parts for each patch; then
+ * elements do not end there, and the estimate sees what the order leaves out
+ * (doc/sun-and-sky.md). hr2d_solve() takes elements as they are: H_sun is right in the average
+ * over each, and its polynomials follow it only where elements end at its borders.
  * @{
  */
 #ifndef HR2D_DAYLIGHT_H

@@ -97,7 +97,7 @@ struct hr2di_viewer {
   uint64_t *order; /* of glimpses: their patches and their places */
   size_t order_room;
   hr2di_sum back;
-  int sines_only;     /* fractions of glimpses are not asked for */
+  int sines_only;   /* fractions of glimpses are not asked for */
   double (*arc)[2]; /* of the sky, if that has pieces */
   size_t arcs, arc_room;
   hr2di_show_fn show; /* takes what a walk sees, from the right to the left; or NULL */
