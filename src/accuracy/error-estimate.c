@@ -141,7 +141,8 @@ static hr2d_status run(hr2di_graded *answer, const hr2di_resolution *fineness,
   hr2d_status status = hr2di_estimator_init(&e, answer, target);
   e.margin = margin_of(fineness);
   if (!status) status = measure(&e, errors);
-  if (!status && fineness->shares) status = find_shares(&e, answer, fineness, errors);
+  if (!status && fineness->shares && !answer->bent)
+    status = find_shares(&e, answer, fineness, errors);
   hr2di_estimator_clear(&e);
   return status;
 }

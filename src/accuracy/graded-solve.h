@@ -25,7 +25,8 @@ typedef struct hr2di_resolution {
   unsigned generations;   /* elements end at events of so many generations */
   unsigned halvings;      /* how often the longest elements are halved where there are too many
                              events, see long-leaves.h */
-  int shares;             /* errors that are too large name the elements that make them */
+  int shares;             /* errors that are too large name the elements that make them, where
+                             no events have been chosen */
   double kinks;           /* the shares of error that events inside elements may make; 0:
                              elements end at all events */
   unsigned raises;        /* how often it was made finer */

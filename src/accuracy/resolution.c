@@ -128,8 +128,8 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
   if (lights && aim <= THREE && f.generations == 0) f.generations = 1;
   f.crowded = is_crowded(scene, hidden);
   if (f.crowded && lights && scene->patches > CROWD_LIT) spare_elements(&f, aim);
-  f.shares = f.crowded && norm == HR2D_NORM_AVERAGE && !lights;
-  if (f.crowded && aim >= CROWDED_AIM && !f.shares) f.halvings = aim < THREE;
+  f.shares = f.crowded && norm == HR2D_NORM_AVERAGE;
+  if (f.crowded && aim >= CROWDED_AIM && (lights || !f.shares)) f.halvings = aim < THREE;
   return f;
 }
 
