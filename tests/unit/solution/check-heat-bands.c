@@ -37,9 +37,9 @@ static double part(double kelvin, int band) {
   const double low = band < 2 ? c2 / (edge[band + 1] * kelvin) : 0;
   const double high = band > 0 ? fmin(c2 / (edge[band] * kelvin), 700) : 700;
   double value, error;
-  gsl_integration_workspace *work = gsl_integration_workspace_alloc(1000);
   gsl_function f = {planck, NULL};
   if (low >= high) return 0;
+  gsl_integration_workspace *work = gsl_integration_workspace_alloc(1000);
   gsl_integration_qag(&f, low, high, 0, 1e-13, 1000, GSL_INTEG_GAUSS61, work, &value, &error);
   gsl_integration_workspace_free(work);
   return value * 15 / pow(M_PI, 4);
