@@ -36,9 +36,10 @@ typedef struct side {
   int hand;           /* −1 in the mirror image */
 } side;
 
-/* 1 + cos of the angle at X. */
+/* 1 + cos of the angle at X; 0 if the product of the lengths underflows. */
 static double one_plus_cos(const hr2di_vector *w, double length, const side *s, double det) {
   const double dot = hr2di_vector_dot(w, &s->along), product = length * s->length;
+  if (!(product > 0)) return 0;
   if (dot <= 0) return 1 - dot / product;
   return det / product * (det / (product + dot));
 }
