@@ -204,9 +204,12 @@ libhr2d_core_la_SOURCES = \
 	src/solve/energy-balance.c src/solve/energy-balance.h \
 	src/solve/equation.c src/solve/equation.h \
 	src/solve/equation-part.c src/solve/equation-part.h src/solve/equation-power.c \
+	src/solve/equation-sign.c \
 	src/solve/existence.c src/solve/existence.h \
 	src/solve/gather-blocks.c src/solve/gather-blocks.h \
 	src/solve/gather-one-way.c src/solve/gather-one-way.h \
+	src/solve/heat-balance.c src/solve/heat-balance.h \
+	src/solve/heat-scene.c src/solve/heat-scene.h \
 	src/solve/row-sums.c src/solve/row-sums.h \
 	src/solve/solve.c \
 	src/solve/transport.c src/solve/transport.h \
@@ -224,7 +227,6 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/error-estimate.c src/accuracy/error-estimate.h \
 	src/accuracy/error-shares.c src/accuracy/error-shares.h \
 	src/accuracy/graded-solve.c src/accuracy/graded-solve.h \
-	src/accuracy/heat-balance.c src/accuracy/heat-balance.h \
 	src/accuracy/heat-solve.c src/accuracy/heat-solve.h \
 	src/accuracy/halved-leaves.c src/accuracy/halved-leaves.h \
 	src/accuracy/importance.c src/accuracy/importance.h \

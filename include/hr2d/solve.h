@@ -155,10 +155,10 @@ typedef struct hr2d_solve_work {
  *                             `start` is on another hierarchy
  * @retval HR2D_ESTATE         the set was never refined, or the call comes from a callback of a
  *                             call that refines or solves these links
- * @retval HR2D_EUNSUPPORTED   the scene has several bands and patches of given flux, see
- *                             thermal.h
  * @retval HR2D_ENO_SOLUTION   light is emitted in a closed part of the scene in which nothing
- *                             absorbs; the message names the patch. Without light B is 0 there
+ *                             absorbs; the message names the patch. Without light B is 0 there.
+ *                             Or a given flux takes away more heat than there is (thermal.h)
+ * @retval HR2D_ECALLBACK      a function of emissivity gives a value that is none
  * @retval HR2D_ENOT_CONVERGED `max_iterations` are done, or rows of links exceed 1 so far that
  *                             light would grow for ever, or powers are not balanced to 1e-9
  *                             because lengths differ too much
@@ -182,6 +182,8 @@ HR2D_API hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *o
  * of the hierarchy and for all bands of the scene; they need not solve the equation
  * @param solution  receives the solution, with the irradiance of B; the caller destroys it
  * @retval HR2D_EINVAL  as hr2d_solve(), or a value is not finite
+ * @retval HR2D_EUNSUPPORTED  the scene has several bands and patches of given flux (thermal.h):
+ *                      `field` does not have their temperatures
  * @retval other        as hr2d_solve(), but for HR2D_ENO_SOLUTION and HR2D_ENOT_CONVERGED
  *
  * hr2d_solution_residual() tells how far B is from solving the equation. Cost: one gather.

@@ -54,7 +54,8 @@ typedef hr2d_status (*hr2d_read_fn)(void *ctx, void *bytes, size_t size);
  * @param ctx       given to `write`
  * @retval HR2D_OK            success
  * @retval HR2D_EUNSUPPORTED  a solution of hr2d_solve_to(): its stages do not build on each
- *                            other
+ *                            other; or in several bands the emissivity of a patch of given flux
+ *                            depends on T
  * @retval other              the status of `write`
  *
  * Allocates nothing. Cost O(N·p·bands + L).

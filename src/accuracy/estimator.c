@@ -186,7 +186,8 @@ hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
                          .bent = answer->bent,
                          .exponent = answer->survey.exponent,
                          .contacts.alloc = answer->links->alloc};
-  hr2d_status status = hr2di_equation_init(&e->eq, answer->links, &options);
+  hr2d_status status =
+      hr2di_equation_init(&e->eq, answer->links, answer->links->hierarchy->scene, &options);
   if (!status) status = reserve(e, &answer->links->alloc);
   if (!status)
     status = hr2di_equation_part(&e->part, &e->eq,

@@ -17,7 +17,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "accuracy/heat-balance.h"
 #include "accuracy/importance.h"
 #include "accuracy/solve-to.h"
 #include "accuracy/target.h"
@@ -27,15 +26,13 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "links/linkset-impl.h"
 #include "solution/solution-impl.h"
+#include "solve/heat-scene.h"
 
 /* The target of the coarse solve; the change of E beyond which the account is made anew; the
    part of an aim that is left to what the growth of errors does not tell. */
 #define COARSE 1e-5
 #define MOVED  0.1
 #define SURE   0.9
-
-/* Of the heat of a patch: it is at 0 K. */
-#define ROUND 1e-9
 
 enum { FINE_SOLVES = 4 };
 
@@ -59,36 +56,6 @@ typedef struct heat_search {
   double left;  /* the largest part of n that the balance is off by */
 } heat_search;
 
-hr2d_status hr2di_heat_guess(const hr2d_scene *scene, const hr2d_target *target,
-                             hr2d_scene **settled) {
-  hr2d_status status = hr2di_settled_create(scene, settled);
-  if (status) return status;
-  double most = 0, flux, heat = 0;
-  hr2di_watch watch;
-  hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "solve");
-  for (size_t b = 0; b < scene->bands; b++) most += hr2d_scene_background(scene, b);
-  for (size_t k = 0; k < scene->patches; k++) {
-    double sum = 0, value;
-    const hr2d_heat given = hr2d_scene_heat(scene, k, &value);
-    for (size_t b = 0; b < scene->bands && given == HR2D_HEAT_NONE; b++)
-      sum += hr2d_scene_emission(scene, k, b);
-    most = fmax(most, given == HR2D_HEAT_TEMPERATURE ? hr2d_black_body(value) : sum);
-    if (given == HR2D_HEAT_FLUX) heat = fmax(heat, fabs(value));
-  }
-  if (!(most > 0)) most = heat;
-  for (size_t k = 0; k < scene->patches && !status; k++)
-    if (hr2d_scene_heat(scene, k, &flux) == HR2D_HEAT_FLUX) {
-      status = hr2di_watch_work(&watch, 10 * scene->bands);
-      if (status) break;
-      status =
-          hr2di_settled_set(*settled, k, hr2di_scene_lit(scene, k) ? most + fmax(flux, 0) : 0);
-    }
-  if (!status) return HR2D_OK;
-  hr2di_settled_destroy(*settled);
-  *settled = NULL;
-  return status;
-}
-
 /* The errors of patches that are asked for need those of patches of given flux. */
 static hr2d_status set_important(heat_search *s) {
   const size_t patches = s->scene->patches;
@@ -111,6 +78,14 @@ static hr2d_status fail(heat_search *s, hr2d_status status, const char *why) {
   snprintf(s->account.reason, sizeof s->account.reason, "%.150s",
            why && *why ? why : hr2d_strerror(status));
   return status;
+}
+
+static hr2d_solve_options options_of(const hr2d_target *target) {
+  hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+  options.threads = target->threads;
+  options.progress = target->progress;
+  options.progress_ctx = target->progress_ctx;
+  return options;
 }
 
 static void add_work(hr2d_account *sum, const hr2d_account *more) {
@@ -236,23 +211,6 @@ static void measure_move(heat_search *s, const hr2di_heat_balance *h, const doub
   }
 }
 
-/* Refuses patches that would have to be colder than 0 K by more than roundings; names the one
-   that lacks most. */
-static hr2d_status check_cold(heat_search *s, const hr2di_heat_balance *h) {
-  size_t least = 0;
-  char why[160];
-  for (size_t k = 0; k < h->count; k++) {
-    if (h->radiance[k] < h->radiance[least]) least = k;
-    if (h->radiance[k] < 0 && h->radiance[k] >= -ROUND * h->size[k])
-      hr2di_settled_set(s->settled, h->patch[k], 0);
-  }
-  if (!h->count || h->radiance[least] >= -ROUND * h->size[least]) return HR2D_OK;
-  snprintf(why, sizeof why,
-           "no solution: %.80s cannot lose so much heat: it would have to be colder than 0 K",
-           hr2di_patch_label(s->scene, h->patch[least]).text);
-  return fail(s, HR2D_ENO_SOLUTION, why);
-}
-
 /* The errors of the balance go to the patches. */
 static void put_errors(heat_search *s, const hr2di_heat_balance *h) {
   const hr2d_error e = s->account.irradiance;
@@ -268,7 +226,8 @@ static hr2d_status settle(heat_search *s) {
   hr2di_heat_balance h;
   const double start = hr2di_clock_now();
   hr2d_linkset *links = s->solution->own_links;
-  hr2d_status status = hr2di_heat_balance_init(&h, s->settled, links, &s->how);
+  const hr2d_solve_options options = options_of(&s->how);
+  hr2d_status status = hr2di_heat_balance_init(&h, s->settled, links, &options);
   double *before = hr2di_alloc(&s->scene->alloc, h.count * s->scene->bands + 1, sizeof *before);
   if (!status && !before) status = HR2D_ENOMEM;
   if (!status) {
@@ -276,10 +235,8 @@ static hr2d_status settle(heat_search *s) {
     status = hr2di_heat_balance_settle(&h);
   }
   if (!status) measure_move(s, &h, before);
-  if (!status)
-    status = check_cold(s, &h);
-  else
-    fail(s, status, hr2d_linkset_message(links));
+  if (!status) status = hr2di_heat_scene_check(&h);
+  if (status) fail(s, status, hr2d_linkset_message(links));
   s->account.solves += h.solves;
   s->account.solve_seconds += hr2di_clock_now() - start;
   if (!status && !s->given.no_error) status = measure_growth(s, &h);
@@ -291,11 +248,8 @@ static hr2d_status settle(heat_search *s) {
 
 /* The solution with the settled temperatures, on the same links. */
 static hr2d_status renew(heat_search *s) {
-  hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+  const hr2d_solve_options options = options_of(&s->how);
   hr2d_solution *made = NULL, *old = s->solution;
-  options.threads = s->how.threads;
-  options.progress = s->how.progress;
-  options.progress_ctx = s->how.progress_ctx;
   const hr2d_status status = hr2d_solve(old->own_links, &options, &made);
   if (status) return fail(s, status, hr2d_linkset_message(old->own_links));
   made->own_links = old->own_links;
@@ -367,14 +321,13 @@ hr2d_status hr2di_heat_solve(const hr2d_scene *scene, const hr2d_target *target,
   if (status) return status;
   s.how = s.given;
   status = set_important(&s);
-  if (!status) status = hr2di_heat_guess(scene, &s.how, &s.settled);
+  if (!status)
+    status =
+        hr2di_heat_scene_create(scene, NULL, s.how.progress, s.how.progress_ctx, &s.settled);
   if (!status)
     status = reach(&s);
   else
-    fail(&s, status,
-         status == HR2D_ECALLBACK
-             ? "a function of emissivity gives a value that is not in (0,1]"
-             : "");
+    fail(&s, status, hr2di_heat_scene_failure(status));
   s.account.seconds = hr2di_clock_now() - s.start;
   if (status && status != HR2D_EACCURACY) {
     hr2d_solution_destroy(s.solution);

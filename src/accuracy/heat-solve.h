@@ -9,9 +9,4 @@
 hr2d_status hr2di_heat_solve(const hr2d_scene *scene, const hr2d_target *target,
                              hr2d_solution **solution, hr2d_account *account);
 
-/* Makes a settled scene with a guess of the temperatures; of the target its callback counts.
-   HR2D_OK, HR2D_ENOMEM, HR2D_ECALLBACK or the status of that callback. */
-hr2d_status hr2di_heat_guess(const hr2d_scene *scene, const hr2d_target *target,
-                             hr2d_scene **settled);
-
 #endif

@@ -160,7 +160,8 @@ static hr2d_status weigh(const hr2di_graded *coarse, const hr2d_target *target, 
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;
   hr2di_equation eq;
-  hr2d_status status = hr2di_equation_init(&eq, coarse->links, &options);
+  hr2d_status status =
+      hr2di_equation_init(&eq, coarse->links, coarse->links->hierarchy->scene, &options);
   double *space = hr2di_alloc_zero(alloc, 3 * values + scene->bands, sizeof *space);
   double *product = space;
   if (!status && !space) status = HR2D_ENOMEM;

@@ -8,7 +8,6 @@
 #include "accuracy/corner-residuals.h"
 #include "accuracy/error-estimate.h"
 #include "accuracy/estimator.h"
-#include "accuracy/heat-solve.h"
 #include "accuracy/importance.h"
 #include "accuracy/resolution.h"
 #include "accuracy/target.h"
@@ -19,6 +18,7 @@
 #include "scene/settled.h"
 #include "solution/solution-impl.h"
 #include "solve/gather-blocks.h"
+#include "solve/heat-scene.h"
 
 enum { SAMPLES = 256, PRODUCTS = 64, RUNS = 5, POINTS = 4 };
 
@@ -217,7 +217,7 @@ static hr2d_status predict_heat(const hr2d_scene *scene, const hr2d_target *targ
   hr2d_target used;
   hr2d_status status = hr2di_target_init(&used, scene, target, HR2D_DEFAULT_ERROR);
   if (status) return status;
-  status = hr2di_heat_guess(scene, &used, &settled);
+  status = hr2di_heat_scene_create(scene, NULL, used.progress, used.progress_ctx, &settled);
   hr2di_target_clear(&used, scene);
   if (status) return status;
   status = hr2d_predict(settled, target, prediction);

@@ -10,7 +10,7 @@
 int hr2di_scene_is_unsettled(const hr2d_scene *scene) {
   size_t k = 0;
   if (scene->bands == 1 || scene->found) return 0;
-  while (k < scene->patches && scene->patch[k].light->heat != HR2D_HEAT_FLUX) k++;
+  while (k < scene->patches && !hr2di_scene_has_flux(scene, k)) k++;
   return k < scene->patches;
 }
 
@@ -43,7 +43,7 @@ hr2d_status hr2di_settled_create(const hr2d_scene *scene, hr2d_scene **settled) 
   hr2d_status status = made->patch && made->found ? HR2D_OK : HR2D_ENOMEM;
   for (size_t k = 0; k < scene->patches && made->patch; k++) made->patch[k] = scene->patch[k];
   for (size_t k = 0; k < scene->patches && !status; k++) {
-    if (scene->patch[k].light->heat != HR2D_HEAT_FLUX) continue;
+    if (!hr2di_scene_has_flux(scene, k)) continue;
     hr2di_light *light = own_light(scene, k);
     if (light) made->patch[k].light = light;
     status = light ? HR2D_OK : HR2D_ENOMEM;

@@ -298,7 +298,7 @@ static hr2d_status look_at_edge(gatherer *g, const edge *p, const edge *q, doubl
    see each other beside it. */
 static hr2d_status close_wedge(gatherer *g, const edge *p, const edge *q, double *irradiance,
                                int *closed) {
-  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  const hr2d_scene *scene = hr2di_solution_scene(g->solution);
   const hr2d_point u = direction_of(g, p), w = direction_of(g, q);
   const hr2d_point sum = {u.x + w.x, u.y + w.y}, apart = hr2di_point_minus(u, w);
   const double k = 0.25 * hr2di_point_dot(sum, sum),
@@ -393,7 +393,7 @@ static hr2d_status gather_irradiance(const hr2d_solution *solution, size_t patch
 
 hr2d_status hr2di_solution_gather(const hr2d_solution *solution, size_t patch, const double *t,
                                   size_t count, double *value, hr2di_watch *watch) {
-  const hr2d_scene *scene = solution->hierarchy->scene;
+  const hr2d_scene *scene = hr2di_solution_scene(solution);
   const hr2d_status status = gather_irradiance(solution, patch, t, count, value, watch);
   for (size_t k = 0; k < count * solution->bands && !status; k++) {
     const size_t band = k % solution->bands;
@@ -424,7 +424,7 @@ hr2d_status hr2d_solution_gather_irradiance(const hr2d_solution *solution, size_
 
 hr2d_status hr2d_solution_gather_net_flux(const hr2d_solution *solution, size_t patch,
                                           const double *t, size_t count, double *value) {
-  const hr2d_scene *scene = solution->hierarchy->scene;
+  const hr2d_scene *scene = hr2di_solution_scene(solution);
   const hr2d_status status = hr2d_solution_gather_irradiance(solution, patch, t, count, value);
   for (size_t k = 0; k < count * solution->bands && !status; k++) {
     const size_t band = k % solution->bands;

@@ -5,7 +5,7 @@
 
 #include <hr2d/solve.h>
 
-#include "base/watch.h"
+#include "hierarchy/hierarchy-impl.h"
 
 struct hr2d_solution {
   hr2d_allocator alloc;
@@ -13,7 +13,7 @@ struct hr2d_solution {
   const hr2d_hierarchy *hierarchy;
   hr2d_hierarchy *own_hierarchy; /* made by hr2d_solve_to(), destroyed with the solution */
   hr2d_linkset *own_links;       /* likewise */
-  hr2d_scene *own_scene;         /* a settled scene, likewise; mostly NULL */
+  hr2d_scene *own_scene;         /* a settled scene, destroyed with the solution; mostly NULL */
   size_t elements;               /* of the hierarchy when this was solved */
   size_t order, bands;
   double *value;      /* elements × order × bands, Legendre coefficients of B */
@@ -22,6 +22,11 @@ struct hr2d_solution {
   hr2d_solve_work work;
   double residual;
 };
+
+/* The scene whose E and ρ the solution has: that of its hierarchy, or a settled one of it. */
+static inline const hr2d_scene *hr2di_solution_scene(const hr2d_solution *solution) {
+  return solution->own_scene ? solution->own_scene : solution->hierarchy->scene;
+}
 
 /* Writes B of a solution to `field`: count × order × bands coefficients, on leaves of a
    hierarchy that has grown from its own, and at another order perhaps.  Returns HR2D_OK or the

@@ -136,7 +136,7 @@ double hr2d_solution_irradiance_at(const hr2d_solution *solution, size_t patch, 
 
 double hr2d_solution_net_flux(const hr2d_solution *solution, size_t patch, size_t band) {
   /* B − H = E − (1−ρ)H, without the loss of the digits that B and H have in common. */
-  const hr2d_scene *scene = solution->hierarchy->scene;
+  const hr2d_scene *scene = hr2di_solution_scene(solution);
   return hr2d_scene_emission(scene, patch, band) -
          (1 - hr2d_scene_reflectance(scene, patch, band)) *
              hr2d_solution_irradiance(solution, patch, band);

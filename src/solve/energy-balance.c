@@ -19,7 +19,7 @@ static const hr2d_element *leaf_of(const hr2di_transport *t, size_t leaf) {
 }
 
 static double rho_of(const hr2di_transport *t, size_t leaf, size_t band) {
-  return hr2d_scene_reflectance(t->hierarchy->scene, leaf_of(t, leaf)->patch, band);
+  return hr2d_scene_reflectance(t->scene, leaf_of(t, leaf)->patch, band);
 }
 
 static hr2d_status set_missing(hr2di_balance *b, hr2di_transport *t) {

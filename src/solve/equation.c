@@ -44,8 +44,7 @@ static hr2d_status integrate_rows_order_p(hr2di_equation *s, int closure, int ba
 
 /* Sets closure and the form factor of the background, which need the rows of all leaves. */
 static hr2d_status integrate_rows(hr2di_equation *s) {
-  const int closure =
-      s->options.closure != HR2D_CLOSURE_OFF && reflects(s->links->hierarchy->scene);
+  const int closure = s->options.closure != HR2D_CLOSURE_OFF && reflects(s->transport.scene);
   const int background = hr2di_outside_wants_sky(s->links->hierarchy->scene);
   if (!closure && !background) return HR2D_OK;
   if (s->transport.order > 1) return integrate_rows_order_p(s, closure, background);
@@ -76,7 +75,7 @@ static hr2d_status integrate_blocks(hr2di_equation *s) {
 /* Sets powers of two that bring the light of each band near 1.  Then neither squares nor B
    after many reflections leave the range of a double, and denormals have all digits. */
 static void set_exponents(hr2di_equation *s) {
-  const hr2d_scene *scene = s->links->hierarchy->scene;
+  const hr2d_scene *scene = s->transport.scene;
   for (size_t b = 0; b < scene->bands; b++) {
     double max = fmax(hr2di_sky_most(scene, b), hr2d_scene_sun(scene, b).irradiance);
     for (size_t k = 0; k < scene->patches; k++)
@@ -90,13 +89,12 @@ static void set_exponents(hr2di_equation *s) {
 static hr2d_status set_surfaces(hr2di_equation *s) {
   hr2d_status status = HR2D_OK;
   const hr2di_transport *t = &s->transport;
-  const hr2d_scene *scene = t->hierarchy->scene;
   for (size_t k = 0; k < s->items && !status; k++) {
     if (k % 1024 == 0) status = hr2di_watch_work(t->watch, 1024 * (1 + t->bands) / 2);
     const hr2d_element *e = &t->hierarchy->element[t->leaf[k / t->order]];
     s->weight[k] = e->length;
     for (size_t b = 0; b < t->bands; b++)
-      s->root_rho[k * t->bands + b] = sqrt(hr2d_scene_reflectance(scene, e->patch, b));
+      s->root_rho[k * t->bands + b] = sqrt(hr2d_scene_reflectance(t->scene, e->patch, b));
   }
   return status;
 }
@@ -128,9 +126,9 @@ static hr2d_status set_source(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t b = 0; b < t->bands; b++)
-      s->source[k * t->width + b] = ldexp(
-          hr2d_scene_emission(t->hierarchy->scene, t->hierarchy->element[t->leaf[k]].patch, b),
-          -s->exponent[b]);
+      s->source[k * t->width + b] =
+          ldexp(hr2d_scene_emission(t->scene, t->hierarchy->element[t->leaf[k]].patch, b),
+                -s->exponent[b]);
   return hr2di_watch_work(t->watch, t->leaves * t->bands / 4);
 }
 
@@ -143,7 +141,7 @@ static hr2d_status set_outside(hr2di_equation *s) {
   return s->outside ? hr2di_outside_set(t, s->light, s->exponent, s->outside) : HR2D_ENOMEM;
 }
 
-hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
+hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links, const hr2d_scene *scene,
                                 const hr2d_solve_options *options) {
   *s = (hr2di_equation){.links = links, .options = *options, .background = 1};
   if (!(s->options.tolerance > 0)) s->options.tolerance = HR2D_DEFAULT_TOLERANCE;
@@ -158,6 +156,7 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links,
   if (status) return status;
   hr2di_watch_phase(&s->watch, "rows");
   status = hr2di_transport_init(t, s->links, s->options.threads, &s->watch);
+  t->scene = scene;
   if (!status) status = integrate_rows(s);
   if (!status && t->closure) status = hr2di_closure_set_mean(t);
   if (!status && t->closure && !links->directed) status = hr2di_balance_init(&s->balance, t);

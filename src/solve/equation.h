@@ -36,11 +36,12 @@ typedef struct hr2di_equation {
   uint64_t looks; /* residuals seen: one before the first iteration, one after each */
 } hr2di_equation;
 
-/* Integrates blocks if the links have none, and row sums if they are called for.  Returns
+/* For E and ρ of a scene: that of the links, or a settled one of it, see settled.h.  Integrates
+   blocks if the links have none, and row sums if they are called for.  Returns
    HR2D_OK, HR2D_ENOMEM, or the status of the progress callback.  Call hr2di_equation_clear() in
    any case.  The struct must not be moved. */
 hr2d_status hr2di_equation_init(hr2di_equation *eq, hr2d_linkset *links,
-                                const hr2d_solve_options *options);
+                                const hr2d_scene *scene, const hr2d_solve_options *options);
 void hr2di_equation_clear(hr2di_equation *eq);
 
 /* Takes √ρ of the scene where it has changed.  Returns HR2D_OK or the status of the watch. */
@@ -64,6 +65,10 @@ hr2d_status hr2di_equation_take(hr2di_equation *eq);
 /* Adds to a solution what its residual, measured by power, still calls for.  Returns HR2D_OK,
    HR2D_ENOMEM, HR2D_ENOT_CONVERGED with a message or the status of the progress callback. */
 hr2d_status hr2di_equation_settle_power(hr2di_equation *eq);
+
+/* If B = Q + ρKB and neither K nor Q is negative, B is negative nowhere.  Returns HR2D_OK,
+   HR2D_ENOT_CONVERGED or HR2D_ENO_SOLUTION with a message, or the status of the watch. */
+hr2d_status hr2di_equation_check_sign(hr2di_equation *eq);
 
 /* Sets c from the source, so that y = √ρ h from then on; hr2di_equation_solve() does it. */
 void hr2di_equation_balance(hr2di_equation *eq);

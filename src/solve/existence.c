@@ -43,8 +43,8 @@ static void sum_up(const hr2d_scene *scene, exchange *e) {
   }
 }
 
-static hr2d_status refuse(hr2d_linkset *links, size_t patch, size_t band) {
-  const hr2d_scene *scene = links->hierarchy->scene;
+static hr2d_status refuse(hr2d_linkset *links, const hr2d_scene *scene, size_t patch,
+                          size_t band) {
   const hr2di_label label = hr2di_patch_label(scene, patch);
   if (hr2d_scene_heat(scene, patch, NULL) == HR2D_HEAT_FLUX)
     return hr2di_message_fail(
@@ -65,9 +65,8 @@ static double closed_below(const hr2d_linkset *links) {
 }
 
 /* Checks one band: no patch may emit in a component that is closed and absorbs nothing. */
-static hr2d_status check_band(hr2d_linkset *links, exchange *e, size_t band,
-                              unsigned char *absorbs) {
-  const hr2d_scene *scene = links->hierarchy->scene;
+static hr2d_status check_band(hr2d_linkset *links, const hr2d_scene *scene, exchange *e,
+                              size_t band, unsigned char *absorbs) {
   const double closed = closed_below(links);
   for (size_t k = 0; k < scene->patches; k++) absorbs[k] = 0;
   for (size_t k = 0; k < scene->patches; k++)
@@ -79,14 +78,14 @@ static hr2d_status check_band(hr2d_linkset *links, exchange *e, size_t band,
         (!(hr2d_scene_emission(scene, k, band) > 0) &&
          hr2d_scene_heat(scene, k, NULL) != HR2D_HEAT_FLUX))
       continue;
-    return refuse(links, k, band);
+    return refuse(links, scene, k, band);
   }
   return HR2D_OK;
 }
 
 /* Patches of given flux in several bands give in one band what they absorb in another. */
-static hr2d_status check_heat(hr2d_linkset *links, exchange *e, unsigned char *absorbs) {
-  const hr2d_scene *scene = links->hierarchy->scene;
+static hr2d_status check_heat(hr2d_linkset *links, const hr2d_scene *scene, exchange *e,
+                              unsigned char *absorbs) {
   for (size_t k = 0; k < scene->patches; k++) absorbs[k] = 0;
   for (size_t k = 0; k < scene->patches; k++)
     for (size_t band = 0; band < scene->bands; band++)
@@ -98,7 +97,7 @@ static hr2d_status check_heat(hr2d_linkset *links, exchange *e, unsigned char *a
     if (!absorbs[root] && hr2d_scene_heat(scene, k, NULL) == HR2D_HEAT_FLUX &&
         hr2di_scene_lit(scene, k) &&
         !(hr2di_sum_total(&e->escape[root]) > closed_below(links) * e->length[root]))
-      return refuse(links, k, 0);
+      return refuse(links, scene, k, 0);
   }
   return HR2D_OK;
 }
@@ -122,8 +121,8 @@ static hr2d_status sum_exchange(const hr2d_linkset *links, exchange *e, hr2di_wa
   return HR2D_OK;
 }
 
-hr2d_status hr2di_existence_check(hr2d_linkset *links, hr2di_watch *watch) {
-  const hr2d_scene *scene = links->hierarchy->scene;
+hr2d_status hr2di_existence_check(hr2d_linkset *links, const hr2d_scene *scene,
+                                  hr2di_watch *watch) {
   const int heat = scene->found != NULL;
   if (!heat && !some_patch_absorbs_nothing(scene)) return HR2D_OK;
   const hr2d_allocator *alloc = &links->alloc;
@@ -137,8 +136,8 @@ hr2d_status hr2di_existence_check(hr2d_linkset *links, hr2di_watch *watch) {
     hr2di_message_fail(&links->message, status, "%s",
                        watch->refused ? hr2d_strerror(status) : "out of memory for the solve");
   for (size_t band = 0; band < scene->bands && !status; band++)
-    status = check_band(links, &e, band, absorbs);
-  if (!status && heat) status = check_heat(links, &e, absorbs);
+    status = check_band(links, scene, &e, band, absorbs);
+  if (!status && heat) status = check_heat(links, scene, &e, absorbs);
   hr2di_components_clear(&e.components);
   hr2di_alloc_free(alloc, e.escape);
   hr2di_alloc_free(alloc, e.length);

@@ -5,9 +5,10 @@
 
 #include "links/linkset-impl.h"
 
-/* Returns HR2D_OK, HR2D_ENOMEM, HR2D_ENO_SOLUTION or the status of the watch, and leaves a
-   message on failure. HR2D_ENO_SOLUTION: some patches exchange light only with each other,
-   absorb none of it, and emit. */
-hr2d_status hr2di_existence_check(hr2d_linkset *links, hr2di_watch *watch);
+/* For E and ρ of a scene as in equation.h.  Returns HR2D_OK, HR2D_ENOMEM, HR2D_ENO_SOLUTION or
+   the status of the watch, and leaves a message on failure. HR2D_ENO_SOLUTION: some patches
+   exchange light only with each other, absorb none of it, and emit. */
+hr2d_status hr2di_existence_check(hr2d_linkset *links, const hr2d_scene *scene,
+                                  hr2di_watch *watch);
 
 #endif

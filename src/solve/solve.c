@@ -12,8 +12,9 @@
 #include "solve/closure.h"
 #include "solve/equation.h"
 #include "solve/existence.h"
+#include "solve/heat-scene.h"
 
-static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *o) {
+static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *o, int adopts) {
   hr2di_message *message = &links->message;
   if (links->hierarchy->refining || links->solving)
     return hr2di_message_fail(message, HR2D_ESTATE, "the links are being %s already",
@@ -26,10 +27,10 @@ static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *
                               (int)o->closure);
   if (o->start && o->start->hierarchy != links->hierarchy)
     return hr2di_message_fail(message, HR2D_EINVAL, "the warm start is from another hierarchy");
-  if (hr2di_scene_is_unsettled(links->hierarchy->scene))
+  if (adopts && hr2di_scene_is_unsettled(links->hierarchy->scene))
     return hr2di_message_fail(message, HR2D_EUNSUPPORTED,
-                              "patches of given flux need hr2d_solve_to() in several bands: "
-                              "their temperatures divide what they emit among the bands");
+                              "values from outside do not tell the temperatures of patches of "
+                              "given flux in several bands");
   if (links->counts.elements == 0)
     return hr2di_message_fail(message, HR2D_ESTATE, "the link set was never refined");
   return HR2D_OK;
@@ -77,7 +78,7 @@ static void add_escape(const hr2di_equation *s, size_t leaf, size_t band, hr2di_
 /* Powers in scene lengths. */
 static hr2d_power sum_power(const hr2di_equation *s, size_t band) {
   const hr2di_transport *t = &s->transport;
-  const hr2d_scene *scene = t->hierarchy->scene;
+  const hr2d_scene *scene = t->scene;
   hr2di_sum emitted = {0, 0}, received = {0, 0}, absorbed = {0, 0}, escaped = {0, 0};
   for (size_t k = 0; k < t->leaves; k++) {
     const size_t at = k * t->width + band, patch = t->hierarchy->element[t->leaf[k]].patch;
@@ -151,66 +152,6 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
                                         "a radiosity is beyond what a double can represent");
 }
 
-/* The first patch with a negative flux; as many as there are patches if there is none. */
-static size_t find_taker(const hr2d_scene *scene) {
-  size_t k = 0;
-  while (k < scene->patches && hr2d_scene_emission(scene, k, 0) >= 0) k++;
-  return k;
-}
-
-/* Refuses a negative average of B, in the only band: only scenes of one band have fluxes. */
-static hr2d_status check_averages(hr2di_equation *s, double min) {
-  hr2di_transport *t = &s->transport;
-  const hr2d_scene *scene = t->hierarchy->scene;
-  double high = 0;
-  size_t lowest = 0;
-  hr2di_transport_pull(t, s->radiosity);
-  if (t->failed) return t->failed;
-  for (size_t k = 0; k < scene->patches; k++) {
-    high = fmax(high, t->up[k * t->width]);
-    if (t->up[k * t->width] < t->up[lowest * t->width]) lowest = k;
-  }
-  const double low = t->up[lowest * t->width];
-  if (low >= -min * high && (low >= 0 || high > 0)) return HR2D_OK;
-  return hr2di_message_fail(
-      &s->links->message, HR2D_ENO_SOLUTION,
-      "no solution: %s would send a negative radiosity, %.4g: the negative fluxes of the scene "
-      "take away more heat than there is",
-      hr2di_patch_label(scene, lowest).text, ldexp(low, s->exponent[0]));
-}
-
-/* The roundings of row sums, as a part of the light from the background: what a leaf gets of it
-   that sees it edge-on, or not at all. */
-#define ROW_ROUNDING 1e-12
-
-/* If B = Q + ρKB and neither K nor Q is negative, then B is negative somewhere if and only if
-   ΣK^kρ^kQ diverges: with the positive left eigenvector v of the radius λ, (1−λ)vB = vQ.  At an
-   order above 1 B may be slightly negative for other reasons.  With a negative flux of a patch
-   Q is negative, and the average of B on a patch tells whether so much heat can leave it. */
-static hr2d_status check_sign(hr2di_equation *s) {
-  const hr2di_transport *t = &s->transport;
-  const double min = t->order > 1 ? 1e-2 : 1e-6;
-  const size_t taker = find_taker(t->hierarchy->scene);
-  if (taker < t->hierarchy->scene->patches) return check_averages(s, min);
-  for (size_t b = 0; b < t->bands; b++) {
-    double low = 0, high = 0;
-    const hr2d_status status = hr2di_watch_work(t->watch, t->leaves / 16);
-    if (status) return status;
-    for (size_t k = 0; k < t->leaves; k++) {
-      low = fmin(low, s->radiosity[k * t->width + b]);
-      high = fmax(high, s->radiosity[k * t->width + b]);
-    }
-    high = fmax(high, ROW_ROUNDING / min * (s->background ? s->light[b] : 0));
-    if (low < -min * high || (low < 0 && high == 0))
-      return hr2di_message_fail(
-          &s->links->message, HR2D_ENOT_CONVERGED,
-          "in band %zu the links reflect more light than falls on them, so that "
-          "it grows for ever: closure or finer links are needed",
-          b);
-  }
-  return HR2D_OK;
-}
-
 /* Takes B on leaves as it is, and its irradiance. */
 static hr2d_status adopt(hr2di_equation *s, const double *field) {
   const hr2di_transport *t = &s->transport;
@@ -227,26 +168,57 @@ static hr2d_status adopt(hr2di_equation *s, const double *field) {
   return t->failed;
 }
 
+/* B of an equation that has its source. */
+static hr2d_status find(hr2di_equation *eq) {
+  if (!eq->transport.hierarchy->scene->effect[HR2D_EFFECT_INTERREFLECTION].on)
+    return hr2di_equation_take(eq);
+  hr2d_status status = eq->options.start ? warm_start(eq) : HR2D_OK;
+  if (!status) status = hr2di_equation_solve(eq);
+  if (!status) status = hr2di_equation_settle_power(eq);
+  return status ? status : hr2di_equation_check_sign(eq);
+}
+
+static void tell_refusal(const hr2di_equation *eq, hr2d_status status) {
+  if (status && eq->watch.refused && status == eq->watch.status)
+    hr2di_message_fail(&eq->links->message, status, "%s: %s", eq->watch.told.phase,
+                       hr2d_strerror(status));
+}
+
 /* With a `field` it is adopted. */
 static hr2d_status solve(hr2d_linkset *links, const hr2d_solve_options *options,
                          const double *field, hr2d_solution **solution) {
   hr2di_equation eq;
-  hr2d_status status = hr2di_equation_init(&eq, links, options);
-  if (!status && field) {
-    status = adopt(&eq, field);
-  } else if (!status && links->hierarchy->scene->effect[HR2D_EFFECT_INTERREFLECTION].on) {
-    if (options->start) status = warm_start(&eq);
-    if (!status) status = hr2di_equation_solve(&eq);
-    if (!status) status = hr2di_equation_settle_power(&eq);
-    if (!status) status = check_sign(&eq);
-  } else if (!status) {
-    status = hr2di_equation_take(&eq);
-  }
+  hr2d_status status = hr2di_equation_init(&eq, links, links->hierarchy->scene, options);
+  if (!status) status = field ? adopt(&eq, field) : find(&eq);
   if (!status) status = make_solution(&eq, solution);
-  if (status && eq.watch.refused && status == eq.watch.status)
-    hr2di_message_fail(&links->message, status, "%s: %s", eq.watch.told.phase,
-                       hr2d_strerror(status));
+  tell_refusal(&eq, status);
   hr2di_equation_clear(&eq);
+  return status;
+}
+
+/* Finds temperatures first; on success the solution owns the settled scene. */
+static hr2d_status solve_heat(hr2d_linkset *links, const hr2d_solve_options *options,
+                              hr2d_scene *settled, hr2d_solution **solution) {
+  hr2di_heat_balance h;
+  hr2d_status status = hr2di_heat_balance_init(&h, settled, links, options);
+  if (!status) status = hr2di_heat_balance_settle(&h);
+  if (!status) status = hr2di_heat_scene_check(&h);
+  if (!status) status = hr2di_heat_balance_source(&h, options);
+  if (!status) status = find(&h.eq);
+  if (!status) status = make_solution(&h.eq, solution);
+  tell_refusal(&h.eq, status);
+  if (!status) (*solution)->own_scene = settled;
+  hr2di_heat_balance_clear(&h);
+  return status;
+}
+
+static hr2d_status guess(hr2d_linkset *links, const hr2d_solve_options *options,
+                         hr2d_scene **settled) {
+  const hr2d_status status =
+      hr2di_heat_scene_create(links->hierarchy->scene, options->start, options->progress,
+                              options->progress_ctx, settled);
+  if (status)
+    hr2di_message_fail(&links->message, status, "%s", hr2di_heat_scene_failure(status));
   return status;
 }
 
@@ -256,17 +228,23 @@ static hr2d_status run(hr2d_linkset *links, const hr2d_solve_options *given,
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   if (hr2di_sized_copy(&options, sizeof options, given))
     return hr2di_message_fail(&links->message, HR2D_EINVAL, "struct_size is not set");
-  hr2d_status status = check_options(links, &options);
-  hr2di_watch watch;
-  hr2di_scene_watch(links->hierarchy->scene, &watch, options.progress, options.progress_ctx,
-                    "rows");
-  if (!status && !field) status = hr2di_existence_check(links, &watch);
+  hr2d_status status = check_options(links, &options, field != NULL);
   if (status) return status;
+  const hr2d_scene *scene = links->hierarchy->scene;
+  hr2d_scene *settled = NULL;
+  hr2di_watch watch;
+  hr2di_scene_watch(scene, &watch, options.progress, options.progress_ctx, "rows");
+  if (hr2di_scene_is_unsettled(scene)) status = guess(links, &options, &settled);
+  if (!status && !field)
+    status = hr2di_existence_check(links, settled ? settled : scene, &watch);
   links->solving = 1;
   atomic_fetch_add(&links->hierarchy->readers, 1);
-  status = solve(links, &options, field, solution);
+  if (!status)
+    status = settled ? solve_heat(links, &options, settled, solution)
+                     : solve(links, &options, field, solution);
   atomic_fetch_sub(&links->hierarchy->readers, 1);
   links->solving = 0;
+  if (status) hr2di_settled_destroy(settled);
   if (status == HR2D_ENOMEM)
     hr2di_message_fail(&links->message, status, "out of memory for the solve");
   return status;

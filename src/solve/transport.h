@@ -15,6 +15,7 @@ typedef struct hr2di_transport {
   const hr2d_linkset *links;
   hr2di_link_blocks blocks; /* of the links, above order 1 */
   const hr2d_hierarchy *hierarchy;
+  const hr2d_scene *scene; /* whose E and ρ count: that of the hierarchy, or a settled one */
   hr2d_allocator alloc;
   hr2di_push_pull trees;
   size_t order, bands, width; /* width is order × bands */

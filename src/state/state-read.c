@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/linkset-impl.h"
-#include "scene/scene-impl.h"
+#include "scene/settled.h"
 #include "solution/solution-impl.h"
 #include "state/byte-stream.h"
 #include "state/state-impl.h"
@@ -71,6 +71,14 @@ static int is_state(hr2di_reader *r) {
                    : !memcmp(title, HR2DI_STATE_TITLE, sizeof title);
 }
 
+static uint64_t count_temperatures(const hr2d_scene *scene) {
+  uint64_t count = 0;
+  if (hr2di_scene_is_unsettled(scene))
+    for (size_t k = 0; k < scene->patches; k++)
+      count += (uint64_t)hr2di_scene_has_flux(scene, k);
+  return count;
+}
+
 static hr2d_status read_head(loading *l, hr2d_solve_work *work) {
   hr2di_reader *r = &l->reader;
   hr2di_reader_expect(r, HR2DI_STATE_HEAD_BYTES);
@@ -82,7 +90,8 @@ static hr2d_status read_head(loading *l, hr2d_solve_work *work) {
   const uint64_t items = head->solved * head->order;
   if (!status && head->bands > UINT64_MAX / 64 / items) return damaged(l, "its size");
   hr2di_reader_expect(r, 4 * divisions + 16 * head->links + 32 * head->bands +
-                             16 * items * head->bands + 8);
+                             16 * items * head->bands +
+                             8 * count_temperatures(l->links->hierarchy->scene) + 8);
   return status;
 }
 
@@ -187,6 +196,22 @@ static hr2d_status read_solution(loading *l, const hr2d_solve_work *work) {
   return status ? status : read_doubles(l, s->irradiance, count);
 }
 
+static hr2d_status read_temperatures(loading *l) {
+  const hr2d_scene *scene = l->links->hierarchy->scene;
+  if (!hr2di_scene_is_unsettled(scene)) return HR2D_OK;
+  hr2d_status status = hr2di_settled_create(scene, &l->solution->own_scene);
+  if (status)
+    return hr2di_message_fail(&l->links->message, status, "out of memory for the temperatures");
+  for (size_t k = 0; k < scene->patches && !status; k++) {
+    if (!hr2di_scene_has_flux(scene, k)) continue;
+    double radiance;
+    status = read_doubles(l, &radiance, 1);
+    if (!status && radiance < 0) status = damaged(l, "a temperature");
+    if (!status) status = hr2di_settled_set(l->solution->own_scene, k, radiance);
+  }
+  return status;
+}
+
 static hr2d_status read_all(loading *l) {
   hr2d_solve_work work = {0};
   if (!is_state(&l->reader))
@@ -196,6 +221,7 @@ static hr2d_status read_all(loading *l) {
   if (!status) status = read_elements(l);
   if (!status) status = read_links(l);
   if (!status) status = read_solution(l, &work);
+  if (!status) status = read_temperatures(l);
   if (!status && hr2di_reader_end(&l->reader) == HR2D_ESYNTAX)
     return damaged(l, "its hash is not that of its contents");
   if (!status) status = l->reader.status;

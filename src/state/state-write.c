@@ -4,10 +4,21 @@
 
 #include "hierarchy/hierarchy-impl.h"
 #include "links/linkset-impl.h"
-#include "scene/scene-impl.h"
+#include "scene/emissivity.h"
+#include "scene/settled.h"
 #include "solution/solution-impl.h"
 #include "state/byte-stream.h"
 #include "state/state-impl.h"
+
+/* Where patches of given flux have temperatures, E and ρ do not tell their spectra. */
+static hr2di_hash add_spectra(hr2di_hash hash, const hr2d_scene *scene) {
+  for (size_t k = 0; k < scene->wavelengths; k++)
+    hash = hr2di_hash_double(hash, scene->wavelength[k]);
+  for (size_t k = 0; k < scene->patches; k++)
+    for (size_t b = 0; b < scene->bands && hr2di_scene_has_flux(scene, k); b++)
+      hash = hr2di_hash_double(hash, hr2d_scene_emissivity(scene, k, b));
+  return hash;
+}
 
 uint64_t hr2di_state_scene(const hr2d_scene *scene, hr2di_watch *watch) {
   hr2di_hash hash = hr2di_hash_word(HR2DI_HASH_INIT, scene->patches);
@@ -37,7 +48,7 @@ uint64_t hr2di_state_scene(const hr2d_scene *scene, hr2di_watch *watch) {
     for (size_t b = 0; b < scene->sky.bands; b++)
       hash = hr2di_hash_double(hash, scene->sky.value[k * scene->sky.bands + b]);
   }
-  return hash;
+  return hr2di_scene_is_unsettled(scene) ? add_spectra(hash, scene) : hash;
 }
 
 uint64_t hr2di_state_method(const hr2d_linkset *links) {
@@ -121,10 +132,26 @@ static void put_fields(hr2di_writer *w, const hr2d_solution *s, hr2di_watch *wat
   }
 }
 
+static void put_temperatures(hr2di_writer *w, const hr2d_solution *s, hr2di_watch *watch) {
+  for (size_t k = 0; s->own_scene && k < s->own_scene->patches && !w->status; k++) {
+    declare(w, watch, k, 8);
+    if (hr2di_scene_has_flux(s->own_scene, k))
+      hr2di_writer_double(w, s->own_scene->found[k].radiance);
+  }
+}
+
+/* A solution to a target is no stage, and a function of emissivity cannot be compared. */
+static int has_state(const hr2d_solution *s) {
+  if (s->own_links) return 0;
+  for (size_t k = 0; s->own_scene && k < s->own_scene->patches; k++)
+    if (hr2di_emissivity_depends(s->hierarchy->scene, k)) return 0;
+  return 1;
+}
+
 hr2d_status hr2d_state_write(const hr2d_solution *solution, hr2d_write_fn write, void *ctx) {
   const hr2d_hierarchy *h = solution->hierarchy;
   hr2di_writer w;
-  if (solution->own_links) return HR2D_EUNSUPPORTED;
+  if (!has_state(solution)) return HR2D_EUNSUPPORTED;
   hr2di_watch watch;
   hr2di_scene_watch(h->scene, &watch, NULL, NULL, "state");
   hr2di_writer_init(&w, write, ctx);
@@ -136,5 +163,6 @@ hr2d_status hr2d_state_write(const hr2d_solution *solution, hr2d_write_fn write,
   }
   put_links(&w, &solution->links->store, &watch);
   put_fields(&w, solution, &watch);
+  put_temperatures(&w, solution, &watch);
   return hr2di_writer_end(&w);
 }

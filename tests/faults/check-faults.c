@@ -508,6 +508,7 @@ END_TEST
 START_TEST(solutions) {
   PLAY("solve", {.depth = DEPTH_REFINED, .plan = PLAN_ROOM}, solve, of_links, 0);
   PLAY("solve, open", {.depth = DEPTH_REFINED, .plan = PLAN_OPEN}, solve, of_links, 0);
+  PLAY("solve, heat", {.depth = DEPTH_REFINED, .plan = PLAN_HEAT}, solve, of_links, 60);
   PLAY("solve, directed",
        {.depth = DEPTH_REFINED, .plan = PLAN_ROOM, .oracle = hr2d_oracle_bf()}, solve, of_links,
        0);

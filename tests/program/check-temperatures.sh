@@ -65,7 +65,10 @@ succeeds field "$work/bands.geojson" --points "$work/points" --csv "$work/bfield
   --target-error 1e-6
 check "and a field" awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "temperature") c = k }
   NR == 2 { ok = ($c - 866.9093)^2 < 1e-2 } END { exit !ok }' "$work/bfield.csv"
-expect 1 'fluxes in several bands need --target-error' solve "$work/bands.geojson"
+succeeds solve "$work/bands.geojson" --eps 0.02 --state "$work/bands.state"
+check "on links of eps, too" [ "$(grep -c '^ .* 866\.9.* unknown' "$work/out")" -eq 2 ]
+succeeds solve "$work/bands.geojson" --eps 0.02 --state "$work/bands.state"
+check "a state has them" [ "$(grep -c '^ .* 866\.9.* unknown' "$work/out")" -eq 2 ]
 succeeds info "$work/bands.geojson"
 sed 's/"flux": 0, "emissivity"/"flux": -20000, "emissivity"/' "$work/bands.geojson" \
   >"$work/coldbands.geojson"

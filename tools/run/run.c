@@ -110,22 +110,8 @@ static int run_stages(run *r, progress *p) {
   return code;
 }
 
-/* Temperatures that couple the bands are found for a target only. */
-static int needs_target(const run *r) {
-  const hr2d_scene *scene = r->scene;
-  size_t k = 0;
-  if (options_targeted(r->options) || hr2d_scene_bands(scene) == 1) return 0;
-  while (k < hr2d_scene_patches(scene) && hr2d_scene_heat(scene, k, NULL) != HR2D_HEAT_FLUX)
-    k++;
-  return k < hr2d_scene_patches(scene);
-}
-
 int run_solve(run *r) {
   progress p;
-  if (needs_target(r))
-    return complain(r->options->scene,
-                    "fluxes in several bands need --target-error or --time-budget: the "
-                    "temperatures are found together with their errors");
   progress_start(&p, r->options->quiet);
   if (options_targeted(r->options)) return run_target(r, &p);
   const int status = run_stages(r, &p);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "accuracy/heat-balance.h"
+#include "solve/heat-balance.h"
 
 #include <float.h>
 #include <math.h>
@@ -56,13 +56,9 @@ static hr2d_status reserve(hr2di_heat_balance *h) {
 }
 
 hr2d_status hr2di_heat_balance_init(hr2di_heat_balance *h, hr2d_scene *settled,
-                                    hr2d_linkset *links, const hr2d_target *target) {
-  hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
-  options.threads = target->threads;
-  options.progress = target->progress;
-  options.progress_ctx = target->progress_ctx;
+                                    hr2d_linkset *links, const hr2d_solve_options *options) {
   *h = (hr2di_heat_balance){.scene = settled};
-  hr2d_status status = hr2di_equation_init(&h->eq, links, &options);
+  hr2d_status status = hr2di_equation_init(&h->eq, links, settled, options);
   if (!status) status = reserve(h);
   if (status) hr2di_message_fail(&links->message, status, "%s", hr2d_strerror(status));
   return status;
@@ -93,6 +89,15 @@ static hr2d_status set_source(hr2di_heat_balance *h, int alone) {
       eq->source[k * t->width + b] =
           ldexp(of[t->hierarchy->element[t->leaf[k]].patch * bands + b], -eq->exponent[b]);
   return hr2di_watch_work(&eq->watch, (h->scene->patches + t->leaves * t->order) * bands / 2);
+}
+
+hr2d_status hr2di_heat_balance_source(hr2di_heat_balance *h,
+                                      const hr2d_solve_options *options) {
+  h->eq.background = 1;
+  h->eq.looks = 0;
+  h->eq.options.tolerance =
+      options->tolerance > 0 ? options->tolerance : HR2D_DEFAULT_TOLERANCE;
+  return set_source(h, 0);
 }
 
 /* The averages of a leaf field over patches. */

@@ -19,10 +19,8 @@
 
    Where ε depends on T, ρ does as well, and E' has a part of it.  If ε falls with T the theorem
    need not hold: errors are then those of a linear problem near the T that is found. */
-#ifndef HR2D_SRC_ACCURACY_HEAT_BALANCE_H
-#define HR2D_SRC_ACCURACY_HEAT_BALANCE_H
-
-#include <hr2d/accuracy.h>
+#ifndef HR2D_SRC_SOLVE_HEAT_BALANCE_H
+#define HR2D_SRC_SOLVE_HEAT_BALANCE_H
 
 #include "scene/settled.h"
 #include "solve/equation.h"
@@ -49,16 +47,21 @@ typedef struct hr2di_heat_balance {
   hr2d_status failed; /* of a solve within a Krylov step */
 } hr2di_heat_balance;
 
-/* Sets up the balance on links of the settled scene.  Call hr2di_heat_balance_clear() in any
+/* Sets up the balance on links of the scene or of its origin; `start` of the options does not
+   matter.  Call hr2di_heat_balance_clear() in any
    case; the struct must not be moved. */
 hr2d_status hr2di_heat_balance_init(hr2di_heat_balance *balance, hr2d_scene *settled,
-                                    hr2d_linkset *links, const hr2d_target *target);
+                                    hr2d_linkset *links, const hr2d_solve_options *options);
 void hr2di_heat_balance_clear(hr2di_heat_balance *balance);
 
 /* Finds S, from that of the scene on; the scene has it then, with E.  HR2D_OK,
    HR2D_ENOT_CONVERGED, HR2D_ENOMEM or the status of the progress callback, with a message of
    the links. */
 hr2d_status hr2di_heat_balance_settle(hr2di_heat_balance *balance);
+
+/* Gives the equation the E of the settled scene, for a solve with these options. */
+hr2d_status hr2di_heat_balance_source(hr2di_heat_balance *balance,
+                                      const hr2d_solve_options *options);
 
 /* radiance = J⁻¹ off: how far S is off if the averages of the balance are. Both have `count`
    values; `off` ≥ 0. */
