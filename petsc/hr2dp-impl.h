@@ -3,7 +3,8 @@
 
    Patches are cut on level `cut` of their trees into units, so that there are enough of them to
    share out; the cut is 0 where there are many patches or where something stands in the way.  A
-   rank owns a range of units twice: of links, by their first element, and of unknowns.  Its
+   rank owns units twice: for links, by their first element, a range of units or, without a cut,
+   rows that are dealt out; and for unknowns a range of units.  Its
    hierarchy has the elements that its links touch, all elements of the units that it owns, and
    the elements above the cut. */
 #ifndef HR2D_PETSC_HR2DP_IMPL_H
@@ -22,10 +23,12 @@ typedef struct hr2dpi_ranges {
 typedef struct hr2dpi_units {
   unsigned cut;         /* the level of a unit's root */
   uint64_t count;       /* patches << cut */
-  hr2dpi_ranges links;  /* of pairs, by their first element */
+  hr2dpi_ranges links;  /* of pairs, by their first element; without a cut, until rows are
+                           dealt out */
   hr2dpi_ranges leaves; /* of unknowns */
   double *start;        /* with a cut: per unit, the coordinate where it starts... */
   unsigned char *along; /* ...and per patch, which one: x or y, bit 0; falling, bit 1 */
+  unsigned char *rows;  /* without a cut: per patch, whether its row is of this rank */
   int placed;           /* the ranges are known */
 } hr2dpi_units;
 

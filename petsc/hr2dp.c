@@ -161,7 +161,8 @@ static hr2d_status take_options(hr2dp *p, const hr2d_refine_options *given,
     memcpy(options, given,
            given->struct_size < sizeof *options ? given->struct_size : sizeof *options);
   options->struct_size = sizeof *options;
-  if (options->row_from || options->row_to || options->claim || options->row_counts)
+  if (options->row_from || options->row_to || options->claim || options->row_counts ||
+      options->rows)
     return hr2dpi_fail(p, HR2D_EINVAL, "rows and claims are chosen by hr2dp_refine() itself");
   if (options->brightness)
     return hr2dpi_fail(p, HR2D_EUNSUPPORTED, "brightness of a former solution");

@@ -16,6 +16,7 @@ libhr2d_petsc_la_SOURCES = \
 	petsc/agree.c \
 	petsc/balance.c petsc/balance.h \
 	petsc/closure.c petsc/closure.h \
+	petsc/deal.c petsc/deal.h \
 	petsc/equation.c petsc/equation.h \
 	petsc/exact-sum.h \
 	petsc/exchange.c petsc/exchange.h \

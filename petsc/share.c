@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A rank makes the links whose first element is in, or above, its units.  Each pair belongs to
-   the rank of the first unit below its first element.  Pairs above the cut, some hundred, are
-   asked about by all ranks that have units below; what is counted twice because of that is
-   counted once more, alone, and taken off. */
+/* A rank makes the links whose first element is in, or above, its units, or of its rows.  Each
+   pair belongs to the rank of the first unit below its first element.  Pairs above the cut,
+   some hundred, are asked about by all ranks that have units below; what is counted twice
+   because of that is counted once more, alone, and taken off. */
 #include "share.h"
 
+#include "deal.h"
 #include "units.h"
 
 /* Pairs whose first element is above the cut. */
@@ -48,8 +49,8 @@ hr2d_status hr2dpi_share_init(hr2dp *p) {
   return status;
 }
 
-/* What rows take, counted at COARSER·ε.  A link there stands for several below. */
-enum { COARSER = 4, LINKS_BELOW = 4 };
+/* What units and rows take is counted at COARSER·ε. */
+enum { COARSER = 4 };
 
 typedef struct weigher {
   const hr2dp *p;
@@ -77,23 +78,25 @@ static hr2d_status weigh_units(hr2dp *p, hr2d_refine_options *options, hr2d_link
   return hr2d_refine_visit(links, options, weigh_links, &w, &counts);
 }
 
-/* Rows [from, to) of a refinement; an empty range must not look like "all". */
-static void set_rows(const hr2dp *p, hr2d_refine_options *options) {
-  options->row_from = (size_t)p->units.links.from[p->rank];
-  options->row_to = (size_t)p->units.links.from[p->rank + 1];
-  if (options->row_to == 0) options->row_from = options->row_to = p->patches;
+/* An equal part of the rows, until it is known what they take. */
+static void set_equal_rows(hr2dp *p) {
+  const uint64_t from = p->units.links.from[p->rank], to = p->units.links.from[p->rank + 1];
+  for (uint64_t k = 0; k < p->patches; k++) p->units.rows[k] = k >= from && k < to;
 }
 
+/* Sets the links and tests of own rows. */
 static hr2d_status weigh_rows(hr2dp *p, hr2d_refine_options *options, hr2d_linkset *links,
                               double *weight) {
   hr2d_row_counts *row = hr2dpi_alloc_zero(p, p->patches, sizeof *row);
   hr2d_refine_counts counts;
   if (!row) return HR2D_ENOMEM;
   options->row_counts = row;
-  set_rows(p, options);
+  options->rows = p->units.rows;
   const hr2d_status status = hr2d_refine_count(links, options, &counts);
-  for (size_t k = options->row_from; k < options->row_to && !status; k++)
-    weight[k] = (double)(LINKS_BELOW * row[k].links + row[k].visibility_tests + 1);
+  for (size_t k = 0; k < p->patches && !status; k++) {
+    weight[2 * k] = (double)row[k].links;
+    weight[2 * k + 1] = (double)row[k].visibility_tests;
+  }
   hr2dpi_free(p, row);
   return status;
 }
@@ -115,22 +118,27 @@ static hr2d_status weigh(hr2dp *p, const hr2d_refine_options *given, double *wei
   return status;
 }
 
-static PetscErrorCode share_out_by(hr2dp *p, const hr2d_refine_options *options,
-                                   double *weight) {
+/* Units have one weight, rows have two. */
+static PetscErrorCode share_out_by(hr2dp *p, const hr2d_refine_options *options, double *weight,
+                                   size_t weights) {
   PetscFunctionBegin;
   PetscCall(hr2dpi_agree(p, weight ? weigh(p, options, weight) : HR2D_ENOMEM));
-  PetscCallMPI(
-      MPI_Allreduce(MPI_IN_PLACE, weight, (int)p->units.count, MPI_DOUBLE, MPI_SUM, p->comm));
-  hr2dpi_ranges_cut(p, weight, &p->units.links);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, weight, (int)weights, MPI_DOUBLE, MPI_SUM, p->comm));
+  if (p->units.cut > 0)
+    hr2dpi_ranges_cut(p, weight, &p->units.links);
+  else
+    PetscCall(hr2dpi_agree(p, hr2dpi_deal_rows(p, weight)));
   PetscFunctionReturn(0);
 }
 
 /* ε = 0 has no coarser pass: shares are equal then. */
 static PetscErrorCode share_out(hr2dp *p, const hr2d_refine_options *options) {
   PetscFunctionBegin;
-  if (p->ranks == 1 || options->epsilon < 0 || p->units.count > INT_MAX) PetscFunctionReturn(0);
-  double *weight = hr2dpi_alloc_zero(p, p->units.count, sizeof *weight);
-  const PetscErrorCode failed = share_out_by(p, options, weight);
+  const uint64_t weights = p->units.cut > 0 ? p->units.count : 2 * p->units.count;
+  set_equal_rows(p);
+  if (p->ranks == 1 || options->epsilon < 0 || weights > INT_MAX) PetscFunctionReturn(0);
+  double *weight = hr2dpi_alloc_zero(p, weights, sizeof *weight);
+  const PetscErrorCode failed = share_out_by(p, options, weight, (size_t)weights);
   hr2dpi_free(p, weight);
   PetscCall(failed);
   PetscFunctionReturn(0);
@@ -178,7 +186,7 @@ static hr2d_status refine(hr2dp *p, const hr2d_refine_options *given) {
     options.claim = hr2dpi_claim_pairs;
     options.claim_ctx = &claim;
   } else {
-    set_rows(p, &options);
+    options.rows = p->units.rows;
   }
   hr2d_status status = hr2d_refine(p->links, &options);
   if (status) return hr2dpi_fail(p, status, "%s", hr2d_linkset_message(p->links));

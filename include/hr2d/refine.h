@@ -106,6 +106,9 @@ typedef struct hr2d_refine_options {
   void *claim_ctx;     /**< given to `claim` */
   hr2d_row_counts *row_counts; /**< receives one per patch, or NULL: which rows take the time,
                                     so that they can be shared out evenly */
+  const unsigned char *rows;   /**< one per patch: 0 leaves out its row; NULL: all rows of
+                                    [`row_from`, `row_to`). So shares of a refinement may have
+                                    rows that do not stand side by side */
 } hr2d_refine_options;
 
 /**
@@ -122,7 +125,7 @@ typedef struct hr2d_refine_options {
 #define HR2D_REFINE_OPTIONS_INIT                                                               \
   {                                                                                            \
     sizeof(hr2d_refine_options), 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, 0, 0, 0, NULL, NULL,   \
-        NULL                                                                                   \
+        NULL, NULL                                                                             \
   }
 
 /**

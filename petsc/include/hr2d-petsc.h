@@ -147,13 +147,13 @@ HR2DP_API const char *hr2dp_message(const hr2dp *p);
  * Refines: makes the links of all ranks, or refines them further (multigridding).
  *
  * Before the first refinement, ranks count what rows take at four times the ε, and share out
- * the rows evenly. Rows are of patches; where patches are few and nothing stands in the way,
- * they are of parts of patches.
+ * the rows so that links and tests of visibility are even. Rows are of patches; where patches
+ * are few and nothing stands in the way, they are of parts of patches.
  *
  * @param p        an object
  * @param options  as of hr2d_refine(), or NULL. `progress` asks on rank 0 alone. Of each rank
  *                 count `max_links`, `max_bytes` and `max_elements`. `row_from`, `row_to`,
- *                 `claim` and `row_counts` are refused
+ *                 `rows`, `claim` and `row_counts` are refused
  * @return 0; after a failure, PETSC_ERR_LIB, the object has no links, and the next refinement
  *         starts from nothing
  *

@@ -106,6 +106,15 @@ static double count_roots(const hr2di_projector *p) {
   const double n = (double)p->hierarchy->scene->patches;
   const double from = (double)p->options.row_from, to = (double)p->options.row_to;
   const hr2di_roots *known = &p->links->roots;
+  if (p->options.rows) {
+    double pairs = 0;
+    for (size_t k = p->options.row_from; k < p->options.row_to; k++)
+      if (p->options.rows[k])
+        pairs += known->row    ? (double)(known->row[k + 1] - known->row[k])
+                 : p->directed ? n - 1
+                               : n - 1 - (double)k;
+    return pairs;
+  }
   if (known->row)
     return (double)(known->row[p->options.row_to] - known->row[p->options.row_from]);
   return (to - from) * (p->directed ? n - 1 : n - (from + to + 1) / 2);
@@ -201,6 +210,8 @@ hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch) {
   const size_t n = p->hierarchy->scene->patches;
   const hr2di_roots *known = &p->links->roots;
   proposals roots;
+  if (p->options.rows && !p->options.rows[patch])
+    return hr2di_projector_fail(p, hr2di_projector_work(p, 1), "");
   roots.count = 0;
   hr2d_status status = hr2di_projector_work(p, 1 + n / 16);
   if (status) return hr2di_projector_fail(p, status, "");

@@ -1,7 +1,8 @@
 # Tests of libhr2d-petsc on several ranks; without PETSc the scripts say so and are skipped.
 PETSC_TESTS = tests/petsc/check-petsc.sh tests/petsc/check-failures.sh \
-	tests/petsc/check-program.sh tests/petsc/check-state.sh
-EXTRA_DIST += $(PETSC_TESTS) tests/petsc/ranks.sh tests/petsc/same-averages.py
+	tests/petsc/check-program.sh tests/petsc/check-shares.sh tests/petsc/check-state.sh
+EXTRA_DIST += $(PETSC_TESTS) tests/petsc/ranks.sh tests/petsc/draw-many.py \
+	tests/petsc/even-shares.py tests/petsc/same-averages.py
 TESTS += $(PETSC_TESTS)
 if WITH_PETSC
 RANKED = tests/petsc/check-rank-faults tests/petsc/check-rank-state tests/petsc/check-ranks

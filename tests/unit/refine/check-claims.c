@@ -126,6 +126,42 @@ START_TEST(rows_add_up) {
 }
 END_TEST
 
+/* Rows that do not stand side by side: shares add up to the whole, in links, in counts, stored
+   and on several threads. */
+START_TEST(chosen_rows_add_up) {
+  const slow_kind kind = (slow_kind)(_i % SLOW_KINDS);
+  hr2d_refine_options options = test_options(0.7, 5);
+  options.ordered = _i / SLOW_KINDS;
+  collected whole = collected_none();
+  const hr2d_refine_counts all = visit(kind, &options, &whole);
+  hr2d_refine_counts stored = {0}, counted = {0};
+  unsigned char rows[2 * PATCHES];
+  for (size_t which = 0; which < PARTS; which++) {
+    test_links t = make(kind);
+    const size_t patches = hr2d_scene_patches(t.scene);
+    for (size_t k = 0; k < patches; k++) rows[k] = k % PARTS == which;
+    options.rows = rows;
+    options.threads = 3;
+    ck_assert_int_eq(hr2d_refine(t.links, &options), HR2D_OK);
+    hr2d_refine_counts part = hr2d_linkset_counts(t.links);
+    add(&stored, &part);
+    const hr2d_element *element = hr2d_hierarchy_elements(t.hierarchy);
+    for (uint64_t k = 0; k < hr2d_linkset_size(t.links); k++)
+      ck_assert(rows[element[hr2d_linkset_get(t.links, k).pair.first].patch]);
+    test_free_links(&t);
+    t = make(kind);
+    ck_assert_int_eq(hr2d_refine_count(t.links, &options, &part), HR2D_OK);
+    add(&counted, &part);
+    test_free_links(&t);
+  }
+  ck_assert(same_work(&stored, &all));
+  ck_assert_uint_eq(counted.links, all.links);
+  ck_assert_uint_eq(counted.oracle_calls, all.oracle_calls);
+  ck_assert_uint_eq(counted.visibility_tests, all.visibility_tests);
+  free(whole.link);
+}
+END_TEST
+
 static void count_rows(slow_kind kind, hr2d_refine_options *options, hr2d_row_counts *row,
                        hr2d_refine_counts *counts, int stored) {
   test_links t = make(kind);
@@ -259,7 +295,7 @@ START_TEST(it_is_refused) {
 END_TEST
 
 TEST_SUITE("claims") {
-  REPEAT_TESTS(2 * SLOW_KINDS, "rows", rows_add_up);
+  REPEAT_TESTS(2 * SLOW_KINDS, "rows", rows_add_up, chosen_rows_add_up);
   REPEAT_TESTS(SLOW_KINDS, "parts", each_row_is_counted, claims_add_up);
   ADD_TESTS("ends", what_is_not_claimed_costs_nothing, it_is_refused);
 }

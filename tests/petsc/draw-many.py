@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Draws scenes in a folder whose links are shared out: turned squares and fibres of 16 sides,
+each in a cell of its own, and two plates; with the epsilon for each."""
+import json
+import math
+import random
+import sys
+
+
+def lines(points, first):
+    """The sides of a polygon with fronts outside, of which each sixteenth shines."""
+    points = points[::-1]
+    return [{"type": "Feature",
+             "properties": {"emission": int((first + k) % 16 == 0), "reflectance": 0.5},
+             "geometry": {"type": "LineString",
+                          "coordinates": [points[k], points[(k + 1) % len(points)]]}}
+            for k in range(len(points))]
+
+
+def polygons(count, corners):
+    drawn = []
+    source = random.Random(7)
+    side = math.ceil(math.sqrt(count))
+    for k in range(count):
+        radius, turn = 0.1 + 0.2 * source.random(), 7 * source.random()
+        x = k % side + radius + (1 - 2 * radius) * source.random()
+        y = k // side + radius + (1 - 2 * radius) * source.random()
+        drawn += lines([[x + radius * math.cos(turn + 2 * math.pi * c / corners),
+                         y + radius * math.sin(turn + 2 * math.pi * c / corners)]
+                        for c in range(corners)], len(drawn))
+    return drawn
+
+
+plates = [{"type": "Feature", "properties": {"emission": int(y == 0), "reflectance": 0.5},
+           "geometry": {"type": "LineString", "coordinates": [[int(y > 0), y], [int(y == 0), y]]}}
+          for y in (0, 0.1)]
+for name, features, epsilon in (("squares", polygons(256, 4), 0.5),
+                                ("fibres", polygons(100, 16), 0.5), ("plates", plates, 0.01)):
+    with open(f"{sys.argv[1]}/{name}.geojson", "w", encoding="utf-8") as file:
+        json.dump({"type": "FeatureCollection", "features": features}, file)
+    with open(f"{sys.argv[1]}/{name}.eps", "w", encoding="utf-8") as file:
+        print(epsilon, file=file)
