@@ -21,10 +21,11 @@ typedef struct vec {
 /* A point at a vertex + distance·(direction of its patch, or the opposite). */
 typedef struct place {
   size_t patch, vertex;
+  vec along; /* direction of the patch */
   vec off;
-  real distance; /* from the start of the patch or its end */
-  real weight;
-  real last; /* length of its panel, if that touches the vertex */
+  real distance;     /* from the start of the patch or its end */
+  real weight, root; /* and its square root */
+  real last;         /* length of its panel, if that touches the vertex */
 } place;
 
 struct convex_solution {
@@ -63,6 +64,7 @@ static place place_at(const convex_room *r, size_t patch, real distance, int fro
   const real way = from_end ? -distance : distance;
   return (place){.patch = patch,
                  .vertex = (patch + (from_end ? 1 : 0)) % r->patches,
+                 .along = u,
                  .off = {way * u.x, way * u.y},
                  .distance = distance};
 }
@@ -79,7 +81,7 @@ static vec between(const convex_room *r, const place *x, const place *y) {
 
 /* How far y is in front of the patch of x. */
 static real above(const convex_room *r, const place *x, const place *y) {
-  const vec u = direction_of(r, x->patch);
+  const vec u = x->along;
   const int mine = y->vertex == x->patch || y->vertex == (x->patch + 1) % r->patches;
   real height = u.x * y->off.y - u.y * y->off.x;
   if (!mine) {
@@ -100,9 +102,8 @@ static real kernel(const convex_room *r, const place *x, const place *y) {
 
 /* The distance of a point from another patch. */
 static real distance_to(const convex_room *r, const place *x, size_t patch) {
-  const vec u = direction_of(r, patch);
   const place start = place_at(r, patch, 0, 0);
-  const vec d = between(r, &start, x);
+  const vec u = start.along, d = between(r, &start, x);
   const real along = fminl(fmaxl(dot(d, u), 0), length_of(r, patch));
   return hypotl(d.x - along * u.x, d.y - along * u.y);
 }
@@ -120,6 +121,7 @@ static void add_panel(convex_solution *s, size_t patch, int from_end, real from,
     place *p = &s->place[s->count++];
     *p = place_at(s->room, patch, from + (to - from) * (1 + (real)at) / 2, from_end);
     p->weight = (to - from) * (real)weight / 2;
+    p->root = sqrtl(p->weight);
     if (!(from > 0)) p->last = to;
   }
 }
@@ -158,10 +160,8 @@ static int meet(const place *x, const place *y) {
 
 /* The exchange of the last panels at a vertex, by Hottel's strings, is its part of what the
    rule makes of it. */
-static real last_exchange(const convex_solution *s, const place *x, const place *y) {
-  const convex_room *r = s->room;
-  const vec u = direction_of(r, x->patch), v = direction_of(r, y->patch);
-  const real cosine = -dot(u, v);
+static real last_exchange(const place *x, const place *y) {
+  const real cosine = -dot(x->along, y->along);
   const real a = x->last, b = y->last, far = sqrtl(a * a + b * b - 2 * a * b * cosine);
   return a * b * (1 + cosine) / (a + b + far); /* ½(a + b − far) */
 }
@@ -181,14 +181,13 @@ static double *make_matrix(const convex_solution *s) {
         if (round == 0 && !last) continue;
         real g = kernel(s->room, x, y);
         if (round == 0) found[x->vertex] += g * x->weight * y->weight;
-        if (round == 1 && last && g > 0) g *= last_exchange(s, x, y) / found[x->vertex];
-        m[i * n + j] = m[j * n + i] = (double)(g * sqrtl(x->weight * y->weight));
+        if (round == 1 && last && g > 0) g *= last_exchange(x, y) / found[x->vertex];
+        m[i * n + j] = m[j * n + i] = (double)(g * x->root * y->root);
       }
   for (size_t i = 0; i < n; i++) {
     real seen = 0;
-    for (size_t j = 0; j < n; j++)
-      seen += m[i * n + j] * sqrtl(s->place[j].weight / s->place[i].weight);
-    m[i * n + i] = (double)(1 - seen);
+    for (size_t j = 0; j < n; j++) seen += m[i * n + j] * s->place[j].root;
+    m[i * n + i] = (double)(1 - seen / s->place[i].root);
   }
   free(found);
   return m;
@@ -226,7 +225,7 @@ static void solve(convex_solution *s, double *m) {
   double *y = space, *r = y + n, *p = r + n, *q = p + n, *in = q + n, *root = in + n;
   for (size_t k = 0; k < n; k++) {
     root[k] = sqrt(reflectance(s, k));
-    in[k] = sqrt((double)s->place[k].weight) * emission(s, k);
+    in[k] = (double)s->place[k].root * emission(s, k);
   }
   multiply(m, n, in, r);
   for (size_t k = 0; k < n; k++) p[k] = r[k] = root[k] * r[k];
@@ -243,17 +242,17 @@ static void solve(convex_solution *s, double *m) {
     square = next;
   }
   for (size_t k = 0; k < n; k++)
-    in[k] = sqrt((double)s->place[k].weight) * emission(s, k) + root[k] * y[k];
+    in[k] = (double)s->place[k].root * emission(s, k) + root[k] * y[k];
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
     multiply(m, n, in, q);
     for (size_t k = 0; k < n; k++)
-      in[k] = sqrt((double)s->place[k].weight) * emission(s, k) + reflectance(s, k) * q[k];
+      in[k] = (double)s->place[k].root * emission(s, k) + reflectance(s, k) * q[k];
   }
   for (size_t k = 0; k < n; k++) m[k * n + k] = 0;
   multiply(m, n, in, q);
   for (size_t k = 0; k < n; k++) {
-    s->radiosity[k] = in[k] / sqrt((double)s->place[k].weight);
-    s->irradiance[k] = q[k] / sqrt((double)s->place[k].weight);
+    s->radiosity[k] = in[k] / (double)s->place[k].root;
+    s->irradiance[k] = q[k] / (double)s->place[k].root;
   }
   free(space);
 }
