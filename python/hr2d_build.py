@@ -20,6 +20,9 @@ typedef double (*hr2dpy_point_getter)(const hr2d_solution *, size_t patch, doubl
 hr2d_status hr2dpy_poll(void *ctx, const hr2d_progress *progress);
 void hr2dpy_segments(const hr2d_scene *scene, double *end, double *length);
 void hr2dpy_scene_values(hr2dpy_scene_getter get, const hr2d_scene *scene, double *value);
+void hr2dpy_sunlight(const hr2d_scene *scene, size_t patch, const double *t, size_t count,
+                     double *value);
+void hr2dpy_sky(const hr2d_scene *scene, const double *bearing, size_t count, double *value);
 void hr2dpy_values(hr2dpy_getter get, const hr2d_solution *solution, size_t patches,
                    size_t bands, double *value);
 void hr2dpy_point_values(hr2dpy_point_getter get, const hr2d_solution *solution, size_t patch,
@@ -31,6 +34,7 @@ void hr2dpy_element_values(const hr2d_solution *solution, size_t elements, size_
 # Python keeps these; errors of theirs are kept by hr2d/_calls.py.
 CALLBACKS = """
 hr2d_status hr2dpy_progress(void *, const hr2d_progress *);
+hr2d_status hr2dpy_warn(void *, const hr2d_warning *);
 hr2d_status hr2dpy_estimate(void *, const hr2d_batch *, double *);
 hr2d_status hr2dpy_acceptable(void *, const hr2d_batch *, const double *, unsigned char *);
 hr2d_status hr2dpy_recursion_limit(void *, const hr2d_batch *, unsigned char *);
@@ -70,6 +74,21 @@ void hr2dpy_scene_values(hr2dpy_scene_getter get, const hr2d_scene *scene, doubl
   const size_t patches = hr2d_scene_patches(scene), bands = hr2d_scene_bands(scene);
   for (size_t k = 0; k < patches; k++)
     for (size_t band = 0; band < bands; band++) *value++ = get(scene, k, band);
+}
+
+void hr2dpy_sunlight(const hr2d_scene *scene, size_t patch, const double *t, size_t count,
+                     double *value) {
+  const size_t bands = hr2d_scene_bands(scene);
+  for (size_t k = 0; k < count; k++)
+    for (size_t band = 0; band < bands; band++)
+      *value++ = hr2d_scene_sunlight_at(scene, patch, t[k], band);
+}
+
+void hr2dpy_sky(const hr2d_scene *scene, const double *bearing, size_t count, double *value) {
+  const size_t bands = hr2d_scene_bands(scene);
+  for (size_t k = 0; k < count; k++)
+    for (size_t band = 0; band < bands; band++)
+      *value++ = hr2d_scene_sky(scene, bearing[k], band);
 }
 
 void hr2dpy_values(hr2dpy_getter get, const hr2d_solution *solution, size_t patches,

@@ -17,7 +17,9 @@ EXTRA_DIST += \
 	python/setup.py \
 	python/tests/conftest.py \
 	python/tests/test_callbacks.py \
+	python/tests/test_daylight.py \
 	python/tests/test_draw.py \
+	python/tests/test_drawings.py \
 	python/tests/test_scene.py \
 	python/tests/test_solve.py \
 	python/tests/test_thermal.py

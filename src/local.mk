@@ -91,6 +91,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/sky.c src/scene/sky.h src/scene/sky-arcs.c \
 	src/scene/sun.c \
 	src/scene/sun-beams.c src/scene/sun-beams.h \
+	src/scene/lit-parts.c \
 	src/scene/sunlight.c src/scene/sunlight.h \
 	src/scene/thermal.c \
 	src/scene/wall-pieces.c src/scene/wall-pieces.h \

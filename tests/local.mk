@@ -214,6 +214,7 @@ tests_adversary_adversary_SOURCES = \
 	tests/adversary/corrupt.c \
 	tests/adversary/judge.c tests/adversary/judge.h \
 	tests/adversary/kinds.c tests/adversary/kinds.h \
+	tests/adversary/kinds-day.c \
 	tests/adversary/kinds-extreme.c \
 	tests/adversary/kinds-open.c \
 	tests/adversary/kinds-rooms.c \

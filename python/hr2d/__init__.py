@@ -18,7 +18,7 @@ from ._errors import (AccuracyError, AccuracyWarning, CallbackError, Error, File
                       OutOfMemory, RangeError, SceneError, StateError, Stopped, Unsupported)
 from ._hr2d import ffi as _ffi
 from ._hr2d import lib as _lib
-from ._scene import Scene, exchange_area, read
+from ._scene import Scene, SceneWarning, Snap, Sun, exchange_area, read
 from ._solution import Account, Bounded, Field, Points, Power, Solution, Temperatures
 from ._strategy import SPLIT_BOTH, SPLIT_FIRST, SPLIT_SECOND, Batch, Oracle, Policy
 
@@ -28,6 +28,7 @@ __all__ = [
     "Account", "AccuracyError", "AccuracyWarning", "Batch", "Bounded", "CallbackError", "Error",
     "Field", "FileError", "FormatError", "InvalidArgument", "LimitReached", "NoSolution",
     "NotConverged", "Oracle", "OutOfMemory", "Points", "Policy", "Power", "Progress", "RangeError",
-    "SPLIT_BOTH", "SPLIT_FIRST", "SPLIT_SECOND", "Scene", "SceneError", "Solution", "Temperatures",
-    "StateError", "Stopped", "Unsupported", "exchange_area", "read",
+    "SPLIT_BOTH", "SPLIT_FIRST", "SPLIT_SECOND", "Scene", "SceneError", "SceneWarning", "Snap",
+    "Solution", "StateError", "Stopped", "Sun", "Temperatures", "Unsupported", "exchange_area",
+    "read",
 ]

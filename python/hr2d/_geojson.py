@@ -42,6 +42,18 @@ def _feature(shape: Any, properties: Dict[str, Any]) -> Dict[str, Any]:
     return {"type": "Feature", "properties": properties, "geometry": shape}
 
 
+def _dump(collection: Any, what: str) -> bytes:
+    try:
+        return json.dumps(collection, default=_plain, allow_nan=False).encode()
+    except ValueError as error:
+        raise SceneError(f"{what}: a number is not finite") from error
+
+
+def outside_of(members: Dict[str, Any]) -> bytes:
+    """The text of a collection without patches, with members of "hr2d"."""
+    return _dump({"type": "FeatureCollection", "hr2d": members, "features": []}, *members)
+
+
 def text_of(shape: Any, properties: Dict[str, Any]) -> bytes:
     """The text of a collection; `properties` go before those of its features."""
     given = {key: value for key, value in properties.items() if value is not None}
@@ -50,7 +62,4 @@ def text_of(shape: Any, properties: Dict[str, Any]) -> bytes:
         collection = {**shape, "features": [_feature(f, given) for f in shape["features"]]}
     else:
         collection = {"type": "FeatureCollection", "features": [_feature(shape, given)]}
-    try:
-        return json.dumps(collection, default=_plain, allow_nan=False).encode()
-    except ValueError as error:
-        raise SceneError(f"{given.get('name') or 'a patch'}: a number is not finite") from error
+    return _dump(collection, given.get("name") or "a patch")

@@ -6,21 +6,72 @@ import os
 import threading
 from contextlib import contextmanager
 from functools import cached_property
-from typing import Any, Dict, Iterator, List, Optional, Sequence, Union
+from typing import (Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple,
+                    Union)
 
 import numpy as np
 
 from . import _draw, _solve
 from ._arrays import doubles, frozen, view, writable
-from ._calls import POLL, Call, ProgressFunction, owned, thread_count
-from ._errors import StateError
-from ._geojson import text_of
+from ._calls import POLL, Call, ProgressFunction, keep_exception, owned, thread_count
+from ._errors import SceneError, StateError
+from ._geojson import outside_of, text_of
 from ._hr2d import ffi, lib
 from ._solution import Solution
 from ._strategy import OracleLike, PolicyLike
 
 Values = Union[float, Sequence[float], np.ndarray]
 PatchLike = Union[int, str]
+
+
+class Sun(NamedTuple):
+    """The suns of the bands."""
+
+    direction: np.ndarray
+    """In which their light travels, (bands, 2)."""
+    irradiance: np.ndarray
+    """On a surface across it, (bands,)."""
+
+
+class Snap(NamedTuple):
+    """What Scene.snap() did."""
+
+    ends: int
+    """Ends that were joined to another end."""
+    feet: int
+    """Points that were moved to stand on a patch."""
+    slivers: int
+    """Patches that have lost their length, and were dropped."""
+    copies: int
+    """Patches that have become copies of others, and were dropped."""
+    cuts: int
+    """Places where patches crossed still, and were cut."""
+    farthest: float
+    """How far an end was moved at most."""
+
+
+class SceneWarning(NamedTuple):
+    """Something in a scene that is valid, but maybe not meant."""
+
+    code: str
+    """For example "loose-end"."""
+    text: str
+    """A sentence with the place, and what to do."""
+    patches: Tuple[int, ...]
+    """The patches that it names."""
+    at: Optional[Tuple[float, float]]
+    """Where a gap is."""
+    gap: float
+    """Its width; 0 for other warnings."""
+
+
+@ffi.def_extern(error=lib.HR2D_STOPPED, onerror=keep_exception)
+def hr2dpy_warn(ctx: Any, raw: Any) -> int:
+    ffi.from_handle(ctx).append(SceneWarning(
+        ffi.string(lib.hr2d_warning_name(raw.code)).decode(), ffi.string(raw.text).decode(),
+        tuple(raw.patch[k] for k in range(raw.patches)),
+        (raw.at.x, raw.at.y) if raw.gap > 0 else None, raw.gap))
+    return lib.HR2D_OK
 
 
 class Scene:
@@ -30,12 +81,16 @@ class Scene:
     call that needs all of them, for instance solve(); from then on the scene is only read, and
     several threads may use it.
 
-    `background` is the light from the surroundings, one value or one per band.  `wavelengths`
-    in µm, rising, divide the spectrum of temperatures into bands, one more than they are.
+    `background` is the light from the surroundings, one value or one per band, or that of
+    `background_temperature` in kelvin.  `wavelengths` in µm, rising, divide the spectrum of
+    temperatures into bands, one more than they are.  `sun` has the arguments of set_sun(),
+    `sky` is that of set_sky().
     """
 
     def __init__(self, background: Optional[Values] = None, *,
-                 wavelengths: Optional[Values] = None):
+                 wavelengths: Optional[Values] = None, sun: Optional[Mapping[str, Any]] = None,
+                 sky: Optional[Sequence[Any]] = None,
+                 background_temperature: Optional[float] = None):
         pointer = ffi.new("hr2d_scene **")
         with Call() as call:
             call.check(lib.hr2d_scene_create(ffi.NULL, pointer))
@@ -51,6 +106,12 @@ class Scene:
             with self._change() as call:
                 call.check(lib.hr2d_scene_set_wavelengths(self._raw, doubles(borders),
                                                           borders.size), self._message)
+        if background_temperature is not None:
+            self.add_text(outside_of({"background_temperature": background_temperature}))
+        if sun is not None:
+            self.set_sun(**sun)
+        if sky is not None:
+            self.set_sky(sky)
 
     # Adding
 
@@ -76,6 +137,23 @@ class Scene:
         with self._change() as call:
             call.check(lib.hr2d_scene_set_background(self._raw, doubles(values), values.size),
                        self._message)
+
+    def set_sun(self, irradiance: Values, *, bearing: Optional[Values] = None,
+                direction: Any = None) -> None:
+        """Sets a sun: parallel light of an irradiance on a surface across it.
+
+        `bearing` is where the sun stands, in degrees clockwise from +y, or `direction` (dx, dy)
+        is that in which its light travels.  Each may be one value, or one per band.
+        """
+        sun = {"irradiance": irradiance, "bearing": bearing, "direction": direction}
+        self.add_text(outside_of({"sun": {k: v for k, v in sun.items() if v is not None}}))
+
+    def set_sky(self, pieces: Sequence[Any]) -> None:
+        """Sets the sky: pieces (from, to, radiosity), with bearings in degrees clockwise from +y.
+
+        A radiosity is one value, or one per band.  Other directions have the background.
+        """
+        self.add_text(outside_of({"sky": [list(piece) for piece in pieces]}))
 
     def add(self, shape: Any, *, emission: Optional[Values] = None,
             reflectance: Optional[Values] = None, temperature: Optional[float] = None,
@@ -129,6 +207,34 @@ class Scene:
         with self._change() as call:
             call.check(lib.hr2d_scene_split_crossings(self._raw, cuts), self._message)
         return cuts[0]
+
+    def snap(self, tolerance: float) -> Snap:
+        """Repairs a drawing: ends within `tolerance` become one, ends beside a patch stand on it.
+
+        Indices of patches change where some are dropped or cut.
+        """
+        report = ffi.new("hr2d_snap_report *")
+        with self._change() as call:
+            call.check(lib.hr2d_scene_snap(self._raw, tolerance, report), self._message)
+        return Snap(*(getattr(report, name) for name in Snap._fields))
+
+    def warnings(self, *, gap: float = 0,
+                 progress: Optional[ProgressFunction] = None) -> List[SceneWarning]:
+        """What is valid in the scene, but maybe not meant.
+
+        Warnings about light and views need a scene that can be committed.  Openings below the
+        part `gap` of the scene are narrow, 1e-3 by default.
+        """
+        try:
+            self.commit()
+        except SceneError:
+            pass
+        found: List[SceneWarning] = []
+        handle, options = ffi.new_handle(found), ffi.new("hr2d_lint_options *", {
+            "struct_size": ffi.sizeof("hr2d_lint_options"), "gap": gap})
+        with Call(progress) as call:
+            call.check(lib.hr2d_scene_lint(self._raw, lib.hr2dpy_warn, handle, options))
+        return found
 
     def commit(self) -> "Scene":
         """Checks the patches against each other.  Other calls do it if they need it."""
@@ -213,6 +319,46 @@ class Scene:
                          for band in range(self.bands)])
 
     @property
+    def sun(self) -> Sun:
+        """The suns, as they were given; zeros without one."""
+        suns = [lib.hr2d_scene_sun(self._raw, band) for band in range(self.bands)]
+        return Sun(np.array([(sun.direction.x, sun.direction.y) for sun in suns]),
+                   np.array([sun.irradiance for sun in suns]))
+
+    def sky(self, bearing: Any) -> np.ndarray:
+        """The radiosity of the sky at bearings of any shape, and then the bands."""
+        bearing = np.require(bearing, np.float64, "C")
+        values = np.empty((*np.shape(bearing), self.bands))
+        lib.hr2dpy_sky(self._raw, doubles(bearing), bearing.size, writable(values))
+        return values
+
+    @cached_property
+    def sunlight(self) -> np.ndarray:
+        """The part of the average H that comes straight from the sun, (patches, bands)."""
+        return self._values("hr2d_scene_sunlight")
+
+    def sunlight_at(self, patch: PatchLike, t: Any) -> np.ndarray:
+        """The same at points of a patch: fractions of it, of any shape, and then the bands."""
+        index, t = self.index(patch), np.require(t, np.float64, "C")
+        if not ((t >= 0) & (t <= 1)).all():
+            raise ValueError("t is a fraction of the patch, from 0 to 1")
+        values = np.empty((*np.shape(t), self.bands))
+        lib.hr2dpy_sunlight(self._raw, index, doubles(t), t.size, writable(values))
+        return values
+
+    def sunlit_parts(self, patch: PatchLike, band: int = 0) -> np.ndarray:
+        """Where the sun of a band lights a patch: (parts, 2), fractions of the patch."""
+        index = self.index(patch)
+        if not 0 <= band < self.bands:
+            raise IndexError(f"there is no band {band}")
+        count = lib.hr2d_scene_sunlit_parts(self._raw, index, band, ffi.NULL, 0)
+        parts = np.empty((count, 2))
+        if count:
+            lib.hr2d_scene_sunlit_parts(self._raw, index, band,
+                                        ffi.cast("double(*)[2]", writable(parts)), count)
+        return parts
+
+    @property
     def effects(self) -> Dict[str, str]:
         """The effects that the scene calls for, each with its reason."""
         self.commit()
@@ -222,6 +368,11 @@ class Scene:
                 name = ffi.string(lib.hr2d_effect_name(effect)).decode()
                 found[name] = ffi.string(reason[0]).decode()
         return found
+
+    def _emits_as_found(self, index: int) -> bool:
+        """Whether E and ρ of a patch follow from a temperature that a solve finds."""
+        return (self.bands > 1 and
+                lib.hr2d_scene_heat(self._raw, index, ffi.NULL) == lib.HR2D_HEAT_FLUX)
 
     # View factors
 

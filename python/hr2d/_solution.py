@@ -204,6 +204,12 @@ class Solution:
         with Call() as call:
             call.check(lib.hr2d_solution_gather_irradiance(self._raw, index, doubles(t), t.size,
                                                            writable(H)))
+        if self.scene._emits_as_found(index):
+            B = np.empty(shape)
+            with Call() as call:
+                call.check(lib.hr2d_solution_gather(self._raw, index, doubles(t), t.size,
+                                                    writable(B)))
+            return Points(B, H)
         # B' = E + ρ H' is what hr2d_solution_gather() would gather again.
         return Points(self.scene.emission[index] + self.scene.reflectance[index] * H, H)
 

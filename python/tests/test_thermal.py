@@ -41,6 +41,20 @@ def test_what_cannot_be_is_said():
         hr2d.Scene().add([(0, 0), (1, 0)], temperature=1, flux=1)
 
 
+def test_points_of_a_found_temperature_have_its_light():
+    scene = hr2d.Scene(wavelengths=[3, 8])
+    corners = [(0, 0), (3, 0), (0, 3), (0, 0)]
+    for k, kind in enumerate([{"temperature": 1200}, {"temperature": 600}, {"flux": 0}]):
+        scene.add(corners[k:k + 2], emissivity=[.2, .5, .9], **kind)
+    for s in (scene.solve(error=1e-6), scene.solve(epsilon=.05)):
+        points = s.at(2, [.2, .5])
+        kelvin = s.temperatures.kelvin[2]
+        assert 600 < kelvin < 1200
+        # B = ε f σT⁴ + (1 − ε) H, where f sums to 1 over the bands.
+        black = (points.B - (1 - np.array([.2, .5, .9])) * points.H) / [.2, .5, .9]
+        assert black.sum(axis=-1) == pytest.approx(np.full(2, SIGMA * kelvin ** 4), rel=1e-9)
+
+
 def test_wavelengths_make_bands():
     scene = hr2d.Scene(wavelengths=[3, 8])
     scene.add([(0, 0), (1, 0), (0, 1), (0, 0)], temperature=900, emissivity=[.2, .5, .9])

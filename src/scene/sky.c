@@ -33,11 +33,17 @@ static int is_piece(hr2d_sky_piece p) {
   return isfinite(p.from) && isfinite(p.to) && p.from < p.to && p.to - p.from <= 360;
 }
 
+/* Degrees: so much of an arc may be shared, as bearings are sums that were rounded. */
+#define ROUND 1e-11
+
+/* How much of q is in p after its beginning. */
+static double common(hr2d_sky_piece p, hr2d_sky_piece q) {
+  return fmin(p.to - p.from - hr2di_sky_turned(q.from - p.from), q.to - q.from);
+}
+
 /* Whether two pieces share an arc: one of them begins inside the other. */
 static int overlap(hr2d_sky_piece p, hr2d_sky_piece q) {
-  const double ahead = hr2di_sky_turned(q.from - p.from),
-               behind = hr2di_sky_turned(p.from - q.from);
-  return ahead < p.to - p.from || behind < q.to - q.from;
+  return common(p, q) > ROUND || common(q, p) > ROUND;
 }
 
 static hr2d_status check_pieces(hr2d_scene *scene, const hr2d_sky_piece *piece, size_t pieces) {
@@ -93,10 +99,30 @@ hr2d_status hr2d_scene_set_sky(hr2d_scene *scene, const hr2d_sky_piece *piece, s
   return HR2D_OK;
 }
 
+/* The piece in a direction; as many as there are pieces for the background. */
+static size_t piece_at(const hr2di_sky *sky, double bearing) {
+  size_t k = 0;
+  while (k < sky->pieces && !(hr2di_sky_turned(bearing - sky->piece[k].from) <
+                              sky->piece[k].to - sky->piece[k].from))
+    k++;
+  return k;
+}
+
+static double seen_at(const hr2d_scene *scene, size_t piece, size_t band) {
+  return piece < scene->sky.pieces ? value_of(&scene->sky, piece, band)
+                                   : hr2d_scene_background(scene, band);
+}
+
 double hr2d_scene_sky(const hr2d_scene *scene, double bearing, size_t band) {
-  const hr2di_sky *sky = &scene->sky;
-  for (size_t k = 0; k < sky->pieces; k++)
-    if (hr2di_sky_turned(bearing - sky->piece[k].from) < sky->piece[k].to - sky->piece[k].from)
-      return value_of(sky, k, band);
-  return hr2d_scene_background(scene, band);
+  return seen_at(scene, piece_at(&scene->sky, bearing), band);
+}
+
+double hr2di_sky_jump(const hr2d_scene *scene, double bearing, const double *most) {
+  const size_t before = piece_at(&scene->sky, bearing - 2 * ROUND),
+               after = piece_at(&scene->sky, bearing + 2 * ROUND);
+  double jump = 0;
+  for (size_t b = 0; b < scene->bands && before != after; b++)
+    if (most[b] > 0)
+      jump = fmax(jump, fabs(seen_at(scene, after, b) - seen_at(scene, before, b)) / most[b]);
+  return jump;
 }

@@ -22,7 +22,7 @@
 #define SAME 1e-14
 
 /* Where all suns together light more parts of patches than these for each patch, elements do
-   not end at their borders. */
+   not end at their borders, and likewise kinks of the sky. */
 enum { MOST_PARTS = 16, MOST_KINKS = 16 };
 
 typedef struct finder {
@@ -148,16 +148,64 @@ static hr2d_status look_from_edge(finder *f, hr2di_sun_beams *beams, double bear
   return status;
 }
 
-static hr2d_status find_kinks(finder *f, hr2di_sun_beams *beams) {
-  const hr2di_sky *sky = &f->scene->sky;
-  hr2di_sunlight *l = f->light;
+/* An edge of a piece of the sky. */
+typedef struct sky_edge {
+  double bearing, jump;
+} sky_edge;
+
+static int by_jump(const void *left, const void *right) {
+  const sky_edge *l = left, *r = right;
+  if (l->jump != r->jump) return l->jump > r->jump ? -1 : 1;
+  return (l->bearing > r->bearing) - (l->bearing < r->bearing);
+}
+
+/* The edges at which the sky jumps, those with the largest jumps first. */
+static hr2d_status list_edges(const hr2d_scene *scene, sky_edge *edge, size_t *count,
+                              double *most, hr2di_watch *watch) {
+  const hr2di_sky *sky = &scene->sky;
   hr2d_status status = HR2D_OK;
-  for (size_t k = 0; k < sky->pieces && !status; k++) {
-    status = look_from_edge(f, beams, sky->piece[k].from);
-    if (!status) status = look_from_edge(f, beams, sky->piece[k].to);
+  for (size_t b = 0; b < scene->bands && !status; b++) {
+    most[b] = hr2di_sky_most(scene, b);
+    status = hr2di_watch_work(watch, 1 + sky->pieces / 16);
   }
-  if (!status) status = unite((border_list){&l->kink, &l->kinks, &l->kink_room}, beams->watch);
-  if (l->kinks / MOST_KINKS > f->scene->patches) l->kinks = 0;
+  for (size_t k = 0; k < 2 * sky->pieces && !status; k++) {
+    sky_edge *e = &edge[*count];
+    e->bearing = k % 2 ? sky->piece[k / 2].to : sky->piece[k / 2].from;
+    e->jump = hr2di_sky_jump(scene, e->bearing, most);
+    *count += e->jump > 0;
+    status = hr2di_watch_work(watch, 2 + (sky->pieces + scene->bands) / 8);
+  }
+  return status ? status : hr2di_sort(edge, *count, sizeof *edge, by_jump, watch);
+}
+
+/* Of more edges than elements may end at, those with the smallest jumps are left out. */
+static hr2d_status look_from_edges(finder *f, hr2di_sun_beams *beams, const sky_edge *edge,
+                                   size_t count) {
+  hr2di_sunlight *l = f->light;
+  const border_list to = {&l->kink, &l->kinks, &l->kink_room};
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < count && !status; k++) {
+    const size_t before = l->kinks;
+    status = look_from_edge(f, beams, edge[k].bearing);
+    if (!status && l->kinks / MOST_KINKS <= f->scene->patches) continue;
+    l->kinks = before;
+    break;
+  }
+  return status ? status : unite(to, beams->watch);
+}
+
+static hr2d_status find_kinks(finder *f, hr2di_sun_beams *beams) {
+  const hr2d_scene *scene = f->scene;
+  const size_t edges = 2 * scene->sky.pieces;
+  size_t count = 0;
+  if (!edges) return HR2D_OK;
+  sky_edge *edge = hr2di_alloc(&scene->alloc, edges, sizeof *edge);
+  double *most = hr2di_alloc(&scene->alloc, scene->bands, sizeof *most);
+  hr2d_status status = edge && most ? HR2D_OK : HR2D_ENOMEM;
+  if (!status) status = list_edges(scene, edge, &count, most, beams->watch);
+  if (!status) status = look_from_edges(f, beams, edge, count);
+  hr2di_alloc_free(&scene->alloc, edge);
+  hr2di_alloc_free(&scene->alloc, most);
   return status;
 }
 
@@ -182,60 +230,4 @@ hr2d_status hr2di_sunlight_init(hr2di_sunlight *light, const hr2d_scene *scene,
   if (!status) status = find_kinks(&f, &beams);
   hr2di_sun_beams_clear(&beams);
   return status;
-}
-
-void hr2di_sunlight_clear(hr2di_sunlight *light, const hr2d_allocator *alloc) {
-  hr2di_alloc_free(alloc, light->part);
-  hr2di_alloc_free(alloc, light->of_sun);
-  hr2di_alloc_free(alloc, light->border);
-  hr2di_alloc_free(alloc, light->kink);
-  *light = (hr2di_sunlight){0};
-}
-
-const hr2di_lit_part *hr2di_sunlight_of(const hr2d_scene *scene, size_t patch, size_t band,
-                                        size_t *count) {
-  const hr2di_sunlight *l = &scene->sunlight;
-  *count = 0;
-  if (l->suns == 0) return NULL;
-  const size_t sun = l->suns == 1 ? 0 : band, end = l->of_sun[sun + 1];
-  size_t low = l->of_sun[sun], high = end;
-  while (low < high) {
-    const size_t middle = low + (high - low) / 2;
-    if (l->part[middle].patch < patch)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  while (low + *count < end && l->part[low + *count].patch == patch) ++*count;
-  return l->part + low;
-}
-
-const hr2di_sun_border *hr2di_sunlight_borders(const hr2d_scene *scene, size_t patch,
-                                               size_t *count) {
-  const hr2di_sunlight *l = &scene->sunlight;
-  size_t low = 0, high = l->borders;
-  while (low < high) {
-    const size_t middle = low + (high - low) / 2;
-    if (l->border[middle].patch < patch)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  for (*count = 0; low + *count < l->borders && l->border[low + *count].patch == patch;)
-    ++*count;
-  return *count > 0 ? l->border + low : NULL;
-}
-
-double hr2di_sunlight_full(const hr2d_scene *scene, size_t patch, size_t band) {
-  const hr2d_sun sun = hr2d_scene_sun(scene, band);
-  if (!(sun.irradiance > 0)) return 0;
-  return sun.irradiance * fmax(hr2di_sun_cosine(sun.direction, scene->patch[patch].scaled), 0);
-}
-
-int hr2di_sunlight_at(const hr2d_scene *scene, size_t patch, size_t band, double t) {
-  size_t count;
-  const hr2di_lit_part *part = hr2di_sunlight_of(scene, patch, band, &count);
-  size_t k = 0;
-  while (k + 1 < count && t >= part[k].to) k++;
-  return k < count && t >= part[k].from && t <= part[k].to;
 }

@@ -31,7 +31,7 @@ typedef struct hr2di_sunlight {
                                many for elements to end at all */
   size_t borders, border_room;
   hr2di_sun_border *kink; /* where an edge of a piece of the sky comes into sight: there H of
-                             the sky has a kink; none where there are too many */
+                             the sky has a kink; of too many those of the largest jumps */
   size_t kinks, kink_room;
 } hr2di_sunlight;
 

@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "hierarchy/hierarchy-impl.h"
@@ -114,7 +115,8 @@ hr2d_status hr2di_balance_init(hr2di_balance *b, hr2di_transport *t) {
   const size_t values = b->count * t->bands;
   b->length = hr2di_alloc(&b->alloc, 2 * b->count + 3 * values, sizeof *b->length);
   b->sum = hr2di_alloc(&b->alloc, values, sizeof *b->sum);
-  if (!b->length || !b->sum) return HR2D_ENOMEM;
+  b->sends = hr2di_alloc(&b->alloc, values, sizeof *b->sends);
+  if (!b->length || !b->sum || !b->sends) return HR2D_ENOMEM;
   b->escape = b->length + b->count;
   b->loss = b->escape + b->count;
   b->level = b->loss + values;
@@ -128,11 +130,33 @@ void hr2di_balance_clear(hr2di_balance *b) {
   hr2di_alloc_free(&b->alloc, b->missing);
   hr2di_alloc_free(&b->alloc, b->length);
   hr2di_alloc_free(&b->alloc, b->sum);
+  hr2di_alloc_free(&b->alloc, b->sends);
+}
+
+/* Whether a leaf has a source, or reflects something that comes in. */
+static int is_sending(const hr2di_transport *t, const double *source, const double *outside,
+                      size_t leaf, size_t band) {
+  const size_t first = leaf * t->width + band;
+  const int reflects = outside && rho_of(t, leaf, band) > 0;
+  for (size_t at = first; at < (leaf + 1) * t->width; at += t->bands)
+    if (source[at] != 0 || (reflects && outside[at] != 0)) return 1;
+  return 0;
+}
+
+static void set_sends(hr2di_balance *b, const hr2di_transport *t, const double *source,
+                      const double *outside) {
+  memset(b->sends, 0, b->count * t->bands);
+  for (size_t k = 0; k < t->leaves; k++)
+    for (size_t band = 0; band < t->bands && hr2di_balance_holds(b, k); band++) {
+      unsigned char *sends = &b->sends[b->component[k] * t->bands + band];
+      if (!*sends) *sends = (unsigned char)is_sending(t, source, outside, k, band);
+    }
 }
 
 void hr2di_balance_set(hr2di_balance *b, const hr2di_transport *t, const double *source,
                        const double *outside) {
   clear_sums(b, t);
+  set_sends(b, t, source, outside);
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t band = 0; band < t->bands && hr2di_balance_holds(b, k); band++) {
       const double area = leaf_of(t, k)->length;
@@ -140,7 +164,7 @@ void hr2di_balance_set(hr2di_balance *b, const hr2di_transport *t, const double 
       if (outside) hr2di_sum_add(sum_of(b, t, k, band), area * outside[k * t->width + band]);
     }
   for (size_t k = 0; k < b->count * t->bands; k++)
-    b->level[k] = b->loss[k] > 0 ? hr2di_sum_total(&b->sum[k]) / b->loss[k] : 0;
+    b->level[k] = b->loss[k] > 0 && b->sends[k] ? hr2di_sum_total(&b->sum[k]) / b->loss[k] : 0;
 }
 
 /* Adding a to h adds ρa to z, and ∫(1−ρ)a + ∫mρa to the balance. */
@@ -160,7 +184,8 @@ void hr2di_balance_correct(hr2di_balance *b, const hr2di_transport *t, const dou
       hr2di_sum_add(sum_of(b, t, k, band), area * off);
     }
   for (size_t k = 0; k < b->count * t->bands; k++)
-    if (b->response[k] > 0) b->level[k] -= hr2di_sum_total(&b->sum[k]) / b->response[k];
+    if (b->response[k] > 0 && b->sends[k])
+      b->level[k] -= hr2di_sum_total(&b->sum[k]) / b->response[k];
 }
 
 double hr2di_balance_at(const hr2di_balance *b, const hr2di_transport *t, size_t leaf,

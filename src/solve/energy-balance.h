@@ -19,15 +19,17 @@
 
 typedef struct hr2di_balance {
   hr2d_allocator alloc;
-  size_t count;        /* the number of balanced components; 0: there is nothing to do */
-  uint32_t *component; /* of each leaf, or HR2DI_OPEN */
-  double *missing;     /* m: leaves × order; 0 on leaves that are closed or not balanced */
-  double *length;      /* of each component */
-  double *escape;      /* ∫m of each component; 0 for a closed one */
-  double *loss;        /* count × bands: ∫(1−ρ) + ∫m */
-  double *response;    /* count × bands: ∫(1−ρ) + ∫ρm */
-  double *level;       /* count × bands: c */
-  hr2di_sum *sum;      /* count × bands, work space */
+  size_t count;         /* the number of balanced components; 0: there is nothing to do */
+  uint32_t *component;  /* of each leaf, or HR2DI_OPEN */
+  double *missing;      /* m: leaves × order; 0 on leaves that are closed or not balanced */
+  double *length;       /* of each component */
+  double *escape;       /* ∫m of each component; 0 for a closed one */
+  double *loss;         /* count × bands: ∫(1−ρ) + ∫m */
+  double *response;     /* count × bands: ∫(1−ρ) + ∫ρm */
+  double *level;        /* count × bands: c */
+  hr2di_sum *sum;       /* count × bands, work space */
+  unsigned char *sends; /* count × bands: some leaf emits, or reflects what comes in; where none
+                           does B is 0, to the last bit, and so is c */
 } hr2di_balance;
 
 /* Finds the components of a symmetric K with closure.  Returns HR2D_OK, HR2D_ENOMEM or the
@@ -39,7 +41,7 @@ void hr2di_balance_set_losses(hr2di_balance *b, const hr2di_transport *t);
 void hr2di_balance_clear(hr2di_balance *b);
 
 /* Sets c from a source and the irradiance from outside of the scene, or NULL; c is 0 where
-   nothing is lost. */
+   nothing is lost, and where nothing is sent. */
 void hr2di_balance_set(hr2di_balance *b, const hr2di_transport *t, const double *source,
                        const double *outside);
 

@@ -34,9 +34,19 @@ static hr2d_status check_averages(hr2di_equation *s, double min) {
       hr2di_patch_label(scene, lowest).text, ldexp(low, s->exponent[0]));
 }
 
-/* The roundings of row sums, as a part of the light from the background: what a leaf gets of it
-   that sees it edge-on, or not at all. */
+/* The roundings of row sums, as a part of the light from outside: what a leaf gets of a
+   background that sees it edge-on, or not at all; and of the level of a component, which has
+   the light of a sun that is absorbed at once. */
 #define ROW_ROUNDING 1e-12
+
+/* The most that comes from outside. */
+static double brightest(const hr2di_equation *s, size_t band) {
+  const hr2di_transport *t = &s->transport;
+  double most = s->background ? s->light[band] : 0;
+  for (size_t k = 0; k < t->leaves && s->background && s->outside; k++)
+    most = fmax(most, s->outside[k * t->width + band]);
+  return most;
+}
 
 /* If B = Q + ρKB and neither K nor Q is negative, then B is negative somewhere if and only if
    ΣK^kρ^kQ diverges: with the positive left eigenvector v of the radius λ, (1−λ)vB = vQ.  At an
@@ -55,7 +65,7 @@ hr2d_status hr2di_equation_check_sign(hr2di_equation *s) {
       low = fmin(low, s->radiosity[k * t->width + b]);
       high = fmax(high, s->radiosity[k * t->width + b]);
     }
-    high = fmax(high, ROW_ROUNDING / min * (s->background ? s->light[b] : 0));
+    high = fmax(high, ROW_ROUNDING / min * brightest(s, b));
     if (low < -min * high || (low < 0 && high == 0))
       return hr2di_message_fail(
           &s->links->message, HR2D_ENOT_CONVERGED,

@@ -230,8 +230,9 @@ static hr2d_status look_from_borders(finder *f) {
   return status;
 }
 
-/* H of the sky has a kink where the edge of a piece comes into sight.  It is cut at whatever it
-   jumps by. */
+/* H of the sky has a kink where the edge of a piece comes into sight.  Elements end there at
+   any target, as at borders of sunlight: points of a rule may all miss a shadow between them.
+ */
 static hr2d_status add_kinks(finder *f) {
   const hr2di_sunlight *l = &f->scene->sunlight;
   hr2d_status status = HR2D_OK;
@@ -275,7 +276,7 @@ static hr2d_status find(finder *f, unsigned generations) {
   if (!status) status = add_borders(f);
   if (!status && generations > 0) status = look_from_ends(f);
   if (!status && generations > 0) status = look_from_borders(f);
-  if (!status && generations > 0) status = add_kinks(f);
+  if (!status) status = add_kinks(f);
   if (!status && generations > 0) status = add_feet(f);
   if (!status) status = settle(f);
   for (unsigned g = 2; g <= generations && !status; g++) {
@@ -291,7 +292,7 @@ hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
                               const hr2d_allocator *alloc, unsigned generations, size_t max,
                               hr2di_watch *watch) {
   *events = (hr2di_events){.alloc = *alloc};
-  if ((generations == 0 && scene->sunlight.borders == 0) ||
+  if ((generations == 0 && scene->sunlight.borders + scene->sunlight.kinks == 0) ||
       !(scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
         scene->effect[HR2D_EFFECT_FACING].called_for ||
         scene->effect[HR2D_EFFECT_BACKGROUND].called_for))

@@ -35,7 +35,7 @@ static const char usage[] =
     "  --case SEED       one trial, of the kind of --only, with all details; writes the "
     "scenes\n"
     "  --shrink          and looks for a smaller scene with the same violation\n"
-    "  --law NAME        copy, finer, superposition, reciprocity, furnace\n"
+    "  --law NAME        copy, finer, superposition, reciprocity, furnace, narrow\n"
     "  --transform LIST  of copies\n"
     "  --error E         the target of all solves but finer; otherwise 1e-2 to 1e-12\n"
     "  --norm average|sup\n"

@@ -71,6 +71,18 @@ static void read_points(adv_answer *a, const adv_points *points) {
   }
 }
 
+/* What a sun lights may be much brighter than all around it, and narrow. */
+static void look_into_sunlight(adv_answer *a) {
+  double part[16][2], b[ADV_BANDS], h[ADV_BANDS];
+  for (size_t k = 0; k < a->scene->count; k++)
+    for (size_t band = 0; band < a->scene->bands; band++) {
+      size_t parts = hr2d_scene_sunlit_parts(a->built, k, band, part, 16);
+      for (size_t m = 0; m < parts && m < 16; m++)
+        for (int j = 0; j <= 4; j++)
+          read_point(a, k, part[m][0] + j / 4.0 * (part[m][1] - part[m][0]), b, h);
+    }
+}
+
 void adv_ask(const adv_scene *scene, adv_question question, const adv_points *points,
              adv_answer *answer) {
   memset(answer, 0, sizeof *answer);
@@ -92,6 +104,7 @@ void adv_ask(const adv_scene *scene, adv_question question, const adv_points *po
   answer->seconds = now() - start;
   if (!answer->solution) return;
   read_averages(answer);
+  if (adv_has_sun(scene)) look_into_sunlight(answer);
   read_points(answer, points);
 }
 

@@ -42,9 +42,14 @@ once needle 5000232
 once squares 5000164
 # Ends of plates beside others, and gaps narrower than elements may be.
 once crack 8 54 7000382 6000167
+# A shadow of a narrow piece of the sky, between the points of a rule.
+once soup-sun 541
+# A sun that falls on what reflects nothing.
+once sunny 536
+once low-sun 500
 # Elements that reach past the foot of a wall.
 once doors 14 52
 
-"$adversary" --runs "$(awk "BEGIN { print int(760 * ${HR2D_TEST_MULTIPLIER-0.1} + 4) }")" \
+"$adversary" --runs "$(awk "BEGIN { print int(900 * ${HR2D_TEST_MULTIPLIER-0.1} + 4) }")" \
   --seed "${HR2D_TEST_SEED-1}" --limit 2 || failures=$((failures + 1))
 [ "$failures" = 0 ]

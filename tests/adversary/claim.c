@@ -73,16 +73,18 @@ void adv_claims_of(const adv_answer *a, const adv_scene *original, adv_claims *c
   memset(claims, 0, sizeof *claims);
   claims->count = original->count;
   claims->bands = original->bands;
+  const double turned = a->scene->turned / a->scene->gain;
   claims->exist = a->solution != NULL;
   for (size_t k = 0; claims->exist && k < a->scene->count; k++) {
     int source = a->scene->patch[k].source;
     for (int q = 0; source >= 0 && q < ADV_QUANTITIES; q++)
       for (size_t band = 0; band < original->bands; band++) {
         add_average(a, claims, q, k, band);
+        claims->average[q][source][band].error += turned;
         for (int j = 0; j < ADV_POINTS; j++) {
           adv_claim *claim = &claims->point[q][source][j][band];
           claim->value = a->point[q][source][j][band] / a->scene->gain;
-          claim->error = adv_point_error(a, q, k, band) / a->scene->gain;
+          claim->error = adv_point_error(a, q, k, band) / a->scene->gain + turned;
         }
       }
   }

@@ -6,7 +6,7 @@
 
 #define PI 3.14159265358979323846
 
-static const adv_kind *const tables[] = {adv_rooms, adv_extreme, adv_open};
+static const adv_kind *const tables[] = {adv_rooms, adv_extreme, adv_open, adv_day};
 
 const adv_kind *adv_kind_at(size_t k) {
   for (size_t t = 0; t < sizeof tables / sizeof *tables; t++)

@@ -15,6 +15,7 @@ typedef struct adv_kind {
 extern const adv_kind adv_rooms[];   /* closed, ordinary proportions */
 extern const adv_kind adv_extreme[]; /* closed, extreme proportions, reflectances, places */
 extern const adv_kind adv_open[];    /* light leaves or comes in */
+extern const adv_kind adv_day[];     /* under a sun, or a sky in pieces */
 
 /* The number of kinds, and each of them. */
 size_t adv_kinds(void);

@@ -20,7 +20,8 @@ static int chosen(const char *list, const char *name) {
 /* One to three transformations of those that are chosen. */
 static void transform(adv_trial *trial, adv_scene *copy) {
   size_t count = 0, wanted = (size_t)adv_int(&trial->random, 1, 3);
-  while (adv_transforms[count].name) count++;
+  int day = adv_has_sun(trial->scene) || adv_has_sky(trial->scene);
+  while (adv_transforms[count].name && (day || !adv_transforms[count].of_day)) count++;
   for (int tries = 0; wanted > 0 && tries < 60; tries++) {
     const adv_transform *t = &adv_transforms[adv_int(&trial->random, 0, (int)count - 1)];
     if (!chosen(trial->transforms, t->name) || !t->apply(copy, &trial->random)) continue;
@@ -108,6 +109,19 @@ static void add_claims(adv_claim *sum, const adv_claim *term, size_t count) {
   }
 }
 
+/* A sun and a sky in two parts; dyadic parts add up exactly. */
+static void part_day(adv_trial *trial, size_t band) {
+  adv_scene *one = &trial->copy[0], *other = &trial->copy[1];
+  double part = one->sun[band].irradiance > 0 ? adv_int(&trial->random, 0, 4) / 4.0 : 1;
+  one->sun[band].irradiance *= part;
+  other->sun[band].irradiance *= 1 - part;
+  for (size_t k = 0; k < one->pieces; k++) {
+    part = adv_int(&trial->random, 0, 4) / 4.0;
+    one->piece[k].value[band] *= part;
+    other->piece[k].value[band] *= 1 - part;
+  }
+}
+
 /* The emission in two parts, the second one in a copy: B is their sum.  Parts are multiples of
    1/64, so that they add up exactly; the background goes with the first. */
 static void emissions_superpose(adv_trial *trial) {
@@ -118,6 +132,7 @@ static void emissions_superpose(adv_trial *trial) {
     for (size_t k = 0; k < trial->scene->count; k++)
       trial->copy[adv_int(&trial->random, 0, 1)].patch[k].emission[band] = 0;
     trial->copy[1].background[band] = 0;
+    part_day(trial, band);
   }
   transform(trial, &trial->copy[1]);
   ask_all(trial, 1, question);
@@ -148,7 +163,9 @@ static void exchange_is_reciprocal(adv_trial *trial) {
     for (size_t band = 0; band < trial->scene->bands; band++) {
       for (int k = 0; k < n; k++) trial->copy[c].patch[k].emission[band] = k == end[c];
       trial->copy[c].background[band] = 0;
+      trial->copy[c].sun[band].irradiance = 0;
     }
+    trial->copy[c].pieces = 0;
   }
   transform(trial, &trial->copy[1]);
   ask_all(trial, 0, question);
@@ -200,11 +217,63 @@ static void furnace_is_even(adv_trial *trial) {
   while (look_closely(trial));
 }
 
+static int has_one_sun(const adv_scene *scene) {
+  return scene->bands == 1 && !scene->closed && adv_has_sun(scene) && !adv_has_sky(scene);
+}
+
+/* A piece of 2^-20 degrees about the sun, which gives I on a surface across it.  Its bearings
+   are multiples of 2^-24 degrees; directions of them may be off by 2^-50. */
+static void narrow_sky(adv_scene *scene) {
+  const double degree = 3.14159265358979323846 / 180;
+  adv_sun *sun = &scene->sun[0];
+  double bearing = atan2(-(double)sun->x, -(double)sun->y) / degree;
+  adv_piece *p = &scene->piece[scene->pieces++];
+  p->from = ldexp(rint(ldexp(bearing, 24)) - 8, -24);
+  p->to = p->from + 0x1p-20;
+  p->value[0] = scene->background[0] + sun->irradiance / sin(0x1p-21 * degree);
+  sun->irradiance = 0;
+}
+
+/* How far the light of the narrow sky is off.  An edge of a shadow is as wide as its angle δ at
+   the distance D of what casts it: from each of 2n ends a patch gets up to IδD more power or
+   less, and up to Iδ on its length.  All patches reflect up to ρ/(1 − ρ) of what they get, and
+   all of that may come to one.  The width is known to 2^-50/δ. */
+static void widen_for_narrow_sky(const adv_scene *scene, adv_claims *claims) {
+  const double delta = 2e-8, rounding = 0x1p-50 / delta;
+  adv_extent e = adv_extent_of(scene);
+  double n = (double)scene->count, most = 0;
+  double across = ldexp(hypot((double)(e.high[0] - e.low[0]), (double)(e.high[1] - e.low[1])),
+                        scene->exponent);
+  for (size_t k = 0; k < scene->count; k++) most = fmax(most, scene->patch[k].reflectance[0]);
+  for (size_t k = 0; k < scene->count; k++) {
+    double length = adv_length(scene, k);
+    double own =
+        scene->sun[0].irradiance * (delta * (2 * n * across + length) + rounding * length);
+    for (int q = 0; q < ADV_QUANTITIES; q++) {
+      claims->average[q][k][0].error += own * (1 + n * most / (1 - most)) / length;
+      for (int j = 0; j < ADV_POINTS; j++) claims->point[q][k][j][0].error = INFINITY;
+    }
+  }
+}
+
+/* Averages under a sun are those under a narrow bright piece of the sky. */
+static void sun_is_a_narrow_sky(adv_trial *trial) {
+  adv_question question[2] = {trial->question, trial->question};
+  trial->copies = 1;
+  trial->copy[0] = *trial->scene;
+  narrow_sky(&trial->copy[0]);
+  question[0].norm = question[1].norm = HR2D_NORM_AVERAGE;
+  ask_all(trial, 1, question);
+  widen_for_narrow_sky(trial->scene, &trial->claims[1]);
+  adv_judge_claims(&trial->claims[0], &trial->claims[1], &trial->outcome);
+}
+
 const adv_law adv_laws[] = {{"copy", 10, always, copies_agree},
                             {"finer", 2, always, finer_agrees},
                             {"superposition", 2, always, emissions_superpose},
                             {"reciprocity", 2, has_pairs, exchange_is_reciprocal},
                             {"furnace", 2, is_closed, furnace_is_even},
+                            {"narrow", 2, has_one_sun, sun_is_a_narrow_sky},
                             {NULL, 0, NULL, NULL}};
 
 const adv_law *adv_draw_law(const adv_scene *scene, adv_random *r) {

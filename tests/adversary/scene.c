@@ -124,6 +124,41 @@ void adv_call_original(adv_scene *scene) {
   }
 }
 
+int adv_has_sun(const adv_scene *scene) {
+  for (size_t band = 0; band < scene->bands; band++)
+    if (scene->sun[band].irradiance > 0) return 1;
+  return 0;
+}
+
+int adv_has_sky(const adv_scene *scene) {
+  return scene->pieces > 0;
+}
+
+double adv_outside(const adv_scene *scene, size_t band) {
+  double most = fmax(scene->background[band], scene->sun[band].irradiance);
+  for (size_t k = 0; k < scene->pieces; k++) most = fmax(most, scene->piece[k].value[band]);
+  return most;
+}
+
+static hr2d_status set_day(const adv_scene *scene, hr2d_scene *built) {
+  hr2d_sun sun[ADV_BANDS];
+  hr2d_sky_piece piece[ADV_PIECES];
+  double value[ADV_PIECES * ADV_BANDS];
+  hr2d_status status = HR2D_OK;
+  for (size_t b = 0; b < scene->bands; b++)
+    sun[b] = (hr2d_sun){{(double)scene->sun[b].x, (double)scene->sun[b].y},
+                        scene->sun[b].irradiance};
+  for (size_t k = 0; k < scene->pieces; k++) {
+    piece[k] = (hr2d_sky_piece){scene->piece[k].from, scene->piece[k].to};
+    for (size_t b = 0; b < scene->bands; b++)
+      value[k * scene->bands + b] = scene->piece[k].value[b];
+  }
+  if (adv_has_sun(scene)) status = hr2d_scene_set_sun(built, sun, scene->bands);
+  if (!status && scene->pieces)
+    status = hr2d_scene_set_sky(built, piece, scene->pieces, value, scene->bands);
+  return status;
+}
+
 hr2d_status adv_build(const adv_scene *scene, hr2d_scene **built) {
   hr2d_status status = hr2d_scene_create(NULL, built);
   for (size_t k = 0; !status && k < scene->count; k++) {
@@ -139,6 +174,7 @@ hr2d_status adv_build(const adv_scene *scene, hr2d_scene **built) {
     status = hr2d_scene_add(*built, &patch, NULL);
   }
   if (!status) status = hr2d_scene_set_background(*built, scene->background, scene->bands);
+  if (!status) status = set_day(scene, *built);
   return status ? status : hr2d_scene_commit(*built);
 }
 
@@ -168,11 +204,34 @@ static void write_patch(FILE *file, const adv_scene *scene, size_t k) {
   fprintf(file, "]}}");
 }
 
+static void write_day(FILE *file, const adv_scene *scene) {
+  if (adv_has_sun(scene)) {
+    double irradiance[ADV_BANDS];
+    fprintf(file, ", \"sun\": {\"direction\": [");
+    for (size_t b = 0; b < scene->bands; b++) {
+      irradiance[b] = scene->sun[b].irradiance;
+      fprintf(file, "%s[%lld, %lld]", b ? ", " : "", (long long)scene->sun[b].x,
+              (long long)scene->sun[b].y);
+    }
+    fprintf(file, "], ");
+    write_values(file, "irradiance", irradiance, scene->bands);
+    fprintf(file, "}");
+  }
+  for (size_t k = 0; k < scene->pieces; k++) {
+    const adv_piece *p = &scene->piece[k];
+    fprintf(file, "%s[%.17g, %.17g, [", k ? ", " : ", \"sky\": [", p->from, p->to);
+    for (size_t b = 0; b < scene->bands; b++)
+      fprintf(file, "%s%.17g", b ? ", " : "", p->value[b]);
+    fprintf(file, k + 1 == scene->pieces ? "]]]" : "]]");
+  }
+}
+
 int adv_write(const adv_scene *scene, const char *path) {
   FILE *file = fopen(path, "w");
   if (!file) return 0;
   fprintf(file, "{\"type\": \"FeatureCollection\", \"hr2d\": {");
   write_values(file, "background", scene->background, scene->bands);
+  write_day(file, scene);
   fprintf(file, "}, \"features\": [");
   for (size_t k = 0; k < scene->count; k++) write_patch(file, scene, k);
   fprintf(file, "\n]}\n");

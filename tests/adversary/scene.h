@@ -14,6 +14,7 @@
 
 #define ADV_BANDS   4
 #define ADV_PATCHES 160
+#define ADV_PIECES  12
 
 typedef struct adv_patch {
   int64_t x[2], y[2]; /* start and end, in steps of 2^exponent; the front is on the left */
@@ -22,13 +23,28 @@ typedef struct adv_patch {
   double from, to; /* the fractions of the original at which the ends are */
 } adv_patch;
 
+/* A sun: the direction of its light, in integers, so that rotations are exact. */
+typedef struct adv_sun {
+  int64_t x, y;
+  double irradiance;
+} adv_sun;
+
+/* A piece of the sky: bearings in degrees. */
+typedef struct adv_piece {
+  double from, to, value[ADV_BANDS];
+} adv_piece;
+
 typedef struct adv_scene {
   adv_patch patch[ADV_PATCHES];
   size_t count, bands;
   int exponent;
   int closed; /* nothing leaves it and nothing comes in: what is outside of its box is hidden */
   double background[ADV_BANDS];
-  double gain; /* B is this times B of the original */
+  adv_sun sun[ADV_BANDS];
+  adv_piece piece[ADV_PIECES];
+  size_t pieces;
+  double turned; /* B may be off by this: bearings were turned by an angle that is no double */
+  double gain;   /* B is this times B of the original */
 } adv_scene;
 
 /* An empty scene with one band, on a grid of 2^exponent. */
@@ -66,6 +82,13 @@ int adv_bits(const adv_scene *scene);
 
 /* The length of a patch, to 2 roundings. */
 double adv_length(const adv_scene *scene, size_t patch);
+
+/* Whether light comes from outside in some band, besides the background. */
+int adv_has_sun(const adv_scene *scene);
+int adv_has_sky(const adv_scene *scene);
+
+/* The most that comes from outside, as a radiosity or an irradiance. */
+double adv_outside(const adv_scene *scene, size_t band);
 
 /* Makes each patch the whole of its own source. */
 void adv_call_original(adv_scene *scene);

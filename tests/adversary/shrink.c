@@ -49,6 +49,12 @@ static int without_patch(adv_scene *scene, size_t k) {
   return 1;
 }
 
+static int without_piece(adv_scene *scene) {
+  if (!scene->pieces) return 0;
+  scene->pieces--;
+  return 1;
+}
+
 static int set(double *value, double plain) {
   int differs = *value != plain;
   *value = plain;
@@ -69,6 +75,9 @@ static int change(adv_scene *scene, size_t number) {
     double *emission = scene->patch[number - 3 * n].emission;
     return *emission > 0 && set(emission, 1);
   }
+  if (number == 4 * n) return without_piece(scene);
+  if (number == 4 * n + 1) return set(&scene->sun[0].irradiance, 0);
+  if (number == 4 * n + 2) return set(&scene->background[0], 0);
   if (scene->bands == 1) return 0;
   scene->bands = 1;
   return 1;
@@ -83,7 +92,7 @@ void adv_shrink(adv_scene *scene, adv_trial *trial, const adv_law *law) {
   while (wanted + 1 < ADV_CHECKS && trial->outcome.worst[wanted] <= 1) wanted++;
   for (int round = 0; changed && round < 4; round++) {
     changed = 0;
-    for (size_t number = 0; number <= 4 * scene->count; number++) {
+    for (size_t number = 0; number <= 4 * scene->count + 3; number++) {
       *old = *scene;
       if (!change(scene, number)) continue;
       if (still(scene, trial, law, wanted))

@@ -3,9 +3,38 @@
 #include "adversary/transform.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* Coordinates are doubles, with bits to spare for the points at which B is compared. */
 enum { BITS = 44 };
+
+/* Bearings are degrees clockwise.  Where the angle is no double, edges are off by some
+   roundings of 360 degrees; what comes from their sides differs by at most the largest value,
+   and is reflected with at most the largest reflectance. */
+static void turn_sky(adv_scene *scene, int a, int b) {
+  double angle = atan2(b, a) * (180 / 3.14159265358979323846), off = 0;
+  if (!a || !b) angle = a ? (a > 0 ? 0 : 180) : b > 0 ? 90 : -90;
+  for (size_t k = 0; k < scene->pieces; k++) {
+    scene->piece[k].from -= angle;
+    scene->piece[k].to -= angle;
+  }
+  for (size_t band = 0; band < scene->bands && a && b; band++) {
+    double most = 0, light = 0;
+    for (size_t k = 0; k < scene->count; k++)
+      most = fmax(most, scene->patch[k].reflectance[band]);
+    for (size_t k = 0; k < scene->pieces; k++)
+      light += scene->background[band] + 2 * scene->piece[k].value[band];
+    off = fmax(off, 0x1p-48 * light / (1 - most));
+  }
+  scene->turned += off;
+}
+
+static void rotate_pair(int64_t *x, int64_t *y, int a, int b) {
+  int64_t old = *x;
+  *x = a * *x - b * *y;
+  *y = b * old + a * *y;
+}
 
 /* (x + iy)(a + bi). */
 static int multiply(adv_scene *scene, int a, int b) {
@@ -13,11 +42,11 @@ static int multiply(adv_scene *scene, int a, int b) {
   while (most >> bits) bits++;
   if (adv_bits(scene) + bits > BITS) return 0;
   for (size_t k = 0; k < scene->count; k++)
-    for (int end = 0; end < 2; end++) {
-      int64_t *x = &scene->patch[k].x[end], *y = &scene->patch[k].y[end], old = *x;
-      *x = a * *x - b * *y;
-      *y = b * old + a * *y;
-    }
+    for (int end = 0; end < 2; end++)
+      rotate_pair(&scene->patch[k].x[end], &scene->patch[k].y[end], a, b);
+  for (size_t band = 0; band < scene->bands; band++)
+    rotate_pair(&scene->sun[band].x, &scene->sun[band].y, a, b);
+  turn_sky(scene, a, b);
   return 1;
 }
 
@@ -50,6 +79,15 @@ static int mirror(adv_scene *scene, adv_random *r) {
     p->from = p->to;
     p->to = from;
   }
+  for (size_t band = 0; band < scene->bands; band++)
+    axis ? (scene->sun[band].y = -scene->sun[band].y)
+         : (scene->sun[band].x = -scene->sun[band].x);
+  for (size_t k = 0; k < scene->pieces; k++) {
+    adv_piece *p = &scene->piece[k];
+    double from = p->from;
+    p->from = (axis ? 180 : 0) - p->to;
+    p->to = (axis ? 180 : 0) - from;
+  }
   return 1;
 }
 
@@ -78,7 +116,10 @@ static int brighten(adv_scene *scene, adv_random *r) {
   for (size_t band = 0; band < scene->bands; band++) {
     for (size_t k = 0; k < scene->count; k++) scene->patch[k].emission[band] *= gain;
     scene->background[band] *= gain;
+    scene->sun[band].irradiance *= gain;
+    for (size_t k = 0; k < scene->pieces; k++) scene->piece[k].value[band] *= gain;
   }
+  scene->turned *= gain;
   scene->gain *= gain;
   return 1;
 }
@@ -151,7 +192,7 @@ static int has_room(const adv_scene *scene, int bits) {
 static int dark_sky(const adv_scene *scene) {
   for (size_t band = 0; band < scene->bands; band++)
     if (scene->background[band] > 0) return 0;
-  return 1;
+  return !adv_has_sun(scene) && !adv_has_sky(scene);
 }
 
 static adv_patch *add(adv_scene *scene, double reflectance, int64_t ax, int64_t ay, int64_t bx,
@@ -222,13 +263,60 @@ static int band(adv_scene *scene, adv_random *r) {
     scene->patch[k].emission[added] = dark || scene->patch[k].source < 0 ? 0 : lit / 8.0;
     scene->patch[k].reflectance[added] = adv_int(r, 0, 7) / 8.0;
   }
+  if (adv_has_sun(scene) && !dark)
+    scene->sun[added] = (adv_sun){adv_int(r, -9, 9), -adv_int(r, 1, 9), adv_int(r, 0, 8) / 8.0};
   scene->bands++;
   return 1;
 }
 
+/* Cuts a piece of the sky in two. */
+static int piece(adv_scene *scene, adv_random *r) {
+  if (!scene->pieces || scene->pieces == ADV_PIECES) return 0;
+  adv_piece *p = &scene->piece[adv_int(r, 0, (int)scene->pieces - 1)];
+  adv_piece *rest = &scene->piece[scene->pieces];
+  double at = p->from + (p->to - p->from) * adv_real(r, 0.01, 0.99);
+  if (!(at > p->from && at < p->to)) return 0;
+  scene->pieces++;
+  *rest = *p;
+  p->to = rest->from = at;
+  return 1;
+}
+
+static int by_bearing(const void *one, const void *other) {
+  const adv_piece *a = one, *b = other;
+  return (a->from > b->from) - (a->from < b->from);
+}
+
+/* What is left of the sky becomes pieces, and there is no background.  A bright one that nobody
+   sees would leave its roundings, which no answer claims. */
+static int fill(adv_scene *scene, adv_random *r) {
+  (void)r;
+  size_t pieces = scene->pieces;
+  if (!pieces || 2 * pieces > ADV_PIECES) return 0;
+  qsort(scene->piece, pieces, sizeof scene->piece[0], by_bearing);
+  for (size_t k = 0; k < pieces; k++) {
+    adv_piece rest = {.from = scene->piece[k].to};
+    rest.to = k + 1 < pieces ? scene->piece[k + 1].from : scene->piece[0].from + 360;
+    memcpy(rest.value, scene->background, sizeof rest.value);
+    if (rest.to > rest.from) scene->piece[scene->pieces++] = rest;
+  }
+  for (size_t b = 0; b < scene->bands; b++) scene->background[b] = 0;
+  return 1;
+}
+
+/* No sun and no sky outside of a closed room. */
+static int shade(adv_scene *scene, adv_random *r) {
+  (void)r;
+  if (!scene->closed) return 0;
+  for (size_t b = 0; b < scene->bands; b++) scene->sun[b].irradiance = 0;
+  scene->pieces = 0;
+  return 1;
+}
+
 const adv_transform adv_transforms[] = {
-    {"rotate", rotate}, {"turn", turn},   {"mirror", mirror},
-    {"scale", scale},   {"shift", shift}, {"brighten", brighten},
-    {"split", split},   {"halve", halve}, {"reorder", reorder},
-    {"dust", dust},     {"hide", hide},   {"neighbour", neighbour},
-    {"band", band},     {NULL, NULL}};
+    {"rotate", rotate, 0}, {"turn", turn, 0},   {"mirror", mirror, 0},
+    {"scale", scale, 0},   {"shift", shift, 0}, {"brighten", brighten, 0},
+    {"split", split, 0},   {"halve", halve, 0}, {"reorder", reorder, 0},
+    {"dust", dust, 0},     {"hide", hide, 0},   {"neighbour", neighbour, 0},
+    {"band", band, 0},     {"piece", piece, 1}, {"fill", fill, 1},
+    {"shade", shade, 1},   {NULL, NULL, 0}};

@@ -9,6 +9,7 @@
 typedef struct adv_transform {
   const char *name;
   int (*apply)(adv_scene *scene, adv_random *r); /* 0: it does not apply, nothing is changed */
+  int of_day; /* for scenes with a sun or pieces of sky alone; these are the last ones */
 } adv_transform;
 
 /* Ends with a name of NULL. */

@@ -194,6 +194,100 @@ START_TEST(skies_add_up_and_turn) {
 }
 END_TEST
 
+/* A ground and a plate above it, both black. */
+static hr2d_scene *make_plate(void) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  const hr2d_segment ground = {{0, 0}, {10, 0}}, plate = {{2.1, 1}, {2.4, 1}};
+  ck_assert_int_eq(test_add_patch(scene, ground, 0, 0, HR2D_SIDES_FRONT), HR2D_OK);
+  ck_assert_int_eq(test_add_patch(scene, plate, 0, 0, HR2D_SIDES_BOTH), HR2D_OK);
+  return scene;
+}
+
+/* A narrow bright piece throws a shadow that may lie between the points of any rule.  The plate
+   takes what the ground lacks: H = ½LΔ sin φ (1 − 0.3/10). */
+START_TEST(narrow_pieces_throw_shadows_at_any_target) {
+  for (double error = .3; error > 1e-9; error /= 10)
+    for (double from = -50; from < 40; from += 12.5) {
+      const hr2d_sky_piece piece = {from, from + .01};
+      const double bright = 1e4, to = sin(piece.to * PI / 180);
+      const double open = .5 * bright * (to - sin(from * PI / 180));
+      hr2d_scene *scene = make_plate();
+      hr2d_account account;
+      set_sky(scene, &piece, 1, &bright);
+      hr2d_solution *solution = solve_to(scene, error, &account);
+      ck_assert_double_eq_tol(hr2d_solution_irradiance(solution, 0, 0), open * (1 - .03),
+                              open * fmin(error, account.irradiance.bound + 1e-12));
+      hr2d_solution_destroy(solution);
+      hr2d_scene_destroy(scene);
+    }
+}
+END_TEST
+
+/* Pieces that differ in nothing are one, and bearings that are sums may overlap by roundings:
+   a sky of 600 pieces costs what one of 3 does. */
+START_TEST(equal_pieces_are_one) {
+  enum { MANY = 600 };
+  hr2d_sky_piece piece[MANY + 1];
+  double of[MANY + 1], h[2];
+  hr2d_account account[2];
+  for (int kind = 0; kind < 2; kind++) {
+    const size_t left = kind ? 200 : 1, right = kind ? 400 : 1;
+    size_t count = 0;
+    for (size_t k = 0; k < left; k++)
+      piece[count++] = (hr2d_sky_piece){-90 + 60. / (double)left * (double)k,
+                                        -90 + 60. / (double)left * (double)(k + 1)};
+    piece[count++] = (hr2d_sky_piece){-30, -29.9};
+    for (size_t k = 0; k < right; k++)
+      piece[count++] = (hr2d_sky_piece){-29.9 + 119.9 / (double)right * (double)k,
+                                        119.9 / (double)right * (double)(k + 1) - 29.9};
+    for (size_t k = 0; k < count; k++) of[k] = k == left ? 300 : 1;
+    hr2d_scene *scene = make_plate();
+    set_sky(scene, piece, count, of);
+    hr2d_solution *solution = solve_to(scene, 1e-8, &account[kind]);
+    h[kind] = hr2d_solution_irradiance(solution, 0, 0);
+    hr2d_solution_destroy(solution);
+    hr2d_scene_destroy(scene);
+  }
+  ck_assert_double_eq_tol(h[1], h[0], 1e-8 * h[0]);
+  ck_assert_uint_eq(account[1].elements, account[0].elements);
+}
+END_TEST
+
+/* Of many different pieces the smallest jumps are left inside elements: the errors that are
+   told hold, beside the mean of points. */
+START_TEST(many_pieces_have_their_errors) {
+  enum { MOST = 700, CELLS = 20000 };
+  static double t[CELLS], at[CELLS];
+  randoms r = randoms_stream(test_seed(), 17);
+  for (int m = 0; m < CELLS; m++) t[m] = (m + .5) / CELLS;
+  for (size_t pieces = 20; pieces <= MOST; pieces *= 3) {
+    hr2d_sky_piece piece[MOST];
+    double of[MOST], mean = 0;
+    for (size_t k = 0; k < pieces; k++) {
+      piece[k] = (hr2d_sky_piece){-90 + 180. / (double)pieces * (double)k,
+                                  -90 + 180. / (double)pieces * (double)(k + 1)};
+      of[k] = k == pieces / 3 ? 50 : random_between(&r, 0, 1);
+    }
+    hr2d_scene *scene = make_plate();
+    hr2d_target target = HR2D_TARGET_INIT;
+    hr2d_account account;
+    hr2d_solution *solution = NULL;
+    set_sky(scene, piece, pieces, of);
+    test_commit(scene);
+    target.error = 1e-4;
+    const hr2d_status status = hr2d_solve_to(scene, &target, &solution, &account);
+    ck_assert(status == HR2D_OK || status == HR2D_EACCURACY);
+    ck_assert_int_eq(hr2d_solution_gather_irradiance(solution, 0, t, CELLS, at), HR2D_OK);
+    for (int m = 0; m < CELLS; m++) mean += at[m] / CELLS;
+    ck_assert_double_eq_tol(hr2d_solution_irradiance(solution, 0, 0), mean,
+                            mean * (account.irradiance.bound + 1e-6));
+    ck_assert_double_lt(account.irradiance.bound, .05);
+    hr2d_solution_destroy(solution);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
 /* The error that is told holds, for each target. */
 START_TEST(targets_hold) {
   double best[WALLS];
@@ -261,5 +355,7 @@ TEST_SUITE("sky") {
   ADD_TESTS("sky", a_uniform_sky_is_a_background, open_panels_see_sines,
             points_see_what_rays_see, averages_are_integrals_of_points, skies_add_up_and_turn,
             targets_hold, fields_have_arcs);
+  ADD_TESTS("pieces", narrow_pieces_throw_shadows_at_any_target, equal_pieces_are_one,
+            many_pieces_have_their_errors);
   ADD_TESTS("calls", what_is_no_sky_is_refused);
 }

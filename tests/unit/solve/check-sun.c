@@ -155,6 +155,42 @@ START_TEST(without_the_sun_it_is_darker) {
 }
 END_TEST
 
+/* A room into which the sun falls, and where it falls all is black: no light is sent, B is 0 to
+   the last bit, and the errors are finite.  Roundings of the level of a nearly closed room were
+   taken for light that grows for ever. */
+START_TEST(what_is_absorbed_at_once_sends_nothing) {
+  static const double room[][5] = {{4, 1, 4, 3, .5},  {4, 3, 0, 3, .5},   {0, 3, 0, 0, .9},
+                                   {0, 0, 4, 0, 0},   {4, 0, 4, .98, .5}, {2, 0, 2, 1.8, .95},
+                                   {2, 1.8, 2, 0, .6}};
+  const hr2d_sun sun = {{-3, -4}, 800};
+  for (int order = 0; order < 3; order++) {
+    hr2d_scene *scene = test_new_scene(NULL);
+    hr2d_target target = HR2D_TARGET_INIT;
+    hr2d_account account;
+    hr2d_solution *solution;
+    for (size_t k = 0; k < sizeof room / sizeof *room; k++)
+      ck_assert_int_eq(
+          test_add_patch(scene,
+                         (hr2d_segment){{room[k][0], room[k][1]}, {room[k][2], room[k][3]}}, 0,
+                         room[k][4], HR2D_SIDES_FRONT),
+          HR2D_OK);
+    ck_assert_int_eq(hr2d_scene_set_sun(scene, &sun, 1), HR2D_OK);
+    test_commit(scene);
+    target.error = pow(10, -2 - 4 * order);
+    ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &account), HR2D_OK);
+    /* The sun comes in through .02, at a slope of 4 to 3. */
+    ck_assert_double_eq_tol(4 * hr2d_solution_irradiance(solution, 3, 0), 800 * .02 * .6, 1e-9);
+    for (size_t k = 0; k < sizeof room / sizeof *room; k++) {
+      ck_assert_double_eq(hr2d_solution_average(solution, k, 0), 0);
+      if (k != 3) ck_assert_double_eq(hr2d_solution_irradiance(solution, k, 0), 0);
+    }
+    ck_assert(isfinite(account.sup.bound) && isfinite(account.average.bound));
+    hr2d_solution_destroy(solution);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
 START_TEST(bands_are_as_scenes_of_one_band) {
   hr2d_scene *all = make_scene(suns, SUNS, .2);
   hr2d_account account;
@@ -264,7 +300,8 @@ END_TEST
 
 TEST_SUITE("sun") {
   REPEAT_TESTS(2 * SUNS, "averages", averages_are_those_of_lit_parts_that_emit);
-  ADD_TESTS("averages", without_the_sun_it_is_darker, bands_are_as_scenes_of_one_band);
+  ADD_TESTS("averages", without_the_sun_it_is_darker, what_is_absorbed_at_once_sends_nothing,
+            bands_are_as_scenes_of_one_band);
   ADD_TESTS("points", points_have_the_light_of_the_sun, fields_have_a_beam,
             grids_have_sharp_shadows);
 }
