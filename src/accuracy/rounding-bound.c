@@ -193,8 +193,9 @@ hr2d_status hr2di_rounding_bound(hr2di_estimator *e, int reflects) {
       const double h = hr2di_estimator_most(e, eq->irradiance, leaf, b) +
                        HR2DI_ESTIMATOR_ROUNDING * e->largest[1][b];
       e->stray[1][b] = fmax(e->stray[1][b], h);
-      /* Where the light of a sun is absorbed at once nothing is rounded. */
-      if (e->largest[0][b] > 0 || eq->light[b] > 0 || t->hierarchy->scene->sky.pieces > 0)
+      /* Where the light of a sun, or of pieces of the sky alone, is absorbed at once, nothing
+         is rounded. */
+      if (e->largest[0][b] > 0 || eq->light[b] > 0)
         e->stray[0][b] = fmax(e->stray[0][b], hr2di_estimator_rho(e, leaf, b) * h);
       eq->irradiance[leaf * t->width + b] += e->off[1][leaf * t->bands + b];
     }

@@ -30,8 +30,8 @@ double hr2di_sky_beyond(const hr2d_scene *scene, size_t piece, size_t band);
 double hr2di_sky_most(const hr2d_scene *scene, size_t band);
 double hr2di_sky_least(const hr2d_scene *scene, size_t band);
 
-/* The largest jump of the sky at a bearing over all bands, as a part of the largest radiosity of
-   each, `most`. */
+/* The largest jump of the sky at a bearing over all bands, as a part of the largest radiosity
+   of each, `most`. */
 double hr2di_sky_jump(const hr2d_scene *scene, double bearing, const double *most);
 
 /* A bearing in [0,360). */
