@@ -1,20 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Radiation through a cavity of a window frame.  You learn what the formula of a standard
-   leaves out, and how to give a wall one temperature.
+/* Radiation through a cavity of a window frame.  You learn what the formulas of two standards
+   leave out, and how to give a wall one temperature.
 
-   EN ISO 10077-2 takes a rectangular cavity, of width b and depth d along the heat flow, as two
-   plates and insulated walls between them.  By crossed strings F = √(1 + (d/b)²) − d/b goes
-   from plate to plate; what meets a wall comes back from it half and half.  With ε of the
-   plates
+   Both take a rectangular cavity, of width b and depth d along the heat flow, as two plates and
+   insulated walls between them.  By crossed strings f = √(1 + (d/b)²) − d/b goes from plate to
+   plate; what meets a wall comes back from it half and half, which makes F = (1 + f)/2.
 
-     h = σ(T₁ + T₂)(T₁² + T₂²) / (1/ε₁ + 1/ε₂ − 2 + 1/((1 + F)/2)).
+   - EN ISO 10077-2, unventilated cavities: h = 4σT_m³ E F with E = 1/(1/ε₁ + 1/ε₂ − 1).
+     With ε = 0.9 and 283 K it is C₄(1 + √(1 + (d/b)²) − d/b), C₄ = 2.11 W/(m² K).
+   - EN ISO 6946, annex D, small or divided airspaces:
+     h = 4σT_m³/(1/ε₁ + 1/ε₂ − 2 + 1/F).  The resistances of plates and of the space between
+     them are in series there; a product of E and F counts them otherwise.
 
-   - With black plates, and black walls of one temperature each, this is exact.  In scenes of
+   In the place of 4T_m³, (T₁ + T₂)(T₁² + T₂²) is printed here, which is exact.
+
+   - With black plates, and black walls of one temperature each, both are exact.  In scenes of
      several bands an insulated wall has one temperature: two bands are enough, with any
      wavelength between them.
    - A wall that does not conduct is warmer beside the warm plate, and sends more back to it.
      Less heat passes, and the more so the deeper the cavity is.
-   - Plates that reflect do not have the same radiosity everywhere, as the formula has it. */
+   - Plates that reflect do not have the same radiosity everywhere, as the formulas have it. */
 #include <hr2d/hr2d.h>
 #include <math.h>
 #include <stdio.h>
@@ -22,10 +27,20 @@
 #define WARM 293.15
 #define COLD 273.15
 
-static double formula(double depth, double emissivity) {
-  const double f = sqrt(1 + depth * depth) - depth;
-  return HR2D_STEFAN_BOLTZMANN * (WARM + COLD) * (WARM * WARM + COLD * COLD) /
-         (2 / emissivity - 2 + 2 / (1 + f));
+static double view(double depth) {
+  return (1 + sqrt(1 + depth * depth) - depth) / 2;
+}
+
+static double of_black_plates(void) {
+  return HR2D_STEFAN_BOLTZMANN * (WARM + COLD) * (WARM * WARM + COLD * COLD);
+}
+
+static double iso_10077(double depth, double emissivity) {
+  return of_black_plates() / (2 / emissivity - 1) * view(depth);
+}
+
+static double iso_6946(double depth, double emissivity) {
+  return of_black_plates() / (2 / emissivity - 2 + 1 / view(depth));
 }
 
 /* The width is 1; the warm plate is on the left. */
@@ -70,14 +85,14 @@ static hr2d_status solve(double depth, const double *emissivity, int conducting,
 static hr2d_status print_table(const char *title, const double *emissivity) {
   static const double depth[] = {0.2, 0.5, 1, 2, 5};
   hr2d_status status = HR2D_OK;
-  printf("%s\n  d/b  formula  conducting  insulating walls, W/(m2 K)\n", title);
+  printf("%s\n  d/b  10077-2     6946  conducting  insulating walls, W/(m2 K)\n", title);
   for (size_t k = 0; k < sizeof depth / sizeof *depth && !status; k++) {
     double one, many;
     status = solve(depth[k], emissivity, 1, &one);
     if (!status) status = solve(depth[k], emissivity, 0, &many);
     if (!status)
-      printf("  %3.1f  %.5f     %.5f  %.5f\n", depth[k], formula(depth[k], emissivity[0]), one,
-             many);
+      printf("  %3.1f  %.5f  %.5f     %.5f  %.5f\n", depth[k],
+             iso_10077(depth[k], emissivity[0]), iso_6946(depth[k], emissivity[0]), one, many);
   }
   return status;
 }
