@@ -130,6 +130,7 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/seen-ends.c src/visibility/seen-ends.h \
 	src/visibility/sharing.c src/visibility/sharing.h \
 	src/lint/gaps.c \
+	src/lint/heat.c \
 	src/lint/light.c \
 	src/lint/lint.c \
 	src/lint/lint-impl.h \

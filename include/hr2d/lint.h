@@ -31,7 +31,9 @@ typedef enum hr2d_warning_code {
   HR2D_WARNING_MISPLACED,    /**< a property stands where it is not read */
   HR2D_WARNING_ALTITUDE,     /**< positions have a third number, which is not read */
   HR2D_WARNING_DEGREES,      /**< coordinates look like longitude and latitude */
-  HR2D_WARNING_UNITS,        /**< coordinates look like centimetres or millimetres */
+  HR2D_WARNING_UNITS,        /**< coordinates look like centimetres or millimetres,
+                                  temperatures like degrees Celsius, or wavelengths like metres
+                                  or nanometres */
   HR2D_WARNING_LOOSE_END,    /**< a patch ends just short of another one */
   HR2D_WARNING_NARROW_GAP,   /**< there is a narrow opening between two patches */
   HR2D_WARNING_NEAR_COPY,    /**< a patch lies beside another one, just off it */
@@ -39,6 +41,7 @@ typedef enum hr2d_warning_code {
   HR2D_WARNING_UNLIT,        /**< no light reaches the front of a patch */
   HR2D_WARNING_SEES_NOTHING, /**< the front of a patch sees no other front */
   HR2D_WARNING_NO_ABSORBER,  /**< no patch absorbs light in some band */
+  HR2D_WARNING_NO_SUNLIGHT,  /**< no sun lights the front of any patch */
   HR2D_WARNING_COUNT         /**< the number of codes */
 } hr2d_warning_code;
 

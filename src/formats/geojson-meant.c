@@ -13,6 +13,7 @@
 #define BOTH     "write \"sides\": \"both\""
 #define FACES    "write \"faces\": \"in\" or \"out\""
 #define GREY     "the property is called \"reflectance\""
+#define KELVIN   "write \"temperature\" in kelvin, degrees Celsius + 273.15"
 #define HEAT     "write \"flux\", the net heat flux that leaves, or \"emission\""
 
 /* A name in small letters, the property that replaces it, and what to do. */
@@ -24,6 +25,7 @@ static const meant properties_meant[] = {
     {"absorptance", "reflectance", "write \"reflectance\": 1 - absorptance"},
     {"absorptivity", "reflectance", "write \"reflectance\": 1 - absorptivity"},
     {"albedo", "reflectance", GREY},
+    {"celsius", "temperature", KELVIN},
     {"color", "reflectance", BANDS},
     {"colour", "reflectance", BANDS},
     {"double_sided", "sides", BOTH},
@@ -33,7 +35,9 @@ static const meant properties_meant[] = {
     {"epsilon", "reflectance", REFLECTANCE},
     {"exitance", "emission", EMISSION},
     {"facing", "faces", FACES},
-    {"heat_flux", "emission", HEAT},
+    {"heat", "flux", HEAT},
+    {"heat_flux", "flux", HEAT},
+    {"heatflux", "flux", HEAT},
     {"kelvin", "temperature", "the property is called \"temperature\""},
     {"power", "emission", EMISSION},
     {"radiance", "emission", EMISSION},
@@ -42,6 +46,7 @@ static const meant properties_meant[] = {
     {"reflectivity", "reflectance", GREY},
     {"rho", "reflectance", GREY},
     {"side", "sides", BOTH},
+    {"temp", "temperature", KELVIN},
     {"two_sided", "sides", BOTH},
     {"twosided", "sides", BOTH}};
 
@@ -147,8 +152,8 @@ static void note_scene_member(hr2di_geojson *reader, const json_t *members, cons
   const small s = in_small_letters(key);
   if (!note_spelling(reader, members, "hr2d", key, find(of_scene, COUNT(of_scene), s.text)))
     hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, "hr2d",
-                    "members of \"hr2d\" are \"background\" and \"medium\", "
-                    "\"background_temperature\", \"sky\", \"sun\" and \"wavelengths\"");
+                    "members of \"hr2d\" are \"background\", \"background_temperature\", "
+                    "\"medium\", \"sky\", \"sun\" and \"wavelengths\"");
 }
 
 /* RFC 7946 knows no "crs"; GeoJSON of 2008 does, and some tools write it. */

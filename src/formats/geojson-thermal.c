@@ -13,8 +13,10 @@
 static hr2d_status read_number(hr2di_geojson *reader, const char *place, const char *key,
                                const json_t *json, double *value) {
   if (!json_is_number(json))
-    return hr2di_message_fail(reader->message, HR2D_ESYNTAX, "%s: %s: must be a number, not %s",
-                              place, key, hr2di_geojson_kind(json));
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: %s: must be a number, not %s%s", place, key,
+                              hr2di_geojson_kind(json),
+                              json_is_string(json) ? ": leave out the quotation marks" : "");
   *value = json_number_value(json);
   return HR2D_OK;
 }

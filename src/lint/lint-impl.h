@@ -23,7 +23,11 @@ hr2di_lint_warn(const hr2di_lint *lint, hr2d_warning warning, const char *format
 /* Ends of patches and narrow openings. */
 hr2d_status hr2di_lint_gaps(const hr2di_lint *lint);
 
-/* Of a committed scene: light, and what fronts see. */
+/* Temperatures and wavelengths that look like those of other units. */
+hr2d_status hr2di_lint_heat(const hr2di_lint *lint);
+
+/* Of a committed scene: light, and what fronts see; and suns. */
 hr2d_status hr2di_lint_light(const hr2di_lint *lint);
+hr2d_status hr2di_lint_suns(const hr2di_lint *lint);
 
 #endif

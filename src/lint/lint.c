@@ -18,6 +18,7 @@ static const char *const names[HR2D_WARNING_COUNT] = {
     [HR2D_WARNING_UNLIT] = "unlit",
     [HR2D_WARNING_SEES_NOTHING] = "sees-nothing",
     [HR2D_WARNING_NO_ABSORBER] = "no-absorber",
+    [HR2D_WARNING_NO_SUNLIGHT] = "no-sunlight",
 };
 
 const char *hr2d_warning_name(hr2d_warning_code code) {
@@ -121,7 +122,9 @@ hr2d_status hr2d_scene_lint(const hr2d_scene *scene, hr2d_warning_fn warn, void 
   hr2d_status status = warn_of_notes(&lint);
   if (scene->patches == 0) return status;
   if (!status) status = warn_of_coordinates(&lint);
+  if (!status) status = hr2di_lint_heat(&lint);
   if (!status) status = hr2di_lint_gaps(&lint);
   if (!status && scene->committed) status = hr2di_lint_light(&lint);
+  if (!status && scene->committed) status = hr2di_lint_suns(&lint);
   return status;
 }
