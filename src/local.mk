@@ -7,6 +7,7 @@ libhr2d_core_la_CFLAGS = $(AM_CFLAGS) $(THREADS_CFLAGS)
 libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
 libhr2d_core_la_SOURCES = \
 	src/base/alloc.c src/base/alloc.h \
+	src/base/bin.h \
 	src/base/black-body.c src/base/black-body.h \
 	src/base/clock.h \
 	src/base/large-pages.c src/base/large-pages.h \
@@ -20,6 +21,7 @@ libhr2d_core_la_SOURCES = \
 	src/base/pi.h \
 	src/base/read-file.c src/base/read-file.h \
 	src/base/scaled-double.h \
+	src/base/share.c src/base/share.h \
 	src/base/sized-struct.h \
 	src/base/sort.c src/base/sort.h \
 	src/base/status.c \
@@ -197,6 +199,7 @@ libhr2d_core_la_SOURCES = \
 	src/refine/refine.c \
 	src/refine/rounds.c src/refine/rounds.h \
 	src/refine/rows.c src/refine/rows.h \
+	src/refine/unite-shares.c src/refine/unite-shares.h \
 	src/refine/study.c \
 	src/refine/validate-links.c \
 	src/solve/outside.c src/solve/outside.h \
@@ -213,6 +216,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/heat-balance.c src/solve/heat-balance.h \
 	src/solve/heat-scene.c src/solve/heat-scene.h \
 	src/solve/row-sums.c src/solve/row-sums.h \
+	src/solve/shared-gather.c src/solve/shared-gather.h \
 	src/solve/solve.c \
 	src/solve/transport.c src/solve/transport.h \
 	src/accuracy/admissibility.c src/accuracy/admissibility.h \
@@ -225,6 +229,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/shadow-residuals.c src/accuracy/shadow-residuals.h \
 	src/accuracy/safe-sum.c src/accuracy/safe-sum.h \
 	src/accuracy/rounding-bound.c src/accuracy/rounding-bound.h \
+	src/accuracy/shared-sums.c src/accuracy/shared-sums.h \
 	src/accuracy/sketch.c src/accuracy/sketch.h \
 	src/accuracy/error-estimate.c src/accuracy/error-estimate.h \
 	src/accuracy/error-shares.c src/accuracy/error-shares.h \

@@ -84,6 +84,7 @@ SUITES = \
 	tests/unit/accuracy/check-random-accuracy \
 	tests/unit/accuracy/check-target-calls \
 	tests/unit/accuracy/check-error-shares \
+	tests/unit/accuracy/check-shares \
 	tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-kinks \
 	tests/unit/accuracy/check-long-leaves \
@@ -168,6 +169,7 @@ tests_libsupport_la_SOURCES = \
 	tests/support/shadow-scenes.c tests/support/shadow-scenes.h \
 	tests/support/short-rooms.c tests/support/short-rooms.h \
 	tests/support/slow-phases.c tests/support/slow-phases.h \
+	tests/support/shares.c tests/support/shares.h \
 	tests/support/slow-scenes.c tests/support/slow-scenes.h \
 	tests/support/tape.c tests/support/tape.h \
 	tests/support/suite.c tests/support/suite.h \

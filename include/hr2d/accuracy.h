@@ -44,6 +44,7 @@
 #include <hr2d/options.h>
 #include <hr2d/refine.h>
 #include <hr2d/scene.h>
+#include <hr2d/share.h>
 #include <hr2d/solve.h>
 #include <hr2d/status.h>
 #include <stddef.h>
@@ -108,11 +109,13 @@ typedef struct hr2d_target {
                                   all errors of the account are infinite. Saves the time for
                                   the account: for interactive work, and for series of scenes
                                   that are alike */
+  hr2d_share *share;         /**< NULL, or one of several shares that solve together, see
+                                  share.h */
 } hr2d_target;
 
 /** The defaults: 1e-6 in averages, no budget, all patches, one thread, no callback. */
 #define HR2D_TARGET_INIT                                                                       \
-  { sizeof(hr2d_target), 0, HR2D_NORM_AVERAGE, 0, NULL, 0, 0, 0, 0, 0, NULL, NULL, 0, 0 }
+  { sizeof(hr2d_target), 0, HR2D_NORM_AVERAGE, 0, NULL, 0, 0, 0, 0, 0, NULL, NULL, 0, 0, NULL }
 
 /**
  * Does what #HR2D_TARGET_INIT does, for languages without macros: sets all bytes to 0, and

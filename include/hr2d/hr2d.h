@@ -26,6 +26,7 @@
  * - hr2d_exchange_area() computes the exchange of two segments (geometry.h).
  * - hr2d_exchange_rows_create() does it for all patches, with occluders (visibility.h).
  * - hr2d_study_run() measures L against N (study.h).
+ * - hr2d_target::share shares out a solve among processes (share.h).
  *
  * A whole program:
  *
@@ -90,6 +91,7 @@
 #include <hr2d/progress.h>
 #include <hr2d/refine.h>
 #include <hr2d/scene.h>
+#include <hr2d/share.h>
 #include <hr2d/solve.h>
 #include <hr2d/state.h>
 #include <hr2d/status.h>

@@ -28,6 +28,7 @@
 #include <hr2d/linkset.h>
 #include <hr2d/options.h>
 #include <hr2d/progress.h>
+#include <hr2d/share.h>
 #include <hr2d/status.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -109,6 +110,10 @@ typedef struct hr2d_refine_options {
   const unsigned char *rows;   /**< one per patch: 0 leaves out its row; NULL: all rows of
                                     [`row_from`, `row_to`). So shares of a refinement may have
                                     rows that do not stand side by side */
+  hr2d_share *share; /**< NULL, or one of several shares, see share.h: hr2d_refine() makes the
+                          links of its rows, and divides elements as all shares together do. The
+                          set keeps it, for its solves. hr2d_refine_count() and
+                          hr2d_refine_visit() count and visit the rows of the share */
 } hr2d_refine_options;
 
 /**
@@ -125,7 +130,7 @@ typedef struct hr2d_refine_options {
 #define HR2D_REFINE_OPTIONS_INIT                                                               \
   {                                                                                            \
     sizeof(hr2d_refine_options), 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, 0, 0, 0, NULL, NULL,   \
-        NULL, NULL                                                                             \
+        NULL, NULL, NULL                                                                       \
   }
 
 /**

@@ -26,6 +26,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "accuracy/shared-sums.h"
 #include "base/alloc.h"
 #include "geometry/apart.h"
 #include "hierarchy/hierarchy-impl.h"
@@ -80,8 +81,9 @@ static double exchange_off(hr2d_pair pair, const hr2d_element *element, const of
 typedef struct gather {
   const hr2di_levels *levels;
   const double *own[2];   /* what stands for B_i, elements × bands */
-  unsigned char *has_sky; /* elements: a leaf below sees the background */
-  double *error[2];       /* elements × bands */
+  unsigned char *has_sky;  /* elements: a leaf below sees the background */
+  double *error[2];        /* elements × bands */
+  hr2di_shared_sums *sums; /* of both */
 } gather;
 
 static void find_sky(const hr2di_transport *t, unsigned char *has_sky) {
@@ -102,7 +104,8 @@ static void add_pair(const hr2di_transport *t, double off, const gather *g, uint
     const double other = fmax(g->levels->most[j * t->bands + b], light);
     for (int told = 0; told < 2; told++) {
       const double own = closed ? g->own[told][i * t->bands + b] : 0;
-      g->error[told][i * t->bands + b] += off / e->length * fmax(other, own);
+      hr2di_shared_sums_add(g->sums, ((size_t)told * t->elements + i) * t->bands + b,
+                            off / e->length * fmax(other, own));
     }
   }
 }
@@ -138,6 +141,18 @@ static void add_links(const hr2di_transport *t, const offsets *places, const gat
   }
 }
 
+/* Of shares, links are looked at twice. */
+static hr2d_status add_all_links(const hr2di_transport *t, const offsets *places,
+                                 const gather *g) {
+  hr2d_status status;
+  int again;
+  do {
+    add_links(t, places, g);
+    status = hr2di_shared_sums_end(g->sums, hr2di_watch_status(t->watch), &again);
+  } while (again);
+  return status;
+}
+
 /* What an element gets, its children get. */
 static void lower(const hr2di_transport *t, double *error) {
   const hr2d_element *e = t->hierarchy->element;
@@ -167,23 +182,28 @@ hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const hr2di_levels *
   offsets places = {hr2di_alloc(&t->alloc, t->elements, sizeof *places.offset),
                     hr2di_alloc_zero(&t->alloc, t->elements, 1)};
   double *all = hr2di_alloc_zero(&t->alloc, values, 2 * sizeof *all);
+  hr2di_shared_sums sums;
+  hr2d_status status =
+      hr2di_shared_sums_init(&sums, t->links->share, &t->alloc, all, 2 * values);
   const gather g = {levels,
                     {levels->most, levels->own},
                     hr2di_alloc_zero(&t->alloc, t->elements, 1),
-                    {all, all ? all + values : NULL}};
-  const int room = places.offset && places.exact && all && g.has_sky;
-  if (room) {
+                    {all, all ? all + values : NULL},
+                    &sums};
+  if (!places.offset || !places.exact || !all || !g.has_sky) status = HR2D_ENOMEM;
+  if (!status) {
     find_sky(t, g.has_sky);
     find_places(t->hierarchy, &places, t->watch);
-    add_links(t, &places, &g);
-    for (int told = 0; told < 2; told++) {
-      lower(t, g.error[told]);
-      add_leaves(t, g.error[told], error[told]);
-    }
+    status = add_all_links(t, &places, &g);
   }
+  for (int told = 0; told < 2 && !status; told++) {
+    lower(t, g.error[told]);
+    add_leaves(t, g.error[told], error[told]);
+  }
+  hr2di_shared_sums_clear(&sums);
   hr2di_alloc_free(&t->alloc, places.offset);
   hr2di_alloc_free(&t->alloc, places.exact);
   hr2di_alloc_free(&t->alloc, all);
   hr2di_alloc_free(&t->alloc, g.has_sky);
-  return room ? hr2di_watch_status(t->watch) : HR2D_ENOMEM;
+  return status ? status : hr2di_watch_status(t->watch);
 }

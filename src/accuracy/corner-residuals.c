@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/legendre.h"
+#include "base/sort.h"
 #include "geometry/predicates.h"
 #include "geometry/vector.h"
 #include "hierarchy/hierarchy-impl.h"
@@ -35,7 +36,7 @@ static hr2d_status add(hr2di_contacts *c, const hr2di_transport *t, const uint32
                           sizeof *c->contact))
     return HR2D_ENOMEM;
   c->contact[c->count++] =
-      (hr2di_contact){.leaf = {number[ends], number[begins]},
+      (hr2di_contact){.leaf = {number ? number[ends] : 0, number ? number[begins] : 0},
                       .view = view_between(t->hierarchy->scene, &e[ends], &e[begins])};
   return HR2D_OK;
 }
@@ -57,14 +58,37 @@ uint64_t hr2di_contacts_points(const hr2d_linkset *links) {
   return 2 * (contacts < most ? contacts : most);
 }
 
+static int by_leaves(const void *left, const void *right) {
+  const hr2di_contact *l = left, *r = right;
+  if (l->leaf[0] != r->leaf[0]) return l->leaf[0] < r->leaf[0] ? -1 : 1;
+  return (l->leaf[1] > r->leaf[1]) - (l->leaf[1] < r->leaf[1]);
+}
+
+/* The contacts of all shares, in an order that does not depend on these. */
+static hr2d_status collect(hr2di_contacts *c, const hr2di_transport *t, hr2d_status status) {
+  double *record = hr2di_alloc(&c->alloc, c->count, 2 * sizeof *record);
+  size_t count = c->count;
+  if (!status && !record) status = HR2D_ENOMEM;
+  for (size_t k = 0; k < 2 * count && !status; k++) record[k] = c->contact[k / 2].leaf[k % 2];
+  status = hr2di_share_collect(t->links->share, status, &c->alloc, &record, &count, 2);
+  c->count = 0;
+  for (size_t k = 0; k < count && !status; k++)
+    status = add(c, t, NULL, t->leaf[(uint32_t)record[2 * k]],
+                 t->leaf[(uint32_t)record[2 * k + 1]]);
+  for (size_t k = 0; k < 2 * count && !status; k++)
+    c->contact[k / 2].leaf[k % 2] = (uint32_t)record[k];
+  hr2di_alloc_free(&c->alloc, record);
+  return status ? status
+                : hr2di_sort(c->contact, c->count, sizeof *c->contact, by_leaves, t->watch);
+}
+
 /* Leaves that touch are linked with each other. */
 hr2d_status hr2di_contacts_init(hr2di_contacts *c, const hr2di_transport *t) {
   const hr2d_element *element = t->hierarchy->element;
   *c = (hr2di_contacts){.alloc = t->alloc};
   uint32_t *number = hr2di_alloc(&t->alloc, t->elements, sizeof *number);
-  if (!number) return HR2D_ENOMEM;
-  for (size_t k = 0; k < t->leaves; k++) number[t->leaf[k]] = (uint32_t)k;
-  hr2d_status status = HR2D_OK;
+  hr2d_status status = number ? HR2D_OK : HR2D_ENOMEM;
+  for (size_t k = 0; k < t->leaves && number; k++) number[t->leaf[k]] = (uint32_t)k;
   for (uint64_t k = 0; k < t->links->store.count && !status; k++) {
     const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
     const hr2d_element *i = &element[pair.first], *j = &element[pair.second];
@@ -75,7 +99,7 @@ hr2d_status hr2di_contacts_init(hr2di_contacts *c, const hr2di_transport *t) {
       status = add(c, t, number, pair.second, pair.first);
   }
   hr2di_alloc_free(&t->alloc, number);
-  return status;
+  return t->links->share ? collect(c, t, status) : status;
 }
 
 void hr2di_contacts_clear(hr2di_contacts *c) {

@@ -86,8 +86,8 @@ static hr2d_status measure(hr2di_estimator *e, hr2di_error_pair *errors) {
   hr2di_residual_set(e);
   hr2d_status status = reflects ? hr2di_residual_solve(e) : HR2D_OK;
   if (status) return status;
-  hr2di_residual_measure(e);
-  status = hr2di_shadow_residuals(e);
+  status = hr2di_residual_measure(e);
+  if (!status) status = hr2di_shadow_residuals(e);
   if (!status && reflects) status = hr2di_gap_residuals(e);
   if (!status && reflects) status = hr2di_safe_sum(e);
   if (status) return status;
@@ -128,8 +128,11 @@ static hr2d_status find_shares(hr2di_estimator *e, hr2di_graded *answer,
   if (worst <= HR2DI_ERROR_MARGIN * fineness->aim || !isfinite(worst)) return HR2D_OK;
   answer->depth = hr2di_alloc_zero(alloc, answer->hierarchy->elements, sizeof *answer->depth);
   if (!answer->depth) return HR2D_ENOMEM;
-  const hr2d_status status = hr2di_error_shares(e, fineness->aim, worst, answer->depth);
+  hr2d_share *share = answer->links->share;
+  const hr2d_status status =
+      hr2di_share_agree(share, hr2di_error_shares(e, fineness->aim, worst, answer->depth));
   if (!status) return HR2D_OK;
+  if (status != HR2D_ENOMEM) hr2di_share_begin(share);
   hr2di_alloc_free(alloc, answer->depth);
   answer->depth = NULL;
   return status == HR2D_ENOMEM ? status : HR2D_OK; /* the errors are known */

@@ -21,6 +21,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/sort.h"
@@ -179,6 +180,43 @@ static hr2d_status sort(gaps *all, hr2di_watch *watch) {
   return hr2di_sort(all->gap, kept, sizeof *all->gap, by_brightness, watch);
 }
 
+/* The numbers of a gap. */
+enum { NUMBERS = 7 };
+
+static gap read_gap(const double *number) {
+  return (gap){.over = (uint32_t)number[0],
+               .end = (uint32_t)number[1],
+               .leaf = {(uint32_t)number[2], (uint32_t)number[3]},
+               .distance = number[4],
+               .at = number[5],
+               .bright = number[6]};
+}
+
+/* The gaps of all shares; sorting puts them in order. */
+static hr2d_status collect(hr2di_estimator *e, gaps *all, hr2d_status status) {
+  const hr2di_transport *t = &e->eq.transport;
+  double *record = hr2di_alloc(&t->alloc, all->count, NUMBERS * sizeof *record);
+  size_t count = all->count;
+  if (!status && !record) status = HR2D_ENOMEM;
+  for (size_t k = 0; k < count && !status; k++) {
+    const gap *g = &all->gap[k];
+    const double number[NUMBERS] = {g->over,     g->end, g->leaf[0], g->leaf[1],
+                                    g->distance, g->at,  g->bright};
+    memcpy(record + k * NUMBERS, number, sizeof number);
+  }
+  for (int h = 0; h < 2; h++)
+    status =
+        hr2di_share_combine(t->links->share, status, HR2D_COMBINE_MOST, e->stray[h], t->bands);
+  status = hr2di_share_collect(t->links->share, status, &t->alloc, &record, &count, NUMBERS);
+  if (!status && hr2di_alloc_reserve(&t->alloc, &all->gap, &all->capacity, count,
+                                     sizeof *all->gap))
+    status = HR2D_ENOMEM;
+  all->count = status ? 0 : count;
+  for (size_t k = 0; k < all->count; k++) all->gap[k] = read_gap(record + k * NUMBERS);
+  hr2di_alloc_free(&t->alloc, record);
+  return status;
+}
+
 static hr2d_status find_all(hr2di_estimator *e, gaps *all) {
   const hr2di_transport *t = &e->eq.transport;
   const hr2d_element *element = t->hierarchy->element;
@@ -192,6 +230,7 @@ static hr2d_status find_all(hr2di_estimator *e, gaps *all) {
     if (!status) status = find(e, pair.first, pair.second, all);
     if (!status) status = find(e, pair.second, pair.first, all);
   }
+  if (t->links->share) status = collect(e, all, status);
   return status ? status : sort(all, t->watch);
 }
 

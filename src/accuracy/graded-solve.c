@@ -69,6 +69,7 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_resolution *finene
   options.max_bytes = target->max_bytes;
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;
+  options.share = target->share;
   hr2d_status status =
       hr2d_linkset_create(a->hierarchy, hr2di_admissibility_oracle(), &separation,
                           hr2di_admissibility_fixed_leaves(), NULL, &a->links);
@@ -101,7 +102,7 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
   if (!status) status = grade(a, fineness, target);
   if (!status) status = link_elements(a, fineness, target);
   a->refine_seconds = hr2di_clock_now() - start;
-  return explain(a, status, message);
+  return explain(a, hr2di_share_agree(target->share, status), message);
 }
 
 hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
@@ -118,7 +119,7 @@ hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
   if (!status) status = link_elements(a, fineness, target);
   if (!status) a->links->former = coarse->links;
   a->refine_seconds = hr2di_clock_now() - start;
-  return explain(a, status, message);
+  return explain(a, hr2di_share_agree(target->share, status), message);
 }
 
 hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2di_resolution *fineness,

@@ -224,6 +224,10 @@ hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *given, 
     if (status) hr2di_message_fail(message, status, "importance: %s", hr2d_strerror(status));
   }
   hr2di_graded_clear(&coarse);
+  status = hr2di_share_agree(given->share, status);
   if (status && lights) hr2di_lights_clear(lights, scene);
-  return !weight && !l.said && is_spared(status) ? HR2D_OK : status;
+  double said = l.said != HR2D_OK;
+  hr2di_share_begin(given->share);
+  if (hr2di_share_combine(given->share, HR2D_OK, HR2D_COMBINE_MOST, &said, 1)) return status;
+  return !weight && !(said > 0) && is_spared(status) ? HR2D_OK : status;
 }

@@ -215,7 +215,7 @@ static void add_all_nearby(hr2di_estimator *e) {
 }
 
 /* Errors of averages and points, from B − B_h and its irradiance. */
-void hr2di_residual_measure(hr2di_estimator *e) {
+hr2d_status hr2di_residual_measure(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
   hr2di_estimator_averages(e, eq->irradiance, e->average[0]);
@@ -234,4 +234,7 @@ void hr2di_residual_measure(hr2di_estimator *e) {
     }
   add_contacts(e);
   add_all_nearby(e);
+  const hr2d_status status = t->failed ? t->failed : hr2di_watch_status(t->watch);
+  if (!t->links->share) return HR2D_OK;
+  return hr2di_share_combine(t->links->share, status, HR2D_COMBINE_MOST, e->point[1], t->bands);
 }

@@ -21,6 +21,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/bin.h"
 #include "base/pi.h"
 #include "geometry/apart.h"
 #include "geometry/predicates.h"
@@ -60,17 +61,27 @@ static int is_shaded(const hr2d_link *link, const hr2d_element *i, const hr2d_el
   return link->exchange_area < SHADED * hr2d_exchange_area(&s, &t);
 }
 
+/* Per element and band. */
+typedef struct squares {
+  double *sum;
+  hr2di_bin *bin; /* of shares; NULL: there is but one */
+  double scale;   /* σ of these */
+} squares;
+
 /* What j may send to a point of i; no more than all of its error from all directions. */
 static void add(const hr2di_estimator *e, uint32_t i, uint32_t j, double kernel,
-                const double *beta, double *square) {
+                const double *beta, squares *s) {
   const size_t bands = e->eq.transport.bands;
   for (size_t b = 0; b < bands; b++) {
     const double h = fmin(kernel * beta[j * bands + b], e->most[j * bands + b]);
-    square[i * bands + b] += h * h;
+    if (s->bin)
+      hr2di_bin_add(&s->bin[i * bands + b], s->scale, h * h);
+    else
+      s->sum[i * bands + b] += h * h;
   }
 }
 
-static void add_links(hr2di_estimator *e, const double *beta, double *square) {
+static void add_links(hr2di_estimator *e, const double *beta, squares *s) {
   const hr2di_transport *t = &e->eq.transport;
   const hr2d_element *element = t->hierarchy->element;
   for (uint64_t k = 0; k < t->links->store.count && !hr2di_watch_work(t->watch, 1); k++) {
@@ -79,9 +90,27 @@ static void add_links(hr2di_estimator *e, const double *beta, double *square) {
     const hr2d_element *i = &element[link->pair.first], *j = &element[link->pair.second];
     if (!is_shaded(link, i, j)) continue;
     const double kernel = largest_kernel(i, j);
-    add(e, link->pair.first, link->pair.second, kernel, beta, square);
-    add(e, link->pair.second, link->pair.first, kernel, beta, square);
+    add(e, link->pair.first, link->pair.second, kernel, beta, s);
+    add(e, link->pair.second, link->pair.first, kernel, beta, s);
   }
+}
+
+/* No square is larger than that of the largest error, and no element has more terms than there
+   are links: that is enough for those that are near the largest. */
+static hr2d_status add_shares(hr2di_estimator *e, const double *beta, squares *s) {
+  const hr2di_transport *t = &e->eq.transport;
+  const size_t count = t->elements * t->bands;
+  double most = 0;
+  for (size_t k = 0; k < count; k++) most = fmax(most, e->most[k]);
+  s->scale = hr2di_bin_scale(most * most * (double)t->links->counts.links);
+  s->bin = hr2di_alloc_zero(&t->alloc, count, sizeof *s->bin);
+  if (s->bin) add_links(e, beta, s);
+  hr2d_status status = s->bin ? hr2di_watch_status(t->watch) : HR2D_ENOMEM;
+  status = hr2di_share_combine(t->links->share, status, HR2D_COMBINE_SUM,
+                               s->bin ? &s->bin->head : NULL, 2 * count);
+  for (size_t k = 0; k < count && !status; k++) s->sum[k] = hr2di_bin_total(&s->bin[k]);
+  hr2di_alloc_free(&t->alloc, s->bin);
+  return status;
 }
 
 hr2d_status hr2di_shadow_residuals(hr2di_estimator *e) {
@@ -94,8 +123,13 @@ hr2d_status hr2di_shadow_residuals(hr2di_estimator *e) {
   double *square = beta + count;
   integrate_error(e, beta);
   hr2di_estimator_set_most(e, e->error);
-  add_links(e, beta, square);
-  for (size_t k = 0; k < count; k++) {
+  squares s = {.sum = square};
+  hr2d_status status = HR2D_OK;
+  if (t->links->share)
+    status = add_shares(e, beta, &s);
+  else
+    add_links(e, beta, &s);
+  for (size_t k = 0; k < count && !status; k++) {
     const size_t b = k % t->bands;
     const double h = sqrt(square[k]);
     const double rho =
@@ -104,5 +138,5 @@ hr2d_status hr2di_shadow_residuals(hr2di_estimator *e) {
     e->point[0][b] = fmax(e->point[0][b], rho * h);
   }
   hr2di_alloc_free(&t->alloc, beta);
-  return hr2di_watch_status(t->watch);
+  return status ? status : hr2di_watch_status(t->watch);
 }

@@ -49,7 +49,14 @@ static hr2d_status keep(void *ctx, const hr2d_link *links, size_t count) {
   return status;
 }
 
-static hr2d_status make_links(sketcher *s, hr2di_graded *a) {
+static hr2d_status make_sets(sketcher *s, hr2di_graded *a) {
+  hr2d_status status = hr2d_hierarchy_create(s->scene, &a->hierarchy);
+  if (!status) status = hr2d_linkset_create(a->hierarchy, NULL, NULL, NULL, NULL, &a->links);
+  s->links = a->links;
+  return status;
+}
+
+static hr2d_status make_links(sketcher *s) {
   hr2d_linkset *maker = NULL;
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
   hr2d_refine_counts counts;
@@ -59,12 +66,11 @@ static hr2d_status make_links(sketcher *s, hr2di_graded *a) {
   options.progress = watch;
   options.progress_ctx = s;
   s->limit = s->until.factors;
-  hr2d_status status = hr2d_hierarchy_create(s->scene, &a->hierarchy);
-  if (!status) status = hr2d_linkset_create(a->hierarchy, NULL, NULL, NULL, NULL, &a->links);
-  if (!status) status = hr2d_linkset_create(a->hierarchy, NULL, NULL, NULL, NULL, &maker);
-  s->links = a->links;
+  hr2d_status status =
+      hr2d_linkset_create(s->links->hierarchy, NULL, NULL, NULL, NULL, &maker);
   if (!status) status = hr2d_refine_visit(maker, &options, keep, s, &counts);
   hr2d_linkset_destroy(maker);
+  s->links->counts.links = s->links->store.count;
   if (status == HR2D_EMAX_LINKS || status == HR2D_EMAX_BYTES || s->late) status = HR2D_OK;
   return s->progress_status ? s->progress_status : status;
 }
@@ -167,27 +173,29 @@ static void sum_power(const sketcher *s, hr2d_solution *made) {
   }
 }
 
+static hr2d_status reserve(const sketcher *s, hr2di_graded *a) {
+  const hr2d_allocator *alloc = &a->links->alloc;
+  const size_t patches = s->scene->patches, values = patches * s->bands;
+  hr2d_solution *made = a->solution = hr2di_alloc_zero(alloc, 1, sizeof *made);
+  if (!made) return HR2D_ENOMEM;
+  *made = (hr2d_solution){.alloc = *alloc,
+                          .links = a->links,
+                          .hierarchy = a->hierarchy,
+                          .elements = patches,
+                          .order = 1,
+                          .bands = s->bands};
+  made->value = hr2di_alloc_zero(alloc, values, sizeof *made->value);
+  made->irradiance = hr2di_alloc_zero(alloc, values, sizeof *made->irradiance);
+  made->power = hr2di_alloc_zero(alloc, s->bands, sizeof *made->power);
+  return made->value && made->irradiance && made->power ? HR2D_OK : HR2D_ENOMEM;
+}
+
 static hr2d_status solve(sketcher *s, hr2di_graded *a) {
   const hr2d_allocator *alloc = &a->links->alloc;
   const size_t patches = s->scene->patches, values = patches * s->bands;
+  hr2d_solution *made = a->solution;
   double *space = hr2di_alloc_zero(alloc, values + patches, sizeof *space);
-  hr2d_solution *made = hr2di_alloc_zero(alloc, 1, sizeof *made);
-  if (made) {
-    *made = (hr2d_solution){.alloc = *alloc,
-                            .links = a->links,
-                            .hierarchy = a->hierarchy,
-                            .elements = patches,
-                            .order = 1,
-                            .bands = s->bands};
-    made->value = hr2di_alloc_zero(alloc, values, sizeof *made->value);
-    made->irradiance = hr2di_alloc_zero(alloc, values, sizeof *made->irradiance);
-    made->power = hr2di_alloc(alloc, s->bands, sizeof *made->power);
-    a->solution = made;
-  }
-  if (!space || !made || !made->value || !made->irradiance || !made->power) {
-    hr2di_alloc_free(alloc, space);
-    return HR2D_ENOMEM;
-  }
+  if (!space) return HR2D_ENOMEM;
   s->row = space + values;
   sum_rows(s);
   for (size_t k = 0; k < values; k++)
@@ -199,15 +207,41 @@ static hr2d_status solve(sketcher *s, hr2di_graded *a) {
   return status;
 }
 
+/* Of several shares the first one sketches, as time ends it anywhere; the others get what it
+   has found. */
+static hr2d_status hand_out(const sketcher *s, hr2di_graded *a, int *late, hr2d_status status) {
+  hr2d_share *share = s->target->share;
+  hr2d_solution *made = a->solution;
+  const size_t values = s->scene->patches * s->bands;
+  double told[] = {*late, made ? made->residual : 0,
+                   a->links ? (double)a->links->counts.links : 0};
+  status = hr2di_share_combine(share, status, HR2D_COMBINE_SUM, told, 3);
+  if (status) return status;
+  *late = told[0] > 0;
+  made->residual = told[1];
+  a->links->counts.links = (uint64_t)told[2];
+  status = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_SUM, made->value, values);
+  if (!status)
+    status = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_SUM, made->irradiance, values);
+  if (!status)
+    status = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_SUM, &made->power->emitted,
+                                 4 * s->bands);
+  return status;
+}
+
 hr2d_status hr2di_sketch(hr2di_graded *answer, const hr2d_scene *scene,
                          const hr2d_target *target, hr2di_sketch_times until, int *late) {
   sketcher s = {.scene = scene, .target = target, .until = until, .bands = scene->bands};
   const double start = hr2di_clock_now();
+  const int works = !target->share || target->share->number == 0;
   *answer = (hr2di_graded){0};
-  hr2d_status status = make_links(&s, answer);
+  hr2d_status status = make_sets(&s, answer);
+  if (!status && works) status = make_links(&s);
   *late = s.late;
   answer->refine_seconds = hr2di_clock_now() - start;
-  if (!status) status = solve(&s, answer);
+  if (!status) status = reserve(&s, answer);
+  if (!status && works) status = solve(&s, answer);
+  if (target->share) status = hand_out(&s, answer, late, status);
   answer->solve_seconds = hr2di_clock_now() - start - answer->refine_seconds;
   return status;
 }

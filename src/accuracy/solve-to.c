@@ -39,8 +39,11 @@ typedef struct search {
   hr2di_message message;
 } search;
 
+/* Of several shares only the first one looks at its clock. */
 static double left(const search *s) {
-  return s->deadline > 0 ? s->deadline - hr2di_clock_now() : HUGE_VAL;
+  const hr2d_share *share = s->target.share;
+  const int looks = s->deadline > 0 && (!share || share->number == 0);
+  return looks ? s->deadline - hr2di_clock_now() : HUGE_VAL;
 }
 
 /* Ends a call when the time is up. */
@@ -51,6 +54,20 @@ static hr2d_status watch(void *ctx, const hr2d_progress *progress) {
   if (s->given.progress)
     s->progress_status = s->given.progress(s->given.progress_ctx, progress);
   return s->progress_status;
+}
+
+/* All shares have the same status from here on, and know whether it was the clock or a callback
+   that ended a call. */
+static hr2d_status agree(search *s, hr2d_status status) {
+  hr2d_share *share = s->target.share;
+  if (!share) return status;
+  status = hr2di_share_agree(share, status);
+  double said[] = {s->late, s->progress_status, -s->progress_status};
+  hr2di_share_begin(share);
+  const hr2d_status failed = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_MOST, said, 3);
+  s->late = said[0] > 0;
+  s->progress_status = (hr2d_status)(said[1] > 0 ? said[1] : -said[2]);
+  return failed ? failed : status;
 }
 
 /* The larger error of B and H, in the norm of the target. */
@@ -92,7 +109,7 @@ static void keep(search *s, hr2di_graded *answer, const hr2di_error_pair *errors
   a->order = s->best.hierarchy->order;
   a->elements = counts.elements;
   a->leaves = counts.leaves;
-  a->links = hr2d_linkset_size(s->best.links);
+  a->links = hr2d_linkset_counts(s->best.links).links;
   if (s->best.links->roots.clusters)
     a->links += hr2di_clusters_links(s->best.links->roots.clusters);
   a->events = s->best.events;
@@ -125,7 +142,7 @@ static hr2d_status sketch(search *s) {
   if (status && status != HR2D_ENOMEM) s->progress_status = status;
   hr2di_graded_clear(&answer);
   s->late = !status && late;
-  return s->late ? HR2D_STOPPED : status;
+  return agree(s, s->late ? HR2D_STOPPED : status);
 }
 
 /* Solves once, estimates the error, and keeps the graded solve if it is the best so far.  With
@@ -144,6 +161,7 @@ static hr2d_status attempt(search *s, const hr2di_resolution *fineness, int divi
     status = hr2di_error_estimate(&answer, fineness, &s->target, &errors, &s->message);
     s->account.error_seconds += hr2di_clock_now() - start;
   }
+  status = agree(s, status);
   if (!status && s->given.no_error) {
     keep(s, &answer, &unknown);
   } else if (!status) {
@@ -226,6 +244,7 @@ static hr2d_status reach_step_by_step(search *s) {
     status = reach(s, aim);
     if (status || error_of(s) <= s->given.error || aim <= s->given.error) break;
     s->late = 1.2 * (hr2di_clock_now() - start) > left(s); /* a finer one takes longer still */
+    status = agree(s, HR2D_OK);
     if (s->late) break;
   }
   return !status && s->late ? HR2D_STOPPED : status;
@@ -293,13 +312,14 @@ hr2d_status hr2di_solve_to(const hr2d_scene *scene, const hr2d_target *target,
   s.target = s.given;
   s.target.progress = watch;
   s.target.progress_ctx = &s;
+  hr2di_share_begin(s.given.share);
   if (s.given.seconds > 0) s.deadline = s.start + s.given.seconds;
   hr2di_watch watch_of;
   hr2di_scene_watch(scene, &watch_of, watch, &s, "refine");
   if (s.deadline > 0) status = sketch(&s);
-  if (!status) status = weigh_patches(&s);
+  if (!status) status = agree(&s, weigh_patches(&s));
   if (!status && !(s.survey.ellipse > 0))
-    status = hr2di_resolution_survey(scene, s.given.threads, &watch_of, &s.survey);
+    status = agree(&s, hr2di_resolution_survey(scene, s.given.threads, &watch_of, &s.survey));
   if (!status && !(s.given.seconds > 0)) {
     status = reach(&s, s.given.error > 0 ? s.given.error : 1e-15);
     if (is_budget(status) && !s.progress_status) status = reach_step_by_step(&s);

@@ -6,6 +6,7 @@
 #include <hr2d/linkset.h>
 
 #include "base/message.h"
+#include "base/share.h"
 #include "clusters/root-pairs.h"
 #include "links/link-blocks.h"
 #include "links/store.h"
@@ -23,6 +24,7 @@ struct hr2d_linkset {
   size_t block_order; /* blocks are made for this order, if that is above the hierarchy's */
   const hr2d_linkset *former; /* on some of the elements, with blocks that need not be made
                                  again; NULL: none */
+  hr2d_share *share;          /* of a solve that these are the links of; NULL: all of it */
   hr2di_roots roots;          /* where a refinement begins; empty: at all pairs of patches */
   int directed;
   int solving;    /* a solve is under way, and may make blocks */

@@ -156,6 +156,23 @@ uint64_t hr2di_store_growth(const hr2di_store *store, size_t count) {
          list_growth(store->slabs, store->slab_capacity, sizeof *store->slab);
 }
 
+static void rename_links(hr2d_link *link, size_t count, const uint32_t *number) {
+  for (size_t k = 0; k < count; k++)
+    link[k].pair = (hr2d_pair){number[link[k].pair.first], number[link[k].pair.second]};
+}
+
+void hr2di_store_rename(hr2di_store *store, const uint32_t *number) {
+  for (size_t k = 0; k < store->full; k++) {
+    const hr2di_chunk *chunk = &store->chunk[k];
+    hr2di_packed *p = chunk->data;
+    for (size_t m = 0; m < chunk->elements; m++) p->element[m] = number[p->element[m]];
+    if (!chunk->elements) rename_links(chunk->data, HR2DI_CHUNK_LINKS, number);
+  }
+  if (store->open)
+    rename_links(store->open,
+                 (size_t)(store->count - (uint64_t)store->full * HR2DI_CHUNK_LINKS), number);
+}
+
 void hr2di_store_clear(hr2di_store *store, const hr2d_allocator *alloc) {
   while (store->slabs > 0) hr2di_alloc_free(alloc, store->slab[--store->slabs]);
   hr2di_alloc_free(alloc, store->slab);

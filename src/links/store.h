@@ -53,6 +53,9 @@ hr2d_status hr2di_store_add(hr2di_store *store, const hr2d_allocator *alloc,
 /* The bytes that hr2di_store_add() may allocate for up to HR2DI_CHUNK_LINKS links. */
 uint64_t hr2di_store_growth(const hr2di_store *store, size_t count);
 
+/* Gives the elements of all links other numbers. */
+void hr2di_store_rename(hr2di_store *store, const uint32_t *number);
+
 void hr2di_store_clear(hr2di_store *store, const hr2d_allocator *alloc);
 
 uint64_t hr2di_store_bytes(const hr2di_store *store);

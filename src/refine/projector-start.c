@@ -49,6 +49,9 @@ hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine
   if (options->row_from > options->row_to || options->row_to > patches)
     return hr2di_message_fail(message, HR2D_EINVAL, "rows %zu to %zu of %zu patches",
                               options->row_from, options->row_to, patches);
+  if (links->share && links->share != options->share)
+    return hr2di_message_fail(message, HR2D_EINVAL,
+                              "the links are those of a share, and are refined further by it");
   if (options->brightness && options->brightness->hierarchy != links->hierarchy)
     return hr2di_message_fail(message, HR2D_EINVAL, "the brightness is from another hierarchy");
   return HR2D_OK;
@@ -101,15 +104,20 @@ void hr2di_projector_add_rows(const hr2di_projector *p, hr2d_row_counts *sum) {
   }
 }
 
+static int has_row(const hr2di_projector *p, size_t patch) {
+  return (!p->options.rows || p->options.rows[patch]) &&
+         hr2di_share_has_row(p->options.share, patch, p->hierarchy->scene->patches);
+}
+
 /* The pairs of the rows that are wanted. */
 static double count_roots(const hr2di_projector *p) {
   const double n = (double)p->hierarchy->scene->patches;
   const double from = (double)p->options.row_from, to = (double)p->options.row_to;
   const hr2di_roots *known = &p->links->roots;
-  if (p->options.rows) {
+  if (p->options.rows || p->options.share) {
     double pairs = 0;
     for (size_t k = p->options.row_from; k < p->options.row_to; k++)
-      if (p->options.rows[k])
+      if (has_row(p, k))
         pairs += known->row    ? (double)(known->row[k + 1] - known->row[k])
                  : p->directed ? n - 1
                                : n - 1 - (double)k;
@@ -210,7 +218,7 @@ hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch) {
   const size_t n = p->hierarchy->scene->patches;
   const hr2di_roots *known = &p->links->roots;
   proposals roots;
-  if (p->options.rows && !p->options.rows[patch])
+  if (!has_row(p, patch))
     return hr2di_projector_fail(p, hr2di_projector_work(p, 1), "");
   roots.count = 0;
   hr2d_status status = hr2di_projector_work(p, 1 + n / 16);

@@ -10,6 +10,7 @@
 #include "refine/projector.h"
 #include "refine/rounds.h"
 #include "refine/rows.h"
+#include "refine/unite-shares.h"
 #include "scene/scene-impl.h"
 
 /* Runs a projector.  On failure the hierarchy gets its former size. */
@@ -162,15 +163,39 @@ static void sum_counts(hr2d_linkset *links, const hr2di_projector *p) {
   counts->dark_pairs += p->counts.dark_pairs;
 }
 
-hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options) {
-  hr2d_refine_options used;
+/* A share that has found no links in its rows begins again with none. */
+static int has_links(const hr2d_linkset *links) {
+  return links->store.count > 0 || (links->share && links->counts.elements > 0);
+}
+
+/* What all shares have made together: elements, and counts. */
+static hr2d_status unite(hr2di_projector *p, size_t elements, hr2di_store *made,
+                         hr2d_status status) {
+  hr2d_hierarchy *h = p->hierarchy;
+  hr2d_share *share = p->options.share;
+  const uint64_t most = p->options.max_elements;
+  h->refining = 1;
+  status = hr2di_unite_shares(h, share, elements, made, p->watch, status);
+  h->refining = 0;
+  if (!status && most && h->elements > most)
+    status = hr2di_message_fail(&p->links->message, HR2D_EMAX_ELEMENTS,
+                                "more than %llu elements are needed", (unsigned long long)most);
+  status = hr2di_unite_counts(&p->counts, share, status);
+  if (status && h->elements > elements) hr2di_hierarchy_truncate(h, elements);
+  if (status && !p->links->message.text[0])
+    hr2di_message_fail(&p->links->message, status, "another share: %s", hr2d_strerror(status));
+  return status;
+}
+
+static hr2d_status refine(hr2d_linkset *links, const hr2d_refine_options *options) {
+  const hr2d_refine_options used = *options;
+  const size_t elements = links->hierarchy->elements;
   hr2di_projector *p = NULL;
   hr2di_watch watch;
-  hr2d_status status = hr2di_projector_check_options(links, options, &used);
   hr2di_store made = {.packs = used.packed != 0};
   hr2di_scene_watch(links->hierarchy->scene, &watch, used.progress, used.progress_ctx,
                     "refine");
-  if (!status) status = hr2di_projector_create(links, &used, &watch, &p);
+  hr2d_status status = hr2di_projector_create(links, &used, &watch, &p);
   if (status) return status;
   p->bytes += sizeof(storing);
   status = hr2di_projector_check_budget(p, 0);
@@ -179,13 +204,14 @@ hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options)
     s->projector = p;
     s->store = &made;
     status = run(p, store_links, s,
-                 links->store.count > 0      ? project_links
+                 has_links(links)            ? project_links
                  : hr2di_rows_threads(p) > 1 ? hr2di_rows_project
                                              : hr2di_projector_all);
   } else if (!status) {
     status =
         hr2di_message_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
   }
+  if (used.share) status = unite(p, elements, &made, status);
   if (status) {
     hr2di_store_clear(&made, &links->alloc);
   } else {
@@ -194,11 +220,21 @@ hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options)
     links->store = made;
     links->directed = p->directed;
     links->epsilon = used.epsilon;
+    links->share = used.share;
     sum_counts(links, p);
   }
   hr2di_alloc_free(&links->alloc, s);
   hr2di_projector_destroy(p);
   return status;
+}
+
+hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *given) {
+  hr2d_refine_options options;
+  const hr2d_status status = hr2di_projector_check_options(links, given, &options);
+  if (status) return status;
+  hr2di_share_begin(options.share);
+  if (options.share) links->message.text[0] = 0;
+  return hr2di_share_agree(options.share, refine(links, &options));
 }
 
 typedef struct visiting {

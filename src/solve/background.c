@@ -73,7 +73,8 @@ static void take_some_backs(void *ctx, size_t worker, size_t task) {
   for (size_t k = task * SOME; k < t->leaves && k < (task + 1) * SOME; k++) {
     const hr2d_element *e = &h->element[t->leaf[k]];
     if (l->status || atomic_load(&all->failed)) return;
-    if (all->sees[e->patch] && hr2di_scene_lit(h->scene, e->patch))
+    if (all->sees[e->patch] && hr2di_scene_lit(h->scene, e->patch) &&
+        hr2di_share_has_row(t->links->share, e->patch, h->scene->patches))
       l->status = take_backs(all, l->viewer, k, hr2di_element_start(h, t->leaf[k]),
                              e->length / h->element[e->patch].length);
     if (l->status) atomic_store(&all->failed, 1);
@@ -123,6 +124,16 @@ static hr2d_status take_rows(hr2di_transport *t) {
   return t->failed ? t->failed : hr2di_watch_work(t->watch, t->leaves / 4);
 }
 
+/* Each share has looked from the leaves of its rows. */
+static hr2d_status combine_rows(hr2di_transport *t, hr2d_status status) {
+  const hr2d_hierarchy *h = t->hierarchy;
+  for (size_t k = 0; k < t->leaves && !status; k++)
+    if (!hr2di_share_has_row(t->links->share, h->element[t->leaf[k]].patch, h->scene->patches))
+      memset(t->sky + k * t->order, 0, t->order * sizeof *t->sky);
+  return hr2di_share_combine(t->links->share, status, HR2D_COMBINE_SUM, t->sky,
+                             t->leaves * t->order);
+}
+
 /* The largest |coefficient| of the background's form factor on a leaf. */
 static double largest(const hr2di_transport *t, size_t leaf) {
   double max = 0;
@@ -146,6 +157,7 @@ hr2d_status hr2di_background_set_order_p(hr2di_transport *t) {
   if (!status) status = hr2di_seen_backs(t->hierarchy->scene, &t->alloc, &sees, t->watch);
   if (!status && sees) status = take_all_backs(t, sees);
   hr2di_alloc_free(&t->alloc, sees);
+  if (t->links->share) status = combine_rows(t, status);
   if (!status) clear_closed(t);
   return status;
 }

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/bin.h"
 #include "base/team.h"
 #include "blocks/block.h"
 #include "hierarchy/hierarchy-impl.h"
@@ -34,6 +35,8 @@ typedef struct rows {
   double *row;                                   /* its irradiance over distant links */
   double *all;                                   /* its irradiance over all links */
   double *exact;                                 /* leaves × order: Σ F(x → j) */
+  hr2di_bin *bin;                                /* the same of shares; NULL: there is but one */
+  double scale;                                  /* σ of these */
   double phi[HR2DI_RULE_POINTS][HR2D_MAX_ORDER]; /* at the points of `rule` */
   double product_phi[HR2DI_RULE_POINTS][HR2D_MAX_ORDER];
 } rows;
@@ -64,12 +67,15 @@ static void add_exact(const rows *r, uint32_t receiver, uint32_t source, hr2di_w
     if (hr2di_watch_work(watch, r->rule.points * (8 + order) / 16)) return;
     const double from = (hr2di_element_start(h, leaf) - start) * (whole / size);
     const double part = h->element[leaf].length / size;
-    double *exact = r->exact + r->number[leaf] * order;
+    const size_t at = r->number[leaf] * order;
+    double one[HR2D_MAX_ORDER] = {0}, *exact = r->bin ? one : r->exact + at;
     for (size_t q = 0; q < r->rule.points; q++) {
       const double s = from + part * (0.5 + 0.5 * r->rule.at[q]);
       const double factor = r->rule.weight[q] * point_factor(&f, s);
       for (size_t l = 0; l < order; l++) exact[l] += factor * r->phi[q][l];
     }
+    for (size_t l = 0; l < order && r->bin; l++)
+      hr2di_bin_add(&r->bin[at + l], r->scale, exact[l]);
     leaf = hr2di_hierarchy_next_leaf(h, leaf, receiver);
   } while (leaf);
 }
@@ -115,10 +121,25 @@ static void add_all_links(const rows *r) {
   hr2di_team_run(p.count, p.count, add_links, &p, r->t->watch);
 }
 
+/* The form factors of a point add up to 1 at most, and |φ_l| is √(2l+1) at most. */
+static hr2d_status add_shares(rows *r, hr2di_transport *t) {
+  const size_t count = t->leaves * t->order;
+  r->bin = hr2di_alloc_zero(&t->alloc, count, sizeof *r->bin);
+  r->scale = hr2di_bin_scale(2 * sqrt((double)(2 * t->order)));
+  if (r->bin) add_all_links(r);
+  hr2d_status status = r->bin ? hr2di_watch_status(t->watch) : HR2D_ENOMEM;
+  status = hr2di_share_combine(t->links->share, status, HR2D_COMBINE_SUM,
+                               r->bin ? &r->bin->head : NULL, 2 * count);
+  for (size_t k = 0; k < count && !status; k++) r->exact[k] = hr2di_bin_total(&r->bin[k]);
+  hr2di_alloc_free(&t->alloc, r->bin);
+  return status;
+}
+
 /* Marks the patches that see patches in every direction. */
-static void find_closed(rows *r) {
-  hr2di_defect_sum(r->t->links, r->defect, r->t->watch);
+static hr2d_status find_closed(rows *r) {
+  const hr2d_status status = hr2di_defect_sum(r->t->links, r->defect, r->t->watch);
   hr2di_defect_closed(r->t->links, r->defect, r->closed);
+  return status;
 }
 
 /* The same if links of clusters carry a part of the rows.  Their accuracy is known; openings up
@@ -170,8 +191,12 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
   if (clusters && hr2di_clusters_links(clusters) > 0)
     find_closed_by_rows(r, t);
   else
-    find_closed(r);
-  add_all_links(r);
+    t->failed = find_closed(r);
+  if (t->failed) return;
+  if (t->links->share)
+    t->failed = add_shares(r, t);
+  else
+    add_all_links(r);
   for (size_t k = 0; k < t->leaves; k++) {
     t->failed = hr2di_watch_work(t->watch, 1 + r->product.points * t->order * t->order / 32);
     if (t->failed) return;

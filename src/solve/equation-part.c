@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "solve/shared-gather.h"
 
 void hr2di_equation_part_take(const hr2di_equation *part, const hr2di_equation *whole,
                               const double *from, double *to) {
@@ -45,6 +46,7 @@ static hr2d_status set_transport(hr2di_transport *t, const hr2di_transport *of, 
   t->width = order * t->bands;
   t->sweeps = 0;
   t->trees = (hr2di_push_pull){0};
+  t->shared = NULL;
   t->up = t->down = t->closure = t->sky = t->mean = t->blocks.value = NULL;
   const hr2d_status status =
       hr2di_push_pull_init(&t->trees, t->hierarchy, &t->alloc, order, t->bands, t->watch);
@@ -57,6 +59,7 @@ static hr2d_status set_transport(hr2di_transport *t, const hr2di_transport *of, 
     t->blocks.value =
         first_squares(&t->alloc, of->blocks.value, of->blocks.links, of->blocks.order, order);
   t->blocks.order = order;
+  if (of->shared && hr2di_shared_gather_init(t)) return HR2D_ENOMEM;
   return t->up && t->down && (t->closure || !of->closure) &&
                  (t->blocks.value || !of->blocks.value)
              ? HR2D_OK
@@ -83,6 +86,7 @@ hr2d_status hr2di_equation_part(hr2di_equation *part, const hr2di_equation *whol
 
 void hr2di_equation_part_clear(hr2di_equation *part) {
   hr2di_transport *t = &part->transport;
+  hr2di_shared_gather_clear(t);
   hr2di_push_pull_clear(&t->trees);
   hr2di_alloc_free(&t->alloc, part->balance.missing);
   hr2di_alloc_free(&t->alloc, t->up);

@@ -246,6 +246,7 @@ static hr2d_status make_rows(hr2di_row_sums *rows, const hr2d_linkset *links, wa
   hr2di_defect_closed(links, defect, rows->closed);
   for (uint32_t k = 0; k < w->scene->patches && !status; k++) {
     if (!hr2di_scene_lit(w->scene, k)) continue;
+    if (!hr2di_share_has_row(links->share, k, w->scene->patches)) continue;
     const int open = !rows->closed[k];
     w->patch = k;
     if (open && !w->kind) status = prepare(w, &rows->alloc);
@@ -254,6 +255,19 @@ static hr2d_status make_rows(hr2di_row_sums *rows, const hr2d_linkset *links, wa
     rows->leaves += open ? leaves : 0;
     if (!status) status = hr2di_watch_work(w->watch, 1);
   }
+  return status;
+}
+
+/* Each share has the sums of its rows. */
+static hr2d_status combine_rows(hr2di_row_sums *rows, hr2d_share *share, size_t elements,
+                                hr2d_status status) {
+  double leaves = (double)rows->leaves;
+  status = hr2di_share_combine(share, status, HR2D_COMBINE_SUM, &leaves, 1);
+  if (!status)
+    status = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_SUM, rows->front, elements);
+  if (!status && rows->back)
+    status = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_SUM, rows->back, elements);
+  rows->leaves = (uint64_t)leaves;
   return status;
 }
 
@@ -294,6 +308,7 @@ hr2d_status hr2di_row_sums_init(hr2di_row_sums *rows, const hr2di_transport *t, 
   hr2d_status status = make_walker(t->hierarchy, alloc, t->watch, t->elements, backs, &w);
   if (!rows->front || !rows->closed || !defect || (backs && !rows->back)) status = HR2D_ENOMEM;
   if (!status) status = make_rows(rows, t->links, w, defect);
+  if (t->links->share) status = combine_rows(rows, t->links->share, t->elements, status);
   if (w) clear(w, alloc);
   hr2di_alloc_free(alloc, defect);
   return status;

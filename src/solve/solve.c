@@ -31,6 +31,10 @@ static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *
     return hr2di_message_fail(message, HR2D_EUNSUPPORTED,
                               "values from outside do not tell the temperatures of patches of "
                               "given flux in several bands");
+  if (links->share && hr2di_scene_is_unsettled(links->hierarchy->scene))
+    return hr2di_message_fail(message, HR2D_EUNSUPPORTED,
+                              "temperatures of patches of given flux in several bands are not "
+                              "found by shares");
   if (links->counts.elements == 0)
     return hr2di_message_fail(message, HR2D_ESTATE, "the link set was never refined");
   return HR2D_OK;
@@ -222,6 +226,17 @@ static hr2d_status guess(hr2d_linkset *links, const hr2d_solve_options *options,
   return status;
 }
 
+/* A solution that another share does not have is none. */
+static hr2d_status agree(hr2d_linkset *links, hr2d_status own, hr2d_solution **solution) {
+  const hr2d_status status = hr2di_share_agree(links->share, own);
+  if (status && !own) {
+    hr2d_solution_destroy(*solution);
+    *solution = NULL;
+    hr2di_message_fail(&links->message, status, "another share: %s", hr2d_strerror(status));
+  }
+  return status;
+}
+
 /* During the solve callbacks may change neither the links nor the hierarchy. */
 static hr2d_status run(hr2d_linkset *links, const hr2d_solve_options *given,
                        const double *field, hr2d_solution **solution) {
@@ -233,20 +248,24 @@ static hr2d_status run(hr2d_linkset *links, const hr2d_solve_options *given,
   const hr2d_scene *scene = links->hierarchy->scene;
   hr2d_scene *settled = NULL;
   hr2di_watch watch;
+  hr2di_share_begin(links->share);
   hr2di_scene_watch(scene, &watch, options.progress, options.progress_ctx, "rows");
   if (hr2di_scene_is_unsettled(scene)) status = guess(links, &options, &settled);
   if (!status && !field)
     status = hr2di_existence_check(links, settled ? settled : scene, &watch);
   links->solving = 1;
   atomic_fetch_add(&links->hierarchy->readers, 1);
+  hr2d_solution *made = NULL;
   if (!status)
-    status = settled ? solve_heat(links, &options, settled, solution)
-                     : solve(links, &options, field, solution);
+    status = settled ? solve_heat(links, &options, settled, &made)
+                     : solve(links, &options, field, &made);
   atomic_fetch_sub(&links->hierarchy->readers, 1);
   links->solving = 0;
   if (status) hr2di_settled_destroy(settled);
   if (status == HR2D_ENOMEM)
     hr2di_message_fail(&links->message, status, "out of memory for the solve");
+  if (links->share) status = agree(links, status, &made);
+  if (!status) *solution = made;
   return status;
 }
 

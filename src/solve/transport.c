@@ -10,11 +10,13 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 #include "solve/gather-blocks.h"
+#include "solve/shared-gather.h"
 
 /* A slice needs its own copy of `down`, so there are few slices, with many links each. */
 enum { MOST_SLICES = HR2DI_TRANSPORT_PARTS, SLICE_BLOCKS = 64 };
 
 static size_t count_slices(const hr2d_linkset *links) {
+  if (links->share) return 1;
   const size_t slices = 1 + hr2di_store_chunks(&links->store) / SLICE_BLOCKS;
   return slices < MOST_SLICES ? slices : MOST_SLICES;
 }
@@ -80,10 +82,12 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
   for (size_t e = 0; e < t->elements; e++)
     if (!h->element[e].child) t->leaf[t->leaves++] = (uint32_t)e;
   cut_parts(t);
+  if (links->share && hr2di_shared_gather_init(t)) return HR2D_ENOMEM;
   return hr2di_watch_work(watch, t->elements / 16);
 }
 
 void hr2di_transport_clear(hr2di_transport *t) {
+  hr2di_shared_gather_clear(t);
   hr2di_push_pull_clear(&t->trees);
   hr2di_alloc_free(&t->alloc, t->leaf);
   hr2di_alloc_free(&t->alloc, t->up);
@@ -296,8 +300,12 @@ static void gather_slices(hr2di_transport *t, hr2di_transport_part part) {
 /* Sets t->down to the irradiance of elements over links and clusters, from t->up. */
 static void gather(hr2di_transport *t, hr2di_transport_part part) {
   t->sweeps++;
-  gather_slices(t, part);
-  sum_slices(t);
+  if (t->shared) {
+    hr2di_shared_gather(t, part, 0);
+  } else {
+    gather_slices(t, part);
+    sum_slices(t);
+  }
   if (has_failed(t)) return;
   if (t->links->roots.clusters && part == HR2DI_ALL_LINKS) gather_clusters(t);
   if (!has_failed(t)) divide(t);
@@ -317,6 +325,9 @@ void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor) {
   for (size_t k = 0; k < t->elements * t->width; k++) t->up[k] = 1;
   if (!sends || !t->links->directed) {
     gather(t, HR2DI_ALL_LINKS);
+  } else if (t->shared) {
+    hr2di_shared_gather(t, HR2DI_ALL_LINKS, 1);
+    divide(t);
   } else {
     memset(t->down, 0, t->elements * t->width * sizeof *t->down);
     for (uint64_t k = 0; k < store->count && !declare(t, k); k++) {

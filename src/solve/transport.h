@@ -22,6 +22,7 @@ typedef struct hr2di_transport {
   size_t elements, leaves;
   uint32_t *leaf;  /* the element of each leaf */
   double *up;      /* elements × width: radiosity */
+  struct hr2di_shared *shared; /* sums over shares; NULL: there is but one */
   double *down;    /* slices × elements × width: power received, then irradiance */
   double *receive; /* order 1: factors per element for the push; NULL: light spreads evenly */
   double *send;    /* the same for the pull; equal to `receive` unless links are directed */

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file share.h
+ * @brief Several processes, or threads, that solve one scene together.
+ *
+ * @defgroup share Shares of a solve
+ * Several processes, or threads, that solve one scene together.
+ *
+ * Each has a share of the pairs of patches: it makes their links, and the p × p blocks of these,
+ * and gathers over them. Elements and fields on them are on all shares. Where a number needs all
+ * links, the library calls back: hr2d_share::combine adds up over shares. So memory for links and
+ * blocks, and the time for them, is divided by the number of shares:
+ *
+ *     hr2d_share share = {.struct_size = sizeof share, .number = me, .count = all,
+ *                         .combine = combine, .ctx = …};
+ *     hr2d_target target = HR2D_TARGET_INIT;
+ *     target.share = &share;
+ *     hr2d_solve_to(scene, &target, &solution, &account);
+ *
+ * All shares make the same calls on the same scene. hr2d_refine_options::share is for a
+ * refinement: its links, and the solves on them, are then shared. hr2d_linkset_size() counts the
+ * links of this share, hr2d_linkset_counts() those of all. Solutions are whole on every share:
+ * averages, points and pictures need no other process.
+ *
+ * **Same bits.** What is added up over shares is rounded so that its sum does not depend on the
+ * order of its terms. No digit of a solution depends on the number of shares. Without shares sums
+ * are plain, and solutions differ from that by roundings. Elements, links and oracle calls are
+ * those of one process, exactly.
+ *
+ * **Failures.** If a call fails on one share, it fails on all of them with the same status; none
+ * waits for ever. Budgets of bytes, links and elements are those of each share. A budget of time
+ * is that of the clock of share 0.
+ *
+ * libhr2d-petsc has a `combine` for MPI; examples/shares.c has one for threads.
+ * @{
+ */
+#ifndef HR2D_SHARE_H
+#define HR2D_SHARE_H
+
+#include <hr2d/status.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** What becomes of the values of all shares. */
+typedef enum hr2d_combine {
+  HR2D_COMBINE_SUM = 0, /**< their sum; it is exact, in any order of adding */
+  HR2D_COMBINE_MOST     /**< the largest */
+} hr2d_combine;
+
+/**
+ * Combines values of all shares: value k becomes the sum, or the largest, of the values k of all.
+ *
+ * Shares call it in the same order, with the same `how` and `count`. A share that has failed
+ * calls it once with its status, whatever the others call at that time: `how`, `value` and
+ * `count` have no meaning then, and all shares get a status that is not HR2D_OK, the same on
+ * each.
+ * @param ctx     hr2d_share::ctx
+ * @param status  of this share: HR2D_OK, or why it has failed
+ * @param how     what to do with the values
+ * @param value   `count` values of this share; receives those of all
+ * @param count   may be 0: then nothing but the status matters
+ * @return HR2D_OK if all shares gave that; else the status of one that did not, the same on all
+ */
+typedef hr2d_status (*hr2d_combine_fn)(void *ctx, hr2d_status status, hr2d_combine how,
+                                       double *value, size_t count);
+
+/**
+ * One of the shares. It must outlive the link sets that are made with it; one call at a time uses
+ * it.
+ */
+typedef struct hr2d_share {
+  size_t struct_size;      /**< so that the struct can grow */
+  unsigned number;         /**< from 0 */
+  unsigned count;          /**< of all shares */
+  hr2d_combine_fn combine; /**< called with this struct's `ctx` */
+  void *ctx;               /**< given to `combine` */
+  hr2d_status failed;      /**< for the library alone; HR2D_OK at the start */
+} hr2d_share;
+
+#ifdef __cplusplus
+}
+#endif
+/** @} */
+#endif

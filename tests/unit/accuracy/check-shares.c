@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solves by several shares, each in a thread: no bit depends on their number; elements, links
+   and oracle calls are those without shares, and B, H and errors differ by roundings.  Each
+   share has its part of the links. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "support/shares.h"
+#include "support/slow-scenes.h"
+#include "support/support.h"
+
+enum { MOST_VALUES = 4000 };
+
+/* What a solve has found. */
+typedef struct found {
+  hr2d_status status;
+  size_t values;
+  double average[MOST_VALUES], irradiance[MOST_VALUES];
+  double error[8]; /* estimates and bounds of the account */
+  hr2d_power power;
+  uint64_t elements, leaves, links, calls, tests, own_links;
+} found;
+
+typedef struct kind {
+  const char *name;
+  const char *file;   /* of examples/scenes; NULL: a slow scene */
+  slow_kind slow;
+  size_t patches;
+  double error;       /* of a target; 0: a solve by ε */
+  double epsilon, from;
+  unsigned order;
+  int ordered, no_closure, sup;
+  const hr2d_oracle *(*oracle)(void);
+} kind;
+
+static const kind kinds[] = {
+    {"lit room", "lit-room.geojson", .error = 1e-5},
+    {"partition", "partition.geojson", .error = 1e-3},
+    {"partition, points", "partition.geojson", .error = 1e-2, .sup = 1},
+    {"panels", "solar-panels.geojson", .error = 1e-4},
+    {"squares", NULL, SLOW_SQUARES, 300, .error = 1e-1},
+    {"round", NULL, SLOW_ROUND, 300, .error = 1e-6},
+    {"city", NULL, SLOW_CITY, 60, .error = 1e-2},
+    {"room of order 1", "lit-room.geojson", .epsilon = 0.2, .order = 1},
+    {"room of order 4", "lit-room.geojson", .epsilon = 0.3, .order = 4},
+    {"room in steps", "lit-room.geojson", .epsilon = 0.1, .from = 0.8, .order = 3},
+    {"partition of order 3", "partition.geojson", .epsilon = 0.4, .order = 3},
+    {"directed", "lit-room.geojson", .epsilon = 0.3, .order = 2, .ordered = 1},
+    {"directed, order 1", "partition.geojson", .epsilon = 0.4, .order = 1, .ordered = 1},
+    {"no closure", "solar-panels.geojson", .epsilon = 0.3, .order = 3, .no_closure = 1},
+    {"l1", "lit-room.geojson", .epsilon = 1e-3, .order = 2, .oracle = hr2d_oracle_l1},
+    {"panels of order 1", "solar-panels.geojson", .epsilon = 0.3, .order = 1},
+    {"city of order 2", NULL, SLOW_CITY, 60, .epsilon = 0.5, .order = 2},
+};
+
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+static hr2d_scene *make(const kind *k) {
+  if (k->file) return test_shipped_scene(k->file);
+  hr2d_scene *scene = test_new_scene(NULL);
+  ck_assert_int_eq(slow_add(scene, k->slow, k->patches), HR2D_OK);
+  test_commit(scene);
+  return scene;
+}
+
+static void read_solution(const hr2d_scene *scene, const hr2d_solution *solution, found *f) {
+  const size_t bands = hr2d_scene_bands(scene);
+  f->values = hr2d_scene_patches(scene) * bands;
+  ck_assert_uint_le(f->values, MOST_VALUES);
+  for (size_t k = 0; k < f->values; k++) {
+    f->average[k] = hr2d_solution_average(solution, k / bands, k % bands);
+    f->irradiance[k] = hr2d_solution_irradiance(solution, k / bands, k % bands);
+  }
+  f->power = hr2d_solution_power(solution, 0);
+  const hr2d_linkset *links = hr2d_solution_links(solution);
+  const hr2d_refine_counts counts = hr2d_linkset_counts(links);
+  f->links = counts.links;
+  f->calls = counts.oracle_calls;
+  f->tests = counts.visibility_tests;
+  f->own_links = hr2d_linkset_size(links);
+}
+
+static void solve_to(const kind *k, const hr2d_scene *scene, hr2d_share *share, found *f) {
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_solution *solution;
+  hr2d_account a;
+  target.error = k->error;
+  target.share = share;
+  if (k->sup) target.norm = HR2D_NORM_SUP;
+  f->status = hr2d_solve_to(scene, &target, &solution, &a);
+  if (!solution) return;
+  read_solution(scene, solution, f);
+  const double error[] = {a.average.estimate,    a.average.bound,
+                          a.sup.estimate,        a.sup.bound,
+                          a.irradiance.estimate, a.irradiance.bound,
+                          a.irradiance_sup.estimate, a.irradiance_sup.bound};
+  memcpy(f->error, error, sizeof error);
+  f->elements = a.elements;
+  f->leaves = a.leaves;
+  hr2d_solution_destroy(solution);
+}
+
+static hr2d_status refine(const kind *k, hr2d_linkset *links, hr2d_share *share) {
+  hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
+  hr2d_status status = HR2D_OK;
+  options.ordered = k->ordered;
+  options.max_level = 6;
+  options.share = share;
+  options.packed = k->ordered;
+  options.epsilon = k->from > 0 ? k->from : k->epsilon;
+  for (;; options.epsilon = fmax(0.5 * options.epsilon, k->epsilon)) {
+    status = hr2d_refine(links, &options);
+    if (status || options.epsilon <= k->epsilon) return status;
+  }
+}
+
+static void solve_by(const kind *k, const hr2d_scene *scene, hr2d_share *share, found *f) {
+  hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+  hr2d_hierarchy *h = NULL;
+  hr2d_linkset *links = NULL;
+  hr2d_solution *solution = NULL;
+  if (k->no_closure) options.closure = HR2D_CLOSURE_OFF;
+  f->status = hr2d_hierarchy_create(scene, &h);
+  if (!f->status)
+    f->status = hr2d_linkset_create(h, k->oracle ? k->oracle() : NULL, NULL, NULL, NULL, &links);
+  if (!f->status) f->status = refine(k, links, share);
+  if (!f->status) f->status = hr2d_hierarchy_set_order(h, k->order);
+  if (!f->status) f->status = hr2d_solve(links, &options, &solution);
+  if (solution) read_solution(scene, solution, f);
+  f->elements = hr2d_hierarchy_count(h).elements;
+  f->leaves = hr2d_hierarchy_count(h).leaves;
+  hr2d_solution_destroy(solution);
+  hr2d_linkset_destroy(links);
+  hr2d_hierarchy_destroy(h);
+}
+
+static void solve(const kind *k, const hr2d_scene *scene, hr2d_share *share, found *f) {
+  memset(f, 0, sizeof *f);
+  (k->error > 0 ? solve_to : solve_by)(k, scene, share, f);
+}
+
+typedef struct job {
+  const kind *kind;
+  const hr2d_scene *scene;
+  found *found; /* of each share */
+} job;
+
+static void work(hr2d_share *share, void *ctx) {
+  job *j = ctx;
+  solve(j->kind, j->scene, share, &j->found[share->number]);
+}
+
+static double largest(const double *value, size_t count) {
+  double most = 0;
+  for (size_t k = 0; k < count; k++) most = fmax(most, fabs(value[k]));
+  return most;
+}
+
+static void compare_with_one(const found *f, const found *one) {
+  ck_assert_int_eq(f->status, one->status);
+  ck_assert_uint_eq(f->elements, one->elements);
+  ck_assert_uint_eq(f->leaves, one->leaves);
+  ck_assert_uint_eq(f->links, one->links);
+  ck_assert_uint_eq(f->calls, one->calls);
+  ck_assert_uint_eq(f->tests, one->tests);
+  const double b = largest(one->average, one->values);
+  const double h = largest(one->irradiance, one->values);
+  for (size_t k = 0; k < one->values; k++) {
+    ck_assert_double_eq_tol(f->average[k], one->average[k], 1e-12 * b);
+    ck_assert_double_eq_tol(f->irradiance[k], one->irradiance[k], 1e-12 * h);
+  }
+  for (int k = 0; k < 8; k++)
+    ck_assert_double_eq_tol(f->error[k], one->error[k], 1e-6 * one->error[k] + 1e-13);
+}
+
+/* The links of a share are not counted here: they are its own. */
+static int same_bits(const found *f, const found *g) {
+  found copy = *g;
+  copy.own_links = f->own_links;
+  return !memcmp(f, &copy, sizeof copy);
+}
+
+START_TEST(no_bit_depends_on_shares) {
+  const kind *k = &kinds[_i];
+  hr2d_scene *scene = make(k);
+  found *one = calloc(1 + SHARES_MOST, sizeof *one), *of = one + 1;
+  found first = {0};
+  ck_assert_ptr_nonnull(one);
+  solve(k, scene, NULL, one);
+  for (unsigned count = 1; count <= 4; count++) {
+    job j = {k, scene, of};
+    uint64_t links = 0;
+    shares_run(count, work, &j);
+    if (count == 1) first = of[0];
+    for (unsigned m = 0; m < count; m++) {
+      ck_assert_msg(same_bits(&of[m], &first), "%s: other bits on share %u of %u", k->name, m,
+                    count);
+      links += of[m].own_links;
+    }
+    ck_assert_uint_eq(links, one->own_links);
+  }
+  compare_with_one(&first, one);
+  printf("%s: %llu elements, %llu links\n", k->name, (unsigned long long)one->elements,
+         (unsigned long long)one->links);
+  free(one);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+TEST_SUITE("shares") {
+  REPEAT_TESTS(KINDS, "bits", no_bit_depends_on_shares);
+}
