@@ -109,6 +109,7 @@ SUITES = \
 	tests/threads/check-threads \
 	tests/threads/check-team \
 	tests/faults/check-faults \
+	tests/faults/check-share-faults \
 	tests/faults/check-faults-accuracy \
 	tests/faults/check-faults-callbacks \
 	tests/faults/check-faults-malloc \

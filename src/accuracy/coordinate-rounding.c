@@ -148,7 +148,7 @@ static hr2d_status add_all_links(const hr2di_transport *t, const offsets *places
   int again;
   do {
     add_links(t, places, g);
-    status = hr2di_shared_sums_end(g->sums, hr2di_watch_status(t->watch), &again);
+    status = hr2di_shared_sums_end(g->sums, hr2di_transport_status(t), &again);
   } while (again);
   return status;
 }

@@ -68,7 +68,7 @@ static int by_leaves(const void *left, const void *right) {
 static hr2d_status collect(hr2di_contacts *c, const hr2di_transport *t, hr2d_status status) {
   double *record = hr2di_alloc(&c->alloc, c->count, 2 * sizeof *record);
   size_t count = c->count;
-  if (!status && !record) status = HR2D_ENOMEM;
+  if (!status) status = record ? hr2di_transport_status(t) : HR2D_ENOMEM;
   for (size_t k = 0; k < 2 * count && !status; k++) record[k] = c->contact[k / 2].leaf[k % 2];
   status = hr2di_share_collect(t->links->share, status, &c->alloc, &record, &count, 2);
   c->count = 0;

@@ -197,7 +197,7 @@ static hr2d_status collect(hr2di_estimator *e, gaps *all, hr2d_status status) {
   const hr2di_transport *t = &e->eq.transport;
   double *record = hr2di_alloc(&t->alloc, all->count, NUMBERS * sizeof *record);
   size_t count = all->count;
-  if (!status && !record) status = HR2D_ENOMEM;
+  if (!status) status = record ? hr2di_transport_status(t) : HR2D_ENOMEM;
   for (size_t k = 0; k < count && !status; k++) {
     const gap *g = &all->gap[k];
     const double number[NUMBERS] = {g->over,     g->end, g->leaf[0], g->leaf[1],

@@ -234,7 +234,7 @@ hr2d_status hr2di_residual_measure(hr2di_estimator *e) {
     }
   add_contacts(e);
   add_all_nearby(e);
-  const hr2d_status status = t->failed ? t->failed : hr2di_watch_status(t->watch);
   if (!t->links->share) return HR2D_OK;
-  return hr2di_share_combine(t->links->share, status, HR2D_COMBINE_MOST, e->point[1], t->bands);
+  return hr2di_share_combine(t->links->share, hr2di_transport_status(t), HR2D_COMBINE_MOST,
+                             e->point[1], t->bands);
 }

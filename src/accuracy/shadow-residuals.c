@@ -105,7 +105,7 @@ static hr2d_status add_shares(hr2di_estimator *e, const double *beta, squares *s
   s->scale = hr2di_bin_scale(most * most * (double)t->links->counts.links);
   s->bin = hr2di_alloc_zero(&t->alloc, count, sizeof *s->bin);
   if (s->bin) add_links(e, beta, s);
-  hr2d_status status = s->bin ? hr2di_watch_status(t->watch) : HR2D_ENOMEM;
+  hr2d_status status = s->bin ? hr2di_transport_status(t) : HR2D_ENOMEM;
   status = hr2di_share_combine(t->links->share, status, HR2D_COMBINE_SUM,
                                s->bin ? &s->bin->head : NULL, 2 * count);
   for (size_t k = 0; k < count && !status; k++) s->sum[k] = hr2di_bin_total(&s->bin[k]);

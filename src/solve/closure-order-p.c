@@ -127,7 +127,7 @@ static hr2d_status add_shares(rows *r, hr2di_transport *t) {
   r->bin = hr2di_alloc_zero(&t->alloc, count, sizeof *r->bin);
   r->scale = hr2di_bin_scale(2 * sqrt((double)(2 * t->order)));
   if (r->bin) add_all_links(r);
-  hr2d_status status = r->bin ? hr2di_watch_status(t->watch) : HR2D_ENOMEM;
+  hr2d_status status = r->bin ? hr2di_transport_status(t) : HR2D_ENOMEM;
   status = hr2di_share_combine(t->links->share, status, HR2D_COMBINE_SUM,
                                r->bin ? &r->bin->head : NULL, 2 * count);
   for (size_t k = 0; k < count && !status; k++) r->exact[k] = hr2di_bin_total(&r->bin[k]);

@@ -49,10 +49,6 @@ void hr2di_shared_gather_clear(hr2di_transport *t) {
   t->shared = NULL;
 }
 
-static hr2d_status status_of(const hr2di_transport *t) {
-  return t->failed ? t->failed : hr2di_watch_status(t->watch);
-}
-
 static void set_sizes(hr2di_transport *t) {
   double root[HR2D_MAX_ORDER];
   for (size_t l = 0; l < t->order; l++) root[l] = sqrt((double)(2 * l + 1));
@@ -100,7 +96,7 @@ static void set_scales(const pass *p) {
     if (p->second) raise_most(t, pair.second, pair.first);
   }
   t->failed =
-      hr2di_share_combine(t->links->share, status_of(t), HR2D_COMBINE_MOST, most, values);
+      hr2di_share_combine(t->links->share, hr2di_transport_status(t), HR2D_COMBINE_MOST, most, values);
   const double root = SLACK * sqrt((double)(2 * t->order - 1));
   for (size_t k = 0; k < values; k++)
     most[k] = hr2di_bin_scale(root * t->hierarchy->element[k / t->bands].length * most[k]);
@@ -172,7 +168,7 @@ void hr2di_shared_gather(hr2di_transport *t, hr2di_transport_part part, int send
   if (t->failed) return;
   for (size_t k = 0; k < t->parts; k++) hr2di_watch_follow(&p.own[k], t->watch);
   hr2di_team_run(t->parts > 1 ? threads : 1, t->parts, gather_part, &p, t->watch);
-  t->failed = hr2di_share_combine(t->links->share, status_of(t), HR2D_COMBINE_SUM,
+  t->failed = hr2di_share_combine(t->links->share, hr2di_transport_status(t), HR2D_COMBINE_SUM,
                                   &t->shared->bin->head, 2 * field);
   for (size_t k = 0; k < field && !t->failed; k++)
     t->down[k] = hr2di_bin_total(&t->shared->bin[k]);

@@ -100,9 +100,11 @@ void hr2di_transport_clear(hr2di_transport *t) {
   hr2di_alloc_free(&t->alloc, t->sky);
 }
 
-/* Keeps what stopped the watch; whether anything has failed. */
+/* Keeps what stopped the watch; whether anything has failed.  Other shares are told at once, as
+   callers may go on for a while. */
 static int has_failed(hr2di_transport *t) {
-  if (!t->failed) t->failed = hr2di_watch_status(t->watch);
+  t->failed = hr2di_transport_status(t);
+  if (t->failed) t->failed = hr2di_share_agree(t->links->share, t->failed);
   return t->failed != HR2D_OK;
 }
 

@@ -48,6 +48,11 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
 
 void hr2di_transport_clear(hr2di_transport *t);
 
+/* Why its results must not be used, or HR2D_OK. */
+static inline hr2d_status hr2di_transport_status(const hr2di_transport *t) {
+  return t->failed ? t->failed : hr2di_watch_status(t->watch);
+}
+
 /* Pulls a leaf field up to every element, into t->up. */
 void hr2di_transport_pull(hr2di_transport *t, const double *leaf_field);
 
