@@ -27,6 +27,7 @@ libhr2d_petsc_la_SOURCES = \
 	petsc/power.c \
 	petsc/save.c \
 	petsc/share.c petsc/share.h \
+	petsc/shares.c \
 	petsc/solve.c \
 	petsc/transport.c petsc/transport.h \
 	petsc/trees.c petsc/trees.h petsc/trees-impl.h \
@@ -35,30 +36,15 @@ bin_PROGRAMS += hr2d-mpi
 dist_man_MANS += petsc/hr2d-mpi.1
 hr2d_mpi_CPPFLAGS = -D_POSIX_C_SOURCE=200809L -DPROGRAM_NAME='"hr2d-mpi"' $(PUBLIC_CPPFLAGS) \
 	-I$(srcdir)/petsc/include -I$(srcdir)/petsc/program -I$(srcdir)/tools $(PETSC_CFLAGS) \
-	$(GSL_CFLAGS) $(JANSSON_CFLAGS)
+	$(GSL_CFLAGS) $(JANSSON_CFLAGS) $(CAIRO_CFLAGS)
 hr2d_mpi_LDADD = libhr2d-petsc.la libhr2d.la $(PETSC_LIBS) $(MPI_LIBS) $(GSL_LIBS) \
-	$(JANSSON_LIBS) -lm
-hr2d_mpi_SOURCES = \
+	$(JANSSON_LIBS) $(CAIRO_LIBS) -lm
+hr2d_mpi_SOURCES = $(SOLVE_SOURCES) \
 	petsc/program/main.c petsc/program/program.h \
 	petsc/program/report.c \
 	petsc/program/run.c \
 	petsc/program/scene.c \
-	tools/output/clock.c tools/output/clock.h \
-	tools/output/complain.c tools/output/complain.h \
-	tools/output/json.c tools/output/json.h \
-	tools/output/output.c tools/output/output.h \
-	tools/output/progress.c tools/output/progress.h \
-	tools/output/suffix.c tools/output/suffix.h \
-	tools/output/table.c tools/output/table.h \
-	tools/cli/commands.c tools/cli/commands.h \
-	tools/cli/names.c tools/cli/names.h \
-	tools/cli/numbers.c tools/cli/numbers.h \
-	tools/cli/option-table.c tools/cli/option-table.h \
-	tools/cli/options.c tools/cli/options.h \
-	tools/cli/options-check.c \
-	tools/cli/scene.c tools/cli/scene.h \
-	tools/cli/values.c tools/cli/values.h \
-	tools/cli/warnings.c tools/cli/warnings.h
+	petsc/program/whole.c
 include_HEADERS += petsc/include/hr2d-petsc.h
 pkgconfig_DATA += hr2d-petsc.pc
 else

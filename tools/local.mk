@@ -3,8 +3,8 @@ bin_PROGRAMS += tools/hr2d
 tools_hr2d_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(PUBLIC_CPPFLAGS) -I$(srcdir)/tools \
 	$(GSL_CFLAGS) $(JANSSON_CFLAGS) $(CAIRO_CFLAGS)
 tools_hr2d_LDADD = libhr2d.la $(GSL_LIBS) $(JANSSON_LIBS) $(CAIRO_LIBS) -lm
-tools_hr2d_SOURCES = \
-	tools/main.c \
+# What `hr2d solve` and hr2d-mpi have in common.
+SOLVE_SOURCES = \
 	tools/output/apng.c tools/output/apng.h \
 	tools/output/clock.c tools/output/clock.h \
 	tools/output/complain.c tools/output/complain.h \
@@ -18,7 +18,6 @@ tools_hr2d_SOURCES = \
 	tools/output/table.c tools/output/table.h \
 	tools/output/ticks.c tools/output/ticks.h \
 	tools/cli/commands.c tools/cli/commands.h \
-	tools/cli/help.c tools/cli/help.h \
 	tools/cli/names.c tools/cli/names.h \
 	tools/cli/numbers.c tools/cli/numbers.h \
 	tools/cli/option-table.c tools/cli/option-table.h \
@@ -27,7 +26,6 @@ tools_hr2d_SOURCES = \
 	tools/cli/scene.c tools/cli/scene.h \
 	tools/cli/values.c tools/cli/values.h \
 	tools/cli/warnings.c tools/cli/warnings.h \
-	tools/info/command.c \
 	tools/run/heat.c \
 	tools/run/leaves.c tools/run/leaves.h \
 	tools/run/run.c tools/run/run.h \
@@ -59,7 +57,11 @@ tools_hr2d_SOURCES = \
 	tools/solve/csv.c \
 	tools/solve/json.c \
 	tools/solve/solve.h \
-	tools/solve/table.c \
+	tools/solve/table.c
+tools_hr2d_SOURCES = $(SOLVE_SOURCES) \
+	tools/main.c \
+	tools/cli/help.c tools/cli/help.h \
+	tools/info/command.c \
 	tools/study/chart.c \
 	tools/study/command.c \
 	tools/study/csv.c \

@@ -24,8 +24,20 @@
  * refinement are those of one process; of a further refinement (multigridding) all but the
  * visibility tests. B differs from that of hr2d_solve() by roundings.
  *
- * **Limits of this version.** Elements carry one constant (order 1). Oracles that read the
- * brightness of a former solution get emission alone, and cannot be refined further.
+ * **Two ways.** An hr2dp shares out links and elements. Its elements carry one constant (order
+ * 1), as where links are many for each element; oracles that read the brightness of a former
+ * solution get emission alone, and cannot be refined further. hr2dp_share_create() shares out
+ * links and their blocks alone, for hr2d_solve_to(), for orders above 1, and where the solution
+ * is wanted whole:
+ *
+ *     hr2d_share *share;
+ *     hr2d_target target = HR2D_TARGET_INIT;
+ *     hr2dp_share_create(PETSC_COMM_WORLD, &share);
+ *     target.share = share;
+ *     hr2d_solve_to(scene, &target, &solution, &account);   on every rank
+ *     …
+ *     hr2d_solution_destroy(solution);
+ *     hr2dp_share_destroy(&share);
  *
  * **Errors.** Each function returns a PetscErrorCode, which is 0 for success. All ranks return
  * the same code: a failure on one rank is agreed upon before any rank waits for it. A failure
@@ -245,6 +257,24 @@ HR2DP_API PetscErrorCode hr2dp_save(hr2dp *p, Vec b, PetscViewer viewer);
  */
 HR2DP_API PetscErrorCode hr2dp_load(hr2dp *p, const hr2d_refine_options *options,
                                     PetscViewer viewer, Vec *b, double *epsilon);
+
+/**
+ * Makes a share of the solves of libhr2d for each rank, see share.h of libhr2d: the argument of
+ * hr2d_target::share and hr2d_refine_options::share.
+ * @param comm   a communicator; it is duplicated
+ * @param share  receives the share of this rank, number 0 on rank 0
+ * @return 0 or a failure of PETSc
+ *
+ * A time budget is that of the clock of rank 0. An MPI failure is fatal.
+ */
+HR2DP_API PetscErrorCode hr2dp_share_create(MPI_Comm comm, hr2d_share **share);
+
+/**
+ * Destroys a share, and sets it to NULL. Destroy the links and solutions made with it first.
+ * @param share  a share, or NULL in it
+ * @return 0 or a failure of PETSc
+ */
+HR2DP_API PetscErrorCode hr2dp_share_destroy(hr2d_share **share);
 
 #ifdef __cplusplus
 }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "draw/draw.h"
 #include "output/clock.h"
 #include "output/complain.h"
 #include "output/output.h"
@@ -16,6 +17,9 @@ static const char help[] =
     "does, with the links shared out over ranks.  No digit depends on their number.\n"
     "\n"
     "Method:\n"
+    "  --target-error E, --time-budget S, --norm NAME, --importance PATCH, --floor F\n"
+    "                    the best elements for an error, with its account\n"
+    "  --order P         coefficients of each element (1), with --eps\n"
     "  --oracle NAME     size (default), size2, bf, l1 or l1-grid\n"
     "  --eps E           accept links whose estimated error is <= E (0.1)\n"
     "  --variant NAME    original (default) or modified: what a refusal splits\n"
@@ -32,6 +36,7 @@ static const char help[] =
     "\n"
     "Output:\n"
     "  --json FILE|-     the result as JSON; - is standard output\n"
+    "  --csv FILE|-, --at PATCH:T, --draw FILE, --error, --no-error  as of hr2d solve\n"
     "  --quiet           no table, no progress\n"
     "  --help, --version\n";
 
@@ -55,17 +60,15 @@ static int check_options(const options *o) {
   const struct {
     int given;
     const char *name;
-  } missing[] = {{options_targeted(o), "target-error or --time-budget"},
-                 {o->order > 1, "order"},
-                 {o->at.count > 0, "at"},
-                 {o->csv != NULL, "csv"},
-                 {o->draw != NULL, "draw"},
-                 {o->watch != NULL, "watch"},
-                 {o->error, "error"}};
+  } missing[] = {{o->watch != NULL, "watch"}, {o->links_of.patch != NULL, "links-of"}};
   if (o->command != SOLVE) return complain_usage("the only command is solve");
   for (size_t k = 0; k < sizeof missing / sizeof *missing; k++)
-    if (missing[k].given) return complain_usage("hr2d-mpi has no --%s yet", missing[k].name);
-  return options_check_outputs(o);
+    if (missing[k].given) return complain_usage("hr2d-mpi has no --%s", missing[k].name);
+  if (o->state && job_is_whole(o))
+    return complain_usage("--state keeps solves by --eps at order 1, without --at, --csv, --draw "
+                          "and --error");
+  const int status = o->draw ? draw_check(o->draw) : 0;
+  return status ? status : options_check_outputs(o);
 }
 
 /* Rank 0 reads the command line first, and is the only one to find something wrong. */
@@ -77,13 +80,18 @@ static int read_options(job *j, int argc, char **argv, options *o) {
   }
   status = job_agree(status);
   if (!status && j->rank > 0) status = options_read(argc, argv, o);
+  if (!status && o->threads == 0) o->threads = 1;
   return status;
 }
 
 static int solve(job *j) {
   int status = job_load_scene(j);
-  if (!status) status = job_run(j);
-  if (!status) status = job_report(j);
+  if (!status && job_is_whole(j->options)) {
+    status = job_solve_whole(j);
+  } else if (!status) {
+    status = job_run(j);
+    if (!status) status = job_report(j);
+  }
   VecDestroy(&j->b);
   VecDestroy(&j->h);
   hr2dp_destroy(&j->p);
@@ -91,7 +99,7 @@ static int solve(job *j) {
   return status;
 }
 
-static int run(job *j, int argc, char **argv) {
+static int run_job(job *j, int argc, char **argv) {
   options o = {0};
   int status = read_options(j, argc, argv, &o);
   j->options = &o;
@@ -114,8 +122,9 @@ int main(int argc, char **argv) {
   if (PetscInitializeNoArguments()) return EXIT_FAILED;
   MPI_Comm_rank(PETSC_COMM_WORLD, &j.rank);
   MPI_Comm_size(PETSC_COMM_WORLD, &j.ranks);
+  if (j.rank > 0) complain_silently();
   PetscPushErrorHandler(PetscReturnErrorHandler, NULL);
-  int status = run(&j, argc, argv);
+  int status = run_job(&j, argc, argv);
   status = output_finish(status);
   PetscPopErrorHandler();
   if (PetscFinalize() && !status) status = EXIT_FAILED;

@@ -27,6 +27,11 @@ int job_load_scene(job *j);
 /* run.c: refines and solves.  Returns 0 or the exit status. */
 int job_run(job *j);
 
+/* whole.c: whether the options ask for what needs all elements on every rank; and solves and
+   reports so.  Returns 0 or the exit status, the same on all ranks. */
+int job_is_whole(const options *o);
+int job_solve_whole(job *j);
+
 /* report.c: the table and --json, by rank 0.  Returns 0 or the exit status, the same on all
    ranks. */
 int job_report(job *j);

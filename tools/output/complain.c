@@ -17,6 +17,12 @@ static void one_line(char *text) {
     if ((unsigned char)*text < ' ' || *text == 127) *text = '?';
 }
 
+static int silent;
+
+void complain_silently(void) {
+  silent = 1;
+}
+
 int complain(const char *where, const char *format, ...) {
   char place[LINE], line[LINE];
   va_list arguments;
@@ -26,7 +32,7 @@ int complain(const char *where, const char *format, ...) {
   snprintf(place, sizeof place, "%s", where ? where : "");
   one_line(place);
   one_line(line);
-  fprintf(stderr, PROGRAM_NAME ": %s%s%s\n", place, where ? ": " : "", line);
+  if (!silent) fprintf(stderr, PROGRAM_NAME ": %s%s%s\n", place, where ? ": " : "", line);
   return EXIT_FAILED;
 }
 

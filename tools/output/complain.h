@@ -12,6 +12,9 @@ enum {
   EXIT_INTERRUPTED = 130 /* 128 + SIGINT, as shells have it */
 };
 
+/* From now on complain() prints nothing: another process says the same. */
+void complain_silently(void);
+
 /* Prints "hr2d: WHERE: …" on stderr and returns EXIT_FAILED; `where` may be NULL. */
 __attribute__((format(printf, 2, 3))) int complain(const char *where, const char *format, ...);
 

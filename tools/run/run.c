@@ -45,6 +45,7 @@ static hr2d_status refine_stage(run *r, double epsilon, progress *p) {
   refine.epsilon = epsilon;
   refine.threads = options_threads(r->options);
   refine.brightness = r->solution;
+  refine.share = r->share;
   refine.progress = progress_show;
   refine.progress_ctx = p;
   const double start = clock_seconds();
@@ -102,7 +103,7 @@ static int run_stages(run *r, progress *p) {
     if (!status) code = state_save(r);
   }
   p->steps = 0;
-  r->account.links = hr2d_linkset_size(r->links);
+  r->account.links = hr2d_linkset_counts(r->links).links;
   progress_clear(p);
   if (!status) return code;
   code = complain_call(o->scene, hr2d_linkset_message(r->links), status);
@@ -123,6 +124,16 @@ void run_release(run *r) {
   hr2d_linkset_destroy(r->own_links);
   hr2d_hierarchy_destroy(r->own_hierarchy);
   *r = (run){0};
+}
+
+int run_compare_shares(run *r) {
+  double most[] = {(double)hr2d_linkset_size(r->links), (double)run_peak_bytes()};
+  if (!r->share) return 0;
+  if (r->share->combine(r->share->ctx, HR2D_OK, HR2D_COMBINE_MOST, most, 2))
+    return complain(r->options->scene, "a share has failed");
+  r->most_links = (uint64_t)most[0];
+  r->most_bytes = (uint64_t)most[1];
+  return 0;
 }
 
 double run_power_error(const hr2d_power *p) {

@@ -17,6 +17,9 @@ typedef struct run {
   double start;             /* clock_seconds() when the command began */
   const size_t *places;     /* the patches of --at, --links-of, --importance and --beams-of */
   const warnings *warnings; /* about the scene */
+  hr2d_share *share;        /* of a run over several processes; NULL: this one is alone */
+  uint64_t most_links;      /* with shares: of the share that has most */
+  uint64_t most_bytes;      /* likewise, at the peak */
   const hr2d_hierarchy *hierarchy;
   const hr2d_linkset *links;
   hr2d_solution *solution;
@@ -35,6 +38,9 @@ typedef struct run {
 int run_solve(run *r);
 
 void run_release(run *r);
+
+/* Learns what the share that has most has; all shares call it.  Returns 0 or the exit status. */
+int run_compare_shares(run *r);
 
 /* target.c: solves to the target error, or as well as the budget allows; otherwise like
    run_solve(). */

@@ -31,6 +31,7 @@ static hr2d_target make_target(const run *r, progress *p) {
   target.max_links = o->max_links;
   target.progress = progress_show;
   target.progress_ctx = p;
+  target.share = r->share;
   /* The scene was read within the budget.  What is left must not be 0, which means no limit. */
   if (o->time_budget > 0)
     target.seconds = fmax(1e-3, o->time_budget - (clock_seconds() - r->start));
@@ -80,6 +81,7 @@ static hr2d_status compare(run *r, progress *p) {
   how.threads = options_threads(r->options);
   how.progress = progress_show;
   how.progress_ctx = p;
+  how.share = r->share;
   for (how.error = 1e-6; !status && how.error > 0.5e-12; how.error *= 1e-3) {
     hr2d_error average, sup;
     status = hr2d_solution_error(r->solution, &how, &average, &sup);

@@ -58,15 +58,16 @@ static int report(const run *r) {
 static int run_and_report(run *r) {
   int status = run_solve(r);
   if (!status || r->inaccurate) {
-    const int reporting = report(r);
+    int reporting = run_compare_shares(r);
+    if (!reporting && (!r->share || r->share->number == 0)) reporting = report(r);
     if (!status) status = reporting;
   }
   run_release(r);
   return status;
 }
 
-static int solve_scene(const options *o, const hr2d_scene *scene, size_t cuts, double start,
-                       size_t *patches) {
+static int solve_places(const options *o, const hr2d_scene *scene, size_t cuts, double start,
+                        hr2d_share *share, size_t *patches) {
   warnings w;
   int status = find_places(o, scene, patches);
   if (status) return status;
@@ -78,9 +79,20 @@ static int solve_scene(const options *o, const hr2d_scene *scene, size_t cuts, d
            .cuts = cuts,
            .start = start,
            .places = patches,
-           .warnings = &w};
+           .warnings = &w,
+           .share = share};
   if (!status) status = run_and_report(&r);
   warnings_release(&w);
+  return status;
+}
+
+int solve_scene(const options *o, const hr2d_scene *scene, size_t cuts, double start,
+                hr2d_share *share) {
+  size_t *patches =
+      calloc(o->at.count + 1 + o->importance.count + o->beams_of.count, sizeof *patches);
+  const int status =
+      patches ? solve_places(o, scene, cuts, start, share, patches) : complain_memory();
+  free(patches);
   return status;
 }
 
@@ -92,10 +104,7 @@ int solve_command(const options *o) {
   if (!status) status = options_check_outputs(o);
   if (!status) status = scene_load(o, o->force, &scene, &cuts);
   if (status) return status;
-  size_t *patches =
-      calloc(o->at.count + 1 + o->importance.count + o->beams_of.count, sizeof *patches);
-  status = patches ? solve_scene(o, scene, cuts, start, patches) : complain_memory();
-  free(patches);
+  status = solve_scene(o, scene, cuts, start, NULL);
   hr2d_scene_destroy(scene);
   return status;
 }

@@ -185,6 +185,15 @@ static void put_counts(json_t **root, const run *r, const hr2d_refine_counts *n)
   json_put(root, "levels", json_count(n->levels));
 }
 
+/* Of the rank that has most. */
+static json_t *ranks(const run *r) {
+  json_t *object = json_object();
+  json_put(&object, "count", json_count(r->share->count));
+  json_put(&object, "most_links", json_count(r->most_links));
+  json_put(&object, "most_bytes", json_count(r->most_bytes));
+  return object;
+}
+
 int solve_write_json(const run *r, double total_seconds, const char *path) {
   const options *o = r->options;
   const hr2d_refine_counts counts = hr2d_linkset_counts(r->links);
@@ -199,6 +208,7 @@ int solve_write_json(const run *r, double total_seconds, const char *path) {
   json_put(&root, "work", work(r, &counts));
   json_put(&root, "seconds", times(r, total_seconds));
   json_put(&root, "peak_bytes", json_count(run_peak_bytes()));
+  if (r->share) json_put(&root, "ranks", ranks(r));
   json_put(&root, "power", power(r));
   json_put(&root, "residual", json_number(hr2d_solution_residual(r->solution)));
   json_put(&root, "error", errors(&r->account));

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solves with elements on every rank, and links and blocks shared out: to a target, at an order
+   above 1, or where a result needs all elements.  It is the run of `hr2d solve`, made by all
+   ranks; rank 0 reports. */
+#include "output/complain.h"
+#include "program.h"
+#include "solve/solve.h"
+
+int job_is_whole(const options *o) {
+  return options_targeted(o) || o->order > 1 || o->at.count > 0 || o->csv || o->draw || o->error;
+}
+
+int job_solve_whole(job *j) {
+  hr2d_share *share;
+  const PetscErrorCode code = hr2dp_share_create(PETSC_COMM_WORLD, &share);
+  if (code) return job_complain(j, code);
+  const int status = solve_scene(j->options, j->scene, j->cuts, j->start, share);
+  (void)hr2dp_share_destroy(&share);
+  return job_agree(status);
+}
