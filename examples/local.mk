@@ -3,7 +3,7 @@
 EXAMPLES = examples/adiabatic-walls examples/conduction examples/digits \
 	examples/frame-cavity examples/furnace-section examples/own-oracle examples/paint-oven \
 	examples/resume examples/room-climate examples/shares examples/solar-panels \
-	examples/solar-year examples/street-canyon examples/tour
+	examples/solar-year examples/street-canyon examples/together examples/tour
 check_PROGRAMS += $(EXAMPLES)
 examples_adiabatic_walls_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_adiabatic_walls_LDADD = libhr2d.la -lm
@@ -31,6 +31,8 @@ examples_solar_year_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_solar_year_LDADD = libhr2d.la -lm
 examples_street_canyon_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_street_canyon_LDADD = libhr2d.la -lm
+examples_together_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(PUBLIC_CPPFLAGS)
+examples_together_LDADD = libhr2d.la -lm
 examples_tour_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_tour_LDADD = libhr2d.la
 

@@ -44,8 +44,8 @@ PetscErrorCode hr2dp_share_create(MPI_Comm comm, hr2d_share **share) {
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &ranks));
   PetscCallMPI(MPI_Comm_dup(comm, &made->comm));
-  made->share = (hr2d_share){sizeof made->share, (unsigned)rank, (unsigned)ranks,
-                             combine,            made,           HR2D_OK};
+  made->share =
+      (hr2d_share){sizeof made->share, (unsigned)rank, (unsigned)ranks, combine, made, HR2D_OK};
   *share = &made->share;
   PetscFunctionReturn(0);
 }

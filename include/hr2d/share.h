@@ -6,10 +6,10 @@
  * @defgroup share Shares of a solve
  * Several processes, or threads, that solve one scene together.
  *
- * Each has a share of the pairs of patches: it makes their links, and the p × p blocks of these,
- * and gathers over them. Elements and fields on them are on all shares. Where a number needs all
- * links, the library calls back: hr2d_share::combine adds up over shares. So memory for links and
- * blocks, and the time for them, is divided by the number of shares:
+ * Each has a share of the pairs of patches: it makes their links, and the p × p blocks of
+ * these, and gathers over them. Elements and fields on them are on all shares. Where a number
+ * needs all links, the library calls back: hr2d_share::combine adds up over shares. So memory
+ * for links and blocks, and the time for them, is divided by the number of shares:
  *
  *     hr2d_share share = {.struct_size = sizeof share, .number = me, .count = all,
  *                         .combine = combine, .ctx = …};
@@ -18,20 +18,28 @@
  *     hr2d_solve_to(scene, &target, &solution, &account);
  *
  * All shares make the same calls on the same scene. hr2d_refine_options::share is for a
- * refinement: its links, and the solves on them, are then shared. hr2d_linkset_size() counts the
- * links of this share, hr2d_linkset_counts() those of all. Solutions are whole on every share:
- * averages, points and pictures need no other process.
+ * refinement: its links, and the solves on them, are then shared. hr2d_linkset_size() counts
+ * the links of this share, hr2d_linkset_counts() those of all. Solutions are whole on every
+ * share: averages, points and pictures need no other process.
  *
  * **Same bits.** What is added up over shares is rounded so that its sum does not depend on the
- * order of its terms. No digit of a solution depends on the number of shares. Without shares sums
- * are plain, and solutions differ from that by roundings. Elements, links and oracle calls are
- * those of one process, exactly.
+ * order of its terms. No digit of a solution depends on the number of shares. Without shares
+ * sums are plain, and solutions differ from that by roundings. Elements, links and oracle calls
+ * are those of one process, exactly.
  *
- * **Failures.** If a call fails on one share, it fails on all of them with the same status; none
- * waits for ever. Budgets of bytes, links and elements are those of each share. A budget of time
- * is that of the clock of share 0.
+ * **Failures.** If a call fails on one share, it fails on all of them with the same status;
+ * none waits for ever. Budgets of bytes, links and elements are those of each share. A budget
+ * of time is that of the clock of share 0.
  *
- * libhr2d-petsc has a `combine` for MPI; examples/shares.c has one for threads.
+ * Each pair of patches belongs to the share that has the row of its earlier patch; rows are
+ * dealt out in runs. Links between clusters of patches are on every share, and so is what is
+ * known of the scene. A further refinement of a set may make other visibility tests than one
+ * process. hr2d_share is not for scenes of several bands with patches of given flux:
+ * HR2D_EUNSUPPORTED. States hold the links of one share only.
+ *
+ * libhr2d-petsc has a `combine` for MPI. This one is for processes of one machine:
+ *
+ * @include together.c
  * @{
  */
 #ifndef HR2D_SHARE_H
@@ -51,7 +59,8 @@ typedef enum hr2d_combine {
 } hr2d_combine;
 
 /**
- * Combines values of all shares: value k becomes the sum, or the largest, of the values k of all.
+ * Combines values of all shares: value k becomes the sum, or the largest, of the values k of
+ * all.
  *
  * Shares call it in the same order, with the same `how` and `count`. A share that has failed
  * calls it once with its status, whatever the others call at that time: `how`, `value` and
@@ -68,8 +77,8 @@ typedef hr2d_status (*hr2d_combine_fn)(void *ctx, hr2d_status status, hr2d_combi
                                        double *value, size_t count);
 
 /**
- * One of the shares. It must outlive the link sets that are made with it; one call at a time uses
- * it.
+ * One of the shares. It must outlive the link sets that are made with it; one call at a time
+ * uses it.
  */
 typedef struct hr2d_share {
   size_t struct_size;      /**< so that the struct can grow */

@@ -7,7 +7,10 @@
 #include "solve/solve.h"
 
 int job_is_whole(const options *o) {
-  return options_targeted(o) || o->order > 1 || o->at.count > 0 || o->csv || o->draw || o->error;
+  /* Brightness of a former stage is that of all its elements. */
+  const int lit = o->oracle->flags & HR2D_ORACLE_NEEDS_BRIGHTNESS && o->multigrid.ratio > 0;
+  return lit || options_targeted(o) || o->order > 1 || o->at.count > 0 || o->csv || o->draw ||
+         o->error;
 }
 
 int job_solve_whole(job *j) {

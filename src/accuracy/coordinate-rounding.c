@@ -80,7 +80,7 @@ static double exchange_off(hr2d_pair pair, const hr2d_element *element, const of
 
 typedef struct gather {
   const hr2di_levels *levels;
-  const double *own[2];   /* what stands for B_i, elements × bands */
+  const double *own[2];    /* what stands for B_i, elements × bands */
   unsigned char *has_sky;  /* elements: a leaf below sees the background */
   double *error[2];        /* elements × bands */
   hr2di_shared_sums *sums; /* of both */

@@ -73,8 +73,8 @@ static hr2d_status collect(hr2di_contacts *c, const hr2di_transport *t, hr2d_sta
   status = hr2di_share_collect(t->links->share, status, &c->alloc, &record, &count, 2);
   c->count = 0;
   for (size_t k = 0; k < count && !status; k++)
-    status = add(c, t, NULL, t->leaf[(uint32_t)record[2 * k]],
-                 t->leaf[(uint32_t)record[2 * k + 1]]);
+    status =
+        add(c, t, NULL, t->leaf[(uint32_t)record[2 * k]], t->leaf[(uint32_t)record[2 * k + 1]]);
   for (size_t k = 0; k < 2 * count && !status; k++)
     c->contact[k / 2].leaf[k % 2] = (uint32_t)record[k];
   hr2di_alloc_free(&c->alloc, record);

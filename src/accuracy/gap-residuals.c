@@ -208,8 +208,8 @@ static hr2d_status collect(hr2di_estimator *e, gaps *all, hr2d_status status) {
     status =
         hr2di_share_combine(t->links->share, status, HR2D_COMBINE_MOST, e->stray[h], t->bands);
   status = hr2di_share_collect(t->links->share, status, &t->alloc, &record, &count, NUMBERS);
-  if (!status && hr2di_alloc_reserve(&t->alloc, &all->gap, &all->capacity, count,
-                                     sizeof *all->gap))
+  if (!status &&
+      hr2di_alloc_reserve(&t->alloc, &all->gap, &all->capacity, count, sizeof *all->gap))
     status = HR2D_ENOMEM;
   all->count = status ? 0 : count;
   for (size_t k = 0; k < all->count; k++) all->gap[k] = read_gap(record + k * NUMBERS);

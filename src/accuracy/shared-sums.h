@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sums of terms that are not negative, one for each of many places, over the links of all shares.
-   They are looked at twice: first for the largest term of each place and their number, then to
-   add them up in bins, so that no bit depends on the order. */
+/* Sums of terms that are not negative, one for each of many places, over the links of all
+   shares. They are looked at twice: first for the largest term of each place and their number,
+   then to add them up in bins, so that no bit depends on the order. */
 #ifndef HR2D_SRC_ACCURACY_SHARED_SUMS_H
 #define HR2D_SRC_ACCURACY_SHARED_SUMS_H
 
@@ -36,8 +36,8 @@ static inline void hr2di_shared_sums_add(hr2di_shared_sums *s, size_t place, dou
   }
 }
 
-/* Ends a look.  Sets *again if there is another one; at the end `sum` has the sums.  `status` is
-   that of this share.  Returns HR2D_OK or the status of a share. */
+/* Ends a look.  Sets *again if there is another one; at the end `sum` has the sums.  `status`
+   is that of this share.  Returns HR2D_OK or the status of a share. */
 hr2d_status hr2di_shared_sums_end(hr2di_shared_sums *s, hr2d_status status, int *again);
 
 #endif

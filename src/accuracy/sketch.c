@@ -66,8 +66,7 @@ static hr2d_status make_links(sketcher *s) {
   options.progress = watch;
   options.progress_ctx = s;
   s->limit = s->until.factors;
-  hr2d_status status =
-      hr2d_linkset_create(s->links->hierarchy, NULL, NULL, NULL, NULL, &maker);
+  hr2d_status status = hr2d_linkset_create(s->links->hierarchy, NULL, NULL, NULL, NULL, &maker);
   if (!status) status = hr2d_refine_visit(maker, &options, keep, s, &counts);
   hr2d_linkset_destroy(maker);
   s->links->counts.links = s->links->store.count;

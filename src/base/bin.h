@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sums whose bits do not depend on the order of their terms.
 
-   With σ = 1.5·2^m and |t| ≤ 2^(m−1), head = (t + σ) − σ is t rounded to a multiple of 2^(m−52):
-   a function of t alone.  If Σ|t| ≤ 2^(m−1), sums of heads are exact in any order.  The rests
-   t − head, of at most 2^(m−53), are rounded in the same way with σ·2^−24, for up to 2^28 terms.
-   So a sum of n terms is off by at most n·2^(m−77). */
+   With σ = 1.5·2^m and |t| ≤ 2^(m−1), head = (t + σ) − σ is t rounded to a multiple of
+   2^(m−52): a function of t alone.  If Σ|t| ≤ 2^(m−1), sums of heads are exact in any order.
+   The rests t − head, of at most 2^(m−53), are rounded in the same way with σ·2^−24, for up to
+   2^28 terms. So a sum of n terms is off by at most n·2^(m−77). */
 #ifndef HR2D_SRC_BASE_BIN_H
 #define HR2D_SRC_BASE_BIN_H
 

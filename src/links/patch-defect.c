@@ -23,8 +23,8 @@ static hr2d_status sum_shares(const hr2d_linkset *links, hr2di_bin *bin, hr2di_s
     add_area(links, bin, link.pair.first, link.exchange_area);
     if (!links->directed) add_area(links, bin, link.pair.second, link.exchange_area);
   }
-  status = hr2di_share_combine(links->share, status, HR2D_COMBINE_SUM,
-                               bin ? &bin->head : NULL, 2 * patches);
+  status = hr2di_share_combine(links->share, status, HR2D_COMBINE_SUM, bin ? &bin->head : NULL,
+                               2 * patches);
   for (size_t k = 0; k < patches && !status; k++) {
     hr2di_sum_add(&defect[k], -bin[k].head);
     hr2di_sum_add(&defect[k], -bin[k].tail);

@@ -218,8 +218,7 @@ hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch) {
   const size_t n = p->hierarchy->scene->patches;
   const hr2di_roots *known = &p->links->roots;
   proposals roots;
-  if (!has_row(p, patch))
-    return hr2di_projector_fail(p, hr2di_projector_work(p, 1), "");
+  if (!has_row(p, patch)) return hr2di_projector_fail(p, hr2di_projector_work(p, 1), "");
   roots.count = 0;
   hr2d_status status = hr2di_projector_work(p, 1 + n / 16);
   if (status) return hr2di_projector_fail(p, status, "");

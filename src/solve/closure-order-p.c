@@ -26,17 +26,17 @@ enum { MORE_POINTS = 16 };
 typedef struct rows {
   const hr2di_transport *t;
   hr2di_basis basis;
-  hr2di_rule rule;                               /* for form factors */
-  hr2di_rule product;                            /* for d φ_l φ_m, of degree 3p − 3 */
-  unsigned char *closed;                         /* per patch */
-  hr2di_sum *defect;                             /* per patch */
-  uint32_t *number;                              /* of each leaf among the leaves */
-  double *one;                                   /* leaves × width: B = 1 */
-  double *row;                                   /* its irradiance over distant links */
-  double *all;                                   /* its irradiance over all links */
-  double *exact;                                 /* leaves × order: Σ F(x → j) */
-  hr2di_bin *bin;                                /* the same of shares; NULL: there is but one */
-  double scale;                                  /* σ of these */
+  hr2di_rule rule;       /* for form factors */
+  hr2di_rule product;    /* for d φ_l φ_m, of degree 3p − 3 */
+  unsigned char *closed; /* per patch */
+  hr2di_sum *defect;     /* per patch */
+  uint32_t *number;      /* of each leaf among the leaves */
+  double *one;           /* leaves × width: B = 1 */
+  double *row;           /* its irradiance over distant links */
+  double *all;           /* its irradiance over all links */
+  double *exact;         /* leaves × order: Σ F(x → j) */
+  hr2di_bin *bin;        /* the same of shares; NULL: there is but one */
+  double scale;          /* σ of these */
   double phi[HR2DI_RULE_POINTS][HR2D_MAX_ORDER]; /* at the points of `rule` */
   double product_phi[HR2DI_RULE_POINTS][HR2D_MAX_ORDER];
 } rows;

@@ -66,8 +66,8 @@ static void set_sizes(hr2di_transport *t) {
 /* A gather under way. */
 typedef struct pass {
   hr2di_transport *t;
-  int distant;     /* over links of distant pairs alone */
-  int first, second; /* which element of a link receives */
+  int distant;                            /* over links of distant pairs alone */
+  int first, second;                      /* which element of a link receives */
   hr2di_watch own[HR2DI_TRANSPORT_PARTS]; /* of parts that the calling thread does not do */
 } pass;
 
@@ -95,8 +95,8 @@ static void set_scales(const pass *p) {
     if (p->first) raise_most(t, pair.first, pair.second);
     if (p->second) raise_most(t, pair.second, pair.first);
   }
-  t->failed =
-      hr2di_share_combine(t->links->share, hr2di_transport_status(t), HR2D_COMBINE_MOST, most, values);
+  t->failed = hr2di_share_combine(t->links->share, hr2di_transport_status(t), HR2D_COMBINE_MOST,
+                                  most, values);
   const double root = SLACK * sqrt((double)(2 * t->order - 1));
   for (size_t k = 0; k < values; k++)
     most[k] = hr2di_bin_scale(root * t->hierarchy->element[k / t->bands].length * most[k]);

@@ -9,8 +9,9 @@
 hr2d_status hr2di_shared_gather_init(hr2di_transport *t);
 void hr2di_shared_gather_clear(hr2di_transport *t);
 
-/* Sets t->down to the power that elements receive from t->up, over the links of all shares; with
-   `sends`, over directed links the other way.  Sets t->failed if that fails on any of them. */
+/* Sets t->down to the power that elements receive from t->up, over the links of all shares;
+   with `sends`, over directed links the other way.  Sets t->failed if that fails on any of
+   them. */
 void hr2di_shared_gather(hr2di_transport *t, hr2di_transport_part part, int sends);
 
 #endif

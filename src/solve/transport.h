@@ -20,8 +20,8 @@ typedef struct hr2di_transport {
   hr2di_push_pull trees;
   size_t order, bands, width; /* width is order × bands */
   size_t elements, leaves;
-  uint32_t *leaf;  /* the element of each leaf */
-  double *up;      /* elements × width: radiosity */
+  uint32_t *leaf;              /* the element of each leaf */
+  double *up;                  /* elements × width: radiosity */
   struct hr2di_shared *shared; /* sums over shares; NULL: there is but one */
   double *down;    /* slices × elements × width: power received, then irradiance */
   double *receive; /* order 1: factors per element for the push; NULL: light spreads evenly */

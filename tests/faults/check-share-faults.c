@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What fails on one share fails on all, with the same status, and none waits for ever: failed
-   allocations, callbacks that stop, budgets of links and of time.  Nothing is lost, and the same
-   calls succeed afterwards. */
+   allocations, callbacks that stop, budgets of links and of time.  Nothing is lost, and the
+   same calls succeed afterwards. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,8 +27,8 @@ typedef struct plan {
   double seconds; /* budgets */
   uint64_t max_links;
   unsigned victim;
-  long fails_at;  /* an allocation; negative: none */
-  long stops_at;  /* a question; negative: none */
+  long fails_at; /* an allocation; negative: none */
+  long stops_at; /* a question; negative: none */
   own of[SHARES];
 } plan;
 
@@ -50,8 +50,7 @@ static hr2d_status ask(void *ctx, const hr2d_progress *progress) {
 static void keep(const hr2d_scene *scene, const hr2d_solution *solution, own *o) {
   o->values = hr2d_scene_patches(scene);
   ck_assert_uint_le(o->values, VALUES);
-  for (size_t k = 0; k < o->values; k++)
-    o->average[k] = hr2d_solution_average(solution, k, 0);
+  for (size_t k = 0; k < o->values; k++) o->average[k] = hr2d_solution_average(solution, k, 0);
 }
 
 static hr2d_status solve_to(plan *p, const hr2d_scene *scene, hr2d_share *share, asked *a) {

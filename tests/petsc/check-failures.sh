@@ -16,6 +16,11 @@ if command -v valgrind >/dev/null; then
     --suppressions=/usr/share/openmpi/openmpi-valgrind.supp --error-exitcode=0 \
     "$programs/check-ranks" 13 >"$work/out" 2>"$work/valgrind"
   check "the case ran under valgrind: $(cat "$work/valgrind")" grep -q bits "$work/out"
+  "$HR2D_BUILDDIR/libtool" --mode=execute timeout 300 "$MPIEXEC" -n 2 valgrind --quiet \
+    --suppressions=/usr/share/openmpi/openmpi-valgrind.supp --error-exitcode=0 \
+    "$HR2D_BUILDDIR/hr2d-mpi" solve "$HR2D_SRCDIR/examples/scenes/lit-room.geojson" \
+    --target-error 1e-2 >"$work/out" 2>>"$work/valgrind"
+  check "so did a target: $(cat "$work/valgrind")" grep -q ranks "$work/out"
   check "no error of this library: $(grep -B 3 -A 12 'hr2d' "$work/valgrind" | head -40)" \
     [ "$(grep -c 'hr2dp\|libhr2d' "$work/valgrind")" = 0 ]
 else

@@ -21,6 +21,30 @@ done
 check "a difference would be found" \
   eval '! python3 "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/three" 2>"$work/out"'
 
+# ---- targets, orders and what needs all elements: the same bits on any number of ranks
+whole() { # whole NAME ARGUMENTS...: compares with hr2d solve
+  name=$1
+  shift
+  "$HR2D_PROGRAM" solve "$@" --quiet --json "$work/one" 2>"$work/errors"
+  for n in 1 2 3 4; do
+    ranks $n "$program" solve "$@" --quiet --json "$work/whole$n" 2>>"$work/errors"
+    check "$name on $n ranks: $(cat "$work/errors")" python3 \
+      "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/whole$n" "$work/whole1"
+  done
+}
+whole "lit room to 1e-6" "$scenes/lit-room.geojson" --target-error 1e-6
+whole "partition to 1e-3" "$scenes/partition.geojson" --target-error 1e-3
+whole "panels at points" "$scenes/solar-panels.geojson" --target-error 1e-2 --norm sup
+whole "furnace of order 4" "$scenes/furnace-enclosure.geojson" --order 4 --eps 0.3
+whole "partition of order 2" "$scenes/partition.geojson" --order 2 --eps 0.4 --no-closure
+whole "brightness" "$scenes/lit-room.geojson" --oracle bf --multigrid 0.5:0.5 --eps 0.1
+ranks 2 "$program" solve "$scenes/lit-room.geojson" --eps 0.2 --no-error --quiet --csv "$work/two.csv"
+"$HR2D_PROGRAM" solve "$scenes/lit-room.geojson" --eps 0.2 --no-error --quiet --csv "$work/one.csv"
+check "leaves as CSV" [ "$(wc -l <"$work/two.csv")" = "$(wc -l <"$work/one.csv")" ]
+ranks 2 "$program" solve "$scenes/partition.geojson" --time-budget 0.5 --json "$work/two" \
+  >"$work/out" 2>"$work/errors"
+check "a budget of time ends: $(cat "$work/errors")" grep -q '"solve"' "$work/two"
+
 # ---- what is wrong is said by one rank
 says() { # says STATUS TEXT ARGUMENTS...: mpirun adds lines of its own
   wanted=$1 text=$2
@@ -34,11 +58,11 @@ says() { # says STATUS TEXT ARGUMENTS...: mpirun adds lines of its own
 room=$scenes/lit-room.geojson
 says 2 "unknown option '--epss'" solve "$room" --epss 1
 says 2 "the only command is solve" info "$room"
-says 2 "has no --order yet" solve "$room" --order 4
+says 2 "has no --watch" solve "$room" --watch "$work/film.png"
+says 2 "keeps solves by --eps at order 1" solve "$room" --order 4 --state "$work/state"
 says 1 "cannot open" solve "$work/nothing"
 says 1 "more than 100 links are needed" solve "$room" --max-links 100
-says 1 "needs the brightness of a former solution" \
-  solve "$room" --oracle bf --multigrid 0.5:0.5 --eps 0.1
+says 1 "at most" solve "$room" --target-error 1e-30
 
 # ---- a state, and another scene
 state=$work/state

@@ -41,7 +41,8 @@ static double combine_one(const team *t, unsigned number, size_t k) {
   double value = t->call[number].value[k];
   for (unsigned m = 1; m < t->count; m++) {
     const call *other = &t->call[(number + m) % t->count];
-    value = other->how == HR2D_COMBINE_SUM ? value + other->value[k] : fmax(value, other->value[k]);
+    value =
+        other->how == HR2D_COMBINE_SUM ? value + other->value[k] : fmax(value, other->value[k]);
   }
   return value;
 }

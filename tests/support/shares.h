@@ -10,8 +10,8 @@ enum { SHARES_MOST = 8 };
 /* What each thread does with its share. */
 typedef void (*shares_work)(hr2d_share *share, void *ctx);
 
-/* Lets `count` threads work at once.  Each adds up values in an order of its own: sums have to be
-   the same in all bits, and calls have to match; otherwise it says so and aborts. */
+/* Lets `count` threads work at once.  Each adds up values in an order of its own: sums have to
+   be the same in all bits, and calls have to match; otherwise it says so and aborts. */
 void shares_run(unsigned count, shares_work work, void *ctx);
 
 #endif

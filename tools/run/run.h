@@ -39,7 +39,8 @@ int run_solve(run *r);
 
 void run_release(run *r);
 
-/* Learns what the share that has most has; all shares call it.  Returns 0 or the exit status. */
+/* Learns what the share that has most has; all shares call it.  Returns 0 or the exit status.
+ */
 int run_compare_shares(run *r);
 
 /* target.c: solves to the target error, or as well as the budget allows; otherwise like

@@ -24,10 +24,10 @@ typedef struct found {
 
 typedef struct kind {
   const char *name;
-  const char *file;   /* of examples/scenes; NULL: a slow scene */
+  const char *file; /* of examples/scenes; NULL: a slow scene */
   slow_kind slow;
   size_t patches;
-  double error;       /* of a target; 0: a solve by ε */
+  double error; /* of a target; 0: a solve by ε */
   double epsilon, from;
   unsigned order;
   int ordered, no_closure, sup;
@@ -91,10 +91,14 @@ static void solve_to(const kind *k, const hr2d_scene *scene, hr2d_share *share, 
   f->status = hr2d_solve_to(scene, &target, &solution, &a);
   if (!solution) return;
   read_solution(scene, solution, f);
-  const double error[] = {a.average.estimate,    a.average.bound,
-                          a.sup.estimate,        a.sup.bound,
-                          a.irradiance.estimate, a.irradiance.bound,
-                          a.irradiance_sup.estimate, a.irradiance_sup.bound};
+  const double error[] = {a.average.estimate,
+                          a.average.bound,
+                          a.sup.estimate,
+                          a.sup.bound,
+                          a.irradiance.estimate,
+                          a.irradiance.bound,
+                          a.irradiance_sup.estimate,
+                          a.irradiance_sup.bound};
   memcpy(f->error, error, sizeof error);
   f->elements = a.elements;
   f->leaves = a.leaves;
@@ -123,7 +127,8 @@ static void solve_by(const kind *k, const hr2d_scene *scene, hr2d_share *share, 
   if (k->no_closure) options.closure = HR2D_CLOSURE_OFF;
   f->status = hr2d_hierarchy_create(scene, &h);
   if (!f->status)
-    f->status = hr2d_linkset_create(h, k->oracle ? k->oracle() : NULL, NULL, NULL, NULL, &links);
+    f->status =
+        hr2d_linkset_create(h, k->oracle ? k->oracle() : NULL, NULL, NULL, NULL, &links);
   if (!f->status) f->status = refine(k, links, share);
   if (!f->status) f->status = hr2d_hierarchy_set_order(h, k->order);
   if (!f->status) f->status = hr2d_solve(links, &options, &solution);
