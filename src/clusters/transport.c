@@ -5,7 +5,10 @@
    Interpolation at Chebyshev points is f ≈ Σ_n c_n T_n, c_n = (1 or 2)/q Σ_k T_n(t_k) f(t_k).
    Applied to what is sent, strengths s at places t become moments Σ s T_n(t), and these
    strengths at the points; applied to what is received it is its transpose, so that the
-   whole is symmetric. */
+   whole is symmetric.
+
+   Of several shares each has some of the clusters: their patches, and all that they receive. So
+   each number is made by one share, in one order, which is not that of both ways at once. */
 #include <math.h>
 #include <string.h>
 
@@ -20,6 +23,7 @@ enum { MOST_POINTS = HR2DI_EXPANSION_POINTS * HR2DI_EXPANSION_POINTS };
 typedef struct gather {
   const hr2di_clusters *c;
   size_t order, bands, planes;
+  hr2d_share *share; /* NULL: there is but one */
   double *sent, *received;
   hr2di_watch *watch;
   double *vector; /* one value per plane */
@@ -223,6 +227,48 @@ static void exchange(const gather *g, const hr2di_linked *i, const hr2di_linked 
   }
 }
 
+static int is_own(const gather *g, uint32_t cluster) {
+  return hr2di_share_has_row(g->share, cluster, g->c->linked_count);
+}
+
+/* Whether this share speaks for a patch that has a cluster. */
+static int has_patch(const gather *g, size_t patch) {
+  const uint32_t home = g->c->home[patch];
+  return home != HR2DI_NO_CLUSTER && is_own(g, home);
+}
+
+/* What the first of two clusters receives. */
+static void receive_one_way(const gather *g, const hr2di_linked *i, const hr2di_linked *j) {
+  const size_t m = hr2di_expansion_points(&i->far), n = hr2di_expansion_points(&j->far);
+  const double *sent = planes_of(g, g->sent, j);
+  double *received = planes_of(g, g->received, i);
+  row t;
+  for (size_t k = 0; k < m; k++) {
+    if (hr2di_watch_work(g->watch, 1 + n * (1 + g->bands) / 32)) return;
+    fill_row(&t, g->c->point[i->first + k], g->c->point + j->first, n);
+    for (size_t band = 0; band < g->bands; band++) {
+      const double *sent_x = sent + band * n, *sent_y = sent + (g->bands + band) * n;
+      double x = 0, y = 0;
+      for (size_t q = 0; q < n; q++) {
+        x += t.xx[q] * sent_x[q] + t.xy[q] * sent_y[q];
+        y += t.xy[q] * sent_x[q] + t.yy[q] * sent_y[q];
+      }
+      received[band * m + k] += x;
+      received[(g->bands + band) * m + k] += y;
+    }
+  }
+}
+
+static void exchange_own(const gather *g, const hr2di_cluster_link *link) {
+  const hr2di_linked *i = &g->c->linked[link->first], *j = &g->c->linked[link->second];
+  if (!g->share) {
+    exchange(g, i, j);
+    return;
+  }
+  if (is_own(g, link->first)) receive_one_way(g, i, j);
+  if (is_own(g, link->second)) receive_one_way(g, j, i);
+}
+
 /* The points of a cluster, and what they cost on the way up or down. */
 static hr2d_status declare(const gather *g, const hr2di_linked *c) {
   const size_t points = hr2di_expansion_points(&c->far);
@@ -234,49 +280,74 @@ static hr2d_status declare_patch(const gather *g, size_t patch) {
   return hr2di_watch_work(g->watch, 4 + g->order * points * g->planes / 16);
 }
 
+/* Puts the points of all shares together. */
+static hr2d_status combine(const gather *g, hr2d_status status, double *field) {
+  return hr2di_share_combine(g->share, status, HR2D_COMBINE_SUM, field,
+                             g->c->points * g->planes);
+}
+
 static hr2d_status run(const gather *g, const double *radiosity, double *power) {
   const hr2di_clusters *c = g->c;
   const size_t stride = g->order * g->bands, patches = c->scene->patches;
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < patches && !status; k++) {
-    if (c->home[k] == HR2DI_NO_CLUSTER) continue;
+    if (!has_patch(g, k)) continue;
     status = declare_patch(g, k);
     send_patch(g, k, radiosity + k * stride);
   }
+  status = combine(g, status, g->sent);
   for (size_t k = c->linked_count; k-- > 0 && !status;) {
     status = declare(g, &c->linked[k]);
     turn_planes(g, g->sent, &c->linked[k], 1);
     if (c->linked[k].parent != HR2DI_NO_CLUSTER) send_up(g, &c->linked[k]);
   }
   for (size_t k = 0; k < c->links && !hr2di_watch_status(g->watch); k++)
-    exchange(g, &c->linked[c->link[k].first], &c->linked[c->link[k].second]);
-  status = hr2di_watch_status(g->watch);
+    exchange_own(g, &c->link[k]);
+  if (!status) status = combine(g, hr2di_watch_status(g->watch), g->received);
   for (size_t k = 0; k < c->linked_count && !status; k++) {
     status = declare(g, &c->linked[k]);
     if (c->linked[k].parent != HR2DI_NO_CLUSTER) receive_down(g, &c->linked[k]);
     turn_planes(g, g->received, &c->linked[k], 0);
   }
   for (size_t k = 0; k < patches && !status; k++) {
-    if (c->home[k] == HR2DI_NO_CLUSTER) continue;
+    if (!has_patch(g, k)) continue;
     status = declare_patch(g, k);
     receive_patch(g, k, power + k * stride);
   }
   return status;
 }
 
+/* Adds up what patches of all shares receive before it is added to `power`. */
+static hr2d_status run_shared(const gather *g, const double *radiosity, double *power) {
+  const hr2d_allocator *alloc = &g->c->alloc;
+  const size_t values = g->c->scene->patches * g->order * g->bands;
+  double *sum = hr2di_alloc_zero(alloc, values, sizeof *sum);
+  hr2d_status status = sum ? run(g, radiosity, sum) : HR2D_ENOMEM;
+  status = hr2di_share_combine(g->share, status, HR2D_COMBINE_SUM, sum, values);
+  for (size_t k = 0; k < values && !status; k++) power[k] += sum[k];
+  hr2di_alloc_free(alloc, sum);
+  return status;
+}
+
 hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, size_t order, size_t bands,
-                                  const double *radiosity, double *power, hr2di_watch *watch) {
+                                  const double *radiosity, double *power, hr2d_share *share,
+                                  hr2di_watch *watch) {
   if (clusters->links == 0) return HR2D_OK;
   const hr2d_allocator *alloc = &clusters->alloc;
-  gather g = {
-      .c = clusters, .order = order, .bands = bands, .planes = 2 * bands, .watch = watch};
+  gather g = {.c = clusters,
+              .order = order,
+              .bands = bands,
+              .planes = 2 * bands,
+              .share = share,
+              .watch = watch};
   g.sent = hr2di_alloc_zero(alloc, clusters->points, g.planes * sizeof *g.sent);
   g.received = hr2di_alloc_zero(alloc, clusters->points, g.planes * sizeof *g.received);
   g.vector = hr2di_alloc(alloc, g.planes, sizeof *g.vector);
   g.rule = hr2di_alloc_zero(alloc, HR2DI_RULE_POINTS + 1, sizeof *g.rule);
   hr2d_status status = g.sent && g.received && g.vector && g.rule ? HR2D_OK : HR2D_ENOMEM;
   hr2di_basis_init(&g.basis, order);
-  if (!status) status = run(&g, radiosity, power);
+  if (share && status) status = hr2di_share_agree(share, status);
+  if (!status) status = (share ? run_shared : run)(&g, radiosity, power);
   hr2di_alloc_free(alloc, g.sent);
   hr2di_alloc_free(alloc, g.received);
   hr2di_alloc_free(alloc, g.vector);

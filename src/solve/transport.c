@@ -257,7 +257,7 @@ static void sum_slices(hr2di_transport *t) {
 /* Roots are the first elements, so their part of a field is a field of the patches. */
 static void gather_clusters(hr2di_transport *t) {
   t->failed = hr2di_clusters_gather(t->links->roots.clusters, t->order, t->bands, t->up,
-                                    t->down, t->watch);
+                                    t->down, t->links->share, t->watch);
 }
 
 /* Divides power by length to get irradiance. */

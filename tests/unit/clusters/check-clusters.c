@@ -59,7 +59,8 @@ static void gather_matrix(sorted *s) {
     memset(sent, 0, s->n * BANDS * sizeof *sent);
     memset(power, 0, s->n * BANDS * sizeof *power);
     for (size_t k = 0; k < BANDS && first + k < s->n; k++) sent[(first + k) * BANDS + k] = 1;
-    ck_assert_int_eq(hr2di_clusters_gather(s->clusters, 1, BANDS, sent, power, NULL), HR2D_OK);
+    ck_assert_int_eq(hr2di_clusters_gather(s->clusters, 1, BANDS, sent, power, NULL, NULL),
+                     HR2D_OK);
     for (size_t i = 0; i < s->n; i++)
       for (size_t k = 0; k < BANDS && first + k < s->n; k++)
         s->linked[i * s->n + first + k] = power[i * BANDS + k];
@@ -368,7 +369,7 @@ START_TEST(orders_are_exact_enough) {
   double *b = new_doubles(s.n * ORDER), *power = new_doubles(s.n * ORDER),
          *brute = new_doubles(s.n * ORDER), block[ORDER * ORDER], worst = 0;
   for (size_t k = 0; k < s.n * ORDER; k++) b[k] = test_random(&r) - .3;
-  ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, b, power, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, b, power, NULL, NULL), HR2D_OK);
   for (size_t i = 0; i < s.n; i++)
     for (size_t j = 0; j < s.n; j++) {
       if (s.linked[i * s.n + j] == 0) continue;
@@ -404,8 +405,8 @@ START_TEST(gathers_are_symmetric) {
     double *u = new_doubles(count), *v = new_doubles(count), *ku = new_doubles(count),
            *kv = new_doubles(count);
     for (size_t k = 0; k < count; k++) u[k] = test_random(&r) - .5, v[k] = test_random(&r);
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, order, 1, u, ku, NULL), HR2D_OK);
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, order, 1, v, kv, NULL), HR2D_OK);
+    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, order, 1, u, ku, NULL, NULL), HR2D_OK);
+    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, order, 1, v, kv, NULL, NULL), HR2D_OK);
     const double size = sqrt(product(ku, ku, count) * product(v, v, count));
     ck_assert_double_le(fabs(product(ku, v, count) - product(kv, u, count)), 1e-13 * size);
     free(u);
@@ -427,13 +428,16 @@ START_TEST(bands_are_gathers) {
   double *b = new_doubles(count * BANDS), *power = new_doubles(count * BANDS),
          *one = new_doubles(count), *out = new_doubles(count);
   for (size_t k = 0; k < count * BANDS; k++) b[k] = test_random(&r);
-  ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, BANDS, b, power, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, BANDS, b, power, NULL, NULL),
+                   HR2D_OK);
   for (size_t band = 0; band < BANDS; band++) {
     for (size_t k = 0; k < count; k++) one[k] = b[k * BANDS + band], out[k] = 0;
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, one, out, NULL), HR2D_OK);
+    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, one, out, NULL, NULL),
+                     HR2D_OK);
     for (size_t k = 0; k < count; k++) ck_assert(out[k] == power[k * BANDS + band]);
     for (size_t k = 0; k < count; k++) out[k] = 1;
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, one, out, NULL), HR2D_OK);
+    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, one, out, NULL, NULL),
+                     HR2D_OK);
     for (size_t k = 0; k < count; k++)
       ck_assert_double_le(fabs(out[k] - 1 - power[k * BANDS + band]), 1e-15);
   }
@@ -539,7 +543,7 @@ START_TEST(allocations_fail_one_by_one) {
     if (status)
       ck_assert_ptr_null(clusters);
     else
-      status = hr2di_clusters_gather(clusters, 1, 1, b, power, NULL);
+      status = hr2di_clusters_gather(clusters, 1, 1, b, power, NULL, NULL);
     failed = f.failures > 0;
     ck_assert_int_eq(status, failed ? HR2D_ENOMEM : HR2D_OK);
     hr2di_clusters_destroy(clusters);
