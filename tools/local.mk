@@ -73,11 +73,12 @@ tools_hr2d_SOURCES = $(SOLVE_SOURCES) \
 	tools/cost/chart.c \
 	tools/cost/command.c \
 	tools/cost/cost.h \
-	tools/cost/dense.c \
+	tools/cost/factors.c \
 	tools/cost/files.c \
 	tools/cost/fit.c \
 	tools/cost/methods.c \
 	tools/cost/pace.c tools/cost/pace.h \
+	tools/cost/pieces.c tools/cost/pieces.h \
 	tools/cost/reference.c \
 	tools/cost/refine.c \
 	tools/cost/rows.c \

@@ -88,7 +88,7 @@ arguments() { # arguments COMMAND
   target) echo "solve $scene --target-error 1e-3 --json $new/x.json --csv $new/x.csv" ;;
   stages) echo "solve $scene --multigrid 1:0.5 --eps 0.25 --max-level 5 --no-error --state $new/x.state --csv $new/x.csv" ;;
   study) echo "study $scene --to 0.125 --steps 4 --csv $new/x.csv --json $new/x.json $plot" ;;
-  cost) echo "cost $scene --methods size,dense --max-seconds 0.3 --csv $new/x.csv --json $new/x.json $plot" ;;
+  cost) echo "cost $scene --methods size,factors --max-seconds 0.3 --csv $new/x.csv --json $new/x.json $plot" ;;
   factors) echo "factors $scene --csv $new/x.csv --mtx $new/x.mtx --elmer $new/x.dat --json $new/x.json" ;;
   esac
 }

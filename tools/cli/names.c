@@ -8,7 +8,7 @@ const char *const name_of_method[METHOD_COUNT] = {
     [METHOD_ORDER_2] = "order-2", [METHOD_ORDER_4] = "order-4",
     [METHOD_ORDER_8] = "order-8", [METHOD_ORDER_16] = "order-16",
     [METHOD_AUTO] = "auto",       [METHOD_AUTO_SOLVE] = "auto-solve",
-    [METHOD_DENSE] = "dense"};
+    [METHOD_FACTORS] = "factors"};
 
 const char *const name_of_against[AGAINST_COUNT] = {
     [AGAINST_SECONDS] = "seconds", [AGAINST_LINKS] = "links", [AGAINST_BYTES] = "bytes"};

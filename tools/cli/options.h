@@ -62,7 +62,7 @@ typedef enum method {
   METHOD_ORDER_16,
   METHOD_AUTO,
   METHOD_AUTO_SOLVE,
-  METHOD_DENSE,
+  METHOD_FACTORS,
   METHOD_COUNT
 } method;
 

@@ -44,7 +44,7 @@ static const char *const colours[METHOD_COUNT] = {
     [METHOD_ORDER_2] = "#a6cee3", [METHOD_ORDER_4] = "#6baed6",
     [METHOD_ORDER_8] = "#3182bd", [METHOD_ORDER_16] = "#08519c",
     [METHOD_AUTO] = "#006d2c",    [METHOD_AUTO_SOLVE] = "#66c2a4",
-    [METHOD_DENSE] = "#737373"};
+    [METHOD_FACTORS] = "#737373"};
 
 /* An error below that of the reference is drawn as that of the reference. */
 static double decade_of_error(const chart *d, const cost_row *row) {
@@ -248,7 +248,7 @@ static void write_curves(FILE *script, const chart *d, size_t panel) {
     fprintf(script,
             "%s$curve%zu_%zu using 1:2 with linespoints pointtype %d pointsize 0.6 "
             "linewidth %g linecolor rgb '%s'",
-            j ? ", " : "plot ", panel, j, m == METHOD_DENSE ? 5 : 7,
+            j ? ", " : "plot ", panel, j, m == METHOD_FACTORS ? 5 : 7,
             m == METHOD_AUTO || m == METHOD_AUTO_SOLVE ? 2.2 : 1.2, colours[m]);
   }
   fputs("\n", script);

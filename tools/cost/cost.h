@@ -12,6 +12,9 @@
 
 enum { COST_PREDICTIONS = 4 };
 
+/* The limit of memory of one row. */
+#define COST_MOST_BYTES ((uint64_t)2 << 30)
+
 struct cost;
 
 typedef struct cost_method {
@@ -78,11 +81,11 @@ hr2d_status cost_add(cost *c, const cost_row *row);
 /* The quantity of a row on the vertical axis of a chart. */
 double cost_quantity(const cost_row *row, against quantity);
 
-/* refine.c, auto.c, dense.c: cost_method::run. */
+/* refine.c, auto.c, factors.c: cost_method::run. */
 hr2d_status cost_single(cost *c, const cost_method *m);
 hr2d_status cost_progressive(cost *c, const cost_method *m);
 hr2d_status cost_auto(cost *c, const cost_method *m);
-hr2d_status cost_dense(cost *c, const cost_method *m);
+hr2d_status cost_factors(cost *c, const cost_method *m);
 
 typedef struct cost_fit {
   double slope;   /* of the logarithm of the quantity on log 1/error */

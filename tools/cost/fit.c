@@ -60,7 +60,7 @@ static double line(const double *x, const double *y, size_t count) {
 int cost_fit_rows(const cost *c, const cost_method *m, against quantity, cost_fit *fit) {
   double digits[MOST], value[MOST];
   size_t count = collect(c, m, quantity, digits, value);
-  fit->is_digital = !m->oracle && m->id != METHOD_DENSE;
+  fit->is_digital = !m->oracle && m->id != METHOD_FACTORS;
   if (!fit->is_digital) count = keep_fine(digits, value, count);
   if (count < LEAST || !is_wide(digits, count)) return -1;
   fit->digit = line(digits, value, count);

@@ -19,7 +19,7 @@ static const cost_method methods[] = {
     {METHOD_ORDER_16, "epsilon", hr2d_oracle_size, 16, 16, M_SQRT1_2, cost_single},
     {METHOD_AUTO, "target", NULL, 0, 0.1, 0.1, cost_auto},
     {METHOD_AUTO_SOLVE, "target", NULL, 0, 0.1, 0.1, cost_auto},
-    {METHOD_DENSE, "length", NULL, 0, 1, 0.5, cost_dense}};
+    {METHOD_FACTORS, "length", NULL, 0, 1, 0.5, cost_factors}};
 
 _Static_assert(sizeof methods / sizeof *methods == METHOD_COUNT, "a method is missing");
 

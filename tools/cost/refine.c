@@ -10,9 +10,6 @@
 
 enum { MOST_STEPS = 64, ELEMENT_BYTES = sizeof(hr2d_element) + 6 };
 
-/* The limit of memory of one row. */
-#define MOST_BYTES ((uint64_t)1 << 30)
-
 typedef struct trial {
   hr2d_hierarchy *hierarchy;
   hr2d_linkset *links;
@@ -43,7 +40,7 @@ static hr2d_status solve(cost *c, trial *t, double epsilon) {
   hr2d_solution *next = NULL;
   refine.epsilon = epsilon;
   refine.max_level = options_max_level(c->options);
-  refine.max_bytes = MOST_BYTES;
+  refine.max_bytes = COST_MOST_BYTES;
   refine.brightness = solve.start = t->solution;
   refine.threads = solve.threads = options_threads(c->options);
   if (c->options->no_closure) solve.closure = HR2D_CLOSURE_OFF;
