@@ -220,6 +220,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/solve.c \
 	src/solve/transport.c src/solve/transport.h \
 	src/accuracy/admissibility.c src/accuracy/admissibility.h \
+	src/accuracy/cluster-residuals.c src/accuracy/cluster-residuals.h \
 	src/accuracy/corner-exponent.c src/accuracy/corner-exponent.h \
 	src/accuracy/coordinate-rounding.c src/accuracy/coordinate-rounding.h \
 	src/accuracy/corner-residuals.c src/accuracy/corner-residuals.h \

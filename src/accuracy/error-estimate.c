@@ -6,6 +6,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "accuracy/cluster-residuals.h"
 #include "accuracy/error-shares.h"
 #include "accuracy/estimator.h"
 #include "accuracy/gap-residuals.h"
@@ -119,13 +120,18 @@ static double margin_of(const hr2di_resolution *f) {
   return HIDDEN / (1 - ratio * ratio * ratio);
 }
 
+/* Whether the error is more than half of what it should be. */
+static int is_too_large(const hr2di_error_pair *errors, const hr2di_resolution *fineness) {
+  const double worst = fmax(errors->average.estimate, errors->irradiance.estimate);
+  return worst > HR2DI_ERROR_MARGIN * fineness->aim && isfinite(worst);
+}
+
 /* Tells what to divide if the error is not half of what it should be. */
 static hr2d_status find_shares(hr2di_estimator *e, hr2di_graded *answer,
                                const hr2di_resolution *fineness,
                                const hr2di_error_pair *errors) {
   const hr2d_allocator *alloc = &answer->hierarchy->alloc;
   const double worst = fmax(errors->average.estimate, errors->irradiance.estimate);
-  if (worst <= HR2DI_ERROR_MARGIN * fineness->aim || !isfinite(worst)) return HR2D_OK;
   answer->depth = hr2di_alloc_zero(alloc, answer->hierarchy->elements, sizeof *answer->depth);
   if (!answer->depth) return HR2D_ENOMEM;
   hr2d_share *share = answer->links->share;
@@ -139,12 +145,15 @@ static hr2d_status find_shares(hr2di_estimator *e, hr2di_graded *answer,
 }
 
 static hr2d_status run(hr2di_graded *answer, const hr2di_resolution *fineness,
-                       const hr2d_target *target, hr2di_error_pair *errors) {
+                       const hr2d_target *target, hr2di_clusters *coarser,
+                       hr2di_error_pair *errors) {
   hr2di_estimator e;
   hr2d_status status = hr2di_estimator_init(&e, answer, target);
   e.margin = margin_of(fineness);
   if (!status) status = measure(&e, errors);
-  if (!status && fineness->shares && !answer->bent)
+  if (!status && coarser && is_too_large(errors, fineness))
+    status = hr2di_cluster_residuals(&e, coarser, &answer->clustered);
+  if (!status && fineness->shares && !answer->bent && is_too_large(errors, fineness))
     status = find_shares(&e, answer, fineness, errors);
   hr2di_estimator_clear(&e);
   return status;
@@ -171,7 +180,7 @@ hr2d_status hr2di_error_estimate(hr2di_graded *answer, const hr2di_resolution *f
         hr2di_clusters_finer(roots.clusters, finer.cluster_accuracy, &links->roots.clusters);
   }
   answer->hierarchy->order = finer.order;
-  if (!status) status = run(answer, fineness, target, errors);
+  if (!status) status = run(answer, fineness, target, roots.clusters, errors);
   answer->hierarchy->order = order;
   if (links->roots.clusters != roots.clusters) hr2di_clusters_destroy(links->roots.clusters);
   links->roots = roots;

@@ -90,6 +90,11 @@ double hr2di_resolution_tolerance(const hr2d_scene *scene, double contrast, doub
   return fmin(fmax(UNSOLVED * aim * contrast * lost, HR2D_DEFAULT_TOLERANCE), UNSOLVED);
 }
 
+/* The accuracy of links of clusters is that of the largest kernel between them.  Where patches
+   see each other at grazing angles, as in a round room, the error of B was 80 times that. */
+#define CLUSTERS        5e-3
+#define FINEST_CLUSTERS 1e-14
+
 /* Errors of many corners and elements add up. */
 #define MANY_PARTS 0.25
 
@@ -113,7 +118,7 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
       .aim = aim,
       .order = (unsigned)fmin(fmax(order, least), HR2D_MAX_ORDER - 2),
       .target = fmin(0.25 * error, 1),
-      .cluster_accuracy = fmax(0.02 * error, 1e-14),
+      .cluster_accuracy = fmax(CLUSTERS * error, FINEST_CLUSTERS),
       .tolerance = lights ? hr2di_resolution_tolerance(scene, lights->contrast, aim) : 0,
       .norm = norm,
       .hidden = hidden,
@@ -156,7 +161,7 @@ int hr2di_resolution_raise(hr2di_resolution *f, const hr2di_survey *survey, doub
   f->tolerance = fmax(f->tolerance / factor, HR2D_DEFAULT_TOLERANCE);
   f->distance = HR2DI_ELLIPSE_DISTANT;
   const double more = fmax(ceil(log(factor) / digits_per_order(survey, f->norm)), 1);
-  f->cluster_accuracy = fmax(f->cluster_accuracy / factor, 1e-14);
+  f->cluster_accuracy = fmax(f->cluster_accuracy / factor, FINEST_CLUSTERS);
   f->order = (unsigned)fmin(f->order + more, HR2D_MAX_ORDER - 2);
   if (raise_kinks(f, factor)) {
     f->corner_levels += (unsigned)fmax(ceil(log2(factor) / slope), 1);
@@ -167,5 +172,15 @@ int hr2di_resolution_raise(hr2di_resolution *f, const hr2di_survey *survey, doub
     f->halvings++;
   else if (f->hidden && f->generations < (f->norm == HR2D_NORM_SUP ? 4U : 2U))
     f->generations++;
+  return 0;
+}
+
+/* What they are to leave of the error. */
+#define CLUSTERS_LEAVE 0.1
+
+int hr2di_resolution_raise_clusters(hr2di_resolution *f, double part, double aim) {
+  if (!(f->cluster_accuracy > FINEST_CLUSTERS)) return -1;
+  const double factor = fmin(CLUSTERS_LEAVE * aim / part, 1);
+  f->cluster_accuracy = fmax(f->cluster_accuracy * factor, FINEST_CLUSTERS);
   return 0;
 }

@@ -26,4 +26,8 @@ double hr2di_resolution_tolerance(const hr2d_scene *scene, double contrast, doub
 int hr2di_resolution_raise(hr2di_resolution *fineness, const hr2di_survey *survey,
                            double factor);
 
+/* Makes links of clusters alone more accurate, which make `part` of an error that is to be
+   `aim`.  Returns 0, or -1 if they cannot be. */
+int hr2di_resolution_raise_clusters(hr2di_resolution *fineness, double part, double aim);
+
 #endif

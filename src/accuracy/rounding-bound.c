@@ -37,7 +37,7 @@ static double fluctuation(hr2di_estimator *e, double *field, size_t leaf, size_t
 
 /* Whether H as it is told has the mean of H in the place of that of B. */
 static int is_moved(const hr2di_transport *t, size_t leaf) {
-  return t->mean && hr2di_closure_is_rounding(t, t->hierarchy->element[t->leaf[leaf]].patch);
+  return t->mean && hr2di_closure_is_error(t, t->hierarchy->element[t->leaf[leaf]].patch);
 }
 
 /* |z̄' + z_i − z̄| at most, for z̄ over the patch, with B̄ of patches in e->rounding[0]; |z_i|

@@ -202,6 +202,12 @@ static hr2di_resolution first_resolution(const search *s, double error) {
   return is_finer ? finer : guess;
 }
 
+/* Finer elements do not help where the error is what links of clusters lack. */
+static int raise_clusters(const search *s, hr2di_resolution *fineness, double error) {
+  return s->best.clustered > 0.5 * error_of(s) &&
+         !hr2di_resolution_raise_clusters(fineness, s->best.clustered, error);
+}
+
 /* Goes finer until the error is below `error`; HR2D_EACCURACY if it does not come down. */
 static hr2d_status reach(search *s, double error) {
   if (s->best.solution && is_reached(s, error)) return HR2D_OK;
@@ -220,8 +226,8 @@ static hr2d_status reach(search *s, double error) {
     stuck = error_of(s) > 0.5 * before ? stuck + 1 : 0;
     before = error_of(s);
     dividing = s->best.depth && !stuck;
-    raised =
-        dividing || !hr2di_resolution_raise(&fineness, &s->best.survey, before / (0.5 * error));
+    raised = raise_clusters(s, &fineness, error) || dividing ||
+             !hr2di_resolution_raise(&fineness, &s->best.survey, before / (0.5 * error));
   }
   if (error_of(s) <= error) return HR2D_OK;
   give_reason(s, stuck > 0 && is_rounding(s)

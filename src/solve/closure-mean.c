@@ -7,7 +7,11 @@
      H' = H − d̄(B − H),   H̄' = (1 + d̄) Σ K̄_ij B_j + the mean of (d − d̄)B,
 
    roundings of K are roundings of H.  Where B = H, as in an isothermal room, nothing changes.
-   The equation keeps d̄B, which is symmetric: in B it is a rounding, and powers are balanced. */
+   The equation keeps d̄B, which is symmetric: in B it is a rounding, and powers are balanced.
+
+   Links of clusters exchange less accurately, and d̄ is what they lack on patches that see
+   patches in every direction.  It is to be a part of H there just as well, and in no way one of
+   the light of a lamp. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -15,8 +19,7 @@
 #include "links/patch-defect.h"
 #include "solve/closure.h"
 
-/* A mean above this part of 1 is no rounding: clusters exchange less accurately, and the links
-   of a caller may lack pairs. */
+/* A mean above this part of 1 is no rounding: the links of a caller may lack pairs. */
 #define ROUNDING HR2DI_DEFECT_CLOSED
 
 /* Roots are the first elements.  The parts of children are those of averages of H. */
@@ -36,15 +39,20 @@ hr2d_status hr2di_closure_set_mean(hr2di_transport *t) {
   return hr2di_watch_work(t->watch, t->elements / 16);
 }
 
-int hr2di_closure_is_rounding(const hr2di_transport *t, size_t patch) {
-  return fabs(t->mean[patch]) <= ROUNDING;
+static int lacks_clusters(const hr2di_transport *t, size_t patch) {
+  const hr2di_clusters *clusters = t->links->roots.clusters;
+  return clusters && hr2di_clusters_links(clusters) > 0 && t->closed && t->closed[patch];
+}
+
+int hr2di_closure_is_error(const hr2di_transport *t, size_t patch) {
+  return fabs(t->mean[patch]) <= ROUNDING || lacks_clusters(t, patch);
 }
 
 void hr2di_closure_move_mean(const hr2di_transport *t, const double *radiosity,
                              double *irradiance) {
   for (size_t k = 0; k < t->leaves * t->width && t->mean; k++) {
     const size_t patch = t->hierarchy->element[t->leaf[k / t->width]].patch;
-    if (hr2di_closure_is_rounding(t, patch))
+    if (hr2di_closure_is_error(t, patch))
       irradiance[k] -= t->mean[patch] * (radiosity[k] - irradiance[k]);
   }
 }
