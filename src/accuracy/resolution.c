@@ -90,9 +90,10 @@ double hr2di_resolution_tolerance(const hr2d_scene *scene, double contrast, doub
   return fmin(fmax(UNSOLVED * aim * contrast * lost, HR2D_DEFAULT_TOLERANCE), UNSOLVED);
 }
 
-/* The accuracy of links of clusters is that of the largest kernel between them.  Where patches
-   see each other at grazing angles, as in a round room, the error of B was 80 times that. */
-#define CLUSTERS        5e-3
+/* The accuracy of links of clusters is that of the largest kernel between them.  Near a short
+   lamp patches see it at grazing angles, and have little light: the error of their B was up to
+   500 times that, in a round room of 100,000 patches. */
+#define CLUSTERS        1e-3
 #define FINEST_CLUSTERS 1e-14
 
 /* Errors of many corners and elements add up. */

@@ -14,6 +14,8 @@
 
 #include "base/alloc.h"
 #include "base/legendre.h"
+#include "base/ordered-dot.h"
+#include "base/wide.h"
 #include "clusters/clusters-impl.h"
 #include "scene/scene-impl.h"
 
@@ -40,23 +42,27 @@ typedef struct place {
   double t[2][HR2DI_EXPANSION_POINTS];
 } place;
 
-static place place_in(const hr2di_expansion *f, hr2d_point p) {
+static void place_in(const hr2di_expansion *f, hr2d_point p, place *at) {
   const double along[] = {f->u.x * p.x + f->u.y * p.y, f->u.x * p.y - f->u.y * p.x};
-  place at;
+  const unsigned count = f->count[0] > f->count[1] ? f->count[0] : f->count[1];
+  double t[2];
   for (int k = 0; k < 2; k++) {
-    const double t = f->half[k] > 0 ? (along[k] - f->at[k]) / f->half[k] : 0;
-    at.t[k][0] = 1;
-    if (f->count[k] > 1) at.t[k][1] = t;
-    for (unsigned n = 2; n < f->count[k]; n++)
-      at.t[k][n] = 2 * t * at.t[k][n - 1] - at.t[k][n - 2];
+    t[k] = f->half[k] > 0 ? (along[k] - f->at[k]) / f->half[k] : 0;
+    at->t[k][0] = 1;
+    at->t[k][1] = t[k];
   }
-  return at;
+  /* Each value waits for the one before: both directions at a time take no longer than one. */
+  for (unsigned n = 2; n < count; n++) {
+    at->t[0][n] = 2 * t[0] * at->t[0][n - 1] - at->t[0][n - 2];
+    at->t[1][n] = 2 * t[1] * at->t[1][n - 1] - at->t[1][n - 2];
+  }
 }
 
 /* Adds g->vector, sent from a place, to the moments of a cluster. */
 static void send(const gather *g, const hr2di_linked *c, hr2d_point p) {
   const hr2di_expansion *f = &c->far;
-  const place at = place_in(f, p);
+  place at;
+  place_in(f, p, &at);
   double *moment = planes_of(g, g->sent, c);
   for (size_t k = 0; k < g->planes; k++)
     for (unsigned m = 0; m < f->count[1]; m++) {
@@ -68,7 +74,8 @@ static void send(const gather *g, const hr2di_linked *c, hr2d_point p) {
 /* Sets g->vector to what is received at a place. */
 static void receive(const gather *g, const hr2di_linked *c, hr2d_point p) {
   const hr2di_expansion *f = &c->far;
-  const place at = place_in(f, p);
+  place at;
+  place_in(f, p, &at);
   const double *coefficient = planes_of(g, g->received, c);
   for (size_t k = 0; k < g->planes; k++) {
     double sum = 0;
@@ -182,7 +189,8 @@ typedef struct row {
   double xx[MOST_POINTS], xy[MOST_POINTS], yy[MOST_POINTS];
 } row;
 
-static void fill_row(row *t, hr2d_point x, const hr2d_point *y, size_t count) {
+HR2DI_PART void fill_row_loop(row *restrict t, hr2d_point x, const hr2d_point *restrict y,
+                              size_t count) {
   for (size_t k = 0; k < count; k++) {
     const double dx = y[k].x - x.x, dy = y[k].y - x.y;
     const double square = dx * dx + dy * dy, s = -0.5 / (square * sqrt(square));
@@ -191,21 +199,37 @@ static void fill_row(row *t, hr2d_point x, const hr2d_point *y, size_t count) {
     t->yy[k] = s * dy * dy;
   }
 }
+HR2DI_WIDE(fill_row, (row *restrict t, hr2d_point x, const hr2d_point *restrict y, size_t count),
+           (t, x, y, count))
 
-/* One band of a row, both ways. */
-static void exchange_row(const row *t, size_t count, const double sent[2], const double *sent_x,
-                         const double *sent_y, double received[2], double *received_x,
-                         double *received_y) {
-  double x = 0, y = 0;
-  for (size_t k = 0; k < count; k++) {
+/* One band of a row, both ways.  Sums are four side by side. */
+HR2DI_PART void exchange_row_loop(const row *restrict t, size_t count, const double sent[2],
+                                  const double *restrict sent_x, const double *restrict sent_y,
+                                  double received[2], double *restrict received_x,
+                                  double *restrict received_y) {
+  double x[4] = {0}, y[4] = {0};
+  size_t k = 0;
+  for (; k + 4 <= count; k += 4)
+    for (size_t l = 0; l < 4; l++) {
+      received_x[k + l] += t->xx[k + l] * sent[0] + t->xy[k + l] * sent[1];
+      received_y[k + l] += t->xy[k + l] * sent[0] + t->yy[k + l] * sent[1];
+      x[l] += t->xx[k + l] * sent_x[k + l] + t->xy[k + l] * sent_y[k + l];
+      y[l] += t->xy[k + l] * sent_x[k + l] + t->yy[k + l] * sent_y[k + l];
+    }
+  for (; k < count; k++) {
     received_x[k] += t->xx[k] * sent[0] + t->xy[k] * sent[1];
     received_y[k] += t->xy[k] * sent[0] + t->yy[k] * sent[1];
-    x += t->xx[k] * sent_x[k] + t->xy[k] * sent_y[k];
-    y += t->xy[k] * sent_x[k] + t->yy[k] * sent_y[k];
+    x[0] += t->xx[k] * sent_x[k] + t->xy[k] * sent_y[k];
+    y[0] += t->xy[k] * sent_x[k] + t->yy[k] * sent_y[k];
   }
-  received[0] += x;
-  received[1] += y;
+  received[0] += hr2di_dot_four(x[0], x[1], x[2], x[3]);
+  received[1] += hr2di_dot_four(y[0], y[1], y[2], y[3]);
 }
+HR2DI_WIDE(exchange_row,
+           (const row *restrict t, size_t count, const double sent[2],
+            const double *restrict sent_x, const double *restrict sent_y, double received[2],
+            double *restrict received_x, double *restrict received_y),
+           (t, count, sent, sent_x, sent_y, received, received_x, received_y))
 
 static void exchange(const gather *g, const hr2di_linked *i, const hr2di_linked *j) {
   const size_t m = hr2di_expansion_points(&i->far), n = hr2di_expansion_points(&j->far);
