@@ -83,6 +83,7 @@ SUITES = \
 	tests/unit/accuracy/check-known-radiosities \
 	tests/unit/accuracy/check-random-accuracy \
 	tests/unit/accuracy/check-target-calls \
+	tests/unit/accuracy/check-cluster-residuals \
 	tests/unit/accuracy/check-error-shares \
 	tests/unit/accuracy/check-shares \
 	tests/unit/accuracy/check-importance \

@@ -29,26 +29,26 @@ static double worst(const hr2di_estimator *e, const double *coarse, const double
     if (!hr2di_is_important(e->target, patch)) continue;
     const int closed = t->closed && t->closed[patch];
     const double one = closed ? fine[at + bands] - coarse[at + bands] : 0;
-    const double power = fine[at + b] - coarse[at + b] - one * hr2di_estimator_value(e, 0, patch, b);
+    const double power =
+        fine[at + b] - coarse[at + b] - one * hr2di_estimator_value(e, 0, patch, b);
     const double h = fabs(power) / t->hierarchy->scene->patch[patch].length;
     const double least = hr2di_estimator_least(e, 0, patch, b);
-    if (h > 0) most = fmax(most, hr2d_scene_reflectance(t->hierarchy->scene, patch, b) * h / least);
+    if (h > 0)
+      most = fmax(most, hr2d_scene_reflectance(t->hierarchy->scene, patch, b) * h / least);
   }
   return most;
 }
 
-hr2d_status hr2di_cluster_residuals(hr2di_estimator *e, hr2di_clusters *coarser,
-                                    double *part) {
+hr2d_status hr2di_cluster_residuals(hr2di_estimator *e, hr2di_clusters *coarser, double *part) {
   const hr2di_transport *t = &e->eq.transport;
   const size_t planes = t->bands + 1, size = e->values / t->bands * planes;
   double *field = hr2di_alloc_zero(&t->alloc, size, 3 * sizeof *field);
   if (!field) return HR2D_ENOMEM;
   set_fields(e, field);
-  hr2d_status status =
-      hr2di_clusters_gather(coarser, 1, planes, field, field + size, t->watch);
+  hr2d_status status = hr2di_clusters_gather(coarser, 1, planes, field, field + size, t->watch);
   if (!status)
-    status = hr2di_clusters_gather(t->links->roots.clusters, 1, planes, field,
-                                   field + 2 * size, t->watch);
+    status = hr2di_clusters_gather(t->links->roots.clusters, 1, planes, field, field + 2 * size,
+                                   t->watch);
   if (!status) *part = worst(e, field + size, field + 2 * size);
   hr2di_alloc_free(&t->alloc, field);
   return status;

@@ -199,7 +199,8 @@ HR2DI_PART void fill_row_loop(row *restrict t, hr2d_point x, const hr2d_point *r
     t->yy[k] = s * dy * dy;
   }
 }
-HR2DI_WIDE(fill_row, (row *restrict t, hr2d_point x, const hr2d_point *restrict y, size_t count),
+HR2DI_WIDE(fill_row,
+           (row *restrict t, hr2d_point x, const hr2d_point *restrict y, size_t count),
            (t, x, y, count))
 
 /* One band of a row, both ways.  Sums are four side by side. */

@@ -26,8 +26,8 @@ hr2d_status hr2di_closure_set_mean(hr2di_transport *t);
 /* Whether the mean over a patch is a rounding, or what clusters lack, and no part of K. */
 int hr2di_closure_is_error(const hr2di_transport *t, size_t patch);
 
-/* Changes H of B where the mean of d is such an error: H takes the place of B there.  The fields
-   are not those of an equation any more, but H may be much less than B. */
+/* Changes H of B where the mean of d is such an error: H takes the place of B there.  The
+   fields are not those of an equation any more, but H may be much less than B. */
 void hr2di_closure_move_mean(const hr2di_transport *t, const double *radiosity,
                              double *irradiance);
 

@@ -137,32 +137,47 @@ static void gather_links(const hr2d_link *link, size_t count, size_t bands, int 
   }
 }
 
-/* The same for one band and both ways.  Mostly two links share an element: its sum stays in a
-   register, which is faster than to load what was just stored.  Terms are added in the same
-   order. */
+/* The elements of a link in one number. */
+static inline uint64_t ends_of(const hr2d_link *link) {
+  return (uint64_t)link->pair.second << 32 | link->pair.first;
+}
+
+/* Whether four links join two elements with two others, both neighbours in the trees, as the
+   children of one element are: (i,j), (i,j+1), (i+1,j), (i+1,j+1). */
+static inline int is_square(const hr2d_link *link) {
+  const uint64_t ends = ends_of(link), j = (uint64_t)1 << 32, i = 1;
+  return ((ends_of(link + 1) ^ (ends + j)) | (ends_of(link + 2) ^ (ends + i)) |
+          (ends_of(link + 3) ^ (ends + i + j))) == 0;
+}
+
+/* Sums of two neighbours are side by side, with their terms in the order of the links. */
+static inline void gather_square(const hr2d_link *link, const double *up, double *down) {
+  const double *i = up + link->pair.first, *j = up + link->pair.second;
+  double *to_i = down + link->pair.first, *to_j = down + link->pair.second;
+  const double a = link[0].exchange_area, b = link[1].exchange_area;
+  const double c = link[2].exchange_area, d = link[3].exchange_area;
+  const double column[2][2] = {{a, c}, {b, d}}, row[2][2] = {{a, b}, {c, d}};
+  double sum_i[2] = {to_i[0], to_i[1]}, sum_j[2] = {to_j[0], to_j[1]};
+  for (int m = 0; m < 2; m++) sum_i[m] = (sum_i[m] + column[0][m] * j[0]) + column[1][m] * j[1];
+  for (int m = 0; m < 2; m++) sum_j[m] = (sum_j[m] + row[0][m] * i[0]) + row[1][m] * i[1];
+  memcpy(to_i, sum_i, sizeof sum_i);
+  memcpy(to_j, sum_j, sizeof sum_j);
+}
+
+/* The same for one band and both ways.  Nearly all links are four in a square, which is faster
+   than to load for each what was just stored. */
 static void gather_both_ways(const hr2d_link *link, size_t count, const double *up,
                              double *down) {
   size_t k = 0;
-  for (; k + 2 <= count; k += 2) {
-    const hr2d_pair p = link[k].pair, q = link[k + 1].pair;
-    const double c = link[k].exchange_area, d = link[k + 1].exchange_area;
-    const double up_i = up[p.first], up_j = up[p.second];
-    if (p.first == q.first && p.second != q.second) {
-      down[p.first] = (down[p.first] + c * up_j) + d * up[q.second];
-      down[p.second] += c * up_i;
-      down[q.second] += d * up_i;
-    } else if (p.second == q.second && p.first != q.first) {
-      down[p.second] = (down[p.second] + c * up_i) + d * up[q.first];
-      down[p.first] += c * up_j;
-      down[q.first] += d * up_j;
-    } else {
-      down[p.first] += c * up_j;
-      down[p.second] += c * up_i;
-      down[q.first] += d * up[q.second];
-      down[q.second] += d * up[q.first];
-    }
+  while (k + 4 <= count) {
+    const int square = is_square(link + k);
+    if (square)
+      gather_square(link + k, up, down);
+    else
+      gather_links(link + k, 1, 1, 0, up, down);
+    k += square ? 4 : 1;
   }
-  if (k < count) gather_links(link + k, 1, 1, 0, up, down);
+  gather_links(link + k, count - k, 1, 0, up, down);
 }
 
 /* Adds the power received over the links of chunk k; `simple` if there is one band and links

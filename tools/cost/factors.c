@@ -64,8 +64,8 @@ static void set_band(factors *f, size_t band) {
   size_t i = 0;
   for (size_t k = 0; k < f->patches; k++)
     for (; i < f->pieces.first[k + 1]; i++) {
-      f->scale[i] = sqrt(hr2d_scene_reflectance(whole, k, band) /
-                         hr2d_scene_length(f->pieces.scene, i));
+      f->scale[i] =
+          sqrt(hr2d_scene_reflectance(whole, k, band) / hr2d_scene_length(f->pieces.scene, i));
       f->field[i] = hr2d_scene_emission(whole, k, band);
     }
   for (; i < f->pieces.count; i++) {
@@ -161,14 +161,10 @@ static hr2d_status run(factors *f) {
 
 static void note(factors *f, const cost_method *m, double seconds, cost_row *row) {
   const uint64_t n = f->pieces.count, entries = hr2d_exchange_rows_entries(f->rows);
-  *row = (cost_row){m,
-                    f->length,
-                    1,
-                    n,
-                    entries,
-                    ENTRY_BYTES * entries + n * (VECTORS + f->bands) * sizeof(double),
-                    seconds,
-                    cost_error(f->cost, average, f)};
+  *row = (cost_row){m,       f->length,
+                    1,       n,
+                    entries, ENTRY_BYTES * entries + n * (VECTORS + f->bands) * sizeof(double),
+                    seconds, cost_error(f->cost, average, f)};
 }
 
 static hr2d_status time_row(cost *c, const cost_method *m, double length, cost_row *row) {
