@@ -10,6 +10,7 @@ set -eu
 hr2d=${HR2D_PROGRAM:?names the program}
 scenes=${HR2D_SCENES:?names the folder of scenes}
 screened=${HR2D_SRCDIR:?names the source directory}/examples/scenes/screened-room.geojson
+crowded=$HR2D_SRCDIR/bench/scenes
 cost_seconds=${HR2D_COST_SECONDS:-60}
 out=${1:?names the folder for the figures}
 data=${2:?names the folder for the sweeps}
@@ -231,11 +232,14 @@ $(comparison orth-near "unset key")
 $(comparison orth-far "unset key")
 END
 
-# cost NAME SCENE: seconds and links against error, with the rows; for each method a row of
+all_methods=size,size2,bf,l1,l1-grid,multigrid,order-2,order-4,order-8,order-16,auto,auto-solve,factors
+few_methods=size,multigrid,order-4,auto,auto-solve,factors
+# cost NAME SCENE [METHODS]: seconds and links against error, with the rows; for each method a row of
 # cost-table.md: of the runs that come to an error the quickest, its seconds and links
 cost() {
   [ -s "$data/cost-$1.json" ] ||
     "$hr2d" cost "$2" --max-seconds "$cost_seconds" --quiet --against seconds,links \
+      --methods "${3:-$all_methods}" \
       --plot "$out/cost-$1.svg" --csv "$out/cost-$1.csv" --json "$data/cost-$1.json"
   awk -F, -v scene="$1" -v wanted="1e-2 1e-3 1e-4 1e-6 1e-9 1e-12" '
     function say(s) {
@@ -264,3 +268,5 @@ cost orth-near "$scenes/orth-near.geojson"
 cost corner "$scenes/corner.geojson"
 cost square-room "$scenes/square-room.geojson"
 cost screened-room "$screened"
+cost boxes-3 "$crowded/boxes-3.geojson"
+cost fibres-30 "$crowded/fibres-30.geojson" "$few_methods"
