@@ -561,6 +561,59 @@ START_TEST(callbacks_end_the_search) {
 }
 END_TEST
 
+/* A roof that absorbs the sun well and emits little: Σ ε_b (f_b σT⁴ − I_b cos θ − L_b) = q. */
+typedef struct roof {
+  double e[BANDS], falls[BANDS], q;
+} roof;
+
+static double roof_balance(double kelvin, void *of) {
+  const roof *r = of;
+  double sum = -r->q;
+  for (int b = 0; b < BANDS; b++)
+    sum += (1 - (1 - r->e[b])) * (part(kelvin, b) * fourth(kelvin) - r->falls[b]);
+  return sum;
+}
+
+START_TEST(a_selective_roof_under_the_sun_has_its_temperature) {
+  static const double e[3][BANDS] = {{.95, .2, .05}, {.1, .8, .9}, {.5, .5, .5}};
+  const double light[BANDS] = {30, 20, 310}, irradiance[BANDS] = {900, 10, 0};
+  for (int m = 0; m < 9; m++) {
+    roof r = {.q = (m % 3 - 1) * 80.};
+    hr2d_scene *scene = test_new_scene(NULL);
+    hr2d_sun sun[BANDS];
+    hr2d_solution *solution;
+    hr2d_account account;
+    double kelvin, bound;
+    ck_assert_int_eq(hr2d_scene_set_wavelengths(scene, wavelength, BANDS - 1), HR2D_OK);
+    for (int b = 0; b < BANDS; b++) {
+      r.e[b] = e[m / 3][b];
+      sun[b] = (hr2d_sun){{3, -4}, irradiance[b]};
+      r.falls[b] = .8 * irradiance[b] + light[b];
+    }
+    const hr2d_patch patch = test_patch(0, 0, 2, 0);
+    hr2d_thermal t = HR2D_THERMAL_INIT;
+    t.given = Q;
+    t.value = r.q;
+    t.emissivity = r.e;
+    t.emissivity_bands = BANDS;
+    ck_assert_int_eq(hr2d_scene_add_thermal(scene, &patch, &t, NULL), HR2D_OK);
+    ck_assert_int_eq(hr2d_scene_set_sun(scene, sun, BANDS), HR2D_OK);
+    ck_assert_int_eq(hr2d_scene_set_background(scene, light, BANDS), HR2D_OK);
+    test_commit(scene);
+    ck_assert_int_eq(hr2d_solve_to(scene, NULL, &solution, &account), HR2D_OK);
+    hr2d_temperatures to = HR2D_TEMPERATURES_INIT;
+    to.kelvin = &kelvin;
+    to.bound = &bound;
+    ck_assert_int_eq(hr2d_solution_temperatures(solution, NULL, &account, &to), HR2D_OK);
+    const double expected = root_of(roof_balance, &r, 1, 5000);
+    ck_assert_double_le(fabs(kelvin - expected), bound + 1e-12 * expected);
+    close_to(kelvin, expected, 1e-6);
+    hr2d_solution_destroy(solution);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
 START_TEST(a_prediction_is_made) {
   const wall w[3] = {{{0, 0, 4, 0}, T, 100, {.3, .5, .9}},
                      {{4, 0, 0, 3}, Q, 0, {.9, .5, .2}},
@@ -577,6 +630,7 @@ TEST_SUITE("heat-bands") {
   ADD_TESTS("closed forms", a_body_in_a_black_room_has_the_root_of_a_scalar_equation,
             a_wrong_emissivity_is_noticed, grey_bodies_are_those_of_one_band,
             a_furnace_of_black_walls_is_a_network, a_shield_between_plates_has_one_temperature,
+            a_selective_roof_under_the_sun_has_its_temperature,
             a_room_is_that_of_a_dense_solver);
   ADD_TESTS("other", bounds_of_temperatures_hold, divided_walls_come_to_one_band,
             temperatures_scale, a_long_way_of_heat_takes_few_solves, threads_do_not_matter,

@@ -155,6 +155,63 @@ START_TEST(without_the_sun_it_is_darker) {
 }
 END_TEST
 
+/* The exchange area of two segments in front of each other, by crossed strings. */
+static double strings(hr2d_segment s, hr2d_segment t) {
+  const double crossed =
+      hypot(s.a.x - t.a.x, s.a.y - t.a.y) + hypot(s.b.x - t.b.x, s.b.y - t.b.y);
+  const double sides =
+      hypot(s.a.x - t.b.x, s.a.y - t.b.y) + hypot(s.b.x - t.a.x, s.b.y - t.a.y);
+  return fabs(crossed - sides) / 2;
+}
+
+/* What the ground between two abscissae sends to a panel. */
+static double from_ground(hr2d_segment panel, double from, double to) {
+  return to > from ? strings(panel, (hr2d_segment){{from, 0}, {to, 0}}) : 0;
+}
+
+/* A black panel of tilt β above a ground of reflectance ρ.  What its two sides get from the
+   ground is that of lit ground on their side of the panel's line, less the shadow; for an
+   endless ground it is ρ I cos θ (1 ∓ cos β)/2 but for the shadow, the ground term of models of
+   tilted panels. */
+START_TEST(the_ground_term_is_that_of_crossed_strings) {
+  const double tilt = .1 + .25 * _i, height = 2, half = 3000, rho = .2;
+  const hr2d_segment up = {{0, height}, {cos(tilt), height + sin(tilt)}};
+  const hr2d_sun sun = {{.3 * _i - .7, -1}, 900};
+  const double on_ground = 900 / hypot(sun.direction.x, 1);
+  const double foot = -height / tan(tilt); /* where the panel's line meets the ground */
+  /* The shadow, and on which side of the line it lies: the panel's front looks to its left. */
+  const double one = sun.direction.x * height, other = cos(tilt) + sun.direction.x * up.b.y;
+  const double dark[2] = {fmin(one, other), fmax(one, other)};
+  const double front =
+      from_ground(up, -half, fmin(foot, dark[0])) + from_ground(up, fmin(foot, dark[1]), foot);
+  const double back =
+      from_ground(up, foot, fmax(foot, dark[0])) + from_ground(up, fmax(foot, dark[1]), half);
+  hr2d_scene *scene = test_new_scene(NULL);
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_account account;
+  hr2d_solution *solution;
+  target.error = 1e-9;
+  const hr2d_segment ground = {{-half, 0}, {half, 0}};
+  ck_assert_int_eq(test_add_patch(scene, ground, 0, rho, HR2D_SIDES_FRONT), HR2D_OK);
+  ck_assert_int_eq(test_add_patch(scene, up, 0, 0, HR2D_SIDES_BOTH), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_set_sun(scene, &sun, 1), HR2D_OK);
+  test_commit(scene);
+  ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &account), HR2D_OK);
+  for (size_t side = 1; side <= 2; side++) {
+    const double got =
+        hr2d_solution_irradiance(solution, side, 0) - hr2d_scene_sunlight(scene, side, 0);
+    const double part = side == 1 ? front : back;
+    const double endless = (1 - (side == 1 ? 1 : -1) * cos(tilt)) / 2;
+    ck_assert_double_eq_tol(got, rho * on_ground * part, 1e-8 * on_ground);
+    /* without its shadow the ground term is more, by less than the shadow is seen */
+    ck_assert_double_le(got, rho * on_ground * endless + 1e-9);
+    ck_assert_double_ge(got, rho * on_ground * (endless - .3));
+  }
+  hr2d_solution_destroy(solution);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 /* A room into which the sun falls, and where it falls all is black: no light is sent, B is 0 to
    the last bit, and the errors are finite.  Roundings of the level of a nearly closed room were
    taken for light that grows for ever. */
@@ -300,6 +357,7 @@ END_TEST
 
 TEST_SUITE("sun") {
   REPEAT_TESTS(2 * SUNS, "averages", averages_are_those_of_lit_parts_that_emit);
+  REPEAT_TESTS(5, "ground", the_ground_term_is_that_of_crossed_strings);
   ADD_TESTS("averages", without_the_sun_it_is_darker, what_is_absorbed_at_once_sends_nothing,
             bands_are_as_scenes_of_one_band);
   ADD_TESTS("points", points_have_the_light_of_the_sun, fields_have_a_beam,
