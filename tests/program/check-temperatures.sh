@@ -69,6 +69,10 @@ succeeds solve "$work/bands.geojson" --eps 0.02 --state "$work/bands.state"
 check "on links of eps, too" [ "$(grep -c '^ .* 866\.9.* unknown' "$work/out")" -eq 2 ]
 succeeds solve "$work/bands.geojson" --eps 0.02 --state "$work/bands.state"
 check "a state has them" [ "$(grep -c '^ .* 866\.9.* unknown' "$work/out")" -eq 2 ]
+sed 's/"flux": 0, "emissivity": \[0.5, 0.5\]/"flux": 0, "emissivity": [[300, 0.5, 0.5], [900, 0.5, 0.4]]/' \
+  "$work/bands.geojson" >"$work/tables.geojson"
+expect 1 'a state cannot keep emissivities' solve "$work/tables.geojson" --eps 0.02 \
+  --state "$work/tables.state"
 succeeds info "$work/bands.geojson"
 sed 's/"flux": 0, "emissivity"/"flux": -20000, "emissivity"/' "$work/bands.geojson" \
   >"$work/coldbands.geojson"

@@ -49,7 +49,12 @@ int state_save(run *r) {
   int status = output_open(&out, r->options->state);
   if (status) return status;
   const hr2d_status written = hr2d_state_write(r->solution, write_bytes, out.stream);
-  if (written && written != HR2D_EIO)
+  if (written == HR2D_EUNSUPPORTED)
+    status =
+        complain(r->options->state,
+                 "a state cannot keep emissivities of patches of given flux that depend on "
+                 "temperature, in several bands");
+  else if (written && written != HR2D_EIO)
     status = complain(r->options->state, "%s", hr2d_strerror(written));
   status = output_close(&out, status);
   if (!status) r->kept = hr2d_linkset_epsilon(r->own_links);
