@@ -8,6 +8,7 @@
 
 #include "accuracy/importance.h"
 #include "base/alloc.h"
+#include "base/share.h"
 #include "scene/scene-impl.h"
 
 /* Averages of B, and 1 as a band behind them. */
@@ -39,16 +40,20 @@ static double worst(const hr2di_estimator *e, const double *coarse, const double
   return most;
 }
 
+/* All shares call it, and get the same part. */
 hr2d_status hr2di_cluster_residuals(hr2di_estimator *e, hr2di_clusters *coarser, double *part) {
   const hr2di_transport *t = &e->eq.transport;
+  hr2d_share *share = t->links->share;
   const size_t planes = t->bands + 1, size = e->values / t->bands * planes;
   double *field = hr2di_alloc_zero(&t->alloc, size, 3 * sizeof *field);
-  if (!field) return HR2D_ENOMEM;
-  set_fields(e, field);
-  hr2d_status status = hr2di_clusters_gather(coarser, 1, planes, field, field + size, t->watch);
+  hr2d_status status = hr2di_share_agree(share, field ? HR2D_OK : HR2D_ENOMEM);
+  if (!status) {
+    set_fields(e, field);
+    status = hr2di_clusters_gather(coarser, 1, planes, field, field + size, share, t->watch);
+  }
   if (!status)
     status = hr2di_clusters_gather(t->links->roots.clusters, 1, planes, field, field + 2 * size,
-                                   t->watch);
+                                   share, t->watch);
   if (!status) *part = worst(e, field + size, field + 2 * size);
   hr2di_alloc_free(&t->alloc, field);
   return status;
