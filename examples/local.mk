@@ -1,9 +1,10 @@
 # Examples use the library as any program does; `make check` compares what they
 # print with NAME.expected.
 EXAMPLES = examples/adiabatic-walls examples/conduction examples/digits \
-	examples/frame-cavity examples/furnace-section examples/own-oracle examples/paint-oven \
+	examples/fibre-bed examples/frame-cavity examples/furnace-section examples/own-oracle \
+	examples/paint-oven \
 	examples/resume examples/room-climate examples/shares examples/solar-panels \
-	examples/solar-year examples/street-canyon examples/together examples/tour
+	examples/solar-year examples/street-canyon examples/streets examples/together examples/tour
 check_PROGRAMS += $(EXAMPLES)
 examples_adiabatic_walls_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_adiabatic_walls_LDADD = libhr2d.la -lm
@@ -11,6 +12,8 @@ examples_conduction_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_conduction_LDADD = libhr2d.la -lm
 examples_digits_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_digits_LDADD = libhr2d.la
+examples_fibre_bed_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_fibre_bed_LDADD = libhr2d.la -lm
 examples_frame_cavity_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_frame_cavity_LDADD = libhr2d.la -lm
 examples_furnace_section_CPPFLAGS = $(PUBLIC_CPPFLAGS)
@@ -31,6 +34,8 @@ examples_solar_year_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_solar_year_LDADD = libhr2d.la -lm
 examples_street_canyon_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_street_canyon_LDADD = libhr2d.la -lm
+examples_streets_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_streets_LDADD = libhr2d.la -lm
 examples_together_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(PUBLIC_CPPFLAGS)
 examples_together_LDADD = libhr2d.la -lm
 examples_tour_CPPFLAGS = $(PUBLIC_CPPFLAGS)

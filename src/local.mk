@@ -72,6 +72,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/checks.c \
 	src/scene/commit.c \
 	src/scene/daylight.c \
+	src/scene/period-ends.c src/scene/period-weights.c \
 	src/scene/effects.c \
 	src/scene/emissivity.c src/scene/emissivity.h \
 	src/scene/find-occluder.c src/scene/find-occluder.h \
@@ -95,7 +96,9 @@ libhr2d_core_la_SOURCES = \
 	src/scene/sun-beams.c src/scene/sun-beams.h \
 	src/scene/lit-parts.c \
 	src/scene/sunlight.c src/scene/sunlight.h \
+	src/scene/symmetry.c src/scene/symmetry.h \
 	src/scene/thermal.c \
+	src/scene/unfold.c \
 	src/scene/wall-pieces.c src/scene/wall-pieces.h \
 	src/scene/with-plane.c src/scene/with-plane.h \
 	src/formats/geojson.c \
@@ -104,6 +107,7 @@ libhr2d_core_la_SOURCES = \
 	src/formats/geojson-impl.h \
 	src/formats/geojson-meant.c src/formats/geojson-meant.h \
 	src/formats/geojson-sun.c \
+	src/formats/geojson-symmetry.c \
 	src/formats/geojson-text.c src/formats/geojson-text.h \
 	src/formats/geojson-thermal.c \
 	src/formats/geojson-values.c \
@@ -115,6 +119,7 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/events-impl.h \
 	src/visibility/events-beams.c \
 	src/visibility/exchange-matrix.c \
+	src/visibility/image-matrix.c src/visibility/image-matrix.h \
 	src/visibility/exchange-rows.c \
 	src/visibility/exchange-visit.c \
 	src/visibility/point-beams.c \
@@ -140,6 +145,7 @@ libhr2d_core_la_SOURCES = \
 	src/hierarchy/fields.c \
 	src/hierarchy/hierarchy.c \
 	src/hierarchy/hierarchy-impl.h \
+	src/hierarchy/image-trees.c src/hierarchy/image-trees.h \
 	src/hierarchy/push-pull.c src/hierarchy/push-pull.h \
 	src/hierarchy/unite.c \
 	src/oracle/built-in.h \
@@ -202,6 +208,7 @@ libhr2d_core_la_SOURCES = \
 	src/refine/unite-shares.c src/refine/unite-shares.h \
 	src/refine/study.c \
 	src/refine/validate-links.c \
+	src/solve/image-ties.c src/solve/image-ties.h \
 	src/solve/outside.c src/solve/outside.h \
 	src/solve/background.c src/solve/background.h \
 	src/solve/closure.c src/solve/closure.h \

@@ -30,6 +30,7 @@ SUITES = \
 	tests/unit/scene/check-bent-walls \
 	tests/unit/scene/check-snap \
 	tests/unit/scene/check-sunlight \
+	tests/unit/scene/check-images \
 	tests/unit/formats/check-geojson \
 	tests/unit/formats/check-memory \
 	tests/unit/formats/check-vs2 \
@@ -61,6 +62,8 @@ SUITES = \
 	tests/unit/solve/check-background \
 	tests/unit/solve/check-sky \
 	tests/unit/solve/check-sun \
+	tests/unit/solve/check-mirrors \
+	tests/unit/solve/check-periods \
 	tests/unit/solve/check-closure \
 	tests/unit/solve/check-equation-part \
 	tests/unit/solve/check-row-sums \
@@ -82,6 +85,7 @@ SUITES = \
 	tests/unit/solve/check-parts \
 	tests/unit/accuracy/check-known-radiosities \
 	tests/unit/accuracy/check-random-accuracy \
+	tests/unit/accuracy/check-random-periods \
 	tests/unit/accuracy/check-target-calls \
 	tests/unit/accuracy/check-cluster-residuals \
 	tests/unit/accuracy/check-error-shares \

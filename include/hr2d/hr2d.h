@@ -23,6 +23,7 @@
  * - hr2d_field_at() computes the light at points between the patches (field.h).
  * - hr2d_scene_add_thermal() adds patches of given temperature or heat flux (thermal.h).
  * - hr2d_scene_set_sun() lights the scene by a sun (daylight.h).
+ * - hr2d_scene_add_mirror() and hr2d_scene_set_period() repeat the scene (symmetry.h).
  * - hr2d_exchange_area() computes the exchange of two segments (geometry.h).
  * - hr2d_exchange_rows_create() does it for all patches, with occluders (visibility.h).
  * - hr2d_study_run() measures L against N (study.h).
@@ -96,6 +97,7 @@
 #include <hr2d/state.h>
 #include <hr2d/status.h>
 #include <hr2d/study.h>
+#include <hr2d/symmetry.h>
 #include <hr2d/thermal.h>
 #include <hr2d/version.h>
 #include <hr2d/visibility.h>

@@ -135,9 +135,11 @@ static double link_off(const hr2di_transport *t, uint64_t link, const offsets *p
 static void add_links(const hr2di_transport *t, const offsets *places, const gather *g) {
   for (uint64_t k = 0; k < t->links->store.count && !hr2di_watch_work(t->watch, 1); k++) {
     const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
-    const double off = link_off(t, k, places);
-    add_pair(t, off, g, pair.first, pair.second);
-    if (!t->links->directed) add_pair(t, off, g, pair.second, pair.first);
+    const double off = link_off(t, k, places) * fabs(hr2di_linkset_weight(t->links, pair));
+    const uint32_t i = hr2di_ties_of(&t->ties, pair.first),
+                   j = hr2di_ties_of(&t->ties, pair.second);
+    add_pair(t, off, g, i, j);
+    if (!t->links->directed) add_pair(t, off, g, j, i);
   }
 }
 

@@ -107,6 +107,11 @@ void hr2di_contacts_clear(hr2di_contacts *c) {
   hr2di_alloc_free(&c->alloc, c->residual);
 }
 
+/* The leaf of which another one is an image. */
+static uint32_t original(const hr2di_transport *t, uint32_t leaf) {
+  return t->ties.of ? t->ties.number[t->ties.of[t->leaf[leaf]]] : leaf;
+}
+
 /* A leaf may have contacts at both ends. */
 hr2d_status hr2di_contacts_saturate(const hr2di_contacts *c, const hr2di_transport *t,
                                     size_t order, double exponent, double *residual) {
@@ -115,7 +120,8 @@ hr2d_status hr2di_contacts_saturate(const hr2di_contacts *c, const hr2di_transpo
   unsigned char *touches = hr2di_alloc_zero(&c->alloc, t->leaves, 1);
   if (!touches) return HR2D_ENOMEM;
   for (size_t k = 0; k < c->count; k++)
-    touches[c->contact[k].leaf[0]] = touches[c->contact[k].leaf[1]] = 1;
+    for (int side = 0; side < 2; side++) touches[original(t, c->contact[k].leaf[side])] = 1;
+  for (size_t k = 0; k < t->leaves; k++) touches[k] = touches[original(t, (uint32_t)k)];
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t m = order * t->bands; m < t->width && touches[k]; m++)
       residual[k * t->width + m] /= theta;
@@ -164,6 +170,9 @@ static double place_of(const hr2di_transport *t, uint32_t leaf, int begins) {
 static hr2d_status gather(const hr2di_equation *eq, const hr2d_solution *solution,
                           const double *field, uint32_t leaf, int begins, double *residual) {
   const hr2di_transport *t = &eq->transport;
+  const int turned = t->ties.of && t->ties.odd[t->leaf[leaf]];
+  leaf = original(t, leaf);
+  if (turned) begins = !begins;
   const uint32_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
   const double at = place_of(t, leaf, begins);
   hr2di_basis basis;

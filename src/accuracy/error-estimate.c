@@ -94,6 +94,7 @@ static hr2d_status measure(hr2di_estimator *e, hr2di_error_pair *errors) {
   if (status) return status;
   status = hr2di_rounding_bound(e, reflects);
   if (status) return status;
+  errors->cut_off = e->cut_off;
   const double level = eq->balance.count > 0 ? HR2DI_ESTIMATOR_ROUNDING : 0;
   for (int h = 0; h < 2; h++) {
     const double average_off = worst_average(e, h, 0, e->rounding[h]) + level;

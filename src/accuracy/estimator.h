@@ -31,6 +31,8 @@ typedef struct hr2di_estimator {
   double *rest;        /* of B_h less the level of closed components */
   double *error;       /* B − B_h */
   double *residual;    /* r */
+  double cut_off;      /* the largest part of H that it may be */
+  double *tail;        /* what extrapolation over a period may leave of H; NULL without one */
   double *average[2];  /* patches × bands: errors of averages, of B and of H */
   double *rounding[2]; /* likewise what roundings may be */
   double *most;        /* elements × bands: |field| at most */

@@ -238,8 +238,10 @@ static hr2d_status find_all(hr2di_estimator *e, gaps *all) {
 static hr2d_status gather(const hr2di_estimator *e, size_t patch, double from, double step,
                           double *space, double *residual) {
   const hr2di_transport *t = &e->eq.transport;
+  const int turned = t->ties.of && t->ties.odd[patch];
+  patch = hr2di_ties_of(&t->ties, (uint32_t)patch);
   for (size_t k = 0; k < PLACES; k++) {
-    const double at = from + place[k] * step;
+    const double along = from + place[k] * step, at = turned ? 1 - along : along;
     if (!(at >= 0 && at <= 1)) continue; /* also where the patch is dust */
     const hr2d_status status = hr2di_solution_gather(e->coarse, patch, &at, 1, space, t->watch);
     if (status) return status;

@@ -7,6 +7,7 @@
 #include "accuracy/long-leaves.h"
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "hierarchy/image-trees.h"
 #include "links/linkset-impl.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
@@ -26,6 +27,30 @@ static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
     *events = (hr2di_events){0};
     if (generations == 0) return HR2D_OK;
   }
+}
+
+/* Elements of images get the kinks of the elements that they are images of. */
+static hr2d_status carry_kinks(hr2di_graded *a, size_t elements, hr2di_watch *watch) {
+  const hr2d_hierarchy *h = a->hierarchy;
+  const size_t bands = h->scene->bands;
+  if (!a->bent || !h->scene->symmetry.motion) return HR2D_OK;
+  double *bent = hr2di_alloc_zero(&h->alloc, h->elements, bands * sizeof *bent);
+  uint32_t *of = hr2di_alloc(&h->alloc, h->elements, sizeof *of);
+  hr2d_status status = bent && of ? hr2di_image_trees_map(h, of, watch) : HR2D_ENOMEM;
+  for (size_t k = 0; k < h->elements && !status; k++)
+    for (size_t b = 0; b < bands && of[k] < elements; b++)
+      bent[k * bands + b] = a->bent[of[k] * bands + b];
+  hr2di_alloc_free(&h->alloc, of);
+  hr2di_alloc_free(&h->alloc, status ? bent : a->bent);
+  if (!status) a->bent = bent;
+  return status;
+}
+
+/* Divides images as their patches are. */
+static hr2d_status divide_images(hr2di_graded *a, hr2di_watch *watch) {
+  const size_t elements = a->hierarchy->elements;
+  const hr2d_status status = hr2di_image_trees_unite(a->hierarchy, watch);
+  return status ? status : carry_kinks(a, elements, watch);
 }
 
 /* Divides the elements.  Without events all are halved, if fineness->halvings says so. */
@@ -53,6 +78,7 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
                              target->max_elements, &watch, &a->bent);
   if (!status && !chosen && fineness->halvings > 0)
     status = hr2di_long_leaves_halve(h, fineness->halvings, target->max_elements, &watch);
+  if (!status) status = divide_images(a, &watch);
   a->events = events.count;
   hr2di_events_clear(&events);
   return status;
@@ -116,6 +142,7 @@ hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
   hr2d_status status = hr2di_halved_leaves(coarse->hierarchy, coarse->depth,
                                            target->max_elements, &watch, &a->hierarchy);
   if (!status) a->hierarchy->order = fineness->order;
+  if (!status) status = divide_images(a, &watch);
   if (!status) status = link_elements(a, fineness, target);
   if (!status) a->links->former = coarse->links;
   a->refine_seconds = hr2di_clock_now() - start;

@@ -111,7 +111,7 @@ static void clear(team *t) {
 
 hr2d_status hr2di_grader_team(hr2di_grader *g, size_t threads) {
   const hr2d_allocator *alloc = &g->h->alloc;
-  const size_t patches = g->h->scene->patches;
+  const size_t patches = hr2di_scene_cell(g->h->scene);
   team *t = hr2di_alloc_zero(alloc, 1, sizeof *t);
   worker *w = hr2di_alloc_zero(alloc, threads, sizeof *w);
   if (!t || !w) {

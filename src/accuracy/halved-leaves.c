@@ -21,7 +21,8 @@ hr2d_status hr2di_halved_leaves(const hr2d_hierarchy *from, const unsigned char 
   if (status) return status;
   for (uint32_t k = 0; k < from->elements && !status; k++) {
     status = hr2di_watch_work(watch, 1);
-    if (!status) status = halve(h, k, depth[k], max_elements);
+    if (!status && h->element[k].patch < hr2di_scene_cell(h->scene))
+      status = halve(h, k, depth[k], max_elements);
   }
   *divided = h;
   if (!status) return HR2D_OK;

@@ -107,6 +107,8 @@ static void set_weights(const hr2d_scene *scene, const double *product, double *
       weight[k] = fmax(weight[k], product[k * scene->bands + b]);
     weight[k] = fmin(weight[k], 1);
   }
+  for (size_t k = hr2di_scene_cell(scene); k < scene->patches; k++)
+    weight[k] = weight[hr2di_scene_original(scene, k)];
 }
 
 /* The least average that is larger than 0, relative to the largest, over all bands; no less

@@ -257,7 +257,7 @@ static hr2d_status push_all(cutter *c) {
   for (uint32_t k = 0; k < h->elements && !status; k++) {
     const hr2d_element *e = &h->element[k];
     status = hr2di_watch_work(c->watch, 1);
-    if (e->child || status) continue;
+    if (e->child || status || e->patch >= hr2di_scene_cell(h->scene)) continue;
     leaf l = {.element = k, .from = hr2di_element_start(h, k)};
     l.to = l.from + e->length / h->scene->patch[e->patch].length;
     l.first = find(c->events, e->patch, l.from);

@@ -18,7 +18,8 @@ static int divides(const hr2d_scene *scene, const hr2d_element *e) {
   double rho = 0;
   for (size_t b = 0; b < scene->bands; b++)
     rho = fmax(rho, hr2d_scene_reflectance(scene, e->patch, b));
-  return !e->child && rho > 0 && hr2di_scene_lit(scene, e->patch);
+  return !e->child && rho > 0 && e->patch < hr2di_scene_cell(scene) &&
+         hr2di_scene_lit(scene, e->patch);
 }
 
 /* The sum of h³ if no leaf is longer than `longest`. */

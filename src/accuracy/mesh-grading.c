@@ -227,7 +227,7 @@ hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *
   if (!status && threads > 1 && scene->patches >= MANY) {
     status = hr2di_grader_team(&g, threads);
   } else {
-    for (uint32_t k = 0; k < scene->patches && !status; k++) {
+    for (uint32_t k = 0; k < hr2di_scene_cell(scene) && !status; k++) {
       if (!divides(&g, k)) continue;
       status = look(&g, k);
       if (!status) status = divide_patch(&g, k);

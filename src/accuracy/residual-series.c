@@ -55,6 +55,22 @@ static void compare_irradiance(hr2di_estimator *e) {
     }
 }
 
+/* What a period may send beyond what is extrapolated counts as if it were missing. */
+static void add_tail(hr2di_estimator *e) {
+  hr2di_equation *eq = &e->eq;
+  hr2di_transport *t = &eq->transport;
+  if (!e->tail) return;
+  hr2di_transport_tail(t, e->kept, e->tail);
+  hr2di_estimator_averages(e, e->tail, e->average[0]);
+  for (size_t k = 0; k < e->values; k++) {
+    const double least = hr2di_estimator_least(e, 1, k / t->bands, k % t->bands);
+    if (least > 0) e->cut_off = fmax(e->cut_off, fabs(e->average[0][k]) / least);
+    e->average[1][k] += e->average[0][k];
+  }
+  for (size_t k = 0; k < eq->field; k++)
+    e->residual[k] += eq->root_rho[k] * eq->root_rho[k] * e->tail[k];
+}
+
 void hr2di_residual_set(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
@@ -65,6 +81,7 @@ void hr2di_residual_set(hr2di_estimator *e) {
   hr2di_equation_balance(eq);
   compare_irradiance(e);
   hr2di_equation_defect(eq, e->kept, e->residual);
+  add_tail(e);
   e->doubt = hr2di_balance_doubt(&eq->balance, t->bands);
   for (size_t k = 0; k < eq->field; k++) {
     const size_t leaf = k / t->width, m = k % t->width;
@@ -228,7 +245,8 @@ hr2d_status hr2di_residual_measure(hr2di_estimator *e) {
   }
   for (size_t k = 0; k < t->leaves && !hr2di_estimator_stopped(e); k++)
     for (size_t b = 0; b < t->bands; b++) {
-      const double h = hr2di_estimator_most(e, eq->irradiance, k, b);
+      const double h = hr2di_estimator_most(e, eq->irradiance, k, b) +
+                       (e->tail ? hr2di_estimator_most(e, e->tail, k, b) : 0);
       e->point[1][b] = fmax(e->point[1][b], h);
       e->point[0][b] = fmax(e->point[0][b], hr2di_estimator_rho(e, k, b) * h);
     }

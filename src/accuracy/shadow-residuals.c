@@ -56,9 +56,10 @@ static double largest_kernel(const hr2d_element *i, const hr2d_element *j) {
   return d > 0 ? cosines / (2 * d) : HUGE_VAL;
 }
 
-static int is_shaded(const hr2d_link *link, const hr2d_element *i, const hr2d_element *j) {
+static int is_shaded(const hr2d_link *link, const hr2d_element *i, const hr2d_element *j,
+                     double weight) {
   const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
-  return link->exchange_area < SHADED * hr2d_exchange_area(&s, &t);
+  return fabs(link->exchange_area) < fabs(weight) * SHADED * hr2d_exchange_area(&s, &t);
 }
 
 /* Per element and band. */
@@ -72,6 +73,7 @@ typedef struct squares {
 static void add(const hr2di_estimator *e, uint32_t i, uint32_t j, double kernel,
                 const double *beta, squares *s) {
   const size_t bands = e->eq.transport.bands;
+  i = hr2di_ties_of(&e->eq.transport.ties, i);
   for (size_t b = 0; b < bands; b++) {
     const double h = fmin(kernel * beta[j * bands + b], e->most[j * bands + b]);
     if (s->bin)
@@ -88,7 +90,7 @@ static void add_links(hr2di_estimator *e, const double *beta, squares *s) {
     if (t->order > 1 && t->links->blocks.distant[k]) continue;
     const hr2d_link *link = hr2di_store_at(&t->links->store, k);
     const hr2d_element *i = &element[link->pair.first], *j = &element[link->pair.second];
-    if (!is_shaded(link, i, j)) continue;
+    if (!is_shaded(link, i, j, hr2di_linkset_weight(t->links, link->pair))) continue;
     const double kernel = largest_kernel(i, j);
     add(e, link->pair.first, link->pair.second, kernel, beta, s);
     add(e, link->pair.second, link->pair.first, kernel, beta, s);

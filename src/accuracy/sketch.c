@@ -79,9 +79,13 @@ static void sum_rows(sketcher *s) {
   const hr2d_element *patch = s->links->hierarchy->element;
   for (uint64_t k = 0; k < store->count; k++) {
     const hr2d_link *link = hr2di_store_at(store, k);
-    s->row[link->pair.first] += link->exchange_area / patch[link->pair.first].length;
-    s->row[link->pair.second] += link->exchange_area / patch[link->pair.second].length;
+    const size_t i = hr2di_scene_original(s->scene, link->pair.first),
+                 j = hr2di_scene_original(s->scene, link->pair.second);
+    s->row[i] += link->exchange_area / patch[i].length;
+    s->row[j] += link->exchange_area / patch[j].length;
   }
+  for (size_t k = hr2di_scene_cell(s->scene); k < s->scene->patches; k++)
+    s->row[k] = s->row[hr2di_scene_original(s->scene, k)];
 }
 
 /* The irradiance of a patch from the background, the sun, and the sky as if it saw the same
@@ -107,13 +111,17 @@ static hr2d_status gather(const sketcher *s, const double *b, double *h, hr2di_w
     h[k] = from_outside(s, k / bands, k % bands);
   for (uint64_t k = 0; k < store->count && !status; k++) {
     const hr2d_link *link = hr2di_store_at(store, k);
-    const size_t i = link->pair.first, j = link->pair.second;
+    const size_t i = hr2di_scene_original(s->scene, link->pair.first),
+                 j = hr2di_scene_original(s->scene, link->pair.second);
     if (k % 64 == 0) status = hr2di_watch_work(watched, 8 + 4 * bands);
     for (size_t m = 0; m < bands; m++) {
       h[i * bands + m] += link->exchange_area / patch[i].length * b[j * bands + m];
       h[j * bands + m] += link->exchange_area / patch[j].length * b[i * bands + m];
     }
   }
+  for (size_t k = hr2di_scene_cell(s->scene); k < s->scene->patches; k++)
+    for (size_t m = 0; m < bands; m++)
+      h[k * bands + m] = h[hr2di_scene_original(s->scene, k) * bands + m];
   return status;
 }
 
@@ -160,7 +168,7 @@ static void sum_power(const sketcher *s, hr2d_solution *made) {
   for (size_t m = 0; m < s->bands; m++) {
     hr2d_power *p = &made->power[m];
     *p = (hr2d_power){0};
-    for (size_t k = 0; k < s->scene->patches; k++) {
+    for (size_t k = 0; k < hr2di_scene_cell(s->scene); k++) {
       const size_t at = k * s->bands + m;
       const double length = unit * patch[k].length;
       p->emitted += length * hr2d_scene_emission(s->scene, k, m);

@@ -35,6 +35,7 @@ typedef struct search {
   hr2di_lights lights;       /* of patches, where there are events */
   hr2d_account account;      /* of the best, with all times */
   hr2d_error error;          /* of the best, the larger one of B and H */
+  double cut_off;            /* what of it images may make that are cut off */
   double rounding;           /* the part of its bound that is rounding */
   hr2di_message message;
 } search;
@@ -101,6 +102,7 @@ static void keep(search *s, hr2di_graded *answer, const hr2di_error_pair *errors
   const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(s->best.hierarchy);
   hr2d_account *a = &s->account;
   s->error = worst_of(errors, s->target.norm);
+  s->cut_off = errors->cut_off;
   s->rounding = errors->rounding[s->target.norm == HR2D_NORM_SUP];
   a->average = errors->average;
   a->sup = errors->sup;
@@ -186,6 +188,12 @@ static int is_rounding(const search *s) {
   return error_of(s) <= s->rounding;
 }
 
+/* Whether what is left is mostly that of images that are cut off: then elements do not matter.
+ */
+static int is_cut_off(const search *s, double error) {
+  return s->cut_off > HR2DI_ERROR_MARGIN * error && error_of(s) <= 4 * s->cut_off;
+}
+
 /* The resolution to begin with: no coarser than the best one so far, which was not enough. */
 static hr2di_resolution first_resolution(const search *s, double error) {
   hr2di_resolution guess = hr2di_resolution_for(s->scene, &s->survey, error, s->target.norm,
@@ -223,6 +231,7 @@ static hr2d_status reach(search *s, double error) {
       continue;
     }
     if (status || s->given.no_error || is_reached(s, error)) return status;
+    if (is_cut_off(s, error)) break;
     stuck = error_of(s) > 0.5 * before ? stuck + 1 : 0;
     before = error_of(s);
     dividing = s->best.depth && !stuck;
@@ -230,7 +239,9 @@ static hr2d_status reach(search *s, double error) {
              !hr2di_resolution_raise(&fineness, &s->best.survey, before / (0.5 * error));
   }
   if (error_of(s) <= error) return HR2D_OK;
-  give_reason(s, stuck > 0 && is_rounding(s)
+  give_reason(s, is_cut_off(s, error)
+                     ? "images of the period that are cut off may make that much"
+                 : stuck > 0 && is_rounding(s)
                      ? "finer elements bring the error down no further"
                      : "the error comes down too slowly: the finest elements that are tried do "
                        "not suffice");

@@ -16,7 +16,7 @@ static hr2d_status check(const hr2d_scene *scene, const hr2d_target *t) {
   if (!(t->floor >= 0 && t->floor <= 1)) return HR2D_EINVAL;
   if (!t->important && t->important_count > 0) return HR2D_EINVAL;
   for (size_t k = 0; k < t->important_count; k++)
-    if (t->important[k] >= scene->patches) return HR2D_EINVAL;
+    if (t->important[k] >= hr2di_scene_cell(scene)) return HR2D_EINVAL;
   return t->norm == HR2D_NORM_AVERAGE || t->norm == HR2D_NORM_SUP ? HR2D_OK : HR2D_EINVAL;
 }
 

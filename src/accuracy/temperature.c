@@ -27,7 +27,7 @@ typedef struct reader {
 
 static double largest_irradiance(const hr2d_solution *s, size_t band) {
   double max = 0;
-  for (size_t k = 0; k < s->hierarchy->scene->patches; k++)
+  for (size_t k = 0; k < hr2di_scene_cell(s->hierarchy->scene); k++)
     max = fmax(max, hr2d_solution_irradiance(s, k, band));
   return max;
 }
@@ -110,7 +110,7 @@ static hr2d_temperature_state state_of(const reader *r, size_t k, double largest
    the error of T only. */
 static void put_given_heat(const hr2d_scene *scene, const hr2d_temperatures *to) {
   double flux;
-  for (size_t k = 0; k < scene->patches && scene->found; k++) {
+  for (size_t k = 0; k < hr2di_scene_cell(scene) && scene->found; k++) {
     if (hr2d_scene_heat(scene, k, &flux) != HR2D_HEAT_FLUX) continue;
     put(to->heat, k, flux * hr2d_scene_length(scene, k));
     put(to->heat_estimate, k, 0);
@@ -121,7 +121,7 @@ static void put_given_heat(const hr2d_scene *scene, const hr2d_temperatures *to)
 /* A·Σ(E − (1−ρ)H), added up band by band in the arrays. */
 static void add_heat(const reader *r, size_t band, double largest,
                      const hr2d_temperatures *to) {
-  for (size_t k = 0; k < r->scene->patches; k++) {
+  for (size_t k = 0; k < hr2di_scene_cell(r->scene); k++) {
     const double length = hr2d_scene_length(r->scene, k);
     const double absorbance = 1 - hr2d_scene_reflectance(r->scene, k, band);
     const double off = length * absorbance * counted(r, k, band, largest);
@@ -139,7 +139,7 @@ static void add_heat(const reader *r, size_t band, double largest,
 static void forget(const hr2d_scene *scene, const hr2d_target *target,
                    const hr2d_temperatures *to) {
   double *const array[] = {to->estimate, to->bound, to->heat_estimate, to->heat_bound};
-  for (size_t k = 0; k < scene->patches && target->important; k++)
+  for (size_t k = 0; k < hr2di_scene_cell(scene) && target->important; k++)
     for (size_t a = 0; a < sizeof array / sizeof *array; a++)
       if (!hr2di_is_important(target, k)) put(array[a], k, NAN);
 }
@@ -159,11 +159,11 @@ hr2d_status hr2d_solution_temperatures(const hr2d_solution *solution, const hr2d
                     .error = account ? account->irradiance : (hr2d_error){NAN, NAN}};
   double *const sum[] = {to.heat, to.heat_estimate, to.heat_bound};
   for (size_t a = 0; a < sizeof sum / sizeof *sum; a++)
-    if (sum[a]) memset(sum[a], 0, scene->patches * sizeof *sum[a]);
+    if (sum[a]) memset(sum[a], 0, hr2di_scene_cell(scene) * sizeof *sum[a]);
   for (size_t band = 0; band < solution->bands; band++) {
     const double largest = largest_irradiance(solution, band);
     add_heat(&r, band, largest, &to);
-    for (size_t k = 0; k < scene->patches && band == 0; k++) {
+    for (size_t k = 0; k < hr2di_scene_cell(scene) && band == 0; k++) {
       const hr2d_temperature_state state = state_of(&r, k, largest, &to);
       if (to.state) to.state[k] = (unsigned char)state;
     }

@@ -122,6 +122,8 @@ hr2d_status hr2di_roots_init(hr2di_roots *roots, const hr2d_scene *scene,
   collector c = {.roots = roots, .alloc = alloc};
   *roots = (hr2di_roots){.accuracy = accuracy};
   hr2d_status status = shaded ? find_by_beams(&c, scene, watch) : HR2D_OK;
+  /* Links of clusters would join all images with each other. */
+  if (scene->symmetry.motion && (!shaded || c.too_many)) return status;
   if (!status && (!shaded || c.too_many))
     status =
         hr2di_clusters_create(scene, alloc, accuracy, collect, &c, watch, &roots->clusters);

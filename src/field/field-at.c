@@ -11,8 +11,23 @@
 /* Points of a task. */
 enum { GROUP = 32 };
 
+/* Whether images of a period would be seen that are cut off: past an end; or from above or
+   below all patches, where nothing stands although the direction leads back to them. */
+static int is_cut_off(const hr2d_scene *scene, hr2d_point x, const hr2di_round_stretch *s) {
+  const hr2di_symmetry *all = &scene->symmetry;
+  if (!all->motion || !all->by.periodic) return 0;
+  if (s->patch < scene->patches) return s->patch >= all->motions * all->cell;
+  if (s->patch != HR2DI_ROUND_SKY) return 0;
+  const double at = hr2di_symmetry_height(all, hr2d_scene_unit(scene), x);
+  const hr2d_point up = {-all->by.period.y, all->by.period.x};
+  const double right = s->right.x * up.x + s->right.y * up.y,
+               left = s->left.x * up.x + s->left.y * up.y;
+  return at > 0 ? fmin(right, left) < 0 : at < 0 && fmax(right, left) > 0;
+}
+
 static hr2d_status take(void *ctx, const hr2di_round_stretch *s) {
   hr2di_field_looker *l = ctx;
+  if (is_cut_off(l->sum.of->scene, l->sum.x, s)) l->cut_off = 1;
   l->sum.x = l->worker->view.x;
   hr2di_light_add(&l->sum, s);
   return hr2di_watch_status(l->worker->watch);
@@ -39,7 +54,8 @@ hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of
   w->view.take = take;
   w->view.ctx = &l;
   const hr2d_status status = hr2di_look_round(&w->view, x, &touches);
-  seen->place = hr2di_field_place(of->scene, sum->front, sum->sky, touches);
+  seen->place = l.cut_off ? HR2D_PLACE_OUTSIDE
+                          : hr2di_field_place(of->scene, sum->front, sum->sky, touches);
   const int dark = seen->place == HR2D_PLACE_OUTSIDE;
   seen->clearance = sqrt(sum->clearance);
   seen->mean = sum->mean;

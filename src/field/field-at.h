@@ -35,6 +35,7 @@ typedef struct hr2di_field_look_at {
 typedef struct hr2di_field_looker {
   hr2di_field_worker *worker;
   hr2di_light_sum sum;
+  int cut_off; /* images of a period would be seen that are not there */
 } hr2di_field_looker;
 
 /* Looks from x, in scaled coordinates.  HR2D_OK, HR2D_ENOMEM or the status of the watch. */

@@ -326,8 +326,10 @@ void hr2di_light_add(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
     add_suns(sum, s);
   } else {
     sum->front += s->angle;
-    for (size_t b = 0; b < bands && of->patch_error; b++)
-      sum->error[b] += s->angle * of->patch_error[s->patch * bands + b];
+    const size_t patch = hr2di_scene_original(of->scene, s->patch);
+    const int has_error = of->patch_error && patch < hr2di_scene_cell(of->scene);
+    for (size_t b = 0; b < bands && has_error; b++)
+      sum->error[b] += s->angle * of->patch_error[patch * bands + b];
     add_front(sum, s);
   }
 }

@@ -60,7 +60,6 @@ hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, 
   const json_t *properties = hr2di_geojson_member(feature, "properties");
   const json_t *name = hr2di_geojson_member(properties, "name");
   const char *type = json_string_value(json_object_get(feature, "type"));
-  int both;
 
   reader->patch = (hr2d_patch)HR2D_PATCH_INIT;
   set_label(reader, number, json_string_value(name));
@@ -75,10 +74,9 @@ hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, 
   if (!status) status = read_name(reader, name);
   if (!status) status = hr2di_geojson_thermal(reader, properties);
   if (!status && !reader->thermal.given) status = read_light(reader, properties);
-  if (!status) status = read_choice(reader, properties, "sides", "front", "both", &both);
+  if (!status) status = hr2di_geojson_sides(reader, properties);
   if (!status)
     status = read_choice(reader, properties, "faces", "in", "out", &reader->faces_out);
   if (status) return status;
-  reader->patch.sides = both ? HR2D_SIDES_BOTH : HR2D_SIDES_FRONT;
   return hr2di_geojson_geometry(reader, hr2di_geojson_member(feature, "geometry"));
 }

@@ -151,6 +151,8 @@ static hr2d_status add_path(hr2di_geojson *reader, const path *p) {
     const int look_in = (p->role == OUTER) != reader->faces_out;
     reverse = (area > 0) != look_in;
   }
+  if (reader->is_mirror)
+    return hr2di_geojson_add_mirror(reader, reader->point[0], reader->point[1]);
   for (size_t k = 1; !status && k < n; k++)
     status = add_segment(reader, reader->point[reverse ? k : k - 1],
                          reader->point[reverse ? k - 1 : k]);

@@ -14,6 +14,7 @@
 #include "base/watch.h"
 #include "scene/reading-notes.h"
 #include "scene/sky.h"
+#include "scene/symmetry.h"
 
 enum { HR2DI_LABEL_SIZE = 128, HR2DI_PLACE_SIZE = HR2DI_LABEL_SIZE + 64 };
 
@@ -34,6 +35,7 @@ typedef struct hr2di_geojson {
   char label[HR2DI_LABEL_SIZE]; /* feature 3 ("north wall") */
   hr2d_patch patch;             /* the members that its segments have in common */
   hr2d_thermal thermal;         /* theirs, too, unless none is given */
+  int is_mirror;                /* it is no patch */
   int faces_out;                /* fronts of its polygons look out */
   size_t segments, added;
 
@@ -46,6 +48,10 @@ typedef struct hr2di_geojson {
   hr2d_sun *sun;
   size_t suns;
   hr2di_sky sky; /* the same; without pieces there is none */
+  hr2d_segment mirror[HR2DI_MIRRORS];
+  size_t mirrors;
+  hr2d_point period;
+  int periodic; /* a period is given */
 
   /* Buffers that are kept from feature to feature. */
   hr2di_values background, emission, reflectance;
@@ -72,6 +78,18 @@ hr2d_status hr2di_geojson_spectrum(hr2di_geojson *reader, const json_t *members,
 /* Read the suns and the sky from the member "hr2d", valid ones. */
 hr2d_status hr2di_geojson_sky(hr2di_geojson *reader, const json_t *members);
 hr2d_status hr2di_geojson_sun(hr2di_geojson *reader, const json_t *members);
+
+/* Reads the period from the member "hr2d". */
+hr2d_status hr2di_geojson_period(hr2di_geojson *reader, const json_t *members);
+
+/* Reads the sides of the current feature: the front, both, or those of a mirror. */
+hr2d_status hr2di_geojson_sides(hr2di_geojson *reader, const json_t *properties);
+
+/* Keeps a mirror through two points. */
+hr2d_status hr2di_geojson_add_mirror(hr2di_geojson *reader, hr2d_point a, hr2d_point b);
+
+/* Gives mirrors and period to the scene, which cannot fail. */
+void hr2di_geojson_give_symmetry(hr2di_geojson *reader);
 
 /* Gives the scene its former wavelengths back if the file could not be read. */
 void hr2di_geojson_end_spectrum(hr2di_geojson *reader, hr2d_status status);

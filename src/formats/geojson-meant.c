@@ -54,7 +54,7 @@ static const meant properties_meant[] = {
 static const char *const of_properties[] = {"emission", "emissivity",  "faces", "flux",
                                             "name",     "reflectance", "sides", "temperature"};
 static const char *const of_scene[] = {
-    "background", "background_temperature", "medium", "sky", "sun", "wavelengths"};
+    "background", "background_temperature", "medium", "period", "sky", "sun", "wavelengths"};
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
@@ -153,7 +153,7 @@ static void note_scene_member(hr2di_geojson *reader, const json_t *members, cons
   if (!note_spelling(reader, members, "hr2d", key, find(of_scene, COUNT(of_scene), s.text)))
     hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, "hr2d",
                     "members of \"hr2d\" are \"background\", \"background_temperature\", "
-                    "\"medium\", \"sky\", \"sun\" and \"wavelengths\"");
+                    "\"medium\", \"period\", \"sky\", \"sun\" and \"wavelengths\"");
 }
 
 /* RFC 7946 knows no "crs"; GeoJSON of 2008 does, and some tools write it. */

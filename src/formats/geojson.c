@@ -43,6 +43,7 @@ static hr2d_status read_scene_effects(hr2di_geojson *reader, const json_t *root,
   if (!status) status = hr2di_geojson_spectrum(reader, members, background_bands);
   if (!status) status = hr2di_geojson_sun(reader, members);
   if (!status) status = hr2di_geojson_sky(reader, members);
+  if (!status) status = hr2di_geojson_period(reader, members);
   return status ? status : read_medium(reader, members);
 }
 
@@ -86,6 +87,7 @@ static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
     hr2di_scene_take_sky(reader->scene, &reader->sky);
     reader->sky = (hr2di_sky){0};
   }
+  if (!status) hr2di_geojson_give_symmetry(reader);
   if (!status) *hr2di_scene_notes(reader->scene) = reader->notes;
   return status;
 }

@@ -54,7 +54,8 @@ static hr2d_status join_shares(hr2di_components *c, const hr2d_linkset *links, d
 hr2d_status hr2di_components_init(hr2di_components *c, const hr2d_linkset *links,
                                   hr2di_watch *watch) {
   const hr2d_element *element = links->hierarchy->element;
-  const size_t patches = links->hierarchy->scene->patches;
+  const hr2d_scene *scene = links->hierarchy->scene;
+  const size_t patches = scene->patches;
   const hr2di_clusters *clusters = links->roots.clusters;
   const size_t count = patches + (clusters ? clusters->linked_count : 0);
   c->alloc = links->alloc;
@@ -63,6 +64,8 @@ hr2d_status hr2di_components_init(hr2di_components *c, const hr2d_linkset *links
   for (size_t k = 0; k < count; k++) c->parent[k] = (uint32_t)k;
   hr2d_status status = hr2di_watch_work(watch, count / 4);
   if (clusters) join_clusters(c, clusters, patches);
+  for (size_t k = hr2di_scene_cell(scene); k < patches; k++)
+    join(c, k, hr2di_scene_original(scene, k));
   for (size_t block = 0; block < hr2di_store_chunks(&links->store) && !status; block++) {
     status = hr2di_watch_work(watch, HR2DI_CHUNK_LINKS / 8);
     const uint64_t first = (uint64_t)block * HR2DI_CHUNK_LINKS;

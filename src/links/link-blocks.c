@@ -71,11 +71,13 @@ static hr2d_status make_one(const maker *m, hr2di_integrator *work, uint64_t k) 
     return hr2di_watch_work(work->watch, 1);
   }
   int distant;
-  const hr2d_status status =
-      hr2di_block(work, link->pair, link->exchange_area, block, &distant);
+  const double weight = hr2di_linkset_weight(m->links, link->pair);
+  const double area = link->exchange_area / weight;
+  const hr2d_status status = hr2di_block(work, link->pair, area, block, &distant);
   if (status) return status;
-  if (is_tiny(m->links->hierarchy, link->pair)) block[0] = link->exchange_area;
-  check_bound(link->exchange_area, block, order);
+  if (is_tiny(m->links->hierarchy, link->pair)) block[0] = area;
+  check_bound(area, block, order);
+  for (size_t n = 0; n < square && weight != 1; n++) block[n] *= weight;
   m->blocks->distant[k] = (unsigned char)distant;
   return HR2D_OK;
 }

@@ -8,8 +8,10 @@
 #include "base/message.h"
 #include "base/share.h"
 #include "clusters/root-pairs.h"
+#include "hierarchy/hierarchy-impl.h"
 #include "links/link-blocks.h"
 #include "links/store.h"
+#include "scene/scene-impl.h"
 
 struct hr2d_linkset {
   hr2d_allocator alloc;
@@ -31,5 +33,14 @@ struct hr2d_linkset {
   double epsilon; /* of the last refinement; infinite before */
   hr2d_refine_counts counts;
 };
+
+/* The part of its exchange area with which a pair of elements is linked, see
+   hr2di_symmetry_weight(); 1 without images. */
+static inline double hr2di_linkset_weight(const hr2d_linkset *links, hr2d_pair pair) {
+  const hr2di_symmetry *s = &links->hierarchy->scene->symmetry;
+  const hr2d_element *e = links->hierarchy->element;
+  if (!s->motion) return 1;
+  return hr2di_symmetry_weight(s, e[pair.first].patch, e[pair.second].patch, links->directed);
+}
 
 #endif

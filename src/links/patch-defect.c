@@ -35,6 +35,7 @@ static hr2d_status sum_shares(const hr2d_linkset *links, hr2di_bin *bin, hr2di_s
 hr2d_status hr2di_defect_sum(const hr2d_linkset *links, hr2di_sum *defect, hr2di_watch *watch) {
   const hr2d_element *element = links->hierarchy->element;
   const hr2di_store *store = &links->store;
+  const hr2d_scene *scene = links->hierarchy->scene;
   for (size_t k = 0; k < links->hierarchy->scene->patches; k++)
     defect[k] = (hr2di_sum){element[k].length, 0};
   if (links->share) {
@@ -50,11 +51,14 @@ hr2d_status hr2di_defect_sum(const hr2d_linkset *links, hr2di_sum *defect, hr2di
     const uint64_t first = (uint64_t)block * HR2DI_CHUNK_LINKS;
     for (size_t k = 0; k < hr2di_store_chunk_size(store, block); k++) {
       const hr2d_link link = hr2di_store_link(store, first + k);
-      hr2di_sum_add(&defect[element[link.pair.first].patch], -link.exchange_area);
-      if (!links->directed)
-        hr2di_sum_add(&defect[element[link.pair.second].patch], -link.exchange_area);
+      const size_t i = hr2di_scene_original(scene, element[link.pair.first].patch),
+                   j = hr2di_scene_original(scene, element[link.pair.second].patch);
+      hr2di_sum_add(&defect[i], -link.exchange_area);
+      if (!links->directed) hr2di_sum_add(&defect[j], -link.exchange_area);
     }
   }
+  for (size_t k = hr2di_scene_cell(scene); k < scene->patches; k++)
+    defect[k] = defect[hr2di_scene_original(scene, k)];
   return status;
 }
 

@@ -251,6 +251,12 @@ static hr2d_warning_code code_of(const gaps *g, const approach *a) {
   return g->touched[a->end] ? HR2D_WARNING_NARROW_GAP : HR2D_WARNING_LOOSE_END;
 }
 
+/* Of images the patches themselves are told; the ends of a period are nobody's. */
+static int is_told(const hr2d_scene *scene, const approach *a) {
+  const hr2di_symmetry *s = &scene->symmetry;
+  return a->end / 2 < hr2di_scene_cell(scene) && (!s->motion || a->to < s->motions * s->cell);
+}
+
 static hr2d_status show(const gaps *g, const approach *a) {
   const hr2d_scene *scene = g->lint->scene;
   const size_t i = a->end / 2, j = a->to;
@@ -259,8 +265,11 @@ static hr2d_status show(const gaps *g, const approach *a) {
   const hr2d_point at = a->end % 2 ? given.b : given.a;
   const double width = ldexp(a->distance, g->exponent);
   const double enough = 1.5 * width; /* as a tolerance */
-  const hr2d_warning w = {
-      .code = code_of(g, a), .patches = 2, .patch = {i, j}, .at = at, .gap = width};
+  const hr2d_warning w = {.code = code_of(g, a),
+                          .patches = 2,
+                          .patch = {i, hr2di_scene_original(scene, j)},
+                          .at = at,
+                          .gap = width};
   if (w.code == HR2D_WARNING_NEAR_COPY)
     return hr2di_lint_warn(g->lint, w,
                            "%s lies along %s, only %.3g beside it at (%.9g, %.9g): if they are "
@@ -287,7 +296,8 @@ hr2d_status hr2di_lint_gaps(const hr2di_lint *lint) {
   if (!status) status = choose(&g);
   for (size_t c = 0; c < 3 && !status; c++)
     for (size_t k = 0; k < g.approaches && !status; k++)
-      if (code_of(&g, &g.approach[k]) == order[c] && !is_shown(&g, k))
+      if (code_of(&g, &g.approach[k]) == order[c] && !is_shown(&g, k) &&
+          is_told(lint->scene, &g.approach[k]))
         status = show(&g, &g.approach[k]);
   hr2di_alloc_free(g.alloc, g.s);
   hr2di_alloc_free(g.alloc, g.box);

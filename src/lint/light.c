@@ -19,7 +19,7 @@ static hr2d_warning about(hr2d_warning_code code, size_t patch) {
 static hr2d_status warn_of_dark(const hr2di_lint *lint) {
   const hr2d_scene *scene = lint->scene;
   hr2d_status status = HR2D_OK;
-  for (size_t k = 0; k < scene->patches && scene->dark && !status; k++) {
+  for (size_t k = 0; k < hr2di_scene_cell(scene) && scene->dark && !status; k++) {
     status = hr2di_watch_work(lint->watch, 1);
     if (!status && scene->dark[k])
       status =
@@ -34,7 +34,7 @@ static hr2d_status look_from(const hr2di_lint *lint, const hr2d_scene *in, int s
   const hr2d_scene *scene = lint->scene;
   hr2di_viewer *viewer = NULL;
   hr2d_status status = hr2di_viewer_create(in, &scene->alloc, lint->watch, &viewer);
-  for (size_t k = 0; k < scene->patches && !status; k++) {
+  for (size_t k = 0; k < hr2di_scene_cell(scene) && !status; k++) {
     int sees = 1;
     status = hr2di_watch_work(lint->watch, 1);
     if (!status && (sky || emits(scene, k)))
@@ -61,8 +61,8 @@ static hr2d_status warn_of_views(const hr2di_lint *lint) {
 
 static int absorbs(const hr2d_scene *scene, size_t band) {
   size_t k = 0;
-  while (k < scene->patches && hr2d_scene_reflectance(scene, k, band) == 1) k++;
-  return k < scene->patches;
+  while (k < hr2di_scene_cell(scene) && hr2d_scene_reflectance(scene, k, band) == 1) k++;
+  return k < hr2di_scene_cell(scene);
 }
 
 static hr2d_status warn_of_no_absorber(const hr2di_lint *lint) {

@@ -83,7 +83,7 @@ static int looks_like_centimetres(const box *b, double across) {
 static hr2d_status warn_of_coordinates(const hr2di_lint *lint) {
   box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 1};
   hr2d_status status = HR2D_OK;
-  for (size_t k = 0; k < lint->scene->patches && !status; k++) {
+  for (size_t k = 0; k < hr2di_scene_cell(lint->scene) && !status; k++) {
     status = hr2di_watch_work(lint->watch, 1);
     enclose(&b, lint->scene->patch[k].given.a);
     enclose(&b, lint->scene->patch[k].given.b);

@@ -95,7 +95,8 @@ static hr2d_status link_pair(hr2di_projector *p, hr2d_pair pair, const hr2di_sig
     status = hr2di_sight_list_restrict(&p->parts, list, first, last, parts.part[swap],
                                        parts.part[!swap], NULL);
   if (status) return fail(p, status);
-  const double area = hr2di_sight_list_area(&p->parts, 0, p->parts.count);
+  double area = hr2di_sight_list_area(&p->parts, 0, p->parts.count);
+  hr2di_projector_weigh(p, &pair, 1, &area);
   p->counts.partial_links++;
   p->counts.exchange_areas += p->sink != NULL;
   p->accepted[0] = pair;

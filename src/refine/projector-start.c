@@ -44,7 +44,10 @@ hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine
     return hr2di_message_fail(message, HR2D_EINVAL,
                               "the links are %s, and a further refinement cannot change that",
                               links->directed ? "directed" : "not directed");
-  const size_t patches = links->hierarchy->scene->patches;
+  if (options->share && links->hierarchy->scene->symmetry.motion)
+    return hr2di_message_fail(message, HR2D_EUNSUPPORTED,
+                              "mirrors and periods are not supported in shares");
+  const size_t patches = hr2di_scene_cell(links->hierarchy->scene);
   if (!options->row_to) options->row_to = patches;
   if (options->row_from > options->row_to || options->row_to > patches)
     return hr2di_message_fail(message, HR2D_EINVAL, "rows %zu to %zu of %zu patches",
@@ -98,7 +101,7 @@ static hr2d_status set_rows(hr2di_projector *p) {
 }
 
 void hr2di_projector_add_rows(const hr2di_projector *p, hr2d_row_counts *sum) {
-  for (size_t k = 0; p->rows && k < p->hierarchy->scene->patches; k++) {
+  for (size_t k = 0; p->rows && k < hr2di_scene_cell(p->hierarchy->scene); k++) {
     sum[k].links += p->rows[k].links;
     sum[k].visibility_tests += p->rows[k].visibility_tests;
   }
@@ -160,6 +163,7 @@ hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_option
   p->budget = options->max_bytes;
   p->occluded.list.alloc = p->found.alloc = p->parts.alloc = links->alloc;
   p->directed = directed_by(links, options);
+  p->weighs = p->hierarchy->scene->symmetry.motion != NULL;
   p->check_levels = p->hierarchy->levels > options->max_level;
   p->bytes = sizeof *p + hr2di_store_bytes(&links->store);
   p->roots = count_roots(p);
@@ -206,6 +210,7 @@ static hr2d_status propose_roots(hr2di_projector *p, proposals *roots) {
 static hr2d_status add_root(hr2di_projector *p, proposals *roots, size_t patch, size_t k) {
   const hr2d_scene *scene = p->hierarchy->scene;
   p->roots_done++;
+  if (hr2di_symmetry_weight(&scene->symmetry, patch, k, p->directed) == 0) return HR2D_OK;
   if (!hr2di_scene_lit(scene, patch) || !hr2di_scene_lit(scene, k)) {
     p->counts.dark_pairs++;
     return HR2D_OK;

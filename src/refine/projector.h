@@ -45,6 +45,7 @@ struct hr2di_projector {
   hr2d_refine_counts counts; /* of this refinement alone; elements and levels unused */
   int directed;              /* links carry light from second to first only */
   int check_levels;          /* elements deeper than max_level exist already */
+  int weighs;                /* some exchange areas count in part, or more than once */
   int test_all;              /* facing is tested although no horizon cuts a pair */
   double *brightness;        /* per element, or NULL; as long as brightness_capacity */
   size_t brightness_capacity;
@@ -139,6 +140,15 @@ hr2d_status hr2di_projector_halve(hr2di_projector *p, uint32_t element);
 /* Writes the child pairs of `pairs` to p->candidate.  Returns their number, or 0 if some
    element to be split has no children yet. */
 size_t hr2di_projector_children(hr2di_projector *p, const hr2d_pair *pairs, size_t count);
+
+/* Multiplies exchange areas by the weights of their pairs. */
+static inline void hr2di_projector_weigh(const hr2di_projector *p, const hr2d_pair *pairs,
+                                         size_t count, double *area) {
+  const hr2d_element *e = p->hierarchy->element;
+  for (size_t k = 0; p->weighs && k < count; k++)
+    area[k] *= hr2di_symmetry_weight(&p->hierarchy->scene->symmetry, e[pairs[k].first].patch,
+                                     e[pairs[k].second].patch, p->directed);
+}
 
 /* Declares work.  Returns HR2D_OK, or the status that stops the refinement. */
 static inline hr2d_status hr2di_projector_work(hr2di_projector *p, uint64_t units) {

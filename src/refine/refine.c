@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "geometry/exchange-area.h"
 #include "geometry/predicates.h"
+#include "hierarchy/image-trees.h"
 #include "refine/occluded-pairs.h"
 #include "refine/projector.h"
 #include "refine/rounds.h"
@@ -25,11 +26,13 @@ static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
   hr2d_status status = project(p);
   hr2di_rounds_measure(p);
   if (!status) status = hr2di_projector_fail(p, hr2di_watch_ask(p->watch), "");
+  if (!status)
+    status = hr2di_projector_fail(p, hr2di_image_trees_unite(h, p->watch), " for images");
   h->refining = 0;
   if (p->sights) p->counts.visibility_tests += hr2di_patch_sights_tests(p->sights);
   if (status) hr2di_hierarchy_truncate(h, elements);
   if (!status && p->rows) {
-    memset(p->options.row_counts, 0, h->scene->patches * sizeof *p->rows);
+    memset(p->options.row_counts, 0, hr2di_scene_cell(h->scene) * sizeof *p->rows);
     hr2di_projector_add_rows(p, p->options.row_counts);
   }
   return status;
@@ -69,6 +72,7 @@ static hr2d_status store_links(void *ctx, const hr2d_pair *pairs, const double *
   const hr2d_status status = hr2di_projector_work(s->projector, count);
   if (status) return hr2di_projector_fail(s->projector, status, "");
   hr2di_exchange_areas(s->projector->hierarchy->element, pairs, count, s->area);
+  hr2di_projector_weigh(s->projector, pairs, count, s->area);
   return add_links(s, pairs, s->area, count);
 }
 
@@ -254,6 +258,7 @@ static hr2d_status visit_links(void *ctx, const hr2d_pair *pairs, const double *
     const hr2d_status status = hr2di_projector_work(v->projector, count);
     if (status) return hr2di_projector_fail(v->projector, status, "");
     hr2di_exchange_areas(h->element, pairs, count, v->area);
+    hr2di_projector_weigh(v->projector, pairs, count, v->area);
     area = v->area;
   }
   const double unit = hr2d_scene_unit(h->scene);

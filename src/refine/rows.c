@@ -78,6 +78,7 @@ static hr2d_status keep(void *ctx, const hr2d_pair *pairs, const double *area, s
   if (!area) {
     p->counts.exchange_areas += count;
     hr2di_exchange_areas(p->hierarchy->element, pairs, count, r->area + r->links);
+    hr2di_projector_weigh(p, pairs, count, r->area + r->links);
   }
   r->links = needed;
   return HR2D_OK;

@@ -135,8 +135,11 @@ static hr2d_status check_areas(validator *v, const hr2d_link *link, size_t count
   }
   const hr2d_status status = integrate(v, pair, count, area);
   if (status) return status;
-  for (size_t k = 0; k < count; k++)
-    if (!(fabs(link[k].exchange_area - area[k]) <= rounding_of(v, pair[k]))) {
+  for (size_t k = 0; k < count; k++) {
+    const double weight = hr2di_linkset_weight(v->links, pair[k]);
+    if (weight == 0) return fail(v, pair[k], "are linked, but an image of the pair is to be");
+    area[k] *= weight;
+    if (!(fabs(link[k].exchange_area - area[k]) <= fabs(weight) * rounding_of(v, pair[k]))) {
       if (!(area[k] > 0)) return fail(v, pair[k], "are linked, but are hidden from each other");
       const double unit = hr2d_scene_unit(v->h->scene);
       char what[96];
@@ -144,6 +147,7 @@ static hr2d_status check_areas(validator *v, const hr2d_link *link, size_t count
                link[k].exchange_area * unit);
       return fail(v, pair[k], what);
     }
+  }
   return HR2D_OK;
 }
 
@@ -397,7 +401,9 @@ static hr2d_status check_all(validator *v) {
   if (!status) status = sort(v, FIRST_PATCH);
   for (uint32_t p = 0; p < n && !status; p++)
     for (uint32_t q = v->links->directed ? 0 : p + 1; q < n && !status; q++)
-      if (p != q) status = check_patches(v, p, q);
+      if (p != q &&
+          hr2di_symmetry_weight(&v->h->scene->symmetry, p, q, v->links->directed) != 0)
+        status = check_patches(v, p, q);
   return status;
 }
 

@@ -2,6 +2,7 @@
 /* Commit: checks and analyses a scene once; from then on the scene is only read. */
 #include "base/alloc.h"
 #include "scene/scene-impl.h"
+#include "scene/settled.h"
 
 /* Light from outside may have one value for all bands, too. */
 static hr2d_status check_outside(hr2d_scene *scene, const char *what, size_t bands) {
@@ -61,11 +62,25 @@ static hr2d_status find_sunlight(hr2d_scene *scene, hr2di_watch *watch) {
   return status ? hr2di_scene_fail(scene, status, watch, "the light of the sun") : HR2D_OK;
 }
 
-hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
-  if (scene->committed)
-    return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");
-  if (scene->patches == 0)
-    return hr2di_message_fail(&scene->message, HR2D_ESCENE, "the scene has no patches");
+/* What images are not supported with.  Pieces of the sky are seen at points, past the ends of a
+   period. */
+static hr2d_status check_images(hr2d_scene *scene, hr2di_watch *watch) {
+  hr2di_symmetry *s = &scene->symmetry;
+  (void)watch;
+  if (s->motion && s->rest == 0) hr2di_symmetry_forget_weights(s);
+  if (s->motion && hr2di_scene_is_unsettled(scene))
+    return hr2di_message_fail(&scene->message, HR2D_EUNSUPPORTED,
+                              "patches of given flux in several bands are not supported with "
+                              "mirrors or a period");
+  if (!hr2di_symmetry_cuts(s) || !hr2di_scene_has_sky(scene)) return HR2D_OK;
+  return hr2di_message_fail(
+      &scene->message, HR2D_EUNSUPPORTED,
+      "a sky in pieces is not supported over a period in which patches see "
+      "for ever; a background is");
+}
+
+/* With K = `copies` in a period.  Returns HR2D_OK, or a status with nothing made. */
+static hr2d_status commit(hr2d_scene *scene, unsigned copies, hr2di_watch *watch) {
   hr2d_status (*const part[])(hr2d_scene *, hr2di_watch *) = {hr2di_scene_check_bands,
                                                               check_all_outside,
                                                               hr2di_scene_check_thermal,
@@ -74,18 +89,45 @@ hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
                                                               make_walls,
                                                               hr2di_scene_analyse_effects,
                                                               hr2di_scene_find_light,
+                                                              hr2di_scene_measure_ends,
+                                                              check_images,
                                                               keep_plane,
                                                               find_sunlight};
   const size_t parts = sizeof part / sizeof *part;
+  hr2d_status status = HR2D_OK;
+  if (hr2di_symmetry_wanted(&scene->symmetry))
+    status = hr2di_scene_unfold(scene, copies, watch);
+  for (size_t k = 0; k < parts && !status; k++) {
+    watch->told.fraction = (double)k / (double)parts;
+    status = part[k](scene, watch);
+  }
+  if (status) hr2di_scene_clear_commit(scene);
+  return status;
+}
+
+/* Takes more images of a period until the patches see none that are cut off. */
+static hr2d_status commit_images(hr2d_scene *scene, hr2di_watch *watch) {
+  unsigned copies, most;
+  hr2d_status status = hr2di_symmetry_find(scene, watch);
+  if (!status) status = hr2di_symmetry_copies(scene, &copies, &most);
+  if (status) return status;
+  for (;; copies *= 2) {
+    status = commit(scene, copies, watch);
+    if (status || !hr2di_symmetry_cuts(&scene->symmetry) || copies >= most) return status;
+    hr2di_scene_clear_commit(scene);
+  }
+}
+
+hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
+  if (scene->committed)
+    return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");
+  if (scene->patches == 0)
+    return hr2di_message_fail(&scene->message, HR2D_ESCENE, "the scene has no patches");
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, NULL, NULL, "commit");
-  for (size_t k = 0; k < parts; k++) {
-    watch.told.fraction = (double)k / (double)parts;
-    const hr2d_status status = part[k](scene, &watch);
-    if (!status) continue;
-    hr2di_scene_clear_commit(scene);
-    return status;
-  }
-  scene->committed = 1;
-  return HR2D_OK;
+  const hr2d_status status = hr2di_symmetry_wanted(&scene->symmetry)
+                                 ? commit_images(scene, &watch)
+                                 : commit(scene, 0, &watch);
+  scene->committed = !status;
+  return status;
 }

@@ -332,6 +332,8 @@ static hr2d_status find_dark(hr2d_scene *scene, hr2di_watch *watch) {
 /* Where nobody knows how walls cross, no patch counts as dark. */
 hr2d_status hr2di_scene_find_light(hr2d_scene *scene, hr2di_watch *watch) {
   if (all_lit(scene)) return HR2D_OK;
+  /* Light may come from farther than the images that are there. */
+  if (scene->symmetry.motion && scene->symmetry.by.periodic) return HR2D_OK;
   hr2d_status status = hr2di_scene_need_plane(scene, watch);
   if (!status && scene->parts.wanted) status = find_dark(scene, watch);
   return status ? hr2di_scene_fail(scene, status, watch, "the analysis") : HR2D_OK;

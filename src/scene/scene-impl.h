@@ -15,6 +15,7 @@
 #include "scene/side-parts.h"
 #include "scene/sky.h"
 #include "scene/sunlight.h"
+#include "scene/symmetry.h"
 
 /* Emission and reflectance of a patch, and its thermal properties.  The segments of a feature,
    both sides of a patch and the pieces of a patch share one: otherwise a file of many values
@@ -57,6 +58,7 @@ struct hr2d_scene {
   size_t sun_bands;
   double *wavelength; /* that divide the spectrum into bands; NULL for none */
   size_t wavelengths;
+  hr2di_symmetry symmetry;
   hr2di_notes notes;
   int exponent;      /* the unit is 2^exponent */
   hr2di_walls walls; /* the occluders; made by commit, as all that follows */
@@ -160,6 +162,16 @@ static inline int hr2di_scene_has_sky(const hr2d_scene *scene) {
   for (size_t k = 0; k < scene->sky.pieces * scene->sky.bands; k++)
     if (scene->sky.value[k] > 0) return 1;
   return 0;
+}
+
+/* The patches that were given; those behind them are images, and the ends of a period. */
+static inline size_t hr2di_scene_cell(const hr2d_scene *scene) {
+  return hr2di_symmetry_cell(&scene->symmetry, scene->patches);
+}
+
+/* The patch of which another one is an image; itself, if it is none. */
+static inline size_t hr2di_scene_original(const hr2d_scene *scene, size_t patch) {
+  return hr2di_symmetry_original(&scene->symmetry, patch);
 }
 
 static inline int hr2di_scene_lit(const hr2d_scene *scene, size_t patch) {

@@ -20,6 +20,8 @@ hr2d_status hr2d_scene_create(const hr2d_allocator *allocator, hr2d_scene **scen
 }
 
 void hr2di_scene_clear_commit(hr2d_scene *scene) {
+  if (scene->symmetry.motion) hr2di_scene_truncate(scene, scene->symmetry.cell);
+  hr2di_symmetry_clear(&scene->symmetry, &scene->alloc);
   hr2di_walls_clear(&scene->walls);
   scene->walls = (hr2di_walls){.alloc = scene->alloc};
   hr2di_runs_clear(&scene->runs);
@@ -173,7 +175,16 @@ static hr2di_label make_label(size_t index, const char *name) {
 }
 
 hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch) {
-  return make_label(patch, scene->patch[patch].name);
+  const hr2di_symmetry *s = &scene->symmetry;
+  const char *name = scene->patch[patch].name;
+  hr2di_label label;
+  if (patch < hr2di_scene_cell(scene)) return make_label(patch, name);
+  if (patch >= s->motions * s->cell)
+    snprintf(label.text, sizeof label.text, "%s", name);
+  else
+    snprintf(label.text, sizeof label.text, "an image of %.90s",
+             make_label(patch % s->cell, name).text);
+  return label;
 }
 
 hr2di_label hr2di_new_patch_label(const hr2d_scene *scene, const char *name) {
@@ -308,7 +319,7 @@ const char *hr2d_scene_message(const hr2d_scene *scene) {
 }
 
 size_t hr2d_scene_patches(const hr2d_scene *scene) {
-  return scene->patches;
+  return hr2di_scene_cell(scene);
 }
 
 size_t hr2d_scene_bands(const hr2d_scene *scene) {
@@ -330,7 +341,7 @@ const char *hr2d_scene_name(const hr2d_scene *scene, size_t patch) {
 }
 
 hr2d_status hr2d_scene_find(const hr2d_scene *scene, const char *name, size_t *patch) {
-  for (size_t k = 0; k < scene->patches; k++)
+  for (size_t k = 0; k < hr2di_scene_cell(scene); k++)
     if (strcmp(scene->patch[k].name, name) == 0) {
       *patch = k;
       return HR2D_OK;

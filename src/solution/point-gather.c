@@ -408,9 +408,15 @@ static void watch_gather(const hr2d_solution *solution, hr2di_watch *watch) {
   hr2di_scene_watch(solution->hierarchy->scene, watch, NULL, NULL, "gather");
 }
 
+/* A point sees no images that are cut off, and what stands for them is a matter of links. */
+static int is_cut_off(const hr2d_solution *solution) {
+  return hr2di_symmetry_cuts(&solution->hierarchy->scene->symmetry);
+}
+
 hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t patch, const double *t,
                                  size_t count, double *value) {
   hr2di_watch watch;
+  if (is_cut_off(solution)) return HR2D_EUNSUPPORTED;
   watch_gather(solution, &watch);
   return hr2di_solution_gather(solution, patch, t, count, value, &watch);
 }
@@ -418,6 +424,7 @@ hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t patch, co
 hr2d_status hr2d_solution_gather_irradiance(const hr2d_solution *solution, size_t patch,
                                             const double *t, size_t count, double *value) {
   hr2di_watch watch;
+  if (is_cut_off(solution)) return HR2D_EUNSUPPORTED;
   watch_gather(solution, &watch);
   return gather_irradiance(solution, patch, t, count, value, &watch);
 }

@@ -73,7 +73,8 @@ static void take_some_backs(void *ctx, size_t worker, size_t task) {
   for (size_t k = task * SOME; k < t->leaves && k < (task + 1) * SOME; k++) {
     const hr2d_element *e = &h->element[t->leaf[k]];
     if (l->status || atomic_load(&all->failed)) return;
-    if (all->sees[e->patch] && hr2di_scene_lit(h->scene, e->patch) &&
+    if (e->patch < hr2di_scene_cell(h->scene) && all->sees[e->patch] &&
+        hr2di_scene_lit(h->scene, e->patch) &&
         hr2di_share_has_row(t->links->share, e->patch, h->scene->patches))
       l->status = take_backs(all, l->viewer, k, hr2di_element_start(h, t->leaf[k]),
                              e->length / h->element[e->patch].length);
@@ -158,6 +159,7 @@ hr2d_status hr2di_background_set_order_p(hr2di_transport *t) {
   if (!status && sees) status = take_all_backs(t, sees);
   hr2di_alloc_free(&t->alloc, sees);
   if (t->links->share) status = combine_rows(t, status);
+  hr2di_ties_spread_leaves(&t->ties, t->order, 1, t->sky);
   if (!status) clear_closed(t);
   return status;
 }

@@ -55,7 +55,8 @@ static double point_factor(const hr2di_pair_frame *f, double s) {
 }
 
 /* Adds the form factor of `source` to the leaves below `receiver`, by degree. */
-static void add_exact(const rows *r, uint32_t receiver, uint32_t source, hr2di_watch *watch) {
+static void add_exact(const rows *r, uint32_t receiver, uint32_t source, double weight,
+                      hr2di_watch *watch) {
   const hr2d_hierarchy *h = r->t->hierarchy;
   const size_t order = r->t->order;
   const double start = hr2di_element_start(h, receiver), size = h->element[receiver].length;
@@ -71,7 +72,7 @@ static void add_exact(const rows *r, uint32_t receiver, uint32_t source, hr2di_w
     double one[HR2D_MAX_ORDER] = {0}, *exact = r->bin ? one : r->exact + at;
     for (size_t q = 0; q < r->rule.points; q++) {
       const double s = from + part * (0.5 + 0.5 * r->rule.at[q]);
-      const double factor = r->rule.weight[q] * point_factor(&f, s);
+      const double factor = weight * r->rule.weight[q] * point_factor(&f, s);
       for (size_t l = 0; l < order; l++) exact[l] += factor * r->phi[q][l];
     }
     for (size_t l = 0; l < order && r->bin; l++)
@@ -106,9 +107,10 @@ static void add_links(void *ctx, size_t worker, size_t part) {
     if (k % 64 == 0 && hr2di_watch_work(watch, 4)) return;
     if (!links->blocks.distant[k]) continue;
     const hr2d_pair pair = hr2di_store_link(&links->store, k).pair;
-    if (takes(p, part, pair.first)) add_exact(r, pair.first, pair.second, watch);
+    const double weight = hr2di_linkset_weight(links, pair);
+    if (takes(p, part, pair.first)) add_exact(r, pair.first, pair.second, weight, watch);
     if (!links->directed && takes(p, part, pair.second))
-      add_exact(r, pair.second, pair.first, watch);
+      add_exact(r, pair.second, pair.first, weight, watch);
   }
 }
 
@@ -197,6 +199,7 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
     t->failed = add_shares(r, t);
   else
     add_all_links(r);
+  hr2di_ties_fold_leaves(&t->ties, t->order, 1, r->exact);
   for (size_t k = 0; k < t->leaves; k++) {
     t->failed = hr2di_watch_work(t->watch, 1 + r->product.points * t->order * t->order / 32);
     if (t->failed) return;

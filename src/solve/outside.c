@@ -88,6 +88,7 @@ static hr2d_status add_suns(const hr2di_transport *t, const int *exponent, doubl
     const hr2d_element *e = &h->element[t->leaf[k]];
     const double size = e->length / h->element[e->patch].length;
     const double from = hr2di_element_start(h, t->leaf[k]);
+    if (hr2di_ties_of(&t->ties, t->leaf[k]) != t->leaf[k]) continue;
     for (size_t b = 0; b < t->bands; b++)
       add_sun(&s, e->patch, from, size, b, field + k * t->width + b);
     status = hr2di_watch_work(t->watch, 2 * t->bands);
@@ -171,6 +172,7 @@ static hr2d_status add_pieces(const hr2di_transport *t, const int *exponent, dou
   hr2d_status status = g.factor ? HR2D_OK : HR2D_ENOMEM;
   if (!status) status = hr2di_viewer_create(scene, &t->alloc, t->watch, &g.viewer);
   for (size_t k = 0; k < t->leaves && !status; k++) {
+    if (hr2di_ties_of(&t->ties, t->leaf[k]) != t->leaf[k]) continue;
     status = look_from_leaf(&g, k);
     if (!status) add_leaf(&g, k, exponent, field);
     if (!status) status = hr2di_watch_work(t->watch, scene->sky.pieces * t->width / 8);
@@ -189,5 +191,6 @@ hr2d_status hr2di_outside_set(const hr2di_transport *t, const double *light,
   hr2d_status status = hr2di_watch_work(t->watch, t->leaves * t->width / 8);
   if (!status && hr2di_scene_has_sun(scene)) status = add_suns(t, exponent, field);
   if (!status && hr2di_outside_has_pieces(scene)) status = add_pieces(t, exponent, field);
+  hr2di_ties_spread_leaves(&t->ties, t->order, t->bands, field);
   return status;
 }

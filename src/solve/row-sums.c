@@ -244,7 +244,7 @@ static hr2d_status make_rows(hr2di_row_sums *rows, const hr2d_linkset *links, wa
   hr2d_status status = hr2di_defect_sum(links, defect, w->watch);
   if (status) return status;
   hr2di_defect_closed(links, defect, rows->closed);
-  for (uint32_t k = 0; k < w->scene->patches && !status; k++) {
+  for (uint32_t k = 0; k < hr2di_scene_cell(w->scene) && !status; k++) {
     if (!hr2di_scene_lit(w->scene, k)) continue;
     if (!hr2di_share_has_row(links->share, k, w->scene->patches)) continue;
     const int open = !rows->closed[k];
@@ -309,6 +309,8 @@ hr2d_status hr2di_row_sums_init(hr2di_row_sums *rows, const hr2di_transport *t, 
   if (!rows->front || !rows->closed || !defect || (backs && !rows->back)) status = HR2D_ENOMEM;
   if (!status) status = make_rows(rows, t->links, w, defect);
   if (t->links->share) status = combine_rows(rows, t->links->share, t->elements, status);
+  if (!status) hr2di_ties_spread(&t->ties, 1, 1, rows->front);
+  if (!status && backs) hr2di_ties_spread(&t->ties, 1, 1, rows->back);
   if (w) clear(w, alloc);
   hr2di_alloc_free(alloc, defect);
   return status;
@@ -326,6 +328,7 @@ hr2d_status hr2d_leaf_sums(const hr2d_hierarchy *hierarchy, size_t row_from, siz
   const size_t patches = hierarchy->scene->patches;
   hr2di_watch watch;
   walker *w;
+  if (hierarchy->scene->symmetry.motion) return HR2D_EUNSUPPORTED;
   if (row_to == 0) row_to = patches;
   if (row_from > row_to || row_to > patches) return HR2D_EINVAL;
   hr2di_scene_watch(hierarchy->scene, &watch, NULL, NULL, "row sums");

@@ -88,6 +88,7 @@ static hr2d_power sum_power(const hr2di_equation *s, size_t band) {
     const size_t at = k * t->width + band, patch = t->hierarchy->element[t->leaf[k]].patch;
     const double absorbance = 1 - hr2d_scene_reflectance(scene, patch, band);
     const double area = s->weight[k * t->order];
+    if (patch >= hr2di_scene_cell(scene)) continue;
     hr2di_sum_add(&emitted, area * s->source[at]);
     hr2di_sum_add(&absorbed, area * (absorbance * s->irradiance[at]));
     if (s->outside) hr2di_sum_add(&received, area * s->outside[at]);
@@ -146,6 +147,8 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
   finite &= take_raised(s, s->irradiance, t->up);
   made->irradiance = t->up;
   t->up = NULL;
+  hr2di_ties_spread(&t->ties, t->order, t->bands, made->value);
+  hr2di_ties_spread(&t->ties, t->order, t->bands, made->irradiance);
   if (finite && !t->failed) {
     *solution = made;
     return HR2D_OK;

@@ -83,12 +83,14 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
     if (!h->element[e].child) t->leaf[t->leaves++] = (uint32_t)e;
   cut_parts(t);
   if (links->share && hr2di_shared_gather_init(t)) return HR2D_ENOMEM;
-  return hr2di_watch_work(watch, t->elements / 16);
+  const hr2d_status tied = hr2di_ties_init(&t->ties, h, &t->alloc, watch);
+  return tied ? tied : hr2di_watch_work(watch, t->elements / 16);
 }
 
 void hr2di_transport_clear(hr2di_transport *t) {
   hr2di_shared_gather_clear(t);
   hr2di_push_pull_clear(&t->trees);
+  hr2di_ties_clear(&t->ties, &t->alloc);
   hr2di_alloc_free(&t->alloc, t->leaf);
   hr2di_alloc_free(&t->alloc, t->up);
   hr2di_alloc_free(&t->alloc, t->down);
@@ -119,6 +121,7 @@ static void pull(hr2di_transport *t, const double *spread, const double *leaf_fi
   for (size_t k = 0; k < t->leaves && !declare(t, k); k++)
     memcpy(t->up + t->leaf[k] * t->width, leaf_field + k * t->width, t->width * sizeof(double));
   if (!has_failed(t)) hr2di_push_pull_up(&t->trees, spread, t->up);
+  hr2di_ties_spread(&t->ties, t->order, t->bands, t->up);
   has_failed(t);
 }
 
@@ -197,16 +200,35 @@ static void gather_chunk(const hr2di_transport *t, size_t k, int simple, double 
   }
 }
 
+/* What extrapolation of the last order adds to a link of a period, as a part of the link. */
+static double tail_of(const hr2di_transport *t, hr2d_pair pair) {
+  const hr2d_element *e = t->hierarchy->element;
+  return hr2di_symmetry_tail(&t->hierarchy->scene->symmetry, e[pair.first].patch,
+                             e[pair.second].patch);
+}
+
+/* The block of a link, or this part of it in `room`; NULL for nothing. */
+static const double *part_of_block(const hr2di_transport *t, hr2d_pair pair,
+                                   const double *block, double *room) {
+  const size_t stride = t->blocks.order;
+  if (!t->tail) return block;
+  const double part = tail_of(t, pair);
+  for (size_t k = 0; k < stride * stride; k++) room[k] = part * block[k];
+  return part == 0 ? NULL : room;
+}
+
 /* The same with blocks, for `count` links from number `first` on, and what the elements
    [from, to) receive. */
 static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, uint64_t first,
                           size_t count, size_t from, size_t to, double *down) {
   const hr2di_link_blocks *blocks = &t->blocks;
   const size_t order = t->order, bands = t->bands, width = t->width, stride = blocks->order;
+  double room[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
   for (uint64_t k = first; k < first + count; k++) {
     if (part == HR2DI_DISTANT_LINKS && !blocks->distant[k]) continue;
     const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
-    const double *c = blocks->value + k * stride * stride;
+    const double *c = part_of_block(t, pair, blocks->value + k * stride * stride, room);
+    if (!c) continue;
     const size_t i = pair.first * width, j = pair.second * width;
     const int to_i = pair.first >= from && pair.first < to;
     const int to_j = !t->links->directed && pair.second >= from && pair.second < to;
@@ -325,6 +347,7 @@ static void gather(hr2di_transport *t, hr2di_transport_part part) {
   }
   if (has_failed(t)) return;
   if (t->links->roots.clusters && part == HR2DI_ALL_LINKS) gather_clusters(t);
+  hr2di_ties_fold(&t->ties, t->order, t->bands, t->down);
   if (!has_failed(t)) divide(t);
 }
 
@@ -335,6 +358,12 @@ void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
   gather(t, part);
   if (!has_failed(t)) lower(t, irradiance);
   has_failed(t);
+}
+
+void hr2di_transport_tail(hr2di_transport *t, const double *radiosity, double *irradiance) {
+  t->tail = 1;
+  hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, radiosity, irradiance);
+  t->tail = 0;
 }
 
 void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor) {
@@ -351,6 +380,7 @@ void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor) {
       const hr2d_link *link = hr2di_store_at(store, k);
       t->down[link->pair.second * t->width] += link->exchange_area;
     }
+    hr2di_ties_fold(&t->ties, t->order, t->bands, t->down);
     divide(t);
   }
   for (size_t k = 0; k < t->elements; k++) factor[k] = t->down[k * t->width];

@@ -8,6 +8,7 @@
 
 #include "hierarchy/push-pull.h"
 #include "links/linkset-impl.h"
+#include "solve/image-ties.h"
 
 enum { HR2DI_TRANSPORT_PARTS = 16 /* at most */ };
 
@@ -18,6 +19,7 @@ typedef struct hr2di_transport {
   const hr2d_scene *scene; /* whose E and ρ count: that of the hierarchy, or a settled one */
   hr2d_allocator alloc;
   hr2di_push_pull trees;
+  hr2di_ties ties;
   size_t order, bands, width; /* width is order × bands */
   size_t elements, leaves;
   uint32_t *leaf;              /* the element of each leaf */
@@ -38,6 +40,7 @@ typedef struct hr2di_transport {
                          result must not be used */
   double *mean;       /* per element: of the diagonal of `closure`; NULL for none */
   unsigned char *closed; /* per patch: closure makes row sums 1; NULL at order 1, or without */
+  int tail; /* links count with what extrapolation adds to them beyond one of a lower order */
 } hr2di_transport;
 
 /* Sets up the operator at the order of the hierarchy; above 1 the links must have blocks.
@@ -63,6 +66,10 @@ void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *
 typedef enum hr2di_transport_part { HR2DI_ALL_LINKS, HR2DI_DISTANT_LINKS } hr2di_transport_part;
 void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
                                 const double *radiosity, double *irradiance);
+
+/* irradiance = what images of a period that are cut off may send beyond what is extrapolated.
+ */
+void hr2di_transport_tail(hr2di_transport *t, const double *radiosity, double *irradiance);
 
 /* The sum of the form factors over the links of each element itself, without those above and
    below it, at order 1: of links over which it receives, or over which it sends. */

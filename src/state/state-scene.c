@@ -120,6 +120,7 @@ static void put_lights(hr2di_writer *w, const hr2d_scene *scene) {
 
 hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_fn write, void *ctx) {
   if (!scene->committed) return HR2D_ESTATE;
+  if (scene->symmetry.motion) return HR2D_EUNSUPPORTED;
   for (size_t k = 0; k < scene->patches; k++)
     if (hr2di_emissivity_depends(scene, k)) return HR2D_EUNSUPPORTED;
   hr2di_writer w;

@@ -7,6 +7,7 @@
 
 #include "base/sized-struct.h"
 #include "scene/scene-impl.h"
+#include "visibility/image-matrix.h"
 #include "visibility/row-maker.h"
 
 enum { TILE = 8 };
@@ -65,6 +66,10 @@ hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_opti
   hr2d_matrix_counts sum = {0};
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, o.progress, o.progress_ctx, "factors");
+  if (scene->symmetry.motion) {
+    status = hr2di_image_matrix(scene, &watch, area, counts);
+    return status ? status : hr2di_watch_ask(&watch);
+  }
   status = hr2di_row_maker_init(&m.maker, scene, o.threads, 0, &watch);
   hr2di_watch_describe(&watch, describe, &m.maker);
   if (!status) status = hr2di_row_maker_run(&m.maker, 0, m.maker.tasks, put_row, &m);

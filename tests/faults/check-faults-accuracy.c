@@ -97,6 +97,8 @@ START_TEST(targets) {
   play("solve_to", DEPTH_COMMITTED, PLAN_PAIR, reach, 100);
   play("solve_to, occluded", DEPTH_COMMITTED, PLAN_ROOM, reach, 50);
   play("solve_to, open", DEPTH_COMMITTED, PLAN_OPEN, reach, 50);
+  play("solve_to, images", DEPTH_COMMITTED, PLAN_IMAGES, reach, 30);
+  play("solve_to, plates", DEPTH_COMMITTED, PLAN_PLATES, reach, 30);
   play("solve_to, at points", DEPTH_COMMITTED, PLAN_ROOM, reach_everywhere, 40);
   play("solve_to, one patch", DEPTH_COMMITTED, PLAN_ROOM, reach_some, 40);
   play("solve_to, heat", DEPTH_COMMITTED, PLAN_HEAT, reach, 100);

@@ -428,6 +428,10 @@ START_TEST(scenes) {
   PLAY("scene_set_sun", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, set_sun, of_scene, 0);
   PLAY("scene_commit, sun", {.depth = DEPTH_FILLED, .plan = PLAN_PAIR}, commit_sunny, of_scene,
        0);
+  PLAY("scene_commit, images", {.depth = DEPTH_FILLED, .plan = PLAN_IMAGES}, commit, of_scene,
+       3);
+  PLAY("scene_commit, plates", {.depth = DEPTH_FILLED, .plan = PLAN_PLATES}, commit, of_scene,
+       9);
   PLAY("scene_parse, sun", {.depth = DEPTH_FILLED, .plan = PLAN_PAIR}, parse_sunny, of_scene,
        0);
   PLAY("scene_parse", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, parse_geojson, of_scene, 0);
@@ -471,6 +475,7 @@ START_TEST(refinements) {
            {.depth = DEPTH_REFINED, .plan = PLAN_ROOM, .oracle = oracle, .policy = policy},
            call, of_links, 60);
     }
+  PLAY("refine, images", {.depth = DEPTH_COMMITTED, .plan = PLAN_IMAGES}, refine, of_links, 0);
   PLAY("refine, open", {.depth = DEPTH_COMMITTED, .plan = PLAN_OPEN}, refine, of_links, 0);
   PLAY("refine, clear", {.depth = DEPTH_COMMITTED, .plan = PLAN_PAIR}, refine, of_links, 0);
   PLAY("refine, ordered", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, refine_ordered,

@@ -77,6 +77,10 @@ static void add_heat(hr2d_scene *scene) {
   }
 }
 
+static void add_mirror(hr2d_scene *scene, double x) {
+  ck_assert_int_eq(hr2d_scene_add_mirror(scene, (hr2d_segment){{x, 0}, {x, 1}}), HR2D_OK);
+}
+
 static void fill(hr2d_scene *scene, fault_plan plan) {
   static const double dim[2] = {.25, .5}, one = 1, sky[2] = {1, .5};
   switch (plan) {
@@ -101,6 +105,16 @@ static void fill(hr2d_scene *scene, fault_plan plan) {
     add_room(scene, dim, 1);
     add(scene, (const double[]){.5, .25, 1.5, .75}, "bar", &one, 1, 0, HR2D_SIDES_BOTH);
     add(scene, (const double[]){.5, .75, 1.5, .25}, NULL, &one, 1, 0, HR2D_SIDES_BOTH);
+    break;
+  case PLAN_IMAGES:
+    fill(scene, PLAN_OPEN);
+    add_mirror(scene, 0);
+    ck_assert_int_eq(hr2d_scene_set_period(scene, (hr2d_point){5, 0}), HR2D_OK);
+    break;
+  case PLAN_PLATES:
+    fill(scene, PLAN_PAIR);
+    add_mirror(scene, 0);
+    add_mirror(scene, 1);
     break;
   case PLAN_BLOCKS:
     add_blocks(scene, 9);

@@ -26,6 +26,8 @@ typedef enum fault_plan {
   PLAN_PAIR,     /* two walls that face each other */
   PLAN_HEAT,     /* a room of three bands with walls of given flux */
   PLAN_CROSSING, /* two bars that cross in a room; cannot be committed */
+  PLAN_IMAGES,   /* that under a sky with a mirror, and a period */
+  PLAN_PLATES,   /* the two walls between two mirrors: images that are seen are cut off */
   PLAN_BLOCKS,   /* so many patches that beams find the pairs */
   PLAN_ROWS      /* so many that they are clustered, and clusters are linked */
 } fault_plan;

@@ -63,6 +63,13 @@ static hr2d_status add_box(pieces *p, const hr2d_scene *whole) {
   return status;
 }
 
+static hr2d_status repeat(hr2d_scene *scene, const hr2d_scene *whole) {
+  hr2d_status status = hr2d_scene_set_period(scene, hr2d_scene_period(whole));
+  for (size_t k = 0; !status && k < hr2d_scene_mirrors(whole); k++)
+    status = hr2d_scene_add_mirror(scene, hr2d_scene_mirror(whole, k));
+  return status;
+}
+
 hr2d_status pieces_make(pieces *p, const hr2d_scene *whole, double length) {
   const size_t patches = hr2d_scene_patches(whole);
   *p = (pieces){.first = calloc(patches + 1, sizeof *p->first)};
@@ -71,8 +78,9 @@ hr2d_status pieces_make(pieces *p, const hr2d_scene *whole, double length) {
   hr2d_status status = hr2d_scene_create(NULL, &p->scene);
   for (size_t k = 0; !status && k < patches; k++)
     status = add_patch(p, hr2d_scene_segment(whole, k), p->first[k + 1] - p->first[k]);
+  if (!status) status = repeat(p->scene, whole);
   if (!status && hr2d_scene_effect(whole, HR2D_EFFECT_BACKGROUND, NULL))
-    status = add_box(p, whole);
+    status = hr2d_scene_images(whole) > 1 ? HR2D_EUNSUPPORTED : add_box(p, whole);
   return status ? status : hr2d_scene_commit(p->scene);
 }
 

@@ -45,6 +45,12 @@ static int on_path(const picture *p, uint32_t element) {
   return 0;
 }
 
+/* Links to images of mirrors and periods are not drawn: only the cell is. */
+static int is_drawn(const picture *p, const hr2d_element *elements, hr2d_pair pair) {
+  const size_t patches = hr2d_scene_patches(p->run->scene);
+  return elements[pair.first].patch < patches && elements[pair.second].patch < patches;
+}
+
 /* Calls visit(near, far) for each link of the point; `near` is on the patch of the point. */
 static int each_link(picture *p, int (*visit)(picture *, uint32_t near, uint32_t far)) {
   const uint64_t count = hr2d_linkset_size(p->run->links);
@@ -53,6 +59,7 @@ static int each_link(picture *p, int (*visit)(picture *, uint32_t near, uint32_t
   int status = 0;
   for (uint64_t k = 0; !status && k < count; k++) {
     const hr2d_pair pair = hr2d_linkset_get(p->run->links, k).pair;
+    if (!is_drawn(p, elements, pair)) continue;
     if (elements[pair.first].patch == patch && on_path(p, pair.first))
       status = visit(p, pair.first, pair.second);
     else if (elements[pair.second].patch == patch && on_path(p, pair.second))

@@ -95,6 +95,7 @@ static void set_page(picture *p) {
 
 static void draw_links(const picture *p) {
   const uint64_t count = hr2d_linkset_size(p->run->links);
+  const size_t patches = hr2d_scene_patches(p->run->scene);
   const hr2d_element *elements = hr2d_hierarchy_elements(p->run->hierarchy);
   const double ink = fmin(0.7, fmax(0.15, MOST_INK / sqrt((double)count + 1)));
   const colour c = palette_ember(0.5);
@@ -103,6 +104,8 @@ static void draw_links(const picture *p) {
   cairo_set_line_width(p->cr, 1 / PIXELS);
   for (uint64_t k = 0; k < count && count <= MOST_LINES; k++) {
     const hr2d_pair pair = hr2d_linkset_get(p->run->links, k).pair;
+    if (elements[pair.first].patch >= patches || elements[pair.second].patch >= patches)
+      continue;
     const hr2d_point a = layout_point(p, elements[pair.first].centre);
     const hr2d_point b = layout_point(p, elements[pair.second].centre);
     cairo_move_to(p->cr, a.x, a.y);

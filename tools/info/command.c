@@ -63,6 +63,20 @@ static void print_background(const hr2d_scene *scene) {
   puts("");
 }
 
+static void print_symmetry(const hr2d_scene *scene) {
+  const hr2d_point d = hr2d_scene_period(scene);
+  for (size_t k = 0; k < hr2d_scene_mirrors(scene); k++) {
+    const hr2d_segment s = hr2d_scene_mirror(scene, k);
+    printf("mirror        (%.6g, %.6g) to (%.6g, %.6g)\n", s.a.x, s.a.y, s.b.x, s.b.y);
+  }
+  if (d.x != 0 || d.y != 0) printf("period        (%.6g, %.6g)\n", d.x, d.y);
+  if (hr2d_scene_images(scene) == 1) return;
+  printf("images        %zu of each patch", hr2d_scene_images(scene));
+  if (hr2d_scene_cut_off(scene) > 0)
+    printf(", and a part of up to %.2g of all directions beyond", hr2d_scene_cut_off(scene));
+  puts("");
+}
+
 static void print_summary(const hr2d_scene *scene, const summary *s) {
   printf("patches       %zu\n", hr2d_scene_patches(scene));
   printf("total length  %.6g\n", s->length);
@@ -72,6 +86,7 @@ static void print_summary(const hr2d_scene *scene, const summary *s) {
   print_range("reflectance", s->reflectance);
   print_range("emission", s->emission);
   print_background(scene);
+  print_symmetry(scene);
   printf("effects\n");
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
     const char *why = "";
@@ -98,6 +113,24 @@ static json_t *patch_entry(const hr2d_scene *scene, size_t k) {
   return patch;
 }
 
+/* Nothing is said of a scene without mirrors and period. */
+static void put_symmetry(json_t **root, const hr2d_scene *scene) {
+  const hr2d_point d = hr2d_scene_period(scene);
+  json_t *mirrors = json_array();
+  for (size_t k = 0; k < hr2d_scene_mirrors(scene); k++) {
+    const hr2d_segment s = hr2d_scene_mirror(scene, k);
+    json_push(&mirrors, json_numbers((double[]){s.a.x, s.a.y, s.b.x, s.b.y}, 4));
+  }
+  if (hr2d_scene_images(scene) == 1) {
+    json_decref(mirrors);
+    return;
+  }
+  json_put(root, "mirrors", mirrors);
+  if (d.x != 0 || d.y != 0) json_put(root, "period", json_numbers((double[]){d.x, d.y}, 2));
+  json_put(root, "images", json_count(hr2d_scene_images(scene)));
+  json_put(root, "cut_off", json_number(hr2d_scene_cut_off(scene)));
+}
+
 static json_t *document(const options *o, const hr2d_scene *scene, size_t cuts,
                         const summary *s, const warnings *w) {
   json_t *patches = json_array(), *background = json_array(), *reasons = json_object(),
@@ -121,6 +154,7 @@ static json_t *document(const options *o, const hr2d_scene *scene, size_t cuts,
   for (size_t b = 0; b < hr2d_scene_bands(scene); b++)
     json_push(&background, json_number(hr2d_scene_background(scene, b)));
   json_put(&root, "background", background);
+  put_symmetry(&root, scene);
   json_put(&root, "effects", json_effects(scene));
   json_put(&root, "reasons", reasons);
   json_put(&root, "warnings", json_incref(w->list));

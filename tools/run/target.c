@@ -110,7 +110,8 @@ int run_error(run *r, progress *p) {
 int run_place(const run *r, size_t k, double *b, double *h) {
   const double t = r->options->at.items[k].t;
   const size_t patch = r->places[k], bands = hr2d_scene_bands(r->scene);
-  const int gather = r->account.order > 1 || options_targeted(r->options);
+  const int whole = hr2d_scene_cut_off(r->scene) == 0;
+  const int gather = whole && (r->account.order > 1 || options_targeted(r->options));
   if (gather && (hr2d_solution_gather(r->solution, patch, &t, 1, b) ||
                  hr2d_solution_gather_irradiance(r->solution, patch, &t, 1, h)))
     return complain_memory();

@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file symmetry.h
+ * @brief Mirrors, and a period that repeats the scene for ever.
+ *
+ * @defgroup symmetry Symmetry: mirrors and periods
+ * A scene that is symmetric, or that repeats itself, is given by one of its parts, the cell.
+ *
+ * A *mirror* is a line at which the scene is reflected: everything behind it is the image of
+ * what is in front. It is endless, however long the segment is that gives it. It neither emits
+ * nor absorbs. Two mirrors may be perpendicular, so that there are four images; or parallel,
+ * with the scene between them, so that images go on for ever; or three may be, of which two are
+ * parallel.
+ *
+ * A *period* (dx, dy) repeats the scene for ever, at each multiple of the vector: rows of
+ * panels, streets, blinds, the unit cell of a bed. A mirror beside a period is parallel to it
+ * or perpendicular.
+ *
+ * hr2d_scene_commit() makes the images. They occlude and are seen as the patches themselves,
+ * and the radiosity of an image is that of its patch: only the patches of the cell have
+ * unknowns. Indices are those of the cell in all calls; powers are those of the cell; elements
+ * are counted with those of the images. An element of image g of patch k has the patch gn + k,
+ * for n patches of the cell. A link of the link set joins an element of the cell
+ * with one of the cell or of an image; between elements of a patch and of its own mirror image
+ * it has half of their exchange area, because both of its ends receive for the same patch.
+ *
+ * In a period K images on each side are taken; commit doubles K until the patches see nothing
+ * beyond. Where they can see for ever, as between two plates, the last images stand for those
+ * that are cut off: exchange areas with image k are series in 1/k that begin with 1/k³, and
+ * their sums are extrapolated. hr2d_solve_to() has what that may be off in its estimate and
+ * bound; other calls have no account of it.
+ *
+ * Exchange areas of patches (visibility.h) are sums over all images: a patch may see images of
+ * its own. They are made by one thread, in a matrix of all patches of the cell.
+ *
+ * Not supported with mirrors or a period, and refused with HR2D_EUNSUPPORTED: rows of points
+ * between the patches, beams of points, row sums of leaves, scenes as bytes, patches of given
+ * flux in several bands; and where images are cut off that patches
+ * can see, one more gather at points, and a sky in pieces. Points between the patches that see
+ * where images are cut off have no values (HR2D_PLACE_OUTSIDE).
+ * @{
+ */
+#ifndef HR2D_SYMMETRY_H
+#define HR2D_SYMMETRY_H
+
+#include <hr2d/scene.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/**
+ * Adds a mirror.
+ * @param scene  not yet committed
+ * @param line   any two points of it
+ * @retval HR2D_OK           success
+ * @retval HR2D_ESTATE       the scene is committed
+ * @retval HR2D_ESCENE       the points are the same, or not finite
+ * @retval HR2D_EUNSUPPORTED the scene has three mirrors already
+ *
+ * hr2d_scene_commit() fails with HR2D_ESCENE if patches lie on both sides of a mirror, if a
+ * patch on a mirror looks away from the scene, if mirrors are neither parallel nor
+ * perpendicular to each other and to the period, or if a sun or sky with light is not
+ * symmetric; and with HR2D_EUNSUPPORTED if images would repeat in two directions.
+ */
+HR2D_API hr2d_status hr2d_scene_add_mirror(hr2d_scene *scene, hr2d_segment line);
+
+/**
+ * Sets the period.
+ * @param scene   not yet committed
+ * @param period  the vector from a patch to its next image; (0, 0) for none, as before the
+ *                first call
+ * @retval HR2D_OK      success
+ * @retval HR2D_ESTATE  the scene is committed
+ * @retval HR2D_ESCENE  a component is not finite
+ *
+ * hr2d_scene_commit() fails with HR2D_ESCENE if an image crosses a patch. Patches may reach
+ * over several periods. A sun shines in past at most 256 images.
+ */
+HR2D_API hr2d_status hr2d_scene_set_period(hr2d_scene *scene, hr2d_point period);
+
+/**
+ * The number of mirrors.
+ * @param scene  a scene
+ * @return at most 3
+ */
+HR2D_API size_t hr2d_scene_mirrors(const hr2d_scene *scene);
+
+/**
+ * A mirror, as it was given.
+ * @param scene   a scene
+ * @param mirror  below hr2d_scene_mirrors()
+ * @return its segment
+ */
+HR2D_API hr2d_segment hr2d_scene_mirror(const hr2d_scene *scene, size_t mirror);
+
+/**
+ * The period.
+ * @param scene  a scene
+ * @return as given; (0, 0) without one
+ */
+HR2D_API hr2d_point hr2d_scene_period(const hr2d_scene *scene);
+
+/**
+ * The number of images of each patch, with the patch itself as number 0.
+ * @param scene  committed
+ * @return at least 1
+ */
+HR2D_API size_t hr2d_scene_images(const hr2d_scene *scene);
+
+/**
+ * An image of a patch.
+ * @param scene,patch  a committed scene and the index of a patch
+ * @param image        below hr2d_scene_images()
+ * @return the segment, in scene lengths, with its front on the left
+ */
+HR2D_API hr2d_segment hr2d_scene_image(const hr2d_scene *scene, size_t patch, size_t image);
+
+/**
+ * What is cut off of a period.
+ * @param scene  committed
+ * @return the largest part of the directions from a patch, a form factor, in which images are
+ *         seen that are extrapolated; 0 if all that is seen is there
+ */
+HR2D_API double hr2d_scene_cut_off(const hr2d_scene *scene);
+
+#ifdef __cplusplus
+}
+#endif
+/** @} */
+#endif

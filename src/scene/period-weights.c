@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How many images a period needs, and how the last ones stand for those that are cut off.
+
+   Lines that pass many periods run in a free strip, nearly along the period: of those that
+   start in one cell about w²/(kD)³ D² end in the k-th from it, for a strip of width w.  Strings
+   round the vertices of both cells have lengths that are analytic in 1/k, so that the exchange
+   area of two patches, one of them moved k periods, is
+
+     a₃/k³ + a₄/k⁴ + …    once k periods are longer than the cell is wide and high.
+
+   Of J images, numbers n_j from K downwards, the sum of c_j f(n_j) is that of f(k) over all k >
+   K for f = k⁻³, …, k^(−J−2).  What is left is of the order of 1/K^(J+2).  Without the last
+   power the extrapolation is off by more: the difference tells what may be left.
+
+   The c_j have both signs.  As n_j are K, ¾K, ½K and ⅜K, Σ |c_j| f(n_j) is no more than ten
+   times the sum that is wanted; of the last four images it would be a thousand times that. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "scene/scene-impl.h"
+
+enum { MOST_TERMS = 4, MOST_COPIES = 256, ENOUGH = 16 };
+
+/* Images in all, beyond which no more are made just to see farther. */
+#define MANY_PATCHES 10000
+
+/* Σ k^−p over k > K, by Euler and Maclaurin: the sum up to M − 1, then
+   M^(1−p)/(p−1) + M^−p/2 + Σ B_2i/(2i)! p(p+1)…(p+2i−2) M^(−p−2i+1).  With M ≥ 16 the first
+   term left out is below 1e-17 of the sum. */
+static double rest_of(unsigned last, int p) {
+  static const double bernoulli[] = {1. / 12, -1. / 720, 1. / 30240, -1. / 1209600,
+                                     1. / 47900160};
+  double sum = 0, m = last + 1.;
+  for (; m < ENOUGH; m++) sum += pow(m, -p);
+  sum += pow(m, 1 - p) / (p - 1) + 0.5 * pow(m, -p);
+  double product = p;
+  for (int i = 1; i <= 5; i++) {
+    sum += bernoulli[i - 1] * product * pow(m, -p - 2 * i + 1);
+    product *= (double)(p + 2 * i - 1) * (p + 2 * i);
+  }
+  return sum;
+}
+
+/* n_j. */
+static unsigned node_of(unsigned copies, int j) {
+  static const unsigned eighths[MOST_TERMS] = {8, 6, 4, 3};
+  return copies * eighths[j] / 8;
+}
+
+/* Solves Σ_j c_j n_j^−p = Σ_{k>K} k^−p, scaled by K^p, for p = 3, …, by elimination with
+ * pivots.
+ */
+static void solve(unsigned copies, int terms, double *c) {
+  double row[MOST_TERMS][MOST_TERMS + 1];
+  for (int r = 0; r < terms; r++) {
+    for (int j = 0; j < terms; j++) row[r][j] = pow(copies / (double)node_of(copies, j), r + 3);
+    row[r][terms] = rest_of(copies, r + 3) * pow(copies, r + 3);
+  }
+  for (int k = 0; k < terms; k++) {
+    int best = k;
+    for (int r = k + 1; r < terms; r++)
+      if (fabs(row[r][k]) > fabs(row[best][k])) best = r;
+    for (int j = k; j <= terms; j++) {
+      const double kept = row[k][j];
+      row[k][j] = row[best][j];
+      row[best][j] = kept;
+    }
+    for (int r = k + 1; r < terms; r++) {
+      const double factor = row[r][k] / row[k][k];
+      for (int j = k; j <= terms; j++) row[r][j] -= factor * row[k][j];
+    }
+  }
+  for (int k = terms; k-- > 0;) {
+    c[k] = row[k][terms];
+    for (int j = k + 1; j < terms; j++) c[k] -= row[k][j] * c[j];
+    c[k] /= row[k][k];
+  }
+}
+
+/* Of few images not all n_j are different. */
+static int terms_for(unsigned copies) {
+  return copies >= 8 ? 4 : copies >= 4 ? 3 : copies >= 2 ? 2 : 1;
+}
+
+void hr2di_symmetry_set_weights(hr2di_symmetry *s) {
+  double c[MOST_TERMS] = {0}, former[MOST_TERMS] = {0};
+  if (!s->by.periodic) return;
+  const int terms = terms_for(s->copies);
+  solve(s->copies, terms, c);
+  solve(s->copies, terms - 1, former);
+  for (size_t k = 0; k < s->motions; k++)
+    for (int j = 0; j < terms; j++) {
+      if ((unsigned)abs(s->motion[k].periods) != node_of(s->copies, j)) continue;
+      s->motion[k].weight += c[j];
+      if (j + 1 < terms) s->motion[k].former += former[j];
+    }
+}
+
+void hr2di_symmetry_forget_weights(hr2di_symmetry *s) {
+  for (size_t k = 0; k < s->motions; k++) s->motion[k].weight = s->motion[k].former = 1;
+}
+
+/* The extent of the patches across a direction. */
+static double across(const hr2d_scene *scene, hr2d_point d) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (size_t k = 0; k < scene->patches; k++) {
+    const hr2d_segment s = scene->patch[k].given;
+    const double a = d.x * s.a.y - d.y * s.a.x, b = d.x * s.b.y - d.y * s.b.x;
+    low = fmin(low, fmin(a, b));
+    high = fmax(high, fmax(a, b));
+  }
+  return (high - low) / hypot(d.x, d.y);
+}
+
+/* Light of direction s comes down through `height` while it runs height·|s·d|/|s×d| along d. */
+static double run_of(const hr2d_scene *scene, size_t sun, double height) {
+  const hr2d_point s = scene->sun[sun].direction, d = scene->symmetry.by.period;
+  if (!(scene->sun[sun].irradiance > 0)) return 0;
+  const double along = fabs(s.x * d.x + s.y * d.y), up = fabs(s.x * d.y - s.y * d.x);
+  return height * along / up;
+}
+
+hr2d_status hr2di_symmetry_copies(hr2d_scene *scene, unsigned *least, unsigned *most) {
+  const hr2d_point d = scene->symmetry.by.period;
+  *least = *most = scene->symmetry.by.periodic;
+  if (!*least) return HR2D_OK;
+  const double period = hypot(d.x, d.y), height = across(scene, d);
+  const double patches = ldexp((double)scene->patches, (int)scene->symmetry.by.mirrors);
+  while (*most < ENOUGH * fmax(height / period, 1) && *most < MOST_COPIES &&
+         (4 * *most + 1) * patches <= MANY_PATCHES)
+    *most *= 2;
+  for (size_t k = 0; k < scene->sun_bands; k++) {
+    const double run = run_of(scene, k, height) / period;
+    if (!(run < MOST_COPIES - 1))
+      return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                                "sun %zu stands so low that it shines past more than %d images",
+                                k, MOST_COPIES - 2);
+    while (*least < run + 1) *least *= 2;
+  }
+  if (*most < *least) *most = *least;
+  return HR2D_OK;
+}

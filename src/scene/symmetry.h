@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Mirrors and the period of a scene.
+
+   The symmetries of the plane that they generate are motions g = T^k f: f reflects at some of
+   at most two mirrors, which are perpendicular, and T is the translation by the period.  Commit
+   adds the image gP of each patch P to the patches, motion by motion: image g of patch k is
+   patch g·cell + k.  Images are patches for everything that looks at geometry.  They have no
+   light of their own: B on gP is that of P.
+
+   Of the pairs of patches that a motion maps to each other one is linked.  With B = Σ over
+   links as on any scene, what arrives on gP arrives on P: H on P is the sum of H over all gP,
+   see solve/image-ties.h.
+
+   There are infinitely many T^k.  Those with |k| ≤ K are taken.  Behind them stand black ends
+   across the scene, which show how much is cut off. */
+#ifndef HR2D_SRC_SCENE_SYMMETRY_H
+#define HR2D_SRC_SCENE_SYMMETRY_H
+
+#include <hr2d/geometry.h>
+#include <hr2d/memory.h>
+#include <hr2d/status.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/alloc.h"
+#include "base/watch.h"
+
+enum { HR2DI_MIRRORS = 3 /* at most: two are parallel, the third is across them */ };
+
+/* g = T^k f. */
+typedef struct hr2di_motion {
+  unsigned mirrors; /* f: bit m for mirror m of hr2di_generators */
+  int periods;      /* k */
+  int turned;       /* left becomes right: an image runs from the image of b to that of a */
+  uint32_t inverse; /* the number of g⁻¹ */
+  double weight;    /* of exchange areas with images by g: 1, or more where they stand for those
+                       that are cut off as well */
+  double former;    /* the same by an extrapolation of a lower order */
+} hr2di_motion;
+
+/* What generates the motions, in scene lengths. */
+typedef struct hr2di_generators {
+  size_t mirrors;             /* at most 2 */
+  hr2d_point at[2], along[2]; /* a point of each, and its unit direction */
+  int periodic;
+  hr2d_point period;
+} hr2di_generators;
+
+typedef struct hr2di_symmetry {
+  hr2d_segment mirror[HR2DI_MIRRORS]; /* as given */
+  size_t mirrors;
+  hr2d_point period; /* as given; 0 without one */
+  /* Made by commit: */
+  hr2di_generators by;
+  hr2di_motion *motion; /* number 0 maps each patch to itself; NULL: no images */
+  size_t motions;
+  size_t cell;      /* patches that were given */
+  size_t ends;      /* black patches behind all images */
+  unsigned copies;  /* K */
+  double low, high; /* the extent of the patches across the period, see below */
+  double rest;      /* the largest part of the directions of a patch that the ends take */
+} hr2di_symmetry;
+
+static inline int hr2di_symmetry_wanted(const hr2di_symmetry *s) {
+  return s->mirrors > 0 || s->period.x != 0 || s->period.y != 0;
+}
+
+/* Whether images go on for ever, and some of those that are cut off can be seen. */
+static inline int hr2di_symmetry_cuts(const hr2di_symmetry *s) {
+  return s->motion && s->rest > 0;
+}
+
+/* The patches of which no other is an image. */
+static inline size_t hr2di_symmetry_cell(const hr2di_symmetry *s, size_t patches) {
+  return s->motion ? s->cell : patches;
+}
+
+/* The patch of which another one is an image; itself, if it is none. */
+static inline size_t hr2di_symmetry_original(const hr2di_symmetry *s, size_t patch) {
+  return s->motion && patch < s->motions * s->cell ? patch % s->cell : patch;
+}
+
+/* The part of its exchange area with which the pair of two patches is linked; 0: it is not, as
+   the pair is the image of another one, or none of them counts.  Of a patch and its image both
+   ends of a link receive for the same patch: if g = g⁻¹ they receive half each, otherwise one
+   of g and g⁻¹ is linked.  A directed link receives at its first end alone. */
+double hr2di_symmetry_weight(const hr2di_symmetry *s, size_t first, size_t second,
+                             int directed);
+
+/* What the last order of the extrapolation adds to the weight of a pair, as a part of it. */
+double hr2di_symmetry_tail(const hr2di_symmetry *s, size_t first, size_t second);
+
+/* How far a point is above all patches, across the period, or below as a negative number; in
+   scene lengths times the length of the period.  0: between. */
+static inline double hr2di_symmetry_height(const hr2di_symmetry *s, double unit, hr2d_point x) {
+  const double at = unit * (s->by.period.x * x.y - s->by.period.y * x.x);
+  return at > s->high ? at - s->high : at < s->low ? at - s->low : 0;
+}
+
+struct hr2d_scene;
+
+/* Finds the generators of the mirrors and the period, or fails with a message. */
+hr2d_status hr2di_symmetry_find(struct hr2d_scene *scene, hr2di_watch *watch);
+
+/* Where a motion takes a point.  Points within `touch` of a mirror stay where they are. */
+hr2d_point hr2di_symmetry_move(const hr2di_generators *by, const hr2di_motion *g, hr2d_point p,
+                               double touch);
+
+/* What is within so much of a line of the scene lies on it, in scene lengths. */
+double hr2di_symmetry_touch(const struct hr2d_scene *scene);
+
+/* Adds the images of all patches for K = `copies`, and the ends.  HR2D_OK, or a status with a
+   message. */
+hr2d_status hr2di_scene_unfold(struct hr2d_scene *scene, unsigned copies, hr2di_watch *watch);
+
+/* Adds the ends behind all images.  HR2D_OK, or a status with a message. */
+hr2d_status hr2di_scene_add_ends(struct hr2d_scene *scene, hr2di_watch *watch);
+
+/* The least K with which sunlight on the patches comes past none of the ends, and the most that
+   are tried; 0 without a period.  HR2D_OK, or HR2D_ESCENE with a message. */
+hr2d_status hr2di_symmetry_copies(struct hr2d_scene *scene, unsigned *least, unsigned *most);
+
+/* Measures what the ends take, in a scene with a plane if there can be one. */
+hr2d_status hr2di_scene_measure_ends(struct hr2d_scene *scene, hr2di_watch *watch);
+
+/* Sets the weights of motions for K = `copies`; or all to 1, if nothing that is cut off can be
+   seen. */
+void hr2di_symmetry_set_weights(hr2di_symmetry *s);
+void hr2di_symmetry_forget_weights(hr2di_symmetry *s);
+
+/* Forgets what commit has made. */
+static inline void hr2di_symmetry_clear(hr2di_symmetry *s, const hr2d_allocator *alloc) {
+  hr2di_alloc_free(alloc, s->motion);
+  s->motion = NULL;
+  s->motions = s->cell = s->ends = 0;
+  s->rest = 0;
+}
+
+#endif

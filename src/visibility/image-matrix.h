@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The exchange areas of the patches of a scene with images. */
+#ifndef HR2D_SRC_VISIBILITY_IMAGE_MATRIX_H
+#define HR2D_SRC_VISIBILITY_IMAGE_MATRIX_H
+
+#include <hr2d/visibility.h>
+
+#include "base/watch.h"
+
+/* Sets `area` to n × n exchange areas in scene lengths, for the n patches of the cell: those of
+   patch i with patch k and all its images, with their weights in a period.  A patch may see its
+   own images.  HR2D_OK, HR2D_ENOMEM or the status of the watch. */
+hr2d_status hr2di_image_matrix(const hr2d_scene *scene, hr2di_watch *watch, double *area,
+                               hr2d_matrix_counts *counts);
+
+#endif
