@@ -1,9 +1,9 @@
 /* Sky view factors in a town without end.  You learn how a period repeats a scene, and what of
    the sky a street has between rows of houses that go on for ever.
 
-   One street is drawn: its floor, the houses on its right, and a lower house in the middle of a
-   block.  All is black under a sky of radiosity 1, so that the irradiance is the sky view
-   factor.  A point of the floor sees the sky between the roofs on both sides. */
+   One street is drawn, with the block on its right: two houses and a yard.  All is black under
+   a sky of radiosity 1, so that the irradiance is the sky view factor.  A point of the floor
+   sees the sky between the roofs on both sides. */
 #include <hr2d/hr2d.h>
 #include <math.h>
 #include <stdio.h>
@@ -53,7 +53,6 @@ static hr2d_status show(double h) {
   hr2d_status status = hr2d_scene_create(NULL, &scene);
   if (!status) status = make_town(scene, h);
   if (!status) status = hr2d_solve_to(scene, &target, &solution, NULL);
-  if (!status) status = hr2d_solution_gather(solution, 0, &middle, 1, &at_middle);
   if (!status) status = hr2d_solution_gather_irradiance(solution, 0, &middle, 1, &at_middle);
   if (!status)
     printf("%5.1f  %.6f %.6f  %.6f %.6f  %.6f %.6f  %.6f\n", h,

@@ -18,6 +18,7 @@ EXTRA_DIST += \
 	python/tests/conftest.py \
 	python/tests/test_callbacks.py \
 	python/tests/test_daylight.py \
+	python/tests/test_symmetry.py \
 	python/tests/test_draw.py \
 	python/tests/test_drawings.py \
 	python/tests/test_scene.py \

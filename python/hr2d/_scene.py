@@ -155,6 +155,18 @@ class Scene:
         """
         self.add_text(outside_of({"sky": [list(piece) for piece in pieces]}))
 
+    def add_mirror(self, a: Any, b: Any) -> None:
+        """Adds a mirror: a line through two points, at which the scene is reflected."""
+        line = ffi.new("hr2d_segment *", [[float(c) for c in a], [float(c) for c in b]])
+        with self._change() as call:
+            call.check(lib.hr2d_scene_add_mirror(self._raw, line[0]), self._message)
+
+    def set_period(self, dx: float, dy: float) -> None:
+        """Repeats the scene for ever, at each multiple of (dx, dy); (0, 0) for none."""
+        period = ffi.new("hr2d_point *", [dx, dy])
+        with self._change() as call:
+            call.check(lib.hr2d_scene_set_period(self._raw, period[0]), self._message)
+
     def add(self, shape: Any, *, emission: Optional[Values] = None,
             reflectance: Optional[Values] = None, temperature: Optional[float] = None,
             flux: Optional[float] = None, emissivity: Optional[Values] = None,
@@ -175,7 +187,8 @@ class Scene:
             With a temperature or a flux: one value, or one per band, or a table of entries
             [T, value] or [T, value per band, …]; 1 by default.
         sides
-            "front", or "both": each patch becomes two, back to back.
+            "front", or "both": each patch becomes two, back to back.  "mirror": no patch, but a
+            mirror.
         faces
             For polygons, "in" for rooms or "out" for obstacles.
         """
@@ -317,6 +330,22 @@ class Scene:
         """The light from the surroundings, (bands,)."""
         return np.array([lib.hr2d_scene_background(self._raw, band)
                          for band in range(self.bands)])
+
+    @property
+    def period(self) -> Tuple[float, float]:
+        """The period, as it was given; (0, 0) without one."""
+        period = lib.hr2d_scene_period(self._raw)
+        return period.x, period.y
+
+    @property
+    def images(self) -> int:
+        """How many images mirrors and a period make of each patch, with the patch itself."""
+        return lib.hr2d_scene_images(self.commit()._raw)
+
+    @property
+    def cut_off(self) -> float:
+        """The largest part of the directions from a patch in which images are extrapolated."""
+        return lib.hr2d_scene_cut_off(self.commit()._raw)
 
     @property
     def sun(self) -> Sun:
