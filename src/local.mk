@@ -219,6 +219,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/equation-sign.c \
 	src/solve/existence.c src/solve/existence.h \
 	src/solve/gather-blocks.c src/solve/gather-blocks.h \
+	src/solve/gather-links.c src/solve/gather-links.h \
 	src/solve/gather-one-way.c src/solve/gather-one-way.h \
 	src/solve/heat-balance.c src/solve/heat-balance.h \
 	src/solve/heat-scene.c src/solve/heat-scene.h \

@@ -10,6 +10,7 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 #include "solve/gather-blocks.h"
+#include "solve/gather-links.h"
 #include "solve/shared-gather.h"
 
 /* A slice needs its own copy of `down`, so there are few slices, with many links each. */
@@ -217,27 +218,43 @@ static const double *part_of_block(const hr2di_transport *t, hr2d_pair pair,
   return part == 0 ? NULL : room;
 }
 
+/* The links of a run one by one: of distant pairs alone, or tails of links. */
+static void gather_each(const hr2di_transport *t, hr2di_transport_part part, hr2di_link_run run,
+                        uint64_t first, double *down) {
+  const unsigned char *distant = t->blocks.distant + first;
+  const size_t square = run.stride * run.stride, count = run.count;
+  const double *block = run.block;
+  double room[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
+  run.count = 1;
+  for (size_t k = 0; k < count; k++, run.link++, block += square) {
+    if (part == HR2DI_DISTANT_LINKS && !distant[k]) continue;
+    run.block = part_of_block(t, run.link->pair, block, room);
+    if (run.block) hr2di_gather_links(&run, t->order, t->bands, t->up, down);
+  }
+}
+
 /* The same with blocks, for `count` links from number `first` on, and what the elements
    [from, to) receive. */
 static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, uint64_t first,
                           size_t count, size_t from, size_t to, double *down) {
-  const hr2di_link_blocks *blocks = &t->blocks;
-  const size_t order = t->order, bands = t->bands, width = t->width, stride = blocks->order;
-  double room[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
-  for (uint64_t k = first; k < first + count; k++) {
-    if (part == HR2DI_DISTANT_LINKS && !blocks->distant[k]) continue;
-    const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
-    const double *c = part_of_block(t, pair, blocks->value + k * stride * stride, room);
-    if (!c) continue;
-    const size_t i = pair.first * width, j = pair.second * width;
-    const int to_i = pair.first >= from && pair.first < to;
-    const int to_j = !t->links->directed && pair.second >= from && pair.second < to;
-    if (to_i && to_j)
-      hr2di_gather_both(c, stride, order, bands, t->up + i, t->up + j, down + i, down + j);
-    else if (to_i)
-      hr2di_gather_block(c, stride, order, bands, t->up + j, down + i);
-    else if (to_j)
-      hr2di_gather_transposed(c, stride, order, bands, t->up + i, down + j);
+  hr2d_link room[HR2DI_READ_LINKS];
+  const size_t stride = t->blocks.order;
+  for (size_t done = 0, some; done < count; done += some) {
+    const uint64_t at = first + done;
+    some = count - done;
+    const hr2d_link *link = hr2di_store_read(&t->links->store, at, &some, room);
+    const hr2di_link_run run = {.link = link,
+                                .block = t->blocks.value + at * stride * stride,
+                                .stride = stride,
+                                .count = some,
+                                .all = !t->links->directed && from == 0 && to == t->elements,
+                                .from = from,
+                                .to = to,
+                                .directed = t->links->directed};
+    if (part == HR2DI_DISTANT_LINKS || t->tail)
+      gather_each(t, part, run, at, down);
+    else
+      hr2di_gather_links(&run, t->order, t->bands, t->up, down);
   }
 }
 
