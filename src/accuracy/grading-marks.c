@@ -202,10 +202,11 @@ static hr2d_status place(hr2di_grader *g, uint32_t patch, uint32_t number) {
   return status ? status : add_mark(g, at, v->at, mark);
 }
 
-/* Places the vertices that may be near a patch: those in a window of x. */
+/* Places the vertices that may be near a patch: those in a window of x, and of y. */
 hr2d_status hr2di_grading_look_around(hr2di_grader *g, uint32_t patch) {
   const hr2di_patch *p = &g->h->scene->patch[patch];
   const double middle = 0.5 * (p->scaled.a.x + p->scaled.b.x);
+  const double height = 0.5 * (p->scaled.a.y + p->scaled.b.y);
   const double reach = HR2DI_GRADING_FAR * p->length;
   size_t low = 0, high = g->vertices;
   while (low < high) {
@@ -218,7 +219,8 @@ hr2d_status hr2di_grading_look_around(hr2di_grader *g, uint32_t patch) {
   hr2d_status status = HR2D_OK;
   for (; low < g->vertices && g->vertex[low].at.x <= middle + reach && !status; low++) {
     status = hr2di_watch_work(g->grading->watch, 1);
-    if (!status) status = place(g, patch, (uint32_t)low);
+    if (!status && fabs(g->vertex[low].at.y - height) <= reach)
+      status = place(g, patch, (uint32_t)low);
   }
   return status;
 }
