@@ -11,15 +11,6 @@
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
 
-static double *table(const hr2di_integrator *w, const hr2di_rule *rule) {
-  hr2di_basis basis;
-  hr2di_basis_init(&basis, w->order);
-  double *phi = hr2di_alloc(&w->alloc, rule->points * w->order, sizeof *phi);
-  for (size_t q = 0; phi && q < rule->points; q++)
-    hr2di_basis_at(&basis, rule->at[q], phi + q * w->order);
-  return phi;
-}
-
 hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hierarchy,
                                   const hr2d_allocator *alloc, size_t order,
                                   hr2di_watch *watch) {
@@ -29,11 +20,11 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
                           .order = order,
                           .watch = watch,
                           .seen.alloc = *alloc};
-  hr2di_rule_init(&w->far, order + 2);
-  w->phi_far = table(w, &w->far);
+  hr2di_basis_init(&w->basis, order);
   w->rule = hr2di_alloc(alloc, HR2DI_RULE_POINTS, sizeof *w->rule);
-  const hr2d_status status = hr2di_moments_init(&w->moments, order, alloc);
-  int room = w->phi_far && w->rule && !status;
+  hr2d_status status = hr2di_integrator_points(w, order + 2, 0);
+  if (!status) status = hr2di_moments_init(&w->moments, order, alloc);
+  int room = w->rule && !status;
   if (room && scene->effect[HR2D_EFFECT_OCCLUSION].on) {
     w->sights = hr2di_alloc_zero(alloc, 1, sizeof *w->sights);
     room = w->sights && !hr2di_patch_sights_init(w->sights, scene, alloc, watch);
@@ -41,15 +32,8 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
   return room ? HR2D_OK : HR2D_ENOMEM;
 }
 
-hr2d_status hr2di_integrator_points(hr2di_integrator *w, size_t points) {
-  hr2di_alloc_free(&w->alloc, w->phi_far);
-  hr2di_rule_init(&w->far, points);
-  w->phi_far = table(w, &w->far);
-  return w->phi_far ? HR2D_OK : HR2D_ENOMEM;
-}
-
 void hr2di_integrator_clear(hr2di_integrator *w) {
-  hr2di_alloc_free(&w->alloc, w->phi_far);
+  hr2di_alloc_free(&w->alloc, w->phi);
   hr2di_alloc_free(&w->alloc, w->rule);
   hr2di_moments_clear(&w->moments, &w->alloc);
   if (w->sights) hr2di_patch_sights_clear(w->sights);
@@ -160,13 +144,14 @@ static hr2d_status integrate(hr2di_integrator *w, hr2d_pair pair, hr2d_pair give
   status = look(w, given, area, &view);
   if (status || view == HR2DI_BLOCKED) return status;
   if (view == HR2DI_PARTIAL) return add_shaded(w, pair, block);
-  *distant = facing == HR2DI_FACING_FULL &&
-             hr2di_ellipse_least(s, t) >= HR2DI_ELLIPSE_DISTANT &&
-             hr2di_ellipse_least(t, s) >= HR2DI_ELLIPSE_DISTANT;
+  const int whole = facing == HR2DI_FACING_FULL;
+  const double m[] = {whole ? hr2di_ellipse_least(s, t) : 0,
+                      whole ? hr2di_ellipse_least(t, s) : 0};
+  *distant = m[0] >= HR2DI_ELLIPSE_DISTANT && m[1] >= HR2DI_ELLIPSE_DISTANT;
   if (*distant) {
     hr2di_pair_frame f;
     hr2di_pair_frame_init(&f, h, pair);
-    hr2di_block_distant(w, &f, block);
+    hr2di_block_distant(w, &f, m, block);
     return hr2di_watch_status(w->watch);
   }
   hr2di_line_frame f;

@@ -29,10 +29,12 @@ typedef struct hr2di_integrator {
   hr2d_allocator alloc;
   hr2di_watch *watch;
   size_t order;
-  hr2di_rule far;   /* of distant pairs */
-  double *phi_far;  /* φ_0 … at its points */
-  hr2di_rule *rule; /* of n points at n − 1, once it is made */
-  unsigned char made[HR2DI_RULE_POINTS];
+  hr2di_basis basis;
+  size_t points; /* of a rule for distant pairs, for each element, at most */
+  double *phi;   /* φ_0 … at the points of rules of up to so many, one behind the other */
+  double apart[HR2DI_RULE_POINTS]; /* the ellipse at which n points are enough, at n − 1 */
+  hr2di_rule *rule;                /* of n points at n − 1, once it is made */
+  unsigned char made[HR2DI_RULE_POINTS], tabled[HR2DI_RULE_POINTS];
   hr2di_moments moments;
   hr2di_patch_sights *sights; /* NULL if the scene needs no occlusion */
   hr2di_sight_list seen;      /* of the pair under way */
@@ -49,8 +51,11 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *work, const hr2d_hierarchy *
                                   hr2di_watch *watch);
 
 /* Takes so many points for each element of a distant pair, in the place of two more than the
-   order.  HR2D_OK or HR2D_ENOMEM. */
-hr2d_status hr2di_integrator_points(hr2di_integrator *work, size_t points);
+   order.  With `fewer` that is where a pair is as near as it may be; others take as many as
+   give the same error, which is no longer less the smaller the elements are.  HR2D_OK or
+   HR2D_ENOMEM.
+ */
+hr2d_status hr2di_integrator_points(hr2di_integrator *work, size_t points, int fewer);
 void hr2di_integrator_clear(hr2di_integrator *work);
 
 /* Integrates the block of a pair: order × order numbers, row l for the first element.  `area`
@@ -64,8 +69,13 @@ hr2d_status hr2di_block(hr2di_integrator *work, hr2d_pair pair, double area, dou
 void hr2di_pair_frame_init(hr2di_pair_frame *frame, const hr2d_hierarchy *hierarchy,
                            hr2d_pair pair);
 
-/* Sets the block of a distant pair, which is 0 so far. */
-void hr2di_block_distant(hr2di_integrator *work, const hr2di_pair_frame *f, double *block);
+/* Sets the block of a distant pair, which is 0 so far; `m` are the ellipses about i and j on
+   which the other one is. */
+void hr2di_block_distant(hr2di_integrator *work, const hr2di_pair_frame *f, const double m[2],
+                         double *block);
+
+/* The rule of n points. */
+const hr2di_rule *hr2di_integrator_rule(hr2di_integrator *work, size_t points);
 
 /* Adds the lines of one class to a block: those that have the vertices of the right chain on
    their right and those of the left chain on their left.  There are `rights` and then `lefts`

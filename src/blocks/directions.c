@@ -165,10 +165,7 @@ static const hr2di_rule *rule_of(hr2di_integrator *w, double points) {
   size_t n = (size_t)ceil(points);
   if (n > 12) n += n & 1;
   if (n > 24) n += n & 2;
-  hr2di_rule *rule = &w->rule[n - 1];
-  if (!w->made[n - 1]) hr2di_rule_init(rule, n);
-  w->made[n - 1] = 1;
-  return rule;
+  return hr2di_integrator_rule(w, n);
 }
 
 /* Places on an element: the centre of the lines is at base + middle/across, in [-1,1], and half

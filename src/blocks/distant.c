@@ -49,31 +49,52 @@ void hr2di_pair_frame_init(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pa
   f->area = hr2di_exchange_area_of_vectors(&z) * back;
 }
 
+/* The points for an element that sees the other one on the ellipse m. */
+static size_t points_for(const hr2di_integrator *w, double m) {
+  size_t n = w->points;
+  while (n > 1 && m >= w->apart[n - 2]) n--;
+  return n;
+}
+
+/* φ_0 … at the points of a rule. */
+static const double *table(hr2di_integrator *w, const hr2di_rule *rule) {
+  const size_t n = rule->points;
+  double *phi = w->phi + n * (n - 1) / 2 * w->order;
+  for (size_t q = 0; q < n && !w->tabled[n - 1]; q++)
+    hr2di_basis_at(&w->basis, rule->at[q], phi + q * w->order);
+  w->tabled[n - 1] = 1;
+  return phi;
+}
+
 /* One tensor rule is enough, because G is smooth on both elements.  The first coefficient,
    which is the exchange area, is known without it. */
-void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, double *block) {
-  const size_t p = w->order, n = w->far.points;
+void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, const double m[2],
+                         double *block) {
+  const size_t p = w->order;
+  const hr2di_rule *on_i = hr2di_integrator_rule(w, points_for(w, m[0]));
+  const hr2di_rule *on_j = hr2di_integrator_rule(w, points_for(w, m[1]));
+  const double *phi_i = table(w, on_i), *phi_j = table(w, on_j);
   const double scale = 0.5 * f->length_i * f->length_j;
   double moment[HR2D_MAX_ORDER];
-  w->kernels += n * n;
-  if (hr2di_watch_work(w->watch, 1 + n * n * (8 + p) / 64)) return;
-  for (size_t k = 0; k < n; k++) {
-    const double s = 0.5 + 0.5 * w->far.at[k];
+  w->kernels += on_i->points * on_j->points;
+  if (hr2di_watch_work(w->watch, 1 + on_i->points * on_j->points * (8 + p) / 64)) return;
+  for (size_t k = 0; k < on_i->points; k++) {
+    const double s = 0.5 + 0.5 * on_i->at[k];
     const double x = f->apart.x - s * f->along_i.x, y = f->apart.y - s * f->along_i.y;
-    const double outer = scale * w->far.weight[k] * hr2di_block_mix(f->above_j, s);
+    const double outer = scale * on_i->weight[k] * hr2di_block_mix(f->above_j, s);
     memset(moment, 0, p * sizeof *moment);
-    for (size_t q = 0; q < n; q++) {
-      const double t = 0.5 + 0.5 * w->far.at[q];
+    for (size_t q = 0; q < on_j->points; q++) {
+      const double t = 0.5 + 0.5 * on_j->at[q];
       const double rx = x + t * f->along_j.x, ry = y + t * f->along_j.y;
       const double square = rx * rx + ry * ry;
       const double g =
-          w->far.weight[q] * hr2di_block_mix(f->above_i, t) / (square * sqrt(square));
-      const double *phi = w->phi_far + q * p;
-      for (size_t m = 0; m < p; m++) moment[m] += g * phi[m];
+          on_j->weight[q] * hr2di_block_mix(f->above_i, t) / (square * sqrt(square));
+      const double *phi = phi_j + q * p;
+      for (size_t l = 0; l < p; l++) moment[l] += g * phi[l];
     }
-    const double *phi = w->phi_far + k * p;
+    const double *phi = phi_i + k * p;
     for (size_t l = 0; l < p; l++)
-      for (size_t m = 0; m < p; m++) block[l * p + m] += outer * phi[l] * moment[m];
+      for (size_t n = 0; n < p; n++) block[l * p + n] += outer * phi[l] * moment[n];
   }
   block[0] = f->area;
 }

@@ -141,7 +141,7 @@ static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made, unsigned th
     status = hr2di_integrator_init(&w->work, links->hierarchy, alloc, made->order,
                                    started == 0 ? watch : &w->own);
     if (!status && made->order == links->block_order)
-      status = hr2di_integrator_points(&w->work, made->order + MORE);
+      status = hr2di_integrator_points(&w->work, made->order + MORE, 1);
     started++;
   }
   if (!status) status = make_all(&m);

@@ -46,12 +46,13 @@ int block_stage_set(block_stage *s, const occluded_pair *p) {
   return 1;
 }
 
-int block_stage_make(const block_stage *s, size_t order, int swapped, double *block) {
+static int make(const block_stage *s, size_t order, int swapped, int fewer, double *block) {
   hr2di_integrator work;
   int distant;
   const hr2d_allocator *alloc = &s->hierarchy->alloc;
   const hr2d_pair swap = {s->pair.second, s->pair.first};
   ck_assert_int_eq(hr2di_integrator_init(&work, s->hierarchy, alloc, order, NULL), HR2D_OK);
+  if (fewer) ck_assert_int_eq(hr2di_integrator_points(&work, order + 2, 1), HR2D_OK);
   ck_assert_int_eq(hr2di_block(&work, swapped ? swap : s->pair, 0, block, &distant), HR2D_OK);
   for (size_t k = 0; k < order * order; k++) block[k] *= hr2d_scene_unit(s->scene);
   hr2di_integrator_clear(&work);
@@ -71,4 +72,12 @@ void block_stage_lines(const block_stage *s, size_t order, double *block) {
   hr2di_moments_end(&work.moments, block);
   for (size_t k = 0; k < order * order; k++) block[k] *= hr2d_scene_unit(s->scene);
   hr2di_integrator_clear(&work);
+}
+
+int block_stage_make(const block_stage *s, size_t order, int swapped, double *block) {
+  return make(s, order, swapped, 0, block);
+}
+
+int block_stage_make_fewer(const block_stage *s, size_t order, double *block) {
+  return make(s, order, 0, 1, block);
 }

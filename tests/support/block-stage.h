@@ -25,6 +25,9 @@ void block_stage_end(block_stage *s);
 /* The block of i and j in scene lengths, or of j and i; returns whether it is distant. */
 int block_stage_make(const block_stage *s, size_t order, int swapped, double *block);
 
+/* That of i and j with fewer points where they are farther apart than distant pairs must be. */
+int block_stage_make_fewer(const block_stage *s, size_t order, double *block);
+
 /* The same as an integral over lines, also for distant pairs; nothing may be in the way. */
 void block_stage_lines(const block_stage *s, size_t order, double *block);
 

@@ -291,14 +291,16 @@ static void complain(const tally *t, const occluded_pair *p, const char *what, d
   print_occluded(p);
 }
 
-/* One moment at all orders that have it. */
-static void compare_moment(tally *t, const occluded_pair *p, const block_stage *s, unsigned l,
-                           unsigned m, double area, double expected) {
+/* One moment at all orders that have it, by rules of `fewer` points for pairs that are farther
+   apart. */
+static void compare_rule(tally *t, const occluded_pair *p, const block_stage *s, unsigned l,
+                         unsigned m, double area, double expected, int fewer) {
   double block[SQUARE];
   char what[80];
   for (size_t k = 0; k < ORDERS; k++) {
     if (l >= orders[k] || m >= orders[k]) continue;
-    const int distant = block_stage_make(s, orders[k], 0, block);
+    const int distant = fewer ? block_stage_make_fewer(s, orders[k], block)
+                              : block_stage_make(s, orders[k], 0, block);
     const double value = block[l * orders[k] + m];
     const double error = fabs(value - expected) / scale_of(l, m);
     const double share = share_of(s, error, area, allowed(orders[k], distant, l, m));
@@ -308,6 +310,11 @@ static void compare_moment(tally *t, const occluded_pair *p, const block_stage *
     snprintf(what, sizeof what, "order %zu (%u,%u), distant %d", orders[k], l, m, distant);
     if (share > 1) complain(t, p, what, value, expected);
   }
+}
+
+static void compare_moment(tally *t, const occluded_pair *p, const block_stage *s, unsigned l,
+                           unsigned m, double area, double expected) {
+  for (int fewer = 0; fewer < 2; fewer++) compare_rule(t, p, s, l, m, area, expected, fewer);
 }
 
 static void compare(tally *t, const occluded_pair *p) {
