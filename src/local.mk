@@ -176,7 +176,6 @@ libhr2d_core_la_SOURCES = \
 	src/clusters/transport.c \
 	src/clusters/tree.c src/clusters/tree.h \
 	src/links/components.c src/links/components.h \
-	src/links/former-blocks.c src/links/former-blocks.h \
 	src/links/link-blocks.c src/links/link-blocks.h \
 	src/links/linkset.c \
 	src/links/linkset-impl.h \
@@ -241,6 +240,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/rounding-bound.c src/accuracy/rounding-bound.h \
 	src/accuracy/shared-sums.c src/accuracy/shared-sums.h \
 	src/accuracy/sketch.c src/accuracy/sketch.h \
+	src/accuracy/divided-links.c src/accuracy/divided-links.h \
 	src/accuracy/error-estimate.c src/accuracy/error-estimate.h \
 	src/accuracy/error-shares.c src/accuracy/error-shares.h \
 	src/accuracy/graded-solve.c src/accuracy/graded-solve.h \

@@ -3,6 +3,7 @@
 #include "accuracy/graded-solve.h"
 
 #include "accuracy/admissibility.h"
+#include "accuracy/divided-links.h"
 #include "accuracy/halved-leaves.h"
 #include "accuracy/long-leaves.h"
 #include "base/alloc.h"
@@ -84,8 +85,24 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
   return status;
 }
 
-static hr2d_status link_elements(hr2di_graded *a, const hr2di_resolution *fineness,
-                                 const hr2d_target *target) {
+/* The pairs that a refinement begins with.  Without clusters they depend on the scene alone. */
+static hr2d_status find_roots(hr2d_linkset *links, const hr2di_graded *coarse,
+                              const hr2di_resolution *fineness, const hr2d_target *target) {
+  const hr2d_scene *scene = links->hierarchy->scene;
+  hr2di_watch watch;
+  if (scene->patches < MANY) return HR2D_OK;
+  hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "refine");
+  return coarse && !coarse->links->roots.clusters
+             ? hr2di_roots_copy(&links->roots, &coarse->links->roots, scene->patches,
+                                &links->alloc, &watch)
+             : hr2di_roots_init(&links->roots, scene, &links->alloc, fineness->cluster_accuracy,
+                                &watch);
+}
+
+/* Links of the elements of `coarse` that are as they were are taken over, unless that is NULL.
+ */
+static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
+                                 const hr2di_resolution *fineness, const hr2d_target *target) {
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
   hr2di_admissibility separation = {fineness->order, fineness->target, fineness->weight};
   options.epsilon = 0.5; /* the oracle says 0 or 1 */
@@ -100,14 +117,10 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_resolution *finene
       hr2d_linkset_create(a->hierarchy, hr2di_admissibility_oracle(), &separation,
                           hr2di_admissibility_fixed_leaves(), NULL, &a->links);
   if (status) return status;
-  if (a->hierarchy->scene->patches >= MANY) {
-    hr2di_watch watch;
-    hr2di_scene_watch(a->hierarchy->scene, &watch, target->progress, target->progress_ctx,
-                      "refine");
-    status = hr2di_roots_init(&a->links->roots, a->hierarchy->scene, &a->links->alloc,
-                              fineness->cluster_accuracy, &watch);
-  }
-  if (!status) status = hr2d_refine(a->links, &options);
+  status = find_roots(a->links, coarse, fineness, target);
+  if (!status)
+    status = coarse ? hr2di_divided_links(a->links, coarse->links, coarse->depth, &options)
+                    : hr2d_refine(a->links, &options);
   a->links->oracle_ctx = NULL; /* the oracle is not asked again */
   return status;
 }
@@ -126,11 +139,12 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
   hr2d_status status = hr2d_hierarchy_create(scene, &a->hierarchy);
   if (!status) a->hierarchy->order = fineness->order;
   if (!status) status = grade(a, fineness, target);
-  if (!status) status = link_elements(a, fineness, target);
+  if (!status) status = link_elements(a, NULL, fineness, target);
   a->refine_seconds = hr2di_clock_now() - start;
   return explain(a, hr2di_share_agree(target->share, status), message);
 }
 
+/* Pairs are linked by the order, too. */
 hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
                                 const hr2di_resolution *fineness, const hr2d_target *target,
                                 hr2di_message *message) {
@@ -143,8 +157,8 @@ hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
                                            target->max_elements, &watch, &a->hierarchy);
   if (!status) a->hierarchy->order = fineness->order;
   if (!status) status = divide_images(a, &watch);
-  if (!status) status = link_elements(a, fineness, target);
-  if (!status) a->links->former = coarse->links;
+  const int same = fineness->order == coarse->hierarchy->order;
+  if (!status) status = link_elements(a, same ? coarse : NULL, fineness, target);
   a->refine_seconds = hr2di_clock_now() - start;
   return explain(a, hr2di_share_agree(target->share, status), message);
 }
@@ -158,7 +172,6 @@ hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2di_resolution *fineness
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;
   const hr2d_status status = hr2d_solve(a->links, &options, &a->solution);
-  a->links->former = NULL;
   if (status) return explain(a, status, message);
   const hr2d_solve_work work = hr2d_solution_work(a->solution);
   a->kernels = work.kernels;

@@ -56,7 +56,8 @@ hr2d_status hr2di_graded_refine(hr2di_graded *answer, const hr2d_scene *scene,
                                 const hr2di_resolution *fineness, const hr2d_target *target,
                                 hr2di_message *message);
 
-/* The same, with the elements of `coarse` divided as its `depth` says. */
+/* The same, with the elements of `coarse` divided as its `depth` says; takes blocks of its
+   links away from it. */
 hr2d_status hr2di_graded_divide(hr2di_graded *answer, const hr2di_graded *coarse,
                                 const hr2di_resolution *fineness, const hr2d_target *target,
                                 hr2di_message *message);

@@ -63,7 +63,8 @@ int hr2di_alloc_reserve(const hr2d_allocator *alloc, void *array, size_t *capaci
   return 0;
 }
 
-void *hr2di_alloc_shrink(const hr2d_allocator *alloc, void *block, size_t count, size_t size) {
+void *hr2di_alloc_resize(const hr2d_allocator *alloc, void *block, size_t count, size_t size) {
+  if (!fits(count, size)) return NULL;
   return alloc->reallocate(alloc->ctx, block, count * size > 0 ? count * size : 1);
 }
 

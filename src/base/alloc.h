@@ -21,9 +21,9 @@ void *hr2di_alloc_zero(const hr2d_allocator *alloc, size_t count, size_t size);
 int hr2di_alloc_reserve(const hr2d_allocator *alloc, void *array, size_t *capacity,
                         size_t needed, size_t size);
 
-/* Gives back what is behind the first `count` elements of an array that has more.  Returns the
-   array, or NULL: then it is what it was. */
-void *hr2di_alloc_shrink(const hr2d_allocator *alloc, void *block, size_t count, size_t size);
+/* Gives an array another number of items.  Returns the array, or NULL: then it is what it was.
+ */
+void *hr2di_alloc_resize(const hr2d_allocator *alloc, void *block, size_t count, size_t size);
 
 void hr2di_alloc_free(const hr2d_allocator *alloc, void *block);
 

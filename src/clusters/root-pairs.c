@@ -130,6 +130,19 @@ hr2d_status hr2di_roots_init(hr2di_roots *roots, const hr2d_scene *scene,
   return status ? status : sort_pairs(roots, scene->patches, alloc, watch);
 }
 
+hr2d_status hr2di_roots_copy(hr2di_roots *roots, const hr2di_roots *from, size_t patches,
+                             const hr2d_allocator *alloc, hr2di_watch *watch) {
+  *roots = (hr2di_roots){.accuracy = from->accuracy};
+  if (!from->row) return HR2D_OK;
+  roots->pair = hr2di_alloc(alloc, from->count, sizeof *roots->pair);
+  roots->row = hr2di_alloc(alloc, patches + 1, sizeof *roots->row);
+  if (!roots->pair || !roots->row) return HR2D_ENOMEM;
+  roots->count = roots->capacity = from->count;
+  memcpy(roots->pair, from->pair, from->count * sizeof *roots->pair);
+  memcpy(roots->row, from->row, (patches + 1) * sizeof *roots->row);
+  return hr2di_watch_work(watch, from->count / 256);
+}
+
 void hr2di_roots_clear(hr2di_roots *roots, const hr2d_allocator *alloc) {
   hr2di_clusters_destroy(roots->clusters);
   hr2di_alloc_free(alloc, roots->pair);

@@ -19,6 +19,10 @@ typedef struct hr2di_roots {
  */
 hr2d_status hr2di_roots_init(hr2di_roots *roots, const hr2d_scene *scene,
                              const hr2d_allocator *alloc, double accuracy, hr2di_watch *watch);
+
+/* Copies the pairs of a scene of so many patches; there are no clusters.  Returns likewise. */
+hr2d_status hr2di_roots_copy(hr2di_roots *roots, const hr2di_roots *from, size_t patches,
+                             const hr2d_allocator *alloc, hr2di_watch *watch);
 void hr2di_roots_clear(hr2di_roots *roots, const hr2d_allocator *alloc);
 
 #endif

@@ -8,7 +8,6 @@
 #include "base/alloc.h"
 #include "base/team.h"
 #include "blocks/block.h"
-#include "links/former-blocks.h"
 #include "links/linkset-impl.h"
 #include "scene/scene-impl.h"
 
@@ -25,7 +24,7 @@ typedef struct worker {
 typedef struct maker {
   const hr2d_linkset *links;
   hr2di_link_blocks *blocks;
-  hr2di_former_blocks former;
+  uint64_t known; /* blocks, of the first links */
   worker *worker;
   size_t threads;
   hr2di_watch *watch; /* of the calling thread */
@@ -65,11 +64,6 @@ static hr2d_status make_one(const maker *m, hr2di_integrator *work, uint64_t k) 
   const hr2d_link *link = hr2di_store_at(&m->links->store, k);
   const size_t order = m->blocks->order, square = order * order;
   double *block = m->blocks->value + k * square;
-  const double *known = hr2di_former_block(&m->former, link->pair, &m->blocks->distant[k]);
-  if (known) {
-    memcpy(block, known, square * sizeof *block);
-    return hr2di_watch_work(work->watch, 1);
-  }
   int distant;
   const double weight = hr2di_linkset_weight(m->links, link->pair);
   const double area = link->exchange_area / weight;
@@ -92,7 +86,8 @@ static hr2d_status make_some(const maker *m, hr2di_integrator *work, uint64_t fr
 static void make_chunk(void *ctx, size_t number, size_t chunk) {
   maker *m = ctx;
   worker *w = &m->worker[number];
-  const uint64_t count = m->links->store.count, first = (uint64_t)chunk * CHUNK;
+  const uint64_t count = m->links->store.count;
+  const uint64_t first = m->known + (uint64_t)chunk * CHUNK;
   if (atomic_load(&m->failed)) return;
   w->status = make_some(m, &w->work, first, first + CHUNK < count ? first + CHUNK : count);
   atomic_fetch_add(&m->done, CHUNK);
@@ -101,12 +96,13 @@ static void make_chunk(void *ctx, size_t number, size_t chunk) {
 
 static void describe(void *of, hr2d_progress *told) {
   const maker *m = of;
-  const double part = (double)atomic_load(&m->done) / (double)m->links->store.count;
+  const double part =
+      (double)atomic_load(&m->done) / (double)(m->links->store.count - m->known);
   told->fraction = part < 1 ? part : 1;
 }
 
 static hr2d_status make_all(maker *m) {
-  const uint64_t chunks = (m->links->store.count + CHUNK - 1) / CHUNK;
+  const uint64_t chunks = (m->links->store.count - m->known + CHUNK - 1) / CHUNK;
   hr2d_status status = HR2D_OK;
   hr2di_watch_phase(m->watch, "coefficients");
   hr2di_watch_describe(m->watch, describe, m);
@@ -123,17 +119,18 @@ static size_t count_threads(unsigned asked, uint64_t links) {
   return threads < max ? threads : max;
 }
 
-static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made, unsigned threads,
-                       hr2di_watch *watch) {
+/* Makes the blocks behind the `known` ones. */
+static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made, uint64_t known,
+                       unsigned threads, hr2di_watch *watch) {
   const hr2d_allocator *alloc = &links->alloc;
   maker m = {.links = links,
              .blocks = made,
-             .threads = count_threads(threads, links->store.count),
+             .known = known,
+             .threads = count_threads(threads, links->store.count - known),
              .watch = watch};
   m.worker = hr2di_alloc_zero(alloc, m.threads, sizeof *m.worker);
   if (!m.worker) return HR2D_ENOMEM;
-  hr2d_status status =
-      hr2di_former_blocks_init(&m.former, links->former, made->order, alloc, watch);
+  hr2d_status status = HR2D_OK;
   size_t started = 0;
   while (started < m.threads && !status) {
     worker *w = &m.worker[started];
@@ -149,22 +146,36 @@ static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made, unsigned th
     made->kernels += m.worker[--started].work.kernels;
     hr2di_integrator_clear(&m.worker[started].work);
   }
-  hr2di_former_blocks_clear(&m.former, alloc);
   hr2di_alloc_free(alloc, m.worker);
   return status;
+}
+
+/* Gives the arrays room for so many links. */
+static hr2d_status resize(hr2di_link_blocks *b, uint64_t links, const hr2d_allocator *alloc) {
+  const size_t size = b->order * b->order * sizeof *b->value;
+  if (links > SIZE_MAX / size) return HR2D_ENOMEM;
+  double *value = hr2di_alloc_resize(alloc, b->value, (size_t)links, size);
+  if (value) b->value = value;
+  unsigned char *distant = hr2di_alloc_resize(alloc, b->distant, (size_t)links, 1);
+  if (distant) b->distant = distant;
+  b->links = links;
+  return value && distant ? HR2D_OK : HR2D_ENOMEM;
 }
 
 hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order, unsigned threads,
                                    hr2di_watch *watch) {
   const uint64_t count = links->store.count;
-  hr2di_link_blocks made = {.order = order, .links = count};
-  hr2di_link_blocks_clear(&links->blocks, &links->alloc);
+  hr2di_link_blocks *known = &links->blocks;
+  if (known->order != order || known->links >= count)
+    hr2di_link_blocks_clear(known, &links->alloc);
+  hr2di_link_blocks made = *known;
+  made.order = order;
+  made.kernels = 0;
+  *known = (hr2di_link_blocks){0};
   if (count == 0) return HR2D_OK;
-  if (count > SIZE_MAX / (order * order * sizeof *made.value)) return HR2D_ENOMEM;
-  made.value = hr2di_alloc(&links->alloc, (size_t)count, order * order * sizeof *made.value);
-  made.distant = hr2di_alloc(&links->alloc, (size_t)count, 1);
-  hr2d_status status = made.value && made.distant ? HR2D_OK : HR2D_ENOMEM;
-  if (!status) status = run(links, &made, threads, watch);
+  const uint64_t first = made.links;
+  hr2d_status status = resize(&made, count, &links->alloc);
+  if (!status) status = run(links, &made, first, threads, watch);
   if (status)
     hr2di_link_blocks_clear(&made, &links->alloc);
   else
@@ -180,7 +191,7 @@ hr2d_status hr2di_link_blocks_trim(hr2di_link_blocks *b, size_t order,
     for (size_t l = 0; l < order; l++, to += order)
       memmove(to, b->value + (k * b->order + l) * b->order, order * sizeof *to);
   b->order = order;
-  to = hr2di_alloc_shrink(alloc, b->value, (size_t)b->links, order * order * sizeof *to);
+  to = hr2di_alloc_resize(alloc, b->value, (size_t)b->links, order * order * sizeof *to);
   if (!to) return HR2D_ENOMEM;
   b->value = to;
   return HR2D_OK;

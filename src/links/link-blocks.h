@@ -10,15 +10,15 @@
 
 typedef struct hr2di_link_blocks {
   size_t order;
-  uint64_t links;         /* the number of links when the blocks were made; 0: no blocks */
+  uint64_t links;         /* so many links, the first ones, have blocks */
   double *value;          /* links × order × order */
   unsigned char *distant; /* per link: integrated by one rule, as accurate as the order needs */
   uint64_t kernels;       /* evaluations of G it took */
 } hr2di_link_blocks;
 
-/* Makes new blocks for all links of a set, on as many threads as options ask for; no bit
-   depends on their number.  Returns HR2D_OK, HR2D_ENOMEM, or the status of the watch.  On
-   failure the set has no blocks. */
+/* Makes blocks for all links of a set that have none of this order, on as many threads as
+   options ask for; no bit depends on their number.  Returns HR2D_OK, HR2D_ENOMEM, or the status
+   of the watch.  On failure the set has no blocks. */
 hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order, unsigned threads,
                                    hr2di_watch *watch);
 

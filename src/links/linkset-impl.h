@@ -24,10 +24,8 @@ struct hr2d_linkset {
   hr2di_store store;
   hr2di_link_blocks blocks; /* of links that were solved at an order above 1 */
   size_t block_order; /* blocks are made for this order, if that is above the hierarchy's */
-  const hr2d_linkset *former; /* on some of the elements, with blocks that need not be made
-                                 again; NULL: none */
-  hr2d_share *share;          /* of a solve that these are the links of; NULL: all of it */
-  hr2di_roots roots;          /* where a refinement begins; empty: at all pairs of patches */
+  hr2d_share *share;  /* of a solve that these are the links of; NULL: all of it */
+  hr2di_roots roots;  /* where a refinement begins; empty: at all pairs of patches */
   int directed;
   int solving;    /* a solve is under way, and may make blocks */
   double epsilon; /* of the last refinement; infinite before */

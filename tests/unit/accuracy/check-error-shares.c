@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "accuracy/admissibility.h"
+#include "accuracy/divided-links.h"
 #include "accuracy/halved-leaves.h"
 #include "accuracy/point-grid.h"
 #include "base/alloc.h"
@@ -51,49 +52,131 @@ START_TEST(leaves_are_halved_so_often) {
 }
 END_TEST
 
-/* Links of elements that are as they are, with blocks of order 4. */
-static hr2d_linkset *linked(hr2d_hierarchy *h, const hr2d_linkset *former) {
+/* Links of elements that are as they are, with blocks of order 4; with `coarse`, of its
+   elements divided as `depth` says. */
+static hr2d_linkset *linked(hr2d_hierarchy *h, hr2d_linkset *coarse, const unsigned char *depth,
+                            unsigned threads) {
   hr2d_linkset *links = NULL;
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
   hr2di_admissibility separation = {4, 1e-3, NULL};
   options.epsilon = 0.5;
+  options.max_level = UINT32_MAX;
+  options.threads = threads;
   ck_assert_int_eq(hr2d_linkset_create(h, hr2di_admissibility_oracle(), &separation,
                                        hr2di_admissibility_fixed_leaves(), NULL, &links),
                    HR2D_OK);
-  ck_assert_int_eq(hr2d_refine(links, &options), HR2D_OK);
-  links->former = former;
-  ck_assert_int_eq(hr2di_link_blocks_init(links, 4, 1, NULL), HR2D_OK);
+  ck_assert_int_eq(coarse ? hr2di_divided_links(links, coarse, depth, &options)
+                          : hr2d_refine(links, &options),
+                   HR2D_OK);
+  ck_assert_int_eq(hr2di_link_blocks_init(links, 4, threads, NULL), HR2D_OK);
+  links->oracle_ctx = NULL;
   return links;
 }
 
-static int same_blocks(const hr2di_link_blocks *a, const hr2di_link_blocks *b) {
-  return a->links == b->links && a->order == b->order &&
-         memcmp(a->value, b->value, a->links * a->order * a->order * sizeof *a->value) == 0 &&
-         memcmp(a->distant, b->distant, a->links) == 0;
+enum { SQUARE = 16 };
+
+/* A link with its block, to be sorted. */
+typedef struct whole_link {
+  hr2d_link link;
+  double block[SQUARE];
+  int distant;
+} whole_link;
+
+static int by_pair(const void *a, const void *b) {
+  const hr2d_pair p = ((const whole_link *)a)->link.pair;
+  const hr2d_pair q = ((const whole_link *)b)->link.pair;
+  if (p.first != q.first) return p.first < q.first ? -1 : 1;
+  return (p.second > q.second) - (p.second < q.second);
 }
 
-/* Blocks that are taken over are those that would be made, bit for bit. */
-START_TEST(blocks_are_taken_over) {
+static whole_link *sorted_links(const hr2d_linkset *links) {
+  const size_t count = (size_t)links->store.count;
+  whole_link *all = calloc(count, sizeof *all);
+  ck_assert_uint_eq(links->blocks.links, count);
+  for (size_t k = 0; k < count; k++) {
+    all[k].link = hr2di_store_link(&links->store, k);
+    memcpy(all[k].block, links->blocks.value + k * SQUARE, sizeof all[k].block);
+    all[k].distant = links->blocks.distant[k];
+  }
+  qsort(all, count, sizeof *all, by_pair);
+  return all;
+}
+
+static int same_links(const hr2d_linkset *a, const hr2d_linkset *b) {
+  if (a->store.count != b->store.count) return 0;
+  whole_link *x = sorted_links(a), *y = sorted_links(b);
+  const int same = memcmp(x, y, (size_t)a->store.count * sizeof *x) == 0;
+  free(x);
+  free(y);
+  return same;
+}
+
+static void check_counts(const hr2d_linkset *fresh, const hr2d_linkset *taken) {
+  const hr2d_refine_counts f = hr2d_linkset_counts(fresh), t = hr2d_linkset_counts(taken);
+  ck_assert_uint_eq(f.elements, t.elements);
+  ck_assert_uint_eq(f.links, t.links);
+  ck_assert_uint_eq(f.limited_links, t.limited_links);
+  ck_assert_uint_eq(f.partial_links, t.partial_links);
+  ck_assert_uint_gt(t.partial_links, 0);
+  ck_assert_uint_gt(t.links, t.limited_links);
+}
+
+/* Links and blocks that are taken over are those that would be made, bit for bit. */
+START_TEST(links_are_taken_over) {
+  const unsigned threads = _i == 0 ? 1 : 3;
   hr2d_scene *scene = squares(120);
   hr2d_hierarchy *h = trees(scene, 4), *divided = NULL;
   unsigned char *depth = calloc(hr2d_scene_patches(scene), 1);
   depth[1] = depth[9] = depth[50] = 1;
-  hr2d_linkset *former = linked(h, NULL);
+  hr2d_linkset *coarse = linked(h, NULL, NULL, threads), *wrong = linked(h, NULL, NULL, 1);
   ck_assert_int_eq(hr2di_halved_leaves(h, depth, 0, NULL, &divided), HR2D_OK);
-  hr2d_linkset *fresh = linked(divided, NULL), *taken = linked(divided, former);
-  ck_assert(same_blocks(&fresh->blocks, &taken->blocks));
+  wrong->blocks.value[SQUARE * 5] += 1;
+  hr2d_linkset *fresh = linked(divided, NULL, NULL, 1);
+  hr2d_linkset *taken = linked(divided, coarse, depth, threads);
+  hr2d_linkset *off = linked(divided, wrong, depth, 1);
+  ck_assert(same_links(fresh, taken));
+  ck_assert(!same_links(fresh, off));
+  check_counts(fresh, taken);
   ck_assert_uint_gt(taken->blocks.kernels, 0);
   ck_assert_uint_lt(4 * taken->blocks.kernels, fresh->blocks.kernels);
-  former->blocks.value[0] += 1;
-  hr2d_linkset *wrong = linked(divided, former);
-  ck_assert(!same_blocks(&fresh->blocks, &wrong->blocks));
-  free(depth);
+  ck_assert_uint_eq(coarse->blocks.links, 0);
+  hr2d_linkset_destroy(off);
   hr2d_linkset_destroy(wrong);
   hr2d_linkset_destroy(taken);
   hr2d_linkset_destroy(fresh);
-  hr2d_linkset_destroy(former);
+  hr2d_linkset_destroy(coarse);
   hr2d_hierarchy_destroy(divided);
   hr2d_hierarchy_destroy(h);
+  free(depth);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+/* Budgets hold for the links that are taken over and those that are made. */
+START_TEST(budgets_count_links_taken_over) {
+  hr2d_scene *scene = squares(60);
+  hr2d_hierarchy *h = trees(scene, 4), *divided = NULL;
+  unsigned char *depth = calloc(hr2d_scene_patches(scene), 1);
+  depth[2] = 2;
+  hr2d_linkset *coarse = linked(h, NULL, NULL, 1), *links = NULL;
+  ck_assert_int_eq(hr2di_halved_leaves(h, depth, 0, NULL, &divided), HR2D_OK);
+  hr2d_linkset *fresh = linked(divided, NULL, NULL, 1);
+  hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
+  hr2di_admissibility separation = {4, 1e-3, NULL};
+  options.epsilon = 0.5;
+  options.max_level = UINT32_MAX;
+  options.max_links = fresh->store.count - 1 + (uint64_t)_i;
+  ck_assert_int_eq(hr2d_linkset_create(divided, hr2di_admissibility_oracle(), &separation,
+                                       hr2di_admissibility_fixed_leaves(), NULL, &links),
+                   HR2D_OK);
+  ck_assert_int_eq(hr2di_divided_links(links, coarse, depth, &options),
+                   _i == 0 ? HR2D_EMAX_LINKS : HR2D_OK);
+  hr2d_linkset_destroy(links);
+  hr2d_linkset_destroy(fresh);
+  hr2d_linkset_destroy(coarse);
+  hr2d_hierarchy_destroy(divided);
+  hr2d_hierarchy_destroy(h);
+  free(depth);
   hr2d_scene_destroy(scene);
 }
 END_TEST
@@ -202,7 +285,7 @@ START_TEST(grids_may_be_flat) {
 END_TEST
 
 TEST_SUITE("error shares") {
-  ADD_TESTS("division", leaves_are_halved_so_often, blocks_are_taken_over,
-            few_elements_suffice);
+  ADD_TESTS("division", leaves_are_halved_so_often, few_elements_suffice);
+  REPEAT_TESTS(2, "links", links_are_taken_over, budgets_count_links_taken_over);
   ADD_TESTS("grid", strips_have_their_points, grids_may_be_flat);
 }

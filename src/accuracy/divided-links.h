@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Links of trees of which some leaves were divided. */
+#ifndef HR2D_SRC_ACCURACY_DIVIDED_LINKS_H
+#define HR2D_SRC_ACCURACY_DIVIDED_LINKS_H
+
+#include <hr2d/refine.h>
+
+#include "links/linkset-impl.h"
+
+/* Fills an empty set, on a copy of the elements of `coarse` with some leaves halved, as
+   hr2di_halved_leaves() makes it from the same `depth`; the oracle and the policy are those of
+   `coarse`.  Links between patches that have no such leaf are those of `coarse`, and come
+   first; their blocks are taken over, and `coarse` has none from then on.  All other pairs of
+   patches are refined.  Returns HR2D_OK or a status, with a message in `links`; on failure
+   `coarse` may have lost its blocks. */
+hr2d_status hr2di_divided_links(hr2d_linkset *links, hr2d_linkset *coarse,
+                                const unsigned char *depth, const hr2d_refine_options *options);
+
+#endif
