@@ -215,6 +215,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/closure-mean.c src/solve/closure-order-p.c \
 	src/solve/energy-balance.c src/solve/energy-balance.h \
 	src/solve/equation.c src/solve/equation.h \
+	src/solve/equation-enough.c \
 	src/solve/equation-part.c src/solve/equation-part.h src/solve/equation-power.c \
 	src/solve/equation-sign.c \
 	src/solve/existence.c src/solve/existence.h \

@@ -127,8 +127,30 @@ static double contrast(const hr2di_estimator *e, int irradiance) {
   return ratio;
 }
 
-double hr2di_estimator_tolerance(const hr2di_estimator *e, double part) {
-  return fmax(part * fmin(contrast(e, 0), contrast(e, 1)), 1e-14);
+/* Light that goes to and fro makes the error of a solve some times its residual. */
+#define TO_AND_FRO 0.25
+
+hr2d_status hr2di_estimator_solve_part(hr2di_estimator *e, double part,
+                                       hr2di_estimator_aim aim) {
+  const double dark = fmin(contrast(e, 0), contrast(e, 1));
+  e->eq.enough = e->part.enough =
+      (hr2di_enough){.part = TO_AND_FRO * part, .weight = e->weight, .summed = aim};
+  const hr2d_status status = hr2di_estimator_solve(e, fmax(part * dark, 1e-14));
+  e->eq.enough = e->part.enough = (hr2di_enough){0};
+  return status;
+}
+
+/* Of B and of H, whichever error is larger; ρ of the one of H is in B. */
+static void set_weights(hr2di_estimator *e) {
+  const hr2di_transport *t = &e->eq.transport;
+  for (size_t leaf = 0; leaf < t->leaves; leaf++)
+    for (size_t b = 0; b < t->bands; b++) {
+      const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
+      const double rho = hr2di_estimator_rho(e, leaf, b);
+      const double least = fmin(hr2di_estimator_least(e, 0, patch, b),
+                                rho * hr2di_estimator_least(e, 1, patch, b));
+      e->weight[leaf * t->bands + b] = least > 0 ? 1 / least : 0;
+    }
 }
 
 static void set_floors(hr2di_estimator *e) {
@@ -150,7 +172,7 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
   e->values = t->hierarchy->scene->patches * t->bands;
   e->space = hr2di_alloc_zero(alloc,
                               (4 + (size_t)cuts) * field + 4 * e->values +
-                                  2 * t->elements * t->bands + 2 * rows + 12 * t->bands,
+                                  2 * t->elements * t->bands + 3 * rows + 12 * t->bands,
                               sizeof *e->space);
   e->exponent_of = hr2di_alloc(alloc, t->bands, sizeof *e->exponent_of);
   if (!e->space || !e->exponent_of) return HR2D_ENOMEM;
@@ -174,6 +196,7 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
   }
   e->floor = next;
   e->safe = next + 2 * t->bands;
+  e->weight = next + 4 * t->bands;
   return HR2D_OK;
 }
 
@@ -198,6 +221,8 @@ hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
   hr2di_basis_init(&e->basis, e->eq.transport.order);
   hr2di_rule_init(&e->rule, e->eq.transport.order + 2);
   set_floors(e);
+  set_weights(e);
+  e->eq.enough = (hr2di_enough){0};
   return HR2D_OK;
 }
 

@@ -40,6 +40,7 @@ typedef struct hr2di_estimator {
   double *off[2];     /* leaves × bands: what roundings may do to H, as B has it and as told */
   double *floor;      /* 2 × bands, of B and of H: no average counts as less */
   double *safe;       /* likewise: the worst error of an average without signs */
+  double *weight;     /* leaves × bands: from B − B_h on a leaf to its relative error */
   double *largest[2]; /* per band: B and H at a point */
   double *point[2];   /* per band: errors at points, of B and of H */
   double *narrow[2];  /* per band: errors at points beside gaps that nothing resolves */
@@ -81,14 +82,19 @@ double hr2di_estimator_rho(const hr2di_estimator *e, size_t leaf, size_t band);
 /* Averages of a field over the patches. */
 void hr2di_estimator_averages(hr2di_estimator *e, const double *field, double *average);
 
+/* What a solve of the estimator is for: errors, of which the largest counts relative to what it
+   is an error of, or the importance of residuals for an average, whose sum counts. */
+typedef enum hr2di_estimator_aim { HR2DI_AIM_ERRORS, HR2DI_AIM_IMPORTANCE } hr2di_estimator_aim;
+
 /* Solves for the source of the equation; changes its y.  The part does it, unless e->whole is
    set: then the other coefficients of the radiosity are those of the source, and of the
    irradiance 0.  Returns HR2D_OK or the status of the solve. */
 hr2d_status hr2di_estimator_solve(hr2di_estimator *e, double tolerance);
 
-/* The tolerance for a solve that is to be right to `part` also where it is darkest: the norm of
-   a solve has the largest values, and dark patches have errors, too. */
-double hr2di_estimator_tolerance(const hr2di_estimator *e, double part);
+/* The same, right to `part` also where it is darkest: the norm of a solve has the largest
+   values, and dark patches have errors, too. */
+hr2d_status hr2di_estimator_solve_part(hr2di_estimator *e, double part,
+                                       hr2di_estimator_aim aim);
 
 /* An average of the solution: of B, or of H. */
 double hr2di_estimator_value(const hr2di_estimator *e, int irradiance, size_t patch,

@@ -171,7 +171,10 @@ hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2di_resolution *fineness
   options.threads = target->threads;
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;
+  a->links->relative = fineness->relative;
+  a->links->floor = fineness->floor;
   const hr2d_status status = hr2d_solve(a->links, &options, &a->solution);
+  a->links->relative = 0;
   if (status) return explain(a, status, message);
   const hr2d_solve_work work = hr2d_solution_work(a->solution);
   a->kernels = work.kernels;

@@ -17,6 +17,9 @@ typedef struct hr2di_resolution {
   double target;           /* relative error that corners are graded for */
   double cluster_accuracy; /* relative accuracy of links between clusters of patches */
   double tolerance;        /* of the solve; 0: the least */
+  double relative;         /* what the solve may leave everywhere, as a part of the light there;
+                              0: the tolerance alone counts */
+  double floor;            /* no light counts as less, relative to the brightest */
   hr2d_norm norm;
   unsigned corner_levels; /* levels at corners beyond what the target asks for */
   double distance;        /* the ellipse at which ends in front of elements may be */

@@ -134,7 +134,7 @@ static hr2d_status add_rest(hr2di_estimator *e) {
   set_rest(e);
   for (int round = 0; round < ROUNDS; round++) {
     memcpy(irradiance, eq->irradiance, eq->field * sizeof *irradiance);
-    const hr2d_status status = hr2di_estimator_solve(e, hr2di_estimator_tolerance(e, ROUND));
+    const hr2d_status status = hr2di_estimator_solve_part(e, ROUND, HR2DI_AIM_ERRORS);
     if (status || e->whole) return status;
     memcpy(eq->irradiance, irradiance, eq->field * sizeof *irradiance);
     const double all = worst_average(e, e->error), more = worst_average(e, eq->radiosity);

@@ -160,6 +160,7 @@ int hr2di_resolution_raise(hr2di_resolution *f, const hr2di_survey *survey, doub
   factor = fmin(factor, MOST_FACTOR);
   f->raises++;
   f->tolerance = fmax(f->tolerance / factor, HR2D_DEFAULT_TOLERANCE);
+  f->relative /= factor;
   f->distance = HR2DI_ELLIPSE_DISTANT;
   const double more = fmax(ceil(log(factor) / digits_per_order(survey, f->norm)), 1);
   f->cluster_accuracy = fmax(f->cluster_accuracy / factor, FINEST_CLUSTERS);

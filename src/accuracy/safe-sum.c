@@ -43,7 +43,7 @@ static hr2d_status sample(hr2di_estimator *e) {
   hr2di_estimator_averages(e, eq->source, own);
   hr2di_residual_reflect(eq, eq->source);
   hr2di_estimator_averages(e, eq->irradiance, first);
-  const hr2d_status status = hr2di_estimator_solve(e, hr2di_estimator_tolerance(e, SAMPLE));
+  const hr2d_status status = hr2di_estimator_solve_part(e, SAMPLE, HR2DI_AIM_ERRORS);
   if (status) return status;
   hr2di_transport_pull(t, eq->irradiance);
   for (size_t k = 0; k < e->values; k++) {
@@ -113,14 +113,14 @@ static hr2d_status complete(hr2di_estimator *e) {
   memcpy(first, eq->radiosity, eq->field * sizeof *first);
   hr2di_residual_reflect(eq, eq->radiosity);
   for (size_t k = 0; k < eq->field; k++) eq->source[k] += eq->radiosity[k] - first[k];
-  const hr2d_status status = hr2di_estimator_solve(e, hr2di_estimator_tolerance(e, ROW));
+  const hr2d_status status = hr2di_estimator_solve_part(e, ROW, HR2DI_AIM_IMPORTANCE);
   for (size_t k = 0; k < eq->field; k++) first[k] += eq->radiosity[k];
   hr2di_equation_gather(eq, first);
   return status;
 }
 
 hr2d_status hr2di_safe_row(hr2di_estimator *e) {
-  const hr2d_status status = hr2di_estimator_solve(e, hr2di_estimator_tolerance(e, ROW));
+  const hr2d_status status = hr2di_estimator_solve_part(e, ROW, HR2DI_AIM_IMPORTANCE);
   return status || e->whole ? status : complete(e);
 }
 

@@ -201,8 +201,11 @@ static hr2di_resolution first_resolution(const search *s, double error) {
   hr2di_resolution finer = s->fineness;
   guess.weight = s->weight;
   /* Under a background of their own temperature scenes are isothermal to all digits. */
-  if (!guess.lights && !s->given.no_error && !s->scene->effect[HR2D_EFFECT_BACKGROUND].on)
+  if (!guess.lights && !s->given.no_error && !s->scene->effect[HR2D_EFFECT_BACKGROUND].on) {
     guess.tolerance = hr2di_resolution_tolerance(s->scene, s->given.floor, error);
+    guess.relative = hr2di_resolution_tolerance(s->scene, 1, error);
+    guess.floor = s->given.floor;
+  }
   const int known = s->best.solution && isfinite(error_of(s));
   const int is_finer =
       known && !hr2di_resolution_raise(&finer, &s->best.survey, error_of(s) / (0.5 * error)) &&

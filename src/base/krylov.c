@@ -71,6 +71,12 @@ static void apply(const hr2di_krylov_system *system, const double *in, double *o
 /* r = b − (I − S) y */
 static void form_residual(const hr2di_krylov_system *system, const double *b, const double *y,
                           double *r) {
+  size_t zeros = 0;
+  while (zeros < system->size * system->bands && y[zeros] == 0) zeros++;
+  if (zeros == system->size * system->bands) {
+    memcpy(r, b, zeros * sizeof *r);
+    return;
+  }
   apply(system, y, r);
   for (size_t k = 0; k < system->size * system->bands; k++) r[k] = b[k] - r[k];
 }
@@ -101,6 +107,7 @@ static hr2d_status look(state *s, const double *r, double *active) {
     if (!(size <= DBL_MAX)) return HR2D_ENOT_CONVERGED;
     if (size > 0) s->residual = fmax(s->residual, size / norm[b]);
   }
+  if (!s->done && s->system->enough) s->done = s->system->enough(s->system->ctx, r);
   return s->system->report(s->system->ctx, s->residual);
 }
 

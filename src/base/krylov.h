@@ -19,6 +19,9 @@ typedef struct hr2di_krylov_system {
   void (*apply)(void *ctx, const double *in, double *out);
   /* Writes the norms, per band, with which the residuals of y are compared. */
   void (*scale)(void *ctx, const double *y, double *norm);
+  /* Whether the residual r of the y that scale() was called for is small enough for other
+     reasons than its norm; NULL: it never is. */
+  int (*enough)(void *ctx, const double *r);
   /* Called at the start and after each iteration with the largest relative residual; any status
      but HR2D_OK ends the iteration. */
   hr2d_status (*report)(void *ctx, double residual);
@@ -29,10 +32,10 @@ typedef struct hr2di_krylov_system {
   unsigned max_iterations;
 } hr2di_krylov_system;
 
-/* Improves y until ‖b − (I − S) y‖ ≤ tolerance·scale in every band.  *residual becomes the last
-   residual relative to the scale, the largest over the bands.  Returns HR2D_OK, HR2D_ENOMEM,
-   HR2D_ENOT_CONVERGED or the status of `report`.  HR2D_ENOT_CONVERGED is also returned if a
-   symmetric I − S turns out not to be positive definite. */
+/* Improves y until ‖b − (I − S) y‖ ≤ tolerance·scale in every band, or it is enough.  *residual
+   becomes the last residual relative to the scale, the largest over the bands.  Returns
+   HR2D_OK, HR2D_ENOMEM, HR2D_ENOT_CONVERGED or the status of `report`.  HR2D_ENOT_CONVERGED is
+   also returned if a symmetric I − S turns out not to be positive definite. */
 hr2d_status hr2di_krylov(const hr2di_krylov_system *system, const double *b, double *y,
                          double *residual);
 

@@ -23,9 +23,12 @@ struct hr2d_linkset {
   hr2di_message message;
   hr2di_store store;
   hr2di_link_blocks blocks; /* of links that were solved at an order above 1 */
-  size_t block_order; /* blocks are made for this order, if that is above the hierarchy's */
-  hr2d_share *share;  /* of a solve that these are the links of; NULL: all of it */
-  hr2di_roots roots;  /* where a refinement begins; empty: at all pairs of patches */
+  size_t block_order;     /* blocks are made for this order, if that is above the hierarchy's */
+  double relative, floor; /* a solve may leave residuals of this part of the light that a leaf
+                             reflects, which counts as at least `floor` of the largest; 0: its
+                             tolerance alone counts */
+  hr2d_share *share;      /* of a solve that these are the links of; NULL: all of it */
+  hr2di_roots roots;      /* where a refinement begins; empty: at all pairs of patches */
   int directed;
   int solving;    /* a solve is under way, and may make blocks */
   double epsilon; /* of the last refinement; infinite before */

@@ -108,11 +108,12 @@ hr2d_status hr2di_equation_settle_power(hr2di_equation *s) {
   double off = 0;
   for (int k = 0; k <= ATTEMPTS && !status; k++) {
     off = measure(s);
-    if (off <= fmax(ROUNDING, s->options.tolerance) || k == ATTEMPTS) break;
+    if (off <= fmax(ROUNDING, fmax(s->options.tolerance, s->enough.part)) || k == ATTEMPTS)
+      break;
     status = add_solution(s);
   }
   if (status == HR2D_ENOT_CONVERGED && off <= FAILED) status = HR2D_OK;
-  if (!status && !(off <= fmax(FAILED, s->options.tolerance)))
+  if (!status && !(off <= fmax(FAILED, fmax(s->options.tolerance, s->enough.part))))
     status = hr2di_message_fail(&s->links->message, HR2D_ENOT_CONVERGED,
                                 "the residual has %.1e of the power of all light: the lengths "
                                 "of the patches differ too much",

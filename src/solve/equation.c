@@ -144,6 +144,7 @@ static hr2d_status set_outside(hr2di_equation *s) {
 hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links, const hr2d_scene *scene,
                                 const hr2d_solve_options *options) {
   *s = (hr2di_equation){.links = links, .options = *options, .background = 1};
+  s->enough = (hr2di_enough){.part = links->relative, .floor = links->floor};
   if (!(s->options.tolerance > 0)) s->options.tolerance = HR2D_DEFAULT_TOLERANCE;
   if (!s->options.max_iterations) s->options.max_iterations = HR2D_DEFAULT_MAX_ITERATIONS;
   s->transport.alloc = links->alloc;
@@ -203,6 +204,11 @@ static void scale(void *ctx, const double *y, double *norm) {
   for (size_t b = 0; b < system.bands; b++) norm[b] = sqrt(norm[b]);
 }
 
+/* scale() has set the radiosity. */
+static int is_enough(void *ctx, const double *r) {
+  return hr2di_equation_is_enough(ctx, r);
+}
+
 static hr2d_status report(void *ctx, double residual) {
   hr2di_equation *s = ctx;
   s->looks++;
@@ -222,6 +228,7 @@ static hr2di_krylov_system make_system(hr2di_equation *s) {
                                .symmetric = !s->links->directed && !s->square,
                                .apply = apply,
                                .scale = scale,
+                               .enough = is_enough,
                                .report = report,
                                .ctx = s,
                                .watch = s->transport.watch,

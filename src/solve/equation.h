@@ -10,6 +10,16 @@
 #include "solve/energy-balance.h"
 #include "solve/transport.h"
 
+/* When a solve may end before its residual has the tolerance: see equation-enough.c. */
+typedef struct hr2di_enough {
+  double part;          /* that the residual may have; 0: the tolerance alone counts */
+  double floor;         /* without weights: no leaf counts as less bright, relative to the
+                           brightest */
+  const double *weight; /* leaves × bands: of values that are solved for; NULL: each leaf is
+                           compared with what it reflects */
+  int summed;           /* sums over all leaves are compared, not the largest values */
+} hr2di_enough;
+
 typedef struct hr2di_equation {
   hr2d_linkset *links;
   hr2d_solve_options options;
@@ -31,6 +41,7 @@ typedef struct hr2di_equation {
   double *irradiance; /* of `radiosity` */
   double *y, *b, *work;
   double *norm[2]; /* per band */
+  hr2di_enough enough;
   uint64_t row_sums, kernels;
   double coefficients_seconds;
   uint64_t looks; /* residuals seen: one before the first iteration, one after each */
@@ -57,6 +68,10 @@ void hr2di_equation_gather(hr2di_equation *eq, const double *radiosity);
 /* Solves for radiosity and irradiance, starting from y.  Returns HR2D_OK, HR2D_ENOMEM,
    HR2D_ENOT_CONVERGED or the status of the progress callback; the last two leave a message. */
 hr2d_status hr2di_equation_solve(hr2di_equation *eq);
+
+/* Whether a residual r of y is small enough for eq->enough, with the B of y in eq->radiosity.
+ */
+int hr2di_equation_is_enough(const hr2di_equation *eq, const double *r);
 
 /* Sets B = Q + √ρ y and its irradiance; this is the whole solve where nothing reflects.
    Returns HR2D_OK, HR2D_ENOMEM or the status of the progress callback. */
