@@ -202,6 +202,37 @@ static int divides(const hr2di_grader *g, uint32_t patch) {
          (g->all || hr2di_grading_reflectance(scene, patch) > 0);
 }
 
+static void clear(hr2di_grader *g) {
+  const hr2d_allocator *alloc = &g->h->alloc;
+  hr2di_alloc_free(alloc, g->vertex);
+  hr2di_alloc_free(alloc, g->under);
+  hr2di_alloc_free(alloc, g->near.point);
+  hr2di_alloc_free(alloc, g->mark);
+}
+
+/* Among many patches with walls between them some ends are as near to elements as they may be,
+   and only corners tell scenes apart. */
+static hr2d_status survey_corners(hr2di_grader *g, uint32_t patch) {
+  aim(g, patch);
+  g->near.count = g->marks = 0;
+  const hr2d_status status = hr2di_grading_look_around(g, patch);
+  return status ? status : hr2di_grading_set_marks(g, patch);
+}
+
+hr2d_status hr2di_grading_survey(const hr2d_scene *scene, const hr2di_grading *grading,
+                                 hr2di_survey *survey) {
+  hr2di_grader g = {.grading = grading, .survey = {1, HR2DI_ELLIPSE_DISTANT}, .target = 1};
+  hr2d_status status = hr2d_hierarchy_create(scene, &g.h);
+  if (!status) status = hr2di_grading_list_vertices(&g);
+  for (int round = 0; round < 2; round++) /* the first one finds what stands on patches */
+    for (uint32_t k = 0; k < scene->patches && !status; k++)
+      if (divides(&g, k) || round == 0) status = survey_corners(&g, k);
+  if (g.h) clear(&g);
+  hr2d_hierarchy_destroy(g.h);
+  *survey = g.survey;
+  return status;
+}
+
 hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
                                 hr2di_survey *survey) {
   const hr2d_scene *scene = hierarchy->scene;
@@ -234,10 +265,7 @@ hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *
     }
   }
   hr2di_seen_ends_clear(&seen);
-  hr2di_alloc_free(&hierarchy->alloc, g.vertex);
-  hr2di_alloc_free(&hierarchy->alloc, g.under);
-  hr2di_alloc_free(&hierarchy->alloc, g.near.point);
-  hr2di_alloc_free(&hierarchy->alloc, g.mark);
+  clear(&g);
   *survey = g.survey;
   return status;
 }

@@ -42,6 +42,12 @@ typedef struct hr2di_survey {
 hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
                                 hr2di_survey *survey);
 
+/* Sets what grading would find of the corners of a scene, and the ellipse to the least that it
+   leaves: elements are not divided, and nobody looks what is in front of them.  HR2D_OK,
+   HR2D_ENOMEM or the status of the watch. */
+hr2d_status hr2di_grading_survey(const hr2d_scene *scene, const hr2di_grading *grading,
+                                 hr2di_survey *survey);
+
 /* The part of a patch that is too short to be divided, because of roundings of coordinates. */
 double hr2di_grading_shortest(const hr2di_patch *patch);
 

@@ -21,10 +21,17 @@ static double digits_per_order(const hr2di_survey *survey, hr2d_norm norm) {
   return norm == HR2D_NORM_SUP ? 1.4 * rate : fmin(2 * rate, 2.8);
 }
 
+/* What backs hide of a background is seen at points of rules, which kinks inside elements
+   disturb: elements end at all events there.  More than LIT patches have too many events to
+   look at one by one for a few digits, and more than MANY_LIT for any. */
+enum { LIT = 512, MANY_LIT = 1000 };
+
 hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, unsigned threads,
                                     hr2di_watch *watch, hr2di_survey *survey) {
   const hr2di_grading grading = {.target = 0.1, .order = 2, .watch = watch, .threads = threads};
   hr2d_hierarchy *h = NULL;
+  if (scene->patches > LIT && scene->effect[HR2D_EFFECT_OCCLUSION].on)
+    return hr2di_grading_survey(scene, &grading, survey);
   hr2d_status status = hr2d_hierarchy_create(scene, &h);
   if (!status) status = hr2di_grading_apply(h, &grading, survey);
   hr2d_hierarchy_destroy(h);
@@ -52,11 +59,6 @@ static int is_hidden(const hr2d_scene *scene) {
          scene->effect[HR2D_EFFECT_FACING].called_for ||
          scene->effect[HR2D_EFFECT_BACKGROUND].called_for;
 }
-
-/* What backs hide of a background is seen at points of rules, which kinks inside elements
-   disturb: elements end at all events there.  More than LIT patches have too many events to
-   look at one by one for a few digits, and more than MANY_LIT for any. */
-enum { LIT = 512, MANY_LIT = 1000 };
 
 int hr2di_resolution_wants_lights(const hr2d_scene *scene, const hr2d_target *target) {
   const size_t most = target->error < CROWDED_AIM ? MANY_LIT : LIT;
