@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Among thousands of patches a few leaves are divided, and a hundredth of the links change. */
+/* Pairs of patches of which one has been divided are refined again.  Other links stay, and so
+   do those that come out again as they were. */
 #include "accuracy/divided-links.h"
 
 #include <math.h>
@@ -15,9 +16,12 @@ enum { SOME = HR2DI_READ_LINKS };
 typedef struct division {
   hr2d_linkset *links, *coarse;
   unsigned char *divided; /* per patch */
+  uint32_t *place; /* 1 + the number of a link of `links`, by the hash of its pair; 0: none */
+  uint64_t mask;
+  unsigned char *again; /* per link of `links`: it is one of `coarse` */
   hr2di_store kept;
   hr2di_watch watch;
-  uint64_t limited, partial; /* of the links of `coarse` that are not kept */
+  uint64_t limited, partial; /* of the links of `coarse` on divided patches */
 } division;
 
 static int changes(const division *d, hr2d_pair pair) {
@@ -36,9 +40,9 @@ static hr2d_status claim(void *ctx, const hr2d_batch *batch, unsigned char *clai
   return HR2D_OK;
 }
 
-/* Counts a link that is not kept.  Links of clear pairs have the exchange area of their
+/* Counts a link of a divided patch.  Links of clear pairs have the exchange area of their
    elements, bit for bit. */
-static hr2d_status leave(division *d, const hr2d_link *link) {
+static hr2d_status count(division *d, const hr2d_link *link) {
   hr2d_linkset *coarse = d->coarse;
   const hr2d_element *element = coarse->hierarchy->element;
   const hr2d_element *i = &element[link->pair.first], *j = &element[link->pair.second];
@@ -81,13 +85,58 @@ static hr2d_status keep(division *d, const hr2d_link *link, uint64_t first, size
   return hr2di_store_add(&d->kept, &d->links->alloc, pair, area, count);
 }
 
-static hr2d_status sort_some(division *d, const hr2d_link *link, uint64_t first, size_t count) {
-  hr2d_status status = hr2di_watch_work(&d->watch, SOME / 8);
-  for (size_t k = 0, last; k < count && !status; k = last) {
+/* The finalizer of MurmurHash3. */
+static uint64_t hash_of(hr2d_pair pair) {
+  uint64_t x = (uint64_t)pair.first << 32 | pair.second;
+  x = (x ^ (x >> 33)) * 0xff51afd7ed558ccdU;
+  x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53U;
+  return x ^ (x >> 33);
+}
+
+/* A table with open addressing; a slot is as near behind its hash as others leave room.  Of
+   more links than its numbers can tell it has none. */
+static hr2d_status make_table(division *d) {
+  const hr2d_linkset *links = d->links;
+  const uint64_t all = links->store.count, count = all < UINT32_MAX ? all : 0;
+  uint64_t slots = 2;
+  while (slots < 2 * count) slots *= 2;
+  d->mask = slots - 1;
+  d->place = hr2di_alloc_zero(&links->alloc, (size_t)slots, sizeof *d->place);
+  d->again = hr2di_alloc_zero(&links->alloc, (size_t)all, 1);
+  hr2d_status status = d->place && d->again ? HR2D_OK : HR2D_ENOMEM;
+  for (uint64_t k = 0; k < count && !status; k++) {
+    if (k % SOME == 0) status = hr2di_watch_work(&d->watch, SOME / 4);
+    uint64_t slot = hash_of(hr2di_store_link(&links->store, k).pair) & d->mask;
+    while (d->place[slot]) slot = (slot + 1) & d->mask;
+    d->place[slot] = (uint32_t)k + 1;
+  }
+  return status;
+}
+
+/* Whether a link has come out again. */
+static int is_again(division *d, hr2d_pair pair) {
+  for (uint64_t slot = hash_of(pair) & d->mask; d->place[slot]; slot = (slot + 1) & d->mask) {
+    const uint32_t k = d->place[slot] - 1;
+    const hr2d_pair found = hr2di_store_link(&d->links->store, k).pair;
+    if (found.first != pair.first || found.second != pair.second) continue;
+    d->again[k] = 1;
+    return 1;
+  }
+  return 0;
+}
+
+static hr2d_status sort_some(division *d, const hr2d_link *link, uint64_t first,
+                             size_t number) {
+  hr2d_status status = hr2di_watch_work(&d->watch, SOME);
+  unsigned char stays[SOME];
+  for (size_t k = 0; k < number && !status; k++) {
     const int changed = changes(d, link[k].pair);
-    for (last = k + 1; last < count && changes(d, link[last].pair) == changed;) last++;
-    if (!changed) status = keep(d, link + k, first + k, last - k);
-    for (size_t m = k; m < last && changed && !status; m++) status = leave(d, &link[m]);
+    if (changed) status = count(d, &link[k]);
+    stays[k] = !changed || is_again(d, link[k].pair);
+  }
+  for (size_t k = 0, last; k < number && !status; k = last) {
+    for (last = k + 1; last < number && stays[last] == stays[k];) last++;
+    if (stays[k]) status = keep(d, link + k, first + k, last - k);
   }
   return status;
 }
@@ -120,30 +169,34 @@ static uint64_t left(uint64_t budget, uint64_t used) {
   return budget == 0 ? 0 : budget > used ? budget - used : 1;
 }
 
-/* Refines the other pairs, and puts their links behind those that are kept. */
-static hr2d_status refine_others(division *d, const hr2d_refine_options *given) {
-  hr2d_linkset *links = d->links;
-  const hr2di_link_blocks blocks = links->blocks;
+/* The links that surely stay. */
+static uint64_t count_others(const division *d) {
+  const hr2di_store *from = &d->coarse->store;
+  uint64_t others = 0;
+  for (uint64_t k = 0; k < from->count; k++)
+    others += !changes(d, hr2di_store_link(from, k).pair);
+  return others;
+}
+
+static hr2d_status refine_divided(division *d, const hr2d_refine_options *given) {
+  const uint64_t others = count_others(d);
   hr2d_refine_options options = *given;
   options.claim = claim;
   options.claim_ctx = d;
-  options.max_links = left(given->max_links, d->kept.count);
-  options.max_bytes = left(given->max_bytes, hr2di_store_bytes(&d->kept));
-  links->blocks = (hr2di_link_blocks){0};
-  hr2d_status status = hr2d_refine(links, &options);
-  links->blocks = blocks;
-  hr2d_link room[HR2DI_READ_LINKS];
-  for (uint64_t first = 0; first < links->store.count && !status;) {
-    size_t count = SOME;
-    const hr2d_link *link = hr2di_store_read(&links->store, first, &count, room);
-    hr2d_pair pair[SOME];
-    double area[SOME];
-    for (size_t k = 0; k < count; k++) {
-      pair[k] = link[k].pair;
-      area[k] = link[k].exchange_area;
-    }
-    status = hr2di_store_add(&d->kept, &links->alloc, pair, area, count);
-    first += count;
+  options.max_links = left(given->max_links, others);
+  options.max_bytes = left(given->max_bytes, others * sizeof(hr2d_link));
+  return hr2d_refine(d->links, &options);
+}
+
+/* Puts the links that are new behind those that stay. */
+static hr2d_status add_new(division *d) {
+  const hr2d_linkset *links = d->links;
+  hr2d_status status = HR2D_OK;
+  for (uint64_t k = 0; k < links->store.count && !status; k++) {
+    if (k % SOME == 0) status = hr2di_watch_work(&d->watch, SOME / 16);
+    const hr2d_link link = hr2di_store_link(&links->store, k);
+    if (!d->again[k] && !status)
+      status = hr2di_store_add(&d->kept, &links->alloc, &link.pair, &link.exchange_area, 1);
   }
   return status;
 }
@@ -168,13 +221,12 @@ static hr2d_status run(division *d, const unsigned char *depth,
   const hr2d_hierarchy *h = d->coarse->hierarchy;
   for (size_t k = 0; k < h->elements; k++)
     if (depth[k]) d->divided[h->element[k].patch] = 1;
-  hr2d_status status = sort_links(d);
-  if (status) {
-    hr2di_link_blocks_clear(&d->coarse->blocks, &d->coarse->alloc);
-    return status;
-  }
+  hr2d_status status = refine_divided(d, options);
+  if (!status) status = make_table(d);
+  if (status) return status;
+  status = sort_links(d);
   take_blocks(d);
-  return refine_others(d, options);
+  return status ? status : add_new(d);
 }
 
 hr2d_status hr2di_divided_links(hr2d_linkset *links, hr2d_linkset *coarse,
@@ -186,6 +238,8 @@ hr2d_status hr2di_divided_links(hr2d_linkset *links, hr2d_linkset *coarse,
   d.divided = hr2di_alloc_zero(&links->alloc, scene->patches, 1);
   const hr2d_status status = d.divided ? run(&d, depth, options) : HR2D_ENOMEM;
   hr2di_alloc_free(&links->alloc, d.divided);
+  hr2di_alloc_free(&links->alloc, d.place);
+  hr2di_alloc_free(&links->alloc, d.again);
   if (status) {
     hr2di_store_clear(&d.kept, &links->alloc);
     return status;

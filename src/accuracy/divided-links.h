@@ -9,10 +9,10 @@
 
 /* Fills an empty set, on a copy of the elements of `coarse` with some leaves halved, as
    hr2di_halved_leaves() makes it from the same `depth`; the oracle and the policy are those of
-   `coarse`.  Links between patches that have no such leaf are those of `coarse`, and come
-   first; their blocks are taken over, and `coarse` has none from then on.  All other pairs of
-   patches are refined.  Returns HR2D_OK or a status, with a message in `links`; on failure
-   `coarse` may have lost its blocks. */
+   `coarse`.  Links that `coarse` has come first, and their blocks are taken over: `coarse` has
+   none from then on.  Pairs of patches without such a leaf are not refined again.  Returns
+   HR2D_OK or a status, with a message in `links`; on failure `coarse` may have lost its blocks.
+ */
 hr2d_status hr2di_divided_links(hr2d_linkset *links, hr2d_linkset *coarse,
                                 const unsigned char *depth, const hr2d_refine_options *options);
 
