@@ -65,7 +65,9 @@ SUITES = \
 	tests/unit/solve/check-mirrors \
 	tests/unit/solve/check-periods \
 	tests/unit/solve/check-closure \
+	tests/unit/solve/check-equation-enough \
 	tests/unit/solve/check-equation-part \
+	tests/unit/solve/check-gather-links \
 	tests/unit/solve/check-row-sums \
 	tests/unit/solve/check-adopt \
 	tests/unit/solve/check-lengths \

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A solve that ends where nothing is off any more is right in the dark, too, with fewer gathers
+   than the norm asks for. */
+#include <math.h>
+
+#include "accuracy/graded-solve.h"
+#include "solve/equation.h"
+#include "support/slow-scenes.h"
+#include "support/support.h"
+
+enum { PATCHES = 400 };
+
+#define FLOOR 1e-12
+
+/* Squares in a room, dark in its depth. */
+static hr2d_scene *squares(hr2di_graded *graded) {
+  hr2d_scene *scene = NULL;
+  hr2di_message message;
+  const hr2di_resolution fineness = {.order = 2, .target = 0.1};
+  const hr2d_target target = HR2D_TARGET_INIT;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  ck_assert_int_eq(slow_add(scene, SLOW_SQUARES, PATCHES), HR2D_OK);
+  test_commit(scene);
+  ck_assert_int_eq(hr2di_graded_refine(graded, scene, &fineness, &target, &message), HR2D_OK);
+  return scene;
+}
+
+static hr2d_solution *solve(hr2d_linkset *links, double tolerance, double relative) {
+  hr2d_solution *solution = NULL;
+  hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+  options.tolerance = tolerance;
+  links->relative = relative;
+  links->floor = FLOOR;
+  ck_assert_int_eq(hr2d_solve(links, &options, &solution), HR2D_OK);
+  links->relative = 0;
+  return solution;
+}
+
+/* The largest relative error of an average of H. */
+static double most_off(const hr2d_solution *s, const hr2d_solution *exact, size_t patches) {
+  double most = 0;
+  for (size_t k = 0; k < patches; k++) {
+    const double h = hr2d_solution_irradiance(exact, k, 0);
+    most = fmax(most, fabs(hr2d_solution_irradiance(s, k, 0) - h) / h);
+  }
+  return most;
+}
+
+START_TEST(dark_patches_are_right) {
+  hr2di_graded graded;
+  hr2d_scene *scene = squares(&graded);
+  const size_t n = hr2d_scene_patches(scene);
+  hr2d_solution *exact = solve(graded.links, 1e-15, 0);
+  for (double part = 1e-2; part > 1e-9; part *= 0.01) {
+    hr2d_solution *norm = solve(graded.links, part, 0);
+    hr2d_solution *dark = solve(graded.links, 1e-15, part);
+    const double off = most_off(dark, exact, n);
+    printf("%.0e: off by %.1e after %llu gathers, by the norm %.1e\n", part, off,
+           (unsigned long long)hr2d_solution_work(dark).gathers, most_off(norm, exact, n));
+    ck_assert_double_le(off, 4 * part);
+    ck_assert_uint_lt(hr2d_solution_work(dark).gathers, hr2d_solution_work(exact).gathers);
+    ck_assert_double_gt(most_off(norm, exact, n), 4 * part); /* the norm is not enough */
+    hr2d_solution_destroy(norm);
+    hr2d_solution_destroy(dark);
+  }
+  hr2d_solution_destroy(exact);
+  hr2di_graded_clear(&graded);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+TEST_SUITE("end of a solve") {
+  ADD_TESTS("dark", dark_patches_are_right);
+}

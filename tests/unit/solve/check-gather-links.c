@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Gathers over links: against sums in long double, and the same bits however elements are
+   shared out. */
+#include <math.h>
+#include <string.h>
+
+#include "solve/gather-links.h"
+#include "support/support.h"
+
+enum { ELEMENTS = 23, LINKS = 200, STRIDE = 9, BANDS = 3, PARTS = 4 };
+
+enum { FIELD = ELEMENTS * STRIDE * BANDS };
+
+typedef struct stage {
+  hr2d_link link[LINKS];
+  double block[LINKS * STRIDE * STRIDE], up[FIELD], down[FIELD];
+} stage;
+
+/* Links of the same first element mostly follow each other. */
+static void draw(stage *s, randoms *r) {
+  uint32_t first = 0;
+  for (size_t k = 0; k < LINKS; k++) {
+    if (random_below(r, 4) == 0) first = (uint32_t)random_below(r, ELEMENTS);
+    const uint32_t apart = 1 + (uint32_t)random_below(r, ELEMENTS - 1);
+    s->link[k] = (hr2d_link){{first, (first + apart) % ELEMENTS}, 1};
+  }
+  for (size_t k = 0; k < LINKS * STRIDE * STRIDE; k++) s->block[k] = random_between(r, -1, 1);
+  for (size_t k = 0; k < FIELD; k++) {
+    s->up[k] = random_between(r, -1, 1);
+    s->down[k] = random_between(r, -1, 1);
+  }
+}
+
+static hr2di_link_run run_of(const stage *s, size_t stride, int directed) {
+  return (hr2di_link_run){.link = s->link,
+                          .block = s->block,
+                          .stride = stride,
+                          .count = LINKS,
+                          .all = !directed,
+                          .to = ELEMENTS,
+                          .directed = directed};
+}
+
+static void add_plainly(const stage *s, const hr2di_link_run *run, size_t order, size_t bands,
+                        long double *down) {
+  const size_t width = order * bands;
+  for (size_t k = 0; k < LINKS; k++)
+    for (size_t l = 0; l < order; l++)
+      for (size_t m = 0; m < order; m++)
+        for (size_t b = 0; b < bands; b++) {
+          const long double c = s->block[(k * run->stride + l) * run->stride + m];
+          const size_t i = s->link[k].pair.first * width + l * bands + b;
+          const size_t j = s->link[k].pair.second * width + m * bands + b;
+          down[i] += c * s->up[j];
+          if (!run->directed) down[j] += c * s->up[i];
+        }
+}
+
+static void check(const stage *s, size_t stride, size_t order, size_t bands, int directed) {
+  hr2di_link_run run = run_of(s, stride, directed);
+  const size_t field = ELEMENTS * order * bands;
+  double at_once[FIELD], in_parts[FIELD];
+  long double plain[FIELD];
+  for (size_t k = 0; k < FIELD; k++) plain[k] = at_once[k] = in_parts[k] = s->down[k];
+  hr2di_gather_links(&run, order, bands, s->up, at_once);
+  add_plainly(s, &run, order, bands, plain);
+  run.all = 0;
+  for (size_t part = 0; part < PARTS; part++) {
+    run.from = part * ELEMENTS / PARTS;
+    run.to = (part + 1) * ELEMENTS / PARTS;
+    hr2di_gather_links(&run, order, bands, s->up, in_parts);
+  }
+  ck_assert_int_eq(memcmp(at_once, in_parts, sizeof at_once), 0);
+  for (size_t k = 0; k < field; k++)
+    ck_assert_double_eq_tol(at_once[k], (double)plain[k], 1e-12);
+  for (size_t k = field; k < FIELD; k++) ck_assert(at_once[k] == s->down[k]);
+}
+
+START_TEST(sums_are_those_of_plain_loops) {
+  static stage s;
+  randoms r = {test_seed()};
+  for (size_t order = 2; order <= STRIDE; order++)
+    for (size_t bands = 1; bands <= BANDS; bands += 2)
+      for (int directed = 0; directed < 2; directed++) {
+        draw(&s, &r);
+        check(&s, order, order, bands, directed);
+        check(&s, STRIDE, order, bands, directed);
+      }
+}
+END_TEST
+
+TEST_SUITE("gathers over links") {
+  ADD_TESTS("links", sums_are_those_of_plain_loops);
+}
