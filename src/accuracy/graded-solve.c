@@ -159,6 +159,7 @@ hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
   if (!status) status = divide_images(a, &watch);
   const int same = fineness->order == coarse->hierarchy->order;
   if (!status) status = link_elements(a, same ? coarse : NULL, fineness, target);
+  if (!status && same) a->links->start = coarse->solution;
   a->refine_seconds = hr2di_clock_now() - start;
   return explain(a, hr2di_share_agree(target->share, status), message);
 }
@@ -175,6 +176,7 @@ hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2di_resolution *fineness
   a->links->floor = fineness->floor;
   const hr2d_status status = hr2d_solve(a->links, &options, &a->solution);
   a->links->relative = 0;
+  a->links->start = NULL;
   if (status) return explain(a, status, message);
   const hr2d_solve_work work = hr2d_solution_work(a->solution);
   a->kernels = work.kernels;

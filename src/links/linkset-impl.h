@@ -27,8 +27,10 @@ struct hr2d_linkset {
   double relative, floor; /* a solve may leave residuals of this part of the light that a leaf
                              reflects, which counts as at least `floor` of the largest; 0: its
                              tolerance alone counts */
-  hr2d_share *share;      /* of a solve that these are the links of; NULL: all of it */
-  hr2di_roots roots;      /* where a refinement begins; empty: at all pairs of patches */
+  const struct hr2d_solution *start; /* a solve begins with it if it is given no other start: of
+                                 elements of which these are a copy, some divided; NULL: none */
+  hr2d_share *share; /* of a solve that these are the links of; NULL: all of it */
+  hr2di_roots roots; /* where a refinement begins; empty: at all pairs of patches */
   int directed;
   int solving;    /* a solve is under way, and may make blocks */
   double epsilon; /* of the last refinement; infinite before */

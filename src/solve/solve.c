@@ -196,6 +196,7 @@ static hr2d_status solve(hr2d_linkset *links, const hr2d_solve_options *options,
                          const double *field, hr2d_solution **solution) {
   hr2di_equation eq;
   hr2d_status status = hr2di_equation_init(&eq, links, links->hierarchy->scene, options);
+  if (!eq.options.start) eq.options.start = links->start;
   if (!status) status = field ? adopt(&eq, field) : find(&eq);
   if (!status) status = make_solution(&eq, solution);
   tell_refusal(&eq, status);
