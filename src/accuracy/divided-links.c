@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/share.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 
@@ -47,7 +48,8 @@ static hr2d_status count(division *d, const hr2d_link *link) {
   const hr2d_element *element = coarse->hierarchy->element;
   const hr2d_element *i = &element[link->pair.first], *j = &element[link->pair.second];
   const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
-  const unsigned char partial = hr2d_exchange_area(&s, &t) != link->exchange_area;
+  const double weight = hr2di_linkset_weight(coarse, link->pair);
+  const unsigned char partial = hr2d_exchange_area(&s, &t) != link->exchange_area / weight;
   const hr2d_batch batch = {.struct_size = sizeof batch,
                             .hierarchy = coarse->hierarchy,
                             .elements = element,
@@ -216,11 +218,11 @@ static void add_counts(const division *d) {
   counts->dark_pairs = before->dark_pairs;
 }
 
-static hr2d_status run(division *d, const unsigned char *depth,
-                       const hr2d_refine_options *options) {
-  const hr2d_hierarchy *h = d->coarse->hierarchy;
-  for (size_t k = 0; k < h->elements; k++)
-    if (depth[k]) d->divided[h->element[k].patch] = 1;
+static hr2d_status run(division *d, const hr2d_refine_options *options) {
+  const hr2d_element *before = d->coarse->hierarchy->element;
+  const hr2d_element *element = d->links->hierarchy->element;
+  for (size_t k = 0; k < d->coarse->hierarchy->elements; k++)
+    if (!before[k].child && element[k].child) d->divided[element[k].patch] = 1;
   hr2d_status status = refine_divided(d, options);
   if (!status) status = make_table(d);
   if (status) return status;
@@ -230,13 +232,13 @@ static hr2d_status run(division *d, const unsigned char *depth,
 }
 
 hr2d_status hr2di_divided_links(hr2d_linkset *links, hr2d_linkset *coarse,
-                                const unsigned char *depth,
                                 const hr2d_refine_options *options) {
   const hr2d_scene *scene = coarse->hierarchy->scene;
   division d = {.links = links, .coarse = coarse};
   hr2di_scene_watch(scene, &d.watch, options->progress, options->progress_ctx, "refine");
   d.divided = hr2di_alloc_zero(&links->alloc, scene->patches, 1);
-  const hr2d_status status = d.divided ? run(&d, depth, options) : HR2D_ENOMEM;
+  hr2d_status status = hr2di_share_agree(options->share, d.divided ? HR2D_OK : HR2D_ENOMEM);
+  if (!status) status = run(&d, options);
   hr2di_alloc_free(&links->alloc, d.divided);
   hr2di_alloc_free(&links->alloc, d.place);
   hr2di_alloc_free(&links->alloc, d.again);

@@ -7,13 +7,13 @@
 
 #include "links/linkset-impl.h"
 
-/* Fills an empty set, on a copy of the elements of `coarse` with some leaves halved, as
-   hr2di_halved_leaves() makes it from the same `depth`; the oracle and the policy are those of
+/* Fills an empty set, on a copy of the elements of `coarse` with some leaves divided, images as
+   their patches; the oracle and the policy are those of
    `coarse`.  Links that `coarse` has come first, and their blocks are taken over: `coarse` has
    none from then on.  Pairs of patches without such a leaf are not refined again.  Returns
    HR2D_OK or a status, with a message in `links`; on failure `coarse` may have lost its blocks.
  */
 hr2d_status hr2di_divided_links(hr2d_linkset *links, hr2d_linkset *coarse,
-                                const unsigned char *depth, const hr2d_refine_options *options);
+                                const hr2d_refine_options *options);
 
 #endif

@@ -119,7 +119,7 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
   if (status) return status;
   status = find_roots(a->links, coarse, fineness, target);
   if (!status)
-    status = coarse ? hr2di_divided_links(a->links, coarse->links, coarse->depth, &options)
+    status = coarse ? hr2di_divided_links(a->links, coarse->links, &options)
                     : hr2d_refine(a->links, &options);
   a->links->oracle_ctx = NULL; /* the oracle is not asked again */
   return status;

@@ -53,9 +53,8 @@ START_TEST(leaves_are_halved_so_often) {
 END_TEST
 
 /* Links of elements that are as they are, with blocks of order 4; with `coarse`, of its
-   elements divided as `depth` says. */
-static hr2d_linkset *linked(hr2d_hierarchy *h, hr2d_linkset *coarse, const unsigned char *depth,
-                            unsigned threads) {
+   elements with some divided. */
+static hr2d_linkset *linked(hr2d_hierarchy *h, hr2d_linkset *coarse, unsigned threads) {
   hr2d_linkset *links = NULL;
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
   hr2di_admissibility separation = {4, 1e-3, NULL};
@@ -65,7 +64,7 @@ static hr2d_linkset *linked(hr2d_hierarchy *h, hr2d_linkset *coarse, const unsig
   ck_assert_int_eq(hr2d_linkset_create(h, hr2di_admissibility_oracle(), &separation,
                                        hr2di_admissibility_fixed_leaves(), NULL, &links),
                    HR2D_OK);
-  ck_assert_int_eq(coarse ? hr2di_divided_links(links, coarse, depth, &options)
+  ck_assert_int_eq(coarse ? hr2di_divided_links(links, coarse, &options)
                           : hr2d_refine(links, &options),
                    HR2D_OK);
   ck_assert_int_eq(hr2di_link_blocks_init(links, 4, threads, NULL), HR2D_OK);
@@ -128,12 +127,12 @@ START_TEST(links_are_taken_over) {
   hr2d_hierarchy *h = trees(scene, 4), *divided = NULL;
   unsigned char *depth = calloc(hr2d_scene_patches(scene), 1);
   depth[1] = depth[9] = depth[50] = 1;
-  hr2d_linkset *coarse = linked(h, NULL, NULL, threads), *wrong = linked(h, NULL, NULL, 1);
+  hr2d_linkset *coarse = linked(h, NULL, threads), *wrong = linked(h, NULL, 1);
   ck_assert_int_eq(hr2di_halved_leaves(h, depth, 0, NULL, &divided), HR2D_OK);
   wrong->blocks.value[SQUARE * 5] += 1;
-  hr2d_linkset *fresh = linked(divided, NULL, NULL, 1);
-  hr2d_linkset *taken = linked(divided, coarse, depth, threads);
-  hr2d_linkset *off = linked(divided, wrong, depth, 1);
+  hr2d_linkset *fresh = linked(divided, NULL, 1);
+  hr2d_linkset *taken = linked(divided, coarse, threads);
+  hr2d_linkset *off = linked(divided, wrong, 1);
   ck_assert(same_links(fresh, taken));
   ck_assert(!same_links(fresh, off));
   check_counts(fresh, taken);
@@ -158,9 +157,9 @@ START_TEST(budgets_count_links_taken_over) {
   hr2d_hierarchy *h = trees(scene, 4), *divided = NULL;
   unsigned char *depth = calloc(hr2d_scene_patches(scene), 1);
   depth[2] = 2;
-  hr2d_linkset *coarse = linked(h, NULL, NULL, 1), *links = NULL;
+  hr2d_linkset *coarse = linked(h, NULL, 1), *links = NULL;
   ck_assert_int_eq(hr2di_halved_leaves(h, depth, 0, NULL, &divided), HR2D_OK);
-  hr2d_linkset *fresh = linked(divided, NULL, NULL, 1);
+  hr2d_linkset *fresh = linked(divided, NULL, 1);
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
   hr2di_admissibility separation = {4, 1e-3, NULL};
   options.epsilon = 0.5;
@@ -169,7 +168,7 @@ START_TEST(budgets_count_links_taken_over) {
   ck_assert_int_eq(hr2d_linkset_create(divided, hr2di_admissibility_oracle(), &separation,
                                        hr2di_admissibility_fixed_leaves(), NULL, &links),
                    HR2D_OK);
-  ck_assert_int_eq(hr2di_divided_links(links, coarse, depth, &options),
+  ck_assert_int_eq(hr2di_divided_links(links, coarse, &options),
                    _i == 0 ? HR2D_EMAX_LINKS : HR2D_OK);
   hr2d_linkset_destroy(links);
   hr2d_linkset_destroy(fresh);
