@@ -97,8 +97,10 @@ typedef struct hr2d_target {
                                 through `seconds` */
   uint64_t max_elements;   /**< budget for N; 0 for none */
   uint64_t max_links;      /**< budget for L; 0 for none */
-  uint64_t max_bytes;      /**< budget for the elements, links and work space of a refinement,
-                                without blocks; 0 for none */
+  uint64_t max_bytes;      /**< budget for elements, links and their blocks, also of the best
+                                solve so far while the next one is made, and for the work
+                                space of a refinement; 0 for none. The fields of a solve, some
+                                hundred bytes a coefficient, come on top */
   hr2d_progress_fn progress; /**< optional */
   void *progress_ctx;        /**< given to `progress` */
   double floor;              /**< an average counts as no less than this part of the largest

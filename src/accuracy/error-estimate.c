@@ -12,6 +12,7 @@
 #include "accuracy/gap-residuals.h"
 #include "accuracy/importance.h"
 #include "accuracy/residual-series.h"
+#include "accuracy/resolution.h"
 #include "accuracy/rounding-bound.h"
 #include "accuracy/safe-sum.h"
 #include "accuracy/shadow-residuals.h"
@@ -31,8 +32,6 @@
    see of them, which was 0.107 at order 2 and falls with the order. */
 #define SIGNS     0.1
 #define SIGNS_LOW 0.4
-
-enum { MORE = 2 };
 
 /* The largest error of an average of B or H, relative to the average as corrected by it, or to
    the floor: factor·|error| + `more`, if that is not NULL, and then relative to the least that
@@ -116,7 +115,7 @@ static hr2d_status measure(hr2di_estimator *e, hr2di_error_pair *errors) {
 }
 
 static double margin_of(const hr2di_resolution *f) {
-  const double ratio = (double)f->order / (f->order + MORE);
+  const double ratio = (double)f->order / (f->order + HR2DI_FINER_ORDERS);
   if (!f->hidden) return MARGIN;
   return HIDDEN / (1 - ratio * ratio * ratio);
 }
@@ -191,13 +190,4 @@ hr2d_status hr2di_error_estimate(hr2di_graded *answer, const hr2di_resolution *f
   if (!status) return status;
   const char *own = hr2d_linkset_message(links);
   return hr2di_message_fail(message, status, "%s", own[0] ? own : hr2d_strerror(status));
-}
-
-/* The order has to tell, and clusters of another accuracy. */
-hr2di_resolution hr2di_resolution_finer(const hr2di_resolution *f) {
-  hr2di_resolution finer = *f;
-  const unsigned order = f->order + MORE;
-  finer.order = order < HR2D_MAX_ORDER ? order : HR2D_MAX_ORDER;
-  finer.cluster_accuracy = fmax(0.1 * f->cluster_accuracy, 1e-14);
-  return finer;
 }

@@ -26,7 +26,4 @@ hr2d_status hr2di_error_estimate(hr2di_graded *answer, const hr2di_resolution *f
                                  const hr2d_target *target, hr2di_error_pair *errors,
                                  hr2di_message *message);
 
-/* The resolution of the finer operator with which a graded solve is compared. */
-hr2di_resolution hr2di_resolution_finer(const hr2di_resolution *fineness);
-
 #endif

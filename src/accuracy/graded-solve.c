@@ -6,6 +6,7 @@
 #include "accuracy/divided-links.h"
 #include "accuracy/halved-leaves.h"
 #include "accuracy/long-leaves.h"
+#include "accuracy/resolution.h"
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "hierarchy/image-trees.h"
@@ -125,6 +126,20 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
   return status;
 }
 
+/* Blocks are those of the finer operator, if the error is to be measured. */
+static hr2d_status check_blocks(const hr2di_graded *a, const hr2di_resolution *fineness,
+                                const hr2d_target *target) {
+  const unsigned order =
+      target->no_error ? fineness->order : hr2di_resolution_finer(fineness).order;
+  const uint64_t links = hr2d_linkset_size(a->links);
+  const uint64_t block = (uint64_t)order * order * sizeof(double) + 1;
+  const uint64_t used = hr2di_graded_bytes(a), most = target->max_bytes;
+  if (!most || (used <= most && links <= (most - used) / block)) return HR2D_OK;
+  return hr2di_message_fail(&a->links->message, HR2D_EMAX_BYTES,
+                            "more than %llu bytes are needed, for blocks of %llu links",
+                            (unsigned long long)most, (unsigned long long)links);
+}
+
 static hr2d_status explain(const hr2di_graded *a, hr2d_status status, hr2di_message *message) {
   if (!status) return status;
   const char *own = a->links ? hr2d_linkset_message(a->links) : "";
@@ -140,6 +155,7 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
   if (!status) a->hierarchy->order = fineness->order;
   if (!status) status = grade(a, fineness, target);
   if (!status) status = link_elements(a, NULL, fineness, target);
+  if (!status) status = check_blocks(a, fineness, target);
   a->refine_seconds = hr2di_clock_now() - start;
   return explain(a, hr2di_share_agree(target->share, status), message);
 }
@@ -159,6 +175,7 @@ hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
   if (!status) status = divide_images(a, &watch);
   const int same = fineness->order == coarse->hierarchy->order;
   if (!status) status = link_elements(a, same ? coarse : NULL, fineness, target);
+  if (!status) status = check_blocks(a, fineness, target);
   if (!status && same) a->links->start = coarse->solution;
   a->refine_seconds = hr2di_clock_now() - start;
   return explain(a, hr2di_share_agree(target->share, status), message);

@@ -188,3 +188,12 @@ int hr2di_resolution_raise_clusters(hr2di_resolution *f, double part, double aim
   f->cluster_accuracy = fmax(f->cluster_accuracy * factor, FINEST_CLUSTERS);
   return 0;
 }
+
+/* The order has to tell, and clusters of another accuracy. */
+hr2di_resolution hr2di_resolution_finer(const hr2di_resolution *f) {
+  hr2di_resolution finer = *f;
+  const unsigned order = f->order + HR2DI_FINER_ORDERS;
+  finer.order = order < HR2D_MAX_ORDER ? order : HR2D_MAX_ORDER;
+  finer.cluster_accuracy = fmax(0.1 * f->cluster_accuracy, FINEST_CLUSTERS);
+  return finer;
+}

@@ -30,4 +30,9 @@ int hr2di_resolution_raise(hr2di_resolution *fineness, const hr2di_survey *surve
    `aim`.  Returns 0, or -1 if they cannot be. */
 int hr2di_resolution_raise_clusters(hr2di_resolution *fineness, double part, double aim);
 
+/* The resolution of the finer operator with which a graded solve is compared: it has so many
+   coefficients more. */
+enum { HR2DI_FINER_ORDERS = 2 };
+hr2di_resolution hr2di_resolution_finer(const hr2di_resolution *fineness);
+
 #endif

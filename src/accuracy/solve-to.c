@@ -147,14 +147,24 @@ static hr2d_status sketch(search *s) {
   return agree(s, s->late ? HR2D_STOPPED : status);
 }
 
+/* What the best solve so far holds is not there for another. */
+static hr2d_target rest_of_budget(const search *s) {
+  hr2d_target target = s->target;
+  const uint64_t held = s->best.hierarchy && s->best.links ? hr2di_graded_bytes(&s->best) : 0;
+  if (target.max_bytes)
+    target.max_bytes = held < target.max_bytes ? target.max_bytes - held : 1;
+  return target;
+}
+
 /* Solves once, estimates the error, and keeps the graded solve if it is the best so far.  With
    `dividing` the elements are those of the best, divided. */
 static hr2d_status attempt(search *s, const hr2di_resolution *fineness, int dividing) {
   hr2di_graded answer;
   hr2di_error_pair errors;
+  const hr2d_target target = rest_of_budget(s);
   hr2d_status status =
-      dividing ? hr2di_graded_divide(&answer, &s->best, fineness, &s->target, &s->message)
-               : hr2di_graded_refine(&answer, s->scene, fineness, &s->target, &s->message);
+      dividing ? hr2di_graded_divide(&answer, &s->best, fineness, &target, &s->message)
+               : hr2di_graded_refine(&answer, s->scene, fineness, &target, &s->message);
   if (!status && !s->given.no_error) hr2di_error_prepare(&answer, fineness);
   if (!status) status = hr2di_graded_solve(&answer, fineness, &s->target, &s->message);
   add_times(&s->account, &answer);

@@ -115,6 +115,38 @@ START_TEST(too_small_for_patches) {
 }
 END_TEST
 
+/* Blocks of a solve whose error is measured have two coefficients more. */
+static uint64_t bytes_of_blocks(const hr2d_account *a) {
+  const uint64_t order = a->order + 2;
+  return a->links * (order * order * sizeof(double) + 1);
+}
+
+/* With half of the bytes of one that is not limited there is a coarser answer, and at most as
+   many bytes are in blocks as there may be. */
+START_TEST(bytes_are_for_blocks) {
+  hr2d_scene *scene = test_scene(room, PATCHES);
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_solution *solution;
+  hr2d_account free, a;
+  target.error = 1e-10;
+  ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &free), HR2D_OK);
+  hr2d_solution_destroy(solution);
+  ck_assert_uint_gt(bytes_of_blocks(&free), 20000);
+  int coarser = 0;
+  for (uint64_t most = 2 * bytes_of_blocks(&free) + 1000000; most > 20000; most -= most / 8) {
+    target.max_bytes = most;
+    const hr2d_status status = hr2d_solve_to(scene, &target, &solution, &a);
+    ck_assert(status == HR2D_OK || status == HR2D_EACCURACY);
+    if (solution && a.average.estimate <= 1) ck_assert_uint_le(bytes_of_blocks(&a), most);
+    coarser += status == HR2D_EACCURACY && solution;
+    hr2d_solution_destroy(solution);
+  }
+  ck_assert_int_gt(coarser, 0);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 TEST_SUITE("budgets") {
-  ADD_TESTS("answers", some_factors, no_time, all_factors, too_small_for_patches);
+  ADD_TESTS("answers", some_factors, no_time, all_factors, too_small_for_patches,
+            bytes_are_for_blocks);
 }
