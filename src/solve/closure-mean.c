@@ -11,10 +11,12 @@
 
    Links of clusters exchange less accurately, and d̄ is what they lack on patches that see
    patches in every direction.  It is to be a part of H there just as well, and in no way one of
-   the light of a lamp. */
+   the light of a lamp.  There all H take one factor, so that what is absorbed stays as it was:
+   it is within d̄ of 1. */
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/neumaier-sum.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/patch-defect.h"
 #include "solve/closure.h"
@@ -48,6 +50,32 @@ int hr2di_closure_is_error(const hr2di_transport *t, size_t patch) {
   return fabs(t->mean[patch]) <= ROUNDING || lacks_clusters(t, patch);
 }
 
+/* By what all H of a band are too small where links of clusters lack a part: H = (H' +
+   d̄B)/(1+d̄) was in balance. */
+static double find_factor(const hr2di_transport *t, size_t band, const double *radiosity,
+                          const double *irradiance) {
+  hr2di_sum before = {0}, after = {0};
+  for (size_t k = 0; k < t->leaves; k++) {
+    const hr2d_element *e = &t->hierarchy->element[t->leaf[k]];
+    if (!lacks_clusters(t, e->patch)) continue;
+    const double d = t->mean[e->patch], h = irradiance[k * t->width + band];
+    const double part = e->length * (1 - hr2d_scene_reflectance(t->scene, e->patch, band));
+    hr2di_sum_add(&before, part * (h + d * radiosity[k * t->width + band]) / (1 + d));
+    hr2di_sum_add(&after, part * h);
+  }
+  const double factor = hr2di_sum_total(&before) / hr2di_sum_total(&after);
+  return factor > 0 && isfinite(factor) ? factor : 1;
+}
+
+static void balance(const hr2di_transport *t, const double *radiosity, double *irradiance) {
+  for (size_t b = 0; b < t->bands; b++) {
+    const double factor = find_factor(t, b, radiosity, irradiance);
+    for (size_t k = 0; k < t->leaves; k++)
+      if (lacks_clusters(t, t->hierarchy->element[t->leaf[k]].patch))
+        for (size_t m = b; m < t->width; m += t->bands) irradiance[k * t->width + m] *= factor;
+  }
+}
+
 void hr2di_closure_move_mean(const hr2di_transport *t, const double *radiosity,
                              double *irradiance) {
   for (size_t k = 0; k < t->leaves * t->width && t->mean; k++) {
@@ -55,4 +83,5 @@ void hr2di_closure_move_mean(const hr2di_transport *t, const double *radiosity,
     if (hr2di_closure_is_error(t, patch))
       irradiance[k] -= t->mean[patch] * (radiosity[k] - irradiance[k]);
   }
+  if (t->mean && t->links->roots.clusters) balance(t, radiosity, irradiance);
 }

@@ -28,8 +28,8 @@ static const command_entry commands[] = {
      "                                  with size and so many coefficients\n"
      "  auto, auto-solve                solve --target-error for 0.1 ... 1e-13, with\n"
      "                                  and without its account of the error\n"
-     "  factors                         view factors of equal pieces that see each other,\n"
-     "                                  and conjugate gradients\n",
+     "  factors                         view factors of equal pieces, and conjugate\n"
+     "                                  gradients\n",
      NULL},
 
     {"factors", FACTORS, ON_SCENE, "view factors between all patches",
