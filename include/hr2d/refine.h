@@ -112,8 +112,9 @@ typedef struct hr2d_refine_options {
                                     rows that do not stand side by side */
   hr2d_share *share; /**< NULL, or one of several shares, see share.h: hr2d_refine() makes the
                           links of its rows, and divides elements as all shares together do. The
-                          set keeps it, for its solves. hr2d_refine_count() and
-                          hr2d_refine_visit() count and visit the rows of the share */
+                          set keeps it, for its solves. With `rows` these are the rows of the
+                          share: together shares must have each row once. hr2d_refine_count()
+                        and hr2d_refine_visit() count and visit the rows of the share */
 } hr2d_refine_options;
 
 /**

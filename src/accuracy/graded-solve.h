@@ -48,6 +48,7 @@ typedef struct hr2di_graded {
                            reached; NULL: unknown */
   double clustered; /* the part of the error of averages that links of clusters make, if that
                        is too large; 0: unknown */
+  unsigned char *rows; /* per patch: whether its row is of this share; NULL: nobody has dealt */
   uint64_t events;
   uint64_t kernels;
   double refine_seconds, coefficients_seconds, solve_seconds;

@@ -331,6 +331,7 @@ static void hand_over(search *s, hr2d_solution **solution) {
   (*solution)->own_links = s->best.links;
   hr2di_alloc_free(&s->scene->alloc, s->best.bent);
   hr2di_alloc_free(&s->scene->alloc, s->best.depth);
+  hr2di_alloc_free(&s->scene->alloc, s->best.rows);
   s->best = (hr2di_graded){0};
 }
 

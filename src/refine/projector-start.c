@@ -108,8 +108,8 @@ void hr2di_projector_add_rows(const hr2di_projector *p, hr2d_row_counts *sum) {
 }
 
 static int has_row(const hr2di_projector *p, size_t patch) {
-  return (!p->options.rows || p->options.rows[patch]) &&
-         hr2di_share_has_row(p->options.share, patch, p->hierarchy->scene->patches);
+  if (p->options.rows) return p->options.rows[patch];
+  return hr2di_share_has_row(p->options.share, patch, p->hierarchy->scene->patches);
 }
 
 /* The pairs of the rows that are wanted. */
