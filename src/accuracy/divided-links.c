@@ -203,19 +203,23 @@ static hr2d_status add_new(division *d) {
   return status;
 }
 
-/* The links there are, and the work of both refinements. */
-static void add_counts(const division *d) {
+/* The links that all shares have, and the work of both refinements. */
+static hr2d_status add_counts(const division *d, hr2d_share *share) {
   hr2d_refine_counts *counts = &d->links->counts;
   const hr2d_refine_counts *before = &d->coarse->counts;
-  counts->links = d->links->store.count;
-  counts->limited_links += before->limited_links - d->limited;
-  counts->partial_links += before->partial_links - d->partial;
+  double own[] = {(double)d->kept.count, (double)d->limited, (double)d->partial};
+  const hr2d_status status = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_SUM, own, 3);
+  if (status) return status;
+  counts->links = (uint64_t)own[0];
+  counts->limited_links += before->limited_links - (uint64_t)own[1];
+  counts->partial_links += before->partial_links - (uint64_t)own[2];
   counts->oracle_calls += before->oracle_calls;
   counts->facing_tests += before->facing_tests;
   counts->visibility_tests += before->visibility_tests;
   counts->exchange_areas += before->exchange_areas;
   counts->blocked_pairs += before->blocked_pairs;
   counts->dark_pairs = before->dark_pairs;
+  return HR2D_OK;
 }
 
 static hr2d_status run(division *d, const hr2d_refine_options *options) {
@@ -239,6 +243,7 @@ hr2d_status hr2di_divided_links(hr2d_linkset *links, hr2d_linkset *coarse,
   d.divided = hr2di_alloc_zero(&links->alloc, scene->patches, 1);
   hr2d_status status = hr2di_share_agree(options->share, d.divided ? HR2D_OK : HR2D_ENOMEM);
   if (!status) status = run(&d, options);
+  if (!status) status = add_counts(&d, options->share);
   hr2di_alloc_free(&links->alloc, d.divided);
   hr2di_alloc_free(&links->alloc, d.place);
   hr2di_alloc_free(&links->alloc, d.again);
@@ -248,6 +253,5 @@ hr2d_status hr2di_divided_links(hr2d_linkset *links, hr2d_linkset *coarse,
   }
   hr2di_store_clear(&links->store, &links->alloc);
   links->store = d.kept;
-  add_counts(&d);
   return HR2D_OK;
 }
