@@ -9,6 +9,7 @@ EXTRA_DIST += \
 	doc/distributed.md \
 	doc/fuzzing.md \
 	doc/hard-cases.md \
+	doc/mirrors-and-periods.md \
 	doc/field.md \
 	doc/occlusion.md \
 	doc/scene-files.md \
