@@ -37,7 +37,8 @@ bench_bench_solves_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SOURCE='"$(abs_top_srcdir)"
 bench_bench_solves_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 EXTRA_DIST += bench/scenes
 bench_bench_prediction_SOURCES = bench/bench-prediction.c \
-	tests/adversary/kinds.c tests/adversary/kinds.h tests/adversary/kinds-extreme.c \
+	tests/adversary/kinds.c tests/adversary/kinds.h tests/adversary/kinds-day.c \
+	tests/adversary/kinds-extreme.c \
 	tests/adversary/kinds-open.c tests/adversary/kinds-rooms.c tests/adversary/random.h \
 	tests/adversary/scene.c tests/adversary/scene.h
 bench_bench_prediction_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
