@@ -10,32 +10,14 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "alone.h"
 #include "bars.h"
 #include "base/clock.h"
 #include "plans.h"
 #include "rows.h"
 #include "timing.h"
-
-/* Calls `run` in a process of its own, whose memory is as fresh as that of a user's program,
-   and brings back what it makes of *ctx. */
-static void run_alone(void (*run)(void *ctx), void *ctx, size_t size) {
-  int ends[2], status = 0;
-  fflush(stdout);
-  if (pipe(ends)) bars_fail("no pipe");
-  const pid_t child = fork();
-  if (child == 0) {
-    run(ctx);
-    _exit(write(ends[1], ctx, size) == (ssize_t)size ? EXIT_SUCCESS : EXIT_FAILURE);
-  }
-  close(ends[1]);
-  if (child < 0 || waitpid(child, &status, 0) != child || status ||
-      read(ends[0], ctx, size) != (ssize_t)size)
-    bars_fail("a process failed");
-  close(ends[0]);
-}
 
 /* Rows of a new process, held or visited. */
 typedef struct fresh {
@@ -72,7 +54,7 @@ static measured measure_fresh(const plan_family *f, int n, int visited) {
   fresh made = {.draw = f->draw, .n = n, .visited = visited};
   for (int k = 0; k < PROCESSES; k++) {
     made.m = (measured){0};
-    run_alone(make_fresh_rows, &made, sizeof made);
+    if (!alone_run(make_fresh_rows, &made, sizeof made)) bars_fail("a process failed");
     seconds[k] = made.m.seconds;
   }
   made.m.seconds = median_of(seconds, PROCESSES);
@@ -136,7 +118,7 @@ static void run_million(void *ctx) {
 
 static void measure_million(const plan_family *f) {
   million m = {.draw = f->draw};
-  run_alone(run_million, &m, sizeof m);
+  if (!alone_run(run_million, &m, sizeof m)) bars_fail("a process failed");
   printf("%s: %zu patches, %.2f s to commit, %.2f s for rows of %llu entries, %.2f s with two "
          "threads, %.2f GB, worst row %.1e\n",
          f->name, m.patches, m.committed, m.one, (unsigned long long)m.rows.entries, m.two,

@@ -2,7 +2,7 @@
 BENCHES = bench/bench-exchange-area bench/bench-refine bench/bench-l1 bench/bench-visibility \
 	bench/bench-growth bench/bench-shaded-links \
 	bench/bench-accuracy bench/bench-polls bench/bench-prediction \
-	bench/bench-solves bench/bench-threads bench/bench-triangulation bench/bench-field
+	bench/bench-fibres bench/bench-solves bench/bench-threads bench/bench-triangulation bench/bench-field
 EXTRA_PROGRAMS += $(BENCHES)
 CLEANFILES += $(BENCHES)
 bench_bench_exchange_area_SOURCES = bench/bench-exchange-area.c bench/timing.h
@@ -13,7 +13,8 @@ PLANS = bench/bars.c bench/bars.h bench/plans.c bench/plans.h bench/timing.h
 bench_bench_visibility_SOURCES = bench/bench-visibility.c bench/rows.c bench/rows.h $(PLANS)
 bench_bench_visibility_CFLAGS = $(AM_CFLAGS) -fmath-errno -ftrapping-math
 bench_bench_visibility_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
-bench_bench_growth_SOURCES = bench/bench-growth.c bench/rows.c bench/rows.h $(PLANS)
+bench_bench_growth_SOURCES = bench/bench-growth.c bench/alone.c bench/alone.h \
+	bench/rows.c bench/rows.h $(PLANS)
 bench_bench_growth_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_shaded_links_SOURCES = bench/bench-shaded-links.c $(PLANS)
 bench_bench_shaded_links_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
@@ -36,6 +37,10 @@ bench_bench_solves_SOURCES = bench/bench-solves.c bench/many.c bench/many.h benc
 bench_bench_solves_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SOURCE='"$(abs_top_srcdir)"'
 bench_bench_solves_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 EXTRA_DIST += bench/scenes
+bench_bench_fibres_SOURCES = bench/bench-fibres.c bench/alone.c bench/alone.h bench/many.c \
+	bench/many.h bench/timing.h tests/support/random.c tests/support/random.h
+bench_bench_fibres_CPPFLAGS = $(AM_CPPFLAGS)
+bench_bench_fibres_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_prediction_SOURCES = bench/bench-prediction.c \
 	tests/adversary/kinds.c tests/adversary/kinds.h tests/adversary/kinds-day.c \
 	tests/adversary/kinds-extreme.c \

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Measures time and memory of a solve to 1e-2 among fibres of 16 sides in a closed box.
+
+   Usage: bench-fibres [--error] [PATCHES...]; 8004 and 64004 patches unless given.  Each size
+   has a process of its own.  Seconds are of the processor, so that other work on the machine
+   matters little; parts of them follow the clock.  With --error the error is measured, too. */
+#include <hr2d/hr2d.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#include "alone.h"
+#include "many.h"
+#include "timing.h"
+
+typedef struct fibres {
+  size_t count; /* of fibres; then the number of patches */
+  int no_error;
+  hr2d_status status;
+  hr2d_account account;
+  double commit, solve; /* seconds */
+  double peak;          /* bytes that the process had at most */
+} fibres;
+
+static void solve(void *ctx) {
+  fibres *f = ctx;
+  struct rusage use;
+  hr2d_solution *solution = NULL;
+  hr2d_target target = HR2D_TARGET_INIT;
+  target.error = 1e-2;
+  target.no_error = f->no_error;
+  double start = cpu_seconds();
+  hr2d_scene *scene = many_fibres(f->count);
+  if (!scene) exit(EXIT_FAILURE);
+  f->commit = cpu_seconds() - start;
+  f->count = hr2d_scene_patches(scene);
+  start = cpu_seconds();
+  f->status = hr2d_solve_to(scene, &target, &solution, &f->account);
+  f->solve = cpu_seconds() - start;
+  getrusage(RUSAGE_SELF, &use);
+  f->peak = 1024. * (double)use.ru_maxrss;
+  hr2d_solution_destroy(solution);
+  hr2d_scene_destroy(scene);
+}
+
+static void print_row(const fibres *f) {
+  const hr2d_account *a = &f->account;
+  const double part = 100 / a->seconds;
+  printf("%9zu%9.1f%9.1f%8.0f%%%8.0f%%%8.0f%%%8.0f%%%9.2f%7u%7u%10llu%11llu%10.1e  %s\n",
+         f->count, f->commit, f->solve, part * a->refine_seconds,
+         part * a->coefficients_seconds, part * a->solve_seconds, part * a->error_seconds,
+         1e-9 * f->peak, a->order, a->solves, (unsigned long long)a->elements,
+         (unsigned long long)a->links, a->average.estimate,
+         f->status ? hr2d_strerror(f->status) : "");
+  fflush(stdout);
+}
+
+int main(int argc, char **argv) {
+  static char *usual[] = {"8004", "64004"};
+  const int with_error = argc > 1 && strcmp(argv[1], "--error") == 0, from = 1 + with_error;
+  char **size = argc > from ? argv + from : usual;
+  const int sizes = argc > from ? argc - from : 2;
+  printf("%9s%9s%9s%9s%9s%9s%9s%9s%7s%7s%10s%11s%10s\n", "patches", "commit s", "solve s",
+         "refine", "blocks", "sweeps", "error", "GB", "order", "solves", "N", "L", "estimate");
+  for (int k = 0; k < sizes; k++) {
+    fibres f = {.count = (size_t)strtoul(size[k], NULL, 10) / 16, .no_error = !with_error};
+    if (!alone_run(solve, &f, sizeof f)) {
+      fprintf(stderr, "bench-fibres: %s patches failed\n", size[k]);
+      return EXIT_FAILURE;
+    }
+    print_row(&f);
+  }
+  return EXIT_SUCCESS;
+}
