@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A measurement in a process of its own, whose memory is as fresh as that of a user's program. */
+/* A measurement in a process of its own, whose memory is as fresh as that of a user's program.
+ */
 #ifndef HR2D_BENCH_ALONE_H
 #define HR2D_BENCH_ALONE_H
 

@@ -84,7 +84,7 @@ SUITES = \
 	tests/unit/blocks/check-blocks \
 	tests/unit/blocks/check-directions \
 	tests/unit/solve/check-order \
-	tests/unit/solve/check-parts \
+	tests/unit/solve/check-slices \
 	tests/unit/accuracy/check-known-radiosities \
 	tests/unit/accuracy/check-random-accuracy \
 	tests/unit/accuracy/check-random-periods \

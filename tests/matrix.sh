@@ -18,7 +18,7 @@ export HR2D_TEST_MULTIPLIER="${HR2D_TEST_MULTIPLIER-0.1}"
 # The suites in which the library or the application has several threads; check-team has a
 # pthread_create() of its own, which the sanitizer cannot do without.
 threaded="tests/threads/check-threads tests/unit/refine/check-refine \
-tests/unit/refine/check-rows tests/unit/solve/check-parts \
+tests/unit/refine/check-rows tests/unit/solve/check-slices \
 tests/unit/solve/check-order tests/unit/solve/check-solve \
 tests/unit/visibility/check-exchange-matrix tests/unit/visibility/check-exchange-rows \
 tests/unit/blocks/check-blocks"

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gathers over the blocks of links, one behind the other.  Each element receives in the order
-   of the links, so that no bit depends on how elements are shared out among threads. */
+/* Gathers over the blocks of links, one behind the other. */
 #ifndef HR2D_SRC_SOLVE_GATHER_LINKS_H
 #define HR2D_SRC_SOLVE_GATHER_LINKS_H
 
@@ -12,9 +11,7 @@ typedef struct hr2di_link_run {
   const double *block; /* of the first link; that of the next is stride² behind it */
   size_t stride;
   size_t count;
-  int all;         /* both elements of each link receive; else: */
-  size_t from, to; /* the elements [from, to) do */
-  int directed;    /* the second element of a link does not */
+  int directed; /* the second element of a link does not receive */
 } hr2di_link_run;
 
 /* down_i += C up_j and down_j += Cᵀ up_i over the links of a run, with the first coefficients

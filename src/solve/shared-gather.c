@@ -21,21 +21,58 @@
 /* Of the bound of a block, and of roundings. */
 #define SLACK 4
 
+enum { MOST_PARTS = 16 };
+
 struct hr2di_shared {
-  hr2di_bin *bin; /* elements × width */
-  double *size;   /* elements × bands: s of the element */
-  double *most;   /* likewise: the largest s of those that it is linked with, then σ */
-  double *term;   /* per part two products with a block */
+  size_t parts;                 /* of receivers, one for each thread */
+  size_t begin[MOST_PARTS + 1]; /* where the elements of each part begin */
+  hr2di_bin *bin;               /* elements × width */
+  double *size;                 /* elements × bands: s of the element */
+  double *most; /* likewise: the largest s of those that it is linked with, then σ */
+  double *term; /* per part two products with a block */
 };
+
+/* Work of one gather that is worth another thread, in coefficients of blocks. */
+enum { WORTH = 200000 };
+
+/* Cuts the elements into parts over which about the same number of links come in, so that
+   threads need no copies of sums. */
+static void cut_parts(hr2di_transport *t) {
+  struct hr2di_shared *s = t->shared;
+  const uint64_t links = t->links->store.count;
+  const uint64_t work = links * t->order * t->width / WORTH;
+  s->parts = hr2di_team_threads(t->threads);
+  if (s->parts > MOST_PARTS) s->parts = MOST_PARTS;
+  if (s->parts > work + 1) s->parts = (size_t)work + 1;
+  if (t->order == 1) s->parts = 1;
+  s->begin[s->parts] = t->elements;
+  if (s->parts == 1) return;
+  double *ends = t->down; /* not yet in use */
+  for (size_t e = 0; e < t->elements; e++) ends[e] = 0;
+  for (uint64_t k = 0; k < links; k++) {
+    const hr2d_pair pair = hr2di_store_link(&t->links->store, k).pair;
+    if (k % 4096 == 0 && hr2di_watch_work(t->watch, 64)) break;
+    ends[pair.first]++;
+    if (!t->links->directed) ends[pair.second]++;
+  }
+  double before = 0, all = 0;
+  for (size_t e = 0; e < t->elements; e++) all += ends[e];
+  size_t part = 1;
+  for (size_t e = 0; e < t->elements && part < s->parts; before += ends[e++])
+    while (part < s->parts && before * (double)s->parts >= (double)part * all)
+      s->begin[part++] = e;
+  while (part < s->parts) s->begin[part++] = t->elements;
+}
 
 hr2d_status hr2di_shared_gather_init(hr2di_transport *t) {
   struct hr2di_shared *s = t->shared = hr2di_alloc_zero(&t->alloc, 1, sizeof *s);
   if (!s) return HR2D_ENOMEM;
+  cut_parts(t);
   const size_t bands = t->bands * sizeof(double);
   s->bin = hr2di_alloc(&t->alloc, t->elements, t->width * sizeof *s->bin);
   s->size = hr2di_alloc(&t->alloc, t->elements, bands);
   s->most = hr2di_alloc(&t->alloc, t->elements, bands);
-  s->term = hr2di_alloc(&t->alloc, 2 * t->parts, t->width * sizeof *s->term);
+  s->term = hr2di_alloc(&t->alloc, 2 * s->parts, t->width * sizeof *s->term);
   return s->bin && s->size && s->most && s->term ? HR2D_OK : HR2D_ENOMEM;
 }
 
@@ -66,9 +103,9 @@ static void set_sizes(hr2di_transport *t) {
 /* A gather under way. */
 typedef struct pass {
   hr2di_transport *t;
-  int distant;                            /* over links of distant pairs alone */
-  int first, second;                      /* which element of a link receives */
-  hr2di_watch own[HR2DI_TRANSPORT_PARTS]; /* of parts that the calling thread does not do */
+  int distant;                 /* over links of distant pairs alone */
+  int first, second;           /* which element of a link receives */
+  hr2di_watch own[MOST_PARTS]; /* of parts that the calling thread does not do */
 } pass;
 
 static int takes(const pass *p, uint64_t link) {
@@ -136,7 +173,7 @@ static void gather_part(void *ctx, size_t worker, size_t part) {
   pass *p = ctx;
   const hr2di_transport *t = p->t;
   const hr2di_store *store = &t->links->store;
-  const size_t from = t->begin[part], to = t->begin[part + 1], width = t->width;
+  const size_t from = t->shared->begin[part], to = t->shared->begin[part + 1], width = t->width;
   hr2di_watch *watch = worker == 0 ? t->watch : &p->own[part];
   if (hr2di_watch_work(watch, (to - from) * width / 64)) return;
   memset(t->shared->bin + from * width, 0, (to - from) * width * sizeof *t->shared->bin);
@@ -158,7 +195,7 @@ static void gather_part(void *ctx, size_t worker, size_t part) {
 
 void hr2di_shared_gather(hr2di_transport *t, hr2di_transport_part part, int sends) {
   const int directed = t->links->directed;
-  const size_t field = t->elements * t->width, threads = hr2di_team_threads(t->threads);
+  const size_t field = t->elements * t->width, parts = t->shared->parts;
   pass p = {.t = t,
             .distant = part == HR2DI_DISTANT_LINKS,
             .first = !directed || !sends,
@@ -166,8 +203,8 @@ void hr2di_shared_gather(hr2di_transport *t, hr2di_transport_part part, int send
   set_sizes(t);
   set_scales(&p);
   if (t->failed) return;
-  for (size_t k = 0; k < t->parts; k++) hr2di_watch_follow(&p.own[k], t->watch);
-  hr2di_team_run(t->parts > 1 ? threads : 1, t->parts, gather_part, &p, t->watch);
+  for (size_t k = 0; k < parts; k++) hr2di_watch_follow(&p.own[k], t->watch);
+  hr2di_team_run(hr2di_team_threads(t->threads), parts, gather_part, &p, t->watch);
   t->failed = hr2di_share_combine(t->links->share, hr2di_transport_status(t), HR2D_COMBINE_SUM,
                                   &t->shared->bin->head, 2 * field);
   for (size_t k = 0; k < field && !t->failed; k++)

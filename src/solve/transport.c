@@ -14,44 +14,24 @@
 #include "solve/shared-gather.h"
 
 /* A slice needs its own copy of `down`, so there are few slices, with many links each. */
-enum { MOST_SLICES = HR2DI_TRANSPORT_PARTS, SLICE_BLOCKS = 64 };
+enum { MOST_SLICES = 16, SLICE_BLOCKS = 64, MOST_BLOCK_SLICES = 8 };
 
+/* Products of a slice with blocks for each number of its copy, which is cleared and added, and
+   all of them at least: less is not worth a thread. */
+enum { SLICE_PRODUCTS = 8, SLICE_WORTH = 100000 };
+
+/* Depends on the links alone, as the order of sums does. */
 static size_t count_slices(const hr2d_linkset *links) {
+  const size_t order = links->hierarchy->order, elements = links->hierarchy->elements;
+  const uint64_t products = 2 * links->store.count * order; /* per coefficient and band */
   if (links->share) return 1;
-  const size_t slices = 1 + hr2di_store_chunks(&links->store) / SLICE_BLOCKS;
-  return slices < MOST_SLICES ? slices : MOST_SLICES;
-}
-
-/* Work of one gather that is worth another thread, in coefficients of blocks. */
-enum { WORTH = 200000 };
-
-/* Cuts the elements into parts over which about the same number of links come in, so that
-   threads need no copies of `down`: each adds up what its elements receive, in the order of the
-   links, and no bit depends on the number of parts. */
-static void cut_parts(hr2di_transport *t) {
-  const uint64_t links = t->links->store.count;
-  const uint64_t work = links * t->order * t->width / WORTH;
-  t->parts = hr2di_team_threads(t->threads);
-  if (t->parts > HR2DI_TRANSPORT_PARTS) t->parts = HR2DI_TRANSPORT_PARTS;
-  if (t->parts > work + 1) t->parts = (size_t)work + 1;
-  if (t->order == 1 || t->slices > 1) t->parts = 1;
-  t->begin[t->parts] = t->elements;
-  if (t->parts == 1) return;
-  double *ends = t->down; /* not yet in use */
-  for (size_t e = 0; e < t->elements; e++) ends[e] = 0;
-  for (uint64_t k = 0; k < links; k++) {
-    const hr2d_pair pair = hr2di_store_link(&t->links->store, k).pair;
-    if (k % 4096 == 0 && hr2di_watch_work(t->watch, 64)) break;
-    ends[pair.first]++;
-    if (!t->links->directed) ends[pair.second]++;
+  uint64_t slices = 1 + hr2di_store_chunks(&links->store) / SLICE_BLOCKS, most = MOST_SLICES;
+  if (order > 1) {
+    slices = products / (SLICE_PRODUCTS * (uint64_t)elements);
+    most = 1 + products * order / SLICE_WORTH;
+    if (most > MOST_BLOCK_SLICES) most = MOST_BLOCK_SLICES;
   }
-  double before = 0, all = 0;
-  for (size_t e = 0; e < t->elements; e++) all += ends[e];
-  size_t part = 1;
-  for (size_t e = 0; e < t->elements && part < t->parts; before += ends[e++])
-    while (part < t->parts && before * (double)t->parts >= (double)part * all)
-      t->begin[part++] = e;
-  while (part < t->parts) t->begin[part++] = t->elements;
+  return slices < 1 ? 1 : (size_t)(slices < most ? slices : most);
 }
 
 hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
@@ -82,7 +62,6 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
   if (!t->leaf || !t->up || !t->down) return HR2D_ENOMEM;
   for (size_t e = 0; e < t->elements; e++)
     if (!h->element[e].child) t->leaf[t->leaves++] = (uint32_t)e;
-  cut_parts(t);
   if (links->share && hr2di_shared_gather_init(t)) return HR2D_ENOMEM;
   const hr2d_status tied = hr2di_ties_init(&t->ties, h, &t->alloc, watch);
   return tied ? tied : hr2di_watch_work(watch, t->elements / 16);
@@ -233,10 +212,9 @@ static void gather_each(const hr2di_transport *t, hr2di_transport_part part, hr2
   }
 }
 
-/* The same with blocks, for `count` links from number `first` on, and what the elements
-   [from, to) receive. */
+/* The same with blocks, for `count` links from number `first` on. */
 static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, uint64_t first,
-                          size_t count, size_t from, size_t to, double *down) {
+                          size_t count, double *down) {
   hr2d_link room[HR2DI_READ_LINKS];
   const size_t stride = t->blocks.order;
   for (size_t done = 0, some; done < count; done += some) {
@@ -247,9 +225,6 @@ static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, u
                                 .block = t->blocks.value + at * stride * stride,
                                 .stride = stride,
                                 .count = some,
-                                .all = !t->links->directed && from == 0 && to == t->elements,
-                                .from = from,
-                                .to = to,
                                 .directed = t->links->directed};
     if (part == HR2DI_DISTANT_LINKS || t->tail)
       gather_each(t, part, run, at, down);
@@ -258,54 +233,37 @@ static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, u
   }
 }
 
-static void gather_slice(hr2di_transport *t, hr2di_transport_part part, size_t slice,
+/* Over the links of a slice at order 1: whole chunks. */
+static void gather_areas(const hr2di_transport *t, size_t slice, double *down,
                          hr2di_watch *watch) {
-  const hr2di_store *store = &t->links->store;
-  const size_t chunks = hr2di_store_chunks(store);
-  const size_t from = slice * chunks / t->slices;
-  const size_t to = (slice + 1) * chunks / t->slices;
-  double *down = t->down + slice * t->elements * t->width;
-  const uint64_t units = HR2DI_CHUNK_LINKS / 32 * (1 + t->order * t->width / 8);
-  if (hr2di_watch_work(watch, t->elements * t->width / 128)) return;
-  memset(down, 0, t->elements * t->width * sizeof *down);
-  const int plain = !t->hierarchy->scene->effect[HR2D_EFFECT_BANDS].on;
-  for (size_t k = from; k < to; k++) {
-    const size_t count = hr2di_store_chunk_size(store, k);
-    if (hr2di_watch_work(watch, units)) return;
-    if (t->order > 1)
-      gather_orders(t, part, (uint64_t)k * HR2DI_CHUNK_LINKS, count, 0, t->elements, down);
-    else
-      gather_chunk(t, k, plain && !t->links->directed, down);
-  }
+  const size_t chunks = hr2di_store_chunks(&t->links->store);
+  const size_t from = slice * chunks / t->slices, to = (slice + 1) * chunks / t->slices;
+  const uint64_t units = HR2DI_CHUNK_LINKS / 32 * (1 + t->width / 8);
+  const int simple = !t->hierarchy->scene->effect[HR2D_EFFECT_BANDS].on && !t->links->directed;
+  for (size_t k = from; k < to && !hr2di_watch_work(watch, units); k++)
+    gather_chunk(t, k, simple, down);
 }
 
-/* What a part of the elements receives over all links. */
-static void gather_part(hr2di_transport *t, hr2di_transport_part of, size_t part,
-                        hr2di_watch *watch) {
-  const hr2di_store *store = &t->links->store;
-  const size_t from = t->begin[part], to = t->begin[part + 1], width = t->width;
-  const uint64_t units = (uint64_t)HR2DI_READ_LINKS / 32 * (1 + t->order * width / 8);
-  if (hr2di_watch_work(watch, (to - from) * width / 128)) return;
-  memset(t->down + from * width, 0, (to - from) * width * sizeof *t->down);
-  for (uint64_t first = 0; first < store->count; first += HR2DI_READ_LINKS) {
-    const uint64_t rest = store->count - first;
-    if (hr2di_watch_work(watch, units)) return;
-    gather_orders(t, of, first, rest < HR2DI_READ_LINKS ? (size_t)rest : HR2DI_READ_LINKS, from,
-                  to, t->down);
-  }
+/* Above order 1. */
+static void gather_blocks(const hr2di_transport *t, hr2di_transport_part part, size_t slice,
+                          double *down, hr2di_watch *watch) {
+  const uint64_t links = t->links->store.count, most = HR2DI_READ_LINKS;
+  const uint64_t from = slice * links / t->slices, to = (slice + 1) * links / t->slices;
+  const uint64_t units = most / 32 * (1 + t->order * t->width / 8);
+  for (uint64_t k = from; k < to && !hr2di_watch_work(watch, units); k += most)
+    gather_orders(t, part, k, (size_t)(to - k < most ? to - k : most), down);
 }
 
-/* Sums the slices in their order, so that the result does not depend on threads. */
-static void sum_slices(hr2di_transport *t) {
+static void gather_slice(const hr2di_transport *t, hr2di_transport_part part, size_t slice,
+                         hr2di_watch *watch) {
   const size_t field = t->elements * t->width;
-  for (size_t s = 1; s < t->slices; s++) {
-    const double *part = t->down + s * field;
-    for (size_t from = 0; from < field; from += SOME) {
-      const size_t to = from + SOME < field ? from + SOME : field;
-      if (hr2di_watch_work(t->watch, SOME / 64)) return;
-      for (size_t k = from; k < to; k++) t->down[k] += part[k];
-    }
-  }
+  double *down = t->down + slice * field;
+  if (hr2di_watch_work(watch, field / 128)) return;
+  memset(down, 0, field * sizeof *down);
+  if (t->order > 1)
+    gather_blocks(t, part, slice, down, watch);
+  else
+    gather_areas(t, slice, down, watch);
 }
 
 /* Roots are the first elements, so their part of a field is a field of the patches. */
@@ -330,6 +288,7 @@ static void lower(hr2di_transport *t, double *irradiance) {
     memcpy(irradiance + k * width, t->down + t->leaf[k] * width, width * sizeof(double));
 }
 
+/* A gather under way. */
 typedef struct slices {
   hr2di_transport *t;
   hr2di_transport_part part;
@@ -338,30 +297,42 @@ typedef struct slices {
 
 static void gather_one(void *ctx, size_t worker, size_t slice) {
   slices *s = ctx;
-  hr2di_watch *watch = worker == 0 ? s->t->watch : &s->own[slice];
-  if (s->t->parts > 1)
-    gather_part(s->t, s->part, slice, watch);
-  else
-    gather_slice(s->t, s->part, slice, watch);
+  gather_slice(s->t, s->part, slice, worker == 0 ? s->t->watch : &s->own[slice]);
+}
+
+/* Numbers of a field that one task adds up over all slices. */
+enum { TASK = 8192 };
+
+/* Sums the slices in their order, so that the result does not depend on threads. */
+static void sum_some(void *ctx, size_t worker, size_t task) {
+  const slices *s = ctx;
+  const hr2di_transport *t = s->t;
+  const size_t field = t->elements * t->width, first = task * TASK;
+  const size_t last = field - first > TASK ? first + TASK : field;
+  for (size_t from = first, to; from < last; from = to) {
+    to = last - from > SOME ? from + SOME : last;
+    if (worker == 0 && hr2di_watch_work(t->watch, t->slices * SOME / 64)) return;
+    for (size_t k = 1; k < t->slices; k++)
+      for (size_t m = from; m < to; m++) t->down[m] += t->down[k * field + m];
+  }
 }
 
 static void gather_slices(hr2di_transport *t, hr2di_transport_part part) {
   slices s = {.t = t, .part = part};
-  const size_t tasks = t->parts > 1 ? t->parts : t->slices;
-  const size_t threads = tasks > 1 ? hr2di_team_threads(t->threads) : 1;
-  for (size_t k = 0; k < tasks; k++) hr2di_watch_follow(&s.own[k], t->watch);
-  hr2di_team_run(threads, tasks, gather_one, &s, t->watch);
+  const size_t threads = hr2di_team_threads(t->threads);
+  for (size_t k = 0; k < t->slices; k++) hr2di_watch_follow(&s.own[k], t->watch);
+  hr2di_team_run(threads, t->slices, gather_one, &s, t->watch);
+  const size_t tasks = t->slices > 1 ? (t->elements * t->width - 1) / TASK + 1 : 0;
+  hr2di_team_run(threads, tasks, sum_some, &s, t->watch);
 }
 
 /* Sets t->down to the irradiance of elements over links and clusters, from t->up. */
 static void gather(hr2di_transport *t, hr2di_transport_part part) {
   t->sweeps++;
-  if (t->shared) {
+  if (t->shared)
     hr2di_shared_gather(t, part, 0);
-  } else {
+  else
     gather_slices(t, part);
-    sum_slices(t);
-  }
   if (has_failed(t)) return;
   if (t->links->roots.clusters && part == HR2DI_ALL_LINKS) gather_clusters(t);
   hr2di_ties_fold(&t->ties, t->order, t->bands, t->down);

@@ -10,8 +10,6 @@
 #include "links/linkset-impl.h"
 #include "solve/image-ties.h"
 
-enum { HR2DI_TRANSPORT_PARTS = 16 /* at most */ };
-
 typedef struct hr2di_transport {
   const hr2d_linkset *links;
   hr2di_link_blocks blocks; /* of the links, above order 1 */
@@ -25,16 +23,14 @@ typedef struct hr2di_transport {
   uint32_t *leaf;              /* the element of each leaf */
   double *up;                  /* elements × width: radiosity */
   struct hr2di_shared *shared; /* sums over shares; NULL: there is but one */
-  double *down;    /* slices × elements × width: power received, then irradiance */
-  double *receive; /* order 1: factors per element for the push; NULL: light spreads evenly */
-  double *send;    /* the same for the pull; equal to `receive` unless links are directed */
-  double *closure; /* leaves × order × order, added to the diagonal; NULL for none */
-  double *sky;     /* leaves × order: form factor of the background; NULL: none */
-  size_t slices;   /* parts into which the links are cut, whatever the number of threads */
-  size_t parts;    /* of receivers, at an order above 1 and one slice: one for each thread */
-  size_t begin[HR2DI_TRANSPORT_PARTS + 1]; /* where the elements of each part begin */
-  unsigned threads;                        /* as in options */
-  uint64_t sweeps;                         /* gathers so far */
+  double *down;     /* slices × elements × width: power received, then irradiance */
+  double *receive;  /* order 1: factors per element for the push; NULL: light spreads evenly */
+  double *send;     /* the same for the pull; equal to `receive` unless links are directed */
+  double *closure;  /* leaves × order × order, added to the diagonal; NULL for none */
+  double *sky;      /* leaves × order: form factor of the background; NULL: none */
+  size_t slices;    /* parts into which the links are cut, whatever the number of threads */
+  unsigned threads; /* as in options */
+  uint64_t sweeps;  /* gathers so far */
   hr2di_watch *watch;
   hr2d_status failed; /* HR2D_ENOMEM if a gather lacked memory, or the status of the watch: its
                          result must not be used */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Threads that share the elements of a gather above order 1 add up what one thread does, to the
+/* Threads that share the links of a gather above order 1 add up what one thread does, to the
    last bit. */
 #include <stdlib.h>
 #include <string.h>
@@ -41,20 +41,18 @@ static test_links make(size_t bands, int directed) {
   return t;
 }
 
-/* Parts cover all elements, and there is more than one if there are threads. */
-static void check_parts(const test_links *t, unsigned threads) {
-  hr2di_transport transport;
+/* How many slices there are depends on the links alone, and there is more than one. */
+static void check_slices(const test_links *t, unsigned threads) {
+  hr2di_transport transport, alone;
   ck_assert_int_eq(hr2di_transport_init(&transport, t->links, threads, NULL), HR2D_OK);
-  ck_assert_uint_ge(transport.parts, threads > 1 ? 2 : 1);
-  ck_assert_uint_le(transport.parts, threads);
-  ck_assert_uint_eq(transport.begin[0], 0);
-  ck_assert_uint_eq(transport.begin[transport.parts], transport.elements);
-  for (size_t k = 0; k < transport.parts; k++)
-    ck_assert_uint_le(transport.begin[k], transport.begin[k + 1]);
+  ck_assert_int_eq(hr2di_transport_init(&alone, t->links, 1, NULL), HR2D_OK);
+  ck_assert_uint_ge(transport.slices, 2);
+  ck_assert_uint_eq(transport.slices, alone.slices);
   hr2di_transport_clear(&transport);
+  hr2di_transport_clear(&alone);
 }
 
-START_TEST(parts_change_no_bit) {
+START_TEST(threads_change_no_bit) {
   const size_t bands = _i / 2 ? 3 : 1;
   test_links t = make(bands, _i % 2);
   static const unsigned threads[] = {1, 2, 3, 40};
@@ -64,7 +62,7 @@ START_TEST(parts_change_no_bit) {
     hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
     hr2d_solution *s = NULL;
     options.threads = threads[k];
-    check_parts(&t, threads[k]);
+    check_slices(&t, threads[k]);
     ck_assert_int_eq(hr2d_solve(t.links, &options, &s), HR2D_OK);
     count = (size_t)hr2d_hierarchy_count(t.hierarchy).elements * bands;
     double *found = malloc(count * sizeof *found);
@@ -84,14 +82,14 @@ START_TEST(parts_change_no_bit) {
     if (expected[e] < least) least = expected[e];
     if (expected[e] > most) most = expected[e];
   }
-  printf("%llu links, B from %.3g to %.3g\n", (unsigned long long)hr2d_linkset_size(t.links),
-         least, most);
+  printf("%llu links, %zu elements, B from %.3g to %.3g\n",
+         (unsigned long long)hr2d_linkset_size(t.links), count / bands, least, most);
   ck_assert(most > least);
   free(expected);
   test_free_links(&t);
 }
 END_TEST
 
-TEST_SUITE("parts") {
-  REPEAT_TESTS(4, "gather", parts_change_no_bit);
+TEST_SUITE("slices") {
+  REPEAT_TESTS(4, "gather", threads_change_no_bit);
 }
