@@ -79,7 +79,7 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
   if (!status) status = hr2di_grading_apply(h, &grading, &a->survey);
   if (!status && chosen)
     status = hr2di_kinks_cut(h, &events, fineness->lights, fineness->kinks,
-                             target->max_elements, &watch, &a->bent);
+                             target->max_elements, target->threads, &watch, &a->bent);
   if (!status && !chosen && fineness->halvings > 0)
     status = hr2di_long_leaves_halve(h, fineness->halvings, target->max_elements, &watch);
   if (!status) status = divide_images(a, &watch);
@@ -119,7 +119,7 @@ static hr2d_status find_roots(hr2d_linkset *links, const hr2di_graded *coarse,
              ? hr2di_roots_copy(&links->roots, &coarse->links->roots, scene->patches,
                                 &links->alloc, &watch)
              : hr2di_roots_init(&links->roots, scene, &links->alloc, fineness->cluster_accuracy,
-                                &watch);
+                                target->threads, &watch);
 }
 
 /* Links of the elements of `coarse` that are as they were are taken over, unless that is NULL.

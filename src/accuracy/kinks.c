@@ -18,25 +18,17 @@
    the jump in H is `spread` times that at y, of B itself or of its derivative: hr2di_event has
    it.
 
-   B itself jumps by no more than its largest value.  Where x passes the line of a thin wall,
-   both of its sides come into view, and the jump may be twice as large.  The events that seem
-   to matter are looked at: their jumps are second differences of what a point sees close beside
-   the vertex, with the radiosities of whole patches.  The rest of the view is smooth there. */
+   The events that seem to matter by the bounds of their jumps are looked at. */
 #include "accuracy/kinks.h"
 
 #include <math.h>
 
+#include "accuracy/kink-jumps.h"
 #include "accuracy/mesh-grading.h"
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
-#include "visibility/point-view.h"
-
-/* Of second differences, as a part of the patch. */
-#define STEP 1e-6
-
-/* How many steps beside the vertex a view ends: what is seen past it moves by one. */
-#define BESIDE 4
 
 /* Of jumps in terms of the largest B, and of shares: their squares and sums are finite. */
 #define LARGEST 1e100
@@ -54,123 +46,15 @@ typedef struct cutter {
   hr2d_hierarchy *h;
   const hr2d_scene *scene;
   const hr2di_events *events;
-  const hr2di_lights *lights;
+  hr2di_kink_jumps jumps;
   size_t bands;
-  hr2di_viewer *viewer;
   hr2di_watch *watch;
-  double *most;         /* 2·bands: the largest B, and the largest importance */
-  double *jump;         /* events × 2·bands: of H from B, and from the importance, or more */
-  unsigned char *known; /* per event: its jumps are no bounds */
-  double (*square)[2];  /* of the events in the leaf that is weighed: what they add to those of
-                           both remainders */
-  leaf *heap;           /* the one with the largest sum first */
+  double (*square)[2]; /* of the events in the leaf that is weighed: what they add to those of
+                          both remainders */
+  leaf *heap;          /* the one with the largest sum first */
   size_t count, capacity;
   double total;
 } cutter;
-
-/* sum += weight · what falls on a point between two places from B, and from the importance. */
-static hr2d_status look(cutter *w, size_t patch, double at, const hr2d_point border[2],
-                        double weight, double *sum) {
-  hr2di_view_from seen;
-  const hr2d_status status = hr2di_view_between(w->viewer, patch, at, border, &seen);
-  if (status) return status;
-  for (size_t k = 0; k < seen.count; k++) {
-    const double part = weight * seen.glimpse[k].sine;
-    const size_t from = seen.glimpse[k].patch * w->bands;
-    for (size_t b = 0; b < w->bands; b++) {
-      sum[b] += part * w->lights->radiosity[from + b];
-      sum[w->bands + b] += part * w->lights->importance[from + b];
-    }
-  }
-  return HR2D_OK;
-}
-
-static hr2d_status look_around(cutter *w, const hr2di_event *e, double *jump) {
-  for (size_t b = 0; b < 2 * w->bands; b++) jump[b] = 0;
-  const double step = fmin(STEP, 0.5 * fmin(e->at, 1 - e->at));
-  const double move = step * w->scene->patch[e->patch].length;
-  const hr2d_point at = hr2di_point_at(w->scene->patch[e->patch].scaled, e->at),
-                   to = hr2di_point_minus(e->past, at);
-  /* Of a foot the border is no place: all is looked at. */
-  const double side = BESIDE * move / hypot(to.x, to.y);
-  const hr2d_point border[2] = {{e->past.x + side * to.y, e->past.y - side * to.x},
-                                {e->past.x - side * to.y, e->past.y + side * to.x}};
-  hr2d_status status = look(w, e->patch, e->at, border, -2 / move, jump);
-  if (!status) status = look(w, e->patch, e->at - step, border, 1 / move, jump);
-  return status ? status : look(w, e->patch, e->at + step, border, 1 / move, jump);
-}
-
-/* The first event that is not before a place. */
-static size_t find(const hr2di_events *events, uint32_t patch, double at) {
-  size_t low = 0, high = events->count;
-  while (low < high) {
-    const size_t middle = low + (high - low) / 2;
-    const hr2di_event *e = &events->event[middle];
-    if (e->patch < patch || (e->patch == patch && e->at < at))
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
-}
-
-/* The event that another one comes from, or that itself. */
-static size_t origin_of(const cutter *c, size_t k) {
-  const hr2di_event *e = &c->events->event[k];
-  const size_t from = find(c->events, e->origin, e->origin_at);
-  return from < c->events->count && c->events->event[from].patch == e->origin &&
-                 c->events->event[from].generation < e->generation
-             ? from
-             : k;
-}
-
-/* The importance of light that y reflects is ρ times what falls there, as its radiosity is. */
-static void take_over(cutter *c, size_t k, size_t from) {
-  const hr2di_event *e = &c->events->event[k];
-  for (size_t b = 0; b < 2 * c->bands; b++)
-    c->jump[k * 2 * c->bands + b] = e->spread *
-                                    hr2d_scene_reflectance(c->scene, e->origin, b % c->bands) *
-                                    c->jump[from * 2 * c->bands + b];
-}
-
-/* Replaces the bounds of an event by its jumps. */
-static hr2d_status know(cutter *c, size_t k) {
-  const size_t from = origin_of(c, k);
-  hr2d_status status = HR2D_OK;
-  if (c->known[k]) return status;
-  if (from != k) {
-    status = know(c, from);
-    take_over(c, k, from);
-  } else {
-    status = look_around(c, &c->events->event[k], c->jump + k * 2 * c->bands);
-  }
-  c->known[k] = 1;
-  return status;
-}
-
-static hr2d_status set_bounds(cutter *c) {
-  hr2d_status status = HR2D_OK;
-  for (size_t k = 0; k < c->scene->patches; k++)
-    for (size_t b = 0; b < c->bands; b++) {
-      const size_t at = k * c->bands + b;
-      c->most[b] = fmax(c->most[b], c->lights->radiosity[at]);
-      c->most[c->bands + b] = fmax(c->most[c->bands + b], c->lights->importance[at]);
-    }
-  for (unsigned g = 1, any = 1; any && !status; g++) {
-    any = 0;
-    for (size_t k = 0; k < c->events->count && !status; k++) {
-      const hr2di_event *e = &c->events->event[k];
-      if (e->generation != g) continue;
-      any = 1;
-      const size_t from = origin_of(c, k);
-      if (from != k) take_over(c, k, from);
-      for (size_t b = 0; b < 2 * c->bands && from == k; b++)
-        c->jump[k * 2 * c->bands + b] = 2 * e->spread * c->most[b];
-      status = hr2di_watch_work(c->watch, 1 + c->bands / 8);
-    }
-  }
-  return status;
-}
 
 /* a²; 0 for an event too near to an end of the leaf. */
 static double remainder_of(const cutter *c, const leaf *l, const hr2di_event *e) {
@@ -187,7 +71,8 @@ static double remainder_of(const cutter *c, const leaf *l, const hr2di_event *e)
 /* What an event adds to the square of the remainder of B in a band, relative to the largest B;
    or of its importance, if `of` is `bands` more. */
 static double square_of(const cutter *c, double remainder, size_t k, size_t of) {
-  const double jump = fmin(fabs(c->jump[k * 2 * c->bands + of]) / c->most[of], LARGEST);
+  const double jump =
+      fmin(fabs(c->jumps.jump[k * 2 * c->bands + of]) / c->jumps.most[of], LARGEST);
   return jump * jump * remainder;
 }
 
@@ -195,7 +80,8 @@ static double square_of(const cutter *c, double remainder, size_t k, size_t of) 
    event that makes the largest parts of both remainders. */
 static void weigh_band(const cutter *c, leaf *l, size_t b) {
   const uint32_t patch = c->h->element[l->element].patch;
-  const double unit = c->h->element[l->element].length * c->most[b] * c->most[c->bands + b];
+  const double unit =
+      c->h->element[l->element].length * c->jumps.most[b] * c->jumps.most[c->bands + b];
   double sum[2] = {0, 0};
   for (size_t k = l->first; k < l->last; k++) {
     const double remainder = remainder_of(c, l, &c->events->event[k]);
@@ -217,7 +103,7 @@ static void weigh_band(const cutter *c, leaf *l, size_t b) {
 static void weigh_leaf(const cutter *c, leaf *l) {
   l->sum = 0;
   for (size_t b = 0; b < c->bands; b++)
-    if (c->most[b] > 0 && c->most[c->bands + b] > 0) weigh_band(c, l, b);
+    if (c->jumps.most[b] > 0 && c->jumps.most[c->bands + b] > 0) weigh_band(c, l, b);
 }
 
 /* Adds a leaf to the heap, if any event is left in it. */
@@ -260,8 +146,8 @@ static hr2d_status push_all(cutter *c) {
     if (e->child || status || e->patch >= hr2di_scene_cell(h->scene)) continue;
     leaf l = {.element = k, .from = hr2di_element_start(h, k)};
     l.to = l.from + e->length / h->scene->patch[e->patch].length;
-    l.first = find(c->events, e->patch, l.from);
-    l.last = find(c->events, e->patch, l.to);
+    l.first = hr2di_kink_jumps_find(c->events, e->patch, l.from);
+    l.last = hr2di_kink_jumps_find(c->events, e->patch, l.to);
     if (l.first < l.last && !status) status = push(c, l);
   }
   return status;
@@ -271,20 +157,62 @@ static hr2d_status push_all(cutter *c) {
    time all those in the leaf are weighed again. */
 #define TOGETHER 0.25
 
+static int matters(const cutter *c, const leaf *l, size_t k) {
+  return !c->jumps.known[k] && c->square[k][0] >= TOGETHER * c->square[l->best][0];
+}
+
 /* Finds out about the best event of a leaf, and about those that seem to matter about as much.
    Bounds of B and of its importance are in proportion. */
 static hr2d_status look_into(cutter *c, const leaf *l) {
-  const double least = TOGETHER * c->square[l->best][0];
-  hr2d_status status = know(c, l->best);
+  hr2d_status status = hr2di_kink_jumps_know(&c->jumps, l->best);
   for (size_t k = l->first; k < l->last && !status; k++)
-    if (!c->known[k] && c->square[k][0] >= least) status = know(c, k);
+    if (matters(c, l, k)) status = hr2di_kink_jumps_know(&c->jumps, k);
   return status;
+}
+
+static int larger_first(const void *x, const void *y) {
+  const leaf *a = x, *b = y;
+  if (a->sum != b->sum) return a->sum > b->sum ? -1 : 1;
+  return a->element < b->element ? -1 : a->element > b->element;
+}
+
+/* Makes a heap of all leaves again, and weighs them. */
+static hr2d_status push_again(cutter *c) {
+  const size_t count = c->count;
+  hr2d_status status = HR2D_OK;
+  c->count = 0;
+  c->total = 0;
+  for (size_t k = 0; k < count && !status; k++) {
+    const leaf l = c->heap[k];
+    status = hr2di_watch_work(c->watch, 1 + (l.last - l.first) / 2);
+    if (!status) status = push(c, l);
+  }
+  return status;
+}
+
+/* A leaf that has a sum above `allowed` together with all smaller ones will be looked into: so
+   all of these are at once, by all threads.  *looks is the number of events looked at. */
+static hr2d_status look_ahead(cutter *c, double allowed, size_t *looks) {
+  size_t many = 0;
+  hr2d_status status = hr2di_sort(c->heap, c->count, sizeof *c->heap, larger_first, c->watch);
+  for (double rest = c->total; many < c->count && rest > allowed && !status; many++) {
+    const leaf *l = &c->heap[many];
+    status = hr2di_watch_work(c->watch, 1 + (l->last - l->first) / 16);
+    rest -= l->sum;
+    if (c->jumps.known[l->best]) continue;
+    hr2di_kink_jumps_want(&c->jumps, l->best);
+    for (size_t k = l->first; k < l->last; k++)
+      if (matters(c, l, k)) hr2di_kink_jumps_want(&c->jumps, k);
+  }
+  *looks = c->jumps.count;
+  if (!status) status = hr2di_kink_jumps_look(&c->jumps);
+  return status ? status : push_again(c);
 }
 
 /* Divides the leaf with the largest share at its best event; or finds out about that. */
 static hr2d_status cut(cutter *c) {
   const leaf l = pop(c);
-  if (!c->known[l.best]) {
+  if (!c->jumps.known[l.best]) {
     const hr2d_status status = look_into(c, &l);
     return status ? status : push(c, l);
   }
@@ -298,9 +226,14 @@ static hr2d_status cut(cutter *c) {
   return status ? status : push(c, (leaf){child + 1, e->at, l.to, l.best + 1, l.last, 0, 0});
 }
 
+/* Looks that are worth a team. */
+enum { MANY_LOOKS = 256 };
+
 static hr2d_status run(cutter *c, double allowed, uint64_t max_elements) {
-  hr2d_status status = set_bounds(c);
-  if (!status) status = push_all(c);
+  hr2d_status status = push_all(c);
+  size_t looks = c->events->count;
+  while (c->total > allowed && looks >= MANY_LOOKS && !status)
+    status = look_ahead(c, allowed, &looks);
   while (c->count > 0 && c->total > allowed && !status) {
     if (max_elements && c->h->elements + 2 > max_elements) return HR2D_EMAX_ELEMENTS;
     status = hr2di_watch_work(c->watch, 4 + (c->heap[0].last - c->heap[0].first));
@@ -316,7 +249,7 @@ static void add_remainder(const cutter *c, const leaf *l, size_t k, double *bent
   for (size_t b = 0; b < c->bands; b++) {
     const double rho = hr2d_scene_reflectance(c->scene, e->patch, b);
     double *of = &bent[l->element * c->bands + b];
-    *of = hypot(*of, rho * c->jump[k * 2 * c->bands + b] * a);
+    *of = hypot(*of, rho * c->jumps.jump[k * 2 * c->bands + b] * a);
   }
 }
 
@@ -331,29 +264,22 @@ static hr2d_status measure(const cutter *c, double **bent) {
 
 hr2d_status hr2di_kinks_cut(hr2d_hierarchy *hierarchy, const hr2di_events *events,
                             const hr2di_lights *lights, double allowed, uint64_t max_elements,
-                            hr2di_watch *watch, double **bent) {
+                            unsigned threads, hr2di_watch *watch, double **bent) {
   const hr2d_allocator *alloc = &hierarchy->alloc;
-  const size_t count = events->count, values = 2 * hierarchy->scene->bands;
   cutter c = {.h = hierarchy,
               .scene = hierarchy->scene,
               .events = events,
-              .lights = lights,
               .bands = hierarchy->scene->bands,
               .watch = watch};
   *bent = NULL;
-  if (count == 0) return HR2D_OK;
-  c.most = hr2di_alloc_zero(alloc, values, sizeof *c.most);
-  c.jump = hr2di_alloc(alloc, count, values * sizeof *c.jump);
-  c.known = hr2di_alloc_zero(alloc, count, 1);
-  c.square = hr2di_alloc(alloc, count, sizeof *c.square);
-  hr2d_status status = c.most && c.jump && c.known && c.square ? HR2D_OK : HR2D_ENOMEM;
-  if (!status) status = hr2di_viewer_create(c.scene, alloc, watch, &c.viewer);
+  if (events->count == 0) return HR2D_OK;
+  c.square = hr2di_alloc(alloc, events->count, sizeof *c.square);
+  hr2d_status status =
+      hr2di_kink_jumps_init(&c.jumps, c.scene, events, lights, threads, alloc, watch);
+  if (!status && !c.square) status = HR2D_ENOMEM;
   if (!status) status = run(&c, allowed, max_elements);
   if (!status) status = measure(&c, bent);
-  hr2di_viewer_destroy(c.viewer);
-  hr2di_alloc_free(alloc, c.most);
-  hr2di_alloc_free(alloc, c.jump);
-  hr2di_alloc_free(alloc, c.known);
+  hr2di_kink_jumps_clear(&c.jumps);
   hr2di_alloc_free(alloc, c.square);
   hr2di_alloc_free(alloc, c.heap);
   return status;

@@ -21,6 +21,6 @@ typedef struct hr2di_lights {
    HR2D_EMAX_ELEMENTS or the status of the watch. */
 hr2d_status hr2di_kinks_cut(hr2d_hierarchy *hierarchy, const hr2di_events *events,
                             const hr2di_lights *lights, double allowed, uint64_t max_elements,
-                            hr2di_watch *watch, double **bent);
+                            unsigned threads, hr2di_watch *watch, double **bent);
 
 #endif

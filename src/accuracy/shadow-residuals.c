@@ -23,6 +23,7 @@
 #include "base/alloc.h"
 #include "base/bin.h"
 #include "base/pi.h"
+#include "base/team.h"
 #include "geometry/apart.h"
 #include "geometry/predicates.h"
 #include "scene/scene-impl.h"
@@ -83,18 +84,58 @@ static void add(const hr2di_estimator *e, uint32_t i, uint32_t j, double kernel,
   }
 }
 
-static void add_links(hr2di_estimator *e, const double *beta, squares *s) {
-  const hr2di_transport *t = &e->eq.transport;
-  const hr2d_element *element = t->hierarchy->element;
-  for (uint64_t k = 0; k < t->links->store.count && !hr2di_watch_work(t->watch, 1); k++) {
-    if (t->order > 1 && t->links->blocks.distant[k]) continue;
-    const hr2d_link *link = hr2di_store_at(&t->links->store, k);
-    const hr2d_element *i = &element[link->pair.first], *j = &element[link->pair.second];
-    if (!is_shaded(link, i, j, hr2di_linkset_weight(t->links, link->pair))) continue;
-    const double kernel = largest_kernel(i, j);
-    add(e, link->pair.first, link->pair.second, kernel, beta, s);
-    add(e, link->pair.second, link->pair.first, kernel, beta, s);
+/* Links of a task, and of the tasks whose results are kept until they are added. */
+enum { TASK = 512, BAND = 64 * TASK };
+
+typedef struct band {
+  const hr2di_transport *t;
+  uint64_t first;
+  size_t count;
+  double *kernel; /* per link: G at most, or NONE */
+} band;
+
+#define NONE (-HUGE_VAL)
+
+static double kernel_of(const hr2di_transport *t, uint64_t k) {
+  if (t->order > 1 && t->links->blocks.distant[k]) return NONE;
+  const hr2d_link *link = hr2di_store_at(&t->links->store, k);
+  const hr2d_element *i = &t->hierarchy->element[link->pair.first];
+  const hr2d_element *j = &t->hierarchy->element[link->pair.second];
+  const int shaded = is_shaded(link, i, j, hr2di_linkset_weight(t->links, link->pair));
+  return shaded ? largest_kernel(i, j) : NONE;
+}
+
+static void find_kernels(void *ctx, size_t worker, size_t task) {
+  band *b = ctx;
+  const size_t from = task * TASK, to = b->count - from > TASK ? from + TASK : b->count;
+  if (worker == 0 && hr2di_watch_work(b->t->watch, TASK)) return;
+  for (size_t k = from; k < to; k++) b->kernel[k] = kernel_of(b->t, b->first + k);
+}
+
+static void add_band(const hr2di_estimator *e, const band *b, const double *beta, squares *s) {
+  for (size_t k = 0; k < b->count; k++) {
+    if (b->kernel[k] == NONE) continue;
+    const hr2d_pair pair = hr2di_store_at(&b->t->links->store, b->first + k)->pair;
+    add(e, pair.first, pair.second, b->kernel[k], beta, s);
+    add(e, pair.second, pair.first, b->kernel[k], beta, s);
   }
+}
+
+/* Threads share what takes time; sums are in the order of the links. */
+static hr2d_status add_links(hr2di_estimator *e, const double *beta, squares *s) {
+  const hr2di_transport *t = &e->eq.transport;
+  const uint64_t links = t->links->store.count;
+  const size_t threads = hr2di_team_threads(t->threads);
+  band b = {.t = t, .kernel = hr2di_alloc(&t->alloc, BAND, sizeof *b.kernel)};
+  hr2d_status status = b.kernel ? HR2D_OK : HR2D_ENOMEM;
+  for (; b.first < links && !status; b.first += BAND) {
+    b.count = links - b.first < BAND ? (size_t)(links - b.first) : BAND;
+    hr2di_team_run(threads, (b.count + TASK - 1) / TASK, find_kernels, &b, t->watch);
+    status = hr2di_watch_work(t->watch, b.count * t->bands / 16);
+    if (!status) add_band(e, &b, beta, s);
+  }
+  hr2di_alloc_free(&t->alloc, b.kernel);
+  return status;
 }
 
 /* No square is larger than that of the largest error, and no element has more terms than there
@@ -106,8 +147,8 @@ static hr2d_status add_shares(hr2di_estimator *e, const double *beta, squares *s
   for (size_t k = 0; k < count; k++) most = fmax(most, e->most[k]);
   s->scale = hr2di_bin_scale(most * most * (double)t->links->counts.links);
   s->bin = hr2di_alloc_zero(&t->alloc, count, sizeof *s->bin);
-  if (s->bin) add_links(e, beta, s);
-  hr2d_status status = s->bin ? hr2di_transport_status(t) : HR2D_ENOMEM;
+  hr2d_status status = s->bin ? add_links(e, beta, s) : HR2D_ENOMEM;
+  if (!status) status = hr2di_transport_status(t);
   status = hr2di_share_combine(t->links->share, status, HR2D_COMBINE_SUM,
                                s->bin ? &s->bin->head : NULL, 2 * count);
   for (size_t k = 0; k < count && !status; k++) s->sum[k] = hr2di_bin_total(&s->bin[k]);
@@ -130,7 +171,7 @@ hr2d_status hr2di_shadow_residuals(hr2di_estimator *e) {
   if (t->links->share)
     status = add_shares(e, beta, &s);
   else
-    add_links(e, beta, &s);
+    status = add_links(e, beta, &s);
   for (size_t k = 0; k < count && !status; k++) {
     const size_t b = k % t->bands;
     const double h = sqrt(square[k]);

@@ -3,6 +3,7 @@
    take them: by counting, first by their second patch, then by their first. */
 #include "clusters/root-pairs.h"
 
+#include <stdatomic.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -13,57 +14,80 @@
    would be worth their search. */
 enum { FEW_SEEN = 100 };
 
+/* What beams of one thread find. */
+typedef struct found {
+  hr2d_pair *pair;
+  size_t count, capacity;
+} found;
+
 typedef struct collector {
   hr2di_roots *roots;
   const hr2d_allocator *alloc;
-  size_t most;  /* pairs that beams may find */
-  int too_many; /* they found more */
+  found *found;        /* of each thread */
+  size_t most;         /* pairs that beams may find */
+  atomic_size_t total; /* that they found so far */
 } collector;
-
-static hr2d_status reserve(const collector *c, size_t more) {
-  hr2di_roots *r = c->roots;
-  return hr2di_alloc_reserve(c->alloc, &r->pair, &r->capacity, r->count + more, sizeof *r->pair)
-             ? HR2D_ENOMEM
-             : HR2D_OK;
-}
 
 static hr2d_status collect(void *ctx, const hr2d_pair *pairs, size_t count) {
   const collector *c = ctx;
-  const hr2d_status status = reserve(c, count);
-  if (status) return status;
-  memcpy(c->roots->pair + c->roots->count, pairs, count * sizeof *pairs);
-  c->roots->count += count;
+  hr2di_roots *r = c->roots;
+  if (hr2di_alloc_reserve(c->alloc, &r->pair, &r->capacity, r->count + count, sizeof *r->pair))
+    return HR2D_ENOMEM;
+  memcpy(r->pair + r->count, pairs, count * sizeof *pairs);
+  r->count += count;
   return HR2D_OK;
 }
 
 static hr2d_status collect_row(void *ctx, size_t worker, const hr2di_row *row) {
   collector *c = ctx;
-  hr2di_roots *r = c->roots;
-  (void)worker;
-  c->too_many = row->count > c->most - r->count;
-  if (c->too_many) return HR2D_STOPPED;
-  const hr2d_status status = reserve(c, row->count);
-  for (size_t k = 0; k < row->count && !status; k++) {
+  found *of = &c->found[worker];
+  if (atomic_fetch_add(&c->total, row->count) + row->count > c->most) return HR2D_STOPPED;
+  if (hr2di_alloc_reserve(c->alloc, &of->pair, &of->capacity, of->count + row->count,
+                          sizeof *of->pair))
+    return HR2D_ENOMEM;
+  for (size_t k = 0; k < row->count; k++) {
     const uint32_t p = row->patch, q = row->column[k] & ~HR2DI_PARTIAL;
-    r->pair[r->count++] = p < q ? (hr2d_pair){p, q} : (hr2d_pair){q, p};
+    of->pair[of->count++] = p < q ? (hr2d_pair){p, q} : (hr2d_pair){q, p};
   }
-  return status;
+  return HR2D_OK;
 }
 
-/* Half rows have each pair once or twice. */
-static hr2d_status find_by_beams(collector *c, const hr2d_scene *scene, hr2di_watch *watch) {
-  hr2di_row_maker maker;
-  hr2d_status status = hr2di_row_maker_init(&maker, scene, 1, 0, watch);
-  c->most = FEW_SEEN * scene->patches;
-  if (!status) status = hr2di_row_maker_run(&maker, 0, maker.tasks, collect_row, c);
-  hr2di_row_maker_clear(&maker);
-  if (!c->too_many) return status;
-  c->roots->count = 0;
-  return HR2D_OK;
+static int found_too_many(const collector *c) {
+  return atomic_load(&c->total) > c->most;
 }
 
 /* Pairs between two declarations of work. */
 enum { SOME = 1024 };
+
+/* Their order does not matter, as they will be sorted: equal pairs are equal in every bit. */
+static hr2d_status unite(collector *c, size_t threads, hr2d_status status, hr2di_watch *watch) {
+  for (size_t k = 0; k < threads; k++) {
+    const found *of = &c->found[k];
+    for (size_t from = 0; from < of->count && !status; from += SOME) {
+      status = hr2di_watch_work(watch, SOME / 64);
+      if (!status)
+        status = collect(c, of->pair + from, of->count - from < SOME ? of->count - from : SOME);
+    }
+    hr2di_alloc_free(c->alloc, of->pair);
+  }
+  hr2di_alloc_free(c->alloc, c->found);
+  return status;
+}
+
+/* Half rows have each pair once or twice. */
+static hr2d_status find_by_beams(collector *c, const hr2d_scene *scene, unsigned threads,
+                                 hr2di_watch *watch) {
+  hr2di_row_maker maker;
+  hr2d_status status = hr2di_row_maker_init(&maker, scene, threads, 0, watch);
+  c->most = FEW_SEEN * scene->patches;
+  c->found = hr2di_alloc_zero(c->alloc, maker.workers, sizeof *c->found);
+  if (!status && !c->found) status = HR2D_ENOMEM;
+  if (!status) status = hr2di_row_maker_run(&maker, 0, maker.tasks, collect_row, c);
+  const int stopped = status == HR2D_STOPPED && found_too_many(c);
+  if (c->found) status = unite(c, maker.workers, status, watch);
+  hr2di_row_maker_clear(&maker);
+  return stopped ? hr2di_watch_status(watch) : status;
+}
 
 static uint32_t key(const hr2d_pair *pair, int by_first) {
   return by_first ? pair->first : pair->second;
@@ -117,14 +141,16 @@ static hr2d_status sort_pairs(hr2di_roots *r, size_t patches, const hr2d_allocat
 }
 
 hr2d_status hr2di_roots_init(hr2di_roots *roots, const hr2d_scene *scene,
-                             const hr2d_allocator *alloc, double accuracy, hr2di_watch *watch) {
+                             const hr2d_allocator *alloc, double accuracy, unsigned threads,
+                             hr2di_watch *watch) {
   const int shaded = scene->effect[HR2D_EFFECT_OCCLUSION].on;
   collector c = {.roots = roots, .alloc = alloc};
   *roots = (hr2di_roots){.accuracy = accuracy};
-  hr2d_status status = shaded ? find_by_beams(&c, scene, watch) : HR2D_OK;
+  hr2d_status status = shaded ? find_by_beams(&c, scene, threads, watch) : HR2D_OK;
+  const int too_many = found_too_many(&c);
   /* Links of clusters would join all images with each other. */
-  if (scene->symmetry.motion && (!shaded || c.too_many)) return status;
-  if (!status && (!shaded || c.too_many))
+  if (scene->symmetry.motion && (!shaded || too_many)) return status;
+  if (!status && (!shaded || too_many))
     status =
         hr2di_clusters_create(scene, alloc, accuracy, collect, &c, watch, &roots->clusters);
   return status ? status : sort_pairs(roots, scene->patches, alloc, watch);

@@ -18,7 +18,8 @@ typedef struct hr2di_roots {
    clusters leave.  HR2D_OK, HR2D_ENOMEM or the status of the watch.  To be cleared in any case.
  */
 hr2d_status hr2di_roots_init(hr2di_roots *roots, const hr2d_scene *scene,
-                             const hr2d_allocator *alloc, double accuracy, hr2di_watch *watch);
+                             const hr2d_allocator *alloc, double accuracy, unsigned threads,
+                             hr2di_watch *watch);
 
 /* Copies the pairs of a scene of so many patches; there are no clusters.  Returns likewise. */
 hr2d_status hr2di_roots_copy(hr2di_roots *roots, const hr2di_roots *from, size_t patches,

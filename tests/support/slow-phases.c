@@ -198,7 +198,8 @@ static hr2d_status find_roots(slow_stage *s) {
   hr2di_roots roots;
   hr2di_watch watch;
   hr2di_watch_init(&watch, s->ask, s->ctx, "roots");
-  const hr2d_status status = hr2di_roots_init(&roots, s->scene, &alloc, 1e-4, &watch);
+  const hr2d_status status =
+      hr2di_roots_init(&roots, s->scene, &alloc, 1e-4, s->threads, &watch);
   hr2di_roots_clear(&roots, &alloc);
   return status;
 }

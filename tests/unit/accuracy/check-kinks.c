@@ -6,6 +6,7 @@
 #include "accuracy/kinks.h"
 #include "base/alloc.h"
 #include "support/accuracy-tally.h"
+#include "support/slow-scenes.h"
 #include "support/support.h"
 #include "visibility/point-view.h"
 
@@ -82,7 +83,7 @@ static size_t leaves_for(const hr2d_scene *scene, double allowed) {
   ck_assert_int_eq(hr2di_importance(scene, &target, NULL, &lights, NULL, &message), HR2D_OK);
   ck_assert_int_eq(hr2d_hierarchy_create(scene, &h), HR2D_OK);
   h->order = 4;
-  ck_assert_int_eq(hr2di_kinks_cut(h, &events, &lights, allowed, 0, NULL, &bent), HR2D_OK);
+  ck_assert_int_eq(hr2di_kinks_cut(h, &events, &lights, allowed, 0, 1, NULL, &bent), HR2D_OK);
   size_t marked = 0, elements = h->elements;
   for (size_t k = 0; k < elements; k++) {
     ck_assert(!(bent[k] > 0) || !h->element[k].child);
@@ -140,7 +141,52 @@ START_TEST(answers_are_right_without_most_events) {
 }
 END_TEST
 
+/* Leaves that are divided at events by so many threads, and what is left inside them. */
+static hr2d_hierarchy *cut_by(const hr2d_scene *scene, const hr2di_events *events,
+                              const hr2di_lights *lights, unsigned threads, double **bent) {
+  hr2d_hierarchy *h;
+  ck_assert_int_eq(hr2d_hierarchy_create(scene, &h), HR2D_OK);
+  h->order = 3;
+  ck_assert_int_eq(hr2di_kinks_cut(h, events, lights, 1e-4, 0, threads, NULL, bent), HR2D_OK);
+  return h;
+}
+
+START_TEST(threads_change_no_bit) {
+  hr2d_scene *scene = NULL;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  ck_assert_int_eq(slow_add(scene, SLOW_SQUARES, 60), HR2D_OK);
+  test_commit(scene);
+  hr2di_events events = events_of(scene, 2);
+  hr2di_lights lights = {0};
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2di_message message;
+  target.floor = HR2D_FLOOR;
+  ck_assert_int_eq(hr2di_importance(scene, &target, NULL, &lights, NULL, &message), HR2D_OK);
+  double *bent, *bent_alone;
+  hr2d_hierarchy *alone = cut_by(scene, &events, &lights, 1, &bent_alone);
+  ck_assert_uint_gt(alone->elements, 2 * hr2d_scene_patches(scene));
+  for (unsigned threads = 2; threads < 5; threads++) {
+    hr2d_hierarchy *h = cut_by(scene, &events, &lights, threads, &bent);
+    ck_assert_uint_eq(h->elements, alone->elements);
+    ck_assert_mem_eq(bent, bent_alone, h->elements * sizeof *bent);
+    for (uint32_t k = 0; k < h->elements; k++) {
+      ck_assert_uint_eq(h->element[k].child, alone->element[k].child);
+      ck_assert(h->element[k].length == alone->element[k].length);
+    }
+    hr2di_alloc_free(&h->alloc, bent);
+    hr2d_hierarchy_destroy(h);
+  }
+  printf("%zu events, %zu elements\n", events.count, alone->elements);
+  hr2di_alloc_free(&alone->alloc, bent_alone);
+  hr2d_hierarchy_destroy(alone);
+  hr2di_lights_clear(&lights, scene);
+  hr2di_events_clear(&events);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 TEST_SUITE("kinks") {
   REPEAT_TESTS(3, "kinks", jumps_are_bounded);
-  ADD_TESTS("kinks", few_events_matter, answers_are_right_without_most_events);
+  ADD_TESTS("kinks", threads_change_no_bit, few_events_matter,
+            answers_are_right_without_most_events);
 }

@@ -56,11 +56,16 @@ START_TEST(beams_find_what_is_seen) {
   hr2d_scene *scene = draw(hiding[_i], 600);
   const size_t n = hr2d_scene_patches(scene);
   hr2di_roots roots;
-  ck_assert_int_eq(hr2di_roots_init(&roots, scene, &alloc, 1e-6, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2di_roots_init(&roots, scene, &alloc, 1e-6, 1, NULL), HR2D_OK);
   ck_assert_ptr_null(roots.clusters);
   check_rows(&roots, n);
   ck_assert_uint_eq(count_faults(&roots, scene), 0);
   ck_assert_uint_lt(roots.count, 100 * n);
+  hr2di_roots shared;
+  ck_assert_int_eq(hr2di_roots_init(&shared, scene, &alloc, 1e-6, 3, NULL), HR2D_OK);
+  ck_assert_uint_eq(shared.count, roots.count);
+  ck_assert_mem_eq(shared.pair, roots.pair, roots.count * sizeof *roots.pair);
+  hr2di_roots_clear(&shared, &alloc);
   roots.pair[roots.count / 2] = roots.pair[roots.count / 2 - 1];
   ck_assert_uint_ge(count_faults(&roots, scene), 1);
   hr2di_roots_clear(&roots, &alloc);
@@ -73,7 +78,7 @@ START_TEST(clusters_where_much_is_seen) {
   const hr2d_allocator alloc = hr2di_alloc_default();
   hr2d_scene *scene = draw(SLOW_ROUND, 600);
   hr2di_roots roots;
-  ck_assert_int_eq(hr2di_roots_init(&roots, scene, &alloc, 1e-6, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2di_roots_init(&roots, scene, &alloc, 1e-6, 1, NULL), HR2D_OK);
   ck_assert_ptr_nonnull(roots.clusters);
   ck_assert_uint_gt(hr2di_clusters_links(roots.clusters), 0);
   check_rows(&roots, 600);
