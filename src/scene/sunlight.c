@@ -59,6 +59,7 @@ static double rounding_on(const finder *f, uint32_t patch) {
 static hr2d_status settle(const finder *f, size_t first, hr2di_watch *watch) {
   hr2di_sunlight *l = f->light;
   size_t kept = first;
+  if (first == l->parts) return HR2D_OK;
   hr2d_status status =
       hr2di_sort(l->part + first, l->parts - first, sizeof *l->part, by_place, watch);
   for (size_t k = first; k < l->parts && !status;) {

@@ -47,7 +47,7 @@ static int make_rows(const double *x, hr2d_study_row *rows) {
     rows[k].counts.elements = (uint64_t)exp2(x[START]) + (uint64_t)(exp2(x[RANGE]) * place);
     const double links = exp2(x[POWER]) * (1 + place * (3 + 7 * place)) +
                          exp2(x[POWER] + 18 + x[NOISE]) * x[PLACES + (3 * k + 1) % ROWS];
-    rows[k].counts.links = 1 + (uint64_t)fabs(links);
+    rows[k].counts.links = 1 + (uint64_t)fmin(fabs(links), 0x1p62);
   }
   return inner > 0;
 }

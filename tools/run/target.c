@@ -10,11 +10,12 @@
 enum { FEW_PATCHES = 200 };
 
 const size_t *run_important(const run *r) {
-  return r->places + r->options->at.count + 1;
+  return r->places ? r->places + r->options->at.count + 1 : NULL;
 }
 
 const size_t *run_beamed(const run *r) {
-  return run_important(r) + r->options->importance.count;
+  const size_t *important = run_important(r);
+  return important ? important + r->options->importance.count : NULL;
 }
 
 static hr2d_target make_target(const run *r, progress *p) {
