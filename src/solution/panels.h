@@ -36,11 +36,12 @@ static inline int hr2di_panel_halved(hr2di_panels *panels, hr2di_span panel) {
   return 1;
 }
 
-/* Whether a panel of the segment that leads from `from` along `along` is near the origin. */
-static inline int hr2di_panel_near(hr2d_point from, hr2d_point along, hr2di_span panel) {
+/* How far a panel of the segment that leads from `from` along `along` is from the origin; near
+   below HR2DI_NEAR_ELLIPSE. */
+static inline double hr2di_panel_ellipse(hr2d_point from, hr2d_point along, hr2di_span panel) {
   const hr2d_segment around = {hr2di_block_along(from, along, panel.from),
                                hr2di_block_along(from, along, panel.to)};
-  return hr2di_ellipse(around, (hr2d_point){0, 0}) < HR2DI_NEAR_ELLIPSE;
+  return hr2di_ellipse(around, (hr2d_point){0, 0});
 }
 
 #endif

@@ -17,6 +17,8 @@
    whatever the distance from its edge.  With the irradiance r from everything else the limits
    of B solve
      b_p = E_p + ρ_p (k b_q + r_p),   b_q = E_q + ρ_q (k b_p + r_q). */
+#include <math.h>
+
 #include "base/alloc.h"
 #include "blocks/line-vector.h"
 #include "geometry/point-view-factor.h"
@@ -28,7 +30,10 @@
 #include "solution/solution-impl.h"
 #include "visibility/point-view.h"
 
-/* On a panel that is far enough a rule is accurate to 3.19^−(2·POINTS − order). */
+/* A rule of n points is accurate to ρ^−(2n − order), on a panel that is just far enough to
+   3.19^−(2n − order).  At the largest order POINTS make 3.19^−32 of that; at lower ones, and on
+   panels that are farther away, fewer points do.  One more is taken, as G is singular on the
+   ellipse, so that its coefficients are some times ρ^−k. */
 enum { POINTS = 32, STACK = 128 };
 
 /* The limits at the edge of a wedge are found from points so far beside it.  Roundings of the
@@ -40,7 +45,8 @@ typedef struct gatherer {
   hr2di_viewer *viewer;
   hr2di_watch *watch;
   hr2di_basis basis;
-  hr2di_rule rule;
+  hr2di_rule rule[POINTS]; /* of 1, 2, … points; none yet where there are 0 */
+  double enough[POINTS];   /* the least ellipse for which they are enough */
   hr2d_point x, normal;
   hr2d_point base;  /* the end of its patch that is nearer to x */
   hr2di_vector way; /* from there to x */
@@ -56,6 +62,24 @@ typedef struct edge {
   double at, step; /* fraction of the patch where the edge is, and how exactly that is known */
   double inside;   /* 1 if that is ahead along the patch, −1 if behind */
 } edge;
+
+static void set_rules(gatherer *g) {
+  const double near = HR2DI_NEAR_ELLIPSE, order = (double)g->solution->order;
+  const double digits = 32 * log(near + sqrt(near * near - 1));
+  for (size_t n = 1; n <= POINTS; n++) {
+    const double rate = 2 * (double)(n - 1) - order;
+    g->rule[n - 1].points = 0;
+    g->enough[n - 1] = rate > 0 ? cosh(digits / rate) : HUGE_VAL;
+  }
+  g->enough[POINTS - 1] = 0;
+}
+
+static const hr2di_rule *rule_for(gatherer *g, double ellipse) {
+  size_t n = 1;
+  while (g->enough[n - 1] > ellipse) n++;
+  if (g->rule[n - 1].points == 0) hr2di_rule_init(&g->rule[n - 1], n);
+  return &g->rule[n - 1];
+}
 
 /* A segment: the vector from x to its start, and its own. */
 typedef struct stretch {
@@ -74,14 +98,14 @@ static void add_constant(gatherer *g, const stretch *leaf, const double *coeffic
 
 /* Sums of a panel come first, so that few roundings add up. */
 static void add_panel(gatherer *g, const stretch *leaf, hr2di_span panel,
-                      const double *coefficient) {
+                      const hr2di_rule *rule, const double *coefficient) {
   const hr2d_point from = leaf->from, along = leaf->along;
   const double size = panel.to - panel.from;
-  const size_t bands = g->solution->bands, points = g->rule.points;
+  const size_t bands = g->solution->bands, points = rule->points;
   double xi[POINTS], kernel[POINTS], factor = 0;
   if (hr2di_watch_work(g->watch, points * (1 + g->solution->order * bands / 16))) return;
   for (size_t q = 0; q < points; q++) {
-    const double t = panel.from + size * (0.5 + 0.5 * g->rule.at[q]);
+    const double t = panel.from + size * (0.5 + 0.5 * rule->at[q]);
     const hr2d_point r = hr2di_block_along(from, along, t);
     const double square = r.x * r.x + r.y * r.y;
     const double cos_x = g->normal.x * r.x + g->normal.y * r.y;
@@ -89,7 +113,7 @@ static void add_panel(gatherer *g, const stretch *leaf, hr2di_span panel,
     xi[q] = 2 * t - 1;
     kernel[q] = 0; /* of x in a corner, and a panel no larger than rounding */
     if (square > 0)
-      kernel[q] = 0.5 * size * g->rule.weight[q] * cos_x * turn / (square * sqrt(square));
+      kernel[q] = 0.5 * size * rule->weight[q] * cos_x * turn / (square * sqrt(square));
     factor += kernel[q];
   }
   g->factor += factor;
@@ -113,9 +137,9 @@ static void add_leaf(gatherer *g, const stretch *leaf, const double *coefficient
   panels.stack[0] = part;
   while (panels.count > 0) {
     const hr2di_span panel = panels.stack[--panels.count];
-    if (hr2di_panel_near(leaf->from, leaf->along, panel) && hr2di_panel_halved(&panels, panel))
-      continue;
-    add_panel(g, leaf, panel, coefficient);
+    const double ellipse = hr2di_panel_ellipse(leaf->from, leaf->along, panel);
+    if (ellipse < HR2DI_NEAR_ELLIPSE && hr2di_panel_halved(&panels, panel)) continue;
+    add_panel(g, leaf, panel, rule_for(g, ellipse), coefficient);
   }
 }
 
@@ -381,7 +405,7 @@ static hr2d_status gather_irradiance(const hr2d_solution *solution, size_t patch
     status =
         hr2di_viewer_create(solution->hierarchy->scene, &solution->alloc, watch, &g.viewer);
   hr2di_basis_init(&g.basis, solution->order);
-  hr2di_rule_init(&g.rule, POINTS);
+  set_rules(&g);
   for (size_t k = 0; k < count && !status; k++) {
     if (watch) watch->told.fraction = (double)k / (double)count;
     status = gather_at(&g, patch, t[k], value + k * solution->bands);
