@@ -80,20 +80,38 @@ static hr2d_error bounded(double estimate, double bound) {
   return (hr2d_error){estimate, fmax(estimate, bound)};
 }
 
-static hr2d_status measure(hr2di_estimator *e, hr2di_error_pair *errors) {
-  hr2di_equation *eq = &e->eq;
-  const int reflects = eq->transport.hierarchy->scene->effect[HR2D_EFFECT_INTERREFLECTION].on;
+static int reflects_light(const hr2di_estimator *e) {
+  return e->eq.transport.hierarchy->scene->effect[HR2D_EFFECT_INTERREFLECTION].on;
+}
+
+/* Estimates of averages, which are off by no less than `doubt`. */
+static void estimate_averages(const hr2di_estimator *e, hr2di_error_pair *errors) {
+  const double unknown = HUGE_VAL, of_h = reflects_light(e) ? e->doubt : 0;
+  errors->cut_off = e->cut_off;
+  errors->average = (hr2d_error){fmax(worst_average(e, 0, 1, NULL), e->doubt), unknown};
+  errors->irradiance = (hr2d_error){fmax(worst_average(e, 1, 1, NULL), of_h), unknown};
+  errors->sup = errors->irradiance_sup = (hr2d_error){unknown, unknown};
+}
+
+static hr2d_status measure_averages(hr2di_estimator *e, hr2di_error_pair *errors) {
   hr2di_residual_set(e);
-  hr2d_status status = reflects ? hr2di_residual_solve(e) : HR2D_OK;
-  if (status) return status;
-  status = hr2di_residual_measure(e);
-  if (!status) status = hr2di_shadow_residuals(e);
+  hr2d_status status = reflects_light(e) ? hr2di_residual_solve(e) : HR2D_OK;
+  if (!status) status = hr2di_residual_measure(e);
+  if (!status) status = hr2di_transport_status(&e->eq.transport);
+  if (!status) estimate_averages(e, errors);
+  return status;
+}
+
+/* Errors at points, and bounds. */
+static hr2d_status measure_rest(hr2di_estimator *e, hr2di_error_pair *errors) {
+  hr2di_equation *eq = &e->eq;
+  const int reflects = reflects_light(e);
+  hr2d_status status = hr2di_shadow_residuals(e);
   if (!status && reflects) status = hr2di_gap_residuals(e);
   if (!status && reflects) status = hr2di_safe_sum(e);
   if (status) return status;
   status = hr2di_rounding_bound(e, reflects);
   if (status) return status;
-  errors->cut_off = e->cut_off;
   const double level = eq->balance.count > 0 ? HR2DI_ESTIMATOR_ROUNDING : 0;
   for (int h = 0; h < 2; h++) {
     const double average_off = worst_average(e, h, 0, e->rounding[h]) + level;
@@ -106,12 +124,12 @@ static hr2d_status measure(hr2di_estimator *e, hr2di_error_pair *errors) {
   for (int h = 0; h < 2; h++) {
     const double doubt = h == 0 || reflects ? e->doubt : 0;
     *average[h] =
-        bounded(fmax(worst_average(e, h, 1, NULL), doubt),
+        bounded(average[h]->estimate,
                 worst_average(e, h, e->margin, e->rounding[h]) + signless(e, h) + level);
     *sup[h] = bounded(fmax(worst_point(e, h, 1, 1, 0), doubt),
                       worst_point(e, h, fmax(e->margin, POINTS), POINTS, 1) + level);
   }
-  return eq->transport.failed ? eq->transport.failed : hr2di_watch_status(eq->transport.watch);
+  return hr2di_transport_status(&eq->transport);
 }
 
 static double margin_of(const hr2di_resolution *f) {
@@ -150,11 +168,14 @@ static hr2d_status run(hr2di_graded *answer, const hr2di_resolution *fineness,
   hr2di_estimator e;
   hr2d_status status = hr2di_estimator_init(&e, answer, target);
   e.margin = margin_of(fineness);
-  if (!status) status = measure(&e, errors);
-  if (!status && coarser && is_too_large(errors, fineness))
+  if (!status) status = measure_averages(&e, errors);
+  const int too_large = !status && is_too_large(errors, fineness);
+  const int shared = too_large && fineness->shares && !answer->bent;
+  answer->unbounded = shared && fineness->hasty;
+  if (!status && !answer->unbounded) status = measure_rest(&e, errors);
+  if (!status && coarser && too_large)
     status = hr2di_cluster_residuals(&e, coarser, &answer->clustered);
-  if (!status && fineness->shares && !answer->bent && is_too_large(errors, fineness))
-    status = find_shares(&e, answer, fineness, errors);
+  if (!status && shared) status = find_shares(&e, answer, fineness, errors);
   hr2di_estimator_clear(&e);
   return status;
 }

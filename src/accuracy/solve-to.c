@@ -94,12 +94,8 @@ static void add_times(hr2d_account *sum, const hr2di_graded *answer) {
   sum->solves += answer->solution != NULL;
 }
 
-/* Keeps a graded solve, with its errors, as the best one. */
-static void keep(search *s, hr2di_graded *answer, const hr2di_error_pair *errors) {
-  hr2di_graded_clear(&s->best);
-  s->best = *answer;
-  *answer = (hr2di_graded){0};
-  const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(s->best.hierarchy);
+/* Notes the errors of the best one. */
+static void note_errors(search *s, const hr2di_error_pair *errors) {
   hr2d_account *a = &s->account;
   s->error = worst_of(errors, s->target.norm);
   s->cut_off = errors->cut_off;
@@ -108,6 +104,16 @@ static void keep(search *s, hr2di_graded *answer, const hr2di_error_pair *errors
   a->sup = errors->sup;
   a->irradiance = errors->irradiance;
   a->irradiance_sup = errors->irradiance_sup;
+}
+
+/* Keeps a graded solve, with its errors, as the best one. */
+static void keep(search *s, hr2di_graded *answer, const hr2di_error_pair *errors) {
+  hr2di_graded_clear(&s->best);
+  s->best = *answer;
+  *answer = (hr2di_graded){0};
+  const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(s->best.hierarchy);
+  hr2d_account *a = &s->account;
+  note_errors(s, errors);
   a->order = s->best.hierarchy->order;
   a->elements = counts.elements;
   a->leaves = counts.leaves;
@@ -154,6 +160,21 @@ static hr2d_target rest_of_budget(const search *s) {
   if (target.max_bytes)
     target.max_bytes = held < target.max_bytes ? target.max_bytes - held : 1;
   return target;
+}
+
+/* Bounds the error of the best one, if that was too large for anybody to ask. */
+static hr2d_status bound_best(search *s) {
+  hr2di_resolution fineness = s->fineness;
+  hr2di_error_pair errors;
+  if (!s->best.unbounded) return HR2D_OK;
+  const double start = hr2di_clock_now();
+  fineness.hasty = fineness.shares = 0;
+  hr2di_error_prepare(&s->best, &fineness);
+  const hr2d_status status = agree(
+      s, hr2di_error_estimate(&s->best, &fineness, &s->target, &errors, &s->message));
+  s->account.error_seconds += hr2di_clock_now() - start;
+  if (!status) note_errors(s, &errors);
+  return status;
 }
 
 /* Solves once, estimates the error, and keeps the graded solve if it is the best so far.  With
@@ -210,6 +231,7 @@ static hr2di_resolution first_resolution(const search *s, double error) {
                                                 s->lights.radiosity ? &s->lights : NULL);
   hr2di_resolution finer = s->fineness;
   guess.weight = s->weight;
+  guess.hasty = !(s->given.seconds > 0); /* there is time for a bound at the end */
   /* Under a background of their own temperature scenes are isothermal to all digits. */
   if (!guess.lights && !s->given.no_error && !s->scene->effect[HR2D_EFFECT_BACKGROUND].on) {
     guess.tolerance = hr2di_resolution_tolerance(s->scene, s->given.floor, error);
@@ -247,6 +269,8 @@ static hr2d_status reach(search *s, double error) {
     if (is_cut_off(s, error)) break;
     stuck = error_of(s) > 0.5 * before ? stuck + 1 : 0;
     before = error_of(s);
+    const hr2d_status bounded = stuck > 0 ? bound_best(s) : HR2D_OK;
+    if (bounded) return bounded;
     dividing = s->best.depth && !stuck;
     raised = raise_clusters(s, &fineness, error) || dividing ||
              !hr2di_resolution_raise(&fineness, &s->best.survey, before / (0.5 * error));
@@ -360,6 +384,10 @@ hr2d_status hr2di_solve_to(const hr2d_scene *scene, const hr2d_target *target,
     }
   } else if (!status) {
     status = reach_step_by_step(&s);
+  }
+  if (!s.progress_status && status != HR2D_ENOMEM) {
+    const hr2d_status bounded = bound_best(&s);
+    if (bounded) status = bounded;
   }
   status = settle(&s, status);
   if (!s.progress_status && (!status || status == HR2D_EACCURACY)) hand_over(&s, solution);
