@@ -44,6 +44,7 @@ void hr2d_linkset_destroy(hr2d_linkset *links) {
   hr2di_store_clear(&links->store, &alloc);
   hr2di_link_blocks_clear(&links->blocks, &alloc);
   hr2di_roots_clear(&links->roots, &alloc);
+  hr2di_alloc_free(&alloc, links->sees_backs);
   hr2di_alloc_free(&alloc, links);
 }
 

@@ -32,7 +32,7 @@ static hr2d_status integrate_rows_order_p(hr2di_equation *s, int closure, int ba
   hr2di_transport *t = &s->transport;
   if (background) s->row_sums = t->leaves;
   hr2d_status status = hr2di_closure_set_order_p(t);
-  if (!status && background) status = hr2di_background_set_order_p(t);
+  if (!status && background) status = hr2di_background_set_order_p(t, &s->links->sees_backs);
   if (!closure) {
     hr2di_alloc_free(&t->alloc, t->closure);
     hr2di_alloc_free(&t->alloc, t->closed);
