@@ -123,9 +123,8 @@ static hr2d_status measure_rest(hr2di_estimator *e, hr2di_error_pair *errors) {
   hr2d_error *const sup[] = {&errors->sup, &errors->irradiance_sup};
   for (int h = 0; h < 2; h++) {
     const double doubt = h == 0 || reflects ? e->doubt : 0;
-    *average[h] =
-        bounded(average[h]->estimate,
-                worst_average(e, h, e->margin, e->rounding[h]) + signless(e, h) + level);
+    *average[h] = bounded(average[h]->estimate, worst_average(e, h, e->margin, e->rounding[h]) +
+                                                    signless(e, h) + level);
     *sup[h] = bounded(fmax(worst_point(e, h, 1, 1, 0), doubt),
                       worst_point(e, h, fmax(e->margin, POINTS), POINTS, 1) + level);
   }

@@ -47,7 +47,7 @@ typedef struct hr2di_graded {
   double *bent;         /* see hr2di_kinks_cut(); NULL: no event is left inside an element */
   unsigned char *depth; /* per element: how often a leaf is to be halved so that the aim is
                            reached; NULL: unknown */
-  int unbounded;       /* the error is too large, and has got no bound */
+  int unbounded;        /* the error is too large, and has got no bound */
   double clustered;    /* the part of the error of averages that links of clusters make, if that
                           is too large; 0: unknown */
   unsigned char *rows; /* per patch: whether its row is of this share; NULL: nobody has dealt */

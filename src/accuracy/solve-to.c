@@ -170,8 +170,8 @@ static hr2d_status bound_best(search *s) {
   const double start = hr2di_clock_now();
   fineness.hasty = fineness.shares = 0;
   hr2di_error_prepare(&s->best, &fineness);
-  const hr2d_status status = agree(
-      s, hr2di_error_estimate(&s->best, &fineness, &s->target, &errors, &s->message));
+  const hr2d_status status =
+      agree(s, hr2di_error_estimate(&s->best, &fineness, &s->target, &errors, &s->message));
   s->account.error_seconds += hr2di_clock_now() - start;
   if (!status) note_errors(s, &errors);
   return status;

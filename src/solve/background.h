@@ -12,8 +12,8 @@
 hr2d_status hr2di_background_set(hr2di_transport *t, const hr2di_row_sums *rows);
 
 /* The same at an order above 1, from the rows of the operator with its closure, and from the
-   backs that points of each leaf see.  *sees is NULL, or what a former call has set: the patches
-   that may see a back, of the scene alone and from t->alloc, for the caller to keep. */
+   backs that points of each leaf see.  *sees is NULL, or what a former call has set: the
+   patches that may see a back, of the scene alone and from t->alloc, for the caller to keep. */
 hr2d_status hr2di_background_set_order_p(hr2di_transport *t, unsigned char **sees);
 
 #endif

@@ -7,8 +7,10 @@
 
 #include "accuracy/admissibility.h"
 #include "accuracy/divided-links.h"
+#include "accuracy/error-estimate.h"
 #include "accuracy/halved-leaves.h"
 #include "accuracy/point-grid.h"
+#include "accuracy/resolution.h"
 #include "base/alloc.h"
 #include "links/linkset-impl.h"
 #include "support/plane.h"
@@ -215,6 +217,75 @@ START_TEST(few_elements_suffice) {
 }
 END_TEST
 
+/* Solves on whole patches or so, and estimates the error. */
+static void estimate(const hr2d_scene *scene, hr2di_resolution *f, hr2di_graded *answer,
+                     hr2di_error_pair *errors) {
+  const hr2d_target target = HR2D_TARGET_INIT;
+  hr2di_message message;
+  hr2di_survey survey;
+  hr2di_watch watch;
+  const int hasty = f->hasty;
+  hr2di_scene_watch(scene, &watch, NULL, NULL, "refine");
+  ck_assert_int_eq(hr2di_resolution_survey(scene, 1, &watch, &survey), HR2D_OK);
+  *f = hr2di_resolution_for(scene, &survey, 1e-4, HR2D_NORM_AVERAGE, NULL);
+  f->hasty = hasty;
+  ck_assert_int_eq(hr2di_graded_refine(answer, scene, f, &target, &message), HR2D_OK);
+  hr2di_error_prepare(answer, f);
+  ck_assert_int_eq(hr2di_graded_solve(answer, f, &target, &message), HR2D_OK);
+  ck_assert_int_eq(hr2di_error_estimate(answer, f, &target, errors, &message), HR2D_OK);
+  ck_assert(answer->unbounded == hasty);
+}
+
+/* A bound that nobody waited for is the same when it is asked for, and so is what to divide. */
+START_TEST(bounds_may_come_later) {
+  const hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_scene *scene = squares(140);
+  hr2di_resolution f = {.hasty = 0}, hasty = {.hasty = 1};
+  hr2di_graded whole, part;
+  hr2di_error_pair all, some;
+  hr2di_message message;
+  estimate(scene, &f, &whole, &all);
+  estimate(scene, &hasty, &part, &some);
+  ck_assert(isfinite(all.average.bound) && isfinite(all.irradiance_sup.bound));
+  ck_assert(isinf(some.average.bound) && isinf(some.irradiance_sup.bound));
+  ck_assert(some.average.estimate == all.average.estimate);
+  ck_assert(some.irradiance.estimate == all.irradiance.estimate);
+  ck_assert_int_eq(memcmp(whole.depth, part.depth, whole.hierarchy->elements), 0);
+  hasty.hasty = hasty.shares = 0;
+  hr2di_error_prepare(&part, &hasty);
+  ck_assert_int_eq(hr2di_error_estimate(&part, &hasty, &target, &some, &message), HR2D_OK);
+  ck_assert_int_eq(memcmp(&some, &all, sizeof all), 0);
+  hr2di_graded_clear(&part);
+  hr2di_graded_clear(&whole);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+/* Where the budget ends before the target is reached, the answer has a bound. */
+START_TEST(answers_have_bounds) {
+  if (test_multiplier() < 1) return;
+  hr2d_scene *scene = squares(560);
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_account account, all;
+  hr2d_solution *solution = NULL, *reference = NULL;
+  target.error = 1e-3;
+  ck_assert_int_eq(hr2d_solve_to(scene, &target, &reference, &all), HR2D_OK);
+  ck_assert_uint_gt(all.solves, 1);
+  target.max_elements = all.elements - 1;
+  ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &account), HR2D_EACCURACY);
+  const double error = most_off(solution, reference, hr2d_scene_patches(scene));
+  printf("error %.1e, about %.1e, at most %.1e\n", error, account.average.estimate,
+         account.average.bound);
+  ck_assert_double_gt(account.average.estimate, 1e-3);
+  ck_assert(isfinite(account.average.bound) && isfinite(account.irradiance.bound));
+  ck_assert(isfinite(account.sup.bound) && isfinite(account.irradiance_sup.bound));
+  ck_assert_double_le(error, account.average.bound + all.average.bound);
+  hr2d_solution_destroy(reference);
+  hr2d_solution_destroy(solution);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 enum { POINTS = 2000, SEGMENTS = 200 };
 
 static int is_in_spans(const hr2di_point_grid *g, hr2d_segment s, uint32_t number) {
@@ -286,5 +357,6 @@ END_TEST
 TEST_SUITE("error shares") {
   ADD_TESTS("division", leaves_are_halved_so_often, few_elements_suffice);
   REPEAT_TESTS(2, "links", links_are_taken_over, budgets_count_links_taken_over);
+  ADD_TESTS("bounds", bounds_may_come_later, answers_have_bounds);
   ADD_TESTS("grid", strips_have_their_points, grids_may_be_flat);
 }

@@ -100,7 +100,33 @@ START_TEST(a_wall_beside_its_window_is_dark) {
 }
 END_TEST
 
+/* A ground sees the back of a wall.  Links remember who sees backs, and later solves of other
+   orders have the same bits as those of links that do not know yet. */
+START_TEST(backs_are_remembered) {
+  static const hr2d_segment patch[] = {{{0, 0}, {4, 0}}, {{2, 0}, {2, 1}}};
+  double h[2][2];
+  for (int again = 0; again < 2; again++) {
+    hr2d_scene *scene = test_new_scene(NULL);
+    for (int k = 0; k < 2; k++) test_add_patch(scene, patch[k], 0, 0.5, HR2D_SIDES_FRONT);
+    set_background(scene, 1);
+    test_commit(scene);
+    test_links t = test_make_links(scene, NULL, NULL, NULL, NULL);
+    test_refine(&t, 0.3, 4);
+    for (unsigned order = again ? 2 : 4; order <= 4; order++) {
+      ck_assert_int_eq(hr2d_hierarchy_set_order(t.hierarchy, order), HR2D_OK);
+      hr2d_solution *solution = test_solve(&t, 1);
+      for (size_t k = 0; k < 2; k++) h[again][k] = hr2d_solution_irradiance(solution, k, 0);
+      hr2d_solution_destroy(solution);
+    }
+    test_free_links(&t);
+  }
+  ck_assert(h[0][0] == h[1][0] && h[0][1] == h[1][1]);
+  ck_assert_double_lt(h[0][0], 0.9); /* the back is dark */
+  ck_assert_double_gt(h[0][0], 0.5);
+}
+END_TEST
+
 TEST_SUITE("background") {
   ADD_TESTS("received", nothing_comes_into_closed_rooms, light_comes_into_open_rooms,
-            a_wall_beside_its_window_is_dark);
+            a_wall_beside_its_window_is_dark, backs_are_remembered);
 }
