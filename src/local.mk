@@ -80,6 +80,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/in-between.c src/scene/in-between.h \
 	src/scene/need-plane.c \
 	src/scene/patch-runs.c src/scene/patch-runs.h \
+	src/scene/quadrants.c \
 	src/scene/reachability.c \
 	src/scene/reading-notes.c src/scene/reading-notes.h \
 	src/scene/scene.c \
@@ -100,6 +101,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/thermal.c \
 	src/scene/unfold.c \
 	src/scene/wall-pieces.c src/scene/wall-pieces.h \
+	src/scene/with-images.c \
 	src/scene/with-plane.c src/scene/with-plane.h \
 	src/formats/geojson.c \
 	src/formats/geojson-feature.c \
@@ -132,6 +134,7 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/patch-sights.c src/visibility/patch-sights.h \
 	src/visibility/row-maker.c src/visibility/row-maker.h \
 	src/visibility/row-sum.c src/visibility/row-sum.h \
+	src/visibility/view-tail.c src/visibility/view-tail.h \
 	src/visibility/sees-anything.c src/visibility/sees-anything.h \
 	src/visibility/seen-backs.c src/visibility/seen-backs.h \
 	src/visibility/seen-ends.c src/visibility/seen-ends.h \
@@ -195,6 +198,7 @@ libhr2d_core_la_SOURCES = \
 	src/field/leaves.c src/field/leaves.h \
 	src/field/light.c src/field/light.h \
 	src/field/locate.c src/field/locate.h \
+	src/field/past-ends.c src/field/past-ends.h \
 	src/field/round-view.c src/field/round-view.h \
 	src/field/step-off.c \
 	src/refine/count.c \
@@ -224,6 +228,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/gather-one-way.c src/solve/gather-one-way.h \
 	src/solve/heat-balance.c src/solve/heat-balance.h \
 	src/solve/heat-scene.c src/solve/heat-scene.h \
+	src/solve/row-tails.c src/solve/row-tails.h \
 	src/solve/row-sums.c src/solve/row-sums.h \
 	src/solve/shared-gather.c src/solve/shared-gather.h \
 	src/solve/solve.c \

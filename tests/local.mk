@@ -58,6 +58,7 @@ SUITES = \
 	tests/unit/field/check-field \
 	tests/unit/field/check-field-grid \
 	tests/unit/field/check-field-rows \
+	tests/unit/field/check-past-ends \
 	tests/unit/solve/check-solve \
 	tests/unit/solve/check-background \
 	tests/unit/solve/check-sky \

@@ -35,6 +35,8 @@
  * which hr2d_field_values::error receives if hr2d_field_options::patch_error has the e_j. With
  * one e for all patches this is at most e times the part of all directions in which fronts are.
  *
+ * In a scene that repeats for ever what is past its images is extrapolated: see symmetry.h.
+ *
  * **Places.** Every point is in one of three kinds of places, #hr2d_place.
  * - A point on a patch, or nearer to one than 2^-48 of hr2d_scene_unit(), has the limit from
  *   its front: half of its directions see the patch itself. The back of a patch with two sides
@@ -69,8 +71,8 @@ extern "C" {
 typedef enum hr2d_place {
   HR2D_PLACE_BETWEEN = 0, /**< between the patches */
   HR2D_PLACE_PATCH,       /**< on a patch: values are limits from its front */
-  HR2D_PLACE_OUTSIDE      /**< where no light can be, or from where images of a period would be
-                               seen that are cut off (symmetry.h): values are NaN */
+  HR2D_PLACE_OUTSIDE      /**< where no light can be, or a sun shines past the images of a
+                               period (symmetry.h): values are NaN */
 } hr2d_place;
 
 /** Options of the calls for the field. Start from #HR2D_FIELD_OPTIONS_INIT. */
@@ -105,11 +107,13 @@ typedef struct hr2d_field_values {
   double *sky;          /**< receives the part of all directions with nothing, points */
   double *back;         /**< receives the part of all directions with backs, points */
   unsigned char *place; /**< receives an #hr2d_place each, points */
+  double *cut_off;      /**< receives the part of all directions past the ends of a period,
+                             points; 0 without one. symmetry.h says what is known of it */
 } hr2d_field_values;
 
 /** Nothing is wanted. */
 #define HR2D_FIELD_VALUES_INIT                                                                 \
-  { sizeof(hr2d_field_values), NULL, NULL, NULL, NULL, NULL, NULL }
+  { sizeof(hr2d_field_values), NULL, NULL, NULL, NULL, NULL, NULL, NULL }
 
 /**
  * The field at points.

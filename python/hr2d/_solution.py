@@ -83,6 +83,8 @@ class Field(NamedTuple):
     """The part of all directions in which nothing is."""
     place: np.ndarray
     """0 between the patches, 1 on a patch, 2 where no light can be."""
+    cut_off: np.ndarray
+    """The part of all directions past the images of a period, which is extrapolated."""
 
 
 @dataclass(frozen=True)
@@ -223,10 +225,11 @@ class Solution:
         at = np.stack([x.ravel(), y.ravel()], axis=1)
         bands = self.scene.bands
         f = Field(np.empty((*x.shape, bands)), np.empty((*x.shape, bands, 2)),
-                  np.empty(x.shape), np.empty(x.shape, np.uint8))
+                  np.empty(x.shape), np.empty(x.shape, np.uint8), np.empty(x.shape))
         values = ffi.new("hr2d_field_values *", {
             "struct_size": ffi.sizeof("hr2d_field_values"), "mean": writable(f.mean),
             "flux": writable(f.flux), "sky": writable(f.sky),
+            "cut_off": writable(f.cut_off),
             "place": ffi.cast("unsigned char *", ffi.from_buffer(f.place))})
         options = ffi.new("hr2d_field_options *", {
             "struct_size": ffi.sizeof("hr2d_field_options"), "threads": thread_count(threads)})

@@ -11,9 +11,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/alloc.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 #include "solve/closure.h"
+#include "solve/row-tails.h"
 
 enum { TERMS = 5, FEW_TERMS = 2, ROUNDS = 6 };
 
@@ -55,12 +57,30 @@ static void compare_irradiance(hr2di_estimator *e) {
     }
 }
 
+/* The same of the sky past the ends of the period. */
+static hr2d_status add_sky_tail(hr2di_estimator *e) {
+  const hr2di_transport *t = &e->eq.transport;
+  const hr2d_hierarchy *h = t->hierarchy;
+  if (!h->scene->effect[HR2D_EFFECT_BACKGROUND].on) return HR2D_OK;
+  double *off = hr2di_alloc(&t->alloc, h->elements, sizeof *off);
+  if (!off) return HR2D_ENOMEM;
+  const hr2d_status status = hr2di_row_tails_off(h, off, t->watch);
+  for (size_t k = 0; k < t->leaves && !status; k++)
+    for (size_t b = 0; b < t->bands; b++)
+      e->tail[k * t->width + b] += off[hr2di_ties_of(&t->ties, t->leaf[k])] *
+                                   ldexp(hr2di_sky_most(h->scene, b), -e->eq.exponent[b]);
+  hr2di_alloc_free(&t->alloc, off);
+  return status;
+}
+
 /* What a period may send beyond what is extrapolated counts as if it were missing. */
 static void add_tail(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   hr2di_transport *t = &eq->transport;
   if (!e->tail) return;
   hr2di_transport_tail(t, e->kept, e->tail);
+  const hr2d_status status = add_sky_tail(e);
+  if (status && !t->failed) t->failed = status;
   hr2di_estimator_averages(e, e->tail, e->average[0]);
   for (size_t k = 0; k < e->values; k++) {
     const double least = hr2di_estimator_least(e, 1, k / t->bands, k % t->bands);

@@ -43,8 +43,10 @@ typedef struct search {
 static double value_of(const hr2di_light_source *of, thing what, size_t band) {
   if (what.patch == HR2DI_ROUND_SKY) return hr2d_scene_background(of->scene, band);
   if (what.patch == HR2DI_ROUND_BACK) return 0;
-  const size_t k = hr2di_leaf_at(&of->leaves, what.patch, what.at), bands = of->solution->bands;
-  const double from = of->leaves.leaf[k].from, to = hr2di_leaf_end(&of->leaves, what.patch, k);
+  const uint32_t patch = hr2di_light_patch(of, what.patch);
+  if (patch == HR2DI_NOBODY) return 0;
+  const size_t k = hr2di_leaf_at(&of->leaves, patch, what.at), bands = of->solution->bands;
+  const double from = of->leaves.leaf[k].from, to = hr2di_leaf_end(&of->leaves, patch, k);
   const double xi = fmin(fmax(2 * (what.at - from) / (to - from) - 1, -1), 1);
   return hr2di_basis_sum(&of->basis, xi,
                          of->solution->value +
@@ -261,8 +263,10 @@ static hr2d_status look_from_parts(search *s, hr2di_parts parts) {
 /* Where B jumps within a patch. */
 static hr2d_status look_from_jumps(search *s, size_t patch) {
   const hr2di_leaves *l = &s->of->leaves;
+  const uint32_t on = hr2di_light_patch(s->of, (uint32_t)patch);
   hr2d_status status = HR2D_OK;
-  for (size_t k = l->of_patch[patch] + 1; k < l->of_patch[patch + 1] && !status; k++) {
+  if (on == HR2DI_NOBODY) return HR2D_OK;
+  for (size_t k = l->of_patch[on] + 1; k < l->of_patch[on + 1] && !status; k++) {
     if (l->group[k] == l->group[k - 1]) continue;
     const thing after = {(uint32_t)patch, l->leaf[k].from},
                 before = {(uint32_t)patch, nextafter(l->leaf[k].from, 0)};

@@ -7,62 +7,166 @@
 
 #include "base/pi.h"
 #include "base/sized-struct.h"
+#include "field/past-ends.h"
 
 /* Points of a task. */
 enum { GROUP = 32 };
 
-/* Whether images of a period would be seen that are cut off: past an end; or from above or
-   below all patches, where nothing stands although the direction leads back to them. */
-static int is_cut_off(const hr2d_scene *scene, hr2d_point x, const hr2di_round_stretch *s) {
-  const hr2di_symmetry *all = &scene->symmetry;
-  if (!all->motion || !all->by.periodic) return 0;
-  if (s->patch < scene->patches) return s->patch >= all->motions * all->cell;
-  if (s->patch != HR2DI_ROUND_SKY) return 0;
-  const double at = hr2di_symmetry_height(all, hr2d_scene_unit(scene), x);
-  const hr2d_point up = {-all->by.period.y, all->by.period.x};
-  const double right = s->right.x * up.x + s->right.y * up.y,
-               left = s->left.x * up.x + s->left.y * up.y;
-  return at > 0 ? fmin(right, left) < 0 : at < 0 && fmax(right, left) > 0;
-}
-
-static hr2d_status take(void *ctx, const hr2di_round_stretch *s) {
-  hr2di_field_looker *l = ctx;
-  if (is_cut_off(l->sum.of->scene, l->sum.x, s)) l->cut_off = 1;
-  l->sum.x = l->worker->view.x;
-  hr2di_light_add(&l->sum, s);
-  return hr2di_watch_status(l->worker->watch);
-}
+/* What takes the stretches of a view.  Sums are those of what is seen; `far` has what images
+   that are cut off add to them, by series, `late` what the later half of the images shows,
+   `past` the sky that is seen past the ends although it is not there, and `one` a stretch. */
+typedef struct looker {
+  hr2di_field_worker *worker;
+  hr2di_light_sum sum, far, late, past, one;
+  hr2di_far_view view;
+  double *off;     /* per band: of ∫ B dω */
+  double ends;     /* angles of the ends, */
+  double gone;     /* and of sky that is past them */
+  double apart[2]; /* by which half of the images tell another angle of fronts and of sky */
+  int unknown;     /* a sun or a border of the sky is there */
+} looker;
 
 static void clear(hr2di_light_sum *sum, size_t bands) {
   sum->front = sum->back = sum->sky = 0;
   sum->clearance = HUGE_VAL;
   for (size_t b = 0; b < bands; b++) sum->mean[b] = sum->error[b] = 0;
+  for (size_t b = 0; b < 2 * bands && sum->flux; b++) sum->flux[b] = 0;
+}
+
+static void add_times(hr2di_light_sum *to, double factor, const hr2di_light_sum *sum) {
+  const size_t bands = to->of->solution->bands;
+  to->front += factor * sum->front;
+  to->sky += factor * sum->sky;
+  for (size_t b = 0; b < bands; b++) {
+    to->mean[b] += factor * sum->mean[b];
+    to->error[b] += factor * sum->error[b];
+  }
+  for (size_t b = 0; b < 2 * bands && to->flux; b++) to->flux[b] += factor * sum->flux[b];
+}
+
+/* Adds `one` as often as its series says. */
+static void add_one(looker *l, const hr2di_far_part *part) {
+  const size_t bands = l->sum.of->solution->bands;
+  const double weight = part->weight;
+  l->apart[0] += (weight - part->half) * l->one.front;
+  l->apart[1] += (weight - part->half) * l->one.sky;
+  add_times(&l->far, weight, &l->one);
+  if (part->late) add_times(&l->late, 1, &l->one);
+  for (size_t b = 0; b < bands; b++) l->off[b] += (weight - part->former) * l->one.mean[b];
+}
+
+static void take_far_sky(void *ctx, const hr2di_far_part *part) {
+  looker *l = ctx;
+  clear(&l->one, l->sum.of->solution->bands);
+  hr2di_light_add_sky(&l->one, part->right, part->left, part->angle, part->bearing, 1);
+  if (part->weight != -1) {
+    add_one(l, part);
+    return;
+  }
+  add_times(&l->past, 1, &l->one);
+  l->gone += part->angle;
+  l->unknown |= hr2di_far_changes(l->view.scene, part->right, part->left);
+}
+
+static void take_far(looker *l, const hr2di_round_stretch *s) {
+  const hr2di_symmetry *all = &l->view.scene->symmetry;
+  if (s->patch == HR2DI_ROUND_SKY) {
+    hr2di_far_sky(&l->view, s, take_far_sky, l);
+    return;
+  }
+  if (s->patch == HR2DI_ROUND_BACK) return;
+  if (hr2di_symmetry_is_end(all, s->patch)) {
+    l->ends += s->angle;
+    l->sum.front -= s->angle;
+    l->unknown |= hr2di_far_changes(l->view.scene, s->right, s->left);
+    return;
+  }
+  const unsigned term = hr2di_symmetry_term(all, s->patch);
+  if (all->points.weight[term] == 0 && all->points.half[term] == 0) return;
+  const hr2di_far_part part = {.weight = all->points.weight[term],
+                               .former = all->points.former[term],
+                               .half = all->points.half[term],
+                               .late = 2 * term > all->copies};
+  clear(&l->one, l->sum.of->solution->bands);
+  hr2di_light_add(&l->one, s);
+  add_one(l, &part);
+}
+
+static hr2d_status take(void *ctx, const hr2di_round_stretch *s) {
+  looker *l = ctx;
+  l->sum.x = l->one.x = l->worker->view.x;
+  hr2di_light_add(&l->sum, s);
+  if (l->view.quadrants > 0) take_far(l, s);
+  return hr2di_watch_status(l->worker->watch);
+}
+
+/* Without a series: what is past the ends is as the later half of the images is. */
+static void take_late(looker *l, double all) {
+  const hr2di_light_source *of = l->sum.of;
+  const size_t bands = of->solution->bands;
+  const double angle = l->late.front + l->late.sky;
+  clear(&l->far, bands);
+  if (angle > 0) add_times(&l->far, all / angle, &l->late);
+  for (size_t b = 0; b < bands; b++)
+    l->off[b] = all * fmax(of->leaves.scale[b], hr2di_sky_most(of->scene, b));
+}
+
+/* Where nothing is past the ends, roundings of what stands for it are nothing, too. */
+static void join(looker *l) {
+  const double all = l->ends + l->gone;
+  if (!(all > 0)) return;
+  const double apart = fmax(fabs(l->apart[0]), fabs(l->apart[1]));
+  if (l->view.far || apart > HR2DI_FAR_UNSETTLED * all) take_late(l, all);
+  l->sum.back += all - l->far.front - l->far.sky;
+  add_times(&l->sum, 1, &l->far);
+  add_times(&l->sum, -1, &l->past);
+  for (size_t b = 0; b < l->sum.of->solution->bands; b++) l->sum.error[b] += fabs(l->off[b]);
+}
+
+/* The sums have the room of the worker one after the other. */
+static void set_sum(hr2di_light_sum *sum, const hr2di_light_source *of, hr2di_field_worker *w,
+                    double *room) {
+  const size_t bands = of->solution->bands;
+  *sum =
+      (hr2di_light_sum){.of = of, .watch = w->watch, .mean = room, .error = room + 3 * bands};
+  sum->flux = room + bands;
+  clear(sum, bands);
+  if (!of->wants_flux) sum->flux = NULL;
+}
+
+static double part_of(double angle) {
+  return fmin(fmax(angle, 0) / (2 * HR2DI_PI), 1);
 }
 
 hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of, hr2d_point x,
                              hr2di_field_look_at *seen) {
   const size_t bands = of->solution->bands;
-  hr2di_field_looker l = {.worker = w, .sum = {.of = of, .watch = w->watch}};
+  looker l = {.worker = w, .off = w->room + 5 * 4 * bands};
   hr2di_light_sum *sum = &l.sum;
   int touches;
-  sum->mean = w->room;
-  double *flux = sum->mean + bands;
-  sum->error = flux + 2 * bands;
-  clear(sum, bands);
-  for (size_t k = 0; k < 2 * bands; k++) flux[k] = 0;
-  sum->flux = of->wants_flux ? flux : NULL;
+  set_sum(&l.sum, of, w, w->room);
+  set_sum(&l.far, of, w, w->room + 4 * bands);
+  set_sum(&l.late, of, w, w->room + 8 * bands);
+  set_sum(&l.past, of, w, w->room + 12 * bands);
+  set_sum(&l.one, of, w, w->room + 16 * bands);
+  for (size_t b = 0; b < bands; b++) l.off[b] = 0;
+  double *flux = w->room + bands;
   w->view.take = take;
   w->view.ctx = &l;
+  x = hr2di_far_home(of->scene, x);
+  hr2di_far_view_init(&l.view, of->scene, x);
   const hr2d_status status = hr2di_look_round(&w->view, x, &touches);
-  seen->place = l.cut_off ? HR2D_PLACE_OUTSIDE
+  join(&l);
+  seen->place = l.unknown ? HR2D_PLACE_OUTSIDE
                           : hr2di_field_place(of->scene, sum->front, sum->sky, touches);
   const int dark = seen->place == HR2D_PLACE_OUTSIDE;
   seen->clearance = sqrt(sum->clearance);
   seen->mean = sum->mean;
   seen->flux = flux;
   seen->error = sum->error;
-  seen->sky = fmin(sum->sky / (2 * HR2DI_PI), 1);
-  seen->back = fmin(sum->back / (2 * HR2DI_PI), 1);
+  seen->sky = part_of(sum->sky);
+  seen->back = part_of(sum->back);
+  seen->cut_off = part_of(l.ends + l.gone);
   for (size_t b = 0; b < bands; b++) {
     sum->mean[b] = dark ? NAN : sum->mean[b] / (2 * HR2DI_PI);
     flux[2 * b] = dark ? NAN : flux[2 * b] / 2;
@@ -81,6 +185,7 @@ void hr2di_field_keep(const hr2d_field_values *v, size_t k, size_t bands,
   for (size_t b = 0; b < 2 * bands && v->flux; b++) v->flux[2 * k * bands + b] = seen->flux[b];
   if (v->sky) v->sky[k] = seen->sky;
   if (v->back) v->back[k] = seen->back;
+  if (v->cut_off) v->cut_off[k] = seen->cut_off;
   if (v->place) v->place[k] = (unsigned char)seen->place;
 }
 
@@ -122,7 +227,7 @@ hr2d_status hr2di_field_open(hr2di_field_call *f, const hr2d_solution *solution,
   f->team = (hr2di_field_team){.scene = &f->scene.scene,
                                .watch = &f->watch,
                                .threads = f->options.threads,
-                               .needs = 4 * solution->bands};
+                               .needs = HR2DI_FIELD_ROOM * solution->bands};
   return status;
 }
 

@@ -26,17 +26,13 @@ void hr2di_field_close(hr2di_field_call *f);
 /* The field at a point, in the room of a worker. */
 typedef struct hr2di_field_look_at {
   const double *mean, *flux, *error;
-  double sky, back;
+  double sky, back, cut_off;
   double clearance; /* scaled */
   hr2d_place place;
 } hr2di_field_look_at;
 
-/* What takes the stretches of a view. */
-typedef struct hr2di_field_looker {
-  hr2di_field_worker *worker;
-  hr2di_light_sum sum;
-  int cut_off; /* images of a period would be seen that are not there */
-} hr2di_field_looker;
+/* Doubles that a look needs for each band. */
+enum { HR2DI_FIELD_ROOM = 21 };
 
 /* Looks from x, in scaled coordinates.  HR2D_OK, HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of, hr2d_point x,

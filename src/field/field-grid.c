@@ -34,7 +34,7 @@ enum { TILE = HR2DI_TILE, SIDE = TILE + 3 };
 
 /* What is kept of a node: whether it has a view (1) or is interpolated (−1), these, and then
  * mean, flux and error. */
-enum { KNOWN, PLACE, CLEARANCE, SKY, BACK, LIGHT };
+enum { KNOWN, PLACE, CLEARANCE, SKY, BACK, CUT_OFF, LIGHT };
 
 /* So many nodes for each place where borders of light begin make it worth while to find them.
  */
@@ -123,6 +123,7 @@ static hr2d_status look(tile *t, int column, int row) {
   node[CLEARANCE] = seen.clearance;
   node[SKY] = seen.sky;
   node[BACK] = seen.back;
+  node[CUT_OFF] = seen.cut_off;
   memcpy(node + LIGHT, seen.mean, c->bands * sizeof *node);
   memcpy(node + LIGHT + c->bands, seen.flux, 2 * c->bands * sizeof *node);
   memcpy(node + LIGHT + 3 * c->bands, seen.error, c->bands * sizeof *node);
@@ -183,6 +184,7 @@ static double limit_of(const grid_call *c, size_t k) {
   const hr2d_field_values *v = &c->f.values;
   if (k == SKY) return v->sky ? c->grid.tolerance : HUGE_VAL;
   if (k == BACK) return v->back ? c->grid.tolerance : HUGE_VAL;
+  if (k == CUT_OFF) return v->cut_off ? c->grid.tolerance : HUGE_VAL;
   if (k < LIGHT + c->bands) return c->range[k - LIGHT];
   if (!v->flux || k >= LIGHT + 3 * c->bands) return HUGE_VAL;
   return HR2DI_PI * c->range[(k - LIGHT - c->bands) / 2];
@@ -308,6 +310,7 @@ static void keep(tile *t) {
                                         .error = node + LIGHT + 3 * c->bands,
                                         .sky = node[SKY],
                                         .back = node[BACK],
+                                        .cut_off = node[CUT_OFF],
                                         .place = (hr2d_place)node[PLACE]};
       hr2di_field_keep(&c->f.values,
                        (t->at[1] + (size_t)row) * c->grid.columns + t->at[0] + (size_t)column,
@@ -331,7 +334,8 @@ static void set_side(tile *t, int k, size_t number, size_t tiles, size_t nodes) 
 }
 
 static tile tile_of(grid_call *c, hr2di_field_worker *w, size_t task) {
-  tile t = {.call = c, .worker = w, .number = task, .probe = w->room + 4 * c->bands};
+  tile t = {
+      .call = c, .worker = w, .number = task, .probe = w->room + HR2DI_FIELD_ROOM * c->bands};
   t.node = t.probe + c->each;
   set_side(&t, 0, task % c->map.tiles[0], c->map.tiles[0], c->grid.columns);
   set_side(&t, 1, task / c->map.tiles[0], c->map.tiles[1], c->grid.rows);
@@ -417,7 +421,7 @@ static hr2d_status run(grid_call *c, uint64_t *steps) {
   hr2di_field_team *team = &c->f.team;
   hr2d_status status = HR2D_OK;
   team->ctx = c;
-  team->needs = 4 * c->bands + (1 + SIDE * SIDE) * c->each;
+  team->needs = HR2DI_FIELD_ROOM * c->bands + (1 + SIDE * SIDE) * c->each;
   c->first = hr2di_alloc(alloc, count, c->bands * sizeof *c->first);
   c->range = hr2di_alloc(alloc, c->bands, sizeof *c->range);
   c->view = hr2di_alloc(alloc, c->bands, sizeof *c->view);
@@ -470,8 +474,8 @@ hr2d_status hr2d_field_on_grid(const hr2d_solution *solution, const hr2d_field_g
   hr2d_status status = hr2di_sized_copy(&c.grid, sizeof c.grid, grid);
   if (status || !is_valid(&c.grid)) return HR2D_EINVAL;
   c.each = LIGHT + 4 * c.bands;
-  set_map(&c, solution->hierarchy->scene);
   status = hr2di_field_open(&c.f, solution, options, values);
+  set_map(&c, &c.f.scene.scene);
   c.items = c.f.values.flux || c.f.values.error ? c.each : LIGHT + c.bands;
   if (!status) status = run(&c, &steps);
   hr2di_field_close(&c.f);

@@ -9,6 +9,7 @@
 #include "base/sized-struct.h"
 #include "base/sort.h"
 #include "field/field-impl.h"
+#include "field/past-ends.h"
 #include "geometry/vector.h"
 
 /* Points of a task, and of a round. */
@@ -18,6 +19,8 @@ enum { GROUP = 32, ROUND = 1024 };
 typedef struct glimpse {
   uint32_t patch, place;
   double share, factor;
+  double far[2]; /* what is to be added to these for images that are cut off */
+  int late;      /* the image is of the later half */
 } glimpse;
 
 /* A row of a round, in the memory of its task. */
@@ -27,6 +30,16 @@ typedef struct kept_row {
   hr2d_place place;
   double sky[2], back[2]; /* share, factor */
 } kept_row;
+
+/* What is past the ends of a period: all of it, and what stands for fronts and sky there. */
+typedef struct past {
+  hr2di_far_view view;
+  double ends[2], front[2], sky[2]; /* share, factor */
+  double apart[2];                  /* as in field-at.c */
+  double late;                      /* the share that the later half of the images has */
+  double late_sky;
+  double gone[2]; /* the share of sky that is past the ends */
+} past;
 
 /* The entries of a task. */
 typedef struct store {
@@ -54,6 +67,7 @@ typedef struct looker {
   int has_normal;
   kept_row *row;
   double front;
+  past past;
 } looker;
 
 /* ½ ∫ n·ω dω between two unit vectors, over n·ω > 0.  To the left the sine to the right, s,
@@ -72,22 +86,89 @@ static hr2d_point unit(hr2d_point v) {
   return length > 0 ? (hr2d_point){v.x / length, v.y / length} : v;
 }
 
+static void add(double to[2], double weight, double share, double factor) {
+  to[0] += weight * share;
+  to[1] += weight * factor;
+}
+
+static double factor_of(const looker *l, hr2d_point right, hr2d_point left) {
+  return l->has_normal ? form_factor(l->normal, unit(right), unit(left)) : 0;
+}
+
+static void take_far_sky(void *ctx, const hr2di_far_part *part) {
+  looker *l = ctx;
+  const double share = part->angle / (2 * HR2DI_PI),
+               factor = factor_of(l, part->right, part->left);
+  if (part->weight == -1) {
+    add(l->past.gone, 1, share, factor);
+    return;
+  }
+  add(l->past.sky, part->weight, share, factor);
+  if (part->late) l->past.late_sky += share;
+  l->past.apart[1] += (part->weight - part->half) * share;
+}
+
+/* As take_late() of field-at.c. */
+static void take_late(looker *l, const double all[2]) {
+  past *p = &l->past;
+  const double shares = p->late + p->late_sky;
+  p->front[0] = p->front[1] = 0;
+  for (int m = 0; m < 2; m++) p->sky[m] = shares > 0 ? all[m] * p->late_sky / shares : 0;
+  for (size_t k = 0; k < l->count; k++)
+    for (int m = 0; m < 2; m++) {
+      glimpse *g = &l->glimpse[k];
+      g->far[m] = g->late && shares > 0 ? all[m] * g->share / shares : 0;
+      p->front[m] += g->far[m];
+    }
+}
+
+/* Where nothing is past the ends, roundings of what stands for it are nothing, too. */
+static void join(looker *l) {
+  past *p = &l->past;
+  const double all[2] = {p->ends[0] + p->gone[0], p->ends[1] + p->gone[1]};
+  if (!(all[0] > 0)) {
+    for (size_t k = 0; k < l->count; k++) l->glimpse[k].far[0] = l->glimpse[k].far[1] = 0;
+    return;
+  }
+  const double apart = fmax(fabs(p->apart[0]), fabs(p->apart[1]));
+  if (p->view.far || apart > HR2DI_FAR_UNSETTLED * all[0]) take_late(l, all);
+  for (int m = 0; m < 2; m++) {
+    l->row->sky[m] += p->sky[m] - p->gone[m];
+    l->row->back[m] += all[m] - p->front[m] - p->sky[m];
+  }
+}
+
 static hr2d_status take(void *ctx, const hr2di_round_stretch *s) {
   looker *l = ctx;
-  const double share = s->angle / (2 * HR2DI_PI);
-  const double factor =
-      l->has_normal ? form_factor(l->normal, unit(s->right), unit(s->left)) : 0;
+  const hr2d_scene *scene = l->past.view.scene;
+  const double share = s->angle / (2 * HR2DI_PI), factor = factor_of(l, s->right, s->left);
   if (!(s->angle > 0)) return HR2D_OK;
   if (s->patch >= HR2DI_ROUND_SKY) {
-    double *to = s->patch == HR2DI_ROUND_SKY ? l->row->sky : l->row->back;
-    to[0] += share;
-    to[1] += factor;
+    add(s->patch == HR2DI_ROUND_SKY ? l->row->sky : l->row->back, 1, share, factor);
+    if (s->patch == HR2DI_ROUND_SKY) hr2di_far_sky(&l->past.view, s, take_far_sky, l);
     return HR2D_OK;
   }
+  if (hr2di_symmetry_is_end(&scene->symmetry, s->patch)) {
+    add(l->past.ends, 1, share, factor);
+    return HR2D_OK;
+  }
+  const hr2di_tail *t = &scene->symmetry.points;
+  const unsigned term =
+      scene->symmetry.motion ? hr2di_symmetry_term(&scene->symmetry, s->patch) : 0;
+  const double weight = t->weight[term];
+  const int late = 2 * term > scene->symmetry.copies;
+  l->past.apart[0] += (weight - t->half[term]) * share;
+  if (late) l->past.late += share;
+  add(l->past.front, weight, share, factor);
   l->front += share;
   if (hr2di_alloc_reserve(l->alloc, &l->glimpse, &l->room, l->count + 1, sizeof *l->glimpse))
     return HR2D_ENOMEM;
-  l->glimpse[l->count] = (glimpse){s->patch, (uint32_t)l->count, share, factor};
+  l->glimpse[l->count] = (glimpse){(uint32_t)hr2di_scene_original(scene, s->patch),
+                                   (uint32_t)l->count,
+                                   share,
+                                   factor,
+                                   {weight * share, weight * factor},
+                                   late};
   l->count++;
   return HR2D_OK;
 }
@@ -111,8 +192,8 @@ static hr2d_status keep(const looker *l, store *s) {
     const int more = k > 0 && g->patch == g[-1].patch;
     const size_t place = more ? s->used - 1 : s->used;
     s->patch[place] = g->patch;
-    s->share[place] = g->share + (more ? s->share[place] : 0);
-    s->factor[place] = g->factor + (more ? s->factor[place] : 0);
+    s->share[place] = g->share + g->far[0] + (more ? s->share[place] : 0);
+    s->factor[place] = g->factor + g->far[1] + (more ? s->factor[place] : 0);
     s->used = place + 1;
   }
   l->row->count = s->used - l->row->first;
@@ -130,8 +211,11 @@ static hr2d_status make_row(visit *v, hr2di_field_worker *w, looker *l, size_t p
   if (v->normal) l->normal = unit(v->normal[point]);
   w->view.take = take;
   w->view.ctx = l;
-  hr2d_status status =
-      hr2di_look_round(&w->view, hr2di_field_scaled(v->scene, v->at[point]), &touches);
+  const hr2d_point x = hr2di_far_home(v->scene, hr2di_field_scaled(v->scene, v->at[point]));
+  l->past = (past){.late = 0};
+  hr2di_far_view_init(&l->past.view, v->scene, x);
+  hr2d_status status = hr2di_look_round(&w->view, x, &touches);
+  join(l);
   l->row->place = hr2di_field_place(v->scene, l->front, l->row->sky[0], touches);
   if (!status)
     status = hr2di_sort(l->glimpse, l->count, sizeof *l->glimpse, by_patch, w->watch);
@@ -162,8 +246,8 @@ static hr2d_status show_row(const visit *v, size_t point, hr2d_field_row_fn show
                               .patch = s->patch ? s->patch + r->first : NULL,
                               .share = s->share ? s->share + r->first : NULL,
                               .factor = v->normal && s->factor ? s->factor + r->first : NULL,
-                              .sky = fmin(r->sky[0], 1),
-                              .back = fmin(r->back[0], 1),
+                              .sky = fmin(fmax(r->sky[0], 0), 1),
+                              .back = fmin(fmax(r->back[0], 0), 1),
                               .sky_factor = r->sky[1],
                               .back_factor = r->back[1]};
   const hr2d_status status = show(ctx, &row);
@@ -208,7 +292,6 @@ hr2d_status hr2d_field_rows_visit(const hr2d_scene *scene, const hr2d_point *at,
                                   const hr2d_field_options *options, hr2d_field_row_fn show,
                                   void *ctx) {
   if (!scene->committed) return HR2D_ESTATE;
-  if (scene->symmetry.motion) return HR2D_EUNSUPPORTED;
   hr2d_field_options o = HR2D_FIELD_OPTIONS_INIT;
   hr2d_status status = hr2di_sized_copy(&o, sizeof o, options);
   if (status || !hr2di_field_finite(at, count) || !are_normals(normal, count))

@@ -7,7 +7,7 @@
 
 hr2d_status hr2di_field_scene_init(hr2di_with_plane *s, const hr2d_scene *scene,
                                    hr2di_watch *watch) {
-  const hr2d_status status = hr2di_with_plane_init(s, scene, &scene->alloc, watch);
+  const hr2d_status status = hr2di_with_images_init(s, scene, &scene->alloc, watch);
   return !status && s->scene.unclear.is ? HR2D_ESCENE : status;
 }
 

@@ -242,11 +242,13 @@ static void add_front(hr2di_light_sum *sum, const hr2di_round_stretch *seen) {
   const hr2d_segment at = of->scene->patch[seen->patch].scaled;
   const hr2d_point whole = hr2di_point_minus(at.b, at.a);
   const size_t each = of->solution->order * of->solution->bands;
+  const uint32_t patch = hr2di_light_patch(of, seen->patch);
   hr2d_point right = seen->right;
-  size_t k = hr2di_leaf_at(&of->leaves, seen->patch, seen->from);
+  if (patch == HR2DI_NOBODY) return;
+  size_t k = hr2di_leaf_at(&of->leaves, patch, seen->from);
   for (int last = 0; !last; k++) {
     const double begin = of->leaves.leaf[k].from;
-    const double end = hr2di_leaf_end(&of->leaves, seen->patch, k), size = end - begin;
+    const double end = hr2di_leaf_end(&of->leaves, patch, k), size = end - begin;
     last = !(end < seen->to);
     const hr2d_point left = last ? seen->left : to_place(sum->x, at, end);
     const hr2di_span part = {fmax((seen->from - begin) / size, 0),
@@ -306,6 +308,14 @@ static void add_pieces(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
       if (high > low) add_arc(sum, k, low, high - low);
     }
   }
+}
+
+void hr2di_light_add_sky(hr2di_light_sum *sum, hr2d_point right, hr2d_point left, double angle,
+                         double bearing, double factor) {
+  const hr2d_point vector = sum->flux ? between(right, left) : (hr2d_point){0, 0};
+  sum->sky += factor * angle;
+  for (size_t b = 0; b < sum->of->solution->bands; b++)
+    add_constant(sum, b, factor * hr2d_scene_sky(sum->of->scene, bearing, b), angle, vector);
 }
 
 void hr2di_light_add(hr2di_light_sum *sum, const hr2di_round_stretch *s) {

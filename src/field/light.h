@@ -44,6 +44,16 @@ void hr2di_light_source_clear(hr2di_light_source *of);
 hr2d_status hr2di_light_source_relax(hr2di_light_source *of, const double *most,
                                      hr2di_watch *watch);
 
+/* The patch of the solution that has the leaves of one of the scene, which may have more images
+   of a period; HR2DI_NOBODY for an end of it. */
+static inline uint32_t hr2di_light_patch(const hr2di_light_source *of, uint32_t patch) {
+  const hr2di_symmetry *s = &of->scene->symmetry;
+  if (!s->motion || !s->by.periodic) return patch;
+  if (hr2di_symmetry_is_end(s, patch)) return HR2DI_NOBODY;
+  const size_t reflection = patch / s->cell & (((size_t)1 << s->by.mirrors) - 1);
+  return (uint32_t)(reflection * s->cell + patch % s->cell);
+}
+
 /* The sums of one point, over stretches so far. */
 typedef struct hr2di_light_sum {
   const hr2di_light_source *of;
@@ -58,5 +68,9 @@ typedef struct hr2di_light_sum {
 
 /* Adds a stretch of the view from x. */
 void hr2di_light_add(hr2di_light_sum *sum, const hr2di_round_stretch *s);
+
+/* Adds `factor` times the light of the sky at a bearing between two directions. */
+void hr2di_light_add_sky(hr2di_light_sum *sum, hr2d_point right, hr2d_point left, double angle,
+                         double bearing, double factor);
 
 #endif

@@ -22,7 +22,7 @@ static hr2d_status check_all_outside(hr2d_scene *scene, hr2di_watch *watch) {
   return status ? status : check_outside(scene, "sun", scene->sun_bands);
 }
 
-static hr2d_status make_walls(hr2d_scene *scene, hr2di_watch *watch) {
+hr2d_status hr2di_scene_make_walls(hr2d_scene *scene, hr2di_watch *watch) {
   hr2d_segment *segment = hr2di_alloc(&scene->alloc, scene->patches, sizeof *segment);
   hr2d_status status = segment ? HR2D_OK : HR2D_ENOMEM;
   for (size_t k = 0; k < scene->patches && segment; k++) segment[k] = scene->patch[k].scaled;
@@ -62,21 +62,25 @@ static hr2d_status find_sunlight(hr2d_scene *scene, hr2di_watch *watch) {
   return status ? hr2di_scene_fail(scene, status, watch, "the light of the sun") : HR2D_OK;
 }
 
-/* What images are not supported with.  Pieces of the sky are seen at points, past the ends of a
-   period. */
 static hr2d_status check_images(hr2d_scene *scene, hr2di_watch *watch) {
   hr2di_symmetry *s = &scene->symmetry;
   (void)watch;
   if (s->motion && s->rest == 0) hr2di_symmetry_forget_weights(s);
-  if (s->motion && hr2di_scene_is_unsettled(scene))
-    return hr2di_message_fail(&scene->message, HR2D_EUNSUPPORTED,
-                              "patches of given flux in several bands are not supported with "
-                              "mirrors or a period");
-  if (!hr2di_symmetry_cuts(s) || !hr2di_scene_has_sky(scene)) return HR2D_OK;
-  return hr2di_message_fail(
-      &scene->message, HR2D_EUNSUPPORTED,
-      "a sky in pieces is not supported over a period in which patches see "
-      "for ever; a background is");
+  if (!s->motion || !hr2di_scene_is_unsettled(scene)) return HR2D_OK;
+  return hr2di_message_fail(&scene->message, HR2D_EUNSUPPORTED,
+                            "patches of given flux in several bands are not supported with "
+                            "mirrors or a period");
+}
+
+/* Past the ends of a period the sky is that of the horizon. */
+static hr2d_status check_far_sky(hr2d_scene *scene) {
+  double bearing;
+  if (!hr2di_symmetry_cuts(&scene->symmetry) || !hr2di_sky_changes_past_ends(scene, &bearing))
+    return HR2D_OK;
+  return hr2di_message_fail(&scene->message, HR2D_EUNSUPPORTED,
+                            "a piece of the sky ends at a bearing of %g degrees, which is past "
+                            "the images that are taken: draw several cells and a longer period",
+                            bearing);
 }
 
 /* With K = `copies` in a period.  Returns HR2D_OK, or a status with nothing made. */
@@ -86,7 +90,7 @@ static hr2d_status commit(hr2d_scene *scene, unsigned copies, hr2di_watch *watch
                                                               hr2di_scene_check_thermal,
                                                               hr2di_scene_scale,
                                                               hr2di_scene_check_overlaps,
-                                                              make_walls,
+                                                              hr2di_scene_make_walls,
                                                               hr2di_scene_analyse_effects,
                                                               hr2di_scene_find_light,
                                                               hr2di_scene_measure_ends,
@@ -113,9 +117,12 @@ static hr2d_status commit_images(hr2d_scene *scene, hr2di_watch *watch) {
   if (status) return status;
   for (;; copies *= 2) {
     status = commit(scene, copies, watch);
-    if (status || !hr2di_symmetry_cuts(&scene->symmetry) || copies >= most) return status;
+    if (status || !hr2di_symmetry_cuts(&scene->symmetry) || copies >= most) break;
     hr2di_scene_clear_commit(scene);
   }
+  if (!status) status = check_far_sky(scene);
+  if (status) hr2di_scene_clear_commit(scene);
+  return status;
 }
 
 hr2d_status hr2d_scene_commit(hr2d_scene *scene) {

@@ -12,6 +12,8 @@
    K for f = k⁻³, …, k^(−J−2).  What is left is of the order of 1/K^(J+2).  Without the last
    power the extrapolation is off by more: the difference tells what may be left.
 
+   A point sees patches under angles a₂/k² + a₃/k³ + …: it has weights of its own.
+
    The c_j have both signs.  As n_j are K, ¾K, ½K and ⅜K, Σ |c_j| f(n_j) is no more than ten
    times the sum that is wanted; of the last four images it would be a thousand times that. */
 #include <math.h>
@@ -19,7 +21,7 @@
 
 #include "scene/scene-impl.h"
 
-enum { MOST_TERMS = 4, MOST_COPIES = 256, ENOUGH = 16 };
+enum { MOST_TERMS = 4, MOST_COPIES = HR2DI_MOST_COPIES, ENOUGH = 16 };
 
 /* Images in all, beyond which no more are made just to see farther. */
 #define MANY_PATCHES 10000
@@ -47,14 +49,14 @@ static unsigned node_of(unsigned copies, int j) {
   return copies * eighths[j] / 8;
 }
 
-/* Solves Σ_j c_j n_j^−p = Σ_{k>K} k^−p, scaled by K^p, for p = 3, …, by elimination with
- * pivots.
- */
-static void solve(unsigned copies, int terms, double *c) {
+/* Solves Σ_j c_j n_j^−p = Σ_{k>K} k^−p, scaled by K^p, for p = power, …, by elimination with
+   pivots. */
+static void solve(unsigned copies, int power, int terms, double *c) {
   double row[MOST_TERMS][MOST_TERMS + 1];
   for (int r = 0; r < terms; r++) {
-    for (int j = 0; j < terms; j++) row[r][j] = pow(copies / (double)node_of(copies, j), r + 3);
-    row[r][terms] = rest_of(copies, r + 3) * pow(copies, r + 3);
+    for (int j = 0; j < terms; j++)
+      row[r][j] = pow(copies / (double)node_of(copies, j), r + power);
+    row[r][terms] = rest_of(copies, r + power) * pow(copies, r + power);
   }
   for (int k = 0; k < terms; k++) {
     int best = k;
@@ -82,18 +84,32 @@ static int terms_for(unsigned copies) {
   return copies >= 8 ? 4 : copies >= 4 ? 3 : copies >= 2 ? 2 : 1;
 }
 
+static void set(unsigned copies, int power, int terms, double *weight) {
+  double c[MOST_TERMS];
+  solve(copies, power, terms, c);
+  for (int j = 0; j < terms; j++) weight[node_of(copies, j)] += c[j];
+}
+
+/* From ½K on the sum is known up to K. */
+void hr2di_tail_set(hr2di_tail *t, unsigned copies, int power) {
+  const int terms = terms_for(copies);
+  *t = (hr2di_tail){{0}, {0}, {0}};
+  set(copies, power, terms, t->weight);
+  set(copies, power, terms - 1, t->former);
+  if (copies < 2) return;
+  set(copies / 2, power, terms_for(copies / 2), t->half);
+  for (unsigned k = copies / 2 + 1; k <= copies; k++) t->half[k] -= 1;
+}
+
 void hr2di_symmetry_set_weights(hr2di_symmetry *s) {
-  double c[MOST_TERMS] = {0}, former[MOST_TERMS] = {0};
   if (!s->by.periodic) return;
-  const int terms = terms_for(s->copies);
-  solve(s->copies, terms, c);
-  solve(s->copies, terms - 1, former);
-  for (size_t k = 0; k < s->motions; k++)
-    for (int j = 0; j < terms; j++) {
-      if ((unsigned)abs(s->motion[k].periods) != node_of(s->copies, j)) continue;
-      s->motion[k].weight += c[j];
-      if (j + 1 < terms) s->motion[k].former += former[j];
-    }
+  hr2di_tail_set(&s->patches, s->copies, HR2DI_TAIL_OF_PATCHES);
+  hr2di_tail_set(&s->points, s->copies, HR2DI_TAIL_OF_POINTS);
+  for (size_t k = 0; k < s->motions; k++) {
+    const int periods = abs(s->motion[k].periods);
+    s->motion[k].weight += s->patches.weight[periods];
+    s->motion[k].former += s->patches.former[periods];
+  }
 }
 
 void hr2di_symmetry_forget_weights(hr2di_symmetry *s) {

@@ -148,6 +148,7 @@ hr2d_status hr2di_scene_check_bands(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_check_thermal(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_scale(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene, hr2di_watch *watch);
+hr2d_status hr2di_scene_make_walls(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_analyse_effects(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_find_light(hr2d_scene *scene, hr2di_watch *watch);
 

@@ -108,6 +108,10 @@ static size_t piece_at(const hr2di_sky *sky, double bearing) {
   return k;
 }
 
+int hr2di_sky_has(const hr2d_scene *scene, size_t piece, double bearing) {
+  return piece_at(&scene->sky, bearing) == piece;
+}
+
 static double seen_at(const hr2d_scene *scene, size_t piece, size_t band) {
   return piece < scene->sky.pieces ? value_of(&scene->sky, piece, band)
                                    : hr2d_scene_background(scene, band);

@@ -34,6 +34,9 @@ double hr2di_sky_least(const hr2d_scene *scene, size_t band);
    of each, `most`. */
 double hr2di_sky_jump(const hr2d_scene *scene, double bearing, const double *most);
 
+/* Whether a piece has the light of a bearing. */
+int hr2di_sky_has(const hr2d_scene *scene, size_t piece, double bearing);
+
 /* A bearing in [0,360). */
 double hr2di_sky_turned(double bearing);
 

@@ -38,6 +38,21 @@ typedef struct hr2di_motion {
   double former;    /* the same by an extrapolation of a lower order */
 } hr2di_motion;
 
+/* How terms f(k) of a series in 1/k stand for those with k > K: Σ weight[k] f(k), for k ≤ K. */
+enum { HR2DI_MOST_COPIES = 256 };
+typedef struct hr2di_tail {
+  double weight[HR2DI_MOST_COPIES + 1];
+  double former[HR2DI_MOST_COPIES + 1]; /* without the last power of 1/k */
+  double half[HR2DI_MOST_COPIES + 1];   /* from terms up to ½K, less those from there to K */
+} hr2di_tail;
+
+/* For series that begin with k^−power. */
+void hr2di_tail_set(hr2di_tail *t, unsigned copies, int power);
+
+/* The powers with which the series begin: that of an exchange area of two patches, and that of
+   the angle under which a point sees a patch. */
+enum { HR2DI_TAIL_OF_PATCHES = 3, HR2DI_TAIL_OF_POINTS = 2 };
+
 /* What generates the motions, in scene lengths. */
 typedef struct hr2di_generators {
   size_t mirrors;             /* at most 2 */
@@ -58,7 +73,11 @@ typedef struct hr2di_symmetry {
   size_t ends;      /* black patches behind all images */
   unsigned copies;  /* K */
   double low, high; /* the extent of the patches across the period, see below */
-  double rest;      /* the largest part of the directions of a patch that the ends take */
+  double line[2];   /* how far the ends are from the origin, against the period and along it, in
+                       scene lengths */
+  hr2di_tail points;  /* of what a point sees past the ends, if there is a period, */
+  hr2di_tail patches; /* and of its integral along a patch */
+  double rest;        /* the largest part of the directions of a patch that the ends take */
 } hr2di_symmetry;
 
 static inline int hr2di_symmetry_wanted(const hr2di_symmetry *s) {
@@ -90,14 +109,51 @@ double hr2di_symmetry_weight(const hr2di_symmetry *s, size_t first, size_t secon
 /* What the last order of the extrapolation adds to the weight of a pair, as a part of it. */
 double hr2di_symmetry_tail(const hr2di_symmetry *s, size_t first, size_t second);
 
-/* How far a point is above all patches, across the period, or below as a negative number; in
-   scene lengths times the length of the period.  0: between. */
-static inline double hr2di_symmetry_height(const hr2di_symmetry *s, double unit, hr2d_point x) {
-  const double at = unit * (s->by.period.x * x.y - s->by.period.y * x.x);
-  return at > s->high ? at - s->high : at < s->low ? at - s->low : 0;
+/* How many periods away a patch is whose image stands for others; 0 if it is none. */
+static inline unsigned hr2di_symmetry_term(const hr2di_symmetry *s, size_t patch) {
+  const size_t number = patch / s->cell;
+  if (!s->by.periodic || number >= s->motions) return 0;
+  const int k = s->motion[number].periods;
+  return (unsigned)(k < 0 ? -k : k);
+}
+
+static inline int hr2di_symmetry_is_end(const hr2di_symmetry *s, size_t patch) {
+  return s->motion && patch >= s->motions * s->cell;
 }
 
 struct hr2d_scene;
+
+/* What a point sees of the strip that the period sweeps, past one of the ends and above or
+   below: seen from there, the sky that shows in period k of that end is left through the upper
+   or lower border of the strip at distances from line − (K − k + 1) D on, over D. */
+typedef struct hr2di_quadrant {
+  hr2d_point out, up; /* unit vectors: towards the end, and across */
+  double line;        /* the distance of the end, along `out` */
+  double border; /* that of the border, along `up`; not above 0: rays are out of the strip */
+  double period; /* D */
+} hr2di_quadrant;
+
+/* As seen from a point in scene lengths; `end` is 1 for the one along the period. */
+hr2di_quadrant hr2di_symmetry_quadrant(const hr2di_symmetry *s, hr2d_point x, int end,
+                                       int above);
+
+/* The distances between which period k shows the sky; 0 for what is past the end, up to
+   HUGE_VAL. */
+void hr2di_quadrant_of(const hr2di_symmetry *s, const hr2di_quadrant *q, unsigned k,
+                       double distance[2]);
+
+/* The bearing of the sky past an end. */
+double hr2di_quadrant_bearing(const hr2di_quadrant *q);
+
+/* Whether a bearing is that of the period or its opposite, about. */
+int hr2di_symmetry_is_along(const hr2di_symmetry *s, double bearing);
+
+/* Whether a piece of the sky ends where patches see it past an end only, and at which bearing.
+ */
+int hr2di_sky_changes_past_ends(const struct hr2d_scene *scene, double *bearing);
+
+/* The point, moved by periods to between the patches themselves. */
+hr2d_point hr2di_symmetry_home(const hr2di_symmetry *s, hr2d_point x);
 
 /* Finds the generators of the mirrors and the period, or fails with a message. */
 hr2d_status hr2di_symmetry_find(struct hr2d_scene *scene, hr2di_watch *watch);

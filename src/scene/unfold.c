@@ -246,6 +246,7 @@ hr2d_status hr2di_scene_add_ends(hr2d_scene *scene, hr2di_watch *watch) {
              .touch = 4 * hr2di_symmetry_touch(scene) + 0x1p-49 * far};
     e.off += 0.5 * fmax(size - (cell.high - cell.low), 0);
     e.across = extent_along(scene, e.up);
+    s->line[sign > 0] = e.off;
     status = add_line(scene, &e, covered);
     if (!status) status = add_images_before(scene, &e, cell.low, watch);
   }

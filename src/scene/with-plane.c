@@ -12,5 +12,6 @@ hr2d_status hr2di_with_plane_init(hr2di_with_plane *copy, const hr2d_scene *scen
 
 void hr2di_with_plane_clear(hr2di_with_plane *copy) {
   if (copy->own) hr2di_scene_clear_plane(&copy->scene);
-  copy->own = 0;
+  if (copy->repeated) hr2di_scene_clear_repeated(&copy->scene);
+  copy->own = copy->repeated = 0;
 }

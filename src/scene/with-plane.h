@@ -11,12 +11,22 @@
 typedef struct hr2di_with_plane {
   hr2d_scene scene; /* has no plane where walls cross within too many roundings */
   int own;          /* the plane is not that of the original */
+  int repeated;     /* neither are the patches */
 } hr2di_with_plane;
 
 /* Copies a scene, and makes a plane if that has none.  HR2D_OK, HR2D_ENOMEM or the status of
    the watch; to be ended by hr2di_with_plane_clear() in any case. */
 hr2d_status hr2di_with_plane_init(hr2di_with_plane *copy, const hr2d_scene *scene,
                                   const hr2d_allocator *alloc, hr2di_watch *watch);
+/* The same, of a period with as many images as are made where patches see for ever: points
+   between the patches mostly do.  Patches have the numbers that hr2di_symmetry says, and no
+   light.  May also return HR2D_ERANGE. */
+hr2d_status hr2di_with_images_init(hr2di_with_plane *copy, const hr2d_scene *scene,
+                                   const hr2d_allocator *alloc, hr2di_watch *watch);
+
+/* Frees what a copy has of its own beside the plane. */
+void hr2di_scene_clear_repeated(hr2d_scene *copy);
+
 /* Also of zeros. */
 void hr2di_with_plane_clear(hr2di_with_plane *copy);
 

@@ -29,6 +29,7 @@
 #include "solution/panels.h"
 #include "solution/solution-impl.h"
 #include "visibility/point-view.h"
+#include "visibility/view-tail.h"
 
 /* A rule of n points is accurate to ρ^−(2n − order), on a panel that is just far enough to
    3.19^−(2n − order).  At the largest order POINTS make 3.19^−32 of that; at lower ones, and on
@@ -54,6 +55,7 @@ typedef struct gatherer {
   double factor;    /* the form factor that panels have found of the glimpse under way */
   double *edge;     /* per band: the irradiance of the other patch of a wedge */
   double *far;      /* per band: the irradiance at the farther one of two points */
+  double *one;      /* per band: that from one glimpse */
 } gatherer;
 
 /* A patch that touches the point, as one side of a wedge. */
@@ -202,13 +204,29 @@ static double nearest(const gatherer *g, size_t patch, double from, double to,
 
 /* Adds a glimpse: the light that panels resolve, and the rest from its nearest point.  So
    roundings of the panels count only where B_h differs from that point's. */
-static void add_glimpse(gatherer *g, const hr2di_glimpse *seen) {
+static void add_one(gatherer *g, const hr2di_glimpse *seen) {
   g->factor = 0;
   add_leaves(g, seen);
   const double rest = seen->sine - g->factor;
   const double at = nearest(g, seen->patch, seen->from, seen->to, NULL);
   for (size_t b = 0; b < g->solution->bands; b++)
     g->value[b] += rest * hr2d_solution_at(g->solution, seen->patch, at, b);
+}
+
+/* Images of a period may stand for those that are cut off as well. */
+static void add_glimpse(gatherer *g, const hr2di_glimpse *seen) {
+  const size_t bands = g->solution->bands;
+  const double weight = hr2di_view_tail_weight(g->solution->hierarchy->scene, seen->patch);
+  double *value = g->value;
+  if (weight == 1) {
+    add_one(g, seen);
+    return;
+  }
+  g->value = g->one;
+  for (size_t b = 0; b < bands; b++) g->one[b] = 0;
+  add_one(g, seen);
+  g->value = value;
+  for (size_t b = 0; b < bands; b++) g->value[b] += weight * g->one[b];
 }
 
 /* Sets the point at fraction t of a patch, measured from the nearer end, so that it is on the
@@ -244,6 +262,17 @@ static void add_sky(gatherer *g, size_t patch, const hr2di_view_from *seen) {
   }
 }
 
+/* Adds the sky past the ends of a period. */
+static void add_far_sky(gatherer *g, size_t patch, double t, const hr2di_view_from *seen) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  hr2di_view_tail tail;
+  if (!hr2di_symmetry_cuts(&scene->symmetry)) return;
+  hr2di_view_tail_of(scene, patch, t, seen, &tail);
+  for (int k = 0; k < HR2DI_SKIES; k++)
+    for (size_t b = 0; b < g->solution->bands; b++)
+      g->value[b] += tail.sky[k] * hr2d_scene_sky(scene, tail.bearing[k], b);
+}
+
 /* Sets the irradiance from everything but the patch that makes a wedge, which may be NULL.
  *wedge is the form factor of that patch, and *others that of everything else. */
 static hr2d_status look(gatherer *g, size_t patch, double t, const edge *without,
@@ -262,6 +291,7 @@ static hr2d_status look(gatherer *g, size_t patch, double t, const edge *without
                                    hr2d_scene_sunlight_at(scene, patch, t, b)
                              : 0;
   add_sky(g, patch, &seen);
+  if (background) add_far_sky(g, patch, t, &seen);
   for (size_t k = 0; k < seen.count; k++) {
     const int at_edge = is_at_edge(&seen.glimpse[k], without);
     *(at_edge ? wedge : others) += seen.glimpse[k].sine;
@@ -398,8 +428,9 @@ static hr2d_status gather_irradiance(const hr2d_solution *solution, size_t patch
                                      const double *t, size_t count, double *value,
                                      hr2di_watch *watch) {
   gatherer g = {.solution = solution, .watch = watch};
-  g.edge = hr2di_alloc(&solution->alloc, 2 * solution->bands, sizeof *g.edge);
+  g.edge = hr2di_alloc(&solution->alloc, solution->bands, 3 * sizeof *g.edge);
   if (g.edge) g.far = g.edge + solution->bands;
+  if (g.edge) g.one = g.far + solution->bands;
   hr2d_status status = g.edge ? HR2D_OK : HR2D_ENOMEM;
   if (!status)
     status =
@@ -432,15 +463,9 @@ static void watch_gather(const hr2d_solution *solution, hr2di_watch *watch) {
   hr2di_scene_watch(solution->hierarchy->scene, watch, NULL, NULL, "gather");
 }
 
-/* A point sees no images that are cut off, and what stands for them is a matter of links. */
-static int is_cut_off(const hr2d_solution *solution) {
-  return hr2di_symmetry_cuts(&solution->hierarchy->scene->symmetry);
-}
-
 hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t patch, const double *t,
                                  size_t count, double *value) {
   hr2di_watch watch;
-  if (is_cut_off(solution)) return HR2D_EUNSUPPORTED;
   watch_gather(solution, &watch);
   return hr2di_solution_gather(solution, patch, t, count, value, &watch);
 }
@@ -448,7 +473,6 @@ hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t patch, co
 hr2d_status hr2d_solution_gather_irradiance(const hr2d_solution *solution, size_t patch,
                                             const double *t, size_t count, double *value) {
   hr2di_watch watch;
-  if (is_cut_off(solution)) return HR2D_EUNSUPPORTED;
   watch_gather(solution, &watch);
   return gather_irradiance(solution, patch, t, count, value, &watch);
 }

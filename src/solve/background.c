@@ -12,6 +12,7 @@
 #include "scene/scene-impl.h"
 #include "visibility/point-view.h"
 #include "visibility/seen-backs.h"
+#include "visibility/view-tail.h"
 
 /* A form factor up to this cannot be told from rounding. */
 #define NONE 1e-14
@@ -51,6 +52,7 @@ typedef struct lookers {
 static hr2d_status take_backs(const lookers *all, hr2di_viewer *viewer, size_t leaf,
                               double from, double size) {
   hr2di_transport *t = all->t;
+  const hr2d_scene *scene = t->hierarchy->scene;
   const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
   double *sky = t->sky + leaf * t->order, phi[HR2D_MAX_ORDER];
   for (size_t q = 0; q < all->rule.points; q++) {
@@ -58,8 +60,11 @@ static hr2d_status take_backs(const lookers *all, hr2di_viewer *viewer, size_t l
     const double at = from + size * (0.5 + 0.5 * all->rule.at[q]);
     const hr2d_status status = hr2di_view_at(viewer, patch, at, &seen);
     if (status) return status;
+    hr2di_view_tail tail;
+    hr2di_view_tail_of(scene, patch, at, &seen, &tail);
+    const double back = seen.back + tail.back;
     hr2di_basis_at(&all->basis, all->rule.at[q], phi);
-    for (size_t k = 0; k < t->order; k++) sky[k] -= all->rule.weight[q] * seen.back * phi[k];
+    for (size_t k = 0; k < t->order; k++) sky[k] -= all->rule.weight[q] * back * phi[k];
   }
   return HR2D_OK;
 }

@@ -18,6 +18,7 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 #include "visibility/point-view.h"
+#include "visibility/view-tail.h"
 
 /* What a border is off the end of a leaf, at most, in places of the patch: they are the same.
  */
@@ -108,16 +109,27 @@ typedef struct stargazer {
   double *factor; /* pieces × order: the coefficients of a leaf */
 } stargazer;
 
-/* Adds what a point of the rule sees. */
-static void add_view(stargazer *g, size_t patch, const hr2di_view_from *seen, size_t point) {
+/* The part of a piece that is past the ends of a period. */
+static double far_factor(const hr2d_scene *scene, size_t piece, const hr2di_view_tail *tail) {
+  double sum = 0;
+  for (int k = 0; k < HR2DI_SKIES; k++)
+    if (tail->sky[k] != 0 && hr2di_sky_has(scene, piece, tail->bearing[k])) sum += tail->sky[k];
+  return sum;
+}
+
+/* Adds what a point of the rule, fraction t of the patch, sees. */
+static void add_view(stargazer *g, size_t patch, double t, const hr2di_view_from *seen,
+                     size_t point) {
   const hr2d_scene *scene = g->t->hierarchy->scene;
+  hr2di_view_tail tail;
+  hr2di_view_tail_of(scene, patch, t, seen, &tail);
   const size_t order = g->basis.order;
   double phi[HR2D_MAX_ORDER];
   hr2di_basis_at(&g->basis, g->rule.at[point], phi);
   for (size_t k = 0; k < scene->sky.pieces; k++) {
     hr2di_sines part[2];
     const int parts = hr2di_sky_front(scene, patch, k, part);
-    double sum = 0;
+    double sum = far_factor(scene, k, &tail);
     for (size_t m = 0; m < seen->arcs; m++)
       sum += hr2di_sky_factor(part, parts, seen->arc[m][0], seen->arc[m][1]);
     for (size_t l = 0; l < order; l++)
@@ -135,9 +147,9 @@ static hr2d_status look_from_leaf(stargazer *g, size_t leaf) {
   for (size_t k = 0; k < factors; k++) g->factor[k] = 0;
   for (size_t q = 0; q < g->rule.points && !status; q++) {
     hr2di_view_from seen;
-    status =
-        hr2di_view_at(g->viewer, e->patch, from + size * (0.5 + 0.5 * g->rule.at[q]), &seen);
-    if (!status) add_view(g, e->patch, &seen, q);
+    const double t = from + size * (0.5 + 0.5 * g->rule.at[q]);
+    status = hr2di_view_at(g->viewer, e->patch, t, &seen);
+    if (!status) add_view(g, e->patch, t, &seen, q);
     if (!status) status = hr2di_watch_work(g->t->watch, factors / 8);
   }
   return status;

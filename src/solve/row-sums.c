@@ -20,6 +20,7 @@
 #include "links/patch-defect.h"
 #include "scene/with-plane.h"
 #include "sight/sight-list.h"
+#include "solve/row-tails.h"
 
 /* Elements that wait, one per level. */
 enum { DEPTH = 1100 };
@@ -239,6 +240,12 @@ static hr2d_status prepare(walker *w, const hr2d_allocator *alloc) {
   return status;
 }
 
+/* What is past the ends of a period counts as fronts so far, whatever it is. */
+static hr2d_status move_tails(const walker *w, double *front, double *back) {
+  if (!hr2di_symmetry_cuts(&w->scene->symmetry) || !w->scene->parts.wanted) return HR2D_OK;
+  return hr2di_row_tails_move(w->h, w->scene, w->patch, front, back, w->watch);
+}
+
 static hr2d_status make_rows(hr2di_row_sums *rows, const hr2d_linkset *links, walker *w,
                              hr2di_sum *defect) {
   hr2d_status status = hr2di_defect_sum(links, defect, w->watch);
@@ -253,6 +260,7 @@ static hr2d_status make_rows(hr2di_row_sums *rows, const hr2d_linkset *links, wa
     if (open && !status) status = look_around(w);
     const uint64_t leaves = finish(w, k, !open, rows->front, rows->back);
     rows->leaves += open ? leaves : 0;
+    if (open && !status) status = move_tails(w, rows->front, rows->back);
     if (!status) status = hr2di_watch_work(w->watch, 1);
   }
   return status;
@@ -325,10 +333,9 @@ void hr2di_row_sums_clear(hr2di_row_sums *rows) {
 hr2d_status hr2d_leaf_sums(const hr2d_hierarchy *hierarchy, size_t row_from, size_t row_to,
                            double *front, double *back) {
   const hr2d_allocator *alloc = &hierarchy->alloc;
-  const size_t patches = hierarchy->scene->patches;
+  const size_t patches = hr2di_scene_cell(hierarchy->scene);
   hr2di_watch watch;
   walker *w;
-  if (hierarchy->scene->symmetry.motion) return HR2D_EUNSUPPORTED;
   if (row_to == 0) row_to = patches;
   if (row_from > row_to || row_to > patches) return HR2D_EINVAL;
   hr2di_scene_watch(hierarchy->scene, &watch, NULL, NULL, "row sums");
@@ -339,6 +346,7 @@ hr2d_status hr2d_leaf_sums(const hr2d_hierarchy *hierarchy, size_t row_from, siz
     w->patch = (uint32_t)k;
     status = look_around(w);
     finish(w, w->patch, 0, front, back);
+    if (!status) status = move_tails(w, front, back);
     if (!status) status = hr2di_watch_work(&watch, 1);
   }
   if (w) clear(w, alloc);

@@ -29,7 +29,7 @@ static void find_part(const hr2di_viewer *w, const hr2di_stretch *s, double *fro
 }
 
 static hr2d_status add_arc(hr2di_viewer *w, const hr2di_stretch *s) {
-  if (!w->scene->sky.pieces) return HR2D_OK;
+  if (!w->scene->sky.pieces && !hr2di_symmetry_cuts(&w->scene->symmetry)) return HR2D_OK;
   if (hr2di_alloc_reserve(&w->alloc, &w->arc, &w->arc_room, w->arcs + 1, sizeof *w->arc))
     return HR2D_ENOMEM;
   w->arc[w->arcs][0] = s->left.sine;

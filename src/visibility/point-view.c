@@ -51,7 +51,8 @@ static hr2d_status sort_glimpses(hr2di_viewer *w) {
 
 static int is_hidden(const hr2di_viewer *w) {
   return w->scene->effect[HR2D_EFFECT_OCCLUSION].on ||
-         (w->scene->sky.pieces && w->scene->parts.wanted);
+         ((w->scene->sky.pieces || hr2di_symmetry_cuts(&w->scene->symmetry)) &&
+          w->scene->parts.wanted);
 }
 
 static hr2d_status look(hr2di_viewer *w, const hr2di_ray border[2], hr2di_view_from *seen) {

@@ -33,8 +33,8 @@ typedef struct hr2di_view_from {
   double back;  /* the same for backs of patches that have a front only, which are black
                    and opaque */
   double sky;   /* 1 − front − back, at least 0: the form factor of the background */
-  const double (*arc)[2]; /* of the sky, where that has pieces: sines from low to high; the
-                             viewer's, as the glimpses */
+  const double (*arc)[2]; /* of the sky, where that has pieces or a period is cut off: sines
+                             from low to high; the viewer's, as the glimpses */
   size_t arcs;
 } hr2di_view_from;
 

@@ -37,7 +37,7 @@ static void free_sheet(sheet *s) {
 
 static hr2d_field_values values_of(sheet *s) {
   return (hr2d_field_values){
-      sizeof(hr2d_field_values), s->mean, s->flux, NULL, s->sky, s->back, s->place};
+      sizeof(hr2d_field_values), s->mean, s->flux, NULL, s->sky, s->back, s->place, NULL};
 }
 
 static sheet draw_sheet(const hr2d_solution *solution, hr2d_field_grid grid, unsigned threads) {

@@ -332,7 +332,7 @@ typedef struct field_result {
 
 static hr2d_field_values values_of(field_result *f) {
   return (hr2d_field_values){
-      sizeof(hr2d_field_values), f->mean, f->flux, NULL, f->sky, NULL, f->place};
+      sizeof(hr2d_field_values), f->mean, f->flux, NULL, f->sky, NULL, f->place, NULL};
 }
 
 /* Bands, and the same bits for each number of threads. */

@@ -208,15 +208,10 @@ static hr2d_status ignore_bytes(void *ctx, const void *bytes, size_t size) {
 /* What does not know images refuses them. */
 START_TEST(calls_without_images_refuse_them) {
   hr2d_scene *scene = one_patch();
-  hr2d_hierarchy *hierarchy;
-  double area;
   add_mirror(scene, 0, 0, 0, 1);
   test_commit(scene);
   ck_assert_int_eq(hr2d_beams_visit(scene, 0, .5, NULL, NULL), HR2D_EUNSUPPORTED);
   ck_assert_int_eq(hr2d_state_write_scene(scene, ignore_bytes, NULL), HR2D_EUNSUPPORTED);
-  ck_assert_int_eq(hr2d_hierarchy_create(scene, &hierarchy), HR2D_OK);
-  ck_assert_int_eq(hr2d_leaf_sums(hierarchy, 0, 0, &area, NULL), HR2D_EUNSUPPORTED);
-  hr2d_hierarchy_destroy(hierarchy);
   hr2d_scene_destroy(scene);
 }
 END_TEST

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solve/row-tails.h"
+
+#include "base/legendre.h"
+#include "scene/scene-impl.h"
+#include "visibility/view-tail.h"
+
+/* The ends are many periods away: what is seen of them bends little along a leaf. */
+enum { POINTS = 8 };
+
+typedef struct looker {
+  const hr2d_hierarchy *h;
+  const hr2d_scene *scene;
+  hr2di_viewer *viewer;
+  hr2di_rule rule;
+} looker;
+
+static hr2d_status look(const looker *l, uint32_t leaf, size_t point, hr2di_view_tail *tail) {
+  const hr2d_element *e = &l->h->element[leaf];
+  const double size = e->length / l->h->element[e->patch].length;
+  const double t = hr2di_element_start(l->h, leaf) + size * (0.5 + 0.5 * l->rule.at[point]);
+  hr2di_view_from seen;
+  const hr2d_status status = hr2di_view_at(l->viewer, e->patch, t, &seen);
+  if (!status) hr2di_view_tail_of(l->scene, e->patch, t, &seen, tail);
+  return status;
+}
+
+static hr2d_status begin(looker *l, const hr2d_hierarchy *h, const hr2d_scene *scene,
+                         hr2di_watch *watch) {
+  *l = (looker){.h = h, .scene = scene};
+  hr2di_rule_init(&l->rule, POINTS);
+  return hr2di_viewer_create(scene, &h->alloc, watch, &l->viewer);
+}
+
+static hr2d_status move_leaf(const looker *l, uint32_t leaf, double *front, double *back) {
+  hr2d_status status = HR2D_OK;
+  for (size_t q = 0; q < POINTS && !status; q++) {
+    hr2di_view_tail tail;
+    status = look(l, leaf, q, &tail);
+    if (status || !(tail.ends > 0)) continue;
+    const double weight = l->rule.weight[q];
+    double open = tail.back;
+    for (int k = 0; k < HR2DI_SKIES; k++) open += tail.sky[k];
+    if (front) front[leaf] -= weight * open;
+    if (back) back[leaf] += weight * tail.back;
+  }
+  return status;
+}
+
+hr2d_status hr2di_row_tails_move(const hr2d_hierarchy *h, const hr2d_scene *scene, size_t patch,
+                                 double *front, double *back, hr2di_watch *watch) {
+  looker l;
+  hr2d_status status = begin(&l, h, scene, watch);
+  uint32_t leaf = hr2di_hierarchy_first_leaf(h, (uint32_t)patch);
+  do {
+    if (!status) status = move_leaf(&l, leaf, front, back);
+    if (!status) status = hr2di_watch_work(watch, 1);
+    leaf = hr2di_hierarchy_next_leaf(h, leaf, (uint32_t)patch);
+  } while (leaf && !status);
+  hr2di_viewer_destroy(l.viewer);
+  return status;
+}
+
+hr2d_status hr2di_row_tails_off(const hr2d_hierarchy *h, double *off, hr2di_watch *watch) {
+  looker l;
+  hr2d_status status = begin(&l, h, h->scene, watch);
+  for (uint32_t k = 0; k < h->elements && !status; k++) {
+    off[k] = 0;
+    if (h->element[k].child || h->element[k].patch >= hr2di_scene_cell(h->scene) ||
+        !hr2di_scene_lit(h->scene, h->element[k].patch))
+      continue;
+    for (size_t q = 0; q < POINTS && !status; q++) {
+      hr2di_view_tail tail;
+      status = look(&l, k, q, &tail);
+      if (!status) off[k] += l.rule.weight[q] * tail.off;
+    }
+  }
+  hr2di_viewer_destroy(l.viewer);
+  return status;
+}
