@@ -35,21 +35,21 @@
  * because from above a street all roofs are seen. Angles under which image k is seen are series
  * that begin with 1/k². hr2d_field_values::cut_off receives the part of all directions that is
  * past the images, which is exact; so the light from there adds at most this part of the
- * largest radiosity to M. hr2d_field_values::error has an estimate of what extrapolation is off.
- * Where there is no series, as where the ground shows here and there through gaps of a row of
- * panels, or far above the scene, the light past the images is taken as that of the last ones,
- * and the error is its bound. Rows of points (hr2d_field_rows_visit()) are the same; their sums
- * may differ from 1 by what extrapolation is off.
+ * largest radiosity to M. hr2d_field_values::error has an estimate of what extrapolation is
+ * off. Where there is no series, as where the ground shows here and there through gaps of a row
+ * of panels, or far above the scene, the light past the images is taken as that of the last
+ * ones, and the error is its bound. Rows of points (hr2d_field_rows_visit()) are the same;
+ * their sums may differ from 1 by what extrapolation is off.
  *
  * Exchange areas of patches (visibility.h) are sums over all images: a patch may see images of
- * its own. They are made by one thread, in a matrix of all patches of the cell. hr2d_leaf_sums()
- * has the rows of the patches of the cell.
+ * its own. They are made by one thread, in a matrix of all patches of the cell.
+ * hr2d_leaf_sums() has the rows of the patches of the cell.
  *
  * Not supported with mirrors or a period, and refused with HR2D_EUNSUPPORTED: beams of points,
  * scenes as bytes, patches of given flux in several bands; and, over a period in which patches
  * see for ever, a sky with a piece that ends between the horizon and the last images. Points
- * between the patches have no values (HR2D_PLACE_OUTSIDE) if such a piece ends, or a sun shines,
- * past the images that they see.
+ * between the patches have no values (HR2D_PLACE_OUTSIDE) if such a piece ends, or a sun
+ * shines, past the images that they see.
  * @{
  */
 #ifndef HR2D_SYMMETRY_H

@@ -250,8 +250,8 @@ START_TEST(what_goes_up_is_the_same_at_every_height) {
 }
 END_TEST
 
-/* From above raised panels the ground shows in gaps here and there, with no series: what is past
-   the ends is between nothing and the most, and right where all is the same. */
+/* From above raised panels the ground shows in gaps here and there, with no series: what is
+   past the ends is between nothing and the most, and right where all is the same. */
 START_TEST(gaps_far_away_have_bounds) {
   hr2d_scene *scene = test_new_scene(NULL);
   add(scene, (hr2d_point){0, 0}, (hr2d_point){1, 0}, 1, 0, HR2D_SIDES_FRONT);
