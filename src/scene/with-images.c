@@ -43,14 +43,6 @@ static hr2d_status unfold(hr2d_scene *copy, unsigned copies, hr2di_watch *watch)
   return status ? status : hr2di_scene_need_plane(copy, watch);
 }
 
-void hr2di_scene_clear_repeated(hr2d_scene *copy) {
-  hr2di_scene_truncate(copy, 0);
-  hr2di_alloc_free(&copy->alloc, copy->patch);
-  hr2di_symmetry_clear(&copy->symmetry, &copy->alloc);
-  hr2di_walls_clear(&copy->walls);
-  hr2di_runs_clear(&copy->runs);
-}
-
 hr2d_status hr2di_with_images_init(hr2di_with_plane *copy, const hr2d_scene *scene,
                                    const hr2d_allocator *alloc, hr2di_watch *watch) {
   const hr2di_symmetry *s = &scene->symmetry;

@@ -24,9 +24,6 @@ hr2d_status hr2di_with_plane_init(hr2di_with_plane *copy, const hr2d_scene *scen
 hr2d_status hr2di_with_images_init(hr2di_with_plane *copy, const hr2d_scene *scene,
                                    const hr2d_allocator *alloc, hr2di_watch *watch);
 
-/* Frees what a copy has of its own beside the plane. */
-void hr2di_scene_clear_repeated(hr2d_scene *copy);
-
 /* Also of zeros. */
 void hr2di_with_plane_clear(hr2di_with_plane *copy);
 
