@@ -2,16 +2,21 @@
 /* Rows are cut into runs of patches that stand side by side, some for each rank, and the runs
    are dealt out: the one with most work first, to the rank that has least of what this run has.
    A pair belongs to its earlier patch, so that early rows have more links for each test of
-   visibility than late ones: single ranges cannot be even in both, several can. */
+   visibility than late ones: single ranges cannot be even in both, several can.  Long rows are
+   cut first. */
 #include "deal.h"
 
 #include <stdlib.h>
 
+#include "long-rows.h"
+
 enum { RUNS_PER_RANK = 32 };
 
+/* Rows, or a piece of a row. */
 typedef struct run {
   size_t from, to;
-  double part[2]; /* of all links, and of all tests */
+  uint32_t piece, pieces; /* of a long row; else 0 and 1 */
+  double part[2];         /* of all links, and of all tests */
 } run;
 
 typedef struct dealer {
@@ -25,18 +30,24 @@ static double size_of(const run *r) {
   return fmax(r->part[0], r->part[1]);
 }
 
+static void cut_row(dealer *d, size_t row, uint32_t pieces, const double *part) {
+  for (uint32_t k = 0; k < pieces; k++)
+    d->run[d->runs++] = (run){row, row + 1, k, pieces, {part[0] / pieces, part[1] / pieces}};
+}
+
 /* A run ends where it has its part of the work of both kinds together. */
-static void cut_runs(dealer *d, const double *weight, const double all[2]) {
+static void cut_runs(dealer *d, const double *part) {
   const size_t patches = d->p->patches;
   const double most = 1.0 / (RUNS_PER_RANK * d->p->ranks);
-  run r = {0};
+  run r = {.pieces = 1};
   for (size_t k = 0; k < patches; k++) {
-    for (int kind = 0; kind < 2; kind++)
-      if (all[kind] > 0) r.part[kind] += weight[2 * k + (size_t)kind] / all[kind];
-    r.to = k + 1;
-    if (size_of(&r) < most && k + 1 < patches) continue;
-    d->run[d->runs++] = r;
-    r = (run){.from = k + 1};
+    const uint32_t pieces = hr2dpi_long_rows_pieces(d->p, k);
+    for (size_t kind = 0; kind < 2 && pieces == 1; kind++) r.part[kind] += part[2 * k + kind];
+    r.to = pieces == 1 ? k + 1 : k;
+    if (size_of(&r) < most && k + 1 < patches && pieces == 1) continue;
+    if (r.to > r.from) d->run[d->runs++] = r;
+    if (pieces > 1) cut_row(d, k, pieces, &part[2 * k]);
+    r = (run){.from = k + 1, .pieces = 1};
   }
 }
 
@@ -44,7 +55,8 @@ static void cut_runs(dealer *d, const double *weight, const double all[2]) {
 static int by_size(const void *left, const void *right) {
   const run *l = left, *r = right;
   if (size_of(l) != size_of(r)) return size_of(l) > size_of(r) ? -1 : 1;
-  return (l->from > r->from) - (l->from < r->from);
+  if (l->from != r->from) return l->from > r->from ? 1 : -1;
+  return (l->piece > r->piece) - (l->piece < r->piece);
 }
 
 static int least_loaded(const dealer *d, const run *r) {
@@ -62,26 +74,32 @@ static int least_loaded(const dealer *d, const run *r) {
 }
 
 static void deal(dealer *d) {
+  hr2dpi_units *units = &d->p->units;
   qsort(d->run, d->runs, sizeof *d->run, by_size);
-  memset(d->p->units.rows, 0, d->p->patches);
+  memset(units->rows, 0, d->p->patches);
   for (size_t k = 0; k < d->runs; k++) {
     const run *r = &d->run[k];
     const int rank = least_loaded(d, r);
     d->load[2 * rank] += r->part[0];
     d->load[2 * rank + 1] += r->part[1];
-    if (rank == d->p->rank) memset(d->p->units.rows + r->from, 1, r->to - r->from);
+    for (size_t row = r->from; row < r->to; row++)
+      units->owner[units->piece[row] + r->piece] = rank;
+    if (rank == d->p->rank) memset(units->rows + r->from, 1, r->to - r->from);
   }
 }
 
-hr2d_status hr2dpi_deal_rows(hr2dp *p, const double *weight) {
+hr2d_status hr2dpi_deal_rows(hr2dp *p, double *weight) {
   dealer d = {.p = p};
   double all[2] = {0, 0};
   for (size_t k = 0; k < 2 * p->patches; k++) all[k % 2] += weight[k];
-  d.run = hr2dpi_alloc(p, p->patches, sizeof *d.run);
+  for (size_t k = 0; k < 2 * p->patches; k++)
+    if (all[k % 2] > 0) weight[k] /= all[k % 2];
+  hr2d_status status = hr2dpi_long_rows_cut(p, weight);
+  d.run = hr2dpi_alloc(p, p->patches + p->units.cuts, sizeof *d.run);
   d.load = hr2dpi_alloc_zero(p, 2 * (size_t)p->ranks, sizeof *d.load);
-  const hr2d_status status = d.run && d.load ? HR2D_OK : HR2D_ENOMEM;
+  if (!status && (!d.run || !d.load)) status = HR2D_ENOMEM;
   if (!status) {
-    cut_runs(&d, weight, all);
+    cut_runs(&d, weight);
     deal(&d);
   }
   hr2dpi_free(p, d.run);

@@ -28,7 +28,11 @@ typedef struct hr2dpi_units {
   hr2dpi_ranges leaves; /* of unknowns */
   double *start;        /* with a cut: per unit, the coordinate where it starts... */
   unsigned char *along; /* ...and per patch, which one: x or y, bit 0; falling, bit 1 */
-  unsigned char *rows;  /* without a cut: per patch, whether its row is of this rank */
+  unsigned char *rows;  /* without a cut: per patch, whether its row, or a part of it, is of
+                           this rank */
+  uint32_t *piece;      /* without a cut: the first piece of each row, one more than patches */
+  int *owner;           /* of each piece, or NULL before rows are dealt out */
+  size_t cuts;          /* pieces that are not the first of their row */
   int placed;           /* the ranges are known */
 } hr2dpi_units;
 
@@ -66,6 +70,7 @@ struct hr2dp {
   uint64_t *repeated;     /* numbers of links of which another rank has the same, rising */
   size_t repeats;
   hr2dp_counts counts;
+  hr2d_refine_counts long_rows[2]; /* see long-rows.h */
   int directed;
   int refined;   /* there are links */
   uint64_t hash; /* of the scene */

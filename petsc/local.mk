@@ -23,6 +23,7 @@ libhr2d_petsc_la_SOURCES = \
 	petsc/exchange-shapes.c \
 	petsc/hr2dp.c petsc/hr2dp-impl.h \
 	petsc/krylov.c petsc/krylov.h \
+	petsc/long-rows.c petsc/long-rows.h \
 	petsc/memory.c \
 	petsc/power.c \
 	petsc/save.c \

@@ -6,6 +6,7 @@
 #include "share.h"
 
 #include "deal.h"
+#include "long-rows.h"
 #include "units.h"
 
 /* Pairs whose first element is above the cut. */
@@ -82,6 +83,8 @@ static hr2d_status weigh_units(hr2dp *p, hr2d_refine_options *options, hr2d_link
 static void set_equal_rows(hr2dp *p) {
   const uint64_t from = p->units.links.from[p->rank], to = p->units.links.from[p->rank + 1];
   for (uint64_t k = 0; k < p->patches; k++) p->units.rows[k] = k >= from && k < to;
+  p->units.cuts = 0;
+  memset(p->long_rows, 0, sizeof p->long_rows);
 }
 
 /* Sets the links and tests of own rows. */
@@ -124,10 +127,12 @@ static PetscErrorCode share_out_by(hr2dp *p, const hr2d_refine_options *options,
   PetscFunctionBegin;
   PetscCall(hr2dpi_agree(p, weight ? weigh(p, options, weight) : HR2D_ENOMEM));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, weight, (int)weights, MPI_DOUBLE, MPI_SUM, p->comm));
-  if (p->units.cut > 0)
+  if (p->units.cut > 0) {
     hr2dpi_ranges_cut(p, weight, &p->units.links);
-  else
-    PetscCall(hr2dpi_agree(p, hr2dpi_deal_rows(p, weight)));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(hr2dpi_agree(p, hr2dpi_deal_rows(p, weight)));
+  PetscCall(hr2dpi_agree(p, hr2dpi_long_rows_count(p, options)));
   PetscFunctionReturn(0);
 }
 
@@ -187,6 +192,8 @@ static hr2d_status refine(hr2dp *p, const hr2d_refine_options *given) {
     options.claim_ctx = &claim;
   } else {
     options.rows = p->units.rows;
+    if (p->units.cuts > 0) options.claim = hr2dpi_long_rows_claim;
+    options.claim_ctx = p;
   }
   hr2d_status status = hr2d_refine(p->links, &options);
   if (status) return hr2dpi_fail(p, status, "%s", hr2d_linkset_message(p->links));
@@ -216,25 +223,30 @@ static void read_counts(const uint64_t *list, hr2d_refine_counts *c) {
   c->dark_pairs = list[8];
 }
 
-/* Adds up what ranks have made: all less what is above the cut on each, and this once. */
+/* What several ranks have done alike: what this rank has of it, and what one process has. */
+static void list_repeated(const hr2dp *p, uint64_t list[2 * SUMS]) {
+  for (int k = 0; k < 2; k++) {
+    hr2d_refine_counts of = p->long_rows[k];
+    if (p->top && p->top->links[k]) of = hr2d_linkset_counts(p->top->links[k]);
+    list_counts(&of, list + k * SUMS);
+  }
+}
+
+/* Adds up what ranks have made: all less what several have done alike, and this once. */
 static PetscErrorCode count(hr2dp *p) {
-  uint64_t own[SUMS], above[2 * SUMS] = {0}, most[2];
+  uint64_t own[SUMS], alike[2 * SUMS], most[2];
   hr2dp_counts *c = &p->counts;
   PetscFunctionBegin;
   const hr2d_refine_counts made = hr2d_linkset_counts(p->links);
   list_counts(&made, own);
-  for (int k = 0; k < 2 && p->top; k++) {
-    if (!p->top->links[k]) continue;
-    const hr2d_refine_counts of = hr2d_linkset_counts(p->top->links[k]);
-    list_counts(&of, above + k * SUMS);
-  }
+  list_repeated(p, alike);
   c->own_links = own[0] - p->repeats;
   c->own_tests = own[4];
   most[0] = c->own_links;
   most[1] = c->own_tests;
   uint64_t all[3 * SUMS + 1];
   memcpy(all, own, sizeof own);
-  memcpy(all + SUMS, above, sizeof above);
+  memcpy(all + SUMS, alike, sizeof alike);
   all[3 * SUMS] = c->own_links;
   PetscCall(hr2dpi_add_counts(p, all, 3 * SUMS + 1));
   PetscCall(hr2dpi_max_counts(p, most, 2));

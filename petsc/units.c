@@ -77,7 +77,8 @@ hr2d_status hr2dpi_units_init(hr2dp *p) {
   if (!units->links.from || !units->leaves.from) return HR2D_ENOMEM;
   const hr2d_status status = units->cut > 0 ? place_starts(p) : HR2D_OK;
   units->rows = hr2dpi_alloc_zero(p, p->patches, 1);
-  if (!units->rows) return HR2D_ENOMEM;
+  units->piece = hr2dpi_alloc_zero(p, p->patches + 1, sizeof *units->piece);
+  if (!units->rows || !units->piece) return HR2D_ENOMEM;
   for (size_t r = 0; r < ends; r++)
     units->links.from[r] = units->leaves.from[r] = units->count * r / (uint64_t)p->ranks;
   return status;
@@ -89,6 +90,8 @@ void hr2dpi_units_clear(hr2dp *p) {
   hr2dpi_free(p, p->units.start);
   hr2dpi_free(p, p->units.along);
   hr2dpi_free(p, p->units.rows);
+  hr2dpi_free(p, p->units.piece);
+  hr2dpi_free(p, p->units.owner);
 }
 
 void hr2dpi_ranges_cut(const hr2dp *p, const double *weight, hr2dpi_ranges *ranges) {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draws scenes in a folder whose links are shared out: turned squares and fibres of 16 sides,
-each in a cell of its own, and two plates; with the epsilon for each."""
+each in a cell of its own, two plates, and squares in a room of four walls; with the epsilon for
+each."""
 import json
 import math
 import random
@@ -31,11 +32,14 @@ def polygons(count, corners):
     return drawn
 
 
+room = sum((lines([a, b], 1)[:1] for a, b in zip([[-1, -1], [17, -1], [17, 17], [-1, 17]],
+                                                [[17, -1], [17, 17], [-1, 17], [-1, -1]])), [])
 plates = [{"type": "Feature", "properties": {"emission": int(y == 0), "reflectance": 0.5},
            "geometry": {"type": "LineString", "coordinates": [[int(y > 0), y], [int(y == 0), y]]}}
           for y in (0, 0.1)]
 for name, features, epsilon in (("squares", polygons(256, 4), 0.5),
-                                ("fibres", polygons(100, 16), 0.5), ("plates", plates, 0.01)):
+                                ("fibres", polygons(100, 16), 0.5), ("plates", plates, 0.01),
+                                ("room", room + polygons(256, 4), 0.5)):
     with open(f"{sys.argv[1]}/{name}.geojson", "w", encoding="utf-8") as file:
         json.dump({"type": "FeatureCollection", "features": features}, file)
     with open(f"{sys.argv[1]}/{name}.eps", "w", encoding="utf-8") as file:

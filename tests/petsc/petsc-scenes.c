@@ -71,6 +71,14 @@ static hr2d_status full_room(hr2d_scene *scene) {
   return status ? status : add_square(scene, 20, 0, 1, 0, NULL, &half, 1);
 }
 
+/* Blocks above a floor, whose row is most of all: it is cut. */
+static hr2d_status floor_of_blocks(hr2d_scene *scene) {
+  hr2d_status status = add(scene, -1, -1, 8, -1, &one, &half, 1);
+  for (int k = 0; k < 8 && !status; k++)
+    status = add_square(scene, k, 0.2 * (k % 3), -0.3, 0.7 * k, NULL, &half, 1);
+  return status;
+}
+
 /* Two rooms that know nothing of each other. */
 static hr2d_status two_rooms(hr2d_scene *scene) {
   const hr2d_status status = add_square(scene, 0, 0, 1, 0.2, &one, &nearly_all, 1);
@@ -116,6 +124,9 @@ static const petsc_case cases[] = {
     {"blocks, multigrid", blocks, .epsilon = 0.2, .from = 0.8},
     {"full room", full_room, .epsilon = 0.2},
     {"full room, bf", full_room, .oracle = hr2d_oracle_bf, .epsilon = 0.01},
+    {"floor", floor_of_blocks, .epsilon = 0.2},
+    {"floor, ordered", floor_of_blocks, .epsilon = 0.4, .ordered = 1},
+    {"floor, multigrid", floor_of_blocks, .epsilon = 0.2, .from = 0.8},
     {"two rooms", two_rooms, .epsilon = 0.1},
     {"dim room", dim_room, .epsilon = 0.1},
     {"short plate", short_plate, .epsilon = 0.1},
