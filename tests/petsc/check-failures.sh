@@ -4,27 +4,31 @@
 # two ranks.
 # shellcheck disable=SC2154 # what ranks.sh sets
 . "${HR2D_SRCDIR:=.}/tests/petsc/ranks.sh"
-ranks 2 "$programs/check-rank-faults" >"$work/out" 2>&1
-status=$?
-check "all ranks return: $(cat "$work/out")" [ $status -eq 0 ]
-check "allocations did fail: $(cat "$work/out")" [ "$(grep -c 'allocations failed' "$work/out")" = 2 ]
+aside faults ranks 2 "$programs/check-rank-faults"
 
 # ---- memory of two ranks; what MPI and PETSc keep is their own
+watched() { # watched PROGRAM...: on two ranks under valgrind
+  "$HR2D_BUILDDIR/libtool" --mode=execute timeout 300 "$MPIEXEC" -n 2 valgrind --quiet \
+    --suppressions=/usr/share/openmpi/openmpi-valgrind.supp --error-exitcode=0 "$@"
+}
 if command -v valgrind >/dev/null; then
   # Case 13 has walls, bands, a sky and a halo.
-  "$HR2D_BUILDDIR/libtool" --mode=execute timeout 300 "$MPIEXEC" -n 2 valgrind --quiet \
-    --suppressions=/usr/share/openmpi/openmpi-valgrind.supp --error-exitcode=0 \
-    "$programs/check-ranks" 13 >"$work/out" 2>"$work/valgrind"
-  check "the case ran under valgrind: $(cat "$work/valgrind")" grep -q bits "$work/out"
-  "$HR2D_BUILDDIR/libtool" --mode=execute timeout 300 "$MPIEXEC" -n 2 valgrind --quiet \
-    --suppressions=/usr/share/openmpi/openmpi-valgrind.supp --error-exitcode=0 \
-    "$HR2D_BUILDDIR/hr2d-mpi" solve "$HR2D_SRCDIR/examples/scenes/lit-room.geojson" \
-    --target-error 1e-2 >"$work/out" 2>>"$work/valgrind"
-  check "so did a target: $(cat "$work/valgrind")" grep -q ranks "$work/out"
+  aside case watched "$programs/check-ranks" 13
+  aside target watched "$HR2D_BUILDDIR/hr2d-mpi" solve \
+    "$HR2D_SRCDIR/examples/scenes/lit-room.geojson" --target-error 1e-2
+  finish case
+  check "the case ran under valgrind: $(cat "$work/case.errors")" grep -q bits "$work/case"
+  finish target
+  check "so did a target: $(cat "$work/target.errors")" grep -q ranks "$work/target"
+  cat "$work/case.errors" "$work/target.errors" >"$work/valgrind"
   check "no error of this library: $(grep -B 3 -A 12 'hr2d' "$work/valgrind" | head -40)" \
     [ "$(grep -c 'hr2dp\|libhr2d' "$work/valgrind")" = 0 ]
 else
   echo "no valgrind: memory of two ranks is not looked at"
   [ -z "${HR2D_NEED_PETSC-}" ] || failed=1
 fi
+finish faults
+check "all ranks return: $(cat "$work/faults.errors")" [ $status -eq 0 ]
+check "allocations did fail: $(cat "$work/faults")" \
+  [ "$(grep -c 'allocations failed' "$work/faults")" = 2 ]
 exit $failed

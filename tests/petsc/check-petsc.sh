@@ -4,9 +4,11 @@
 # shellcheck disable=SC2154 # what ranks.sh sets
 . "${HR2D_SRCDIR:=.}/tests/petsc/ranks.sh"
 for n in 1 2 3 4; do
-  ranks $n "$programs/check-ranks" >"$work/$n" 2>"$work/errors"
-  status=$?
-  check "as one process on $n ranks: $(cat "$work/errors")" [ $status -eq 0 ]
+  aside $n ranks $n "$programs/check-ranks"
+done
+for n in 1 2 3 4; do
+  finish $n
+  check "as one process on $n ranks: $(cat "$work/$n.errors")" [ $status -eq 0 ]
   check "the same bits on 1 and $n ranks: $(diff "$work/1" "$work/$n")" \
     cmp -s "$work/1" "$work/$n"
 done

@@ -10,25 +10,39 @@
 program=$HR2D_BUILDDIR/hr2d-mpi
 scenes=$HR2D_SRCDIR/examples/scenes
 
-for scene in lit-room solar-panels partition furnace-enclosure; do
-  file=$scenes/$scene.geojson
-  "$HR2D_PROGRAM" solve "$file" --no-error --quiet --eps 0.1 --json "$work/one" 2>"$work/errors"
-  ranks 3 "$program" solve "$file" --quiet --eps 0.1 --json "$work/three" 2>>"$work/errors"
-  check "$scene as hr2d solve: $(cat "$work/errors")" \
-    python3 "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/three"
+rooms="lit-room solar-panels partition furnace-enclosure"
+count=0
+for scene in $rooms; do
+  count=$((count + 1))
+  aside $count ranks 3 "$program" solve "$scenes/$scene.geojson" --quiet --eps 0.1 \
+    --json "$work/three$count"
+done
+count=0
+for scene in $rooms; do
+  count=$((count + 1))
+  "$HR2D_PROGRAM" solve "$scenes/$scene.geojson" --no-error --quiet --eps 0.1 \
+    --json "$work/one" 2>"$work/errors"
+  finish $count
+  check "$scene as hr2d solve: $(cat "$work/errors" "$work/$count.errors")" \
+    python3 "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/three$count"
 done
 "$HR2D_PROGRAM" solve "$scenes/lit-room.geojson" --no-error --quiet --eps 0.2 --json "$work/one"
 check "a difference would be found" \
-  eval '! python3 "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/three" 2>"$work/out"'
+  eval '! python3 "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/three1" 2>"$work/out"'
 
 # ---- targets, orders and what needs all elements: the same bits on any number of ranks
 whole() { # whole NAME ARGUMENTS...: compares with hr2d solve
-  name=$1
+  what=$1
   shift
+  for n in 1 2 3 4; do
+    aside $n ranks $n "$program" solve "$@" --quiet --json "$work/whole$n"
+  done
   "$HR2D_PROGRAM" solve "$@" --quiet --json "$work/one" 2>"$work/errors"
   for n in 1 2 3 4; do
-    ranks $n "$program" solve "$@" --quiet --json "$work/whole$n" 2>>"$work/errors"
-    check "$name on $n ranks: $(cat "$work/errors")" python3 \
+    finish $n
+  done
+  for n in 1 2 3 4; do
+    check "$what on $n ranks: $(cat "$work/errors" "$work/$n.errors")" python3 \
       "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/whole$n" "$work/whole1"
   done
 }
@@ -46,23 +60,34 @@ ranks 2 "$program" solve "$scenes/partition.geojson" --time-budget 0.5 --json "$
 check "a budget of time ends: $(cat "$work/errors")" grep -q '"solve"' "$work/two"
 
 # ---- what is wrong is said by one rank
-says() { # says STATUS TEXT ARGUMENTS...: mpirun adds lines of its own
-  wanted=$1 text=$2
+said=0
+says() { # says STATUS TEXT ARGUMENTS...: begins it; mpirun adds lines of its own
+  said=$((said + 1))
+  echo "$1 $2" >"$work/wanted$said"
   shift 2
-  ranks 2 "$program" "$@" >"$work/out" 2>"$work/errors"
-  status=$?
-  check "$*: status $wanted; was $status" [ $status -eq "$wanted" ]
-  check "$*: says '$text' once: $(cat "$work/errors")" \
-    [ "$(grep -c -e "^hr2d-mpi: .*$text" "$work/errors")" = 1 ]
+  aside said$said ranks 2 "$program" "$@"
+}
+hear() { # all that is to be said
+  while [ $said -gt 0 ]; do
+    finish said$said
+    read -r wanted text <"$work/wanted$said"
+    heard=$(cat "$work/said$said.errors")
+    check "'$text': status $wanted; was $status: $heard" [ $status -eq "$wanted" ]
+    check "'$text' is said once: $heard" \
+      [ "$(grep -c -e "^hr2d-mpi: .*$text" "$work/said$said.errors")" = 1 ]
+    said=$((said - 1))
+  done
 }
 room=$scenes/lit-room.geojson
 says 2 "unknown option '--epss'" solve "$room" --epss 1
 says 2 "the only command is solve" info "$room"
 says 2 "has no --watch" solve "$room" --watch "$work/film.png"
 says 2 "keeps solves by --eps at order 1" solve "$room" --order 4 --state "$work/state"
+hear
 says 1 "cannot open" solve "$work/nothing"
 says 1 "more than 100 links are needed" solve "$room" --max-links 100
 says 1 "at most" solve "$room" --target-error 1e-30
+hear
 
 # ---- a state, and another scene
 state=$work/state
@@ -74,6 +99,7 @@ check "a run goes on from it" grep -q "from epsilon 0.2" "$work/out"
 check "to the result of a run without a stop" \
   python3 "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/on"
 says 1 "the state is of another scene" solve "$scenes/par-near.geojson" --state "$state"
+hear
 
 # ---- a rank that is killed
 plates=$scenes/par-near.geojson

@@ -5,12 +5,15 @@
 # shellcheck disable=SC2154 # what ranks.sh sets
 . "${HR2D_SRCDIR:=.}/tests/petsc/ranks.sh"
 python3 "$HR2D_SRCDIR/tests/petsc/draw-many.py" "$work"
-for scene in squares fibres plates; do
+for scene in squares fibres plates room; do
   for n in 8 16; do
-    ranks $n "$HR2D_BUILDDIR/hr2d-mpi" solve "$work/$scene.geojson" --quiet --json "$work/json" \
-      --eps "$(cat "$work/$scene.eps")" 2>"$work/errors"
-    check "even shares of $scene on $n ranks: $(cat "$work/errors")" \
-      python3 "$HR2D_SRCDIR/tests/petsc/even-shares.py" "$work/json"
+    aside $n ranks $n "$HR2D_BUILDDIR/hr2d-mpi" solve "$work/$scene.geojson" --quiet \
+      --json "$work/$n.json" --eps "$(cat "$work/$scene.eps")"
+  done
+  for n in 8 16; do
+    finish $n
+    check "even shares of $scene on $n ranks: $(cat "$work/$n.errors")" \
+      python3 "$HR2D_SRCDIR/tests/petsc/even-shares.py" "$work/$n.json"
   done
 done
 exit $failed

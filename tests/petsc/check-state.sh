@@ -11,10 +11,12 @@ for kind in binary hdf5; do
     ranks 4 "$program" $kind save "$file" $scene >"$work/saved" 2>"$work/errors"
     check "$kind, $scene: saved on 4 ranks: $(cat "$work/errors")" grep -q . "$work/saved"
     for n in 1 2 3; do
-      ranks $n "$program" $kind load "$file" $scene >"$work/loaded" 2>"$work/errors"
-      status=$?
-      check "$kind, $scene: goes on on $n ranks: $(cat "$work/errors")" [ $status -eq 0 ]
-      check "$kind, $scene: the same bits on $n ranks" cmp -s "$work/saved" "$work/loaded"
+      aside $n ranks $n "$program" $kind load "$file" $scene
+    done
+    for n in 1 2 3; do
+      finish $n
+      check "$kind, $scene: goes on on $n ranks: $(cat "$work/$n.errors")" [ $status -eq 0 ]
+      check "$kind, $scene: the same bits on $n ranks" cmp -s "$work/saved" "$work/$n"
     done
   done
 done

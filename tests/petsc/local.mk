@@ -1,6 +1,7 @@
 # Tests of libhr2d-petsc on several ranks; without PETSc the scripts say so and are skipped.
-PETSC_TESTS = tests/petsc/check-petsc.sh tests/petsc/check-failures.sh \
-	tests/petsc/check-program.sh tests/petsc/check-shares.sh tests/petsc/check-state.sh
+# The longest come first.
+PETSC_TESTS = tests/petsc/check-program.sh tests/petsc/check-failures.sh \
+	tests/petsc/check-shares.sh tests/petsc/check-petsc.sh tests/petsc/check-state.sh
 EXTRA_DIST += $(PETSC_TESTS) tests/petsc/ranks.sh tests/petsc/draw-many.py \
 	tests/petsc/even-shares.py tests/petsc/same-averages.py
 TESTS += $(PETSC_TESTS)
@@ -22,12 +23,13 @@ tests_petsc_check_rank_state_SOURCES = tests/petsc/check-rank-state.c \
 tests_petsc_check_rank_state_CPPFLAGS = $(RANKED_CPPFLAGS)
 tests_petsc_check_rank_state_LDADD = $(RANKED_LDADD)
 
-# These tests alone, without the programs of the others.
+# These tests alone, without the programs of the others; two at a time, for their processes mostly
+# wait.
 check-petsc: $(RANKED) hr2d-mpi tools/hr2d
-	@passed=0; failed=0; $(AM_TESTS_ENVIRONMENT) \
-	for test in $(PETSC_TESTS); do \
-	  if $(SHELL) $(srcdir)/$$test; then passed=$$((passed + 1)); else failed=$$((failed + 1)); fi; \
-	done; \
-	echo "$$passed passed, $$failed failed"; test $$failed = 0
+	@rm -f petsc-results; $(AM_TESTS_ENVIRONMENT) \
+	printf '%s\n' $(PETSC_TESTS) | xargs -P 2 -n 1 $(SHELL) -c \
+	  'if $(SHELL) $(srcdir)/$$0; then echo passed; else echo failed; fi >>petsc-results'; \
+	passed=`grep -c passed petsc-results`; failed=`grep -c failed petsc-results`; \
+	rm -f petsc-results; echo "$$passed passed, $$failed failed"; test $$failed = 0
 endif
 .PHONY: check-petsc

@@ -24,6 +24,17 @@ ranks() { # ranks N COMMAND...
   shift
   timeout 300 "$MPIEXEC" -n "$count" "$@"
 }
+# What a job waits for is mostly its start: several run side by side.
+aside() { # aside NAME COMMAND...: begins it; its output is in $work/NAME and $work/NAME.errors
+  name=$1
+  shift
+  "$@" >"$work/$name" 2>"$work/$name.errors" &
+  eval "job_$name=$!"
+}
+finish() { # finish NAME: waits for it; sets `status`
+  eval "wait \"\$job_$1\""
+  status=$?
+}
 failed=0
 check() { # check WHAT COMMAND...: the command succeeds
   what=$1
