@@ -117,6 +117,7 @@ libhr2d_core_la_SOURCES = \
 	src/formats/vs2.c \
 	src/formats/vs2-impl.h \
 	src/formats/vs2-words.c \
+	src/visibility/event-list.c src/visibility/event-list.h \
 	src/visibility/events.c src/visibility/events.h \
 	src/visibility/events-impl.h \
 	src/visibility/events-beams.c \

@@ -106,6 +106,7 @@ SUITES = \
 	tests/unit/clusters/check-root-pairs \
 	tests/unit/accuracy/check-corner \
 	tests/unit/visibility/check-events \
+	tests/unit/visibility/check-shared-events \
 	tests/unit/visibility/check-point-beams \
 	tests/unit/visibility/check-point-view \
 	tests/unit/visibility/check-point-view-walls \

@@ -142,8 +142,8 @@ typedef struct hr2d_account {
   uint64_t leaves;             /**< elements without children */
   uint64_t links;              /**< L, links between clusters of patches included */
   uint64_t events;             /**< visibility events; elements end at those that matter */
-  uint64_t bytes;              /**< memory of elements, links and blocks */
-  uint64_t kernels;            /**< hr2d_solve_work::kernels, over all solves */
+  uint64_t bytes;              /**< memory of elements, links and blocks, of this share */
+  uint64_t kernels;            /**< hr2d_solve_work::kernels, over all solves, of this share */
   double refine_seconds;       /**< time for elements and links, over all solves */
   double coefficients_seconds; /**< time for blocks, of the solve and of its error */
   double solve_seconds;        /**< time for the iterations */

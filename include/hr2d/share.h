@@ -31,6 +31,8 @@
  * none waits for ever. Budgets of bytes, links and elements are those of each share. A budget
  * of time is that of the clock of share 0.
  *
+ * Each share looks for its part of the visibility events, and gets those of all.
+ *
  * Each pair of patches belongs to the share that has the row of its earlier patch; rows are
  * dealt out in runs. Links between clusters of patches are on every share, and so is what is
  * known of the scene. A further refinement of a set may make other visibility tests than one

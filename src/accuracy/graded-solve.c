@@ -22,10 +22,10 @@ enum { MOST_EVENTS = 30000, MANY = 256 };
 
 /* Finds the events of `generations` generations, or of as many as MOST_EVENTS has room for. */
 static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
-                               unsigned generations, hr2di_watch *watch) {
+                               unsigned generations, hr2d_share *share, hr2di_watch *watch) {
   for (;; generations--) {
     const hr2d_status status =
-        hr2di_events_init(events, h->scene, &h->alloc, generations, MOST_EVENTS, watch);
+        hr2di_events_init(events, h->scene, &h->alloc, generations, MOST_EVENTS, share, watch);
     if (status != HR2D_EMAX_ELEMENTS) return status;
     hr2di_events_clear(events);
     *events = (hr2di_events){0};
@@ -64,7 +64,7 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
   hr2di_events events = {.alloc = h->alloc};
   hr2di_watch watch;
   hr2di_scene_watch(h->scene, &watch, target->progress, target->progress_ctx, "refine");
-  hr2d_status status = find_events(&events, h, fineness->generations, &watch);
+  hr2d_status status = find_events(&events, h, fineness->generations, target->share, &watch);
   const int chosen = fineness->kinks > 0 && fineness->lights && events.count > 0;
   const hr2di_grading grading = {.target = fineness->target,
                                  .norm = fineness->norm,

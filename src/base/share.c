@@ -59,9 +59,11 @@ hr2d_status hr2di_share_agree(hr2d_share *share, hr2d_status status) {
   return hr2di_share_combine(share, status, HR2D_COMBINE_SUM, NULL, 0);
 }
 
+/* Adding −0 changes no number, and no zero either. */
 static double *place(const hr2d_allocator *alloc, const double *own, size_t count,
                      size_t before, size_t all, size_t width) {
-  double *record = hr2di_alloc_zero(alloc, all, width * sizeof *record);
+  double *record = hr2di_alloc(alloc, all, width * sizeof *record);
+  for (size_t k = 0; k < all * width && record; k++) record[k] = -0.0;
   if (record && count > 0) memcpy(record + before * width, own, count * width * sizeof *record);
   return record;
 }

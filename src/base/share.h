@@ -19,6 +19,11 @@ int hr2di_share_has_row(const hr2d_share *share, size_t row, size_t rows);
 hr2d_status hr2di_share_deal(const hr2d_share *share, const hr2d_allocator *alloc,
                              const double *weight, size_t rows, unsigned char *mine);
 
+/* Where the part of a share begins, of so many things that are dealt out in runs. */
+static inline size_t hr2di_share_part(size_t things, unsigned number, unsigned count) {
+  return things / count * number + things % count * number / count;
+}
+
 /* Combines values unless `status`, that of this share, is a failure.  Returns HR2D_OK, or the
    status of a share that has failed. */
 hr2d_status hr2di_share_combine(hr2d_share *share, hr2d_status status, hr2d_combine how,

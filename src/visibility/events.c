@@ -8,64 +8,29 @@
 #include <math.h>
 
 #include "base/alloc.h"
-#include "base/sort.h"
+#include "base/share.h"
 #include "geometry/vector.h"
 #include "scene/with-plane.h"
+#include "visibility/event-list.h"
 #include "visibility/events-impl.h"
-
-/* Events so near to one another or to an end, as fractions of the patch, are one. */
-#define ALIKE 1e-12
 
 /* Of what light that passes an end beside the patch makes. */
 #define LARGEST 1e100
 
-typedef struct candidate {
-  hr2di_event event;
-  uint32_t via;
-} candidate;
+typedef hr2di_event_candidate candidate;
 
 typedef struct finder {
   const hr2d_scene *scene;
   hr2d_allocator alloc;
-  size_t max;
+  hr2d_share *share; /* NULL, or one of several */
   hr2di_watch *watch;
   hr2di_event_beams beams;
   const candidate *from; /* the event that is looked from; NULL in generation 1 */
   unsigned generation;   /* of what is found now */
   candidate *origin;     /* events of the generation before */
   size_t origins, origin_capacity;
-  candidate *found;
-  size_t count, capacity;
+  hr2di_event_list list;
 } finder;
-
-static int by_place(const void *left, const void *right) {
-  const candidate *l = left, *r = right;
-  if (l->event.patch != r->event.patch) return l->event.patch < r->event.patch ? -1 : 1;
-  if (l->event.at != r->event.at) return l->event.at < r->event.at ? -1 : 1;
-  if (l->event.generation != r->event.generation)
-    return l->event.generation < r->event.generation ? -1 : 1;
-  return (l->via > r->via) - (l->via < r->via);
-}
-
-/* Sorts, and keeps one of those alike. */
-static hr2d_status settle(finder *f) {
-  size_t kept = 0;
-  hr2d_status status = hr2di_sort(f->found, f->count, sizeof *f->found, by_place, f->watch);
-  if (!status) status = hr2di_watch_work(f->watch, f->count / 16);
-  if (status) return status;
-  for (size_t k = 0; k < f->count; k++) {
-    const candidate c = f->found[k];
-    candidate *last = kept > 0 ? &f->found[kept - 1] : NULL;
-    if (!last || last->event.patch != c.event.patch || c.event.at - last->event.at >= ALIKE)
-      f->found[kept++] = c;
-    else if (c.event.generation < last->event.generation ||
-             (c.event.generation == last->event.generation &&
-              c.event.spread > last->event.spread))
-      *last = c;
-  }
-  f->count = kept;
-  return kept > f->max ? HR2D_EMAX_ELEMENTS : HR2D_OK;
-}
 
 /* The sine of the angle between a vector and a patch. */
 static double sine_to(const hr2d_scene *scene, uint32_t patch, hr2d_point v) {
@@ -102,16 +67,9 @@ static hr2di_event event_at(const finder *f, uint32_t patch, double at, uint32_t
 }
 
 static hr2d_status add(finder *f, uint32_t patch, double at, uint32_t via) {
-  if (!(at >= ALIKE && 1 - at >= ALIKE) || !hr2di_scene_lit(f->scene, patch)) return HR2D_OK;
-  /* Half of them are more than there may be: some must be alike. */
-  if (f->count / 2 > f->max) {
-    const hr2d_status status = settle(f);
-    if (status) return status;
-  }
-  if (hr2di_alloc_reserve(&f->alloc, &f->found, &f->capacity, f->count + 1, sizeof *f->found))
-    return HR2D_ENOMEM;
-  f->found[f->count++] = (candidate){event_at(f, patch, at, via), via};
-  return HR2D_OK;
+  if (!(at > 0 && at < 1) || !hr2di_scene_lit(f->scene, patch)) return HR2D_OK;
+  const candidate c = {event_at(f, patch, at, via), via};
+  return hr2di_event_list_add(&f->list, &c);
 }
 
 /* Generation 0: at a border of sunlight H jumps. */
@@ -145,24 +103,49 @@ static hr2d_status look_from_joints(finder *f, hr2di_wall_side side) {
   return status;
 }
 
-/* Generation 1: all lines through ends of patches. */
-static hr2d_status look_from_ends(finder *f) {
-  const hr2di_triangulation *t = &f->scene->plane.triangulation;
+/* Looks from one of so many origins. */
+typedef hr2d_status look_fn(finder *f, size_t origin);
+
+/* Looks from all origins; each share from a run of them. */
+static hr2d_status look_from_all(finder *f, size_t origins, look_fn *look) {
+  const hr2d_share *share = f->share;
+  const size_t before = f->list.count;
   hr2d_status status = HR2D_OK;
-  f->generation = 1;
-  for (hr2di_wall_side s = 0; s < 2 * t->edges && !status; s++) {
-    const hr2di_wall_edge *e = &t->edge[s >> 1];
-    const int32_t h = e->half_edge[s & 1];
-    status = hr2di_watch_work(f->watch, 1);
-    if (status || t->triangle[h >> 2].across[h & 3] != ~(int32_t)s) continue;
-    status = hr2di_event_beams_from_vertex(&f->beams, s);
-    if (!status) status = look_from_joints(f, s);
+  int again = 1;
+  if (share) {
+    const size_t from = hr2di_share_part(origins, share->number, share->count);
+    const size_t to = hr2di_share_part(origins, share->number + 1, share->count);
+    f->list.in_part = 1;
+    for (size_t k = from; k < to && !status; k++) status = look(f, k);
+    if (!status) status = hr2di_watch_status(f->watch);
+    status = hr2di_event_list_collect(&f->list, f->share, status, before, &again);
   }
-  for (uint32_t w = 0; w < f->scene->walls.walls && !status; w++) {
-    status = hr2di_event_beams_along_wall(&f->beams, w, 0);
-    if (!status) status = hr2di_event_beams_along_wall(&f->beams, w, 1);
-  }
+  for (size_t k = 0; k < origins && again && !status; k++) status = look(f, k);
   return status;
+}
+
+static hr2d_status look_from_side(finder *f, hr2di_wall_side s) {
+  const hr2di_triangulation *t = &f->scene->plane.triangulation;
+  const int32_t h = t->edge[s >> 1].half_edge[s & 1];
+  const hr2d_status status = hr2di_watch_work(f->watch, 1);
+  if (status || t->triangle[h >> 2].across[h & 3] != ~(int32_t)s) return status;
+  const hr2d_status looked = hr2di_event_beams_from_vertex(&f->beams, s);
+  return looked ? looked : look_from_joints(f, s);
+}
+
+/* Generation 1: all lines through ends of patches, from sides and then along walls. */
+static hr2d_status look_from_end(finder *f, size_t k) {
+  const size_t sides = 2 * f->scene->plane.triangulation.edges;
+  if (k < sides) return look_from_side(f, (hr2di_wall_side)k);
+  const size_t end = k - sides;
+  return hr2di_event_beams_along_wall(&f->beams, (uint32_t)(end / 2), (int)(end % 2));
+}
+
+static hr2d_status look_from_ends(finder *f) {
+  f->generation = 1;
+  return look_from_all(
+      f, 2 * f->scene->plane.triangulation.edges + 2 * (size_t)f->scene->walls.walls,
+      look_from_end);
 }
 
 /* The part of a patch at a point of its line. */
@@ -186,8 +169,8 @@ static const hr2di_side_part *part_at(const hr2d_scene *scene, uint32_t patch, h
 static hr2d_status find_origins(finder *f, unsigned generation) {
   hr2d_status status = HR2D_OK;
   f->origins = 0;
-  for (size_t k = 0; k < f->count && !status; k++) {
-    const candidate c = f->found[k];
+  for (size_t k = 0; k < f->list.count && !status; k++) {
+    const candidate c = f->list.found[k];
     status = hr2di_watch_work(f->watch, 1 + f->scene->bands / 32);
     if (status || c.event.generation != generation || c.via == HR2DI_NO_VERTEX ||
         !reflects(f->scene, c.event.patch))
@@ -200,19 +183,21 @@ static hr2d_status find_origins(finder *f, unsigned generation) {
   return status;
 }
 
+static hr2d_status look_from_event(finder *f, size_t k) {
+  const candidate c = f->origin[k];
+  const hr2d_point at = hr2di_point_at(f->scene->patch[c.event.patch].scaled, c.event.at);
+  f->from = &f->origin[k];
+  const hr2di_side_part *part = part_at(f->scene, c.event.patch, at);
+  return part->patch == c.event.patch && part->side != HR2DI_HIDDEN
+             ? hr2di_event_beams_from_part(&f->beams, at, part, c.via)
+             : HR2D_OK;
+}
+
 /* A later generation: all lines through events of the one before and ends of walls. */
 static hr2d_status look_from_events(finder *f, unsigned generation) {
-  hr2d_status status = find_origins(f, generation - 1);
+  const hr2d_status status = find_origins(f, generation - 1);
   f->generation = generation;
-  for (size_t k = 0; k < f->origins && !status; k++) {
-    const candidate c = f->origin[k];
-    const hr2d_point at = hr2di_point_at(f->scene->patch[c.event.patch].scaled, c.event.at);
-    f->from = &f->origin[k];
-    const hr2di_side_part *part = part_at(f->scene, c.event.patch, at);
-    if (part->patch == c.event.patch && part->side != HR2DI_HIDDEN)
-      status = hr2di_event_beams_from_part(&f->beams, at, part, c.via);
-  }
-  return status;
+  return status ? status : look_from_all(f, f->origins, look_from_event);
 }
 
 /* B jumps at a border of sunlight as it does at the end of a patch. */
@@ -278,11 +263,11 @@ static hr2d_status find(finder *f, unsigned generations) {
   if (!status && generations > 0) status = look_from_borders(f);
   if (!status) status = add_kinks(f);
   if (!status && generations > 0) status = add_feet(f);
-  if (!status) status = settle(f);
+  if (!status) status = hr2di_event_list_settle(&f->list);
   for (unsigned g = 2; g <= generations && !status; g++) {
     status = look_from_events(f, g);
     if (!status && f->origins == 0) break;
-    if (!status) status = settle(f);
+    if (!status) status = hr2di_event_list_settle(&f->list);
   }
   /* A walk that the watch has stopped ends nowhere. */
   return status ? status : hr2di_watch_status(f->watch);
@@ -290,7 +275,7 @@ static hr2d_status find(finder *f, unsigned generations) {
 
 hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
                               const hr2d_allocator *alloc, unsigned generations, size_t max,
-                              hr2di_watch *watch) {
+                              hr2d_share *share, hr2di_watch *watch) {
   *events = (hr2di_events){.alloc = *alloc};
   if ((generations == 0 && scene->sunlight.borders + scene->sunlight.kinks == 0) ||
       !(scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
@@ -298,18 +283,22 @@ hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
         scene->effect[HR2D_EFFECT_BACKGROUND].called_for))
     return HR2D_OK;
   hr2di_with_plane w;
-  finder f = {.scene = &w.scene, .alloc = *alloc, .max = max, .watch = watch};
+  finder f = {.scene = &w.scene,
+              .alloc = *alloc,
+              .share = share && share->count > 1 ? share : NULL,
+              .watch = watch,
+              .list = {.alloc = *alloc, .watch = watch, .max = max}};
   hr2d_status status = hr2di_with_plane_init(&w, scene, alloc, watch);
   if (!status && w.scene.parts.wanted) status = find(&f, generations);
   events->steps = f.beams.steps;
-  if (!status && hr2di_alloc_reserve(alloc, &events->event, &events->capacity, f.count,
+  if (!status && hr2di_alloc_reserve(alloc, &events->event, &events->capacity, f.list.count,
                                      sizeof *events->event))
     status = HR2D_ENOMEM;
-  for (size_t k = 0; k < f.count && !status; k++)
-    events->event[events->count++] = f.found[k].event;
+  for (size_t k = 0; k < f.list.count && !status; k++)
+    events->event[events->count++] = f.list.found[k].event;
   hr2di_event_beams_clear(&f.beams);
   hr2di_alloc_free(alloc, f.origin);
-  hr2di_alloc_free(alloc, f.found);
+  hr2di_alloc_free(alloc, f.list.found);
   hr2di_with_plane_clear(&w);
   return status;
 }

@@ -12,6 +12,7 @@
 #define HR2D_SRC_VISIBILITY_EVENTS_H
 
 #include <hr2d/scene.h>
+#include <hr2d/share.h>
 #include <stdint.h>
 
 #include "base/watch.h"
@@ -34,7 +35,7 @@ typedef struct hr2di_events {
   hr2d_allocator alloc;
   hr2di_event *event; /* sorted by patch, then by fraction; no two equal within rounding */
   size_t count, capacity;
-  uint64_t steps; /* triangles that were entered to find them */
+  uint64_t steps; /* triangles that were entered to find them, by this share */
 } hr2di_events;
 
 /* Finds all events up to `generations`, which may be 0, of a committed scene, at most `max` of
@@ -44,10 +45,12 @@ typedef struct hr2di_events {
    case. It takes beams through the triangles of the plane from each end of a patch, and in
    later generations from each event: the cost is that of the triangles which they enter, 0.01
    to 0.1 µs each.  These are as many as the ends that are seen, and those passed on the way; a
-   scene without the effect of occlusion gets its plane first, in O(n log n). */
+   scene without the effect of occlusion gets its plane first, in O(n log n).  Of several shares
+   each looks from its part of the ends and events; all get all of them, as one process does.
+   Then the status of another share is one more, and failures are to be agreed on. */
 hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
                               const hr2d_allocator *alloc, unsigned generations, size_t max,
-                              hr2di_watch *watch);
+                              hr2d_share *share, hr2di_watch *watch);
 void hr2di_events_clear(hr2di_events *events);
 
 #endif

@@ -188,7 +188,7 @@ static hr2d_status find_events(slow_stage *s) {
   hr2di_watch watch;
   hr2di_watch_init(&watch, s->ask, s->ctx, "events");
   const hr2d_status status =
-      hr2di_events_init(&events, s->scene, &alloc, 2, 8 * s->count, &watch);
+      hr2di_events_init(&events, s->scene, &alloc, 2, 8 * s->count, NULL, &watch);
   hr2di_events_clear(&events);
   return status == HR2D_EMAX_ELEMENTS ? HR2D_OK : status;
 }

@@ -23,7 +23,7 @@ static hr2d_scene *room(void) {
 static hr2di_events events_of(const hr2d_scene *scene, unsigned generations) {
   const hr2d_allocator alloc = hr2di_alloc_default();
   hr2di_events events;
-  ck_assert_int_eq(hr2di_events_init(&events, scene, &alloc, generations, SIZE_MAX, NULL),
+  ck_assert_int_eq(hr2di_events_init(&events, scene, &alloc, generations, SIZE_MAX, NULL, NULL),
                    HR2D_OK);
   return events;
 }

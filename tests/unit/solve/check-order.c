@@ -39,7 +39,7 @@ static test_links graded(hr2d_scene *scene, unsigned order, double target) {
   const hr2di_grading grading = {.target = target, .order = order, .events = &events};
   hr2di_survey survey;
   ck_assert_int_eq(hr2d_hierarchy_set_order(t.hierarchy, order), HR2D_OK);
-  ck_assert_int_eq(hr2di_events_init(&events, scene, &t.hierarchy->alloc, 1, 1000, NULL),
+  ck_assert_int_eq(hr2di_events_init(&events, scene, &t.hierarchy->alloc, 1, 1000, NULL, NULL),
                    HR2D_OK);
   ck_assert_int_eq(hr2di_grading_apply(t.hierarchy, &grading, &survey), HR2D_OK);
   hr2di_events_clear(&events);

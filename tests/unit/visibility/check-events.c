@@ -13,7 +13,7 @@
 static hr2di_events events_of(const hr2d_scene *scene, unsigned generations) {
   const hr2d_allocator alloc = hr2di_alloc_default();
   hr2di_events found;
-  ck_assert_int_eq(hr2di_events_init(&found, scene, &alloc, generations, SIZE_MAX, NULL),
+  ck_assert_int_eq(hr2di_events_init(&found, scene, &alloc, generations, SIZE_MAX, NULL, NULL),
                    HR2D_OK);
   for (size_t k = 0; k < found.count; k++) {
     const hr2di_event *e = &found.event[k];
@@ -662,11 +662,12 @@ START_TEST(test_most) {
   const size_t count[] = {0, 10, 18};
   for (unsigned g = 0; g <= 2; g++) {
     hr2di_events found;
-    ck_assert_int_eq(hr2di_events_init(&found, scene, &alloc, g, count[g], NULL), HR2D_OK);
+    ck_assert_int_eq(hr2di_events_init(&found, scene, &alloc, g, count[g], NULL, NULL),
+                     HR2D_OK);
     ck_assert_uint_eq(found.count, count[g]);
     hr2di_events_clear(&found);
     for (size_t most = 0; most < count[g]; most++) {
-      ck_assert_int_eq(hr2di_events_init(&found, scene, &alloc, g, most, NULL),
+      ck_assert_int_eq(hr2di_events_init(&found, scene, &alloc, g, most, NULL, NULL),
                        HR2D_EMAX_ELEMENTS);
       hr2di_events_clear(&found);
     }
@@ -697,7 +698,8 @@ START_TEST(test_failures) {
       memory.for_good = for_good;
       memory.failures = 0;
       hr2di_events found;
-      const hr2d_status status = hr2di_events_init(&found, scene, &hooks, 2, SIZE_MAX, NULL);
+      const hr2d_status status =
+          hr2di_events_init(&found, scene, &hooks, 2, SIZE_MAX, NULL, NULL);
       done = memory.failures == 0;
       ck_assert_int_eq(status, done ? HR2D_OK : HR2D_ENOMEM);
       ck_assert_int_ge(k, done ? 5 : 0);
