@@ -17,7 +17,9 @@ OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=non
 OMP_NUM_THREADS=1
 export OMPI_ALLOW_RUN_AS_ROOT OMPI_ALLOW_RUN_AS_ROOT_CONFIRM OMPI_MCA_mpi_yield_when_idle
 export OMPI_MCA_rmaps_base_oversubscribe OMPI_MCA_btl_vader_single_copy_mechanism
-export OMP_NUM_THREADS
+# Jobs that share a folder remove it while another one begins.
+OMPI_MCA_orte_tmpdir_base=$work
+export OMP_NUM_THREADS OMPI_MCA_orte_tmpdir_base
 
 ranks() { # ranks N COMMAND...
   count=$1
@@ -28,7 +30,8 @@ ranks() { # ranks N COMMAND...
 aside() { # aside NAME COMMAND...: begins it; its output is in $work/NAME and $work/NAME.errors
   name=$1
   shift
-  "$@" >"$work/$name" 2>"$work/$name.errors" &
+  mkdir -p "$work/of-$name"
+  (OMPI_MCA_orte_tmpdir_base=$work/of-$name && "$@") >"$work/$name" 2>"$work/$name.errors" &
   eval "job_$name=$!"
 }
 finish() { # finish NAME: waits for it; sets `status`
