@@ -17,21 +17,28 @@ double hr2di_view_tail_weight(const hr2d_scene *scene, size_t patch) {
   return s->motion[patch / s->cell].weight;
 }
 
-/* The sine towards the end of a patch, of a direction in front of it, or of the horizon next to
-   one behind. */
-static double sine_of(hr2d_point along, hr2d_point v) {
+/* The sine towards the end of a patch, of a direction in front of it, or of the horizon that is
+   next to one behind. */
+static double sine_of(hr2d_point along, hr2d_point v, int front) {
   const double sine = hr2di_point_dot(along, v);
-  if (hr2di_point_cross(along, v) > 0) return fmin(fmax(sine / hypot(v.x, v.y), -1), 1);
+  if (front) return fmin(fmax(sine / hypot(v.x, v.y), -1), 1);
   return sine > 0 ? 1 : -1;
 }
 
-/* The form factor of the sky that a period shows. */
+/* The form factor of the sky that a period shows.  Of a period behind the patch it is 0, though
+   the horizons next to its ends may be two. */
 static double sky_of(const hr2di_quadrant *q, const double distance[2], hr2d_point along,
                      const hr2di_view_from *seen) {
   double sine[2], sum = 0;
-  for (int k = 0; k < 2; k++)
-    sine[k] = sine_of(along, (hr2d_point){distance[k] * q->out.x + q->border * q->up.x,
-                                          distance[k] * q->out.y + q->border * q->up.y});
+  int fronts = 0;
+  for (int k = 0; k < 2; k++) {
+    const hr2d_point v = {distance[k] * q->out.x + q->border * q->up.x,
+                          distance[k] * q->out.y + q->border * q->up.y};
+    const int front = hr2di_point_cross(along, v) > 0;
+    sine[k] = sine_of(along, v, front);
+    fronts += front;
+  }
+  if (fronts == 0) return 0;
   const double low = fmin(sine[0], sine[1]), high = fmax(sine[0], sine[1]);
   for (size_t m = 0; m < seen->arcs; m++)
     sum += fmax(fmin(seen->arc[m][1], high) - fmax(seen->arc[m][0], low), 0);

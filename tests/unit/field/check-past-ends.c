@@ -345,12 +345,39 @@ START_TEST(grids_repeat_themselves) {
 }
 END_TEST
 
+/* From the tip of a panel that is nearly upright all of the far sky is behind it, on one side,
+   or above its horizon, on the other.  With its slant H changes by little, also where the sky
+   past some image begins at the horizon. */
+START_TEST(slants_show_no_more_sky) {
+  double former[2] = {0, 0};
+  for (int k = 0; k < 120; k++) {
+    const double one = 1, slant = .02 + 5e-4 * k, tip = 0;
+    hr2d_scene *scene = test_new_scene(NULL);
+    add(scene, (hr2d_point){0, 0}, (hr2d_point){1, 0}, 0, 0, HR2D_SIDES_FRONT);
+    add(scene, (hr2d_point){.3, .5}, (hr2d_point){.3 + .4 * slant, .9}, 0, 0, HR2D_SIDES_BOTH);
+    ck_assert_int_eq(hr2d_scene_set_period(scene, (hr2d_point){1, 0}), HR2D_OK);
+    ck_assert_int_eq(hr2d_scene_set_background(scene, &one, 1), HR2D_OK);
+    stage s = solve(scene, 1e-2);
+    for (size_t side = 0; side < 2; side++) {
+      double h;
+      const double t = side ? 1 - tip : tip;
+      ck_assert_int_eq(hr2d_solution_gather_irradiance(s.solution, 1 + side, &t, 1, &h),
+                       HR2D_OK);
+      ck_assert_msg(k == 0 || fabs(h - former[side]) < .01, "%g at %g, before %g", h, slant,
+                    former[side]);
+      former[side] = h;
+    }
+    end(&s);
+  }
+}
+END_TEST
+
 TEST_SUITE("past ends") {
   ADD_TESTS("plates", between_plates_light_is_the_same_everywhere,
             plates_light_each_other_at_points);
   REPEAT_TESTS(8, "panels", the_sky_shows_between_panels);
   REPEAT_TESTS(2, "order 1", the_sky_shows_without_a_target);
-  ADD_TESTS("sky", low_edges_of_the_sky_are_refused);
+  ADD_TESTS("sky", low_edges_of_the_sky_are_refused, slants_show_no_more_sky);
   ADD_TESTS("streets", above_streets_a_furnace_is_a_furnace,
             what_goes_up_is_the_same_at_every_height, grids_repeat_themselves);
   REPEAT_TESTS(2, "gaps", gaps_far_away_have_bounds);
