@@ -69,6 +69,7 @@ libhr2d_core_la_SOURCES = \
 	src/occlusion/wall-bodies.c src/occlusion/wall-bodies.h \
 	src/occlusion/wall-tree.c src/occlusion/wall-tree.h \
 	src/occlusion/walls.c src/occlusion/walls.h \
+	src/scene/back-to-back.c src/scene/back-to-back.h \
 	src/scene/checks.c \
 	src/scene/commit.c \
 	src/scene/daylight.c \
@@ -79,6 +80,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/facing-in-part.c src/scene/facing-in-part.h \
 	src/scene/in-between.c src/scene/in-between.h \
 	src/scene/need-plane.c \
+	src/scene/one-cell.c \
 	src/scene/patch-runs.c src/scene/patch-runs.h \
 	src/scene/quadrants.c \
 	src/scene/reachability.c \

@@ -24,6 +24,7 @@ SUITES = \
 	tests/hard/check-hard-oracles \
 	tests/unit/scene/check-patches \
 	tests/unit/scene/check-positions \
+	tests/unit/scene/check-redrawn \
 	tests/unit/scene/check-commit-searches \
 	tests/unit/scene/check-effect-reasons \
 	tests/unit/scene/check-crossings \

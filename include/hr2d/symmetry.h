@@ -41,6 +41,10 @@
  * ones, and the error is its bound. Rows of points (hr2d_field_rows_visit()) are the same;
  * their sums may differ from 1 by what extrapolation is off.
  *
+ * Images in a mirror that is not parallel to an axis are rounded: their ends are off by some
+ * 2⁻⁵⁰ of the largest coordinate. Errors of the account are those of the rounded scene; a patch
+ * as short as d, or as near to its image, may be off by that part of d besides.
+ *
  * Exchange areas of patches (visibility.h) are sums over all images: a patch may see images of
  * its own. They are made by one thread, in a matrix of all patches of the cell.
  * hr2d_leaf_sums() has the rows of the patches of the cell.
@@ -87,7 +91,8 @@ HR2D_API hr2d_status hr2d_scene_add_mirror(hr2d_scene *scene, hr2d_segment line)
  * @retval HR2D_ESCENE  a component is not finite
  *
  * hr2d_scene_commit() fails with HR2D_ESCENE if an image crosses a patch. Patches may reach
- * over several periods. A sun shines in past at most 256 images.
+ * over several periods, and stand any number of periods apart. A sun shines in past at most 256
+ * images.
  */
 HR2D_API hr2d_status hr2d_scene_set_period(hr2d_scene *scene, hr2d_point period);
 

@@ -57,18 +57,41 @@ static void compare_irradiance(hr2di_estimator *e) {
     }
 }
 
-/* The same of the sky past the ends of the period. */
-static hr2d_status add_sky_tail(hr2di_estimator *e) {
-  const hr2di_transport *t = &e->eq.transport;
+/* The first of the coefficients m of the brightest sky; the others are 0. */
+static double sky_of(const hr2di_equation *eq, size_t m) {
+  const hr2di_transport *t = &eq->transport;
+  return m < t->bands ? ldexp(hr2di_sky_most(t->hierarchy->scene, m), -eq->exponent[m]) : 0;
+}
+
+/* A leaf sees the background where it sees no patch: what extrapolation leaves of patches is
+   missing from the background.  If it sees backs, their rest has that, and the background is
+   off by what the series of the sky past the ends leaves, whose sign does not matter. */
+static void take_sky_tail(hr2di_estimator *e, const double *off) {
+  hr2di_equation *eq = &e->eq;
+  hr2di_transport *t = &eq->transport;
   const hr2d_hierarchy *h = t->hierarchy;
-  if (!h->scene->effect[HR2D_EFFECT_BACKGROUND].on) return HR2D_OK;
+  const unsigned char *sees = t->links->sees_backs;
+  for (size_t k = 0; k < eq->field; k++) e->error[k] = sky_of(eq, k % t->width);
+  hr2di_transport_tail(t, e->error, eq->irradiance);
+  for (size_t k = 0; k < eq->field; k++) {
+    const size_t leaf = k / t->width;
+    const uint32_t element = hr2di_ties_of(&t->ties, t->leaf[leaf]);
+    if (sees && sees[h->element[element].patch])
+      e->tail[k] += copysign(off[element] * sky_of(eq, k % t->width), e->tail[k]);
+    else if (t->sky[leaf * t->order] != 0)
+      e->tail[k] -= eq->irradiance[k];
+  }
+}
+
+/* Sets e->tail to what extrapolation over a period may leave of H. */
+static hr2d_status set_tail(hr2di_estimator *e) {
+  hr2di_transport *t = &e->eq.transport;
+  const hr2d_hierarchy *h = t->hierarchy;
+  hr2di_transport_tail(t, e->kept, e->tail);
+  if (!t->sky) return HR2D_OK;
   double *off = hr2di_alloc(&t->alloc, h->elements, sizeof *off);
-  if (!off) return HR2D_ENOMEM;
-  const hr2d_status status = hr2di_row_tails_off(h, off, t->watch);
-  for (size_t k = 0; k < t->leaves && !status; k++)
-    for (size_t b = 0; b < t->bands; b++)
-      e->tail[k * t->width + b] += off[hr2di_ties_of(&t->ties, t->leaf[k])] *
-                                   ldexp(hr2di_sky_most(h->scene, b), -e->eq.exponent[b]);
+  const hr2d_status status = off ? hr2di_row_tails_off(h, off, t->watch) : HR2D_ENOMEM;
+  if (!status) take_sky_tail(e, off);
   hr2di_alloc_free(&t->alloc, off);
   return status;
 }
@@ -78,8 +101,7 @@ static void add_tail(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   hr2di_transport *t = &eq->transport;
   if (!e->tail) return;
-  hr2di_transport_tail(t, e->kept, e->tail);
-  const hr2d_status status = add_sky_tail(e);
+  const hr2d_status status = set_tail(e);
   if (status && !t->failed) t->failed = status;
   hr2di_estimator_averages(e, e->tail, e->average[0]);
   for (size_t k = 0; k < e->values; k++) {

@@ -6,6 +6,7 @@
 #include "geometry/crossings.h"
 #include "geometry/hull.h"
 #include "geometry/vector.h"
+#include "scene/back-to-back.h"
 #include "scene/scene-impl.h"
 
 hr2d_status hr2di_scene_check_bands(hr2d_scene *scene, hr2di_watch *watch) {
@@ -188,19 +189,59 @@ static hr2d_status fail_overlap(hr2d_scene *scene, size_t i, size_t j, const hr2
       first.text, second.text, within, where.text);
 }
 
+/* Two images by one motion meet as their patches do, which were looked at, up to the roundings
+   of the motion; ends of a period see nothing. */
+static int meet_as_others(const hr2di_symmetry *s, size_t i, size_t j) {
+  if (!s->motion || i < s->cell) return 0;
+  const size_t images = s->motions * s->cell;
+  return i < images ? i / s->cell == j / s->cell : j >= images;
+}
+
+/* Images overlap by roundings of the whole scene, as their motions begin far away. */
+#define TOUCH 0x1p-45
+
+static int only_touch(const hr2di_meeting *m) {
+  return hypot(m->to.x - m->from.x, m->to.y - m->from.y) <= TOUCH;
+}
+
+typedef struct checker {
+  hr2d_scene *scene;
+  hr2di_steps steps;
+  int motions; /* there are images */
+  int rounds;  /* that are left in which they are moved */
+} checker;
+
 static hr2d_status check_pair(void *ctx, size_t i, size_t j) {
-  hr2d_scene *scene = ctx;
+  checker *c = ctx;
+  hr2d_scene *scene = c->scene;
   const hr2di_meeting m =
       hr2di_crossings_meet(&scene->patch[i].scaled, &scene->patch[j].scaled);
   if (m.kind == HR2DI_MEET_FREE) return HR2D_OK;
+  if (m.kind == HR2DI_MEET_FACE && c->rounds > 0 && j >= scene->symmetry.cell)
+    return hr2di_steps_add(&c->steps, scene, i, j, &m);
+  if (meet_as_others(&scene->symmetry, i, j)) return HR2D_OK;
+  if (m.kind == HR2DI_MEET_LIE && c->motions && j >= scene->symmetry.cell && only_touch(&m))
+    return HR2D_OK;
   if (m.kind == HR2DI_MEET_CROSS) return fail_crossing(scene, i, j, m.from);
   return fail_overlap(scene, i, j, &m);
 }
 
+/* Rounds in which images are put back to back: what is moved for one pair may be in front of
+   another by a rounding. */
+enum { ROUNDS = 8 };
+
 hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene, hr2di_watch *watch) {
-  const hr2d_status status =
-      hr2di_crossings_sweep(&scene->alloc, &scene->patch[0].scaled, scene->patches,
-                            sizeof *scene->patch, check_pair, scene, watch);
+  const int motions = scene->symmetry.motion != NULL;
+  checker c = {.scene = scene, .motions = motions, .rounds = motions ? ROUNDS : 0};
+  hr2d_status status;
+  do {
+    status = hr2di_crossings_sweep(&scene->alloc, &scene->patch[0].scaled, scene->patches,
+                                   sizeof *scene->patch, check_pair, &c, watch);
+    if (status || c.steps.count == 0) break;
+    status = hr2di_steps_take(&c.steps, scene, watch);
+    c.rounds--;
+  } while (!status);
+  hr2di_alloc_free(&scene->alloc, c.steps.step);
   if (status == HR2D_ENOMEM || hr2di_watch_status(watch))
     hr2di_scene_fail(scene, status, watch, "the checks");
   return status;

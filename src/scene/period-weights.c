@@ -116,14 +116,23 @@ void hr2di_symmetry_forget_weights(hr2di_symmetry *s) {
   for (size_t k = 0; k < s->motions; k++) s->motion[k].weight = s->motion[k].former = 1;
 }
 
-/* The extent of the patches across a direction. */
+/* The extent of the patches, and of their images in a mirror along it, across a direction. */
 static double across(const hr2d_scene *scene, hr2d_point d) {
+  const hr2di_generators *by = &scene->symmetry.by;
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (size_t k = 0; k < scene->patches; k++) {
     const hr2d_segment s = scene->patch[k].given;
     const double a = d.x * s.a.y - d.y * s.a.x, b = d.x * s.b.y - d.y * s.b.x;
     low = fmin(low, fmin(a, b));
     high = fmax(high, fmax(a, b));
+  }
+  for (size_t m = 0; m < by->mirrors; m++) {
+    const hr2d_point u = by->along[m];
+    if (fabs(d.x * u.x + d.y * u.y) < 0.5 * hypot(d.x, d.y)) continue;
+    const double at = d.x * by->at[m].y - d.y * by->at[m].x;
+    const double reach = fmax(fabs(high - at), fabs(low - at));
+    high = at + reach;
+    low = at - reach;
   }
   return (high - low) / hypot(d.x, d.y);
 }

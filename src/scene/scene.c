@@ -19,8 +19,18 @@ hr2d_status hr2d_scene_create(const hr2d_allocator *allocator, hr2d_scene **scen
   return HR2D_OK;
 }
 
+/* Patches go back to where they were drawn. */
+static void put_back(hr2d_scene *scene) {
+  hr2di_symmetry *s = &scene->symmetry;
+  for (size_t k = 0; s->added && k < s->cell && k < scene->patches; k++)
+    scene->patch[k].given = s->added[k];
+  hr2di_alloc_free(&scene->alloc, s->added);
+  s->added = NULL;
+}
+
 void hr2di_scene_clear_commit(hr2d_scene *scene) {
   if (scene->symmetry.motion) hr2di_scene_truncate(scene, scene->symmetry.cell);
+  put_back(scene);
   hr2di_symmetry_clear(&scene->symmetry, &scene->alloc);
   hr2di_walls_clear(&scene->walls);
   scene->walls = (hr2di_walls){.alloc = scene->alloc};
@@ -327,7 +337,8 @@ size_t hr2d_scene_bands(const hr2d_scene *scene) {
 }
 
 hr2d_segment hr2d_scene_segment(const hr2d_scene *scene, size_t patch) {
-  return scene->patch[patch].given;
+  const hr2d_segment *added = scene->symmetry.added;
+  return added && patch < scene->symmetry.cell ? added[patch] : scene->patch[patch].given;
 }
 
 double hr2d_scene_length(const hr2d_scene *scene, size_t patch) {

@@ -5,6 +5,8 @@
 #include <hr2d/symmetry.h>
 #include <math.h>
 
+#include "geometry/crossings.h"
+#include "geometry/orient-sign.h"
 #include "scene/scene-impl.h"
 
 static int is_finite(hr2d_point p) {
@@ -55,7 +57,7 @@ size_t hr2d_scene_images(const hr2d_scene *scene) {
 }
 
 hr2d_segment hr2d_scene_image(const hr2d_scene *scene, size_t patch, size_t image) {
-  return scene->patch[image * scene->symmetry.cell + patch].given;
+  return hr2d_scene_segment(scene, image * scene->symmetry.cell + patch);
 }
 
 double hr2d_scene_cut_off(const hr2d_scene *scene) {
@@ -115,8 +117,23 @@ double hr2di_symmetry_touch(const hr2d_scene *scene) {
   return 0x1p-49 * max;
 }
 
-static void add_generator(hr2di_generators *by, hr2d_segment line, hr2d_point along) {
-  by->at[by->mirrors] = line.a;
+/* A point of a mirror.  From one that is much farther from the patches than these are large,
+   the distance of a patch would have few digits: then it is the foot of a patch, by an exact
+   determinant. */
+#define FAR 4
+
+static hr2d_point point_near(const hr2d_scene *scene, hr2d_segment line) {
+  const hr2d_point p = scene->patch[0].given.a;
+  const double size = hr2di_symmetry_touch(scene) * 0x1p+49;
+  if (hypot(line.a.x - p.x, line.a.y - p.y) <= FAR * size) return line.a;
+  const hr2d_point d = direction(line);
+  const double far = hypot(d.x, d.y),
+               off = hr2di_crossings_distance(p, &line) * hr2di_orient_sign(line.a, line.b, p);
+  return (hr2d_point){p.x + off * (d.y / far), p.y - off * (d.x / far)};
+}
+
+static void add_generator(hr2di_generators *by, hr2d_point at, hr2d_point along) {
+  by->at[by->mirrors] = at;
   by->along[by->mirrors++] = along;
 }
 
@@ -139,6 +156,7 @@ static hr2d_status take_mirror(hr2d_scene *scene, size_t number) {
   const hr2d_segment line = s->mirror[number];
   const hr2d_point d = direction(line);
   const double size = hypot(d.x, d.y);
+  const hr2d_point at = point_near(scene, line);
   hr2d_point along = {d.x / size, d.y / size};
   for (size_t k = 0; k < by->mirrors; k++) {
     const hr2d_point u = by->along[k];
@@ -147,14 +165,14 @@ static hr2d_status take_mirror(hr2d_scene *scene, size_t number) {
       return hr2di_message_fail(
           &scene->message, HR2D_ESCENE,
           "mirror %zu is neither parallel nor perpendicular to another one", number);
-    const double off = left_of(by->at[k], u, line.a);
+    const double off = left_of(by->at[k], u, at);
     if (a == PARALLEL && fabs(off) <= hr2di_symmetry_touch(scene))
       return hr2di_message_fail(&scene->message, HR2D_ESCENE, "mirror %zu is on another one",
                                 number);
     if (a == PARALLEL) return set_period(scene, (hr2d_point){-2 * off * u.y, 2 * off * u.x});
     along = (hr2d_point){-u.y, u.x};
   }
-  add_generator(by, line, along);
+  add_generator(by, at, along);
   return HR2D_OK;
 }
 
@@ -168,7 +186,7 @@ typedef struct sides {
 static sides sides_of(const hr2d_scene *scene, hr2d_segment line, double touch) {
   const hr2d_point d = direction(line);
   const double size = hypot(d.x, d.y);
-  sides s = {line.a, {d.x / size, d.y / size}, {touch, touch}, {0, 0}};
+  sides s = {point_near(scene, line), {d.x / size, d.y / size}, {touch, touch}, {0, 0}};
   for (size_t k = 0; k < scene->patches; k++) {
     const hr2d_segment at = scene->patch[k].given;
     const double off[2] = {left_of(s.at, s.along, at.a), left_of(s.at, s.along, at.b)};

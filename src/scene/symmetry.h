@@ -69,12 +69,13 @@ typedef struct hr2di_symmetry {
   hr2di_generators by;
   hr2di_motion *motion; /* number 0 maps each patch to itself; NULL: no images */
   size_t motions;
-  size_t cell;      /* patches that were given */
-  size_t ends;      /* black patches behind all images */
-  unsigned copies;  /* K */
-  double low, high; /* the extent of the patches across the period, see below */
-  double line[2];   /* how far the ends are from the origin, against the period and along it, in
-                       scene lengths */
+  size_t cell;         /* patches that were given */
+  hr2d_segment *added; /* where they were drawn, if some were moved by periods; else NULL */
+  size_t ends;         /* black patches behind all images */
+  unsigned copies;     /* K */
+  double low, high;    /* the extent of the patches across the period, see below */
+  double line[2]; /* how far the ends are from the origin, against the period and along it, in
+                     scene lengths */
   hr2di_tail points;  /* of what a point sees past the ends, if there is a period, */
   hr2di_tail patches; /* and of its integral along a patch */
   double rest;        /* the largest part of the directions of a patch that the ends take */
@@ -164,6 +165,10 @@ hr2d_point hr2di_symmetry_move(const hr2di_generators *by, const hr2di_motion *g
 
 /* What is within so much of a line of the scene lies on it, in scene lengths. */
 double hr2di_symmetry_touch(const struct hr2d_scene *scene);
+
+/* Moves patches that were drawn more than a period apart, and back to where they were. HR2D_OK,
+   or a status with a message. */
+hr2d_status hr2di_scene_make_one_cell(struct hr2d_scene *scene, hr2di_watch *watch);
 
 /* Adds the images of all patches for K = `copies`, and the ends.  HR2D_OK, or a status with a
    message. */

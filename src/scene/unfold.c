@@ -91,9 +91,11 @@ static hr2d_status add_image(hr2d_scene *scene, const hr2di_motion *g, size_t pa
 hr2d_status hr2di_scene_unfold(hr2d_scene *scene, unsigned copies, hr2di_watch *watch) {
   hr2di_symmetry *s = &scene->symmetry;
   const size_t cell = scene->patches;
-  const double touch = hr2di_symmetry_touch(scene);
-  hr2d_status status = set_motions(scene, copies);
   s->cell = cell;
+  hr2d_status status = hr2di_scene_make_one_cell(scene, watch);
+  if (status) return status;
+  const double touch = hr2di_symmetry_touch(scene);
+  status = set_motions(scene, copies);
   if (!status && s->motions > MOST_PATCHES / cell)
     return hr2di_message_fail(&scene->message, HR2D_ERANGE,
                               "%zu images of %zu patches are too many", s->motions, cell);

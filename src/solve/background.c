@@ -156,6 +156,24 @@ static void clear_closed(hr2di_transport *t) {
       memset(t->sky + k * t->order, 0, t->order * sizeof *t->sky);
 }
 
+/* Where images of a period are cut off, rows are as exact as their extrapolation.  A leaf whose
+   part of the background is no more than that may be off sees none, or what is left of it could
+   be negative. */
+static hr2d_status clear_unknown(hr2di_transport *t) {
+  const size_t field = t->leaves * t->width;
+  double *one = hr2di_alloc_zero(&t->alloc, 2 * field, sizeof *one);
+  if (!one) return HR2D_ENOMEM;
+  double *tail = one + field;
+  for (size_t k = 0; k < t->leaves; k++)
+    for (size_t b = 0; b < t->bands; b++) one[k * t->width + b] = 1;
+  hr2di_transport_tail(t, one, tail);
+  for (size_t k = 0; k < t->leaves && !t->failed; k++)
+    if (t->sky[k * t->order] <= fabs(tail[k * t->width]))
+      memset(t->sky + k * t->order, 0, t->order * sizeof *t->sky);
+  hr2di_alloc_free(&t->alloc, one);
+  return t->failed ? t->failed : hr2di_watch_work(t->watch, t->leaves / 4);
+}
+
 hr2d_status hr2di_background_set_order_p(hr2di_transport *t, unsigned char **sees) {
   t->sky = hr2di_alloc_zero(&t->alloc, t->leaves * t->order, sizeof *t->sky);
   hr2d_status status = t->sky ? take_rows(t) : HR2D_ENOMEM;
@@ -165,5 +183,6 @@ hr2d_status hr2di_background_set_order_p(hr2di_transport *t, unsigned char **see
   if (t->links->share) status = combine_rows(t, status);
   hr2di_ties_spread_leaves(&t->ties, t->order, 1, t->sky);
   if (!status) clear_closed(t);
+  if (!status && hr2di_symmetry_cuts(&t->hierarchy->scene->symmetry)) status = clear_unknown(t);
   return status;
 }

@@ -250,6 +250,41 @@ START_TEST(cells_of_several_periods_are_the_same_scene) {
 }
 END_TEST
 
+/* Nothing of a background comes between endless plates. */
+START_TEST(plates_under_a_background_are_dark) {
+  static const double dark[][6] = {
+      {0, 0, .5, 0, 0, 0}, {.5, 0, 1, 0, 0, 0}, {1, 1, .25, 1, 0, .2}, {.25, 1, 0, 1, 0, .3}};
+  for (int k = 4; k <= 9; k++) {
+    run r = solve(make(dark, 4, 1, 1, 1, 1, turn_by(0)), pow(10, -k), HR2D_OK);
+    for (size_t p = 0; p < 4; p++) {
+      ck_assert(hr2d_solution_average(r.solution, p, 0) == 0);
+      ck_assert(hr2d_solution_irradiance(r.solution, p, 0) == 0);
+    }
+    end(&r);
+  }
+}
+END_TEST
+
+/* What is extrapolated stands before the background, also where it is black.  H of the ground
+   is what 80,000 points see between the 101 nearest rows. */
+START_TEST(black_rows_hide_the_background) {
+  static const double black[][6] = {
+      {0, 0, 3, 0, 0, 0}, {0, .5, 1.7, 1.4, 0, 0}, {1.7, 1.4, 0, .5, 0, 0}};
+  run one = solve(make(black, 3, 3, 1, 1, 1, turn_by(0)), 1e-3, HR2D_OK);
+  run three = solve(make(black, 3, 3, 4, 1, 1, turn_by(0)), 1e-3, HR2D_OK);
+  const double ground = hr2d_solution_irradiance(one.solution, 0, 0);
+  ck_assert_double_le(relative(ground, 0.41990941056), one.account.irradiance.bound);
+  ck_assert_double_gt(one.account.irradiance.estimate, 1e-10);
+  for (size_t k = 0; k < 3; k++) {
+    const double h = hr2d_solution_irradiance(three.solution, k, 0);
+    ck_assert_double_le(relative(hr2d_solution_irradiance(one.solution, k, 0), h),
+                        one.account.irradiance.bound + three.account.irradiance.bound);
+  }
+  end(&one);
+  end(&three);
+}
+END_TEST
+
 /* Images that are cut off are the reason, and not that elements are coarse. */
 START_TEST(targets_beyond_what_is_cut_off_are_not_met) {
   run r = solve(make(slats, SLATS, 1, 1, 1, 0, turn_by(0)), 1e-10, HR2D_EACCURACY);
@@ -342,6 +377,6 @@ TEST_SUITE("periods") {
   ADD_TESTS("rows", rows_on_the_ground_are_the_middle_of_many,
             rows_above_the_ground_are_nearly_the_middle_of_many, suns_shine_past_images);
   ADD_TESTS("cells", cells_of_several_periods_are_the_same_scene,
-            targets_beyond_what_is_cut_off_are_not_met,
-            parallel_mirrors_are_a_period_with_reflections);
+            targets_beyond_what_is_cut_off_are_not_met, plates_under_a_background_are_dark,
+            black_rows_hide_the_background, parallel_mirrors_are_a_period_with_reflections);
 }
