@@ -231,12 +231,15 @@ tests_adversary_adversary_SOURCES = \
 	tests/adversary/kinds-extreme.c \
 	tests/adversary/kinds-open.c \
 	tests/adversary/kinds-rooms.c \
+	tests/adversary/kinds-symmetry.c \
 	tests/adversary/law.c tests/adversary/law.h \
 	tests/adversary/random.h \
 	tests/adversary/report.c tests/adversary/report.h \
 	tests/adversary/scene.c tests/adversary/scene.h \
+	tests/adversary/scene-file.c \
 	tests/adversary/shrink.c tests/adversary/shrink.h \
-	tests/adversary/transform.c tests/adversary/transform.h
+	tests/adversary/transform.c tests/adversary/transform.h \
+	tests/adversary/transform-symmetry.c
 RUNS = 2000
 adversary: tests/adversary/adversary$(EXEEXT)
 	@tests/adversary/adversary$(EXEEXT) --runs $(RUNS) >adversary.md; status=$$?; \

@@ -28,7 +28,9 @@
  * beyond. Where they can see for ever, as between two plates, the last images stand for those
  * that are cut off: exchange areas with image k are series in 1/k that begin with 1/k³, and
  * their sums are extrapolated. hr2d_solve_to() has what that may be off in its estimate and
- * bound; other calls have no account of it. The sky that shows there is extrapolated, too, and
+ * bound; other calls have no account of it. One more gather at a point (solve.h) extrapolates
+ * its own view, and no error has what that may be off: far images may show here and there past
+ * the tip of a patch. The sky that shows there is extrapolated, too, and
  * has the light of the horizon; backs are what is left.
  *
  * Points between the patches (field.h) have as many images as patches that see for ever,

@@ -29,8 +29,8 @@
 /* Points are sampled, and coefficients show less of B than of averages. */
 #define POINTS 3
 /* The bound has so many times what terms of the series of a period show, besides.  A vertex
-   that hides an image from some number on makes a step, which terms show in part: in four of
-   1,600 random scenes up to twice the margin was hidden, of about 10. */
+   that hides an image from some number on makes a step, which terms show in part: in three
+   of 1,600 random scenes up to twice the margin was hidden, of about 10. */
 #define STEPS 30
 /* The part of the errors without signs that may be left where signs cancel: what K⁺ does not
    see of them, which was 0.107 at order 2 and falls with the order. */

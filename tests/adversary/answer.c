@@ -48,12 +48,15 @@ static void read_averages(adv_answer *a) {
     a->power[band] = hr2d_solution_power(a->solution, band);
 }
 
-/* B and H at a point of a patch of this scene; NaN if they cannot be had. */
+/* B and H at a point of a patch of this scene; NaN if they cannot be had.  Where images are cut
+   off that patches can see, they have no claim, and may be refused; see symmetry.h. */
 static void read_point(adv_answer *a, size_t patch, double t, double *b, double *h) {
   hr2d_status status = hr2d_solution_gather(a->solution, patch, &t, 1, b);
   if (!status) status = hr2d_solution_gather_irradiance(a->solution, patch, &t, 1, h);
+  const int none = a->cut_off > 0 && status == HR2D_EUNSUPPORTED;
+  a->pointless = a->cut_off > 0;
   for (size_t band = 0; band < a->scene->bands; band++) {
-    if (status) b[band] = h[band] = NAN;
+    if (status) b[band] = h[band] = none ? 0 : NAN;
     brighter(&a->sup[ADV_B][band], b[band]);
     brighter(&a->sup[ADV_H][band], h[band]);
   }
@@ -103,6 +106,7 @@ void adv_ask(const adv_scene *scene, adv_question question, const adv_points *po
     answer->status = hr2d_solve_to(answer->built, &target, &answer->solution, &answer->account);
   answer->seconds = now() - start;
   if (!answer->solution) return;
+  answer->cut_off = hr2d_scene_cut_off(answer->built);
   read_averages(answer);
   if (adv_has_sun(scene)) look_into_sunlight(answer);
   read_points(answer, points);

@@ -84,7 +84,9 @@ void adv_claims_of(const adv_answer *a, const adv_scene *original, adv_claims *c
         for (int j = 0; j < ADV_POINTS; j++) {
           adv_claim *claim = &claims->point[q][source][j][band];
           claim->value = a->point[q][source][j][band] / a->scene->gain;
-          claim->error = adv_point_error(a, q, k, band) / a->scene->gain + turned;
+          claim->error = a->pointless
+                             ? INFINITY
+                             : adv_point_error(a, q, k, band) / a->scene->gain + turned;
         }
       }
   }

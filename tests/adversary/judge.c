@@ -80,7 +80,7 @@ static void nothing_is_negative(const adv_answer *a, adv_outcome *outcome) {
    by their stated errors add ∫(1−ρ)|δH| and at most ∫|δB|.  Row sums, from which what escapes
    and what comes in are computed, are within 1e-13 of the length and 64 units in the last place
    of the largest coordinate (visibility.h).  Pieces of the sky are integrated with the error
-   of H. */
+   of H.  Where images of a period are cut off, what row sums lack is in the error of H. */
 static void power_is_balanced(const adv_answer *a, adv_outcome *outcome, size_t band) {
   const adv_scene *s = a->scene;
   double coordinate = ldexp(1, adv_bits(s) + s->exponent);
@@ -94,6 +94,7 @@ static void power_is_balanced(const adv_answer *a, adv_outcome *outcome, size_t 
     if (s->pieces) gained += length * adv_average_error(a, ADV_H, k, band);
     rows += level * (1e-13 * length + 128 * ROUNDING * coordinate);
   }
+  if (a->cut_off > 0) rows += errors;
   hr2d_power p = a->power[band];
   double size = p.emitted + p.received + fabs(p.absorbed) + fabs(p.escaped);
   double rounding = 8 * ROUNDING * (double)s->count * size;

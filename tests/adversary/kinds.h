@@ -12,10 +12,11 @@ typedef struct adv_kind {
 } adv_kind;
 
 /* Tables that end with a name of NULL. */
-extern const adv_kind adv_rooms[];   /* closed, ordinary proportions */
-extern const adv_kind adv_extreme[]; /* closed, extreme proportions, reflectances, places */
-extern const adv_kind adv_open[];    /* light leaves or comes in */
-extern const adv_kind adv_day[];     /* under a sun, or a sky in pieces */
+extern const adv_kind adv_rooms[];    /* closed, ordinary proportions */
+extern const adv_kind adv_extreme[];  /* closed, extreme proportions, reflectances, places */
+extern const adv_kind adv_open[];     /* light leaves or comes in */
+extern const adv_kind adv_day[];      /* under a sun, or a sky in pieces */
+extern const adv_kind adv_symmetry[]; /* with mirrors, or a period */
 
 /* The number of kinds, and each of them. */
 size_t adv_kinds(void);

@@ -17,13 +17,25 @@ static int chosen(const char *list, const char *name) {
   return !list;
 }
 
+enum { MOST_TRANSFORMS = 32 };
+
+static size_t applicable(const adv_scene *scene, const adv_transform **found) {
+  const int has[] = {[ADV_ANY] = 1,
+                     [ADV_DAY] = adv_has_sun(scene) || adv_has_sky(scene),
+                     [ADV_SYMMETRY] = adv_is_symmetric(scene)};
+  size_t count = 0;
+  for (const adv_transform *t = adv_transforms; t->name && count < MOST_TRANSFORMS; t++)
+    if (has[t->need]) found[count++] = t;
+  return count;
+}
+
 /* One to three transformations of those that are chosen. */
 static void transform(adv_trial *trial, adv_scene *copy) {
-  size_t count = 0, wanted = (size_t)adv_int(&trial->random, 1, 3);
-  int day = adv_has_sun(trial->scene) || adv_has_sky(trial->scene);
-  while (adv_transforms[count].name && (day || !adv_transforms[count].of_day)) count++;
+  const adv_transform *known[MOST_TRANSFORMS];
+  size_t count = applicable(trial->scene, known),
+         wanted = (size_t)adv_int(&trial->random, 1, 3);
   for (int tries = 0; wanted > 0 && tries < 60; tries++) {
-    const adv_transform *t = &adv_transforms[adv_int(&trial->random, 0, (int)count - 1)];
+    const adv_transform *t = known[adv_int(&trial->random, 0, (int)count - 1)];
     if (!chosen(trial->transforms, t->name) || !t->apply(copy, &trial->random)) continue;
     size_t used = strlen(trial->applied);
     snprintf(trial->applied + used, sizeof trial->applied - used, "%s%s", used ? "+" : "",
@@ -116,7 +128,8 @@ static void part_day(adv_trial *trial, size_t band) {
   one->sun[band].irradiance *= part;
   other->sun[band].irradiance *= 1 - part;
   for (size_t k = 0; k < one->pieces; k++) {
-    part = adv_int(&trial->random, 0, 4) / 4.0;
+    /* A mirror wants the same of all. */
+    if (k == 0 || !one->mirrors) part = adv_int(&trial->random, 0, 4) / 4.0;
     one->piece[k].value[band] *= part;
     other->piece[k].value[band] *= 1 - part;
   }

@@ -3,7 +3,6 @@
 #include "adversary/scene.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 void adv_clear(adv_scene *scene, int exponent) {
@@ -74,6 +73,15 @@ int adv_free(const adv_scene *scene, double ax, double ay, double bx, double by)
   return 1;
 }
 
+void adv_mirror(adv_scene *scene, double ax, double ay, double bx, double by) {
+  scene->mirror[scene->mirrors++] = (adv_line){{on_grid(scene, ax), on_grid(scene, bx)},
+                                               {on_grid(scene, ay), on_grid(scene, by)}};
+}
+
+int adv_is_symmetric(const adv_scene *scene) {
+  return scene->mirrors > 0 || scene->period[0] || scene->period[1];
+}
+
 /* Multiples of 1/64, so that 1 − ρ and sums of emissions are exact. */
 void adv_paint(adv_scene *scene, adv_random *r, double most) {
   for (size_t band = 0; band < scene->bands; band++) {
@@ -101,9 +109,17 @@ adv_extent adv_extent_of(const adv_scene *scene) {
   return e;
 }
 
+static int64_t magnitude(int64_t x) {
+  return x < 0 ? -x : x;
+}
+
 int adv_bits(const adv_scene *scene) {
   adv_extent e = adv_extent_of(scene);
-  int64_t most = 0;
+  int64_t most = larger(magnitude(scene->period[0]), magnitude(scene->period[1]));
+  for (size_t k = 0; k < scene->mirrors; k++)
+    for (int end = 0; end < 2; end++)
+      most = larger(
+          most, larger(magnitude(scene->mirror[k].x[end]), magnitude(scene->mirror[k].y[end])));
   for (int axis = 0; axis < 2; axis++) most = larger(most, larger(-e.low[axis], e.high[axis]));
   int bits = 0;
   while (most >> bits) bits++;
@@ -159,15 +175,28 @@ static hr2d_status set_day(const adv_scene *scene, hr2d_scene *built) {
   return status;
 }
 
+static hr2d_point on_scene(const adv_scene *scene, int64_t x, int64_t y) {
+  return (hr2d_point){ldexp((double)x, scene->exponent), ldexp((double)y, scene->exponent)};
+}
+
+static hr2d_status set_symmetry(const adv_scene *scene, hr2d_scene *built) {
+  hr2d_status status =
+      hr2d_scene_set_period(built, on_scene(scene, scene->period[0], scene->period[1]));
+  for (size_t k = 0; k < scene->mirrors && !status; k++) {
+    const adv_line *m = &scene->mirror[k];
+    status = hr2d_scene_add_mirror(built, (hr2d_segment){on_scene(scene, m->x[0], m->y[0]),
+                                                         on_scene(scene, m->x[1], m->y[1])});
+  }
+  return status;
+}
+
 hr2d_status adv_build(const adv_scene *scene, hr2d_scene **built) {
   hr2d_status status = hr2d_scene_create(NULL, built);
   for (size_t k = 0; !status && k < scene->count; k++) {
     const adv_patch *p = &scene->patch[k];
     hr2d_patch patch = HR2D_PATCH_INIT;
-    patch.a.x = ldexp((double)p->x[0], scene->exponent);
-    patch.a.y = ldexp((double)p->y[0], scene->exponent);
-    patch.b.x = ldexp((double)p->x[1], scene->exponent);
-    patch.b.y = ldexp((double)p->y[1], scene->exponent);
+    patch.a = on_scene(scene, p->x[0], p->y[0]);
+    patch.b = on_scene(scene, p->x[1], p->y[1]);
     patch.emission = p->emission;
     patch.reflectance = p->reflectance;
     patch.emission_bands = patch.reflectance_bands = scene->bands;
@@ -175,65 +204,6 @@ hr2d_status adv_build(const adv_scene *scene, hr2d_scene **built) {
   }
   if (!status) status = hr2d_scene_set_background(*built, scene->background, scene->bands);
   if (!status) status = set_day(scene, *built);
+  if (!status) status = set_symmetry(scene, *built);
   return status ? status : hr2d_scene_commit(*built);
-}
-
-static void write_values(FILE *file, const char *name, const double *value, size_t count) {
-  fprintf(file, "\"%s\": [", name);
-  for (size_t k = 0; k < count; k++) fprintf(file, "%s%.17g", k ? ", " : "", value[k]);
-  fprintf(file, "]");
-}
-
-static void write_patch(FILE *file, const adv_scene *scene, size_t k) {
-  const adv_patch *p = &scene->patch[k];
-  fprintf(file, "%s\n{\"type\": \"Feature\", \"properties\": {\"name\": \"", k ? "," : "");
-  if (p->source < 0)
-    fprintf(file, "%zu added\", ", k);
-  else if (p->from == 0 && p->to == 1)
-    fprintf(file, "p%d\", ", p->source);
-  else
-    fprintf(file, "p%d from %.17g to %.17g\", ", p->source, p->from, p->to);
-  write_values(file, "emission", p->emission, scene->bands);
-  fprintf(file, ", ");
-  write_values(file, "reflectance", p->reflectance, scene->bands);
-  fprintf(file, "}, \"geometry\": {\"type\": \"LineString\", \"coordinates\": [");
-  for (int end = 0; end < 2; end++)
-    fprintf(file, "%s[%.17g, %.17g]", end ? ", " : "",
-            ldexp((double)p->x[end], scene->exponent),
-            ldexp((double)p->y[end], scene->exponent));
-  fprintf(file, "]}}");
-}
-
-static void write_day(FILE *file, const adv_scene *scene) {
-  if (adv_has_sun(scene)) {
-    double irradiance[ADV_BANDS];
-    fprintf(file, ", \"sun\": {\"direction\": [");
-    for (size_t b = 0; b < scene->bands; b++) {
-      irradiance[b] = scene->sun[b].irradiance;
-      fprintf(file, "%s[%lld, %lld]", b ? ", " : "", (long long)scene->sun[b].x,
-              (long long)scene->sun[b].y);
-    }
-    fprintf(file, "], ");
-    write_values(file, "irradiance", irradiance, scene->bands);
-    fprintf(file, "}");
-  }
-  for (size_t k = 0; k < scene->pieces; k++) {
-    const adv_piece *p = &scene->piece[k];
-    fprintf(file, "%s[%.17g, %.17g, [", k ? ", " : ", \"sky\": [", p->from, p->to);
-    for (size_t b = 0; b < scene->bands; b++)
-      fprintf(file, "%s%.17g", b ? ", " : "", p->value[b]);
-    fprintf(file, k + 1 == scene->pieces ? "]]]" : "]]");
-  }
-}
-
-int adv_write(const adv_scene *scene, const char *path) {
-  FILE *file = fopen(path, "w");
-  if (!file) return 0;
-  fprintf(file, "{\"type\": \"FeatureCollection\", \"hr2d\": {");
-  write_values(file, "background", scene->background, scene->bands);
-  write_day(file, scene);
-  fprintf(file, "}, \"features\": [");
-  for (size_t k = 0; k < scene->count; k++) write_patch(file, scene, k);
-  fprintf(file, "\n]}\n");
-  return !fclose(file);
 }

@@ -15,6 +15,7 @@
 #define ADV_BANDS   4
 #define ADV_PATCHES 160
 #define ADV_PIECES  12
+#define ADV_MIRRORS 3
 
 typedef struct adv_patch {
   int64_t x[2], y[2]; /* start and end, in steps of 2^exponent; the front is on the left */
@@ -34,10 +35,19 @@ typedef struct adv_piece {
   double from, to, value[ADV_BANDS];
 } adv_piece;
 
+/* A mirror, by two points of its line. */
+typedef struct adv_line {
+  int64_t x[2], y[2];
+} adv_line;
+
 typedef struct adv_scene {
   adv_patch patch[ADV_PATCHES];
   size_t count, bands;
   int exponent;
+  adv_line mirror[ADV_MIRRORS];
+  size_t mirrors;
+  int64_t period[2]; /* 0, 0: none */
+  int unfolded;      /* some patches are images of others */
   int closed; /* nothing leaves it and nothing comes in: what is outside of its box is hidden */
   double background[ADV_BANDS];
   adv_sun sun[ADV_BANDS];
@@ -70,6 +80,12 @@ void adv_paint(adv_scene *scene, adv_random *r, double most);
 
 /* Sets the reflectance of a patch in all bands. */
 void adv_reflect(adv_patch *patch, double reflectance);
+
+/* A mirror, by two points. */
+void adv_mirror(adv_scene *scene, double ax, double ay, double bx, double by);
+
+/* Whether there are mirrors or a period. */
+int adv_is_symmetric(const adv_scene *scene);
 
 /* The least and largest coordinates, in steps. */
 typedef struct adv_extent {

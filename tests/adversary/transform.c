@@ -46,13 +46,19 @@ static int multiply(adv_scene *scene, int a, int b) {
       rotate_pair(&scene->patch[k].x[end], &scene->patch[k].y[end], a, b);
   for (size_t band = 0; band < scene->bands; band++)
     rotate_pair(&scene->sun[band].x, &scene->sun[band].y, a, b);
+  for (size_t k = 0; k < scene->mirrors; k++)
+    for (int end = 0; end < 2; end++)
+      rotate_pair(&scene->mirror[k].x[end], &scene->mirror[k].y[end], a, b);
+  rotate_pair(&scene->period[0], &scene->period[1], a, b);
   turn_sky(scene, a, b);
   return 1;
 }
 
 static int rotate(adv_scene *scene, adv_random *r) {
   int a = adv_int(r, 1, 12), b = adv_int(r, 1, 12);
-  return multiply(scene, a, adv_chance(r, 0.5) ? b : -b);
+  if (!multiply(scene, a, adv_chance(r, 0.5) ? b : -b)) return 0;
+  adv_allow_images(scene);
+  return 1;
 }
 
 static int turn(adv_scene *scene, adv_random *r) {
@@ -79,6 +85,11 @@ static int mirror(adv_scene *scene, adv_random *r) {
     p->from = p->to;
     p->to = from;
   }
+  for (size_t k = 0; k < scene->mirrors; k++)
+    for (int end = 0; end < 2; end++)
+      axis ? (scene->mirror[k].y[end] = -scene->mirror[k].y[end])
+           : (scene->mirror[k].x[end] = -scene->mirror[k].x[end]);
+  scene->period[axis] = -scene->period[axis];
   for (size_t band = 0; band < scene->bands; band++)
     axis ? (scene->sun[band].y = -scene->sun[band].y)
          : (scene->sun[band].x = -scene->sun[band].x);
@@ -107,6 +118,12 @@ static int shift(adv_scene *scene, adv_random *r) {
       scene->patch[k].x[end] += by[0];
       scene->patch[k].y[end] += by[1];
     }
+  for (size_t k = 0; k < scene->mirrors; k++)
+    for (int end = 0; end < 2; end++) {
+      scene->mirror[k].x[end] += by[0];
+      scene->mirror[k].y[end] += by[1];
+    }
+  adv_allow_images(scene);
   return 1;
 }
 
@@ -131,6 +148,12 @@ static int finer_grid(adv_scene *scene, int levels) {
       scene->patch[k].x[end] *= (int64_t)1 << levels;
       scene->patch[k].y[end] *= (int64_t)1 << levels;
     }
+  for (size_t k = 0; k < scene->mirrors; k++)
+    for (int end = 0; end < 2; end++) {
+      scene->mirror[k].x[end] *= (int64_t)1 << levels;
+      scene->mirror[k].y[end] *= (int64_t)1 << levels;
+    }
+  for (int axis = 0; axis < 2; axis++) scene->period[axis] *= (int64_t)1 << levels;
   scene->exponent -= levels;
   return 1;
 }
@@ -184,9 +207,11 @@ static int reorder(adv_scene *scene, adv_random *r) {
   return 1;
 }
 
-/* Room for a few patches more, and for their coordinates. */
+/* Room for a few patches more, and for their coordinates; what is outside of the box of a scene
+   with images may be within one of theirs. */
 static int has_room(const adv_scene *scene, int bits) {
-  return scene->count + 6 <= ADV_PATCHES && adv_bits(scene) + bits <= BITS;
+  return !adv_is_symmetric(scene) && scene->count + 6 <= ADV_PATCHES &&
+         adv_bits(scene) + bits <= BITS;
 }
 
 static int dark_sky(const adv_scene *scene) {
@@ -256,14 +281,14 @@ static int neighbour(adv_scene *scene, adv_random *r) {
    hidden, but what they emit would escape. */
 static int band(adv_scene *scene, adv_random *r) {
   size_t added = scene->bands;
-  if (added == ADV_BANDS) return 0;
+  if (added == ADV_BANDS || scene->unfolded) return 0;
   int dark = adv_chance(r, 0.5);
   for (size_t k = 0; k < scene->count; k++) {
     int lit = adv_int(r, 0, 8);
     scene->patch[k].emission[added] = dark || scene->patch[k].source < 0 ? 0 : lit / 8.0;
     scene->patch[k].reflectance[added] = adv_int(r, 0, 7) / 8.0;
   }
-  if (adv_has_sun(scene) && !dark)
+  if (adv_has_sun(scene) && !dark && !adv_is_symmetric(scene))
     scene->sun[added] = (adv_sun){adv_int(r, -9, 9), -adv_int(r, 1, 9), adv_int(r, 0, 8) / 8.0};
   scene->bands++;
   return 1;
@@ -313,10 +338,27 @@ static int shade(adv_scene *scene, adv_random *r) {
   return 1;
 }
 
-const adv_transform adv_transforms[] = {
-    {"rotate", rotate, 0}, {"turn", turn, 0},   {"mirror", mirror, 0},
-    {"scale", scale, 0},   {"shift", shift, 0}, {"brighten", brighten, 0},
-    {"split", split, 0},   {"halve", halve, 0}, {"reorder", reorder, 0},
-    {"dust", dust, 0},     {"hide", hide, 0},   {"neighbour", neighbour, 0},
-    {"band", band, 0},     {"piece", piece, 1}, {"fill", fill, 1},
-    {"shade", shade, 1},   {NULL, NULL, 0}};
+const adv_transform adv_transforms[] = {{"rotate", rotate, ADV_ANY},
+                                        {"turn", turn, ADV_ANY},
+                                        {"mirror", mirror, ADV_ANY},
+                                        {"scale", scale, ADV_ANY},
+                                        {"shift", shift, ADV_ANY},
+                                        {"brighten", brighten, ADV_ANY},
+                                        {"split", split, ADV_ANY},
+                                        {"halve", halve, ADV_ANY},
+                                        {"reorder", reorder, ADV_ANY},
+                                        {"dust", dust, ADV_ANY},
+                                        {"hide", hide, ADV_ANY},
+                                        {"neighbour", neighbour, ADV_ANY},
+                                        {"band", band, ADV_ANY},
+                                        {"piece", piece, ADV_DAY},
+                                        {"fill", fill, ADV_DAY},
+                                        {"shade", shade, ADV_DAY},
+                                        {"unfold", adv_unfold, ADV_SYMMETRY},
+                                        {"cells", adv_cells, ADV_SYMMETRY},
+                                        {"negate", adv_negate, ADV_SYMMETRY},
+                                        {"redraw", adv_redraw, ADV_SYMMETRY},
+                                        {"wander", adv_wander, ADV_SYMMETRY},
+                                        {"flip", adv_flip, ADV_SYMMETRY},
+                                        {"fold", adv_fold, ADV_SYMMETRY},
+                                        {NULL, NULL, ADV_ANY}};
