@@ -30,7 +30,7 @@ const hr2di_lit_part *hr2di_sunlight_of(const hr2d_scene *scene, size_t patch, s
       high = middle;
   }
   while (low + *count < end && l->part[low + *count].patch == patch) ++*count;
-  return l->part + low;
+  return *count > 0 ? l->part + low : NULL;
 }
 
 const hr2di_sun_border *hr2di_sunlight_borders(const hr2d_scene *scene, size_t patch,
