@@ -43,9 +43,9 @@ bench_bench_fibres_CPPFLAGS = $(AM_CPPFLAGS)
 bench_bench_fibres_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_prediction_SOURCES = bench/bench-prediction.c \
 	tests/adversary/kinds.c tests/adversary/kinds.h tests/adversary/kinds-day.c \
-	tests/adversary/kinds-extreme.c \
-	tests/adversary/kinds-open.c tests/adversary/kinds-rooms.c tests/adversary/random.h \
-	tests/adversary/scene.c tests/adversary/scene.h
+	tests/adversary/kinds-extreme.c tests/adversary/kinds-open.c \
+	tests/adversary/kinds-rooms.c tests/adversary/kinds-symmetry.c \
+	tests/adversary/random.h tests/adversary/scene.c tests/adversary/scene.h
 bench_bench_prediction_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_polls_SOURCES = bench/bench-polls.c tests/support/slow-phases.c \
 	tests/support/slow-phases.h tests/support/slow-scenes.c tests/support/slow-scenes.h
