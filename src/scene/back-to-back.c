@@ -2,16 +2,12 @@
 #include "scene/back-to-back.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "geometry/orient-sign.h"
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
-
-static int is_image(const hr2d_scene *scene, size_t patch) {
-  return patch >= scene->symmetry.cell;
-}
 
 static hr2d_status add_step(hr2di_steps *steps, const hr2d_scene *scene, hr2d_point from,
                             hr2d_point to) {
@@ -37,7 +33,8 @@ static hr2d_status part(hr2di_steps *steps, const hr2d_scene *scene, size_t i, s
     return HR2D_OK;
   /* And a unit in the last place, so that roundings do not eat it. */
   const double far = hr2di_crossings_distance(p, t) + 0x1p-52;
-  if (is_image(scene, i)) return add_step(steps, scene, p, left_by(p, -far, t));
+  if (hr2di_symmetry_is_image(&scene->symmetry, i))
+    return add_step(steps, scene, p, left_by(p, -far, t));
   hr2d_status status = add_step(steps, scene, t->a, left_by(t->a, far, t));
   return status ? status : add_step(steps, scene, t->b, left_by(t->b, far, t));
 }
@@ -83,8 +80,8 @@ static void move(const hr2di_steps *steps, const hr2d_scene *scene, hr2d_point *
 }
 
 hr2d_status hr2di_steps_take(hr2di_steps *steps, hr2d_scene *scene, hr2di_watch *watch) {
-  qsort(steps->step, steps->count, sizeof *steps->step, by_place);
-  hr2d_status status = HR2D_OK;
+  hr2d_status status =
+      hr2di_sort(steps->step, steps->count, sizeof *steps->step, by_place, watch);
   for (size_t k = scene->symmetry.cell; k < scene->patches && !status; k++) {
     hr2di_patch *p = &scene->patch[k];
     status = hr2di_watch_work(watch, 1);

@@ -132,16 +132,25 @@ static double overshoot(const hr2d_segment *s, hr2d_point x) {
   return fmin(a, b) <= OVERSHOOT * (a + b) ? fmin(a, b) : HUGE_VAL;
 }
 
+/* Of patch i and of what is added for another: nothing can cut that. */
+static hr2d_status fail_crossed_image(hr2d_scene *scene, size_t i, size_t j, hr2d_point x) {
+  const hr2d_point at = in_scene_lengths(scene, x);
+  return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                            "%s and %s cross at (%.9g, %.9g): patches have to end there",
+                            hr2di_patch_label(scene, i).text, hr2di_patch_label(scene, j).text,
+                            at.x, at.y);
+}
+
 static hr2d_status fail_crossing(hr2d_scene *scene, size_t i, size_t j, hr2d_point x) {
   const hr2d_point at = in_scene_lengths(scene, x);
+  if (hr2di_symmetry_is_image(&scene->symmetry, j)) return fail_crossed_image(scene, i, j, x);
   const double through =
       fmin(overshoot(&scene->patch[i].scaled, x), overshoot(&scene->patch[j].scaled, x));
   if (through < HUGE_VAL)
     return hr2di_message_fail(
         &scene->message, HR2D_ESCENE,
         "%s and %s cross at (%.9g, %.9g), %.3g from an end: hr2d_scene_snap() or --snap %.2g "
-        "lets "
-        "it end there, hr2d_scene_split_crossings() or --split-crossings cuts them",
+        "lets it end there, hr2d_scene_split_crossings() or --split-crossings cuts them",
         hr2di_patch_label(scene, i).text, hr2di_patch_label(scene, j).text, at.x, at.y,
         ldexp(through, scene->exponent), ldexp(1.5 * through, scene->exponent));
   return hr2di_message_fail(&scene->message, HR2D_ESCENE,
@@ -207,8 +216,7 @@ static int only_touch(const hr2di_meeting *m) {
 typedef struct checker {
   hr2d_scene *scene;
   hr2di_steps steps;
-  int motions; /* there are images */
-  int rounds;  /* that are left in which they are moved */
+  int rounds; /* that are left in which images are moved */
 } checker;
 
 static hr2d_status check_pair(void *ctx, size_t i, size_t j) {
@@ -217,10 +225,12 @@ static hr2d_status check_pair(void *ctx, size_t i, size_t j) {
   const hr2di_meeting m =
       hr2di_crossings_meet(&scene->patch[i].scaled, &scene->patch[j].scaled);
   if (m.kind == HR2DI_MEET_FREE) return HR2D_OK;
-  if (m.kind == HR2DI_MEET_FACE && c->rounds > 0 && j >= scene->symmetry.cell)
+  if (m.kind == HR2DI_MEET_FACE && c->rounds > 0 &&
+      hr2di_symmetry_is_image(&scene->symmetry, j))
     return hr2di_steps_add(&c->steps, scene, i, j, &m);
   if (meet_as_others(&scene->symmetry, i, j)) return HR2D_OK;
-  if (m.kind == HR2DI_MEET_LIE && c->motions && j >= scene->symmetry.cell && only_touch(&m))
+  if (m.kind == HR2DI_MEET_LIE && hr2di_symmetry_is_image(&scene->symmetry, j) &&
+      only_touch(&m))
     return HR2D_OK;
   if (m.kind == HR2DI_MEET_CROSS) return fail_crossing(scene, i, j, m.from);
   return fail_overlap(scene, i, j, &m);
@@ -231,8 +241,7 @@ static hr2d_status check_pair(void *ctx, size_t i, size_t j) {
 enum { ROUNDS = 8 };
 
 hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene, hr2di_watch *watch) {
-  const int motions = scene->symmetry.motion != NULL;
-  checker c = {.scene = scene, .motions = motions, .rounds = motions ? ROUNDS : 0};
+  checker c = {.scene = scene, .rounds = scene->symmetry.motion ? ROUNDS : 0};
   hr2d_status status;
   do {
     status = hr2di_crossings_sweep(&scene->alloc, &scene->patch[0].scaled, scene->patches,

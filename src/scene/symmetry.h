@@ -95,6 +95,11 @@ static inline size_t hr2di_symmetry_cell(const hr2di_symmetry *s, size_t patches
   return s->motion ? s->cell : patches;
 }
 
+/* Whether commit has added the patch: as an image of another, or as an end. */
+static inline int hr2di_symmetry_is_image(const hr2di_symmetry *s, size_t patch) {
+  return s->motion && patch >= s->cell;
+}
+
 /* The patch of which another one is an image; itself, if it is none. */
 static inline size_t hr2di_symmetry_original(const hr2di_symmetry *s, size_t patch) {
   return s->motion && patch < s->motions * s->cell ? patch % s->cell : patch;

@@ -111,22 +111,33 @@ static hr2d_status take_all_backs(hr2di_transport *t, const unsigned char *sees)
   return status ? status : hr2di_watch_status(t->watch);
 }
 
+/* What arrives if everything radiates 1: by K, or by what its extrapolation leaves.  NULL: out
+   of memory. */
+static double *irradiance_of_one(hr2di_transport *t,
+                                 void (*apply)(hr2di_transport *, const double *, double *)) {
+  const size_t field = t->leaves * t->width;
+  double *one = hr2di_alloc_zero(&t->alloc, field, sizeof *one);
+  double *arrives = one ? hr2di_alloc(&t->alloc, field, sizeof *arrives) : NULL;
+  if (arrives) {
+    for (size_t k = 0; k < t->leaves; k++)
+      for (size_t b = 0; b < t->bands; b++) one[k * t->width + b] = 1;
+    apply(t, one, arrives);
+  }
+  hr2di_alloc_free(&t->alloc, one);
+  return arrives;
+}
+
 /* Sets t->sky to 1 − K1 on patches that light reaches. */
 static hr2d_status take_rows(hr2di_transport *t) {
-  const size_t field = t->leaves * t->width;
-  double *one = hr2di_alloc_zero(&t->alloc, 2 * field, sizeof *one);
-  if (!one) return HR2D_ENOMEM;
-  double *row = one + field;
-  for (size_t k = 0; k < t->leaves; k++)
-    for (size_t b = 0; b < t->bands; b++) one[k * t->width + b] = 1;
-  hr2di_transport_apply(t, one, row);
+  double *row = irradiance_of_one(t, hr2di_transport_apply);
+  if (!row) return HR2D_ENOMEM;
   for (size_t k = 0; k < t->leaves && !t->failed; k++) {
     const int lit =
         hr2di_scene_lit(t->hierarchy->scene, t->hierarchy->element[t->leaf[k]].patch);
     for (size_t l = 0; l < t->order && lit; l++)
       t->sky[k * t->order + l] = (l == 0) - row[k * t->width + l * t->bands];
   }
-  hr2di_alloc_free(&t->alloc, one);
+  hr2di_alloc_free(&t->alloc, row);
   return t->failed ? t->failed : hr2di_watch_work(t->watch, t->leaves / 4);
 }
 
@@ -160,17 +171,12 @@ static void clear_closed(hr2di_transport *t) {
    part of the background is no more than that may be off sees none, or what is left of it could
    be negative. */
 static hr2d_status clear_unknown(hr2di_transport *t) {
-  const size_t field = t->leaves * t->width;
-  double *one = hr2di_alloc_zero(&t->alloc, 2 * field, sizeof *one);
-  if (!one) return HR2D_ENOMEM;
-  double *tail = one + field;
-  for (size_t k = 0; k < t->leaves; k++)
-    for (size_t b = 0; b < t->bands; b++) one[k * t->width + b] = 1;
-  hr2di_transport_tail(t, one, tail);
+  double *tail = irradiance_of_one(t, hr2di_transport_tail);
+  if (!tail) return HR2D_ENOMEM;
   for (size_t k = 0; k < t->leaves && !t->failed; k++)
     if (t->sky[k * t->order] <= fabs(tail[k * t->width]))
       memset(t->sky + k * t->order, 0, t->order * sizeof *t->sky);
-  hr2di_alloc_free(&t->alloc, one);
+  hr2di_alloc_free(&t->alloc, tail);
   return t->failed ? t->failed : hr2di_watch_work(t->watch, t->leaves / 4);
 }
 

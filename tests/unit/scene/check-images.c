@@ -146,12 +146,13 @@ END_TEST
 
 START_TEST(images_that_cross_are_refused) {
   hr2d_scene *scene = one_patch();
-  test_add_patch(scene, (hr2d_segment){{1, .3}, {3, -.3}}, 1, .5, HR2D_SIDES_FRONT);
-  hr2d_scene_destroy(scene);
-  scene = one_patch();
   test_add_patch(scene, (hr2d_segment){{4, -1}, {4, 1}}, 1, .5, HR2D_SIDES_FRONT);
   hr2d_scene_set_period(scene, (hr2d_point){2, 0});
   expect_refusal(scene, HR2D_ESCENE, "image of patch 0");
+  scene = one_patch();
+  test_add_patch(scene, (hr2d_segment){{4, -1}, {4, 1}}, 1, .5, HR2D_SIDES_FRONT);
+  hr2d_scene_set_period(scene, (hr2d_point){2, 0});
+  expect_refusal(scene, HR2D_ESCENE, "patches have to end there");
 }
 END_TEST
 
