@@ -271,8 +271,10 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/target.c src/accuracy/target.h \
 	src/accuracy/temperature.c \
 	src/state/byte-stream.c src/state/byte-stream.h \
+	src/state/scene-format.h \
+	src/state/scene-read.c src/state/scene-write.c \
 	src/state/state-impl.h \
-	src/state/state-read.c src/state/state-scene.c \
+	src/state/state-read.c \
 	src/state/state-write.c
 
 lib_LTLIBRARIES += libhr2d.la

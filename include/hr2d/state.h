@@ -92,8 +92,9 @@ HR2D_API hr2d_status hr2d_state_read(hr2d_linkset *links, hr2d_read_fn read, voi
 
 /**
  * Writes a committed scene, as for other processes that share its work, or to have it later
- * without the file that it came from: patches with their names, the background, the suns, and
- * the effects that are forced.
+ * without the file that it came from: patches with their names, the background, the suns,
+ * mirrors and the period, and the effects that are forced. Patches are written as they were
+ * given (hr2d_scene_segment()).
  * @param scene  a committed scene; unchanged
  * @param write  receives up to 4096 bytes at a time
  * @param ctx    given to `write`
@@ -116,13 +117,14 @@ HR2D_API hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_
  * @param ctx    given to `read`
  * @retval HR2D_OK       success
  * @retval HR2D_ENOMEM   an allocation failed
- * @retval HR2D_ESTATE   the scene is committed, or has patches, a background or a sun
+ * @retval HR2D_ESTATE   the scene is committed, or has patches, a background, a sun, a mirror or a period
  * @retval HR2D_ESYNTAX  this is not a scene, or it is damaged
  * @retval HR2D_ESCENE   a forged scene that hr2d_scene_add() or hr2d_scene_commit() refuses
  * @retval other         the status of `read`, or of hr2d_scene_set_progress()
  *
  * hr2d_scene_message() says more. Memory: never more than a small multiple of the bytes that
- * were read. Cost: that of hr2d_scene_commit().
+ * were read; with mirrors or a period, of these for each of hr2d_scene_images(). Cost: that of
+ * hr2d_scene_commit().
  */
 HR2D_API hr2d_status hr2d_state_read_scene(hr2d_scene *scene, hr2d_read_fn read, void *ctx);
 

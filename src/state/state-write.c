@@ -20,6 +20,16 @@ static hr2di_hash add_spectra(hr2di_hash hash, const hr2d_scene *scene) {
   return hash;
 }
 
+/* Images are patches, too.  That they are images, and how much they count, is told here. */
+static hr2di_hash add_images(hr2di_hash hash, const hr2di_symmetry *s) {
+  hash = hr2di_hash_word(hash, s->cell);
+  for (size_t k = 0; k < s->motions; k++) {
+    hash = hr2di_hash_word(hash, s->motion[k].inverse);
+    hash = hr2di_hash_double(hash, s->motion[k].weight);
+  }
+  return hash;
+}
+
 uint64_t hr2di_state_scene(const hr2d_scene *scene, hr2di_watch *watch) {
   hr2di_hash hash = hr2di_hash_word(HR2DI_HASH_INIT, scene->patches);
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++)
@@ -48,6 +58,7 @@ uint64_t hr2di_state_scene(const hr2d_scene *scene, hr2di_watch *watch) {
     for (size_t b = 0; b < scene->sky.bands; b++)
       hash = hr2di_hash_double(hash, scene->sky.value[k * scene->sky.bands + b]);
   }
+  if (scene->symmetry.motion) hash = add_images(hash, &scene->symmetry);
   return hr2di_scene_is_unsettled(scene) ? add_spectra(hash, scene) : hash;
 }
 

@@ -199,20 +199,12 @@ START_TEST(setters_check_what_they_get) {
 }
 END_TEST
 
-static hr2d_status ignore_bytes(void *ctx, const void *bytes, size_t size) {
-  (void)ctx;
-  (void)bytes;
-  (void)size;
-  return HR2D_OK;
-}
-
 /* What does not know images refuses them. */
 START_TEST(calls_without_images_refuse_them) {
   hr2d_scene *scene = one_patch();
   add_mirror(scene, 0, 0, 0, 1);
   test_commit(scene);
   ck_assert_int_eq(hr2d_beams_visit(scene, 0, .5, NULL, NULL), HR2D_EUNSUPPORTED);
-  ck_assert_int_eq(hr2d_state_write_scene(scene, ignore_bytes, NULL), HR2D_EUNSUPPORTED);
   hr2d_scene_destroy(scene);
 }
 END_TEST

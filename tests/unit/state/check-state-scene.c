@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes as bytes: what is made of one that was read has the bits of the one that was written;
    damaged bytes are refused or do no harm. */
+#include <hr2d/symmetry.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -131,6 +132,50 @@ static void same_heat(const hr2d_scene *one, const hr2d_scene *other) {
   }
 }
 
+/* Half a room with two-sided furniture; plates that were drawn periods apart, along an oblique
+   period, which see for ever; and between parallel mirrors, with a third one, under a sky. */
+enum { SYMMETRIC = 3 };
+
+static void add_mirror(hr2d_scene *scene, double ax, double ay, double bx, double by) {
+  ck_assert_int_eq(hr2d_scene_add_mirror(scene, (hr2d_segment){{ax, ay}, {bx, by}}), HR2D_OK);
+}
+
+static hr2d_scene *make_symmetric(int kind) {
+  const hr2d_sky_piece piece[] = {{-60, -20}, {20, 60}, {120, 160}, {200, 240}};
+  const double light[] = {1, 1, 1, 1}, grey = 0.25;
+  const hr2d_sun sun = {{0, -1}, 3};
+  hr2d_scene *scene = NULL;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  test_add_patch(scene, (hr2d_segment){{0.1, 0}, {1.1, 0.5}}, 1, .5, HR2D_SIDES_FRONT);
+  if (kind == 0) {
+    test_add_patch(scene, (hr2d_segment){{0.3, 0.9}, {0.6, 1}}, 0, .7, HR2D_SIDES_BOTH);
+    add_mirror(scene, 0.1, 7, 0.1, 3);
+    ck_assert_int_eq(hr2d_scene_set_sun(scene, &sun, 1), HR2D_OK);
+  } else if (kind == 1) {
+    test_add_patch(scene, (hr2d_segment){{7.1, 4}, {6.1, 3.5}}, 0, .5, HR2D_SIDES_FRONT);
+    ck_assert_int_eq(hr2d_scene_set_period(scene, (hr2d_point){1, 0.5}), HR2D_OK);
+  } else {
+    add_mirror(scene, 0, 1, 0, 2);
+    add_mirror(scene, 5, -0.25, 6, -0.25);
+    add_mirror(scene, 1.5, 1, 1.5, 4);
+    ck_assert_int_eq(hr2d_scene_set_background(scene, &grey, 1), HR2D_OK);
+    ck_assert_int_eq(hr2d_scene_set_sky(scene, piece, 4, light, 1), HR2D_OK);
+  }
+  test_commit(scene);
+  return scene;
+}
+
+static void same_symmetry(const hr2d_scene *one, const hr2d_scene *other) {
+  const hr2d_point d = hr2d_scene_period(one), e = hr2d_scene_period(other);
+  ck_assert_uint_eq(hr2d_scene_mirrors(one), hr2d_scene_mirrors(other));
+  ck_assert_int_eq(memcmp(&d, &e, sizeof d), 0);
+  ck_assert_uint_eq(hr2d_scene_images(one), hr2d_scene_images(other));
+  for (size_t k = 0; k < hr2d_scene_mirrors(one); k++) {
+    const hr2d_segment s = hr2d_scene_mirror(one, k), t = hr2d_scene_mirror(other, k);
+    ck_assert_int_eq(memcmp(&s, &t, sizeof s), 0);
+  }
+}
+
 /* The links and B of a coarse solve, as a state. */
 static tape solved(hr2d_scene *scene) {
   test_links t = test_make_links(scene, NULL, NULL, NULL, NULL);
@@ -149,13 +194,15 @@ START_TEST(what_is_read_has_the_same_bits) {
   hr2d_scene *one = _i < SLOW_KINDS       ? make_slow((slow_kind)_i)
                     : _i == SLOW_KINDS    ? make_motley(NULL)
                     : _i < SLOW_KINDS + 3 ? make_thermal(_i - SLOW_KINDS - 1)
-                                          : make_motley_under(NULL, 1);
+                    : _i < SLOW_KINDS + 4 ? make_motley_under(NULL, 1)
+                                          : make_symmetric(_i - SLOW_KINDS - 4);
   hr2d_scene *other;
   tape t = write_tape(one);
   ck_assert_int_eq(read_tape(&t, NULL, &other), HR2D_OK);
   ck_assert_uint_eq(t.at, t.size);
   same_scenes(one, other);
   same_heat(one, other);
+  same_symmetry(one, other);
   tape again = write_tape(other);
   ck_assert_uint_eq(again.size, t.size);
   ck_assert_int_eq(memcmp(again.byte, t.byte, t.size), 0);
@@ -184,7 +231,10 @@ END_TEST
 
 /* Each byte changed, and each length. */
 START_TEST(damage_is_found) {
-  hr2d_scene *one = _i ? make_motley_under(NULL, 1) : make_slow(SLOW_COMB), *other;
+  hr2d_scene *one = _i == 0   ? make_slow(SLOW_COMB)
+                    : _i == 1 ? make_motley_under(NULL, 1)
+                              : make_symmetric(_i - 2);
+  hr2d_scene *other;
   tape t = write_tape(one);
   const size_t size = t.size;
   for (size_t k = 0; k < size; k++) {
@@ -192,6 +242,8 @@ START_TEST(damage_is_found) {
     const hr2d_status status = read_tape(&t, NULL, &other);
     ck_assert_msg(status != HR2D_OK, "byte %zu", k);
     ck_assert_uint_eq(hr2d_scene_patches(other), 0);
+    ck_assert_uint_eq(hr2d_scene_mirrors(other), 0);
+    ck_assert(hr2d_scene_period(other).x == 0);
     ck_assert_str_ne(hr2d_scene_message(other), "");
     t.byte[k] ^= (unsigned char)(1 + k % 255);
     hr2d_scene_destroy(other);
@@ -258,7 +310,7 @@ START_TEST(callbacks_may_fail) {
 END_TEST
 
 START_TEST(any_allocation_may_fail) {
-  hr2d_scene *one = make_motley_under(NULL, 1);
+  hr2d_scene *one = _i ? make_symmetric(_i) : make_motley_under(NULL, 1);
   tape t = write_tape(one);
   long failures = 1;
   for (long k = 0; failures; k++) {
@@ -283,9 +335,28 @@ START_TEST(any_allocation_may_fail) {
 }
 END_TEST
 
+START_TEST(only_an_empty_scene_is_read_into) {
+  hr2d_scene *one = make_symmetric(0);
+  tape t = write_tape(one);
+  for (int k = 0; k < 2; k++) {
+    hr2d_scene *other = NULL;
+    ck_assert_int_eq(hr2d_scene_create(NULL, &other), HR2D_OK);
+    if (k)
+      ck_assert_int_eq(hr2d_scene_set_period(other, (hr2d_point){9, 9}), HR2D_OK);
+    else
+      add_mirror(other, 0, 0, 1, 1);
+    ck_assert_int_eq(hr2d_state_read_scene(other, tape_play, &t), HR2D_ESTATE);
+    hr2d_scene_destroy(other);
+  }
+  hr2d_scene_destroy(one);
+  free(t.byte);
+}
+END_TEST
+
 TEST_SUITE("state-scene") {
-  REPEAT_TESTS(SLOW_KINDS + 4, "bits", what_is_read_has_the_same_bits);
-  REPEAT_TESTS(2, "damage", damage_is_found);
+  REPEAT_TESTS(SLOW_KINDS + 4 + SYMMETRIC, "bits", what_is_read_has_the_same_bits);
+  REPEAT_TESTS(2 + SYMMETRIC, "damage", damage_is_found);
+  REPEAT_TESTS(SYMMETRIC, "memory", any_allocation_may_fail);
   ADD_TESTS("all", lights_stay_shared, claims_take_no_memory, callbacks_may_fail,
-            any_allocation_may_fail);
+            only_an_empty_scene_is_read_into);
 }

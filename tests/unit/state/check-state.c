@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Saved states of a solve: resuming from one gives the same bits as a run without
    interruption; states that are damaged, cut off or forged are refused or do no harm. */
+#include <hr2d/symmetry.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -235,6 +236,39 @@ START_TEST(a_state_that_was_made_up_does_no_harm) {
 }
 END_TEST
 
+static test_links half_of_a_room(void) {
+  hr2d_scene *half = test_new_scene(NULL);
+  test_add_patch(half, (hr2d_segment){{0, 0}, {1, 0}}, 1, .5, HR2D_SIDES_FRONT);
+  test_add_patch(half, (hr2d_segment){{1, 0}, {0, 1}}, 0, .5, HR2D_SIDES_FRONT);
+  ck_assert_int_eq(hr2d_scene_add_mirror(half, (hr2d_segment){{0, 0}, {0, 1}}), HR2D_OK);
+  test_commit(half);
+  return test_make_links(half, NULL, NULL, NULL, NULL);
+}
+
+/* With the same patches as the half and its images. */
+START_TEST(a_state_of_a_half_is_not_one_of_the_whole) {
+  test_links half = half_of_a_room(), again = half_of_a_room();
+  hr2d_solution *solution = stage(&half, .4, NULL), *read = NULL;
+  hr2d_scene *whole = test_new_scene(NULL);
+  for (size_t k = 0; k < 4; k++)
+    test_add_patch(whole, hr2d_scene_image(half.scene, k % 2, k / 2), k % 2 == 0, .5,
+                   HR2D_SIDES_FRONT);
+  test_commit(whole);
+  test_links other = test_make_links(whole, NULL, NULL, NULL, NULL);
+  tape t = write_tape(solution);
+  ck_assert_int_eq(hr2d_state_read(other.links, tape_play, &t, &read), HR2D_EINVAL);
+  t.at = 0;
+  ck_assert_int_eq(hr2d_state_read(again.links, tape_play, &t, &read), HR2D_OK);
+  same(&half, solution, &again, read);
+  hr2d_solution_destroy(solution);
+  hr2d_solution_destroy(read);
+  test_free_links(&half);
+  test_free_links(&again);
+  test_free_links(&other);
+  free(t.byte);
+}
+END_TEST
+
 START_TEST(a_state_belongs_to_its_scene_and_method) {
   tape t = plain_tape();
   const setup others[] = {{"square_furnace_rho0.9", NULL, NULL, 1},
@@ -379,7 +413,7 @@ END_TEST
 TEST_SUITE("state") {
   REPEAT_TESTS(sizeof names / sizeof *names, "all", going_on_from_a_state_gives_the_same_bits);
   ADD_TESTS("all", a_damaged_state_is_refused, a_state_that_was_made_up_does_no_harm,
-            a_state_belongs_to_its_scene_and_method, callbacks_may_fail_and_may_not_interfere,
-            a_solution_to_a_target_has_no_state, claims_take_no_memory,
-            any_allocation_may_fail);
+            a_state_belongs_to_its_scene_and_method, a_state_of_a_half_is_not_one_of_the_whole,
+            callbacks_may_fail_and_may_not_interfere, a_solution_to_a_target_has_no_state,
+            claims_take_no_memory, any_allocation_may_fail);
 }

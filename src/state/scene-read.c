@@ -1,145 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes a committed scene and reads it back.  The format:
-
-   - a line that names it;
-   - the number of patches, the bytes of all that is between here and the hash, the bits of the
-     effects that are forced, the bands of the background and the number of wavelengths, as
-     words; with daylight, for which the line is another one, the numbers of suns,
-     of pieces of the sky and of bands of these as well;
-   - the background, the wavelengths, the suns, and the pieces with their values;
-   - per patch: whether it has the light of the one before, as a half word; if not, what heat is
-     given, the bands of E, ρ and ε, as words, the heat and their values; the ends; the length
-   of the name, as a half word, and the name;
-   - the hash of the scene in memory, and that of all bytes.
-
-   What commit finds is not written: it follows from the rest, with the same bits. */
+/* Reads a scene, and commits it. */
 #include <float.h>
+#include <hr2d/symmetry.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "scene/emissivity.h"
 #include "scene/scene-impl.h"
 #include "state/byte-stream.h"
+#include "state/scene-format.h"
 #include "state/state-impl.h"
-
-#define TITLE     "libhr2d scene 1\n"
-#define DAY_TITLE "libhr2d scene 2\n"
-
-enum { TITLE_BYTES = sizeof TITLE - 1, HEAD_WORDS = 5, DAY_WORDS = 3, SUN_DOUBLES = 3 };
-
-static int is_alike(const hr2d_scene *scene, size_t patch) {
-  return patch > 0 && scene->patch[patch].light == scene->patch[patch - 1].light;
-}
-
-static size_t values_of(const hr2di_light *l) {
-  return l->emission_bands + l->reflectance_bands + l->emissivity_bands;
-}
-
-static uint64_t count_bytes(const hr2d_scene *scene) {
-  uint64_t bytes = 8 * (scene->background_bands + scene->wavelengths + 1);
-  bytes += 8 * SUN_DOUBLES * (uint64_t)scene->sun_bands;
-  bytes += 8 * (uint64_t)scene->sky.pieces * (2 + scene->sky.bands);
-  for (size_t k = 0; k < scene->patches; k++) {
-    const hr2di_patch *p = &scene->patch[k];
-    bytes += 4 + 4 * 8 + 4 + strlen(p->name);
-    if (!is_alike(scene, k)) bytes += 8 * (5 + values_of(p->light));
-  }
-  return bytes;
-}
-
-/* In pieces that fit into the buffer of a writer. */
-static void put_name(hr2di_writer *w, const char *name) {
-  size_t left = strlen(name);
-  hr2di_writer_half(w, (uint32_t)left);
-  while (left > 0) {
-    const size_t some = left < HR2DI_BYTES_AT_ONCE ? left : HR2DI_BYTES_AT_ONCE;
-    hr2di_writer_text(w, name, some);
-    name += some;
-    left -= some;
-  }
-}
-
-static void put_light(hr2di_writer *w, const hr2di_light *l) {
-  hr2di_writer_word(w, (uint64_t)l->heat);
-  hr2di_writer_word(w, l->emission_bands);
-  hr2di_writer_word(w, l->reflectance_bands);
-  hr2di_writer_word(w, l->emissivity_bands);
-  hr2di_writer_double(w, l->given);
-  for (size_t k = 0; k < values_of(l); k++) hr2di_writer_double(w, l->value[k]);
-}
-
-static void put_patch(hr2di_writer *w, const hr2di_patch *p, int alike) {
-  hr2di_writer_half(w, (uint32_t)alike);
-  if (!alike) put_light(w, p->light);
-  const double end[] = {p->given.a.x, p->given.a.y, p->given.b.x, p->given.b.y};
-  for (int k = 0; k < 4; k++) hr2di_writer_double(w, end[k]);
-  put_name(w, p->name);
-}
-
-static uint64_t forced_effects(const hr2d_scene *scene) {
-  uint64_t bits = 0;
-  for (int e = 0; e < HR2D_EFFECT_COUNT; e++) bits |= (uint64_t)scene->effect[e].forced << e;
-  return bits;
-}
-
-static int has_day(const hr2d_scene *scene) {
-  return scene->sun_bands || scene->sky.pieces;
-}
-
-static void put_head(hr2di_writer *w, const hr2d_scene *scene) {
-  hr2di_writer_text(w, has_day(scene) ? DAY_TITLE : TITLE, TITLE_BYTES);
-  hr2di_writer_word(w, scene->patches);
-  hr2di_writer_word(w, count_bytes(scene));
-  hr2di_writer_word(w, forced_effects(scene));
-  hr2di_writer_word(w, scene->background_bands);
-  hr2di_writer_word(w, scene->wavelengths);
-  if (!has_day(scene)) return;
-  hr2di_writer_word(w, scene->sun_bands);
-  hr2di_writer_word(w, scene->sky.pieces);
-  hr2di_writer_word(w, scene->sky.bands);
-}
-
-static void put_lights(hr2di_writer *w, const hr2d_scene *scene) {
-  for (size_t k = 0; k < scene->background_bands; k++)
-    hr2di_writer_double(w, scene->background[k]);
-  for (size_t k = 0; k < scene->wavelengths; k++) hr2di_writer_double(w, scene->wavelength[k]);
-  for (size_t k = 0; k < scene->sun_bands; k++) {
-    hr2di_writer_double(w, scene->sun[k].direction.x);
-    hr2di_writer_double(w, scene->sun[k].direction.y);
-    hr2di_writer_double(w, scene->sun[k].irradiance);
-  }
-  const hr2di_sky *sky = &scene->sky;
-  for (size_t k = 0; k < sky->pieces; k++) {
-    hr2di_writer_double(w, sky->piece[k].from);
-    hr2di_writer_double(w, sky->piece[k].to);
-    for (size_t b = 0; b < sky->bands; b++)
-      hr2di_writer_double(w, sky->value[k * sky->bands + b]);
-  }
-}
-
-hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_fn write, void *ctx) {
-  if (!scene->committed) return HR2D_ESTATE;
-  if (scene->symmetry.motion) return HR2D_EUNSUPPORTED;
-  for (size_t k = 0; k < scene->patches; k++)
-    if (hr2di_emissivity_depends(scene, k)) return HR2D_EUNSUPPORTED;
-  hr2di_writer w;
-  hr2di_watch watch;
-  hr2di_scene_watch(scene, &watch, NULL, NULL, "state");
-  hr2di_writer_init(&w, write, ctx);
-  put_head(&w, scene);
-  put_lights(&w, scene);
-  for (size_t k = 0; k < scene->patches && !w.status; k++) {
-    const int alike = is_alike(scene, k);
-    put_patch(&w, &scene->patch[k], alike);
-    if (!w.status)
-      w.status =
-          hr2di_watch_work(&watch, 1 + (alike ? 0 : values_of(scene->patch[k].light) / 16));
-  }
-  hr2di_writer_word(&w, hr2di_state_scene(scene, &watch));
-  if (!w.status) w.status = watch.status;
-  return hr2di_writer_end(&w);
-}
 
 typedef struct loading {
   hr2di_reader reader;
@@ -266,12 +136,12 @@ static hr2d_status read_wavelengths(loading *l, uint64_t count) {
 static hr2d_status read_suns(loading *l, uint64_t count) {
   if (count == 0) return HR2D_OK;
   if (count > UINT64_MAX / 32) return damaged(l, "its number of suns");
-  hr2d_status status = read_values(l, SUN_DOUBLES * count);
+  hr2d_status status = read_values(l, HR2DI_SCENE_SUN_DOUBLES * count);
   if (status) return status;
   hr2d_sun *sun = hr2di_alloc(&l->scene->alloc, (size_t)count, sizeof *sun);
   if (!sun) return out_of_memory(l);
   for (size_t k = 0; k < count; k++) {
-    const double *v = l->value + SUN_DOUBLES * k;
+    const double *v = l->value + HR2DI_SCENE_SUN_DOUBLES * k;
     sun[k] = (hr2d_sun){{v[0], v[1]}, v[2]};
   }
   status = hr2d_scene_set_sun(l->scene, sun, (size_t)count);
@@ -299,40 +169,82 @@ static hr2d_status read_sky(loading *l, uint64_t pieces, uint64_t bands) {
   return status;
 }
 
+/* The period, and the mirrors. */
+static hr2d_status read_symmetry(loading *l, uint64_t mirrors) {
+  if (mirrors > HR2DI_MIRRORS) return damaged(l, "its number of mirrors");
+  hr2d_status status =
+      read_values(l, HR2DI_SCENE_PERIOD_DOUBLES + HR2DI_SCENE_MIRROR_DOUBLES * mirrors);
+  if (status) return status;
+  const double *v = l->value;
+  status = hr2d_scene_set_period(l->scene, (hr2d_point){v[0], v[1]});
+  v += HR2DI_SCENE_PERIOD_DOUBLES;
+  for (uint64_t k = 0; k < mirrors && !status; k++, v += HR2DI_SCENE_MIRROR_DOUBLES)
+    status = hr2d_scene_add_mirror(l->scene, (hr2d_segment){{v[0], v[1]}, {v[2], v[3]}});
+  if (!status && !hr2di_symmetry_wanted(&l->scene->symmetry)) return damaged(l, "its symmetry");
+  return status;
+}
+
 static hr2d_status force_effects(loading *l, uint64_t bits) {
   if (bits >> HR2D_EFFECT_COUNT) return damaged(l, "its effects");
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++) l->scene->effect[e].forced = (int)(bits >> e & 1);
   return HR2D_OK;
 }
 
-static hr2d_status read_all(loading *l) {
+/* What the head tells, beside the size. */
+typedef struct head {
+  int symmetric;
+  uint64_t patches, bytes, forced, background_bands, wavelengths;
+  uint64_t suns, sky_pieces, sky_bands; /* 0 without daylight */
+  uint64_t mirrors;                     /* 0 without symmetry */
+} head;
+
+/* The line that names the format: which one, from 0, or −1. */
+static int read_title(loading *l) {
+  static const char *const titles[] = {HR2DI_SCENE_TITLE, HR2DI_SCENE_DAY_TITLE,
+                                       HR2DI_SCENE_SYMMETRY_TITLE};
+  char title[HR2DI_SCENE_TITLE_BYTES];
+  hr2di_reader_expect(&l->reader, HR2DI_SCENE_TITLE_BYTES + 8 * HR2DI_SCENE_HEAD_WORDS);
+  hr2di_reader_text(&l->reader, title, HR2DI_SCENE_TITLE_BYTES);
+  for (int k = 0; k < 3 && !l->reader.status; k++)
+    if (memcmp(title, titles[k], HR2DI_SCENE_TITLE_BYTES) == 0) return k;
+  return -1;
+}
+
+static hr2d_status read_head(loading *l, head *h) {
   hr2di_reader *r = &l->reader;
-  char title[TITLE_BYTES];
-  uint64_t head[HEAD_WORDS + DAY_WORDS] = {0};
-  hr2di_reader_expect(r, TITLE_BYTES + 8 * HEAD_WORDS);
-  hr2di_reader_text(r, title, TITLE_BYTES);
-  const int sunny = !r->status && memcmp(title, DAY_TITLE, TITLE_BYTES) == 0;
-  if ((r->status && r->status != HR2D_ESYNTAX) || sunny ||
-      (!r->status && memcmp(title, TITLE, TITLE_BYTES) == 0)) {
-    for (int k = 0; k < HEAD_WORDS; k++) head[k] = hr2di_reader_word(r);
-    if (sunny && !r->status) hr2di_reader_expect(r, 8 * DAY_WORDS);
-    for (int k = 0; k < DAY_WORDS && sunny && !r->status; k++)
-      head[HEAD_WORDS + k] = hr2di_reader_word(r);
-  } else {
+  const int format = read_title(l);
+  *h = (head){.symmetric = format == 2};
+  if (r->status) return r->status;
+  if (format < 0)
     return hr2di_message_fail(&l->scene->message, HR2D_ESYNTAX,
                               "this is not a scene of hr2d_state_write_scene()");
-  }
+  uint64_t *const word[] = {&h->patches,          &h->bytes,       &h->forced,
+                            &h->background_bands, &h->wavelengths, &h->suns,
+                            &h->sky_pieces,       &h->sky_bands,   &h->mirrors};
+  int words = HR2DI_SCENE_HEAD_WORDS;
+  if (format > 0) words += HR2DI_SCENE_DAY_WORDS;
+  if (format > 1) words += HR2DI_SCENE_SYMMETRY_WORDS;
+  hr2di_reader_expect(r, 8 * (uint64_t)(words - HR2DI_SCENE_HEAD_WORDS));
+  for (int k = 0; k < words; k++) *word[k] = hr2di_reader_word(r);
   if (r->status) return r->status;
-  if (head[1] > UINT64_MAX / 2) return damaged(l, "its size");
-  hr2di_reader_expect(r, head[1] + 8);
-  hr2d_status status = force_effects(l, head[2]);
-  if (!status) status = read_background(l, head[3]);
-  if (!status) status = read_wavelengths(l, head[4]);
-  if (!status) status = read_suns(l, head[HEAD_WORDS]);
-  if (!status) status = read_sky(l, head[HEAD_WORDS + 1], head[HEAD_WORDS + 2]);
-  for (uint64_t k = 0; k < head[0] && !status; k++) status = read_patch(l);
-  const uint64_t hash = hr2di_reader_word(r);
-  if (!status && hr2di_reader_end(r)) status = r->status;
+  if (h->bytes > UINT64_MAX / 2) return damaged(l, "its size");
+  hr2di_reader_expect(r, h->bytes + 8);
+  return HR2D_OK;
+}
+
+static hr2d_status read_all(loading *l) {
+  head h;
+  hr2d_status status = read_head(l, &h);
+  if (!status) status = force_effects(l, h.forced);
+  if (!status) status = read_background(l, h.background_bands);
+  if (!status) status = read_wavelengths(l, h.wavelengths);
+  if (!status) status = read_suns(l, h.suns);
+  if (!status) status = read_sky(l, h.sky_pieces, h.sky_bands);
+  if (!status && h.symmetric) status = read_symmetry(l, h.mirrors);
+  if (status) return status;
+  for (uint64_t k = 0; k < h.patches && !status; k++) status = read_patch(l);
+  const uint64_t hash = hr2di_reader_word(&l->reader);
+  if (!status && hr2di_reader_end(&l->reader)) status = l->reader.status;
   if (!status) status = hr2d_scene_commit(l->scene);
   if (!status && hash != hr2di_state_scene(l->scene, &l->watch))
     status =
@@ -361,6 +273,8 @@ static void empty(hr2d_scene *scene) {
   hr2di_alloc_free(&scene->alloc, scene->wavelength);
   scene->wavelength = NULL;
   scene->wavelengths = 0;
+  scene->symmetry.mirrors = 0;
+  scene->symmetry.period = (hr2d_point){0, 0};
   scene->committed = 0;
   hr2di_scene_clear_commit(scene);
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++) scene->effect[e].forced = 0;
@@ -368,7 +282,7 @@ static void empty(hr2d_scene *scene) {
 
 hr2d_status hr2d_state_read_scene(hr2d_scene *scene, hr2d_read_fn read, void *ctx) {
   if (scene->committed || scene->patches > 0 || scene->background || scene->wavelengths ||
-      scene->sun || scene->sky.pieces)
+      scene->sun || scene->sky.pieces || hr2di_symmetry_wanted(&scene->symmetry))
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is not empty");
   loading l = {.scene = scene};
   hr2di_scene_watch(scene, &l.watch, NULL, NULL, "state");
