@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "share.h"
+#include "state-head.h"
 #include "trees.h"
 #include "units.h"
 
@@ -35,26 +36,12 @@ static void read_options(hr2dp *p, const hr2dp_options *given) {
   p->policy_ctx = o.policy_ctx;
 }
 
-/* A hash (FNV-1a) of all that the scene is made of. */
-typedef struct hash {
-  uint64_t value;
-} hash;
-
-static hr2d_status add_to_hash(void *ctx, const void *bytes, size_t size) {
-  hash *h = ctx;
-  const unsigned char *byte = bytes;
-  for (size_t k = 0; k < size; k++) h->value = (h->value ^ byte[k]) * 0x100000001b3;
-  return HR2D_OK;
-}
-
 /* Every rank must have the scene of rank 0. */
 static PetscErrorCode compare_scenes(hr2dp *p) {
   PetscFunctionBegin;
-  hash h = {0xcbf29ce484222325};
-  PetscCall(hr2dpi_agree(p, hr2d_state_write_scene(p->scene, add_to_hash, &h)));
-  uint64_t ends[2] = {h.value, ~h.value};
+  PetscCall(hr2dpi_agree(p, hr2dpi_scene_hash(p->scene, &p->hash)));
+  uint64_t ends[2] = {p->hash, ~p->hash};
   PetscCall(hr2dpi_max_counts(p, ends, 2));
-  p->hash = h.value;
   const hr2d_status status =
       ends[0] == ~ends[1]
           ? HR2D_OK

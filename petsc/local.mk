@@ -27,9 +27,11 @@ libhr2d_petsc_la_SOURCES = \
 	petsc/memory.c \
 	petsc/power.c \
 	petsc/save.c \
+	petsc/save-solution.c \
 	petsc/share.c petsc/share.h \
 	petsc/shares.c \
 	petsc/solve.c \
+	petsc/state-head.c petsc/state-head.h \
 	petsc/transport.c petsc/transport.h \
 	petsc/trees.c petsc/trees.h petsc/trees-impl.h \
 	petsc/units.c petsc/units.h
@@ -45,6 +47,8 @@ hr2d_mpi_SOURCES = $(SOLVE_SOURCES) \
 	petsc/program/report.c \
 	petsc/program/run.c \
 	petsc/program/scene.c \
+	petsc/program/stages.c \
+	petsc/program/state-file.c \
 	petsc/program/whole.c
 include_HEADERS += petsc/include/hr2d-petsc.h
 pkgconfig_DATA += hr2d-petsc.pc

@@ -138,6 +138,20 @@ HR2D_API int hr2d_linkset_directed(const hr2d_linkset *links);
 HR2D_API double hr2d_linkset_epsilon(const hr2d_linkset *links);
 
 /**
+ * The oracle of a set.
+ * @param links  a link set
+ * @return the table, a copy that the set owns
+ */
+HR2D_API const hr2d_oracle *hr2d_linkset_oracle(const hr2d_linkset *links);
+
+/**
+ * The policy of a set.
+ * @param links  a link set
+ * @return the table, a copy that the set owns
+ */
+HR2D_API const hr2d_policy *hr2d_linkset_policy(const hr2d_linkset *links);
+
+/**
  * The result and the work of the refinements that filled the set.
  * @param links  a link set
  * @return elements, leaves, levels, links, limited_links and partial_links as they are now; the

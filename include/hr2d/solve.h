@@ -273,6 +273,15 @@ HR2D_API hr2d_status hr2d_solution_gather_net_flux(const hr2d_solution *solution
 HR2D_API const hr2d_linkset *hr2d_solution_links(const hr2d_solution *solution);
 
 /**
+ * B as it was solved for, for a solver or a file of one's own.
+ * @param solution  a solution
+ * @return the coefficients of all elements that existed at the solve, in the form of
+ *         hr2d_hierarchy_pull() and hr2d_solution_adopt(); owned by the solution. Unlike
+ *         averages they may be below 0 by roundings
+ */
+HR2D_API const double *hr2d_solution_field(const hr2d_solution *solution);
+
+/**
  * The average of B over an element.
  * @param solution  a solution
  * @param element   number of an element that existed at the solve

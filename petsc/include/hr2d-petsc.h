@@ -259,6 +259,43 @@ HR2DP_API PetscErrorCode hr2dp_load(hr2dp *p, const hr2d_refine_options *options
                                     PetscViewer viewer, Vec *b, double *epsilon);
 
 /**
+ * Saves B of a solution that was solved with shares, as hr2dp_save() does: without links, and
+ * with the same bytes on any number of ranks. At order 1 each of the two loads what the other
+ * has saved.
+ * @param solution  of hr2d_solve() or hr2d_solution_adopt(), the same on all ranks; its
+ *                  hierarchy was not refined since
+ * @param viewer    PETSCVIEWERBINARY or PETSCVIEWERHDF5, open for writing, on the communicator
+ *                  of the shares
+ * @return 0; PETSC_ERR_MEM; PETSC_ERR_LIB if the scene cannot be written, see
+ *         hr2d_state_write_scene(); or a failure of PETSc
+ *
+ * 8 bytes for each leaf, coefficient and band.
+ */
+HR2DP_API PetscErrorCode hr2dp_save_solution(const hr2d_solution *solution, PetscViewer viewer);
+
+/**
+ * Loads what hr2dp_save_solution() has saved: refines to the ε of the state, and adopts its B.
+ * @param links       of the scene, the oracle, the policy and the order of the state. Where the
+ *                    oracle needs the brightness of former stages, they are loaded in their
+ *                    order into the same set
+ * @param refinement  as for the refinement that led to the state, with `share` and, if it had
+ *                    it, `brightness`; `epsilon` does not matter
+ * @param options     as of hr2d_solution_adopt(), or NULL
+ * @param viewer      of the same kind, open for reading, on the communicator of the shares
+ * @param solution    receives the solution, whole on each rank; the caller destroys it
+ * @return 0; PETSC_ERR_ARG_INCOMP for another scene or method, or other options;
+ *         PETSC_ERR_FILE_UNEXPECTED for a damaged state; PETSC_ERR_LIB with the message of the
+ *         links after a failure of hr2d_refine() or hr2d_solution_adopt(); PETSC_ERR_MEM; or a
+ *         failure of PETSc
+ *
+ * After a failure the links may be refined.
+ */
+HR2DP_API PetscErrorCode hr2dp_load_solution(hr2d_linkset *links,
+                                             const hr2d_refine_options *refinement,
+                                             const hr2d_solve_options *options,
+                                             PetscViewer viewer, hr2d_solution **solution);
+
+/**
  * Makes a share of the solves of libhr2d for each rank, see share.h of libhr2d: the argument of
  * hr2d_target::share and hr2d_refine_options::share.
  * @param comm   a communicator; it is duplicated

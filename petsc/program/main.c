@@ -64,10 +64,6 @@ static int check_options(const options *o) {
   if (o->command != SOLVE) return complain_usage("the only command is solve");
   for (size_t k = 0; k < sizeof missing / sizeof *missing; k++)
     if (missing[k].given) return complain_usage("hr2d-mpi has no --%s", missing[k].name);
-  if (o->state && job_is_whole(o))
-    return complain_usage(
-        "--state keeps solves by --eps at order 1, without --at, --csv, --draw "
-        "and --error");
   const int status = o->draw ? draw_check(o->draw) : 0;
   return status ? status : options_check_outputs(o);
 }

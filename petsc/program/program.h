@@ -7,6 +7,7 @@
 
 #include "cli/options.h"
 #include "output/progress.h"
+#include "run/run.h"
 
 typedef struct job {
   const options *options;
@@ -31,6 +32,21 @@ int job_run(job *j);
    reports so.  Returns 0 or the exit status, the same on all ranks. */
 int job_is_whole(const options *o);
 int job_solve_whole(job *j);
+
+/* stages.c: state_load() and state_save() of shares, see run_shares. */
+int stages_load(run *r);
+int stages_save(run *r);
+
+/* state-file.c, collective: opens the file to read; *viewer is NULL if there is none. */
+PetscErrorCode state_file_open(const char *path, int rank, PetscViewer *viewer);
+
+/* Opens a file beside it, to write; what the old one has is in it if the new stage adds to
+   that. Closes it and puts it in the place of the old one. */
+PetscErrorCode state_file_write(const char *path, int rank, int adds, PetscViewer *viewer);
+PetscErrorCode state_file_finish(const char *path, int rank, PetscViewer *viewer);
+
+/* Whether something follows what was read. */
+PetscErrorCode state_file_has_more(PetscViewer viewer, int rank, int *more);
 
 /* report.c: the table and --json, by rank 0.  Returns 0 or the exit status, the same on all
    ranks. */

@@ -2,10 +2,7 @@
 /* Refines in stages of falling ε, each from the last.  B is solved for at the end, and with
    --state after each stage, so that there is something to go on from. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 #include "output/clock.h"
 #include "output/complain.h"
@@ -30,24 +27,13 @@ static hr2d_refine_options refine_options(const job *j, double epsilon, progress
   return refine;
 }
 
-static PetscErrorCode open_state(const char *path, PetscFileMode mode, PetscViewer *viewer) {
-  PetscFunctionBegin;
-  PetscCall(PetscViewerCreate(PETSC_COMM_WORLD, viewer));
-  PetscCall(PetscViewerSetType(*viewer, PETSCVIEWERBINARY));
-  PetscCall(PetscViewerBinarySetSkipInfo(*viewer, PETSC_TRUE));
-  PetscCall(PetscViewerFileSetMode(*viewer, mode));
-  PetscCall(PetscViewerFileSetName(*viewer, path));
-  PetscFunctionReturn(0);
-}
-
 /* Goes on from the file, if there is one. */
 static PetscErrorCode load_state(job *j, progress *p) {
   PetscFunctionBegin;
-  const char *path = j->options->state;
   const hr2d_refine_options refine = refine_options(j, j->options->epsilon, p);
   PetscViewer viewer;
-  if (!path || !job_agree(j->rank == 0 && !access(path, F_OK))) PetscFunctionReturn(0);
-  PetscCall(open_state(path, FILE_MODE_READ, &viewer));
+  PetscCall(state_file_open(j->options->state, j->rank, &viewer));
+  if (!viewer) PetscFunctionReturn(0);
   const double start = clock_seconds();
   const PetscErrorCode failed = hr2dp_load(j->p, &refine, viewer, &j->b, &j->resumed);
   j->refine_seconds += clock_seconds() - start;
@@ -56,20 +42,14 @@ static PetscErrorCode load_state(job *j, progress *p) {
   PetscFunctionReturn(0);
 }
 
-/* A file is written beside the old one, and takes its place when it is whole. */
 static PetscErrorCode save_state(job *j) {
   PetscFunctionBegin;
   const char *path = j->options->state;
-  char beside[4096];
   PetscViewer viewer;
   if (!path) PetscFunctionReturn(0);
-  PetscCheck(snprintf(beside, sizeof beside, "%s.new", path) < (int)sizeof beside,
-             PETSC_COMM_WORLD, PETSC_ERR_FILE_OPEN, "the name of the state is too long");
-  PetscCall(open_state(beside, FILE_MODE_WRITE, &viewer));
+  PetscCall(state_file_write(path, j->rank, 0, &viewer));
   PetscCall(hr2dp_save(j->p, j->b, viewer));
-  PetscCall(PetscViewerDestroy(&viewer));
-  const int failed = job_agree(j->rank == 0 && rename(beside, path));
-  PetscCheck(!failed, PETSC_COMM_WORLD, PETSC_ERR_FILE_WRITE, "%s: cannot be written", path);
+  PetscCall(state_file_finish(path, j->rank, &viewer));
   PetscFunctionReturn(0);
 }
 

@@ -17,7 +17,8 @@ int job_solve_whole(job *j) {
   hr2d_share *share;
   const PetscErrorCode code = hr2dp_share_create(PETSC_COMM_WORLD, &share);
   if (code) return job_complain(j, code);
-  const int status = solve_scene(j->options, j->scene, j->cuts, j->start, share);
+  const run_shares shares = {share, stages_load, stages_save};
+  const int status = solve_scene(j->options, j->scene, j->cuts, j->start, &shares);
   (void)hr2dp_share_destroy(&share);
   return job_agree(status);
 }

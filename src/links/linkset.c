@@ -52,6 +52,14 @@ const hr2d_hierarchy *hr2d_linkset_hierarchy(const hr2d_linkset *links) {
   return links->hierarchy;
 }
 
+const hr2d_oracle *hr2d_linkset_oracle(const hr2d_linkset *links) {
+  return &links->oracle;
+}
+
+const hr2d_policy *hr2d_linkset_policy(const hr2d_linkset *links) {
+  return &links->policy;
+}
+
 const char *hr2d_linkset_message(const hr2d_linkset *links) {
   return links->message.text;
 }

@@ -31,6 +31,10 @@ static double light(double value) {
   return fmax(value, 0);
 }
 
+const double *hr2d_solution_field(const hr2d_solution *solution) {
+  return solution->value;
+}
+
 double hr2d_solution_element(const hr2d_solution *solution, uint32_t element, size_t band) {
   return light(average(solution, solution->value, element, band));
 }

@@ -82,7 +82,6 @@ room=$scenes/lit-room.geojson
 says 2 "unknown option '--epss'" solve "$room" --epss 1
 says 2 "the only command is solve" info "$room"
 says 2 "has no --watch" solve "$room" --watch "$work/film.png"
-says 2 "keeps solves by --eps at order 1" solve "$room" --order 4 --state "$work/state"
 hear
 says 1 "cannot open" solve "$work/nothing"
 says 1 "more than 100 links are needed" solve "$room" --max-links 100
@@ -100,6 +99,37 @@ check "to the result of a run without a stop" \
   python3 "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/on"
 says 1 "the state is of another scene" solve "$scenes/par-near.geojson" --state "$state"
 hear
+
+# ---- states of what needs all elements: written by 2 ranks, the same bits from there on any number
+resumes() { # resumes WHAT SCENE FROM MIDDLE ALL ARGUMENTS...: ALL makes the stages of hr2d solve
+  title=$1 scene=$2 from=$3 middle=$4 all=$5
+  shift 5
+  rm -f "$work/stage"
+  ranks 2 "$program" solve "$scene" "$@" --no-error --quiet --multigrid "$from" \
+    --eps "$middle" --state "$work/stage"
+  for n in 1 3 4; do
+    cp "$work/stage" "$work/stage$n"
+    aside $n ranks $n "$program" solve "$scene" "$@" --no-error --multigrid "$from" --eps 0.1 \
+      --state "$work/stage$n" --json "$work/from$n"
+  done
+  "$HR2D_PROGRAM" solve "$scene" "$@" --no-error --quiet --multigrid "$all" --eps 0.1 \
+    --json "$work/one"
+  for n in 1 3 4; do
+    finish $n
+    check "$title goes on on $n ranks" grep -q "from epsilon $middle" "$work/$n"
+    check "$title on $n ranks: $(cat "$work/$n.errors")" python3 \
+      "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/from$n" "$work/from1"
+    check "$title: the same state on $n ranks" cmp -s "$work/stage1" "$work/stage$n"
+  done
+}
+resumes "order 3" "$scenes/furnace-enclosure.geojson" 0.8:0.5 0.4 0.4:0.5 --order 3
+resumes "bands of order 2" "$room" 0.8:0.5 0.4 0.4:0.5 --order 2
+resumes "brightness" "$room" 0.4:0.5 0.2 0.4:0.5 --oracle bf
+ranks 3 "$program" solve "$room" --eps 0.1 --order 2 --state "$work/stage1" >"$work/out" 2>&1
+check "a state of another oracle is refused" grep -q "of another oracle" "$work/out"
+ranks 3 "$program" solve "$room" --eps 0.2 --oracle bf --multigrid 0.4:0.5 \
+  --state "$work/stage1" >"$work/out" 2>&1
+check "so is a finer one" grep -q "which is finer than --eps 0.2" "$work/out"
 
 # ---- a rank that is killed
 plates=$scenes/par-near.geojson

@@ -6,7 +6,8 @@ EXTRA_DIST += $(PETSC_TESTS) tests/petsc/ranks.sh tests/petsc/draw-many.py \
 	tests/petsc/even-shares.py tests/petsc/same-averages.py
 TESTS += $(PETSC_TESTS)
 if WITH_PETSC
-RANKED = tests/petsc/check-rank-faults tests/petsc/check-rank-state tests/petsc/check-ranks
+RANKED = tests/petsc/check-rank-faults tests/petsc/check-rank-solution \
+	tests/petsc/check-rank-state tests/petsc/check-ranks
 check_PROGRAMS += $(RANKED)
 RANKED_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/petsc/include -I$(srcdir)/tests $(PETSC_CFLAGS)
 RANKED_LDADD = libhr2d-petsc.la libhr2d.la $(PETSC_LIBS) $(MPI_LIBS) -lm
@@ -18,6 +19,10 @@ tests_petsc_check_rank_faults_SOURCES = tests/petsc/check-rank-faults.c \
 	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h
 tests_petsc_check_rank_faults_CPPFLAGS = $(RANKED_CPPFLAGS)
 tests_petsc_check_rank_faults_LDADD = $(RANKED_LDADD)
+tests_petsc_check_rank_solution_SOURCES = tests/petsc/check-rank-solution.c \
+	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h
+tests_petsc_check_rank_solution_CPPFLAGS = $(RANKED_CPPFLAGS)
+tests_petsc_check_rank_solution_LDADD = $(RANKED_LDADD)
 tests_petsc_check_rank_state_SOURCES = tests/petsc/check-rank-state.c \
 	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h
 tests_petsc_check_rank_state_CPPFLAGS = $(RANKED_CPPFLAGS)

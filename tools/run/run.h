@@ -10,6 +10,15 @@
 #include "cli/warnings.h"
 #include "output/progress.h"
 
+struct run;
+
+/* Several processes that make one run together, and keep its stages. */
+typedef struct run_shares {
+  hr2d_share *share;
+  int (*load)(struct run *r); /* as state_load() and state_save() */
+  int (*save)(struct run *r);
+} run_shares;
+
 typedef struct run {
   const options *options;
   const hr2d_scene *scene;
@@ -17,7 +26,8 @@ typedef struct run {
   double start;             /* clock_seconds() when the command began */
   const size_t *places;     /* the patches of --at, --links-of, --importance and --beams-of */
   const warnings *warnings; /* about the scene */
-  hr2d_share *share;        /* of a run over several processes; NULL: this one is alone */
+  const run_shares *shares; /* NULL: this process is alone */
+  hr2d_share *share;        /* of this process; NULL likewise */
   uint64_t most_links;      /* with shares: of the share that has most */
   uint64_t most_bytes;      /* likewise, at the peak */
   const hr2d_hierarchy *hierarchy;

@@ -35,6 +35,7 @@ static int load_stream(run *r, FILE *stream) {
 int state_load(run *r) {
   const char *path = r->options->state;
   if (!path) return 0;
+  if (r->shares) return r->shares->load(r);
   FILE *stream = fopen(path, "rb");
   if (!stream)
     return errno == ENOENT ? 0 : complain(path, "cannot be read: %s", strerror(errno));
@@ -46,6 +47,7 @@ int state_load(run *r) {
 int state_save(run *r) {
   output out;
   if (!r->options->state) return 0;
+  if (r->shares) return r->shares->save(r);
   int status = output_open(&out, r->options->state);
   if (status) return status;
   const hr2d_status written = hr2d_state_write(r->solution, write_bytes, out.stream);

@@ -67,7 +67,7 @@ static int run_and_report(run *r) {
 }
 
 static int solve_places(const options *o, const hr2d_scene *scene, size_t cuts, double start,
-                        hr2d_share *share, size_t *patches) {
+                        const run_shares *shares, size_t *patches) {
   warnings w;
   int status = find_places(o, scene, patches);
   if (status) return status;
@@ -80,18 +80,19 @@ static int solve_places(const options *o, const hr2d_scene *scene, size_t cuts, 
            .start = start,
            .places = patches,
            .warnings = &w,
-           .share = share};
+           .shares = shares,
+           .share = shares ? shares->share : NULL};
   if (!status) status = run_and_report(&r);
   warnings_release(&w);
   return status;
 }
 
 int solve_scene(const options *o, const hr2d_scene *scene, size_t cuts, double start,
-                hr2d_share *share) {
+                const run_shares *shares) {
   size_t *patches =
       calloc(o->at.count + 1 + o->importance.count + o->beams_of.count, sizeof *patches);
   const int status =
-      patches ? solve_places(o, scene, cuts, start, share, patches) : complain_memory();
+      patches ? solve_places(o, scene, cuts, start, shares, patches) : complain_memory();
   free(patches);
   return status;
 }

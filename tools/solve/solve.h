@@ -8,7 +8,7 @@
 /* command.c: solves a committed scene, and reports.  With shares all of them call it, and the
    first one reports.  Returns the exit status of this process. */
 int solve_scene(const options *o, const hr2d_scene *scene, size_t cuts, double start,
-                hr2d_share *share);
+                const run_shares *shares);
 
 /* table.c: the summary on standard output.  Returns 0 or the exit status, as the others do. */
 int solve_print(const run *r, double total_seconds);

@@ -105,6 +105,8 @@ START_TEST(contexts_are_destroyed_once) {
   ck_assert_int_eq(hr2d_refine(t.links, NULL), HR2D_OK);
   ck_assert_int_eq(oracle.calls, 1);
   ck_assert_int_eq(policy.calls, 1);
+  ck_assert_str_eq(hr2d_linkset_oracle(t.links)->name, whole_oracle.name);
+  ck_assert_str_eq(hr2d_linkset_policy(t.links)->name, whole_policy.name);
   ck_assert_uint_eq(hr2d_linkset_size(t.links), 1);
   ck_assert_uint_eq(hr2d_linkset_counts(t.links).limited_links, 1);
   ck_assert_int_eq(oracle.destroyed, 0);
