@@ -42,6 +42,7 @@ SUITES = \
 	tests/unit/refine/check-partition \
 	tests/unit/refine/check-rows \
 	tests/unit/refine/check-claims \
+	tests/unit/refine/check-image-elements \
 	tests/unit/links/check-linkset \
 	tests/unit/links/check-store \
 	tests/unit/refine/check-validate \

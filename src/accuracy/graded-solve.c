@@ -53,7 +53,7 @@ static hr2d_status carry_kinks(hr2di_graded *a, size_t elements, hr2di_watch *wa
 /* Divides images as their patches are. */
 static hr2d_status divide_images(hr2di_graded *a, hr2di_watch *watch) {
   const size_t elements = a->hierarchy->elements;
-  const hr2d_status status = hr2di_image_trees_unite(a->hierarchy, watch);
+  const hr2d_status status = hr2di_image_trees_unite(a->hierarchy, SIZE_MAX, watch);
   return status ? status : carry_kinks(a, elements, watch);
 }
 

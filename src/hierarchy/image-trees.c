@@ -14,6 +14,7 @@ typedef struct walk {
   const hr2di_symmetry *s;
   uint32_t *column; /* a stack of columns */
   size_t columns, capacity;
+  size_t max; /* elements that there may be memory for */
   hr2di_watch *watch;
 } walk;
 
@@ -45,7 +46,9 @@ static hr2d_status divide(walk *w, const uint32_t *column, size_t from) {
   const hr2d_point at = h->element[h->element[column[from]].child].b;
   for (size_t g = 0; g < w->s->motions; g++) {
     if (h->element[column[g]].child) continue;
-    const hr2d_status status = hr2di_hierarchy_reserve(h);
+    const int full = h->elements + 2 > h->capacity;
+    const hr2d_status status =
+        full && h->capacity > w->max / 2 ? HR2D_EMAX_BYTES : hr2di_hierarchy_reserve(h);
     if (status) return status;
     const int turned = w->s->motion[g].turned != w->s->motion[from].turned;
     if (left == 0.5)
@@ -90,8 +93,8 @@ static hr2d_status unite_patch(walk *w, uint32_t patch) {
   return status;
 }
 
-hr2d_status hr2di_image_trees_unite(hr2d_hierarchy *h, hr2di_watch *watch) {
-  walk w = {.h = h, .s = &h->scene->symmetry, .watch = watch};
+hr2d_status hr2di_image_trees_unite(hr2d_hierarchy *h, size_t max, hr2di_watch *watch) {
+  walk w = {.h = h, .s = &h->scene->symmetry, .max = max, .watch = watch};
   hr2d_status status = HR2D_OK;
   for (uint32_t k = 0; w.s->motion && k < w.s->cell && !status; k++)
     status = unite_patch(&w, k);

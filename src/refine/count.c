@@ -11,6 +11,7 @@
 
 #include "base/alloc.h"
 #include "base/team.h"
+#include "hierarchy/image-trees.h"
 #include "refine/occluded-pairs.h"
 #include "refine/projector.h"
 #include "refine/rounds.h"
@@ -228,8 +229,28 @@ static size_t union_room(const team *t, size_t hired) {
   return (size_t)(rest / HR2DI_ELEMENT_BYTES);
 }
 
-static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
-  hr2d_linkset *links = t->links;
+/* The trees of all workers, and of images, become those of the hierarchy. */
+static hr2d_status unite(team *t, size_t hired, uint64_t links) {
+  hr2d_hierarchy *h = t->links->hierarchy;
+  hr2di_message *message = &t->links->message;
+  const size_t elements = h->elements, room = union_room(t, hired);
+  const uint64_t most = t->options.max_elements;
+  hr2d_status status = hr2di_hierarchy_unite(h, t->clone, hired, room, t->watch);
+  if (!status) status = hr2di_image_trees_unite(h, room, t->watch);
+  if (!status && (!most || h->elements <= most)) return HR2D_OK;
+  hr2di_hierarchy_truncate(h, elements);
+  if (status == HR2D_EMAX_BYTES)
+    return hr2di_projector_fail_budget(t->links, t->options.max_bytes, links);
+  if (hr2di_watch_refused(t->watch))
+    return hr2di_message_fail(message, status, "callback \"progress\": %s",
+                              hr2d_strerror(status));
+  if (status) return hr2di_message_fail(message, status, "no room for the elements");
+  return hr2di_message_fail(message, HR2D_EMAX_ELEMENTS,
+                            "more than %llu elements are needed, for %llu links",
+                            (unsigned long long)most, (unsigned long long)links);
+}
+
+static hr2d_refine_counts sum_counts(const team *t) {
   hr2d_refine_counts sum = {0};
   for (size_t k = 0; k < t->count; k++) {
     if (!t->clone[k]) continue; /* not hired: the first worker finished before */
@@ -244,31 +265,23 @@ static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
     sum.partial_links += part->partial_links;
     sum.dark_pairs += part->dark_pairs;
   }
+  return sum;
+}
+
+static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
+  hr2d_linkset *links = t->links;
+  const hr2d_refine_counts sum = sum_counts(t);
   if (t->options.max_links && sum.links > t->options.max_links)
     return hr2di_message_fail(&links->message, HR2D_EMAX_LINKS,
                               "more than %llu links are needed",
                               (unsigned long long)t->options.max_links);
-  const size_t elements = links->hierarchy->elements;
   const size_t hired = t->count > 1 && t->clone[1] ? t->count : 1;
-  const hr2d_status status =
-      hr2di_hierarchy_unite(links->hierarchy, t->clone, hired, union_room(t, hired), t->watch);
-  if (status == HR2D_EMAX_BYTES)
-    return hr2di_projector_fail_budget(links, t->options.max_bytes, sum.links);
-  if (hr2di_watch_refused(t->watch))
-    return hr2di_message_fail(&links->message, status, "callback \"progress\": %s",
-                              hr2d_strerror(status));
-  if (status) return hr2di_message_fail(&links->message, status, "no room for the elements");
-  if (t->options.max_elements && links->hierarchy->elements > t->options.max_elements) {
-    hr2di_hierarchy_truncate(links->hierarchy, elements);
-    return hr2di_message_fail(&links->message, HR2D_EMAX_ELEMENTS,
-                              "more than %llu elements are needed, for %llu links",
-                              (unsigned long long)t->options.max_elements,
-                              (unsigned long long)sum.links);
-  }
+  const hr2d_status status = unite(t, hired, sum.links);
+  if (status) return status;
   *counts = sum;
   if (t->options.row_counts)
     memset(t->options.row_counts, 0,
-           links->hierarchy->scene->patches * sizeof(hr2d_row_counts));
+           hr2di_scene_cell(links->hierarchy->scene) * sizeof(hr2d_row_counts));
   for (size_t k = 0; k < hired; k++)
     hr2di_projector_add_rows(t->worker[k].projector, t->options.row_counts);
   hr2di_projector_count_elements(links->hierarchy, counts);

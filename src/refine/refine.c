@@ -14,6 +14,24 @@
 #include "refine/unite-shares.h"
 #include "scene/scene-impl.h"
 
+/* Elements of images are a part of the budgets. */
+static hr2d_status unite_images(hr2di_projector *p) {
+  hr2d_hierarchy *h = p->hierarchy;
+  const uint64_t most = p->options.max_elements;
+  const uint64_t room = hr2di_projector_left(p) / HR2DI_ELEMENT_BYTES;
+  if (!h->scene->symmetry.motion) return HR2D_OK;
+  const size_t max = room < SIZE_MAX - h->capacity ? h->capacity + (size_t)room : SIZE_MAX;
+  const hr2d_status status = hr2di_image_trees_unite(h, max, p->watch);
+  if (status == HR2D_EMAX_BYTES)
+    return hr2di_projector_fail_budget(p->links, p->budget, p->counts.links);
+  if (status) return hr2di_projector_fail(p, status, " for images");
+  if (!most || h->elements <= most) return HR2D_OK;
+  return hr2di_message_fail(&p->links->message, HR2D_EMAX_ELEMENTS,
+                            "more than %llu elements are needed with those of images, for %llu "
+                            "links",
+                            (unsigned long long)most, (unsigned long long)p->counts.links);
+}
+
 /* Runs a projector.  On failure the hierarchy gets its former size. */
 static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
                        hr2d_status (*project)(hr2di_projector *)) {
@@ -26,8 +44,7 @@ static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
   hr2d_status status = project(p);
   hr2di_rounds_measure(p);
   if (!status) status = hr2di_projector_fail(p, hr2di_watch_ask(p->watch), "");
-  if (!status)
-    status = hr2di_projector_fail(p, hr2di_image_trees_unite(h, p->watch), " for images");
+  if (!status) status = unite_images(p);
   h->refining = 0;
   if (p->sights) p->counts.visibility_tests += hr2di_patch_sights_tests(p->sights);
   if (status) hr2di_hierarchy_truncate(h, elements);
