@@ -41,6 +41,9 @@ int api_memory_is_back(api_run *r);
 
 hr2d_hierarchy *api_hierarchy(api_run *r, const api_slot *s);
 
+/* Writes the scene as bytes and reads it back; reads damaged bytes. */
+void api_bytes(api_run *r);
+
 /* The calls, grouped by the object on which they work. */
 void api_refine(api_run *r, api_slot *s);
 void api_compare(api_run *r, api_slot *s);

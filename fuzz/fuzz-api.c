@@ -8,7 +8,7 @@
 
 #include "api.h"
 
-enum { MOST_CALLS = 16, MOST_PATCHES = 40 };
+enum { MOST_CALLS = 16, MOST_PATCHES = 40, MOST_IMAGES = 400 };
 
 /* Calls before commit and after that must be refused. */
 static void check_order_before(hr2d_scene *scene) {
@@ -30,6 +30,8 @@ static void check_order_after(hr2d_scene *scene) {
   REQUIRE(hr2d_scene_set_background(scene, NULL, 0) == HR2D_ESTATE);
   REQUIRE(hr2d_scene_force(scene, HR2D_EFFECT_OCCLUSION) == HR2D_ESTATE);
   REQUIRE(hr2d_scene_split_crossings(scene, NULL) == HR2D_ESTATE);
+  REQUIRE(hr2d_scene_add_mirror(scene, (hr2d_segment){{0, 0}, {1, 1}}) == HR2D_ESTATE);
+  REQUIRE(hr2d_scene_set_period(scene, (hr2d_point){1, 1}) == HR2D_ESTATE);
   REQUIRE(hr2d_scene_commit(scene) == HR2D_ESTATE);
   REQUIRE(hr2d_scene_patches(scene) == patches);
   fuzz_check_message(hr2d_scene_message(scene));
@@ -37,7 +39,7 @@ static void check_order_after(hr2d_scene *scene) {
 
 static hr2d_status commit(api_run *r) {
   hr2d_status status = hr2d_scene_commit(r->scene);
-  if (status == HR2D_ESCENE || status == HR2D_EINVAL) {
+  if (status == HR2D_ESCENE || status == HR2D_EINVAL || status == HR2D_EUNSUPPORTED) {
     fuzz_check_message(hr2d_scene_message(r->scene));
     check_order_before(r->scene);
     status = hr2d_scene_split_crossings(r->scene, NULL);
@@ -65,7 +67,7 @@ static int make_scene(api_run *r) {
     check_order_after(r->scene);
     return 1;
   }
-  REQUIRE(status == HR2D_ESCENE || status == HR2D_ERANGE);
+  REQUIRE(status == HR2D_ESCENE || status == HR2D_ERANGE || status == HR2D_EUNSUPPORTED);
   fuzz_check_message(hr2d_scene_message(r->scene));
   return 0;
 }
@@ -112,7 +114,9 @@ static void end(api_run *r) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   fuzz_input in = {data, data + size};
   api_run run = {.in = &in, .memory = FUZZ_MEMORY_INIT};
-  if (make_scene(&run))
+  const int made = make_scene(&run);
+  if (made) api_bytes(&run);
+  if (made && hr2d_scene_images(run.scene) * hr2d_scene_patches(run.scene) <= MOST_IMAGES)
     for (int k = 0; k < MOST_CALLS && in.at < in.end; k++) {
       const unsigned call = fuzz_byte(&in), slot = fuzz_below(&in, API_SLOTS);
       if (!run.slot[slot].links) make_links(&run, slot);

@@ -5,6 +5,7 @@ fuzz_pair_cppflags = $(AM_CPPFLAGS) -I$(srcdir)/tools
 fuzz_libfuzz_la_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(fuzz_pair_cppflags)
 fuzz_libfuzz_la_SOURCES = \
 	fuzz/api.h \
+	fuzz/api-bytes.c \
 	fuzz/api-others.c \
 	fuzz/api-refine.c \
 	fuzz/api-solve.c \

@@ -134,6 +134,68 @@ static void add_background(maker *m, hr2d_scene *scene) {
   REQUIRE(status == HR2D_OK || status == HR2D_ENOMEM);
 }
 
+/* How far the patches reach along a direction. */
+static void extent(const hr2d_scene *scene, hr2d_point d, double e[2]) {
+  e[0] = HUGE_VAL;
+  e[1] = -HUGE_VAL;
+  for (size_t k = 0; k < hr2d_scene_patches(scene); k++) {
+    const hr2d_segment s = hr2d_scene_segment(scene, k);
+    const double a = d.x * s.a.x + d.y * s.a.y, b = d.x * s.b.x + d.y * s.b.y;
+    e[0] = fmin(e[0], fmin(a, b));
+    e[1] = fmax(e[1], fmax(a, b));
+  }
+}
+
+/* Mostly an axis; others are not rounded alike. */
+static hr2d_point some_direction(maker *m) {
+  const unsigned b = fuzz_byte(m->in);
+  const double angle = b & 3 ? 0 : fuzz_unit(m->in) * 3;
+  const hr2d_point d = {cos(angle), sin(angle)};
+  return b & 4 ? (hr2d_point){-d.y, d.x} : d;
+}
+
+/* Beside all patches: at the first one, some roundings or a distance from there, or across
+   them, which commit refuses. */
+static void add_mirror(maker *m, hr2d_scene *scene, hr2d_point normal) {
+  double e[2];
+  extent(scene, normal, e);
+  const unsigned b = fuzz_byte(m->in);
+  double at = e[b & 1];
+  if (b & 2) at = nudged(at, (int)(b >> 5) - 4);
+  if ((b & 28) == 4) at += (b & 1 ? 1 : -1) * fuzz_unit(m->in) * (e[1] - e[0]);
+  if ((b & 28) == 8) at = e[0] + fuzz_unit(m->in) * (e[1] - e[0]);
+  const double far = fuzz_unit(m->in) * (e[1] - e[0]);
+  const hr2d_point p = {at * normal.x, at * normal.y};
+  const hr2d_segment line = {{p.x - far * normal.y, p.y + far * normal.x},
+                             {p.x + (e[1] - e[0]) * normal.y, p.y - (e[1] - e[0]) * normal.x}};
+  if (getenv("FUZZ_VERBOSE"))
+    fprintf(stderr, "mirror %a %a %a %a\n", line.a.x, line.a.y, line.b.x, line.b.y);
+  if (hr2d_scene_add_mirror(scene, line)) fuzz_check_message(hr2d_scene_message(scene));
+}
+
+/* As long as the cell, about as long, longer, or so short that images overlap. */
+static void set_period(maker *m, hr2d_scene *scene, hr2d_point along) {
+  static const double parts[] = {1, 1, 1, 1.25, 2, 8, .5, .25};
+  double e[2];
+  extent(scene, along, e);
+  const unsigned b = fuzz_byte(m->in);
+  double size = (e[1] - e[0]) * parts[b & 7];
+  if (b & 8) size = nudged(size, (int)(b >> 5) - 4);
+  const hr2d_point period = {size * along.x, size * along.y};
+  if (getenv("FUZZ_VERBOSE")) fprintf(stderr, "period %a %a\n", period.x, period.y);
+  if (hr2d_scene_set_period(scene, period)) fuzz_check_message(hr2d_scene_message(scene));
+}
+
+static void add_symmetry(maker *m, hr2d_scene *scene) {
+  const unsigned how = fuzz_byte(m->in);
+  const hr2d_point along = some_direction(m), across = {-along.y, along.x};
+  if (!hr2d_scene_patches(scene)) return;
+  if (how & 1) add_mirror(m, scene, along);
+  if (how & 2) add_mirror(m, scene, across);
+  if ((how & 12) == 12) add_mirror(m, scene, how & 64 ? some_direction(m) : along);
+  if (how & 16) set_period(m, scene, how & 32 ? across : along);
+}
+
 void fuzz_fill_scene(fuzz_input *in, hr2d_scene *scene, size_t most) {
   static const int exponents[] = {0, 0, 0, 0, 20, -20, 100, -100, 340, -340, 500, -500};
   static const double offsets[] = {0, 0, 0, 0, 0, 1, 1e8, 1e15};
@@ -147,4 +209,5 @@ void fuzz_fill_scene(fuzz_input *in, hr2d_scene *scene, size_t most) {
   if (how & 4) add_room(&m, scene);
   for (unsigned k = fuzz_below(in, 12); k > 0 && hr2d_scene_patches(scene) + 8 < most; k--)
     add_chain(&m, scene);
+  if (how & 32) add_symmetry(&m, scene);
 }
