@@ -54,6 +54,7 @@ SUITES = \
 	tests/unit/solution/check-irradiance-points \
 	tests/unit/solution/check-emissivity \
 	tests/unit/solution/check-heat-bands \
+	tests/unit/solution/check-heat-images \
 	tests/unit/solution/check-heat-links \
 	tests/unit/solution/check-temperatures \
 	tests/unit/solution/check-thermal-calls \

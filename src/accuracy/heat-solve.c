@@ -58,7 +58,7 @@ typedef struct heat_search {
 
 /* The errors of patches that are asked for need those of patches of given flux. */
 static hr2d_status set_important(heat_search *s) {
-  const size_t patches = s->scene->patches;
+  const size_t patches = hr2di_scene_cell(s->scene);
   size_t count = 0;
   s->how.important = NULL;
   s->how.important_count = 0;

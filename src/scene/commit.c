@@ -2,7 +2,6 @@
 /* Commit: checks and analyses a scene once; from then on the scene is only read. */
 #include "base/alloc.h"
 #include "scene/scene-impl.h"
-#include "scene/settled.h"
 
 /* Light from outside may have one value for all bands, too. */
 static hr2d_status check_outside(hr2d_scene *scene, const char *what, size_t bands) {
@@ -62,14 +61,11 @@ static hr2d_status find_sunlight(hr2d_scene *scene, hr2di_watch *watch) {
   return status ? hr2di_scene_fail(scene, status, watch, "the light of the sun") : HR2D_OK;
 }
 
-static hr2d_status check_images(hr2d_scene *scene, hr2di_watch *watch) {
-  hr2di_symmetry *s = &scene->symmetry;
+static hr2d_status forget_weights(hr2d_scene *scene, hr2di_watch *watch) {
   (void)watch;
-  if (s->motion && s->rest == 0) hr2di_symmetry_forget_weights(s);
-  if (!s->motion || !hr2di_scene_is_unsettled(scene)) return HR2D_OK;
-  return hr2di_message_fail(&scene->message, HR2D_EUNSUPPORTED,
-                            "patches of given flux in several bands are not supported with "
-                            "mirrors or a period");
+  if (scene->symmetry.motion && scene->symmetry.rest == 0)
+    hr2di_symmetry_forget_weights(&scene->symmetry);
+  return HR2D_OK;
 }
 
 /* Past the ends of a period the sky is that of the horizon. */
@@ -94,7 +90,7 @@ static hr2d_status commit(hr2d_scene *scene, unsigned copies, hr2di_watch *watch
                                                               hr2di_scene_analyse_effects,
                                                               hr2di_scene_find_light,
                                                               hr2di_scene_measure_ends,
-                                                              check_images,
+                                                              forget_weights,
                                                               keep_plane,
                                                               find_sunlight};
   const size_t parts = sizeof part / sizeof *part;

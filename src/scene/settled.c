@@ -34,6 +34,7 @@ static hr2di_light *own_light(const hr2d_scene *scene, size_t k) {
 }
 
 hr2d_status hr2di_settled_create(const hr2d_scene *scene, hr2d_scene **settled) {
+  const size_t cell = hr2di_scene_cell(scene);
   hr2d_scene *made = hr2di_alloc(&scene->alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
   *made = *scene;
@@ -42,12 +43,14 @@ hr2d_status hr2di_settled_create(const hr2d_scene *scene, hr2d_scene **settled) 
   made->found = hr2di_alloc_zero(&scene->alloc, scene->patches, sizeof *made->found);
   hr2d_status status = made->patch && made->found ? HR2D_OK : HR2D_ENOMEM;
   for (size_t k = 0; k < scene->patches && made->patch; k++) made->patch[k] = scene->patch[k];
-  for (size_t k = 0; k < scene->patches && !status; k++) {
+  for (size_t k = 0; k < cell && !status; k++) {
     if (!hr2di_scene_has_flux(scene, k)) continue;
     hr2di_light *light = own_light(scene, k);
     if (light) made->patch[k].light = light;
     status = light ? HR2D_OK : HR2D_ENOMEM;
   }
+  for (size_t k = cell; k < scene->patches && !status; k++)
+    made->patch[k].light = made->patch[hr2di_scene_original(scene, k)].light;
   if (status) {
     hr2di_settled_destroy(made);
     return status;
@@ -59,7 +62,7 @@ hr2d_status hr2di_settled_create(const hr2d_scene *scene, hr2d_scene **settled) 
 void hr2di_settled_destroy(hr2d_scene *settled) {
   if (!settled) return;
   const hr2d_scene *origin = settled->origin;
-  for (size_t k = 0; k < settled->patches && settled->patch; k++)
+  for (size_t k = 0; k < hr2di_scene_cell(settled) && settled->patch; k++)
     if (settled->patch[k].light != origin->patch[k].light)
       hr2di_alloc_free(&settled->alloc, settled->patch[k].light);
   hr2di_alloc_free(&settled->alloc, settled->patch);

@@ -33,7 +33,8 @@ static int is_unknown(const hr2d_scene *scene, size_t k) {
 
 static hr2d_status reserve(hr2di_heat_balance *h) {
   const hr2d_scene *scene = h->scene;
-  for (size_t k = 0; k < scene->patches; k++) h->count += (size_t)is_unknown(scene, k);
+  const size_t cell = hr2di_scene_cell(scene);
+  for (size_t k = 0; k < cell; k++) h->count += (size_t)is_unknown(scene, k);
   h->patch = hr2di_alloc(&scene->alloc, h->count + 1, sizeof *h->patch);
   h->space = hr2di_alloc_zero(&scene->alloc, (ARRAYS + 2 * scene->bands) * h->count + 1,
                               sizeof *h->space);
@@ -45,7 +46,7 @@ static hr2d_status reserve(hr2di_heat_balance *h) {
   h->emission = h->space + ARRAYS * h->count;
   h->rise = h->emission + scene->bands * h->count;
   size_t at = 0;
-  for (size_t k = 0; k < scene->patches; k++) {
+  for (size_t k = 0; k < cell; k++) {
     if (!is_unknown(scene, k)) continue;
     h->depends |= hr2di_emissivity_depends(hr2di_scene_origin(scene), k);
     h->length[at] = scene->patch[k].length;

@@ -35,7 +35,7 @@ hr2d_status hr2di_heat_scene_create(const hr2d_scene *scene, const hr2d_solution
   double flux;
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, progress, progress_ctx, "solve");
-  for (size_t k = 0; k < scene->patches && !status; k++) {
+  for (size_t k = 0; k < hr2di_scene_cell(scene) && !status; k++) {
     if (hr2d_scene_heat(scene, k, &flux) != HR2D_HEAT_FLUX) continue;
     const double bright = hr2di_scene_lit(scene, k) ? most + fmax(flux, 0) : 0;
     status = hr2di_watch_work(&watch, 10 * scene->bands);

@@ -74,7 +74,7 @@ static int is_state(hr2di_reader *r) {
 static uint64_t count_temperatures(const hr2d_scene *scene) {
   uint64_t count = 0;
   if (hr2di_scene_is_unsettled(scene))
-    for (size_t k = 0; k < scene->patches; k++)
+    for (size_t k = 0; k < hr2di_scene_cell(scene); k++)
       count += (uint64_t)hr2di_scene_has_flux(scene, k);
   return count;
 }
@@ -202,7 +202,7 @@ static hr2d_status read_temperatures(loading *l) {
   hr2d_status status = hr2di_settled_create(scene, &l->solution->own_scene);
   if (status)
     return hr2di_message_fail(&l->links->message, status, "out of memory for the temperatures");
-  for (size_t k = 0; k < scene->patches && !status; k++) {
+  for (size_t k = 0; k < hr2di_scene_cell(scene) && !status; k++) {
     if (!hr2di_scene_has_flux(scene, k)) continue;
     double radiance;
     status = read_doubles(l, &radiance, 1);

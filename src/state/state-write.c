@@ -144,7 +144,7 @@ static void put_fields(hr2di_writer *w, const hr2d_solution *s, hr2di_watch *wat
 }
 
 static void put_temperatures(hr2di_writer *w, const hr2d_solution *s, hr2di_watch *watch) {
-  for (size_t k = 0; s->own_scene && k < s->own_scene->patches && !w->status; k++) {
+  for (size_t k = 0; s->own_scene && k < hr2di_scene_cell(s->own_scene) && !w->status; k++) {
     declare(w, watch, k, 8);
     if (hr2di_scene_has_flux(s->own_scene, k))
       hr2di_writer_double(w, s->own_scene->found[k].radiance);
