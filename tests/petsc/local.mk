@@ -33,8 +33,9 @@ tests_petsc_check_rank_state_LDADD = $(RANKED_LDADD)
 check-petsc: $(RANKED) hr2d-mpi tools/hr2d
 	@rm -f petsc-results; $(AM_TESTS_ENVIRONMENT) \
 	printf '%s\n' $(PETSC_TESTS) | xargs -P 2 -n 1 $(SHELL) -c \
-	  'if $(SHELL) $(srcdir)/$$0; then echo passed; else echo failed; fi >>petsc-results'; \
-	passed=`grep -c passed petsc-results`; failed=`grep -c failed petsc-results`; \
-	rm -f petsc-results; echo "$$passed passed, $$failed failed"; test $$failed = 0
+	  '$(SHELL) $(srcdir)/$$0; echo "$$? $$0" >>petsc-results'; \
+	passed=`grep -c "^0 " petsc-results`; failed=`grep -vc "^0 " petsc-results`; \
+	sed -n "/^0 /!s/^/FAIL with status /p" petsc-results; rm -f petsc-results; \
+	echo "$$passed passed, $$failed failed"; test $$failed = 0
 endif
 .PHONY: check-petsc
