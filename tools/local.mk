@@ -70,6 +70,7 @@ tools_hr2d_SOURCES = $(SOLVE_SOURCES) \
 	tools/study/study.h \
 	tools/study/sweep.c \
 	tools/cost/auto.c \
+	tools/cost/box.c tools/cost/box.h \
 	tools/cost/chart.c \
 	tools/cost/command.c \
 	tools/cost/cost.h \

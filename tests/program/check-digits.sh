@@ -338,6 +338,32 @@ succeeds cost "$scenes/solar-panels.geojson" --methods factors --max-seconds 1 \
   --csv "$work/c.csv" --quiet
 check "also past other patches" awk -F, 'NR > 1 { n++; if ($8 > 1e-12) bad = 1 }
   END { exit bad || n < 5 }' "$work/c.csv"
+# Mirrors and the ends of a period are no sides of the box: of a quarter, at an oblique mirror, of
+# streets, between two mirrors.
+line() { # line PROPERTIES COORDINATES
+  echo '{"type": "Feature", "properties": {'"$1"'}, "geometry": {"type": "LineString",
+    "coordinates": ['"$2"']}}'
+}
+cell() { # cell "HR2D" FEATURE...: a scene under a background
+  echo '{"type": "FeatureCollection", "hr2d": {"background": 1'"$1"'}, "features": ['
+  shift
+  (IFS=,; echo "$*]}")
+}
+mirror='"sides": "mirror"'
+grey='"reflectance": 0.5'
+cell "" "$(line "$mirror" "[0, 0], [0, 3]")" "$(line "$mirror" "[0, 3], [3, 3]")" \
+  "$(line "$grey" "[0, 0], [2, 0]")" "$(line "$grey" "[2, 0], [2, 2]")" >"$work/quarter.geojson"
+cell "" "$(line "$mirror" "[0, 0], [1, 1]")" "$(line "$grey" "[1, 0], [3, 0]")" \
+  "$(line "$grey" "[3, 0.5], [4, 2]")" >"$work/oblique.geojson"
+cell ', "period": [20, 0]' "$(line "$grey" "[0, 0], [12, 0]")" \
+  "$(line "$grey" "[12, 0], [12, 9], [20, 9], [20, 0]")" >"$work/street.geojson"
+cell "" "$(line "$mirror" "[0, 0], [0, 3]")" "$(line "$mirror" "[3, 0], [3, 3]")" \
+  "$(line "$grey" "[0, 0], [3, 0]")" "$(line "$grey" "[1, 0.5], [2, 1.5]")" >"$work/between.geojson"
+for scene in quarter oblique street between; do
+  succeeds cost "$work/$scene.geojson" --methods factors --max-seconds 1 --csv "$work/c.csv" --quiet
+  check "the box of $scene: $(cat "$work/c.csv")" awk -F, 'NR > 1 { n++; if ($8 > $2 * $2 / 4) bad = 1 }
+    END { exit bad || n < 4 }' "$work/c.csv"
+done
 sed 's/{"background": 2}/{"background": 2, "sun": {"bearing": 30, "irradiance": 1}}/' \
   "$work/floor.geojson" >"$work/sun.geojson"
 expect 1 "^hr2d: .*: factors: equal pieces do not know sun and sky\$" \

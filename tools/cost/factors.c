@@ -167,7 +167,9 @@ static void note(factors *f, const cost_method *m, double seconds, cost_row *row
                     seconds, cost_error(f->cost, average, f)};
 }
 
-static hr2d_status time_row(cost *c, const cost_method *m, double length, cost_row *row) {
+/* `images` receives the number of images of a piece. */
+static hr2d_status time_row(cost *c, const cost_method *m, double length, cost_row *row,
+                            size_t *images) {
   double best = INFINITY;
   for (int k = 0, runs = 1; k < runs; k++) {
     factors f = {.cost = c,
@@ -180,6 +182,7 @@ static hr2d_status time_row(cost *c, const cost_method *m, double length, cost_r
     if (!k) runs = pace_repeats(time);
     best = fmin(best, time);
     if (!status) note(&f, m, best, row);
+    if (!status) *images = hr2d_scene_images(f.pieces.scene);
     clear(&f);
     if (status) return status;
   }
@@ -212,10 +215,15 @@ hr2d_status cost_factors(cost *c, const cost_method *m) {
     return HR2D_EUNSUPPORTED;
   }
   cost_row row = {.bytes = 0};
-  /* Half as long pieces have four times as many entries. */
+  size_t most = 0, images = 0;
+  /* Half as long pieces have four times as many entries.  Where images go on for ever, very
+     many pieces have fewer of them, and what is extrapolated from few is not of their accuracy.
+   */
   while (pace_allows(&p) && length * PIECES_MOST >= 1 && 4 * row.bytes <= COST_MOST_BYTES) {
     const double start = clock_seconds();
-    hr2d_status status = time_row(c, m, length, &row);
+    hr2d_status status = time_row(c, m, length, &row, &images);
+    if (!status && images < most) break;
+    most = images;
     if (!status) status = cost_add(c, &row);
     if (status) return status;
     pace_note(&p, row.seconds, clock_seconds() - start);

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "cost/box.h"
+
 static double longest_patch(const hr2d_scene *scene) {
   double longest = 0;
   for (size_t k = 0; k < hr2d_scene_patches(scene); k++)
@@ -45,28 +47,29 @@ static hr2d_status add_patch(pieces *p, hr2d_segment s, size_t count) {
   return status;
 }
 
-/* It stands as far away as the scene is wide, with its fronts inside. */
-static hr2d_status add_box(pieces *p, const hr2d_scene *whole) {
-  hr2d_point least = {INFINITY, INFINITY}, most = {-INFINITY, -INFINITY};
-  for (size_t k = 0; k < hr2d_scene_patches(whole); k++) {
-    const hr2d_segment s = hr2d_scene_segment(whole, k);
-    least = (hr2d_point){fmin(least.x, fmin(s.a.x, s.b.x)), fmin(least.y, fmin(s.a.y, s.b.y))};
-    most = (hr2d_point){fmax(most.x, fmax(s.a.x, s.b.x)), fmax(most.y, fmax(s.a.y, s.b.y))};
-  }
-  const double off = fmax(most.x - least.x, most.y - least.y);
-  least = (hr2d_point){least.x - off, least.y - off};
-  most = (hr2d_point){most.x + off, most.y + off};
-  const hr2d_point corner[] = {least, {most.x, least.y}, most, {least.x, most.y}, least};
-  hr2d_status status = HR2D_OK;
-  for (int k = 0; !status && k < 4; k++) status = add(p, corner[k], corner[k + 1]);
-  p->count += 4;
-  return status;
-}
-
 static hr2d_status repeat(hr2d_scene *scene, const hr2d_scene *whole) {
   hr2d_status status = hr2d_scene_set_period(scene, hr2d_scene_period(whole));
   for (size_t k = 0; !status && k < hr2d_scene_mirrors(whole); k++)
     status = hr2d_scene_add_mirror(scene, hr2d_scene_mirror(whole, k));
+  return status;
+}
+
+/* Between mirrors and the ends of a cell there are no sides. */
+static hr2d_status add_box(pieces *p, const hr2d_scene *whole) {
+  const box b = box_around(whole);
+  hr2d_point corner[5];
+  for (int k = 0; k < 5; k++) {
+    const double x = k % 4 == 1 || k % 4 == 2 ? b.high[0] : b.low[0];
+    const double y = k % 4 == 2 || k % 4 == 3 ? b.high[1] : b.low[1];
+    corner[k] = (hr2d_point){x * b.axis.x - y * b.axis.y, x * b.axis.y + y * b.axis.x};
+  }
+  const int open[] = {b.open_low[1], b.open_high[0], b.open_high[1], b.open_low[0]};
+  hr2d_status status = HR2D_OK;
+  for (int k = 0; !status && k < 4; k++) {
+    if (open[k]) continue;
+    status = add(p, corner[k], corner[k + 1]);
+    p->count++;
+  }
   return status;
 }
 
@@ -80,7 +83,7 @@ hr2d_status pieces_make(pieces *p, const hr2d_scene *whole, double length) {
     status = add_patch(p, hr2d_scene_segment(whole, k), p->first[k + 1] - p->first[k]);
   if (!status) status = repeat(p->scene, whole);
   if (!status && hr2d_scene_effect(whole, HR2D_EFFECT_BACKGROUND, NULL))
-    status = hr2d_scene_images(whole) > 1 ? HR2D_EUNSUPPORTED : add_box(p, whole);
+    status = add_box(p, whole);
   return status ? status : hr2d_scene_commit(p->scene);
 }
 
