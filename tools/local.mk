@@ -38,6 +38,7 @@ SOLVE_SOURCES = \
 	tools/draw/contours.c \
 	tools/draw/draw.c tools/draw/draw.h \
 	tools/draw/fill.c \
+	tools/draw/images.c \
 	tools/draw/joints.c \
 	tools/draw/labels.c \
 	tools/draw/layout.c \

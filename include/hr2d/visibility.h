@@ -227,14 +227,16 @@ HR2D_API hr2d_status hr2d_exchange_rows_visit(const hr2d_scene *scene,
 typedef enum hr2d_seen {
   HR2D_SEEN_FRONT, /**< the front of a patch */
   HR2D_SEEN_BACK,  /**< the back of a patch that has only a front: opaque and black */
-  HR2D_SEEN_SKY    /**< nothing: the background */
+  HR2D_SEEN_SKY,   /**< nothing: the background */
+  HR2D_SEEN_PAST   /**< what is past the images of a period that are taken, see symmetry.h */
 } hr2d_seen;
 
 /** The directions in which a point sees a part of one patch or of one wall, or the sky. */
 typedef struct hr2d_beam {
   size_t struct_size; /**< its size as the library knows it */
   hr2d_seen seen;     /**< what the beam ends at */
-  size_t patch;       /**< the patch whose front is seen; 0 for a back and for the sky */
+  size_t patch;       /**< the patch whose front is seen: gn + k for image g of patch k, of n
+                           patches that were given; 0 if none is */
   double from;        /**< where its part begins, a fraction of its length; else 0 */
   double to;          /**< where the part ends, above `from`; else 0 */
   double factor;      /**< the form factor from the point to what is seen, greater than 0 */
@@ -267,6 +269,9 @@ typedef hr2d_status (*hr2d_beam_fn)(void *ctx, const hr2d_beam *beam);
  *                      other within roundings that the plane between them is unknown
  * @retval HR2D_ESTATE  the scene is not committed
  * @retval other        the status of the visitor, or of the progress callback of the scene
+ *
+ * Patches that were drawn some periods apart are where they were brought together, see
+ * symmetry.h.
  *
  * Each beam begins in the direction in which the last one ended, so that the factors sum to 1
  * within roundings. Parts of a patch that touches the point may be a point. A patch that lies

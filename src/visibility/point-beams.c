@@ -59,10 +59,11 @@ static hr2d_status show_stretch(void *ctx, const hr2di_stretch *s, const hr2di_g
     beam.end = find_back(v, s);
   } else if (s->patch != HR2DI_SEEN_SKY) {
     const hr2d_segment at = v->viewer->scene->patch[s->patch].given;
-    beam.seen = HR2D_SEEN_FRONT;
-    beam.patch = s->patch;
-    beam.from = g->from;
-    beam.to = g->to;
+    const int past = hr2di_symmetry_is_end(&v->viewer->scene->symmetry, s->patch);
+    beam.seen = past ? HR2D_SEEN_PAST : HR2D_SEEN_FRONT;
+    beam.patch = past ? 0 : s->patch;
+    beam.from = past ? 0 : g->from;
+    beam.to = past ? 0 : g->to;
     beam.end = (hr2d_segment){along(at, g->from, 1), along(at, g->to, 1)};
   }
   return v->show(v->ctx, &beam);
@@ -96,8 +97,7 @@ static hr2d_status look_past_nothing(const hr2d_scene *scene, size_t patch, doub
 hr2d_status hr2d_beams_visit(const hr2d_scene *scene, size_t patch, double t, hr2d_beam_fn show,
                              void *ctx) {
   if (!scene->committed) return HR2D_ESTATE;
-  if (scene->symmetry.motion) return HR2D_EUNSUPPORTED;
-  if (patch >= scene->patches || !(t >= 0 && t <= 1)) return HR2D_EINVAL;
+  if (patch >= hr2di_scene_cell(scene) || !(t >= 0 && t <= 1)) return HR2D_EINVAL;
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, NULL, NULL, "factors");
   visit v = {.unit = hr2d_scene_unit(scene), .show = show, .ctx = ctx};

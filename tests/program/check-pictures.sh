@@ -123,6 +123,17 @@ check "--no-fill leaves the room white" is_white "$work/white.png" 0.2 0.7
 succeeds solve "$block" --quiet --eps 4 --beams-of lamp:0.5 --draw "$work/beams.png"
 check "and so do beams" is_white "$work/beams.png" 0.45 0.8
 
+# ---- images are pale, mirrors are lines, and beams end at both
+room "$work/half.geojson" "$(patch floor 1 0.5 '[0, 0], [1, 0]')" \
+  "$(patch wall 0 0.5 '[1, 0], [1, 1]')" \
+  "$(patch middle 0 0 '[0, 0], [0, 1]' | sed 's/"name": "middle"[^}]*}/"sides": "mirror"}/')"
+succeeds solve "$work/half.geojson" --quiet --eps 4 --no-fill --draw "$work/half.svg"
+pale='rgb(72%, *72%, *72%)'
+check "images are pale" grep -q "$pale" "$work/half.svg"
+succeeds solve "$block" --quiet --eps 4 --no-fill --draw "$work/block.svg"
+check "a room without mirrors has none" [ "$(grep -c "$pale" "$work/block.svg")" = 0 ]
+succeeds solve "$work/half.geojson" --quiet --eps 4 --beams-of floor:0.5 --draw "$work/beams.svg"
+
 # ---- true colour: B = 1 is white, and with an exposure of a half it is grey: 188 in sRGB
 succeeds solve "$furnace" --quiet --draw "$work/furnace.png"
 check "a furnace is white" is_white "$work/furnace.png" 0.3 0.6

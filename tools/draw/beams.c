@@ -18,7 +18,8 @@ static const struct {
   colour colour;
 } kinds[] = {[HR2D_SEEN_FRONT] = {"front of a patch", {0.90, 0.42, 0.05}},
              [HR2D_SEEN_BACK] = {"black back", {0.25, 0.25, 0.25}},
-             [HR2D_SEEN_SKY] = {"sky", {0.15, 0.50, 0.90}}};
+             [HR2D_SEEN_SKY] = {"sky", {0.15, 0.50, 0.90}},
+             [HR2D_SEEN_PAST] = {"more images", {0.45, 0.20, 0.60}}};
 
 enum { KINDS = sizeof kinds / sizeof *kinds };
 

@@ -49,6 +49,7 @@ static int draw_page(picture *p) {
   if (p->run->options->box.given) clip(p);
   if (p->filled) fill_draw(p);
   contours_draw(p);
+  images_draw(p);
   int status = beams_draw(p);
   if (!status) status = links_draw(p);
   if (!status) status = bands_draw(p);

@@ -22,6 +22,9 @@
 #define FLAT 2.3
 #define TALL 2.0
 
+/* Of the size of the cell, on each side where there are images. */
+#define IMAGES 0.15
+
 typedef struct margins {
   double left, right, top, bottom;
 } margins;
@@ -51,6 +54,22 @@ static void set_bounds(picture *p, hr2d_point low, hr2d_point high) {
   p->size = (hr2d_point){high.x - low.x, high.y - low.y};
 }
 
+/* Takes some of the images into the bounds, which are in element units. */
+static void widen(const picture *p, hr2d_point *low, hr2d_point *high) {
+  const hr2d_scene *scene = p->run->scene;
+  const double unit = hr2d_scene_unit(scene);
+  const hr2d_point l = *low, h = *high;
+  const double more = IMAGES * fmax(h.x - l.x, h.y - l.y);
+  for (size_t g = 1; g < hr2d_scene_images(scene); g++)
+    for (size_t k = 0; k < hr2d_scene_patches(scene); k++) {
+      const hr2d_segment s = hr2d_scene_image(scene, k, g);
+      low->x = fmax(l.x - more, fmin(low->x, fmin(s.a.x, s.b.x) / unit));
+      low->y = fmax(l.y - more, fmin(low->y, fmin(s.a.y, s.b.y) / unit));
+      high->x = fmin(h.x + more, fmax(high->x, fmax(s.a.x, s.b.x) / unit));
+      high->y = fmin(h.y + more, fmax(high->y, fmax(s.a.y, s.b.y) / unit));
+    }
+}
+
 void layout_bounds(picture *p) {
   const grid_box *given = &p->run->options->box;
   hr2d_point low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
@@ -61,6 +80,7 @@ void layout_bounds(picture *p) {
     high.x = fmax(high.x, fmax(e->a.x, e->b.x));
     high.y = fmax(high.y, fmax(e->a.y, e->b.y));
   }
+  widen(p, &low, &high);
   if (given->given) {
     const double unit = hr2d_scene_unit(p->run->scene);
     low.x = fmin(given->side[0], given->side[2]) / unit;

@@ -220,6 +220,9 @@ int links_find(picture *p);
 int links_draw(picture *p);
 void links_draw_point(const picture *p);
 
+/* images.c: what is around a cell; nothing without mirrors and a period. */
+void images_draw(const picture *p);
+
 /* beams.c: what the points of --beams-of see, these points, and what the colours mean. */
 int beams_draw(picture *p);
 void beams_draw_points(const picture *p);

@@ -137,6 +137,7 @@ static int draw_panel(picture *p, int second) {
   int status = layout_strokes(p);
   if (!status && second) status = raster_make(p, 1 / PIXELS, FINE, &p->raster);
   if (!status && second) fill_draw(p);
+  if (!status) images_draw(p);
   if (!status && !second) draw_links(p);
   if (!status) status = bands_draw(p);
   free(p->strokes);

@@ -199,16 +199,6 @@ START_TEST(setters_check_what_they_get) {
 }
 END_TEST
 
-/* What does not know images refuses them. */
-START_TEST(calls_without_images_refuse_them) {
-  hr2d_scene *scene = one_patch();
-  add_mirror(scene, 0, 0, 0, 1);
-  test_commit(scene);
-  ck_assert_int_eq(hr2d_beams_visit(scene, 0, .5, NULL, NULL), HR2D_EUNSUPPORTED);
-  hr2d_scene_destroy(scene);
-}
-END_TEST
-
 static hr2d_status keep(void *ctx, const hr2d_warning *warning) {
   hr2d_warning *kept = ctx;
   if (warning->code == HR2D_WARNING_LOOSE_END) *kept = *warning;
@@ -288,7 +278,7 @@ TEST_SUITE("images") {
   ADD_TESTS("refusals", patches_on_both_sides_are_refused,
             a_patch_on_a_mirror_looks_at_the_scene, other_symmetries_are_refused,
             images_that_cross_are_refused, light_from_outside_is_symmetric,
-            setters_check_what_they_get, calls_without_images_refuse_them);
+            setters_check_what_they_get);
   ADD_TESTS("warnings", ends_short_of_a_mirror_are_warned_of);
   ADD_TESTS("files", files_have_mirrors_and_a_period, files_with_other_mirrors_are_refused);
 }

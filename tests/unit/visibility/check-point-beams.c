@@ -4,6 +4,7 @@
 
    HR2D_TEST_SEED and HR2D_TEST_MULTIPLIER in the environment change the scenes. */
 #include <check.h>
+#include <hr2d/symmetry.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -378,9 +379,63 @@ START_TEST(allocations_fail_one_by_one) {
 }
 END_TEST
 
+/* A beam that ends at an image has the number that it has among the patches of the whole. */
+START_TEST(images_are_seen) {
+  hr2d_scene *half = test_new_scene(NULL), *whole = test_new_scene(NULL);
+  const hr2d_segment s[] = {{{0, 0}, {2, 0}}, {{2, 0}, {2, 3}}, {{.5, 1}, {1, 1.5}}};
+  static look one, other;
+  for (int k = 0; k < 3; k++) test_add_patch(half, s[k], 1, .5, HR2D_SIDES_FRONT);
+  ck_assert_int_eq(hr2d_scene_add_mirror(half, (hr2d_segment){{0, 0}, {0, 1}}), HR2D_OK);
+  test_commit(half);
+  for (size_t k = 0; k < 6; k++)
+    test_add_patch(whole, hr2d_scene_image(half, k % 3, k / 3), 1, .5, HR2D_SIDES_FRONT);
+  test_commit(whole);
+  size_t images = 0;
+  for (int k = 0; k <= 10; k++) {
+    see(half, 0, k / 10., &one);
+    see(whole, 0, k / 10., &other);
+    ck_assert(is_whole(half, 0, &one));
+    ck_assert_uint_eq(one.count, other.count);
+    for (size_t m = 0; m < one.count; m++) {
+      ck_assert_int_eq(one.beam[m].seen, other.beam[m].seen);
+      ck_assert_uint_eq(one.beam[m].patch, other.beam[m].patch);
+      ck_assert_double_eq_tol(one.beam[m].factor, other.beam[m].factor, 1e-15);
+      images += one.beam[m].patch >= 3;
+    }
+  }
+  ck_assert_uint_gt(images, 10);
+  ck_assert_int_eq(hr2d_beams_visit(half, 3, .5, take, &one), HR2D_EINVAL);
+  hr2d_scene_destroy(half);
+  hr2d_scene_destroy(whole);
+}
+END_TEST
+
+/* Between two plates that repeat for ever the rest is past the images, on both sides. */
+START_TEST(what_is_past_the_images_is_told) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  static look l;
+  double past = 0;
+  test_add_patch(scene, (hr2d_segment){{0, 0}, {1, 0}}, 1, .5, HR2D_SIDES_FRONT);
+  test_add_patch(scene, (hr2d_segment){{1, 1}, {0, 1}}, 1, .5, HR2D_SIDES_FRONT);
+  ck_assert_int_eq(hr2d_scene_set_period(scene, (hr2d_point){1, 0}), HR2D_OK);
+  test_commit(scene);
+  see(scene, 0, .5, &l);
+  ck_assert(is_whole(scene, 0, &l));
+  ck_assert_int_eq(l.beam[0].seen, HR2D_SEEN_PAST);
+  ck_assert_int_eq(l.beam[l.count - 1].seen, HR2D_SEEN_PAST);
+  for (size_t k = 0; k < l.count; k++) {
+    past += l.beam[k].seen == HR2D_SEEN_PAST ? l.beam[k].factor : 0;
+    ck_assert(l.beam[k].seen == HR2D_SEEN_PAST || l.beam[k].patch % 2 == 1);
+  }
+  ck_assert_double_eq_tol(past, hr2d_scene_cut_off(scene), 1e-3 * past);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 TEST_SUITE("beams from a point") {
   REPEAT_TESTS(2, "sweep", walls_on_a_grid, jittered_walls);
   ADD_TESTS("sweep", wrong_beams_are_noticed);
   ADD_TESTS("calls", the_effect_changes_no_bit, a_room_by_hand, wrong_calls);
+  ADD_TESTS("images", images_are_seen, what_is_past_the_images_is_told);
   REPEAT_TESTS(4, "memory", allocations_fail_one_by_one);
 }
