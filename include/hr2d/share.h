@@ -36,8 +36,7 @@
  * Each pair of patches belongs to the share that has the row of its earlier patch; rows are
  * dealt out in runs. Links between clusters of patches are on every share, and so is what is
  * known of the scene. A further refinement of a set may make other visibility tests than one
- * process. hr2d_share is not for scenes of several bands with patches of given flux:
- * HR2D_EUNSUPPORTED. States hold the links of one share only:
+ * process. States hold the links of one share only:
  * hr2dp_save_solution() of libhr2d-petsc keeps B alone, and makes the links again.
  *
  * libhr2d-petsc has a `combine` for MPI. This one is for processes of one machine:

@@ -83,7 +83,7 @@ static int read_options(job *j, int argc, char **argv, options *o) {
 
 static int solve(job *j) {
   int status = job_load_scene(j);
-  if (!status && job_is_whole(j->options)) {
+  if (!status && job_is_whole(j->options, j->scene)) {
     status = job_solve_whole(j);
   } else if (!status) {
     status = job_run(j);

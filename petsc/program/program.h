@@ -28,9 +28,9 @@ int job_load_scene(job *j);
 /* run.c: refines and solves.  Returns 0 or the exit status. */
 int job_run(job *j);
 
-/* whole.c: whether the options ask for what needs all elements on every rank; and solves and
-   reports so.  Returns 0 or the exit status, the same on all ranks. */
-int job_is_whole(const options *o);
+/* whole.c: whether the options or the scene ask for what needs all elements on every rank; and
+   solves and reports so.  Returns 0 or the exit status, the same on all ranks. */
+int job_is_whole(const options *o, const hr2d_scene *scene);
 int job_solve_whole(job *j);
 
 /* stages.c: state_load() and state_save() of shares, see run_shares. */

@@ -6,15 +6,27 @@
 #include "program.h"
 #include "solve/solve.h"
 
-int job_is_whole(const options *o) {
+/* Temperatures of patches of given flux divide what these emit among bands. */
+static int has_spectra(const hr2d_scene *scene) {
+  size_t k = 0;
+  while (k < hr2d_scene_patches(scene) && hr2d_scene_heat(scene, k, NULL) != HR2D_HEAT_FLUX)
+    k++;
+  return k < hr2d_scene_patches(scene) && hr2d_scene_bands(scene) > 1;
+}
+
+int job_is_whole(const options *o, const hr2d_scene *scene) {
   /* Brightness of a former stage is that of all its elements. */
   const int lit = o->oracle->flags & HR2D_ORACLE_NEEDS_BRIGHTNESS && o->multigrid.ratio > 0;
   return lit || options_targeted(o) || o->order > 1 || o->at.count > 0 || o->csv || o->draw ||
-         o->error;
+         o->error || has_spectra(scene);
 }
 
 int job_solve_whole(job *j) {
   hr2d_share *share;
+  if (j->options->state && has_spectra(j->scene))
+    return complain(j->options->scene,
+                    "a state of ranks cannot keep temperatures of patches of given flux in "
+                    "several bands: solve without --state, or by hr2d solve");
   const PetscErrorCode code = hr2dp_share_create(PETSC_COMM_WORLD, &share);
   if (code) return job_complain(j, code);
   const run_shares shares = {share, stages_load, stages_save};

@@ -22,6 +22,7 @@
 #include "accuracy/target.h"
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "base/share.h"
 #include "base/sized-struct.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/linkset-impl.h"
@@ -222,7 +223,7 @@ static void put_errors(heat_search *s, const hr2di_heat_balance *h) {
 }
 
 /* Settles the temperatures on the links of the solution, and measures what errors make. */
-static hr2d_status settle(heat_search *s) {
+static hr2d_status settle_own(heat_search *s) {
   hr2di_heat_balance h;
   const double start = hr2di_clock_now();
   hr2d_linkset *links = s->solution->own_links;
@@ -244,6 +245,14 @@ static hr2d_status settle(heat_search *s) {
   hr2di_alloc_free(&s->scene->alloc, before);
   hr2di_heat_balance_clear(&h);
   return status;
+}
+
+/* All shares settle, or none. */
+static hr2d_status settle(heat_search *s) {
+  hr2di_share_begin(s->given.share);
+  const hr2d_status own = settle_own(s);
+  const hr2d_status status = hr2di_share_agree(s->given.share, own);
+  return own ? status : status ? fail(s, status, NULL) : HR2D_OK;
 }
 
 /* The solution with the settled temperatures, on the same links. */
@@ -318,12 +327,13 @@ hr2d_status hr2di_heat_solve(const hr2d_scene *scene, const hr2d_target *target,
                              hr2d_solution **solution, hr2d_account *account) {
   heat_search s = {.scene = scene, .start = hr2di_clock_now(), .how = HR2D_TARGET_INIT};
   hr2d_status status = hr2di_target_init(&s.given, scene, target, HR2D_DEFAULT_ERROR);
-  if (status) return status;
+  hr2di_share_begin(s.given.share);
   s.how = s.given;
-  status = set_important(&s);
+  if (!status) status = set_important(&s);
   if (!status)
     status =
         hr2di_heat_scene_create(scene, NULL, s.how.progress, s.how.progress_ctx, &s.settled);
+  status = hr2di_share_agree(s.given.share, status);
   if (!status)
     status = reach(&s);
   else

@@ -114,9 +114,10 @@ static hr2d_status complete(hr2di_estimator *e) {
   hr2di_residual_reflect(eq, eq->radiosity);
   for (size_t k = 0; k < eq->field; k++) eq->source[k] += eq->radiosity[k] - first[k];
   const hr2d_status status = hr2di_estimator_solve_part(e, ROW, HR2DI_AIM_IMPORTANCE);
+  if (status) return status; /* other shares learn it at the next agreement, not in a gather */
   for (size_t k = 0; k < eq->field; k++) first[k] += eq->radiosity[k];
   hr2di_equation_gather(eq, first);
-  return status;
+  return hr2di_transport_status(&eq->transport);
 }
 
 hr2d_status hr2di_safe_row(hr2di_estimator *e) {

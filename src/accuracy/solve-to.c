@@ -363,11 +363,15 @@ hr2d_status hr2di_solve_to(const hr2d_scene *scene, const hr2d_target *target,
                            hr2d_solution **solution, hr2d_account *account) {
   search s = {.scene = scene, .start = hr2di_clock_now(), .error = {HUGE_VAL, HUGE_VAL}};
   hr2d_status status = hr2di_target_init(&s.given, scene, target, HR2D_DEFAULT_ERROR);
-  if (status) return status;
+  hr2di_share_begin(s.given.share);
+  status = hr2di_share_agree(s.given.share, status);
+  if (status) {
+    hr2di_target_clear(&s.given, scene);
+    return status;
+  }
   s.target = s.given;
   s.target.progress = watch;
   s.target.progress_ctx = &s;
-  hr2di_share_begin(s.given.share);
   if (s.given.seconds > 0) s.deadline = s.start + s.given.seconds;
   hr2di_watch watch_of;
   hr2di_scene_watch(scene, &watch_of, watch, &s, "refine");

@@ -47,7 +47,10 @@ hr2d_status hr2di_target_init(hr2d_target *used, const hr2d_scene *scene,
   *used = (hr2d_target)HR2D_TARGET_INIT;
   hr2d_status status = hr2di_sized_copy(used, sizeof *used, given);
   if (!status) status = check(scene, used);
-  if (status) return status;
+  if (status) {
+    used->important = NULL; /* the caller's */
+    return status;
+  }
   if (!(used->error > 0)) used->error = used->error < 0 ? 0 : default_error;
   if (!(used->floor > 0)) used->floor = HR2D_FLOOR;
   return sort_patches(used, scene);

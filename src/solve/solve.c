@@ -31,10 +31,6 @@ static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *
     return hr2di_message_fail(message, HR2D_EUNSUPPORTED,
                               "values from outside do not tell the temperatures of patches of "
                               "given flux in several bands");
-  if (links->share && hr2di_scene_is_unsettled(links->hierarchy->scene))
-    return hr2di_message_fail(message, HR2D_EUNSUPPORTED,
-                              "temperatures of patches of given flux in several bands are not "
-                              "found by shares");
   if (links->counts.elements == 0)
     return hr2di_message_fail(message, HR2D_ESTATE, "the link set was never refined");
   return HR2D_OK;

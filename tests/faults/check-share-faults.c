@@ -23,6 +23,7 @@ typedef struct own {
 typedef struct plan {
   slow_kind kind;
   size_t patches;
+  int heated;     /* in the place of the kind */
   double error;   /* of a target; 0: a solve by ε at order 2 */
   double seconds; /* budgets */
   uint64_t max_links;
@@ -101,7 +102,8 @@ static void work(hr2d_share *share, void *ctx) {
   const hr2d_allocator hooks = test_hooks(&o->memory);
   asked a = {p, share->number};
   hr2d_scene *scene = test_new_scene(&hooks);
-  hr2d_status status = slow_add(scene, p->kind, p->patches);
+  hr2d_status status =
+      p->heated ? slow_add_heated(scene) : slow_add(scene, p->kind, p->patches);
   if (!status) status = hr2d_scene_commit(scene);
   if (status) abort();
   if (p->fails_at >= 0 && share->number == p->victim)
@@ -125,11 +127,13 @@ static plan make_plan(int kind) {
       {.kind = SLOW_SQUARES, .patches = 20, .error = 1e-2, .fails_at = -1, .stops_at = -1},
       {.kind = SLOW_ROUND, .patches = 260, .error = 1e-3, .fails_at = -1, .stops_at = -1},
       {.kind = SLOW_CITY, .patches = 20, .fails_at = -1, .stops_at = -1},
+      {.heated = 1, .error = 1e-1, .fails_at = -1, .stops_at = -1},
+      {.heated = 1, .fails_at = -1, .stops_at = -1},
   };
   return plans[kind];
 }
 
-enum { PLANS = 3 };
+enum { PLANS = 5 };
 
 /* The first places one by one, later ones in steps that grow with the place. */
 static long next_place(long at) {
@@ -182,12 +186,13 @@ START_TEST(budgets_end) {
   expect_the_same(&p);
   ck_assert_int_eq(p.of[0].status, p.error > 0 ? HR2D_EACCURACY : HR2D_OK);
   p.max_links = 0;
-  for (int k = 0; k < 8 && p.error > 0; k++) {
+  for (unsigned k = 0; k < test_rounds(8, 2) && p.error > 0; k++) {
     p.seconds = k ? 2e-3 * (1 << k) : 1e-9;
     shares_run(SHARES, work, &p);
     expect_the_same(&p);
     ck_assert(p.of[0].status == HR2D_OK || p.of[0].status == HR2D_EACCURACY);
-    ck_assert_uint_gt(p.of[0].values, 0);
+    /* Temperatures may need more time than there is. */
+    ck_assert(p.heated || p.of[0].values > 0);
   }
 }
 END_TEST

@@ -52,6 +52,21 @@ whole "panels at points" "$scenes/solar-panels.geojson" --target-error 1e-2 --no
 whole "furnace of order 4" "$scenes/furnace-enclosure.geojson" --order 4 --eps 0.3
 whole "partition of order 2" "$scenes/partition.geojson" --order 2 --eps 0.4 --no-closure
 whole "brightness" "$scenes/lit-room.geojson" --oracle bf --multigrid 0.5:0.5 --eps 0.1
+cat >"$work/heated.geojson" <<'END'
+{"type": "FeatureCollection", "hr2d": {"wavelengths": [3, 8]}, "features": [
+{"type": "Feature", "properties": {"temperature": 1500, "emissivity": [0.3, 0.5, 0.9]},
+ "geometry": {"type": "LineString", "coordinates": [[0, 0], [4, 0]]}},
+{"type": "Feature", "properties": {"flux": 0, "emissivity": [0.9, 0.5, 0.2]},
+ "geometry": {"type": "LineString", "coordinates": [[4, 0], [4.5, 3]]}},
+{"type": "Feature", "properties": {"temperature": 500, "emissivity": [0.1, 0.5, 0.7]},
+ "geometry": {"type": "LineString", "coordinates": [[4.5, 3], [0, 3]]}},
+{"type": "Feature", "properties": {"flux": -2000, "emissivity": [0.4, 0.8, 0.9]},
+ "geometry": {"type": "LineString", "coordinates": [[0, 3], [0, 0]]}},
+{"type": "Feature", "properties": {"flux": 300, "emissivity": [0.7, 0.2, 0.4]},
+ "geometry": {"type": "LineString", "coordinates": [[2, 1], [2, 2]]}}]}
+END
+whole "temperatures to 1e-4" "$work/heated.geojson" --target-error 1e-4
+whole "temperatures of order 1" "$work/heated.geojson" --eps 0.2 --no-error
 ranks 2 "$program" solve "$scenes/lit-room.geojson" --eps 0.2 --no-error --quiet --csv "$work/two.csv"
 "$HR2D_PROGRAM" solve "$scenes/lit-room.geojson" --eps 0.2 --no-error --quiet --csv "$work/one.csv"
 check "leaves as CSV" [ "$(wc -l <"$work/two.csv")" = "$(wc -l <"$work/one.csv")" ]
@@ -85,6 +100,7 @@ says 2 "has no --watch" solve "$room" --watch "$work/film.png"
 hear
 says 1 "cannot open" solve "$work/nothing"
 says 1 "more than 100 links are needed" solve "$room" --max-links 100
+says 1 "solve without --state" solve "$work/heated.geojson" --state "$work/state"
 says 1 "at most" solve "$room" --target-error 1e-30
 hear
 

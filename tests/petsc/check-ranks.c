@@ -226,6 +226,30 @@ static PetscErrorCode run(const petsc_case *c, const hr2d_scene *scene, int *fai
   PetscFunctionReturn(0);
 }
 
+/* Temperatures that divide what a patch emits among bands are not found by an hr2dp. */
+static PetscErrorCode refuse_spectra(int *failed) {
+  PetscFunctionBegin;
+  static const double wavelength[] = {3}, emissivity[] = {0.5, 0.9};
+  hr2d_scene *scene = NULL;
+  hr2dp *p = NULL;
+  hr2d_patch patch = HR2D_PATCH_INIT;
+  hr2d_thermal heat = HR2D_THERMAL_INIT;
+  patch.b.x = 1;
+  heat.given = HR2D_HEAT_FLUX;
+  heat.emissivity = emissivity;
+  heat.emissivity_bands = 2;
+  PetscCheck(
+      !hr2d_scene_create(NULL, &scene) && !hr2d_scene_set_wavelengths(scene, wavelength, 1) &&
+          !hr2d_scene_add_thermal(scene, &patch, &heat, NULL) && !hr2d_scene_commit(scene),
+      PETSC_COMM_SELF, PETSC_ERR_LIB, "no scene");
+  PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
+  if (!hr2dp_create(PETSC_COMM_WORLD, scene, NULL, &p)) *failed = 1;
+  PetscCall(PetscPopErrorHandler());
+  PetscCall(hr2dp_destroy(&p));
+  hr2d_scene_destroy(scene);
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv) {
   int failed = 0;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
@@ -236,6 +260,7 @@ int main(int argc, char **argv) {
     PetscCall(run(petsc_case_at(k), scene, &failed));
     hr2d_scene_destroy(scene);
   }
+  PetscCall(refuse_spectra(&failed));
   PetscCallMPI(MPI_Bcast(&failed, 1, MPI_INT, 0, PETSC_COMM_WORLD));
   PetscCall(PetscFinalize());
   return failed;

@@ -122,6 +122,33 @@ hr2d_status slow_add(hr2d_scene *scene, slow_kind kind, size_t count) {
   return a.status;
 }
 
+hr2d_status slow_add_heated(hr2d_scene *scene) {
+  static const double wavelength[] = {3, 8};
+  static const struct {
+    hr2d_segment at;
+    hr2d_heat given;
+    double value, e[3];
+  } walls[] = {{{{0, 0}, {4, 0}}, HR2D_HEAT_TEMPERATURE, 1500, {.3, .5, .9}},
+               {{{4, 0}, {4.5, 3}}, HR2D_HEAT_FLUX, 0, {.9, .5, .2}},
+               {{{4.5, 3}, {0, 3}}, HR2D_HEAT_TEMPERATURE, 500, {.1, .5, .7}},
+               {{{0, 3}, {0, 0}}, HR2D_HEAT_FLUX, -2000, {.4, .8, .9}},
+               {{{2, 1}, {2, 2}}, HR2D_HEAT_FLUX, 300, {.7, .2, .4}},
+               {{{2, 2}, {2, 1}}, HR2D_HEAT_FLUX, 0, {.6, .6, .1}}};
+  hr2d_status status = hr2d_scene_set_wavelengths(scene, wavelength, 2);
+  for (size_t k = 0; k < sizeof walls / sizeof *walls && !status; k++) {
+    hr2d_patch patch = HR2D_PATCH_INIT;
+    patch.a = walls[k].at.a;
+    patch.b = walls[k].at.b;
+    hr2d_thermal heat = HR2D_THERMAL_INIT;
+    heat.given = walls[k].given;
+    heat.value = walls[k].value;
+    heat.emissivity = walls[k].e;
+    heat.emissivity_bands = 3;
+    status = hr2d_scene_add_thermal(scene, &patch, &heat, NULL);
+  }
+  return status;
+}
+
 hr2d_status slow_add_crossing(hr2d_scene *scene, size_t count) {
   adder a = {scene, HR2D_OK, 2};
   const double length = 3 / sqrt((double)count);

@@ -22,6 +22,9 @@ const char *slow_name(slow_kind kind);
  */
 hr2d_status slow_add(hr2d_scene *scene, slow_kind kind, size_t count);
 
+/* Adds a room with walls of given temperature and of given flux in three bands. */
+hr2d_status slow_add_heated(hr2d_scene *scene);
+
 /* Adds `count` segments of which many cross. */
 hr2d_status slow_add_crossing(hr2d_scene *scene, size_t count);
 

@@ -30,7 +30,7 @@ typedef struct kind {
   double error; /* of a target; 0: a solve by ε */
   double epsilon, from;
   unsigned order;
-  int ordered, no_closure, sup;
+  int ordered, no_closure, sup, heated;
   uint64_t solves; /* at least */
   const hr2d_oracle *(*oracle)(void);
 } kind;
@@ -53,6 +53,9 @@ static const kind kinds[] = {
     {"no closure", "solar-panels.geojson", .epsilon = 0.3, .order = 3, .no_closure = 1},
     {"l1", "lit-room.geojson", .epsilon = 1e-3, .order = 2, .oracle = hr2d_oracle_l1},
     {"panels of order 1", "solar-panels.geojson", .epsilon = 0.3, .order = 1},
+    {"temperatures", NULL, .heated = 1, .error = 1e-3},
+    {"temperatures of order 1", NULL, .heated = 1, .epsilon = 0.3, .order = 1},
+    {"temperatures of order 3", NULL, .heated = 1, .epsilon = 0.4, .order = 3},
     {"city of order 2", NULL, SLOW_CITY, 60, .epsilon = 0.5, .order = 2},
 };
 
@@ -61,7 +64,9 @@ enum { KINDS = sizeof kinds / sizeof *kinds };
 static hr2d_scene *make(const kind *k) {
   if (k->file) return test_shipped_scene(k->file);
   hr2d_scene *scene = test_new_scene(NULL);
-  ck_assert_int_eq(slow_add(scene, k->slow, k->patches), HR2D_OK);
+  const hr2d_status status =
+      k->heated ? slow_add_heated(scene) : slow_add(scene, k->slow, k->patches);
+  ck_assert_int_eq(status, HR2D_OK);
   test_commit(scene);
   return scene;
 }
