@@ -74,6 +74,7 @@ SUITES = \
 	tests/unit/solve/check-gather-links \
 	tests/unit/solve/check-row-sums \
 	tests/unit/solve/check-adopt \
+	tests/unit/solve/check-image-scales \
 	tests/unit/solve/check-lengths \
 	tests/unit/refine/check-occlusion \
 	tests/unit/scene/check-effects \

@@ -117,8 +117,10 @@ void hr2di_symmetry_forget_weights(hr2di_symmetry *s) {
 }
 
 /* The extent of the patches, and of their images in a mirror along it, across a direction. */
-static double across(const hr2d_scene *scene, hr2d_point d) {
+static double across(const hr2d_scene *scene, hr2d_point period) {
   const hr2di_generators *by = &scene->symmetry.by;
+  const double size = hypot(period.x, period.y);
+  const hr2d_point d = {period.x / size, period.y / size};
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (size_t k = 0; k < scene->patches; k++) {
     const hr2d_segment s = scene->patch[k].given;
@@ -128,13 +130,13 @@ static double across(const hr2d_scene *scene, hr2d_point d) {
   }
   for (size_t m = 0; m < by->mirrors; m++) {
     const hr2d_point u = by->along[m];
-    if (fabs(d.x * u.x + d.y * u.y) < 0.5 * hypot(d.x, d.y)) continue;
+    if (fabs(d.x * u.x + d.y * u.y) < 0.5) continue;
     const double at = d.x * by->at[m].y - d.y * by->at[m].x;
     const double reach = fmax(fabs(high - at), fabs(low - at));
     high = at + reach;
     low = at - reach;
   }
-  return (high - low) / hypot(d.x, d.y);
+  return high - low;
 }
 
 /* Light of direction s comes down through `height` while it runs height·|s·d|/|s×d| along d. */

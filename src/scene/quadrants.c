@@ -15,12 +15,11 @@ hr2di_quadrant hr2di_symmetry_quadrant(const hr2di_symmetry *s, hr2d_point x, in
   const double size = hypot(d.x, d.y);
   const hr2d_point along = {d.x / size, d.y / size}, across = {-along.y, along.x};
   const int out = end ? 1 : -1, up = above ? 1 : -1;
-  const double at = (d.x * x.y - d.y * x.x) / size;
-  /* `high` and `low` are along (−d.y, d.x) / |d|, as hr2di_scene_add_ends() sets them. */
+  const double at = across.x * x.x + across.y * x.y;
   return (hr2di_quadrant){.out = {out * along.x, out * along.y},
                           .up = {up * across.x, up * across.y},
                           .line = s->line[end] - out * (along.x * x.x + along.y * x.y),
-                          .border = above ? s->high / size - at : at - s->low / size,
+                          .border = above ? s->high - at : at - s->low,
                           .period = size};
 }
 
@@ -45,7 +44,7 @@ int hr2di_sky_changes_past_ends(const hr2d_scene *scene, double *bearing) {
   const hr2di_symmetry *s = &scene->symmetry;
   const hr2d_point d = s->by.period;
   const double size = hypot(d.x, d.y);
-  const double slope = (s->high - s->low) / size / (s->copies * size);
+  const double slope = (s->high - s->low) / (s->copies * size);
   for (size_t k = 0; k < 2 * scene->sky.pieces; k++) {
     const hr2d_sky_piece *p = &scene->sky.piece[k / 2];
     *bearing = k % 2 ? p->to : p->from;
@@ -60,7 +59,7 @@ int hr2di_sky_changes_past_ends(const hr2d_scene *scene, double *bearing) {
 hr2d_point hr2di_symmetry_home(const hr2di_symmetry *s, hr2d_point x) {
   const hr2d_point d = s->by.period;
   const double size = hypot(d.x, d.y);
-  const double along = (d.x * x.x + d.y * x.y) / size, middle = (s->line[1] - s->line[0]) / 2;
+  const double along = d.x / size * x.x + d.y / size * x.y, middle = (s->line[1] - s->line[0]) / 2;
   const double periods = round((along - middle) / size);
   return (hr2d_point){x.x - periods * d.x, x.y - periods * d.y};
 }

@@ -231,10 +231,10 @@ static hr2d_status add_images_before(hr2d_scene *scene, const end *e, double low
 hr2d_status hr2di_scene_add_ends(hr2d_scene *scene, hr2di_watch *watch) {
   hr2di_symmetry *s = &scene->symmetry;
   const hr2d_point d = s->by.period;
-  const extent high = extent_along(scene, (hr2d_point){-d.y, d.x});
-  s->low = high.low;
-  s->high = high.high;
   const double size = hypot(d.x, d.y), far = (s->copies + 1) * size;
+  const extent strip = extent_along(scene, (hr2d_point){-d.y / size, d.x / size});
+  s->low = strip.low;
+  s->high = strip.high;
   extent *covered = hr2di_alloc(&scene->alloc, scene->patches, sizeof *covered);
   hr2d_status status = covered ? HR2D_OK : HR2D_ENOMEM;
   for (int sign = 1; sign >= -1 && !status; sign -= 2) {
