@@ -121,11 +121,16 @@ static hr2d_status read_elements(loading *l) {
   return HR2D_OK;
 }
 
-/* An exchange area is at most the length of the shorter element, within rounding. */
-static int is_link(const hr2d_hierarchy *h, hr2d_pair pair, double area) {
+/* An exchange area is at most the length of the shorter element, within rounding.  Images that
+   stand for others have a weight besides, which may be negative. */
+static int is_link(const hr2d_hierarchy *h, hr2d_pair pair, int directed, double area) {
   if (pair.first >= h->elements || pair.second >= h->elements) return 0;
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
-  return i->patch != j->patch && area >= 0 && area <= 1.01 * fmin(i->length, j->length);
+  const double most = 1.01 * fmin(i->length, j->length),
+               weight =
+                   hr2di_symmetry_weight(&h->scene->symmetry, i->patch, j->patch, directed);
+  return i->patch != j->patch && area >= fmin(weight, 0) * most &&
+         area <= fmax(weight, 1) * most;
 }
 
 static hr2d_status read_links(loading *l) {
@@ -138,7 +143,8 @@ static hr2d_status read_links(loading *l) {
     if (r->status) return r->status;
     const hr2d_status asked = declare(l, k, 16);
     if (asked) return asked;
-    if (!is_link(l->links->hierarchy, pair, area)) return damaged(l, "a link");
+    if (!is_link(l->links->hierarchy, pair, l->head.directed != 0, area))
+      return damaged(l, "a link");
     if (hr2di_store_add(&l->store, &l->links->alloc, &pair, &area, 1))
       return hr2di_message_fail(&l->links->message, HR2D_ENOMEM,
                                 "out of memory after %llu links", (unsigned long long)k);

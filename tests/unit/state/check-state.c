@@ -290,6 +290,37 @@ START_TEST(a_state_belongs_to_its_scene_and_method) {
 }
 END_TEST
 
+/* Plates that see for ever: links with images that are extrapolated may be negative. */
+static test_links endless_plates(void) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  test_add_patch(scene, (hr2d_segment){{0, 0}, {1, 0}}, 1, .5, HR2D_SIDES_FRONT);
+  test_add_patch(scene, (hr2d_segment){{1, 1}, {0, 1}}, 0, .7, HR2D_SIDES_FRONT);
+  ck_assert_int_eq(hr2d_scene_set_period(scene, (hr2d_point){1, 0}), HR2D_OK);
+  test_commit(scene);
+  return test_make_links(scene, NULL, NULL, NULL, NULL);
+}
+
+START_TEST(states_of_a_period_are_read) {
+  test_links one = endless_plates(), other = endless_plates();
+  hr2d_solution *a = stage(&one, .4, NULL), *b = NULL;
+  tape t = write_tape(a);
+  int negative = 0;
+  for (uint64_t k = 0; k < hr2d_linkset_size(one.links); k++)
+    negative |= hr2d_linkset_get(one.links, k).exchange_area < 0;
+  ck_assert(negative);
+  ck_assert_int_eq(hr2d_state_read(other.links, tape_play, &t, &b), HR2D_OK);
+  same(&one, a, &other, b);
+  a = stage(&one, .1, a);
+  b = stage(&other, .1, b);
+  same(&one, a, &other, b);
+  hr2d_solution_destroy(a);
+  hr2d_solution_destroy(b);
+  test_free_links(&one);
+  test_free_links(&other);
+  free(t.byte);
+}
+END_TEST
+
 START_TEST(callbacks_may_fail_and_may_not_interfere) {
   tape t = plain_tape();
   const hr2d_status failures[] = {HR2D_STOPPED, HR2D_EIO, HR2D_ESYNTAX, (hr2d_status)77};
@@ -414,6 +445,7 @@ TEST_SUITE("state") {
   REPEAT_TESTS(sizeof names / sizeof *names, "all", going_on_from_a_state_gives_the_same_bits);
   ADD_TESTS("all", a_damaged_state_is_refused, a_state_that_was_made_up_does_no_harm,
             a_state_belongs_to_its_scene_and_method, a_state_of_a_half_is_not_one_of_the_whole,
-            callbacks_may_fail_and_may_not_interfere, a_solution_to_a_target_has_no_state,
-            claims_take_no_memory, any_allocation_may_fail);
+            states_of_a_period_are_read, callbacks_may_fail_and_may_not_interfere,
+            a_solution_to_a_target_has_no_state, claims_take_no_memory,
+            any_allocation_may_fail);
 }
