@@ -26,6 +26,7 @@ SOLVE_SOURCES = \
 	tools/cli/scene.c tools/cli/scene.h \
 	tools/cli/values.c tools/cli/values.h \
 	tools/cli/warnings.c tools/cli/warnings.h \
+	tools/run/all-links.c \
 	tools/run/heat.c \
 	tools/run/leaves.c tools/run/leaves.h \
 	tools/run/run.c tools/run/run.h \

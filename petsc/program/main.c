@@ -37,6 +37,9 @@ static const char help[] =
     "Output:\n"
     "  --json FILE|-     the result as JSON; - is standard output\n"
     "  --csv FILE|-, --at PATCH:T, --draw FILE, --error, --no-error  as of hr2d solve\n"
+    "  --no-fill, --contours N, --arrows, --log, --links-of PATCH:T, --link-level K,\n"
+    "  --link-parents, --beams-of PATCH:T  what the picture shows, as of hr2d solve\n"
+    "  --watch FILE      a film (.png) of elements, links and light as E falls\n"
     "  --quiet           no table, no progress\n"
     "  --help, --version\n";
 
@@ -55,16 +58,9 @@ int job_complain(const job *j, PetscErrorCode code) {
   return complain(j->options->scene, "%s", specific && *specific ? specific : general);
 }
 
-/* What hr2d solve has and this program has not. */
 static int check_options(const options *o) {
-  const struct {
-    int given;
-    const char *name;
-  } missing[] = {{o->watch != NULL, "watch"}, {o->links_of.patch != NULL, "links-of"}};
   if (o->command != SOLVE) return complain_usage("the only command is solve");
-  for (size_t k = 0; k < sizeof missing / sizeof *missing; k++)
-    if (missing[k].given) return complain_usage("hr2d-mpi has no --%s", missing[k].name);
-  const int status = o->draw ? draw_check(o->draw) : 0;
+  const int status = o->draw ? draw_check(o->draw) : o->watch ? draw_check(o->watch) : 0;
   return status ? status : options_check_outputs(o);
 }
 

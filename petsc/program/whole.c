@@ -18,7 +18,7 @@ int job_is_whole(const options *o, const hr2d_scene *scene) {
   /* Brightness of a former stage is that of all its elements. */
   const int lit = o->oracle->flags & HR2D_ORACLE_NEEDS_BRIGHTNESS && o->multigrid.ratio > 0;
   return lit || options_targeted(o) || o->order > 1 || o->at.count > 0 || o->csv || o->draw ||
-         o->error || has_spectra(scene);
+         o->watch || o->error || has_spectra(scene);
 }
 
 int job_solve_whole(job *j) {

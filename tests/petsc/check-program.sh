@@ -9,6 +9,7 @@
 : "${HR2D_PROGRAM:=$HR2D_BUILDDIR/tools/hr2d}"
 program=$HR2D_BUILDDIR/hr2d-mpi
 scenes=$HR2D_SRCDIR/examples/scenes
+room=$scenes/lit-room.geojson
 
 rooms="lit-room solar-panels partition furnace-enclosure"
 count=0
@@ -74,6 +75,41 @@ ranks 2 "$program" solve "$scenes/partition.geojson" --time-budget 0.5 --json "$
   >"$work/out" 2>"$work/errors"
 check "a budget of time ends: $(cat "$work/errors")" grep -q '"solve"' "$work/two"
 
+# ---- pictures and films: those of hr2d solve, byte by byte
+draws() { # draws FORMAT ARGUMENTS...
+  form=$1
+  shift
+  for n in 1 3; do
+    aside $n ranks $n "$program" solve "$@" "$work/ranks$n.$form" --quiet --no-error
+  done
+  "$HR2D_PROGRAM" solve "$@" "$work/one.$form" --quiet --no-error
+  for n in 1 3; do
+    finish $n
+    check "$* on $n ranks: $(cat "$work/$n.errors")" cmp "$work/one.$form" "$work/ranks$n.$form"
+  done
+}
+if "$HR2D_PROGRAM" solve "$room" --eps 1 --quiet --no-error --draw "$work/try.svg" 2>"$work/errors"; then
+  draws svg "$room" --eps 0.2 --links-of 1:0.3 --no-fill --draw
+  draws svg "$scenes/partition.geojson" --eps 0.3 --order 2 --links-of 2:0.6 --beams-of 1:0.5 --draw
+  draws svg "$scenes/par-near.geojson" --eps 0.1 --variant modified --links-of 0:0.4 \
+    --link-level 3 --link-parents --no-fill --draw
+  draws svg "$scenes/solar-panels.geojson" --target-error 1e-2 --links-of 1:0.5 --arrows --draw
+  draws png "$room" --eps 0.2 --watch
+  check "a picture without links differs" eval '! cmp -s "$work/one.svg" "$work/try.svg"'
+else
+  check "built without cairo: $(cat "$work/errors")" [ -z "${HR2D_NEED_PETSC-}" ]
+fi
+
+# ---- no option of hr2d solve is missing
+options_of() { # options_of PROGRAM: the names in its help
+  "$1" solve --help | grep -oE -e '--[a-z][a-z-]*' | sort -u
+}
+options_of "$HR2D_PROGRAM" >"$work/wanted"
+options_of "$program" >"$work/named"
+check "hr2d-mpi has all options: $(comm -23 "$work/wanted" "$work/named" | tr '\n' ' ')" \
+  [ -z "$(comm -23 "$work/wanted" "$work/named")" ]
+check "there are some" [ "$(wc -l <"$work/wanted")" -gt 20 ]
+
 # ---- what is wrong is said by one rank
 said=0
 says() { # says STATUS TEXT ARGUMENTS...: begins it; mpirun adds lines of its own
@@ -93,10 +129,8 @@ hear() { # all that is to be said
     said=$((said - 1))
   done
 }
-room=$scenes/lit-room.geojson
 says 2 "unknown option '--epss'" solve "$room" --epss 1
 says 2 "the only command is solve" info "$room"
-says 2 "has no --watch" solve "$room" --watch "$work/film.png"
 hear
 says 1 "cannot open" solve "$work/nothing"
 says 1 "more than 100 links are needed" solve "$room" --max-links 100

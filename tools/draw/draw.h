@@ -19,7 +19,7 @@ int draw_check_scene(const options *o, const hr2d_scene *scene);
 int draw_run(const run *r, const char *path);
 
 /* watch.c: an animation for falling epsilon, of elements, links and light; `r` is the run with
-   --eps.  Returns 0 or the exit status. */
+   --eps.  All shares call it, and the first one draws.  Returns 0 or the exit status. */
 int draw_watch(const run *r, const char *path);
 
 #endif

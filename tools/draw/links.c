@@ -45,26 +45,13 @@ static int on_path(const picture *p, uint32_t element) {
   return 0;
 }
 
-/* Links to images of mirrors and periods are not drawn: only the cell is. */
-static int is_drawn(const picture *p, const hr2d_element *elements, hr2d_pair pair) {
-  const size_t patches = hr2d_scene_patches(p->run->scene);
-  return elements[pair.first].patch < patches && elements[pair.second].patch < patches;
-}
-
 /* Calls visit(near, far) for each link of the point; `near` is on the patch of the point. */
 static int each_link(picture *p, int (*visit)(picture *, uint32_t near, uint32_t far)) {
-  const uint64_t count = hr2d_linkset_size(p->run->links);
-  const hr2d_element *elements = hr2d_hierarchy_elements(p->run->hierarchy);
-  const uint32_t patch = elements[p->path[0]].patch;
+  const run_links *links = &p->run->point_links;
   int status = 0;
-  for (uint64_t k = 0; !status && k < count; k++) {
-    const hr2d_pair pair = hr2d_linkset_get(p->run->links, k).pair;
-    if (!is_drawn(p, elements, pair)) continue;
-    if (elements[pair.first].patch == patch && on_path(p, pair.first))
-      status = visit(p, pair.first, pair.second);
-    else if (elements[pair.second].patch == patch && on_path(p, pair.second))
-      status = visit(p, pair.second, pair.first);
-  }
+  for (size_t k = 0; !status && k < links->count; k++)
+    if (on_path(p, links->items[k].near))
+      status = visit(p, links->items[k].near, links->items[k].far);
   return status;
 }
 

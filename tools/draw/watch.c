@@ -35,6 +35,7 @@ typedef struct bytes {
 } bytes;
 
 typedef struct watch {
+  run_links links;  /* of the frame */
   const run *whole; /* the run with --eps, which sets the scale of colours */
   picture page;     /* of the whole run; both panels have its scale */
   apng film;
@@ -93,21 +94,21 @@ static void set_page(picture *p) {
   place_panel(p, 1);
 }
 
-static void draw_links(const picture *p) {
-  const uint64_t count = hr2d_linkset_size(p->run->links);
-  const size_t patches = hr2d_scene_patches(p->run->scene);
+static uint64_t count_links(const run *r) {
+  return hr2d_linkset_counts(r->links).links;
+}
+
+static void draw_links(const picture *p, const run_links *links) {
+  const uint64_t count = count_links(p->run);
   const hr2d_element *elements = hr2d_hierarchy_elements(p->run->hierarchy);
   const double ink = fmin(0.7, fmax(0.15, MOST_INK / sqrt((double)count + 1)));
   const colour c = palette_ember(0.5);
   pen_colour(p->cr, (colour){1 - ink * (1 - c.r), 1 - ink * (1 - c.g), 1 - ink * (1 - c.b)});
   cairo_set_antialias(p->cr, CAIRO_ANTIALIAS_NONE);
   cairo_set_line_width(p->cr, 1 / PIXELS);
-  for (uint64_t k = 0; k < count && count <= MOST_LINES; k++) {
-    const hr2d_pair pair = hr2d_linkset_get(p->run->links, k).pair;
-    if (elements[pair.first].patch >= patches || elements[pair.second].patch >= patches)
-      continue;
-    const hr2d_point a = layout_point(p, elements[pair.first].centre);
-    const hr2d_point b = layout_point(p, elements[pair.second].centre);
+  for (size_t k = 0; k < links->count; k++) {
+    const hr2d_point a = layout_point(p, elements[links->items[k].near].centre);
+    const hr2d_point b = layout_point(p, elements[links->items[k].far].centre);
     cairo_move_to(p->cr, a.x, a.y);
     cairo_line_to(p->cr, b.x, b.y);
     cairo_stroke(p->cr);
@@ -126,19 +127,19 @@ static void write_head(const picture *p, double epsilon) {
   pen_font(p->cr, 12, 0);
   pen_grey(p->cr, 0.3);
   snprintf(text, sizeof text, "%llu elements and %llu links", (unsigned long long)n.elements,
-           (unsigned long long)hr2d_linkset_size(p->run->links));
+           (unsigned long long)count_links(p->run));
   pen_write(p->cr, MARGIN, 58, text);
   pen_write(p->cr, 0.5 * WIDTH + MARGIN, 58, "the light that they give");
 }
 
 /* Room for the scene at its place on the page; of the light alone the raster is made. */
-static int draw_panel(picture *p, int second) {
+static int draw_panel(picture *p, const run_links *links, int second) {
   place_panel(p, second);
   int status = layout_strokes(p);
   if (!status && second) status = raster_make(p, 1 / PIXELS, FINE, &p->raster);
   if (!status && second) fill_draw(p);
   if (!status) images_draw(p);
-  if (!status && !second) draw_links(p);
+  if (!status && !second) draw_links(p, links);
   if (!status) status = bands_draw(p);
   free(p->strokes);
   free(p->raster.at);
@@ -159,8 +160,8 @@ static int draw_frame(watch *w, const run *r, double epsilon) {
   pen_grey(p.cr, 1);
   cairo_paint(p.cr);
   write_head(&p, epsilon);
-  int status = draw_panel(&p, 0);
-  if (!status) status = draw_panel(&p, 1);
+  int status = draw_panel(&p, &w->links, 0);
+  if (!status) status = draw_panel(&p, &w->links, 1);
   legend_draw_scale(&p);
   w->png.size = 0;
   cairo_status_t trouble = cairo_status(p.cr);
@@ -182,6 +183,7 @@ static int solve_frame(run *r, double epsilon) {
   refine.epsilon = epsilon;
   refine.threads = options_threads(r->options);
   refine.brightness = r->solution;
+  refine.share = r->share;
   hr2d_status status = hr2d_refine(r->own_links, &refine);
   solve.threads = options_threads(r->options);
   if (r->options->no_closure) solve.closure = HR2D_CLOSURE_OFF;
@@ -194,6 +196,16 @@ static int solve_frame(run *r, double epsilon) {
   return EXIT_DONE;
 }
 
+/* All shares have a part of the links; the first one draws. */
+static int add_frame(watch *w, const run *r, double epsilon, unsigned milliseconds) {
+  int status = count_links(r) <= MOST_LINES ? run_all_links(r, &w->links) : 0;
+  if (!status && run_is_first(r)) status = draw_frame(w, r, epsilon);
+  if (!status && run_is_first(r)) apng_add(&w->film, w->png.at, w->png.size, milliseconds);
+  free(w->links.items);
+  w->links = (run_links){NULL, 0};
+  return run_agree(r, status);
+}
+
 static int make_frames(watch *w, run *r) {
   const options *o = r->options;
   hr2d_status made = hr2d_hierarchy_create(r->scene, &r->own_hierarchy);
@@ -201,43 +213,50 @@ static int make_frames(watch *w, run *r) {
   if (!made)
     made =
         hr2d_linkset_create(r->own_hierarchy, o->oracle, NULL, o->policy, NULL, &r->own_links);
-  if (made) return complain_call(o->scene, "", made);
+  if (made) complain_call(o->scene, "", made);
+  if (run_agree(r, made ? EXIT_FAILED : EXIT_DONE)) return EXIT_FAILED;
   r->hierarchy = r->own_hierarchy;
   r->links = r->own_links;
   int status = EXIT_DONE;
   for (uint32_t k = 0; k < w->film.frames && !status; k++) {
     const double epsilon = k + 1 < w->film.frames ? epsilon_of(o, k) : o->epsilon;
     status = solve_frame(r, epsilon);
-    if (!status) status = draw_frame(w, r, epsilon);
-    if (!status)
-      apng_add(&w->film, w->png.at, w->png.size, k + 1 < w->film.frames ? SHOWN : LAST);
+    if (!status) status = add_frame(w, r, epsilon, k + 1 < w->film.frames ? SHOWN : LAST);
   }
   return status;
 }
 
 static int write_film(watch *w, const char *path) {
-  run r = {.options = w->whole->options, .scene = w->whole->scene};
-  output out;
-  int status = output_open(&out, path);
-  if (status) return status;
+  run r = {.options = w->whole->options,
+           .scene = w->whole->scene,
+           .shares = w->whole->shares,
+           .share = w->whole->share};
+  output out = {0};
+  const int first = run_is_first(&r), opened = first ? output_open(&out, path) : 0;
+  int status = run_agree(&r, opened);
+  if (status) return opened || !first ? status : output_close(&out, status);
   r.account.order = r.options->order;
   w->film = (apng){.stream = out.stream, .frames = count_frames(r.options)};
   status = make_frames(w, &r);
-  if (!status) apng_end(&w->film);
+  if (!status && first) apng_end(&w->film);
   run_release(&r);
-  return output_close(&out, status);
+  return first ? output_close(&out, status) : status;
 }
 
 /* The place of joints and the like is measured with text, as for a picture. */
+static int start_page(picture *p, const char *path) {
+  shade_choose(p);
+  p->levels = LEVELS;
+  p->filled = 1;
+  set_page(p);
+  if (!(isfinite(p->scale) && p->scale > 0))
+    return complain(path, "the scene is too small to draw");
+  return scale_choose(p);
+}
+
 int draw_watch(const run *r, const char *path) {
   watch w = {.whole = r, .page = {.run = r}};
-  shade_choose(&w.page);
-  w.page.levels = LEVELS;
-  w.page.filled = 1;
-  set_page(&w.page);
-  if (!(isfinite(w.page.scale) && w.page.scale > 0))
-    return complain(path, "the scene is too small to draw");
-  int status = scale_choose(&w.page);
+  int status = run_agree(r, run_is_first(r) ? start_page(&w.page, path) : EXIT_DONE);
   if (!status) status = write_film(&w, path);
   free(w.png.at);
   return status;

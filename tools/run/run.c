@@ -3,6 +3,7 @@
 #include "run/run.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <sys/resource.h>
 
 #include "output/clock.h"
@@ -120,6 +121,7 @@ int run_solve(run *r) {
 }
 
 void run_release(run *r) {
+  free(r->point_links.items);
   hr2d_solution_destroy(r->solution);
   hr2d_linkset_destroy(r->own_links);
   hr2d_hierarchy_destroy(r->own_hierarchy);
@@ -134,6 +136,14 @@ int run_compare_shares(run *r) {
   r->most_links = (uint64_t)most[0];
   r->most_bytes = (uint64_t)most[1];
   return 0;
+}
+
+int run_agree(const run *r, int status) {
+  double most = status;
+  if (!r->share) return status;
+  const hr2d_status failed =
+      r->share->combine(r->share->ctx, HR2D_OK, HR2D_COMBINE_MOST, &most, 1);
+  return failed ? EXIT_FAILED : (int)most;
 }
 
 double run_power_error(const hr2d_power *p) {

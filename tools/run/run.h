@@ -19,6 +19,16 @@ typedef struct run_shares {
   int (*save)(struct run *r);
 } run_shares;
 
+/* A link, from one of its elements to the other. */
+typedef struct run_link {
+  uint32_t near, far;
+} run_link;
+
+typedef struct run_links {
+  run_link *items;
+  size_t count;
+} run_links;
+
 typedef struct run {
   const options *options;
   const hr2d_scene *scene;
@@ -35,11 +45,12 @@ typedef struct run {
   hr2d_solution *solution;
   hr2d_hierarchy *own_hierarchy; /* NULL if the solution owns its hierarchy and links */
   hr2d_linkset *own_links;
-  hr2d_solve_work work; /* over all stages of multigridding */
-  hr2d_account account; /* order, L, seconds, and errors, NaN if unknown */
-  double resumed;       /* ε of the state that the run started from; 0: none */
-  double kept;          /* ε of the state in the file of --state; 0: none */
-  int inaccurate;       /* there is a solution, but its error is too large or unknown */
+  hr2d_solve_work work;  /* over all stages of multigridding */
+  hr2d_account account;  /* order, L, seconds, and errors, NaN if unknown */
+  double resumed;        /* ε of the state that the run started from; 0: none */
+  double kept;           /* ε of the state in the file of --state; 0: none */
+  run_links point_links; /* of --links-of: `near` holds the point */
+  int inaccurate;        /* there is a solution, but its error is too large or unknown */
 } run;
 
 /* Refines and solves a run that has its options, scene, places and start.  Returns 0, or the
@@ -52,6 +63,22 @@ void run_release(run *r);
 /* Learns what the share that has most has; all shares call it.  Returns 0 or the exit status.
  */
 int run_compare_shares(run *r);
+
+/* Whether this process reads and writes: it is alone, or the first of the shares. */
+static inline int run_is_first(const run *r) {
+  return !r->share || r->share->number == 0;
+}
+
+/* The largest of the exit statuses of all shares, which all call it. */
+int run_agree(const run *r, int status);
+
+/* all-links.c: all links of all shares but those of images, in any order; all shares call it,
+   and release the items.  Returns 0 or the exit status. */
+int run_all_links(const run *r, run_links *links);
+
+/* The links that serve the point of --links-of, if there is one, in an order that does not
+   depend on the number of shares; likewise. */
+int run_point_links(run *r);
 
 /* target.c: solves to the target error, or as well as the budget allows; otherwise like
    run_solve(). */

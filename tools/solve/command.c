@@ -42,24 +42,36 @@ static int check_heat(const run *r) {
   return status;
 }
 
-static int report(const run *r) {
+/* What the first share does alone. */
+static int write_outputs(const run *r, double total) {
   const options *o = r->options;
   int status = 0;
-  const double total = clock_seconds() - r->start;
   progress_end();
   if (options_want_table(o)) status = solve_print(r, total);
   if (o->csv && !status) status = solve_write_csv(r, o->csv);
   if (o->draw && !status) status = draw_run(r, o->draw);
-  if (o->watch && !status) status = draw_watch(r, o->watch);
   if (o->json && !status) status = solve_write_json(r, total, o->json);
-  return status ? status : check_heat(r);
+  return status;
+}
+
+static int report(run *r) {
+  const options *o = r->options;
+  const int first = run_is_first(r);
+  const double total = clock_seconds() - r->start;
+  int status = run_agree(r, run_point_links(r));
+  if (!status && first) status = write_outputs(r, total);
+  if (o->watch) {
+    status = run_agree(r, status);
+    if (!status) status = draw_watch(r, o->watch);
+  }
+  return status || !first ? status : check_heat(r);
 }
 
 static int run_and_report(run *r) {
   int status = run_solve(r);
   if (!status || r->inaccurate) {
     int reporting = run_compare_shares(r);
-    if (!reporting && (!r->share || r->share->number == 0)) reporting = report(r);
+    if (!reporting) reporting = report(r);
     if (!status) status = reporting;
   }
   run_release(r);
