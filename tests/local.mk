@@ -122,6 +122,7 @@ SUITES = \
 	tests/threads/check-threads \
 	tests/threads/check-team \
 	tests/faults/check-faults \
+	tests/faults/check-divided-faults \
 	tests/faults/check-share-faults \
 	tests/faults/check-faults-accuracy \
 	tests/faults/check-faults-callbacks \
