@@ -32,6 +32,7 @@ SUITES = \
 	tests/unit/scene/check-snap \
 	tests/unit/scene/check-sunlight \
 	tests/unit/scene/check-images \
+	tests/unit/scene/check-period-weights \
 	tests/unit/formats/check-geojson \
 	tests/unit/formats/check-memory \
 	tests/unit/formats/check-vs2 \

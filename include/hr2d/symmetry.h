@@ -27,21 +27,26 @@
  * In a period K images on each side are taken; commit doubles K until the patches see nothing
  * beyond. Where they can see for ever, as between two plates, the last images stand for those
  * that are cut off: exchange areas with image k are series in 1/k that begin with 1/k³, and
- * their sums are extrapolated. hr2d_solve_to() has what that may be off in its estimate and
- * bound; other calls have no account of it. One more gather at a point (solve.h) extrapolates
- * its own view, and no error has what that may be off: far images may show here and there past
- * the tip of a patch. The sky that shows there is extrapolated, too, and
- * has the light of the horizon; backs are what is left.
+ * their sums are extrapolated. Estimates and bounds of hr2d_solve_to() have what that may be
+ * off, of averages and at points: what the last term of the series adds, or what four other
+ * images say. For one vertex that hides images, of any number, the bound is derived; many that
+ * hide images to and fro are taken to be no worse. Other calls have no account of it.
+ *
+ * One more gather at a point (solve.h) extrapolates its own view, if it sees what is cut off.
+ * Past the tip of a patch that is oblique to the period that may be some percent of all it
+ * sees. The sky that shows there is extrapolated, too, and has the light of the horizon; backs
+ * are what is left.
  *
  * Points between the patches (field.h) have as many images as patches that see for ever,
  * because from above a street all roofs are seen. Angles under which image k is seen are series
  * that begin with 1/k². hr2d_field_values::cut_off receives the part of all directions that is
  * past the images, which is exact; so the light from there adds at most this part of the
- * largest radiosity to M. hr2d_field_values::error has an estimate of what extrapolation is
- * off. Where there is no series, as where the ground shows here and there through gaps of a row
- * of panels, or far above the scene, the light past the images is taken as that of the last
- * ones, and the error is its bound. Rows of points (hr2d_field_rows_visit()) are the same;
- * their sums may differ from 1 by what extrapolation is off.
+ * largest radiosity to M. hr2d_field_values::error has a bound of what extrapolation is off,
+ * derived as that of hr2d_solve_to(), and no more than that part allows. Where there is no
+ * series, as where the ground shows here and there through gaps of a row of panels, or far above
+ * the scene, the light past the images is taken as that of the last ones, and the error is all
+ * that may be there. Rows of points (hr2d_field_rows_visit()) are the same; their sums may
+ * differ from 1 by what extrapolation is off.
  *
  * Images in a mirror that is not parallel to an axis are rounded: their ends are off by some
  * 2⁻⁵⁰ of the largest coordinate. Errors of the account are those of the rounded scene; a patch

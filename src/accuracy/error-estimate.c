@@ -11,6 +11,7 @@
 #include "accuracy/estimator.h"
 #include "accuracy/gap-residuals.h"
 #include "accuracy/importance.h"
+#include "accuracy/period-residuals.h"
 #include "accuracy/residual-series.h"
 #include "accuracy/resolution.h"
 #include "accuracy/rounding-bound.h"
@@ -28,20 +29,20 @@
 #define HIDDEN 7
 /* Points are sampled, and coefficients show less of B than of averages. */
 #define POINTS 3
-/* The bound has so many times what terms of the series of a period show, besides.  A vertex
-   that hides an image from some number on makes a step, which terms show in part: in three
-   of 1,600 random scenes up to twice the margin was hidden, of about 10. */
-#define STEPS 30
 /* The part of the errors without signs that may be left where signs cancel: what K⁺ does not
    see of them, which was 0.107 at order 2 and falls with the order. */
 #define SIGNS     0.1
 #define SIGNS_LOW 0.4
 
+/* What errors count: those that coefficients show, those of a period that is cut off, and at
+   most, those of points beside gaps, and roundings. */
+typedef struct factors {
+  double error, past, past_most, narrow, rounding;
+} factors;
+
 /* The largest error of an average of B or H, relative to the average as corrected by it, or to
-   the floor: factor·|error| + `more`, if that is not NULL, and then relative to the least that
-   the average may be. */
-static double worst_average(const hr2di_estimator *e, int irradiance, double factor,
-                            const double *more) {
+   the floor; with roundings relative to the least that the average may be. */
+static double worst_average(const hr2di_estimator *e, int irradiance, factors f) {
   const size_t bands = e->eq.transport.bands, patches = e->values / bands;
   double worst = 0;
   for (size_t b = 0; b < bands; b++) {
@@ -51,23 +52,27 @@ static double worst_average(const hr2di_estimator *e, int irradiance, double fac
       const size_t at = k * bands + b;
       const double error = e->average[irradiance][at],
                    is = hr2di_estimator_value(e, irradiance, k, b);
-      const double sum = factor * fabs(error) + (more ? fabs(more[at]) : 0);
-      const double least = more ? is - sum : is + error;
+      const double past = e->tail ? f.past * e->past[irradiance][at] : 0;
+      const double most = e->tail ? f.past_most * e->past_most[irradiance][at] : 0;
+      const double more = f.rounding > 0 ? f.rounding * fabs(e->rounding[irradiance][at]) : 0;
+      const double sum = fmax(f.error * fabs(error), past) + more + most;
+      const double least = f.rounding > 0 ? is - sum : is + error;
       if (sum > 0) worst = fmax(worst, sum / fmax(least, floor));
     }
   }
   return worst;
 }
 
-/* The largest error at a point, relative to the largest value of the band: `factor` times what
-   coefficients show, or `narrow` times what gaps make, and `rounding` times roundings. */
-static double worst_point(const hr2di_estimator *e, int irradiance, double factor,
-                          double narrow, double rounding) {
+/* The largest error at a point, relative to the largest value of the band: what coefficients
+   show or what gaps make, and the rest. */
+static double worst_point(const hr2di_estimator *e, int irradiance, factors f) {
   double worst = 0;
   for (size_t b = 0; b < e->eq.transport.bands; b++) {
     const double error =
-        fmax(factor * e->point[irradiance][b], narrow * e->narrow[irradiance][b]);
-    const double sum = error + rounding * e->stray[irradiance][b];
+        fmax(f.error * e->point[irradiance][b], f.narrow * e->narrow[irradiance][b]);
+    const double past = e->tail ? f.past * e->far[irradiance][b] : 0;
+    const double most = e->tail ? f.past_most * e->far_most[irradiance][b] : 0;
+    const double sum = fmax(error, past) + f.rounding * e->stray[irradiance][b] + most;
     if (sum > 0) worst = fmax(worst, sum / e->largest[irradiance][b]);
   }
   return worst;
@@ -91,15 +96,20 @@ static int reflects_light(const hr2di_estimator *e) {
 /* Estimates of averages, which are off by no less than `doubt`. */
 static void estimate_averages(const hr2di_estimator *e, hr2di_error_pair *errors) {
   const double unknown = HUGE_VAL, of_h = reflects_light(e) ? e->doubt : 0;
-  errors->cut_off = e->cut_off;
-  errors->average = (hr2d_error){fmax(worst_average(e, 0, 1, NULL), e->doubt), unknown};
-  errors->irradiance = (hr2d_error){fmax(worst_average(e, 1, 1, NULL), of_h), unknown};
+  const factors all = {.error = 1, .past = 1}, past = {.past = 1};
+  for (int h = 0; h < 2 && e->tail; h++) {
+    errors->cut_off[0] = fmax(errors->cut_off[0], worst_average(e, h, past));
+    errors->cut_off[1] = fmax(errors->cut_off[1], worst_point(e, h, past));
+  }
+  errors->average = (hr2d_error){fmax(worst_average(e, 0, all), e->doubt), unknown};
+  errors->irradiance = (hr2d_error){fmax(worst_average(e, 1, all), of_h), unknown};
   errors->sup = errors->irradiance_sup = (hr2d_error){unknown, unknown};
 }
 
 static hr2d_status measure_averages(hr2di_estimator *e, hr2di_error_pair *errors) {
   hr2di_residual_set(e);
-  hr2d_status status = reflects_light(e) ? hr2di_residual_solve(e) : HR2D_OK;
+  hr2d_status status = hr2di_period_residuals(e);
+  if (!status && reflects_light(e)) status = hr2di_residual_solve(e);
   if (!status) status = hr2di_residual_measure(e);
   if (!status) status = hr2di_transport_status(&e->eq.transport);
   if (!status) estimate_averages(e, errors);
@@ -118,20 +128,25 @@ static hr2d_status measure_rest(hr2di_estimator *e, hr2di_error_pair *errors) {
   if (status) return status;
   const double level = eq->balance.count > 0 ? HR2DI_ESTIMATOR_ROUNDING : 0;
   for (int h = 0; h < 2; h++) {
-    const double average_off = worst_average(e, h, 0, e->rounding[h]) + level;
+    const factors off = {.rounding = 1};
+    const double average_off = worst_average(e, h, off) + level;
     errors->rounding[0] = fmax(errors->rounding[0], fmax(average_off, e->doubt));
     errors->rounding[1] =
-        fmax(errors->rounding[1], fmax(worst_point(e, h, 0, 0, 1) + level, e->doubt));
+        fmax(errors->rounding[1], fmax(worst_point(e, h, off) + level, e->doubt));
   }
   hr2d_error *const average[] = {&errors->average, &errors->irradiance};
   hr2d_error *const sup[] = {&errors->sup, &errors->irradiance_sup};
   for (int h = 0; h < 2; h++) {
     const double doubt = h == 0 || reflects ? e->doubt : 0;
-    *average[h] =
-        bounded(average[h]->estimate, worst_average(e, h, e->margin, e->rounding[h]) +
-                                          signless(e, h) + level + STEPS * e->cut_off);
-    *sup[h] = bounded(fmax(worst_point(e, h, 1, 1, 0), doubt),
-                      worst_point(e, h, fmax(e->margin, POINTS), POINTS, 1) + level);
+    const factors all = {.error = 1, .past = 1, .narrow = 1},
+                  average_most = {.error = e->margin, .past_most = 1, .rounding = 1},
+                  most = {.error = fmax(e->margin, POINTS),
+                          .past_most = 1,
+                          .narrow = POINTS,
+                          .rounding = 1};
+    *average[h] = bounded(average[h]->estimate,
+                          worst_average(e, h, average_most) + signless(e, h) + level);
+    *sup[h] = bounded(fmax(worst_point(e, h, all), doubt), worst_point(e, h, most) + level);
   }
   return hr2di_transport_status(&eq->transport);
 }

@@ -12,7 +12,8 @@ typedef struct hr2di_error_pair {
   hr2d_error average; /* of the worst patch, or of the one that importance is asked for */
   hr2d_error sup;
   hr2d_error irradiance, irradiance_sup; /* of H */
-  double cut_off;     /* what of the averages images of a period may make that are cut off */
+  double cut_off[2];  /* what of estimates of averages and at points is of images of a period
+                         that are cut off */
   double rounding[2]; /* what of the bounds of averages and at points is rounding */
 } hr2di_error_pair;
 

@@ -170,15 +170,16 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
   const int cuts = hr2di_symmetry_cuts(&t->hierarchy->scene->symmetry);
   const size_t field = e->eq.field, rows = t->leaves * t->bands;
   e->values = t->hierarchy->scene->patches * t->bands;
-  e->space = hr2di_alloc_zero(alloc,
-                              (4 + (size_t)cuts) * field + 4 * e->values +
-                                  2 * t->elements * t->bands + 3 * rows + 12 * t->bands,
-                              sizeof *e->space);
+  e->space =
+      hr2di_alloc_zero(alloc,
+                       4 * field + 4 * e->values + 2 * t->elements * t->bands + 3 * rows +
+                           12 * t->bands + (cuts ? field + 4 * e->values + 4 * t->bands : 0),
+                       sizeof *e->space);
   e->exponent_of = hr2di_alloc(alloc, t->bands, sizeof *e->exponent_of);
   if (!e->space || !e->exponent_of) return HR2D_ENOMEM;
   double *next = e->space;
-  double **const fields[] = {&e->kept, &e->rest, &e->error, &e->residual, &e->tail};
-  for (int k = 0; k < 4 + cuts; k++, next += field) *fields[k] = next;
+  double **const fields[] = {&e->kept, &e->rest, &e->error, &e->residual};
+  for (int k = 0; k < 4; k++, next += field) *fields[k] = next;
   for (int h = 0; h < 2; h++, next += 2 * e->values) {
     e->average[h] = next;
     e->rounding[h] = next + e->values;
@@ -197,6 +198,15 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
   e->floor = next;
   e->safe = next + 2 * t->bands;
   e->weight = next + 4 * t->bands;
+  if (!cuts) return HR2D_OK;
+  e->tail = e->weight + rows;
+  next = e->tail + field;
+  for (int h = 0; h < 2; h++, next += 2 * (e->values + t->bands)) {
+    e->past[h] = next;
+    e->past_most[h] = next + e->values;
+    e->far[h] = e->past_most[h] + e->values;
+    e->far_most[h] = e->far[h] + t->bands;
+  }
   return HR2D_OK;
 }
 

@@ -25,18 +25,23 @@ typedef struct hr2di_estimator {
   hr2di_basis basis;
   hr2di_rule rule;
   double *space;
-  double doubt;        /* of the levels of components, see energy-balance.h */
-  size_t values;       /* patches × bands */
-  double *kept;        /* the field of B_h */
-  double *rest;        /* of B_h less the level of closed components */
-  double *error;       /* B − B_h */
-  double *residual;    /* r */
-  double cut_off;      /* the largest part of H that it may be */
-  double *tail;        /* what extrapolation over a period may leave of H; NULL without one */
-  double *average[2];  /* patches × bands: errors of averages, of B and of H */
-  double *rounding[2]; /* likewise what roundings may be */
-  double *most;        /* elements × bands: |field| at most */
-  double *own;         /* likewise: what of |B| roundings of H on the element itself are of */
+  double doubt;     /* of the levels of components, see energy-balance.h */
+  size_t values;    /* patches × bands */
+  double *kept;     /* the field of B_h */
+  double *rest;     /* of B_h less the level of closed components */
+  double *error;    /* B − B_h */
+  double *residual; /* r */
+  double *tail;     /* what a check of the extrapolation over a period leaves of H; NULL
+                       without one, as the next ones */
+  double *past[2];  /* patches × bands: what may be missing of averages of B and H, with all
+                       reflections, */
+  double *past_most[2]; /* and that at most */
+  double *far[2];       /* per band: the same of B and H at points, */
+  double *far_most[2];  /* and that at most */
+  double *average[2];   /* patches × bands: errors of averages, of B and of H */
+  double *rounding[2];  /* likewise what roundings may be */
+  double *most;         /* elements × bands: |field| at most */
+  double *own;          /* likewise: what of |B| roundings of H on the element itself are of */
   double *off[2];     /* leaves × bands: what roundings may do to H, as B has it and as told */
   double *floor;      /* 2 × bands, of B and of H: no average counts as less */
   double *safe;       /* likewise: the worst error of an average without signs */

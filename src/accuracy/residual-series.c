@@ -15,7 +15,6 @@
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 #include "solve/closure.h"
-#include "solve/row-tails.h"
 
 enum { TERMS = 5, FEW_TERMS = 2, ROUNDS = 6 };
 
@@ -57,62 +56,6 @@ static void compare_irradiance(hr2di_estimator *e) {
     }
 }
 
-/* The first of the coefficients m of the brightest sky; the others are 0. */
-static double sky_of(const hr2di_equation *eq, size_t m) {
-  const hr2di_transport *t = &eq->transport;
-  return m < t->bands ? ldexp(hr2di_sky_most(t->hierarchy->scene, m), -eq->exponent[m]) : 0;
-}
-
-/* A leaf sees the background where it sees no patch: what extrapolation leaves of patches is
-   missing from the background.  If it sees backs, their rest has that, and the background is
-   off by what the series of the sky past the ends leaves, whose sign does not matter. */
-static void take_sky_tail(hr2di_estimator *e, const double *off) {
-  hr2di_equation *eq = &e->eq;
-  hr2di_transport *t = &eq->transport;
-  const hr2d_hierarchy *h = t->hierarchy;
-  const unsigned char *sees = t->links->sees_backs;
-  for (size_t k = 0; k < eq->field; k++) e->error[k] = sky_of(eq, k % t->width);
-  hr2di_transport_tail(t, e->error, eq->irradiance);
-  for (size_t k = 0; k < eq->field; k++) {
-    const size_t leaf = k / t->width;
-    const uint32_t element = hr2di_ties_of(&t->ties, t->leaf[leaf]);
-    if (sees && sees[h->element[element].patch])
-      e->tail[k] += copysign(off[element] * sky_of(eq, k % t->width), e->tail[k]);
-    else if (t->sky[leaf * t->order] != 0)
-      e->tail[k] -= eq->irradiance[k];
-  }
-}
-
-/* Sets e->tail to what extrapolation over a period may leave of H. */
-static hr2d_status set_tail(hr2di_estimator *e) {
-  hr2di_transport *t = &e->eq.transport;
-  const hr2d_hierarchy *h = t->hierarchy;
-  hr2di_transport_tail(t, e->kept, e->tail);
-  if (!t->sky) return HR2D_OK;
-  double *off = hr2di_alloc(&t->alloc, h->elements, sizeof *off);
-  const hr2d_status status = off ? hr2di_row_tails_off(h, off, t->watch) : HR2D_ENOMEM;
-  if (!status) take_sky_tail(e, off);
-  hr2di_alloc_free(&t->alloc, off);
-  return status;
-}
-
-/* What a period may send beyond what is extrapolated counts as if it were missing. */
-static void add_tail(hr2di_estimator *e) {
-  hr2di_equation *eq = &e->eq;
-  hr2di_transport *t = &eq->transport;
-  if (!e->tail) return;
-  const hr2d_status status = set_tail(e);
-  if (status && !t->failed) t->failed = status;
-  hr2di_estimator_averages(e, e->tail, e->average[0]);
-  for (size_t k = 0; k < e->values; k++) {
-    const double least = hr2di_estimator_least(e, 1, k / t->bands, k % t->bands);
-    if (least > 0) e->cut_off = fmax(e->cut_off, fabs(e->average[0][k]) / least);
-    e->average[1][k] += e->average[0][k];
-  }
-  for (size_t k = 0; k < eq->field; k++)
-    e->residual[k] += eq->root_rho[k] * eq->root_rho[k] * e->tail[k];
-}
-
 void hr2di_residual_set(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
@@ -123,7 +66,6 @@ void hr2di_residual_set(hr2di_estimator *e) {
   hr2di_equation_balance(eq);
   compare_irradiance(e);
   hr2di_equation_defect(eq, e->kept, e->residual);
-  add_tail(e);
   e->doubt = hr2di_balance_doubt(&eq->balance, t->bands);
   for (size_t k = 0; k < eq->field; k++) {
     const size_t leaf = k / t->width, m = k % t->width;
@@ -287,8 +229,7 @@ hr2d_status hr2di_residual_measure(hr2di_estimator *e) {
   }
   for (size_t k = 0; k < t->leaves && !hr2di_estimator_stopped(e); k++)
     for (size_t b = 0; b < t->bands; b++) {
-      const double h = hr2di_estimator_most(e, eq->irradiance, k, b) +
-                       (e->tail ? hr2di_estimator_most(e, e->tail, k, b) : 0);
+      const double h = hr2di_estimator_most(e, eq->irradiance, k, b);
       e->point[1][b] = fmax(e->point[1][b], h);
       e->point[0][b] = fmax(e->point[0][b], hr2di_estimator_rho(e, k, b) * h);
     }

@@ -98,7 +98,7 @@ static void add_times(hr2d_account *sum, const hr2di_graded *answer) {
 static void note_errors(search *s, const hr2di_error_pair *errors) {
   hr2d_account *a = &s->account;
   s->error = worst_of(errors, s->target.norm);
-  s->cut_off = errors->cut_off;
+  s->cut_off = errors->cut_off[s->target.norm == HR2D_NORM_SUP];
   s->rounding = errors->rounding[s->target.norm == HR2D_NORM_SUP];
   a->average = errors->average;
   a->sup = errors->sup;

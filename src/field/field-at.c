@@ -19,7 +19,7 @@ typedef struct looker {
   hr2di_field_worker *worker;
   hr2di_light_sum sum, far, late, past, one;
   hr2di_far_view view;
-  double *off;     /* per band: of ∫ B dω */
+  double *off;     /* per check of the series, and band: what it leaves of ∫ B dω */
   double ends;     /* angles of the ends, */
   double gone;     /* and of sky that is past them */
   double apart[2]; /* by which half of the images tell another angle of fronts and of sky */
@@ -52,7 +52,10 @@ static void add_one(looker *l, const hr2di_far_part *part) {
   l->apart[1] += (weight - part->half) * l->one.sky;
   add_times(&l->far, weight, &l->one);
   if (part->late) add_times(&l->late, 1, &l->one);
-  for (size_t b = 0; b < bands; b++) l->off[b] += (weight - part->former) * l->one.mean[b];
+  for (size_t b = 0; b < bands; b++) {
+    l->off[b] += part->check[0] * l->one.mean[b];
+    l->off[bands + b] += part->check[1] * l->one.mean[b];
+  }
 }
 
 static void take_far_sky(void *ctx, const hr2di_far_part *part) {
@@ -83,10 +86,11 @@ static void take_far(looker *l, const hr2di_round_stretch *s) {
   }
   const unsigned term = hr2di_symmetry_term(all, s->patch);
   if (all->points.weight[term] == 0 && all->points.half[term] == 0) return;
-  const hr2di_far_part part = {.weight = all->points.weight[term],
-                               .former = all->points.former[term],
-                               .half = all->points.half[term],
-                               .late = 2 * term > all->copies};
+  const hr2di_far_part part = {
+      .weight = all->points.weight[term],
+      .check = {all->points.check[0][term], all->points.check[1][term]},
+      .half = all->points.half[term],
+      .late = 2 * term > all->copies};
   clear(&l->one, l->sum.of->solution->bands);
   hr2di_light_add(&l->one, s);
   add_one(l, &part);
@@ -107,8 +111,17 @@ static void take_late(looker *l, double all) {
   const double angle = l->late.front + l->late.sky;
   clear(&l->far, bands);
   if (angle > 0) add_times(&l->far, all / angle, &l->late);
-  for (size_t b = 0; b < bands; b++)
-    l->off[b] = all * fmax(of->leaves.scale[b], hr2di_sky_most(of->scene, b));
+  for (size_t b = 0; b < bands; b++) l->off[b] = HUGE_VAL;
+}
+
+/* What the light past the ends is off by: what the checks of its series say, and no more than
+   that it may be all of the brightest light or nothing. */
+static double off_by(const looker *l, size_t band, double all) {
+  const hr2di_light_source *of = l->sum.of;
+  const double most = all * fmax(of->leaves.scale[band], hr2di_sky_most(of->scene, band));
+  const double is = l->far.mean[band];
+  const double off = fmax(fabs(l->off[band]), fabs(l->off[of->solution->bands + band]));
+  return fmin(HR2DI_TAIL_BOUND * off, fmax(is, most - fmin(is, 0)));
 }
 
 /* Where nothing is past the ends, roundings of what stands for it are nothing, too. */
@@ -120,7 +133,7 @@ static void join(looker *l) {
   l->sum.back += all - l->far.front - l->far.sky;
   add_times(&l->sum, 1, &l->far);
   add_times(&l->sum, -1, &l->past);
-  for (size_t b = 0; b < l->sum.of->solution->bands; b++) l->sum.error[b] += fabs(l->off[b]);
+  for (size_t b = 0; b < l->sum.of->solution->bands; b++) l->sum.error[b] += off_by(l, b, all);
 }
 
 /* The sums have the room of the worker one after the other. */
@@ -149,7 +162,7 @@ hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of
   set_sum(&l.late, of, w, w->room + 8 * bands);
   set_sum(&l.past, of, w, w->room + 12 * bands);
   set_sum(&l.one, of, w, w->room + 16 * bands);
-  for (size_t b = 0; b < bands; b++) l.off[b] = 0;
+  for (size_t b = 0; b < 2 * bands; b++) l.off[b] = 0;
   double *flux = w->room + bands;
   w->view.take = take;
   w->view.ctx = &l;

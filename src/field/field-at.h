@@ -32,7 +32,7 @@ typedef struct hr2di_field_look_at {
 } hr2di_field_look_at;
 
 /* Doubles that a look needs for each band. */
-enum { HR2DI_FIELD_ROOM = 21 };
+enum { HR2DI_FIELD_ROOM = 22 };
 
 /* Looks from x, in scaled coordinates.  HR2D_OK, HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of, hr2d_point x,

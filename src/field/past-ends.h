@@ -8,9 +8,9 @@
 
 /* A part of the view that stands for others, or is unknown. */
 typedef struct hr2di_far_part {
-  double weight, former; /* how often it counts beside itself, and that by a lower order; −1: it
-                            is past the end */
-  double half;           /* the same from periods up to ½K, less those that follow */
+  double weight; /* how often it counts beside itself; −1: it is past the end */
+  double check[HR2DI_TAIL_CHECKS]; /* what checks of its series leave of that */
+  double half;                     /* the same from periods up to ½K, less those that follow */
   hr2d_point right, left;
   double angle;
   double bearing; /* of the sky past the end */

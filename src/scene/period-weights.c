@@ -14,6 +14,14 @@
 
    A point sees patches under angles a₂/k² + a₃/k³ + …: it has weights of its own.
 
+   A vertex that hides images, or shows them, up to number m makes a kink: f has a part with
+   (1/k − 1/m)² for k < m, as many lines pass it in all directions alike; seen from a point of a
+   patch along the period one with 1/k² − 1/m², and from other points with 1/k − 1/m.  The last
+   power shows little of that for some m.  An extrapolation from images ¾K, ⅝K, ½K and ⅜K shows
+   it then: for no m is the sum off by more than HR2DI_TAIL_BOUND times the larger one of both
+   differences (tests/unit/scene/check-period-weights.c).  Many kinks, as where far images show
+   through gaps of others, are taken to be no worse than the worst of one.
+
    The c_j have both signs.  As n_j are K, ¾K, ½K and ⅜K, Σ |c_j| f(n_j) is no more than ten
    times the sum that is wanted; of the last four images it would be a thousand times that. */
 #include <math.h>
@@ -43,20 +51,37 @@ static double rest_of(unsigned last, int p) {
   return sum;
 }
 
-/* n_j. */
-static unsigned node_of(unsigned copies, int j) {
-  static const unsigned eighths[MOST_TERMS] = {8, 6, 4, 3};
-  return copies * eighths[j] / 8;
+/* n_j, and K. */
+typedef struct nodes {
+  unsigned at[MOST_TERMS], last;
+  int terms;
+} nodes;
+
+/* Of few images not all n_j are different. */
+static int terms_for(unsigned copies) {
+  return copies >= 8 ? 4 : copies >= 4 ? 3 : copies >= 2 ? 2 : 1;
+}
+
+static nodes nodes_of(unsigned copies) {
+  return (nodes){
+      {copies, copies * 6 / 8, copies / 2, copies * 3 / 8}, copies, terms_for(copies)};
+}
+
+/* Of terms up to ¾K, for K ≥ 4. */
+static nodes part_of(unsigned copies) {
+  const unsigned last = copies * 6 / 8;
+  if (copies < 8) return (nodes){{last, last - 1, last - 2}, last, 3};
+  return (nodes){{last, copies * 5 / 8, copies / 2, copies * 3 / 8}, last, 4};
 }
 
 /* Solves Σ_j c_j n_j^−p = Σ_{k>K} k^−p, scaled by K^p, for p = power, …, by elimination with
    pivots. */
-static void solve(unsigned copies, int power, int terms, double *c) {
+static void solve(const nodes *n, int power, double *c) {
   double row[MOST_TERMS][MOST_TERMS + 1];
+  const int terms = n->terms;
   for (int r = 0; r < terms; r++) {
-    for (int j = 0; j < terms; j++)
-      row[r][j] = pow(copies / (double)node_of(copies, j), r + power);
-    row[r][terms] = rest_of(copies, r + power) * pow(copies, r + power);
+    for (int j = 0; j < terms; j++) row[r][j] = pow(n->last / (double)n->at[j], r + power);
+    row[r][terms] = rest_of(n->last, r + power) * pow(n->last, r + power);
   }
   for (int k = 0; k < terms; k++) {
     int best = k;
@@ -79,26 +104,27 @@ static void solve(unsigned copies, int power, int terms, double *c) {
   }
 }
 
-/* Of few images not all n_j are different. */
-static int terms_for(unsigned copies) {
-  return copies >= 8 ? 4 : copies >= 4 ? 3 : copies >= 2 ? 2 : 1;
-}
-
-static void set(unsigned copies, int power, int terms, double *weight) {
+/* The weights by which terms up to the last node stand for those beyond K: those in between are
+   known. */
+static void set(unsigned copies, nodes n, int power, double *weight) {
   double c[MOST_TERMS];
-  solve(copies, power, terms, c);
-  for (int j = 0; j < terms; j++) weight[node_of(copies, j)] += c[j];
+  if (n.last == 0 || n.terms == 0) return;
+  solve(&n, power, c);
+  for (int j = 0; j < n.terms; j++) weight[n.at[j]] += c[j];
+  for (unsigned k = n.last + 1; k <= copies; k++) weight[k] -= 1;
 }
 
-/* From ½K on the sum is known up to K. */
 void hr2di_tail_set(hr2di_tail *t, unsigned copies, int power) {
-  const int terms = terms_for(copies);
-  *t = (hr2di_tail){{0}, {0}, {0}};
-  set(copies, power, terms, t->weight);
-  set(copies, power, terms - 1, t->former);
-  if (copies < 2) return;
-  set(copies / 2, power, terms_for(copies / 2), t->half);
-  for (unsigned k = copies / 2 + 1; k <= copies; k++) t->half[k] -= 1;
+  const nodes all = nodes_of(copies);
+  nodes fewer = all;
+  fewer.terms--;
+  *t = (hr2di_tail){{0}, {{0}}, {0}};
+  set(copies, all, power, t->weight);
+  set(copies, fewer, power, t->check[HR2DI_CHECK_LAST]);
+  if (copies >= 4) set(copies, part_of(copies), power, t->check[HR2DI_CHECK_PART]);
+  set(copies, nodes_of(copies / 2), power, t->half);
+  for (int c = 0; c < HR2DI_TAIL_CHECKS; c++)
+    for (unsigned k = 0; k <= copies; k++) t->check[c][k] = t->weight[k] - t->check[c][k];
 }
 
 void hr2di_symmetry_set_weights(hr2di_symmetry *s) {
@@ -108,12 +134,16 @@ void hr2di_symmetry_set_weights(hr2di_symmetry *s) {
   for (size_t k = 0; k < s->motions; k++) {
     const int periods = abs(s->motion[k].periods);
     s->motion[k].weight += s->patches.weight[periods];
-    s->motion[k].former += s->patches.former[periods];
+    for (int c = 0; c < HR2DI_TAIL_CHECKS; c++)
+      s->motion[k].check[c] = s->patches.check[c][periods];
   }
 }
 
 void hr2di_symmetry_forget_weights(hr2di_symmetry *s) {
-  for (size_t k = 0; k < s->motions; k++) s->motion[k].weight = s->motion[k].former = 1;
+  for (size_t k = 0; k < s->motions; k++) {
+    s->motion[k].weight = 1;
+    for (int c = 0; c < HR2DI_TAIL_CHECKS; c++) s->motion[k].check[c] = 0;
+  }
 }
 
 /* The extent of the patches, and of their images in a mirror along it, across a direction. */

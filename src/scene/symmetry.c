@@ -81,10 +81,10 @@ double hr2di_symmetry_weight(const hr2di_symmetry *s, size_t first, size_t secon
   return g->inverse < number ? 0 : g->weight;
 }
 
-double hr2di_symmetry_tail(const hr2di_symmetry *s, size_t first, size_t second) {
+double hr2di_symmetry_check(const hr2di_symmetry *s, size_t first, size_t second, int check) {
   const size_t image = first < s->cell ? second : first;
   const hr2di_motion *g = &s->motion[image / s->cell];
-  return (g->weight - g->former) / g->weight;
+  return g->check[check] / g->weight;
 }
 
 /* Directions whose sine or cosine is no more are parallel or perpendicular. */

@@ -27,6 +27,12 @@
 
 enum { HR2DI_MIRRORS = 3 /* at most: two are parallel, the third is across them */ };
 
+/* How terms f(k) of a series in 1/k stand for those with k > K: Σ weight[k] f(k), for k ≤ K.
+   Two checks: Σ check[c][k] f(k) is what that differs by from the sum without the last power of
+   1/k, and from the sum by some terms up to ¾K. */
+enum { HR2DI_MOST_COPIES = 256 };
+enum { HR2DI_CHECK_LAST, HR2DI_CHECK_PART, HR2DI_TAIL_CHECKS };
+
 /* g = T^k f. */
 typedef struct hr2di_motion {
   unsigned mirrors; /* f: bit m for mirror m of hr2di_generators */
@@ -35,19 +41,21 @@ typedef struct hr2di_motion {
   uint32_t inverse; /* the number of g⁻¹ */
   double weight;    /* of exchange areas with images by g: 1, or more where they stand for those
                        that are cut off as well */
-  double former;    /* the same by an extrapolation of a lower order */
+  double check[HR2DI_TAIL_CHECKS]; /* how much of this checks of the extrapolation leave */
 } hr2di_motion;
 
-/* How terms f(k) of a series in 1/k stand for those with k > K: Σ weight[k] f(k), for k ≤ K. */
-enum { HR2DI_MOST_COPIES = 256 };
 typedef struct hr2di_tail {
   double weight[HR2DI_MOST_COPIES + 1];
-  double former[HR2DI_MOST_COPIES + 1]; /* without the last power of 1/k */
-  double half[HR2DI_MOST_COPIES + 1];   /* from terms up to ½K, less those from there to K */
+  double check[HR2DI_TAIL_CHECKS][HR2DI_MOST_COPIES + 1];
+  double half[HR2DI_MOST_COPIES + 1]; /* from terms up to ½K, less those from there to K */
 } hr2di_tail;
 
 /* For series that begin with k^−power. */
 void hr2di_tail_set(hr2di_tail *t, unsigned copies, int power);
+
+/* How many times the larger one of both checks an extrapolation may be off, if a vertex hides
+   some of the images, see scene/period-weights.c. */
+#define HR2DI_TAIL_BOUND 32
 
 /* The powers with which the series begin: that of an exchange area of two patches, and that of
    the angle under which a point sees a patch. */
@@ -112,8 +120,8 @@ static inline size_t hr2di_symmetry_original(const hr2di_symmetry *s, size_t pat
 double hr2di_symmetry_weight(const hr2di_symmetry *s, size_t first, size_t second,
                              int directed);
 
-/* What the last order of the extrapolation adds to the weight of a pair, as a part of it. */
-double hr2di_symmetry_tail(const hr2di_symmetry *s, size_t first, size_t second);
+/* What a check of the extrapolation leaves of the weight of a pair, as a part of it. */
+double hr2di_symmetry_check(const hr2di_symmetry *s, size_t first, size_t second, int check);
 
 /* How many periods away a patch is whose image stands for others; 0 if it is none. */
 static inline unsigned hr2di_symmetry_term(const hr2di_symmetry *s, size_t patch) {

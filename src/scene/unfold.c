@@ -55,8 +55,7 @@ static hr2d_status set_motions(hr2d_scene *scene, unsigned copies) {
                                   .periods = periods,
                                   .turned = mirrors == 1 || mirrors == 2,
                                   .inverse = (uint32_t)(back * reflections + mirrors),
-                                  .weight = 1,
-                                  .former = 1};
+                                  .weight = 1};
   }
   return HR2D_OK;
 }

@@ -56,6 +56,7 @@ typedef struct gatherer {
   double *edge;     /* per band: the irradiance of the other patch of a wedge */
   double *far;      /* per band: the irradiance at the farther one of two points */
   double *one;      /* per band: that from one glimpse */
+  int past;         /* the point sees what is past the ends of a period */
 } gatherer;
 
 /* A patch that touches the point, as one side of a wedge. */
@@ -213,20 +214,24 @@ static void add_one(gatherer *g, const hr2di_glimpse *seen) {
     g->value[b] += rest * hr2d_solution_at(g->solution, seen->patch, at, b);
 }
 
+/* Sets g->one to the light of a glimpse. */
+static void set_one(gatherer *g, const hr2di_glimpse *seen) {
+  double *value = g->value;
+  g->value = g->one;
+  for (size_t b = 0; b < g->solution->bands; b++) g->one[b] = 0;
+  add_one(g, seen);
+  g->value = value;
+}
+
 /* Images of a period may stand for those that are cut off as well. */
 static void add_glimpse(gatherer *g, const hr2di_glimpse *seen) {
-  const size_t bands = g->solution->bands;
   const double weight = hr2di_view_tail_weight(g->solution->hierarchy->scene, seen->patch);
-  double *value = g->value;
-  if (weight == 1) {
+  if (weight == 1 || !g->past) {
     add_one(g, seen);
     return;
   }
-  g->value = g->one;
-  for (size_t b = 0; b < bands; b++) g->one[b] = 0;
-  add_one(g, seen);
-  g->value = value;
-  for (size_t b = 0; b < bands; b++) g->value[b] += weight * g->one[b];
+  set_one(g, seen);
+  for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += weight * g->one[b];
 }
 
 /* Sets the point at fraction t of a patch, measured from the nearer end, so that it is on the
@@ -262,15 +267,45 @@ static void add_sky(gatherer *g, size_t patch, const hr2di_view_from *seen) {
   }
 }
 
-/* Adds the sky past the ends of a period. */
-static void add_far_sky(gatherer *g, size_t patch, double t, const hr2di_view_from *seen) {
+/* Adds the sky past the ends of a period, by what shows of it at some bearings. */
+static void add_far_sky(const gatherer *g, const double *factor, const double *bearing,
+                        double *value) {
   const hr2d_scene *scene = g->solution->hierarchy->scene;
-  hr2di_view_tail tail;
-  if (!hr2di_symmetry_cuts(&scene->symmetry)) return;
-  hr2di_view_tail_of(scene, patch, t, seen, &tail);
+  if (!g->past || !scene->effect[HR2D_EFFECT_BACKGROUND].on) return;
   for (int k = 0; k < HR2DI_SKIES; k++)
     for (size_t b = 0; b < g->solution->bands; b++)
-      g->value[b] += tail.sky[k] * hr2d_scene_sky(scene, tail.bearing[k], b);
+      value[b] += factor[k] * hr2d_scene_sky(scene, bearing[k], b);
+}
+
+/* What a point sees past the ends of a period, see hr2di_solution_gather_past(). */
+static hr2d_status look_past(gatherer *g, size_t patch, double t, double *past, double *ends) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  const size_t bands = g->solution->bands;
+  hr2di_view_from seen;
+  hr2di_view_tail tail;
+  const hr2d_status status = hr2di_view_at(g->viewer, patch, t, &seen);
+  for (size_t k = 0; k < HR2DI_GATHER_PAST * bands; k++) past[k] = 0;
+  *ends = 0;
+  if (status) return status;
+  hr2di_view_tail_of(scene, patch, t, &seen, &tail);
+  *ends = tail.ends;
+  g->past = tail.ends > 0;
+  set_point(g, &scene->patch[patch], t);
+  for (size_t m = 0; m < seen.count && g->past; m++) {
+    const double *check = hr2di_view_tail_checks(scene, seen.glimpse[m].patch);
+    const double more = hr2di_view_tail_weight(scene, seen.glimpse[m].patch) - 1;
+    if (!check) continue;
+    set_one(g, &seen.glimpse[m]);
+    for (size_t b = 0; b < bands; b++) {
+      for (int c = 0; c < HR2DI_TAIL_CHECKS; c++)
+        past[(size_t)c * bands + b] += check[c] * g->one[b];
+      past[HR2DI_TAIL_CHECKS * bands + b] += more * g->one[b];
+    }
+  }
+  for (int c = 0; c < HR2DI_TAIL_CHECKS; c++)
+    add_far_sky(g, tail.check[c], tail.bearing, past + (size_t)c * bands);
+  add_far_sky(g, tail.sky, tail.bearing, past + HR2DI_TAIL_CHECKS * bands);
+  return hr2di_watch_work(g->watch, 1 + seen.count / 16);
 }
 
 /* Sets the irradiance from everything but the patch that makes a wedge, which may be NULL.
@@ -282,6 +317,9 @@ static hr2d_status look(gatherer *g, size_t patch, double t, const edge *without
   hr2di_view_from seen;
   const hr2d_status status = hr2di_view_at(g->viewer, patch, t, &seen);
   if (status) return status;
+  hr2di_view_tail tail;
+  hr2di_view_tail_of(scene, patch, t, &seen, &tail);
+  g->past = tail.ends > 0;
   set_point(g, &scene->patch[patch], t);
   g->value = irradiance;
   *wedge = 0;
@@ -291,7 +329,7 @@ static hr2d_status look(gatherer *g, size_t patch, double t, const edge *without
                                    hr2d_scene_sunlight_at(scene, patch, t, b)
                              : 0;
   add_sky(g, patch, &seen);
-  if (background) add_far_sky(g, patch, t, &seen);
+  add_far_sky(g, tail.sky, tail.bearing, g->value);
   for (size_t k = 0; k < seen.count; k++) {
     const int at_edge = is_at_edge(&seen.glimpse[k], without);
     *(at_edge ? wedge : others) += seen.glimpse[k].sine;
@@ -424,25 +462,44 @@ static hr2d_status gather_at(gatherer *g, size_t patch, double t, double *irradi
   return status || closed ? status : look(g, patch, t, NULL, irradiance, &wedge, &others);
 }
 
+static hr2d_status begin(gatherer *g, const hr2d_solution *solution, hr2di_watch *watch) {
+  *g = (gatherer){.solution = solution, .watch = watch};
+  g->edge = hr2di_alloc(&solution->alloc, solution->bands, 3 * sizeof *g->edge);
+  if (!g->edge) return HR2D_ENOMEM;
+  g->far = g->edge + solution->bands;
+  g->one = g->far + solution->bands;
+  hr2di_basis_init(&g->basis, solution->order);
+  set_rules(g);
+  return hr2di_viewer_create(solution->hierarchy->scene, &solution->alloc, watch, &g->viewer);
+}
+
+static void end(gatherer *g) {
+  hr2di_viewer_destroy(g->viewer);
+  hr2di_alloc_free(&g->solution->alloc, g->edge);
+}
+
 static hr2d_status gather_irradiance(const hr2d_solution *solution, size_t patch,
                                      const double *t, size_t count, double *value,
                                      hr2di_watch *watch) {
-  gatherer g = {.solution = solution, .watch = watch};
-  g.edge = hr2di_alloc(&solution->alloc, solution->bands, 3 * sizeof *g.edge);
-  if (g.edge) g.far = g.edge + solution->bands;
-  if (g.edge) g.one = g.far + solution->bands;
-  hr2d_status status = g.edge ? HR2D_OK : HR2D_ENOMEM;
-  if (!status)
-    status =
-        hr2di_viewer_create(solution->hierarchy->scene, &solution->alloc, watch, &g.viewer);
-  hr2di_basis_init(&g.basis, solution->order);
-  set_rules(&g);
+  gatherer g;
+  hr2d_status status = begin(&g, solution, watch);
   for (size_t k = 0; k < count && !status; k++) {
     if (watch) watch->told.fraction = (double)k / (double)count;
     status = gather_at(&g, patch, t[k], value + k * solution->bands);
   }
-  hr2di_viewer_destroy(g.viewer);
-  hr2di_alloc_free(&solution->alloc, g.edge);
+  end(&g);
+  return status;
+}
+
+hr2d_status hr2di_solution_gather_past(const hr2d_solution *solution, size_t patch,
+                                       const double *t, size_t count, double *past,
+                                       double *ends, hr2di_watch *watch) {
+  gatherer g;
+  hr2d_status status = begin(&g, solution, watch);
+  for (size_t k = 0; k < count && !status; k++)
+    status =
+        look_past(&g, patch, t[k], past + k * HR2DI_GATHER_PAST * solution->bands, ends + k);
+  end(&g);
   return status;
 }
 

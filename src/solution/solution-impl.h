@@ -6,6 +6,7 @@
 #include <hr2d/solve.h>
 
 #include "hierarchy/hierarchy-impl.h"
+#include "scene/symmetry.h"
 
 struct hr2d_solution {
   hr2d_allocator alloc;
@@ -34,6 +35,15 @@ static inline const hr2d_scene *hr2di_solution_scene(const hr2d_solution *soluti
 hr2d_status hr2di_solution_restrict(const hr2d_solution *from, const hr2d_hierarchy *hierarchy,
                                     const uint32_t *leaf, size_t count, size_t order,
                                     double *field, hr2di_watch *watch);
+
+/* Sets, per point of a patch and band, what the checks of the extrapolation over a period leave
+   of the H that is gathered there, one after the other, and then what of it is extrapolated;
+   see scene/symmetry.h.  `ends` receives the form factor of what is past the ends, which is
+   exact. */
+enum { HR2DI_GATHER_PAST = HR2DI_TAIL_CHECKS + 1 };
+hr2d_status hr2di_solution_gather_past(const hr2d_solution *solution, size_t patch,
+                                       const double *t, size_t count, double *past,
+                                       double *ends, hr2di_watch *watch);
 
 /* hr2d_solution_gather() with a watch. */
 hr2d_status hr2di_solution_gather(const hr2d_solution *solution, size_t patch, const double *t,

@@ -167,11 +167,15 @@ static void clear_closed(hr2di_transport *t) {
       memset(t->sky + k * t->order, 0, t->order * sizeof *t->sky);
 }
 
+static void last_check(hr2di_transport *t, const double *radiosity, double *irradiance) {
+  hr2di_transport_check(t, HR2DI_CHECK_LAST, radiosity, irradiance);
+}
+
 /* Where images of a period are cut off, rows are as exact as their extrapolation.  A leaf whose
    part of the background is no more than that may be off sees none, or what is left of it could
    be negative. */
 static hr2d_status clear_unknown(hr2di_transport *t) {
-  double *tail = irradiance_of_one(t, hr2di_transport_tail);
+  double *tail = irradiance_of_one(t, last_check);
   if (!tail) return HR2D_ENOMEM;
   for (size_t k = 0; k < t->leaves && !t->failed; k++)
     if (t->sky[k * t->order] <= fabs(tail[k * t->width]))

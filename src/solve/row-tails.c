@@ -61,7 +61,8 @@ hr2d_status hr2di_row_tails_move(const hr2d_hierarchy *h, const hr2d_scene *scen
   return status;
 }
 
-hr2d_status hr2di_row_tails_off(const hr2d_hierarchy *h, double *off, hr2di_watch *watch) {
+hr2d_status hr2di_row_tails_check(const hr2d_hierarchy *h, int check, double *off,
+                                  hr2di_watch *watch) {
   looker l;
   hr2d_status status = begin(&l, h, h->scene, watch);
   for (uint32_t k = 0; k < h->elements && !status; k++) {
@@ -72,7 +73,8 @@ hr2d_status hr2di_row_tails_off(const hr2d_hierarchy *h, double *off, hr2di_watc
     for (size_t q = 0; q < POINTS && !status; q++) {
       hr2di_view_tail tail;
       status = look(&l, k, q, &tail);
-      if (!status) off[k] += l.rule.weight[q] * tail.off;
+      for (int m = 0; m < HR2DI_SKIES && !status; m++)
+        off[k] += l.rule.weight[q] * tail.check[check][m];
     }
   }
   hr2di_viewer_destroy(l.viewer);

@@ -11,8 +11,9 @@
 hr2d_status hr2di_row_tails_move(const hr2d_hierarchy *h, const hr2d_scene *scene, size_t patch,
                                  double *front, double *back, hr2di_watch *watch);
 
-/* Sets, per element, what the form factor of the sky past the ends from each leaf may be off
-   by: what the last power of its series adds. */
-hr2d_status hr2di_row_tails_off(const hr2d_hierarchy *h, double *off, hr2di_watch *watch);
+/* Sets, per element, what a check of its series leaves of the form factor of the sky past the
+   ends, from each leaf. */
+hr2d_status hr2di_row_tails_check(const hr2d_hierarchy *h, int check, double *off,
+                                  hr2di_watch *watch);
 
 #endif

@@ -180,24 +180,24 @@ static void gather_chunk(const hr2di_transport *t, size_t k, int simple, double 
   }
 }
 
-/* What extrapolation of the last order adds to a link of a period, as a part of the link. */
-static double tail_of(const hr2di_transport *t, hr2d_pair pair) {
+/* What a check of the extrapolation leaves of a link of a period, as a part of the link. */
+static double check_of(const hr2di_transport *t, hr2d_pair pair) {
   const hr2d_element *e = t->hierarchy->element;
-  return hr2di_symmetry_tail(&t->hierarchy->scene->symmetry, e[pair.first].patch,
-                             e[pair.second].patch);
+  return hr2di_symmetry_check(&t->hierarchy->scene->symmetry, e[pair.first].patch,
+                              e[pair.second].patch, t->check - 1);
 }
 
 /* The block of a link, or this part of it in `room`; NULL for nothing. */
 static const double *part_of_block(const hr2di_transport *t, hr2d_pair pair,
                                    const double *block, double *room) {
   const size_t stride = t->blocks.order;
-  if (!t->tail) return block;
-  const double part = tail_of(t, pair);
+  if (!t->check) return block;
+  const double part = check_of(t, pair);
   for (size_t k = 0; k < stride * stride; k++) room[k] = part * block[k];
   return part == 0 ? NULL : room;
 }
 
-/* The links of a run one by one: of distant pairs alone, or tails of links. */
+/* The links of a run one by one: of distant pairs alone, or parts of links. */
 static void gather_each(const hr2di_transport *t, hr2di_transport_part part, hr2di_link_run run,
                         uint64_t first, double *down) {
   const unsigned char *distant = t->blocks.distant + first;
@@ -226,7 +226,7 @@ static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, u
                                 .stride = stride,
                                 .count = some,
                                 .directed = t->links->directed};
-    if (part == HR2DI_DISTANT_LINKS || t->tail)
+    if (part == HR2DI_DISTANT_LINKS || t->check)
       gather_each(t, part, run, at, down);
     else
       hr2di_gather_links(&run, t->order, t->bands, t->up, down);
@@ -348,10 +348,11 @@ void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
   has_failed(t);
 }
 
-void hr2di_transport_tail(hr2di_transport *t, const double *radiosity, double *irradiance) {
-  t->tail = 1;
+void hr2di_transport_check(hr2di_transport *t, int check, const double *radiosity,
+                           double *irradiance) {
+  t->check = 1 + check;
   hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, radiosity, irradiance);
-  t->tail = 0;
+  t->check = 0;
 }
 
 void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor) {

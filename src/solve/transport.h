@@ -36,7 +36,8 @@ typedef struct hr2di_transport {
                          result must not be used */
   double *mean;       /* per element: of the diagonal of `closure`; NULL for none */
   unsigned char *closed; /* per patch: closure makes row sums 1; NULL at order 1, or without */
-  int tail; /* links count with what extrapolation adds to them beyond one of a lower order */
+  int check; /* links count with what this check of the extrapolation leaves, less 1; 0: as they
+                are */
 } hr2di_transport;
 
 /* Sets up the operator at the order of the hierarchy; above 1 the links must have blocks.
@@ -63,9 +64,9 @@ typedef enum hr2di_transport_part { HR2DI_ALL_LINKS, HR2DI_DISTANT_LINKS } hr2di
 void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
                                 const double *radiosity, double *irradiance);
 
-/* irradiance = what images of a period that are cut off may send beyond what is extrapolated.
- */
-void hr2di_transport_tail(hr2di_transport *t, const double *radiosity, double *irradiance);
+/* irradiance = what a check of the extrapolation of a period leaves of K radiosity. */
+void hr2di_transport_check(hr2di_transport *t, int check, const double *radiosity,
+                           double *irradiance);
 
 /* The sum of the form factors over the links of each element itself, without those above and
    below it, at order 1: of links over which it receives, or over which it sends. */

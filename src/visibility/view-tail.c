@@ -17,6 +17,19 @@ double hr2di_view_tail_weight(const hr2d_scene *scene, size_t patch) {
   return s->motion[patch / s->cell].weight;
 }
 
+static int has_checks(const double *check) {
+  for (int c = 0; c < HR2DI_TAIL_CHECKS; c++)
+    if (check[c] != 0) return 1;
+  return 0;
+}
+
+const double *hr2di_view_tail_checks(const hr2d_scene *scene, size_t patch) {
+  const hr2di_symmetry *s = &scene->symmetry;
+  if (!hr2di_symmetry_cuts(s) || hr2di_symmetry_is_end(s, patch)) return NULL;
+  const double *check = s->motion[patch / s->cell].check;
+  return has_checks(check) ? check : NULL;
+}
+
 /* The sine towards the end of a patch, of a direction in front of it, or of the horizon that is
    next to one behind. */
 static double sine_of(hr2d_point along, hr2d_point v, int front) {
@@ -54,11 +67,12 @@ static void add_skies(const hr2d_scene *scene, hr2d_point x, hr2d_point along,
     tail->bearing[k] = hr2di_quadrant_bearing(&q);
     for (unsigned n = 1; n <= s->copies && q.border > 0; n++) {
       double distance[2];
-      if (series->weight[n] == 0) continue;
+      const double check[] = {series->check[0][n], series->check[1][n]};
+      if (series->weight[n] == 0 && !has_checks(check)) continue;
       hr2di_quadrant_of(s, &q, n, distance);
       const double factor = sky_of(&q, distance, along, seen);
       tail->sky[k] += series->weight[n] * factor;
-      tail->off += (series->weight[n] - series->former[n]) * factor;
+      for (int c = 0; c < HR2DI_TAIL_CHECKS; c++) tail->check[c][k] += check[c] * factor;
     }
   }
 }

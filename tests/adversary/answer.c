@@ -49,12 +49,12 @@ static void read_averages(adv_answer *a) {
 }
 
 /* B and H at a point of a patch of this scene; NaN if they cannot be had.  Where images are cut
-   off that patches can see, they have no claim, and may be refused; see symmetry.h. */
+   off that patches can see, they may be refused; see symmetry.h. */
 static void read_point(adv_answer *a, size_t patch, double t, double *b, double *h) {
   hr2d_status status = hr2d_solution_gather(a->solution, patch, &t, 1, b);
   if (!status) status = hr2d_solution_gather_irradiance(a->solution, patch, &t, 1, h);
   const int none = a->cut_off > 0 && status == HR2D_EUNSUPPORTED;
-  a->pointless = a->cut_off > 0;
+  a->pointless |= none;
   for (size_t band = 0; band < a->scene->bands; band++) {
     if (status) b[band] = h[band] = none ? 0 : NAN;
     brighter(&a->sup[ADV_B][band], b[band]);

@@ -47,7 +47,7 @@ typedef struct adv_answer {
   double brightest[ADV_QUANTITIES][ADV_BANDS];                      /* over all averages */
   double sup[ADV_QUANTITIES][ADV_BANDS]; /* over all points and averages that were read */
   hr2d_power power[ADV_BANDS];
-  int pointless;  /* values at points have no claim, as symmetry.h says */
+  int pointless;  /* there is a point without values, as symmetry.h says */
   double cut_off; /* hr2d_scene_cut_off() */
 } adv_answer;
 

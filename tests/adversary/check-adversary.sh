@@ -60,6 +60,10 @@ once plates 1013
 # Half a strip at a mirror along its period, and a step of a series.
 once mirrored-row 20017
 once plates 40186
+# Points that see what is cut off.
+once array 31000102 31000140
+once plates 31000136
+once bed 700008
 
 "$adversary" --runs "$(awk "BEGIN { print int(900 * ${HR2D_TEST_MULTIPLIER-0.1} + 4) }")" \
   --seed "${HR2D_TEST_SEED-1}" --limit 0.5 || failures=$((failures + 1))

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random cells: floors, at times ceilings, and segments that may reach over the end of their
    cell.  Four cells of one period each are the same scene, cut off four times as far away: the
-   answers differ by no more than both bounds. */
+   answers differ by no more than both bounds, in averages, at points of patches, also at
+   tips, and at points between them. */
 #include <math.h>
 
 #include "support/support.h"
 
-enum { PATCHES = 12, STEPS = 3 };
+enum { PATCHES = 12, STEPS = 3, POINTS = 5 };
+static const double places[POINTS] = {0, 1, 1e-4, .3, .71};
+static const double between[POINTS][2] = {{.1, .1}, {.3, .9}, {.5, .5}, {.7, .2}, {.9, .7}};
 
 typedef struct cell {
   double at[PATCHES][6]; /* ax ay bx by E ρ */
@@ -59,14 +62,32 @@ static cell draw(randoms *r) {
 
 typedef struct answer {
   double b[PATCHES], h[PATCHES];
+  double at[PATCHES][POINTS], most;   /* H at points, and the largest */
+  double mean[POINTS], error[POINTS]; /* M between the patches; NaN for none */
   hr2d_account account;
 } answer;
+
+static void look_between(const cell *c, const hr2d_solution *solution, answer *a) {
+  double off[4 * PATCHES];
+  hr2d_point at[POINTS];
+  hr2d_field_options options = HR2D_FIELD_OPTIONS_INIT;
+  hr2d_field_values values = HR2D_FIELD_VALUES_INIT;
+  double b = 0;
+  for (size_t k = 0; k < c->count; k++) b = fmax(b, c->at[k][4] + c->at[k][5] * a->most);
+  for (size_t k = 0; k < 4 * PATCHES; k++) off[k] = a->account.sup.bound * b;
+  for (int m = 0; m < POINTS; m++)
+    at[m] = (hr2d_point){c->step * between[m][0], c->high * between[m][1]};
+  options.patch_error = off;
+  values.mean = a->mean;
+  values.error = a->error;
+  ck_assert_int_eq(hr2d_field_at(solution, at, POINTS, &options, &values), HR2D_OK);
+}
 
 static answer solve(const cell *c, int cells, double error) {
   hr2d_scene *scene = test_new_scene(NULL);
   hr2d_solution *solution;
   hr2d_target target = HR2D_TARGET_INIT;
-  answer a;
+  answer a = {.most = 0};
   target.error = error;
   for (int m = 0; m < cells; m++)
     for (size_t k = 0; k < c->count; k++) {
@@ -82,10 +103,30 @@ static answer solve(const cell *c, int cells, double error) {
   for (size_t k = 0; k < c->count; k++) {
     a.b[k] = hr2d_solution_average(solution, k, 0);
     a.h[k] = hr2d_solution_irradiance(solution, k, 0);
+    ck_assert_int_eq(hr2d_solution_gather_irradiance(solution, k, places, POINTS, a.at[k]),
+                     HR2D_OK);
+    for (int m = 0; m < POINTS; m++) a.most = fmax(a.most, a.at[k][m]);
   }
+  look_between(c, solution, &a);
   hr2d_solution_destroy(solution);
   hr2d_scene_destroy(scene);
   return a;
+}
+
+static void expect_points(size_t k, size_t p, const answer *one, const answer *four) {
+  const double of_one = one->account.irradiance_sup.bound * one->most,
+               of_four = four->account.irradiance_sup.bound * four->most;
+  for (int m = 0; m < POINTS; m++)
+    ck_assert_msg(fabs(one->at[p][m] - four->at[p][m]) <= of_one + of_four,
+                  "cell %zu, patch %zu at %g: H %g and %g, bounds of %g and %g", k, p,
+                  places[m], one->at[p][m], four->at[p][m], of_one, of_four);
+}
+
+static void expect_between(size_t k, const answer *one, const answer *four) {
+  for (int m = 0; m < POINTS; m++)
+    ck_assert_msg(!(fabs(one->mean[m] - four->mean[m]) > one->error[m] + four->error[m]),
+                  "cell %zu, point %d: M %g and %g, bounds of %g and %g", k, m, one->mean[m],
+                  four->mean[m], one->error[m], four->error[m]);
 }
 
 START_TEST(cut_off_images_are_in_the_bound) {
@@ -101,7 +142,9 @@ START_TEST(cut_off_images_are_in_the_bound) {
       ck_assert_msg(b <= of_b * four.b[p] && h <= of_h * four.h[p],
                     "cell %zu, patch %zu: B %g off, bounds of %g; H %g off, bounds of %g", k, p,
                     b / four.b[p], of_b, h / four.h[p], of_h);
+      expect_points(k, p, &one, &four);
     }
+    expect_between(k, &one, &four);
   }
 }
 END_TEST
