@@ -58,11 +58,12 @@ static double run_library(hr2d_scene *scene, double epsilon, work kind, uint64_t
 }
 
 /* Gather, push and pull of one transport, and the loop over the same links. */
-static void run_sweeps(hr2d_scene *scene, double epsilon, uint64_t *links, double *library,
-                       double *plain) {
+static void run_sweeps(hr2d_scene *scene, double epsilon, int packed, uint64_t *links,
+                       double *library, double *plain) {
   set s = make_set(scene);
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
   options.epsilon = epsilon;
+  options.packed = packed;
   hr2di_transport t;
   if (hr2d_refine(s.links, &options) || hr2di_transport_init(&t, s.links, 1, NULL))
     exit(EXIT_FAILURE);
@@ -109,6 +110,8 @@ enum {
   PLAIN_REGISTERS,
   LIBRARY_SWEEP,
   PLAIN_SWEEP,
+  PACKED_SWEEP,
+  PLAIN_AGAIN,
   TIMES
 };
 
@@ -134,9 +137,12 @@ int main(int argc, char **argv) {
     time[LIBRARY_COUNTED][k] =
         run_library(scene, epsilon, COUNTED, &links[LIBRARY_COUNTED], &unused);
     time[PLAIN_REGISTERS][k] = plain_count(0.1, epsilon, &links[PLAIN_REGISTERS]);
-    run_sweeps(scene, epsilon, &links[LIBRARY_SWEEP], &time[LIBRARY_SWEEP][k],
+    run_sweeps(scene, epsilon, 0, &links[LIBRARY_SWEEP], &time[LIBRARY_SWEEP][k],
                &time[PLAIN_SWEEP][k]);
+    run_sweeps(scene, epsilon, 1, &links[PACKED_SWEEP], &time[PACKED_SWEEP][k],
+               &time[PLAIN_AGAIN][k]);
     links[PLAIN_SWEEP] = links[LIBRARY_SWEEP];
+    links[PLAIN_AGAIN] = links[PACKED_SWEEP];
   }
   hr2d_scene_destroy(scene);
   double ns[TIMES];
@@ -154,8 +160,8 @@ int main(int argc, char **argv) {
   print("refine, exact areas, packed", ns[LIBRARY_PACKED], ns[PLAIN_STORED], 0);
   print("count, with trees", ns[LIBRARY_COUNTED], ns[PLAIN_COUNTED], 0.7);
   print("count, plain without trees or N", ns[LIBRARY_COUNTED], ns[PLAIN_REGISTERS], 0);
-  print("sweep with push and pull, plain: links", ns[LIBRARY_SWEEP], ns[PLAIN_SWEEP],
-        1.3 / 1.9);
+  print("sweep with push and pull, plain: links", ns[LIBRARY_SWEEP], ns[PLAIN_SWEEP], 0);
+  print("the same, links packed", ns[PACKED_SWEEP], ns[PLAIN_AGAIN], 1.3 / 1.9);
   print("bytes per stored link", bytes, 16, 0);
   print("bytes per packed link", packed, 16, 12. / 16);
   return EXIT_SUCCESS;

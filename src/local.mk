@@ -226,6 +226,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/equation-part.c src/solve/equation-part.h src/solve/equation-power.c \
 	src/solve/equation-sign.c \
 	src/solve/existence.c src/solve/existence.h \
+	src/solve/gather-areas.c src/solve/gather-areas.h \
 	src/solve/gather-blocks.c src/solve/gather-blocks.h \
 	src/solve/gather-links.c src/solve/gather-links.h \
 	src/solve/gather-one-way.c src/solve/gather-one-way.h \

@@ -72,6 +72,7 @@ SUITES = \
 	tests/unit/solve/check-closure \
 	tests/unit/solve/check-equation-enough \
 	tests/unit/solve/check-equation-part \
+	tests/unit/solve/check-gather-areas \
 	tests/unit/solve/check-gather-links \
 	tests/unit/solve/check-row-sums \
 	tests/unit/solve/check-adopt \

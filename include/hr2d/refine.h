@@ -94,7 +94,8 @@ typedef struct hr2d_refine_options {
   void *progress_ctx;                     /**< given to `progress` */
   int packed; /**< 1: hr2d_refine() keeps links in about 11 bytes each in the place of 16, where
                    neighbours share elements, as they do if N is far below L. No digit changes.
-                   Links are made and used more slowly */
+                   Links are made more slowly. At order 1, in one band and both ways, solves use
+                   them faster; otherwise more slowly */
   size_t row_from; /**< a row has the pairs of a patch with all later ones, or with all others
                         if links are directed. An empty set is filled with rows
                         [`row_from`, `row_to`) alone, and its links carry their part of the

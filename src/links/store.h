@@ -77,6 +77,11 @@ static inline size_t hr2di_store_chunk_size(const hr2di_store *store, size_t k) 
   return rest < HR2DI_CHUNK_LINKS ? (size_t)rest : HR2DI_CHUNK_LINKS;
 }
 
+/* Whether the data of a chunk are an hr2di_packed. */
+static inline int hr2di_store_is_packed(const hr2di_store *store, size_t chunk) {
+  return chunk < store->full && store->chunk[chunk].elements > 0;
+}
+
 static inline hr2d_link hr2di_store_link(const hr2di_store *store, uint64_t index) {
   const size_t k = (size_t)(index / HR2DI_CHUNK_LINKS), at = index % HR2DI_CHUNK_LINKS;
   if (k == store->full) return store->open[at];

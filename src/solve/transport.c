@@ -9,6 +9,7 @@
 #include "base/team.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
+#include "solve/gather-areas.h"
 #include "solve/gather-blocks.h"
 #include "solve/gather-links.h"
 #include "solve/shared-gather.h"
@@ -109,77 +110,6 @@ void hr2di_transport_pull(hr2di_transport *t, const double *leaf_field) {
   pull(t, NULL, leaf_field);
 }
 
-/* Adds the power received over some links, both ways unless directed. */
-static void gather_links(const hr2d_link *link, size_t count, size_t bands, int directed,
-                         const double *up, double *down) {
-  for (size_t k = 0; k < count; k++) {
-    const size_t i = link[k].pair.first * bands, j = link[k].pair.second * bands;
-    const double area = link[k].exchange_area;
-    for (size_t b = 0; b < bands; b++) down[i + b] += area * up[j + b];
-    for (size_t b = 0; b < bands && !directed; b++) down[j + b] += area * up[i + b];
-  }
-}
-
-/* The elements of a link in one number. */
-static inline uint64_t ends_of(const hr2d_link *link) {
-  return (uint64_t)link->pair.second << 32 | link->pair.first;
-}
-
-/* Whether four links join two elements with two others, both neighbours in the trees, as the
-   children of one element are: (i,j), (i,j+1), (i+1,j), (i+1,j+1). */
-static inline int is_square(const hr2d_link *link) {
-  const uint64_t ends = ends_of(link), j = (uint64_t)1 << 32, i = 1;
-  return ((ends_of(link + 1) ^ (ends + j)) | (ends_of(link + 2) ^ (ends + i)) |
-          (ends_of(link + 3) ^ (ends + i + j))) == 0;
-}
-
-/* Sums of two neighbours are side by side, with their terms in the order of the links. */
-static inline void gather_square(const hr2d_link *link, const double *up, double *down) {
-  const double *i = up + link->pair.first, *j = up + link->pair.second;
-  double *to_i = down + link->pair.first, *to_j = down + link->pair.second;
-  const double a = link[0].exchange_area, b = link[1].exchange_area;
-  const double c = link[2].exchange_area, d = link[3].exchange_area;
-  const double column[2][2] = {{a, c}, {b, d}}, row[2][2] = {{a, b}, {c, d}};
-  double sum_i[2] = {to_i[0], to_i[1]}, sum_j[2] = {to_j[0], to_j[1]};
-  for (int m = 0; m < 2; m++) sum_i[m] = (sum_i[m] + column[0][m] * j[0]) + column[1][m] * j[1];
-  for (int m = 0; m < 2; m++) sum_j[m] = (sum_j[m] + row[0][m] * i[0]) + row[1][m] * i[1];
-  memcpy(to_i, sum_i, sizeof sum_i);
-  memcpy(to_j, sum_j, sizeof sum_j);
-}
-
-/* The same for one band and both ways.  Nearly all links are four in a square, which is faster
-   than to load for each what was just stored. */
-static void gather_both_ways(const hr2d_link *link, size_t count, const double *up,
-                             double *down) {
-  size_t k = 0;
-  while (k + 4 <= count) {
-    const int square = is_square(link + k);
-    if (square)
-      gather_square(link + k, up, down);
-    else
-      gather_links(link + k, 1, 1, 0, up, down);
-    k += square ? 4 : 1;
-  }
-  gather_links(link + k, count - k, 1, 0, up, down);
-}
-
-/* Adds the power received over the links of chunk k; `simple` if there is one band and links
-   carry both ways. */
-static void gather_chunk(const hr2di_transport *t, size_t k, int simple, double *down) {
-  const hr2di_store *store = &t->links->store;
-  const size_t count = hr2di_store_chunk_size(store, k);
-  hr2d_link room[HR2DI_READ_LINKS];
-  for (size_t from = 0, some; from < count; from += some) {
-    some = count - from;
-    const hr2d_link *link =
-        hr2di_store_read(store, (uint64_t)k * HR2DI_CHUNK_LINKS + from, &some, room);
-    if (simple)
-      gather_both_ways(link, some, t->up, down);
-    else
-      gather_links(link, some, t->bands, t->links->directed, t->up, down);
-  }
-}
-
 /* What a check of the extrapolation leaves of a link of a period, as a part of the link. */
 static double check_of(const hr2di_transport *t, hr2d_pair pair) {
   const hr2d_element *e = t->hierarchy->element;
@@ -239,9 +169,8 @@ static void gather_areas(const hr2di_transport *t, size_t slice, double *down,
   const size_t chunks = hr2di_store_chunks(&t->links->store);
   const size_t from = slice * chunks / t->slices, to = (slice + 1) * chunks / t->slices;
   const uint64_t units = HR2DI_CHUNK_LINKS / 32 * (1 + t->width / 8);
-  const int simple = !t->hierarchy->scene->effect[HR2D_EFFECT_BANDS].on && !t->links->directed;
   for (size_t k = from; k < to && !hr2di_watch_work(watch, units); k++)
-    gather_chunk(t, k, simple, down);
+    hr2di_gather_areas(&t->links->store, k, t->bands, t->links->directed, t->up, down);
 }
 
 /* Above order 1. */
