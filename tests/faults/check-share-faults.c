@@ -137,7 +137,7 @@ enum { PLANS = 5 };
 
 /* The first places one by one, later ones in steps that grow with the place. */
 static long next_place(long at) {
-  return at + 1 + at / (long)test_rounds(40, 1);
+  return at + 1 + at / (long)test_rounds(15, 1);
 }
 
 /* Allocations of a whole run on one share. */
