@@ -117,7 +117,8 @@ HR2D_API hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_
  * @param ctx    given to `read`
  * @retval HR2D_OK       success
  * @retval HR2D_ENOMEM   an allocation failed
- * @retval HR2D_ESTATE   the scene is committed, or has patches, a background, a sun, a mirror or a period
+ * @retval HR2D_ESTATE   the scene is committed, or has patches, a background, a sun, a mirror
+ * or a period
  * @retval HR2D_ESYNTAX  this is not a scene, or it is damaged
  * @retval HR2D_ESCENE   a forged scene that hr2d_scene_add() or hr2d_scene_commit() refuses
  * @retval other         the status of `read`, or of hr2d_scene_set_progress()

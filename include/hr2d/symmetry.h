@@ -43,10 +43,10 @@
  * past the images, which is exact; so the light from there adds at most this part of the
  * largest radiosity to M. hr2d_field_values::error has a bound of what extrapolation is off,
  * derived as that of hr2d_solve_to(), and no more than that part allows. Where there is no
- * series, as where the ground shows here and there through gaps of a row of panels, or far above
- * the scene, the light past the images is taken as that of the last ones, and the error is all
- * that may be there. Rows of points (hr2d_field_rows_visit()) are the same; their sums may
- * differ from 1 by what extrapolation is off.
+ * series, as where the ground shows here and there through gaps of a row of panels, or far
+ * above the scene, the light past the images is taken as that of the last ones, and the error
+ * is all that may be there. Rows of points (hr2d_field_rows_visit()) are the same; their sums
+ * may differ from 1 by what extrapolation is off.
  *
  * Images in a mirror that is not parallel to an axis are rounded: their ends are off by some
  * 2⁻⁵⁰ of the largest coordinate. Errors of the account are those of the rounded scene; a patch
@@ -57,9 +57,9 @@
  * hr2d_leaf_sums() has the rows of the patches of the cell.
  *
  * Not supported, and refused with HR2D_EUNSUPPORTED: over a period in which patches see for
- * ever, a sky with a piece that ends between the horizon and the last images. Points between the
- * patches have no values (HR2D_PLACE_OUTSIDE) if such a piece ends, or a sun shines, past the
- * images that they see.
+ * ever, a sky with a piece that ends between the horizon and the last images. Points between
+ * the patches have no values (HR2D_PLACE_OUTSIDE) if such a piece ends, or a sun shines, past
+ * the images that they see.
  * @{
  */
 #ifndef HR2D_SYMMETRY_H

@@ -59,7 +59,8 @@ int hr2di_sky_changes_past_ends(const hr2d_scene *scene, double *bearing) {
 hr2d_point hr2di_symmetry_home(const hr2di_symmetry *s, hr2d_point x) {
   const hr2d_point d = s->by.period;
   const double size = hypot(d.x, d.y);
-  const double along = d.x / size * x.x + d.y / size * x.y, middle = (s->line[1] - s->line[0]) / 2;
+  const double along = d.x / size * x.x + d.y / size * x.y,
+               middle = (s->line[1] - s->line[0]) / 2;
   const double periods = round((along - middle) / size);
   return (hr2d_point){x.x - periods * d.x, x.y - periods * d.y};
 }

@@ -4,8 +4,8 @@
    In one band B = H + q is an equation of its own.  In several bands only the sum over them is
    given, Σ(B_b − H_b) = q, and the temperature of the patch divides its emission among them:
    B_b = (1−ρ_b) f_b(T)σT⁴ + ρ_b H_b.  A settled scene is the scene with such E and ρ for one
-   guess of all T.  It shares everything else with its scene, which must outlive it.  Images have
-   the light of their patches. */
+   guess of all T.  It shares everything else with its scene, which must outlive it.  Images
+   have the light of their patches. */
 #ifndef HR2D_SRC_SCENE_SETTLED_H
 #define HR2D_SRC_SCENE_SETTLED_H
 

@@ -13,7 +13,8 @@ typedef struct pieces {
 
 /* Divides each patch so that no piece is longer than `length` longest patches.  Where light
    comes in from the surroundings, a box of up to four black pieces follows, around all others:
-   what a piece sees of the background is what it sees of the box.  Call pieces_clear() in any case. */
+   what a piece sees of the background is what it sees of the box.  Call pieces_clear() in any
+   case. */
 hr2d_status pieces_make(pieces *p, const hr2d_scene *whole, double length);
 
 void pieces_clear(pieces *p);
