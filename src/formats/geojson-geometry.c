@@ -49,6 +49,18 @@ static int has_altitude(const path *p, size_t k) {
   return json_number_value(z) != 0;
 }
 
+/* Positions of two numbers, and of more. */
+static void note_mixed(hr2di_geojson *reader, const path *p) {
+  const size_t n = json_array_size(p->positions);
+  size_t k = 1;
+  while (k < n && (json_array_size(json_array_get(p->positions, k)) > 2) ==
+                      (json_array_size(json_array_get(p->positions, 0)) > 2))
+    k++;
+  if (k < n)
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_ALTITUDE, "mixed", p->place,
+                    "decimals have a point, not a comma");
+}
+
 static hr2d_status read_points(hr2di_geojson *reader, const path *p, size_t *count) {
   const size_t min = p->role == LINE ? 2 : 4;
   const size_t n = *count = json_array_size(p->positions);
@@ -75,6 +87,7 @@ static hr2d_status read_points(hr2di_geojson *reader, const path *p, size_t *cou
               ? " in x and y; third numbers are not used"
               : "");
   }
+  note_mixed(reader, p);
   if (p->role != LINE && !hr2di_point_same(reader->point[0], reader->point[n - 1]))
     return hr2di_message_fail(
         reader->message, HR2D_ESYNTAX,

@@ -47,7 +47,8 @@ static hr2d_status read_scene_effects(hr2di_geojson *reader, const json_t *root,
   return status ? status : read_medium(reader, members);
 }
 
-static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
+/* Sets `features` to those of a collection. */
+static hr2d_status find_features(hr2di_geojson *reader, const json_t *root, json_t **features) {
   const char *type = json_string_value(json_object_get(root, "type"));
   if (!type)
     return hr2di_message_fail(
@@ -59,37 +60,54 @@ static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
         hr2di_message_quote(type).text,
         strcmp(type, "Feature") == 0 ? "; put the feature into \"features\" of a collection"
                                      : "");
-  json_t *features = json_object_get(root, "features");
-  if (!json_is_array(features))
-    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
-                              "features: must be an array, not %s",
-                              hr2di_geojson_kind(features));
-  size_t background_bands;
-  hr2d_status status = hr2di_geojson_note_root(reader, root);
-  if (!status) status = read_scene_effects(reader, root, &background_bands);
-  for (size_t k = 0; !status && k < json_array_size(features); k++) {
-    reader->watch->told.fraction = 0.5 + 0.5 * (double)k / (double)json_array_size(features);
+  *features = json_object_get(root, "features");
+  if (json_is_array(*features)) return HR2D_OK;
+  return hr2di_message_fail(reader->message, HR2D_ESYNTAX, "features: must be an array, not %s",
+                            hr2di_geojson_kind(*features));
+}
+
+static hr2d_status read_features(hr2di_geojson *reader, json_t *features) {
+  const size_t count = json_array_size(features);
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; !status && k < count; k++) {
+    reader->watch->told.fraction = 0.5 + 0.5 * (double)k / (double)count;
     status = hr2di_watch_work(reader->watch, 4);
     if (!status) status = hr2di_geojson_feature(reader, json_array_get(features, k), k + 1);
     /* Freed bit by bit: a large tree at once takes long, and cannot be stopped. */
     json_array_set_new(features, k, json_null());
   }
-  /* The background is set last, so that no failure has to take it back, and then sun and sky,
-     which cannot fail.  A file without one leaves that of the scene as it is. */
-  if (!status && background_bands)
-    status =
-        hr2d_scene_set_background(reader->scene, reader->background.value, background_bands);
-  if (!status && reader->sun) {
+  return status;
+}
+
+/* The background is set last, so that no failure has to take it back, and then what cannot
+   fail. A file without one leaves that of the scene as it is. */
+static hr2d_status give_scene_effects(hr2di_geojson *reader, size_t background_bands) {
+  const hr2d_status status =
+      background_bands
+          ? hr2d_scene_set_background(reader->scene, reader->background.value, background_bands)
+          : HR2D_OK;
+  if (status) return status;
+  if (reader->sun) {
     hr2di_scene_take_sun(reader->scene, reader->sun, reader->suns);
     reader->sun = NULL;
   }
-  if (!status && reader->sky.pieces) {
+  if (reader->sky.pieces) {
     hr2di_scene_take_sky(reader->scene, &reader->sky);
     reader->sky = (hr2di_sky){0};
   }
-  if (!status) hr2di_geojson_give_symmetry(reader);
-  if (!status) *hr2di_scene_notes(reader->scene) = reader->notes;
-  return status;
+  hr2di_geojson_give_symmetry(reader);
+  *hr2di_scene_notes(reader->scene) = reader->notes;
+  return HR2D_OK;
+}
+
+static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
+  json_t *features = NULL;
+  size_t background_bands;
+  hr2d_status status = find_features(reader, root, &features);
+  if (!status) status = hr2di_geojson_note_root(reader, root);
+  if (!status) status = read_scene_effects(reader, root, &background_bands);
+  if (!status) status = read_features(reader, features);
+  return status ? status : give_scene_effects(reader, background_bands);
 }
 
 hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size,

@@ -31,6 +31,12 @@ static hr2d_status warn_of_note(const hr2di_lint *lint, const hr2di_note *n) {
   const hr2di_message_quoted key = hr2di_message_quote(n->key);
   switch (n->code) {
   case HR2D_WARNING_ALTITUDE:
+    if (*n->key)
+      return hr2di_lint_warn(
+          lint, warning,
+          "%s%s: some positions have two numbers, and others more, which are "
+          "not used: %s",
+          n->first, more, n->advice);
     return hr2di_lint_warn(lint, warning, "%s%s: third numbers of positions are not used: %s",
                            n->first, more, n->advice);
   case HR2D_WARNING_DEGREES:

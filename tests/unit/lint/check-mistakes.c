@@ -186,6 +186,9 @@ static const mistake mistakes[] = {
     {"an empty file", "", REFUSED, "line 1, column 1"},
     {"a polygon without its list of rings", COLLECTION(FEATURE("", "Polygon", SQUARE)), REFUSED,
      "ring 1"},
+    /* 55 */
+    {"a comma for a point", COLLECTION(LAMP "," LINE("", "[[0,1],[4,1,0]]")),
+     HR2D_WARNING_ALTITUDE, "some positions have two numbers, and others more"},
 };
 
 typedef struct hits {
