@@ -187,10 +187,12 @@ libhr2d_core_la_SOURCES = \
 	src/links/linkset-impl.h \
 	src/links/patch-defect.c src/links/patch-defect.h \
 	src/links/store.c src/links/store.h \
+	src/solution/gatherer.c src/solution/gatherer.h \
 	src/solution/panels.h \
 	src/solution/point-gather.c \
 	src/solution/solution.c \
 	src/solution/solution-impl.h \
+	src/solution/wedge-limit.c \
 	src/field/border-map.c src/field/border-map.h \
 	src/field/borders.c src/field/borders.h \
 	src/field/field-at.c src/field/field-at.h \
