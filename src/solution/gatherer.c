@@ -1,0 +1,315 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A point of a patch sees parts of other patches, its glimpses.  On the part of a leaf in a
+   glimpse B_h is a polynomial; panels shrink towards the point, as those of near blocks do. The
+   form factor of a glimpse is known to all digits.  Its share that no panel resolves, by
+   rounding or since the point touches the patch, gets the B_h of the nearest point of the
+   glimpse.
+
+   Coordinates of points and of leaves are rounded.  Where B changes within a distance that is
+   no more than many roundings, as beside the end of one of two plates that nearly touch, that
+   would show: the vector from a point to a leaf is made from fractions of their patches, with
+   twice the digits. */
+#include "solution/gatherer.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "geometry/point-view-factor.h"
+#include "geometry/predicates.h"
+#include "geometry/vector.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "solution/panels.h"
+#include "visibility/view-tail.h"
+
+/* A rule of n points is accurate to ρ^−(2n − order), on a panel that is just far enough to
+   3.19^−(2n − order).  At the largest order HR2DI_GATHER_POINTS make 3.19^−32 of that; at lower
+   ones, and on panels that are farther away, fewer points do.  One more is taken, as G is
+   singular on the ellipse, so that its coefficients are some times ρ^−k. */
+static void set_rules(hr2di_gatherer *g) {
+  const double near = HR2DI_NEAR_ELLIPSE, order = (double)g->solution->order;
+  const double digits = 32 * log(near + sqrt(near * near - 1));
+  for (size_t n = 1; n <= HR2DI_GATHER_POINTS; n++) {
+    const double rate = 2 * (double)(n - 1) - order;
+    g->rule[n - 1].points = 0;
+    g->enough[n - 1] = rate > 0 ? cosh(digits / rate) : HUGE_VAL;
+  }
+  g->enough[HR2DI_GATHER_POINTS - 1] = 0;
+}
+
+static const hr2di_rule *rule_for(hr2di_gatherer *g, double ellipse) {
+  size_t n = 1;
+  while (g->enough[n - 1] > ellipse) n++;
+  if (g->rule[n - 1].points == 0) hr2di_rule_init(&g->rule[n - 1], n);
+  return &g->rule[n - 1];
+}
+
+/* A segment: the vector from x to its start, and its own. */
+typedef struct stretch {
+  hr2d_point from, along;
+} stretch;
+
+/* At order 1 B is constant on a leaf: its part sends B times the form factor of a segment. */
+static void add_constant(hr2di_gatherer *g, const stretch *leaf, const double *coefficient,
+                         hr2di_span part) {
+  const double factor =
+      hr2di_point_view_factor(g->normal, hr2di_block_along(leaf->from, leaf->along, part.from),
+                              hr2di_block_along(leaf->from, leaf->along, part.to));
+  g->factor += factor;
+  for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += factor * coefficient[b];
+}
+
+/* Sums of a panel come first, so that few roundings add up. */
+static void add_panel(hr2di_gatherer *g, const stretch *leaf, hr2di_span panel,
+                      const hr2di_rule *rule, const double *coefficient) {
+  const hr2d_point from = leaf->from, along = leaf->along;
+  const double size = panel.to - panel.from;
+  const size_t bands = g->solution->bands, points = rule->points;
+  double xi[HR2DI_GATHER_POINTS], kernel[HR2DI_GATHER_POINTS], factor = 0;
+  if (hr2di_watch_work(g->watch, points * (1 + g->solution->order * bands / 16))) return;
+  for (size_t q = 0; q < points; q++) {
+    const double t = panel.from + size * (0.5 + 0.5 * rule->at[q]);
+    const hr2d_point r = hr2di_block_along(from, along, t);
+    const double square = r.x * r.x + r.y * r.y;
+    const double cos_x = g->normal.x * r.x + g->normal.y * r.y;
+    const double turn = r.x * along.y - r.y * along.x;
+    xi[q] = 2 * t - 1;
+    kernel[q] = 0; /* of x in a corner, and a panel no larger than rounding */
+    if (square > 0)
+      kernel[q] = 0.5 * size * rule->weight[q] * cos_x * turn / (square * sqrt(square));
+    factor += kernel[q];
+  }
+  g->factor += factor;
+  for (size_t b = 0; b < bands; b++) {
+    double sum = 0;
+    for (size_t q = 0; q < points; q++)
+      sum += kernel[q] * hr2di_basis_sum(&g->basis, xi[q], coefficient + b, bands);
+    g->value[b] += sum;
+  }
+}
+
+/* Adds the light that a part of a leaf sends. */
+static void add_leaf(hr2di_gatherer *g, const stretch *leaf, const double *coefficient,
+                     hr2di_span part) {
+  hr2di_panels panels = {.count = 1};
+  if (!(part.to > part.from)) return;
+  if (g->solution->order == 1) {
+    add_constant(g, leaf, coefficient, part);
+    return;
+  }
+  panels.stack[0] = part;
+  while (panels.count > 0) {
+    const hr2di_span panel = panels.stack[--panels.count];
+    const double ellipse = hr2di_panel_ellipse(leaf->from, leaf->along, panel);
+    if (ellipse < HR2DI_NEAR_ELLIPSE && hr2di_panel_halved(&panels, panel)) continue;
+    add_panel(g, leaf, panel, rule_for(g, ellipse), coefficient);
+  }
+}
+
+/* An element, and the part of its patch that it covers. */
+typedef struct piece {
+  uint32_t element;
+  double from, to; /* fractions of the patch */
+} piece;
+
+enum { STACK = 128 };
+
+/* The part of a patch that a leaf covers, as the point sees it. */
+static stretch stretch_of(const hr2di_gatherer *g, hr2d_segment patch, const piece *p) {
+  const hr2di_vector whole = hr2di_vector_difference(patch.b, patch.a);
+  const hr2di_vector apart = hr2di_vector_difference(patch.a, g->base);
+  const hr2di_vector start = hr2di_vector_minus(&apart, &g->way);
+  const hr2di_vector offset = hr2di_vector_times(&whole, p->from);
+  const hr2di_vector from = hr2di_vector_plus(&start, &offset);
+  const double size = p->to - p->from;
+  return (stretch){{from.x, from.y}, {whole.x * size, whole.y * size}};
+}
+
+/* Adds the light of the leaves of a glimpse. */
+static void add_leaves(hr2di_gatherer *g, const hr2di_glimpse *seen) {
+  const hr2d_solution *s = g->solution;
+  const hr2d_element *element = s->hierarchy->element;
+  const hr2d_segment patch = s->hierarchy->scene->patch[seen->patch].scaled;
+  piece stack[STACK];
+  size_t count = 0;
+  stack[count++] = (piece){seen->patch, 0, 1};
+  while (count > 0) {
+    const piece p = stack[--count];
+    if (hr2di_watch_work(g->watch, 1)) return;
+    const double size = p.to - p.from;
+    if (p.to <= seen->from || p.from >= seen->to) continue;
+    const uint32_t child = element[p.element].child;
+    if (child && child < s->elements && count < STACK - 2) {
+      const double middle = p.from + hr2di_element_left_part(element, p.element) * size;
+      stack[count++] = (piece){child + 1, middle, p.to};
+      stack[count++] = (piece){child, p.from, middle};
+      continue;
+    }
+    const hr2di_span part = {seen->from > p.from ? (seen->from - p.from) / size : 0,
+                             seen->to < p.to ? (seen->to - p.from) / size : 1};
+    const stretch leaf = stretch_of(g, patch, &p);
+    add_leaf(g, &leaf, s->value + p.element * s->order * s->bands, part);
+  }
+}
+
+double hr2di_gatherer_nearest(const hr2di_gatherer *g, size_t patch, double from, double to,
+                              double *distance) {
+  const hr2di_patch *p = &g->solution->hierarchy->scene->patch[patch];
+  const hr2d_point a = p->scaled.a, along = hr2di_point_minus(p->scaled.b, a);
+  const double t = hr2di_point_dot(hr2di_point_minus(g->x, a), along) / p->length / p->length;
+  const double at = fmin(fmax(t, from), to);
+  const hr2d_point d = hr2di_point_minus(g->x, hr2di_block_along(a, along, at));
+  if (distance) *distance = hypot(d.x, d.y);
+  return at;
+}
+
+/* Adds a glimpse: the light that panels resolve, and the rest from its nearest point.  So
+   roundings of the panels count only where B_h differs from that point's. */
+static void add_one(hr2di_gatherer *g, const hr2di_glimpse *seen) {
+  g->factor = 0;
+  add_leaves(g, seen);
+  const double rest = seen->sine - g->factor;
+  const double at = hr2di_gatherer_nearest(g, seen->patch, seen->from, seen->to, NULL);
+  for (size_t b = 0; b < g->solution->bands; b++)
+    g->value[b] += rest * hr2d_solution_at(g->solution, seen->patch, at, b);
+}
+
+/* Sets g->one to the light of a glimpse. */
+static void set_one(hr2di_gatherer *g, const hr2di_glimpse *seen) {
+  double *value = g->value;
+  g->value = g->one;
+  for (size_t b = 0; b < g->solution->bands; b++) g->one[b] = 0;
+  add_one(g, seen);
+  g->value = value;
+}
+
+/* Images of a period may stand for those that are cut off as well. */
+static void add_glimpse(hr2di_gatherer *g, const hr2di_glimpse *seen) {
+  const double weight = hr2di_view_tail_weight(g->solution->hierarchy->scene, seen->patch);
+  if (weight == 1 || !g->past) {
+    add_one(g, seen);
+    return;
+  }
+  set_one(g, seen);
+  for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += weight * g->one[b];
+}
+
+/* It is measured from the nearer end, so that it is on the patch at both. */
+void hr2di_gatherer_set_point(hr2di_gatherer *g, const hr2di_patch *p, double t) {
+  const hr2d_segment s = p->scaled;
+  const hr2d_point along = hr2di_point_minus(s.b, s.a);
+  const hr2di_vector whole = hr2di_vector_difference(s.b, s.a);
+  const double way = t <= 0.5 ? t : t - 1;
+  g->base = t <= 0.5 ? s.a : s.b;
+  g->way = hr2di_vector_times(&whole, way);
+  g->x = hr2di_block_along(g->base, along, way);
+  g->normal = (hr2d_point){-along.y / p->length, along.x / p->length};
+}
+
+/* Whether a glimpse is that of a patch at the edge of a wedge. */
+static int is_at_edge(const hr2di_glimpse *seen, const hr2di_edge *q) {
+  return q && seen->patch == q->patch && seen->from <= q->at + q->step &&
+         seen->to >= q->at - q->step;
+}
+
+/* Adds what the pieces of the sky send beyond the background. */
+static void add_sky(hr2di_gatherer *g, size_t patch, const hr2di_view_from *seen) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  for (size_t k = 0; k < scene->sky.pieces; k++) {
+    hr2di_sines part[2];
+    const int parts = hr2di_sky_front(scene, patch, k, part);
+    double factor = 0;
+    for (size_t m = 0; m < seen->arcs; m++)
+      factor += hr2di_sky_factor(part, parts, seen->arc[m][0], seen->arc[m][1]);
+    for (size_t b = 0; b < g->solution->bands && factor > 0; b++)
+      g->value[b] += factor * hr2di_sky_beyond(scene, k, b);
+  }
+}
+
+/* Adds the sky past the ends of a period, by what shows of it at some bearings. */
+static void add_far_sky(const hr2di_gatherer *g, const double *factor, const double *bearing,
+                        double *value) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  if (!g->past || !scene->effect[HR2D_EFFECT_BACKGROUND].on) return;
+  for (int k = 0; k < HR2DI_SKIES; k++)
+    for (size_t b = 0; b < g->solution->bands; b++)
+      value[b] += factor[k] * hr2d_scene_sky(scene, bearing[k], b);
+}
+
+hr2d_status hr2di_gatherer_look_past(hr2di_gatherer *g, size_t patch, double t, double *past,
+                                     double *ends) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  const size_t bands = g->solution->bands;
+  hr2di_view_from seen;
+  hr2di_view_tail tail;
+  const hr2d_status status = hr2di_view_at(g->viewer, patch, t, &seen);
+  for (size_t k = 0; k < HR2DI_GATHER_PAST * bands; k++) past[k] = 0;
+  *ends = 0;
+  if (status) return status;
+  hr2di_view_tail_of(scene, patch, t, &seen, &tail);
+  *ends = tail.ends;
+  g->past = tail.ends > 0;
+  hr2di_gatherer_set_point(g, &scene->patch[patch], t);
+  for (size_t m = 0; m < seen.count && g->past; m++) {
+    const double *check = hr2di_view_tail_checks(scene, seen.glimpse[m].patch);
+    const double more = hr2di_view_tail_weight(scene, seen.glimpse[m].patch) - 1;
+    if (!check) continue;
+    set_one(g, &seen.glimpse[m]);
+    for (size_t b = 0; b < bands; b++) {
+      for (int c = 0; c < HR2DI_TAIL_CHECKS; c++)
+        past[(size_t)c * bands + b] += check[c] * g->one[b];
+      past[HR2DI_TAIL_CHECKS * bands + b] += more * g->one[b];
+    }
+  }
+  for (int c = 0; c < HR2DI_TAIL_CHECKS; c++)
+    add_far_sky(g, tail.check[c], tail.bearing, past + (size_t)c * bands);
+  add_far_sky(g, tail.sky, tail.bearing, past + HR2DI_TAIL_CHECKS * bands);
+  return hr2di_watch_work(g->watch, 1 + seen.count / 16);
+}
+
+hr2d_status hr2di_gatherer_look(hr2di_gatherer *g, size_t patch, double t,
+                                const hr2di_edge *without, double *irradiance, double *wedge,
+                                double *others) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  const int background = scene->effect[HR2D_EFFECT_BACKGROUND].on;
+  hr2di_view_from seen;
+  const hr2d_status status = hr2di_view_at(g->viewer, patch, t, &seen);
+  if (status) return status;
+  hr2di_view_tail tail;
+  hr2di_view_tail_of(scene, patch, t, &seen, &tail);
+  g->past = tail.ends > 0;
+  hr2di_gatherer_set_point(g, &scene->patch[patch], t);
+  g->value = irradiance;
+  *wedge = 0;
+  *others = seen.sky + seen.back;
+  for (size_t b = 0; b < g->solution->bands; b++)
+    g->value[b] = background ? seen.sky * hr2d_scene_background(scene, b) +
+                                   hr2d_scene_sunlight_at(scene, patch, t, b)
+                             : 0;
+  add_sky(g, patch, &seen);
+  add_far_sky(g, tail.sky, tail.bearing, g->value);
+  for (size_t k = 0; k < seen.count; k++) {
+    const int at_edge = is_at_edge(&seen.glimpse[k], without);
+    *(at_edge ? wedge : others) += seen.glimpse[k].sine;
+    if (!at_edge) add_glimpse(g, &seen.glimpse[k]);
+  }
+  /* Light is never negative; polynomials may be beside a shadow. */
+  for (size_t b = 0; b < g->solution->bands; b++) g->value[b] = fmax(g->value[b], 0);
+  return hr2di_watch_work(g->watch, seen.count / 16);
+}
+
+hr2d_status hr2di_gatherer_init(hr2di_gatherer *g, const hr2d_solution *solution,
+                                hr2di_watch *watch) {
+  *g = (hr2di_gatherer){.solution = solution, .watch = watch};
+  g->edge = hr2di_alloc(&solution->alloc, solution->bands, 3 * sizeof *g->edge);
+  if (!g->edge) return HR2D_ENOMEM;
+  g->far = g->edge + solution->bands;
+  g->one = g->far + solution->bands;
+  hr2di_basis_init(&g->basis, solution->order);
+  set_rules(g);
+  return hr2di_viewer_create(solution->hierarchy->scene, &solution->alloc, watch, &g->viewer);
+}
+
+void hr2di_gatherer_clear(hr2di_gatherer *g) {
+  hr2di_viewer_destroy(g->viewer);
+  hr2di_alloc_free(&g->solution->alloc, g->edge);
+}

@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A point that touches another patch has the limit from the inside of its own patch.  There the
+   two patches p and q form a wedge, and see each other under k = ½(1 + cos α) of all directions
+   whatever the distance from its edge.  With the irradiance r from everything else the limits
+   of B solve
+     b_p = E_p + ρ_p (k b_q + r_p),   b_q = E_q + ρ_q (k b_p + r_q). */
+#include <math.h>
+
+#include "geometry/predicates.h"
+#include "geometry/vector.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "solution/gatherer.h"
+
+/* The limits at the edge of a wedge are found from points so far beside it.  Roundings of the
+   coordinates of a foot do not matter there. */
+#define BESIDE 0x1p-46
+
+/* The point of a patch at the edge of a wedge, with the inside of the patch on the given side
+   if both are. */
+static hr2di_edge edge_of(const hr2di_gatherer *g, size_t patch, double at, double side) {
+  const double step = BESIDE / g->solution->hierarchy->scene->patch[patch].length;
+  const double inside = at <= step ? 1 : at >= 1 - step ? -1 : side;
+  return (hr2di_edge){patch, at, 8 * step, inside};
+}
+
+/* The unit vector along a patch, from the edge to the point beside it. */
+static hr2d_point direction_of(const hr2di_gatherer *g, const hr2di_edge *e) {
+  const hr2di_patch *p = &g->solution->hierarchy->scene->patch[e->patch];
+  const hr2d_point along = hr2di_point_minus(p->scaled.b, p->scaled.a);
+  return (hr2d_point){e->inside * along.x / p->length, e->inside * along.y / p->length};
+}
+
+/* A place so many steps beside an edge. */
+static double beside(const hr2di_gatherer *g, const hr2di_edge *e, double steps) {
+  const double step = steps * BESIDE / g->solution->hierarchy->scene->patch[e->patch].length;
+  return fmin(fmax(e->at + e->inside * step, 0), 1);
+}
+
+/* The form factor of an edge is k = ½(1 + cos α) = ¼|u + w|², and that of everything else
+   1 − k = ¼|u − w|².  A view from beside the edge has neither exactly: irradiances from
+   everything else are scaled by the right one. */
+static hr2d_status look_beside(hr2di_gatherer *g, const hr2di_edge *p, const hr2di_edge *q,
+                               double steps, double right, double *irradiance, int *sees) {
+  double wedge, others;
+  const hr2d_status status =
+      hr2di_gatherer_look(g, p->patch, beside(g, p, steps), q, irradiance, &wedge, &others);
+  *sees = !status && wedge > 0;
+  for (size_t b = 0; b < g->solution->bands && !status; b++)
+    irradiance[b] *= others > 0 ? right / others : 0;
+  return status;
+}
+
+/* The irradiance from everything but the other patch at the edge of a wedge: 2H(x) − H(2x),
+   which differs from the limit by O(x²). */
+static hr2d_status look_at_edge(hr2di_gatherer *g, const hr2di_edge *p, const hr2di_edge *q,
+                                double right, double *irradiance, int *sees) {
+  hr2d_status status = look_beside(g, p, q, 2, right, g->far, sees);
+  if (!status && *sees) status = look_beside(g, p, q, 1, right, irradiance, sees);
+  for (size_t b = 0; b < g->solution->bands && !status && *sees; b++)
+    irradiance[b] = fmax(2 * irradiance[b] - g->far[b], 0);
+  return status;
+}
+
+/* The irradiance at the edge of the wedge that two patches make; *closed is 0 if they do not
+   see each other beside it. */
+static hr2d_status close_wedge(hr2di_gatherer *g, const hr2di_edge *p, const hr2di_edge *q,
+                               double *irradiance, int *closed) {
+  const hr2d_scene *scene = hr2di_solution_scene(g->solution);
+  const hr2d_point u = direction_of(g, p), w = direction_of(g, q);
+  const hr2d_point sum = {u.x + w.x, u.y + w.y}, apart = hr2di_point_minus(u, w);
+  const double k = 0.25 * hr2di_point_dot(sum, sum),
+               rest = 0.25 * hr2di_point_dot(apart, apart);
+  hr2d_status status = look_at_edge(g, p, q, rest, irradiance, closed);
+  if (!status && *closed) status = look_at_edge(g, q, p, rest, g->edge, closed);
+  if (status || !*closed) return status;
+  for (size_t b = 0; b < g->solution->bands; b++) {
+    const double rho_p = hr2d_scene_reflectance(scene, p->patch, b);
+    const double rho_q = hr2d_scene_reflectance(scene, q->patch, b);
+    const double alone_p = hr2d_scene_emission(scene, p->patch, b) + rho_p * irradiance[b];
+    const double alone_q = hr2d_scene_emission(scene, q->patch, b) + rho_q * g->edge[b];
+    irradiance[b] += k * (alone_q + rho_q * k * alone_p) / (1 - rho_p * rho_q * k * k);
+  }
+  return HR2D_OK;
+}
+
+/* Where a patch has an edge in common with that at p, and shows its front beside it. */
+static int makes_wedge(const hr2di_gatherer *g, size_t patch, hr2di_edge *q) {
+  const hr2d_segment s = g->solution->hierarchy->scene->patch[patch].scaled;
+  const double rises = hr2di_point_dot(hr2di_point_minus(s.b, s.a), g->normal);
+  double distance;
+  const double at = hr2di_gatherer_nearest(g, patch, 0, 1, &distance);
+  if (distance > HR2DI_TOUCH) return 0;
+  *q = edge_of(g, patch, at, rises > 0 ? 1 : -1);
+  return q->inside * rises > 0;
+}
+
+/* The first patch from *k on that makes a wedge with the point's own one; its number is left in
+ *k, or that of patches if there is none.  It is seen from where limits are found. */
+static hr2d_status next_wedge(hr2di_gatherer *g, const hr2di_edge *p, size_t *k,
+                              hr2di_edge *q) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  hr2di_view_from seen;
+  const hr2d_status status = hr2di_view_at(g->viewer, p->patch, beside(g, p, 2), &seen);
+  if (status) return status;
+  hr2di_gatherer_set_point(g, &scene->patch[p->patch], p->at);
+  for (size_t m = 0; m < seen.count; m++) {
+    const size_t patch = seen.glimpse[m].patch;
+    if (patch < *k || (m > 0 && patch == seen.glimpse[m - 1].patch)) continue;
+    if (!makes_wedge(g, patch, q)) continue;
+    *k = patch;
+    return hr2di_watch_work(g->watch, seen.count / 8);
+  }
+  *k = scene->patches;
+  return hr2di_watch_work(g->watch, seen.count / 8);
+}
+
+hr2d_status hr2di_gatherer_close_wedge(hr2di_gatherer *g, size_t patch, double t,
+                                       double *irradiance, int *closed) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  const hr2di_edge p = edge_of(g, patch, t, t <= 0.5 ? 1 : -1);
+  hr2di_edge q;
+  hr2d_status status = HR2D_OK;
+  *closed = 0;
+  for (size_t k = 0; k < scene->patches && !*closed && !status; k++) {
+    status = next_wedge(g, &p, &k, &q);
+    if (!status && k < scene->patches) status = close_wedge(g, &p, &q, irradiance, closed);
+  }
+  return status;
+}
