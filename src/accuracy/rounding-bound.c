@@ -166,6 +166,31 @@ static void set_own(hr2di_estimator *e) {
   hr2di_estimator_lift(e, e->own);
 }
 
+/* What a point receives from slivers of the ends of a period, at most. */
+static double slivers(const hr2di_estimator *e, size_t b) {
+  const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
+  const double sliver = hr2di_symmetry_sliver(scene);
+  if (sliver == 0) return 0;
+  return sliver * fmax(e->largest[0][b], ldexp(hr2di_sky_most(scene, b), -e->eq.exponent[b]));
+}
+
+/* Roundings at points of a band, with those of H in eq->irradiance, to which those that are
+   H's alone are added. */
+static void add_points(hr2di_estimator *e, size_t b) {
+  hr2di_equation *eq = &e->eq;
+  const hr2di_transport *t = &eq->transport;
+  const double own = HR2DI_ESTIMATOR_ROUNDING * e->largest[1][b] + slivers(e, b);
+  for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
+    const double h = hr2di_estimator_most(e, eq->irradiance, leaf, b) + own;
+    e->stray[1][b] = fmax(e->stray[1][b], h);
+    /* Where the light of a sun, or of pieces of the sky alone, is absorbed at once, nothing
+       is rounded. */
+    if (e->largest[0][b] > 0 || eq->light[b] > 0)
+      e->stray[0][b] = fmax(e->stray[0][b], hr2di_estimator_rho(e, leaf, b) * h);
+    eq->irradiance[leaf * t->width + b] += e->off[1][leaf * t->bands + b];
+  }
+}
+
 hr2d_status hr2di_rounding_bound(hr2di_estimator *e, int reflects) {
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
@@ -188,17 +213,7 @@ hr2d_status hr2di_rounding_bound(hr2di_estimator *e, int reflects) {
   if (status) return status;
   hr2di_estimator_averages(e, e->error, e->rounding[0]);
   hr2di_equation_gather(eq, e->error);
-  for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++)
-    for (size_t b = 0; b < t->bands; b++) {
-      const double h = hr2di_estimator_most(e, eq->irradiance, leaf, b) +
-                       HR2DI_ESTIMATOR_ROUNDING * e->largest[1][b];
-      e->stray[1][b] = fmax(e->stray[1][b], h);
-      /* Where the light of a sun, or of pieces of the sky alone, is absorbed at once, nothing
-         is rounded. */
-      if (e->largest[0][b] > 0 || eq->light[b] > 0)
-        e->stray[0][b] = fmax(e->stray[0][b], hr2di_estimator_rho(e, leaf, b) * h);
-      eq->irradiance[leaf * t->width + b] += e->off[1][leaf * t->bands + b];
-    }
+  for (size_t b = 0; b < t->bands; b++) add_points(e, b);
   hr2di_estimator_averages(e, eq->irradiance, e->rounding[1]);
   return HR2D_OK;
 }

@@ -117,6 +117,13 @@ double hr2di_symmetry_touch(const hr2d_scene *scene) {
   return 0x1p-49 * max;
 }
 
+/* The ends are K periods away. */
+double hr2di_symmetry_sliver(const hr2d_scene *scene) {
+  const hr2di_symmetry *s = &scene->symmetry;
+  if (s->ends == 0) return 0;
+  return hr2di_symmetry_touch(scene) / (s->copies * hypot(s->by.period.x, s->by.period.y));
+}
+
 /* A point of a mirror.  From one that is much farther from the patches than these are large,
    the distance of a patch would have few digits: then it is the foot of a patch, by an exact
    determinant. */

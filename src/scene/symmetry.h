@@ -179,6 +179,10 @@ hr2d_point hr2di_symmetry_move(const hr2di_generators *by, const hr2di_motion *g
 /* What is within so much of a line of the scene lies on it, in scene lengths. */
 double hr2di_symmetry_touch(const struct hr2d_scene *scene);
 
+/* The form factor of the ends from a point that sees none of them but by roundings, as where
+   all images are in a line with it; 0 without ends. */
+double hr2di_symmetry_sliver(const struct hr2d_scene *scene);
+
 /* Moves patches that were drawn more than a period apart, and back to where they were. HR2D_OK,
    or a status with a message. */
 hr2d_status hr2di_scene_make_one_cell(struct hr2d_scene *scene, hr2di_watch *watch);
