@@ -8,7 +8,7 @@ aside faults ranks 2 "$programs/check-rank-faults"
 
 # ---- memory of two ranks; what MPI and PETSc keep is their own
 watched() { # watched PROGRAM...: on two ranks under valgrind
-  "$HR2D_BUILDDIR/libtool" --mode=execute timeout 300 "$MPIEXEC" -n 2 valgrind --quiet \
+  "$HR2D_BUILDDIR/libtool" --mode=execute timeout 900 "$MPIEXEC" -n 2 valgrind --quiet \
     --suppressions=/usr/share/openmpi/openmpi-valgrind.supp --error-exitcode=0 "$@"
 }
 if command -v valgrind >/dev/null; then

@@ -24,7 +24,7 @@ export OMP_NUM_THREADS OMPI_MCA_orte_tmpdir_base
 ranks() { # ranks N COMMAND...
   count=$1
   shift
-  timeout 300 "$MPIEXEC" -n "$count" "$@"
+  timeout 900 "$MPIEXEC" -n "$count" "$@"
 }
 # What a job waits for is mostly its start: several run side by side.
 aside() { # aside NAME COMMAND...: begins it; its output is in $work/NAME and $work/NAME.errors
