@@ -166,11 +166,12 @@ static void set_own(hr2di_estimator *e) {
   hr2di_estimator_lift(e, e->own);
 }
 
-/* What a point receives from slivers of the ends of a period, at most. */
+/* What a point receives from slivers of the ends of a period, at most; 0 where nobody receives
+   anything. */
 static double slivers(const hr2di_estimator *e, size_t b) {
   const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
   const double sliver = hr2di_symmetry_sliver(scene);
-  if (sliver == 0) return 0;
+  if (sliver == 0 || e->largest[1][b] == 0) return 0;
   return sliver * fmax(e->largest[0][b], ldexp(hr2di_sky_most(scene, b), -e->eq.exponent[b]));
 }
 
