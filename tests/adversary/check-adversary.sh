@@ -61,7 +61,7 @@ once plates 1013
 once mirrored-row 20017
 once plates 40186
 # Points that see what is cut off.
-once array 31000102 31000140
+once array 31000091 31000102 31000140
 once plates 31000136
 once bed 700008
 
