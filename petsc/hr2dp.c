@@ -68,6 +68,8 @@ static hr2d_status check_scene(hr2dp *p, const hr2dp_options *options) {
     return hr2dpi_fail(p, HR2D_EUNSUPPORTED,
                        "patches of given flux in several bands: hr2dp_share_create() is for "
                        "their temperatures");
+  if (hr2d_scene_images(p->scene) > 1)
+    return hr2dpi_fail(p, HR2D_EUNSUPPORTED, "mirrors and periods are for one process");
   /* Elements are numbered by PetscInt, patches counted by int. */
   if (p->patches > INT_MAX / 8)
     return hr2dpi_fail(p, HR2D_EUNSUPPORTED, "%zu patches are too many", p->patches);

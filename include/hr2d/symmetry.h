@@ -56,10 +56,10 @@
  * its own. They are made by one thread, in a matrix of all patches of the cell.
  * hr2d_leaf_sums() has the rows of the patches of the cell.
  *
- * Not supported, and refused with HR2D_EUNSUPPORTED: over a period in which patches see for
- * ever, a sky with a piece that ends between the horizon and the last images. Points between
- * the patches have no values (HR2D_PLACE_OUTSIDE) if such a piece ends, or a sun shines, past
- * the images that they see.
+ * Not supported, and refused with HR2D_EUNSUPPORTED: shares (share.h); and, over a period in
+ * which patches see for ever, a sky with a piece that ends between the horizon and the last
+ * images. Points between the patches have no values (HR2D_PLACE_OUTSIDE) if such a piece ends,
+ * or a sun shines, past the images that they see.
  * @{
  */
 #ifndef HR2D_SYMMETRY_H

@@ -181,6 +181,15 @@ ranks 3 "$program" solve "$room" --eps 0.2 --oracle bf --multigrid 0.4:0.5 \
   --state "$work/stage1" >"$work/out" 2>&1
 check "so is a finer one" grep -q "which is finer than --eps 0.2" "$work/out"
 
+# ---- scenes for one process
+sed 's/"FeatureCollection",/&\n"hr2d": {"period": [100, 0]},/' "$room" >"$work/row.geojson"
+check "the room has a period" grep -q '"period"' "$work/row.geojson"
+for how in "--eps 0.5" "--target-error 0.1"; do
+  # shellcheck disable=SC2086 # two words
+  ranks 2 "$program" solve "$work/row.geojson" $how >"$work/out" 2>&1
+  check "a period is refused: $(cat "$work/out")" grep -q "no mirrors and no periods" "$work/out"
+done
+
 # ---- a rank that is killed
 plates=$scenes/par-near.geojson
 "$MPIEXEC" -n 2 "$program" solve "$plates" --quiet --multigrid 1:0.5 --eps 0.001 \

@@ -226,27 +226,47 @@ static PetscErrorCode run(const petsc_case *c, const hr2d_scene *scene, int *fai
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode refuse(hr2d_scene *scene, int *failed) {
+  PetscFunctionBegin;
+  hr2dp *p = NULL;
+  PetscCheck(!hr2d_scene_commit(scene), PETSC_COMM_SELF, PETSC_ERR_LIB, "no scene");
+  PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
+  if (!hr2dp_create(PETSC_COMM_WORLD, scene, NULL, &p)) *failed = 1;
+  PetscCall(PetscPopErrorHandler());
+  PetscCall(hr2dp_destroy(&p));
+  hr2d_scene_destroy(scene);
+  PetscFunctionReturn(0);
+}
+
 /* Temperatures that divide what a patch emits among bands are not found by an hr2dp. */
 static PetscErrorCode refuse_spectra(int *failed) {
   PetscFunctionBegin;
   static const double wavelength[] = {3}, emissivity[] = {0.5, 0.9};
   hr2d_scene *scene = NULL;
-  hr2dp *p = NULL;
   hr2d_patch patch = HR2D_PATCH_INIT;
   hr2d_thermal heat = HR2D_THERMAL_INIT;
   patch.b.x = 1;
   heat.given = HR2D_HEAT_FLUX;
   heat.emissivity = emissivity;
   heat.emissivity_bands = 2;
-  PetscCheck(
-      !hr2d_scene_create(NULL, &scene) && !hr2d_scene_set_wavelengths(scene, wavelength, 1) &&
-          !hr2d_scene_add_thermal(scene, &patch, &heat, NULL) && !hr2d_scene_commit(scene),
-      PETSC_COMM_SELF, PETSC_ERR_LIB, "no scene");
-  PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
-  if (!hr2dp_create(PETSC_COMM_WORLD, scene, NULL, &p)) *failed = 1;
-  PetscCall(PetscPopErrorHandler());
-  PetscCall(hr2dp_destroy(&p));
-  hr2d_scene_destroy(scene);
+  PetscCheck(!hr2d_scene_create(NULL, &scene) &&
+                 !hr2d_scene_set_wavelengths(scene, wavelength, 1) &&
+                 !hr2d_scene_add_thermal(scene, &patch, &heat, NULL),
+             PETSC_COMM_SELF, PETSC_ERR_LIB, "no scene");
+  PetscCall(refuse(scene, failed));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode refuse_images(int *failed) {
+  PetscFunctionBegin;
+  const hr2d_segment mirror = {{0, 0}, {0, 1}};
+  hr2d_scene *scene = NULL;
+  hr2d_patch patch = HR2D_PATCH_INIT;
+  patch.b.x = 1;
+  PetscCheck(!hr2d_scene_create(NULL, &scene) && !hr2d_scene_add(scene, &patch, NULL) &&
+                 !hr2d_scene_add_mirror(scene, mirror),
+             PETSC_COMM_SELF, PETSC_ERR_LIB, "no scene");
+  PetscCall(refuse(scene, failed));
   PetscFunctionReturn(0);
 }
 
@@ -261,6 +281,7 @@ int main(int argc, char **argv) {
     hr2d_scene_destroy(scene);
   }
   PetscCall(refuse_spectra(&failed));
+  PetscCall(refuse_images(&failed));
   PetscCallMPI(MPI_Bcast(&failed, 1, MPI_INT, 0, PETSC_COMM_WORLD));
   PetscCall(PetscFinalize());
   return failed;
