@@ -287,7 +287,8 @@ TOO_LONG = tests/faults/check-faults tests/faults/check-faults-accuracy \
 	tests/unit/blocks/check-blocks tests/unit/blocks/check-directions \
 	tests/unit/clusters/check-clusters tests/unit/field/check-field \
 	tests/unit/field/check-field-grid tests/unit/formats/check-vs2 tests/unit/links/check-store \
-	tests/unit/oracle/check-l1 tests/unit/refine/check-occlusion tests/unit/refine/check-rows \
+	tests/unit/oracle/check-l1 tests/unit/refine/check-image-elements \
+	tests/unit/refine/check-occlusion tests/unit/refine/check-rows \
 	tests/unit/refine/check-validate tests/unit/scene/check-crossings tests/unit/scene/check-effects \
 	tests/unit/solution/check-heat-links tests/unit/solution/check-irradiance-points \
 	tests/unit/solve/check-closure tests/unit/solve/check-mirrors tests/unit/solve/check-periods \
