@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "share.h"
+#include "spectra.h"
 #include "state-head.h"
 #include "trees.h"
 #include "units.h"
@@ -50,21 +51,13 @@ static PetscErrorCode compare_scenes(hr2dp *p) {
   PetscFunctionReturn(0);
 }
 
-/* Whether patches of given flux divide what they emit among bands by their temperatures. */
-static int has_spectra(const hr2d_scene *scene) {
-  size_t k = 0;
-  while (k < hr2d_scene_patches(scene) && hr2d_scene_heat(scene, k, NULL) != HR2D_HEAT_FLUX)
-    k++;
-  return k < hr2d_scene_patches(scene) && hr2d_scene_bands(scene) > 1;
-}
-
 static hr2d_status check_scene(hr2dp *p, const hr2dp_options *options) {
   if (options && options->struct_size >= offsetof(hr2dp_options, alloc) && options->order > 1)
     return hr2dpi_fail(p, HR2D_EUNSUPPORTED,
                        "order %u: this version has one constant per element", options->order);
   if (options && options->struct_size < offsetof(hr2dp_options, oracle_ctx))
     return hr2dpi_fail(p, HR2D_EINVAL, "struct_size is not set");
-  if (has_spectra(p->scene))
+  if (hr2dpi_has_spectra(p->scene))
     return hr2dpi_fail(p, HR2D_EUNSUPPORTED,
                        "patches of given flux in several bands: hr2dp_share_create() is for "
                        "their temperatures");

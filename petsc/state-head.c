@@ -59,7 +59,7 @@ uint64_t hr2dpi_method_hash(const hr2d_oracle *oracle, const hr2d_policy *policy
 }
 
 /* A sum over entries of hashes of their places and bits, so that ranks can add theirs. */
-PetscErrorCode hr2dpi_entries_hash(Vec b, uint64_t *hash) {
+static PetscErrorCode hash_entries(Vec b, uint64_t *hash) {
   PetscFunctionBegin;
   PetscInt from, to;
   const PetscScalar *value;
@@ -106,7 +106,7 @@ PetscErrorCode hr2dpi_head_write(hr2dpi_head *h, Vec b, PetscViewer viewer) {
   PetscScalar *head;
   PetscCall(VecGetSize(b, &entries));
   h->entries = (uint64_t)entries;
-  PetscCall(hr2dpi_entries_hash(b, &h->bits));
+  PetscCall(hash_entries(b, &h->bits));
   PetscCall(make_vector(viewer, &rank, &v));
   PetscCall(VecGetArrayWrite(v, &head));
   if (rank == 0) {
@@ -151,7 +151,7 @@ PetscErrorCode hr2dpi_head_read_field(PetscViewer viewer, const hr2dpi_head *hea
   uint64_t bits;
   PetscCall(PetscObjectSetName((PetscObject)b, "hr2d_radiosity"));
   PetscCall(VecLoad(b, viewer));
-  PetscCall(hr2dpi_entries_hash(b, &bits));
+  PetscCall(hash_entries(b, &bits));
   *status = bits == head->bits ? HR2D_OK : HR2D_ESYNTAX;
   PetscFunctionReturn(0);
 }

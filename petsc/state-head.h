@@ -22,10 +22,7 @@ hr2d_status hr2dpi_scene_hash(const hr2d_scene *scene, uint64_t *hash);
 uint64_t hr2dpi_method_hash(const hr2d_oracle *oracle, const hr2d_policy *policy,
                             unsigned order);
 
-/* Collective, as all below: a hash of the entries of a vector. */
-PetscErrorCode hr2dpi_entries_hash(Vec b, uint64_t *hash);
-
-/* Writes the head and B; sets what the head says of B. */
+/* Collective, as all below: writes the head and B; sets what the head says of B. */
 PetscErrorCode hr2dpi_head_write(hr2dpi_head *head, Vec b, PetscViewer viewer);
 
 /* Reads the head.  Returns HR2D_OK in *status, or HR2D_ESYNTAX if it is none. */

@@ -28,8 +28,11 @@ int job_load_scene(job *j);
 /* run.c: refines and solves.  Returns 0 or the exit status. */
 int job_run(job *j);
 
-/* whole.c: whether the options or the scene ask for what needs all elements on every rank; and
-   solves and reports so.  Returns 0 or the exit status, the same on all ranks. */
+/* whole.c: whether the links of a stage follow from the brightness of the former one's. */
+int job_follows_brightness(const options *o);
+
+/* Whether the options or the scene ask for what needs all elements on every rank; and solves
+   and reports so.  Returns 0 or the exit status, the same on all ranks. */
 int job_is_whole(const options *o, const hr2d_scene *scene);
 int job_solve_whole(job *j);
 

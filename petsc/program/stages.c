@@ -4,11 +4,6 @@
 #include "output/complain.h"
 #include "program.h"
 
-/* Whether the file has all stages. */
-static int keeps_all(const options *o) {
-  return o->oracle->flags & HR2D_ORACLE_NEEDS_BRIGHTNESS && o->multigrid.ratio > 0;
-}
-
 /* Loads the next stage of the file. */
 static PetscErrorCode load_stage(run *r, PetscViewer viewer) {
   PetscFunctionBegin;
@@ -31,7 +26,7 @@ static PetscErrorCode load_all(run *r, PetscViewer viewer, int *more) {
   *more = 1;
   PetscCall(load_stage(r, viewer));
   PetscCall(state_file_has_more(viewer, rank, more));
-  while (*more && keeps_all(r->options)) {
+  while (*more && job_follows_brightness(r->options)) {
     PetscCall(load_stage(r, viewer));
     PetscCall(state_file_has_more(viewer, rank, more));
   }
@@ -69,7 +64,8 @@ static PetscErrorCode save(run *r) {
   const char *path = r->options->state;
   const int rank = (int)r->share->number;
   PetscViewer viewer;
-  PetscCall(state_file_write(path, rank, r->kept > 0 && keeps_all(r->options), &viewer));
+  PetscCall(
+      state_file_write(path, rank, r->kept > 0 && job_follows_brightness(r->options), &viewer));
   const PetscErrorCode failed = hr2dp_save_solution(r->solution, viewer);
   if (failed) PetscCall(PetscViewerDestroy(&viewer));
   PetscCall(failed);

@@ -2,28 +2,23 @@
 /* Solves with elements on every rank, and links and blocks shared out: to a target, at an order
    above 1, or where a result needs all elements.  It is the run of `hr2d solve`, made by all
    ranks; rank 0 reports. */
+#include "../spectra.h"
 #include "output/complain.h"
 #include "program.h"
 #include "solve/solve.h"
 
-/* Temperatures of patches of given flux divide what these emit among bands. */
-static int has_spectra(const hr2d_scene *scene) {
-  size_t k = 0;
-  while (k < hr2d_scene_patches(scene) && hr2d_scene_heat(scene, k, NULL) != HR2D_HEAT_FLUX)
-    k++;
-  return k < hr2d_scene_patches(scene) && hr2d_scene_bands(scene) > 1;
+int job_follows_brightness(const options *o) {
+  return o->oracle->flags & HR2D_ORACLE_NEEDS_BRIGHTNESS && o->multigrid.ratio > 0;
 }
 
 int job_is_whole(const options *o, const hr2d_scene *scene) {
-  /* Brightness of a former stage is that of all its elements. */
-  const int lit = o->oracle->flags & HR2D_ORACLE_NEEDS_BRIGHTNESS && o->multigrid.ratio > 0;
-  return lit || options_targeted(o) || o->order > 1 || o->at.count > 0 || o->csv || o->draw ||
-         o->watch || o->error || has_spectra(scene);
+  return job_follows_brightness(o) || options_targeted(o) || o->order > 1 || o->at.count > 0 ||
+         o->csv || o->draw || o->watch || o->error || hr2dpi_has_spectra(scene);
 }
 
 int job_solve_whole(job *j) {
   hr2d_share *share;
-  if (j->options->state && has_spectra(j->scene))
+  if (j->options->state && hr2dpi_has_spectra(j->scene))
     return complain(j->options->scene,
                     "a state of ranks cannot keep temperatures of patches of given flux in "
                     "several bands: solve without --state, or by hr2d solve");

@@ -30,6 +30,11 @@ double hr2di_estimator_rho(const hr2di_estimator *e, size_t leaf, size_t band) {
                                 band);
 }
 
+double hr2di_estimator_sky(const hr2di_estimator *e, size_t m) {
+  const hr2di_transport *t = &e->eq.transport;
+  return m < t->bands ? ldexp(hr2di_sky_most(t->hierarchy->scene, m), -e->eq.exponent[m]) : 0;
+}
+
 void hr2di_estimator_averages(hr2di_estimator *e, const double *field, double *average) {
   hr2di_transport *t = &e->eq.transport;
   hr2di_transport_pull(t, field);

@@ -84,6 +84,9 @@ void hr2di_estimator_lift(const hr2di_estimator *e, double *most);
 /* ρ of the patch of a leaf. */
 double hr2di_estimator_rho(const hr2di_estimator *e, size_t leaf, size_t band);
 
+/* The brightest sky in coefficient m of a field; only the first of each band is not 0. */
+double hr2di_estimator_sky(const hr2di_estimator *e, size_t m);
+
 /* Averages of a field over the patches. */
 void hr2di_estimator_averages(hr2di_estimator *e, const double *field, double *average);
 

@@ -21,12 +21,6 @@ enum { CHECKS = HR2DI_TAIL_CHECKS, PAST = HR2DI_GATHER_PAST, PLACES = 3 };
 /* The relative accuracy of the solves for b, also where patches are dark. */
 #define ENOUGH 1e-4
 
-/* The first of the coefficients m of the brightest sky; the others are 0. */
-static double sky_of(const hr2di_equation *eq, size_t m) {
-  const hr2di_transport *t = &eq->transport;
-  return m < t->bands ? ldexp(hr2di_sky_most(t->hierarchy->scene, m), -eq->exponent[m]) : 0;
-}
-
 /* A leaf sees the background where it sees no patch: what extrapolation leaves of patches is
    missing from the background.  If it sees backs, their rest has that, and the background is
    off by what the series of the sky past the ends leaves, whose sign does not matter. */
@@ -35,13 +29,13 @@ static void take_sky(hr2di_estimator *e, int check, const double *off) {
   hr2di_transport *t = &eq->transport;
   const hr2d_hierarchy *h = t->hierarchy;
   const unsigned char *sees = t->links->sees_backs;
-  for (size_t k = 0; k < eq->field; k++) e->error[k] = sky_of(eq, k % t->width);
+  for (size_t k = 0; k < eq->field; k++) e->error[k] = hr2di_estimator_sky(e, k % t->width);
   hr2di_transport_check(t, check, e->error, eq->irradiance);
   for (size_t k = 0; k < eq->field; k++) {
     const size_t leaf = k / t->width;
     const uint32_t element = hr2di_ties_of(&t->ties, t->leaf[leaf]);
     if (sees && sees[h->element[element].patch])
-      e->tail[k] += copysign(off[element] * sky_of(eq, k % t->width), e->tail[k]);
+      e->tail[k] += copysign(off[element] * hr2di_estimator_sky(e, k % t->width), e->tail[k]);
     else if (t->sky[leaf * t->order] != 0)
       e->tail[k] -= eq->irradiance[k];
   }
@@ -135,7 +129,7 @@ static void note_point(const hr2di_estimator *e, const results *r, size_t leaf,
   const hr2di_equation *eq = &e->eq;
   const size_t bands = eq->transport.bands;
   for (size_t b = 0; b < bands; b++) {
-    const double brightest = fmax(e->largest[0][b], sky_of(eq, b)) * ends,
+    const double brightest = fmax(e->largest[0][b], hr2di_estimator_sky(e, b)) * ends,
                  is = ldexp(past[CHECKS * bands + b], -eq->exponent[b]),
                  off = ldexp(larger(past + b, bands), -eq->exponent[b]),
                  all = fmax(is, brightest - fmin(is, 0));

@@ -172,7 +172,7 @@ static double slivers(const hr2di_estimator *e, size_t b) {
   const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
   const double sliver = hr2di_symmetry_sliver(scene);
   if (sliver == 0 || e->largest[1][b] == 0) return 0;
-  return sliver * fmax(e->largest[0][b], ldexp(hr2di_sky_most(scene, b), -e->eq.exponent[b]));
+  return sliver * fmax(e->largest[0][b], hr2di_estimator_sky(e, b));
 }
 
 /* Roundings at points of a band, with those of H in eq->irradiance, to which those that are

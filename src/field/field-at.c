@@ -62,7 +62,7 @@ static void take_far_sky(void *ctx, const hr2di_far_part *part) {
   looker *l = ctx;
   clear(&l->one, l->sum.of->solution->bands);
   hr2di_light_add_sky(&l->one, part->right, part->left, part->angle, part->bearing, 1);
-  if (part->weight != -1) {
+  if (!part->past) {
     add_one(l, part);
     return;
   }

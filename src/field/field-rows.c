@@ -99,7 +99,7 @@ static void take_far_sky(void *ctx, const hr2di_far_part *part) {
   looker *l = ctx;
   const double share = part->angle / (2 * HR2DI_PI),
                factor = factor_of(l, part->right, part->left);
-  if (part->weight == -1) {
+  if (part->past) {
     add(l->past.gone, 1, share, factor);
     return;
   }

@@ -65,9 +65,10 @@ static void show_quadrant(const hr2di_far_view *v, const hr2di_quadrant *q,
     if (k > 0 && t->weight[k] == 0 && t->half[k] == 0) continue;
     hr2di_quadrant_of(all, q, k, distance);
     const double range[2] = {atan2(q->border, distance[1]), atan2(q->border, distance[0])};
-    const hr2di_far_part part = {.weight = k == 0 ? -1 : t->weight[k],
+    const hr2di_far_part part = {.past = k == 0,
+                                 .weight = t->weight[k],
                                  .check = {t->check[0][k], t->check[1][k]},
-                                 .half = k == 0 ? -1 : t->half[k],
+                                 .half = t->half[k],
                                  .late = 2 * k > all->copies,
                                  .bearing = hr2di_quadrant_bearing(q)};
     show_common(q, from, from + s->angle, part, range, show, ctx);

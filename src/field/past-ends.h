@@ -8,7 +8,8 @@
 
 /* A part of the view that stands for others, or is unknown. */
 typedef struct hr2di_far_part {
-  double weight; /* how often it counts beside itself; −1: it is past the end */
+  int past;                        /* it is past the end; then the next ones are 0 */
+  double weight;                   /* how often it counts beside itself */
   double check[HR2DI_TAIL_CHECKS]; /* what checks of its series leave of that */
   double half;                     /* the same from periods up to ½K, less those that follow */
   hr2d_point right, left;

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "petsc/petsc-scenes.h"
+#include "petsc/petsc-viewer.h"
 
 enum { REFUSED = 3 };
 
@@ -21,17 +22,6 @@ typedef struct job {
   hr2d_solution *solution;
   PetscViewer viewer;
 } job;
-
-static PetscErrorCode open_viewer(const char *kind, const char *path, PetscFileMode mode,
-                                  PetscViewer *viewer) {
-  PetscFunctionBegin;
-  PetscCall(PetscViewerCreate(PETSC_COMM_WORLD, viewer));
-  PetscCall(
-      PetscViewerSetType(*viewer, strcmp(kind, "hdf5") ? PETSCVIEWERBINARY : PETSCVIEWERHDF5));
-  PetscCall(PetscViewerFileSetMode(*viewer, mode));
-  PetscCall(PetscViewerFileSetName(*viewer, path));
-  PetscFunctionReturn(0);
-}
 
 /* Of bits; a sum, so that the order of elements does not matter. */
 static void print_hash(const job *j) {
@@ -120,7 +110,8 @@ int main(int argc, char **argv) {
              PETSC_COMM_SELF, PETSC_ERR_LIB, "no scene");
   j.refine.epsilon = j.c->epsilon;
   PetscCall(hr2dp_share_create(PETSC_COMM_WORLD, &j.refine.share));
-  PetscCall(open_viewer(argv[1], argv[3], saves ? FILE_MODE_WRITE : FILE_MODE_READ, &j.viewer));
+  PetscCall(
+      petsc_viewer_open(argv[1], argv[3], saves ? FILE_MODE_WRITE : FILE_MODE_READ, &j.viewer));
   if (saves)
     PetscCall(save(&j));
   else

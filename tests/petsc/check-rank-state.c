@@ -10,19 +10,9 @@
 #include <string.h>
 
 #include "petsc/petsc-scenes.h"
+#include "petsc/petsc-viewer.h"
 
 enum { REFUSED = 3 };
-
-static PetscErrorCode open_viewer(const char *kind, const char *path, PetscFileMode mode,
-                                  PetscViewer *viewer) {
-  PetscFunctionBegin;
-  PetscCall(PetscViewerCreate(PETSC_COMM_WORLD, viewer));
-  PetscCall(
-      PetscViewerSetType(*viewer, strcmp(kind, "hdf5") ? PETSCVIEWERBINARY : PETSCVIEWERHDF5));
-  PetscCall(PetscViewerFileSetMode(*viewer, mode));
-  PetscCall(PetscViewerFileSetName(*viewer, path));
-  PetscFunctionReturn(0);
-}
 
 static PetscErrorCode print_hash(Vec b) {
   PetscFunctionBegin;
@@ -55,7 +45,7 @@ static PetscErrorCode save(hr2dp *p, const char *kind, const char *path, double 
   PetscCall(hr2dp_refine(p, &options));
   PetscCall(hr2dp_vector(p, &b));
   PetscCall(hr2dp_solve(p, NULL, b, NULL, NULL));
-  PetscCall(open_viewer(kind, path, FILE_MODE_WRITE, &viewer));
+  PetscCall(petsc_viewer_open(kind, path, FILE_MODE_WRITE, &viewer));
   PetscCall(hr2dp_save(p, b, viewer));
   PetscCall(PetscViewerDestroy(&viewer));
   PetscCall(print_hash(b));
@@ -88,7 +78,7 @@ static PetscErrorCode load(hr2dp *p, const char *kind, const char *path, double 
   Vec b;
   PetscViewer viewer;
   double found;
-  PetscCall(open_viewer(kind, path, FILE_MODE_READ, &viewer));
+  PetscCall(petsc_viewer_open(kind, path, FILE_MODE_READ, &viewer));
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
   const PetscErrorCode failed = hr2dp_load(p, NULL, viewer, &b, &found);
   PetscCall(PetscPopErrorHandler());

@@ -20,11 +20,11 @@ tests_petsc_check_rank_faults_SOURCES = tests/petsc/check-rank-faults.c \
 tests_petsc_check_rank_faults_CPPFLAGS = $(RANKED_CPPFLAGS)
 tests_petsc_check_rank_faults_LDADD = $(RANKED_LDADD)
 tests_petsc_check_rank_solution_SOURCES = tests/petsc/check-rank-solution.c \
-	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h
+	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h tests/petsc/petsc-viewer.h
 tests_petsc_check_rank_solution_CPPFLAGS = $(RANKED_CPPFLAGS)
 tests_petsc_check_rank_solution_LDADD = $(RANKED_LDADD)
 tests_petsc_check_rank_state_SOURCES = tests/petsc/check-rank-state.c \
-	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h
+	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h tests/petsc/petsc-viewer.h
 tests_petsc_check_rank_state_CPPFLAGS = $(RANKED_CPPFLAGS)
 tests_petsc_check_rank_state_LDADD = $(RANKED_LDADD)
 
