@@ -143,7 +143,6 @@ static hr2d_status fail_crossed_image(hr2d_scene *scene, size_t i, size_t j, hr2
 
 static hr2d_status fail_crossing(hr2d_scene *scene, size_t i, size_t j, hr2d_point x) {
   const hr2d_point at = in_scene_lengths(scene, x);
-  if (hr2di_symmetry_is_image(&scene->symmetry, j)) return fail_crossed_image(scene, i, j, x);
   const double through =
       fmin(overshoot(&scene->patch[i].scaled, x), overshoot(&scene->patch[j].scaled, x));
   if (through < HUGE_VAL)
@@ -213,11 +212,30 @@ static int only_touch(const hr2di_meeting *m) {
   return hypot(m->to.x - m->from.x, m->to.y - m->from.y) <= TOUCH;
 }
 
+/* A crossing with what commit has added. */
+typedef struct added_crossing {
+  size_t patch[2]; /* both 0: there is none */
+  hr2d_point at;
+} added_crossing;
+
 typedef struct checker {
   hr2d_scene *scene;
   hr2di_steps steps;
-  int rounds; /* that are left in which images are moved */
+  added_crossing image, end; /* the first ones */
+  int rounds;                /* that are left in which images are moved */
 } checker;
+
+/* Is told only if no two patches cross as they were drawn, and of ends only if no images do:
+   those follow from the others. */
+static void note_crossing(checker *c, size_t i, size_t j, hr2d_point x) {
+  added_crossing *a = hr2di_symmetry_is_end(&c->scene->symmetry, j) ? &c->end : &c->image;
+  if (a->patch[1] == 0) *a = (added_crossing){{i, j}, x};
+}
+
+static hr2d_status fail_noted(const checker *c) {
+  const added_crossing *a = c->image.patch[1] ? &c->image : &c->end;
+  return a->patch[1] ? fail_crossed_image(c->scene, a->patch[0], a->patch[1], a->at) : HR2D_OK;
+}
 
 static hr2d_status check_pair(void *ctx, size_t i, size_t j) {
   checker *c = ctx;
@@ -232,6 +250,10 @@ static hr2d_status check_pair(void *ctx, size_t i, size_t j) {
   if (m.kind == HR2DI_MEET_LIE && hr2di_symmetry_is_image(&scene->symmetry, j) &&
       only_touch(&m))
     return HR2D_OK;
+  if (m.kind == HR2DI_MEET_CROSS && hr2di_symmetry_is_image(&scene->symmetry, j)) {
+    note_crossing(c, i, j, m.from);
+    return HR2D_OK;
+  }
   if (m.kind == HR2DI_MEET_CROSS) return fail_crossing(scene, i, j, m.from);
   return fail_overlap(scene, i, j, &m);
 }
@@ -251,6 +273,7 @@ hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene, hr2di_watch *watch) {
     c.rounds--;
   } while (!status);
   hr2di_alloc_free(&scene->alloc, c.steps.step);
+  if (!status) status = fail_noted(&c);
   if (status == HR2D_ENOMEM || hr2di_watch_status(watch))
     hr2di_scene_fail(scene, status, watch, "the checks");
   return status;

@@ -148,11 +148,15 @@ START_TEST(images_that_cross_are_refused) {
   hr2d_scene *scene = one_patch();
   test_add_patch(scene, (hr2d_segment){{4, -1}, {4, 1}}, 1, .5, HR2D_SIDES_FRONT);
   hr2d_scene_set_period(scene, (hr2d_point){2, 0});
-  expect_refusal(scene, HR2D_ESCENE, "image of patch 0");
-  scene = one_patch();
-  test_add_patch(scene, (hr2d_segment){{4, -1}, {4, 1}}, 1, .5, HR2D_SIDES_FRONT);
+  expect_refusal(
+      scene, HR2D_ESCENE,
+      "patch 0 and an image of patch 1 cross at (2, 0.25): patches have to end there");
+  /* What crosses in the drawing crosses images, and the end of the period, too. */
+  scene = test_new_scene(NULL);
+  test_add_patch(scene, (hr2d_segment){{0, 0}, {3, 1}}, 1, .5, HR2D_SIDES_FRONT);
+  test_add_patch(scene, (hr2d_segment){{2.5, -1}, {2.5, 2}}, 1, .5, HR2D_SIDES_FRONT);
   hr2d_scene_set_period(scene, (hr2d_point){2, 0});
-  expect_refusal(scene, HR2D_ESCENE, "patches have to end there");
+  expect_refusal(scene, HR2D_ESCENE, "patch 0 and patch 1 cross at (2.5, 0.833333333)");
 }
 END_TEST
 
