@@ -112,11 +112,19 @@ void adv_ask(const adv_scene *scene, adv_question question, const adv_points *po
   read_points(answer, points);
 }
 
+/* Beside the ends of a patch a lit gap may be as narrow as that. */
+enum { HALVINGS = 44 };
+
 void adv_look_closely(adv_answer *answer) {
   double b[ADV_BANDS], h[ADV_BANDS];
-  for (size_t k = 0; answer->solution && k < answer->scene->count; k++)
+  for (size_t k = 0; answer->solution && k < answer->scene->count; k++) {
     for (int j = 0; j <= 32; j++)
       read_point(answer, k, 0.5 - 0.5 * cos(3.14159265358979323846 * j / 32), b, h);
+    for (int j = 2; j <= HALVINGS; j++) {
+      read_point(answer, k, ldexp(1, -j), b, h);
+      read_point(answer, k, 1 - ldexp(1, -j), b, h);
+    }
+  }
 }
 
 void adv_forget(adv_answer *answer) {

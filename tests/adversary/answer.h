@@ -57,7 +57,7 @@ void adv_ask(const adv_scene *scene, adv_question question, const adv_points *po
              adv_answer *answer);
 void adv_forget(adv_answer *answer);
 
-/* Reads 33 points on each patch more, for the largest values of each band. */
+/* Reads 119 points on each patch more, for the largest values of each band. */
 void adv_look_closely(adv_answer *answer);
 
 #endif
