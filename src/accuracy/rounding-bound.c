@@ -184,9 +184,8 @@ static void add_points(hr2di_estimator *e, size_t b) {
   for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
     const double h = hr2di_estimator_most(e, eq->irradiance, leaf, b) + own;
     e->stray[1][b] = fmax(e->stray[1][b], h);
-    /* Where the light of a sun, or of pieces of the sky alone, is absorbed at once, nothing
-       is rounded. */
-    if (e->largest[0][b] > 0 || eq->light[b] > 0)
+    /* Where light from outside is absorbed at once, nothing is rounded. */
+    if (e->largest[0][b] > 0)
       e->stray[0][b] = fmax(e->stray[0][b], hr2di_estimator_rho(e, leaf, b) * h);
     eq->irradiance[leaf * t->width + b] += e->off[1][leaf * t->bands + b];
   }

@@ -266,6 +266,22 @@ hr2d_status hr2di_gatherer_look_past(hr2di_gatherer *g, size_t patch, double t, 
   return hr2di_watch_work(g->watch, 1 + seen.count / 16);
 }
 
+/* A form factor up to this cannot be told from rounding. */
+#define NONE 1e-14
+
+static int is_dark(const hr2d_solution *s, size_t band) {
+  for (size_t k = band; k < s->elements * s->order * s->bands; k += s->bands)
+    if (s->value[k] != 0) return 0;
+  return 1;
+}
+
+/* The light of the background.  If all patches are dark, nothing that reflects sees it: what a
+   point sees of it by roundings would be all the light that there is. */
+static double light_of_sky(const hr2di_gatherer *g, double factor, size_t band) {
+  if (factor <= NONE && is_dark(g->solution, band)) return 0;
+  return factor * hr2d_scene_background(g->solution->hierarchy->scene, band);
+}
+
 hr2d_status hr2di_gatherer_look(hr2di_gatherer *g, size_t patch, double t,
                                 const hr2di_edge *without, double *irradiance, double *wedge,
                                 double *others) {
@@ -282,9 +298,9 @@ hr2d_status hr2di_gatherer_look(hr2di_gatherer *g, size_t patch, double t,
   *wedge = 0;
   *others = seen.sky + seen.back;
   for (size_t b = 0; b < g->solution->bands; b++)
-    g->value[b] = background ? seen.sky * hr2d_scene_background(scene, b) +
-                                   hr2d_scene_sunlight_at(scene, patch, t, b)
-                             : 0;
+    g->value[b] =
+        background ? light_of_sky(g, seen.sky, b) + hr2d_scene_sunlight_at(scene, patch, t, b)
+                   : 0;
   add_sky(g, patch, &seen);
   add_far_sky(g, tail.sky, tail.bearing, g->value);
   for (size_t k = 0; k < seen.count; k++) {

@@ -171,17 +171,63 @@ static void last_check(hr2di_transport *t, const double *radiosity, double *irra
   hr2di_transport_check(t, HR2DI_CHECK_LAST, radiosity, irradiance);
 }
 
+static void part_check(hr2di_transport *t, const double *radiosity, double *irradiance) {
+  hr2di_transport_check(t, HR2DI_CHECK_PART, radiosity, irradiance);
+}
+
+/* Whether the sky shows from a point of the rule on a leaf. */
+static hr2d_status sees_sky(const hr2di_transport *t, hr2di_viewer *viewer, size_t leaf,
+                            const hr2di_rule *rule, int *sees) {
+  const hr2d_hierarchy *h = t->hierarchy;
+  const hr2d_element *e = &h->element[t->leaf[leaf]];
+  const double from = hr2di_element_start(h, t->leaf[leaf]),
+               size = e->length / h->element[e->patch].length;
+  hr2d_status status = HR2D_OK;
+  *sees = 0;
+  for (size_t q = 0; q < rule->points && !*sees && !status; q++) {
+    hr2di_view_from seen;
+    double sum = 0;
+    status = hr2di_view_at(viewer, e->patch, from + size * (0.5 + 0.5 * rule->at[q]), &seen);
+    for (size_t m = 0; m < seen.arcs && !status; m++) sum += seen.arc[m][1] - seen.arc[m][0];
+    *sees = sum > NONE;
+  }
+  return status;
+}
+
+/* Clears leaves whose part of the background is no more than it may be off: `off[c]` has what
+   check c leaves of rows. */
+static hr2d_status clear_unseen(hr2di_transport *t, double *const off[HR2DI_TAIL_CHECKS],
+                                hr2di_viewer *viewer) {
+  hr2di_rule rule;
+  hr2d_status status = HR2D_OK;
+  hr2di_rule_init(&rule, t->order + 6);
+  for (size_t k = 0; k < t->leaves && !status; k++) {
+    const double last = fabs(off[HR2DI_CHECK_LAST][k * t->width]),
+                 part = fabs(off[HR2DI_CHECK_PART][k * t->width]);
+    double *sky = t->sky + k * t->order;
+    int sees = sky[0] > last;
+    if (sees && sky[0] <= HR2DI_TAIL_BOUND * fmax(last, part) &&
+        t->hierarchy->element[t->leaf[k]].patch < hr2di_scene_cell(t->hierarchy->scene))
+      status = sees_sky(t, viewer, k, &rule, &sees);
+    if (!sees) memset(sky, 0, t->order * sizeof *sky);
+  }
+  hr2di_ties_spread_leaves(&t->ties, t->order, 1, t->sky);
+  return status;
+}
+
 /* Where images of a period are cut off, rows are as exact as their extrapolation.  A leaf whose
-   part of the background is no more than that may be off sees none, or what is left of it could
-   be negative. */
+   part of the background is no more than the last term of that sees none, or what is left of it
+   could be negative.  Where it is no more than its bound the leaf looks whether it sees any. */
 static hr2d_status clear_unknown(hr2di_transport *t) {
-  double *tail = irradiance_of_one(t, last_check);
-  if (!tail) return HR2D_ENOMEM;
-  for (size_t k = 0; k < t->leaves && !t->failed; k++)
-    if (t->sky[k * t->order] <= fabs(tail[k * t->width]))
-      memset(t->sky + k * t->order, 0, t->order * sizeof *t->sky);
-  hr2di_alloc_free(&t->alloc, tail);
-  return t->failed ? t->failed : hr2di_watch_work(t->watch, t->leaves / 4);
+  double *off[HR2DI_TAIL_CHECKS] = {irradiance_of_one(t, last_check),
+                                    irradiance_of_one(t, part_check)};
+  hr2di_viewer *viewer = NULL;
+  hr2d_status status = off[0] && off[1] ? t->failed : HR2D_ENOMEM;
+  if (!status) status = hr2di_viewer_create(t->hierarchy->scene, &t->alloc, t->watch, &viewer);
+  if (!status) status = clear_unseen(t, off, viewer);
+  hr2di_viewer_destroy(viewer);
+  for (int c = 0; c < HR2DI_TAIL_CHECKS; c++) hr2di_alloc_free(&t->alloc, off[c]);
+  return status ? status : hr2di_watch_work(t->watch, t->leaves / 4);
 }
 
 hr2d_status hr2di_background_set_order_p(hr2di_transport *t, unsigned char **sees) {

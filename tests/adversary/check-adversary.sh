@@ -64,6 +64,12 @@ once plates 40186
 once array 31000091 31000102 31000140
 once plates 31000136
 once bed 700008
+# The largest H is in a gap beside an end.
+once nearly 60145
+# A dark scene under a sky that nobody sees.
+once plates 60169
+# A narrow gap through which a piece of the sky shows.
+once noon 61000138
 
 "$adversary" --runs "$(awk "BEGIN { print int(900 * ${HR2D_TEST_MULTIPLIER-0.1} + 4) }")" \
   --seed "${HR2D_TEST_SEED-1}" --limit 0.5 || failures=$((failures + 1))

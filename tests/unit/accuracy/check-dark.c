@@ -214,7 +214,51 @@ START_TEST(offsets_are_in_the_bound) {
 }
 END_TEST
 
+/* A room with a chair, or plates for ever, between which light of the sky cannot come. */
+static hr2d_scene *make_closed(int endless, double brightest) {
+  const double wall[][4] = {{0, 0, 3, 0},   {3, 0, 3, 1.7},   {3, 1.7, 0, 1.7},
+                            {0, 1.7, 0, 0}, {1, .1, 1.6, .3}, {1.6, .3, 1, .1}};
+  const double reflectance = .4;
+  hr2d_scene *scene = NULL;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  for (size_t k = 0; k < 6; k++) {
+    const double *w = wall[k];
+    if (endless && (k == 1 || k == 3)) continue;
+    const hr2d_patch patch = {.a = {w[0], w[1]},
+                              .b = {w[2], w[3]},
+                              .reflectance = &reflectance,
+                              .reflectance_bands = 1};
+    ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
+  }
+  if (endless) ck_assert_int_eq(hr2d_scene_set_period(scene, (hr2d_point){3, 0}), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_set_background(scene, &brightest, 1), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  return scene;
+}
+
+/* Nothing of a sky that nobody sees is at points, so that they have bounds. */
+START_TEST(nothing_of_a_hidden_sky_arrives) {
+  hr2d_scene *scene = make_closed(_i, 1000);
+  for (double error = 1e-3; error > 1e-10; error *= 1e-3) {
+    hr2d_account a;
+    hr2d_solution *solution = solve(scene, error, &a);
+    for (size_t p = 0; p < hr2d_scene_patches(scene); p++)
+      for (int k = 0; k <= 64; k++) {
+        const double t = k / 64.;
+        double value;
+        ck_assert_int_eq(hr2d_solution_gather_irradiance(solution, p, &t, 1, &value), HR2D_OK);
+        ck_assert(value == 0);
+        ck_assert_int_eq(hr2d_solution_gather(solution, p, &t, 1, &value), HR2D_OK);
+        ck_assert(value == 0);
+      }
+    hr2d_solution_destroy(solution);
+  }
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 TEST_SUITE("dark") {
+  REPEAT_TESTS(2, "hidden sky", nothing_of_a_hidden_sky_arrives);
   REPEAT_TESTS(3, "rooms", a_dark_room_is_dark);
   ADD_TESTS("rooms", the_floor_counts, a_black_room_has_irradiance, offsets_are_in_the_bound);
 }
