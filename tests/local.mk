@@ -85,6 +85,7 @@ SUITES = \
 	tests/hard/check-hard-scenes \
 	tests/unit/visibility/check-exchange-matrix \
 	tests/unit/visibility/check-exchange-rows \
+	tests/unit/visibility/check-period-rows \
 	tests/unit/visibility/check-patch-sights \
 	tests/unit/visibility/check-seen-backs \
 	tests/unit/visibility/check-seen-ends \

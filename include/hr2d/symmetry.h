@@ -30,7 +30,7 @@
  * their sums are extrapolated. Estimates and bounds of hr2d_solve_to() have what that may be
  * off, of averages and at points: what the last term of the series adds, or what four other
  * images say. For one vertex that hides images, of any number, the bound is derived; many that
- * hide images to and fro are taken to be no worse. Other calls have no account of it.
+ * hide images to and fro are taken to be no worse.
  *
  * One more gather at a point (solve.h) extrapolates its own view, if it sees what is cut off.
  * Past the tip of a patch that is oblique to the period that may be some percent of all it
@@ -53,7 +53,11 @@
  * as short as d, or as near to its image, may be off by that part of d besides.
  *
  * Exchange areas of patches (visibility.h) are sums over all images: a patch may see images of
- * its own. They are made by one thread, in a matrix of all patches of the cell.
+ * its own. They are made by one thread, in a matrix of all patches of the cell. What images add
+ * that are cut off is extrapolated, but never below 0; hr2d_matrix_options::cut_off_estimate and
+ * hr2d_matrix_options::cut_off_bound have what that may be off, likewise derived, and no more than
+ * what is extrapolated and what is seen past the images, which is exact. With thousands of
+ * patches in a cell there are few images, and some percent of a row may be cut off.
  * hr2d_leaf_sums() has the rows of the patches of the cell.
  *
  * Not supported, and refused with HR2D_EUNSUPPORTED: shares (share.h); and, over a period in

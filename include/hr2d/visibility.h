@@ -90,11 +90,16 @@ typedef struct hr2d_matrix_options {
   unsigned threads;          /**< 0 for one, or #HR2D_ALL_THREADS; no bit depends on it */
   hr2d_progress_fn progress; /**< optional; with the phase "factors", from the calling thread */
   void *progress_ctx;        /**< given to `progress` */
+  double *cut_off_estimate;  /**< NULL, or receives for each patch what images of a period that
+                                  are cut off may make of its row: Σ_j |error of AF_ij|, in scene
+                                  lengths; 0 where all that is seen is there. symmetry.h says
+                                  what is extrapolated */
+  double *cut_off_bound;     /**< likewise what they make at most */
 } hr2d_matrix_options;
 
 /** The defaults: one thread, no callback. */
 #define HR2D_MATRIX_OPTIONS_INIT                                                               \
-  { sizeof(hr2d_matrix_options), 0, NULL, NULL }
+  { sizeof(hr2d_matrix_options), 0, NULL, NULL, NULL, NULL }
 
 /**
  * Does what #HR2D_MATRIX_OPTIONS_INIT does, for languages without macros: sets all bytes to 0,

@@ -121,7 +121,7 @@ static hr2d_status measure_rest(hr2di_estimator *e, hr2di_error_pair *errors) {
   hr2di_equation *eq = &e->eq;
   const int reflects = reflects_light(e);
   hr2d_status status = hr2di_shadow_residuals(e);
-  if (!status && reflects) status = hr2di_gap_residuals(e);
+  if (!status) status = hr2di_gap_residuals(e);
   if (!status && reflects) status = hr2di_safe_sum(e);
   if (status) return status;
   status = hr2di_rounding_bound(e, reflects);

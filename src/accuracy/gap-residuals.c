@@ -16,7 +16,7 @@
    them.
 
    The view from a point is that from its rounded coordinates.  They move it by δ/h of the gap,
-   and H by that part of the change of B, in resolved gaps, too. */
+   and H by that part of the change of B, in resolved gaps, too, and where nothing reflects. */
 #include "accuracy/gap-residuals.h"
 
 #include <float.h>

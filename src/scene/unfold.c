@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "scene/scene-impl.h"
 
 /* Images, with the patches themselves, at most. */
@@ -69,16 +70,56 @@ static int is_kept(hr2d_segment image, hr2d_segment patch) {
   return fabs(length - given) <= SHRUNK * given;
 }
 
+/* The ends of the patches themselves, by x. */
+typedef struct ends_of_cell {
+  hr2d_point *at;
+  size_t count;
+  double touch;
+} ends_of_cell;
+
+static int by_x(const void *a, const void *b) {
+  const hr2d_point *p = a, *q = b;
+  if (p->x != q->x) return p->x < q->x ? -1 : 1;
+  return (p->y > q->y) - (p->y < q->y);
+}
+
+static hr2d_status list_ends(const hr2d_scene *scene, ends_of_cell *ends, hr2di_watch *watch) {
+  ends->count = 2 * scene->patches;
+  ends->at = hr2di_alloc(&scene->alloc, ends->count, sizeof *ends->at);
+  if (!ends->at) return HR2D_ENOMEM;
+  for (size_t k = 0; k < scene->patches; k++) {
+    ends->at[2 * k] = scene->patch[k].given.a;
+    ends->at[2 * k + 1] = scene->patch[k].given.b;
+  }
+  return hr2di_sort(ends->at, ends->count, sizeof *ends->at, by_x, watch);
+}
+
+/* The end of a patch where an end of an image lies but for rounding: beside a step, however
+   small, the end of that patch would be hidden. */
+static hr2d_point settle(const ends_of_cell *ends, hr2d_point p) {
+  size_t low = 0, high = ends->count;
+  while (low < high) {
+    const size_t middle = low + (high - low) / 2;
+    if (ends->at[middle].x < p.x - ends->touch)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  for (; low < ends->count && ends->at[low].x <= p.x + ends->touch; low++)
+    if (fabs(ends->at[low].y - p.y) <= ends->touch) return ends->at[low];
+  return p;
+}
+
 static hr2d_status add_image(hr2d_scene *scene, const hr2di_motion *g, size_t patch,
-                             double touch) {
+                             const ends_of_cell *ends) {
   const hr2di_generators *by = &scene->symmetry.by;
   hr2di_patch image;
   if (hr2di_alloc_reserve(&scene->alloc, &scene->patch, &scene->capacity, scene->patches + 1,
                           sizeof *scene->patch) ||
       hr2di_patch_copy(&scene->alloc, &scene->patch[patch], 0, &image))
     return HR2D_ENOMEM;
-  const hr2d_point a = hr2di_symmetry_move(by, g, image.given.a, touch),
-                   b = hr2di_symmetry_move(by, g, image.given.b, touch);
+  const hr2d_point a = settle(ends, hr2di_symmetry_move(by, g, image.given.a, ends->touch)),
+                   b = settle(ends, hr2di_symmetry_move(by, g, image.given.b, ends->touch));
   image.given = g->turned ? (hr2d_segment){b, a} : (hr2d_segment){a, b};
   scene->patch[scene->patches++] = image;
   if (is_kept(image.given, scene->patch[patch].given)) return HR2D_OK;
@@ -93,16 +134,18 @@ hr2d_status hr2di_scene_unfold(hr2d_scene *scene, unsigned copies, hr2di_watch *
   s->cell = cell;
   hr2d_status status = hr2di_scene_make_one_cell(scene, watch);
   if (status) return status;
-  const double touch = hr2di_symmetry_touch(scene);
+  ends_of_cell ends = {.touch = hr2di_symmetry_touch(scene)};
   status = set_motions(scene, copies);
   if (!status && s->motions > MOST_PATCHES / cell)
     return hr2di_message_fail(&scene->message, HR2D_ERANGE,
                               "%zu images of %zu patches are too many", s->motions, cell);
+  if (!status) status = list_ends(scene, &ends, watch);
   for (size_t g = 1; g < s->motions && !status; g++)
     for (size_t k = 0; k < cell && !status; k++) {
-      status = add_image(scene, &s->motion[g], k, touch);
+      status = add_image(scene, &s->motion[g], k, &ends);
       if (!status) status = hr2di_watch_work(watch, 4);
     }
+  hr2di_alloc_free(&scene->alloc, ends.at);
   if (status == HR2D_ERANGE) return status;
   if (status) return hr2di_scene_fail(scene, status, watch, "the images");
   hr2di_symmetry_set_weights(s);

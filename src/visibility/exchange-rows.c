@@ -248,12 +248,13 @@ static hr2d_status compress(builder *b, const double *area) {
   return status ? status : hr2di_watch_ask(b->watch);
 }
 
-static hr2d_status build_of_images(builder *b, const hr2d_scene *scene) {
+static hr2d_status build_of_images(builder *b, const hr2d_scene *scene,
+                                   const hr2d_matrix_options *how) {
   const size_t n = b->rows->patches;
   double *area = hr2di_alloc(b->alloc, n, n * sizeof *area);
   hr2d_status status = reserve_rows(b);
   if (!area) status = HR2D_ENOMEM;
-  if (!status) status = hr2di_image_matrix(scene, b->watch, area, &b->counts);
+  if (!status) status = hr2di_image_matrix(scene, how, b->watch, area, &b->counts);
   if (!status) status = compress(b, area);
   hr2di_alloc_free(b->alloc, area);
   hr2di_alloc_free(b->alloc, b->half);
@@ -276,7 +277,9 @@ hr2d_status hr2d_exchange_rows_create(const hr2d_scene *scene,
   made->patches = hr2di_scene_cell(scene);
   builder b = {
       .watch = &watch, .alloc = &made->alloc, .rows = made, .unit = hr2d_scene_unit(scene)};
-  status = scene->symmetry.motion ? build_of_images(&b, scene) : build(&b, scene, o.threads);
+  hr2di_image_matrix_complete(&o, made->patches);
+  status =
+      scene->symmetry.motion ? build_of_images(&b, scene, &o) : build(&b, scene, o.threads);
   if (status) {
     hr2d_exchange_rows_destroy(made);
     return status;

@@ -144,15 +144,15 @@ static hr2d_status show_full(const hr2d_scene *scene, double *area, uint32_t *co
   return status;
 }
 
-static hr2d_status visit_images(const hr2d_scene *scene, hr2di_watch *watch,
-                                hr2d_exchange_row_fn show, void *ctx,
+static hr2d_status visit_images(const hr2d_scene *scene, const hr2d_matrix_options *how,
+                                hr2di_watch *watch, hr2d_exchange_row_fn show, void *ctx,
                                 hr2d_matrix_counts *counts) {
   const size_t n = hr2di_scene_cell(scene);
   double *area = hr2di_alloc(&scene->alloc, n, n * sizeof *area);
   uint32_t *column = hr2di_alloc(&scene->alloc, n, sizeof *column);
   hr2d_matrix_counts made;
   hr2d_status status = area && column ? HR2D_OK : HR2D_ENOMEM;
-  if (!status) status = hr2di_image_matrix(scene, watch, area, &made);
+  if (!status) status = hr2di_image_matrix(scene, how, watch, area, &made);
   if (!status) status = show_full(scene, area, column, show, ctx, watch);
   if (!status && counts) *counts = made;
   hr2di_alloc_free(&scene->alloc, area);
@@ -175,7 +175,8 @@ hr2d_status hr2d_exchange_rows_visit(const hr2d_scene *scene,
              .unit = hr2d_scene_unit(scene),
              .show = show,
              .ctx = ctx};
-  if (scene->symmetry.motion) return visit_images(scene, &watch, show, ctx, counts);
+  hr2di_image_matrix_complete(&o, hr2di_scene_cell(scene));
+  if (scene->symmetry.motion) return visit_images(scene, &o, &watch, show, ctx, counts);
   status = hr2di_row_maker_init(&v.maker, scene, o.threads, 1, &watch);
   if (!status) status = run(&v, scene->patches);
   hr2di_row_maker_clear(&v.maker);

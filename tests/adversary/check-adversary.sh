@@ -70,6 +70,9 @@ once nearly 60145
 once plates 60169
 # A narrow gap through which a piece of the sky shows.
 once noon 61000138
+# A gap beside a lamp where nothing reflects, and an image that goes on where a patch ends.
+once nearly 62000113
+once hall 62000023
 
 "$adversary" --runs "$(awk "BEGIN { print int(900 * ${HR2D_TEST_MULTIPLIER-0.1} + 4) }")" \
   --seed "${HR2D_TEST_SEED-1}" --limit 0.5 || failures=$((failures + 1))

@@ -13,14 +13,16 @@
 #include "output/progress.h"
 #include "output/table.h"
 
-/* Two sums for each row, and a row. */
+/* Two sums and two errors for each row, and a row. */
 static int make_room(factors *f) {
   const size_t n = f->patches;
   f->row_sum =
-      n <= SIZE_MAX / 3 / sizeof *f->row_sum ? malloc(3 * n * sizeof *f->row_sum) : NULL;
+      n <= SIZE_MAX / 5 / sizeof *f->row_sum ? malloc(5 * n * sizeof *f->row_sum) : NULL;
   if (!f->row_sum) return complain_memory();
   f->missing = f->row_sum + n;
   f->row = f->missing + n;
+  f->off[0] = f->row + n;
+  f->off[1] = f->off[0] + n;
   return 0;
 }
 
@@ -31,6 +33,8 @@ static int integrate(factors *f) {
   how.threads = options_threads(f->options);
   how.progress = progress_show;
   how.progress_ctx = &p;
+  how.cut_off_estimate = f->off[0];
+  how.cut_off_bound = f->off[1];
   const double start = clock_seconds();
   const hr2d_status status = hr2d_exchange_rows_create(f->scene, &how, &f->rows, &f->counts);
   f->seconds = clock_seconds() - start;
@@ -57,6 +61,7 @@ static void sum_rows(factors *f) {
     }
     f->row_sum[i] = (sum + lost) / length;
     f->missing[i] = ((length - sum) - lost) / length;
+    for (int k = 0; k < 2; k++) f->off[k][i] /= length;
   }
 }
 
@@ -77,6 +82,15 @@ static size_t find_worst(const factors *f) {
   return worst;
 }
 
+/* The worst rows. */
+static void print_cut_off(const factors *f) {
+  double off[2] = {0, 0};
+  for (size_t i = 0; i < f->patches; i++)
+    for (int k = 0; k < 2; k++) off[k] = fmax(off[k], f->off[k][i]);
+  printf("cut off   images of the period make about %.1e of a row sum, at most %.1e\n", off[0],
+         off[1]);
+}
+
 static void print_factors(const factors *f, double total_seconds) {
   const hr2d_matrix_counts *n = &f->counts;
   const size_t worst = find_worst(f);
@@ -90,6 +104,7 @@ static void print_factors(const factors *f, double total_seconds) {
   print_patches(f);
   printf("worst     |1 - row sum| = %.3e, of patch %zu (%s)\n", fabs(f->missing[worst]), worst,
          hr2d_scene_name(f->scene, worst));
+  if (hr2d_scene_cut_off(f->scene) > 0) print_cut_off(f);
   table_print_work(list, sizeof list / sizeof *list);
   printf("seconds   factors %.3f, total %.3f\n", f->seconds, total_seconds);
 }

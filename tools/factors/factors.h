@@ -16,6 +16,7 @@ typedef struct factors {
   double *row_sum; /* Σ F_ij */
   double *missing; /* 1 − Σ F_ij, without the rounding errors of the row sum */
   double *row;     /* one row of F_ij, with its zeros */
+  double *off[2];  /* what images that are cut off may make of Σ F_ij, and that at most */
   hr2d_matrix_counts counts;
   size_t cuts;    /* of --split-crossings */
   double seconds; /* for all exchange areas */

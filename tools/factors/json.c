@@ -17,6 +17,10 @@ static json_t *patch_entry(const factors *f, size_t k) {
   json_t *patch = json_patch(f->scene, k);
   json_put(&patch, "row_sum", json_number(f->row_sum[k]));
   json_put(&patch, "missing", json_number(f->missing[k]));
+  if (hr2d_scene_cut_off(f->scene) > 0) {
+    json_put(&patch, "cut_off_estimate", json_number(f->off[0][k]));
+    json_put(&patch, "cut_off_bound", json_number(f->off[1][k]));
+  }
   return patch;
 }
 

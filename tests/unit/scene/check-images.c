@@ -53,6 +53,29 @@ START_TEST(ends_on_a_mirror_stay_where_they_are) {
 }
 END_TEST
 
+/* A floor without end, between a mirror and its image half a period away, in any direction: H
+   under a sky is 1 at the last point, too, where the image goes on. */
+START_TEST(images_go_on_where_a_patch_ends) {
+  for (int k = 1; k < 100; k++) {
+    const double turn = .063 * k, size = 20.7, black = 0, end = 1, sky = 1;
+    const hr2d_point to = {size * cos(turn), size * sin(turn)};
+    hr2d_scene *scene = test_new_scene(NULL);
+    hr2d_solution *solution;
+    double value;
+    test_add_patch(scene, (hr2d_segment){{0, 0}, to}, black, .5, HR2D_SIDES_FRONT);
+    add_mirror(scene, 0, 0, -to.y, to.x);
+    ck_assert_int_eq(hr2d_scene_set_period(scene, (hr2d_point){2 * to.x, 2 * to.y}), HR2D_OK);
+    ck_assert_int_eq(hr2d_scene_set_background(scene, &sky, 1), HR2D_OK);
+    test_commit(scene);
+    ck_assert_int_eq(hr2d_solve_to(scene, NULL, &solution, NULL), HR2D_OK);
+    ck_assert_int_eq(hr2d_solution_gather_irradiance(solution, 0, &end, 1, &value), HR2D_OK);
+    ck_assert_double_eq_tol(value, 1, 1e-12);
+    hr2d_solution_destroy(solution);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
 /* Number 0 is the patch, and each multiple of the period is there once, from −K to K. */
 START_TEST(periods_have_images_on_both_sides) {
   hr2d_scene *scene = one_patch();
@@ -278,7 +301,8 @@ END_TEST
 
 TEST_SUITE("images") {
   ADD_TESTS("images", images_keep_their_fronts, ends_on_a_mirror_stay_where_they_are,
-            periods_have_images_on_both_sides, scenes_without_symmetry_have_none);
+            images_go_on_where_a_patch_ends, periods_have_images_on_both_sides,
+            scenes_without_symmetry_have_none);
   ADD_TESTS("refusals", patches_on_both_sides_are_refused,
             a_patch_on_a_mirror_looks_at_the_scene, other_symmetries_are_refused,
             images_that_cross_are_refused, light_from_outside_is_symmetric,

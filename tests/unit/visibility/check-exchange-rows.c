@@ -451,7 +451,8 @@ START_TEST(wrong_calls_leave_everything) {
   options.struct_size = 1;
   ck_assert_int_eq(hr2d_exchange_rows_create(scene, &options, &rows, NULL), HR2D_EINVAL);
   ck_assert_int_eq(hr2d_exchange_rows_visit(scene, &options, read_row, &r, NULL), HR2D_EINVAL);
-  options = (hr2d_matrix_options){sizeof options, 1, refuse, &asks};
+  options = (hr2d_matrix_options){
+      .struct_size = sizeof options, .threads = 1, .progress = refuse, .progress_ctx = &asks};
   ck_assert_int_eq(hr2d_exchange_rows_create(scene, &options, &rows, NULL), HR2D_STOPPED);
   ck_assert_ptr_null(rows);
   asks = 1;
