@@ -219,6 +219,7 @@ libhr2d_core_la_SOURCES = \
 	src/refine/validate-links.c \
 	src/solve/image-ties.c src/solve/image-ties.h \
 	src/solve/outside.c src/solve/outside.h \
+	src/solve/power-cut-off.c src/solve/power-cut-off.h \
 	src/solve/background.c src/solve/background.h \
 	src/solve/closure.c src/solve/closure.h \
 	src/solve/closure-mean.c src/solve/closure-order-p.c \

@@ -326,6 +326,16 @@ HR2D_API double hr2d_solution_net_flux(const hr2d_solution *solution, size_t pat
 HR2D_API hr2d_power hr2d_solution_power(const hr2d_solution *solution, size_t band);
 
 /**
+ * What images of a period that are cut off may make of that balance (symmetry.h).
+ * @param solution,band  a solution and a band
+ * @return what `received` and `escaped` may be off by that, each; `absorbed` is off by what
+ *         averages of H are. 0 where all that is seen is there; infinite if nobody knows, as
+ * after hr2d_solve_to() in a time that does not suffice. Averages may be known much better: in
+ * an isothermal scene light that patches seem to lack comes from the background
+ */
+HR2D_API double hr2d_solution_power_cut_off(const hr2d_solution *solution, size_t band);
+
+/**
  * The work of the solve.
  * @param solution  a solution
  * @return counts and times

@@ -57,7 +57,8 @@
  * that are cut off is extrapolated, but never below 0; hr2d_matrix_options::cut_off_estimate and
  * hr2d_matrix_options::cut_off_bound have what that may be off, likewise derived, and no more than
  * what is extrapolated and what is seen past the images, which is exact. With thousands of
- * patches in a cell there are few images, and some percent of a row may be cut off.
+ * patches in a cell there are few images, and some percent of a row may be cut off. Powers have
+ * hr2d_solution_power_cut_off().
  * hr2d_leaf_sums() has the rows of the patches of the cell.
  *
  * Not supported, and refused with HR2D_EUNSUPPORTED: shares (share.h); and, over a period in

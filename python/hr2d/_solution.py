@@ -171,6 +171,12 @@ class Solution:
         return tuple(Power(r.emitted, r.received, r.absorbed, r.escaped) for r in raws)
 
     @cached_property
+    def power_cut_off(self) -> Tuple[float, ...]:
+        """What images of a period that are cut off may make of `power`, per band."""
+        return tuple(lib.hr2d_solution_power_cut_off(self._raw, band)
+                     for band in range(self.scene.bands))
+
+    @cached_property
     def account(self) -> Account:
         """The errors with their bounds, and what the solution took.
 

@@ -17,9 +17,11 @@ struct hr2d_solution {
   hr2d_scene *own_scene;         /* a settled scene, destroyed with the solution; mostly NULL */
   size_t elements;               /* of the hierarchy when this was solved */
   size_t order, bands;
-  double *value;      /* elements × order × bands, Legendre coefficients of B */
-  double *irradiance; /* likewise of H */
-  hr2d_power *power;  /* per band */
+  double *value;         /* elements × order × bands, Legendre coefficients of B */
+  double *irradiance;    /* likewise of H */
+  hr2d_power *power;     /* per band */
+  double *power_cut_off; /* per band: what images that are cut off may make of it; NULL: none
+                            are, or nobody knows */
   hr2d_solve_work work;
   double residual;
 };

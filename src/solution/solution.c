@@ -14,6 +14,7 @@ void hr2d_solution_destroy(hr2d_solution *solution) {
   hr2di_alloc_free(&alloc, solution->value);
   hr2di_alloc_free(&alloc, solution->irradiance);
   hr2di_alloc_free(&alloc, solution->power);
+  hr2di_alloc_free(&alloc, solution->power_cut_off);
   hr2d_linkset_destroy(solution->own_links);
   hr2d_hierarchy_destroy(solution->own_hierarchy);
   hr2di_settled_destroy(solution->own_scene);
@@ -144,6 +145,11 @@ double hr2d_solution_net_flux(const hr2d_solution *solution, size_t patch, size_
   return hr2d_scene_emission(scene, patch, band) -
          (1 - hr2d_scene_reflectance(scene, patch, band)) *
              hr2d_solution_irradiance(solution, patch, band);
+}
+
+double hr2d_solution_power_cut_off(const hr2d_solution *solution, size_t band) {
+  if (solution->power_cut_off) return solution->power_cut_off[band];
+  return hr2di_symmetry_cuts(&solution->hierarchy->scene->symmetry) ? HUGE_VAL : 0;
 }
 
 hr2d_power hr2d_solution_power(const hr2d_solution *solution, size_t band) {

@@ -13,6 +13,7 @@
 #include "solve/equation.h"
 #include "solve/existence.h"
 #include "solve/heat-scene.h"
+#include "solve/power-cut-off.h"
 
 static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *o, int adopts) {
   hr2di_message *message = &links->message;
@@ -111,6 +112,18 @@ static int take_raised(hr2di_equation *s, const double *leaf_field, double *fiel
   return finite;
 }
 
+/* Sets the powers of all bands, and what they are off. */
+static hr2d_status set_powers(hr2di_equation *s, hr2d_solution *made) {
+  hr2di_transport *t = &s->transport;
+  for (size_t band = 0; band < t->bands && !t->failed; band++) {
+    t->failed = hr2di_watch_work(t->watch, t->leaves / 4);
+    made->power[band] = sum_power(s, band);
+  }
+  if (t->failed || !hr2di_symmetry_cuts(&t->scene->symmetry)) return t->failed;
+  made->power_cut_off = hr2di_alloc(&made->alloc, t->bands, sizeof *made->power_cut_off);
+  return made->power_cut_off ? hr2di_power_cut_off(s, made->power_cut_off) : HR2D_ENOMEM;
+}
+
 static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
   hr2di_transport *t = &s->transport;
   hr2d_solution *made = hr2di_alloc_zero(&s->links->alloc, 1, sizeof *made);
@@ -134,9 +147,10 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
     hr2d_solution_destroy(made);
     return HR2D_ENOMEM;
   }
-  for (size_t band = 0; band < t->bands && !t->failed; band++) {
-    t->failed = hr2di_watch_work(t->watch, t->leaves / 4);
-    made->power[band] = sum_power(s, band);
+  const hr2d_status status = set_powers(s, made);
+  if (status) {
+    hr2d_solution_destroy(made);
+    return status;
   }
   int finite = take_raised(s, s->radiosity, made->value);
   hr2di_closure_move_mean(t, s->radiosity, s->irradiance);

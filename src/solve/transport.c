@@ -163,12 +163,33 @@ static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, u
   }
 }
 
+/* What a check leaves of the links of some chunks, at order 1. */
+static void check_areas(const hr2di_transport *t, size_t from, size_t to, double *down,
+                        hr2di_watch *watch) {
+  const hr2di_store *store = &t->links->store;
+  const uint64_t last = to * HR2DI_CHUNK_LINKS;
+  for (uint64_t k = from * HR2DI_CHUNK_LINKS; k < last && k < store->count; k++) {
+    const hr2d_link *link = hr2di_store_at(store, k);
+    const double area = check_of(t, link->pair) * link->exchange_area;
+    if (hr2di_watch_work(watch, 1)) return;
+    for (size_t b = 0; b < t->bands && area != 0; b++) {
+      down[link->pair.first * t->bands + b] += area * t->up[link->pair.second * t->bands + b];
+      if (t->links->directed) continue;
+      down[link->pair.second * t->bands + b] += area * t->up[link->pair.first * t->bands + b];
+    }
+  }
+}
+
 /* Over the links of a slice at order 1: whole chunks. */
 static void gather_areas(const hr2di_transport *t, size_t slice, double *down,
                          hr2di_watch *watch) {
   const size_t chunks = hr2di_store_chunks(&t->links->store);
   const size_t from = slice * chunks / t->slices, to = (slice + 1) * chunks / t->slices;
   const uint64_t units = HR2DI_CHUNK_LINKS / 32 * (1 + t->width / 8);
+  if (t->check) {
+    check_areas(t, from, to, down, watch);
+    return;
+  }
   for (size_t k = from; k < to && !hr2di_watch_work(watch, units); k++)
     hr2di_gather_areas(&t->links->store, k, t->bands, t->links->directed, t->up, down);
 }

@@ -178,6 +178,7 @@ static hr2d_status read_solution(loading *l, const hr2d_solve_work *work) {
   const hr2di_state_head *head = &l->head;
   const size_t bands = (size_t)head->bands, order = (size_t)head->order;
   const size_t count = (size_t)head->solved * order * bands;
+  const int cuts = hr2di_symmetry_cuts(&l->links->hierarchy->scene->symmetry);
   hr2d_solution *s = l->solution = hr2di_alloc_zero(alloc, 1, sizeof *s);
   if (s) {
     *s = (hr2d_solution){.alloc = *alloc,
@@ -189,15 +190,18 @@ static hr2d_status read_solution(loading *l, const hr2d_solve_work *work) {
                          .work = *work,
                          .residual = head->residual};
     s->power = hr2di_alloc(alloc, bands, sizeof *s->power);
+    if (cuts) s->power_cut_off = hr2di_alloc(alloc, bands, sizeof *s->power_cut_off);
     s->value = hr2di_alloc(alloc, count, sizeof *s->value);
     s->irradiance = hr2di_alloc(alloc, count, sizeof *s->irradiance);
   }
-  if (!s || !s->power || !s->value || !s->irradiance)
+  if (!s || !s->power || !s->value || !s->irradiance || (cuts && !s->power_cut_off))
     return hr2di_message_fail(&l->links->message, HR2D_ENOMEM,
                               "out of memory for the solution");
   hr2d_status status = HR2D_OK;
-  for (size_t band = 0; band < bands && !status; band++)
+  for (size_t band = 0; band < bands && !status; band++) {
     status = read_power(l, &s->power[band]);
+    if (!status && s->power_cut_off) status = read_doubles(l, &s->power_cut_off[band], 1);
+  }
   if (!status) status = read_doubles(l, s->value, count);
   return status ? status : read_doubles(l, s->irradiance, count);
 }

@@ -136,6 +136,7 @@ static void put_fields(hr2di_writer *w, const hr2d_solution *s, hr2di_watch *wat
     hr2di_writer_double(w, p->received);
     hr2di_writer_double(w, p->absorbed);
     hr2di_writer_double(w, p->escaped);
+    if (s->power_cut_off) hr2di_writer_double(w, s->power_cut_off[band]);
   }
   for (size_t k = 0; k < 2 * count && !w->status; k++) {
     declare(w, watch, k, 8);

@@ -44,8 +44,10 @@ static void read_averages(adv_answer *a) {
         brighter(&a->sup[q][band], a->average[q][k][band]);
       }
     }
-  for (size_t band = 0; band < a->scene->bands; band++)
+  for (size_t band = 0; band < a->scene->bands; band++) {
     a->power[band] = hr2d_solution_power(a->solution, band);
+    a->power_cut_off[band] = hr2d_solution_power_cut_off(a->solution, band);
+  }
 }
 
 /* B and H at a point of a patch of this scene; NaN if they cannot be had.  Where images are cut

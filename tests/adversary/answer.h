@@ -47,6 +47,7 @@ typedef struct adv_answer {
   double brightest[ADV_QUANTITIES][ADV_BANDS];                      /* over all averages */
   double sup[ADV_QUANTITIES][ADV_BANDS]; /* over all points and averages that were read */
   hr2d_power power[ADV_BANDS];
+  double power_cut_off[ADV_BANDS];
   int pointless;  /* there is a point without values, as symmetry.h says */
   double cut_off; /* hr2d_scene_cut_off() */
 } adv_answer;

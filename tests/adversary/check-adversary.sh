@@ -73,6 +73,8 @@ once noon 61000138
 # A gap beside a lamp where nothing reflects, and an image that goes on where a patch ends.
 once nearly 62000113
 once hall 62000023
+# Power that escapes, of which no error of H tells.
+once hall 31000083
 
 "$adversary" --runs "$(awk "BEGIN { print int(900 * ${HR2D_TEST_MULTIPLIER-0.1} + 4) }")" \
   --seed "${HR2D_TEST_SEED-1}" --limit 0.5 || failures=$((failures + 1))

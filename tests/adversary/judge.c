@@ -80,7 +80,8 @@ static void nothing_is_negative(const adv_answer *a, adv_outcome *outcome) {
    by their stated errors add ∫(1−ρ)|δH| and at most ∫|δB|.  Row sums, from which what escapes
    and what comes in are computed, are within 1e-13 of the length and 64 units in the last place
    of the largest coordinate (visibility.h).  Pieces of the sky are integrated with the error
-   of H.  Where images of a period are cut off, what row sums lack is in the error of H. */
+   of H.  Where images of a period are cut off, what they make of received and escaped power is
+   told. */
 static void power_is_balanced(const adv_answer *a, adv_outcome *outcome, size_t band) {
   const adv_scene *s = a->scene;
   double coordinate = ldexp(1, adv_bits(s) + s->exponent);
@@ -94,16 +95,17 @@ static void power_is_balanced(const adv_answer *a, adv_outcome *outcome, size_t 
     if (s->pieces) gained += length * adv_average_error(a, ADV_H, k, band);
     rows += level * (1e-13 * length + 128 * ROUNDING * coordinate);
   }
-  if (a->cut_off > 0) rows += errors;
+  const double off = a->power_cut_off[band];
   hr2d_power p = a->power[band];
   double size = p.emitted + p.received + fabs(p.absorbed) + fabs(p.escaped);
   double rounding = 8 * ROUNDING * (double)s->count * size;
   double balance = p.emitted + p.received - p.absorbed - p.escaped;
   adv_note(outcome, ADV_POWER, share(fabs(p.emitted - emitted), rounding),
            "emitted %.17g, in truth %.17g", p.emitted, emitted);
-  adv_note(outcome, ADV_POWER, share(fabs(balance), errors + rows + rounding),
+  adv_note(outcome, ADV_POWER, share(fabs(balance), errors + rows + rounding + 2 * off),
            "%g + %g - %g - %g = %g, allowed %g", p.emitted, p.received, p.absorbed, p.escaped,
-           balance, errors + rows + rounding);
+           balance, errors + rows + rounding + 2 * off);
+  rows += off;
   if (!(p.escaped >= -rows && p.received >= -rows - gained && p.absorbed >= 0))
     adv_note(outcome, ADV_POWER, INFINITY, "absorbed %g, received %g, escaped %g", p.absorbed,
              p.received, p.escaped);

@@ -118,6 +118,8 @@ static json_t *power(const run *r) {
     json_put(&band, "absorbed", json_number(p.absorbed));
     json_put(&band, "escaped", json_number(p.escaped));
     json_put(&band, "relative_error", json_number(run_power_error(&p)));
+    if (hr2d_scene_cut_off(r->scene) > 0)
+      json_put(&band, "cut_off", json_number(hr2d_solution_power_cut_off(r->solution, b)));
     json_push(&list, band);
   }
   return list;

@@ -177,6 +177,10 @@ static void print_power(const run *r) {
     printf(" = absorbed %.6g + escaped %.6g (relative error %.1e)\n",
            beyond_rounding(p.absorbed, in), beyond_rounding(p.escaped, in),
            run_power_error(&p));
+    const double cut_off = hr2d_solution_power_cut_off(r->solution, b);
+    if (cut_off > 0)
+      printf("%-9s images that are cut off may make %.1e of what is received or escapes\n", "",
+             cut_off);
   }
 }
 

@@ -368,10 +368,46 @@ START_TEST(points_in_streets_have_light) {
 }
 END_TEST
 
+/* A floor under a row of slabs with gaps and a sky of 1, in which B = 1 everywhere: through a
+   gap comes, and leaves, as much as it is wide. */
+static const double slabs[][6] = {{0, 0, 1, 0, .5, .5}, {1, 1.8, .4, 1.8, 1, 0}};
+
+static double check_gap(const hr2d_solution *solution) {
+  const hr2d_power p = hr2d_solution_power(solution, 0);
+  const double cut_off = hr2d_solution_power_cut_off(solution, 0),
+               off = fmax(fabs(p.received - .4), fabs(p.escaped - .4));
+  ck_assert_double_le(off, cut_off + 1e-13);
+  ck_assert_double_le(cut_off, 1e-4);
+  return off;
+}
+
+START_TEST(powers_tell_what_is_cut_off) {
+  run r = solve(make(slabs, 2, 1, 1, 1, 1, turn_by(.2)), 1e-5, HR2D_OK);
+  ck_assert_double_ge(check_gap(r.solution), 1e-12); /* more than rounding */
+  end(&r);
+  hr2d_scene *scene = make(slabs, 2, 1, 1, 1, 1, turn_by(.2));
+  hr2d_hierarchy *hierarchy;
+  hr2d_linkset *links;
+  ck_assert_int_eq(hr2d_hierarchy_create(scene, &hierarchy), HR2D_OK);
+  ck_assert_int_eq(hr2d_linkset_create(hierarchy, NULL, NULL, NULL, NULL, &links), HR2D_OK);
+  ck_assert_int_eq(hr2d_refine(links, NULL), HR2D_OK);
+  for (unsigned order = 1; order < 4; order += 2) {
+    hr2d_solution *solution;
+    ck_assert_int_eq(hr2d_hierarchy_set_order(hierarchy, order), HR2D_OK);
+    ck_assert_int_eq(hr2d_solve(links, NULL, &solution), HR2D_OK);
+    check_gap(solution);
+    hr2d_solution_destroy(solution);
+  }
+  hr2d_linkset_destroy(links);
+  hr2d_hierarchy_destroy(hierarchy);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 TEST_SUITE("periods") {
   ADD_TESTS("plates", parallel_plates_are_infinite, mirrors_side_by_side_make_them_infinite_too,
             plates_see_nothing_but_each_other, plates_without_a_target_are_near_it,
-            what_is_cut_off_is_told_exactly);
+            what_is_cut_off_is_told_exactly, powers_tell_what_is_cut_off);
   ADD_TESTS("streets", streets_have_their_sky_view_factors, points_in_streets_have_light,
             the_period_matters);
   ADD_TESTS("rows", rows_on_the_ground_are_the_middle_of_many,

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The power that escapes is Σ A (B − H) with H from patches, and the power that comes in Σ A s
+   L with the form factor s of the background, 1 less that of patches and backs.  Both are off
+   by what K is off, the one with B, the other with L.  Averages of H may be off by much less:
+   where all is isothermal, what K lacks comes from the background.
+
+   Where a leaf sees backs, they have what is left of the ends, and s is off by the series of
+   the sky that shows past these.  At order 1 row sums are off by that. */
+#include "solve/power-cut-off.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "scene/scene-impl.h"
+#include "solve/row-tails.h"
+
+/* Fields of leaves: a radiosity, what a check leaves of its irradiance, and the largest of
+   these over the checks, for B and for L. */
+typedef struct fields {
+  double *from, *to, *most[2];
+  double *sky; /* per element: what a check leaves of the form factor of the sky */
+} fields;
+
+static void take_largest(const hr2di_transport *t, const double *check, double *most) {
+  for (size_t k = 0; k < t->leaves * t->width; k++) most[k] = fmax(most[k], fabs(check[k]));
+}
+
+static void set_light(const hr2di_equation *s, double *field) {
+  const hr2di_transport *t = &s->transport;
+  for (size_t k = 0; k < s->field; k++)
+    field[k] = k % t->width < t->bands ? s->light[k % t->width] : 0;
+}
+
+/* Adds to |f->to| what the series of the sky leaves, where that counts, times the radiosity. */
+static void add_sky(const hr2di_equation *s, const fields *f, const double *radiosity) {
+  const hr2di_transport *t = &s->transport;
+  const unsigned char *sees = t->links->sees_backs;
+  for (size_t k = 0; k < t->leaves; k++) {
+    const size_t patch = t->hierarchy->element[t->leaf[k]].patch;
+    if (t->order > 1 && !(sees && sees[patch])) continue;
+    for (size_t b = 0; b < t->bands; b++)
+      f->to[k * t->width + b] = fabs(f->to[k * t->width + b]) +
+                                fabs(f->sky[t->leaf[k]] * radiosity[k * t->width + b]);
+  }
+}
+
+static void run_check(hr2di_equation *s, int check, const fields *f, const double *radiosity,
+                      double *most) {
+  hr2di_transport_check(&s->transport, check, radiosity, f->to);
+  add_sky(s, f, radiosity);
+  take_largest(&s->transport, f->to, most);
+}
+
+static hr2d_status run_checks(hr2di_equation *s, const fields *f) {
+  hr2di_transport *t = &s->transport;
+  const int looks = t->order == 1 || t->links->sees_backs;
+  hr2d_status status = HR2D_OK;
+  if (t->sky) set_light(s, f->from);
+  for (int check = 0; check < HR2DI_TAIL_CHECKS && !status; check++) {
+    if (looks) status = hr2di_row_tails_check(t->hierarchy, check, f->sky, t->watch);
+    if (!status) run_check(s, check, f, s->radiosity, f->most[0]);
+    if (!status && t->sky) run_check(s, check, f, f->from, f->most[1]);
+    if (!status) status = hr2di_transport_status(t);
+  }
+  return status;
+}
+
+static double power_of(const hr2di_equation *s, const double *most, size_t band) {
+  const hr2di_transport *t = &s->transport;
+  const size_t cell = hr2di_scene_cell(t->scene);
+  double sum = 0;
+  for (size_t k = 0; k < t->leaves; k++)
+    if (t->hierarchy->element[t->leaf[k]].patch < cell)
+      sum += s->weight[k * t->order] * most[k * t->width + band];
+  return sum;
+}
+
+hr2d_status hr2di_power_cut_off(hr2di_equation *s, double *off) {
+  hr2di_transport *t = &s->transport;
+  const double unit = hr2d_scene_unit(t->scene);
+  double *room = hr2di_alloc_zero(&t->alloc, 4 * s->field + t->elements, sizeof *room);
+  if (!room) return HR2D_ENOMEM;
+  const fields f = {.from = room,
+                    .to = room + s->field,
+                    .most = {room + 2 * s->field, room + 3 * s->field},
+                    .sky = room + 4 * s->field};
+  const hr2d_status status = run_checks(s, &f);
+  for (size_t b = 0; b < t->bands && !status; b++) {
+    const double most = fmax(power_of(s, f.most[0], b), power_of(s, f.most[1], b));
+    off[b] = ldexp(HR2DI_TAIL_BOUND * unit * most, s->exponent[b]);
+  }
+  hr2di_alloc_free(&t->alloc, room);
+  return status;
+}
