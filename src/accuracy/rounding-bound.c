@@ -111,6 +111,7 @@ static void add_rows(hr2di_estimator *e) {
     const int sky = is_set(t->sky, leaf, t->order);
     for (size_t b = 0; b < t->bands && (t->closure || sky); b++) {
       const size_t at = leaf * t->width + b;
+      if (!sky && e->largest[0][b] == 0) continue; /* nothing sends to it */
       const double all = hr2di_estimator_most(e, received, leaf, b);
       const double light =
           t->closure ? 0 : hr2di_estimator_most(e, row, leaf, b) * eq->light[b];

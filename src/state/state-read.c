@@ -79,6 +79,10 @@ static uint64_t count_temperatures(const hr2d_scene *scene) {
   return count;
 }
 
+static int cuts_images(const loading *l) {
+  return hr2di_symmetry_cuts(&l->links->hierarchy->scene->symmetry);
+}
+
 static hr2d_status read_head(loading *l, hr2d_solve_work *work) {
   hr2di_reader *r = &l->reader;
   hr2di_reader_expect(r, HR2DI_STATE_HEAD_BYTES);
@@ -89,9 +93,9 @@ static hr2d_status read_head(loading *l, hr2d_solve_work *work) {
   const uint64_t divisions = (head->elements - l->links->hierarchy->scene->patches) / 2;
   const uint64_t items = head->solved * head->order;
   if (!status && head->bands > UINT64_MAX / 64 / items) return damaged(l, "its size");
-  hr2di_reader_expect(r, 4 * divisions + 16 * head->links + 32 * head->bands +
-                             16 * items * head->bands +
-                             8 * count_temperatures(l->links->hierarchy->scene) + 8);
+  hr2di_reader_expect(
+      r, 4 * divisions + 16 * head->links + (uint64_t)(cuts_images(l) ? 40 : 32) * head->bands +
+             16 * items * head->bands + 8 * count_temperatures(l->links->hierarchy->scene) + 8);
   return status;
 }
 
@@ -178,7 +182,7 @@ static hr2d_status read_solution(loading *l, const hr2d_solve_work *work) {
   const hr2di_state_head *head = &l->head;
   const size_t bands = (size_t)head->bands, order = (size_t)head->order;
   const size_t count = (size_t)head->solved * order * bands;
-  const int cuts = hr2di_symmetry_cuts(&l->links->hierarchy->scene->symmetry);
+  const int cuts = cuts_images(l);
   hr2d_solution *s = l->solution = hr2di_alloc_zero(alloc, 1, sizeof *s);
   if (s) {
     *s = (hr2d_solution){.alloc = *alloc,

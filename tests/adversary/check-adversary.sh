@@ -67,7 +67,7 @@ once bed 700008
 # The largest H is in a gap beside an end.
 once nearly 60145
 # A dark scene under a sky that nobody sees.
-once plates 60169
+once plates 60169 62000345
 # A narrow gap through which a piece of the sky shows.
 once noon 61000138
 # A gap beside a lamp where nothing reflects, and an image that goes on where a patch ends.
