@@ -71,8 +71,7 @@ extern "C" {
 typedef enum hr2d_place {
   HR2D_PLACE_BETWEEN = 0, /**< between the patches */
   HR2D_PLACE_PATCH,       /**< on a patch: values are limits from its front */
-  HR2D_PLACE_OUTSIDE      /**< where no light can be, or a sun shines past the images of a
-                               period (symmetry.h): values are NaN */
+  HR2D_PLACE_OUTSIDE      /**< where no light can be: values are NaN */
 } hr2d_place;
 
 /** Options of the calls for the field. Start from #HR2D_FIELD_OPTIONS_INIT. */

@@ -45,8 +45,9 @@
  * derived as that of hr2d_solve_to(), and no more than that part allows. Where there is no
  * series, as where the ground shows here and there through gaps of a row of panels, or far
  * above the scene, the light past the images is taken as that of the last ones, and the error
- * is all that may be there. Rows of points (hr2d_field_rows_visit()) are the same; their sums
- * may differ from 1 by what extrapolation is off.
+ * is all that may be there; so it is where a piece of the sky ends past the images. Suns shine
+ * past any number of images, exactly. Rows of points (hr2d_field_rows_visit()) are the same;
+ * their sums may differ from 1 by what extrapolation is off.
  *
  * Images in a mirror that is not parallel to an axis are rounded: their ends are off by some
  * 2⁻⁵⁰ of the largest coordinate. Errors of the account are those of the rounded scene; a patch
@@ -54,17 +55,16 @@
  *
  * Exchange areas of patches (visibility.h) are sums over all images: a patch may see images of
  * its own. They are made by one thread, in a matrix of all patches of the cell. What images add
- * that are cut off is extrapolated, but never below 0; hr2d_matrix_options::cut_off_estimate and
- * hr2d_matrix_options::cut_off_bound have what that may be off, likewise derived, and no more than
- * what is extrapolated and what is seen past the images, which is exact. With thousands of
- * patches in a cell there are few images, and some percent of a row may be cut off. Powers have
- * hr2d_solution_power_cut_off().
- * hr2d_leaf_sums() has the rows of the patches of the cell.
+ * that are cut off is extrapolated, but never below 0; hr2d_matrix_options::cut_off_estimate
+ * and hr2d_matrix_options::cut_off_bound have what that may be off, likewise derived, and no
+ * more than what is extrapolated and what is seen past the images, which is exact. With
+ * thousands of patches in a cell there are few images, and some percent of a row may be cut
+ * off. Powers have hr2d_solution_power_cut_off(). hr2d_leaf_sums() has the rows of the patches
+ * of the cell.
  *
  * Not supported, and refused with HR2D_EUNSUPPORTED: shares (share.h); and, over a period in
  * which patches see for ever, a sky with a piece that ends between the horizon and the last
- * images. Points between the patches have no values (HR2D_PLACE_OUTSIDE) if such a piece ends,
- * or a sun shines, past the images that they see.
+ * images.
  * @{
  */
 #ifndef HR2D_SYMMETRY_H

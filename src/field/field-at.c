@@ -23,7 +23,7 @@ typedef struct looker {
   double ends;     /* angles of the ends, */
   double gone;     /* and of sky that is past them */
   double apart[2]; /* by which half of the images tell another angle of fronts and of sky */
-  int unknown;     /* a sun or a border of the sky is there */
+  int mixed;       /* a piece of the sky ends there */
 } looker;
 
 static void clear(hr2di_light_sum *sum, size_t bands) {
@@ -58,17 +58,38 @@ static void add_one(looker *l, const hr2di_far_part *part) {
   }
 }
 
+/* Notes what is past the ends between two directions, and adds the suns that shine from there.
+   Returns whether it is more than the sky at the horizon. */
+static int note_far(looker *l, hr2d_point right, hr2d_point left) {
+  const hr2di_light_source *of = l->sum.of;
+  const int mixed = hr2di_far_changes(l->view.scene, right, left);
+  int suns = 0;
+  l->mixed |= mixed;
+  for (size_t b = 0; b < of->solution->bands; b++) {
+    if (!hr2di_light_has_sun(of, right, left, b)) continue;
+    suns = 1;
+    if (hr2di_far_sun_shines(l->view.scene, l->sum.x, b)) hr2di_light_add_sun(&l->sum, b);
+  }
+  return mixed || suns;
+}
+
 static void take_far_sky(void *ctx, const hr2di_far_part *part) {
   looker *l = ctx;
   clear(&l->one, l->sum.of->solution->bands);
-  hr2di_light_add_sky(&l->one, part->right, part->left, part->angle, part->bearing, 1);
+  if (part->past && note_far(l, part->right, part->left)) {
+    hr2di_light_add(&l->one, &(hr2di_round_stretch){.patch = HR2DI_ROUND_SKY,
+                                                    .right = part->right,
+                                                    .left = part->left,
+                                                    .angle = part->angle});
+  } else {
+    hr2di_light_add_sky(&l->one, part->right, part->left, part->angle, part->bearing, 1);
+  }
   if (!part->past) {
     add_one(l, part);
     return;
   }
   add_times(&l->past, 1, &l->one);
   l->gone += part->angle;
-  l->unknown |= hr2di_far_changes(l->view.scene, part->right, part->left);
 }
 
 static void take_far(looker *l, const hr2di_round_stretch *s) {
@@ -81,7 +102,7 @@ static void take_far(looker *l, const hr2di_round_stretch *s) {
   if (hr2di_symmetry_is_end(all, s->patch)) {
     l->ends += s->angle;
     l->sum.front -= s->angle;
-    l->unknown |= hr2di_far_changes(l->view.scene, s->right, s->left);
+    note_far(l, s->right, s->left);
     return;
   }
   const unsigned term = hr2di_symmetry_term(all, s->patch);
@@ -115,12 +136,14 @@ static void take_late(looker *l, double all) {
 }
 
 /* What the light past the ends is off by: what the checks of its series say, and no more than
-   that it may be all of the brightest light or nothing. */
+   that it may be all of the brightest light or nothing.  Where a piece of the sky ends there,
+   the series has the light of the horizon, and checks do not tell. */
 static double off_by(const looker *l, size_t band, double all) {
   const hr2di_light_source *of = l->sum.of;
   const double most = all * fmax(of->leaves.scale[band], hr2di_sky_most(of->scene, band));
   const double is = l->far.mean[band];
-  const double off = fmax(fabs(l->off[band]), fabs(l->off[of->solution->bands + band]));
+  const double off =
+      l->mixed ? HUGE_VAL : fmax(fabs(l->off[band]), fabs(l->off[of->solution->bands + band]));
   return fmin(HR2DI_TAIL_BOUND * off, fmax(is, most - fmin(is, 0)));
 }
 
@@ -170,8 +193,7 @@ hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of
   hr2di_far_view_init(&l.view, of->scene, x);
   const hr2d_status status = hr2di_look_round(&w->view, x, &touches);
   join(&l);
-  seen->place = l.unknown ? HR2D_PLACE_OUTSIDE
-                          : hr2di_field_place(of->scene, sum->front, sum->sky, touches);
+  seen->place = hr2di_field_place(of->scene, sum->front, sum->sky, touches);
   const int dark = seen->place == HR2D_PLACE_OUTSIDE;
   seen->clearance = sqrt(sum->clearance);
   seen->mean = sum->mean;

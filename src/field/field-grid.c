@@ -23,6 +23,7 @@
 #include "base/sized-struct.h"
 #include "field/border-map.h"
 #include "field/field-at.h"
+#include "field/past-ends.h"
 
 #define VIEW  0.125
 #define KINK  0.25
@@ -398,6 +399,18 @@ static hr2d_status find_borders(grid_call *c) {
                                      &c->f.watch);
 }
 
+/* Whether a sun shines on nodes past the ends of a period, behind which borders of its light
+   are not found: the corners are farthest from the patches. */
+static int sees_far_suns(const grid_call *c) {
+  const hr2d_scene *scene = c->f.source.scene;
+  for (int k = 0; k < 4; k++) {
+    const hr2d_point corner = {k % 2 ? c->grid.high.x : c->grid.low.x,
+                               k / 2 ? c->grid.high.y : c->grid.low.y};
+    if (hr2di_far_sees_suns(scene, hr2di_field_scaled(scene, corner))) return 1;
+  }
+  return 0;
+}
+
 /* Gets ready for interpolation, unless there are so many ends that it would not pay. */
 static hr2d_status prepare(grid_call *c, uint64_t *steps) {
   hr2di_light_source *of = &c->f.source;
@@ -411,7 +424,8 @@ static hr2d_status prepare(grid_call *c, uint64_t *steps) {
   if (!status) status = hr2di_leaves_group(&of->leaves, of->solution, c->view, &c->f.watch);
   c->coarse = !status && c->grid.columns > 4 && c->grid.rows > 4 && c->map.step.x != 0 &&
               c->map.step.y != 0 &&
-              hr2di_borders_sources(of) <= c->grid.columns * c->grid.rows / SOURCES;
+              hr2di_borders_sources(of) <= c->grid.columns * c->grid.rows / SOURCES &&
+              !sees_far_suns(c);
   return c->coarse ? find_borders(c) : status;
 }
 

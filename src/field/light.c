@@ -270,18 +270,29 @@ static void add_front(hr2di_light_sum *sum, const hr2di_round_stretch *seen) {
   }
 }
 
-/* Parallel light of irradiance I is B = 2I δ(ω + d), which is seen in a direction from the
-   right one on and before the left one. */
+static hr2d_point to_sun(hr2d_sun sun) {
+  return unit((hr2d_point){-sun.direction.x, -sun.direction.y});
+}
+
+int hr2di_light_has_sun(const hr2di_light_source *of, hr2d_point right, hr2d_point left,
+                        size_t band) {
+  const hr2d_sun sun = hr2d_scene_sun(of->scene, band);
+  if (!(sun.irradiance > 0)) return 0;
+  const hr2d_point to = to_sun(sun);
+  const double after = hr2di_point_cross(right, to), before = hr2di_point_cross(to, left);
+  const int behind = hr2di_point_dot(right, to) < 0 && after == 0;
+  return after >= 0 && before > 0 && !behind;
+}
+
+/* Parallel light of irradiance I is B = 2I δ(ω + d). */
+void hr2di_light_add_sun(hr2di_light_sum *sum, size_t band) {
+  const hr2d_sun sun = hr2d_scene_sun(sum->of->scene, band);
+  add_constant(sum, band, 2 * sun.irradiance, 1, to_sun(sun));
+}
+
 static void add_suns(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
-  const hr2d_scene *scene = sum->of->scene;
-  for (size_t b = 0; b < sum->of->solution->bands; b++) {
-    const hr2d_sun sun = hr2d_scene_sun(scene, b);
-    if (!(sun.irradiance > 0)) continue;
-    const hr2d_point to = unit((hr2d_point){-sun.direction.x, -sun.direction.y});
-    const double right = hr2di_point_cross(s->right, to), left = hr2di_point_cross(to, s->left);
-    const int behind = hr2di_point_dot(s->right, to) < 0 && right == 0;
-    if (right >= 0 && left > 0 && !behind) add_constant(sum, b, 2 * sun.irradiance, 1, to);
-  }
+  for (size_t b = 0; b < sum->of->solution->bands; b++)
+    if (hr2di_light_has_sun(sum->of, s->right, s->left, b)) hr2di_light_add_sun(sum, b);
 }
 
 /* Adds an arc of the sky from an angle on, counterclockwise from +x. */

@@ -69,6 +69,12 @@ typedef struct hr2di_light_sum {
 /* Adds a stretch of the view from x. */
 void hr2di_light_add(hr2di_light_sum *sum, const hr2di_round_stretch *s);
 
+/* Whether the sun of a band is seen in a direction from the right one on and before the left
+   one; adds its light. */
+int hr2di_light_has_sun(const hr2di_light_source *of, hr2d_point right, hr2d_point left,
+                        size_t band);
+void hr2di_light_add_sun(hr2di_light_sum *sum, size_t band);
+
 /* Adds `factor` times the light of the sky at a bearing between two directions. */
 void hr2di_light_add_sky(hr2di_light_sum *sum, hr2d_point right, hr2d_point left, double angle,
                          double bearing, double factor);

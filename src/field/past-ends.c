@@ -86,11 +86,6 @@ static int is_inside(hr2d_point right, hr2d_point left, hr2d_point d) {
 }
 
 int hr2di_far_changes(const hr2d_scene *scene, hr2d_point right, hr2d_point left) {
-  for (size_t k = 0; k < scene->sun_bands; k++)
-    if (scene->sun[k].irradiance > 0 &&
-        is_inside(right, left,
-                  (hr2d_point){-scene->sun[k].direction.x, -scene->sun[k].direction.y}))
-      return 1;
   for (size_t k = 0; k < 2 * scene->sky.pieces; k++) {
     const hr2d_sky_piece *p = &scene->sky.piece[k / 2];
     const double bearing = k % 2 ? p->to : p->from;
@@ -99,4 +94,64 @@ int hr2di_far_changes(const hr2d_scene *scene, hr2d_point right, hr2d_point left
       return 1;
   }
   return 0;
+}
+
+int hr2di_far_sees_suns(const hr2d_scene *scene, hr2d_point x) {
+  hr2di_far_view v;
+  hr2di_far_view_init(&v, scene, hr2di_far_home(scene, x));
+  for (size_t k = 0; k < scene->sun_bands && v.quadrants > 0; k++)
+    for (int m = 0; m < v.quadrants; m++) {
+      const hr2di_quadrant *q = &v.quadrant[m];
+      const hr2d_point light = scene->sun[k].direction;
+      const double out = -hr2di_point_dot(light, q->out), up = -hr2di_point_dot(light, q->up);
+      if (scene->sun[k].irradiance > 0 && out > 0 && up > 0 &&
+          q->border * out > (q->line - q->period) * up)
+        return 1;
+    }
+  return 0;
+}
+
+/* A ray across a strip: `off` is how far along the period a point is before the ray, and
+   `ahead` how far across it is after its start. */
+typedef struct ray {
+  hr2d_point start, along, across;
+  double slope; /* along for each step across */
+} ray;
+
+static double ahead(const ray *r, hr2d_point p) {
+  return hr2di_point_dot(r->across, hr2di_point_minus(p, r->start));
+}
+
+static double off(const ray *r, hr2d_point p) {
+  return hr2di_point_dot(r->along, hr2di_point_minus(p, r->start)) - r->slope * ahead(r, p);
+}
+
+/* What is nearer to the start, as a part of the height of a patch, is where it starts. */
+#define STARTS 1e-12
+
+/* Whether a patch that is repeated with a period is in the way: its part that is ahead has a
+   multiple of the period between its ends. */
+static int is_in_the_way(const ray *r, hr2d_segment s, double period) {
+  double far[2] = {ahead(r, s.a), ahead(r, s.b)}, at[2] = {off(r, s.a), off(r, s.b)};
+  const double least = STARTS * fmax(fabs(far[0]), fabs(far[1]));
+  if (far[0] <= least && far[1] <= least) return 0;
+  for (int k = 0; k < 2; k++)
+    if (far[k] < least) at[k] += (at[1 - k] - at[k]) * (least - far[k]) / (far[1 - k] - far[k]);
+  return floor(at[0] / period) != floor(at[1] / period);
+}
+
+int hr2di_far_sun_shines(const hr2d_scene *scene, hr2d_point x, size_t band) {
+  const hr2di_symmetry *s = &scene->symmetry;
+  const double unit = hr2d_scene_unit(scene), size = hypot(s->by.period.x, s->by.period.y);
+  const hr2d_point light = hr2d_scene_sun(scene, band).direction,
+                   along = {s->by.period.x / size, s->by.period.y / size};
+  const double turn = hr2di_point_cross(along, light) < 0 ? 1 : -1;
+  const ray r = {.start = {unit * x.x, unit * x.y},
+                 .along = along,
+                 .across = {-turn * along.y, turn * along.x},
+                 .slope =
+                     turn * hr2di_point_dot(along, light) / hr2di_point_cross(along, light)};
+  for (size_t k = 0; k < s->cell << s->by.mirrors; k++)
+    if (is_in_the_way(&r, scene->patch[k].given, size)) return 0;
+  return 1;
 }

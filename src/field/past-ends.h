@@ -47,7 +47,15 @@ void hr2di_far_sky(const hr2di_far_view *v, const hr2di_round_stretch *s, hr2di_
    the largest radiosity. */
 #define HR2DI_FAR_UNSETTLED 0.1
 
-/* Whether a sun shines, or the sky changes, between two directions past the ends. */
+/* Whether a piece of the sky ends between two directions past the ends: the light from there is
+   not that of the horizon alone. */
 int hr2di_far_changes(const hr2d_scene *scene, hr2d_point right, hr2d_point left);
+
+/* Whether points where x is, scaled, or nearer to the strip may see a sun past the ends. */
+int hr2di_far_sees_suns(const hr2d_scene *scene, hr2d_point x);
+
+/* Whether the sun of a band shines on x, scaled, past all images for ever: exact, as a ray to
+   it leaves the strip somewhere. */
+int hr2di_far_sun_shines(const hr2d_scene *scene, hr2d_point x, size_t band);
 
 #endif

@@ -268,6 +268,63 @@ START_TEST(gaps_far_away_have_bounds) {
 }
 END_TEST
 
+/* Tilted black panels under a low sun, one cell with a period, or many towards the sun. */
+static stage tilted(hr2d_sun sun, int repeats) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  const int towards = sun.direction.x > 0 ? -1 : 1;
+  for (int k = repeats ? 0 : -3; k < (repeats ? 1 : 330); k++)
+    add(scene, (hr2d_point){towards * k, 1}, (hr2d_point){towards * k + .5, 1.02}, 0, 0,
+        HR2D_SIDES_BOTH);
+  if (repeats) ck_assert_int_eq(hr2d_scene_set_period(scene, (hr2d_point){1, 0}), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_set_sun(scene, &sun, 1), HR2D_OK);
+  return solve(scene, 1e-3);
+}
+
+/* Far below the panels a sun shines past hundreds of them, or does not. */
+START_TEST(suns_shine_past_the_last_images) {
+  const hr2d_sun sun = {{_i ? -10 : 10, -1}, 7};
+  stage one = tilted(sun, 1), many = tilted(sun, 0);
+  const size_t half = hr2d_scene_images(one.scene) / 2;
+  int lit = 0, count = 0;
+  for (double x = .013; x < 1; x += .05, count++)
+    for (double y = -25; y < -20; y += 2.3) {
+      const light l = light_at(one.solution, x, y), m = light_at(many.solution, x, y);
+      ck_assert_double_gt((1 - y) * 10, (double)half);
+      ck_assert_int_eq(l.place, HR2D_PLACE_BETWEEN);
+      ck_assert_double_eq_tol(l.mean, m.mean, 1e-12);
+      ck_assert_double_eq_tol(l.flux[0], m.flux[0], 1e-12);
+      ck_assert_double_eq_tol(l.flux[1], m.flux[1], 1e-12);
+      lit += l.mean > 0;
+    }
+  ck_assert_int_gt(lit, 0);
+  ck_assert_int_lt(lit, 3 * count);
+  end(&one);
+  end(&many);
+}
+END_TEST
+
+/* A piece of the sky that reaches below the horizon is hidden by houses there, so that it is
+   like one that does not: within the bound. */
+START_TEST(edges_of_the_sky_past_the_ends_have_bounds) {
+  const double value = 1;
+  stage s[2];
+  for (int k = 0; k < 2; k++) {
+    const hr2d_sky_piece piece = {k ? -90 : -90.01, k ? 90 : 90.01};
+    hr2d_scene *scene = street(.6, 0);
+    ck_assert_int_eq(hr2d_scene_set_sky(scene, &piece, 1, &value, 1), HR2D_OK);
+    s[k] = solve(scene, 1e-6);
+  }
+  for (double y = 9.7; y < 40; y *= 1.7) {
+    const light low = light_at(s[0].solution, 4.2, y), right = light_at(s[1].solution, 4.2, y);
+    ck_assert_int_eq(low.place, HR2D_PLACE_BETWEEN);
+    ck_assert_double_le(fabs(low.mean - right.mean), low.error + right.error + 1e-6);
+    ck_assert_double_gt(low.error, right.error);
+    ck_assert_double_le(low.error, 2 * low.cut_off);
+  }
+  for (int k = 0; k < 2; k++) end(&s[k]);
+}
+END_TEST
+
 /* A row of a point. */
 typedef struct kept {
   double share[4], factor[4], sum, factors;
@@ -381,5 +438,7 @@ TEST_SUITE("past ends") {
   ADD_TESTS("streets", above_streets_a_furnace_is_a_furnace,
             what_goes_up_is_the_same_at_every_height, grids_repeat_themselves);
   REPEAT_TESTS(2, "gaps", gaps_far_away_have_bounds);
+  REPEAT_TESTS(2, "suns", suns_shine_past_the_last_images);
+  ADD_TESTS("edges", edges_of_the_sky_past_the_ends_have_bounds);
   REPEAT_TESTS(3, "rows", rows_of_points_have_all_images);
 }

@@ -52,8 +52,8 @@ static void same(const test_links *one, const hr2d_solution *b, const test_links
   const hr2d_hierarchy_counts n = hr2d_hierarchy_count(one->hierarchy);
   const hr2d_refine_counts counts[] = {hr2d_linkset_counts(one->links),
                                        hr2d_linkset_counts(other->links)};
-  ck_assert(hr2d_solution_power_cut_off(b, 0) == hr2d_solution_power_cut_off(c, 0));
   const hr2d_power power[] = {hr2d_solution_power(b, 0), hr2d_solution_power(c, 0)};
+  ck_assert(hr2d_solution_power_cut_off(b, 0) == hr2d_solution_power_cut_off(c, 0));
   ck_assert_uint_eq(n.elements, hr2d_hierarchy_count(other->hierarchy).elements);
   ck_assert_int_eq(memcmp(hr2d_hierarchy_elements(one->hierarchy),
                           hr2d_hierarchy_elements(other->hierarchy),
