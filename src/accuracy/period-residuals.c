@@ -2,7 +2,8 @@
 /* Each check of the extrapolation, see scene/symmetry.h, tells an amount δ of H on leaves. That
    is reflected as light is: of B it makes b = ρ(δ + Kb), and of H δ + Kb.  The larger of what
    both checks make is the estimate, average by average and point by point.  HR2DI_TAIL_BOUND
-   times that is the bound.
+   times that is the bound.  With few images it is no more than what is extrapolated and what
+   may be past the ends, which is from nothing to what is brightest: δ is that much, then, too.
 
    A gather at a point extrapolates the view of that point, which has checks of its own.  They
    are made at the ends and the middle of each leaf.  What is past the ends is known exactly
@@ -54,12 +55,42 @@ static hr2d_status set_tail(hr2di_estimator *e, int check) {
   return status;
 }
 
+/* With more images than that the series is much better than nothing. */
+enum { FEW_IMAGES = 8 };
+
+/* Sets e->tail to the most that may be missing of H: `room` has two numbers for each element.
+ */
+static hr2d_status set_most(hr2di_estimator *e, double *room) {
+  hr2di_equation *eq = &e->eq;
+  hr2di_transport *t = &eq->transport;
+  const hr2d_hierarchy *h = t->hierarchy;
+  double *const ends = room, *const sky = room + h->elements, *const one = e->error;
+  const hr2d_status status = hr2di_row_tails_seen(h, ends, sky, t->watch);
+  if (status) return status;
+  for (size_t k = 0; k < eq->field; k++) one[k] = hr2di_estimator_sky(e, k % t->width);
+  hr2di_transport_check(t, HR2DI_CHECK_ALL, one, eq->irradiance);
+  hr2di_transport_check(t, HR2DI_CHECK_ALL, e->kept, e->tail);
+  for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++)
+    for (size_t b = 0; b < t->bands; b++) {
+      const uint32_t element = hr2di_ties_of(&t->ties, t->leaf[leaf]);
+      const double light = hr2di_estimator_sky(e, b),
+                   shown = light * fabs(sky[element]) +
+                           hr2di_estimator_most(e, eq->irradiance, leaf, b),
+                   all = ends[element] * (fmax(e->largest[0][b], light) + light);
+      const double most = hr2di_estimator_most(e, e->tail, leaf, b) + shown + all;
+      for (size_t m = b; m < t->width; m += t->bands) e->tail[leaf * t->width + m] = 0;
+      e->tail[leaf * t->width + b] = most;
+    }
+  return hr2di_transport_status(t);
+}
+
 /* What checks make of averages, and at points. */
 typedef struct results {
-  double *average;  /* per check, of B and of H, patches × bands */
+  double *average;  /* per check, of B and of H, patches × bands; and at most */
   double *point;    /* per leaf and band, of the views of its points, */
   double *most;     /* and that at most; */
-  double *indirect; /* per check, leaf and band: Kb */
+  double *indirect; /* per check, leaf and band: Kb; and at most */
+  double *seen;     /* two per element */
   double *room;     /* for the points of a leaf */
 } results;
 
@@ -84,11 +115,12 @@ static void find_indirect(const hr2di_estimator *e, double *indirect) {
       indirect[k * t->bands + b] = hr2di_estimator_most(e, e->eq.irradiance, k, b);
 }
 
+/* `check` may be HR2DI_CHECK_ALL. */
 static hr2d_status run_check(hr2di_estimator *e, int check, const results *r) {
   const hr2di_transport *t = &e->eq.transport;
   const hr2d_scene *scene = t->hierarchy->scene;
   double *average = r->average + 2 * (size_t)check * e->values;
-  hr2d_status status = set_tail(e, check);
+  hr2d_status status = check == HR2DI_CHECK_ALL ? set_most(e, r->seen) : set_tail(e, check);
   if (!status && scene->effect[HR2D_EFFECT_INTERREFLECTION].on) {
     status = reflect(e, average);
     if (!status) find_indirect(e, r->indirect + (size_t)check * t->leaves * t->bands);
@@ -96,6 +128,14 @@ static hr2d_status run_check(hr2di_estimator *e, int check, const results *r) {
   if (!status) status = hr2di_transport_status(t);
   if (!status) hr2di_estimator_averages(e, e->tail, average + e->values);
   return status;
+}
+
+/* Nothing is known of the most. */
+static void forget_most(const hr2di_estimator *e, const results *r) {
+  const size_t rows = e->eq.transport.leaves * e->eq.transport.bands;
+  for (size_t k = 0; k < 2 * e->values; k++)
+    r->average[2 * HR2DI_CHECK_ALL * e->values + k] = HUGE_VAL;
+  for (size_t k = 0; k < rows; k++) r->indirect[HR2DI_CHECK_ALL * rows + k] = HUGE_VAL;
 }
 
 /* The larger of what two checks make, which are `step` apart. */
@@ -106,16 +146,19 @@ static double larger(const double *check, size_t step) {
 static void note(hr2di_estimator *e, const results *r) {
   const hr2di_transport *t = &e->eq.transport;
   for (size_t k = 0; k < 2 * e->values; k++) {
-    const double is = larger(r->average + k, 2 * e->values);
-    e->past[k / e->values][k % e->values] = is;
-    e->past_most[k / e->values][k % e->values] = HR2DI_TAIL_BOUND * is;
+    const double is = larger(r->average + k, 2 * e->values),
+                 all = fabs(r->average[2 * HR2DI_CHECK_ALL * e->values + k]);
+    e->past[k / e->values][k % e->values] = fmin(is, all);
+    e->past_most[k / e->values][k % e->values] = fmin(HR2DI_TAIL_BOUND * is, all);
   }
   const size_t rows = t->leaves * t->bands;
   for (size_t k = 0; k < rows; k++) {
     const size_t b = k % t->bands;
     const double rho = hr2di_estimator_rho(e, k / t->bands, b),
-                 indirect = larger(r->indirect + k, rows), is = r->point[k] + indirect,
-                 most = r->most[k] + HR2DI_TAIL_BOUND * indirect;
+                 indirect = larger(r->indirect + k, rows),
+                 all = r->indirect[HR2DI_CHECK_ALL * rows + k],
+                 is = r->point[k] + fmin(indirect, all),
+                 most = r->most[k] + fmin(HR2DI_TAIL_BOUND * indirect, all);
     e->far[1][b] = fmax(e->far[1][b], is);
     e->far[0][b] = fmax(e->far[0][b], rho * is);
     e->far_most[1][b] = fmax(e->far_most[1][b], most);
@@ -168,14 +211,16 @@ static hr2d_status look_from_leaves(const hr2di_estimator *e, const results *r) 
 
 static hr2d_status reserve(const hr2di_estimator *e, results *r) {
   const hr2di_transport *t = &e->eq.transport;
-  const size_t rows = t->leaves * t->bands, averages = 2 * CHECKS * e->values;
+  const size_t rows = t->leaves * t->bands, averages = 2 * (CHECKS + 1) * e->values,
+               points = PLACES * PAST * t->bands;
   r->average = hr2di_alloc_zero(
-      &t->alloc, averages + (2 + CHECKS) * rows + PLACES * PAST * t->bands, sizeof *r->average);
+      &t->alloc, averages + (3 + CHECKS) * rows + points + 2 * t->elements, sizeof *r->average);
   if (!r->average) return HR2D_ENOMEM;
   r->point = r->average + averages;
   r->most = r->point + rows;
   r->indirect = r->most + rows;
-  r->room = r->indirect + CHECKS * rows;
+  r->room = r->indirect + (CHECKS + 1) * rows;
+  r->seen = r->room + points;
   return HR2D_OK;
 }
 
@@ -186,7 +231,10 @@ hr2d_status hr2di_period_residuals(hr2di_estimator *e) {
   if (!e->tail) return HR2D_OK;
   hr2d_status status = reserve(e, &r);
   if (!status) status = look_from_leaves(e, &r);
-  for (int check = 0; check < CHECKS && !status; check++) status = run_check(e, check, &r);
+  const int few = t->hierarchy->scene->symmetry.copies <= FEW_IMAGES;
+  for (int check = 0; check < CHECKS + few && !status; check++)
+    status = run_check(e, check, &r);
+  if (!status && !few) forget_most(e, &r);
   if (!status) note(e, &r);
   for (size_t k = 0; k < eq->field; k++) e->error[k] = eq->irradiance[k] = 0;
   hr2di_alloc_free(&t->alloc, r.average);

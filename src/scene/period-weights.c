@@ -19,8 +19,10 @@
    patch along the period one with 1/k² − 1/m², and from other points with 1/k − 1/m.  The last
    power shows little of that for some m.  An extrapolation from images ¾K, ⅝K, ½K and ⅜K shows
    it then: for no m is the sum off by more than HR2DI_TAIL_BOUND times the larger one of both
-   differences (tests/unit/scene/check-period-weights.c).  Many kinks, as where far images show
-   through gaps of others, are taken to be no worse than the worst of one.
+   differences (tests/unit/scene/check-period-weights.c).  Two images leave nothing for a second
+   way: a tenth of the whole sum takes its place, which does as well.  Of one image a series
+   that begins with the next power tells.  Many kinks, as where far images show through gaps of
+   others, are taken to be no worse than the worst of one.
 
    The c_j have both signs.  As n_j are K, ¾K, ½K and ⅜K, Σ |c_j| f(n_j) is no more than ten
    times the sum that is wanted; of the last four images it would be a thousand times that. */
@@ -114,14 +116,27 @@ static void set(unsigned copies, nodes n, int power, double *weight) {
   for (unsigned k = n.last + 1; k <= copies; k++) weight[k] -= 1;
 }
 
-void hr2di_tail_set(hr2di_tail *t, unsigned copies, int power) {
-  const nodes all = nodes_of(copies);
-  nodes fewer = all;
+/* What a second way leaves of the sum from two images. */
+#define OF_TWO 0.1
+
+/* Sums by other ways. */
+static void set_checks(hr2di_tail *t, unsigned copies, int power) {
+  double *const last = t->check[HR2DI_CHECK_LAST], *const part = t->check[HR2DI_CHECK_PART];
+  nodes fewer = nodes_of(copies);
   fewer.terms--;
+  if (copies > 1)
+    set(copies, fewer, power, last);
+  else
+    set(copies, nodes_of(copies), power + 1, last);
+  if (copies >= 4) set(copies, part_of(copies), power, part);
+  for (unsigned k = 0; k <= copies && copies < 4; k++)
+    part[k] = copies > 1 ? (1 - OF_TWO) * t->weight[k] : last[k];
+}
+
+void hr2di_tail_set(hr2di_tail *t, unsigned copies, int power) {
   *t = (hr2di_tail){{0}, {{0}}, {0}};
-  set(copies, all, power, t->weight);
-  set(copies, fewer, power, t->check[HR2DI_CHECK_LAST]);
-  if (copies >= 4) set(copies, part_of(copies), power, t->check[HR2DI_CHECK_PART]);
+  set(copies, nodes_of(copies), power, t->weight);
+  set_checks(t, copies, power);
   set(copies, nodes_of(copies / 2), power, t->half);
   for (int c = 0; c < HR2DI_TAIL_CHECKS; c++)
     for (unsigned k = 0; k <= copies; k++) t->check[c][k] = t->weight[k] - t->check[c][k];

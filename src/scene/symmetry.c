@@ -84,7 +84,7 @@ double hr2di_symmetry_weight(const hr2di_symmetry *s, size_t first, size_t secon
 double hr2di_symmetry_check(const hr2di_symmetry *s, size_t first, size_t second, int check) {
   const size_t image = first < s->cell ? second : first;
   const hr2di_motion *g = &s->motion[image / s->cell];
-  return g->check[check] / g->weight;
+  return (check == HR2DI_CHECK_ALL ? g->weight - 1 : g->check[check]) / g->weight;
 }
 
 /* Directions whose sine or cosine is no more are parallel or perpendicular. */

@@ -33,6 +33,9 @@ enum { HR2DI_MIRRORS = 3 /* at most: two are parallel, the third is across them 
 enum { HR2DI_MOST_COPIES = 256 };
 enum { HR2DI_CHECK_LAST, HR2DI_CHECK_PART, HR2DI_TAIL_CHECKS };
 
+/* In the place of a check: all that is extrapolated. */
+enum { HR2DI_CHECK_ALL = HR2DI_TAIL_CHECKS };
+
 /* g = T^k f. */
 typedef struct hr2di_motion {
   unsigned mirrors; /* f: bit m for mirror m of hr2di_generators */
@@ -120,7 +123,8 @@ static inline size_t hr2di_symmetry_original(const hr2di_symmetry *s, size_t pat
 double hr2di_symmetry_weight(const hr2di_symmetry *s, size_t first, size_t second,
                              int directed);
 
-/* What a check of the extrapolation leaves of the weight of a pair, as a part of it. */
+/* What a check of the extrapolation, or all of it, leaves of the weight of a pair, as a part of
+   that. */
 double hr2di_symmetry_check(const hr2di_symmetry *s, size_t first, size_t second, int check);
 
 /* How many periods away a patch is whose image stands for others; 0 if it is none. */

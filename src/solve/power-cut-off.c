@@ -18,7 +18,9 @@
    these over the checks, for B and for L. */
 typedef struct fields {
   double *from, *to, *most[2];
-  double *sky; /* per element: what a check leaves of the form factor of the sky */
+  double *sky;  /* per element: what a check leaves of the form factor of the sky, or the series
+                   makes of it, */
+  double *ends; /* and the form factor of what is past the ends */
 } fields;
 
 static void take_largest(const hr2di_transport *t, const double *check, double *most) {
@@ -51,6 +53,41 @@ static void run_check(hr2di_equation *s, int check, const fields *f, const doubl
   take_largest(&s->transport, f->to, most);
 }
 
+/* The largest radiosity of a band. */
+static double brightest(const hr2di_equation *s, size_t band) {
+  const hr2di_transport *t = &s->transport;
+  double most = 0;
+  for (size_t k = 0; k < t->leaves; k++) {
+    double sum = 0;
+    for (size_t l = 0; l < t->order; l++)
+      sum += fabs(s->radiosity[k * t->width + l * t->bands + band]) * sqrt(2 * (double)l + 1);
+    most = fmax(most, sum);
+  }
+  return most;
+}
+
+/* Adds what may be past the ends. */
+static void add_ends(const hr2di_equation *s, const fields *f) {
+  const hr2di_transport *t = &s->transport;
+  for (size_t b = 0; b < t->bands; b++) {
+    const double light[] = {brightest(s, b), t->sky ? s->light[b] : 0};
+    for (size_t k = 0; k < t->leaves; k++)
+      for (int m = 0; m < 2; m++)
+        f->most[m][k * t->width + b] += f->ends[t->leaf[k]] * light[m];
+  }
+}
+
+static hr2d_status run_all(hr2di_equation *s, const fields *f) {
+  hr2di_transport *t = &s->transport;
+  const hr2d_status status = hr2di_row_tails_seen(t->hierarchy, f->ends, f->sky, t->watch);
+  for (size_t k = 0; k < s->field; k++) f->most[0][k] = f->most[1][k] = 0;
+  if (status) return status;
+  run_check(s, HR2DI_CHECK_ALL, f, s->radiosity, f->most[0]);
+  if (t->sky) run_check(s, HR2DI_CHECK_ALL, f, f->from, f->most[1]);
+  add_ends(s, f);
+  return hr2di_transport_status(t);
+}
+
 static hr2d_status run_checks(hr2di_equation *s, const fields *f) {
   hr2di_transport *t = &s->transport;
   const int looks = t->order == 1 || t->links->sees_backs;
@@ -75,19 +112,27 @@ static double power_of(const hr2di_equation *s, const double *most, size_t band)
   return sum;
 }
 
+/* With more images than that the series is much better than nothing. */
+enum { FEW_IMAGES = 8 };
+
 hr2d_status hr2di_power_cut_off(hr2di_equation *s, double *off) {
   hr2di_transport *t = &s->transport;
   const double unit = hr2d_scene_unit(t->scene);
-  double *room = hr2di_alloc_zero(&t->alloc, 4 * s->field + t->elements, sizeof *room);
+  double *room = hr2di_alloc_zero(&t->alloc, 4 * s->field + 2 * t->elements, sizeof *room);
   if (!room) return HR2D_ENOMEM;
   const fields f = {.from = room,
                     .to = room + s->field,
                     .most = {room + 2 * s->field, room + 3 * s->field},
-                    .sky = room + 4 * s->field};
-  const hr2d_status status = run_checks(s, &f);
+                    .sky = room + 4 * s->field,
+                    .ends = room + 4 * s->field + t->elements};
+  hr2d_status status = run_checks(s, &f);
+  for (size_t b = 0; b < t->bands && !status; b++)
+    off[b] = HR2DI_TAIL_BOUND * fmax(power_of(s, f.most[0], b), power_of(s, f.most[1], b));
+  const int few = t->scene->symmetry.copies <= FEW_IMAGES;
+  if (!status && few) status = run_all(s, &f);
   for (size_t b = 0; b < t->bands && !status; b++) {
-    const double most = fmax(power_of(s, f.most[0], b), power_of(s, f.most[1], b));
-    off[b] = ldexp(HR2DI_TAIL_BOUND * unit * most, s->exponent[b]);
+    const double all = fmax(power_of(s, f.most[0], b), power_of(s, f.most[1], b));
+    off[b] = ldexp(unit * (few ? fmin(off[b], all) : off[b]), s->exponent[b]);
   }
   hr2di_alloc_free(&t->alloc, room);
   return status;

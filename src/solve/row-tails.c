@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solve/row-tails.h"
 
+#include <math.h>
+
 #include "base/legendre.h"
 #include "scene/scene-impl.h"
 #include "visibility/view-tail.h"
@@ -61,20 +63,41 @@ hr2d_status hr2di_row_tails_move(const hr2d_hierarchy *h, const hr2d_scene *scen
   return status;
 }
 
+/* Whether an element is a leaf of the cell that light reaches. */
+static int looks(const hr2d_hierarchy *h, uint32_t element) {
+  const hr2d_element *e = &h->element[element];
+  return !e->child && e->patch < hr2di_scene_cell(h->scene) &&
+         hr2di_scene_lit(h->scene, e->patch);
+}
+
 hr2d_status hr2di_row_tails_check(const hr2d_hierarchy *h, int check, double *off,
                                   hr2di_watch *watch) {
   looker l;
   hr2d_status status = begin(&l, h, h->scene, watch);
   for (uint32_t k = 0; k < h->elements && !status; k++) {
     off[k] = 0;
-    if (h->element[k].child || h->element[k].patch >= hr2di_scene_cell(h->scene) ||
-        !hr2di_scene_lit(h->scene, h->element[k].patch))
-      continue;
-    for (size_t q = 0; q < POINTS && !status; q++) {
+    for (size_t q = 0; q < POINTS && looks(h, k) && !status; q++) {
       hr2di_view_tail tail;
       status = look(&l, k, q, &tail);
       for (int m = 0; m < HR2DI_SKIES && !status; m++)
         off[k] += l.rule.weight[q] * tail.check[check][m];
+    }
+  }
+  hr2di_viewer_destroy(l.viewer);
+  return status;
+}
+
+hr2d_status hr2di_row_tails_seen(const hr2d_hierarchy *h, double *ends, double *sky,
+                                 hr2di_watch *watch) {
+  looker l;
+  hr2d_status status = begin(&l, h, h->scene, watch);
+  for (uint32_t k = 0; k < h->elements && !status; k++) {
+    ends[k] = sky[k] = 0;
+    for (size_t q = 0; q < POINTS && looks(h, k) && !status; q++) {
+      hr2di_view_tail tail;
+      status = look(&l, k, q, &tail);
+      if (!status) ends[k] = fmax(ends[k], tail.ends);
+      for (int m = 0; m < HR2DI_SKIES && !status; m++) sky[k] += l.rule.weight[q] * tail.sky[m];
     }
   }
   hr2di_viewer_destroy(l.viewer);

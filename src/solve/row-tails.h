@@ -16,4 +16,9 @@ hr2d_status hr2di_row_tails_move(const hr2d_hierarchy *h, const hr2d_scene *scen
 hr2d_status hr2di_row_tails_check(const hr2d_hierarchy *h, int check, double *off,
                                   hr2di_watch *watch);
 
+/* Sets, per element, the form factor of what is past the ends from each leaf, which is exact,
+   and what the series of the sky makes of it. */
+hr2d_status hr2di_row_tails_seen(const hr2d_hierarchy *h, double *ends, double *sky,
+                                 hr2di_watch *watch);
+
 #endif

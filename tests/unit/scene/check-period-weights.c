@@ -98,7 +98,29 @@ START_TEST(series_are_summed) {
 }
 END_TEST
 
+/* The exchange area of two unit plates, a distance apart, one of them moved by k. */
+static double plates(double k, double apart) {
+  return (hypot(k + 1, apart) - 2 * hypot(k, apart) + hypot(k - 1, apart)) / 2;
+}
+
+/* One or two images tell about as much as they are off, and not all that is extrapolated. */
+START_TEST(few_images_tell_what_they_are_off) {
+  for (unsigned copies = 1; copies <= 2; copies++)
+    for (double apart = .5; apart < 1.5; apart *= 2) {
+      hr2di_tail t;
+      const kink f = {plates, HR2DI_TAIL_OF_PATCHES};
+      const double rest = (1 - hypot(copies + 1, apart) + hypot(copies, apart)) / 2;
+      hr2di_tail_set(&t, copies, f.power);
+      const double is = sum(t.weight, copies, &f, apart), off = fabs(is - rest);
+      const double told = fmax(fabs(sum(t.check[HR2DI_CHECK_LAST], copies, &f, apart)),
+                               fabs(sum(t.check[HR2DI_CHECK_PART], copies, &f, apart)));
+      ck_assert_msg(off <= 2 * told && told <= (copies > 1 ? .3 : .75) * fmax(is, rest),
+                    "%u, %g: %g, told %g of %g", copies, apart, off, told, rest);
+    }
+}
+END_TEST
+
 TEST_SUITE("period weights") {
   ADD_TESTS("kinks", kinks_are_no_worse_than_the_bound, one_check_does_not_do);
-  ADD_TESTS("series", series_are_summed);
+  ADD_TESTS("series", series_are_summed, few_images_tell_what_they_are_off);
 }
