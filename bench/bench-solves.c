@@ -12,59 +12,14 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "many.h"
 #include "plain.h"
-#include "support/slow-scenes.h"
+#include "solve-tasks.h"
 #include "timing.h"
 
 enum { ROUNDS = 9, FEW = 3 };
 
 /* A median of FEW runs, for solves that take no longer. */
 #define SHORT 2.0
-
-typedef struct task {
-  const char *name, *file; /* of the source tree; NULL: made */
-  hr2d_scene *(*make)(size_t size);
-  size_t size;
-  double error, bar; /* in u; 0 for none */
-} task;
-
-static hr2d_scene *make_city(size_t patches) {
-  hr2d_scene *scene = NULL;
-  if (hr2d_scene_create(NULL, &scene)) return NULL;
-  if (!slow_add(scene, SLOW_CITY, patches) && !hr2d_scene_commit(scene)) return scene;
-  hr2d_scene_destroy(scene);
-  return NULL;
-}
-
-static const task tasks[] = {
-    {"boxes-3", "bench/scenes/boxes-3.geojson", NULL, 0, 1e-6, 5},
-    {"boxes-3", "bench/scenes/boxes-3.geojson", NULL, 0, 1e-9, 20},
-    {"partition", "examples/scenes/partition.geojson", NULL, 0, 1e-6, 2},
-    {"partition", "examples/scenes/partition.geojson", NULL, 0, 1e-9, 8},
-    {"enfilade", "examples/scenes/enfilade.geojson", NULL, 0, 1e-6, 3},
-    {"enfilade", "examples/scenes/enfilade.geojson", NULL, 0, 1e-9, 20},
-    {"occluders-200", "examples/scenes/occluders-200.geojson", NULL, 0, 1e-3, 20},
-    {"square-room", "examples/scenes/square-room.geojson", NULL, 0, 1e-6, 0},
-};
-
-static const task long_tasks[] = {
-    {"occluders-200", "examples/scenes/occluders-200.geojson", NULL, 0, 1e-6, 120},
-    {"random squares", NULL, many_random_squares, 1000, 1e-3, 200},
-    {"fibres", NULL, many_fibres, 500, 1e-2, 100},
-    {"city", NULL, make_city, 8000, 1e-2, 100},
-    {"round room", NULL, many_round, 100000, 1e-6, 3000},
-};
-
-static hr2d_scene *read_scene(const char *file) {
-  char path[4096];
-  hr2d_scene *scene = NULL;
-  snprintf(path, sizeof path, "%s/%s", BENCH_SOURCE, file);
-  if (hr2d_scene_create(NULL, &scene)) return NULL;
-  if (!hr2d_scene_read(scene, path) && !hr2d_scene_commit(scene)) return scene;
-  hr2d_scene_destroy(scene);
-  return NULL;
-}
 
 static double measure_unit(void) {
   double time[ROUNDS];
@@ -88,12 +43,8 @@ static double solve_once(const hr2d_scene *scene, const hr2d_target *target,
   return hr2di_clock_now() - start;
 }
 
-static void run(const task *t, double limit) {
-  hr2d_scene *scene = t->file ? read_scene(t->file) : t->make(t->size);
-  if (!scene) {
-    fprintf(stderr, "bench-solves: no scene %s\n", t->name);
-    exit(EXIT_FAILURE);
-  }
+static void run(const solve_task *t, double limit) {
+  hr2d_scene *scene = solve_task_scene(t);
   const double unit = measure_unit();
   hr2d_account account[FEW];
   double time[FEW], end = hr2di_clock_now() + limit;
@@ -121,7 +72,7 @@ static void run(const task *t, double limit) {
   hr2d_scene_destroy(scene);
 }
 
-static void run_all(const task *list, size_t count, const char *name, double limit) {
+static void run_all(const solve_task *list, size_t count, const char *name, double limit) {
   for (size_t k = 0; k < count; k++)
     if (strncmp(list[k].name, name, strlen(name)) == 0) run(&list[k], limit);
 }
@@ -145,7 +96,7 @@ int main(int argc, char **argv) {
   printf("%-16s%7s%8s%9s%7s%9s%9s%9s%9s%8s%9s%10s%13s%10s%10s\n", "scene", "patches", "target",
          "u", "bar", "s", "solve s", "error s", "ratio", "order", "N", "L", "kernels",
          "estimate", "bound");
-  run_all(tasks, sizeof tasks / sizeof *tasks, name, limit);
-  if (all) run_all(long_tasks, sizeof long_tasks / sizeof *long_tasks, name, limit);
+  run_all(solve_tasks, solve_task_count, name, limit);
+  if (all) run_all(long_solve_tasks, long_solve_task_count, name, limit);
   return EXIT_SUCCESS;
 }

@@ -31,9 +31,11 @@ bench_bench_accuracy_SOURCES = bench/bench-accuracy.c bench/dense.c bench/dense.
 bench_bench_accuracy_CPPFLAGS = $(AM_CPPFLAGS) $(LAPACK_CFLAGS) \
 	-DBENCH_DATA='"$(abs_top_srcdir)/tests/data/reference"'
 bench_bench_accuracy_LDADD = libhr2d-core.la $(LAPACK_LIBS) $(GSL_LIBS) $(THREADS_LIBS) -lm
-bench_bench_solves_SOURCES = bench/bench-solves.c bench/many.c bench/many.h bench/plain.c \
-	bench/plain.h bench/timing.h tests/support/random.c tests/support/random.h \
+SOLVE_TASKS = bench/solve-tasks.c bench/solve-tasks.h bench/many.c bench/many.h \
+	tests/support/random.c tests/support/random.h \
 	tests/support/slow-scenes.c tests/support/slow-scenes.h
+bench_bench_solves_SOURCES = bench/bench-solves.c bench/plain.c bench/plain.h bench/timing.h \
+	$(SOLVE_TASKS)
 bench_bench_solves_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SOURCE='"$(abs_top_srcdir)"'
 bench_bench_solves_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 EXTRA_DIST += bench/scenes
@@ -51,9 +53,8 @@ bench_bench_polls_SOURCES = bench/bench-polls.c tests/support/slow-phases.c \
 	tests/support/slow-phases.h tests/support/slow-scenes.c tests/support/slow-scenes.h
 bench_bench_polls_CPPFLAGS = $(AM_CPPFLAGS)
 bench_bench_polls_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
-bench_bench_threads_SOURCES = bench/bench-threads.c bench/timing.h \
-	tests/support/slow-scenes.c tests/support/slow-scenes.h
-bench_bench_threads_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SCENES='"$(abs_top_srcdir)/examples/scenes"'
+bench_bench_threads_SOURCES = bench/bench-threads.c bench/timing.h $(SOLVE_TASKS)
+bench_bench_threads_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SOURCE='"$(abs_top_srcdir)"'
 bench_bench_threads_LDFLAGS = -Wl,--wrap=hr2di_team_run
 bench_bench_threads_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_triangulation_SOURCES = bench/bench-triangulation.c bench/timing.h \
