@@ -197,7 +197,7 @@ libhr2d_core_la_SOURCES = \
 	src/field/borders.c src/field/borders.h \
 	src/field/field-at.c src/field/field-at.h \
 	src/field/field-impl.h \
-	src/field/field-grid.c \
+	src/field/field-grid.c src/field/field-tile.c src/field/field-tile.h \
 	src/field/field-rows.c \
 	src/field/field-team.c \
 	src/field/leaves.c src/field/leaves.h \
@@ -271,6 +271,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/predict.c \
 	src/accuracy/resolution.c src/accuracy/resolution.h \
 	src/accuracy/solution-error.c \
+	src/accuracy/search.c src/accuracy/search.h \
 	src/accuracy/solve-to.c src/accuracy/solve-to.h \
 	src/accuracy/solve-to-call.c \
 	src/accuracy/target.c src/accuracy/target.h \
