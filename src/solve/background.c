@@ -234,7 +234,7 @@ hr2d_status hr2di_background_set_order_p(hr2di_transport *t, unsigned char **see
   t->sky = hr2di_alloc_zero(&t->alloc, t->leaves * t->order, sizeof *t->sky);
   hr2d_status status = t->sky ? take_rows(t) : HR2D_ENOMEM;
   if (!status && !*sees)
-    status = hr2di_seen_backs(t->hierarchy->scene, &t->alloc, sees, t->watch);
+    status = hr2di_seen_backs(t->hierarchy->scene, &t->alloc, t->threads, sees, t->watch);
   if (!status && *sees) status = take_all_backs(t, *sees);
   if (t->links->share) status = combine_rows(t, status);
   hr2di_ties_spread_leaves(&t->ties, t->order, 1, t->sky);

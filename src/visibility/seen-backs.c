@@ -6,7 +6,27 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/team.h"
 #include "scene/scene-impl.h"
+
+/* A thread: what it finds is united with what others find, so that no order matters. */
+typedef struct looker {
+  hr2di_walk walk;
+  unsigned char *looked_from; /* per side of a wall */
+  hr2di_watch own;            /* but the calling thread has another */
+  hr2d_status status;
+} looker;
+
+typedef struct search {
+  const hr2d_scene *scene;
+  const hr2d_allocator *alloc;
+  size_t sides, lookers;
+  looker *looker;
+  hr2di_watch *watch; /* of the calling thread */
+} search;
+
+/* Sides of a task, and threads at most. */
+enum { TASK = 256, MOST_LOOKERS = 16 };
 
 static hr2d_status mark(void *ctx, const hr2di_sight *sight, hr2di_wall_side side) {
   unsigned char *looked_from = ctx;
@@ -15,24 +35,58 @@ static hr2d_status mark(void *ctx, const hr2di_sight *sight, hr2di_wall_side sid
   return HR2D_OK;
 }
 
-static hr2d_status look_from_backs(const hr2d_scene *scene, const hr2d_allocator *alloc,
-                                   unsigned char *looked_from, hr2di_watch *watch) {
-  const hr2di_side_parts *p = &scene->parts;
-  const hr2di_triangulation *t = &scene->plane.triangulation;
-  hr2di_walk walk = {.in = t,
-                     .wanted = p->wanted,
-                     .take = mark,
-                     .ctx = looked_from,
-                     .alloc = *alloc,
-                     .watch = watch};
-  hr2d_status status = HR2D_OK;
-  for (hr2di_wall_side s = 0; s < 2 * t->edges && !status; s++) {
+static void look_from_some(void *ctx, size_t worker, size_t task) {
+  const search *all = ctx;
+  const hr2di_side_parts *p = &all->scene->parts;
+  looker *by = &all->looker[worker];
+  const size_t from = task * TASK, to = all->sides - from > TASK ? from + TASK : all->sides;
+  for (size_t side = from; side < to && !by->status; side++) {
+    const hr2di_wall_side s = (hr2di_wall_side)side;
     const hr2di_parts of = p->of_side[s].parts;
-    status = hr2di_watch_work(watch, 1 + (of.last - of.first) / 8);
-    if (!status && hr2di_side_kind(p, s) & HR2DI_HAS_BACK)
-      status = hr2di_walk_from(&walk, s, NULL);
+    by->status = hr2di_watch_work(by->walk.watch, 1 + (of.last - of.first) / 8);
+    if (!by->status && hr2di_side_kind(p, s) & HR2DI_HAS_BACK)
+      by->status = hr2di_walk_from(&by->walk, s, NULL);
   }
-  hr2di_walk_clear(&walk);
+}
+
+static hr2d_status hire(search *all, size_t threads) {
+  const size_t most = all->sides / TASK + 1;
+  size_t count = threads < MOST_LOOKERS ? threads : MOST_LOOKERS;
+  if (count > most) count = most;
+  all->looker = hr2di_alloc_zero(all->alloc, count, sizeof *all->looker);
+  for (; all->looker && all->lookers < count; all->lookers++) {
+    looker *by = &all->looker[all->lookers];
+    by->looked_from = hr2di_alloc_zero(all->alloc, all->sides + 1, sizeof *by->looked_from);
+    if (!by->looked_from) return HR2D_ENOMEM;
+    hr2di_watch_follow(&by->own, all->watch);
+    by->walk = (hr2di_walk){.in = &all->scene->plane.triangulation,
+                            .wanted = all->scene->parts.wanted,
+                            .take = mark,
+                            .ctx = by->looked_from,
+                            .alloc = *all->alloc,
+                            .watch = all->lookers > 0 ? &by->own : all->watch};
+  }
+  return all->looker ? HR2D_OK : HR2D_ENOMEM;
+}
+
+static void dismiss(search *all) {
+  for (size_t k = 0; k < all->lookers; k++) {
+    hr2di_walk_clear(&all->looker[k].walk);
+    hr2di_alloc_free(all->alloc, all->looker[k].looked_from);
+  }
+  hr2di_alloc_free(all->alloc, all->looker);
+}
+
+/* Leaves what all have found with the first one. */
+static hr2d_status look_from_backs(search *all) {
+  hr2d_status status = HR2D_OK;
+  hr2di_team_run(all->lookers, (all->sides + TASK - 1) / TASK, look_from_some, all, all->watch);
+  for (size_t k = 0; k < all->lookers && !status; k++) status = all->looker[k].status;
+  for (size_t k = 1; k < all->lookers && !status; k++) {
+    for (size_t s = 0; s < all->sides; s++)
+      all->looker[0].looked_from[s] |= all->looker[k].looked_from[s];
+    status = hr2di_watch_work(all->watch, all->sides / 64);
+  }
   return status;
 }
 
@@ -52,24 +106,32 @@ static int shades(const hr2d_scene *scene) {
          !scene->effect[HR2D_EFFECT_OCCLUSION].called_for;
 }
 
+static hr2d_status find(search *all, size_t threads, unsigned char *sees) {
+  const hr2d_scene *scene = all->scene;
+  if (!shades(scene)) {
+    memset(sees, 1, scene->patches); /* backs are seen through walls */
+    return HR2D_OK;
+  }
+  hr2d_status status = hire(all, threads);
+  if (!status) status = look_from_backs(all);
+  if (!status) status = hr2di_watch_work(all->watch, (scene->patches + scene->parts.parts) / 8);
+  if (!status) pass_on(&scene->parts, all->looker[0].looked_from, scene->patches, sees);
+  dismiss(all);
+  return status;
+}
+
 hr2d_status hr2di_seen_backs(const hr2d_scene *scene, const hr2d_allocator *alloc,
-                             unsigned char **sees, hr2di_watch *watch) {
+                             unsigned threads, unsigned char **sees, hr2di_watch *watch) {
   int any;
   *sees = NULL;
   hr2d_status status = hr2di_side_parts_find_backs(scene, &any, watch);
   if (status || !any) return status;
-  unsigned char *looked_from =
-      hr2di_alloc_zero(alloc, scene->plane.triangulation.edges + 1, 2 * sizeof *looked_from);
+  search all = {.scene = scene,
+                .alloc = alloc,
+                .sides = 2 * scene->plane.triangulation.edges,
+                .watch = watch};
   *sees = hr2di_alloc(alloc, scene->patches, sizeof **sees);
-  status = looked_from && *sees ? HR2D_OK : HR2D_ENOMEM;
-  if (!status && !shades(scene)) {
-    memset(*sees, 1, scene->patches); /* backs are seen through walls */
-  } else if (!status) {
-    status = look_from_backs(scene, alloc, looked_from, watch);
-    if (!status) status = hr2di_watch_work(watch, (scene->patches + scene->parts.parts) / 8);
-    if (!status) pass_on(&scene->parts, looked_from, scene->patches, *sees);
-  }
-  hr2di_alloc_free(alloc, looked_from);
+  status = *sees ? find(&all, hr2di_team_threads(threads), *sees) : HR2D_ENOMEM;
   if (!status) return HR2D_OK;
   hr2di_alloc_free(alloc, *sees);
   *sees = NULL;

@@ -33,7 +33,7 @@ static void check_scene(randoms *r, const hr2d_scene *scene, tally *t) {
   const hr2d_allocator alloc = hr2di_alloc_default();
   hr2di_viewer *viewer = NULL;
   unsigned char *sees = NULL;
-  ck_assert_int_eq(hr2di_seen_backs(scene, &alloc, &sees, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2di_seen_backs(scene, &alloc, 2, &sees, NULL), HR2D_OK);
   ck_assert_int_eq(hr2di_viewer_create(scene, &alloc, NULL, &viewer), HR2D_OK);
   for (size_t k = 0; k < scene->patches; k++) {
     const int flag = sees && sees[k];
@@ -75,7 +75,7 @@ START_TEST(a_screen_has_a_back) {
   hr2d_scene *scene = test_open_scene(at, 7);
   unsigned char *sees = NULL;
   test_commit(scene);
-  ck_assert_int_eq(hr2di_seen_backs(scene, &alloc, &sees, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2di_seen_backs(scene, &alloc, 2, &sees, NULL), HR2D_OK);
   ck_assert_ptr_nonnull(sees);
   ck_assert(sees[0]);
   ck_assert(!sees[1]);
@@ -94,14 +94,41 @@ START_TEST(nobody_in_a_room_sees_a_back) {
   hr2d_scene *scene = test_open_scene(at, 6);
   unsigned char *sees = NULL;
   test_commit(scene);
-  ck_assert_int_eq(hr2di_seen_backs(scene, &alloc, &sees, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2di_seen_backs(scene, &alloc, 2, &sees, NULL), HR2D_OK);
   for (size_t k = 0; k < 6 && sees; k++) ck_assert(!sees[k]);
   free(sees);
   hr2d_scene_destroy(scene);
 }
 END_TEST
 
+/* So many screens have sides for several tasks. */
+enum { ALONG = 20, SCREENS = ALONG * ALONG };
+
+START_TEST(threads_find_the_same) {
+  const hr2d_allocator alloc = hr2di_alloc_default();
+  randoms r = randoms_stream(test_seed(), 18);
+  hr2d_scene *scene = test_new_scene(NULL);
+  for (int k = 0; k < SCREENS; k++) {
+    const double x = k % ALONG, y = k / ALONG;
+    const double at[] = {x + 0.4 * random_unit(&r), y + random_unit(&r),
+                         x + 0.5 + 0.4 * random_unit(&r), y + random_unit(&r)};
+    test_add_black(scene, at);
+  }
+  unsigned char *sees[2] = {NULL, NULL};
+  size_t seen = 0;
+  test_commit(scene);
+  for (unsigned k = 0; k < 2; k++)
+    ck_assert_int_eq(hr2di_seen_backs(scene, &alloc, 1 + 3 * k, &sees[k], NULL), HR2D_OK);
+  ck_assert_mem_eq(sees[0], sees[1], scene->patches);
+  for (size_t k = 0; k < scene->patches; k++) seen += sees[0][k];
+  ck_assert_uint_gt(seen, scene->patches / 10);
+  free(sees[0]);
+  free(sees[1]);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 TEST_SUITE("seen backs") {
-  ADD_TESTS("backs", backs_are_seen_by_views, a_screen_has_a_back,
-            nobody_in_a_room_sees_a_back);
+  ADD_TESTS("backs", backs_are_seen_by_views, a_screen_has_a_back, nobody_in_a_room_sees_a_back,
+            threads_find_the_same);
 }
