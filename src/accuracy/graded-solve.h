@@ -22,18 +22,19 @@ typedef struct hr2di_resolution {
   double floor;            /* no light counts as less, relative to the brightest */
   hr2d_norm norm;
   unsigned corner_levels; /* levels at corners beyond what the target asks for */
-  double distance;        /* the ellipse at which ends in front of elements may be */
-  int hidden;             /* the scene has visibility events */
-  int crowded;            /* it has very many */
-  unsigned generations;   /* elements end at events of so many generations */
-  unsigned halvings;      /* how often the longest elements are halved where there are too many
-                             events, see long-leaves.h */
-  int shares;             /* errors that are too large name the elements that make them, where
-                             no events have been chosen */
-  int hasty;              /* errors that do so need no bound, and none at points */
-  double kinks;           /* the shares of error that events inside elements may make; 0:
-                             elements end at all events */
-  unsigned raises;        /* how often it was made finer */
+  int flat;             /* elements are not graded for the target, but for these levels alone */
+  double distance;      /* the ellipse at which ends in front of elements may be */
+  int hidden;           /* the scene has visibility events */
+  int crowded;          /* it has very many */
+  unsigned generations; /* elements end at events of so many generations */
+  unsigned halvings;    /* how often the longest elements are halved where there are too many
+                           events, see long-leaves.h */
+  int shares;           /* errors that are too large name the elements that make them, where
+                           no events have been chosen */
+  int hasty;            /* errors that do so need no bound, and none at points */
+  double kinks;         /* the shares of error that events inside elements may make; 0:
+                           elements end at all events */
+  unsigned raises;      /* how often it was made finer */
   const hr2di_lights *lights; /* of patches, to tell which events matter */
   const double *weight;       /* per patch: the factor from a relative error of its radiosity to
                                  one of the value asked for; NULL: 1 */

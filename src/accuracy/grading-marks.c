@@ -92,6 +92,7 @@ static hr2di_grading_mark grade_corner(hr2di_grader *g, double cosine, double si
                           .halves = sup ? 2 * DEEPEST : (unsigned)ceil(LONG / slope)};
   if (!(strength > g->target)) return m;
   g->survey.exponent = fmin(g->survey.exponent, gamma);
+  if (g->grading->flat) return m;
   m.depth += (unsigned)fmin(fmax(ceil(digits - 2 * log2(p) + 1.5), 2), DEEPEST);
   return m;
 }

@@ -14,6 +14,7 @@ typedef struct hr2di_grading {
   hr2d_norm norm;             /* of that error */
   unsigned order;             /* of the elements */
   unsigned corner_levels;     /* levels at corners beyond what the target asks for */
+  int flat;                   /* at corners there are these levels alone */
   double distance;            /* the ellipse at which ends may be; 0: HR2DI_ELLIPSE_DISTANT */
   const double *weight;       /* per patch, see hr2di_resolution; NULL: 1 */
   const hr2di_events *events; /* where elements end; NULL for none */

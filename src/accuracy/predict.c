@@ -186,8 +186,8 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
     status = hr2di_importance(scene, target, NULL, &lights, &survey, &message);
   if (!status && !(survey.ellipse > 0))
     status = hr2di_resolution_survey(scene, target->threads, &watch, &survey);
-  const hr2di_resolution fineness = hr2di_resolution_for(scene, &survey, aim, target->norm,
-                                                         lights.radiosity ? &lights : NULL);
+  const hr2di_resolution fineness =
+      hr2di_resolution_for(scene, &survey, aim, target, lights.radiosity ? &lights : NULL);
   hr2di_graded a = {0};
   cost c = {0};
   trial coarse = {0};

@@ -114,11 +114,20 @@ static unsigned generations_of_sky(const hr2d_scene *scene) {
   return hr2di_outside_has_pieces(scene);
 }
 
+/* Most corners and near ends are those of patches that few others see: shares of a known error
+   tell which ones matter.  For few digits they are few. */
+static void leave_to_shares(hr2di_resolution *f) {
+  f->flat = 1;
+  f->distance = hr2di_ellipse_for(f->aim, f->order);
+}
+
 /* In narrow corners with much reflection light is reflected to and fro often, and errors with
    it.  So the error must be smaller there by γ², from measurements at 10° to 150° and ρ up to
    0.999. */
 hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_survey *survey,
-                                      double aim, hr2d_norm norm, const hr2di_lights *lights) {
+                                      double aim, const hr2d_target *target,
+                                      const hr2di_lights *lights) {
+  const hr2d_norm norm = target->norm;
   const double many = is_crowded(scene, is_hidden(scene)) && lights ? MANY_PARTS : 1;
   const double error = aim * fmax(survey->exponent * survey->exponent, 1e-3);
   const double order = ceil(log(EASY / (many * error)) / digits_per_order(survey, norm));
@@ -145,6 +154,7 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
   if (!f.crowded && f.generations == 0) f.generations = generations_of_sky(scene);
   if (f.crowded && lights && scene->patches > CROWD_LIT) spare_elements(&f, aim);
   f.shares = f.crowded && norm == HR2D_NORM_AVERAGE;
+  if (f.shares && !lights && !target->no_error && aim >= CROWDED_AIM) leave_to_shares(&f);
   if (f.crowded && aim >= CROWDED_AIM && (lights || !f.shares)) f.halvings = aim < THREE;
   return f;
 }
@@ -172,6 +182,7 @@ int hr2di_resolution_raise(hr2di_resolution *f, const hr2di_survey *survey, doub
   f->tolerance = fmax(f->tolerance / factor, HR2D_DEFAULT_TOLERANCE);
   f->relative /= factor;
   f->distance = HR2DI_ELLIPSE_DISTANT;
+  f->flat = 0;
   const double more = fmax(ceil(log(factor) / digits_per_order(survey, f->norm)), 1);
   f->cluster_accuracy = fmax(f->cluster_accuracy / factor, FINEST_CLUSTERS);
   f->order = (unsigned)fmin(f->order + more, HR2D_MAX_ORDER - 2);

@@ -13,9 +13,11 @@ hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, unsigned threads,
 /* Whether lights of patches help: to choose events for a target of averages. */
 int hr2di_resolution_wants_lights(const hr2d_scene *scene, const hr2d_target *target);
 
-/* A first guess at the resolution for an error; with lights of patches, or NULL. */
+/* A first guess at the resolution for an error in the norm of a target; with lights of patches,
+   or NULL. */
 hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_survey *survey,
-                                      double error, hr2d_norm norm, const hr2di_lights *lights);
+                                      double error, const hr2d_target *target,
+                                      const hr2di_lights *lights);
 
 /* What a solve may leave in its residual for an error of averages, the darkest of which are
    `contrast` times the brightest. */

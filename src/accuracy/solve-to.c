@@ -24,7 +24,7 @@ static void give_reason(hr2di_search *s, const char *reason) {
 
 /* The resolution to begin with: no coarser than the best one so far, which was not enough. */
 static hr2di_resolution first_resolution(const hr2di_search *s, double error) {
-  hr2di_resolution guess = hr2di_resolution_for(s->scene, &s->survey, error, s->target.norm,
+  hr2di_resolution guess = hr2di_resolution_for(s->scene, &s->survey, error, &s->given,
                                                 s->lights.radiosity ? &s->lights : NULL);
   hr2di_resolution finer = s->fineness;
   guess.weight = s->weight;
