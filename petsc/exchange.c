@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Areas of a patch add up to its length at most, so that bins add them up exactly.  Components
-   of ranks are joined until no rank knows of a link between two of them. */
+/* Areas of a patch add up to p->most times its length at most, so that bins add them up
+   exactly.  Components of ranks are joined until no rank knows of a link between two of them.
+ */
 #include "exchange.h"
 
 #include "share.h"
@@ -24,8 +25,9 @@ static int join(uint32_t *parent, uint32_t i, uint32_t j) {
   return 1;
 }
 
-static void add_area(hr2dpi_exchange *x, hr2dpi_bin *bin, uint32_t patch, double area) {
-  hr2dpi_bin_add(&bin[patch], hr2dpi_bin_scale(2 * x->length[patch]), area);
+static void add_area(hr2dpi_exchange *x, const hr2dp *p, hr2dpi_bin *bin, uint32_t patch,
+                     double area) {
+  hr2dpi_bin_add(&bin[patch], hr2dpi_bin_scale(2 * p->most * x->length[patch]), area);
   x->linked[patch] = 1;
 }
 
@@ -37,13 +39,13 @@ static void read_links(hr2dpi_exchange *x, const hr2dp *p, hr2dpi_bin *bin) {
   size_t count;
   while ((count = hr2dpi_share_read(p, &next, link, BATCH)) > 0)
     for (size_t k = 0; k < count; k++) {
-      const uint32_t i = element[link[k].pair.first].patch;
-      const uint32_t j = element[link[k].pair.second].patch;
-      add_area(x, bin, i, link[k].exchange_area * unit);
+      const uint32_t i = element[hr2dpi_original(p, link[k].pair.first)].patch;
+      const uint32_t j = element[hr2dpi_original(p, link[k].pair.second)].patch;
+      add_area(x, p, bin, i, link[k].exchange_area * unit);
       if (p->directed)
         x->linked[j] = 1;
       else
-        add_area(x, bin, j, link[k].exchange_area * unit);
+        add_area(x, p, bin, j, link[k].exchange_area * unit);
       join(x->component, i, j);
     }
 }

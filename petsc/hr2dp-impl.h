@@ -6,7 +6,11 @@
    rank owns units twice: for links, by their first element, a range of units or, without a cut,
    rows that are dealt out; and for unknowns a range of units.  Its
    hierarchy has the elements that its links touch, all elements of the units that it owns, and
-   the elements above the cut. */
+   the elements above the cut.
+
+   Images of patches are no units.  Whoever has a link with an image has the element of the
+   patch itself, too: before a gather the image gets its radiosity, and behind it gives the
+   element what it has received. */
 #ifndef HR2D_PETSC_HR2DP_IMPL_H
 #define HR2D_PETSC_HR2DP_IMPL_H
 
@@ -44,7 +48,8 @@ typedef struct hr2dpi_trees {
   uint32_t *top; /* elements above the cut with children, in the same order on every rank,
                     parents before children */
   size_t tops;
-  uint32_t *leaf; /* own leaves by position */
+  uint32_t *leaf;     /* own leaves by position */
+  uint32_t *original; /* per element: that of which it is an image; NULL: there are no images */
   size_t leaves;
   PetscSF halo; /* from own elements to those of other ranks that links need, and to what
                    stands below the top */
@@ -58,7 +63,9 @@ struct hr2dp {
   int rank, ranks;
   const hr2d_scene *scene;
   hr2d_allocator alloc;
-  size_t patches, bands;
+  size_t patches, bands, images; /* patches are those that were given */
+  size_t roots;                  /* of the hierarchy: with images, and ends of a period */
+  double most; /* exchange areas of a patch are at most so many times its length, together */
   hr2d_oracle oracle;
   hr2d_policy policy;
   void *oracle_ctx, *policy_ctx;
@@ -86,6 +93,11 @@ void hr2dpi_free(const hr2dp *p, void *block);
 /* agree.c: collective.  If a rank has a status, all take that of the lowest such rank, with its
    message, and get PETSC_ERR_LIB. */
 PetscErrorCode hr2dpi_agree(hr2dp *p, hr2d_status status);
+
+/* The element of which another one is an image; itself, if it is none. */
+static inline uint32_t hr2dpi_original(const hr2dp *p, uint32_t element) {
+  return p->trees.original ? p->trees.original[element] : element;
+}
 
 /* Forgets the last failure. */
 static inline void hr2dpi_begin(hr2dp *p) {

@@ -61,8 +61,6 @@ static hr2d_status check_scene(hr2dp *p, const hr2dp_options *options) {
     return hr2dpi_fail(p, HR2D_EUNSUPPORTED,
                        "patches of given flux in several bands: hr2dp_share_create() is for "
                        "their temperatures");
-  if (hr2d_scene_images(p->scene) > 1)
-    return hr2dpi_fail(p, HR2D_EUNSUPPORTED, "mirrors and periods are for one process");
   /* Elements are numbered by PetscInt, patches counted by int. */
   if (p->patches > INT_MAX / 8)
     return hr2dpi_fail(p, HR2D_EUNSUPPORTED, "%zu patches are too many", p->patches);
@@ -75,6 +73,10 @@ static PetscErrorCode create(hr2dp *p, MPI_Comm comm, const hr2dp_options *optio
   PetscCallMPI(MPI_Comm_size(comm, &p->ranks));
   read_options(p, options);
   p->patches = hr2d_scene_patches(p->scene);
+  p->images = hr2d_scene_images(p->scene);
+  /* Images that stand for others count up to so often: tests/unit/scene/check-period-weights.c.
+   */
+  p->most = hr2d_scene_cut_off(p->scene) > 0 ? 2 * (double)p->images : 1;
   p->bands = hr2d_scene_bands(p->scene);
   PetscCall(hr2dpi_agree(p, check_scene(p, options)));
   PetscCall(compare_scenes(p));

@@ -42,6 +42,7 @@ void hr2dpi_share_clear(hr2dp *p) {
 hr2d_status hr2dpi_share_init(hr2dp *p) {
   hr2dpi_share_clear(p);
   hr2d_status status = make_set(p, &p->hierarchy, &p->links);
+  if (!status) p->roots = (size_t)hr2d_hierarchy_count(p->hierarchy).elements;
   if (status || p->units.cut == 0) return status;
   p->top = hr2dpi_alloc_zero(p, 1, sizeof *p->top);
   if (!p->top) return HR2D_ENOMEM;

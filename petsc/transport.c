@@ -4,7 +4,8 @@
 
    All but the gather is done once for each element, from its children or its parent, so that no
    sum of it depends on the ranks; sums of the gather are kept in bins.  An element of length A
-   receives at most A·max|up|, as its links have at most its row. */
+   receives at most A·max|up|, as its links have at most its row; times p->most, where images
+   stand for others. */
 #include "transport.h"
 
 #include "share.h"
@@ -18,7 +19,8 @@ hr2d_status hr2dpi_transport_init(hr2dpi_transport *t, hr2dp *p) {
   t->above = hr2dpi_alloc(p, p->trees.tops, p->bands * sizeof *t->above);
   if (!t->up || !t->bin || !t->scale || !t->above) return HR2D_ENOMEM;
   const hr2d_element *element = hr2d_hierarchy_elements(p->hierarchy);
-  for (size_t e = 0; e < elements; e++) t->scale[e] = hr2dpi_bin_scale(element[e].length);
+  for (uint32_t e = 0; e < elements; e++)
+    t->scale[e] = hr2dpi_bin_scale(p->most * element[hr2dpi_original(p, e)].length);
   return HR2D_OK;
 }
 
@@ -57,7 +59,29 @@ static inline void pull_one(const hr2dpi_transport *t, const hr2d_element *eleme
   for (size_t b = 0; b < bands; b++) t->up[e * bands + b] = 0.5 * (l * left[b] + r * right[b]);
 }
 
-/* Sets `up` of own elements, of the halo and above the cut. */
+/* Images have the radiosity of their patches. */
+static void spread_images(const hr2dpi_transport *t) {
+  const hr2dp *p = t->p;
+  const size_t bytes = p->bands * sizeof *t->up;
+  for (size_t e = p->patches; p->trees.original && e < p->trees.elements; e++)
+    if (p->trees.original[e] != e)
+      memcpy(t->up + e * p->bands, t->up + p->trees.original[e] * p->bands, bytes);
+}
+
+/* Patches receive what their images do. */
+static void fold_images(const hr2dpi_transport *t) {
+  const hr2dp *p = t->p;
+  for (size_t e = p->patches; p->trees.original && e < p->trees.elements; e++) {
+    const hr2dpi_bin *from = t->bin + e * p->bands;
+    hr2dpi_bin *to = t->bin + p->trees.original[e] * p->bands;
+    for (size_t b = 0; b < p->bands && to != from; b++) {
+      to[b].head += from[b].head;
+      to[b].tail += from[b].tail;
+    }
+  }
+}
+
+/* Sets `up` of own elements, of the halo and above the cut, and of images. */
 static PetscErrorCode pull(hr2dpi_transport *t, const double *spread, const double *field) {
   PetscFunctionBegin;
   const hr2dpi_trees *trees = &t->p->trees;
@@ -70,6 +94,7 @@ static PetscErrorCode pull(hr2dpi_transport *t, const double *spread, const doub
   PetscCall(PetscSFBcastBegin(trees->halo, trees->unit[0], t->up, t->up, MPI_REPLACE));
   PetscCall(PetscSFBcastEnd(trees->halo, trees->unit[0], t->up, t->up, MPI_REPLACE));
   for (size_t k = trees->tops; k-- > 0;) pull_one(t, element, spread, trees->top[k]);
+  spread_images(t);
   PetscFunctionReturn(0);
 }
 
@@ -97,9 +122,11 @@ static PetscErrorCode set_sigma(hr2dpi_transport *t) {
     (void)frexp(t->size[c], &exponent);
     t->size[c] = t->size[c] > 0 ? ldexp(1, exponent + 1) : 1;
   }
-  for (size_t e = 0; e < trees->elements; e++)
-    t->sigma[e] =
-        fmax(t->scale[e] * t->size[t->component[element[e].patch]], HR2DPI_LEAST_SCALE);
+  for (uint32_t e = 0; e < trees->elements; e++) {
+    const uint32_t patch = element[hr2dpi_original(t->p, e)].patch;
+    const double size = patch < t->p->patches ? t->size[t->component[patch]] : 0;
+    t->sigma[e] = fmax(t->scale[e] * size, HR2DPI_LEAST_SCALE);
+  }
   PetscFunctionReturn(0);
 }
 
@@ -187,6 +214,7 @@ static PetscErrorCode gather(hr2dpi_transport *t, int sends) {
   hr2dpi_trees *trees = &t->p->trees;
   PetscCall(set_sigma(t));
   gather_links(t, sends);
+  fold_images(t);
   PetscCall(PetscSFReduceBegin(trees->halo, trees->unit[1], t->bin, t->bin, MPI_SUM));
   PetscCall(PetscSFReduceEnd(trees->halo, trees->unit[1], t->bin, t->bin, MPI_SUM));
   PetscCall(add_top(t));

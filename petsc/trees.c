@@ -16,9 +16,9 @@ hr2d_status hr2dpi_places_find(hr2dp *p, hr2dpi_places *at) {
   at->first = hr2dpi_alloc(p, at->elements, sizeof *at->first);
   at->level = hr2dpi_alloc(p, at->elements, 1);
   if (!at->first || !at->level) return HR2D_ENOMEM;
-  for (uint32_t k = 0; k < p->patches; k++) {
-    at->first[k] = k << cut;
-    at->level[k] = 0;
+  for (uint32_t k = 0; k < p->roots; k++) {
+    at->first[k] = k < p->patches ? k << cut : HR2DPI_NONE;
+    at->level[k] = (unsigned char)(k < p->patches ? 0 : cut + 1);
   }
   for (size_t e = 0; e < at->elements; e++) {
     const uint32_t c = element[e].child, level = at->level[e];
@@ -37,6 +37,21 @@ static void clear_places(const hr2dp *p, hr2dpi_places *at) {
   hr2dpi_free(p, at->base);
 }
 
+/* Of the elements that there are now. */
+static hr2d_status map_images(hr2dp *p) {
+  hr2dpi_free(p, p->trees.original);
+  p->trees.original = NULL;
+  if (p->images == 1) return HR2D_OK;
+  const size_t elements = (size_t)hr2d_hierarchy_count(p->hierarchy).elements;
+  p->trees.original = hr2dpi_alloc(p, elements, sizeof *p->trees.original);
+  return p->trees.original ? hr2d_hierarchy_originals(p->hierarchy, p->trees.original)
+                           : HR2D_ENOMEM;
+}
+
+static void touch(const hr2dp *p, hr2dpi_places *at, uint32_t e) {
+  at->touched[e] = at->touched[hr2dpi_original(p, e)] = 1;
+}
+
 static hr2d_status mark_touched(hr2dp *p, hr2dpi_places *at) {
   hr2d_link link[256];
   uint64_t next = 0;
@@ -44,8 +59,10 @@ static hr2d_status mark_touched(hr2dp *p, hr2dpi_places *at) {
   at->touched = hr2dpi_alloc_zero(p, at->elements, 1);
   if (!at->touched) return HR2D_ENOMEM;
   while ((count = hr2dpi_share_read(p, &next, link, 256)) > 0)
-    for (size_t k = 0; k < count; k++)
-      at->touched[link[k].pair.first] = at->touched[link[k].pair.second] = 1;
+    for (size_t k = 0; k < count; k++) {
+      touch(p, at, link[k].pair.first);
+      touch(p, at, link[k].pair.second);
+    }
   return HR2D_OK;
 }
 
@@ -130,7 +147,7 @@ static PetscErrorCode unite_top(hr2dp *p, hr2dpi_places *at) {
 static void weigh_units(const hr2dp *p, const hr2dpi_places *at, double *weight) {
   const hr2d_element *element = hr2d_hierarchy_elements(p->hierarchy);
   for (uint32_t e = 0; e < at->elements; e++)
-    if (!element[e].child) weight[at->first[e]]++;
+    if (!element[e].child && at->first[e] != HR2DPI_NONE) weight[at->first[e]]++;
 }
 
 static PetscErrorCode share_out(hr2dp *p, const hr2dpi_places *at) {
@@ -175,6 +192,7 @@ static void list_leaves(hr2dp *p, const hr2dpi_places *at, uint32_t *stack) {
 
 static hr2d_status list_own(hr2dp *p, hr2dpi_places *at) {
   hr2d_status status = hr2dpi_places_find(p, at);
+  if (!status) status = map_images(p);
   if (status) return status;
   const hr2d_element *element = hr2d_hierarchy_elements(p->hierarchy);
   const hr2d_hierarchy_counts n = hr2d_hierarchy_count(p->hierarchy);
@@ -194,7 +212,8 @@ static hr2d_status list_own(hr2dp *p, hr2dpi_places *at) {
   return status;
 }
 
-/* N, leaves and levels of the union; roots count with their units. */
+/* N, leaves and levels of the union, with those of images; roots count with their units, and
+   ends of a period are leaves. */
 static PetscErrorCode count(hr2dp *p) {
   PetscFunctionBegin;
   hr2dpi_trees *t = &p->trees;
@@ -207,8 +226,9 @@ static PetscErrorCode count(hr2dp *p) {
   uint64_t most[2] = {t->owned, hr2d_hierarchy_count(p->hierarchy).levels};
   PetscCall(hr2dpi_add_counts(p, sum, 2));
   PetscCall(hr2dpi_max_counts(p, most, 2));
-  c->whole.elements = sum[0] + t->tops;
-  c->whole.leaves = sum[1];
+  const uint64_t ends = p->roots - p->patches * p->images;
+  c->whole.elements = (sum[0] + t->tops) * p->images + ends;
+  c->whole.leaves = sum[1] * p->images + ends;
   c->whole.levels = (unsigned)most[1];
   c->most_elements = most[0];
   PetscFunctionReturn(0);
@@ -228,6 +248,7 @@ static PetscErrorCode unite(hr2dp *p, hr2dpi_places *at) {
   PetscFunctionBegin;
   PetscCall(unite_top(p, at));
   hr2d_status status = hr2dpi_places_find(p, at);
+  if (!status) status = map_images(p);
   if (!status) status = mark_touched(p, at);
   PetscCall(hr2dpi_agree(p, status));
   PetscCall(share_out(p, at));
@@ -256,6 +277,7 @@ PetscErrorCode hr2dpi_trees_clear(hr2dp *p) {
   hr2dpi_free(p, t->own);
   hr2dpi_free(p, t->top);
   hr2dpi_free(p, t->leaf);
+  hr2dpi_free(p, t->original);
   PetscCall(PetscSFDestroy(&t->halo));
   for (int k = 0; k < 2 && t->ready; k++) PetscCallMPI(MPI_Type_free(&t->unit[k]));
   *t = (hr2dpi_trees){0};

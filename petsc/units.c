@@ -15,16 +15,18 @@ static unsigned wanted_cut(const hr2dp *p) {
   return cut;
 }
 
-/* Divides all patches down to a level.  HR2D_EINVAL: some patch has no double in between. */
+/* Divides all patches down to a level, but no images.  HR2D_EINVAL: some patch has no double in
+   between. */
 static hr2d_status divide_all(const hr2dp *p, unsigned cut, hr2d_hierarchy *grid) {
+  const size_t roots = (size_t)hr2d_hierarchy_count(grid).elements;
   size_t from = 0, to = p->patches;
   for (unsigned level = 0; level < cut; level++) {
     for (size_t e = from; e < to; e++) {
       const hr2d_status status = hr2d_hierarchy_divide(grid, (uint32_t)e, 0.5, NULL);
       if (status) return status;
     }
-    from = to;
-    to += p->patches << (level + 1);
+    from = level > 0 ? to : roots;
+    to = from + (p->patches << (level + 1));
   }
   return HR2D_OK;
 }
@@ -42,7 +44,8 @@ static unsigned char direction(const hr2d_element *e) {
 
 static void set_starts(hr2dp *p, const hr2d_hierarchy *grid) {
   const hr2d_element *e = hr2d_hierarchy_elements(grid);
-  const size_t first = p->patches * (((size_t)1 << p->units.cut) - 1); /* of the last level */
+  const size_t elements = (size_t)hr2d_hierarchy_count(grid).elements;
+  const size_t first = elements - (size_t)p->units.count; /* of the last level */
   for (size_t k = 0; k < p->patches; k++) p->units.along[k] = direction(&e[k]);
   for (size_t u = 0; u < p->units.count; u++)
     p->units.start[u] = coordinate(p->units.along[e[first + u].patch], e[first + u].a);

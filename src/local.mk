@@ -221,6 +221,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/outside.c src/solve/outside.h \
 	src/solve/power-cut-off.c src/solve/power-cut-off.h \
 	src/solve/background.c src/solve/background.h \
+	src/solve/block-part.c src/solve/block-part.h \
 	src/solve/closure.c src/solve/closure.h \
 	src/solve/closure-mean.c src/solve/closure-order-p.c \
 	src/solve/energy-balance.c src/solve/energy-balance.h \

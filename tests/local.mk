@@ -192,6 +192,7 @@ tests_libsupport_la_SOURCES = \
 	tests/support/tape.c tests/support/tape.h \
 	tests/support/suite.c tests/support/suite.h \
 	tests/support/support.h \
+	tests/support/symmetric-scenes.c tests/support/symmetric-scenes.h \
 	tests/support/tables.c tests/support/tables.h \
 	tests/support/triangulation-fault.c tests/support/triangulation-fault.h \
 	tests/support/visibility-cases.c tests/support/visibility-cases.h \

@@ -125,6 +125,20 @@ HR2D_API hr2d_hierarchy_counts hr2d_hierarchy_count(const hr2d_hierarchy *hierar
 HR2D_API const hr2d_element *hr2d_hierarchy_elements(const hr2d_hierarchy *hierarchy);
 
 /**
+ * The elements of which others are images, in a scene with mirrors or a period (symmetry.h).
+ * After a refinement patches and images are divided alike. A program that divides elements
+ * itself may divide patches further than their images, but not the other way round. Cost:
+ * O(elements).
+ * @param hierarchy  a hierarchy
+ * @param original   receives for each element the number of the element of a patch that it is
+ *                   the image of; its own number, if it is none
+ * @retval HR2D_OK  success
+ * @retval other    the status of hr2d_scene_set_progress()
+ */
+HR2D_API hr2d_status hr2d_hierarchy_originals(const hr2d_hierarchy *hierarchy,
+                                              uint32_t *original);
+
+/**
  * The level of an element.
  * @param hierarchy,element  a hierarchy and the number of an element
  * @return the level; a root is on level 0

@@ -62,9 +62,8 @@
  * off. Powers have hr2d_solution_power_cut_off(). hr2d_leaf_sums() has the rows of the patches
  * of the cell.
  *
- * Not supported, and refused with HR2D_EUNSUPPORTED: shares (share.h); and, over a period in
- * which patches see for ever, a sky with a piece that ends between the horizon and the last
- * images.
+ * Not supported, and refused with HR2D_EUNSUPPORTED: over a period in which patches see for
+ * ever, a sky with a piece that ends between the horizon and the last images.
  * @{
  */
 #ifndef HR2D_SYMMETRY_H

@@ -40,9 +40,6 @@ static int read_scene(job *j, text *t) {
   warnings w = {0};
   int status = scene_load(j->options, j->options->force, &j->scene, &j->cuts);
   if (status) return status;
-  if (hr2d_scene_images(j->scene) > 1)
-    return complain(j->options->scene,
-                    "hr2d-mpi has no mirrors and no periods: use hr2d solve");
   status = warnings_find(j->options, j->scene, &w);
   warnings_release(&w);
   if (!status && hr2d_state_write_scene(j->scene, append, t)) status = complain_memory();

@@ -145,7 +145,8 @@ static hr2d_status add_shares(hr2di_estimator *e, const double *beta, squares *s
   const size_t count = t->elements * t->bands;
   double most = 0;
   for (size_t k = 0; k < count; k++) most = fmax(most, e->most[k]);
-  s->scale = hr2di_bin_scale(most * most * (double)t->links->counts.links);
+  const double ends = t->ties.of ? 2 : 1; /* both may count for the same patch */
+  s->scale = hr2di_bin_scale(most * most * ends * (double)t->links->counts.links);
   s->bin = hr2di_alloc_zero(&t->alloc, count, sizeof *s->bin);
   hr2d_status status = s->bin ? add_links(e, beta, s) : HR2D_ENOMEM;
   if (!status) status = hr2di_transport_status(t);

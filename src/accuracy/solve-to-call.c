@@ -2,7 +2,6 @@
 /* hr2d_solve_to(): where temperatures couple the bands, they are found first. */
 #include "accuracy/heat-solve.h"
 #include "accuracy/solve-to.h"
-#include "base/sized-struct.h"
 #include "scene/settled.h"
 
 hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
@@ -10,9 +9,6 @@ hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
   *solution = NULL;
   if (account) *account = (hr2d_account){0};
   if (!scene->committed) return HR2D_ESTATE;
-  hr2d_target shared = HR2D_TARGET_INIT;
-  if (hr2di_sized_copy(&shared, sizeof shared, target)) return HR2D_EINVAL;
-  if (shared.share && scene->symmetry.motion) return HR2D_EUNSUPPORTED;
   return hr2di_scene_is_unsettled(scene) ? hr2di_heat_solve(scene, target, solution, account)
                                          : hr2di_solve_to(scene, target, solution, account);
 }

@@ -124,3 +124,10 @@ hr2d_status hr2di_image_trees_map(const hr2d_hierarchy *h, uint32_t *of, hr2di_w
   }
   return HR2D_OK;
 }
+
+hr2d_status hr2d_hierarchy_originals(const hr2d_hierarchy *hierarchy, uint32_t *original) {
+  hr2di_watch watch;
+  hr2di_scene_watch(hierarchy->scene, &watch, NULL, NULL, "images");
+  const hr2d_status status = hr2di_image_trees_map(hierarchy, original, &watch);
+  return status ? status : hr2di_watch_ask(&watch);
+}

@@ -44,9 +44,6 @@ hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine
     return hr2di_message_fail(message, HR2D_EINVAL,
                               "the links are %s, and a further refinement cannot change that",
                               links->directed ? "directed" : "not directed");
-  if (options->share && links->hierarchy->scene->symmetry.motion)
-    return hr2di_message_fail(message, HR2D_EUNSUPPORTED,
-                              "mirrors and periods are not supported in shares");
   const size_t patches = hr2di_scene_cell(links->hierarchy->scene);
   if (!options->row_to) options->row_to = patches;
   if (options->row_from > options->row_to || options->row_to > patches)
@@ -109,7 +106,7 @@ void hr2di_projector_add_rows(const hr2di_projector *p, hr2d_row_counts *sum) {
 
 static int has_row(const hr2di_projector *p, size_t patch) {
   if (p->options.rows) return p->options.rows[patch];
-  return hr2di_share_has_row(p->options.share, patch, p->hierarchy->scene->patches);
+  return hr2di_share_has_row(p->options.share, patch, hr2di_scene_cell(p->hierarchy->scene));
 }
 
 /* The pairs of the rows that are wanted. */

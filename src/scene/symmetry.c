@@ -87,6 +87,16 @@ double hr2di_symmetry_check(const hr2di_symmetry *s, size_t first, size_t second
   return (check == HR2DI_CHECK_ALL ? g->weight - 1 : g->check[check]) / g->weight;
 }
 
+double hr2di_symmetry_most(const hr2di_symmetry *s) {
+  double most = 1;
+  for (size_t k = 0; s->motion && k < s->motions; k++) {
+    const hr2di_motion *g = &s->motion[k];
+    most = fmax(most, fabs(g->weight));
+    for (int c = 0; c < HR2DI_TAIL_CHECKS; c++) most = fmax(most, fabs(g->check[c]));
+  }
+  return most;
+}
+
 /* Directions whose sine or cosine is no more are parallel or perpendicular. */
 #define ALONG 1e-12
 

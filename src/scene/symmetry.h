@@ -127,6 +127,10 @@ double hr2di_symmetry_weight(const hr2di_symmetry *s, size_t first, size_t secon
    that. */
 double hr2di_symmetry_check(const hr2di_symmetry *s, size_t first, size_t second, int check);
 
+/* The largest weight, or what a check leaves of it, up to its sign; 1 without images.  Exchange
+   areas of an element, with their weights, add up to this many times its length at most. */
+double hr2di_symmetry_most(const hr2di_symmetry *s);
+
 /* How many periods away a patch is whose image stands for others; 0 if it is none. */
 static inline unsigned hr2di_symmetry_term(const hr2di_symmetry *s, size_t patch) {
   const size_t number = patch / s->cell;

@@ -80,7 +80,7 @@ static void take_some_backs(void *ctx, size_t worker, size_t task) {
     if (l->status || atomic_load(&all->failed)) return;
     if (e->patch < hr2di_scene_cell(h->scene) && all->sees[e->patch] &&
         hr2di_scene_lit(h->scene, e->patch) &&
-        hr2di_share_has_row(t->links->share, e->patch, h->scene->patches))
+        hr2di_share_has_row(t->links->share, e->patch, hr2di_scene_cell(h->scene)))
       l->status = take_backs(all, l->viewer, k, hr2di_element_start(h, t->leaf[k]),
                              e->length / h->element[e->patch].length);
     if (l->status) atomic_store(&all->failed, 1);
@@ -145,7 +145,8 @@ static hr2d_status take_rows(hr2di_transport *t) {
 static hr2d_status combine_rows(hr2di_transport *t, hr2d_status status) {
   const hr2d_hierarchy *h = t->hierarchy;
   for (size_t k = 0; k < t->leaves && !status; k++)
-    if (!hr2di_share_has_row(t->links->share, h->element[t->leaf[k]].patch, h->scene->patches))
+    if (!hr2di_share_has_row(t->links->share, h->element[t->leaf[k]].patch,
+                             hr2di_scene_cell(h->scene)))
       memset(t->sky + k * t->order, 0, t->order * sizeof *t->sky);
   return hr2di_share_combine(t->links->share, status, HR2D_COMBINE_SUM, t->sky,
                              t->leaves * t->order);

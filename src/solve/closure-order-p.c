@@ -127,7 +127,8 @@ static void add_all_links(const rows *r) {
 static hr2d_status add_shares(rows *r, hr2di_transport *t) {
   const size_t count = t->leaves * t->order;
   r->bin = hr2di_alloc_zero(&t->alloc, count, sizeof *r->bin);
-  r->scale = hr2di_bin_scale(2 * sqrt((double)(2 * t->order)));
+  r->scale = hr2di_bin_scale(2 * hr2di_symmetry_most(&t->hierarchy->scene->symmetry) *
+                             sqrt((double)(2 * t->order)));
   if (r->bin) add_all_links(r);
   hr2d_status status = r->bin ? hr2di_transport_status(t) : HR2D_ENOMEM;
   status = hr2di_share_combine(t->links->share, status, HR2D_COMBINE_SUM,

@@ -253,7 +253,7 @@ static hr2d_status make_rows(hr2di_row_sums *rows, const hr2d_linkset *links, wa
   hr2di_defect_closed(links, defect, rows->closed);
   for (uint32_t k = 0; k < hr2di_scene_cell(w->scene) && !status; k++) {
     if (!hr2di_scene_lit(w->scene, k)) continue;
-    if (!hr2di_share_has_row(links->share, k, w->scene->patches)) continue;
+    if (!hr2di_share_has_row(links->share, k, hr2di_scene_cell(w->scene))) continue;
     const int open = !rows->closed[k];
     w->patch = k;
     if (open && !w->kind) status = prepare(w, &rows->alloc);

@@ -6,7 +6,8 @@
      s_j = Σ_m √(2m+1) |B_jm|
 
    the terms of coefficient l of an element add up to A √(2l+1) max s_j at most, where j are the
-   elements that it is linked with.  So a dark element has all its digits, too. */
+   elements that it is linked with.  So a dark element has all its digits, too.  Images that
+   stand for others count more than once: see hr2di_symmetry_most(). */
 #include "solve/shared-gather.h"
 
 #include <math.h>
@@ -16,6 +17,8 @@
 #include "base/bin.h"
 #include "base/team.h"
 #include "hierarchy/hierarchy-impl.h"
+#include "scene/scene-impl.h"
+#include "solve/block-part.h"
 #include "solve/gather-blocks.h"
 
 /* Of the bound of a block, and of roundings. */
@@ -134,7 +137,8 @@ static void set_scales(const pass *p) {
   }
   t->failed = hr2di_share_combine(t->links->share, hr2di_transport_status(t), HR2D_COMBINE_MOST,
                                   most, values);
-  const double root = SLACK * sqrt((double)(2 * t->order - 1));
+  const double weight = hr2di_symmetry_most(&t->hierarchy->scene->symmetry);
+  const double root = SLACK * weight * sqrt((double)(2 * t->order - 1));
   for (size_t k = 0; k < values; k++)
     most[k] = hr2di_bin_scale(root * t->hierarchy->element[k / t->bands].length * most[k]);
 }
@@ -155,8 +159,10 @@ static void send_area(const hr2di_transport *t, double area, uint32_t to, uint32
 static void send_block(const hr2di_transport *t, uint64_t k, hr2d_pair pair, int first,
                        int second, double *term) {
   const size_t stride = t->blocks.order, width = t->width;
-  const double *c = t->blocks.value + k * stride * stride;
+  double room[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
+  const double *c = hr2di_block_part(t, pair, t->blocks.value + k * stride * stride, room);
   const double *up_i = t->up + pair.first * width, *up_j = t->up + pair.second * width;
+  if (!c) return;
   memset(term, 0, 2 * width * sizeof *term);
   if (first && second)
     hr2di_gather_both(c, stride, t->order, t->bands, up_i, up_j, term, term + width);
@@ -188,8 +194,9 @@ static void gather_part(void *ctx, size_t worker, size_t part) {
       send_block(t, k, pair, first, second, t->shared->term + 2 * part * width);
       continue;
     }
-    if (first) send_area(t, link.exchange_area, pair.first, pair.second);
-    if (second) send_area(t, link.exchange_area, pair.second, pair.first);
+    const double area = hr2di_link_part(t, pair) * link.exchange_area;
+    if (first) send_area(t, area, pair.first, pair.second);
+    if (second) send_area(t, area, pair.second, pair.first);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "base/team.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
+#include "solve/block-part.h"
 #include "solve/gather-areas.h"
 #include "solve/gather-blocks.h"
 #include "solve/gather-links.h"
@@ -110,23 +111,6 @@ void hr2di_transport_pull(hr2di_transport *t, const double *leaf_field) {
   pull(t, NULL, leaf_field);
 }
 
-/* What a check of the extrapolation leaves of a link of a period, as a part of the link. */
-static double check_of(const hr2di_transport *t, hr2d_pair pair) {
-  const hr2d_element *e = t->hierarchy->element;
-  return hr2di_symmetry_check(&t->hierarchy->scene->symmetry, e[pair.first].patch,
-                              e[pair.second].patch, t->check - 1);
-}
-
-/* The block of a link, or this part of it in `room`; NULL for nothing. */
-static const double *part_of_block(const hr2di_transport *t, hr2d_pair pair,
-                                   const double *block, double *room) {
-  const size_t stride = t->blocks.order;
-  if (!t->check) return block;
-  const double part = check_of(t, pair);
-  for (size_t k = 0; k < stride * stride; k++) room[k] = part * block[k];
-  return part == 0 ? NULL : room;
-}
-
 /* The links of a run one by one: of distant pairs alone, or parts of links. */
 static void gather_each(const hr2di_transport *t, hr2di_transport_part part, hr2di_link_run run,
                         uint64_t first, double *down) {
@@ -137,7 +121,7 @@ static void gather_each(const hr2di_transport *t, hr2di_transport_part part, hr2
   run.count = 1;
   for (size_t k = 0; k < count; k++, run.link++, block += square) {
     if (part == HR2DI_DISTANT_LINKS && !distant[k]) continue;
-    run.block = part_of_block(t, run.link->pair, block, room);
+    run.block = hr2di_block_part(t, run.link->pair, block, room);
     if (run.block) hr2di_gather_links(&run, t->order, t->bands, t->up, down);
   }
 }
@@ -170,7 +154,7 @@ static void check_areas(const hr2di_transport *t, size_t from, size_t to, double
   const uint64_t last = to * HR2DI_CHUNK_LINKS;
   for (uint64_t k = from * HR2DI_CHUNK_LINKS; k < last && k < store->count; k++) {
     const hr2d_link *link = hr2di_store_at(store, k);
-    const double area = check_of(t, link->pair) * link->exchange_area;
+    const double area = hr2di_link_part(t, link->pair) * link->exchange_area;
     if (hr2di_watch_work(watch, 1)) return;
     for (size_t b = 0; b < t->bands && area != 0; b++) {
       down[link->pair.first * t->bands + b] += area * t->up[link->pair.second * t->bands + b];
@@ -312,6 +296,7 @@ void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor) {
     gather(t, HR2DI_ALL_LINKS);
   } else if (t->shared) {
     hr2di_shared_gather(t, HR2DI_ALL_LINKS, 1);
+    hr2di_ties_fold(&t->ties, t->order, t->bands, t->down);
     divide(t);
   } else {
     memset(t->down, 0, t->elements * t->width * sizeof *t->down);

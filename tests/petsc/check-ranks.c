@@ -257,19 +257,6 @@ static PetscErrorCode refuse_spectra(int *failed) {
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode refuse_images(int *failed) {
-  PetscFunctionBegin;
-  const hr2d_segment mirror = {{0, 0}, {0, 1}};
-  hr2d_scene *scene = NULL;
-  hr2d_patch patch = HR2D_PATCH_INIT;
-  patch.b.x = 1;
-  PetscCheck(!hr2d_scene_create(NULL, &scene) && !hr2d_scene_add(scene, &patch, NULL) &&
-                 !hr2d_scene_add_mirror(scene, mirror),
-             PETSC_COMM_SELF, PETSC_ERR_LIB, "no scene");
-  PetscCall(refuse(scene, failed));
-  PetscFunctionReturn(0);
-}
-
 int main(int argc, char **argv) {
   int failed = 0;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
@@ -281,7 +268,6 @@ int main(int argc, char **argv) {
     hr2d_scene_destroy(scene);
   }
   PetscCall(refuse_spectra(&failed));
-  PetscCall(refuse_images(&failed));
   PetscCallMPI(MPI_Bcast(&failed, 1, MPI_INT, 0, PETSC_COMM_WORLD));
   PetscCall(PetscFinalize());
   return failed;

@@ -9,22 +9,22 @@ if WITH_PETSC
 RANKED = tests/petsc/check-rank-faults tests/petsc/check-rank-solution \
 	tests/petsc/check-rank-state tests/petsc/check-ranks
 check_PROGRAMS += $(RANKED)
+RANKED_SCENES = tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h \
+	tests/support/symmetric-scenes.c tests/support/symmetric-scenes.h
 RANKED_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/petsc/include -I$(srcdir)/tests $(PETSC_CFLAGS)
 RANKED_LDADD = libhr2d-petsc.la libhr2d.la $(PETSC_LIBS) $(MPI_LIBS) -lm
-tests_petsc_check_ranks_SOURCES = tests/petsc/check-ranks.c \
-	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h
+tests_petsc_check_ranks_SOURCES = tests/petsc/check-ranks.c $(RANKED_SCENES)
 tests_petsc_check_ranks_CPPFLAGS = $(RANKED_CPPFLAGS)
 tests_petsc_check_ranks_LDADD = $(RANKED_LDADD)
-tests_petsc_check_rank_faults_SOURCES = tests/petsc/check-rank-faults.c \
-	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h
+tests_petsc_check_rank_faults_SOURCES = tests/petsc/check-rank-faults.c $(RANKED_SCENES)
 tests_petsc_check_rank_faults_CPPFLAGS = $(RANKED_CPPFLAGS)
 tests_petsc_check_rank_faults_LDADD = $(RANKED_LDADD)
 tests_petsc_check_rank_solution_SOURCES = tests/petsc/check-rank-solution.c \
-	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h tests/petsc/petsc-viewer.h
+	$(RANKED_SCENES) tests/petsc/petsc-viewer.h
 tests_petsc_check_rank_solution_CPPFLAGS = $(RANKED_CPPFLAGS)
 tests_petsc_check_rank_solution_LDADD = $(RANKED_LDADD)
 tests_petsc_check_rank_state_SOURCES = tests/petsc/check-rank-state.c \
-	tests/petsc/petsc-scenes.c tests/petsc/petsc-scenes.h tests/petsc/petsc-viewer.h
+	$(RANKED_SCENES) tests/petsc/petsc-viewer.h
 tests_petsc_check_rank_state_CPPFLAGS = $(RANKED_CPPFLAGS)
 tests_petsc_check_rank_state_LDADD = $(RANKED_LDADD)
 

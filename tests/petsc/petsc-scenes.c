@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "support/symmetric-scenes.h"
+
 static hr2d_status add(hr2d_scene *scene, double ax, double ay, double bx, double by,
                        const double *emission, const double *reflectance, size_t bands) {
   hr2d_patch patch = HR2D_PATCH_INIT;
@@ -32,11 +34,11 @@ static hr2d_status add_square(hr2d_scene *scene, double x, double y, double size
   return status;
 }
 
-static const double one = 1, half = 0.5, nearly_all = 1 - 0x1p-40;
+static const double one = 1, half_of = 0.5, nearly_all = 1 - 0x1p-40;
 
 static hr2d_status plates(hr2d_scene *scene) {
-  const hr2d_status status = add(scene, 0, 0, 1, 0, &one, &half, 1);
-  return status ? status : add(scene, 1, 0.1, 0, 0.1, NULL, &half, 1);
+  const hr2d_status status = add(scene, 0, 0, 1, 0, &one, &half_of, 1);
+  return status ? status : add(scene, 1, 0.1, 0, 0.1, NULL, &half_of, 1);
 }
 
 /* Corners, and light that is nearly never lost. */
@@ -49,7 +51,8 @@ static hr2d_status round_room(hr2d_scene *scene) {
   for (int k = 0; k < 90 && !status; k++) {
     const double from = 2 * 3.14159265358979323846 * k / 90;
     const double to = 2 * 3.14159265358979323846 * (k == 89 ? 0 : k + 1) / 90;
-    status = add(scene, cos(from), sin(from), cos(to), sin(to), k % 9 ? NULL : &one, &half, 1);
+    status =
+        add(scene, cos(from), sin(from), cos(to), sin(to), k % 9 ? NULL : &one, &half_of, 1);
   }
   return status;
 }
@@ -65,44 +68,79 @@ static hr2d_status blocks(hr2d_scene *scene) {
 
 /* Blocks in a room, of which one stands in a dark room of its own. */
 static hr2d_status full_room(hr2d_scene *scene) {
-  hr2d_status status = add_square(scene, 1.5, 1.5, 4, 0.3, &one, &half, 1);
+  hr2d_status status = add_square(scene, 1.5, 1.5, 4, 0.3, &one, &half_of, 1);
   for (int k = 0; k < 9 && !status; k++)
-    status = add_square(scene, k % 3, k / 3 + 0.5, -0.3, 0.7 * k, NULL, &half, 1);
-  return status ? status : add_square(scene, 20, 0, 1, 0, NULL, &half, 1);
+    status = add_square(scene, k % 3, k / 3 + 0.5, -0.3, 0.7 * k, NULL, &half_of, 1);
+  return status ? status : add_square(scene, 20, 0, 1, 0, NULL, &half_of, 1);
 }
 
 /* Blocks above a floor, whose row is most of all: it is cut. */
 static hr2d_status floor_of_blocks(hr2d_scene *scene) {
-  hr2d_status status = add(scene, -1, -1, 8, -1, &one, &half, 1);
+  hr2d_status status = add(scene, -1, -1, 8, -1, &one, &half_of, 1);
   for (int k = 0; k < 8 && !status; k++)
-    status = add_square(scene, k, 0.2 * (k % 3), -0.3, 0.7 * k, NULL, &half, 1);
+    status = add_square(scene, k, 0.2 * (k % 3), -0.3, 0.7 * k, NULL, &half_of, 1);
   return status;
 }
 
 /* Two rooms that know nothing of each other. */
 static hr2d_status two_rooms(hr2d_scene *scene) {
   const hr2d_status status = add_square(scene, 0, 0, 1, 0.2, &one, &nearly_all, 1);
-  return status ? status : add_square(scene, 5, 0, 1, 0.3, &half, &half, 1);
+  return status ? status : add_square(scene, 5, 0, 1, 0.3, &half_of, &half_of, 1);
 }
 
 /* The same where one is much darker than the other. */
 static hr2d_status dim_room(hr2d_scene *scene) {
   static const double dim = 1e-18;
-  const hr2d_status status = add_square(scene, 0, 0, 1, 0.2, &one, &half, 1);
-  return status ? status : add_square(scene, 5, 0, 1, 0.3, &dim, &half, 1);
+  const hr2d_status status = add_square(scene, 0, 0, 1, 0.2, &one, &half_of, 1);
+  return status ? status : add_square(scene, 5, 0, 1, 0.3, &dim, &half_of, 1);
 }
 
 /* A plate of 1 beside one of 1e-6. */
 static hr2d_status short_plate(hr2d_scene *scene) {
-  hr2d_status status = add(scene, 0, 0, 1, 0, &one, &half, 1);
-  if (!status) status = add(scene, 1, 0.5, 0, 0.5, NULL, &half, 1);
-  return status ? status : add(scene, 0.5, 1e-6, 0.500001, 1e-6, NULL, &half, 1);
+  hr2d_status status = add(scene, 0, 0, 1, 0, &one, &half_of, 1);
+  if (!status) status = add(scene, 1, 0.5, 0, 0.5, NULL, &half_of, 1);
+  return status ? status : add(scene, 0.5, 1e-6, 0.500001, 1e-6, NULL, &half_of, 1);
 }
 
 static hr2d_status black_plates(hr2d_scene *scene) {
   static const double none = 0;
   const hr2d_status status = add(scene, 0, 0, 1, 0, &one, &none, 1);
   return status ? status : add(scene, 1, 0.1, 0, 0.1, NULL, &none, 1);
+}
+
+static hr2d_status half(hr2d_scene *scene) {
+  return symmetric_add(scene, SYMMETRIC_HALF);
+}
+
+static hr2d_status quarter(hr2d_scene *scene) {
+  return symmetric_add(scene, SYMMETRIC_QUARTER);
+}
+
+static hr2d_status endless_plates(hr2d_scene *scene) {
+  return symmetric_add(scene, SYMMETRIC_PLATES);
+}
+
+static hr2d_status streets(hr2d_scene *scene) {
+  return symmetric_add(scene, SYMMETRIC_STREETS);
+}
+
+static hr2d_status panels(hr2d_scene *scene) {
+  return symmetric_add(scene, SYMMETRIC_PANELS);
+}
+
+static hr2d_status hall(hr2d_scene *scene) {
+  return symmetric_add(scene, SYMMETRIC_HALL);
+}
+
+static hr2d_status row(hr2d_scene *scene) {
+  return symmetric_add(scene, SYMMETRIC_ROW);
+}
+
+/* Half of a triangle, in which nothing is in the way. */
+static hr2d_status half_triangle(hr2d_scene *scene) {
+  hr2d_status status = add(scene, 0, 0, 2, 0, &one, &half_of, 1);
+  if (!status) status = add(scene, 2, 0, 0, 3, NULL, &half_of, 1);
+  return status ? status : hr2d_scene_add_mirror(scene, (hr2d_segment){{0, 0}, {0, 1}});
 }
 
 static const petsc_case cases[] = {
@@ -130,6 +168,19 @@ static const petsc_case cases[] = {
     {"two rooms", two_rooms, .epsilon = 0.1},
     {"dim room", dim_room, .epsilon = 0.1},
     {"short plate", short_plate, .epsilon = 0.1},
+    {"half triangle", half_triangle, .epsilon = 0.02},
+    {"half triangle, ordered", half_triangle, .epsilon = 0.05, .ordered = 1},
+    {"half triangle, multigrid", half_triangle, .epsilon = 0.025, .from = 0.4},
+    {"half", half, .epsilon = 0.1},
+    {"half, no closure", half, .epsilon = 0.2, .closure = HR2D_CLOSURE_OFF},
+    {"half, ordered", half, .epsilon = 0.2, .ordered = 1},
+    {"half, multigrid", half, .epsilon = 0.1, .from = 0.4},
+    {"quarter", quarter, .epsilon = 0.3},
+    {"endless plates", endless_plates, .epsilon = 0.1},
+    {"streets", streets, .epsilon = 0.1},
+    {"panels", panels, .epsilon = 0.2},
+    {"hall", hall, .epsilon = 0.2},
+    {"row", row, .epsilon = 0.5},
 };
 
 const petsc_case *petsc_case_at(size_t k) {

@@ -2,6 +2,8 @@
 /* Elements of images: counts, visits and refinements have the same, for any number of threads,
    and budgets know of them. */
 #include <hr2d/symmetry.h>
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "support/support.h"
@@ -129,9 +131,47 @@ START_TEST(bytes_have_the_elements_of_images) {
 }
 END_TEST
 
+/* Whether an element of a room with a mirror at x = 0, or of a row with a period of 2, stands
+   where the image of another one does. */
+static int is_image_of(const hr2d_element *e, const hr2d_element *of, int row, double unit) {
+  const double x = of->centre.x * unit, there = e->centre.x * unit;
+  const double periods = (there - x) / 2, off = row ? periods - rint(periods) : there + x;
+  return fabs(off) <= 1e-12 && fabs(e->centre.y - of->centre.y) <= 1e-12;
+}
+
+START_TEST(originals_are_told) {
+  test_links made = make(_i);
+  hr2d_refine_options options = test_options(0.2, 9);
+  ck_assert_int_eq(hr2d_refine(made.links, &options), HR2D_OK);
+  const size_t elements = (size_t)hr2d_hierarchy_count(made.hierarchy).elements;
+  const hr2d_element *e = hr2d_hierarchy_elements(made.hierarchy);
+  const size_t cell = hr2d_scene_patches(made.scene);
+  const size_t all = cell * hr2d_scene_images(made.scene);
+  uint32_t *original = malloc(elements * sizeof *original);
+  size_t moved = 0;
+  ck_assert_int_eq(hr2d_hierarchy_originals(made.hierarchy, original), HR2D_OK);
+  for (uint32_t k = 0; k < elements; k++) {
+    const uint32_t patch = e[k].patch, of = original[k];
+    ck_assert_uint_eq(e[of].patch, patch < all ? patch % cell : patch);
+    ck_assert_uint_eq(hr2d_element_level(made.hierarchy, of),
+                      hr2d_element_level(made.hierarchy, k));
+    if (patch < cell || patch >= all) {
+      ck_assert_uint_eq(of, k);
+      continue;
+    }
+    ck_assert(is_image_of(&e[k], &e[of], _i == 1, hr2d_scene_unit(made.scene)));
+    moved++;
+  }
+  ck_assert_uint_gt(moved, 50);
+  free(original);
+  test_free_links(&made);
+}
+END_TEST
+
 TEST_SUITE("image-elements") {
   REPEAT_TESTS(KINDS, "all", counts_and_visits_have_the_elements_of_images);
   REPEAT_TESTS(KINDS, "rows", rows_are_those_of_the_cell);
+  REPEAT_TESTS(2, "originals", originals_are_told);
   REPEAT_TESTS(KINDS, "budgets", budgets_have_the_elements_of_images);
   REPEAT_TESTS(KINDS, "bytes", bytes_have_the_elements_of_images);
 }

@@ -120,7 +120,36 @@ START_TEST(few_images_tell_what_they_are_off) {
 }
 END_TEST
 
+/* Sums of shares have room for the largest weight, those of ranks for this many times the
+   images. */
+enum { RANKS = 2 };
+
+START_TEST(weights_have_a_bound) {
+  for (unsigned copies = 1; copies <= HR2DI_MOST_COPIES; copies *= 2) {
+    hr2di_motion motion[2 * HR2DI_MOST_COPIES + 1] = {{0}};
+    hr2di_symmetry s = {.motion = motion, .motions = 2 * copies + 1, .copies = copies};
+    double most = 1;
+    s.by.periodic = 1;
+    for (size_t k = 0; k < s.motions; k++) {
+      motion[k].periods = (int)k - (int)copies;
+      motion[k].weight = 1;
+    }
+    ck_assert_double_eq(hr2di_symmetry_most(&s), 1);
+    hr2di_symmetry_set_weights(&s);
+    for (size_t k = 0; k < s.motions; k++) {
+      most = fmax(most, fabs(motion[k].weight));
+      for (int c = 0; c < HR2DI_TAIL_CHECKS; c++) most = fmax(most, fabs(motion[k].check[c]));
+    }
+    ck_assert_double_eq(hr2di_symmetry_most(&s), most);
+    ck_assert_double_gt(most, 1);
+    ck_assert_double_le(most, RANKS * (double)s.motions);
+    printf("%u copies: weights up to %g\n", copies, most);
+  }
+}
+END_TEST
+
 TEST_SUITE("period weights") {
+  ADD_TESTS("bound", weights_have_a_bound);
   ADD_TESTS("kinks", kinks_are_no_worse_than_the_bound, one_check_does_not_do);
   ADD_TESTS("series", series_are_summed, few_images_tell_what_they_are_off);
 }
