@@ -186,7 +186,7 @@ libhr2d_core_la_SOURCES = \
 	src/links/linkset.c \
 	src/links/linkset-impl.h \
 	src/links/patch-defect.c src/links/patch-defect.h \
-	src/links/store.c src/links/store.h \
+	src/links/row-pieces.h src/links/store.c src/links/store.h \
 	src/solution/gatherer.c src/solution/gatherer.h \
 	src/solution/panels.h \
 	src/solution/point-gather.c \
@@ -208,6 +208,7 @@ libhr2d_core_la_SOURCES = \
 	src/field/step-off.c \
 	src/refine/count.c \
 	src/refine/occluded-pairs.c src/refine/occluded-pairs.h \
+	src/refine/part-rows.c src/refine/part-rows.h \
 	src/refine/partition.c src/refine/partition.h \
 	src/refine/projector.c src/refine/projector.h \
 	src/refine/projector-start.c \
@@ -253,6 +254,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/shadow-residuals.c src/accuracy/shadow-residuals.h \
 	src/accuracy/safe-sum.c src/accuracy/safe-sum.h \
 	src/accuracy/rounding-bound.c src/accuracy/rounding-bound.h \
+	src/accuracy/row-deal.c src/accuracy/row-deal.h \
 	src/accuracy/shared-sums.c src/accuracy/shared-sums.h \
 	src/accuracy/sketch.c src/accuracy/sketch.h \
 	src/accuracy/divided-links.c src/accuracy/divided-links.h \

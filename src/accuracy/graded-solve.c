@@ -2,13 +2,12 @@
 /* From a resolution to trees, links and a solution. */
 #include "accuracy/graded-solve.h"
 
-#include <string.h>
-
 #include "accuracy/admissibility.h"
 #include "accuracy/divided-links.h"
 #include "accuracy/halved-leaves.h"
 #include "accuracy/long-leaves.h"
 #include "accuracy/resolution.h"
+#include "accuracy/row-deal.h"
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "hierarchy/image-trees.h"
@@ -89,26 +88,6 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
   return status;
 }
 
-/* Counts the links of rows, each share those of some, and deals the rows out by that. */
-static hr2d_status deal_rows(hr2di_graded *a, hr2d_refine_options *options) {
-  const hr2d_allocator *alloc = &a->hierarchy->alloc;
-  const size_t patches = a->hierarchy->scene->patches;
-  hr2d_refine_counts counts;
-  hr2d_row_counts *row = hr2di_alloc_zero(alloc, patches, sizeof *row);
-  double *weight = hr2di_alloc_zero(alloc, patches, sizeof *weight);
-  a->rows = hr2di_alloc(alloc, patches, 1);
-  hr2d_status status = row && weight && a->rows ? HR2D_OK : HR2D_ENOMEM;
-  hr2d_refine_options counting = *options;
-  counting.row_counts = row;
-  if (!status) status = hr2d_refine_count(a->links, &counting, &counts);
-  for (size_t k = 0; k < patches && !status; k++) weight[k] = (double)row[k].links;
-  status = hr2di_share_combine(options->share, status, HR2D_COMBINE_SUM, weight, patches);
-  if (!status) status = hr2di_share_deal(options->share, alloc, weight, patches, a->rows);
-  hr2di_alloc_free(alloc, row);
-  hr2di_alloc_free(alloc, weight);
-  return status;
-}
-
 /* The pairs that a refinement begins with.  Without clusters they depend on the scene alone. */
 static hr2d_status find_roots(hr2d_linkset *links, const hr2di_graded *coarse,
                               const hr2di_resolution *fineness, const hr2d_target *target) {
@@ -142,12 +121,15 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
                           hr2di_admissibility_fixed_leaves(), NULL, &a->links);
   if (status) return status;
   status = find_roots(a->links, coarse, fineness, target);
-  if (!status && options.share && !a->rows) status = deal_rows(a, &options);
-  options.rows = a->rows;
+  if (!status && options.share && !a->pieces.rows)
+    status = hr2di_row_deal(&a->pieces, a->links, &options);
+  options.rows = a->pieces.rows;
+  a->links->pieces = options.share ? &a->pieces : NULL;
   if (!status)
     status = coarse ? hr2di_divided_links(a->links, coarse->links, &options)
                     : hr2d_refine(a->links, &options);
   a->links->oracle_ctx = NULL; /* the oracle is not asked again */
+  a->links->pieces = NULL;
   return status;
 }
 
@@ -185,16 +167,9 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
   return explain(a, hr2di_share_agree(target->share, status), message);
 }
 
-/* A share keeps its rows, and so the blocks of their links. */
-static hr2d_status take_rows(hr2di_graded *a, const hr2di_graded *coarse) {
-  const size_t patches = a->hierarchy->scene->patches;
-  a->rows = hr2di_alloc(&a->hierarchy->alloc, patches, 1);
-  if (!a->rows) return HR2D_ENOMEM;
-  memcpy(a->rows, coarse->rows, patches);
-  return HR2D_OK;
-}
-
-/* Pairs are linked by the order, too. */
+/* Pairs are linked by the order, too.  A share keeps its rows, and so the blocks of their
+ * links.
+ */
 hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
                                 const hr2di_resolution *fineness, const hr2d_target *target,
                                 hr2di_message *message) {
@@ -207,7 +182,9 @@ hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
                                            target->max_elements, &watch, &a->hierarchy);
   if (!status) a->hierarchy->order = fineness->order;
   if (!status) status = divide_images(a, &watch);
-  if (!status && coarse->rows) status = take_rows(a, coarse);
+  if (!status && coarse->pieces.rows)
+    status = hr2di_row_pieces_copy(&a->pieces, &coarse->pieces,
+                                   hr2di_scene_cell(a->hierarchy->scene), &a->hierarchy->alloc);
   const int same = fineness->order == coarse->hierarchy->order;
   if (!status) status = link_elements(a, same ? coarse : NULL, fineness, target);
   if (!status) status = check_blocks(a, fineness, target);
@@ -240,7 +217,7 @@ hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2di_resolution *fineness
 void hr2di_graded_clear(hr2di_graded *a) {
   if (a->hierarchy) hr2di_alloc_free(&a->hierarchy->alloc, a->bent);
   if (a->hierarchy) hr2di_alloc_free(&a->hierarchy->alloc, a->depth);
-  if (a->hierarchy) hr2di_alloc_free(&a->hierarchy->alloc, a->rows);
+  if (a->hierarchy) hr2di_row_pieces_clear(&a->pieces, &a->hierarchy->alloc);
   hr2d_solution_destroy(a->solution);
   hr2d_linkset_destroy(a->links);
   hr2d_hierarchy_destroy(a->hierarchy);

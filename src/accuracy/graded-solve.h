@@ -9,6 +9,7 @@
 #include "accuracy/kinks.h"
 #include "accuracy/mesh-grading.h"
 #include "base/message.h"
+#include "links/row-pieces.h"
 
 /* How fine a graded solve is. */
 typedef struct hr2di_resolution {
@@ -49,9 +50,9 @@ typedef struct hr2di_graded {
   unsigned char *depth; /* per element: how often a leaf is to be halved so that the aim is
                            reached; NULL: unknown */
   int unbounded;        /* the error is too large, and has got no bound */
-  double clustered;    /* the part of the error of averages that links of clusters make, if that
-                          is too large; 0: unknown */
-  unsigned char *rows; /* per patch: whether its row is of this share; NULL: nobody has dealt */
+  double clustered; /* the part of the error of averages that links of clusters make, if that
+                       is too large; 0: unknown */
+  hr2di_row_pieces pieces; /* of rows of links, of shares */
   uint64_t events;
   uint64_t kernels;
   double refine_seconds, coefficients_seconds, solve_seconds;

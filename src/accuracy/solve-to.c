@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "accuracy/importance.h"
+#include "accuracy/row-deal.h"
 #include "accuracy/search.h"
 #include "accuracy/target.h"
 #include "base/alloc.h"
@@ -163,7 +164,7 @@ static void hand_over(hr2di_search *s, hr2d_solution **solution) {
   (*solution)->own_links = s->best.links;
   hr2di_alloc_free(&s->scene->alloc, s->best.bent);
   hr2di_alloc_free(&s->scene->alloc, s->best.depth);
-  hr2di_alloc_free(&s->scene->alloc, s->best.rows);
+  hr2di_row_pieces_clear(&s->best.pieces, &s->scene->alloc);
   s->best = (hr2di_graded){0};
 }
 

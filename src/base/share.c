@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/sort.h"
 
 /* Early rows have more pairs than late ones: runs are dealt out to and fro. */
 enum { RUNS_PER_SHARE = 64 };
@@ -15,37 +14,6 @@ int hr2di_share_has_row(const hr2d_share *share, size_t row, size_t rows) {
   const size_t run = (size_t)((double)row * ((double)runs / (double)rows));
   const size_t at = run % share->count;
   return (run / share->count % 2 ? share->count - 1 - at : at) == share->number;
-}
-
-typedef struct weighed {
-  double weight;
-  size_t row;
-} weighed;
-
-/* The heaviest first; of equal ones the first. */
-static int by_weight(const void *left, const void *right) {
-  const weighed *l = left, *r = right;
-  if (l->weight != r->weight) return l->weight > r->weight ? -1 : 1;
-  return (l->row > r->row) - (l->row < r->row);
-}
-
-hr2d_status hr2di_share_deal(const hr2d_share *share, const hr2d_allocator *alloc,
-                             const double *weight, size_t rows, unsigned char *mine) {
-  weighed *order = hr2di_alloc(alloc, rows, sizeof *order);
-  double *load = hr2di_alloc_zero(alloc, share->count, sizeof *load);
-  const int room = order && load;
-  for (size_t k = 0; k < rows && room; k++) order[k] = (weighed){weight[k], k};
-  if (room) hr2di_sort(order, rows, sizeof *order, by_weight, NULL);
-  for (size_t k = 0; k < rows && room; k++) {
-    unsigned least = 0;
-    for (unsigned s = 1; s < share->count; s++)
-      if (load[s] < load[least]) least = s;
-    load[least] += order[k].weight;
-    mine[order[k].row] = least == share->number;
-  }
-  hr2di_alloc_free(alloc, order);
-  hr2di_alloc_free(alloc, load);
-  return room ? HR2D_OK : HR2D_ENOMEM;
 }
 
 hr2d_status hr2di_share_combine(hr2d_share *share, hr2d_status status, hr2d_combine how,

@@ -13,12 +13,6 @@
 /* Whether a row of pairs, of so many, is of this share.  Rows are dealt out in runs. */
 int hr2di_share_has_row(const hr2d_share *share, size_t row, size_t rows);
 
-/* Deals out rows of different weights, so that each share has about the same: sets mine[k] to 1
-   for the rows of this share, else to 0.  HR2D_OK or HR2D_ENOMEM; all shares get the weights.
- */
-hr2d_status hr2di_share_deal(const hr2d_share *share, const hr2d_allocator *alloc,
-                             const double *weight, size_t rows, unsigned char *mine);
-
 /* Where the part of a share begins, of so many things that are dealt out in runs. */
 static inline size_t hr2di_share_part(size_t things, unsigned number, unsigned count) {
   return things / count * number + things % count * number / count;

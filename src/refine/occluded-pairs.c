@@ -207,9 +207,9 @@ hr2d_status hr2di_occluded_round(hr2di_projector *p) {
   size_t candidates, count = 0;
   int limited;
   hr2d_status status = hr2di_projector_subdivide(p, pair, &candidates, &limited);
-  const uint64_t links = p->counts.links;
+  const uint64_t links = p->counts.partial_links;
   if (!status && limited) status = link_pair(p, pair, &s->list, from, s->list.count);
-  p->counts.limited_links += p->counts.links - links;
+  p->counts.limited_links += p->counts.partial_links - links;
   hr2di_sight_list_cut(&p->found, 0);
   for (size_t k = 0; k < candidates && !status; k++) {
     hr2di_facing facing;

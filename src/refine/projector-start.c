@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/sized-struct.h"
 #include "refine/occluded-pairs.h"
+#include "refine/part-rows.h"
 #include "refine/projector.h"
 #include "refine/rounds.h"
 #include "scene/scene-impl.h"
@@ -222,6 +223,7 @@ hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch) {
   proposals roots;
   if (!has_row(p, patch)) return hr2di_projector_fail(p, hr2di_projector_work(p, 1), "");
   roots.count = 0;
+  hr2di_part_rows_begin(p, patch);
   hr2d_status status = hr2di_projector_work(p, 1 + n / 16);
   if (status) return hr2di_projector_fail(p, status, "");
   if (known->row)
@@ -238,6 +240,7 @@ hr2d_status hr2di_projector_all(hr2di_projector *p) {
   for (size_t patch = p->options.row_from; patch < p->options.row_to && !status; patch++) {
     status = hr2di_projector_row(p, patch);
     if (!status) status = hr2di_rounds_run(p, SIZE_MAX);
+    hr2di_part_rows_end(p);
     hr2di_rounds_measure(p);
   }
   return status;

@@ -10,6 +10,7 @@
 #include "base/alloc.h"
 #include "geometry/predicates.h"
 #include "oracle/built-in.h"
+#include "refine/part-rows.h"
 #include "refine/partition.h"
 
 enum { UNWRITTEN = 255 /* no subdivision: marks entries that a callback did not write */ };
@@ -177,6 +178,7 @@ hr2d_status hr2di_projector_count_links(hr2di_projector *p, size_t more) {
 }
 
 hr2d_status hr2di_projector_accept(hr2di_projector *p, const double *area, size_t count) {
+  count = hr2di_part_rows_keep(p, &area, count);
   if (count == 0) return HR2D_OK;
   const hr2d_status status = hr2di_projector_count_links(p, count);
   for (size_t k = 0; k < count && p->rows; k++)

@@ -34,6 +34,17 @@ typedef struct hr2di_occluded_pairs {
   hr2di_sight_list list;
 } hr2di_occluded_pairs;
 
+/* The row under way, if this share has a part of its links, see refine/part-rows.h. */
+typedef struct hr2di_part_row {
+  const unsigned char *mine; /* per piece */
+  size_t count;              /* of pieces; at most 1: the whole row */
+  size_t next;               /* the piece of the next link */
+  uint64_t areas;            /* of links that are kept */
+  hr2d_refine_counts before; /* the row */
+  uint64_t tests;            /* of visibility, before the row */
+  uint64_t others;           /* tests that other shares count */
+} hr2di_part_row;
+
 typedef struct hr2di_projector hr2di_projector;
 
 struct hr2di_projector {
@@ -55,7 +66,8 @@ struct hr2di_projector {
   double fraction;          /* of them, when it was measured last; see rounds.h */
   unsigned ticks;           /* rounds since then */
   hr2d_row_counts *rows;    /* per patch, or NULL if nobody asks */
-  hr2di_watch *watch;       /* of the thread that uses this */
+  hr2di_part_row part;
+  hr2di_watch *watch; /* of the thread that uses this */
 
   hr2di_stack facing;  /* refused pairs that face each other fully */
   hr2di_stack clipped; /* refused pairs that one horizon still cuts */

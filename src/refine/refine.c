@@ -8,6 +8,7 @@
 #include "geometry/predicates.h"
 #include "hierarchy/image-trees.h"
 #include "refine/occluded-pairs.h"
+#include "refine/part-rows.h"
 #include "refine/projector.h"
 #include "refine/rounds.h"
 #include "refine/rows.h"
@@ -46,7 +47,7 @@ static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
   if (!status) status = hr2di_projector_fail(p, hr2di_watch_ask(p->watch), "");
   if (!status) status = unite_images(p);
   h->refining = 0;
-  if (p->sights) p->counts.visibility_tests += hr2di_patch_sights_tests(p->sights);
+  p->counts.visibility_tests += hr2di_part_rows_tests(p);
   if (status) hr2di_hierarchy_truncate(h, elements);
   if (!status && p->rows) {
     memset(p->options.row_counts, 0, hr2di_scene_cell(h->scene) * sizeof *p->rows);

@@ -16,6 +16,7 @@
 #include "base/alloc.h"
 #include "base/team.h"
 #include "geometry/exchange-area.h"
+#include "refine/part-rows.h"
 #include "refine/rounds.h"
 #include "scene/scene-impl.h"
 
@@ -107,6 +108,7 @@ static void do_row(void *ctx, size_t number, size_t task) {
   w->status = hr2di_projector_fail(p, hr2di_watch_status(p->watch), "");
   if (!w->status) w->status = hr2di_projector_row(p, all->first + task);
   if (!w->status) w->status = hr2di_rounds_run(p, SIZE_MAX);
+  hr2di_part_rows_end(p);
   if (!w->status) w->status = keep_halvings(all, w);
   atomic_fetch_add(&all->links_found, w->row->links);
   atomic_fetch_add(&all->rows_done, 1);
@@ -212,7 +214,7 @@ static void sum_up(hr2d_refine_counts *sum, const hr2di_projector *p) {
   sum->partial_links += p->counts.partial_links;
   sum->blocked_pairs += p->counts.blocked_pairs;
   sum->dark_pairs += p->counts.dark_pairs;
-  sum->visibility_tests += p->sights ? hr2di_patch_sights_tests(p->sights) : 0;
+  sum->visibility_tests += hr2di_part_rows_tests(p);
 }
 
 static void clear(rows *all) {

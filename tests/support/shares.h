@@ -5,7 +5,7 @@
 
 #include <hr2d/share.h>
 
-enum { SHARES_MOST = 8 };
+enum { SHARES_MOST = 16 };
 
 /* What each thread does with its share. */
 typedef void (*shares_work)(hr2d_share *share, void *ctx);

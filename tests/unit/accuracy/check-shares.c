@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Solves by several shares, each in a thread: no bit depends on their number; elements, links
    and oracle calls are those without shares, and B, H and errors differ by roundings.  Each
-   share has its part of the links. */
+   share has its part of the links, and parts are even. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,6 +20,7 @@ typedef struct found {
   double average[MOST_VALUES], irradiance[MOST_VALUES];
   double error[8]; /* estimates and bounds of the account */
   hr2d_power power;
+  double cut_off; /* of it */
   uint64_t elements, leaves, links, calls, tests, own_links, solves;
 } found;
 
@@ -31,6 +32,8 @@ typedef struct kind {
   double error; /* of a target; 0: a solve by ε */
   double epsilon, from;
   unsigned order;
+  double plates; /* their distance; 0: other scenes */
+  int fibres;    /* in a room of four walls; 0: other scenes */
   int ordered, no_closure, sup, heated;
   symmetric_kind symmetric;
   uint64_t solves; /* at least */
@@ -85,12 +88,41 @@ static const kind kinds[] = {
 
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
+static hr2d_status add_plates(hr2d_scene *scene, double apart) {
+  const hr2d_segment one = {{0, 0}, {1, 0}}, other = {{1, apart}, {0, apart}};
+  const hr2d_status status = test_add_patch(scene, one, 1, .5, HR2D_SIDES_FRONT);
+  return status ? status : test_add_patch(scene, other, 0, .5, HR2D_SIDES_FRONT);
+}
+
+/* Fibres of 16 sides, each in a cell of its own. */
+static hr2d_status add_fibres(hr2d_scene *scene, int fibres) {
+  const double pi = 3.14159265358979323846, far = ceil(sqrt(fibres)) + .5;
+  const hr2d_point corner[] = {{-.5, -.5}, {far, -.5}, {far, far}, {-.5, far}};
+  const int side = (int)ceil(sqrt(fibres));
+  hr2d_status status = HR2D_OK;
+  for (int k = 0; k < 4 && !status; k++)
+    status = test_add_patch(scene, (hr2d_segment){corner[k], corner[(k + 1) % 4]}, k == 0, .5,
+                            HR2D_SIDES_FRONT);
+  for (int k = 0; k < 16 * fibres && !status; k++) {
+    const int f = k / 16;
+    const double x = f % side + .1 * (f % 3), y = f / side + .1 * (f % 4),
+                 r = .1 + .03 * (f % 5);
+    const double from = -2 * pi * (k % 16) / 16 + f, to = -2 * pi * ((k + 1) % 16) / 16 + f;
+    const hr2d_segment s = {{x + r * cos(from), y + r * sin(from)},
+                            {x + r * cos(to), y + r * sin(to)}};
+    status = test_add_patch(scene, s, 0, .5, HR2D_SIDES_FRONT);
+  }
+  return status;
+}
+
 static hr2d_scene *make(const kind *k) {
   if (k->file) return test_shipped_scene(k->file);
   hr2d_scene *scene = test_new_scene(NULL);
-  const hr2d_status status = k->symmetric ? symmetric_add(scene, k->symmetric)
-                             : k->heated  ? slow_add_heated(scene)
-                                          : slow_add(scene, k->slow, k->patches);
+  const hr2d_status status = k->plates > 0   ? add_plates(scene, k->plates)
+                             : k->fibres > 0 ? add_fibres(scene, k->fibres)
+                             : k->symmetric  ? symmetric_add(scene, k->symmetric)
+                             : k->heated     ? slow_add_heated(scene)
+                                             : slow_add(scene, k->slow, k->patches);
   ck_assert_int_eq(status, HR2D_OK);
   test_commit(scene);
   return scene;
@@ -105,6 +137,7 @@ static void read_solution(const hr2d_scene *scene, const hr2d_solution *solution
     f->irradiance[k] = hr2d_solution_irradiance(solution, k / bands, k % bands);
   }
   f->power = hr2d_solution_power(solution, 0);
+  f->cut_off = hr2d_solution_power_cut_off(solution, 0);
   const hr2d_linkset *links = hr2d_solution_links(solution);
   const hr2d_refine_counts counts = hr2d_linkset_counts(links);
   f->links = counts.links;
@@ -202,6 +235,7 @@ static void compare_with_one(const kind *k, const found *f, const found *one) {
   ck_assert_uint_eq(f->links, one->links);
   ck_assert_uint_eq(f->calls, one->calls);
   if (k->from == 0) ck_assert_uint_eq(f->tests, one->tests);
+  ck_assert_double_eq_tol(f->cut_off, one->cut_off, 1e-6 * one->cut_off + 1e-13);
   const double b = largest(one->average, one->values);
   const double h = largest(one->irradiance, one->values);
   for (size_t m = 0; m < one->values; m++) {
@@ -258,6 +292,46 @@ START_TEST(no_bit_depends_on_shares) {
 }
 END_TEST
 
+/* Links to be shared out to a target: few long rows, many short ones, both. */
+static const kind even_kinds[] = {
+    {"near plates", .plates = 1e-6, .error = 1e-8},
+    {"squares in a room", NULL, SLOW_SQUARES, 240, .error = 1e-1},
+    {"fibres in a room", .fibres = 16, .error = 1e-1},
+    {"round room", NULL, SLOW_ROUND, 100, .error = 1e-4},
+    {"soup in a room", NULL, SLOW_SOUP, 100, .error = 1e-1},
+    {"city", NULL, SLOW_CITY, 250, .error = 1e-2},
+    {"quarter", .symmetric = SYMMETRIC_QUARTER, .error = 1e-3},
+    {"temperatures", NULL, .heated = 1, .error = 1e-6},
+};
+
+enum { EVEN_KINDS = sizeof even_kinds / sizeof *even_kinds };
+
+START_TEST(links_are_shared_out_evenly) {
+  const kind *k = &even_kinds[_i];
+  hr2d_scene *scene = make(k);
+  found *of = calloc(SHARES_MOST, sizeof *of);
+  ck_assert_ptr_nonnull(of);
+  for (unsigned count = 8; count <= SHARES_MOST; count *= 2) {
+    job j = {k, scene, of};
+    uint64_t most = 0, links = 0;
+    shares_run(count, work, &j);
+    for (unsigned m = 0; m < count; m++) {
+      most = of[m].own_links > most ? of[m].own_links : most;
+      links += of[m].own_links;
+    }
+    ck_assert_uint_eq(links, of[0].links);
+    const double even = (double)most * count / (double)links;
+    printf("%s: %llu links, the most of %u shares %.3f times the mean\n", k->name,
+           (unsigned long long)links, count, even);
+    ck_assert_uint_ge(links, 100);
+    ck_assert_msg(even <= 1.15, "%s: %g of the mean on one of %u shares", k->name, even, count);
+  }
+  free(of);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 TEST_SUITE("shares") {
+  REPEAT_TESTS(EVEN_KINDS, "even", links_are_shared_out_evenly);
   REPEAT_TESTS(KINDS, "bits", no_bit_depends_on_shares);
 }
