@@ -2,8 +2,8 @@
 /* The object: what a rank has of a scene. */
 #include <stdlib.h>
 
+#include "constants.h"
 #include "share.h"
-#include "spectra.h"
 #include "state-head.h"
 #include "trees.h"
 #include "units.h"
@@ -61,6 +61,9 @@ static hr2d_status check_scene(hr2dp *p, const hr2dp_options *options) {
     return hr2dpi_fail(p, HR2D_EUNSUPPORTED,
                        "patches of given flux in several bands: hr2dp_share_create() is for "
                        "their temperatures");
+  if (hr2dpi_has_daylight(p->scene))
+    return hr2dpi_fail(p, HR2D_EUNSUPPORTED,
+                       "a sun, or a sky in pieces: hr2dp_share_create() is for their light");
   /* Elements are numbered by PetscInt, patches counted by int. */
   if (p->patches > INT_MAX / 8)
     return hr2dpi_fail(p, HR2D_EUNSUPPORTED, "%zu patches are too many", p->patches);

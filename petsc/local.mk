@@ -31,7 +31,7 @@ libhr2d_petsc_la_SOURCES = \
 	petsc/share.c petsc/share.h \
 	petsc/shares.c \
 	petsc/solve.c \
-	petsc/spectra.h \
+	petsc/constants.h \
 	petsc/state-head.c petsc/state-head.h \
 	petsc/transport.c petsc/transport.h \
 	petsc/trees.c petsc/trees.h petsc/trees-impl.h \

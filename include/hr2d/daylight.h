@@ -107,6 +107,13 @@ HR2D_API hr2d_status hr2d_scene_set_sky(hr2d_scene *scene, const hr2d_sky_piece 
 HR2D_API double hr2d_scene_sky(const hr2d_scene *scene, double bearing, size_t band);
 
 /**
+ * The pieces of the sky.
+ * @param scene  a scene
+ * @return their number, as given to hr2d_scene_set_sky(); 0 if all of the sky is background
+ */
+HR2D_API size_t hr2d_scene_sky_pieces(const hr2d_scene *scene);
+
+/**
  * The average of H_sun over a patch. H without the light that comes straight from the sun is
  * hr2d_solution_irradiance() less this.
  * @param scene,patch  a committed scene and the index of a patch

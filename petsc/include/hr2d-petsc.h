@@ -128,8 +128,8 @@ typedef struct hr2dp_report {
  * @param p        receives the object, or NULL after a failure
  * @return PETSC_ERR_ARG_WRONGSTATE: the scene is not committed, or not the same on all ranks;
  *         PETSC_ERR_SUP: the order is not supported; PETSC_ERR_MEM: out of memory;
- *         PETSC_ERR_LIB: the scene has patches of given flux in several bands, whose
- *         temperatures hr2dp_share_create() is for
+ *         PETSC_ERR_LIB: the scene has patches of given flux in several bands, a sun, or a sky
+ *         in pieces, all of which hr2dp_share_create() is for
  *
  * Cost and memory O(n) on every rank.
  */

@@ -2,7 +2,7 @@
 /* Solves with elements on every rank, and links and blocks shared out: to a target, at an order
    above 1, or where a result needs all elements.  It is the run of `hr2d solve`, made by all
    ranks; rank 0 reports. */
-#include "../spectra.h"
+#include "../constants.h"
 #include "output/complain.h"
 #include "program.h"
 #include "solve/solve.h"
@@ -13,7 +13,8 @@ int job_follows_brightness(const options *o) {
 
 int job_is_whole(const options *o, const hr2d_scene *scene) {
   return job_follows_brightness(o) || options_targeted(o) || o->order > 1 || o->at.count > 0 ||
-         o->csv || o->draw || o->watch || o->error || hr2dpi_has_spectra(scene);
+         o->csv || o->draw || o->watch || o->error || hr2dpi_has_spectra(scene) ||
+         hr2dpi_has_daylight(scene);
 }
 
 int job_solve_whole(job *j) {

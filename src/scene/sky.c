@@ -121,6 +121,10 @@ double hr2d_scene_sky(const hr2d_scene *scene, double bearing, size_t band) {
   return seen_at(scene, piece_at(&scene->sky, bearing), band);
 }
 
+size_t hr2d_scene_sky_pieces(const hr2d_scene *scene) {
+  return scene->sky.pieces;
+}
+
 double hr2di_sky_jump(const hr2d_scene *scene, double bearing, const double *most) {
   const size_t before = piece_at(&scene->sky, bearing - 2 * ROUND),
                after = piece_at(&scene->sky, bearing + 2 * ROUND);

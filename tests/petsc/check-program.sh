@@ -89,6 +89,16 @@ cat >"$work/row.geojson" <<'END'
 {"type": "Feature", "properties": {"reflectance": 0.3, "sides": "both"},
  "geometry": {"type": "LineString", "coordinates": [[0.4, 0.7], [1.4, 1.3]]}}]}
 END
+# Light that depends on its direction.
+cat >"$work/daylight.geojson" <<'END'
+{"type": "FeatureCollection", "hr2d": {"background": 0.5, "sky": [[-60, 20, 2]],
+ "sun": {"direction": [0.3, -1], "irradiance": 3}}, "features": [
+{"type": "Feature", "properties": {"reflectance": 0.2},
+ "geometry": {"type": "LineString", "coordinates": [[0, 0], [3, 0]]}},
+{"type": "Feature", "properties": {"reflectance": 0.3, "sides": "both"},
+ "geometry": {"type": "LineString", "coordinates": [[0.5, 0.5], [1.5, 1]]}}]}
+END
+whole "sun and sky of order 1" "$work/daylight.geojson" --eps 0.2 --no-error
 for symmetric in half row; do
   whole "$symmetric to 1e-3" "$work/$symmetric.geojson" --target-error 1e-3
   whole "$symmetric of order 1" "$work/$symmetric.geojson" --eps 0.2 --no-error

@@ -257,6 +257,25 @@ static PetscErrorCode refuse_spectra(int *failed) {
   PetscFunctionReturn(0);
 }
 
+/* Nor has it light that depends on its direction: a sun if `k` is 0, a piece of the sky if 1.
+ */
+static PetscErrorCode refuse_daylight(int k, int *failed) {
+  PetscFunctionBegin;
+  static const hr2d_sun sun = {{0, -1}, 1};
+  static const hr2d_sky_piece piece = {0, 90};
+  static const double one = 1;
+  hr2d_scene *scene = NULL;
+  hr2d_patch patch = HR2D_PATCH_INIT;
+  patch.b.x = 1;
+  PetscCheck(!hr2d_scene_create(NULL, &scene) &&
+                 !(k ? hr2d_scene_set_sky(scene, &piece, 1, &one, 1)
+                     : hr2d_scene_set_sun(scene, &sun, 1)) &&
+                 !hr2d_scene_add(scene, &patch, NULL),
+             PETSC_COMM_SELF, PETSC_ERR_LIB, "no scene");
+  PetscCall(refuse(scene, failed));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv) {
   int failed = 0;
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
@@ -268,6 +287,7 @@ int main(int argc, char **argv) {
     hr2d_scene_destroy(scene);
   }
   PetscCall(refuse_spectra(&failed));
+  for (int k = 0; k < 2; k++) PetscCall(refuse_daylight(k, &failed));
   PetscCallMPI(MPI_Bcast(&failed, 1, MPI_INT, 0, PETSC_COMM_WORLD));
   PetscCall(PetscFinalize());
   return failed;

@@ -344,6 +344,7 @@ START_TEST(what_is_no_sky_is_refused) {
   ck_assert_int_eq(hr2d_scene_set_sky(scene, four, 2, wrong, 1), HR2D_ESCENE);
   ck_assert_int_eq(hr2d_scene_set_sky(scene, NULL, 2, good, 1), HR2D_EINVAL);
   ck_assert_int_eq(hr2d_scene_set_sky(scene, four, 2, good, 1), HR2D_OK);
+  ck_assert_uint_gt(hr2d_scene_sky_pieces(scene), 1);
   ck_assert_double_eq(hr2d_scene_sky(scene, -90, 0), 1);
   ck_assert_double_eq(hr2d_scene_sky(scene, 310, 0), 2);
   ck_assert_double_eq(hr2d_scene_sky(scene, 10, 0), 0);
