@@ -6,7 +6,8 @@
    share, of the time T of all.  Two idle processors would take T − P/2, if tasks are shared out
    evenly: that is what is compared with the time of one thread.  Medians of several rounds.
 
-   bench-threads [--long]: with --long also scenes of thousands of patches, once. */
+   bench-threads [--long] [NAME]: with --long also scenes of thousands of patches, once; with
+   NAME only those whose names begin like that. */
 #include <hr2d/hr2d.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -60,8 +61,9 @@ static void solve(const solve_task *t, unsigned threads, double *cpu, double *pa
   hr2d_scene_destroy(scene);
 }
 
-static void measure(const solve_task *t, int rounds) {
+static void measure(const solve_task *t, int rounds, const char *name) {
   double one[ROUNDS], two[ROUNDS], ideal[ROUNDS], part[ROUNDS], wall[2][ROUNDS], none;
+  if (strncmp(t->name, name, strlen(name)) != 0) return;
   for (int r = 0; r < rounds; r++) {
     solve(t, 1, &one[r], &none, &wall[0][r]);
     solve(t, 2, &two[r], &part[r], &wall[1][r]);
@@ -78,10 +80,12 @@ static void measure(const solve_task *t, int rounds) {
 
 int main(int argc, char **argv) {
   const int all = argc > 1 && strcmp(argv[1], "--long") == 0;
+  const char *name = argc > 1 + all ? argv[1 + all] : "";
   printf("%-16s%8s%9s%9s%8s%8s%8s%6s\n", "seconds", "error", "one", "two", "shared", "wall",
          "idle", "bar");
   for (size_t k = 0; k < sizeof short_tasks / sizeof *short_tasks; k++)
-    measure(&short_tasks[k], ROUNDS);
-  for (size_t k = 0; k < long_solve_task_count && all; k++) measure(&long_solve_tasks[k], 1);
+    measure(&short_tasks[k], ROUNDS, name);
+  for (size_t k = 0; k < long_solve_task_count && all; k++)
+    measure(&long_solve_tasks[k], 1, name);
   return EXIT_SUCCESS;
 }

@@ -21,7 +21,7 @@ threaded="tests/threads/check-threads tests/unit/refine/check-refine \
 tests/unit/refine/check-rows tests/unit/solve/check-slices \
 tests/unit/solve/check-order tests/unit/solve/check-solve \
 tests/unit/visibility/check-exchange-matrix tests/unit/visibility/check-exchange-rows \
-tests/unit/visibility/check-seen-backs \
+tests/unit/visibility/check-seen-backs tests/unit/clusters/check-clusters \
 tests/unit/blocks/check-blocks"
 
 # build SETTING CONFIGURE-ARGUMENT...

@@ -49,11 +49,12 @@ hr2d_status hr2di_cluster_residuals(hr2di_estimator *e, hr2di_clusters *coarser,
   hr2d_status status = hr2di_share_agree(share, field ? HR2D_OK : HR2D_ENOMEM);
   if (!status) {
     set_fields(e, field);
-    status = hr2di_clusters_gather(coarser, 1, planes, field, field + size, share, t->watch);
+    status = hr2di_clusters_gather(coarser, 1, planes, field, field + size, share, t->threads,
+                                   t->watch);
   }
   if (!status)
     status = hr2di_clusters_gather(t->links->roots.clusters, 1, planes, field, field + 2 * size,
-                                   share, t->watch);
+                                   share, t->threads, t->watch);
   if (!status) *part = worst(e, field + size, field + 2 * size);
   hr2di_alloc_free(&t->alloc, field);
   return status;

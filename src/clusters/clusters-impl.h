@@ -8,6 +8,9 @@
 
 #define HR2DI_NO_CLUSTER UINT32_MAX
 
+/* Of a cluster, at most. */
+enum { HR2DI_CLUSTER_POINTS = HR2DI_EXPANSION_POINTS * HR2DI_EXPANSION_POINTS };
+
 typedef struct hr2di_linked {
   hr2di_expansion far;
   uint32_t parent; /* the least that holds it, before it; or HR2DI_NO_CLUSTER */

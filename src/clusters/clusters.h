@@ -37,11 +37,12 @@ uint64_t hr2di_clusters_bytes(const hr2di_clusters *clusters);
 /* power += K radiosity over the cluster links.  Both are patches × order × bands, with an
    order of 1 to HR2D_MAX_ORDER: coefficient l of a patch is that of φ_l(ξ) = √(2l+1) P_l(ξ),
    ξ from −1 at its start to 1 at its end; radiosity_k = (1/A)∫ B φ_k, power_k = ∫∫ G B φ_k
-   dy dx in scaled lengths.  Self-adjoint but for rounding.  The same bits every time.
+   dy dx in scaled lengths.  Self-adjoint but for rounding.  The same bits every time, on any
+   number of threads, which are as in options.
    Of several shares all call it; each does a part, and all get the sum.  HR2D_OK, HR2D_ENOMEM
    or the status of the watch or of another share. */
 hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, size_t order, size_t bands,
                                   const double *radiosity, double *power, hr2d_share *share,
-                                  hr2di_watch *watch);
+                                  unsigned threads, hr2di_watch *watch);
 
 #endif

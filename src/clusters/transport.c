@@ -1,25 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* K over cluster links: patches to points, points to points of the clusters around, across
-   the links, and back the same way.
+   the links, and back the same way, so that the whole is symmetric.
 
-   Interpolation at Chebyshev points is f ≈ Σ_n c_n T_n, c_n = (1 or 2)/q Σ_k T_n(t_k) f(t_k).
-   Applied to what is sent, strengths s at places t become moments Σ s T_n(t), and these
-   strengths at the points; applied to what is received it is its transpose, so that the
-   whole is symmetric.
+   Threads share out the patches of each way, the clusters of each level of the trees, and the
+   links.  Each number is made by one of them, in the order of patches and of clusters.  Links
+   are in slices, whose sums are added in their order; how many there are depends on the links
+   alone.
 
    Of several shares each has some of the clusters: their patches, and all that they receive. So
    each number is made by one share, in one order, which is not that of both ways at once. */
-#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/legendre.h"
-#include "base/ordered-dot.h"
-#include "base/wide.h"
+#include "base/team.h"
 #include "clusters/clusters-impl.h"
+#include "clusters/interpolation.h"
+#include "clusters/point-exchange.h"
 #include "scene/scene-impl.h"
 
-enum { MOST_POINTS = HR2DI_EXPANSION_POINTS * HR2DI_EXPANSION_POINTS };
+/* Slices at most, and for each point of all clusters the exchanges of a slice at least, whose
+   sums are added up; patches of a task, and those that are worth another thread; and threads at
+   most. */
+enum { MOST_SLICES = 8, SLICE_WORTH = 8, TASK = 64, WORTH = 1000, MOST_THREADS = 16 };
+
+/* What a thread has to itself. */
+typedef struct worker {
+  hr2di_watch *watch, own; /* the calling thread has another than its own */
+  double *vector;          /* one value per plane */
+  hr2di_rule *rule;        /* for each number of points; 0 points: not made yet */
+} worker;
 
 /* Of each cluster 2·bands planes, each with a value per point: x components, then y. */
 typedef struct gather {
@@ -27,97 +37,28 @@ typedef struct gather {
   size_t order, bands, planes;
   hr2d_share *share; /* NULL: there is but one */
   double *sent, *received;
-  hr2di_watch *watch;
-  double *vector; /* one value per plane */
+  size_t slices;
+  double *slice; /* what slices but the first receive */
+  const double *radiosity;
+  double *power;
+  hr2di_watch *watch; /* of the calling thread */
   hr2di_basis basis;
-  hr2di_rule *rule; /* for each number of points; 0 points: not made yet */
+  worker worker[MOST_THREADS];
+  size_t workers;
+  uint32_t *level; /* clusters by level, those above first */
+  uint32_t *begin; /* where each level begins, and the end */
+  size_t levels;
+  uint32_t *child,
+      *next; /* per cluster: its last child, and the child of its parent before it */
+  size_t at; /* the level under way */
 } gather;
 
 static double *planes_of(const gather *g, double *field, const hr2di_linked *c) {
   return field + c->first * g->planes;
 }
 
-/* T_n at a place along both directions. */
-typedef struct place {
-  double t[2][HR2DI_EXPANSION_POINTS];
-} place;
-
-static void place_in(const hr2di_expansion *f, hr2d_point p, place *at) {
-  const double along[] = {f->u.x * p.x + f->u.y * p.y, f->u.x * p.y - f->u.y * p.x};
-  const unsigned count = f->count[0] > f->count[1] ? f->count[0] : f->count[1];
-  double t[2];
-  for (int k = 0; k < 2; k++) {
-    t[k] = f->half[k] > 0 ? (along[k] - f->at[k]) / f->half[k] : 0;
-    at->t[k][0] = 1;
-    at->t[k][1] = t[k];
-  }
-  /* Each value waits for the one before: both directions at a time take no longer than one. */
-  for (unsigned n = 2; n < count; n++) {
-    at->t[0][n] = 2 * t[0] * at->t[0][n - 1] - at->t[0][n - 2];
-    at->t[1][n] = 2 * t[1] * at->t[1][n - 1] - at->t[1][n - 2];
-  }
-}
-
-/* Adds g->vector, sent from a place, to the moments of a cluster. */
-static void send(const gather *g, const hr2di_linked *c, hr2d_point p) {
-  const hr2di_expansion *f = &c->far;
-  place at;
-  place_in(f, p, &at);
-  double *moment = planes_of(g, g->sent, c);
-  for (size_t k = 0; k < g->planes; k++)
-    for (unsigned m = 0; m < f->count[1]; m++) {
-      const double s = g->vector[k] * at.t[1][m];
-      for (unsigned n = 0; n < f->count[0]; n++) *moment++ += s * at.t[0][n];
-    }
-}
-
-/* Sets g->vector to what is received at a place. */
-static void receive(const gather *g, const hr2di_linked *c, hr2d_point p) {
-  const hr2di_expansion *f = &c->far;
-  place at;
-  place_in(f, p, &at);
-  const double *coefficient = planes_of(g, g->received, c);
-  for (size_t k = 0; k < g->planes; k++) {
-    double sum = 0;
-    for (unsigned m = 0; m < f->count[1]; m++) {
-      double row = 0;
-      for (unsigned n = 0; n < f->count[0]; n++) row += *coefficient++ * at.t[0][n];
-      sum += row * at.t[1][m];
-    }
-    g->vector[k] = sum;
-  }
-}
-
-/* out_a = Σ_b matrix(a,b) in_b along one direction of a plane, where the matrix is
-   (1 or 2)/q T, or its transpose. */
-static void turn(const hr2di_clusters *c, const hr2di_expansion *f, int along, int transposed,
-                 const double *in, double *out) {
-  const unsigned count = f->count[along], others = f->count[1 - along];
-  const size_t step = along ? f->count[0] : 1, next = along ? 1 : f->count[0];
-  const double *t = hr2di_clusters_cosines(c, count);
-  for (unsigned o = 0; o < others; o++, in += next, out += next)
-    for (unsigned a = 0; a < count; a++) {
-      double sum = 0;
-      for (unsigned b = 0; b < count; b++) {
-        const unsigned n = transposed ? b : a, k = transposed ? a : b;
-        sum += (n > 0 ? 2 : 1) * t[n * count + k] * in[b * step];
-      }
-      out[a * step] = sum / count;
-    }
-}
-
-static void turn_planes(const gather *g, double *field, const hr2di_linked *c, int transposed) {
-  double between[MOST_POINTS];
-  const size_t points = hr2di_expansion_points(&c->far);
-  double *plane = planes_of(g, field, c);
-  for (size_t k = 0; k < g->planes; k++, plane += points) {
-    turn(g->c, &c->far, 0, transposed, plane, between);
-    turn(g->c, &c->far, 1, transposed, between, plane);
-  }
-}
-
-static const hr2di_rule *rule_of(const gather *g, size_t points) {
-  hr2di_rule *rule = &g->rule[points];
+static const hr2di_rule *rule_of(const worker *w, size_t points) {
+  hr2di_rule *rule = &w->rule[points];
   if (rule->points == 0) hr2di_rule_init(rule, points);
   return rule;
 }
@@ -128,127 +69,65 @@ static hr2d_point point_of(hr2d_segment s, double xi) {
 }
 
 /* B n ds at the Gauss points of a patch; n ds = (−dy, dx)·weight. */
-static void send_patch(const gather *g, size_t patch, const double *radiosity) {
+static void send_patch(const gather *g, const worker *w, size_t patch) {
   const hr2di_linked *c = &g->c->linked[g->c->home[patch]];
   const hr2di_patch *p = &g->c->scene->patch[patch];
   const hr2d_segment s = p->scaled;
+  const double *radiosity = g->radiosity + patch * g->order * g->bands;
   const hr2di_rule *rule =
-      rule_of(g, hr2di_expansion_gauss(&c->far, p->length, g->order, g->c->accuracy));
+      rule_of(w, hr2di_expansion_gauss(&c->far, p->length, g->order, g->c->accuracy));
   for (size_t k = 0; k < rule->points; k++) {
     for (size_t band = 0; band < g->bands; band++) {
       const double b =
           rule->weight[k] * hr2di_basis_sum(&g->basis, rule->at[k], radiosity + band, g->bands);
-      g->vector[band] = b * (s.a.y - s.b.y);
-      g->vector[g->bands + band] = b * (s.b.x - s.a.x);
+      w->vector[band] = b * (s.a.y - s.b.y);
+      w->vector[g->bands + band] = b * (s.b.x - s.a.x);
     }
-    send(g, c, point_of(s, rule->at[k]));
+    hr2di_interpolation_send(&c->far, point_of(s, rule->at[k]), g->planes, w->vector,
+                             planes_of(g, g->sent, c));
   }
 }
 
-static void receive_patch(const gather *g, size_t patch, double *power) {
+static void receive_patch(const gather *g, const worker *w, size_t patch) {
   const hr2di_linked *c = &g->c->linked[g->c->home[patch]];
   const hr2di_patch *p = &g->c->scene->patch[patch];
   const hr2d_segment s = p->scaled;
+  double *power = g->power + patch * g->order * g->bands;
   const hr2di_rule *rule =
-      rule_of(g, hr2di_expansion_gauss(&c->far, p->length, g->order, g->c->accuracy));
+      rule_of(w, hr2di_expansion_gauss(&c->far, p->length, g->order, g->c->accuracy));
   double phi[HR2D_MAX_ORDER];
   for (size_t k = 0; k < rule->points; k++) {
-    receive(g, c, point_of(s, rule->at[k]));
+    hr2di_interpolation_receive(&c->far, point_of(s, rule->at[k]), g->planes,
+                                planes_of(g, g->received, c), w->vector);
     hr2di_basis_at(&g->basis, rule->at[k], phi);
     for (size_t band = 0; band < g->bands; band++) {
-      const double h = rule->weight[k] * (g->vector[band] * (s.a.y - s.b.y) +
-                                          g->vector[g->bands + band] * (s.b.x - s.a.x));
+      const double h = rule->weight[k] * (w->vector[band] * (s.a.y - s.b.y) +
+                                          w->vector[g->bands + band] * (s.b.x - s.a.x));
       for (size_t l = 0; l < g->order; l++) power[l * g->bands + band] += h * phi[l];
     }
   }
 }
 
 /* From the points of a cluster to the one above it, as if they were patches. */
-static void send_up(const gather *g, const hr2di_linked *c) {
+static void send_up(const gather *g, const worker *w, const hr2di_linked *c) {
   const hr2di_linked *parent = &g->c->linked[c->parent];
   const size_t points = hr2di_expansion_points(&c->far);
   const double *plane = planes_of(g, g->sent, c);
   for (size_t k = 0; k < points; k++) {
-    for (size_t m = 0; m < g->planes; m++) g->vector[m] = plane[m * points + k];
-    send(g, parent, g->c->point[c->first + k]);
+    for (size_t m = 0; m < g->planes; m++) w->vector[m] = plane[m * points + k];
+    hr2di_interpolation_send(&parent->far, g->c->point[c->first + k], g->planes, w->vector,
+                             planes_of(g, g->sent, parent));
   }
 }
 
-static void receive_down(const gather *g, const hr2di_linked *c) {
+static void receive_down(const gather *g, const worker *w, const hr2di_linked *c) {
   const hr2di_linked *parent = &g->c->linked[c->parent];
   const size_t points = hr2di_expansion_points(&c->far);
   double *plane = planes_of(g, g->received, c);
   for (size_t k = 0; k < points; k++) {
-    receive(g, parent, g->c->point[c->first + k]);
-    for (size_t m = 0; m < g->planes; m++) plane[m * points + k] += g->vector[m];
-  }
-}
-
-/* T between a point and all points of a cluster: xx, xy, yy. */
-typedef struct row {
-  double xx[MOST_POINTS], xy[MOST_POINTS], yy[MOST_POINTS];
-} row;
-
-HR2DI_PART void fill_row_loop(row *restrict t, hr2d_point x, const hr2d_point *restrict y,
-                              size_t count) {
-  for (size_t k = 0; k < count; k++) {
-    const double dx = y[k].x - x.x, dy = y[k].y - x.y;
-    const double square = dx * dx + dy * dy, s = -0.5 / (square * sqrt(square));
-    t->xx[k] = s * dx * dx;
-    t->xy[k] = s * dx * dy;
-    t->yy[k] = s * dy * dy;
-  }
-}
-HR2DI_WIDE(fill_row,
-           (row *restrict t, hr2d_point x, const hr2d_point *restrict y, size_t count),
-           (t, x, y, count))
-
-/* One band of a row, both ways.  Sums are four side by side. */
-HR2DI_PART void exchange_row_loop(const row *restrict t, size_t count, const double sent[2],
-                                  const double *restrict sent_x, const double *restrict sent_y,
-                                  double received[2], double *restrict received_x,
-                                  double *restrict received_y) {
-  double x[4] = {0}, y[4] = {0};
-  size_t k = 0;
-  for (; k + 4 <= count; k += 4)
-    for (size_t l = 0; l < 4; l++) {
-      received_x[k + l] += t->xx[k + l] * sent[0] + t->xy[k + l] * sent[1];
-      received_y[k + l] += t->xy[k + l] * sent[0] + t->yy[k + l] * sent[1];
-      x[l] += t->xx[k + l] * sent_x[k + l] + t->xy[k + l] * sent_y[k + l];
-      y[l] += t->xy[k + l] * sent_x[k + l] + t->yy[k + l] * sent_y[k + l];
-    }
-  for (; k < count; k++) {
-    received_x[k] += t->xx[k] * sent[0] + t->xy[k] * sent[1];
-    received_y[k] += t->xy[k] * sent[0] + t->yy[k] * sent[1];
-    x[0] += t->xx[k] * sent_x[k] + t->xy[k] * sent_y[k];
-    y[0] += t->xy[k] * sent_x[k] + t->yy[k] * sent_y[k];
-  }
-  received[0] += hr2di_dot_four(x[0], x[1], x[2], x[3]);
-  received[1] += hr2di_dot_four(y[0], y[1], y[2], y[3]);
-}
-HR2DI_WIDE(exchange_row,
-           (const row *restrict t, size_t count, const double sent[2],
-            const double *restrict sent_x, const double *restrict sent_y, double received[2],
-            double *restrict received_x, double *restrict received_y),
-           (t, count, sent, sent_x, sent_y, received, received_x, received_y))
-
-static void exchange(const gather *g, const hr2di_linked *i, const hr2di_linked *j) {
-  const size_t m = hr2di_expansion_points(&i->far), n = hr2di_expansion_points(&j->far);
-  double *sent_i = planes_of(g, g->sent, i), *sent_j = planes_of(g, g->sent, j);
-  double *received_i = planes_of(g, g->received, i), *received_j = planes_of(g, g->received, j);
-  row t;
-  for (size_t k = 0; k < m; k++) {
-    if (hr2di_watch_work(g->watch, 1 + n * (1 + g->bands) / 16)) return;
-    fill_row(&t, g->c->point[i->first + k], g->c->point + j->first, n);
-    for (size_t band = 0; band < g->bands; band++) {
-      const size_t x = band, y = g->bands + band;
-      const double sent[] = {sent_i[x * m + k], sent_i[y * m + k]};
-      double received[2] = {0, 0};
-      exchange_row(&t, n, sent, sent_j + x * n, sent_j + y * n, received, received_j + x * n,
-                   received_j + y * n);
-      received_i[x * m + k] += received[0];
-      received_i[y * m + k] += received[1];
-    }
+    hr2di_interpolation_receive(&parent->far, g->c->point[c->first + k], g->planes,
+                                planes_of(g, g->received, parent), w->vector);
+    for (size_t m = 0; m < g->planes; m++) plane[m * points + k] += w->vector[m];
   }
 }
 
@@ -262,47 +141,103 @@ static int has_patch(const gather *g, size_t patch) {
   return home != HR2DI_NO_CLUSTER && is_own(g, home);
 }
 
-/* What the first of two clusters receives. */
-static void receive_one_way(const gather *g, const hr2di_linked *i, const hr2di_linked *j) {
-  const size_t m = hr2di_expansion_points(&i->far), n = hr2di_expansion_points(&j->far);
-  const double *sent = planes_of(g, g->sent, j);
-  double *received = planes_of(g, g->received, i);
-  row t;
-  for (size_t k = 0; k < m; k++) {
-    if (hr2di_watch_work(g->watch, 1 + n * (1 + g->bands) / 32)) return;
-    fill_row(&t, g->c->point[i->first + k], g->c->point + j->first, n);
-    for (size_t band = 0; band < g->bands; band++) {
-      const double *sent_x = sent + band * n, *sent_y = sent + (g->bands + band) * n;
-      double x = 0, y = 0;
-      for (size_t q = 0; q < n; q++) {
-        x += t.xx[q] * sent_x[q] + t.xy[q] * sent_y[q];
-        y += t.xy[q] * sent_x[q] + t.yy[q] * sent_y[q];
-      }
-      received[band * m + k] += x;
-      received[(g->bands + band) * m + k] += y;
-    }
-  }
-}
-
-static void exchange_own(const gather *g, const hr2di_cluster_link *link) {
-  const hr2di_linked *i = &g->c->linked[link->first], *j = &g->c->linked[link->second];
-  if (!g->share) {
-    exchange(g, i, j);
-    return;
-  }
-  if (is_own(g, link->first)) receive_one_way(g, i, j);
-  if (is_own(g, link->second)) receive_one_way(g, j, i);
-}
-
 /* The points of a cluster, and what they cost on the way up or down. */
-static hr2d_status declare(const gather *g, const hr2di_linked *c) {
+static hr2d_status declare(const gather *g, const worker *w, const hr2di_linked *c) {
   const size_t points = hr2di_expansion_points(&c->far);
-  return hr2di_watch_work(g->watch, 1 + points * points * g->planes / 64);
+  return hr2di_watch_work(w->watch, 1 + points * points * g->planes / 64);
 }
 
-static hr2d_status declare_patch(const gather *g, size_t patch) {
+static hr2d_status declare_patch(const gather *g, const worker *w, size_t patch) {
   const size_t points = hr2di_expansion_points(&g->c->linked[g->c->home[patch]].far);
-  return hr2di_watch_work(g->watch, 4 + g->order * points * g->planes / 16);
+  return hr2di_watch_work(w->watch, 4 + g->order * points * g->planes / 16);
+}
+
+/* Patches whose clusters are of one part: so the sums of a cluster have their order. */
+static void send_part(void *ctx, size_t number, size_t part) {
+  const gather *g = ctx;
+  const worker *w = &g->worker[number];
+  for (size_t k = 0; k < g->c->scene->patches; k++) {
+    if (k % 1024 == 0 && hr2di_watch_work(w->watch, 16)) return;
+    if (!has_patch(g, k) || g->c->home[k] % g->workers != part) continue;
+    if (declare_patch(g, w, k)) return;
+    send_patch(g, w, k);
+  }
+}
+
+static void receive_some(void *ctx, size_t number, size_t task) {
+  const gather *g = ctx;
+  const worker *w = &g->worker[number];
+  const size_t from = task * TASK, left = g->c->scene->patches - from;
+  for (size_t k = from; k < from + (left < TASK ? left : TASK); k++) {
+    if (!has_patch(g, k)) continue;
+    if (declare_patch(g, w, k)) return;
+    receive_patch(g, w, k);
+  }
+}
+
+/* A cluster takes what its children send, the last one first, before it is turned. */
+static void go_up(void *ctx, size_t number, size_t task) {
+  const gather *g = ctx;
+  const worker *w = &g->worker[number];
+  const uint32_t cluster = g->level[g->begin[g->at] + task];
+  const hr2di_linked *c = &g->c->linked[cluster];
+  for (uint32_t k = g->child[cluster]; k != HR2DI_NO_CLUSTER; k = g->next[k]) {
+    if (declare(g, w, &g->c->linked[k])) return;
+    send_up(g, w, &g->c->linked[k]);
+  }
+  if (declare(g, w, c)) return;
+  hr2di_interpolation_turn(g->c, &c->far, g->planes, 1, planes_of(g, g->sent, c));
+}
+
+static void go_down(void *ctx, size_t number, size_t task) {
+  const gather *g = ctx;
+  const worker *w = &g->worker[number];
+  const hr2di_linked *c = &g->c->linked[g->level[g->begin[g->at] + task]];
+  if (declare(g, w, c)) return;
+  if (c->parent != HR2DI_NO_CLUSTER) receive_down(g, w, c);
+  hr2di_interpolation_turn(g->c, &c->far, g->planes, 0, planes_of(g, g->received, c));
+}
+
+static hr2di_points points_of(const gather *g, uint32_t cluster, double *received) {
+  const hr2di_linked *c = &g->c->linked[cluster];
+  return (hr2di_points){.point = g->c->point + c->first,
+                        .count = hr2di_expansion_points(&c->far),
+                        .sent = planes_of(g, g->sent, c),
+                        .received = planes_of(g, received, c)};
+}
+
+static void exchange_slice(void *ctx, size_t number, size_t slice) {
+  const gather *g = ctx;
+  hr2di_watch *watch = g->worker[number].watch;
+  const size_t field = g->c->points * g->planes, links = g->c->links;
+  double *received = slice == 0 ? g->received : g->slice + (slice - 1) * field;
+  const size_t from = slice * links / g->slices, to = (slice + 1) * links / g->slices;
+  for (size_t k = from; k < to && !hr2di_watch_status(watch); k++) {
+    const hr2di_cluster_link *link = &g->c->link[k];
+    const hr2di_points i = points_of(g, link->first, received),
+                       j = points_of(g, link->second, received);
+    if (!g->share) {
+      hr2di_points_exchange(&i, &j, g->bands, watch);
+      continue;
+    }
+    if (is_own(g, link->first)) hr2di_points_receive(&i, &j, g->bands, watch);
+    if (is_own(g, link->second)) hr2di_points_receive(&j, &i, g->bands, watch);
+  }
+}
+
+static void sum_slices(const gather *g) {
+  const size_t field = g->c->points * g->planes;
+  const double *from = g->slice;
+  for (size_t s = 1; s < g->slices; s++, from += field) {
+    for (size_t k = 0; k < field; k++) g->received[k] += from[k];
+    if (hr2di_watch_work(g->watch, field / 64)) return;
+  }
+}
+
+/* Does tasks with all workers; the status of the watch. */
+static hr2d_status work(gather *g, size_t tasks, hr2di_team_fn run) {
+  hr2di_team_run(g->workers, tasks, run, g, g->watch);
+  return hr2di_watch_status(g->watch);
 }
 
 /* Puts the points of all shares together. */
@@ -311,71 +246,126 @@ static hr2d_status combine(const gather *g, hr2d_status status, double *field) {
                              g->c->points * g->planes);
 }
 
-static hr2d_status run(const gather *g, const double *radiosity, double *power) {
-  const hr2di_clusters *c = g->c;
-  const size_t stride = g->order * g->bands, patches = c->scene->patches;
-  hr2d_status status = HR2D_OK;
-  for (size_t k = 0; k < patches && !status; k++) {
-    if (!has_patch(g, k)) continue;
-    status = declare_patch(g, k);
-    send_patch(g, k, radiosity + k * stride);
-  }
-  status = combine(g, status, g->sent);
-  for (size_t k = c->linked_count; k-- > 0 && !status;) {
-    status = declare(g, &c->linked[k]);
-    turn_planes(g, g->sent, &c->linked[k], 1);
-    if (c->linked[k].parent != HR2DI_NO_CLUSTER) send_up(g, &c->linked[k]);
-  }
-  for (size_t k = 0; k < c->links && !hr2di_watch_status(g->watch); k++)
-    exchange_own(g, &c->link[k]);
-  if (!status) status = combine(g, hr2di_watch_status(g->watch), g->received);
-  for (size_t k = 0; k < c->linked_count && !status; k++) {
-    status = declare(g, &c->linked[k]);
-    if (c->linked[k].parent != HR2DI_NO_CLUSTER) receive_down(g, &c->linked[k]);
-    turn_planes(g, g->received, &c->linked[k], 0);
-  }
-  for (size_t k = 0; k < patches && !status; k++) {
-    if (!has_patch(g, k)) continue;
-    status = declare_patch(g, k);
-    receive_patch(g, k, power + k * stride);
-  }
-  return status;
+static hr2d_status run(gather *g) {
+  hr2d_status status = combine(g, work(g, g->workers, send_part), g->sent);
+  for (g->at = g->levels; g->at-- > 0 && !status;)
+    status = work(g, g->begin[g->at + 1] - g->begin[g->at], go_up);
+  if (!status) status = work(g, g->slices, exchange_slice);
+  if (!status) sum_slices(g);
+  status = status ? status : combine(g, hr2di_watch_status(g->watch), g->received);
+  for (g->at = 0; g->at < g->levels && !status; g->at++)
+    status = work(g, g->begin[g->at + 1] - g->begin[g->at], go_down);
+  return status ? status : work(g, (g->c->scene->patches + TASK - 1) / TASK, receive_some);
 }
 
 /* Adds up what patches of all shares receive before it is added to `power`. */
-static hr2d_status run_shared(const gather *g, const double *radiosity, double *power) {
+static hr2d_status run_shared(gather *g) {
   const hr2d_allocator *alloc = &g->c->alloc;
   const size_t values = g->c->scene->patches * g->order * g->bands;
-  double *sum = hr2di_alloc_zero(alloc, values, sizeof *sum);
-  hr2d_status status = sum ? run(g, radiosity, sum) : HR2D_ENOMEM;
+  double *sum = hr2di_alloc_zero(alloc, values, sizeof *sum), *power = g->power;
+  g->power = sum;
+  hr2d_status status = sum ? run(g) : HR2D_ENOMEM;
   status = hr2di_share_combine(g->share, status, HR2D_COMBINE_SUM, sum, values);
   for (size_t k = 0; k < values && !status; k++) power[k] += sum[k];
   hr2di_alloc_free(alloc, sum);
   return status;
 }
 
+/* Clusters by level, and the children of each.  Parents are before their children. */
+static hr2d_status find_levels(gather *g) {
+  const hr2di_clusters *c = g->c;
+  const size_t n = c->linked_count;
+  uint32_t *depth = hr2di_alloc(&c->alloc, 4 * n + 2, sizeof *depth);
+  g->begin = hr2di_alloc_zero(&c->alloc, n + 2, sizeof *g->begin);
+  g->level = depth;
+  if (!depth || !g->begin) return HR2D_ENOMEM;
+  g->child = depth + n;
+  g->next = depth + 2 * n;
+  depth += 3 * n;
+  for (uint32_t k = 0; k < n; k++) {
+    const uint32_t parent = c->linked[k].parent;
+    g->child[k] = g->next[k] = HR2DI_NO_CLUSTER;
+    depth[k] = parent == HR2DI_NO_CLUSTER ? 0 : depth[parent] + 1;
+    if (depth[k] >= g->levels) g->levels = depth[k] + 1;
+    g->begin[depth[k] + 2]++;
+    if (parent == HR2DI_NO_CLUSTER) continue;
+    g->next[k] = g->child[parent];
+    g->child[parent] = k;
+  }
+  for (size_t l = 1; l <= g->levels; l++) g->begin[l + 1] += g->begin[l];
+  for (uint32_t k = 0; k < n; k++) g->level[g->begin[depth[k] + 1]++] = k;
+  return hr2di_watch_work(g->watch, n / 8);
+}
+
+static hr2d_status hire(gather *g, unsigned threads) {
+  const hr2d_allocator *alloc = &g->c->alloc;
+  const size_t asked = hr2di_team_threads(threads), most = g->c->scene->patches / WORTH + 1;
+  size_t count = asked < MOST_THREADS ? asked : MOST_THREADS;
+  if (count > most) count = most;
+  for (; g->workers < count; g->workers++) {
+    worker *w = &g->worker[g->workers];
+    hr2di_watch_follow(&w->own, g->watch);
+    w->watch = g->workers > 0 ? &w->own : g->watch;
+    w->vector = hr2di_alloc(alloc, g->planes, sizeof *w->vector);
+    w->rule = hr2di_alloc_zero(alloc, HR2DI_RULE_POINTS + 1, sizeof *w->rule);
+    if (!w->vector || !w->rule) break;
+  }
+  return g->workers == count ? HR2D_OK : HR2D_ENOMEM;
+}
+
+/* Depends on the links alone, as the order of sums does. */
+static size_t count_slices(const gather *g) {
+  const hr2di_clusters *c = g->c;
+  uint64_t exchanges = 0;
+  if (g->share) return 1;
+  for (size_t k = 0; k < c->links; k++)
+    exchanges += hr2di_expansion_points(&c->linked[c->link[k].first].far) *
+                 hr2di_expansion_points(&c->linked[c->link[k].second].far);
+  const uint64_t slices = 1 + exchanges / (SLICE_WORTH * (uint64_t)c->points);
+  return slices < MOST_SLICES ? (size_t)slices : MOST_SLICES;
+}
+
+static hr2d_status reserve(gather *g, unsigned threads) {
+  const hr2d_allocator *alloc = &g->c->alloc;
+  const size_t points = g->c->points, plane = g->planes * sizeof *g->sent;
+  g->slices = count_slices(g);
+  g->sent = hr2di_alloc_zero(alloc, points, plane);
+  g->received = hr2di_alloc_zero(alloc, points, plane);
+  if (g->slices > 1) g->slice = hr2di_alloc_zero(alloc, points * (g->slices - 1), plane);
+  hr2di_basis_init(&g->basis, g->order);
+  if (!g->sent || !g->received || (g->slices > 1 && !g->slice)) return HR2D_ENOMEM;
+  const hr2d_status status = hire(g, threads);
+  return status ? status : find_levels(g);
+}
+
+static void release(gather *g) {
+  const hr2d_allocator *alloc = &g->c->alloc;
+  for (size_t k = 0; k < MOST_THREADS; k++) {
+    hr2di_alloc_free(alloc, g->worker[k].vector);
+    hr2di_alloc_free(alloc, g->worker[k].rule);
+  }
+  hr2di_alloc_free(alloc, g->sent);
+  hr2di_alloc_free(alloc, g->received);
+  hr2di_alloc_free(alloc, g->slice);
+  hr2di_alloc_free(alloc, g->level);
+  hr2di_alloc_free(alloc, g->begin);
+}
+
 hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, size_t order, size_t bands,
                                   const double *radiosity, double *power, hr2d_share *share,
-                                  hr2di_watch *watch) {
+                                  unsigned threads, hr2di_watch *watch) {
   if (clusters->links == 0) return HR2D_OK;
-  const hr2d_allocator *alloc = &clusters->alloc;
   gather g = {.c = clusters,
               .order = order,
               .bands = bands,
               .planes = 2 * bands,
               .share = share,
+              .radiosity = radiosity,
+              .power = power,
               .watch = watch};
-  g.sent = hr2di_alloc_zero(alloc, clusters->points, g.planes * sizeof *g.sent);
-  g.received = hr2di_alloc_zero(alloc, clusters->points, g.planes * sizeof *g.received);
-  g.vector = hr2di_alloc(alloc, g.planes, sizeof *g.vector);
-  g.rule = hr2di_alloc_zero(alloc, HR2DI_RULE_POINTS + 1, sizeof *g.rule);
-  hr2d_status status = g.sent && g.received && g.vector && g.rule ? HR2D_OK : HR2D_ENOMEM;
-  hr2di_basis_init(&g.basis, order);
+  hr2d_status status = reserve(&g, threads);
   if (share && status) status = hr2di_share_agree(share, status);
-  if (!status) status = (share ? run_shared : run)(&g, radiosity, power);
-  hr2di_alloc_free(alloc, g.sent);
-  hr2di_alloc_free(alloc, g.received);
-  hr2di_alloc_free(alloc, g.vector);
-  hr2di_alloc_free(alloc, g.rule);
+  if (!status) status = (share ? run_shared : run)(&g);
+  release(&g);
   return status;
 }

@@ -203,7 +203,7 @@ static void gather_slice(const hr2di_transport *t, hr2di_transport_part part, si
 /* Roots are the first elements, so their part of a field is a field of the patches. */
 static void gather_clusters(hr2di_transport *t) {
   t->failed = hr2di_clusters_gather(t->links->roots.clusters, t->order, t->bands, t->up,
-                                    t->down, t->links->share, t->watch);
+                                    t->down, t->links->share, t->threads, t->watch);
 }
 
 /* Divides power by length to get irradiance. */

@@ -59,7 +59,7 @@ static void gather_matrix(sorted *s) {
     memset(sent, 0, s->n * BANDS * sizeof *sent);
     memset(power, 0, s->n * BANDS * sizeof *power);
     for (size_t k = 0; k < BANDS && first + k < s->n; k++) sent[(first + k) * BANDS + k] = 1;
-    ck_assert_int_eq(hr2di_clusters_gather(s->clusters, 1, BANDS, sent, power, NULL, NULL),
+    ck_assert_int_eq(hr2di_clusters_gather(s->clusters, 1, BANDS, sent, power, NULL, 1, NULL),
                      HR2D_OK);
     for (size_t i = 0; i < s->n; i++)
       for (size_t k = 0; k < BANDS && first + k < s->n; k++)
@@ -369,7 +369,8 @@ START_TEST(orders_are_exact_enough) {
   double *b = new_doubles(s.n * ORDER), *power = new_doubles(s.n * ORDER),
          *brute = new_doubles(s.n * ORDER), block[ORDER * ORDER], worst = 0;
   for (size_t k = 0; k < s.n * ORDER; k++) b[k] = test_random(&r) - .3;
-  ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, b, power, NULL, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, b, power, NULL, 1, NULL),
+                   HR2D_OK);
   for (size_t i = 0; i < s.n; i++)
     for (size_t j = 0; j < s.n; j++) {
       if (s.linked[i * s.n + j] == 0) continue;
@@ -405,8 +406,10 @@ START_TEST(gathers_are_symmetric) {
     double *u = new_doubles(count), *v = new_doubles(count), *ku = new_doubles(count),
            *kv = new_doubles(count);
     for (size_t k = 0; k < count; k++) u[k] = test_random(&r) - .5, v[k] = test_random(&r);
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, order, 1, u, ku, NULL, NULL), HR2D_OK);
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, order, 1, v, kv, NULL, NULL), HR2D_OK);
+    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, order, 1, u, ku, NULL, 1, NULL),
+                     HR2D_OK);
+    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, order, 1, v, kv, NULL, 1, NULL),
+                     HR2D_OK);
     const double size = sqrt(product(ku, ku, count) * product(v, v, count));
     ck_assert_double_le(fabs(product(ku, v, count) - product(kv, u, count)), 1e-13 * size);
     free(u);
@@ -428,15 +431,15 @@ START_TEST(bands_are_gathers) {
   double *b = new_doubles(count * BANDS), *power = new_doubles(count * BANDS),
          *one = new_doubles(count), *out = new_doubles(count);
   for (size_t k = 0; k < count * BANDS; k++) b[k] = test_random(&r);
-  ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, BANDS, b, power, NULL, NULL),
+  ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, BANDS, b, power, NULL, 1, NULL),
                    HR2D_OK);
   for (size_t band = 0; band < BANDS; band++) {
     for (size_t k = 0; k < count; k++) one[k] = b[k * BANDS + band], out[k] = 0;
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, one, out, NULL, NULL),
+    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, one, out, NULL, 1, NULL),
                      HR2D_OK);
     for (size_t k = 0; k < count; k++) ck_assert(out[k] == power[k * BANDS + band]);
     for (size_t k = 0; k < count; k++) out[k] = 1;
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, one, out, NULL, NULL),
+    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, one, out, NULL, 1, NULL),
                      HR2D_OK);
     for (size_t k = 0; k < count; k++)
       ck_assert_double_le(fabs(out[k] - 1 - power[k * BANDS + band]), 1e-15);
@@ -445,6 +448,31 @@ START_TEST(bands_are_gathers) {
   free(power);
   free(one);
   free(out);
+  free_sorted(&s);
+}
+END_TEST
+
+/* So many patches are worth several threads, and their links several slices. */
+START_TEST(threads_gather_the_same) {
+  enum { ORDER = 2 };
+  hr2d_scene *scene = draw(&shapes[4], 4000, 0);
+  const hr2d_allocator alloc = hr2di_alloc_default();
+  sorted s = {.scene = scene, .n = hr2d_scene_patches(scene)};
+  ck_assert_int_eq(hr2di_clusters_create(scene, &alloc, 1e-10, put_near, &s, NULL, &s.clusters),
+                   HR2D_OK);
+  const size_t count = s.n * ORDER;
+  unsigned long r = test_seed();
+  double *b = new_doubles(count), *power[3];
+  for (size_t k = 0; k < count; k++) b[k] = test_random(&r);
+  for (unsigned k = 0; k < 3; k++) {
+    power[k] = new_doubles(count);
+    ck_assert_int_eq(
+        hr2di_clusters_gather(s.clusters, ORDER, 1, b, power[k], NULL, k + 1, NULL), HR2D_OK);
+    ck_assert_mem_eq(power[k], power[0], count * sizeof *b);
+  }
+  ck_assert(power[0][0] != 0);
+  for (int k = 0; k < 3; k++) free(power[k]);
+  free(b);
   free_sorted(&s);
 }
 END_TEST
@@ -543,7 +571,7 @@ START_TEST(allocations_fail_one_by_one) {
     if (status)
       ck_assert_ptr_null(clusters);
     else
-      status = hr2di_clusters_gather(clusters, 1, 1, b, power, NULL, NULL);
+      status = hr2di_clusters_gather(clusters, 1, 1, b, power, NULL, 1, NULL);
     failed = f.failures > 0;
     ck_assert_int_eq(status, failed ? HR2D_ENOMEM : HR2D_OK);
     hr2di_clusters_destroy(clusters);
@@ -565,7 +593,7 @@ TEST_SUITE("clusters") {
   ADD_TESTS("pairs", hidden_pairs_are_not_near);
   REPEAT_TESTS(2, "gathers", orders_are_exact_enough);
   REPEAT_TESTS(SHAPES, "gathers", gathers_are_symmetric);
-  ADD_TESTS("gathers", bands_are_gathers);
+  ADD_TESTS("gathers", bands_are_gathers, threads_gather_the_same);
   REPEAT_TESTS(2, "calls", near_may_stop);
   ADD_TESTS("calls", one_patch_has_no_pairs);
   REPEAT_TESTS(2, "calls", allocations_fail_one_by_one);
