@@ -303,10 +303,18 @@ check-valgrind:
 	HR2D_TEST_MULTIPLIER="$${HR2D_TEST_MULTIPLIER-0.01}" \
 	$(MAKE) check TESTS='$(filter-out $(TOO_LONG),$(SUITES))' LOG_COMPILER='$(MEMCHECK)'
 
+# Scripts about texts, names and digits, in which sanitizers have nothing to find.
+PAPERWORK = tests/docs/check-docs.sh tests/program/check-help.sh tests/program/check-digits.sh \
+	tests/package/check-constants.sh tests/package/check-exports.sh \
+	tests/package/check-headers.sh tests/package/check-layers.sh \
+	tests/package/check-python.sh tests/adversary/check-adversary-controls.sh
+check-sanitized:
+	$(MAKE) check TESTS='$(filter-out $(PAPERWORK),$(TESTS))'
+
 # All compilers, levels of optimisation and sanitizers; takes an hour.
 check-matrix:
 	$(SHELL) $(srcdir)/tests/matrix.sh
-.PHONY: check-valgrind check-matrix
+.PHONY: check-valgrind check-sanitized check-matrix
 
 # The table of doc/hard-cases.md, measured by the suites of hard cases.
 HARD = $(filter tests/hard/%,$(SUITES))
