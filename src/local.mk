@@ -178,6 +178,7 @@ libhr2d_core_la_SOURCES = \
 	src/clusters/expansion.c src/clusters/expansion.h \
 	src/clusters/facing.c src/clusters/facing.h \
 	src/clusters/interpolation.c src/clusters/interpolation.h \
+	src/clusters/levels.c \
 	src/clusters/occlusion.c src/clusters/occlusion.h \
 	src/clusters/point-exchange.c src/clusters/point-exchange.h \
 	src/clusters/root-pairs.c src/clusters/root-pairs.h \

@@ -55,9 +55,6 @@ static hr2d_status set_tail(hr2di_estimator *e, int check) {
   return status;
 }
 
-/* With more images than that the series is much better than nothing. */
-enum { FEW_IMAGES = 8 };
-
 /* Sets e->tail to the most that may be missing of H: `room` has two numbers for each element.
  */
 static hr2d_status set_most(hr2di_estimator *e, double *room) {
@@ -231,7 +228,7 @@ hr2d_status hr2di_period_residuals(hr2di_estimator *e) {
   if (!e->tail) return HR2D_OK;
   hr2d_status status = reserve(e, &r);
   if (!status) status = look_from_leaves(e, &r);
-  const int few = t->hierarchy->scene->symmetry.copies <= FEW_IMAGES;
+  const int few = t->hierarchy->scene->symmetry.copies <= HR2DI_FEW_COPIES;
   for (int check = 0; check < CHECKS + few && !status; check++)
     status = run_check(e, check, &r);
   if (!status && !few) forget_most(e, &r);

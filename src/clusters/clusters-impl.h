@@ -21,6 +21,15 @@ typedef struct hr2di_cluster_link {
   uint32_t first, second;
 } hr2di_cluster_link;
 
+/* Clusters level by level: those of one level may be done in any order. */
+typedef struct hr2di_levels {
+  uint32_t *cluster; /* those above first */
+  uint32_t *begin;   /* where each level begins, and the end */
+  size_t count;
+  uint32_t *child, *next; /* per cluster: its last child, and the child of its parent before it;
+                             or HR2DI_NO_CLUSTER */
+} hr2di_levels;
+
 struct hr2di_clusters {
   hr2d_allocator alloc;
   const hr2d_scene *scene;
@@ -32,6 +41,8 @@ struct hr2di_clusters {
   size_t links, link_capacity;
   hr2d_point *point;
   size_t points;
+  hr2di_levels levels;
+  uint64_t exchanges; /* of points, over all links */
   double
       *cosine; /* T_n at the points, for each number of points; see hr2di_clusters_cosines() */
 };
@@ -43,6 +54,11 @@ hr2d_status hr2di_clusters_keep(hr2di_clusters *made, const hr2di_cluster_tree *
 
 /* Keeps what another one keeps, with the points that the accuracy asks for. */
 hr2d_status hr2di_clusters_keep_finer(hr2di_clusters *made, const hr2di_clusters *of);
+
+/* Sets the levels and the number of exchanges of clusters that are kept; HR2D_OK or
+ * HR2D_ENOMEM.
+ */
+hr2d_status hr2di_clusters_find_levels(hr2di_clusters *made);
 
 /* T_n at point k of `count`, by n·count + k. */
 static inline const double *hr2di_clusters_cosines(const hr2di_clusters *c, unsigned count) {

@@ -278,6 +278,7 @@ hr2d_status hr2di_clusters_create(const hr2d_scene *scene, const hr2d_allocator 
   hr2d_status status = sort_pairs(&w, scene);
   if (!status) status = hr2di_watch_work(watch, w.tree.clusters);
   if (!status) status = hr2di_clusters_keep(made, &w.tree, w.far);
+  if (!status) status = hr2di_clusters_find_levels(made);
   hr2di_cluster_tree_clear(&w.tree);
   hr2di_alloc_free(alloc, w.far);
   hr2di_alloc_free(alloc, w.stack);
@@ -294,7 +295,8 @@ hr2d_status hr2di_clusters_finer(const hr2di_clusters *of, double accuracy,
   hr2di_clusters *made = hr2di_alloc_zero(&of->alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
   *made = (hr2di_clusters){.alloc = of->alloc, .scene = of->scene, .accuracy = accuracy};
-  const hr2d_status status = hr2di_clusters_keep_finer(made, of);
+  hr2d_status status = hr2di_clusters_keep_finer(made, of);
+  if (!status) status = hr2di_clusters_find_levels(made);
   if (status)
     hr2di_clusters_destroy(made);
   else
@@ -310,6 +312,8 @@ void hr2di_clusters_destroy(hr2di_clusters *clusters) {
   hr2di_alloc_free(&alloc, clusters->link);
   hr2di_alloc_free(&alloc, clusters->point);
   hr2di_alloc_free(&alloc, clusters->cosine);
+  hr2di_alloc_free(&alloc, clusters->levels.cluster);
+  hr2di_alloc_free(&alloc, clusters->levels.begin);
   hr2di_alloc_free(&alloc, clusters);
 }
 
@@ -321,7 +325,8 @@ uint64_t hr2di_clusters_bytes(const hr2di_clusters *c) {
   const uint64_t n = HR2DI_EXPANSION_POINTS, cosines = n * (n + 1) * (2 * n + 1) / 6;
   uint64_t bytes = sizeof *c + c->link_capacity * sizeof *c->link;
   if (c->links > 0)
-    bytes += c->linked_count * sizeof *c->linked + c->points * sizeof *c->point +
-             c->scene->patches * sizeof *c->home + cosines * sizeof *c->cosine;
+    bytes += c->linked_count * (sizeof *c->linked + 4 * sizeof(uint32_t)) +
+             c->points * sizeof *c->point + c->scene->patches * sizeof *c->home +
+             cosines * sizeof *c->cosine;
   return bytes;
 }

@@ -45,12 +45,7 @@ typedef struct gather {
   hr2di_basis basis;
   worker worker[MOST_THREADS];
   size_t workers;
-  uint32_t *level; /* clusters by level, those above first */
-  uint32_t *begin; /* where each level begins, and the end */
-  size_t levels;
-  uint32_t *child,
-      *next; /* per cluster: its last child, and the child of its parent before it */
-  size_t at; /* the level under way */
+  size_t level; /* under way */
 } gather;
 
 static double *planes_of(const gather *g, double *field, const hr2di_linked *c) {
@@ -179,9 +174,10 @@ static void receive_some(void *ctx, size_t number, size_t task) {
 static void go_up(void *ctx, size_t number, size_t task) {
   const gather *g = ctx;
   const worker *w = &g->worker[number];
-  const uint32_t cluster = g->level[g->begin[g->at] + task];
+  const hr2di_levels *l = &g->c->levels;
+  const uint32_t cluster = l->cluster[l->begin[g->level] + task];
   const hr2di_linked *c = &g->c->linked[cluster];
-  for (uint32_t k = g->child[cluster]; k != HR2DI_NO_CLUSTER; k = g->next[k]) {
+  for (uint32_t k = l->child[cluster]; k != HR2DI_NO_CLUSTER; k = l->next[k]) {
     if (declare(g, w, &g->c->linked[k])) return;
     send_up(g, w, &g->c->linked[k]);
   }
@@ -192,7 +188,8 @@ static void go_up(void *ctx, size_t number, size_t task) {
 static void go_down(void *ctx, size_t number, size_t task) {
   const gather *g = ctx;
   const worker *w = &g->worker[number];
-  const hr2di_linked *c = &g->c->linked[g->level[g->begin[g->at] + task]];
+  const hr2di_levels *l = &g->c->levels;
+  const hr2di_linked *c = &g->c->linked[l->cluster[l->begin[g->level] + task]];
   if (declare(g, w, c)) return;
   if (c->parent != HR2DI_NO_CLUSTER) receive_down(g, w, c);
   hr2di_interpolation_turn(g->c, &c->far, g->planes, 0, planes_of(g, g->received, c));
@@ -246,15 +243,20 @@ static hr2d_status combine(const gather *g, hr2d_status status, double *field) {
                              g->c->points * g->planes);
 }
 
+static hr2d_status do_level(gather *g, size_t level, hr2di_team_fn run) {
+  const uint32_t *begin = g->c->levels.begin;
+  g->level = level;
+  return work(g, begin[level + 1] - begin[level], run);
+}
+
 static hr2d_status run(gather *g) {
+  const size_t levels = g->c->levels.count;
   hr2d_status status = combine(g, work(g, g->workers, send_part), g->sent);
-  for (g->at = g->levels; g->at-- > 0 && !status;)
-    status = work(g, g->begin[g->at + 1] - g->begin[g->at], go_up);
+  for (size_t k = levels; k-- > 0 && !status;) status = do_level(g, k, go_up);
   if (!status) status = work(g, g->slices, exchange_slice);
   if (!status) sum_slices(g);
-  status = status ? status : combine(g, hr2di_watch_status(g->watch), g->received);
-  for (g->at = 0; g->at < g->levels && !status; g->at++)
-    status = work(g, g->begin[g->at + 1] - g->begin[g->at], go_down);
+  if (!status) status = combine(g, hr2di_watch_status(g->watch), g->received);
+  for (size_t k = 0; k < levels && !status; k++) status = do_level(g, k, go_down);
   return status ? status : work(g, (g->c->scene->patches + TASK - 1) / TASK, receive_some);
 }
 
@@ -269,32 +271,6 @@ static hr2d_status run_shared(gather *g) {
   for (size_t k = 0; k < values && !status; k++) power[k] += sum[k];
   hr2di_alloc_free(alloc, sum);
   return status;
-}
-
-/* Clusters by level, and the children of each.  Parents are before their children. */
-static hr2d_status find_levels(gather *g) {
-  const hr2di_clusters *c = g->c;
-  const size_t n = c->linked_count;
-  uint32_t *depth = hr2di_alloc(&c->alloc, 4 * n + 2, sizeof *depth);
-  g->begin = hr2di_alloc_zero(&c->alloc, n + 2, sizeof *g->begin);
-  g->level = depth;
-  if (!depth || !g->begin) return HR2D_ENOMEM;
-  g->child = depth + n;
-  g->next = depth + 2 * n;
-  depth += 3 * n;
-  for (uint32_t k = 0; k < n; k++) {
-    const uint32_t parent = c->linked[k].parent;
-    g->child[k] = g->next[k] = HR2DI_NO_CLUSTER;
-    depth[k] = parent == HR2DI_NO_CLUSTER ? 0 : depth[parent] + 1;
-    if (depth[k] >= g->levels) g->levels = depth[k] + 1;
-    g->begin[depth[k] + 2]++;
-    if (parent == HR2DI_NO_CLUSTER) continue;
-    g->next[k] = g->child[parent];
-    g->child[parent] = k;
-  }
-  for (size_t l = 1; l <= g->levels; l++) g->begin[l + 1] += g->begin[l];
-  for (uint32_t k = 0; k < n; k++) g->level[g->begin[depth[k] + 1]++] = k;
-  return hr2di_watch_work(g->watch, n / 8);
 }
 
 static hr2d_status hire(gather *g, unsigned threads) {
@@ -315,14 +291,8 @@ static hr2d_status hire(gather *g, unsigned threads) {
 
 /* Depends on the links alone, as the order of sums does. */
 static size_t count_slices(const gather *g) {
-  const hr2di_clusters *c = g->c;
-  uint64_t exchanges = 0;
-  if (g->share) return 1;
-  for (size_t k = 0; k < c->links; k++)
-    exchanges += hr2di_expansion_points(&c->linked[c->link[k].first].far) *
-                 hr2di_expansion_points(&c->linked[c->link[k].second].far);
-  const uint64_t slices = 1 + exchanges / (SLICE_WORTH * (uint64_t)c->points);
-  return slices < MOST_SLICES ? (size_t)slices : MOST_SLICES;
+  const uint64_t slices = 1 + g->c->exchanges / (SLICE_WORTH * (uint64_t)g->c->points);
+  return g->share ? 1 : slices < MOST_SLICES ? (size_t)slices : MOST_SLICES;
 }
 
 static hr2d_status reserve(gather *g, unsigned threads) {
@@ -334,8 +304,7 @@ static hr2d_status reserve(gather *g, unsigned threads) {
   if (g->slices > 1) g->slice = hr2di_alloc_zero(alloc, points * (g->slices - 1), plane);
   hr2di_basis_init(&g->basis, g->order);
   if (!g->sent || !g->received || (g->slices > 1 && !g->slice)) return HR2D_ENOMEM;
-  const hr2d_status status = hire(g, threads);
-  return status ? status : find_levels(g);
+  return hire(g, threads);
 }
 
 static void release(gather *g) {
@@ -347,8 +316,6 @@ static void release(gather *g) {
   hr2di_alloc_free(alloc, g->sent);
   hr2di_alloc_free(alloc, g->received);
   hr2di_alloc_free(alloc, g->slice);
-  hr2di_alloc_free(alloc, g->level);
-  hr2di_alloc_free(alloc, g->begin);
 }
 
 hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, size_t order, size_t bands,

@@ -33,6 +33,9 @@ enum { HR2DI_MIRRORS = 3 /* at most: two are parallel, the third is across them 
 enum { HR2DI_MOST_COPIES = 256 };
 enum { HR2DI_CHECK_LAST, HR2DI_CHECK_PART, HR2DI_TAIL_CHECKS };
 
+/* With more images than that the series is much better than nothing. */
+enum { HR2DI_FEW_COPIES = 8 };
+
 /* In the place of a check: all that is extrapolated. */
 enum { HR2DI_CHECK_ALL = HR2DI_TAIL_CHECKS };
 

@@ -112,9 +112,6 @@ static double power_of(const hr2di_equation *s, const double *most, size_t band)
   return sum;
 }
 
-/* With more images than that the series is much better than nothing. */
-enum { FEW_IMAGES = 8 };
-
 hr2d_status hr2di_power_cut_off(hr2di_equation *s, double *off) {
   hr2di_transport *t = &s->transport;
   const double unit = hr2d_scene_unit(t->scene);
@@ -128,7 +125,7 @@ hr2d_status hr2di_power_cut_off(hr2di_equation *s, double *off) {
   hr2d_status status = run_checks(s, &f);
   for (size_t b = 0; b < t->bands && !status; b++)
     off[b] = HR2DI_TAIL_BOUND * fmax(power_of(s, f.most[0], b), power_of(s, f.most[1], b));
-  const int few = t->scene->symmetry.copies <= FEW_IMAGES;
+  const int few = t->scene->symmetry.copies <= HR2DI_FEW_COPIES;
   if (!status && few) status = run_all(s, &f);
   for (size_t b = 0; b < t->bands && !status; b++) {
     const double all = fmax(power_of(s, f.most[0], b), power_of(s, f.most[1], b));

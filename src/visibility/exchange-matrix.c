@@ -66,6 +66,7 @@ hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_opti
   hr2d_matrix_counts sum = {0};
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, o.progress, o.progress_ctx, "factors");
+  hr2di_image_matrix_complete(&o, hr2di_scene_cell(scene));
   if (scene->symmetry.motion) {
     status = hr2di_image_matrix(scene, &o, &watch, area, counts);
     return status ? status : hr2di_watch_ask(&watch);
@@ -75,7 +76,6 @@ hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_opti
   if (!status) status = hr2di_row_maker_run(&m.maker, 0, m.maker.tasks, put_row, &m);
   if (!status) status = mirror(&m, &watch, &sum);
   if (!status) status = hr2di_watch_ask(&watch);
-  hr2di_image_matrix_complete(&o, m.n);
   sum.visibility_tests = hr2di_row_maker_steps(&m.maker);
   if (!status && counts) *counts = sum;
   hr2di_row_maker_clear(&m.maker);

@@ -141,10 +141,7 @@ hr2d_status hr2di_image_matrix(const hr2d_scene *scene, const hr2d_matrix_option
   if (!status) status = hr2di_row_maker_init(&maker, scene, 1, 0, watch);
   if (!status) status = hr2di_row_maker_run(&maker, 0, maker.tasks, take, &f);
   if (!status) status = mirror(&f, watch, &sum);
-  if (!status && f.ends)
-    status = tell_errors(&f, how, watch);
-  else if (!status)
-    hr2di_image_matrix_complete(how, f.n);
+  if (!status && f.ends) status = tell_errors(&f, how, watch);
   sum.visibility_tests = hr2di_row_maker_steps(&maker);
   hr2di_row_maker_clear(&maker);
   clear(&f);
