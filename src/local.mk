@@ -240,6 +240,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/gather-one-way.c src/solve/gather-one-way.h \
 	src/solve/heat-balance.c src/solve/heat-balance.h \
 	src/solve/heat-scene.c src/solve/heat-scene.h \
+	src/solve/leading-blocks.c src/solve/leading-blocks.h \
 	src/solve/row-tails.c src/solve/row-tails.h \
 	src/solve/row-sums.c src/solve/row-sums.h \
 	src/solve/shared-gather.c src/solve/shared-gather.h \

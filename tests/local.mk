@@ -74,6 +74,7 @@ SUITES = \
 	tests/unit/solve/check-equation-part \
 	tests/unit/solve/check-gather-areas \
 	tests/unit/solve/check-gather-links \
+	tests/unit/solve/check-leading-blocks \
 	tests/unit/solve/check-row-sums \
 	tests/unit/solve/check-adopt \
 	tests/unit/solve/check-image-scales \

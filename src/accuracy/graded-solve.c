@@ -133,13 +133,14 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
   return status;
 }
 
-/* Blocks are those of the finer operator, if the error is to be measured. */
+/* Blocks are those of the finer operator, if the error is to be measured, and a solve has a
+   copy of what it needs of them. */
 static hr2d_status check_blocks(const hr2di_graded *a, const hr2di_resolution *fineness,
                                 const hr2d_target *target) {
-  const unsigned order =
-      target->no_error ? fineness->order : hr2di_resolution_finer(fineness).order;
+  const uint64_t order = fineness->order, finer = hr2di_resolution_finer(fineness).order;
   const uint64_t links = hr2d_linkset_size(a->links);
-  const uint64_t block = (uint64_t)order * order * sizeof(double) + 1;
+  const uint64_t numbers = order * order + (target->no_error ? 0 : finer * finer);
+  const uint64_t block = numbers * sizeof(double) + 1;
   const uint64_t used = hr2di_graded_bytes(a), most = target->max_bytes;
   if (!most || (used <= most && links <= (most - used) / block)) return HR2D_OK;
   return hr2di_message_fail(&a->links->message, HR2D_EMAX_BYTES,

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "solve/leading-blocks.h"
 #include "solve/shared-gather.h"
 
 void hr2di_equation_part_take(const hr2di_equation *part, const hr2di_equation *whole,
@@ -29,17 +30,6 @@ static double *first_of(const hr2d_allocator *alloc, const double *from, size_t 
   return to;
 }
 
-/* The first rows and columns of `count` blocks. */
-static double *first_squares(const hr2d_allocator *alloc, const double *from, uint64_t count,
-                             size_t all, size_t order) {
-  const size_t row = order * sizeof *from;
-  if (count > SIZE_MAX / order / row) return NULL;
-  double *to = hr2di_alloc(alloc, (size_t)count, order * row);
-  for (size_t k = 0; k < (size_t)count * order && to; k++)
-    memcpy(to + k * order, from + (k / order * all + k % order) * all, row);
-  return to;
-}
-
 static hr2d_status set_transport(hr2di_transport *t, const hr2di_transport *of, size_t order) {
   *t = *of;
   t->order = order;
@@ -47,23 +37,17 @@ static hr2d_status set_transport(hr2di_transport *t, const hr2di_transport *of, 
   t->sweeps = 0;
   t->trees = (hr2di_push_pull){0};
   t->shared = NULL;
-  t->up = t->down = t->closure = t->sky = t->mean = t->blocks.value = NULL;
-  const hr2d_status status =
+  t->up = t->down = t->closure = t->sky = t->mean = t->leading = NULL;
+  hr2d_status status =
       hr2di_push_pull_init(&t->trees, t->hierarchy, &t->alloc, order, t->bands, t->watch);
-  if (status) return status;
   t->up = hr2di_alloc(&t->alloc, t->elements, t->width * sizeof *t->up);
   t->down = hr2di_alloc(&t->alloc, t->elements * t->slices, t->width * sizeof *t->down);
-  if (of->closure)
-    t->closure = first_squares(&t->alloc, of->closure, t->leaves, of->order, order);
-  if (of->blocks.value)
-    t->blocks.value =
-        first_squares(&t->alloc, of->blocks.value, of->blocks.links, of->blocks.order, order);
-  t->blocks.order = order;
-  if (of->shared && hr2di_shared_gather_init(t)) return HR2D_ENOMEM;
-  return t->up && t->down && (t->closure || !of->closure) &&
-                 (t->blocks.value || !of->blocks.value)
-             ? HR2D_OK
-             : HR2D_ENOMEM;
+  if (!status && of->closure)
+    status = hr2di_leading_blocks(&t->closure, of->closure, t->leaves, of->order, order,
+                                  &t->alloc, t->threads, t->watch);
+  if (!status) status = hr2di_transport_lead(t, &of->blocks);
+  if (!status && of->shared && hr2di_shared_gather_init(t)) status = HR2D_ENOMEM;
+  return t->up && t->down ? status : HR2D_ENOMEM;
 }
 
 hr2d_status hr2di_equation_part(hr2di_equation *part, const hr2di_equation *whole,
@@ -92,6 +76,6 @@ void hr2di_equation_part_clear(hr2di_equation *part) {
   hr2di_alloc_free(&t->alloc, t->up);
   hr2di_alloc_free(&t->alloc, t->down);
   hr2di_alloc_free(&t->alloc, t->closure);
-  hr2di_alloc_free(&t->alloc, t->blocks.value);
+  hr2di_alloc_free(&t->alloc, t->leading);
   hr2di_alloc_free(&t->alloc, part->space);
 }

@@ -13,6 +13,7 @@
 #include "solve/gather-areas.h"
 #include "solve/gather-blocks.h"
 #include "solve/gather-links.h"
+#include "solve/leading-blocks.h"
 #include "solve/shared-gather.h"
 
 /* A slice needs its own copy of `down`, so there are few slices, with many links each. */
@@ -40,7 +41,6 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
                                  unsigned threads, hr2di_watch *watch) {
   const hr2d_hierarchy *h = links->hierarchy;
   *t = (hr2di_transport){.links = links,
-                         .blocks = links->blocks,
                          .hierarchy = h,
                          .scene = h->scene,
                          .alloc = links->alloc,
@@ -66,13 +66,26 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
     if (!h->element[e].child) t->leaf[t->leaves++] = (uint32_t)e;
   if (links->share && hr2di_shared_gather_init(t)) return HR2D_ENOMEM;
   const hr2d_status tied = hr2di_ties_init(&t->ties, h, &t->alloc, watch);
-  return tied ? tied : hr2di_watch_work(watch, t->elements / 16);
+  return tied ? tied : hr2di_transport_lead(t, &links->blocks);
+}
+
+hr2d_status hr2di_transport_lead(hr2di_transport *t, const hr2di_link_blocks *blocks) {
+  t->blocks = *blocks;
+  if (!blocks->value || t->order == 1 || blocks->order == t->order)
+    return hr2di_watch_work(t->watch, t->elements / 16);
+  const hr2d_status status =
+      hr2di_leading_blocks(&t->leading, blocks->value, blocks->links, blocks->order, t->order,
+                           &t->alloc, t->threads, t->watch);
+  t->blocks.value = t->leading;
+  t->blocks.order = t->order;
+  return status;
 }
 
 void hr2di_transport_clear(hr2di_transport *t) {
   hr2di_shared_gather_clear(t);
   hr2di_push_pull_clear(&t->trees);
   hr2di_ties_clear(&t->ties, &t->alloc);
+  hr2di_alloc_free(&t->alloc, t->leading);
   hr2di_alloc_free(&t->alloc, t->leaf);
   hr2di_alloc_free(&t->alloc, t->up);
   hr2di_alloc_free(&t->alloc, t->down);
