@@ -1,7 +1,8 @@
 # The tests: Check programs, and scripts for the program and the package.  A program
-# without a list of sources is built from the one file of its name.
+# without a list of sources is built from the one file of its name.  tests/support/suite.c says what
+# it does with the marks of Check.
 AM_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/src -I$(srcdir)/tests $(GSL_CFLAGS) $(JANSSON_CFLAGS) \
-	$(CHECK_CFLAGS) $(MPFR_CFLAGS)
+	$(CHECK_CFLAGS) -D_mark_point=test_mark_point $(MPFR_CFLAGS)
 LDADD = tests/libsupport.la libhr2d-core.la $(CHECK_LIBS) $(MPFR_LIBS) $(THREADS_LIBS)
 
 SUITES = \

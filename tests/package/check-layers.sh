@@ -42,13 +42,17 @@ calls() (
   objects=$(find . -name '*.o' ! -path '*/.libs/*' | sort)
   [ -n "$objects" ] || objects=$(find . -name '*.o' | sort)
   for object in $objects; do
-    file=$(echo "$object" |
-      sed 's|/\.libs/|/|; s|/[^/-]*hr2d[^/-]*-\([^/]*\)\.o$|/\1|; s|\.o$||; s|^\./\(.*/\)|\1|')
-    [ -f "$2/$file.c" ] || continue
-    echo "FILE $file"
-    ${NM:-nm} "$object" | sed 's/^[0-9a-f]* *//'
-  done | awk '
-    $1 == "FILE" { file = $2; next }
+    echo "$object"
+  done | sed 'h; s|/\.libs/|/|; s|/[^/-]*hr2d[^/-]*-\([^/]*\)\.o$|/\1|; s|\.o$||
+      s|^\./\(.*/\)|\1|; G; s|\n| |' |
+    while read -r file object; do
+      [ ! -f "$2/$file.c" ] || echo "$object $file"
+    done >"$work/files"
+  # /dev/null makes nm print the name of a single object, too.
+  cut -d ' ' -f 1 "$work/files" | xargs ${NM:-nm} /dev/null 2>/dev/null | awk -v files="$work/files" '
+    BEGIN { while ((getline line < files) > 0) { split(line, part, " "); of[part[1] ":"] = part[2] } }
+    $1 in of { file = of[$1]; next }
+    { sub(/^[0-9a-f]* */, "") }
     $1 ~ /^[TDBRC]$/ { home[$2] = file }
     $1 == "U" { n++; caller[n] = file; symbol[n] = $2 }
     END {

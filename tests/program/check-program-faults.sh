@@ -11,12 +11,6 @@
 scenes=${HR2D_SCENES:-$HR2D_SRCDIR/examples/scenes}
 . "$HR2D_SRCDIR/tests/program/cli/expect.sh"
 
-# The program itself: libtool's wrapper opens files and forks.
-if [ -x "${HR2D_BUILDDIR:-.}/libtool" ]; then
-  HR2D_PROGRAM=$("${HR2D_BUILDDIR:-.}/libtool" --mode=execute echo "$HR2D_PROGRAM")
-  LD_LIBRARY_PATH=$HR2D_BUILDDIR/.libs${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
-  export LD_LIBRARY_PATH
-fi
 seed=${HR2D_TEST_SEED:-$(date +%s)}
 echo "HR2D_TEST_SEED=$seed"
 share() { # share N: N by the multiplier, at least 1
@@ -88,7 +82,7 @@ arguments() { # arguments COMMAND
   target) echo "solve $scene --target-error 1e-3 --json $new/x.json --csv $new/x.csv" ;;
   stages) echo "solve $scene --multigrid 1:0.5 --eps 0.25 --max-level 5 --no-error --state $new/x.state --csv $new/x.csv" ;;
   study) echo "study $scene --to 0.125 --steps 4 --csv $new/x.csv --json $new/x.json $plot" ;;
-  cost) echo "cost $scene --methods size,factors --max-seconds 0.3 --csv $new/x.csv --json $new/x.json $plot" ;;
+  cost) echo "cost $scene --methods size,factors --max-seconds 0.1 --csv $new/x.csv --json $new/x.json $plot" ;;
   factors) echo "factors $scene --csv $new/x.csv --mtx $new/x.mtx --elmer $new/x.dat --json $new/x.json" ;;
   esac
 }

@@ -1,6 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# For the scripts that test the program: sourced, with HR2D_PROGRAM in the environment.
+# For the scripts that test the program: sourced, with HR2D_PROGRAM in the environment, and
+# HR2D_BUILDDIR, where it was built, if it is libtool's wrapper.
 : "${HR2D_PROGRAM:?names the program}"
+
+# The program itself: libtool's wrapper opens files, forks, and takes longer than most runs.
+if [ -x "${HR2D_BUILDDIR:-.}/libtool" ]; then
+  HR2D_PROGRAM=$("${HR2D_BUILDDIR:-.}/libtool" --mode=execute echo "$HR2D_PROGRAM")
+  LD_LIBRARY_PATH=${HR2D_BUILDDIR:-.}/.libs${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+  export HR2D_PROGRAM LD_LIBRARY_PATH
+fi
 work=$(mktemp -d) || exit 99
 trap 'rm -rf "$work"' EXIT
 passed=0
