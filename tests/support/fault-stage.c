@@ -284,8 +284,9 @@ void fault_play(const fault_act *act) {
   const double most = (act->most ? act->most : 400) * (multiplier < 1 ? multiplier : 1) + 1;
   const double step = (double)allocations > most ? (double)allocations / most : 1;
   long failures = 0;
+  const double first = multiplier < 0.1 ? step / 2 : 0; /* the only one, perhaps */
   for (int for_good = 0; for_good < 2; for_good++)
-    for (double k = 0; k < (double)allocations; k += step)
+    for (double k = first; k < (double)allocations; k += step)
       failures += play_disturbed(act, (long)k, for_good, undisturbed);
   play_disturbed(act, allocations + 1000, 0, undisturbed);
   printf("%-40s %6ld allocations, %5ld failed\n", act->name, allocations, failures);

@@ -18,6 +18,15 @@ size_t test_rounds(double most, size_t least) {
   return (size_t)(most * test_multiplier()) + least;
 }
 
+size_t test_some(size_t all, size_t least) {
+  const double some = ceil((double)all * fmin(10 * test_multiplier(), 1));
+  return (size_t)fmax(some, (double)least);
+}
+
+int test_meets(size_t number_of_case, size_t variant, size_t count) {
+  return test_multiplier() >= 0.1 || (number_of_case + variant) % count == 0;
+}
+
 unsigned long test_seed(void) {
   const char *set = getenv("HR2D_TEST_SEED");
   return set ? strtoul(set, NULL, 0) : 20240229;

@@ -15,6 +15,14 @@ int test_count(double count);
 /* At least `least` random cases, and `most` more at a multiplier of 1. */
 size_t test_rounds(double most, size_t least);
 
+/* Of `all` cases that `make check` has at its multiplier of 0.1: fewer in proportion below it,
+   and at least `least`. */
+size_t test_some(size_t all, size_t least);
+
+/* Whether a case meets variant number `variant` of `count`.  From a multiplier of 0.1 on it
+   meets them all; below, one of them, and the next case the next one. */
+int test_meets(size_t number_of_case, size_t variant, size_t count);
+
 /* HR2D_TEST_SEED, or a fixed one; test_run() prints it. */
 unsigned long test_seed(void);
 

@@ -118,6 +118,7 @@ START_TEST(known_averages_are_met) {
     const radiosity_scene *s = &all.scene[k];
     hr2d_scene *scene = radiosity_scene_make(s, NULL);
     for (size_t first = 0; first < s->patches; first++) {
+      if (!test_meets(k, first, s->patches)) continue;
       const size_t patch[] = {first, (first + 1) % s->patches};
       hr2d_target target = HR2D_TARGET_INIT;
       hr2d_solution *solution;
@@ -141,7 +142,7 @@ START_TEST(known_averages_are_met) {
     }
     hr2d_scene_destroy(scene);
   }
-  ck_assert_int_gt(compared, 20);
+  ck_assert_int_gt(compared, (int)test_some(20, 1));
 }
 END_TEST
 

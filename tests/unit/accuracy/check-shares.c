@@ -273,8 +273,9 @@ START_TEST(no_bit_depends_on_shares) {
   for (unsigned count = 1; count <= 4; count++) {
     job j = {k, scene, of};
     uint64_t links = 0;
+    if (!test_meets((size_t)_i, count, 4)) continue;
     shares_run(count, work, &j);
-    if (count == 1) first = of[0];
+    if (!first.values) first = of[0];
     for (unsigned m = 0; m < count; m++) {
       ck_assert_msg(same_bits(k, &of[m], &first), "%s: other bits on share %u of %u", k->name,
                     m, count);
@@ -314,6 +315,7 @@ START_TEST(links_are_shared_out_evenly) {
   for (unsigned count = 8; count <= SHARES_MOST; count *= 2) {
     job j = {k, scene, of};
     uint64_t most = 0, links = 0;
+    if (!test_meets((size_t)_i, count / 8, 2)) continue;
     shares_run(count, work, &j);
     for (unsigned m = 0; m < count; m++) {
       most = of[m].own_links > most ? of[m].own_links : most;

@@ -131,8 +131,10 @@ START_TEST(bounds_hold_in_random_rooms) {
     const short_room r = short_room_draw(seed, k);
     const convex_room room = {r.patches, r.patch};
     convex_solution *truth = convex_solve(&room, fine);
-    for (int q = 0; q < 4; q++) check_room(&r, k, truth, HR2D_NORM_AVERAGE, target[q]);
-    for (int q = 0; q < 2; q++) check_room(&r, k, truth, HR2D_NORM_SUP, target[q]);
+    for (size_t q = 0; q < test_some(4, 1); q++)
+      check_room(&r, k, truth, HR2D_NORM_AVERAGE, target[q]);
+    for (size_t q = 0; q < test_some(2, 1); q++)
+      check_room(&r, k, truth, HR2D_NORM_SUP, target[q]);
     convex_destroy(truth);
   }
 }
@@ -187,7 +189,7 @@ static const convex_mesh for_lamps = {9, 42};
 
 START_TEST(short_lamps_keep_digits_of_h) {
   const int number[] = {1078, 1858, 1033};
-  for (int k = 0; k < 3; k++) {
+  for (size_t k = 0; k < test_some(3, 1); k++) {
     const short_room r = short_room_draw(77, number[k]);
     hr2d_scene *scene = test_scene(r.patch, r.patches);
     hr2d_target target = HR2D_TARGET_INIT;
@@ -209,7 +211,7 @@ END_TEST
    which would be shorter than an ulp. */
 START_TEST(lines_through_ends) {
   const int number[] = {278, 491, 575};
-  for (int k = 0; k < 3; k++) {
+  for (size_t k = 0; k < test_some(3, 1); k++) {
     const short_room r = short_room_draw(77, number[k]);
     const convex_room room = {r.patches, r.patch};
     convex_solution *truth = convex_solve(&room, fine);

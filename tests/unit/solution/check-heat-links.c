@@ -283,7 +283,8 @@ START_TEST(callbacks_end_the_solve) {
   hr2d_status status = HR2D_STOPPED;
   int asked = 0;
   options.progress = count_or_stop;
-  for (int most = 0; status == HR2D_STOPPED && most < 100000; most += 1 + most / 8) {
+  const int steps = (int)test_some(8, 2);
+  for (int most = 0; status == HR2D_STOPPED && most < 100000; most += 1 + most / steps) {
     int left = most;
     options.progress_ctx = &left;
     status = hr2d_solve(a.links, &options, &a.solution);

@@ -228,18 +228,20 @@ START_TEST(no_bit_depends_on_threads) {
 }
 END_TEST
 
-/* Two solves to the same target, and the errors that they tell. */
+/* Two solves to the same target, and the errors that they tell.  With few cases the target is
+   nearer. */
 static void expect_same_to(int mirrors, outside o) {
   hr2d_scene *scene[2] = {folded(&frames[0], mirrors, o), unfolded(&frames[0], mirrors, o)};
+  const double error = test_multiplier() < 0.1 ? 1e-5 : 1e-9;
   answer a[2];
   double bound = 0;
   for (int k = 0; k < 2; k++) {
     hr2d_target target = HR2D_TARGET_INIT;
     hr2d_account account;
     hr2d_solution *solution;
-    target.error = 1e-9;
+    target.error = error;
     ck_assert_int_eq(hr2d_solve_to(scene[k], &target, &solution, &account), HR2D_OK);
-    ck_assert(account.average.estimate <= 1e-9 && account.irradiance.estimate <= 1e-9);
+    ck_assert(account.average.estimate <= error && account.irradiance.estimate <= error);
     bound += account.average.bound + account.irradiance.bound;
     a[k] = read(solution);
     const double at[3] = {0, .37, 1};
@@ -247,13 +249,13 @@ static void expect_same_to(int mirrors, outside o) {
     ck_assert_int_eq(hr2d_solution_gather(solution, 3, at, 3, value), HR2D_OK);
     static double former[3 * BANDS];
     for (size_t m = 0; m < 3 * BANDS && k; m++)
-      ck_assert_double_eq_tol(value[m], former[m], 1e-9);
+      ck_assert_double_eq_tol(value[m], former[m], error);
     memcpy(former, value, sizeof value);
     hr2d_solution_destroy(solution);
     hr2d_scene_destroy(scene[k]);
   }
   const double off = largest_difference(&a[0], &a[1]);
-  ck_assert_msg(off <= fmin(2e-9, bound), "%g off, with bounds of %g", off, bound);
+  ck_assert_msg(off <= fmin(2 * error, bound), "%g off, with bounds of %g", off, bound);
 }
 
 START_TEST(targets_are_met_as_without_symmetry) {

@@ -312,7 +312,8 @@ START_TEST(brightness_weighting_converges) {
   test_links t =
       test_make_links(test_named_scene("square_rho0.9"), hr2d_oracle_bf(), NULL, NULL, NULL);
   hr2d_solution *solution = NULL;
-  for (double epsilon = 0.1; epsilon >= 1e-4; epsilon /= 4) {
+  const double finest = test_multiplier() < 0.1 ? 1e-3 : 1e-4;
+  for (double epsilon = 0.1; epsilon >= finest; epsilon /= 4) {
     hr2d_refine_options options = test_epsilon(epsilon);
     options.max_level = 12;
     options.brightness = solution;
