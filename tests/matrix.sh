@@ -26,19 +26,24 @@ tests/unit/blocks/check-blocks"
 
 # build SETTING CONFIGURE-ARGUMENT...
 build() {
+  configured "$@" && make -C "matrix/$1" -s -j"$jobs" >"matrix/$1/make.log"
+}
+
+configured() {
   folder=matrix/$1
   shift
   rm -rf "$folder"
   mkdir -p "$folder"
-  (cd "$folder" && "$source/configure" --quiet --enable-werror "$@" >configure.log) &&
-    make -C "$folder" -s -j"$jobs" >"$folder/make.log"
+  (cd "$folder" && "$source/configure" --quiet --enable-werror "$@" >configure.log)
 }
 
-# run SETTING TESTS: all of them if there are none.
+# run SETTING TESTS: all of them if there are none.  The program of the library is not built for
+# tests that are named.
 run() {
-  folder=matrix/$1 bad=0
+  folder=matrix/$1 bad=0 goal=check
   tests=${HR2D_MATRIX_TESTS:-$2}
-  make -C "$folder" -s -j"$jobs" check \
+  [ -z "$tests" ] || goal=check-TESTS
+  make -C "$folder" -s -j"$jobs" $goal \
     ${tests:+TESTS="$tests" check_PROGRAMS="$tests"} >"$folder/check.log" 2>&1 ||
     bad=1
   sh "$source/tests/summary.sh" "$folder" >"$folder/summary" || bad=1
@@ -71,7 +76,7 @@ control() {
 # Without a long history reports are dropped whose earlier access is forgotten.
 thread() {
   export TSAN_OPTIONS=history_size=7:halt_on_error=1
-  build thread CC=clang CFLAGS='-g -O1' --enable-sanitizers=thread --disable-shared &&
+  configured thread CC=clang CFLAGS='-g -O1' --enable-sanitizers=thread --disable-shared &&
     control 0 && control 1 && run thread "$threaded"
 }
 
