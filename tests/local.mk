@@ -5,7 +5,16 @@ AM_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/src -I$(srcdir)/tests $(GSL_CFLAGS)
 	$(CHECK_CFLAGS) -D_mark_point=test_mark_point $(MPFR_CFLAGS)
 LDADD = tests/libsupport.la libhr2d-core.la $(CHECK_LIBS) $(MPFR_LIBS) $(THREADS_LIBS)
 
+# The longest ones begin: one that began last would run alone.
 SUITES = \
+	tests/unit/accuracy/check-short-patches \
+	tests/unit/accuracy/check-shares \
+	tests/unit/solution/check-irradiance-points \
+	tests/unit/clusters/check-clusters \
+	tests/unit/oracle/check-l1 \
+	tests/unit/field/check-field-grid \
+	tests/faults/check-polls \
+	tests/faults/check-faults-accuracy \
 	tests/unit/base/check-black-body \
 	tests/unit/base/check-options \
 	tests/unit/base/check-status \
@@ -50,10 +59,8 @@ SUITES = \
 	tests/unit/refine/check-validate \
 	tests/unit/refine/check-validate-ulps \
 	tests/paper/check-theorem \
-	tests/unit/oracle/check-l1 \
 	tests/unit/oracle/check-squares \
 	tests/unit/solution/check-points \
-	tests/unit/solution/check-irradiance-points \
 	tests/unit/solution/check-emissivity \
 	tests/unit/solution/check-heat-bands \
 	tests/unit/solution/check-heat-images \
@@ -61,7 +68,6 @@ SUITES = \
 	tests/unit/solution/check-temperatures \
 	tests/unit/solution/check-thermal-calls \
 	tests/unit/field/check-field \
-	tests/unit/field/check-field-grid \
 	tests/unit/field/check-field-rows \
 	tests/unit/field/check-past-ends \
 	tests/unit/solve/check-solve \
@@ -101,17 +107,14 @@ SUITES = \
 	tests/unit/accuracy/check-target-calls \
 	tests/unit/accuracy/check-cluster-residuals \
 	tests/unit/accuracy/check-error-shares \
-	tests/unit/accuracy/check-shares \
 	tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-kinks \
 	tests/unit/accuracy/check-long-leaves \
-	tests/unit/accuracy/check-short-patches \
 	tests/unit/accuracy/check-budgets \
 	tests/unit/accuracy/check-cracks \
 	tests/unit/accuracy/check-dark \
 	tests/unit/accuracy/check-roundings \
 	tests/unit/accuracy/check-shadow-edges \
-	tests/unit/clusters/check-clusters \
 	tests/unit/clusters/check-root-pairs \
 	tests/unit/accuracy/check-corner \
 	tests/unit/visibility/check-events \
@@ -129,10 +132,8 @@ SUITES = \
 	tests/faults/check-faults \
 	tests/faults/check-divided-faults \
 	tests/faults/check-share-faults \
-	tests/faults/check-faults-accuracy \
 	tests/faults/check-faults-callbacks \
-	tests/faults/check-faults-malloc \
-	tests/faults/check-polls
+	tests/faults/check-faults-malloc
 
 OUTSIDE = \
 	tests/adversary/check-adversary.sh \
