@@ -217,6 +217,7 @@ libhr2d_core_la_SOURCES = \
 	src/refine/projector-start.c \
 	src/refine/refine.c \
 	src/refine/rounds.c src/refine/rounds.h \
+	src/refine/row-look.c src/refine/row-look.h \
 	src/refine/rows.c src/refine/rows.h \
 	src/refine/unite-shares.c src/refine/unite-shares.h \
 	src/refine/study.c \

@@ -98,6 +98,15 @@ HR2D_API const char *hr2d_linkset_message(const hr2d_linkset *links);
 HR2D_API uint64_t hr2d_linkset_size(const hr2d_linkset *links);
 
 /**
+ * The tests of visibility that this process has made for the links of a set. With several
+ * shares (share.h) hr2d_linkset_counts() tells those of one process; where shares refine the
+ * same rows, together they make more.
+ * @param links  a link set
+ * @return as hr2d_refine_counts::visibility_tests, of this share alone; constant cost
+ */
+HR2D_API uint64_t hr2d_linkset_own_tests(const hr2d_linkset *links);
+
+/**
  * One link.
  * @param links  a link set
  * @param index  below hr2d_linkset_size()

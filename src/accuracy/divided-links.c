@@ -216,6 +216,7 @@ static hr2d_status add_counts(const division *d, hr2d_share *share) {
   counts->oracle_calls += before->oracle_calls;
   counts->facing_tests += before->facing_tests;
   counts->visibility_tests += before->visibility_tests;
+  d->links->own_tests += d->coarse->own_tests;
   counts->exchange_areas += before->exchange_areas;
   counts->blocked_pairs += before->blocked_pairs;
   counts->dark_pairs = before->dark_pairs;

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The row with most links comes first, to the share that has least.  A row that has more than a
-   16th of what a share should have is cut into pieces; a share takes pieces of a row until it
-   has its part, so that few shares refine the same row. */
+/* Long patches have long rows: their rows are cut into slots by the other patches before
+   anything is counted.  Then slots are counted, each by some share.  The row with most work
+   comes first, to the share that has least of what the row has; the share takes slots until it
+   has its part, so that few shares look round from the same patch.  A slot that still has more
+   than a 16th of the links that a share should have is cut into pieces. */
 #include "accuracy/row-deal.h"
 
 #include <math.h>
@@ -11,120 +13,262 @@
 #include "base/share.h"
 #include "base/sort.h"
 
-/* Pieces are no larger than this part of what a share should have. */
-#define PIECE (1. / 16)
+/* Slots and pieces are no larger than this part of what a share should have. */
+#define PART (1. / 16)
+
+/* No share should have more than so many times the mean; see deal(). */
+#define EVEN 1.1
+#define MORE 1.05
+enum { ATTEMPTS = 60 };
+
+/* Links and visibility tests: numbers, or parts of all that there are. */
+typedef struct work {
+  double links, tests;
+} work;
 
 typedef struct weighed {
-  double links;
+  double size;
   size_t row;
 } weighed;
 
 /* The longest first; of equal ones the first. */
-static int by_links(const void *left, const void *right) {
+static int by_size(const void *left, const void *right) {
   const weighed *l = left, *r = right;
-  if (l->links != r->links) return l->links > r->links ? -1 : 1;
+  if (l->size != r->size) return l->size > r->size ? -1 : 1;
   return (l->row > r->row) - (l->row < r->row);
 }
 
 typedef struct dealer {
   const hr2d_share *share;
+  const hr2d_linkset *links;
+  const hr2d_allocator *alloc;
   hr2di_row_pieces *pieces;
-  size_t rows;
-  double *load; /* per share */
-  double mean;
+  size_t rows, slots;
+  work *work; /* per slot */
+  work all;
+  work *load;   /* per share, parts of all */
+  unsigned now; /* the share that takes the row under way */
 } dealer;
 
-static unsigned least_loaded(const dealer *d) {
+/* The pairs of patches in a row. */
+static double pairs_of(const dealer *d, size_t row) {
+  const hr2di_roots *known = &d->links->roots;
+  return known->row ? (double)(known->row[row + 1] - known->row[row])
+                    : (double)(d->links->hierarchy->scene->patches - row - 1);
+}
+
+/* Cuts the rows of patches that have a large part of all lengths. */
+static hr2d_status cut_rows(dealer *d) {
+  const hr2d_element *element = d->links->hierarchy->element;
+  uint32_t *slot = hr2di_alloc(d->alloc, d->rows + 1, sizeof *slot);
+  double all = 0;
+  d->pieces->slot = slot;
+  if (!slot) return HR2D_ENOMEM;
+  slot[0] = 0;
+  for (size_t k = 0; k < d->rows; k++) all += element[k].length;
+  for (size_t k = 0; k < d->rows; k++) {
+    const double wanted = ceil(element[k].length * d->share->count / (PART * all));
+    const double count = fmin(wanted, pairs_of(d, k));
+    slot[k + 1] = slot[k] + (count > 1 ? (uint32_t)count + 1 : 1);
+  }
+  d->slots = slot[d->rows];
+  return HR2D_OK;
+}
+
+/* Who counts: rows as without a target, and slots of cut rows one after the other. */
+static hr2d_status share_count(dealer *d) {
+  hr2di_row_pieces *p = d->pieces;
+  p->own = hr2di_alloc_zero(d->alloc, d->slots, 1);
+  p->rows = hr2di_alloc_zero(d->alloc, d->rows, 1);
+  if (!p->own || !p->rows) return HR2D_ENOMEM;
+  for (size_t k = 0; k < d->rows; k++) {
+    const int whole = hr2di_row_slots(p, k) == 1;
+    for (uint32_t s = p->slot[k]; s < p->slot[k + 1]; s++) {
+      p->own[s] = (unsigned char)(whole ? hr2di_share_has_row(d->share, k, d->rows)
+                                        : s % d->share->count == d->share->number);
+      p->rows[k] |= p->own[s];
+    }
+  }
+  return HR2D_OK;
+}
+
+/* Counts what this share has to count. */
+static hr2d_status count_own(dealer *d, hr2d_linkset *links,
+                             const hr2d_refine_options *options) {
+  hr2d_refine_counts counts;
+  hr2d_row_counts *slot = hr2di_alloc_zero(d->alloc, d->slots, sizeof *slot);
+  hr2d_refine_options counting = *options;
+  if (!slot) return HR2D_ENOMEM;
+  counting.row_counts = slot;
+  counting.rows = d->pieces->rows;
+  links->pieces = d->pieces;
+  const hr2d_status status = hr2d_refine_count(links, &counting, &counts);
+  links->pieces = NULL;
+  for (size_t k = 0; k < d->slots && !status; k++)
+    d->work[k] = (work){(double)slot[k].links, (double)slot[k].visibility_tests};
+  hr2di_alloc_free(d->alloc, slot);
+  return status;
+}
+
+static void add(work *to, work more) {
+  to->links += more.links;
+  to->tests += more.tests;
+}
+
+static work part_of(const dealer *d, work w) {
+  return (work){d->all.links > 0 ? w.links / d->all.links : 0,
+                d->all.tests > 0 ? w.tests / d->all.tests : 0};
+}
+
+static double size_of(work w) {
+  return fmax(w.links, w.tests);
+}
+
+static double size_with(work load, work more) {
+  add(&load, more);
+  return size_of(load);
+}
+
+/* Cuts slots that have too many links. */
+static hr2d_status cut_slots(dealer *d) {
+  hr2di_row_pieces *p = d->pieces;
+  const double most = fmax(1, PART * d->all.links / d->share->count);
+  p->first = hr2di_alloc(d->alloc, d->slots + 1, sizeof *p->first);
+  if (!p->first) return HR2D_ENOMEM;
+  p->first[0] = 0;
+  for (size_t k = 0; k < d->slots; k++)
+    p->first[k + 1] = p->first[k] + (uint32_t)fmax(1, ceil(d->work[k].links / most));
+  p->mine = hr2di_alloc_zero(d->alloc, p->first[d->slots], 1);
+  return p->mine ? HR2D_OK : HR2D_ENOMEM;
+}
+
+static unsigned least_loaded(const dealer *d, work more) {
   unsigned least = 0;
   for (unsigned s = 1; s < d->share->count; s++)
-    if (d->load[s] < d->load[least]) least = s;
+    if (size_with(d->load[s], more) < size_with(d->load[least], more)) least = s;
   return least;
 }
 
-/* The links of piece k. */
-static double links_of(double links, size_t pieces, size_t k) {
-  return pieces == 1 ? links : floor((links - (double)k - 1) / (double)pieces) + 1;
+/* The links of piece k of a slot. */
+static double links_of(double links, uint32_t pieces, uint32_t k) {
+  return pieces == 1 ? links : floor((links - k - 1) / pieces) + 1;
 }
 
-static void deal_row(dealer *d, const weighed *row) {
-  const size_t count = hr2di_row_pieces_of(d->pieces, row->row);
-  unsigned char *mine = d->pieces->mine + d->pieces->first[row->row];
-  for (size_t k = 0; k < count;) {
-    const unsigned to = least_loaded(d);
-    if (to == d->share->number) d->pieces->rows[row->row] = 1;
-    do {
-      mine[k] = to == d->share->number;
-      d->load[to] += links_of(row->links, count, k++);
-    } while (k < count && d->load[to] + links_of(row->links, count, k) <= d->mean);
-  }
-}
-
-static void cut_rows(dealer *d, const double *links) {
-  double all = 0;
-  for (size_t k = 0; k < d->rows; k++) all += links[k];
-  d->mean = all / d->share->count;
-  d->pieces->first[0] = 0;
-  for (size_t k = 0; k < d->rows; k++) {
-    const double wanted = links[k] > PIECE * d->mean ? ceil(links[k] / (PIECE * d->mean)) : 1;
-    d->pieces->first[k + 1] = d->pieces->first[k] + (size_t)fmax(1, fmin(wanted, links[k]));
-  }
-}
-
-static hr2d_status deal(dealer *d, const hr2d_allocator *alloc, const double *links) {
+/* Deals out a slot.  What all with a piece of it do, or with a slot of its row, counts for
+   each; `look` is that for the row. */
+static void deal_slot(dealer *d, size_t row, size_t slot, work look) {
   hr2di_row_pieces *p = d->pieces;
-  weighed *order = hr2di_alloc(alloc, d->rows, sizeof *order);
-  d->load = hr2di_alloc_zero(alloc, d->share->count, sizeof *d->load);
-  p->first = hr2di_alloc(alloc, d->rows + 1, sizeof *p->first);
-  p->rows = hr2di_alloc_zero(alloc, d->rows, 1);
-  hr2d_status status = order && d->load && p->first && p->rows ? HR2D_OK : HR2D_ENOMEM;
-  if (!status) {
-    cut_rows(d, links);
-    p->mine = hr2di_alloc(alloc, p->first[d->rows], 1);
-    status = p->mine ? HR2D_OK : HR2D_ENOMEM;
+  const uint32_t count = hr2di_slot_pieces(p, slot);
+  const work all = d->work[slot];
+  for (uint32_t k = 0, new_to = 1; k < count; k++) {
+    work more = {links_of(all.links, count, k), new_to ? all.tests : 0};
+    more = part_of(d, more);
+    if (d->now == d->share->count || size_with(d->load[d->now], more) > 1. / d->share->count) {
+      more = part_of(d, (work){links_of(all.links, count, k), all.tests + look.tests});
+      d->now = least_loaded(d, more);
+    }
+    add(&d->load[d->now], more);
+    new_to = 0;
+    if (d->now != d->share->number) continue;
+    p->mine[p->first[slot] + k] = p->own[slot] = p->rows[row] = 1;
   }
-  for (size_t k = 0; k < d->rows && !status; k++) order[k] = (weighed){links[k], k};
-  if (!status) status = hr2di_sort(order, d->rows, sizeof *order, by_links, NULL);
-  for (size_t k = 0; k < d->rows && !status; k++) deal_row(d, &order[k]);
-  hr2di_alloc_free(alloc, order);
-  hr2di_alloc_free(alloc, d->load);
+}
+
+/* Starts from nothing. */
+static void take_back(dealer *d) {
+  const hr2di_row_pieces *p = d->pieces;
+  memset(p->own, 0, d->slots);
+  memset(p->mine, 0, p->first[d->slots]);
+  memset(p->rows, 0, d->rows);
+  memset(d->load, 0, d->share->count * sizeof *d->load);
+}
+
+static void deal_row(dealer *d, size_t row) {
+  const hr2di_row_pieces *p = d->pieces;
+  const uint32_t slots = hr2di_row_slots(p, row);
+  const work look = slots > 1 ? d->work[hr2di_row_look(p, row)] : (work){0, 0};
+  d->now = d->share->count;
+  for (uint32_t k = 0; k < slots; k++) deal_slot(d, row, p->slot[row] + k, look);
+}
+
+static void deal_rows(dealer *d, const weighed *order) {
+  take_back(d);
+  for (size_t k = 0; k < d->rows; k++) deal_row(d, order[k].row);
+}
+
+static int is_even(const dealer *d) {
+  for (unsigned s = 0; s < d->share->count; s++)
+    if (size_of(d->load[s]) > EVEN / d->share->count) return 0;
+  return 1;
+}
+
+static hr2d_status sort_rows(const dealer *d, weighed *order) {
+  for (size_t k = 0; k < d->rows; k++) {
+    work w = {0, 0};
+    for (uint32_t s = d->pieces->slot[k]; s < d->pieces->slot[k + 1]; s++) add(&w, d->work[s]);
+    order[k] = (weighed){size_of(part_of(d, w)), k};
+  }
+  return hr2di_sort(order, d->rows, sizeof *order, by_size, NULL);
+}
+
+/* Tests that several shares make alike are more than there are: so tests count less and less,
+   until all shares have as much as the others. */
+static hr2d_status deal(dealer *d) {
+  weighed *order = hr2di_alloc(d->alloc, d->rows, sizeof *order);
+  d->load = hr2di_alloc_zero(d->alloc, d->share->count, sizeof *d->load);
+  hr2d_status status = order && d->load ? cut_slots(d) : HR2D_ENOMEM;
+  if (!status) status = sort_rows(d, order);
+  if (!status) deal_rows(d, order);
+  for (int k = 0; k < ATTEMPTS && !status && !is_even(d); k++) {
+    d->all.tests *= MORE;
+    deal_rows(d, order);
+  }
+  hr2di_alloc_free(d->alloc, order);
+  hr2di_alloc_free(d->alloc, d->load);
   return status;
 }
 
 hr2d_status hr2di_row_deal(hr2di_row_pieces *pieces, hr2d_linkset *links,
                            const hr2d_refine_options *options) {
-  const hr2d_allocator *alloc = &links->alloc;
-  const size_t rows = hr2di_scene_cell(links->hierarchy->scene);
-  hr2d_refine_counts counts;
-  hr2d_row_counts *row = hr2di_alloc_zero(alloc, rows, sizeof *row);
-  double *number = hr2di_alloc_zero(alloc, rows, sizeof *number);
-  hr2d_status status = row && number ? HR2D_OK : HR2D_ENOMEM;
-  hr2d_refine_options counting = *options;
-  counting.row_counts = row;
-  if (!status) status = hr2d_refine_count(links, &counting, &counts);
-  for (size_t k = 0; k < rows && !status; k++) number[k] = (double)row[k].links;
-  status = hr2di_share_combine(options->share, status, HR2D_COMBINE_SUM, number, rows);
-  dealer d = {.share = options->share, .pieces = pieces, .rows = rows};
-  if (!status) status = deal(&d, alloc, number);
-  hr2di_alloc_free(alloc, row);
-  hr2di_alloc_free(alloc, number);
+  dealer d = {.share = options->share,
+              .links = links,
+              .alloc = &links->alloc,
+              .pieces = pieces,
+              .rows = hr2di_scene_cell(links->hierarchy->scene)};
+  hr2d_status status = cut_rows(&d);
+  if (!status) status = share_count(&d);
+  if (!status) d.work = hr2di_alloc_zero(d.alloc, d.slots, sizeof *d.work);
+  if (!status && !d.work) status = HR2D_ENOMEM;
+  if (!status) status = count_own(&d, links, options);
+  status = hr2di_share_combine(options->share, status, HR2D_COMBINE_SUM,
+                               d.work ? &d.work->links : NULL, 2 * d.slots);
+  for (size_t k = 0; k < d.slots && !status; k++) add(&d.all, d.work[k]);
+  if (!status) status = deal(&d);
+  hr2di_alloc_free(d.alloc, d.work);
   return status;
 }
 
 hr2d_status hr2di_row_pieces_copy(hr2di_row_pieces *to, const hr2di_row_pieces *from,
                                   size_t rows, const hr2d_allocator *alloc) {
-  const size_t pieces = from->first[rows];
-  to->first = hr2di_alloc(alloc, rows + 1, sizeof *to->first);
+  const size_t slots = from->slot[rows], pieces = from->first[slots];
+  to->slot = hr2di_alloc(alloc, rows + 1, sizeof *to->slot);
+  to->first = hr2di_alloc(alloc, slots + 1, sizeof *to->first);
+  to->own = hr2di_alloc(alloc, slots, 1);
   to->mine = hr2di_alloc(alloc, pieces, 1);
   to->rows = hr2di_alloc(alloc, rows, 1);
-  if (!to->first || !to->mine || !to->rows) return HR2D_ENOMEM;
-  memcpy(to->first, from->first, (rows + 1) * sizeof *to->first);
+  if (!to->slot || !to->first || !to->own || !to->mine || !to->rows) return HR2D_ENOMEM;
+  memcpy(to->slot, from->slot, (rows + 1) * sizeof *to->slot);
+  memcpy(to->first, from->first, (slots + 1) * sizeof *to->first);
+  memcpy(to->own, from->own, slots);
   memcpy(to->mine, from->mine, pieces);
   memcpy(to->rows, from->rows, rows);
   return HR2D_OK;
 }
 
 void hr2di_row_pieces_clear(hr2di_row_pieces *pieces, const hr2d_allocator *alloc) {
+  hr2di_alloc_free(alloc, pieces->slot);
   hr2di_alloc_free(alloc, pieces->first);
+  hr2di_alloc_free(alloc, pieces->own);
   hr2di_alloc_free(alloc, pieces->mine);
   hr2di_alloc_free(alloc, pieces->rows);
   *pieces = (hr2di_row_pieces){0};

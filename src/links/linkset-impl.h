@@ -39,6 +39,7 @@ struct hr2d_linkset {
   int solving;    /* a solve is under way, and may make blocks */
   double epsilon; /* of the last refinement; infinite before */
   hr2d_refine_counts counts;
+  uint64_t own_tests; /* of visibility, by this share, also those that another one counts */
 };
 
 /* The part of its exchange area with which a pair of elements is linked, see

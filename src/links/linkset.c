@@ -102,6 +102,10 @@ hr2d_refine_counts hr2d_linkset_counts(const hr2d_linkset *links) {
   return links->counts;
 }
 
+uint64_t hr2d_linkset_own_tests(const hr2d_linkset *links) {
+  return links->own_tests;
+}
+
 uint64_t hr2d_linkset_bytes(const hr2d_linkset *links) {
   const hr2di_link_blocks *b = &links->blocks;
   const hr2di_roots *r = &links->roots;

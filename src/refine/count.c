@@ -280,8 +280,7 @@ static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
   if (status) return status;
   *counts = sum;
   if (t->options.row_counts)
-    memset(t->options.row_counts, 0,
-           hr2di_scene_cell(links->hierarchy->scene) * sizeof(hr2d_row_counts));
+    memset(t->options.row_counts, 0, hr2di_projector_rows(links) * sizeof(hr2d_row_counts));
   for (size_t k = 0; k < hired; k++)
     hr2di_projector_add_rows(t->worker[k].projector, t->options.row_counts);
   hr2di_projector_count_elements(links->hierarchy, counts);

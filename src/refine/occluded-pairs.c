@@ -51,6 +51,11 @@ static hr2di_visibility_class classify(const hr2di_sight_list *list,
   return hr2di_sights_classify(list, 0, parts->part[swap], parts->part[!swap]);
 }
 
+hr2d_status hr2di_occluded_look(hr2di_projector *p, uint32_t from, uint32_t to) {
+  set_limits(p);
+  return fail(p, hr2di_patch_sights_look(p->sights, from, to));
+}
+
 hr2d_status hr2di_occluded_collect(hr2di_projector *p, hr2d_pair pair,
                                    hr2di_visibility_class *view) {
   const hr2di_patch_pair parts = parts_of(p->hierarchy, pair);
@@ -61,7 +66,8 @@ hr2d_status hr2di_occluded_collect(hr2di_projector *p, hr2d_pair pair,
   const uint64_t before = hr2di_patch_sights_tests(p->sights);
   const hr2d_status status =
       hr2di_patch_sights_between(p->sights, &parts, &p->parts, &p->found);
-  hr2di_projector_in_row(p, parts.patch[0], 0, hr2di_patch_sights_tests(p->sights) - before);
+  hr2di_projector_in_row(p, parts.patch[0], parts.patch[1], 0,
+                         hr2di_patch_sights_tests(p->sights) - before);
   if (!status) *view = classify(&p->parts, &parts);
   return fail(p, status);
 }
@@ -193,7 +199,7 @@ static hr2d_status restrict_to(hr2di_projector *p, hr2d_pair child, size_t from,
   hr2d_status status = hr2di_sight_list_restrict(
       &p->parts, list, from, list->count, parts.part[swap], parts.part[!swap], &p->found);
   p->sights->restricted += list->count - from;
-  hr2di_projector_in_row(p, parts.patch[0], 0, list->count - from);
+  hr2di_projector_in_row(p, parts.patch[0], parts.patch[1], 0, list->count - from);
   if (!status) status = hr2di_projector_work(p, 1 + (list->count - from) / 2);
   if (!status) *view = classify(&p->parts, &parts);
   return fail(p, status);

@@ -9,6 +9,10 @@
 hr2d_status hr2di_occluded_propose_roots(hr2di_projector *p, const hr2d_pair *pairs,
                                          size_t count);
 
+/* Looks round from a patch, as the first pair of patches in its row that needs it does. Returns
+   HR2D_OK, or the status that stops the refinement. */
+hr2d_status hr2di_occluded_look(hr2di_projector *p, uint32_t from, uint32_t to);
+
 /* Appends to p->found what a pair of elements sees of each other. */
 hr2d_status hr2di_occluded_collect(hr2di_projector *p, hr2d_pair pair,
                                    hr2di_visibility_class *view);

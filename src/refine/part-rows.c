@@ -11,12 +11,10 @@ uint64_t hr2di_part_rows_tests(const hr2di_projector *p) {
   return all_tests(p) - p->part.others;
 }
 
-void hr2di_part_rows_begin(hr2di_projector *p, size_t row) {
+void hr2di_part_rows_begin(hr2di_projector *p, uint32_t slot) {
   const hr2di_row_pieces *pieces = p->links->pieces;
-  const size_t count = pieces ? hr2di_row_pieces_of(pieces, row) : 1;
-  p->part.count = count;
-  if (count == 1) return;
-  p->part.mine = pieces->mine + pieces->first[row];
+  p->part.count = hr2di_slot_pieces(pieces, slot);
+  p->part.mine = pieces->mine + pieces->first[slot];
   p->part.next = 0;
   p->part.areas = 0;
   p->part.before = p->counts;
@@ -24,7 +22,7 @@ void hr2di_part_rows_begin(hr2di_projector *p, size_t row) {
 }
 
 void hr2di_part_rows_end(hr2di_projector *p) {
-  if (p->part.count > 1 && !p->part.mine[0]) {
+  if (!p->part.mine[0]) {
     const uint64_t links = p->counts.links;
     p->counts = p->part.before;
     p->counts.links = links;

@@ -8,6 +8,7 @@
 #include "refine/part-rows.h"
 #include "refine/projector.h"
 #include "refine/rounds.h"
+#include "refine/row-look.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 
@@ -87,19 +88,19 @@ static hr2d_status set_brightness(hr2di_projector *p) {
 }
 
 static hr2d_status set_rows(hr2di_projector *p) {
-  const size_t patches = p->hierarchy->scene->patches;
+  const size_t rows = hr2di_projector_rows(p->links);
   if (!p->options.row_counts) return HR2D_OK;
-  p->bytes += patches * sizeof *p->rows;
+  p->bytes += rows * sizeof *p->rows;
   const hr2d_status status = hr2di_projector_check_budget(p, 0);
   if (status) return status;
-  p->rows = hr2di_alloc_zero(&p->links->alloc, patches, sizeof *p->rows);
+  p->rows = hr2di_alloc_zero(&p->links->alloc, rows, sizeof *p->rows);
   return p->rows ? HR2D_OK
                  : hr2di_message_fail(&p->links->message, HR2D_ENOMEM,
                                       "out of memory for the counts of rows");
 }
 
 void hr2di_projector_add_rows(const hr2di_projector *p, hr2d_row_counts *sum) {
-  for (size_t k = 0; p->rows && k < hr2di_scene_cell(p->hierarchy->scene); k++) {
+  for (size_t k = 0; p->rows && k < hr2di_projector_rows(p->links); k++) {
     sum[k].links += p->rows[k].links;
     sum[k].visibility_tests += p->rows[k].visibility_tests;
   }
@@ -217,22 +218,45 @@ static hr2d_status add_root(hr2di_projector *p, proposals *roots, size_t patch, 
   return roots->count < HR2DI_CANDIDATES ? HR2D_OK : propose_roots(p, roots);
 }
 
-hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch) {
+/* The pairs of a slot, or of all whole slots. */
+static hr2d_status propose_slot(hr2di_projector *p, size_t patch, uint32_t slot) {
   const size_t n = p->hierarchy->scene->patches;
   const hr2di_roots *known = &p->links->roots;
+  const size_t from = known->row ? known->row[patch] : p->directed ? 0 : patch + 1;
+  const size_t to = known->row ? known->row[patch + 1] : n;
+  hr2d_status status = HR2D_OK;
   proposals roots;
-  if (!has_row(p, patch)) return hr2di_projector_fail(p, hr2di_projector_work(p, 1), "");
   roots.count = 0;
-  hr2di_part_rows_begin(p, patch);
-  hr2d_status status = hr2di_projector_work(p, 1 + n / 16);
-  if (status) return hr2di_projector_fail(p, status, "");
-  if (known->row)
-    for (size_t k = known->row[patch]; k < known->row[patch + 1] && !status; k++)
-      status = add_root(p, &roots, patch, known->pair[k].second);
-  else
-    for (size_t k = p->directed ? 0 : patch + 1; k < n && !status; k++)
-      if (k != patch) status = add_root(p, &roots, patch, k);
+  for (size_t k = from; k < to && !status; k++) {
+    const size_t other = known->row ? known->pair[k].second : k;
+    if (other != patch && hr2di_part_rows_want(p, patch, other, slot))
+      status = add_root(p, &roots, patch, other);
+  }
   return status ? status : propose_roots(p, &roots);
+}
+
+/* Slots with several pieces are refined one after the other: the order of their links does not
+   depend on other slots. */
+static hr2d_status project_pieces(hr2di_projector *p, size_t patch) {
+  const hr2di_row_pieces *pieces = p->links->pieces;
+  hr2d_status status = hr2di_row_look_round(p, patch);
+  for (uint32_t k = 0; k < hr2di_row_slots(pieces, patch) && !status; k++) {
+    const uint32_t slot = pieces->slot[patch] + k;
+    if (!pieces->own[slot] || hr2di_slot_pieces(pieces, slot) == 1) continue;
+    hr2di_part_rows_begin(p, slot);
+    status = propose_slot(p, patch, slot);
+    if (!status) status = hr2di_rounds_run(p, SIZE_MAX);
+    hr2di_part_rows_end(p);
+  }
+  return status;
+}
+
+hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch) {
+  const size_t n = p->hierarchy->scene->patches;
+  if (!has_row(p, patch)) return hr2di_projector_fail(p, hr2di_projector_work(p, 1), "");
+  hr2d_status status = hr2di_projector_fail(p, hr2di_projector_work(p, 1 + n / 16), "");
+  if (!status && p->links->pieces) status = project_pieces(p, patch);
+  return status ? status : propose_slot(p, patch, HR2DI_WHOLE_SLOTS);
 }
 
 hr2d_status hr2di_projector_all(hr2di_projector *p) {
@@ -240,7 +264,6 @@ hr2d_status hr2di_projector_all(hr2di_projector *p) {
   for (size_t patch = p->options.row_from; patch < p->options.row_to && !status; patch++) {
     status = hr2di_projector_row(p, patch);
     if (!status) status = hr2di_rounds_run(p, SIZE_MAX);
-    hr2di_part_rows_end(p);
     hr2di_rounds_measure(p);
   }
   return status;

@@ -182,7 +182,8 @@ hr2d_status hr2di_projector_accept(hr2di_projector *p, const double *area, size_
   if (count == 0) return HR2D_OK;
   const hr2d_status status = hr2di_projector_count_links(p, count);
   for (size_t k = 0; k < count && p->rows; k++)
-    hr2di_projector_in_row(p, p->hierarchy->element[p->accepted[k].first].patch, 1, 0);
+    hr2di_projector_in_row(p, p->hierarchy->element[p->accepted[k].first].patch,
+                           p->hierarchy->element[p->accepted[k].second].patch, 1, 0);
   return status || !p->sink ? status : p->sink(p->sink_ctx, p->accepted, area, count);
 }
 

@@ -34,14 +34,14 @@ typedef struct hr2di_occluded_pairs {
   hr2di_sight_list list;
 } hr2di_occluded_pairs;
 
-/* The row under way, if this share has a part of its links, see refine/part-rows.h. */
+/* The slot under way, if it has several pieces, see refine/part-rows.h. */
 typedef struct hr2di_part_row {
   const unsigned char *mine; /* per piece */
-  size_t count;              /* of pieces; at most 1: the whole row */
+  size_t count;              /* of pieces; at most 1: none is under way */
   size_t next;               /* the piece of the next link */
   uint64_t areas;            /* of links that are kept */
-  hr2d_refine_counts before; /* the row */
-  uint64_t tests;            /* of visibility, before the row */
+  hr2d_refine_counts before; /* the slot */
+  uint64_t tests;            /* of visibility, before the slot */
   uint64_t others;           /* tests that other shares count */
 } hr2di_part_row;
 
@@ -65,9 +65,10 @@ struct hr2di_projector {
   double roots, roots_done; /* root pairs, all and done so far, for progress */
   double fraction;          /* of them, when it was measured last; see rounds.h */
   unsigned ticks;           /* rounds since then */
-  hr2d_row_counts *rows;    /* per patch, or NULL if nobody asks */
+  hr2d_row_counts *rows;    /* per patch, or per slot of links->pieces; NULL: nobody asks */
   hr2di_part_row part;
-  hr2di_watch *watch; /* of the thread that uses this */
+  uint64_t other_tests; /* of visibility, that another share counts, by all workers */
+  hr2di_watch *watch;   /* of the thread that uses this */
 
   hr2di_stack facing;  /* refused pairs that face each other fully */
   hr2di_stack clipped; /* refused pairs that one horizon still cuts */
@@ -117,12 +118,20 @@ hr2d_status hr2di_projector_propose_clipped(hr2di_projector *p, const hr2d_pair 
 /* Removes the pairs that the claim drops.  Sets p->flag. */
 hr2d_status hr2di_projector_claim(hr2di_projector *p, hr2d_pair *pairs, size_t *count);
 
-/* Counts links, or tests of visibility, in the row of a patch, if anybody asks. */
-static inline void hr2di_projector_in_row(hr2di_projector *p, size_t patch, uint64_t links,
-                                          uint64_t tests) {
+/* How many rows, or slots of rows, have counts of their own. */
+static inline size_t hr2di_projector_rows(const hr2d_linkset *links) {
+  const size_t rows = hr2di_scene_cell(links->hierarchy->scene);
+  return links->pieces ? links->pieces->slot[rows] : rows;
+}
+
+/* Counts links, or tests of visibility, of a pair of patches, if anybody asks. */
+static inline void hr2di_projector_in_row(hr2di_projector *p, size_t patch, size_t other,
+                                          uint64_t links, uint64_t tests) {
   if (!p->rows) return;
-  p->rows[patch].links += links;
-  p->rows[patch].visibility_tests += tests;
+  const hr2di_row_pieces *pieces = p->links->pieces;
+  hr2d_row_counts *row = &p->rows[pieces ? hr2di_row_slot(pieces, patch, other) : patch];
+  row->links += links;
+  row->visibility_tests += tests;
 }
 
 /* Adds what a projector has counted in rows to `sum`, if it has. */

@@ -48,9 +48,10 @@ static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
   if (!status) status = unite_images(p);
   h->refining = 0;
   p->counts.visibility_tests += hr2di_part_rows_tests(p);
+  p->other_tests += p->part.others;
   if (status) hr2di_hierarchy_truncate(h, elements);
   if (!status && p->rows) {
-    memset(p->options.row_counts, 0, hr2di_scene_cell(h->scene) * sizeof *p->rows);
+    memset(p->options.row_counts, 0, hr2di_projector_rows(p->links) * sizeof *p->rows);
     hr2di_projector_add_rows(p, p->options.row_counts);
   }
   return status;
@@ -157,7 +158,8 @@ static hr2d_status project_links(hr2di_projector *p) {
         continue;
       }
       p->counts.partial_links += partial[k];
-      hr2di_projector_in_row(p, p->hierarchy->element[pairs[k].first].patch, 1, 0);
+      hr2di_projector_in_row(p, p->hierarchy->element[pairs[k].first].patch,
+                             p->hierarchy->element[pairs[k].second].patch, 1, 0);
       area[kept] = hr2di_store_at(old, first + k)->exchange_area;
       pairs[kept++] = pairs[k];
     }
@@ -233,6 +235,7 @@ static hr2d_status refine(hr2d_linkset *links, const hr2d_refine_options *option
     status =
         hr2di_message_fail(&links->message, HR2D_ENOMEM, "out of memory for the refinement");
   }
+  const uint64_t own_tests = p->counts.visibility_tests + p->other_tests;
   if (used.share) status = unite(p, elements, &made, status);
   if (status) {
     hr2di_store_clear(&made, &links->alloc);
@@ -244,6 +247,7 @@ static hr2d_status refine(hr2d_linkset *links, const hr2d_refine_options *option
     links->epsilon = used.epsilon;
     links->share = used.share;
     sum_counts(links, p);
+    links->own_tests += own_tests;
   }
   hr2di_alloc_free(&links->alloc, s);
   hr2di_projector_destroy(p);

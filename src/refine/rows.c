@@ -108,7 +108,6 @@ static void do_row(void *ctx, size_t number, size_t task) {
   w->status = hr2di_projector_fail(p, hr2di_watch_status(p->watch), "");
   if (!w->status) w->status = hr2di_projector_row(p, all->first + task);
   if (!w->status) w->status = hr2di_rounds_run(p, SIZE_MAX);
-  hr2di_part_rows_end(p);
   if (!w->status) w->status = keep_halvings(all, w);
   atomic_fetch_add(&all->links_found, w->row->links);
   atomic_fetch_add(&all->rows_done, 1);
@@ -206,7 +205,8 @@ static hr2d_status hire(rows *all, size_t k) {
   return HR2D_OK;
 }
 
-static void sum_up(hr2d_refine_counts *sum, const hr2di_projector *p) {
+static void sum_up(hr2di_projector *all, const hr2di_projector *p) {
+  hr2d_refine_counts *sum = &all->counts;
   sum->limited_links += p->counts.limited_links;
   sum->oracle_calls += p->counts.oracle_calls;
   sum->facing_tests += p->counts.facing_tests;
@@ -215,6 +215,7 @@ static void sum_up(hr2d_refine_counts *sum, const hr2di_projector *p) {
   sum->blocked_pairs += p->counts.blocked_pairs;
   sum->dark_pairs += p->counts.dark_pairs;
   sum->visibility_tests += hr2di_part_rows_tests(p);
+  all->other_tests += p->part.others;
 }
 
 static void clear(rows *all) {
@@ -241,7 +242,7 @@ static hr2d_status project(rows *all) {
   for (; all->first < last && !status; all->first += BAND)
     status = do_band(all, last - all->first < BAND ? last - all->first : BAND);
   for (size_t k = 0; k < all->workers; k++) {
-    sum_up(&all->p->counts, all->worker[k].projector);
+    sum_up(all->p, all->worker[k].projector);
     hr2di_projector_add_rows(all->worker[k].projector, all->p->rows);
   }
   all->p->roots_done = all->p->roots; /* to be told at the end */

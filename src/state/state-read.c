@@ -254,6 +254,7 @@ static void take(loading *l) {
   links->epsilon = l->head.epsilon;
   links->counts = l->counts;
   links->counts.levels = sizes.levels;
+  links->own_tests = l->counts.visibility_tests;
 }
 
 hr2d_status hr2d_state_read(hr2d_linkset *links, hr2d_read_fn read, void *ctx,

@@ -105,6 +105,10 @@ static hr2d_status add_contact(hr2di_sight_list *list, hr2d_segment near, hr2d_s
   return hr2di_sight_list_add(list, &all, near, far);
 }
 
+hr2d_status hr2di_patch_sights_look(hr2di_patch_sights *s, uint32_t from, uint32_t to) {
+  return in_contact(&s->scene->parts, from, to) ? HR2D_OK : look_from(s, from);
+}
+
 hr2d_status hr2di_patch_sights_between(hr2di_patch_sights *s, const hr2di_patch_pair *pair,
                                        hr2di_sight_list *list, hr2di_sight_list *whole) {
   const int turn = pair->patch[0] > pair->patch[1];

@@ -40,6 +40,10 @@ typedef struct hr2di_patch_pair {
 hr2d_status hr2di_patch_sights_between(hr2di_patch_sights *sights, const hr2di_patch_pair *pair,
                                        hr2di_sight_list *list, hr2di_sight_list *whole);
 
+/* Looks from a patch, unless it has looked last, if hr2di_patch_sights_between() would do so
+   for parts of these patches.  Returns likewise. */
+hr2d_status hr2di_patch_sights_look(hr2di_patch_sights *sights, uint32_t from, uint32_t to);
+
 /* How sights [first, count) of a list see a far part from a near one. */
 hr2di_visibility_class hr2di_sights_classify(const hr2di_sight_list *list, size_t first,
                                              hr2d_segment near, hr2d_segment far);

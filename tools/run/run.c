@@ -129,12 +129,14 @@ void run_release(run *r) {
 }
 
 int run_compare_shares(run *r) {
-  double most[] = {(double)hr2d_linkset_size(r->links), (double)run_peak_bytes()};
+  double most[] = {(double)hr2d_linkset_size(r->links), (double)run_peak_bytes(),
+                   (double)hr2d_linkset_own_tests(r->links)};
   if (!r->share) return 0;
-  if (r->share->combine(r->share->ctx, HR2D_OK, HR2D_COMBINE_MOST, most, 2))
+  if (r->share->combine(r->share->ctx, HR2D_OK, HR2D_COMBINE_MOST, most, 3))
     return complain(r->options->scene, "a share has failed");
   r->most_links = (uint64_t)most[0];
   r->most_bytes = (uint64_t)most[1];
+  r->most_tests = (uint64_t)most[2];
   return 0;
 }
 

@@ -192,6 +192,7 @@ static json_t *ranks(const run *r) {
   json_t *object = json_object();
   json_put(&object, "count", json_count(r->share->count));
   json_put(&object, "most_links", json_count(r->most_links));
+  json_put(&object, "most_visibility_tests", json_count(r->most_tests));
   json_put(&object, "most_bytes", json_count(r->most_bytes));
   return object;
 }
