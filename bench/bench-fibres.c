@@ -3,7 +3,10 @@
 
    Usage: bench-fibres [--error] [PATCHES...]; 8004 and 64004 patches unless given.  Each size
    has a process of its own.  Seconds are of the processor, so that other work on the machine
-   matters little; parts of them follow the clock.  With --error the error is measured, too. */
+   matters little; parts of them follow the clock.  With --error the error is measured, too.
+
+   Usage: bench-fibres --write FIBRES SIDES; prints such a scene as GeoJSON, for other programs.
+ */
 #include <hr2d/hr2d.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,7 +59,34 @@ static void print_row(const fibres *f) {
   fflush(stdout);
 }
 
+/* A fibre is one feature. */
+static void write_scene(size_t count, size_t sides) {
+  hr2d_point at[MANY_CORNERS];
+  many_bed bed = many_bed_of(count, sides);
+  puts("{\"type\": \"FeatureCollection\", \"features\": [\n"
+       "{\"type\": \"Feature\", \"properties\": {\"reflectance\": 0.5, \"emission\": 1},\n"
+       " \"geometry\": {\"type\": \"LineString\", \"coordinates\": [[0, 0], [1, 0]]}},\n"
+       "{\"type\": \"Feature\", \"properties\": {\"reflectance\": 0.5},\n"
+       " \"geometry\": {\"type\": \"LineString\",\n"
+       "  \"coordinates\": [[1, 0], [1, 1], [0, 1], [0, 0]]}}");
+  while (many_bed_next(&bed, at)) {
+    puts(
+        ",{\"type\": \"Feature\", \"properties\": {\"reflectance\": 0.5, \"faces\": \"out\"},\n"
+        " \"geometry\": {\"type\": \"Polygon\", \"coordinates\": [[");
+    for (size_t c = 0; c <= bed.corners; c++) {
+      const hr2d_point p = at[c % bed.corners];
+      printf("%s[%.17g, %.17g]", c > 0 ? ", " : "", p.x, p.y);
+    }
+    puts("]]}}");
+  }
+  puts("]}");
+}
+
 int main(int argc, char **argv) {
+  if (argc == 4 && strcmp(argv[1], "--write") == 0) {
+    write_scene((size_t)strtoul(argv[2], NULL, 10), (size_t)strtoul(argv[3], NULL, 10));
+    return EXIT_SUCCESS;
+  }
   static char *usual[] = {"8004", "64004"};
   const int with_error = argc > 1 && strcmp(argv[1], "--error") == 0, from = 1 + with_error;
   char **size = argc > from ? argv + from : usual;

@@ -4,8 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "support/random.h"
-
 #define PI 3.14159265358979323846
 
 static hr2d_status add(hr2d_scene *scene, hr2d_point a, hr2d_point b, double emission,
@@ -100,34 +98,40 @@ static hr2d_point turned(double x, double y, double radius, double angle) {
   return (hr2d_point){x + radius * cos(angle), y + radius * sin(angle)};
 }
 
-/* Regular polygons with their fronts outside in a square room of bright ceiling, each turned
-   and shifted at random in its own cell. */
-static hr2d_scene *make_polygons(size_t count, size_t corners) {
-  const size_t side = side_of(count);
+many_bed many_bed_of(size_t count, size_t corners) {
+  return (many_bed){count, corners < MANY_CORNERS ? corners : MANY_CORNERS, 0, {20240301}};
+}
+
+int many_bed_next(many_bed *bed, hr2d_point *at) {
+  const size_t side = side_of(bed->count), k = bed->next++;
   const double cell = 1 / (double)side;
-  hr2d_point at[16];
-  randoms state = {20240301};
+  if (k >= bed->count) return 0;
+  const double radius = cell * (0.1 + 0.2 * random_unit(&bed->state)), free = cell - 2 * radius;
+  const double x = cell * (double)(k % side) + radius + free * random_unit(&bed->state);
+  const double y = cell * (double)(k / side) + radius + free * random_unit(&bed->state);
+  const double angle = 2 * PI * random_unit(&bed->state);
+  for (size_t c = 0; c < bed->corners; c++)
+    at[c] = turned(x, y, radius, angle + 2 * PI * (double)c / (double)bed->corners);
+  return 1;
+}
+
+/* With their fronts outside in a square room with one bright wall. */
+hr2d_scene *many_polygons(size_t count, size_t corners) {
+  hr2d_point at[MANY_CORNERS];
+  many_bed bed = many_bed_of(count, corners);
   hr2d_scene *scene = NULL;
   if (hr2d_scene_create(NULL, &scene)) return NULL;
   hr2d_status status = add_box(scene, 0, 0, 1, 0, 1);
-  for (size_t k = 0; k < count && !status; k++) {
-    const double radius = cell * (0.1 + 0.2 * random_unit(&state)), free = cell - 2 * radius;
-    const double x = cell * (double)(k % side) + radius + free * random_unit(&state);
-    const double y = cell * (double)(k / side) + radius + free * random_unit(&state);
-    const double angle = 2 * PI * random_unit(&state);
-    for (size_t c = 0; c < corners; c++)
-      at[c] = turned(x, y, radius, angle + 2 * PI * (double)c / (double)corners);
-    status = add_ring(scene, at, corners, 1, 0);
-  }
+  while (!status && many_bed_next(&bed, at)) status = add_ring(scene, at, bed.corners, 1, 0);
   return commit(scene, status);
 }
 
 hr2d_scene *many_random_squares(size_t squares) {
-  return make_polygons(squares, 4);
+  return many_polygons(squares, 4);
 }
 
 hr2d_scene *many_fibres(size_t fibres) {
-  return make_polygons(fibres, 16);
+  return many_polygons(fibres, 16);
 }
 
 hr2d_scene *many_round(size_t patches) {

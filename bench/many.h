@@ -5,6 +5,8 @@
 
 #include <hr2d/scene.h>
 
+#include "support/random.h"
+
 typedef struct many_kind {
   const char *name;
   hr2d_scene *(*make)(size_t patches); /* committed, about as many; NULL if that fails */
@@ -13,8 +15,21 @@ typedef struct many_kind {
 extern const many_kind many_kinds[];
 extern const size_t many_kind_count;
 
-/* Committed scenes, or NULL: squares, or fibres of 16 sides, anywhere in a closed box, and a
-   round room. */
+/* Regular polygons of up to MANY_CORNERS corners, each turned and shifted at random in its own
+   cell of the unit square. */
+enum { MANY_CORNERS = 64 };
+
+typedef struct many_bed {
+  size_t count, corners, next;
+  randoms state;
+} many_bed;
+
+many_bed many_bed_of(size_t count, size_t corners);
+int many_bed_next(many_bed *bed, hr2d_point *at); /* sets all corners; 0: there are no more */
+
+/* Committed scenes, or NULL: such polygons in a closed box; squares, or fibres of 16 sides,
+   anywhere in a closed box, and a round room. */
+hr2d_scene *many_polygons(size_t count, size_t corners);
 hr2d_scene *many_random_squares(size_t squares);
 hr2d_scene *many_fibres(size_t fibres);
 hr2d_scene *many_round(size_t patches);
