@@ -9,7 +9,8 @@
    σ is t rounded to a multiple of 2^(m−52): a function of t alone.  If Σ|t| ≤ 2^(m−1), sums of
    heads are exact in any order.  The rests t − head, of at most 2^(m−53), are rounded in the
    same way with σ·2^−24, for up to 2^28 terms.  So a sum of n terms is off by at most
-   n·2^(m−77). */
+   n·2^(m−77).  src/base/bin.h has the same for libhr2d: this library sees the public headers
+   of that one alone, so that it can be built beside an installed libhr2d. */
 #ifndef HR2D_PETSC_EXACT_SUM_H
 #define HR2D_PETSC_EXACT_SUM_H
 

@@ -51,8 +51,9 @@ hr2d_status hr2dpi_share_init(hr2dp *p) {
   return status;
 }
 
-/* What units and rows take is counted at COARSER·ε. */
-enum { COARSER = 4 };
+/* What units and rows take is counted at COARSER·ε; if these are no more than FEW links for each
+   rank, at ε, as they tell little of what there will be. */
+enum { COARSER = 4, FEW = 4096 };
 
 typedef struct weigher {
   const hr2dp *p;
@@ -105,12 +106,13 @@ static hr2d_status weigh_rows(hr2dp *p, hr2d_refine_options *options, hr2d_links
   return status;
 }
 
-static hr2d_status weigh(hr2dp *p, const hr2d_refine_options *given, double *weight) {
+static hr2d_status weigh(hr2dp *p, const hr2d_refine_options *given, double coarser,
+                         double *weight) {
   hr2d_refine_options options = *given;
   hr2d_hierarchy *hierarchy = NULL;
   hr2d_linkset *links = NULL;
   options.max_elements = options.max_links = options.max_bytes = 0;
-  options.epsilon = COARSER * (given->epsilon > 0 ? given->epsilon : HR2D_DEFAULT_EPSILON);
+  options.epsilon = coarser * (given->epsilon > 0 ? given->epsilon : HR2D_DEFAULT_EPSILON);
   hr2d_status status = make_set(p, &hierarchy, &links);
   if (!status)
     status = p->units.cut > 0 ? weigh_units(p, &options, links, weight)
@@ -122,12 +124,32 @@ static hr2d_status weigh(hr2dp *p, const hr2d_refine_options *given, double *wei
   return status;
 }
 
-/* Units have one weight, rows have two. */
+/* Whether there are few links.  Units have one weight, rows have two. */
+static int are_few(const hr2dp *p, const double *weight, size_t weights) {
+  const size_t step = p->units.cut > 0 ? 1 : 2;
+  double links = 0;
+  for (size_t k = 0; k < weights; k += step) links += weight[k];
+  return links < (double)FEW * p->ranks;
+}
+
+static PetscErrorCode weigh_all(hr2dp *p, const hr2d_refine_options *options, double *weight,
+                                size_t weights) {
+  PetscFunctionBegin;
+  for (double coarser = COARSER; coarser >= 1; coarser /= COARSER) {
+    memset(weight, 0, weights * sizeof *weight);
+    PetscCall(hr2dpi_agree(p, weigh(p, options, coarser, weight)));
+    PetscCallMPI(
+        MPI_Allreduce(MPI_IN_PLACE, weight, (int)weights, MPI_DOUBLE, MPI_SUM, p->comm));
+    if (!are_few(p, weight, weights)) break;
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode share_out_by(hr2dp *p, const hr2d_refine_options *options, double *weight,
                                    size_t weights) {
   PetscFunctionBegin;
-  PetscCall(hr2dpi_agree(p, weight ? weigh(p, options, weight) : HR2D_ENOMEM));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, weight, (int)weights, MPI_DOUBLE, MPI_SUM, p->comm));
+  PetscCall(hr2dpi_agree(p, weight ? HR2D_OK : HR2D_ENOMEM));
+  PetscCall(weigh_all(p, options, weight, weights));
   if (p->units.cut > 0) {
     hr2dpi_ranges_cut(p, weight, &p->units.links);
     PetscFunctionReturn(0);
@@ -143,7 +165,7 @@ static PetscErrorCode share_out(hr2dp *p, const hr2d_refine_options *options) {
   const uint64_t weights = p->units.cut > 0 ? p->units.count : 2 * p->units.count;
   set_equal_rows(p);
   if (p->ranks == 1 || options->epsilon < 0 || weights > INT_MAX) PetscFunctionReturn(0);
-  double *weight = hr2dpi_alloc_zero(p, weights, sizeof *weight);
+  double *weight = hr2dpi_alloc(p, weights, sizeof *weight);
   const PetscErrorCode failed = share_out_by(p, options, weight, (size_t)weights);
   hr2dpi_free(p, weight);
   PetscCall(failed);

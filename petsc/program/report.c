@@ -16,7 +16,7 @@ typedef struct result {
   hr2dp_counts n;
   double *average, *irradiance; /* patches × bands */
   double total;                 /* seconds */
-  uint64_t peak_bytes;          /* of the rank that has most */
+  uint64_t peak_bytes, halo;    /* of the rank that has most */
 } result;
 
 static void print_patches(const result *r) {
@@ -95,6 +95,7 @@ static json_t *json_ranks(const result *r) {
   json_put(&object, "most_links", json_count(r->n.most_links));
   json_put(&object, "most_visibility_tests", json_count(r->n.most_tests));
   json_put(&object, "most_elements", json_count(r->n.most_elements));
+  json_put(&object, "most_halo_elements", json_count(r->halo));
   json_put(&object, "most_bytes", json_count(r->peak_bytes));
   return object;
 }
@@ -147,11 +148,14 @@ static int write_json(const result *r, const char *path) {
   return json_write(root, path);
 }
 
-/* The largest peak of a rank. */
-static void find_peak(result *r) {
+/* The largest peak and the largest halo of a rank. */
+static void find_most(result *r) {
   struct rusage usage;
-  r->peak_bytes = getrusage(RUSAGE_SELF, &usage) ? 0 : (uint64_t)usage.ru_maxrss * 1024;
-  MPI_Allreduce(MPI_IN_PLACE, &r->peak_bytes, 1, MPI_UINT64_T, MPI_MAX, PETSC_COMM_WORLD);
+  uint64_t most[] = {getrusage(RUSAGE_SELF, &usage) ? 0 : (uint64_t)usage.ru_maxrss * 1024,
+                     r->n.halo_elements};
+  MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_UINT64_T, MPI_MAX, PETSC_COMM_WORLD);
+  r->peak_bytes = most[0];
+  r->halo = most[1];
 }
 
 static int tell(const result *r) {
@@ -174,7 +178,7 @@ int job_report(job *j) {
     PetscErrorCode code = hr2dp_averages(j->p, j->b, r.average);
     if (!code) code = hr2dp_averages(j->p, j->h, r.irradiance);
     if (!code) code = hr2dp_get_counts(j->p, &r.n);
-    find_peak(&r);
+    find_most(&r);
     r.total = clock_seconds() - j->start;
     if (code)
       status = job_complain(j, code);

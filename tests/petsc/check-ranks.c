@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Refines and solves each case over all ranks, and on rank 0 alone by libhr2d.  Counts must be
    equal, B and H equal to 1e-12 of the largest on each patch.  Prints a line for each case with
-   the hash of all bits of B and H, which the script compares between numbers of ranks. */
+   the hash of all bits of B and H, which the script compares between numbers of ranks.
+
+   A negative control: if a rank does not ask for the originals of its images (touch() in
+   petsc/trees.c), B of "streets" is off by a third on two ranks, and "quarter" fails. */
 #include <hr2d-petsc.h>
 #include <inttypes.h>
 #include <math.h>
