@@ -48,6 +48,7 @@ typedef struct dealer {
   work all;
   work *load;   /* per share, parts of all */
   unsigned now; /* the share that takes the row under way */
+  hr2di_watch *watch;
 } dealer;
 
 /* The pairs of patches in a row. */
@@ -191,9 +192,17 @@ static void deal_row(dealer *d, size_t row) {
   for (uint32_t k = 0; k < slots; k++) deal_slot(d, row, p->slot[row] + k, look);
 }
 
-static void deal_rows(dealer *d, const weighed *order) {
+/* Rows between two declarations of work. */
+enum { SOME = 64 };
+
+static hr2d_status deal_rows(dealer *d, const weighed *order) {
+  const uint64_t units = SOME * (1 + d->share->count / 8);
   take_back(d);
-  for (size_t k = 0; k < d->rows; k++) deal_row(d, order[k].row);
+  for (size_t k = 0; k < d->rows; k++) {
+    if (k % SOME == 0 && hr2di_watch_work(d->watch, units)) break;
+    deal_row(d, order[k].row);
+  }
+  return hr2di_watch_status(d->watch);
 }
 
 static int is_even(const dealer *d) {
@@ -208,7 +217,7 @@ static hr2d_status sort_rows(const dealer *d, weighed *order) {
     for (uint32_t s = d->pieces->slot[k]; s < d->pieces->slot[k + 1]; s++) add(&w, d->work[s]);
     order[k] = (weighed){size_of(part_of(d, w)), k};
   }
-  return hr2di_sort(order, d->rows, sizeof *order, by_size, NULL);
+  return hr2di_sort(order, d->rows, sizeof *order, by_size, d->watch);
 }
 
 /* Tests that several shares make alike are more than there are: so tests count less and less,
@@ -218,10 +227,10 @@ static hr2d_status deal(dealer *d) {
   d->load = hr2di_alloc_zero(d->alloc, d->share->count, sizeof *d->load);
   hr2d_status status = order && d->load ? cut_slots(d) : HR2D_ENOMEM;
   if (!status) status = sort_rows(d, order);
-  if (!status) deal_rows(d, order);
+  if (!status) status = deal_rows(d, order);
   for (int k = 0; k < ATTEMPTS && !status && !is_even(d); k++) {
     d->all.tests *= MORE;
-    deal_rows(d, order);
+    status = deal_rows(d, order);
   }
   hr2di_alloc_free(d->alloc, order);
   hr2di_alloc_free(d->alloc, d->load);
@@ -230,11 +239,15 @@ static hr2d_status deal(dealer *d) {
 
 hr2d_status hr2di_row_deal(hr2di_row_pieces *pieces, hr2d_linkset *links,
                            const hr2d_refine_options *options) {
+  hr2di_watch watch;
   dealer d = {.share = options->share,
               .links = links,
               .alloc = &links->alloc,
               .pieces = pieces,
-              .rows = hr2di_scene_cell(links->hierarchy->scene)};
+              .rows = hr2di_scene_cell(links->hierarchy->scene),
+              .watch = &watch};
+  hr2di_scene_watch(links->hierarchy->scene, &watch, options->progress, options->progress_ctx,
+                    "refine");
   hr2d_status status = cut_rows(&d);
   if (!status) status = share_count(&d);
   if (!status) d.work = hr2di_alloc_zero(d.alloc, d.slots, sizeof *d.work);
