@@ -51,8 +51,8 @@ hr2d_status hr2dpi_share_init(hr2dp *p) {
   return status;
 }
 
-/* What units and rows take is counted at COARSER·ε; if these are no more than FEW links for each
-   rank, at ε, as they tell little of what there will be. */
+/* What units and rows take is counted at COARSER·ε; if these are no more than FEW links for
+   each rank, at ε, as they tell little of what there will be. */
 enum { COARSER = 4, FEW = 4096 };
 
 typedef struct weigher {
