@@ -115,6 +115,7 @@ SUITES = \
 	tests/unit/accuracy/check-dark \
 	tests/unit/accuracy/check-roundings \
 	tests/unit/accuracy/check-shadow-edges \
+	tests/unit/clusters/check-far-exchange \
 	tests/unit/clusters/check-root-pairs \
 	tests/unit/accuracy/check-corner \
 	tests/unit/visibility/check-events \
@@ -290,7 +291,8 @@ TOO_LONG = tests/faults/check-faults tests/faults/check-faults-accuracy \
 	tests/unit/accuracy/check-shadow-edges tests/unit/accuracy/check-shares \
 	tests/unit/accuracy/check-short-patches tests/unit/accuracy/check-target-calls \
 	tests/unit/blocks/check-blocks tests/unit/blocks/check-directions \
-	tests/unit/clusters/check-clusters tests/unit/field/check-field \
+	tests/unit/clusters/check-clusters tests/unit/clusters/check-far-exchange \
+	tests/unit/field/check-field tests/unit/visibility/check-period-rows \
 	tests/unit/field/check-field-grid tests/unit/formats/check-vs2 tests/unit/links/check-store \
 	tests/unit/oracle/check-l1 tests/unit/refine/check-image-elements \
 	tests/unit/refine/check-occlusion tests/unit/refine/check-rows \

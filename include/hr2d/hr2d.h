@@ -26,6 +26,7 @@
  * - hr2d_scene_add_mirror() and hr2d_scene_set_period() repeat the scene (symmetry.h).
  * - hr2d_exchange_area() computes the exchange of two segments (geometry.h).
  * - hr2d_exchange_rows_create() does it for all patches, with occluders (visibility.h).
+ * - hr2d_clusters_gather() sums what many far patches exchange (clusters.h).
  * - hr2d_study_run() measures L against N (study.h).
  * - hr2d_target::share shares out a solve among processes (share.h).
  *
@@ -79,6 +80,7 @@
 #define HR2D_H
 
 #include <hr2d/accuracy.h>
+#include <hr2d/clusters.h>
 #include <hr2d/daylight.h>
 #include <hr2d/field.h>
 #include <hr2d/geometry.h>

@@ -39,10 +39,10 @@
  * such a row looks round from its patch. Where few patches have many links, all shares with a
  * part of them refine the same pairs, and each keeps its part of the links. So shares have the
  * same number of links, but for some, and hr2d_linkset_own_tests() tells how many tests of
- * visibility. Links between clusters of patches are on every share, and so is what is known of
- * the scene. A further refinement of a set may make other visibility tests than one process.
- * States hold the links of one share only: hr2dp_save_solution() of libhr2d-petsc keeps B
- * alone, and makes the links again.
+ * visibility. Links between clusters of patches (clusters.h) are on every share, and so is what
+ * is known of the scene. A further refinement of a set may make other visibility tests than one
+ * process. States hold the links of one share only: hr2dp_save_solution() of libhr2d-petsc
+ * keeps B alone, and makes the links again.
  *
  * libhr2d-petsc has a `combine` for MPI. This one is for processes of one machine:
  *
