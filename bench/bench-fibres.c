@@ -82,11 +82,20 @@ static void write_scene(size_t count, size_t sides) {
   puts("]}");
 }
 
-int main(int argc, char **argv) {
-  if (argc == 4 && strcmp(argv[1], "--write") == 0) {
-    write_scene((size_t)strtoul(argv[2], NULL, 10), (size_t)strtoul(argv[3], NULL, 10));
-    return EXIT_SUCCESS;
+static int write_asked(int argc, char **argv) {
+  const size_t count = argc == 4 ? strtoul(argv[2], NULL, 10) : 0;
+  const size_t sides = argc == 4 ? strtoul(argv[3], NULL, 10) : 0;
+  if (count < 1 || sides < 3 || sides > MANY_CORNERS) {
+    fprintf(stderr, "usage: bench-fibres --write FIBRES SIDES, with 3 to %d sides\n",
+            MANY_CORNERS);
+    return EXIT_FAILURE;
   }
+  write_scene(count, sides);
+  return EXIT_SUCCESS;
+}
+
+int main(int argc, char **argv) {
+  if (argc > 1 && strcmp(argv[1], "--write") == 0) return write_asked(argc, argv);
   static char *usual[] = {"8004", "64004"};
   const int with_error = argc > 1 && strcmp(argv[1], "--error") == 0, from = 1 + with_error;
   char **size = argc > from ? argv + from : usual;

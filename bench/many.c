@@ -99,7 +99,7 @@ static hr2d_point turned(double x, double y, double radius, double angle) {
 }
 
 many_bed many_bed_of(size_t count, size_t corners) {
-  return (many_bed){count, corners < MANY_CORNERS ? corners : MANY_CORNERS, 0, {20240301}};
+  return (many_bed){count, corners, 0, {20240301}};
 }
 
 int many_bed_next(many_bed *bed, hr2d_point *at) {
@@ -116,7 +116,7 @@ int many_bed_next(many_bed *bed, hr2d_point *at) {
 }
 
 /* With their fronts outside in a square room with one bright wall. */
-hr2d_scene *many_polygons(size_t count, size_t corners) {
+static hr2d_scene *make_polygons(size_t count, size_t corners) {
   hr2d_point at[MANY_CORNERS];
   many_bed bed = many_bed_of(count, corners);
   hr2d_scene *scene = NULL;
@@ -127,11 +127,11 @@ hr2d_scene *many_polygons(size_t count, size_t corners) {
 }
 
 hr2d_scene *many_random_squares(size_t squares) {
-  return many_polygons(squares, 4);
+  return make_polygons(squares, 4);
 }
 
 hr2d_scene *many_fibres(size_t fibres) {
-  return many_polygons(fibres, 16);
+  return make_polygons(fibres, 16);
 }
 
 hr2d_scene *many_round(size_t patches) {

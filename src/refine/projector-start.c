@@ -224,7 +224,7 @@ static hr2d_status propose_slot(hr2di_projector *p, size_t patch, uint32_t slot)
   const hr2di_roots *known = &p->links->roots;
   const size_t from = known->row ? known->row[patch] : p->directed ? 0 : patch + 1;
   const size_t to = known->row ? known->row[patch + 1] : n;
-  hr2d_status status = HR2D_OK;
+  hr2d_status status = hr2di_projector_fail(p, hr2di_projector_work(p, 1 + n / 16), "");
   proposals roots;
   roots.count = 0;
   for (size_t k = from; k < to && !status; k++) {
@@ -252,10 +252,8 @@ static hr2d_status project_pieces(hr2di_projector *p, size_t patch) {
 }
 
 hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch) {
-  const size_t n = p->hierarchy->scene->patches;
   if (!has_row(p, patch)) return hr2di_projector_fail(p, hr2di_projector_work(p, 1), "");
-  hr2d_status status = hr2di_projector_fail(p, hr2di_projector_work(p, 1 + n / 16), "");
-  if (!status && p->links->pieces) status = project_pieces(p, patch);
+  const hr2d_status status = p->links->pieces ? project_pieces(p, patch) : HR2D_OK;
   return status ? status : propose_slot(p, patch, HR2DI_WHOLE_SLOTS);
 }
 

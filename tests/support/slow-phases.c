@@ -204,6 +204,30 @@ static hr2d_status find_roots(slow_stage *s) {
   return status;
 }
 
+static hr2d_status ignore_near(void *ctx, const hr2d_pair *pairs, size_t count) {
+  (void)ctx;
+  (void)pairs;
+  (void)count;
+  return HR2D_OK;
+}
+
+static hr2d_status sum_clusters(slow_stage *s) {
+  const size_t n = hr2d_scene_patches(s->scene);
+  const hr2d_clusters_options o = {.struct_size = sizeof o,
+                                   .accuracy = 1e-4,
+                                   .threads = s->threads,
+                                   .progress = s->ask,
+                                   .progress_ctx = s->ctx};
+  hr2d_clusters *clusters = NULL;
+  double *value = calloc(2 * n, sizeof *value);
+  hr2d_status status = value ? HR2D_OK : HR2D_ENOMEM;
+  if (!status) status = hr2d_clusters_create(s->scene, &o, ignore_near, NULL, &clusters);
+  if (!status) status = hr2d_clusters_gather(clusters, &o, 1, 1, value, value + n);
+  hr2d_clusters_destroy(clusters);
+  free(value);
+  return status;
+}
+
 static hr2d_status find_factors(slow_stage *s) {
   hr2d_matrix_options o = HR2D_MATRIX_OPTIONS_INIT;
   o.threads = s->threads;
@@ -370,6 +394,7 @@ const slow_phase slow_phases[SLOW_PHASES] = {
     {"commit", make_open, commit},
     {"events", make_scene, find_events},
     {"roots", make_scene, find_roots},
+    {"clusters", make_scene, sum_clusters},
     {"factors", make_matrix, find_factors},
     {"rows", make_scene, find_rows},
     {"visit", make_scene, visit_rows},

@@ -30,7 +30,7 @@ typedef struct slow_phase {
   hr2d_status (*run)(slow_stage *s);     /* may be called again after it was stopped */
 } slow_phase;
 
-enum { SLOW_PHASES = 21 };
+enum { SLOW_PHASES = 22 };
 extern const slow_phase slow_phases[SLOW_PHASES];
 
 void slow_clear(slow_stage *s);

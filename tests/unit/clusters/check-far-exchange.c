@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The public calls for clusters: near pairs and links make up all exchange areas, and a solver
-   of one's own that uses them has the radiosity of the library. */
+/* The public calls for clusters: near pairs and links make up all exchange areas, those of the
+   library and those of a regular polygon, and a solver of one's own uses them. */
 #include <hr2d/hr2d.h>
 #include <math.h>
 #include <stdlib.h>
@@ -140,6 +140,65 @@ START_TEST(near_pairs_and_links_are_all) {
   ck_assert_double_le(fine, 1e-9);
   ck_assert_double_gt(coarse, 1e-9); /* the control: links are what differs */
   free(area);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+static hr2d_segment side_of_polygon(size_t k, size_t count) {
+  const double from = 2 * PI * (double)k / (double)count,
+               to = 2 * PI * (double)(k + 1) / (double)count;
+  return (hr2d_segment){{RADIUS * cos(from), RADIUS * sin(from)},
+                        {RADIUS * cos(to), RADIUS * sin(to)}};
+}
+
+/* Sums over near pairs. */
+typedef struct near_sum {
+  size_t n;
+  const double *b;
+  double *power;
+} near_sum;
+
+static hr2d_status add_near(void *ctx, const hr2d_pair *pairs, size_t count) {
+  near_sum *sum = ctx;
+  for (size_t k = 0; k < count; k++) {
+    const hr2d_segment i = side_of_polygon(pairs[k].first, sum->n),
+                       j = side_of_polygon(pairs[k].second, sum->n);
+    const double area = hr2d_exchange_area(&i, &j);
+    sum->power[pairs[k].first] += area * sum->b[pairs[k].second];
+    sum->power[pairs[k].second] += area * sum->b[pairs[k].first];
+  }
+  return HR2D_OK;
+}
+
+/* Crossed strings are chords: sides m apart in a regular polygon of n have the exchange area
+   4R sin(πm/n) sin²(π/2n). */
+START_TEST(a_polygon_is_known) {
+  enum { N = 3000 };
+  static double b[N], power[N], near_power[N], known[N];
+  const double half = sin(PI / (2. * N)), length = 2 * RADIUS * sin(PI / N);
+  near_sum sum = {N, b, near_power};
+  unsigned long r = test_seed();
+  hr2d_scene *scene = NULL;
+  hr2d_clusters *clusters = NULL;
+  double worst = 0;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  for (int k = 0; k < N; k++) {
+    ck_assert_int_eq(add_side(scene, RADIUS, k, N, 1, 1), HR2D_OK);
+    b[k] = test_random(&r);
+    known[k] = 4 * RADIUS * sin(PI * k / N) * half * half;
+  }
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  ck_assert_int_eq(hr2d_clusters_create(scene, NULL, add_near, &sum, &clusters), HR2D_OK);
+  ck_assert_uint_gt(hr2d_clusters_links(clusters), 0);
+  ck_assert_int_eq(hr2d_clusters_gather(clusters, NULL, 1, 1, b, power), HR2D_OK);
+  for (int i = 0; i < N; i++) {
+    double is = 0;
+    for (int j = 0; j < N; j++) is += known[(j - i + N) % N] * b[j];
+    worst = fmax(worst, fabs(power[i] + near_power[i] - is) / length);
+  }
+  printf("polygon: off by %.1e\n", worst);
+  ck_assert_double_le(worst, HR2D_DEFAULT_CLUSTER_ACCURACY);
+  hr2d_clusters_destroy(clusters);
   hr2d_scene_destroy(scene);
 }
 END_TEST
@@ -340,7 +399,7 @@ START_TEST(allocations_fail_one_by_one) {
 END_TEST
 
 TEST_SUITE("far exchange") {
-  ADD_TESTS("sums", near_pairs_and_links_are_all, a_solver_of_ones_own);
+  ADD_TESTS("sums", near_pairs_and_links_are_all, a_polygon_is_known, a_solver_of_ones_own);
   ADD_TESTS("gathers", threads_gather_the_same, shares_have_the_sum);
   ADD_TESTS("calls", what_is_wrong_is_refused, images_are_refused);
   REPEAT_TESTS(2, "calls", allocations_fail_one_by_one);
