@@ -40,14 +40,19 @@ START_TEST(what_is_important_is_right) {
   ck_assert_uint_eq(hr2d_scene_patches(scene), PATCHES);
   hr2d_account all, some;
   hr2d_solution *truth = accuracy_solve(scene, 1e-11, HR2D_NORM_AVERAGE, &all);
-  int cheaper = 0, spared = 0;
-  for (double error = 1e-3; error > 1e-9; error *= 1e-2) {
+  const double errors[] = {1e-3, 1e-5, 1e-7};
+  enum { ERRORS = sizeof errors / sizeof *errors };
+  int cheaper = 0, spared = 0, asks = 0;
+  for (size_t turn = 0; turn < ERRORS; turn++) {
+    const double error = errors[turn];
     hr2d_solution *every = accuracy_solve(scene, error, HR2D_NORM_AVERAGE, &all);
     hr2d_solution_destroy(every);
     for (size_t k = 0; k < ASKED; k++) {
       size_t patch[6];
       hr2d_target target = HR2D_TARGET_INIT;
       hr2d_solution *solution;
+      if (!test_meets(k, turn, ERRORS)) continue;
+      asks++;
       memcpy(patch, asked[k].patch, sizeof patch);
       target.error = error;
       target.important = patch;
@@ -70,8 +75,8 @@ START_TEST(what_is_important_is_right) {
     }
   }
   /* Negative controls. */
-  ck_assert_int_gt(cheaper, 5);
-  ck_assert_int_gt(spared, 5);
+  ck_assert_int_gt(cheaper, asks / 3);
+  ck_assert_int_gt(spared, asks / 3);
   hr2d_solution_destroy(truth);
   hr2d_scene_destroy(scene);
 }

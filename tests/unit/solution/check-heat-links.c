@@ -177,7 +177,7 @@ END_TEST
 
 START_TEST(threads_and_starts_do_not_matter) {
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
-  answer a = link_up(room, ROOM, .1, 2);
+  answer a = link_up(room, ROOM, test_multiplier() < .1 ? .2 : .1, 2);
   solve(&a, NULL);
   const double kelvin = a.kelvin[4], heat = a.heat[0];
   const uint64_t gathers = hr2d_solution_work(a.solution).gathers;
@@ -278,7 +278,7 @@ static hr2d_status count_or_stop(void *ctx, const hr2d_progress *progress) {
 }
 
 START_TEST(callbacks_end_the_solve) {
-  answer a = link_up(room, ROOM, .05, 1);
+  answer a = link_up(room, ROOM, test_multiplier() < .1 ? .1 : .05, 1);
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   hr2d_status status = HR2D_STOPPED;
   int asked = 0;

@@ -78,6 +78,8 @@ static const double least[] = {1e-9, 1e-5, 1e-4}; /* what the rows are off, of a
 
 START_TEST(rows_tell_what_they_are_off) {
   const size_t n = sizes[_i];
+  /* Of few images there are two cases. */
+  if (!test_meets((size_t)_i, 0, 2)) return;
   hr2d_scene *scene = make(n, 0);
   rows r = ask(scene);
   ck_assert_uint_eq(hr2d_scene_images(scene), images[_i]);
