@@ -279,28 +279,35 @@ check-long:
 	HR2D_TEST_MULTIPLIER="$${HR2D_TEST_MULTIPLIER-1}" $(MAKE) check
 .PHONY: check-long
 
-# Only Check programs, without fork, and without the suites of over a second, which take minutes under
-# valgrind.  They run under the sanitizers.
-TOO_LONG = tests/faults/check-faults tests/faults/check-faults-accuracy \
+# Only Check programs, without fork, and without most suites that take 20 s and more under valgrind,
+# which compute numbers and run other methods.  These run under the sanitizers; shorter suites call
+# the same functions.
+TOO_LONG = tests/bounds/check-bounds-geometry tests/bounds/check-bounds-l1 \
+	tests/faults/check-faults tests/faults/check-faults-accuracy \
 	tests/faults/check-faults-callbacks tests/faults/check-polls tests/faults/check-share-faults \
-	tests/hard/check-hard-refine tests/hard/check-hard-solve tests/paper/check-theorem \
-	tests/unit/accuracy/check-budgets tests/unit/accuracy/check-cluster-residuals \
-	tests/unit/accuracy/check-cracks tests/unit/accuracy/check-dark \
+	tests/hard/check-hard-oracles tests/hard/check-hard-refine tests/hard/check-hard-scenes \
+	tests/hard/check-hard-solve tests/paper/check-theorem tests/unit/accuracy/check-budgets \
+	tests/unit/accuracy/check-cluster-residuals tests/unit/accuracy/check-cracks \
+	tests/unit/accuracy/check-dark tests/unit/accuracy/check-error-shares \
 	tests/unit/accuracy/check-importance tests/unit/accuracy/check-known-radiosities \
-	tests/unit/accuracy/check-random-accuracy tests/unit/accuracy/check-roundings \
-	tests/unit/accuracy/check-shadow-edges tests/unit/accuracy/check-shares \
-	tests/unit/accuracy/check-short-patches tests/unit/accuracy/check-target-calls \
-	tests/unit/blocks/check-blocks tests/unit/blocks/check-directions \
-	tests/unit/clusters/check-clusters tests/unit/clusters/check-far-exchange \
-	tests/unit/field/check-field tests/unit/visibility/check-period-rows \
-	tests/unit/field/check-field-grid tests/unit/formats/check-vs2 tests/unit/links/check-store \
-	tests/unit/oracle/check-l1 tests/unit/refine/check-image-elements \
-	tests/unit/refine/check-occlusion tests/unit/refine/check-rows \
-	tests/unit/refine/check-validate tests/unit/scene/check-crossings tests/unit/scene/check-effects \
+	tests/unit/accuracy/check-random-accuracy tests/unit/accuracy/check-random-periods \
+	tests/unit/accuracy/check-roundings tests/unit/accuracy/check-shadow-edges \
+	tests/unit/accuracy/check-shares tests/unit/accuracy/check-short-patches \
+	tests/unit/accuracy/check-target-calls tests/unit/blocks/check-blocks \
+	tests/unit/blocks/check-directions tests/unit/clusters/check-clusters \
+	tests/unit/clusters/check-far-exchange tests/unit/field/check-field \
+	tests/unit/field/check-field-grid tests/unit/field/check-past-ends tests/unit/formats/check-vs2 \
+	tests/unit/geometry/check-exchange-area tests/unit/links/check-store tests/unit/oracle/check-l1 \
+	tests/unit/refine/check-image-elements tests/unit/refine/check-occlusion \
+	tests/unit/refine/check-rows tests/unit/refine/check-validate tests/unit/scene/check-crossings \
+	tests/unit/scene/check-effects tests/unit/solution/check-emissivity \
+	tests/unit/solution/check-heat-bands tests/unit/solution/check-heat-images \
 	tests/unit/solution/check-heat-links tests/unit/solution/check-irradiance-points \
-	tests/unit/solve/check-closure tests/unit/solve/check-mirrors tests/unit/solve/check-periods \
-	tests/unit/solve/check-sky tests/unit/solve/check-solve tests/unit/solve/check-sun \
-	tests/unit/visibility/check-events tests/unit/visibility/check-exchange-rows
+	tests/unit/solution/check-points tests/unit/solve/check-closure tests/unit/solve/check-mirrors \
+	tests/unit/solve/check-order tests/unit/solve/check-periods tests/unit/solve/check-row-sums \
+	tests/unit/solve/check-sky tests/unit/solve/check-slices tests/unit/solve/check-solve \
+	tests/unit/solve/check-sun tests/unit/visibility/check-events \
+	tests/unit/visibility/check-exchange-rows tests/unit/visibility/check-period-rows
 MEMCHECK = $(VALGRIND) --quiet --error-exitcode=9 --leak-check=full \
 	--errors-for-leak-kinds=definite,indirect
 check-valgrind:
