@@ -15,14 +15,14 @@ jobs=$(nproc 2>/dev/null || echo 1)
 passed=0 failed=0
 export HR2D_TEST_MULTIPLIER="${HR2D_TEST_MULTIPLIER-0.1}"
 
-# The suites in which the library or the application has several threads; check-team has a
-# pthread_create() of its own, which the sanitizer cannot do without.
-threaded="tests/threads/check-threads tests/unit/refine/check-refine \
+# The suites in which the library or the application has several threads, the longest one first;
+# check-team has a pthread_create() of its own, which the sanitizer cannot do without.
+threaded="tests/unit/clusters/check-clusters \
+tests/threads/check-threads tests/unit/refine/check-refine \
 tests/unit/refine/check-rows tests/unit/solve/check-slices \
 tests/unit/solve/check-order tests/unit/solve/check-solve \
 tests/unit/visibility/check-exchange-matrix tests/unit/visibility/check-exchange-rows \
-tests/unit/visibility/check-seen-backs tests/unit/clusters/check-clusters \
-tests/unit/blocks/check-blocks"
+tests/unit/visibility/check-seen-backs tests/unit/blocks/check-blocks"
 
 # build SETTING CONFIGURE-ARGUMENT...
 build() {
