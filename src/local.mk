@@ -171,7 +171,7 @@ libhr2d_core_la_SOURCES = \
 	src/blocks/line-frame.c \
 	src/blocks/line-vector.h \
 	src/blocks/lines.c src/blocks/lines.h \
-	src/blocks/moments.c src/blocks/moments.h \
+	src/blocks/moment-batches.h src/blocks/moments.c src/blocks/moments.h \
 	src/blocks/rules.c \
 	src/clusters/clusters.c src/clusters/clusters.h \
 	src/clusters/clusters-impl.h \

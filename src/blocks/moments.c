@@ -10,8 +10,7 @@
    of bounded polynomials in another basis.  Lines that cover i, c = 0 and h = 1, have r_lk = 1
    for k = l alone, and only the rows of j are needed.
 
-   LANES directions lie side by side.  Each sum has four partial sums, which fit vectors of two
-   or of four, so that no bit depends on the width of vectors. */
+   LANES directions lie side by side, in vectors of two or of four (see moment-batches.h). */
 #include "blocks/moments.h"
 
 #include <math.h>
@@ -19,10 +18,9 @@
 
 #include "base/alloc.h"
 #include "base/ordered-dot.h"
+#include "base/wide.h"
 
-enum { LANES = HR2DI_MOMENT_LANES, PAIRS = LANES / 2 };
-
-typedef double pair __attribute__((vector_size(16), aligned(8), may_alias));
+enum { LANES = HR2DI_MOMENT_LANES };
 
 static size_t even(size_t order) {
   return order + (order & 1);
@@ -53,133 +51,26 @@ void hr2di_moments_begin(hr2di_moments *w) {
   for (size_t k = 0; k < 3; k++) w->waiting[k].count = 0;
 }
 
-/* The rows r_lk of one element for all k ≤ l < order, a pair of lanes after the other. */
-static void expand(const hr2di_moments *w, const pair *centre, const pair *half, pair *row) {
-  const size_t p = w->order, stride = even(p) * PAIRS;
-  for (size_t x = 0; x < PAIRS; x++, row++) {
-    const pair c = centre[x], square = half[x] * half[x];
-    row[0] = c * 0 + 1;
-    for (size_t l = 1; l < p; l++) {
-      const pair *last = row + (l - 1) * stride, *before = l > 1 ? last - stride : last;
-      pair *next = row + l * stride;
-      const double down = w->square[l - 1];
-      pair left = c * 0, here = last[0];
-      for (size_t k = 0; k + 1 < l; k++) {
-        const pair right = last[(k + 1) * PAIRS];
-        next[k * PAIRS] =
-            (c * here - down * before[k * PAIRS]) + (left + w->square[k + 1] * square * right);
-        left = here;
-        here = right;
-      }
-      next[(l - 1) * PAIRS] = c * here + left;
-      next[l * PAIRS] = row[0];
-    }
-  }
-}
-
-/* r_lk *= weight ν_k (−hh')^k */
-static void weigh(const hr2di_moments *w, const pair *weight, const pair *half,
-                  const pair *other, pair *row) {
-  const size_t p = w->order, stride = even(p) * PAIRS;
-  for (size_t x = 0; x < PAIRS; x++, row++) {
-    const pair product = -(half[x] * other[x]);
-    pair power = weight[x];
-    for (size_t k = 0; k < p; k++) {
-      const pair factor = w->norm[k] * power;
-      for (size_t l = k; l < p; l++) row[l * stride + k * PAIRS] *= factor;
-      power *= product;
-    }
-  }
-}
-
-static double total(pair even, pair odd) {
-  return hr2di_dot_four(even[0], even[1], odd[0], odd[1]);
-}
-
-/* Σ_x a[x] b[x] for two rows a and two rows b. */
-static void multiply(const pair *a, const pair *b, size_t stride, size_t count,
-                     double sum[2][2]) {
-  const pair *a1 = a + stride, *b1 = b + stride, zero = {0, 0};
-  pair s00 = zero, t00 = zero, s01 = zero, t01 = zero;
-  pair s10 = zero, t10 = zero, s11 = zero, t11 = zero;
-  for (size_t x = 0; x < count; x += 2) {
-    s00 += a[x] * b[x];
-    s01 += a[x] * b1[x];
-    s10 += a1[x] * b[x];
-    s11 += a1[x] * b1[x];
-    t00 += a[x + 1] * b[x + 1];
-    t01 += a[x + 1] * b1[x + 1];
-    t10 += a1[x + 1] * b[x + 1];
-    t11 += a1[x + 1] * b1[x + 1];
-  }
-  sum[0][0] = total(s00, t00);
-  sum[0][1] = total(s01, t01);
-  sum[1][0] = total(s10, t10);
-  sum[1][1] = total(s11, t11);
-}
-
-/* Entries beyond the order, which is rounded up to even, are 0 times something finite. */
-static void add_product(const hr2di_moments *w, double *block) {
-  const size_t p = w->order, stride = even(p) * PAIRS;
-  for (size_t l = 0; l < p; l += 2)
-    for (size_t m = 0; m < p; m += 2) {
-      double sum[2][2];
-      const size_t terms = l < m ? l + 2 : m + 2;
-      multiply((const pair *)w->row[0] + l * stride, (const pair *)w->row[1] + m * stride,
-               stride, terms * PAIRS, sum);
-      for (size_t r = l; r < p && r < l + 2; r++)
-        for (size_t c = m; c < p && c < m + 2; c++)
-          block[r * p + c] += w->scale[r] * w->scale[c] * sum[r - l][c - m];
-    }
-}
-
-static void expand_batch(const hr2di_moments *w, const hr2di_directions *d, size_t from,
-                         size_t side) {
-  expand(w, (const pair *)(d->centre[side] + from), (const pair *)(d->half[side] + from),
-         (pair *)w->row[side]);
-}
-
-static void add_batch(hr2di_moments *w, const hr2di_directions *d, size_t from, double *block) {
-  expand_batch(w, d, from, 0);
-  expand_batch(w, d, from, 1);
-  weigh(w, (const pair *)(d->weight + from), (const pair *)(d->half[0] + from),
-        (const pair *)(d->half[1] + from), (pair *)w->row[0]);
-  add_product(w, block);
-}
-
-/* The same for lines that cover the other element than `side`. */
-static void add_covering(hr2di_moments *w, const hr2di_directions *d, size_t from, size_t side,
-                         double *block) {
-  const size_t p = w->order, stride = even(p) * PAIRS;
-  const pair *weight = (const pair *)(d->weight + from);
-  const pair *half = (const pair *)(d->half[side] + from), *row = (const pair *)w->row[side];
-  pair factor[PAIRS];
-  expand_batch(w, d, from, side);
-  for (size_t x = 0; x < PAIRS; x++) factor[x] = weight[x];
-  for (size_t k = 0; k < p; k++) {
-    for (size_t m = k; m < p; m++) {
-      const pair *at = row + m * stride + k * PAIRS;
-      const pair low = factor[0] * at[0] + factor[2] * at[2];
-      const pair high = factor[1] * at[1] + factor[3] * at[3];
-      block[side ? k * p + m : m * p + k] +=
-          w->norm[k] * w->scale[k] * w->scale[m] * total(low, high);
-    }
-    for (size_t x = 0; x < PAIRS; x++) factor[x] *= -half[x];
-  }
-}
+#define HR2DI_WIDTH 2
+#include "blocks/moment-batches.h"
+#ifdef HR2D_AVX2
+#define HR2DI_WIDTH 4
+#include "blocks/moment-batches.h"
+#endif
 
 /* Adds the full batches of the directions that wait. */
 static void add_waiting(hr2di_moments *w, hr2di_cover cover, double *block) {
   hr2di_directions *d = &w->waiting[cover];
-  size_t from = 0;
-  for (; from + LANES <= d->count; from += LANES)
-    if (cover == HR2DI_COVERS_NEITHER)
-      add_batch(w, d, from, block);
-    else
-      add_covering(w, d, from, cover, block);
+  const size_t full = d->count - d->count % LANES;
+#ifdef HR2D_AVX2
+  if (hr2di_wide())
+    add_batches_4(w, cover, full, block);
+  else
+#endif
+    add_batches_2(w, cover, full, block);
   double *const list[] = {d->weight, d->centre[0], d->half[0], d->centre[1], d->half[1]};
-  d->count -= from;
-  for (size_t k = 0; k < 5; k++) memmove(list[k], list[k] + from, d->count * sizeof *list[k]);
+  d->count -= full;
+  for (size_t k = 0; k < 5; k++) memmove(list[k], list[k] + full, d->count * sizeof *list[k]);
 }
 
 hr2di_directions *hr2di_moments_room(hr2di_moments *w, hr2di_cover cover, double *block) {
