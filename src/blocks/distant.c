@@ -13,9 +13,11 @@ static hr2d_point rounded(const hr2di_vector *v, double scale) {
 
 /* Vectors are scaled, so that no product underflows. */
 static hr2di_between vectors_between(const hr2di_line_frame *f, double scale) {
-  const hr2di_vector a = hr2di_vector_times(&f->a, scale), b = hr2di_vector_times(&f->b, scale);
-  const hr2di_vector c = hr2di_vector_times(&f->c, scale), d = hr2di_vector_times(&f->d, scale);
-  return (hr2di_between){hr2di_vector_times(&f->u, scale), hr2di_vector_times(&f->v, scale),
+  const hr2di_vector a = hr2di_vector_scaled(&f->a, scale);
+  const hr2di_vector b = hr2di_vector_scaled(&f->b, scale);
+  const hr2di_vector c = hr2di_vector_scaled(&f->c, scale);
+  const hr2di_vector d = hr2di_vector_scaled(&f->d, scale);
+  return (hr2di_between){hr2di_vector_scaled(&f->u, scale), hr2di_vector_scaled(&f->v, scale),
                          hr2di_vector_minus(&c, &a),       hr2di_vector_minus(&d, &b),
                          hr2di_vector_minus(&d, &a),       hr2di_vector_minus(&c, &b)};
 }
@@ -25,7 +27,7 @@ static hr2di_between vectors_between(const hr2di_line_frame *f, double scale) {
 static void set_heights(const hr2di_vector *along, double length, const hr2di_vector *first,
                         const hr2di_vector *second, double back, double height[2]) {
   const double scale = ldexp(1, -ilogb(fmax(length, 0x1p-990)));
-  const hr2di_vector u = hr2di_vector_times(along, scale);
+  const hr2di_vector u = hr2di_vector_scaled(along, scale);
   const double unit = back / (scale * length);
   height[0] = hr2di_det(&u, first) * unit;
   height[1] = hr2di_det(&u, second) * unit;

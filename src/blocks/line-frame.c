@@ -100,14 +100,9 @@ static double place(const hr2di_vector *at, const hr2di_vector *from,
                     const hr2di_vector *along) {
   const double scale = hr2di_vector_scale(along); /* so that no product underflows */
   const hr2di_vector difference = hr2di_vector_minus(at, from);
-  const hr2di_vector away = hr2di_vector_times(&difference, scale);
-  const hr2di_vector whole = hr2di_vector_times(along, scale);
+  const hr2di_vector away = hr2di_vector_scaled(&difference, scale);
+  const hr2di_vector whole = hr2di_vector_scaled(along, scale);
   return hr2di_vector_dot(&away, &whole) / hr2di_vector_dot(&whole, &whole);
-}
-
-static void find_places(const hr2di_line_frame *f, hr2di_vertex *z) {
-  if (z->on & HR2DI_ON_I) z->s = place(&z->at, &f->a, &f->u);
-  if (z->on & HR2DI_ON_J) z->t = place(&z->at, &f->c, &f->v);
 }
 
 hr2di_vertex hr2di_line_vertex(const hr2di_line_frame *f, hr2di_incident_point p) {
@@ -118,9 +113,8 @@ hr2di_vertex hr2di_line_vertex(const hr2di_line_frame *f, hr2di_incident_point p
   const int d = on_j && hr2di_point_same(p.at, f->j.b);
   hr2di_vertex z = {.on = p.on};
   z.at = a ? f->a : b ? f->b : c ? f->c : d ? f->d : hr2di_vector_difference(p.at, f->origin);
-  find_places(f, &z);
-  if (a || b) z.s = b;
-  if (c || d) z.t = d;
+  if (on_i) z.s = a || b ? b : place(&z.at, &f->a, &f->u);
+  if (on_j) z.t = c || d ? d : place(&z.at, &f->c, &f->v);
   return z;
 }
 
@@ -136,8 +130,9 @@ static hr2di_vertex clipped(const hr2di_line_frame *f, unsigned own, double at,
   if (here <= 0 && there > 0) z.on = HR2DI_ON_BOTH;
   const hr2di_vector way = hr2di_vector_times(along, at);
   z.at = hr2di_vector_plus(from, &way);
-  find_places(f, &z);
-  *(own == HR2DI_ON_I ? &z.s : &z.t) = at;
+  const unsigned other = z.on & ~own;
+  z.s = own == HR2DI_ON_I ? at : other ? place(&z.at, &f->a, &f->u) : 0;
+  z.t = own == HR2DI_ON_J ? at : other ? place(&z.at, &f->c, &f->v) : 0;
   return z;
 }
 
@@ -160,8 +155,8 @@ int hr2di_line_ends(const hr2di_line_frame *f, hr2di_vertex right[2], hr2di_vert
   const hr2di_vector to_c = hr2di_vector_minus(&f->c, &f->a);
   const hr2di_vector to_d = hr2di_vector_minus(&f->d, &f->a);
   const hr2di_vector to_b = hr2di_vector_minus(&f->b, &f->c);
-  const hr2di_vector u = hr2di_vector_times(&f->u, hr2di_vector_scale(&f->u));
-  const hr2di_vector v = hr2di_vector_times(&f->v, hr2di_vector_scale(&f->v));
+  const hr2di_vector u = hr2di_vector_scaled(&f->u, hr2di_vector_scale(&f->u));
+  const hr2di_vector v = hr2di_vector_scaled(&f->v, hr2di_vector_scale(&f->v));
   /* v × (a − c) = (c − a) × v */
   const double above_i[] = {hr2di_vector_cross(&u, &to_c), hr2di_vector_cross(&u, &to_d)};
   const double above_j[] = {hr2di_vector_cross(&to_c, &v), hr2di_vector_cross(&v, &to_b)};

@@ -4,6 +4,9 @@
 #ifndef HR2D_SRC_BLOCKS_LINE_VECTOR_H
 #define HR2D_SRC_BLOCKS_LINE_VECTOR_H
 
+#include <stdint.h>
+#include <string.h>
+
 #include "geometry/determinant.h"
 
 /* The sum of x and a tail, again as a double and its tail. */
@@ -40,17 +43,31 @@ static inline hr2di_vector hr2di_vector_times(const hr2di_vector *p, double fact
   return v;
 }
 
+/* The same for a power of two: exact where nothing under- or overflows. */
+static inline hr2di_vector hr2di_vector_scaled(const hr2di_vector *p, double power) {
+  return (hr2di_vector){power * p->x, power * p->y, power * p->tx, power * p->ty, 0};
+}
+
 /* A power of two that brings the larger component into [1,2), so that no product underflows; 0
-   for a vector that is 0. */
+   for a vector that is 0.  The exponents of doubles are their bits 52 to 62, plus 1023. */
 static inline double hr2di_vector_scale(const hr2di_vector *p) {
-  const double size = fmax(fabs(p->x), fabs(p->y));
-  return size > 0x1p-1000 && size < 0x1p+1000 ? ldexp(1, -ilogb(size)) : size > 0;
+  const double x = fabs(p->x), y = fabs(p->y), size = x > y ? x : y;
+  uint64_t bits;
+  double scale;
+  if (!(size > 0x1p-1000 && size < 0x1p+1000)) return size > 0;
+  memcpy(&bits, &size, sizeof bits);
+  bits = (2046 - (bits >> 52)) << 52;
+  memcpy(&scale, &bits, sizeof scale);
+  return scale;
 }
 
 /* p × q to 4·2^-53, in plain doubles where few digits cancel. */
 static inline double hr2di_vector_cross(const hr2di_vector *p, const hr2di_vector *q) {
   const double a = p->x * q->y, b = p->y * q->x, plain = a - b;
-  return fabs(plain) >= 0.5 * (fabs(a) + fabs(b)) ? plain : hr2di_det(p, q);
+  int sure = 1;
+  if (fabs(plain) >= 0.5 * (fabs(a) + fabs(b))) return plain;
+  const double corrected = hr2di_det_corrected(p, q, &sure);
+  return sure ? corrected : hr2di_det(p, q);
 }
 
 #endif

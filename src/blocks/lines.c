@@ -32,7 +32,7 @@ static ray ray_through(const hr2di_line_frame *f, const hr2di_vertex *p,
                        const hr2di_vertex *q) {
   const unsigned both = p->on & q->on;
   const hr2di_vector way = direction(f, p, q);
-  ray r = {.from = p, .to = q, .e = hr2di_vector_times(&way, hr2di_vector_scale(&way))};
+  ray r = {.from = p, .to = q, .e = hr2di_vector_scaled(&way, hr2di_vector_scale(&way))};
   if (!(both & HR2DI_ON_I)) r.across[0] = not_negative(hr2di_vector_cross(&f->u, &r.e));
   if (!(both & HR2DI_ON_J)) r.across[1] = not_negative(hr2di_vector_cross(&r.e, &f->v));
   r.length = hr2di_vector_length(&r.e);
@@ -166,7 +166,7 @@ void hr2di_trapezoid_divide(const hr2di_trapezoid *t, const double weight[2],
   const double scale = hr2di_vector_scale(&middle);
   const double m[2] = {scale * weight[0], scale * weight[1]};
   part[0] = part[1] = *t;
-  part[0].e[1] = part[1].e[0] = hr2di_vector_times(&middle, scale);
+  part[0].e[1] = part[1].e[0] = hr2di_vector_scaled(&middle, scale);
   part[0].turn = m[1] * t->turn;
   part[1].turn = m[0] * t->turn;
   divide(m, t->gap, part[0].gap, part[1].gap);
