@@ -62,7 +62,7 @@ static hr2d_status look_from(hr2di_patch_sights *s, uint32_t patch) {
   hr2d_status status = hr2di_watch_work(s->walk.watch, 1 + s->all.count / 16);
   for (size_t k = 0; k < s->all.count; k++) s->last[s->side[k]] = 0;
   hr2di_sight_list_cut(&s->all, 0);
-  s->looked = 0;
+  s->looked = s->taken = 0;
   const hr2di_parts of = p->of_patch[patch];
   for (uint32_t k = of.first; k < of.last && !status; k++) {
     s->from = p->part[k].side;
@@ -72,11 +72,15 @@ static hr2d_status look_from(hr2di_patch_sights *s, uint32_t patch) {
   return status;
 }
 
-/* Copies the sights that end along a patch, turned round if that is the near one. */
+/* Copies the sights that end along a patch, turned round if that is the near one; links of the
+   same two patches follow each other, and take the same ones. */
 static hr2d_status take(hr2di_patch_sights *s, uint32_t patch, int turn) {
   const hr2di_side_parts *p = &s->scene->parts;
   hr2d_status status = HR2D_OK;
   const hr2di_parts of = p->of_patch[patch];
+  if (s->taken == patch + 1) return HR2D_OK;
+  s->taken = 0;
+  hr2di_sight_list_cut(&s->turned, 0);
   for (uint32_t k = of.first; k < of.last; k++) {
     if (p->part[k].side == HR2DI_HIDDEN) continue;
     for (uint32_t m = s->last[p->part[k].side]; m > 0 && !status; m = s->next[m - 1]) {
@@ -86,6 +90,8 @@ static hr2d_status take(hr2di_patch_sights *s, uint32_t patch, int turn) {
       if (!status) status = hr2di_watch_work(s->walk.watch, 1);
     }
   }
+  hr2di_sight_list_sort(&s->turned);
+  if (!status) s->taken = patch + 1;
   return status;
 }
 
@@ -116,10 +122,8 @@ hr2d_status hr2di_patch_sights_between(hr2di_patch_sights *s, const hr2di_patch_
     return add_contact(list, pair->part[turn], pair->part[!turn]);
   hr2d_status status = look_from(s, pair->patch[0]);
   if (status || s->all.count == 0) return status;
-  hr2di_sight_list_cut(&s->turned, 0);
   status = take(s, pair->patch[1], turn);
   if (status || s->turned.count == 0) return status;
-  hr2di_sight_list_sort(&s->turned);
   s->restricted += s->turned.count;
   return hr2di_sight_list_restrict(list, &s->turned, 0, s->turned.count, pair->part[turn],
                                    pair->part[!turn], whole);
