@@ -13,12 +13,12 @@
 typedef double VECTOR __attribute__((vector_size(8 * HR2DI_WIDTH), aligned(8), may_alias));
 
 /* The rows r_lk of one element for all k ≤ l < order, a vector of lanes after the other. */
-HR2DI_PART void NAME(expand)(const hr2di_moments *w, const hr2di_directions *d, size_t from,
-                             size_t side) {
+HR2DI_PART void NAME(expand)(const hr2di_moments *w, size_t p, const hr2di_directions *d,
+                             size_t from, size_t side) {
   const VECTOR *centre = (const VECTOR *)(d->centre[side] + from);
   const VECTOR *half = (const VECTOR *)(d->half[side] + from);
   VECTOR *row = (VECTOR *)w->row[side];
-  const size_t p = w->order, stride = even(p) * VECTORS;
+  const size_t stride = even(p) * VECTORS;
   for (size_t x = 0; x < VECTORS; x++, row++) {
     const VECTOR c = centre[x], square = half[x] * half[x];
     row[0] = c * 0 + 1;
@@ -41,12 +41,13 @@ HR2DI_PART void NAME(expand)(const hr2di_moments *w, const hr2di_directions *d, 
 }
 
 /* r_lk of i *= weight ν_k (−hh')^k */
-HR2DI_PART void NAME(weigh)(const hr2di_moments *w, const hr2di_directions *d, size_t from) {
+HR2DI_PART void NAME(weigh)(const hr2di_moments *w, size_t p, const hr2di_directions *d,
+                            size_t from) {
   const VECTOR *weight = (const VECTOR *)(d->weight + from);
   const VECTOR *half = (const VECTOR *)(d->half[0] + from);
   const VECTOR *other = (const VECTOR *)(d->half[1] + from);
   VECTOR *row = (VECTOR *)w->row[0];
-  const size_t p = w->order, stride = even(p) * VECTORS;
+  const size_t stride = even(p) * VECTORS;
   for (size_t x = 0; x < VECTORS; x++, row++) {
     const VECTOR product = -(half[x] * other[x]);
     VECTOR power = weight[x];
@@ -78,8 +79,8 @@ HR2DI_PART void NAME(multiply)(const VECTOR *a, const VECTOR *b, size_t stride, 
 }
 
 /* Entries beyond the order, which is rounded up to even, are 0 times something finite. */
-HR2DI_PART void NAME(add_product)(const hr2di_moments *w, double *block) {
-  const size_t p = w->order, stride = even(p) * VECTORS;
+HR2DI_PART void NAME(add_product)(const hr2di_moments *w, size_t p, double *block) {
+  const size_t stride = even(p) * VECTORS;
   const VECTOR *row_i = (const VECTOR *)w->row[0], *row_j = (const VECTOR *)w->row[1];
   for (size_t l = 0; l < p; l += 2)
     for (size_t m = 0; m < p; m += 2) {
@@ -92,23 +93,23 @@ HR2DI_PART void NAME(add_product)(const hr2di_moments *w, double *block) {
     }
 }
 
-HR2DI_PART void NAME(add_batch)(const hr2di_moments *w, const hr2di_directions *d, size_t from,
-                                double *block) {
-  NAME(expand)(w, d, from, 0);
-  NAME(expand)(w, d, from, 1);
-  NAME(weigh)(w, d, from);
-  NAME(add_product)(w, block);
+HR2DI_PART void NAME(add_batch)(const hr2di_moments *w, size_t p, const hr2di_directions *d,
+                                size_t from, double *block) {
+  NAME(expand)(w, p, d, from, 0);
+  NAME(expand)(w, p, d, from, 1);
+  NAME(weigh)(w, p, d, from);
+  NAME(add_product)(w, p, block);
 }
 
 /* The same for lines that cover the other element than `side`. */
-HR2DI_PART void NAME(add_covering)(const hr2di_moments *w, const hr2di_directions *d,
+HR2DI_PART void NAME(add_covering)(const hr2di_moments *w, size_t p, const hr2di_directions *d,
                                    size_t from, size_t side, double *block) {
-  const size_t p = w->order, stride = even(p) * VECTORS;
+  const size_t stride = even(p) * VECTORS;
   const VECTOR *weight = (const VECTOR *)(d->weight + from);
   const VECTOR *half = (const VECTOR *)(d->half[side] + from);
   const VECTOR *row = (const VECTOR *)w->row[side];
   VECTOR factor[VECTORS], sum[PARTS];
-  NAME(expand)(w, d, from, side);
+  NAME(expand)(w, p, d, from, side);
   for (size_t x = 0; x < VECTORS; x++) factor[x] = weight[x];
   for (size_t k = 0; k < p; k++) {
     for (size_t m = k; m < p; m++) {
@@ -124,18 +125,42 @@ HR2DI_PART void NAME(add_covering)(const hr2di_moments *w, const hr2di_direction
   }
 }
 
-/* Adds the first `count` directions that wait, full batches. */
+HR2DI_PART void NAME(add_all)(const hr2di_moments *w, size_t p, hr2di_cover cover, size_t count,
+                              double *block) {
+  const hr2di_directions *d = &w->waiting[cover];
+  for (size_t from = 0; from < count; from += LANES)
+    if (cover == HR2DI_COVERS_NEITHER)
+      NAME(add_batch)(w, p, d, from, block);
+    else
+      NAME(add_covering)(w, p, d, from, cover, block);
+}
+
+/* Adds the first `count` directions that wait, full batches.  Orders that are common are
+   constants to the compiler, in wide vectors. */
 #if HR2DI_WIDTH == 4
 HR2DI_AVX2
 #endif
 static void NAME(add_batches)(const hr2di_moments *w, hr2di_cover cover, size_t count,
                               double *block) {
-  const hr2di_directions *d = &w->waiting[cover];
-  for (size_t from = 0; from < count; from += LANES)
-    if (cover == HR2DI_COVERS_NEITHER)
-      NAME(add_batch)(w, d, from, block);
-    else
-      NAME(add_covering)(w, d, from, cover, block);
+  switch (HR2DI_WIDTH == 4 ? w->order : 0) {
+  case 4:
+    NAME(add_all)(w, 4, cover, count, block);
+    return;
+  case 5:
+    NAME(add_all)(w, 5, cover, count, block);
+    return;
+  case 6:
+    NAME(add_all)(w, 6, cover, count, block);
+    return;
+  case 7:
+    NAME(add_all)(w, 7, cover, count, block);
+    return;
+  case 8:
+    NAME(add_all)(w, 8, cover, count, block);
+    return;
+  default:
+    NAME(add_all)(w, w->order, cover, count, block);
+  }
 }
 
 #undef PASTE_NAMES
