@@ -57,6 +57,31 @@ hr2di_ray hr2di_ray_horizon(int hand, uint32_t vertex);
    vectors `to`. */
 int hr2di_ray_turn(const hr2di_eye *e, const hr2di_ray *from, const hr2di_ray *to);
 
+/* A place in plain doubles: from the base of the eye, and from the eye; the latter is off by up
+   to 2^-51 of `size`, by component. */
+typedef struct hr2di_glance {
+  hr2d_point from_base, to, size;
+} hr2di_glance;
+
+static inline hr2di_glance hr2di_glance_at(const hr2di_eye *e, hr2d_point place) {
+  const double x = HR2DI_VIEW_SCALE * place.x - e->base.x;
+  const double y = HR2DI_VIEW_SCALE * place.y - e->base.y;
+  return (hr2di_glance){{x, y},
+                        {x - e->x.x, y - e->x.y},
+                        {fabs(x) + fabs(e->x.x), fabs(y) + fabs(e->x.y)}};
+}
+
+/* hr2di_ray_turn() to that place, or 0 if roundings leave the sign in doubt. */
+static inline int hr2di_glance_turn(const hr2di_eye *e, const hr2di_ray *from,
+                                    const hr2di_glance *g) {
+  const hr2di_vector *u = from->horizon ? &e->axis : &from->to;
+  const hr2d_point v = from->horizon ? g->from_base : g->to;
+  const double det = u->x * v.y - u->y * v.x;
+  const double doubt = 0x1p-49 * (fabs(u->x) * g->size.y + fabs(u->y) * g->size.x);
+  const int sign = (det > doubt) - (det < -doubt);
+  return from->horizon < 0 ? -sign : sign;
+}
+
 /* ½ |sin θ| between two rays that were measured; positive if `left` is on the left. */
 double hr2di_ray_half_sine(const hr2di_ray *right, const hr2di_ray *left);
 

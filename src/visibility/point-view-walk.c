@@ -35,23 +35,37 @@ typedef struct walk {
   int32_t beyond[2]; /* a split: what is on the right of the vertex, and on its left */
 } walk;
 
+/* On which side of an angle a vertex is, −1 on the right and 1 on the left, or 0 inside; then
+   *v is the ray to it.  Most vertices are far beside the angle, and the first ray says so. */
+static int side_of(const walk *k, const hr2di_ray *left, uint32_t vertex, hr2di_ray *v) {
+  const hr2di_eye *e = &k->w->eye;
+  const hr2d_point place = k->in->at[vertex];
+  const hr2di_glance glance = hr2di_glance_at(e, place);
+  int of_right = hr2di_glance_turn(e, &k->right, &glance), of_left = 0;
+  if (of_right < 0) return -1;
+  if (of_right > 0) of_left = hr2di_glance_turn(e, left, &glance);
+  if (of_left > 0) return 1;
+  hr2di_ray_aim(e, place, vertex, v);
+  if (of_right == 0) of_right = hr2di_ray_turn(e, &k->right, v);
+  if (of_right <= 0) return -1;
+  if (of_left == 0) of_left = hr2di_ray_turn(e, left, v);
+  return of_left < 0 ? 0 : 1;
+}
+
 /* Follows an angle from half-edge h to where it splits, at *v, or ends; returns what it ends
    at.  A straight line enters each triangle once at most, which ends it also where roundings of
    rays would lead it in a circle. */
 static int32_t follow(walk *k, const hr2di_ray *left, int32_t h, hr2di_ray *v, int *splits) {
-  const hr2di_eye *e = &k->w->eye;
   for (size_t steps = 1; steps <= k->in->triangles; steps++) {
     if (steps % 32 == 0 && hr2di_watch_work(k->w->watch, 16)) break;
     const hr2di_triangle *t = &k->in->triangle[h >> 2];
     const int to_right = hr2di_corner_after(h & 3), to_left = hr2di_corner_before(h & 3);
-    hr2di_ray_aim(e, k->in->at[t->corner[to_left]], t->corner[to_left], v);
-    const int on_left = hr2di_ray_turn(e, &k->right, v) > 0,
-              on_right = hr2di_ray_turn(e, left, v) < 0;
-    *splits = on_left && on_right;
+    const int side = side_of(k, left, t->corner[to_left], v);
+    *splits = side == 0;
     k->beyond[0] = t->across[to_right];
     k->beyond[1] = t->across[to_left];
     if (*splits) return 0;
-    h = k->beyond[on_left ? 0 : 1];
+    h = k->beyond[side > 0 ? 0 : 1];
     if (h < 0) return h;
   }
   *splits = 0;
