@@ -19,7 +19,7 @@ HR2DI_PART double row_sum(const double *row, const double *from, size_t order) {
   return hr2di_dot_four(s[0], s[1], s[2], s[3]) + rest;
 }
 
-enum { LOW = 6 };
+enum { LOW = 8 };
 
 /* One link: `to_i` receives from up_j, and `to_j` from `up_i` unless that is not asked for. */
 HR2DI_PART void add_link(const double *c, size_t stride, size_t order, const double *up_i,
@@ -67,6 +67,12 @@ HR2DI_PART void low_loop(const hr2di_link_run *run, size_t order, const double *
     return;
   case 5:
     add_run(run, 5, up, down, both);
+    return;
+  case 6:
+    add_run(run, 6, up, down, both);
+    return;
+  case 7:
+    add_run(run, 7, up, down, both);
     return;
   default:
     add_run(run, LOW, up, down, both);
