@@ -99,6 +99,7 @@ SUITES = \
 	tests/unit/visibility/check-seen-ends \
 	tests/unit/blocks/check-blocks \
 	tests/unit/blocks/check-directions \
+	tests/unit/blocks/check-moments \
 	tests/unit/solve/check-order \
 	tests/unit/solve/check-slices \
 	tests/unit/accuracy/check-known-radiosities \
