@@ -1,6 +1,6 @@
 # Measurements, built and run by `make bench` alone.
 BENCHES = bench/bench-exchange-area bench/bench-refine bench/bench-l1 bench/bench-visibility \
-	bench/bench-growth bench/bench-shaded-links \
+	bench/bench-growth bench/bench-shaded-links bench/bench-blocks \
 	bench/bench-accuracy bench/bench-polls bench/bench-prediction \
 	bench/bench-fibres bench/bench-solves bench/bench-threads bench/bench-triangulation bench/bench-field
 EXTRA_PROGRAMS += $(BENCHES)
@@ -18,6 +18,11 @@ bench_bench_growth_SOURCES = bench/bench-growth.c bench/alone.c bench/alone.h \
 bench_bench_growth_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_shaded_links_SOURCES = bench/bench-shaded-links.c $(PLANS)
 bench_bench_shaded_links_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
+bench_bench_blocks_SOURCES = bench/bench-blocks.c bench/bars.c bench/bars.h bench/timing.h \
+	tests/support/pair-kinds.c tests/support/pair-kinds.h \
+	tests/support/random.c tests/support/random.h tests/support/visibility-cases.h
+bench_bench_blocks_CPPFLAGS = $(AM_CPPFLAGS)
+bench_bench_blocks_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_field_SOURCES = bench/bench-field.c bench/plain.c bench/plain.h $(PLANS)
 bench_bench_field_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SCENES='"$(abs_top_srcdir)/examples/scenes"'
 bench_bench_field_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm

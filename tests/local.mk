@@ -169,6 +169,7 @@ tests_libsupport_la_SOURCES = \
 	tests/support/accuracy-scenes.c tests/support/accuracy-scenes.h \
 	tests/support/accuracy-tally.c tests/support/accuracy-tally.h \
 	tests/support/block-stage.c tests/support/block-stage.h \
+	tests/support/pair-kinds.c tests/support/pair-kinds.h \
 	tests/support/elements.c tests/support/elements.h \
 	tests/support/fault-calls.c tests/support/fault-calls.h \
 	tests/support/fault-stage.c tests/support/fault-stage.h \

@@ -123,6 +123,7 @@ hr2d_status hr2di_patch_sights_between(hr2di_patch_sights *s, const hr2di_patch_
   hr2d_status status = look_from(s, pair->patch[0]);
   if (status || s->all.count == 0) return status;
   status = take(s, pair->patch[1], turn);
+  if (!status) status = hr2di_watch_work(s->walk.watch, s->turned.count);
   if (status || s->turned.count == 0) return status;
   s->restricted += s->turned.count;
   return hr2di_sight_list_restrict(list, &s->turned, 0, s->turned.count, pair->part[turn],

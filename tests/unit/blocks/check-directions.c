@@ -9,6 +9,7 @@
 #include "blocks/block.h"
 #include "independent/lines-block.h"
 #include "support/block-stage.h"
+#include "support/pair-kinds.h"
 #include "support/support.h"
 
 /* The largest error of a block in terms of its norm.  Where φ_l is steep, at the ends of an
@@ -18,130 +19,6 @@ static double bound_of(size_t order) {
 }
 
 enum { MOST_ORDER = 16, SQUARE = MOST_ORDER * MOST_ORDER };
-
-typedef struct kind {
-  const char *name;
-  occluded_pair (*draw)(randoms *r);
-  unsigned steps; /* of the reference */
-} kind;
-
-static hr2d_point polar(double length, double angle) {
-  return (hr2d_point){length * cos(angle), length * sin(angle)};
-}
-
-/* Numbers are drawn one by one, so that the order does not depend on the compiler. */
-
-/* i from 0 to 1, and j of a size between two limits beside it at a distance. */
-static occluded_pair beside(randoms *r, const double size[2], double gap, double tilt) {
-  const double middle = random_between(r, -0.3, 1.3);
-  const hr2d_point half = polar(0.5 * random_between(r, size[0], size[1]), M_PI + tilt);
-  const double lift = gap + fabs(half.y);
-  return (occluded_pair){
-      .i = {{0, 0}, {1, 0}},
-      .j = {{middle - half.x, lift - half.y}, {middle + half.x, lift + half.y}}};
-}
-
-static const double small[] = {0.3, 1}, any_size[] = {0.3, 2};
-
-static occluded_pair draw_far(randoms *r) {
-  const double gap = random_between(r, 3, 5);
-  return beside(r, small, gap, random_between(r, -0.5, 0.5));
-}
-
-static occluded_pair draw_near(randoms *r) {
-  const double gap = random_between(r, 0.3, 1.5), tilt = random_between(r, -0.5, 0.5);
-  return beside(r, any_size, gap, tilt);
-}
-
-static occluded_pair draw_nearer(randoms *r) {
-  const double gap = random_power(r, -1.5, -0.5), tilt = random_between(r, -0.3, 0.3);
-  return beside(r, any_size, gap, tilt);
-}
-
-static occluded_pair draw_slit(randoms *r) {
-  const double gap = random_power(r, -4, -2), tilt = random_between(r, -1e-4, 1e-4);
-  return beside(r, any_size, gap, tilt);
-}
-
-static occluded_pair touching(randoms *r, double angle) {
-  const double ratio = random_power(r, -1, 1);
-  if (random_below(r, 2))
-    return (occluded_pair){.i = {{0, 0}, {1, 0}}, .j = {polar(ratio, angle), {0, 0}}};
-  return (occluded_pair){.i = {{-1, 0}, {0, 0}}, .j = {{0, 0}, polar(ratio, M_PI - angle)}};
-}
-
-static occluded_pair draw_touching(randoms *r) {
-  const double angle = random_between(r, 10, 179) * M_PI / 180;
-  return touching(r, angle);
-}
-
-static occluded_pair draw_wedge(randoms *r) {
-  const double angle = random_power(r, -1, 1) * M_PI / 180;
-  return touching(r, angle);
-}
-
-/* Side by side, each hardly in front of the other. */
-static occluded_pair draw_coplanar(randoms *r) {
-  const double from = 1 + random_power(r, -2, 0), length = random_power(r, -1, 0.5);
-  const double low = random_power(r, -5, -2), rise = random_power(r, -5, -2);
-  return (occluded_pair){.i = {{0, 0}, {1, 0}},
-                         .j = {{from, low}, {from + length, low + rise}}};
-}
-
-static occluded_pair draw_clipped(randoms *r) {
-  const double x = random_between(r, 1.05, 2), low = -random_power(r, -2, 0);
-  const double high = random_power(r, -2, 0), lean = random_between(r, -0.5, 1);
-  return (occluded_pair){.i = {{0, 0}, {1, 0}},
-                         .j = {{x, low}, {x + lean * (high - low), high}}};
-}
-
-static hr2d_segment small_wall(randoms *r) {
-  const double x = random_between(r, 0, 1), y = random_between(r, 0.2, 0.8);
-  const double length = random_between(r, 0.02, 0.12), angle = random_between(r, 0, M_PI);
-  const hr2d_point half = polar(length, angle);
-  return (hr2d_segment){{x - half.x, y - half.y}, {x + half.x, y + half.y}};
-}
-
-/* Two that face each other with small walls between them. */
-static occluded_pair draw_shaded(randoms *r) {
-  const double from = random_between(r, -0.5, 0.3), to = 1 + random_between(r, -0.5, 0.5);
-  occluded_pair p = {.i = {{0, 0}, {1, 0}}, .j = {{to, 1}, {from, 1}}};
-  for (size_t walls = 1 + (size_t)random_below(r, 4); walls > 0; walls--)
-    p.occluder[p.count++] = small_wall(r);
-  return p;
-}
-
-static hr2d_point on_grid(randoms *r, int columns, int rows) {
-  const int x = random_below(r, columns + 1), y = random_below(r, rows + 1);
-  return (hr2d_point){x / 8.0, y / 8.0};
-}
-
-/* Points of a coarse grid, so that many are collinear and many walls touch. */
-static occluded_pair draw_grid(randoms *r) {
-  const hr2d_point c = on_grid(r, 6, 1), d = on_grid(r, 3, 2);
-  occluded_pair p = {.i = {{0, 0}, {1, 0}}, .j = {{0.5 + c.x, 1}, {d.x, 0.875 + d.y}}};
-  for (size_t walls = 1 + (size_t)random_below(r, 4); walls > 0; walls--) {
-    const hr2d_point a = on_grid(r, 8, 5), b = on_grid(r, 8, 6);
-    const double top = a.x == b.x && a.y == b.y ? 1 : 0.125 + b.y;
-    p.occluder[p.count++] = (hr2d_segment){{a.x, 0.125 + a.y}, {b.x, top}};
-  }
-  return p;
-}
-
-static const kind kinds[] = {
-    {"far", draw_far, 16},
-    {"near", draw_near, 16},
-    {"nearer", draw_nearer, 24},
-    {"slits", draw_slit, 48},
-    {"touching", draw_touching, 16},
-    {"in a wedge", draw_wedge, 32},
-    {"coplanar but for a little", draw_coplanar, 32},
-    {"behind a horizon", draw_clipped, 32},
-    {"shaded", draw_shaded, 16},
-    {"on a grid", draw_grid, 24},
-};
-
-enum { KINDS = sizeof kinds / sizeof *kinds };
 
 /* The block of the leading orders is the leading part of the block. */
 static double error_of(const double *block, const long double *expected, size_t order) {
@@ -157,7 +34,7 @@ static double error_of(const double *block, const long double *expected, size_t 
 }
 
 /* The worst error at each order; 0 if the scene is refused. */
-static int compare(const kind *k, const occluded_pair *p, double *worst) {
+static int compare(const pair_kind *k, const occluded_pair *p, double *worst) {
   block_stage s;
   double block[SQUARE];
   long double expected[SQUARE];
@@ -177,7 +54,7 @@ static int compare(const kind *k, const occluded_pair *p, double *worst) {
 }
 
 START_TEST(blocks_are_exact) {
-  const kind *k = &kinds[_i];
+  const pair_kind *k = &pair_kinds[_i];
   double worst[MOST_ORDER + 1] = {0};
   randoms r = randoms_stream(test_seed(), _i);
   int pairs = 0;
@@ -357,7 +234,7 @@ START_TEST(moved_vertices_are_noticed) {
                      .j = {{1, 1}, {0, 1}},
                      .occluder = {{{0.3, 0.4}, {0.6, 0.5}}},
                      .count = 1};
-  const kind exact = {"moved", NULL, 16};
+  const pair_kind exact = {"moved", NULL, 16};
   double worst[2][MOST_ORDER + 1] = {{0}};
   block_stage s;
   double block[SQUARE];
@@ -377,7 +254,7 @@ START_TEST(moved_vertices_are_noticed) {
 END_TEST
 
 TEST_SUITE("directions") {
-  REPEAT_TESTS(KINDS, "directions", blocks_are_exact);
+  REPEAT_TESTS((int)pair_kind_count, "directions", blocks_are_exact);
   REPEAT_TESTS(MOST_ORDER, "directions", rows_of_closed_rooms_are_full);
   ADD_TESTS("directions", rows_of_small_elements_are_full, moved_vertices_are_noticed);
 }
