@@ -18,8 +18,8 @@ static hr2di_between vectors_between(const hr2di_line_frame *f, double scale) {
   const hr2di_vector c = hr2di_vector_scaled(&f->c, scale);
   const hr2di_vector d = hr2di_vector_scaled(&f->d, scale);
   return (hr2di_between){hr2di_vector_scaled(&f->u, scale), hr2di_vector_scaled(&f->v, scale),
-                         hr2di_vector_minus(&c, &a),       hr2di_vector_minus(&d, &b),
-                         hr2di_vector_minus(&d, &a),       hr2di_vector_minus(&c, &b)};
+                         hr2di_vector_minus(&c, &a),        hr2di_vector_minus(&d, &b),
+                         hr2di_vector_minus(&d, &a),        hr2di_vector_minus(&c, &b)};
 }
 
 /* How far ends are above the line along a vector, which may be much shorter.  Larger factors

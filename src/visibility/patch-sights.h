@@ -17,7 +17,7 @@ typedef struct hr2di_patch_sights {
   uint32_t *last;  /* per side: 1 + the last sight that ends there, or 0 */
   uint32_t looked; /* 1 + the patch; 0 if none has */
   hr2di_wall_side from;
-  uint32_t taken;          /* 1 + the patch to which those of the pair under way lead; 0: none */
+  uint32_t taken; /* 1 + the patch to which those of the pair under way lead; 0: none */
   hr2di_sight_list turned; /* these, with the near ends on the patch of the lower number */
   uint64_t restricted;     /* sights so far */
 } hr2di_patch_sights;

@@ -66,9 +66,8 @@ typedef struct hr2di_glance {
 static inline hr2di_glance hr2di_glance_at(const hr2di_eye *e, hr2d_point place) {
   const double x = HR2DI_VIEW_SCALE * place.x - e->base.x;
   const double y = HR2DI_VIEW_SCALE * place.y - e->base.y;
-  return (hr2di_glance){{x, y},
-                        {x - e->x.x, y - e->x.y},
-                        {fabs(x) + fabs(e->x.x), fabs(y) + fabs(e->x.y)}};
+  return (hr2di_glance){
+      {x, y}, {x - e->x.x, y - e->x.y}, {fabs(x) + fabs(e->x.x), fabs(y) + fabs(e->x.y)}};
 }
 
 /* hr2di_ray_turn() to that place, or 0 if roundings leave the sign in doubt. */

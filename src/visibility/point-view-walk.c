@@ -36,7 +36,7 @@ typedef struct walk {
 } walk;
 
 /* On which side of an angle a vertex is, −1 on the right and 1 on the left, or 0 inside; then
-   *v is the ray to it.  Most vertices are far beside the angle, and the first ray says so. */
+ *v is the ray to it.  Most vertices are far beside the angle, and the first ray says so. */
 static int side_of(const walk *k, const hr2di_ray *left, uint32_t vertex, hr2di_ray *v) {
   const hr2di_eye *e = &k->w->eye;
   const hr2d_point place = k->in->at[vertex];
