@@ -310,12 +310,15 @@ TOO_LONG = tests/bounds/check-bounds-geometry tests/bounds/check-bounds-l1 \
 	tests/unit/solve/check-sky tests/unit/solve/check-slices tests/unit/solve/check-solve \
 	tests/unit/solve/check-sun tests/unit/visibility/check-events \
 	tests/unit/visibility/check-exchange-rows tests/unit/visibility/check-period-rows
+# Begins first, for a suite that begins last runs alone.
+TAKES_LONGEST = tests/threads/check-team
 MEMCHECK = $(VALGRIND) --quiet --error-exitcode=9 --leak-check=full \
 	--errors-for-leak-kinds=definite,indirect
 check-valgrind:
 	CK_FORK=no CK_DEFAULT_TIMEOUT=0 \
 	HR2D_TEST_MULTIPLIER="$${HR2D_TEST_MULTIPLIER-0.01}" \
-	$(MAKE) check TESTS='$(filter-out $(TOO_LONG),$(SUITES))' LOG_COMPILER='$(MEMCHECK)'
+	$(MAKE) check TESTS='$(TAKES_LONGEST) $(filter-out $(TAKES_LONGEST) $(TOO_LONG),$(SUITES))' \
+	LOG_COMPILER='$(MEMCHECK)'
 
 # Scripts about texts, names and digits, in which sanitizers have nothing to find.
 PAPERWORK = tests/docs/check-docs.sh tests/program/check-help.sh tests/program/check-digits.sh \
