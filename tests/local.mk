@@ -282,8 +282,7 @@ check-long:
 .PHONY: check-long
 
 # Only Check programs, without fork, and without most suites that take 20 s and more under valgrind,
-# which compute numbers and run other methods.  These run under the sanitizers; shorter suites call
-# the same functions.
+# which compute numbers and run other methods.  These run under the sanitizers.
 TOO_LONG = tests/bounds/check-bounds-geometry tests/bounds/check-bounds-l1 \
 	tests/faults/check-faults tests/faults/check-faults-accuracy \
 	tests/faults/check-faults-callbacks tests/faults/check-polls tests/faults/check-share-faults \
