@@ -106,7 +106,7 @@ static void add_rows(hr2di_estimator *e) {
   set_fields(e, most, rest, told);
   for (size_t k = 0; k < eq->field; k++) one[k] = k % t->width < t->bands;
   hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, most, received);
-  hr2di_transport_apply_part(t, HR2DI_DISTANT_LINKS, one, row);
+  if (!t->all_closed) hr2di_transport_apply_part(t, HR2DI_DISTANT_LINKS, one, row);
   for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
     const int sky = is_set(t->sky, leaf, t->order);
     for (size_t b = 0; b < t->bands && (t->closure || sky); b++) {

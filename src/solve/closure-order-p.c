@@ -188,13 +188,15 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
     for (size_t b = 0; b < t->bands; b++) r->one[k * t->width + b] = 1;
   }
   hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, r->one, r->all);
-  hr2di_transport_apply_part(t, HR2DI_DISTANT_LINKS, r->one, r->row);
   if (t->failed) return;
   const hr2di_clusters *clusters = t->links->roots.clusters;
   if (clusters && hr2di_clusters_links(clusters) > 0)
     find_closed_by_rows(r, t);
   else
     t->failed = find_closed(r);
+  if (t->failed) return;
+  t->all_closed = !memchr(r->closed, 0, t->hierarchy->scene->patches);
+  if (!t->all_closed) hr2di_transport_apply_part(t, HR2DI_DISTANT_LINKS, r->one, r->row);
   if (t->failed) return;
   if (t->links->share)
     t->failed = add_shares(r, t);
@@ -234,7 +236,9 @@ hr2d_status hr2di_closure_set_order_p(hr2di_transport *t) {
     close_rows(&r, t, closure);
     t->closure = closure;
     t->closed = r.closed;
+    t->rows = r.all;
     r.closed = NULL;
+    r.all = NULL;
   } else {
     hr2di_alloc_free(alloc, closure);
   }

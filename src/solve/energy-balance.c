@@ -30,7 +30,12 @@ static hr2d_status set_missing(hr2di_balance *b, hr2di_transport *t) {
   double *const row = one + field;
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t band = 0; band < t->bands; band++) one[k * t->width + band] = 1;
-  hr2di_transport_apply(t, one, row);
+  if (t->rows) {
+    memcpy(row, t->rows, field * sizeof *row);
+    hr2di_transport_close(t, one, row);
+  } else {
+    hr2di_transport_apply(t, one, row);
+  }
   for (size_t k = 0; k < t->leaves * t->order && !t->failed; k++)
     b->missing[k] = one[k * t->bands] - row[k * t->bands];
   hr2di_alloc_free(&t->alloc, one);

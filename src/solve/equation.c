@@ -38,6 +38,7 @@ static hr2d_status integrate_rows_order_p(hr2di_equation *s, int closure, int ba
     hr2di_alloc_free(&t->alloc, t->closed);
     t->closure = NULL;
     t->closed = NULL;
+    t->all_closed = 0;
   }
   return status;
 }
@@ -161,6 +162,8 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links, const hr
   if (!status) status = integrate_rows(s);
   if (!status && t->closure) status = hr2di_closure_set_mean(t);
   if (!status && t->closure && !links->directed) status = hr2di_balance_init(&s->balance, t);
+  hr2di_alloc_free(&t->alloc, t->rows);
+  t->rows = NULL;
   if (!status) status = hr2di_watch_work(&s->watch, t->leaves * t->width / 4);
   if (status) return status;
   hr2di_watch_phase(&s->watch, "solve");

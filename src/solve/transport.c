@@ -94,6 +94,7 @@ void hr2di_transport_clear(hr2di_transport *t) {
   hr2di_alloc_free(&t->alloc, t->closure);
   hr2di_alloc_free(&t->alloc, t->mean);
   hr2di_alloc_free(&t->alloc, t->closed);
+  hr2di_alloc_free(&t->alloc, t->rows);
   hr2di_alloc_free(&t->alloc, t->sky);
 }
 
@@ -323,10 +324,15 @@ void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor) {
   for (size_t k = 0; k < t->elements; k++) factor[k] = t->down[k * t->width];
 }
 
-void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *irradiance) {
-  hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, radiosity, irradiance);
+void hr2di_transport_close(const hr2di_transport *t, const double *radiosity,
+                           double *irradiance) {
   const size_t square = t->order * t->order;
   for (size_t k = 0; k < t->leaves && t->closure && !t->failed; k++)
     hr2di_gather_block(t->closure + k * square, t->order, t->order, t->bands,
                        radiosity + k * t->width, irradiance + k * t->width);
+}
+
+void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *irradiance) {
+  hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, radiosity, irradiance);
+  hr2di_transport_close(t, radiosity, irradiance);
 }

@@ -37,6 +37,8 @@ typedef struct hr2di_transport {
                          result must not be used */
   double *mean;       /* per element: of the diagonal of `closure`; NULL for none */
   unsigned char *closed; /* per patch: closure makes row sums 1; NULL at order 1, or without */
+  int all_closed;        /* that is so for all patches */
+  double *rows; /* leaves × width: K 1 without closure; NULL: nobody has gathered it */
   int check; /* links count with what this check of the extrapolation leaves, less 1; 0: as they
                 are */
 } hr2di_transport;
@@ -68,6 +70,10 @@ void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *
 typedef enum hr2di_transport_part { HR2DI_ALL_LINKS, HR2DI_DISTANT_LINKS } hr2di_transport_part;
 void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
                                 const double *radiosity, double *irradiance);
+
+/* Adds what closure receives; with all links that is K radiosity. */
+void hr2di_transport_close(const hr2di_transport *t, const double *radiosity,
+                           double *irradiance);
 
 /* irradiance = what a check of the extrapolation of a period leaves of K radiosity. */
 void hr2di_transport_check(hr2di_transport *t, int check, const double *radiosity,
