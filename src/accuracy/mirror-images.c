@@ -49,20 +49,17 @@ static int is_on_patch(const hr2di_patch *p, hr2d_point v) {
 /* Adds the image of v in a wall if
    - the foot of v is on the wall; if not, the wall's own end is the near point;
    - the patch reaches to v's side of the wall; `side` is how far it reaches to the left and to
-     the right;
-   - a part of the wall is in front of the patch; the image itself need not be. */
+     the right.
+   A part of the wall is in front of the patch; the image itself need not be. */
 static hr2d_status add_image(mirror *m, hr2d_segment wall, const double side[2], hr2d_point v) {
   const hr2d_segment s = m->patch->scaled;
   const double ux = wall.b.x - wall.a.x, uy = wall.b.y - wall.a.y, square = ux * ux + uy * uy;
   const double at = ((v.x - wall.a.x) * ux + (v.y - wall.a.y) * uy) / square;
+  if (!(at > 0 && at < 1)) return HR2D_OK;
   const double off = hr2di_orient(wall.a, wall.b, v) / square;
+  if (!(off > 0 ? side[0] > 0 : off < 0 && side[1] < 0)) return HR2D_OK;
   const hr2d_point image = {v.x + 2 * off * uy, v.y - 2 * off * ux};
-  if (!(at > 0 && at < 1) || !(off > 0 ? side[0] > 0 : off < 0 && side[1] < 0)) return HR2D_OK;
-  const double min = 1e-13 * m->patch->length * m->patch->length,
-               away = hr2di_ellipse(s, image);
-  if (hr2di_orient(s.a, s.b, wall.a) <= min && hr2di_orient(s.a, s.b, wall.b) <= min)
-    return HR2D_OK;
-  if (away >= m->max || is_on_patch(m->patch, image)) return HR2D_OK;
+  if (hr2di_ellipse(s, image) >= m->max || is_on_patch(m->patch, image)) return HR2D_OK;
   hr2di_image_points *points = m->points;
   if (hr2di_alloc_reserve(&m->scene->alloc, &points->point, &points->capacity,
                           points->count + 1, sizeof *points->point))
@@ -86,8 +83,15 @@ static hr2d_status add_strip(mirror *m, hr2d_segment wall, const double side[2])
   return status;
 }
 
+static int is_in_front(const hr2di_patch *p, hr2d_segment wall) {
+  const hr2d_segment s = p->scaled;
+  const double min = 1e-13 * p->length * p->length;
+  return !(hr2di_orient(s.a, s.b, wall.a) <= min && hr2di_orient(s.a, s.b, wall.b) <= min);
+}
+
 static hr2d_status add_wall(mirror *m, hr2d_segment wall) {
   const hr2d_segment s = m->patch->scaled;
+  if (!is_in_front(m->patch, wall)) return HR2D_OK;
   const double of_a = hr2di_orient(wall.a, wall.b, s.a),
                of_b = hr2di_orient(wall.a, wall.b, s.b);
   const double side[] = {fmax(of_a, of_b), fmin(of_a, of_b)};
