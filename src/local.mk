@@ -134,6 +134,7 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/point-view-impl.h \
 	src/visibility/point-view-ray.c \
 	src/visibility/point-view-walk.c \
+	src/visibility/looks.c src/visibility/looks.h \
 	src/visibility/patch-sights.c src/visibility/patch-sights.h \
 	src/visibility/row-maker.c src/visibility/row-maker.h \
 	src/visibility/row-sum.c src/visibility/row-sum.h \

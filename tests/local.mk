@@ -96,6 +96,7 @@ SUITES = \
 	tests/unit/visibility/check-period-rows \
 	tests/unit/visibility/check-patch-sights \
 	tests/unit/visibility/check-seen-backs \
+	tests/unit/visibility/check-looks \
 	tests/unit/visibility/check-seen-ends \
 	tests/unit/blocks/check-blocks \
 	tests/unit/blocks/check-directions \

@@ -161,6 +161,7 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
   *a = (hr2di_graded){0};
   hr2d_status status = hr2d_hierarchy_create(scene, &a->hierarchy);
   if (!status) a->hierarchy->order = fineness->order;
+  if (!status) a->hierarchy->looks = fineness->looks;
   if (!status) status = grade(a, fineness, target);
   if (!status) status = link_elements(a, NULL, fineness, target);
   if (!status) status = check_blocks(a, fineness, target);

@@ -204,13 +204,14 @@ static int is_spared(hr2d_status status) {
          status == HR2D_EMAX_BYTES || status == HR2D_ENOT_CONVERGED;
 }
 
-hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *given, double *weight,
-                             hr2di_lights *lights, hr2di_survey *survey,
-                             hr2di_message *message) {
+hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *given,
+                             hr2di_looks *looks, double *weight, hr2di_lights *lights,
+                             hr2di_survey *survey, hr2di_message *message) {
   const hr2di_resolution fineness = {.order = weight ? 2 : 1,
                                      .target = 0.1,
                                      .tolerance = weight ? 0 : LIGHTS,
-                                     .norm = given->norm};
+                                     .norm = given->norm,
+                                     .looks = looks};
   listener l = {.target = given};
   hr2d_target heard = *given, *target = &heard;
   if (given->progress) {

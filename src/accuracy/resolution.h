@@ -5,10 +5,11 @@
 
 #include "accuracy/graded-solve.h"
 
-/* Surveys the corners and ends of a scene, with threads as in options.  Returns HR2D_OK,
-   HR2D_ENOMEM or the status of the watch. */
-hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, unsigned threads,
-                                    hr2di_watch *watch, hr2di_survey *survey);
+/* Surveys the corners and ends of a scene, with threads as in options, and keeps what patches
+   see in `looks`, unless that is NULL.  Returns HR2D_OK, HR2D_ENOMEM or the status of the
+   watch. */
+hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, hr2di_looks *looks,
+                                    unsigned threads, hr2di_watch *watch, hr2di_survey *survey);
 
 /* Whether lights of patches help: to choose events for a target of averages. */
 int hr2di_resolution_wants_lights(const hr2d_scene *scene, const hr2d_target *target);

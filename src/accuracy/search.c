@@ -29,11 +29,26 @@ static hr2d_status watch(void *ctx, const hr2d_progress *progress) {
   return s->progress_status;
 }
 
+/* Bytes for what patches see, where the caller counts none. */
+#define LOOKS 0x40000000
+
+/* Shares have memory for their own rows alone. */
+static hr2d_status make_looks(hr2di_search *s) {
+  if (!s->scene->effect[HR2D_EFFECT_OCCLUSION].on || s->given.max_bytes || s->given.share)
+    return HR2D_OK;
+  return hr2di_looks_init(&s->looks, s->scene, LOOKS);
+}
+
+hr2di_looks *hr2di_search_looks(hr2di_search *s) {
+  return s->looks.of ? &s->looks : NULL;
+}
+
 hr2d_status hr2di_search_init(hr2di_search *s, const hr2d_scene *scene,
                               const hr2d_target *target) {
   *s =
       (hr2di_search){.scene = scene, .start = hr2di_clock_now(), .error = {HUGE_VAL, HUGE_VAL}};
-  const hr2d_status status = hr2di_target_init(&s->given, scene, target, HR2D_DEFAULT_ERROR);
+  hr2d_status status = hr2di_target_init(&s->given, scene, target, HR2D_DEFAULT_ERROR);
+  if (!status) status = make_looks(s);
   s->target = s->given;
   s->target.progress = watch;
   s->target.progress_ctx = s;
@@ -44,6 +59,7 @@ hr2d_status hr2di_search_init(hr2di_search *s, const hr2d_scene *scene,
 
 void hr2di_search_clear(hr2di_search *s) {
   hr2di_graded_clear(&s->best);
+  hr2di_looks_clear(&s->looks);
   hr2di_lights_clear(&s->lights, s->scene);
   hr2di_alloc_free(&s->scene->alloc, s->weight);
   hr2di_target_clear(&s->given, s->scene);

@@ -20,6 +20,7 @@ typedef struct hr2di_search {
   hr2di_resolution fineness; /* of the best */
   double *weight;            /* per patch, where importance is asked for */
   hr2di_lights lights;       /* of patches, where there are events */
+  hr2di_looks looks;         /* of patches, if they are kept */
   hr2d_account account;      /* of the best, with all times */
   hr2d_error error;          /* of the best, the larger one of B and H */
   double cut_off;            /* what of it images may make that are cut off */
@@ -32,6 +33,9 @@ typedef struct hr2di_search {
 hr2d_status hr2di_search_init(hr2di_search *s, const hr2d_scene *scene,
                               const hr2d_target *target);
 void hr2di_search_clear(hr2di_search *s);
+
+/* Where looks of patches are kept; NULL if they are not. */
+hr2di_looks *hr2di_search_looks(hr2di_search *s);
 
 /* Seconds that are left; HUGE_VAL without a deadline. */
 double hr2di_search_left(const hr2di_search *s);

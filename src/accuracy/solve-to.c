@@ -24,11 +24,12 @@ static void give_reason(hr2di_search *s, const char *reason) {
 }
 
 /* The resolution to begin with: no coarser than the best one so far, which was not enough. */
-static hr2di_resolution first_resolution(const hr2di_search *s, double error) {
+static hr2di_resolution first_resolution(hr2di_search *s, double error) {
   hr2di_resolution guess = hr2di_resolution_for(s->scene, &s->survey, error, &s->given,
                                                 s->lights.radiosity ? &s->lights : NULL);
   hr2di_resolution finer = s->fineness;
   guess.weight = s->weight;
+  guess.looks = hr2di_search_looks(s);
   guess.hasty = !(s->given.seconds > 0); /* there is time for a bound at the end */
   /* Under a background of their own temperature scenes are isothermal to all digits. */
   if (!guess.lights && !s->given.no_error && !s->scene->effect[HR2D_EFFECT_BACKGROUND].on) {
@@ -139,7 +140,7 @@ static hr2d_status weigh_patches(hr2di_search *s) {
     s->weight = hr2di_alloc(&s->scene->alloc, s->scene->patches, sizeof *s->weight);
     if (!s->weight) return HR2D_ENOMEM;
   }
-  return hr2di_importance(s->scene, &s->target, s->weight, lights,
+  return hr2di_importance(s->scene, &s->target, hr2di_search_looks(s), s->weight, lights,
                           s->target.norm == HR2D_NORM_AVERAGE ? &s->survey : NULL, &s->message);
 }
 
@@ -149,7 +150,8 @@ static hr2d_status survey(hr2di_search *s) {
   const hr2d_status status = weigh_patches(s);
   if (status || s->survey.ellipse > 0) return status;
   hr2di_scene_watch(s->scene, &watch, s->target.progress, s->target.progress_ctx, "refine");
-  return hr2di_resolution_survey(s->scene, s->given.threads, &watch, &s->survey);
+  return hr2di_resolution_survey(s->scene, hr2di_search_looks(s), s->given.threads, &watch,
+                                 &s->survey);
 }
 
 /* Hands the best solution over; it owns its hierarchy and its links from then on. */
@@ -157,6 +159,7 @@ static void hand_over(hr2di_search *s, hr2d_solution **solution) {
   *solution = s->best.solution;
   if (!*solution) return;
   hr2d_linkset *links = s->best.links;
+  s->best.hierarchy->looks = NULL;
   if (s->best.depth &&
       hr2di_link_blocks_trim(&links->blocks, s->best.hierarchy->order, &links->alloc))
     hr2di_link_blocks_clear(&links->blocks, &links->alloc); /* a solve makes them again */

@@ -27,7 +27,8 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
   int room = w->rule && !status;
   if (room && scene->effect[HR2D_EFFECT_OCCLUSION].on) {
     w->sights = hr2di_alloc_zero(alloc, 1, sizeof *w->sights);
-    room = w->sights && !hr2di_patch_sights_init(w->sights, scene, alloc, watch);
+    room =
+        w->sights && !hr2di_patch_sights_init(w->sights, scene, hierarchy->looks, alloc, watch);
   }
   return room ? HR2D_OK : HR2D_ENOMEM;
 }

@@ -140,7 +140,8 @@ static hr2d_status set_sights(hr2di_projector *p) {
   const hr2d_status status = hr2di_projector_check_budget(p, 0);
   if (status) return status;
   p->sights = hr2di_alloc_zero(&p->links->alloc, 1, sizeof *p->sights);
-  if (!p->sights || hr2di_patch_sights_init(p->sights, scene, &p->links->alloc, p->watch))
+  if (!p->sights || hr2di_patch_sights_init(p->sights, scene, p->hierarchy->looks,
+                                            &p->links->alloc, p->watch))
     return hr2di_message_fail(&p->links->message, HR2D_ENOMEM,
                               "out of memory for the refinement");
   return HR2D_OK;

@@ -426,7 +426,7 @@ hr2d_status hr2d_linkset_validate(hr2d_linkset *links) {
     status = HR2D_OK;
     if (h->scene->effect[HR2D_EFFECT_OCCLUSION].on) {
       v.sights = &sights;
-      status = hr2di_patch_sights_init(&sights, h->scene, alloc, &v.watch);
+      status = hr2di_patch_sights_init(&sights, h->scene, NULL, alloc, &v.watch);
     }
     status = status ? out_of_memory(&v) : check_all(&v);
     hr2di_patch_sights_clear(&sights);

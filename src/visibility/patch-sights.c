@@ -9,20 +9,21 @@
 #include "base/alloc.h"
 #include "geometry/vector.h"
 
-static hr2d_status keep(void *ctx, const hr2di_sight *sight, hr2di_wall_side side) {
+static hr2d_status keep(void *ctx, const hr2di_sight *sight, hr2di_wall_side from,
+                        hr2di_wall_side side) {
   hr2di_patch_sights *s = ctx;
+  const hr2di_triangulation *t = s->looker.walk.in;
   const size_t k = s->all.count;
   const hr2di_side *of = s->scene->parts.of_side;
-  if (of[side].wall == of[s->from].wall)
+  if (!sight || of[side].wall == of[from].wall)
     return HR2D_OK; /* of a wall that roundings have bent */
   const hr2d_allocator *alloc = &s->all.alloc;
   if (k >= UINT32_MAX - 1 ||
       hr2di_alloc_reserve(alloc, &s->next, &s->next_capacity, k + 1, sizeof *s->next) ||
       hr2di_alloc_reserve(alloc, &s->side, &s->side_capacity, k + 1, sizeof *s->side))
     return HR2D_ENOMEM;
-  const hr2d_status status =
-      hr2di_sight_list_add(&s->all, sight, hr2di_wall_side_at(s->walk.in, s->from),
-                           hr2di_wall_side_at(s->walk.in, side));
+  const hr2d_status status = hr2di_sight_list_add(&s->all, sight, hr2di_wall_side_at(t, from),
+                                                  hr2di_wall_side_at(t, side));
   if (status) return status;
   s->next[k] = s->last[side];
   s->side[k] = side;
@@ -31,24 +32,22 @@ static hr2d_status keep(void *ctx, const hr2di_sight *sight, hr2di_wall_side sid
 }
 
 hr2d_status hr2di_patch_sights_init(hr2di_patch_sights *s, const hr2d_scene *scene,
-                                    const hr2d_allocator *alloc, hr2di_watch *watch) {
+                                    hr2di_looks *looks, const hr2d_allocator *alloc,
+                                    hr2di_watch *watch) {
   const hr2di_triangulation *t = &scene->plane.triangulation;
   *s = (hr2di_patch_sights){.scene = scene,
-                            .walk = {.in = t,
-                                     .wanted = scene->parts.wanted,
-                                     .take = keep,
-                                     .ctx = s,
-                                     .alloc = *alloc,
-                                     .watch = watch},
+                            .looker = hr2di_looker_make(scene, looks, alloc, watch),
                             .all.alloc = *alloc,
                             .turned.alloc = *alloc};
+  s->looker.take = keep;
+  s->looker.ctx = s;
   s->last = hr2di_alloc_zero(alloc, t->edges, 2 * sizeof *s->last);
   return s->last ? HR2D_OK : HR2D_ENOMEM;
 }
 
 void hr2di_patch_sights_clear(hr2di_patch_sights *s) {
-  const hr2d_allocator *alloc = &s->walk.alloc;
-  hr2di_walk_clear(&s->walk);
+  const hr2d_allocator *alloc = &s->looker.walk.alloc;
+  hr2di_looker_clear(&s->looker);
   hr2di_sight_list_clear(&s->all);
   hr2di_sight_list_clear(&s->turned);
   hr2di_alloc_free(alloc, s->next);
@@ -56,20 +55,18 @@ void hr2di_patch_sights_clear(hr2di_patch_sights *s) {
   hr2di_alloc_free(alloc, s->last);
 }
 
-static hr2d_status look_from(hr2di_patch_sights *s, uint32_t patch) {
-  const hr2di_side_parts *p = &s->scene->parts;
-  if (s->looked == patch + 1) return HR2D_OK;
-  hr2d_status status = hr2di_watch_work(s->walk.watch, 1 + s->all.count / 16);
+/* Looks for sights of all patches, or at least of `later` ones. */
+static hr2d_status look_from(hr2di_patch_sights *s, uint32_t patch, int later) {
+  if (s->looked == patch + 1 && (later || !s->later)) return HR2D_OK;
+  hr2d_status status = hr2di_watch_work(s->looker.walk.watch, 1 + s->all.count / 16);
   for (size_t k = 0; k < s->all.count; k++) s->last[s->side[k]] = 0;
   hr2di_sight_list_cut(&s->all, 0);
   s->looked = s->taken = 0;
-  const hr2di_parts of = p->of_patch[patch];
-  for (uint32_t k = of.first; k < of.last && !status; k++) {
-    s->from = p->part[k].side;
-    if (s->from != HR2DI_HIDDEN) status = hr2di_walk_from(&s->walk, s->from, &p->part[k].at);
-  }
-  if (!status) s->looked = patch + 1;
-  return status;
+  if (!status) status = hr2di_looker_look(&s->looker, patch, later);
+  if (status) return status;
+  s->looked = patch + 1;
+  s->later = later;
+  return HR2D_OK;
 }
 
 /* Copies the sights that end along a patch, turned round if that is the near one; links of the
@@ -87,7 +84,7 @@ static hr2d_status take(hr2di_patch_sights *s, uint32_t patch, int turn) {
       hr2di_sight_list *to = &s->turned;
       status = hr2di_sight_list_copy(to, &s->all, m - 1, m);
       if (!status && turn) hr2di_sight_list_turn(to, to->count - 1);
-      if (!status) status = hr2di_watch_work(s->walk.watch, 1);
+      if (!status) status = hr2di_watch_work(s->looker.walk.watch, 1);
     }
   }
   hr2di_sight_list_sort(&s->turned);
@@ -112,7 +109,7 @@ static hr2d_status add_contact(hr2di_sight_list *list, hr2d_segment near, hr2d_s
 }
 
 hr2d_status hr2di_patch_sights_look(hr2di_patch_sights *s, uint32_t from, uint32_t to) {
-  return in_contact(&s->scene->parts, from, to) ? HR2D_OK : look_from(s, from);
+  return in_contact(&s->scene->parts, from, to) ? HR2D_OK : look_from(s, from, from < to);
 }
 
 hr2d_status hr2di_patch_sights_between(hr2di_patch_sights *s, const hr2di_patch_pair *pair,
@@ -120,10 +117,10 @@ hr2d_status hr2di_patch_sights_between(hr2di_patch_sights *s, const hr2di_patch_
   const int turn = pair->patch[0] > pair->patch[1];
   if (in_contact(&s->scene->parts, pair->patch[0], pair->patch[1]))
     return add_contact(list, pair->part[turn], pair->part[!turn]);
-  hr2d_status status = look_from(s, pair->patch[0]);
+  hr2d_status status = look_from(s, pair->patch[0], !turn);
   if (status || s->all.count == 0) return status;
   status = take(s, pair->patch[1], turn);
-  if (!status) status = hr2di_watch_work(s->walk.watch, s->turned.count);
+  if (!status) status = hr2di_watch_work(s->looker.walk.watch, s->turned.count);
   if (status || s->turned.count == 0) return status;
   s->restricted += s->turned.count;
   return hr2di_sight_list_restrict(list, &s->turned, 0, s->turned.count, pair->part[turn],
@@ -157,11 +154,11 @@ hr2di_visibility_class hr2di_sights_classify(const hr2di_sight_list *list, size_
 }
 
 uint64_t hr2di_patch_sights_tests(const hr2di_patch_sights *s) {
-  return s->walk.steps + s->restricted;
+  return s->looker.steps + s->restricted;
 }
 
 uint64_t hr2di_patch_sights_bytes(const hr2di_patch_sights *s) {
-  return hr2di_walk_bytes(&s->walk) + hr2di_sight_list_bytes(&s->all) +
+  return hr2di_walk_bytes(&s->looker.walk) + hr2di_sight_list_bytes(&s->all) +
          hr2di_sight_list_bytes(&s->turned) + s->next_capacity * sizeof *s->next +
          s->side_capacity * sizeof *s->side;
 }

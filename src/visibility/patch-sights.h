@@ -3,29 +3,30 @@
 #ifndef HR2D_SRC_VISIBILITY_PATCH_SIGHTS_H
 #define HR2D_SRC_VISIBILITY_PATCH_SIGHTS_H
 
-#include "scene/scene-impl.h"
 #include "sight/sight-list.h"
+#include "visibility/looks.h"
 
 /* Work space of one thread, and the last look. */
 typedef struct hr2di_patch_sights {
   const hr2d_scene *scene;
-  hr2di_walk walk;
+  hr2di_looker looker;
   hr2di_sight_list all; /* from the walls of the patch that looked */
   uint32_t *next;       /* per sight: 1 + the one before it that ends at the same side, or 0 */
   uint32_t *side;       /* per sight: where it ends */
   size_t next_capacity, side_capacity;
   uint32_t *last;  /* per side: 1 + the last sight that ends there, or 0 */
   uint32_t looked; /* 1 + the patch; 0 if none has */
-  hr2di_wall_side from;
-  uint32_t taken; /* 1 + the patch to which those of the pair under way lead; 0: none */
+  int later;       /* it may lack sights of patches with lower numbers */
+  uint32_t taken;  /* 1 + the patch to which those of the pair under way lead; 0: none */
   hr2di_sight_list turned; /* these, with the near ends on the patch of the lower number */
   uint64_t restricted;     /* sights so far */
 } hr2di_patch_sights;
 
-/* For a committed scene with the effect of occlusion.  HR2D_OK or HR2D_ENOMEM; to be ended by
-   hr2di_patch_sights_clear() in any case. */
+/* For a committed scene with the effect of occlusion; looks that are kept may be NULL.  HR2D_OK
+   or HR2D_ENOMEM; to be ended by hr2di_patch_sights_clear() in any case. */
 hr2d_status hr2di_patch_sights_init(hr2di_patch_sights *sights, const hr2d_scene *scene,
-                                    const hr2d_allocator *alloc, hr2di_watch *watch);
+                                    hr2di_looks *looks, const hr2d_allocator *alloc,
+                                    hr2di_watch *watch);
 void hr2di_patch_sights_clear(hr2di_patch_sights *sights);
 
 /* Parts of two patches. */

@@ -11,8 +11,10 @@ static void see_vertex(void *ctx, uint32_t vertex) {
     s->end_seen[s->end[k]] = s->patch;
 }
 
-static hr2d_status see_side(void *ctx, const hr2di_sight *sight, hr2di_wall_side side) {
+static hr2d_status see_side(void *ctx, const hr2di_sight *sight, hr2di_wall_side from,
+                            hr2di_wall_side side) {
   (void)sight;
+  (void)from;
   hr2di_seen_ends *s = ctx;
   const hr2di_side *of = &s->scene->parts.of_side[side];
   if (s->side_seen[side] == s->patch) return HR2D_OK;
@@ -23,7 +25,7 @@ static hr2d_status see_side(void *ctx, const hr2di_sight *sight, hr2di_wall_side
     if (k > of->parts.first) s->end_seen[2 * part[k].patch] = s->patch;
     if (k + 1 < of->parts.last) s->end_seen[2 * part[k].patch + 1] = s->patch;
   }
-  return hr2di_watch_work(s->walk.watch, (of->parts.last - of->parts.first) / 8);
+  return hr2di_watch_work(s->looker.walk.watch, (of->parts.last - of->parts.first) / 8);
 }
 
 /* Calls for each end of a patch that is at a vertex; counts them, or enters them. */
@@ -47,16 +49,14 @@ static void index_ends(hr2di_seen_ends *s, int enter) {
 }
 
 hr2d_status hr2di_seen_ends_init(hr2di_seen_ends *s, const hr2d_scene *scene,
-                                 const hr2d_allocator *alloc, hr2di_watch *watch) {
+                                 hr2di_looks *looks, const hr2d_allocator *alloc,
+                                 hr2di_watch *watch) {
   const hr2di_triangulation *t = &scene->plane.triangulation;
   *s = (hr2di_seen_ends){.scene = scene,
-                         .walk = {.in = t,
-                                  .wanted = scene->parts.wanted,
-                                  .take = see_side,
-                                  .see = see_vertex,
-                                  .ctx = s,
-                                  .alloc = *alloc,
-                                  .watch = watch}};
+                         .looker = hr2di_looker_make(scene, looks, alloc, watch)};
+  s->looker.take = see_side;
+  s->looker.see = see_vertex;
+  s->looker.ctx = s;
   s->first = hr2di_alloc_zero(alloc, t->vertices + 1, sizeof *s->first);
   s->end = hr2di_alloc(alloc, scene->patches, 2 * sizeof *s->end);
   s->end_seen = hr2di_alloc_zero(alloc, scene->patches, 2 * sizeof *s->end_seen);
@@ -73,8 +73,8 @@ hr2d_status hr2di_seen_ends_init(hr2di_seen_ends *s, const hr2d_scene *scene,
 }
 
 void hr2di_seen_ends_clear(hr2di_seen_ends *s) {
-  const hr2d_allocator *alloc = &s->walk.alloc;
-  hr2di_walk_clear(&s->walk);
+  const hr2d_allocator *alloc = &s->looker.walk.alloc;
+  hr2di_looker_clear(&s->looker);
   hr2di_alloc_free(alloc, s->first);
   hr2di_alloc_free(alloc, s->end);
   hr2di_alloc_free(alloc, s->end_seen);
@@ -83,12 +83,6 @@ void hr2di_seen_ends_clear(hr2di_seen_ends *s) {
 }
 
 hr2d_status hr2di_seen_ends_look(hr2di_seen_ends *s, uint32_t patch) {
-  const hr2di_parts of = s->scene->parts.of_patch[patch];
-  hr2d_status status = HR2D_OK;
   s->patch = patch + 1;
-  for (uint32_t k = of.first; k < of.last && !status; k++) {
-    const hr2di_side_part *part = &s->scene->parts.part[k];
-    if (part->side != HR2DI_HIDDEN) status = hr2di_walk_from(&s->walk, part->side, &part->at);
-  }
-  return status;
+  return hr2di_looker_look(&s->looker, patch, 1);
 }

@@ -3,12 +3,12 @@
 #ifndef HR2D_SRC_VISIBILITY_SEEN_ENDS_H
 #define HR2D_SRC_VISIBILITY_SEEN_ENDS_H
 
-#include "scene/scene-impl.h"
+#include "visibility/looks.h"
 
 /* Work space of one thread, and what the last patch sees. */
 typedef struct hr2di_seen_ends {
   const hr2d_scene *scene;
-  hr2di_walk walk;
+  hr2di_looker looker;
   uint32_t *first;     /* per vertex: where its ends begin in `end`; one more */
   uint32_t *end;       /* 2·patch for its start, 2·patch + 1 for its last point */
   uint32_t *end_seen;  /* per end: 1 + the patch that saw it last */
@@ -17,10 +17,12 @@ typedef struct hr2di_seen_ends {
   uint32_t patch; /* 1 + the last one */
 } hr2di_seen_ends;
 
-/* For a committed scene with the effect of occlusion.  HR2D_OK, HR2D_ENOMEM or the status of
-   the watch; to be ended by hr2di_seen_ends_clear() in any case. */
+/* For a committed scene with the effect of occlusion; looks that are kept may be NULL. HR2D_OK,
+   HR2D_ENOMEM or the status of the watch; to be ended by hr2di_seen_ends_clear() in any case.
+ */
 hr2d_status hr2di_seen_ends_init(hr2di_seen_ends *seen, const hr2d_scene *scene,
-                                 const hr2d_allocator *alloc, hr2di_watch *watch);
+                                 hr2di_looks *looks, const hr2d_allocator *alloc,
+                                 hr2di_watch *watch);
 void hr2di_seen_ends_clear(hr2di_seen_ends *seen);
 
 /* Looks from all of a patch; HR2D_OK, HR2D_ENOMEM or the status of the watch.  The cost is that

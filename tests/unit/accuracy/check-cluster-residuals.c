@@ -114,7 +114,7 @@ static void try_accuracy(const hr2d_scene *scene, double target, double accuracy
   hr2di_survey survey;
   hr2di_message message = {.text = ""};
   ck_assert_int_eq(hr2di_target_init(&t->target, scene, &given, target), HR2D_OK);
-  ck_assert_int_eq(hr2di_resolution_survey(scene, 1, NULL, &survey), HR2D_OK);
+  ck_assert_int_eq(hr2di_resolution_survey(scene, NULL, 1, NULL, &survey), HR2D_OK);
   t->fineness = hr2di_resolution_for(scene, &survey, target, &t->target, NULL);
   t->fineness.cluster_accuracy = accuracy;
   t->fineness.aim = aim;

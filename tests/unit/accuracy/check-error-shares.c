@@ -226,7 +226,7 @@ static void estimate(const hr2d_scene *scene, hr2di_resolution *f, hr2di_graded 
   hr2di_watch watch;
   const int hasty = f->hasty;
   hr2di_scene_watch(scene, &watch, NULL, NULL, "refine");
-  ck_assert_int_eq(hr2di_resolution_survey(scene, 1, &watch, &survey), HR2D_OK);
+  ck_assert_int_eq(hr2di_resolution_survey(scene, NULL, 1, &watch, &survey), HR2D_OK);
   *f = hr2di_resolution_for(scene, &survey, 1e-4, &target, NULL);
   f->hasty = hasty;
   ck_assert_int_eq(hr2di_graded_refine(answer, scene, f, &target, &message), HR2D_OK);

@@ -80,7 +80,8 @@ static size_t leaves_for(const hr2d_scene *scene, double allowed) {
   hr2di_message message;
   double *bent;
   target.floor = HR2D_FLOOR;
-  ck_assert_int_eq(hr2di_importance(scene, &target, NULL, &lights, NULL, &message), HR2D_OK);
+  ck_assert_int_eq(hr2di_importance(scene, &target, NULL, NULL, &lights, NULL, &message),
+                   HR2D_OK);
   ck_assert_int_eq(hr2d_hierarchy_create(scene, &h), HR2D_OK);
   h->order = 4;
   ck_assert_int_eq(hr2di_kinks_cut(h, &events, &lights, allowed, 0, 1, NULL, &bent), HR2D_OK);
@@ -161,7 +162,8 @@ START_TEST(threads_change_no_bit) {
   hr2d_target target = HR2D_TARGET_INIT;
   hr2di_message message;
   target.floor = HR2D_FLOOR;
-  ck_assert_int_eq(hr2di_importance(scene, &target, NULL, &lights, NULL, &message), HR2D_OK);
+  ck_assert_int_eq(hr2di_importance(scene, &target, NULL, NULL, &lights, NULL, &message),
+                   HR2D_OK);
   double *bent, *bent_alone;
   hr2d_hierarchy *alone = cut_by(scene, &events, &lights, 1, &bent_alone);
   ck_assert_uint_gt(alone->elements, 2 * hr2d_scene_patches(scene));

@@ -89,7 +89,7 @@ START_TEST(parts_see_what_is_left_of_sights) {
     if (!scene) continue;
     hr2di_watch_init(&watch, NULL, NULL, NULL);
     hr2di_patch_sights sights;
-    ck_assert_int_eq(hr2di_patch_sights_init(&sights, scene, &alloc, &watch), HR2D_OK);
+    ck_assert_int_eq(hr2di_patch_sights_init(&sights, scene, NULL, &alloc, &watch), HR2D_OK);
     for (int m = 0; m < 30; m++) check_pair(&r, &sights, scene);
     hr2di_patch_sights_clear(&sights);
     hr2d_scene_destroy(scene);

@@ -60,7 +60,7 @@ START_TEST(ends_are_seen_by_rays) {
     plan_free(&p);
     hr2di_seen_ends seen = {0};
     if (scene && hr2d_scene_effect(scene, HR2D_EFFECT_OCCLUSION, NULL)) {
-      ck_assert_int_eq(hr2di_seen_ends_init(&seen, scene, &alloc, NULL), HR2D_OK);
+      ck_assert_int_eq(hr2di_seen_ends_init(&seen, scene, NULL, &alloc, NULL), HR2D_OK);
       for (int m = 0; m < 4; m++) {
         const uint32_t i = (uint32_t)random_below(&r, (int)scene->patches);
         ck_assert_int_eq(hr2di_seen_ends_look(&seen, i), HR2D_OK);
@@ -86,7 +86,7 @@ START_TEST(a_partition_hides_a_wall) {
   hr2d_scene *scene = test_open_scene(at, 6);
   hr2di_seen_ends seen = {0};
   test_commit(scene);
-  ck_assert_int_eq(hr2di_seen_ends_init(&seen, scene, &alloc, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2di_seen_ends_init(&seen, scene, NULL, &alloc, NULL), HR2D_OK);
   ck_assert_int_eq(hr2di_seen_ends_look(&seen, 1), HR2D_OK);
   ck_assert(hr2di_seen_ends_has_wall(&seen, scene->walls.of_segment[5]));
   ck_assert(hr2di_seen_ends_has_wall(&seen, scene->walls.of_segment[0]));
