@@ -169,9 +169,42 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
   return explain(a, hr2di_share_agree(target->share, status), message);
 }
 
-/* Pairs are linked by the order, too.  A share keeps its rows, and so the blocks of their
- * links.
- */
+/* A share with more than so many times the mean of the links is too many. */
+#define UNEVEN 1.12
+
+static hr2d_status find_uneven(const hr2di_graded *a, hr2d_share *share, int *uneven) {
+  const double own = (double)a->links->store.count;
+  double most = own, all = own;
+  hr2d_status status = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_MOST, &most, 1);
+  if (!status) status = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_SUM, &all, 1);
+  *uneven = share && most * share->count > UNEVEN * all;
+  return status;
+}
+
+/* Links of the same order keep their blocks, as a share keeps its rows; unless what was divided
+   is mostly that of a few shares: then rows are dealt out anew. */
+static hr2d_status link_divided(hr2di_graded *a, const hr2di_graded *coarse,
+                                const hr2di_resolution *fineness, const hr2d_target *target) {
+  const hr2d_allocator *alloc = &a->hierarchy->alloc;
+  hr2d_status status = HR2D_OK;
+  int uneven = 0;
+  if (fineness->order != coarse->hierarchy->order)
+    return link_elements(a, NULL, fineness, target);
+  if (coarse->pieces.rows)
+    status = hr2di_row_pieces_copy(&a->pieces, &coarse->pieces,
+                                   hr2di_scene_cell(a->hierarchy->scene), alloc);
+  if (!status) status = link_elements(a, coarse, fineness, target);
+  if (!status) status = find_uneven(a, target->share, &uneven);
+  if (status || !uneven) return status;
+  const hr2d_refine_counts counts = a->links->counts;
+  hr2di_row_pieces_clear(&a->pieces, alloc);
+  hr2d_linkset_destroy(a->links);
+  a->links = NULL;
+  status = link_elements(a, NULL, fineness, target);
+  if (!status) a->links->counts = counts; /* no count depends on the number of shares */
+  return status;
+}
+
 hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
                                 const hr2di_resolution *fineness, const hr2d_target *target,
                                 hr2di_message *message) {
@@ -184,13 +217,10 @@ hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
                                            target->max_elements, &watch, &a->hierarchy);
   if (!status) a->hierarchy->order = fineness->order;
   if (!status) status = divide_images(a, &watch);
-  if (!status && coarse->pieces.rows)
-    status = hr2di_row_pieces_copy(&a->pieces, &coarse->pieces,
-                                   hr2di_scene_cell(a->hierarchy->scene), &a->hierarchy->alloc);
-  const int same = fineness->order == coarse->hierarchy->order;
-  if (!status) status = link_elements(a, same ? coarse : NULL, fineness, target);
+  if (!status) status = link_divided(a, coarse, fineness, target);
   if (!status) status = check_blocks(a, fineness, target);
-  if (!status && same) a->links->start = coarse->solution;
+  if (!status && fineness->order == coarse->hierarchy->order)
+    a->links->start = coarse->solution;
   a->refine_seconds = hr2di_clock_now() - start;
   return explain(a, hr2di_share_agree(target->share, status), message);
 }

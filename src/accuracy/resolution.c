@@ -47,8 +47,23 @@ hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, hr2di_looks *looks,
 enum { CROWD = 64, MOST_HALVINGS = 3 };
 #define CROWDED_AIM 1e-3
 
+static int is_hidden(const hr2d_scene *scene) {
+  return scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
+         scene->effect[HR2D_EFFECT_FACING].called_for ||
+         scene->effect[HR2D_EFFECT_BACKGROUND].called_for;
+}
+
 static int is_crowded(const hr2d_scene *scene, int hidden) {
   return hidden && scene->patches > CROWD;
+}
+
+/* Down to SHARED_AIM shares of a known error find the elements that matter sooner than lights
+   and events do, and from fewer elements on. */
+#define SHARED_AIM 1e-4
+
+static int by_shares(const hr2d_scene *scene, const hr2d_target *target, double aim) {
+  return is_crowded(scene, is_hidden(scene)) && target->norm == HR2D_NORM_AVERAGE &&
+         !target->no_error && aim >= SHARED_AIM;
 }
 
 /* A kink of radiosity inside an element changes values at points more than averages. */
@@ -57,16 +72,11 @@ static unsigned generations_for(double aim, hr2d_norm norm) {
   return aim >= 0.05 ? 1 : aim >= 1e-4 ? 2 : aim >= 1e-7 ? 3 : 4;
 }
 
-static int is_hidden(const hr2d_scene *scene) {
-  return scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
-         scene->effect[HR2D_EFFECT_FACING].called_for ||
-         scene->effect[HR2D_EFFECT_BACKGROUND].called_for;
-}
-
 int hr2di_resolution_wants_lights(const hr2d_scene *scene, const hr2d_target *target) {
   const size_t most = target->error < CROWDED_AIM ? MANY_LIT : LIT;
   return target->norm == HR2D_NORM_AVERAGE && is_hidden(scene) && scene->patches <= most &&
-         !scene->effect[HR2D_EFFECT_BACKGROUND].on && !(target->seconds > 0);
+         !scene->effect[HR2D_EFFECT_BACKGROUND].on && !(target->seconds > 0) &&
+         !by_shares(scene, target, target->error);
 }
 
 /* From CROWD_LIT patches on there are so many links that fewer of a higher order take less
@@ -130,6 +140,8 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
                                       double aim, const hr2d_target *target,
                                       const hr2di_lights *lights) {
   const hr2d_norm norm = target->norm;
+  const int shared = by_shares(scene, target, aim);
+  if (shared) lights = NULL;
   const double many = is_crowded(scene, is_hidden(scene)) && lights ? MANY_PARTS : 1;
   const double error = aim * fmax(survey->exponent * survey->exponent, 1e-3);
   const double order = ceil(log(EASY / (many * error)) / digits_per_order(survey, norm));
@@ -147,7 +159,7 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
       .kinks = lights ? shares_for(scene, aim) : 0,
       .lights = lights,
       .generations = hidden ? generations_for(aim, norm) : 0};
-  if (is_crowded(scene, hidden) && aim >= CROWDED_AIM) {
+  if (shared || (is_crowded(scene, hidden) && aim >= CROWDED_AIM)) {
     f.order = (unsigned)fmax(f.order, aim >= THREE ? 3 : 4);
     f.generations = f.kinks > 0;
   }
@@ -156,7 +168,7 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
   if (!f.crowded && f.generations == 0) f.generations = generations_of_sky(scene);
   if (f.crowded && lights && scene->patches > CROWD_LIT) spare_elements(&f, aim);
   f.shares = f.crowded && norm == HR2D_NORM_AVERAGE;
-  if (f.shares && !lights && !target->no_error && aim >= CROWDED_AIM) leave_to_shares(&f);
+  if (shared) leave_to_shares(&f);
   if (f.crowded && aim >= CROWDED_AIM && (lights || !f.shares)) f.halvings = aim < THREE;
   return f;
 }

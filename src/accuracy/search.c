@@ -180,6 +180,16 @@ hr2d_status hr2di_search_bound(hr2di_search *s) {
   return status;
 }
 
+/* Divided elements are gone on with although their error seems so many times as large: what is
+   left is that of links of too low an order, and varies. */
+#define VARIES 2
+
+/* Whether an attempt of some error takes the place of the best one. */
+static int is_better(const hr2di_search *s, double error, int divided) {
+  const double before = hr2di_search_error(s);
+  return !s->best.solution || !isfinite(before) || error < (divided ? VARIES : 1) * before;
+}
+
 hr2d_status hr2di_search_attempt(hr2di_search *s, const hr2di_resolution *fineness,
                                  int dividing) {
   hr2di_graded answer;
@@ -201,8 +211,7 @@ hr2d_status hr2di_search_attempt(hr2di_search *s, const hr2di_resolution *finene
     keep(s, &answer, &unknown);
   } else if (!status) {
     const double error = worst_of(&errors, s->target.norm).estimate;
-    if (!s->best.solution || error < hr2di_search_error(s) ||
-        !isfinite(hr2di_search_error(s))) {
+    if (is_better(s, error, dividing)) {
       keep(s, &answer, &errors);
       s->fineness = *fineness;
     }

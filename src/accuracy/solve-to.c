@@ -71,8 +71,8 @@ static hr2d_status reach(hr2di_search *s, double error) {
     before = hr2di_search_error(s);
     const hr2d_status bounded = stuck > 0 ? hr2di_search_bound(s) : HR2D_OK;
     if (bounded) return bounded;
-    dividing = s->best.depth && !stuck;
-    raised = raise_clusters(s, &fineness, error) || dividing ||
+    dividing = s->best.depth != NULL; /* at a higher order, if that was no use before */
+    raised = raise_clusters(s, &fineness, error) || (dividing && !stuck) ||
              !hr2di_resolution_raise(&fineness, &s->best.survey, before / (0.5 * error));
   }
   if (hr2di_search_error(s) <= error) return HR2D_OK;
