@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pairs of patches of which one has been divided are refined again.  Other links stay, and so
-   do those that come out again as they were. */
+/* What a refinement decides about a pair depends on its elements alone, and on whether they
+   have children.  So only pairs with an element that was divided, that is new, or that is above
+   one of these are refined again.  Other links stay, and so do those that come out again as
+   they were. */
 #include "accuracy/divided-links.h"
 
 #include <math.h>
@@ -16,32 +18,41 @@ enum { SOME = HR2DI_READ_LINKS };
 
 typedef struct division {
   hr2d_linkset *links, *coarse;
-  unsigned char *divided; /* per patch */
+  unsigned char
+      *divided;    /* per element: it was divided, it is new, or it is above one that is */
   uint32_t *place; /* 1 + the number of a link of `links`, by the hash of its pair; 0: none */
   uint64_t mask;
   unsigned char *again; /* per link of `links`: it is one of `coarse` */
   hr2di_store kept;
   hr2di_watch watch;
-  uint64_t limited, partial; /* of the links of `coarse` on divided patches */
+  uint64_t limited, partial; /* of the links of `coarse` on divided elements */
 } division;
 
 static int changes(const division *d, hr2d_pair pair) {
-  const hr2d_element *element = d->coarse->hierarchy->element;
-  return d->divided[element[pair.first].patch] || d->divided[element[pair.second].patch];
+  return d->divided[pair.first] || d->divided[pair.second];
 }
 
-/* Refines pairs of patches alone of which one has been divided. */
+/* No element is made by this refinement: all of its threads have the same numbers. */
 static hr2d_status claim(void *ctx, const hr2d_batch *batch, unsigned char *claimed) {
   const division *d = ctx;
-  for (size_t k = 0; k < batch->count; k++) {
-    const hr2d_pair pair = batch->pairs[k];
-    claimed[k] = d->divided[batch->elements[pair.first].patch] ||
-                 d->divided[batch->elements[pair.second].patch];
-  }
+  for (size_t k = 0; k < batch->count; k++)
+    claimed[k] = (unsigned char)changes(d, batch->pairs[k]);
   return HR2D_OK;
 }
 
-/* Counts a link of a divided patch.  Links of clear pairs have the exchange area of their
+/* Sets which elements are divided; children have higher numbers than parents. */
+static hr2d_status find_divided(division *d) {
+  const hr2d_hierarchy *before = d->coarse->hierarchy, *h = d->links->hierarchy;
+  for (size_t k = h->elements; k-- > 0;) {
+    if (k % SOME == 0 && hr2di_watch_work(&d->watch, SOME / 32)) break;
+    d->divided[k] |=
+        k >= before->elements || (!before->element[k].child && h->element[k].child);
+    if (d->divided[k]) d->divided[h->parent[k]] = 1;
+  }
+  return hr2di_watch_status(&d->watch);
+}
+
+/* Counts a link of a divided element.  Links of clear pairs have the exchange area of their
    elements, bit for bit. */
 static hr2d_status count(division *d, const hr2d_link *link) {
   hr2d_linkset *coarse = d->coarse;
@@ -224,11 +235,8 @@ static hr2d_status add_counts(const division *d, hr2d_share *share) {
 }
 
 static hr2d_status run(division *d, const hr2d_refine_options *options) {
-  const hr2d_element *before = d->coarse->hierarchy->element;
-  const hr2d_element *element = d->links->hierarchy->element;
-  for (size_t k = 0; k < d->coarse->hierarchy->elements; k++)
-    if (!before[k].child && element[k].child) d->divided[element[k].patch] = 1;
-  hr2d_status status = refine_divided(d, options);
+  hr2d_status status = find_divided(d);
+  if (!status) status = refine_divided(d, options);
   if (!status) status = make_table(d);
   if (status) return status;
   status = sort_links(d);
@@ -241,7 +249,7 @@ hr2d_status hr2di_divided_links(hr2d_linkset *links, hr2d_linkset *coarse,
   const hr2d_scene *scene = coarse->hierarchy->scene;
   division d = {.links = links, .coarse = coarse};
   hr2di_scene_watch(scene, &d.watch, options->progress, options->progress_ctx, "refine");
-  d.divided = hr2di_alloc_zero(&links->alloc, scene->patches, 1);
+  d.divided = hr2di_alloc_zero(&links->alloc, links->hierarchy->elements, 1);
   hr2d_status status = hr2di_share_agree(options->share, d.divided ? HR2D_OK : HR2D_ENOMEM);
   if (!status) status = run(&d, options);
   if (!status) status = add_counts(&d, options->share);

@@ -10,7 +10,7 @@
 /* Fills an empty set, on a copy of the elements of `coarse` with some leaves divided, images as
    their patches; the oracle and the policy are those of
    `coarse`.  Links that `coarse` has come first, and their blocks are taken over: `coarse` has
-   none from then on.  Pairs of patches without such a leaf are not refined again.  Returns
+   none from then on.  Pairs without such a leaf in either tree are not refined again.  Returns
    HR2D_OK or a status, with a message in `links`; on failure `coarse` may have lost its blocks.
  */
 hr2d_status hr2di_divided_links(hr2d_linkset *links, hr2d_linkset *coarse,
