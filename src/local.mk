@@ -187,7 +187,7 @@ libhr2d_core_la_SOURCES = \
 	src/clusters/transport.c \
 	src/clusters/tree.c src/clusters/tree.h \
 	src/links/components.c src/links/components.h \
-	src/links/link-blocks.c src/links/link-blocks.h \
+	src/links/block-numbers.h src/links/link-blocks.c src/links/link-blocks.h \
 	src/links/linkset.c \
 	src/links/linkset-impl.h \
 	src/links/patch-defect.c src/links/patch-defect.h \

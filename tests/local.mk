@@ -109,6 +109,7 @@ SUITES = \
 	tests/unit/accuracy/check-target-calls \
 	tests/unit/accuracy/check-cluster-residuals \
 	tests/unit/accuracy/check-error-shares \
+	tests/unit/accuracy/check-single-blocks \
 	tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-kinks \
 	tests/unit/accuracy/check-long-leaves \
@@ -295,7 +296,7 @@ TOO_LONG = tests/bounds/check-bounds-geometry tests/bounds/check-bounds-l1 \
 	tests/unit/accuracy/check-random-accuracy tests/unit/accuracy/check-random-periods \
 	tests/unit/accuracy/check-roundings tests/unit/accuracy/check-shadow-edges \
 	tests/unit/accuracy/check-shares tests/unit/accuracy/check-short-patches \
-	tests/unit/accuracy/check-target-calls tests/unit/blocks/check-blocks \
+	tests/unit/accuracy/check-single-blocks tests/unit/accuracy/check-target-calls tests/unit/blocks/check-blocks \
 	tests/unit/blocks/check-directions tests/unit/clusters/check-clusters \
 	tests/unit/clusters/check-far-exchange tests/unit/field/check-field \
 	tests/unit/field/check-field-grid tests/unit/field/check-past-ends tests/unit/formats/check-vs2 \

@@ -173,7 +173,8 @@ HR2D_API hr2d_refine_counts hr2d_linkset_counts(const hr2d_linkset *links);
  * @param links  a link set
  * @return bytes: 16 per link, or about 11 (hr2d_refine_options::packed), allocated for 4096
  *         links at a time, beyond 4 MiB in steps of 2 MiB or 3 %; plus 8p² + 1 per link after a
- *         solve at an order p > 1; plus the links between clusters of hr2d_solve_to()
+ *         solve at an order p > 1, or 4p² + 1 with blocks of floats, as hr2d_solve_to() may
+ * make them; plus the links between clusters of hr2d_solve_to()
  */
 HR2D_API uint64_t hr2d_linkset_bytes(const hr2d_linkset *links);
 

@@ -126,7 +126,7 @@ static hr2d_status measure_rest(hr2di_estimator *e, hr2di_error_pair *errors) {
   if (status) return status;
   status = hr2di_rounding_bound(e, reflects);
   if (status) return status;
-  const double level = eq->balance.count > 0 ? HR2DI_ESTIMATOR_ROUNDING : 0;
+  const double level = eq->balance.count > 0 ? hr2di_estimator_rounding(e) : 0;
   for (int h = 0; h < 2; h++) {
     const factors off = {.rounding = 1};
     const double average_off = worst_average(e, h, off) + level;

@@ -8,6 +8,10 @@
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 
+double hr2di_estimator_rounding(const hr2di_estimator *e) {
+  return HR2DI_ESTIMATOR_ROUNDING + (e->eq.transport.blocks.single ? HR2DI_SINGLE_ROUNDING : 0);
+}
+
 int hr2di_estimator_stopped(const hr2di_estimator *e) {
   return e->eq.transport.failed || hr2di_watch_status(e->eq.transport.watch);
 }

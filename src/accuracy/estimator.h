@@ -68,6 +68,9 @@ hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
                                  const hr2d_target *target);
 void hr2di_estimator_clear(hr2di_estimator *e);
 
+/* What roundings of K may be, relative to the largest irradiance: with those of blocks. */
+double hr2di_estimator_rounding(const hr2di_estimator *e);
+
 /* Whether the watch has stopped, or a gather has failed: fields have no meaning then. */
 int hr2di_estimator_stopped(const hr2di_estimator *e);
 

@@ -120,6 +120,7 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
       hr2d_linkset_create(a->hierarchy, hr2di_admissibility_oracle(), &separation,
                           hr2di_admissibility_fixed_leaves(), NULL, &a->links);
   if (status) return status;
+  a->links->single = fineness->single;
   status = find_roots(a->links, coarse, fineness, target);
   if (!status && options.share && !a->pieces.rows)
     status = hr2di_row_deal(&a->pieces, a->links, &options);
@@ -140,7 +141,7 @@ static hr2d_status check_blocks(const hr2di_graded *a, const hr2di_resolution *f
   const uint64_t order = fineness->order, finer = hr2di_resolution_finer(fineness).order;
   const uint64_t links = hr2d_linkset_size(a->links);
   const uint64_t numbers = order * order + (target->no_error ? 0 : finer * finer);
-  const uint64_t block = numbers * sizeof(double) + 1;
+  const uint64_t block = numbers * hr2di_number_size(fineness->single) + 1;
   const uint64_t used = hr2di_graded_bytes(a), most = target->max_bytes;
   if (!most || (used <= most && links <= (most - used) / block)) return HR2D_OK;
   return hr2di_message_fail(&a->links->message, HR2D_EMAX_BYTES,

@@ -35,6 +35,7 @@ typedef struct hr2di_resolution {
   int hasty;            /* errors that do so need no bound, and none at points */
   double kinks;         /* the shares of error that events inside elements may make; 0:
                            elements end at all events */
+  int single;           /* floats suffice for blocks */
   unsigned raises;      /* how often it was made finer */
   const hr2di_lights *lights; /* of patches, to tell which events matter */
   hr2di_looks *looks;         /* what patches see, for all attempts; NULL: nothing is kept */

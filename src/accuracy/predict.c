@@ -115,7 +115,8 @@ static hr2d_status measure(const hr2di_resolution *fineness, const hr2d_target *
   p->elements = counts.elements;
   p->leaves = counts.leaves;
   p->links = hr2d_linkset_size(a->links);
-  p->bytes = hr2di_graded_bytes(a) + p->links * (8 * (made * made + part * part) + 1);
+  p->bytes = hr2di_graded_bytes(a) +
+             p->links * (hr2di_number_size(fineness->single) * (made * made + part * part) + 1);
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "coefficients");
   const hr2d_status status = time_blocks(a, made, &watch, &c->make);

@@ -51,8 +51,8 @@ static void compare_irradiance(hr2di_estimator *e) {
       e->largest[0][b] = fmax(e->largest[0][b], hr2di_estimator_most(e, e->kept, k, b));
       e->largest[1][b] = fmax(e->largest[1][b], eq->irradiance[k * t->width + b]);
       e->own[t->leaf[k] * t->bands + b] = h;
-      e->off[0][k * t->bands + b] = HR2DI_ESTIMATOR_ROUNDING * h;
-      e->off[1][k * t->bands + b] = HR2DI_ESTIMATOR_ROUNDING * h;
+      e->off[0][k * t->bands + b] = hr2di_estimator_rounding(e) * h;
+      e->off[1][k * t->bands + b] = hr2di_estimator_rounding(e) * h;
     }
 }
 
@@ -66,7 +66,7 @@ void hr2di_residual_set(hr2di_estimator *e) {
   hr2di_equation_balance(eq);
   compare_irradiance(e);
   hr2di_equation_defect(eq, e->kept, e->residual);
-  e->doubt = hr2di_balance_doubt(&eq->balance, t->bands);
+  e->doubt = hr2di_balance_doubt(&eq->balance, t);
   for (size_t k = 0; k < eq->field; k++) {
     const size_t leaf = k / t->width, m = k % t->width;
     const int exact = m < t->bands && hr2di_balance_closed(&eq->balance, leaf);

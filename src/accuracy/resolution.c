@@ -93,16 +93,32 @@ static double shares_for(const hr2d_scene *scene, double aim) {
   return aim * (n > CROWD_LIT ? 0.03 * n * sqrt(n) : 2);
 }
 
+/* The least 1 − ρ. */
+static double least_lost(const hr2d_scene *scene) {
+  double lost = 1;
+  for (size_t k = 0; k < scene->patches; k++)
+    for (size_t b = 0; b < scene->bands; b++)
+      lost = fmin(lost, 1 - hr2d_scene_reflectance(scene, k, b));
+  return lost;
+}
+
 /* What is left of the residual is off by so much of the target at most, as 1/(1 − ρ) of it is
    left of B, and B of the darkest patch counts as much as that of the brightest. */
 #define UNSOLVED 0.01
 
 double hr2di_resolution_tolerance(const hr2d_scene *scene, double contrast, double aim) {
-  double lost = 1;
-  for (size_t k = 0; k < scene->patches; k++)
-    for (size_t b = 0; b < scene->bands; b++)
-      lost = fmin(lost, 1 - hr2d_scene_reflectance(scene, k, b));
-  return fmin(fmax(UNSOLVED * aim * contrast * lost, HR2D_DEFAULT_TOLERANCE), UNSOLVED);
+  const double left = UNSOLVED * aim * contrast * least_lost(scene);
+  return fmin(fmax(left, HR2D_DEFAULT_TOLERANCE), UNSOLVED);
+}
+
+/* Roundings of blocks, over all reflections, may be this part of the target. */
+#define ROUNDED (1. / 32)
+
+/* What the background sends is a difference of row sums from 1: where little of it shows, that
+   is all rounding. */
+static int is_single(const hr2d_scene *scene, double target) {
+  return !hr2di_outside_wants_sky(scene) &&
+         HR2DI_SINGLE_ROUNDING <= ROUNDED * target * least_lost(scene);
 }
 
 /* The accuracy of links of clusters is that of the largest kernel between them.  Near a short
@@ -154,6 +170,7 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
       .cluster_accuracy = fmax(CLUSTERS * error, FINEST_CLUSTERS),
       .tolerance = lights ? hr2di_resolution_tolerance(scene, lights->contrast, aim) : 0,
       .norm = norm,
+      .single = is_single(scene, target->error),
       .hidden = hidden,
       .distance = HR2DI_ELLIPSE_DISTANT,
       .kinks = lights ? shares_for(scene, aim) : 0,

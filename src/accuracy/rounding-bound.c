@@ -11,10 +11,14 @@
 
    Exchange areas have a relative error of ε, so that |δK_ij| ≤ εK_ij and |δd_i| ≤ εr_i for the
    row sum r_i that d_i corrects: of all links on closed patches, of distant links on others.
+   ε is larger where blocks are of floats, see block-numbers.h.
    On a patch that shines and sees the dark r_i|z_i| is much more than H_i.  But in H as it is
    told the mean of H takes the place of that of B (closure-mean.c), and z_i that of
 
      z̄' + z_i − z̄,   where z' = H − c, or H − L.
+
+   Where no background shows, B may stand for z: in a closed room of dark walls, whose level is
+   far above all B, that is much less.
 
    A difference from 1 has some roundings of 1, however small it is. */
 #include "accuracy/rounding-bound.h"
@@ -83,16 +87,24 @@ static int is_set(const double *field, size_t leaf, size_t count) {
 }
 
 /* r_i|z_i| at most, for the row sum `row` of distant links.  An average of d z is d̄ z̄ and what
-   both fluctuate; d̄ is not 0 if it is above the noise of closure. */
+   both fluctuate; d̄ is not 0 if it is above the noise of closure.  Below that d is 0, which is
+   no more than a rounding of doubles, but of floats it is. */
 static double corrected(const hr2di_estimator *e, const double *row, size_t leaf, size_t band,
                         double most, double rest) {
   const hr2di_transport *t = &e->eq.transport;
   const size_t square = t->order * t->order;
   const double mean = row[leaf * t->width + band];
   if (t->closed[t->hierarchy->element[t->leaf[leaf]].patch]) return most;
-  if (!is_set(t->closure, leaf, square)) return 0;
-  const int shifted = fabs(t->closure[leaf * square]) > 0.5 * HR2DI_CLOSURE_NOISE * mean;
+  if (!t->blocks.single && !is_set(t->closure, leaf, square)) return 0;
+  const int shifted = fabs(t->closure[leaf * square]) > 0.5 * hr2di_closure_noise(t) * mean;
   return hr2di_estimator_most(e, row, leaf, band) * (shifted ? most : rest);
+}
+
+/* r_i|B_i| at most, of H as B has it and as it is told. */
+static double corrected_own(const hr2di_estimator *e, const double *row, size_t leaf,
+                            size_t band, int told, double rest) {
+  const double most = hr2di_estimator_most(e, e->kept, leaf, band);
+  return corrected(e, row, leaf, band, told ? moved(e, leaf, band, 0, most, rest) : most, rest);
 }
 
 /* e->off is εH so far.  Without closure d is a part of s alone. */
@@ -101,6 +113,7 @@ static void add_rows(hr2di_estimator *e) {
   hr2di_transport *t = &eq->transport;
   double *const most = e->error, *const rest = eq->radiosity, *const one = eq->work;
   double *const received = eq->source, *const row = eq->irradiance, *const told = eq->y;
+  const double rounding = hr2di_estimator_rounding(e);
   if (!t->closure && !t->sky) return;
   hr2di_estimator_averages(e, e->kept, e->rounding[0]);
   set_fields(e, most, rest, told);
@@ -119,7 +132,9 @@ static void add_rows(hr2di_estimator *e) {
         const double z = h ? told[at] : most[at];
         const double own = t->closure ? corrected(e, row, leaf, b, z, rest[at]) : light;
         double *off = e->off[h] + leaf * t->bands + b;
-        *off = fmax(*off, HR2DI_ESTIMATOR_ROUNDING * (all + own));
+        const double by_b =
+            sky ? HUGE_VAL : *off + rounding * corrected_own(e, row, leaf, b, h, rest[at]);
+        *off = fmin(fmax(*off, rounding * (all + own)), by_b);
         *off += sky ? DIFFERENCE * eq->light[b] : 0;
       }
     }

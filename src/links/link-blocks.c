@@ -60,10 +60,18 @@ static void check_bound(double area, double *block, size_t order) {
   for (size_t k = 1; k < order * order; k++) block[k] = 0;
 }
 
+/* The weight of a pair is a factor of its exchange area. */
+static void round_block(const double *block, size_t square, float *to) {
+  to[0] = 1;
+  for (size_t n = 1; n < square; n++) to[n] = block[0] > 0 ? (float)(block[n] / block[0]) : 0;
+}
+
 static hr2d_status make_one(const maker *m, hr2di_integrator *work, uint64_t k) {
   const hr2d_link *link = hr2di_store_at(&m->links->store, k);
   const size_t order = m->blocks->order, square = order * order;
-  double *block = m->blocks->value + k * square;
+  const int single = m->blocks->single;
+  double room[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
+  double *block = single ? room : hr2di_link_blocks_at(m->blocks, k);
   int distant;
   const double weight = hr2di_linkset_weight(m->links, link->pair);
   const double area = link->exchange_area / weight;
@@ -71,7 +79,10 @@ static hr2d_status make_one(const maker *m, hr2di_integrator *work, uint64_t k) 
   if (status) return status;
   if (is_tiny(m->links->hierarchy, link->pair)) block[0] = area;
   check_bound(area, block, order);
-  for (size_t n = 0; n < square && weight != 1; n++) block[n] *= weight;
+  if (single)
+    round_block(block, square, hr2di_link_blocks_at(m->blocks, k));
+  else
+    for (size_t n = 0; n < square && weight != 1; n++) block[n] *= weight;
   m->blocks->distant[k] = (unsigned char)distant;
   return HR2D_OK;
 }
@@ -152,9 +163,9 @@ static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made, uint64_t kn
 
 /* Gives the arrays room for so many links. */
 static hr2d_status resize(hr2di_link_blocks *b, uint64_t links, const hr2d_allocator *alloc) {
-  const size_t size = b->order * b->order * sizeof *b->value;
+  const size_t size = hr2di_link_blocks_stride(b);
   if (links > SIZE_MAX / size) return HR2D_ENOMEM;
-  double *value = hr2di_alloc_resize(alloc, b->value, (size_t)links, size);
+  void *value = hr2di_alloc_resize(alloc, b->value, (size_t)links, size);
   if (value) b->value = value;
   unsigned char *distant = hr2di_alloc_resize(alloc, b->distant, (size_t)links, 1);
   if (distant) b->distant = distant;
@@ -162,14 +173,24 @@ static hr2d_status resize(hr2di_link_blocks *b, uint64_t links, const hr2d_alloc
   return value && distant ? HR2D_OK : HR2D_ENOMEM;
 }
 
+/* Whether what there is of blocks can be gone on with. */
+static int are_alike(const hr2d_linkset *links, size_t order) {
+  return links->blocks.order == order && links->blocks.single == links->single;
+}
+
+int hr2di_link_blocks_made(const hr2d_linkset *links, size_t order) {
+  return are_alike(links, order) && links->blocks.links == links->store.count;
+}
+
 hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order, unsigned threads,
                                    hr2di_watch *watch) {
   const uint64_t count = links->store.count;
   hr2di_link_blocks *known = &links->blocks;
-  if (known->order != order || known->links >= count)
+  if (!are_alike(links, order) || known->links >= count)
     hr2di_link_blocks_clear(known, &links->alloc);
   hr2di_link_blocks made = *known;
   made.order = order;
+  made.single = links->single;
   made.kernels = 0;
   *known = (hr2di_link_blocks){0};
   if (count == 0) return HR2D_OK;
@@ -186,14 +207,18 @@ hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order, unsigned t
 hr2d_status hr2di_link_blocks_trim(hr2di_link_blocks *b, size_t order,
                                    const hr2d_allocator *alloc) {
   if (order >= b->order || b->links == 0) return HR2D_OK;
-  double *to = b->value;
-  for (uint64_t k = 0; k < b->links; k++)
-    for (size_t l = 0; l < order; l++, to += order)
-      memmove(to, b->value + (k * b->order + l) * b->order, order * sizeof *to);
+  const size_t number = hr2di_number_size(b->single), row = order * number;
+  char *to = b->value;
+  for (uint64_t k = 0; k < b->links; k++) {
+    const char *from = hr2di_link_blocks_at(b, k);
+    for (size_t l = 0; l < order; l++, to += row, from += b->order * number)
+      memmove(to, from, row);
+  }
   b->order = order;
-  to = hr2di_alloc_resize(alloc, b->value, (size_t)b->links, order * order * sizeof *to);
-  if (!to) return HR2D_ENOMEM;
-  b->value = to;
+  void *value =
+      hr2di_alloc_resize(alloc, b->value, (size_t)b->links, hr2di_link_blocks_stride(b));
+  if (!value) return HR2D_ENOMEM;
+  b->value = value;
   return HR2D_OK;
 }
 

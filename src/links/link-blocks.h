@@ -7,18 +7,33 @@
 #include <hr2d/refine.h>
 
 #include "base/watch.h"
+#include "links/block-numbers.h"
 
 typedef struct hr2di_link_blocks {
   size_t order;
   uint64_t links;         /* so many links, the first ones, have blocks */
-  double *value;          /* links × order × order */
+  int single;             /* numbers are floats, see block-numbers.h */
+  void *value;            /* links × order × order numbers */
   unsigned char *distant; /* per link: integrated by one rule, as accurate as the order needs */
   uint64_t kernels;       /* evaluations of G it took */
 } hr2di_link_blocks;
 
-/* Makes blocks for all links of a set that have none of this order, on as many threads as
-   options ask for; no bit depends on their number.  Returns HR2D_OK, HR2D_ENOMEM, or the status
-   of the watch.  On failure the set has no blocks. */
+/* The bytes of a block, and block k. */
+static inline size_t hr2di_link_blocks_stride(const hr2di_link_blocks *b) {
+  return b->order * b->order * hr2di_number_size(b->single);
+}
+
+static inline void *hr2di_link_blocks_at(const hr2di_link_blocks *b, uint64_t k) {
+  return (char *)b->value + k * hr2di_link_blocks_stride(b);
+}
+
+/* Whether all links of a set have blocks of this order, of floats or doubles as links->single
+   says. */
+int hr2di_link_blocks_made(const hr2d_linkset *links, size_t order);
+
+/* Makes such blocks for all links of a set that have none, on as many threads as options ask
+   for; no bit depends on their number.  Returns HR2D_OK, HR2D_ENOMEM, or the status of the
+   watch.  On failure the set has no blocks. */
 hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order, unsigned threads,
                                    hr2di_watch *watch);
 

@@ -24,6 +24,7 @@ struct hr2d_linkset {
   hr2di_message message;
   hr2di_store store;
   hr2di_link_blocks blocks; /* of links that were solved at an order above 1 */
+  int single;               /* blocks are made of floats */
   size_t block_order;     /* blocks are made for this order, if that is above the hierarchy's */
   double relative, floor; /* a solve may leave residuals of this part of the light that a leaf
                              reflects, which counts as at least `floor` of the largest; 0: its

@@ -11,11 +11,14 @@ double hr2di_link_part(const hr2di_transport *t, hr2d_pair pair) {
                               e[pair.second].patch, t->check - 1);
 }
 
-const double *hr2di_block_part(const hr2di_transport *t, hr2d_pair pair, const double *block,
+const double *hr2di_block_part(const hr2di_transport *t, const hr2d_link *link, uint64_t k,
                                double *room) {
-  const size_t stride = t->blocks.order;
-  if (!t->check) return block;
-  const double part = hr2di_link_part(t, pair);
-  for (size_t k = 0; k < stride * stride; k++) room[k] = part * block[k];
+  const size_t square = t->blocks.order * t->blocks.order;
+  const void *block = hr2di_link_blocks_at(&t->blocks, k);
+  const int single = t->blocks.single;
+  if (!t->check && !single) return block;
+  const double part = hr2di_link_part(t, link->pair);
+  for (size_t n = 0; n < square; n++)
+    room[n] = part * hr2di_number_at(block, n, single, link->exchange_area);
   return part == 0 ? NULL : room;
 }

@@ -8,9 +8,9 @@
 /* The part of a link that counts: 1, or what t->check leaves of it. */
 double hr2di_link_part(const hr2di_transport *t, hr2d_pair pair);
 
-/* The block of a link as it counts: `block`, or in `room` what t->check leaves of it; NULL for
-   nothing. */
-const double *hr2di_block_part(const hr2di_transport *t, hr2d_pair pair, const double *block,
+/* Block k, that of `link`, as it counts: where it is stored, or in `room` if it is of floats or
+   t->check leaves a part of it; NULL for nothing. */
+const double *hr2di_block_part(const hr2di_transport *t, const hr2d_link *link, uint64_t k,
                                double *room);
 
 #endif

@@ -22,7 +22,9 @@
 #include "solve/closure.h"
 
 /* A mean above this part of 1 is no rounding: the links of a caller may lack pairs. */
-#define ROUNDING HR2DI_DEFECT_CLOSED
+static double rounding(const hr2di_transport *t) {
+  return fmax(HR2DI_DEFECT_CLOSED, hr2di_closure_noise(t));
+}
 
 /* Roots are the first elements.  The parts of children are those of averages of H. */
 hr2d_status hr2di_closure_set_mean(hr2di_transport *t) {
@@ -47,7 +49,7 @@ static int lacks_clusters(const hr2di_transport *t, size_t patch) {
 }
 
 int hr2di_closure_is_error(const hr2di_transport *t, size_t patch) {
-  return fabs(t->mean[patch]) <= ROUNDING || lacks_clusters(t, patch);
+  return fabs(t->mean[patch]) <= rounding(t) || lacks_clusters(t, patch);
 }
 
 /* By what all H of a band are too small where links of clusters lack a part: H = (H' +

@@ -159,8 +159,9 @@ static void find_closed_by_rows(rows *r, hr2di_transport *t) {
    may be much less; a leaf that has all its links itself has no d_0 but this.  Patches that see
    patches everywhere keep it: an isothermal room stays so. */
 static void clear_noise(const rows *r, const double *row, double *missing) {
+  const double noise = hr2di_closure_noise(r->t);
   for (size_t l = 0; l < r->t->order; l++)
-    if (fabs(missing[l]) <= HR2DI_CLOSURE_NOISE * row[0]) missing[l] = 0;
+    if (fabs(missing[l]) <= noise * row[0]) missing[l] = 0;
 }
 
 /* closure_lm = (1/A)∫ d φ_l φ_m for d = Σ missing_k φ_k; symmetric. */

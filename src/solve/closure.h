@@ -14,7 +14,9 @@ hr2d_status hr2di_closure_set(hr2di_transport *t, const hr2di_row_sums *rows);
 
 /* At an order above 1, coefficients of d below this part of the row sum are 0, except on
    patches that see patches in every direction. */
-#define HR2DI_CLOSURE_NOISE (2 * DBL_EPSILON)
+static inline double hr2di_closure_noise(const hr2di_transport *t) {
+  return t->blocks.single ? HR2DI_SINGLE_ROUNDING : 2 * DBL_EPSILON;
+}
 
 /* The same at an order above 1; no row sums need be integrated. */
 hr2d_status hr2di_closure_set_order_p(hr2di_transport *t);

@@ -217,10 +217,12 @@ void hr2di_balance_release(const hr2di_balance *b, const hr2di_transport *t, dou
           b->missing[k * t->order + m / t->bands] * hr2di_balance_at(b, t, k, m % t->bands);
 }
 
-double hr2di_balance_doubt(const hr2di_balance *b, size_t bands) {
+double hr2di_balance_doubt(const hr2di_balance *b, const hr2di_transport *t) {
+  const size_t bands = t->bands;
+  const double rounding = t->blocks.single ? HR2DI_SINGLE_ROUNDING : DBL_EPSILON;
   double max = 0;
   for (size_t k = 0; k < b->count * bands; k++)
     if (b->escape[k / bands] > 0 && b->level[k] != 0)
-      max = fmax(max, DBL_EPSILON * b->length[k / bands] / b->loss[k]);
+      max = fmax(max, rounding * b->length[k / bands] / b->loss[k]);
   return max;
 }

@@ -70,6 +70,6 @@ void hr2di_balance_release(const hr2di_balance *b, const hr2di_transport *t, dou
 
 /* The relative error of c that a rounding of ∫m may cause, the largest over components and
    bands. */
-double hr2di_balance_doubt(const hr2di_balance *b, size_t bands);
+double hr2di_balance_doubt(const hr2di_balance *b, const hr2di_transport *t);
 
 #endif

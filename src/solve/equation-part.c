@@ -42,9 +42,12 @@ static hr2d_status set_transport(hr2di_transport *t, const hr2di_transport *of, 
       hr2di_push_pull_init(&t->trees, t->hierarchy, &t->alloc, order, t->bands, t->watch);
   t->up = hr2di_alloc(&t->alloc, t->elements, t->width * sizeof *t->up);
   t->down = hr2di_alloc(&t->alloc, t->elements * t->slices, t->width * sizeof *t->down);
-  if (!status && of->closure)
-    status = hr2di_leading_blocks(&t->closure, of->closure, t->leaves, of->order, order,
-                                  &t->alloc, t->threads, t->watch);
+  if (!status && of->closure) {
+    void *closure = NULL;
+    status = hr2di_leading_blocks(&closure, of->closure, sizeof *t->closure, t->leaves,
+                                  of->order, order, &t->alloc, t->threads, t->watch);
+    t->closure = closure;
+  }
   if (!status) status = hr2di_transport_lead(t, &of->blocks);
   if (!status && of->shared && hr2di_shared_gather_init(t)) status = HR2D_ENOMEM;
   return t->up && t->down ? status : HR2D_ENOMEM;

@@ -63,8 +63,7 @@ static hr2d_status integrate_blocks(hr2di_equation *s) {
   hr2d_linkset *links = s->links;
   const size_t own = links->hierarchy->order;
   const size_t order = own > 1 && links->block_order > own ? links->block_order : own;
-  if (order == 1 || (links->blocks.order == order && links->blocks.links == links->store.count))
-    return HR2D_OK;
+  if (order == 1 || hr2di_link_blocks_made(links, order)) return HR2D_OK;
   const double start = hr2di_clock_now();
   const hr2d_status status =
       hr2di_link_blocks_init(links, order, s->options.threads, &s->watch);

@@ -8,7 +8,8 @@
 
 typedef struct hr2di_link_run {
   const hr2d_link *link;
-  const double *block; /* of the first link; that of the next is stride² behind it */
+  const void *block; /* of the first link; that of the next is stride² numbers behind it */
+  int single;        /* which are floats, see block-numbers.h */
   size_t stride;
   size_t count;
   int directed; /* the second element of a link does not receive */

@@ -9,10 +9,10 @@
 #include "base/watch.h"
 
 /* Sets *to, which the caller frees, to the first `order` rows and columns of each of `count`
-   blocks of the order `all`.  HR2D_OK, HR2D_ENOMEM or the status of the watch; *to may be set
-   in any case. */
-hr2d_status hr2di_leading_blocks(double **to, const double *from, uint64_t count, size_t all,
-                                 size_t order, const hr2d_allocator *alloc, unsigned threads,
-                                 hr2di_watch *watch);
+   blocks of the order `all`, of numbers of `number` bytes.  HR2D_OK, HR2D_ENOMEM or the status
+   of the watch; *to may be set in any case. */
+hr2d_status hr2di_leading_blocks(void **to, const void *from, size_t number, uint64_t count,
+                                 size_t all, size_t order, const hr2d_allocator *alloc,
+                                 unsigned threads, hr2di_watch *watch);
 
 #endif

@@ -156,11 +156,13 @@ static void send_area(const hr2di_transport *t, double area, uint32_t to, uint32
   for (size_t b = 0; b < t->bands; b++) hr2di_bin_add(&bin[b], scale[b], area * up[b]);
 }
 
-static void send_block(const hr2di_transport *t, uint64_t k, hr2d_pair pair, int first,
+static void send_block(const hr2di_transport *t, uint64_t k, const hr2d_link *link, int first,
                        int second, double *term) {
+  const hr2d_pair pair = link->pair;
   const size_t stride = t->blocks.order, width = t->width;
   double room[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
-  const double *c = hr2di_block_part(t, pair, t->blocks.value + k * stride * stride, room);
+  if (!first && !second) return;
+  const double *c = hr2di_block_part(t, link, k, room);
   const double *up_i = t->up + pair.first * width, *up_j = t->up + pair.second * width;
   if (!c) return;
   memset(term, 0, 2 * width * sizeof *term);
@@ -191,7 +193,7 @@ static void gather_part(void *ctx, size_t worker, size_t part) {
     const int first = p->first && pair.first >= from && pair.first < to;
     const int second = p->second && pair.second >= from && pair.second < to;
     if (t->order > 1) {
-      send_block(t, k, pair, first, second, t->shared->term + 2 * part * width);
+      send_block(t, k, &link, first, second, t->shared->term + 2 * part * width);
       continue;
     }
     const double area = hr2di_link_part(t, pair) * link.exchange_area;

@@ -73,9 +73,9 @@ hr2d_status hr2di_transport_lead(hr2di_transport *t, const hr2di_link_blocks *bl
   t->blocks = *blocks;
   if (!blocks->value || t->order == 1 || blocks->order == t->order)
     return hr2di_watch_work(t->watch, t->elements / 16);
-  const hr2d_status status =
-      hr2di_leading_blocks(&t->leading, blocks->value, blocks->links, blocks->order, t->order,
-                           &t->alloc, t->threads, t->watch);
+  const hr2d_status status = hr2di_leading_blocks(
+      &t->leading, blocks->value, hr2di_number_size(blocks->single), blocks->links,
+      blocks->order, t->order, &t->alloc, t->threads, t->watch);
   t->blocks.value = t->leading;
   t->blocks.order = t->order;
   return status;
@@ -129,13 +129,13 @@ void hr2di_transport_pull(hr2di_transport *t, const double *leaf_field) {
 static void gather_each(const hr2di_transport *t, hr2di_transport_part part, hr2di_link_run run,
                         uint64_t first, double *down) {
   const unsigned char *distant = t->blocks.distant + first;
-  const size_t square = run.stride * run.stride, count = run.count;
-  const double *block = run.block;
+  const size_t count = run.count;
   double room[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
   run.count = 1;
-  for (size_t k = 0; k < count; k++, run.link++, block += square) {
+  run.single = 0;
+  for (size_t k = 0; k < count; k++, run.link++) {
     if (part == HR2DI_DISTANT_LINKS && !distant[k]) continue;
-    run.block = hr2di_block_part(t, run.link->pair, block, room);
+    run.block = hr2di_block_part(t, run.link, first + k, room);
     if (run.block) hr2di_gather_links(&run, t->order, t->bands, t->up, down);
   }
 }
@@ -144,14 +144,14 @@ static void gather_each(const hr2di_transport *t, hr2di_transport_part part, hr2
 static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, uint64_t first,
                           size_t count, double *down) {
   hr2d_link room[HR2DI_READ_LINKS];
-  const size_t stride = t->blocks.order;
   for (size_t done = 0, some; done < count; done += some) {
     const uint64_t at = first + done;
     some = count - done;
     const hr2d_link *link = hr2di_store_read(&t->links->store, at, &some, room);
     const hr2di_link_run run = {.link = link,
-                                .block = t->blocks.value + at * stride * stride,
-                                .stride = stride,
+                                .block = hr2di_link_blocks_at(&t->blocks, at),
+                                .single = t->blocks.single,
+                                .stride = t->blocks.order,
                                 .count = some,
                                 .directed = t->links->directed};
     if (part == HR2DI_DISTANT_LINKS || t->check)

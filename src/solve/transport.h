@@ -13,7 +13,7 @@
 typedef struct hr2di_transport {
   const hr2d_linkset *links;
   hr2di_link_blocks blocks; /* of the links, above order 1; */
-  double *leading;          /* their values, unless those of the links are of that order */
+  void *leading;            /* their values, unless those of the links are of that order */
   const hr2d_hierarchy *hierarchy;
   const hr2d_scene *scene; /* whose E and ρ count: that of the hierarchy, or a settled one */
   hr2d_allocator alloc;

@@ -22,6 +22,7 @@ typedef struct own {
 
 typedef struct plan {
   unsigned victim;
+  int single;    /* blocks are of floats */
   long fails_at; /* an allocation within hr2di_divided_links(); negative: none */
   own of[SHARES];
 } plan;
@@ -39,12 +40,13 @@ static void clear(trees *t) {
 }
 
 /* Links with blocks, as a solve leaves them. */
-static hr2d_status solve(trees *t, const hr2d_scene *scene,
-                         const hr2d_refine_options *options) {
+static hr2d_status solve(trees *t, const hr2d_scene *scene, const hr2d_refine_options *options,
+                         int single) {
   hr2d_status status = hr2d_hierarchy_create(scene, &t->hierarchy);
   if (!status) status = hr2d_linkset_create(t->hierarchy, NULL, NULL, NULL, NULL, &t->links);
   if (!status) status = hr2d_refine(t->links, options);
   if (!status) status = hr2d_hierarchy_set_order(t->hierarchy, ORDER);
+  if (!status) t->links->single = single;
   return status ? status : hr2d_solve(t->links, NULL, &t->solution);
 }
 
@@ -75,6 +77,7 @@ static void try(plan *p, hr2d_share *share, const hr2d_refine_options *given, tr
   atomic_store(&o->memory.until_failure, -1);
   o->status = hr2di_share_agree(share, status);
   if (o->status) return;
+  fine->links->single = p->single;
   o->links = hr2d_linkset_size(fine->links);
   o->stay = fine->links->blocks.links;
   o->other = hr2d_solve(fine->links, NULL, &fine->solution);
@@ -94,7 +97,7 @@ static void work(hr2d_share *share, void *ctx) {
   options.max_level = 3;
   options.share = share;
   if (slow_add(scene, SLOW_SQUARES, PATCHES) || hr2d_scene_commit(scene) ||
-      solve(&coarse, scene, &options) || divide(&fine, &coarse))
+      solve(&coarse, scene, &options, p->single) || divide(&fine, &coarse))
     abort();
   try(p, share, &options, &coarse, &fine);
   clear(&fine);
@@ -117,7 +120,7 @@ static long next_place(long at) {
 }
 
 START_TEST(allocations_fail) {
-  plan p = {.fails_at = -1};
+  plan p = {.single = _i / SHARES, .fails_at = -1};
   long at = 0, failed = 0;
   shares_run(SHARES, work, &p);
   expect_the_same(&p);
@@ -129,7 +132,7 @@ START_TEST(allocations_fail) {
     added += p.of[k].links - p.of[k].stay;
   }
   ck_assert_uint_gt(added, 0);
-  p.victim = (unsigned)_i;
+  p.victim = (unsigned)_i % SHARES;
   for (;; at = next_place(at)) {
     p.fails_at = at;
     shares_run(SHARES, work, &p);
@@ -144,5 +147,5 @@ START_TEST(allocations_fail) {
 END_TEST
 
 TEST_SUITE("faults of divided links") {
-  REPEAT_TESTS(SHARES, "shares", allocations_fail);
+  REPEAT_TESTS(2 * SHARES, "shares", allocations_fail);
 }

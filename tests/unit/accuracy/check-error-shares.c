@@ -54,9 +54,10 @@ START_TEST(leaves_are_halved_so_often) {
 }
 END_TEST
 
-/* Links of elements that are as they are, with blocks of order 4; with `coarse`, of its
-   elements with some divided. */
-static hr2d_linkset *linked(hr2d_hierarchy *h, hr2d_linkset *coarse, unsigned threads) {
+/* Links of elements that are as they are, with blocks of order 4, of floats if `single` is set;
+   with `coarse`, of its elements with some divided. */
+static hr2d_linkset *linked_with(hr2d_hierarchy *h, hr2d_linkset *coarse, unsigned threads,
+                                 int single) {
   hr2d_linkset *links = NULL;
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
   hr2di_admissibility separation = {4, 1e-3, NULL};
@@ -69,9 +70,14 @@ static hr2d_linkset *linked(hr2d_hierarchy *h, hr2d_linkset *coarse, unsigned th
   ck_assert_int_eq(coarse ? hr2di_divided_links(links, coarse, &options)
                           : hr2d_refine(links, &options),
                    HR2D_OK);
+  links->single = single;
   ck_assert_int_eq(hr2di_link_blocks_init(links, 4, threads, NULL), HR2D_OK);
   links->oracle_ctx = NULL;
   return links;
+}
+
+static hr2d_linkset *linked(hr2d_hierarchy *h, hr2d_linkset *coarse, unsigned threads) {
+  return linked_with(h, coarse, threads, 0);
 }
 
 enum { SQUARE = 16 };
@@ -96,7 +102,8 @@ static whole_link *sorted_links(const hr2d_linkset *links) {
   ck_assert_uint_eq(links->blocks.links, count);
   for (size_t k = 0; k < count; k++) {
     all[k].link = hr2di_store_link(&links->store, k);
-    memcpy(all[k].block, links->blocks.value + k * SQUARE, sizeof all[k].block);
+    memcpy(all[k].block, hr2di_link_blocks_at(&links->blocks, k),
+           hr2di_link_blocks_stride(&links->blocks));
     all[k].distant = links->blocks.distant[k];
   }
   qsort(all, count, sizeof *all, by_pair);
@@ -124,17 +131,19 @@ static void check_counts(const hr2d_linkset *fresh, const hr2d_linkset *taken) {
 
 /* Links and blocks that are taken over are those that would be made, bit for bit. */
 START_TEST(links_are_taken_over) {
-  const unsigned threads = _i == 0 ? 1 : 3;
+  const unsigned threads = _i % 2 == 0 ? 1 : 3;
+  const int single = _i / 2;
   hr2d_scene *scene = squares(120);
   hr2d_hierarchy *h = trees(scene, 4), *divided = NULL;
   unsigned char *depth = calloc(hr2d_scene_patches(scene), 1);
   depth[1] = depth[9] = depth[50] = 1;
-  hr2d_linkset *coarse = linked(h, NULL, threads), *wrong = linked(h, NULL, 1);
+  hr2d_linkset *coarse = linked_with(h, NULL, threads, single);
+  hr2d_linkset *wrong = linked_with(h, NULL, 1, single);
   ck_assert_int_eq(hr2di_halved_leaves(h, depth, 0, NULL, &divided), HR2D_OK);
-  wrong->blocks.value[SQUARE * 5] += 1;
-  hr2d_linkset *fresh = linked(divided, NULL, 1);
-  hr2d_linkset *taken = linked(divided, coarse, threads);
-  hr2d_linkset *off = linked(divided, wrong, 1);
+  *(unsigned char *)hr2di_link_blocks_at(&wrong->blocks, 5) ^= 1;
+  hr2d_linkset *fresh = linked_with(divided, NULL, 1, single);
+  hr2d_linkset *taken = linked_with(divided, coarse, threads, single);
+  hr2d_linkset *off = linked_with(divided, wrong, 1, single);
   ck_assert(same_links(fresh, taken));
   ck_assert(!same_links(fresh, off));
   check_counts(fresh, taken);
@@ -356,7 +365,8 @@ END_TEST
 
 TEST_SUITE("error shares") {
   ADD_TESTS("division", leaves_are_halved_so_often, few_elements_suffice);
-  REPEAT_TESTS(2, "links", links_are_taken_over, budgets_count_links_taken_over);
+  REPEAT_TESTS(4, "links", links_are_taken_over);
+  REPEAT_TESTS(2, "links", budgets_count_links_taken_over);
   ADD_TESTS("bounds", bounds_may_come_later, answers_have_bounds);
   ADD_TESTS("grid", strips_have_their_points, grids_may_be_flat);
 }

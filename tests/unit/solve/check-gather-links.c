@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gathers over links: against sums in long double, and the same bits wherever runs end. */
+/* Gathers over links, with blocks of doubles and of floats: against sums in long double, the
+   same bits wherever runs end, and the same for vectors of two and of four.  The file is part
+   of this program, for what it picks by the processor. */
 #include <math.h>
 #include <string.h>
 
-#include "solve/gather-links.h"
+#include "solve/gather-links.c"
 #include "support/support.h"
 
 enum { ELEMENTS = 23, LINKS = 200, STRIDE = 9, BANDS = 3, PARTS = 3 };
@@ -13,6 +15,7 @@ enum { FIELD = ELEMENTS * STRIDE * BANDS };
 typedef struct stage {
   hr2d_link link[LINKS];
   double block[LINKS * STRIDE * STRIDE], up[FIELD], down[FIELD];
+  float single[LINKS * STRIDE * STRIDE];
 } stage;
 
 /* Links of the same first element mostly follow each other. */
@@ -21,18 +24,26 @@ static void draw(stage *s, randoms *r) {
   for (size_t k = 0; k < LINKS; k++) {
     if (random_below(r, 4) == 0) first = (uint32_t)random_below(r, ELEMENTS);
     const uint32_t apart = 1 + (uint32_t)random_below(r, ELEMENTS - 1);
-    s->link[k] = (hr2d_link){{first, (first + apart) % ELEMENTS}, 1};
+    s->link[k] = (hr2d_link){{first, (first + apart) % ELEMENTS}, random_between(r, 0.1, 1)};
   }
-  for (size_t k = 0; k < LINKS * STRIDE * STRIDE; k++) s->block[k] = random_between(r, -1, 1);
+  for (size_t k = 0; k < LINKS * STRIDE * STRIDE; k++) {
+    s->block[k] = random_between(r, -1, 1);
+    s->single[k] = (float)random_between(r, -1, 1);
+  }
   for (size_t k = 0; k < FIELD; k++) {
     s->up[k] = random_between(r, -1, 1);
     s->down[k] = random_between(r, -1, 1);
   }
 }
 
-static hr2di_link_run run_of(const stage *s, size_t stride, int directed) {
+static const void *block_of(const stage *s, int single, size_t number) {
+  return single ? (const void *)(s->single + number) : s->block + number;
+}
+
+static hr2di_link_run run_of(const stage *s, size_t stride, int single, int directed) {
   return (hr2di_link_run){.link = s->link,
-                          .block = s->block,
+                          .block = block_of(s, single, 0),
+                          .single = single,
                           .stride = stride,
                           .count = LINKS,
                           .directed = directed};
@@ -45,7 +56,10 @@ static void add_plainly(const stage *s, const hr2di_link_run *run, size_t order,
     for (size_t l = 0; l < order; l++)
       for (size_t m = 0; m < order; m++)
         for (size_t b = 0; b < bands; b++) {
-          const long double c = s->block[(k * run->stride + l) * run->stride + m];
+          const size_t n = (k * run->stride + l) * run->stride + m;
+          const long double c = run->single
+                                    ? (long double)s->link[k].exchange_area * s->single[n]
+                                    : (long double)s->block[n];
           const size_t i = s->link[k].pair.first * width + l * bands + b;
           const size_t j = s->link[k].pair.second * width + m * bands + b;
           down[i] += c * s->up[j];
@@ -53,8 +67,24 @@ static void add_plainly(const stage *s, const hr2di_link_run *run, size_t order,
         }
 }
 
-static void check(const stage *s, size_t stride, size_t order, size_t bands, int directed) {
-  hr2di_link_run run = run_of(s, stride, directed);
+/* In one band of a low order: the loop that every processor can run, and what is picked. */
+static void check_widths(const stage *s, const hr2di_link_run *run, size_t order) {
+  double narrow[FIELD], wide[FIELD];
+  memcpy(narrow, s->down, sizeof narrow);
+  memcpy(wide, s->down, sizeof wide);
+  if (run->directed) {
+    one_way_loop(run, order, s->up, narrow);
+    one_way(run, order, s->up, wide);
+  } else {
+    both_ways_loop(run, order, s->up, narrow);
+    both_ways(run, order, s->up, wide);
+  }
+  ck_assert_int_eq(memcmp(narrow, wide, sizeof wide), 0);
+}
+
+static void check(const stage *s, size_t stride, size_t order, size_t bands, int single,
+                  int directed) {
+  hr2di_link_run run = run_of(s, stride, single, directed);
   const size_t field = ELEMENTS * order * bands;
   double at_once[FIELD], in_parts[FIELD];
   long double plain[FIELD];
@@ -64,7 +94,7 @@ static void check(const stage *s, size_t stride, size_t order, size_t bands, int
   for (size_t part = 0; part < PARTS; part++) {
     const size_t from = part * LINKS / PARTS;
     run.link = s->link + from;
-    run.block = s->block + from * stride * stride;
+    run.block = block_of(s, single, from * stride * stride);
     run.count = (part + 1) * LINKS / PARTS - from;
     hr2di_gather_links(&run, order, bands, s->up, in_parts);
   }
@@ -72,6 +102,8 @@ static void check(const stage *s, size_t stride, size_t order, size_t bands, int
   for (size_t k = 0; k < field; k++)
     ck_assert_double_eq_tol(at_once[k], (double)plain[k], 1e-12);
   for (size_t k = field; k < FIELD; k++) ck_assert(at_once[k] == s->down[k]);
+  run = run_of(s, stride, single, directed);
+  if (bands == 1 && order <= LOW) check_widths(s, &run, order);
 }
 
 START_TEST(sums_are_those_of_plain_loops) {
@@ -79,10 +111,10 @@ START_TEST(sums_are_those_of_plain_loops) {
   randoms r = {test_seed()};
   for (size_t order = 2; order <= STRIDE; order++)
     for (size_t bands = 1; bands <= BANDS; bands += 2)
-      for (int directed = 0; directed < 2; directed++) {
+      for (int kind = 0; kind < 4; kind++) {
         draw(&s, &r);
-        check(&s, order, order, bands, directed);
-        check(&s, STRIDE, order, bands, directed);
+        check(&s, order, order, bands, kind / 2, kind % 2);
+        check(&s, STRIDE, order, bands, kind / 2, kind % 2);
       }
 }
 END_TEST

@@ -27,10 +27,10 @@ START_TEST(leading_numbers_are_taken) {
   double *all = make_blocks();
   for (size_t order = 1; order <= ALL; order++)
     for (unsigned threads = 1; threads <= THREADS; threads++) {
-      double *leading = NULL;
-      ck_assert_int_eq(
-          hr2di_leading_blocks(&leading, all, BLOCKS, ALL, order, &alloc, threads, NULL),
-          HR2D_OK);
+      void *leading = NULL;
+      ck_assert_int_eq(hr2di_leading_blocks(&leading, all, sizeof *all, BLOCKS, ALL, order,
+                                            &alloc, threads, NULL),
+                       HR2D_OK);
       const double *next = leading;
       for (size_t k = 0; k < BLOCKS; k++)
         for (size_t l = 0; l < order; l++)
@@ -49,11 +49,13 @@ static hr2d_status refuse(void *ctx, const hr2d_progress *progress) {
 
 START_TEST(a_callback_stops_it) {
   const hr2d_allocator alloc = hr2di_alloc_default();
-  double *all = make_blocks(), *leading = NULL;
+  double *all = make_blocks();
+  void *leading = NULL;
   hr2di_watch watch;
   hr2di_watch_init(&watch, refuse, NULL, "solve");
-  ck_assert_int_eq(hr2di_leading_blocks(&leading, all, BLOCKS, ALL, 4, &alloc, 1, &watch),
-                   HR2D_STOPPED);
+  ck_assert_int_eq(
+      hr2di_leading_blocks(&leading, all, sizeof *all, BLOCKS, ALL, 4, &alloc, 1, &watch),
+      HR2D_STOPPED);
   hr2di_alloc_free(&alloc, leading);
   free(all);
 }
@@ -62,9 +64,10 @@ END_TEST
 START_TEST(more_than_memory_has_no_room) {
   const hr2d_allocator alloc = hr2di_alloc_default();
   const double one = 1;
-  double *leading = NULL;
-  ck_assert_int_eq(hr2di_leading_blocks(&leading, &one, UINT64_MAX / 8, 3, 2, &alloc, 1, NULL),
-                   HR2D_ENOMEM);
+  void *leading = NULL;
+  ck_assert_int_eq(
+      hr2di_leading_blocks(&leading, &one, sizeof one, UINT64_MAX / 8, 3, 2, &alloc, 1, NULL),
+      HR2D_ENOMEM);
   ck_assert_ptr_null(leading);
 }
 END_TEST
