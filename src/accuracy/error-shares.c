@@ -19,8 +19,8 @@
 #define LEFT 0.2
 
 /* Of the target: averages that are so far off are made better, and what they are aimed at. */
-#define OFF 0.25
-#define AIM 0.25
+#define OFF 0.35
+#define AIM 0.35
 
 /* Shares are tried in steps of this, and a leaf is halved so often at most. */
 #define STEP 0.8
