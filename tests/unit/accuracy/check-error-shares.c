@@ -162,6 +162,43 @@ START_TEST(links_are_taken_over) {
 }
 END_TEST
 
+/* The same with trees of several levels, some leaves of which are divided: only pairs with
+   these, or above them, are refined again. */
+START_TEST(leaves_of_deep_trees_are_divided) {
+  hr2d_scene *scene = squares(80);
+  randoms r = randoms_stream(test_seed(), 15);
+  hr2d_hierarchy *whole = trees(scene, 4), *h = NULL, *divided = NULL;
+  unsigned char *depth = calloc(whole->elements, 1);
+  for (size_t k = 0; k < whole->elements; k++)
+    depth[k] = (unsigned char)(1 + 3 * (whole->element[k].length > 0.5));
+  ck_assert_int_eq(hr2di_halved_leaves(whole, depth, 0, NULL, &h), HR2D_OK);
+  unsigned char *deeper = calloc(h->elements, 1);
+  for (size_t k = 0; k < h->elements; k++)
+    if (!h->element[k].child && random_below(&r, 12) == 0)
+      deeper[k] = (unsigned char)(1 + random_below(&r, 2));
+  ck_assert_int_eq(hr2di_halved_leaves(h, deeper, 0, NULL, &divided), HR2D_OK);
+  ck_assert_uint_gt(divided->elements, h->elements);
+  hr2d_linkset *coarse = linked(h, NULL, 1), *fresh = linked(divided, NULL, 1);
+  const uint64_t before = hr2d_linkset_counts(coarse).oracle_calls;
+  hr2d_linkset *taken = linked(divided, coarse, 3);
+  ck_assert(same_links(fresh, taken));
+  check_counts(fresh, taken);
+  const uint64_t again = hr2d_linkset_counts(taken).oracle_calls - before;
+  printf("%llu pairs are looked at again, of %llu\n", (unsigned long long)again,
+         (unsigned long long)hr2d_linkset_counts(fresh).oracle_calls);
+  ck_assert_uint_lt(2 * again, hr2d_linkset_counts(fresh).oracle_calls);
+  hr2d_linkset_destroy(taken);
+  hr2d_linkset_destroy(fresh);
+  hr2d_linkset_destroy(coarse);
+  hr2d_hierarchy_destroy(divided);
+  hr2d_hierarchy_destroy(h);
+  hr2d_hierarchy_destroy(whole);
+  free(deeper);
+  free(depth);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 /* Budgets hold for the links that are taken over and those that are made. */
 START_TEST(budgets_count_links_taken_over) {
   hr2d_scene *scene = squares(60);
@@ -270,6 +307,32 @@ START_TEST(bounds_may_come_later) {
 }
 END_TEST
 
+/* The order may rise on divided elements, which keep what they know. */
+START_TEST(order_rises_on_divided_elements) {
+  const hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_scene *scene = squares(140);
+  hr2di_resolution f = {.hasty = 1};
+  hr2di_graded answer, finer;
+  hr2di_error_pair before, after;
+  hr2di_message message;
+  estimate(scene, &f, &answer, &before);
+  f.order += 2;
+  ck_assert_int_eq(hr2di_graded_divide(&finer, &answer, &f, &target, &message), HR2D_OK);
+  hr2di_error_prepare(&finer, &f);
+  ck_assert_int_eq(hr2di_graded_solve(&finer, &f, &target, &message), HR2D_OK);
+  ck_assert_int_eq(hr2di_error_estimate(&finer, &f, &target, &after, &message), HR2D_OK);
+  printf("order %u, %zu elements: %.1e; order %u, %zu elements: %.1e\n",
+         answer.hierarchy->order, answer.hierarchy->elements, before.average.estimate,
+         finer.hierarchy->order, finer.hierarchy->elements, after.average.estimate);
+  ck_assert_uint_eq(finer.hierarchy->order, f.order);
+  ck_assert_uint_gt(finer.hierarchy->elements, answer.hierarchy->elements);
+  ck_assert_double_lt(after.average.estimate, 0.1 * before.average.estimate);
+  hr2di_graded_clear(&finer);
+  hr2di_graded_clear(&answer);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 /* Where the budget ends before the target is reached, the answer has a bound. */
 START_TEST(answers_have_bounds) {
   if (test_multiplier() < 1) return;
@@ -366,7 +429,9 @@ END_TEST
 TEST_SUITE("error shares") {
   ADD_TESTS("division", leaves_are_halved_so_often, few_elements_suffice);
   REPEAT_TESTS(4, "links", links_are_taken_over);
+  ADD_TESTS("deep", leaves_of_deep_trees_are_divided);
   REPEAT_TESTS(2, "links", budgets_count_links_taken_over);
-  ADD_TESTS("bounds", bounds_may_come_later, answers_have_bounds);
+  ADD_TESTS("bounds", bounds_may_come_later, order_rises_on_divided_elements,
+            answers_have_bounds);
   ADD_TESTS("grid", strips_have_their_points, grids_may_be_flat);
 }

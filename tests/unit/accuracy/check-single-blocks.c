@@ -41,7 +41,7 @@ static void solve(const hr2d_scene *scene, int single, unsigned threads, answer 
   target.threads = threads;
   target.floor = HR2D_FLOOR;
   hr2di_scene_watch(scene, &watch, NULL, NULL, "refine");
-  ck_assert_int_eq(hr2di_resolution_survey(scene, 1, &watch, &survey), HR2D_OK);
+  ck_assert_int_eq(hr2di_resolution_survey(scene, NULL, 1, &watch, &survey), HR2D_OK);
   hr2di_resolution f = hr2di_resolution_for(scene, &survey, AIM, &target, NULL);
   f.shares = 0;
   f.single = single;
