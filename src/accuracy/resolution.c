@@ -61,6 +61,9 @@ static int is_crowded(const hr2d_scene *scene, int hidden) {
    and events do, and from fewer elements on. */
 #define SHARED_AIM 1e-4
 
+/* Blocks of shaded pairs take about as long at any low order, and links become fewer. */
+enum { SHARED_ORDER = 5 };
+
 static int by_shares(const hr2d_scene *scene, const hr2d_target *target, double aim) {
   return is_crowded(scene, is_hidden(scene)) && target->norm == HR2D_NORM_AVERAGE &&
          !target->no_error && aim >= SHARED_AIM;
@@ -177,7 +180,7 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
       .lights = lights,
       .generations = hidden ? generations_for(aim, norm) : 0};
   if (shared || (is_crowded(scene, hidden) && aim >= CROWDED_AIM)) {
-    f.order = (unsigned)fmax(f.order, aim >= THREE ? 3 : 4);
+    f.order = (unsigned)fmax(f.order, aim >= THREE ? 3 : shared ? SHARED_ORDER : 4);
     f.generations = f.kinks > 0;
   }
   if (lights && aim <= THREE && f.generations == 0) f.generations = 1;
