@@ -20,7 +20,7 @@
 #include "solve/gather-blocks.h"
 #include "solve/heat-scene.h"
 
-enum { SAMPLES = 256, PRODUCTS = 64, RUNS = 5, POINTS = 4 };
+enum { SAMPLES = 8, RUN = 64, PRODUCTS = 64, RUNS = 5, POINTS = 4 };
 
 /* The time of one solve is within this factor of what is predicted; see set_range(). */
 #define SURE 2.0
@@ -37,10 +37,12 @@ enum { ATTEMPTS = 8, MORE = 2, MOST_BANDS = 4 };
 #define ERROR_ITERATIONS 2.5
 
 /* Times the coarse solve: work that does not depend on the order.  It is more with lights of
-   patches, and where nothing is reflected there are hardly any gathers. */
+   patches, less where elements are flat in both, and where nothing is reflected there are
+   hardly any gathers. */
 #define CALLS      3.5
 #define CALLS_LIT  5
 #define CALLS_DARK 2.5
+#define CALLS_FLAT 1.2
 
 #define REST 1.75 /* of gathers, for work that is not counted: fields set up and copied */
 
@@ -57,23 +59,26 @@ typedef struct trial {
   uint64_t leaves;
 } trial;
 
-/* The time for all blocks, from every k-th block. */
+/* The time for all blocks, from those of some runs of links, which share the looks of patches.
+ */
 static hr2d_status time_blocks(const hr2di_graded *a, size_t order, hr2di_watch *watch,
                                double *seconds) {
   const hr2d_allocator *alloc = &a->hierarchy->alloc;
   const uint64_t links = hr2d_linkset_size(a->links);
-  const uint64_t samples = links < SAMPLES ? links : SAMPLES;
+  const uint64_t runs = links < SAMPLES * RUN ? 1 : SAMPLES;
+  const uint64_t length = links < SAMPLES * RUN ? links : RUN;
   double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
   hr2di_integrator work;
   int distant;
   hr2d_status status = hr2di_integrator_init(&work, a->hierarchy, alloc, order, watch);
   const double start = hr2di_clock_now();
-  for (uint64_t k = 0; k < samples && !status; k++) {
-    const hr2d_link *link =
-        hr2di_store_at(&a->links->store, (2 * k + 1) * links / (2 * samples));
+  for (uint64_t k = 0; k < runs * length && !status; k++) {
+    const uint64_t first = (links - length) * (2 * (k / length) + 1) / (2 * runs);
+    const hr2d_link *link = hr2di_store_at(&a->links->store, first + k % length);
     status = hr2di_block(&work, link->pair, link->exchange_area, block, &distant);
   }
-  *seconds = samples ? (hr2di_clock_now() - start) * ((double)links / (double)samples) : 0;
+  *seconds =
+      links ? (hr2di_clock_now() - start) * ((double)links / (double)(runs * length)) : 0;
   hr2di_integrator_clear(&work);
   return status;
 }
@@ -140,7 +145,8 @@ static hr2d_status time_points(const hr2d_solution *solution, size_t patches,
   return status;
 }
 
-static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target, trial *t) {
+static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target,
+                              const hr2di_resolution *fineness, trial *t) {
   const double start = hr2di_clock_now();
   hr2di_graded a;
   hr2di_message message;
@@ -148,6 +154,8 @@ static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target
       .order = 2,
       .target = 0.1,
       .norm = target->norm,
+      .flat = fineness->flat,
+      .distance = fineness->flat ? fineness->distance : 0,
       .tolerance = hr2di_resolution_tolerance(scene, target->floor, target->error)};
   hr2d_status status = hr2di_graded_refine(&a, scene, &coarse, target, &message);
   if (!status) status = hr2di_graded_solve(&a, &coarse, target, &message);
@@ -192,7 +200,7 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
   hr2di_graded a = {0};
   cost c = {0};
   trial coarse = {0};
-  if (!status) status = try_coarse(scene, target, &coarse);
+  if (!status) status = try_coarse(scene, target, &fineness, &coarse);
   if (!status) status = hr2di_graded_refine(&a, scene, &fineness, target, &message);
   if (!status) status = measure(&fineness, target, &a, &c, p);
   if (!status) {
@@ -201,7 +209,10 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
                           sqrt((double)p->leaves / (double)coarse.leaves);
     const double gathers = coarse.iterations * c.gather + ERROR_GATHERS * c.finer +
                            ERROR_ITERATIONS * coarse.iterations * c.part;
-    const double calls = !reflects ? CALLS_DARK : lights.radiosity ? CALLS_LIT : CALLS;
+    const double calls = !reflects          ? CALLS_DARK
+                         : fineness.flat    ? CALLS_FLAT
+                         : lights.radiosity ? CALLS_LIT
+                                            : CALLS;
     p->seconds = calls * coarse.seconds + c.make + (reflects ? REST * gathers : 0) +
                  (reflects && !target->no_error ? points : 0);
     set_range(p);

@@ -184,10 +184,12 @@ hr2d_status hr2di_search_bound(hr2di_search *s) {
    left is that of links of too low an order, and varies. */
 #define VARIES 2
 
-/* Whether an attempt of some error takes the place of the best one. */
+/* Whether an attempt of some error takes the place of the best one.  With a deadline there may
+   be no time for another. */
 static int is_better(const hr2di_search *s, double error, int divided) {
   const double before = hr2di_search_error(s);
-  return !s->best.solution || !isfinite(before) || error < (divided ? VARIES : 1) * before;
+  const double most = divided && !(s->deadline > 0) ? VARIES * before : before;
+  return !s->best.solution || !isfinite(before) || error < most;
 }
 
 hr2d_status hr2di_search_attempt(hr2di_search *s, const hr2di_resolution *fineness,

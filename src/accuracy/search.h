@@ -60,7 +60,8 @@ int hr2di_search_is_cut_off(const hr2di_search *s, double error);
 hr2d_status hr2di_search_sketch(hr2di_search *s);
 
 /* Solves once, estimates the error, and keeps the graded solve if it is the best so far.  With
-   `dividing` the elements are those of the best, divided. */
+   `dividing` the elements are those of the best, divided, and it is also kept if its error is a
+   little larger. */
 hr2d_status hr2di_search_attempt(hr2di_search *s, const hr2di_resolution *fineness,
                                  int dividing);
 
