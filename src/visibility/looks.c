@@ -67,9 +67,11 @@ static hr2d_status note(hr2di_looker *l, const hr2di_sight *s, hr2di_wall_side t
     return HR2D_ENOMEM;
   l->sight[l->sights++] =
       (hr2di_look_sight){l->from, to, (uint32_t)lefts, (uint32_t)rights, s->ends};
-  memcpy(l->point + l->points, s->left, lefts * sizeof *s->left);
-  memcpy(l->point + l->points + lefts, s->right, rights * sizeof *s->right);
-  l->points += lefts + rights;
+  if (!bare) {
+    memcpy(l->point + l->points, s->left, lefts * sizeof *s->left);
+    memcpy(l->point + l->points + lefts, s->right, rights * sizeof *s->right);
+    l->points += lefts + rights;
+  }
   l->keeps = bytes_of(l) <= l->looks->most_bytes;
   return HR2D_OK;
 }
