@@ -100,7 +100,9 @@ typedef struct hr2d_target {
   uint64_t max_bytes;      /**< budget for elements, links and their blocks, also of the best
                                 solve so far while the next one is made, and for the work
                                 space of a refinement; 0 for none. The fields of a solve, some
-                                hundred bytes a coefficient, come on top */
+                                hundred bytes a coefficient, come on top. Without a budget
+                                what patches see of each other is kept during the call, in up
+                                to 1 GiB, which saves some percent of the time */
   hr2d_progress_fn progress; /**< optional */
   void *progress_ctx;        /**< given to `progress` */
   double floor;              /**< an average counts as no less than this part of the largest

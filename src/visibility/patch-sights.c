@@ -14,7 +14,7 @@ static hr2d_status keep(void *ctx, const hr2di_sight *sight, hr2di_wall_side fro
   hr2di_patch_sights *s = ctx;
   const hr2di_triangulation *t = s->looker.walk.in;
   const size_t k = s->all.count;
-  const hr2di_side *of = s->scene->parts.of_side;
+  const hr2di_side *of = s->looker.scene->parts.of_side;
   if (!sight || of[side].wall == of[from].wall)
     return HR2D_OK; /* of a wall that roundings have bent */
   const hr2d_allocator *alloc = &s->all.alloc;
@@ -35,8 +35,7 @@ hr2d_status hr2di_patch_sights_init(hr2di_patch_sights *s, const hr2d_scene *sce
                                     hr2di_looks *looks, const hr2d_allocator *alloc,
                                     hr2di_watch *watch) {
   const hr2di_triangulation *t = &scene->plane.triangulation;
-  *s = (hr2di_patch_sights){.scene = scene,
-                            .looker = hr2di_looker_make(scene, looks, alloc, watch),
+  *s = (hr2di_patch_sights){.looker = hr2di_looker_make(scene, looks, alloc, watch),
                             .all.alloc = *alloc,
                             .turned.alloc = *alloc};
   s->looker.take = keep;
@@ -72,7 +71,7 @@ static hr2d_status look_from(hr2di_patch_sights *s, uint32_t patch, int later) {
 /* Copies the sights that end along a patch, turned round if that is the near one; links of the
    same two patches follow each other, and take the same ones. */
 static hr2d_status take(hr2di_patch_sights *s, uint32_t patch, int turn) {
-  const hr2di_side_parts *p = &s->scene->parts;
+  const hr2di_side_parts *p = &s->looker.scene->parts;
   hr2d_status status = HR2D_OK;
   const hr2di_parts of = p->of_patch[patch];
   if (s->taken == patch + 1) return HR2D_OK;
@@ -109,13 +108,14 @@ static hr2d_status add_contact(hr2di_sight_list *list, hr2d_segment near, hr2d_s
 }
 
 hr2d_status hr2di_patch_sights_look(hr2di_patch_sights *s, uint32_t from, uint32_t to) {
-  return in_contact(&s->scene->parts, from, to) ? HR2D_OK : look_from(s, from, from < to);
+  return in_contact(&s->looker.scene->parts, from, to) ? HR2D_OK
+                                                       : look_from(s, from, from < to);
 }
 
 hr2d_status hr2di_patch_sights_between(hr2di_patch_sights *s, const hr2di_patch_pair *pair,
                                        hr2di_sight_list *list, hr2di_sight_list *whole) {
   const int turn = pair->patch[0] > pair->patch[1];
-  if (in_contact(&s->scene->parts, pair->patch[0], pair->patch[1]))
+  if (in_contact(&s->looker.scene->parts, pair->patch[0], pair->patch[1]))
     return add_contact(list, pair->part[turn], pair->part[!turn]);
   hr2d_status status = look_from(s, pair->patch[0], !turn);
   if (status || s->all.count == 0) return status;

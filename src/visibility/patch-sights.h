@@ -8,7 +8,6 @@
 
 /* Work space of one thread, and the last look. */
 typedef struct hr2di_patch_sights {
-  const hr2d_scene *scene;
   hr2di_looker looker;
   hr2di_sight_list all; /* from the walls of the patch that looked */
   uint32_t *next;       /* per sight: 1 + the one before it that ends at the same side, or 0 */

@@ -16,10 +16,10 @@ static hr2d_status see_side(void *ctx, const hr2di_sight *sight, hr2di_wall_side
   (void)sight;
   (void)from;
   hr2di_seen_ends *s = ctx;
-  const hr2di_side *of = &s->scene->parts.of_side[side];
+  const hr2di_side *of = &s->looker.scene->parts.of_side[side];
   if (s->side_seen[side] == s->patch) return HR2D_OK;
   s->side_seen[side] = s->wall_seen[of->wall] = s->patch;
-  const hr2di_side_part *part = s->scene->parts.part;
+  const hr2di_side_part *part = s->looker.scene->parts.part;
   for (uint32_t k = of->parts.first; k < of->parts.last; k++) {
     if (part[k].patch == HR2DI_NOBODY) continue;
     if (k > of->parts.first) s->end_seen[2 * part[k].patch] = s->patch;
@@ -30,13 +30,13 @@ static hr2d_status see_side(void *ctx, const hr2di_sight *sight, hr2di_wall_side
 
 /* Calls for each end of a patch that is at a vertex; counts them, or enters them. */
 static void index_ends(hr2di_seen_ends *s, int enter) {
-  const hr2di_side_parts *p = &s->scene->parts;
-  const hr2di_wall_edge *edge = s->scene->plane.triangulation.edge;
+  const hr2di_side_parts *p = &s->looker.scene->parts;
+  const hr2di_wall_edge *edge = s->looker.scene->plane.triangulation.edge;
   for (uint32_t k = 0; k < p->parts; k++) {
     const hr2di_side_part *part = &p->part[k];
     if (part->patch == HR2DI_NOBODY || part->side == HR2DI_HIDDEN) continue;
     const hr2di_parts all = p->of_side[part->side].parts;
-    const hr2d_segment patch = s->scene->patch[part->patch].scaled;
+    const hr2d_segment patch = s->looker.scene->patch[part->patch].scaled;
     const hr2di_wall_edge *e = &edge[part->side >> 1];
     const int ends[2] = {k == all.first && hr2di_point_same(part->at.a, patch.a),
                          k + 1 == all.last && hr2di_point_same(part->at.b, patch.b)};
@@ -52,8 +52,7 @@ hr2d_status hr2di_seen_ends_init(hr2di_seen_ends *s, const hr2d_scene *scene,
                                  hr2di_looks *looks, const hr2d_allocator *alloc,
                                  hr2di_watch *watch) {
   const hr2di_triangulation *t = &scene->plane.triangulation;
-  *s = (hr2di_seen_ends){.scene = scene,
-                         .looker = hr2di_looker_make(scene, looks, alloc, watch)};
+  *s = (hr2di_seen_ends){.looker = hr2di_looker_make(scene, looks, alloc, watch)};
   s->looker.take = see_side;
   s->looker.see = see_vertex;
   s->looker.ctx = s;

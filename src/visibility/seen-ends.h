@@ -7,7 +7,6 @@
 
 /* Work space of one thread, and what the last patch sees. */
 typedef struct hr2di_seen_ends {
-  const hr2d_scene *scene;
   hr2di_looker looker;
   uint32_t *first;     /* per vertex: where its ends begin in `end`; one more */
   uint32_t *end;       /* 2·patch for its start, 2·patch + 1 for its last point */

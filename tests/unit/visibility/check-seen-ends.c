@@ -34,7 +34,7 @@ typedef struct tally {
    of patch i sees, are doubtful. */
 static void check_end(randoms *r, const hr2di_seen_ends *seen, uint32_t i, uint32_t j, int last,
                       tally *t) {
-  const hr2d_scene *scene = seen->scene;
+  const hr2d_scene *scene = seen->looker.scene;
   const hr2d_segment s = scene->patch[i].scaled, other = scene->patch[j].scaled;
   const hr2d_point end = last ? other.b : other.a;
   const int has = hr2di_seen_ends_has(seen, j, last);
