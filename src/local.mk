@@ -257,6 +257,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/estimator.c src/accuracy/estimator.h \
 	src/accuracy/residual-series.c src/accuracy/residual-series.h \
 	src/accuracy/gap-residuals.c src/accuracy/gap-residuals.h \
+	src/accuracy/points-gather.c src/accuracy/points-gather.h \
 	src/accuracy/period-residuals.c src/accuracy/period-residuals.h \
 	src/accuracy/shadow-residuals.c src/accuracy/shadow-residuals.h \
 	src/accuracy/safe-sum.c src/accuracy/safe-sum.h \

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "accuracy/points-gather.h"
 #include "base/alloc.h"
 #include "base/legendre.h"
 #include "base/sort.h"
@@ -166,23 +167,28 @@ static double place_of(const hr2di_transport *t, uint32_t leaf, int begins) {
   return from + (begins ? beside : 1 - beside) * size;
 }
 
-/* B' − B_h at the vertex. */
-static hr2d_status gather(const hr2di_equation *eq, const hr2d_solution *solution,
-                          const double *field, uint32_t leaf, int begins, double *residual) {
-  const hr2di_transport *t = &eq->transport;
+/* One side of a contact: the end of a leaf, or of its original, at the vertex. */
+typedef struct leaf_end {
+  uint32_t leaf;
+  int begins;
+} leaf_end;
+
+static leaf_end end_of(const hr2di_contacts *c, const hr2di_transport *t, size_t k) {
+  const uint32_t leaf = c->contact[k / 2].leaf[k % 2];
   const int turned = t->ties.of && t->ties.odd[t->leaf[leaf]];
-  leaf = original(t, leaf);
-  if (turned) begins = !begins;
-  const uint32_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
-  const double at = place_of(t, leaf, begins);
+  return (leaf_end){original(t, leaf), k % 2 != (size_t)turned};
+}
+
+/* Leaves B' − B_h of B' at the vertex. */
+static void subtract(const hr2di_equation *eq, const double *field, leaf_end at,
+                     double *residual) {
+  const hr2di_transport *t = &eq->transport;
   hr2di_basis basis;
   hr2di_basis_init(&basis, t->order);
-  const hr2d_status status = hr2di_solution_gather(solution, patch, &at, 1, residual, t->watch);
-  for (size_t b = 0; b < t->bands && !status; b++)
+  for (size_t b = 0; b < t->bands; b++)
     residual[b] =
         ldexp(residual[b], -eq->exponent[b]) -
-        hr2di_basis_sum(&basis, begins ? -1 : 1, field + leaf * t->width + b, t->bands);
-  return status;
+        hr2di_basis_sum(&basis, at.begins ? -1 : 1, field + at.leaf * t->width + b, t->bands);
 }
 
 /* At the end of a patch B' is the limit that light to and fro in the corner leads to, and B' −
@@ -205,13 +211,21 @@ hr2d_status hr2di_contacts_gather(hr2di_contacts *c, const hr2di_equation *eq,
                                   const hr2d_solution *solution, const double *residual,
                                   const double *field) {
   const hr2di_transport *t = &eq->transport;
+  hr2di_place place[2 * MOST];
   choose(c, t, residual);
-  c->residual = hr2di_alloc(&c->alloc, 2 * c->gathered, t->bands * sizeof *c->residual);
-  hr2d_status status = c->residual ? HR2D_OK : HR2D_ENOMEM;
-  for (size_t k = 0; k < 2 * c->gathered && !status; k++) {
-    status = gather(eq, solution, field, c->contact[k / 2].leaf[k % 2], k % 2 != 0,
-                    c->residual + k * t->bands);
-    if (!status && k % 2) complete(c, t, k / 2);
+  const size_t count = 2 * c->gathered;
+  c->residual = hr2di_alloc(&c->alloc, count, t->bands * sizeof *c->residual);
+  if (!c->residual) return HR2D_ENOMEM;
+  for (size_t k = 0; k < count; k++) {
+    const leaf_end end = end_of(c, t, k);
+    place[k] = (hr2di_place){t->hierarchy->element[t->leaf[end.leaf]].patch,
+                             place_of(t, end.leaf, end.begins)};
+  }
+  const hr2d_status status =
+      hr2di_points_gather(solution, place, count, t->threads, c->residual, t->watch);
+  for (size_t k = 0; k < count && !status; k++) {
+    subtract(eq, field, end_of(c, t, k), c->residual + k * t->bands);
+    if (k % 2) complete(c, t, k / 2);
   }
   return status;
 }

@@ -23,6 +23,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "accuracy/points-gather.h"
 #include "base/alloc.h"
 #include "base/sort.h"
 #include "geometry/apart.h"
@@ -234,23 +235,32 @@ static hr2d_status find_all(hr2di_estimator *e, gaps *all) {
   return status ? status : sort(all, t->watch);
 }
 
-/* Raises `residual` to |B' − B_h| at places of a patch, in units of the equation. */
-static hr2d_status gather(const hr2di_estimator *e, size_t patch, double from, double step,
-                          double *space, double *residual) {
-  const hr2di_transport *t = &e->eq.transport;
-  const int turned = t->ties.of && t->ties.odd[patch];
-  patch = hr2di_ties_of(&t->ties, (uint32_t)patch);
+/* The places beside one side of a gap; the number of them. */
+static size_t list_places(const hr2di_estimator *e, const gap *g, int other, hr2di_place *to) {
+  const hr2di_ties *ties = &e->eq.transport.ties;
+  const uint32_t beside = other ? g->end / 2 : g->over;
+  const double from = other ? g->end % 2 : fmin(fmax(g->at, 0), 1);
+  const double step = g->distance / e->eq.transport.hierarchy->scene->patch[beside].length;
+  const int turned = ties->of && ties->odd[beside];
+  size_t count = 0;
   for (size_t k = 0; k < PLACES; k++) {
     const double along = from + place[k] * step, at = turned ? 1 - along : along;
-    if (!(at >= 0 && at <= 1)) continue; /* also where the patch is dust */
-    const hr2d_status status = hr2di_solution_gather(e->coarse, patch, &at, 1, space, t->watch);
-    if (status) return status;
-    for (size_t b = 0; b < t->bands; b++) {
-      const double off = space[b] - hr2d_solution_at(e->coarse, patch, at, b);
-      residual[b] = fmax(residual[b], fabs(ldexp(off, -e->eq.exponent[b])));
-    }
+    if (at >= 0 && at <= 1) /* not where the patch is dust */
+      to[count++] = (hr2di_place){hr2di_ties_of(ties, beside), at};
   }
-  return HR2D_OK;
+  return count;
+}
+
+/* The largest |B' − B_h| at places, in units of the equation. */
+static double worst_of(const hr2di_estimator *e, const hr2di_place *at, size_t count,
+                       const double *value, size_t band) {
+  double worst = 0;
+  for (size_t k = 0; k < count; k++) {
+    const double off = value[k * e->eq.transport.bands + band] -
+                       hr2d_solution_at(e->coarse, at[k].patch, at[k].at, band);
+    worst = fmax(worst, fabs(ldexp(off, -e->eq.exponent[band])));
+  }
+  return worst;
 }
 
 /* H at a point of a patch is off by `error`, and by `rounding`. */
@@ -263,24 +273,45 @@ static void add(hr2di_estimator *e, size_t patch, size_t band, double error, dou
   e->stray[0][band] = fmax(e->stray[0][band], rho * (error + rounding));
 }
 
-/* `space` is for 3 × bands. */
-static hr2d_status add_gap(hr2di_estimator *e, const gap *g, double *space) {
+/* The places of the brightest gaps. */
+typedef struct places {
+  hr2di_place at[2 * MOST * PLACES];
+  size_t count[2 * MOST]; /* per side of a gap */
+  size_t all;
+} places;
+
+static void add_gap(hr2di_estimator *e, const gap *g, const hr2di_place *at,
+                    const size_t *count, const double *value) {
   const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
   const size_t bands = e->eq.transport.bands, q = g->end / 2;
-  double *of_p = space + bands, *of_q = of_p + bands;
-  for (size_t b = 0; b < bands; b++) of_p[b] = of_q[b] = 0;
-  hr2d_status status = gather(e, g->over, fmin(fmax(g->at, 0), 1),
-                              g->distance / scene->patch[g->over].length, space, of_p);
-  if (!status)
-    status = gather(e, q, g->end % 2, g->distance / scene->patch[q].length, space, of_q);
-  for (size_t b = 0; b < bands && !status; b++) {
+  for (size_t b = 0; b < bands; b++) {
+    const double of_p = worst_of(e, at, count[0], value, b);
+    const double of_q = worst_of(e, at + count[0], count[1], value + count[0] * bands, b);
     const double rho_p = hr2d_scene_reflectance(scene, g->over, b);
     const double rho_q = hr2d_scene_reflectance(scene, q, b);
     const double more = 1 / (1 - REACH * REACH * rho_p * rho_q);
     const double rounding = rounding_at(e, g, b);
-    add(e, q, b, more * (of_p[b] + REACH * rho_p * of_q[b]), rounding);
-    add(e, g->over, b, more * (of_q[b] + REACH * rho_q * of_p[b]), rounding);
+    add(e, q, b, more * (of_p + REACH * rho_p * of_q), rounding);
+    add(e, g->over, b, more * (of_q + REACH * rho_q * of_p), rounding);
   }
+}
+
+static hr2d_status gather(hr2di_estimator *e, const gap *list, size_t some) {
+  const hr2di_transport *t = &e->eq.transport;
+  places p = {.all = 0};
+  for (size_t k = 0; k < 2 * some; k++) {
+    p.count[k] = list_places(e, &list[k / 2], k % 2, p.at + p.all);
+    p.all += p.count[k];
+  }
+  double *value = hr2di_alloc(&t->alloc, p.all, t->bands * sizeof *value);
+  if (!value) return HR2D_ENOMEM;
+  const hr2d_status status =
+      hr2di_points_gather(e->coarse, p.at, p.all, t->threads, value, t->watch);
+  for (size_t k = 0, from = 0; k < some && !status; k++) {
+    add_gap(e, &list[k], p.at + from, &p.count[2 * k], value + from * t->bands);
+    from += p.count[2 * k] + p.count[2 * k + 1];
+  }
+  hr2di_alloc_free(&t->alloc, value);
   return status;
 }
 
@@ -296,15 +327,9 @@ hr2d_status hr2di_gap_residuals(hr2di_estimator *e) {
   const size_t most = t->hierarchy->scene->patches > MANY ? FEW : MOST;
   gaps all = {0};
   hr2d_status status = find_all(e, &all);
-  double *space = NULL;
-  if (!status && all.count > 0) {
-    space = hr2di_alloc(&t->alloc, 3 * t->bands, sizeof *space);
-    status = space ? HR2D_OK : HR2D_ENOMEM;
-  }
-  for (size_t k = 0; k < all.count && k < most && !status; k++)
-    status = add_gap(e, &all.gap[k], space);
+  if (!status && all.count > 0)
+    status = gather(e, all.gap, all.count < most ? all.count : most);
   if (all.count > most && !status) add_unknown(e, &all.gap[most]);
   hr2di_alloc_free(&t->alloc, all.gap);
-  hr2di_alloc_free(&t->alloc, space);
   return status ? status : hr2di_watch_status(t->watch);
 }
