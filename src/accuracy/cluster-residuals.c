@@ -45,16 +45,16 @@ hr2d_status hr2di_cluster_residuals(hr2di_estimator *e, hr2di_clusters *coarser,
   const hr2di_transport *t = &e->eq.transport;
   hr2d_share *share = t->links->share;
   const size_t planes = t->bands + 1, size = e->values / t->bands * planes;
+  const hr2di_cluster_gather how = {
+      .order = 1, .bands = planes, .share = share, .threads = t->threads, .watch = t->watch};
   double *field = hr2di_alloc_zero(&t->alloc, size, 3 * sizeof *field);
   hr2d_status status = hr2di_share_agree(share, field ? HR2D_OK : HR2D_ENOMEM);
   if (!status) {
     set_fields(e, field);
-    status = hr2di_clusters_gather(coarser, 1, planes, field, field + size, share, t->threads,
-                                   t->watch);
+    status = hr2di_clusters_gather(coarser, &how, field, field + size);
   }
   if (!status)
-    status = hr2di_clusters_gather(t->links->roots.clusters, 1, planes, field, field + 2 * size,
-                                   share, t->threads, t->watch);
+    status = hr2di_clusters_gather(t->links->roots.clusters, &how, field, field + 2 * size);
   if (!status) *part = worst(e, field + size, field + 2 * size);
   hr2di_alloc_free(&t->alloc, field);
   return status;

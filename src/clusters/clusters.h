@@ -34,15 +34,32 @@ void hr2di_clusters_destroy(hr2di_clusters *clusters);
 uint64_t hr2di_clusters_links(const hr2di_clusters *clusters);
 uint64_t hr2di_clusters_bytes(const hr2di_clusters *clusters);
 
+/* Memory of gathers, which takes as long to get from the system as a gather.  Starts as zeroes;
+   for one gather at a time. */
+typedef struct hr2di_cluster_room {
+  hr2d_allocator alloc;
+  double *value;
+  size_t values;
+} hr2di_cluster_room;
+
+void hr2di_cluster_room_clear(hr2di_cluster_room *room);
+
+typedef struct hr2di_cluster_gather {
+  size_t order, bands;
+  hr2d_share *share;        /* NULL: there is but one */
+  unsigned threads;         /* as in options */
+  hr2di_cluster_room *room; /* for this and the next gather; NULL: this one has its own */
+  hr2di_watch *watch;
+} hr2di_cluster_gather;
+
 /* power += K radiosity over the cluster links.  Both are patches × order × bands, with an
    order of 1 to HR2D_MAX_ORDER: coefficient l of a patch is that of φ_l(ξ) = √(2l+1) P_l(ξ),
    ξ from −1 at its start to 1 at its end; radiosity_k = (1/A)∫ B φ_k, power_k = ∫∫ G B φ_k
    dy dx in scaled lengths.  Self-adjoint but for rounding.  The same bits every time, on any
-   number of threads, which are as in options.
+   number of threads.
    Of several shares all call it; each does a part, and all get the sum.  HR2D_OK, HR2D_ENOMEM
    or the status of the watch or of another share. */
-hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, size_t order, size_t bands,
-                                  const double *radiosity, double *power, hr2d_share *share,
-                                  unsigned threads, hr2di_watch *watch);
+hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, const hr2di_cluster_gather *how,
+                                  const double *radiosity, double *power);
 
 #endif

@@ -80,13 +80,13 @@ hr2d_status hr2d_clusters_gather(hr2d_clusters *clusters, const hr2d_clusters_op
   if (order < 1 || order > HR2D_MAX_ORDER || bands < 1) return HR2D_EINVAL;
   if (bands > PTRDIFF_MAX / sizeof *power / order / (scene->patches + 1)) return HR2D_EINVAL;
   const size_t count = scene->patches * order * bands;
+  const hr2di_cluster_gather how = {
+      .order = order, .bands = bands, .share = o.share, .threads = o.threads, .watch = &watch};
   hr2di_scene_watch(scene, &watch, o.progress, o.progress_ctx, "solve");
   hr2di_share_begin(o.share);
   scale(power, count, 0, &watch);
   status = hr2di_share_agree(o.share, hr2di_watch_status(&watch));
-  if (!status)
-    status = hr2di_clusters_gather(clusters->made, order, bands, radiosity, power, o.share,
-                                   o.threads, &watch);
+  if (!status) status = hr2di_clusters_gather(clusters->made, &how, radiosity, power);
   if (status) return status;
   scale(power, count, hr2d_scene_unit(scene), &watch);
   return hr2di_share_agree(o.share, hr2di_watch_ask(&watch));

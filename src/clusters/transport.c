@@ -35,10 +35,11 @@ typedef struct worker {
 typedef struct gather {
   const hr2di_clusters *c;
   size_t order, bands, planes;
+  size_t field;      /* values of all clusters */
   hr2d_share *share; /* NULL: there is but one */
-  double *sent, *received;
+  double *sent;
   size_t slices;
-  double *slice; /* what slices but the first receive */
+  double *received; /* slices × field; the first one becomes the sum */
   const double *radiosity;
   double *power;
   hr2di_watch *watch; /* of the calling thread */
@@ -147,10 +148,20 @@ static hr2d_status declare_patch(const gather *g, const worker *w, size_t patch)
   return hr2di_watch_work(w->watch, 4 + g->order * points * g->planes / 16);
 }
 
+static void clear(const gather *g, double *field, size_t cluster) {
+  const hr2di_linked *c = &g->c->linked[cluster];
+  memset(planes_of(g, field, c), 0,
+         hr2di_expansion_points(&c->far) * g->planes * sizeof *field);
+}
+
 /* Patches whose clusters are of one part: so the sums of a cluster have their order. */
 static void send_part(void *ctx, size_t number, size_t part) {
   const gather *g = ctx;
   const worker *w = &g->worker[number];
+  for (size_t k = part; k < g->c->linked_count; k += g->workers) {
+    clear(g, g->sent, k);
+    if (hr2di_watch_work(w->watch, 1 + g->planes / 16)) return;
+  }
   for (size_t k = 0; k < g->c->scene->patches; k++) {
     if (k % 1024 == 0 && hr2di_watch_work(w->watch, 16)) return;
     if (!has_patch(g, k) || g->c->home[k] % g->workers != part) continue;
@@ -206,9 +217,11 @@ static hr2di_points points_of(const gather *g, uint32_t cluster, double *receive
 static void exchange_slice(void *ctx, size_t number, size_t slice) {
   const gather *g = ctx;
   hr2di_watch *watch = g->worker[number].watch;
-  const size_t field = g->c->points * g->planes, links = g->c->links;
-  double *received = slice == 0 ? g->received : g->slice + (slice - 1) * field;
+  const size_t links = g->c->links;
+  double *received = g->received + slice * g->field;
   const size_t from = slice * links / g->slices, to = (slice + 1) * links / g->slices;
+  if (hr2di_watch_work(watch, g->field / 128)) return;
+  memset(received, 0, g->field * sizeof *received);
   for (size_t k = from; k < to && !hr2di_watch_status(watch); k++) {
     const hr2di_cluster_link *link = &g->c->link[k];
     const hr2di_points i = points_of(g, link->first, received),
@@ -222,13 +235,15 @@ static void exchange_slice(void *ctx, size_t number, size_t slice) {
   }
 }
 
-static void sum_slices(const gather *g) {
-  const size_t field = g->c->points * g->planes;
-  const double *from = g->slice;
-  for (size_t s = 1; s < g->slices; s++, from += field) {
-    for (size_t k = 0; k < field; k++) g->received[k] += from[k];
-    if (hr2di_watch_work(g->watch, field / 64)) return;
-  }
+/* Values that a task adds up over all slices. */
+enum { SUM = 8192 };
+
+static void sum_some(void *ctx, size_t number, size_t task) {
+  const gather *g = ctx;
+  const size_t from = task * SUM, to = g->field - from > SUM ? from + SUM : g->field;
+  if (hr2di_watch_work(g->worker[number].watch, g->slices * SUM / 64)) return;
+  for (size_t s = 1; s < g->slices; s++)
+    for (size_t k = from; k < to; k++) g->received[k] += g->received[s * g->field + k];
 }
 
 /* Does tasks with all workers; the status of the watch. */
@@ -239,8 +254,7 @@ static hr2d_status work(gather *g, size_t tasks, hr2di_team_fn run) {
 
 /* Puts the points of all shares together. */
 static hr2d_status combine(const gather *g, hr2d_status status, double *field) {
-  return hr2di_share_combine(g->share, status, HR2D_COMBINE_SUM, field,
-                             g->c->points * g->planes);
+  return hr2di_share_combine(g->share, status, HR2D_COMBINE_SUM, field, g->field);
 }
 
 static hr2d_status do_level(gather *g, size_t level, hr2di_team_fn run) {
@@ -254,7 +268,7 @@ static hr2d_status run(gather *g) {
   hr2d_status status = combine(g, work(g, g->workers, send_part), g->sent);
   for (size_t k = levels; k-- > 0 && !status;) status = do_level(g, k, go_up);
   if (!status) status = work(g, g->slices, exchange_slice);
-  if (!status) sum_slices(g);
+  if (!status && g->slices > 1) status = work(g, (g->field + SUM - 1) / SUM, sum_some);
   if (!status) status = combine(g, hr2di_watch_status(g->watch), g->received);
   for (size_t k = 0; k < levels && !status; k++) status = do_level(g, k, go_down);
   return status ? status : work(g, (g->c->scene->patches + TASK - 1) / TASK, receive_some);
@@ -295,44 +309,55 @@ static size_t count_slices(const gather *g) {
   return g->share ? 1 : slices < MOST_SLICES ? (size_t)slices : MOST_SLICES;
 }
 
-static hr2d_status reserve(gather *g, unsigned threads) {
-  const hr2d_allocator *alloc = &g->c->alloc;
-  const size_t points = g->c->points, plane = g->planes * sizeof *g->sent;
+void hr2di_cluster_room_clear(hr2di_cluster_room *room) {
+  if (room->value) hr2di_alloc_free(&room->alloc, room->value);
+  *room = (hr2di_cluster_room){0};
+}
+
+/* Gives a room `count` fields of `values` each, of any content. */
+static hr2d_status enlarge(hr2di_cluster_room *room, const hr2d_allocator *alloc, size_t count,
+                           size_t values) {
+  if (room->value && room->values / count >= values) return HR2D_OK;
+  hr2di_cluster_room_clear(room);
+  room->alloc = *alloc;
+  room->value = hr2di_alloc(alloc, count, values * sizeof *room->value);
+  if (room->value) room->values = count * values;
+  return room->value ? HR2D_OK : HR2D_ENOMEM;
+}
+
+static hr2d_status reserve(gather *g, hr2di_cluster_room *room, unsigned threads) {
   g->slices = count_slices(g);
-  g->sent = hr2di_alloc_zero(alloc, points, plane);
-  g->received = hr2di_alloc_zero(alloc, points, plane);
-  if (g->slices > 1) g->slice = hr2di_alloc_zero(alloc, points * (g->slices - 1), plane);
   hr2di_basis_init(&g->basis, g->order);
-  if (!g->sent || !g->received || (g->slices > 1 && !g->slice)) return HR2D_ENOMEM;
+  if (enlarge(room, &g->c->alloc, 1 + g->slices, g->field)) return HR2D_ENOMEM;
+  g->sent = room->value;
+  g->received = g->sent + g->field;
   return hire(g, threads);
 }
 
-static void release(gather *g) {
-  const hr2d_allocator *alloc = &g->c->alloc;
+static void dismiss(gather *g) {
   for (size_t k = 0; k < MOST_THREADS; k++) {
-    hr2di_alloc_free(alloc, g->worker[k].vector);
-    hr2di_alloc_free(alloc, g->worker[k].rule);
+    hr2di_alloc_free(&g->c->alloc, g->worker[k].vector);
+    hr2di_alloc_free(&g->c->alloc, g->worker[k].rule);
   }
-  hr2di_alloc_free(alloc, g->sent);
-  hr2di_alloc_free(alloc, g->received);
-  hr2di_alloc_free(alloc, g->slice);
 }
 
-hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, size_t order, size_t bands,
-                                  const double *radiosity, double *power, hr2d_share *share,
-                                  unsigned threads, hr2di_watch *watch) {
+hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, const hr2di_cluster_gather *how,
+                                  const double *radiosity, double *power) {
   if (clusters->links == 0) return HR2D_OK;
+  hr2di_cluster_room own = {0};
   gather g = {.c = clusters,
-              .order = order,
-              .bands = bands,
-              .planes = 2 * bands,
-              .share = share,
+              .order = how->order,
+              .bands = how->bands,
+              .planes = 2 * how->bands,
+              .field = clusters->points * 2 * how->bands,
+              .share = how->share,
               .radiosity = radiosity,
               .power = power,
-              .watch = watch};
-  hr2d_status status = reserve(&g, threads);
-  if (share && status) status = hr2di_share_agree(share, status);
-  if (!status) status = (share ? run_shared : run)(&g);
-  release(&g);
+              .watch = how->watch};
+  hr2d_status status = reserve(&g, how->room ? how->room : &own, how->threads);
+  if (g.share && status) status = hr2di_share_agree(g.share, status);
+  if (!status) status = (g.share ? run_shared : run)(&g);
+  dismiss(&g);
+  hr2di_cluster_room_clear(&own);
   return status;
 }

@@ -27,8 +27,9 @@ static hr2d_status add_clusters(const hr2d_linkset *links, exchange *e, hr2di_wa
   if (!one) return HR2D_ENOMEM;
   double *power = one + n;
   for (size_t k = 0; k < n; k++) one[k] = 1;
-  const hr2d_status status =
-      hr2di_clusters_gather(links->roots.clusters, 1, 1, one, power, links->share, 1, watch);
+  const hr2di_cluster_gather how = {
+      .order = 1, .bands = 1, .share = links->share, .threads = 1, .watch = watch};
+  const hr2d_status status = hr2di_clusters_gather(links->roots.clusters, &how, one, power);
   for (size_t k = 0; k < n; k++) hr2di_sum_add(&e->escape[k], -power[k]);
   hr2di_alloc_free(&links->alloc, one);
   return status;

@@ -85,6 +85,7 @@ void hr2di_transport_clear(hr2di_transport *t) {
   hr2di_shared_gather_clear(t);
   hr2di_push_pull_clear(&t->trees);
   hr2di_ties_clear(&t->ties, &t->alloc);
+  hr2di_cluster_room_clear(&t->room);
   hr2di_alloc_free(&t->alloc, t->leading);
   hr2di_alloc_free(&t->alloc, t->leaf);
   hr2di_alloc_free(&t->alloc, t->up);
@@ -216,8 +217,13 @@ static void gather_slice(const hr2di_transport *t, hr2di_transport_part part, si
 
 /* Roots are the first elements, so their part of a field is a field of the patches. */
 static void gather_clusters(hr2di_transport *t) {
-  t->failed = hr2di_clusters_gather(t->links->roots.clusters, t->order, t->bands, t->up,
-                                    t->down, t->links->share, t->threads, t->watch);
+  const hr2di_cluster_gather how = {.order = t->order,
+                                    .bands = t->bands,
+                                    .share = t->links->share,
+                                    .threads = t->threads,
+                                    .room = &t->room,
+                                    .watch = t->watch};
+  t->failed = hr2di_clusters_gather(t->links->roots.clusters, &how, t->up, t->down);
 }
 
 /* Divides power by length to get irradiance. */

@@ -31,7 +31,8 @@ typedef struct hr2di_transport {
   double *sky;      /* leaves × order: form factor of the background; NULL: none */
   size_t slices;    /* parts into which the links are cut, whatever the number of threads */
   unsigned threads; /* as in options */
-  uint64_t sweeps;  /* gathers so far */
+  hr2di_cluster_room room;
+  uint64_t sweeps; /* gathers so far */
   hr2di_watch *watch;
   hr2d_status failed; /* HR2D_ENOMEM if a gather lacked memory, or the status of the watch: its
                          result must not be used */

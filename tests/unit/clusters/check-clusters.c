@@ -51,6 +51,17 @@ static double length_of(const sorted *s, size_t patch) {
   return hr2d_scene_length(s->scene, patch) / hr2d_scene_unit(s->scene);
 }
 
+static void gather_by(hr2di_clusters *clusters, const hr2di_cluster_gather *how,
+                      const double *radiosity, double *power) {
+  ck_assert_int_eq(hr2di_clusters_gather(clusters, how, radiosity, power), HR2D_OK);
+}
+
+static void gather(hr2di_clusters *clusters, size_t order, size_t bands,
+                   const double *radiosity, double *power) {
+  gather_by(clusters, &(hr2di_cluster_gather){.order = order, .bands = bands}, radiosity,
+            power);
+}
+
 /* Each band has one patch that sends. */
 static void gather_matrix(sorted *s) {
   enum { BANDS = 64 };
@@ -59,8 +70,7 @@ static void gather_matrix(sorted *s) {
     memset(sent, 0, s->n * BANDS * sizeof *sent);
     memset(power, 0, s->n * BANDS * sizeof *power);
     for (size_t k = 0; k < BANDS && first + k < s->n; k++) sent[(first + k) * BANDS + k] = 1;
-    ck_assert_int_eq(hr2di_clusters_gather(s->clusters, 1, BANDS, sent, power, NULL, 1, NULL),
-                     HR2D_OK);
+    gather(s->clusters, 1, BANDS, sent, power);
     for (size_t i = 0; i < s->n; i++)
       for (size_t k = 0; k < BANDS && first + k < s->n; k++)
         s->linked[i * s->n + first + k] = power[i * BANDS + k];
@@ -370,8 +380,7 @@ START_TEST(orders_are_exact_enough) {
   double *b = new_doubles(s.n * ORDER), *power = new_doubles(s.n * ORDER),
          *brute = new_doubles(s.n * ORDER), block[ORDER * ORDER], worst = 0;
   for (size_t k = 0; k < s.n * ORDER; k++) b[k] = test_random(&r) - .3;
-  ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, b, power, NULL, 1, NULL),
-                   HR2D_OK);
+  gather(s.clusters, ORDER, 1, b, power);
   for (size_t i = 0; i < s.n; i++)
     for (size_t j = 0; j < s.n; j++) {
       if (s.linked[i * s.n + j] == 0) continue;
@@ -407,10 +416,8 @@ START_TEST(gathers_are_symmetric) {
     double *u = new_doubles(count), *v = new_doubles(count), *ku = new_doubles(count),
            *kv = new_doubles(count);
     for (size_t k = 0; k < count; k++) u[k] = test_random(&r) - .5, v[k] = test_random(&r);
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, order, 1, u, ku, NULL, 1, NULL),
-                     HR2D_OK);
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, order, 1, v, kv, NULL, 1, NULL),
-                     HR2D_OK);
+    gather(s.clusters, order, 1, u, ku);
+    gather(s.clusters, order, 1, v, kv);
     const double size = sqrt(product(ku, ku, count) * product(v, v, count));
     ck_assert_double_le(fabs(product(ku, v, count) - product(kv, u, count)), 1e-13 * size);
     free(u);
@@ -432,16 +439,13 @@ START_TEST(bands_are_gathers) {
   double *b = new_doubles(count * BANDS), *power = new_doubles(count * BANDS),
          *one = new_doubles(count), *out = new_doubles(count);
   for (size_t k = 0; k < count * BANDS; k++) b[k] = test_random(&r);
-  ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, BANDS, b, power, NULL, 1, NULL),
-                   HR2D_OK);
+  gather(s.clusters, ORDER, BANDS, b, power);
   for (size_t band = 0; band < BANDS; band++) {
     for (size_t k = 0; k < count; k++) one[k] = b[k * BANDS + band], out[k] = 0;
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, one, out, NULL, 1, NULL),
-                     HR2D_OK);
+    gather(s.clusters, ORDER, 1, one, out);
     for (size_t k = 0; k < count; k++) ck_assert(out[k] == power[k * BANDS + band]);
     for (size_t k = 0; k < count; k++) out[k] = 1;
-    ck_assert_int_eq(hr2di_clusters_gather(s.clusters, ORDER, 1, one, out, NULL, 1, NULL),
-                     HR2D_OK);
+    gather(s.clusters, ORDER, 1, one, out);
     for (size_t k = 0; k < count; k++)
       ck_assert_double_le(fabs(out[k] - 1 - power[k * BANDS + band]), 1e-15);
   }
@@ -453,9 +457,11 @@ START_TEST(bands_are_gathers) {
 }
 END_TEST
 
-/* So many patches are worth several threads, and their links several slices. */
+/* So many patches are worth several threads, and their links several slices.  Room that is
+   used again has numbers of the last gather, here of more bands. */
 START_TEST(threads_gather_the_same) {
-  enum { ORDER = 2 };
+  enum { ORDER = 2, TIMES = 4, BANDS = 3 };
+  hr2di_cluster_room room = {0};
   hr2d_scene *scene = draw(&shapes[4], 4000, 0);
   const hr2d_allocator alloc = hr2di_alloc_default();
   sorted s = {.scene = scene, .n = hr2d_scene_patches(scene)};
@@ -463,16 +469,22 @@ START_TEST(threads_gather_the_same) {
                    HR2D_OK);
   const size_t count = s.n * ORDER;
   unsigned long r = test_seed();
-  double *b = new_doubles(count), *power[3];
-  for (size_t k = 0; k < count; k++) b[k] = test_random(&r);
-  for (unsigned k = 0; k < 3; k++) {
-    power[k] = new_doubles(count);
-    ck_assert_int_eq(
-        hr2di_clusters_gather(s.clusters, ORDER, 1, b, power[k], NULL, k + 1, NULL), HR2D_OK);
+  double *b = new_doubles(count * BANDS), *power[TIMES];
+  for (size_t k = 0; k < count * BANDS; k++) b[k] = test_random(&r);
+  for (unsigned k = 0; k < TIMES; k++) {
+    hr2di_cluster_gather how = {
+        .order = ORDER, .bands = BANDS, .threads = 1 + k, .room = k > 0 ? &room : NULL};
+    power[k] = new_doubles(count * BANDS);
+    if (k == 2) gather_by(s.clusters, &how, b, power[k]);
+    how.bands = 1;
+    memset(power[k], 0, count * sizeof *b);
+    gather_by(s.clusters, &how, b, power[k]);
     ck_assert_mem_eq(power[k], power[0], count * sizeof *b);
   }
   ck_assert(power[0][0] != 0);
-  for (int k = 0; k < 3; k++) free(power[k]);
+  ck_assert_uint_gt(room.values, 0);
+  hr2di_cluster_room_clear(&room);
+  for (int k = 0; k < TIMES; k++) free(power[k]);
   free(b);
   free_sorted(&s);
 }
@@ -576,7 +588,8 @@ START_TEST(allocations_fail_one_by_one) {
     if (status)
       ck_assert_ptr_null(clusters);
     else
-      status = hr2di_clusters_gather(clusters, 1, 1, b, power, NULL, 1, NULL);
+      status = hr2di_clusters_gather(clusters, &(hr2di_cluster_gather){.order = 1, .bands = 1},
+                                     b, power);
     failed = f.failures > 0;
     ck_assert_int_eq(status, failed ? HR2D_ENOMEM : HR2D_OK);
     hr2di_clusters_destroy(clusters);
