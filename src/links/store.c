@@ -80,6 +80,57 @@ static void *take(hr2di_store *store, const hr2d_allocator *alloc, size_t bytes)
   return taken;
 }
 
+static hr2d_pair pair_at(const hr2di_packed *p, size_t k) {
+  const uint32_t *element = p->element + p->begin[k / HR2DI_BLOCK_LINKS];
+  return (hr2d_pair){element[p->first[k]], element[p->second[k]]};
+}
+
+static int is_next(hr2d_pair pair, hr2d_pair to, uint32_t first, uint32_t second) {
+  return pair.first == to.first + first && pair.second == to.second + second;
+}
+
+/* Whether links from k on join i with j and j + 1, then i + 1 with both. */
+static int is_square(const hr2di_packed *p, size_t k) {
+  const hr2d_pair from = pair_at(p, k);
+  return is_next(pair_at(p, k + 1), from, 0, 1) && is_next(pair_at(p, k + 2), from, 1, 0) &&
+         is_next(pair_at(p, k + 3), from, 1, 1);
+}
+
+/* Whether couples that begin with these elements have none in common.  Those that are linked
+   never have. */
+static int are_apart(uint32_t a, uint32_t b) {
+  return a - b + 1 > 2;
+}
+
+/* Whether squares from link k on join a couple with two others, then another with the same. */
+static int is_large_square(const hr2di_packed *p, size_t k) {
+  hr2d_pair from[4];
+  for (size_t n = 0; n < 4; n++, k += HR2DI_SQUARE) {
+    if (!hr2di_store_is_marked(p->square, k)) return 0;
+    from[n] = pair_at(p, k);
+  }
+  return from[1].first == from[0].first && from[3].first == from[2].first &&
+         from[2].second == from[0].second && from[3].second == from[1].second &&
+         are_apart(from[0].first, from[3].first) && are_apart(from[0].second, from[3].second);
+}
+
+static void set_marks(const hr2di_packed *p, uint64_t *mark, size_t size,
+                      int (*is_one)(const hr2di_packed *, size_t)) {
+  memset(mark, 0, HR2DI_MARKS * sizeof *mark);
+  for (size_t from = 0; from < HR2DI_CHUNK_LINKS; from += HR2DI_BLOCK_LINKS)
+    for (size_t k = from; k + size <= from + HR2DI_BLOCK_LINKS;) {
+      const int one = is_one(p, k);
+      mark[k / 64] |= (uint64_t)one << k % 64;
+      k += one ? size : 1;
+    }
+}
+
+/* Marks squares, none of which goes on in the next block. */
+static void mark_squares(hr2di_packed *p) {
+  set_marks(p, p->square, HR2DI_SQUARE, is_square);
+  set_marks(p, p->large, HR2DI_LARGE_SQUARE, is_large_square);
+}
+
 static void write_packed(const packer *p, const hr2d_link *link, hr2di_packed *data) {
   for (size_t k = 0; k < HR2DI_CHUNK_LINKS; k++) data->area[k] = link[k].exchange_area;
   memcpy(data->first, p->first, sizeof data->first);
@@ -102,6 +153,7 @@ static hr2d_status close_packed(hr2di_store *store, const hr2d_allocator *alloc)
   if (packed) {
     write_packed(&p, store->open, data);
     memcpy(((hr2di_packed *)data)->begin, begin, sizeof begin);
+    mark_squares(data);
   } else {
     memcpy(data, store->open, PLAIN_BYTES);
   }
@@ -161,16 +213,22 @@ static void rename_links(hr2d_link *link, size_t count, const uint32_t *number) 
     link[k].pair = (hr2d_pair){number[link[k].pair.first], number[link[k].pair.second]};
 }
 
-void hr2di_store_rename(hr2di_store *store, const uint32_t *number) {
+hr2d_status hr2di_store_rename(hr2di_store *store, const uint32_t *number, hr2di_watch *watch) {
   for (size_t k = 0; k < store->full; k++) {
+    const hr2d_status status = hr2di_watch_work(watch, HR2DI_CHUNK_LINKS / 64);
+    if (status) return status;
     const hr2di_chunk *chunk = &store->chunk[k];
     hr2di_packed *p = chunk->data;
     for (size_t m = 0; m < chunk->elements; m++) p->element[m] = number[p->element[m]];
-    if (!chunk->elements) rename_links(chunk->data, HR2DI_CHUNK_LINKS, number);
+    if (chunk->elements)
+      mark_squares(p);
+    else
+      rename_links(chunk->data, HR2DI_CHUNK_LINKS, number);
   }
   if (store->open)
     rename_links(store->open,
                  (size_t)(store->count - (uint64_t)store->full * HR2DI_CHUNK_LINKS), number);
+  return HR2D_OK;
 }
 
 void hr2di_store_clear(hr2di_store *store, const hr2d_allocator *alloc) {

@@ -5,6 +5,10 @@
    that a block has few: a packed one lists them once, and a link has two places in this list, a
    byte each, beside its exchange area.  It saves a third of the memory, and takes more time.  A
    chunk of a block with more than 256 elements, or that is not full, keeps links as they are.
+
+   Nearly all links are four in a square: they join two elements, which are neighbours, with two
+   others.  Squares are mostly four in a large one, which joins two such couples with two
+   others. A packed chunk marks where they begin, as gathers keep sums of couples in registers.
  */
 #ifndef HR2D_SRC_LINKS_STORE_H
 #define HR2D_SRC_LINKS_STORE_H
@@ -12,18 +16,24 @@
 #include <hr2d/linkset.h>
 #include <hr2d/memory.h>
 
+#include "base/watch.h"
+
 enum {
   HR2DI_CHUNK_LINKS = 4096,
   HR2DI_BLOCK_LINKS = 1024,
   HR2DI_CHUNK_BLOCKS = HR2DI_CHUNK_LINKS / HR2DI_BLOCK_LINKS,
-  HR2DI_BLOCK_ELEMENTS = 256 /* of a packed block, at most */
+  HR2DI_BLOCK_ELEMENTS = 256, /* of a packed block, at most */
+  HR2DI_SQUARE = 4,
+  HR2DI_LARGE_SQUARE = 16,
+  HR2DI_MARKS = HR2DI_CHUNK_LINKS / 64
 };
 
 typedef struct hr2di_packed {
   double area[HR2DI_CHUNK_LINKS];
   unsigned char first[HR2DI_CHUNK_LINKS],
-      second[HR2DI_CHUNK_LINKS];      /* in the list of a block */
-  uint32_t begin[HR2DI_CHUNK_BLOCKS]; /* of the lists, in `element` */
+      second[HR2DI_CHUNK_LINKS];                    /* in the list of a block */
+  uint64_t square[HR2DI_MARKS], large[HR2DI_MARKS]; /* bit k: one begins at link k */
+  uint32_t begin[HR2DI_CHUNK_BLOCKS];               /* of the lists, in `element` */
   uint32_t element[];
 } hr2di_packed;
 
@@ -53,8 +63,9 @@ hr2d_status hr2di_store_add(hr2di_store *store, const hr2d_allocator *alloc,
 /* The bytes that hr2di_store_add() may allocate for up to HR2DI_CHUNK_LINKS links. */
 uint64_t hr2di_store_growth(const hr2di_store *store, size_t count);
 
-/* Gives the elements of all links other numbers. */
-void hr2di_store_rename(hr2di_store *store, const uint32_t *number);
+/* Gives the elements of all links other numbers.  HR2D_OK, or the status of the watch with some
+   of them renamed. */
+hr2d_status hr2di_store_rename(hr2di_store *store, const uint32_t *number, hr2di_watch *watch);
 
 void hr2di_store_clear(hr2di_store *store, const hr2d_allocator *alloc);
 
@@ -65,6 +76,10 @@ uint64_t hr2di_store_bytes(const hr2di_store *store);
 enum { HR2DI_READ_LINKS = 256 };
 const hr2d_link *hr2di_store_read(const hr2di_store *store, uint64_t first, size_t *count,
                                   hr2d_link *room);
+
+static inline int hr2di_store_is_marked(const uint64_t *mark, size_t k) {
+  return (int)(mark[k / 64] >> k % 64 & 1);
+}
 
 /* The number of chunks, of which the last may not be full. */
 static inline size_t hr2di_store_chunks(const hr2di_store *store) {

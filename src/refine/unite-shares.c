@@ -96,7 +96,7 @@ hr2d_status hr2di_unite_shares(hr2d_hierarchy *h, hr2d_share *share, size_t elem
   const hr2d_allocator *alloc = &h->alloc;
   uniting u = {.h = h, .share = share, .watch = watch};
   status = unite(&u, elements, status);
-  if (!status) hr2di_store_rename(made, u.united);
+  if (!status) status = hr2di_store_rename(made, u.united, watch);
   if (status && h->elements > elements) hr2di_hierarchy_truncate(h, elements);
   hr2d_hierarchy_destroy(u.own);
   hr2di_alloc_free(alloc, u.united);

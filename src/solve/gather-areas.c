@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A sum that was just stored is not loaded again at once, so that a link after the other takes
-   the time of that, not of its products.  In one band and both ways nearly all links are four
-   in a square: they join two elements, which are neighbours, with two others.  Their sums stay
-   in registers.  Packed squares are mostly four in a large one, which joins two couples with
-   two others: that pays for the search of their elements. */
+   the time of that, not of its products.  In one band and both ways sums of squares of links
+   stay in registers, see store.h. */
 #include "solve/gather-areas.h"
 
 #include <string.h>
+
+#include "base/wide.h"
 
 static void gather_each(const hr2d_link *link, size_t count, size_t bands, int directed,
                         const double *up, double *down) {
@@ -59,7 +59,7 @@ static inline void gather_square(hr2d_pair p, const double *area, size_t stride,
   store(&j, p.second, down);
 }
 
-enum { SQUARE = 4, LARGE = 16, AREA_STRIDE = sizeof(hr2d_link) / sizeof(double) };
+enum { AREA_STRIDE = sizeof(hr2d_link) / sizeof(double) };
 
 /* The elements of a link in one number. */
 static inline uint64_t ends_of(const hr2d_link *link) {
@@ -75,67 +75,20 @@ static inline int is_square(const hr2d_link *link) {
 static void gather_links(const hr2d_link *link, size_t count, const double *up, double *down) {
   for (size_t k = 0; k < count;) {
     const hr2d_link *at = link + k;
-    if (k + SQUARE > count || !is_square(at)) {
+    if (k + HR2DI_SQUARE > count || !is_square(at)) {
       gather_one(at->pair, at->exchange_area, up, down);
       k++;
     } else {
       gather_square(at->pair, &at->exchange_area, AREA_STRIDE, up, down);
-      k += SQUARE;
+      k += HR2DI_SQUARE;
     }
   }
 }
 
-/* The links of a packed block: places of their elements in its list. */
-typedef struct block {
-  const uint32_t *element;
-  const unsigned char *first, *second;
-  const double *area;
-} block;
+/* A large square, whose first and last square begin with p and q. */
+typedef void (*gather_large_fn)(hr2d_pair p, hr2d_pair q, const double *area, const double *up,
+                                double *down);
 
-static inline hr2d_pair pair_of(const block *b, size_t k) {
-  return (hr2d_pair){b->element[b->first[k]], b->element[b->second[k]]};
-}
-
-/* Four places in one number. */
-static inline uint32_t four(const unsigned char *place) {
-  uint32_t all;
-  memcpy(&all, place, sizeof all);
-  return all;
-}
-
-/* Whether places of first elements are i, i, k, k and those of second ones j, l, j, l. */
-static inline int has_places_of_square(uint32_t first, uint32_t second) {
-  const uint32_t odd = 0xff00ff, swapped = (first & odd) << 8 | (first >> 8 & odd);
-  return ((first ^ swapped) | (second ^ (second << 16 | second >> 16))) == 0;
-}
-
-/* Whether the four links from number k on are a square. */
-static inline int is_packed_square(const block *b, size_t k) {
-  const hr2d_pair p = pair_of(b, k), q = pair_of(b, k + 3);
-  return has_places_of_square(four(b->first + k), four(b->second + k)) &&
-         q.first == p.first + 1 && q.second == p.second + 1;
-}
-
-/* Whether couples that begin with these elements have none in common.  Those that are linked
-   never have. */
-static inline int are_apart(uint32_t a, uint32_t b) {
-  return a - b + 1 > 2;
-}
-
-/* The same for a large square, whose first square is one: squares in a row have the same places
-   of first elements, those in a column of second ones. */
-static inline int is_packed_large(const block *b, size_t k) {
-  const unsigned char *i = b->first + k, *j = b->second + k;
-  const uint32_t rows =
-      (four(i) ^ four(i + SQUARE)) | (four(i + 2 * SQUARE) ^ four(i + 3 * SQUARE));
-  const uint32_t columns =
-      (four(j) ^ four(j + 2 * SQUARE)) | (four(j + SQUARE) ^ four(j + 3 * SQUARE));
-  const hr2d_pair p = pair_of(b, k), q = pair_of(b, k + 3 * SQUARE);
-  return (rows | columns) == 0 && is_packed_square(b, k + 3 * SQUARE) &&
-         are_apart(p.first, q.first) && are_apart(p.second, q.second);
-}
-
-/* Squares join p.first with p.second and with q.second, then q.first with both. */
 static inline void gather_large(hr2d_pair p, hr2d_pair q, const double *area, const double *up,
                                 double *down) {
   couple i = load(p.first, up, down), j = load(p.second, up, down);
@@ -150,30 +103,75 @@ static inline void gather_large(hr2d_pair p, hr2d_pair q, const double *area, co
   store(&l, q.second, down);
 }
 
-static void gather_block(const block *b, const double *up, double *down) {
-  for (size_t k = 0; k < HR2DI_BLOCK_LINKS;) {
-    if (k + SQUARE > HR2DI_BLOCK_LINKS || !is_packed_square(b, k)) {
-      gather_one(pair_of(b, k), b->area[k], up, down);
-      k++;
-    } else if (k + LARGE > HR2DI_BLOCK_LINKS || !is_packed_large(b, k)) {
-      gather_square(pair_of(b, k), b->area + k, 1, up, down);
-      k += SQUARE;
+HR2DI_PART void gather_block(const hr2di_packed *p, size_t from, const double *up, double *down,
+                             gather_large_fn large) {
+  const uint32_t *element = p->element + p->begin[from / HR2DI_BLOCK_LINKS];
+  for (size_t k = from; k < from + HR2DI_BLOCK_LINKS;) {
+    const hr2d_pair at = {element[p->first[k]], element[p->second[k]]};
+    const double *area = p->area + k;
+    if (hr2di_store_is_marked(p->large, k)) {
+      const size_t last = k + HR2DI_LARGE_SQUARE - HR2DI_SQUARE;
+      large(at, (hr2d_pair){element[p->first[last]], element[p->second[last]]}, area, up, down);
+      k += HR2DI_LARGE_SQUARE;
+    } else if (hr2di_store_is_marked(p->square, k)) {
+      gather_square(at, area, 1, up, down);
+      k += HR2DI_SQUARE;
     } else {
-      gather_large(pair_of(b, k), pair_of(b, k + 3 * SQUARE), b->area + k, up, down);
-      k += LARGE;
+      gather_one(at, *area, up, down);
+      k++;
     }
   }
 }
 
+#ifdef HR2D_AVX2
+HR2DI_AVX2 static inline __m256d join(const double *low, const double *high) {
+  return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(low)), _mm_loadu_pd(high), 1);
+}
+
+HR2DI_AVX2 static inline void split(__m256d all, double *low, double *high) {
+  _mm_storeu_pd(low, _mm256_castpd256_pd128(all));
+  _mm_storeu_pd(high, _mm256_extractf128_pd(all, 1));
+}
+
+HR2DI_AVX2 static inline __m256d add(__m256d sum, __m256d area, const double *from) {
+  return _mm256_add_pd(sum, _mm256_mul_pd(area, _mm256_broadcast_sd(from)));
+}
+
+/* The areas are rows of a 4×4 matrix, for two couples, and its columns for the two others. */
+HR2DI_AVX2 static inline void gather_large_wide(hr2d_pair p, hr2d_pair q, const double *area,
+                                                const double *up, double *down) {
+  const double *i = up + p.first, *k = up + q.first, *j = up + p.second, *l = up + q.second;
+  const __m256d a = join(area, area + 4), b = join(area + 2, area + 6),
+                c = join(area + 8, area + 12), d = join(area + 10, area + 14);
+  const __m256d ab = _mm256_unpacklo_pd(a, b), ab_next = _mm256_unpackhi_pd(a, b),
+                cd = _mm256_unpacklo_pd(c, d), cd_next = _mm256_unpackhi_pd(c, d);
+  __m256d to = join(down + p.first, down + q.first);
+  to = add(to, _mm256_permute2f128_pd(ab, cd, 0x20), j);
+  to = add(to, _mm256_permute2f128_pd(ab_next, cd_next, 0x20), j + 1);
+  to = add(to, _mm256_permute2f128_pd(ab, cd, 0x31), l);
+  to = add(to, _mm256_permute2f128_pd(ab_next, cd_next, 0x31), l + 1);
+  split(to, down + p.first, down + q.first);
+  to = join(down + p.second, down + q.second);
+  to = add(add(add(add(to, a, i), b, i + 1), c, k), d, k + 1);
+  split(to, down + p.second, down + q.second);
+}
+
+HR2DI_AVX2 static void gather_packed_avx2(const hr2di_packed *p, const double *up,
+                                          double *down) {
+  for (size_t k = 0; k < HR2DI_CHUNK_LINKS; k += HR2DI_BLOCK_LINKS)
+    gather_block(p, k, up, down, gather_large_wide);
+}
+#else
+#define gather_packed_avx2(p, up, down)
+#endif
+
 static void gather_packed(const hr2di_packed *p, const double *up, double *down) {
-  for (size_t b = 0; b < HR2DI_CHUNK_BLOCKS; b++) {
-    const size_t from = b * HR2DI_BLOCK_LINKS;
-    gather_block(&(block){.element = p->element + p->begin[b],
-                          .first = p->first + from,
-                          .second = p->second + from,
-                          .area = p->area + from},
-                 up, down);
+  if (hr2di_wide()) {
+    gather_packed_avx2(p, up, down);
+    return;
   }
+  for (size_t k = 0; k < HR2DI_CHUNK_LINKS; k += HR2DI_BLOCK_LINKS)
+    gather_block(p, k, up, down, gather_large);
 }
 
 void hr2di_gather_areas(const hr2di_store *store, size_t chunk, size_t bands, int directed,

@@ -58,6 +58,14 @@ static void check(const hr2di_store *store, const hr2d_pair *pair, const double 
 
 enum { SETS = 20 };
 
+/* The large squares of the first chunk. */
+static size_t count_large(const hr2di_store *store) {
+  size_t count = 0;
+  for (size_t k = 0; k < HR2DI_CHUNK_LINKS; k++)
+    count += (size_t)hr2di_store_is_marked(((hr2di_packed *)store->chunk[0].data)->large, k);
+  return count;
+}
+
 START_TEST(sums_are_those_of_plain_loops) {
   static hr2d_pair pair[LINKS];
   static double area[LINKS];
@@ -76,6 +84,40 @@ START_TEST(sums_are_those_of_plain_loops) {
 }
 END_TEST
 
+/* A hierarchy gives elements other numbers: neighbours mostly stay neighbours, and some pairs
+   become so. */
+START_TEST(renamed_elements_gather_the_same) {
+  static hr2d_pair pair[LINKS];
+  static double area[LINKS];
+  const hr2d_allocator alloc = hr2di_alloc_default();
+  randoms r = {test_seed()};
+  size_t before = 0, after = 0;
+  for (int n = 0; n < SETS; n++) {
+    hr2di_store store = {.packs = 1};
+    uint32_t number[ELEMENTS];
+    for (uint32_t k = 0; k < ELEMENTS; k++) number[k] = k;
+    for (int swaps = 0; swaps < 8; swaps++) {
+      const size_t k = (size_t)random_below(&r, ELEMENTS - 1);
+      const uint32_t kept = number[k];
+      number[k] = number[k + 1];
+      number[k + 1] = kept;
+    }
+    draw(&r, pair, area, LINKS);
+    ck_assert_int_eq(hr2di_store_add(&store, &alloc, pair, area, LINKS), HR2D_OK);
+    before += count_large(&store);
+    ck_assert_int_eq(hr2di_store_rename(&store, number, NULL), HR2D_OK);
+    after += count_large(&store);
+    for (size_t k = 0; k < LINKS; k++)
+      pair[k] = (hr2d_pair){number[pair[k].first], number[pair[k].second]};
+    check(&store, pair, area, 1, 0, &r);
+    hr2di_store_clear(&store, &alloc);
+  }
+  ck_assert_uint_gt(after, SETS);
+  ck_assert_uint_gt(before, after);
+}
+END_TEST
+
 TEST_SUITE("gathers over areas") {
   REPEAT_TESTS(2, "links", sums_are_those_of_plain_loops);
+  ADD_TESTS("names", renamed_elements_gather_the_same);
 }
