@@ -174,6 +174,25 @@ static hr2d_status add_under(hr2di_grader *g, uint32_t end, uint32_t patch) {
   return HR2D_OK;
 }
 
+/* The end of a patch stands between the ends of this patch. */
+static hr2d_status add_standing(hr2di_grader *g, uint32_t patch, const hr2di_grading_vertex *v,
+                                double at, hr2d_point point) {
+  const hr2d_status status = rises(g->h->scene, patch, v)
+                                 ? add_under(g, 2 * v->patch + (uint32_t)v->last, patch)
+                                 : HR2D_OK;
+  return status ? status : add_mark(g, at, point, grade_at(g, patch, v, at));
+}
+
+/* A wall may end before a patch or behind it by what commit takes for a touch.  Where the patch
+   sees no gap there is none, and B jumps. */
+static hr2d_status place_touching(hr2di_grader *g, uint32_t patch,
+                                  const hr2di_grading_vertex *v, double above, double at) {
+  const hr2di_patch *p = &g->h->scene->patch[patch];
+  if (fabs(above) > HR2DI_TOUCH / p->length || at < ON_LINE || at > 1 - ON_LINE) return HR2D_OK;
+  if (!rises(g->h->scene, patch, v)) return HR2D_OK;
+  return add_standing(g, patch, v, at, hr2di_point_at(p->scaled, at));
+}
+
 /* Sorts a vertex into the marks if it is on the patch, into the near ones if it is in front, or
    on the line of the patch with its own patch in front. */
 static hr2d_status place(hr2di_grader *g, uint32_t patch, uint32_t number) {
@@ -188,19 +207,16 @@ static hr2d_status place(hr2di_grader *g, uint32_t patch, uint32_t number) {
   const double at = ((v->at.x - s.a.x) * ux + (v->at.y - s.a.y) * uy) / square;
   const double least = fmin(ON_LINE, HR2DI_TOUCH / p->length);
   if (v->inside) return above > least ? add_near(g, s, v->at) : HR2D_OK;
-  if (above > least && g->seen && !hr2di_seen_ends_has(g->seen, v->patch, v->last))
-    return HR2D_OK;
-  if (above > least) return add_near(g, s, v->at);
-  if (above < -least) return HR2D_OK;
+  const int sees =
+      above > least && (!g->seen || hr2di_seen_ends_has(g->seen, v->patch, v->last));
+  if (sees) return add_near(g, s, v->at);
+  if (fabs(above) > least) return place_touching(g, patch, v, above, at);
   if (at < -ON_LINE || at > 1 + ON_LINE)
     return rises(g->h->scene, patch, v) ? add_near(g, s, v->at) : HR2D_OK;
   const hr2di_grading_mark mark = grade_at(g, patch, v, at);
   if (at < ON_LINE) return add_mark(g, 0, s.a, mark);
   if (at > 1 - ON_LINE) return add_mark(g, 1, s.b, mark);
-  const hr2d_status status = rises(g->h->scene, patch, v)
-                                 ? add_under(g, 2 * v->patch + (uint32_t)v->last, patch)
-                                 : HR2D_OK;
-  return status ? status : add_mark(g, at, v->at, mark);
+  return add_standing(g, patch, v, at, v->at);
 }
 
 /* Places the vertices that may be near a patch: those in a window of x, and of y. */

@@ -112,6 +112,46 @@ START_TEST(a_dark_room_is_dark) {
 }
 END_TEST
 
+/* The same rooms with walls of so many pieces that shares of the error choose elements.  Far
+   from the origin the wall between them ends behind the others by roundings, where B jumps. */
+START_TEST(a_crowd_beside_a_dark_room) {
+  enum { PIECES = 14 };
+  static const double shift[] = {5e5, 3e5, 1e6, 2e5, 7e5, 4e5};
+  const stage s = two_rooms(shift[_i], 0);
+  hr2d_scene *scene = NULL;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  for (size_t k = 0; k < s.count * PIECES; k++) {
+    const double *p = s.patch[k / PIECES];
+    double end[2][2];
+    for (int m = 0; m < 4; m++) {
+      const size_t n = k % PIECES + (size_t)(m / 2);
+      end[m / 2][m % 2] = n == PIECES
+                              ? p[2 + m % 2]
+                              : p[m % 2] + (double)n / PIECES * (p[2 + m % 2] - p[m % 2]);
+    }
+    const hr2d_patch patch = {.a = {end[0][0], end[0][1]},
+                              .b = {end[1][0], end[1][1]},
+                              .emission = &p[4],
+                              .emission_bands = 1,
+                              .reflectance = &p[5],
+                              .reflectance_bands = 1,
+                              .sides = s.both[k / PIECES] ? HR2D_SIDES_BOTH : HR2D_SIDES_FRONT};
+    ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
+  }
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  for (double error = 1e-1; error > 1e-4; error *= 1e-1) {
+    hr2d_account a;
+    hr2d_solution *solution = solve(scene, error, &a);
+    const double lamp = hr2d_solution_average(solution, 3 * PIECES, 0);
+    const double bound = fmax(a.average.bound, error) * HR2D_FLOOR * lamp;
+    for (size_t p = PIECES; p < 2 * PIECES; p++)
+      ck_assert_double_le(hr2d_solution_average(solution, p, 0), bound + 1e-8);
+    hr2d_solution_destroy(solution);
+  }
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 /* Averages relative to themselves are harder than relative to a part of the brightest. */
 START_TEST(the_floor_counts) {
   const stage s = two_rooms(0, 1e-9);
@@ -261,5 +301,6 @@ END_TEST
 TEST_SUITE("dark") {
   REPEAT_TESTS(3, "hidden sky", nothing_of_a_hidden_sky_arrives);
   REPEAT_TESTS(3, "rooms", a_dark_room_is_dark);
+  REPEAT_TESTS(6, "rooms", a_crowd_beside_a_dark_room);
   ADD_TESTS("rooms", the_floor_counts, a_black_room_has_irradiance, offsets_are_in_the_bound);
 }
