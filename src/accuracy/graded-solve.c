@@ -149,6 +149,12 @@ static hr2d_status check_blocks(const hr2di_graded *a, const hr2di_resolution *f
                             (unsigned long long)most, (unsigned long long)links);
 }
 
+/* Where nothing is divided nobody has looked whether the patches themselves are too many. */
+static hr2d_status check_elements(const hr2di_graded *a, const hr2d_target *target) {
+  const uint64_t most = target->max_elements;
+  return most && a->hierarchy->elements > most ? HR2D_EMAX_ELEMENTS : HR2D_OK;
+}
+
 static hr2d_status explain(const hr2di_graded *a, hr2d_status status, hr2di_message *message) {
   if (!status) return status;
   const char *own = a->links ? hr2d_linkset_message(a->links) : "";
@@ -164,6 +170,7 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
   if (!status) a->hierarchy->order = fineness->order;
   if (!status) a->hierarchy->looks = fineness->looks;
   if (!status) status = grade(a, fineness, target);
+  if (!status) status = check_elements(a, target);
   if (!status) status = link_elements(a, NULL, fineness, target);
   if (!status) status = check_blocks(a, fineness, target);
   a->refine_seconds = hr2di_clock_now() - start;

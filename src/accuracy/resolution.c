@@ -58,15 +58,22 @@ static int is_crowded(const hr2d_scene *scene, int hidden) {
 }
 
 /* Down to SHARED_AIM shares of a known error find the elements that matter sooner than lights
-   and events do, and from fewer elements on. */
-#define SHARED_AIM 1e-4
+   and events do, and from fewer elements on.  Few patches have few events: below FEW_SHARED_AIM
+   these are cheaper. */
+#define SHARED_AIM     1e-4
+#define FEW_SHARED_AIM 1e-3
+
+/* Among few patches, where grading leaves an end nearer to an element than that, the gap is of
+   the size of roundings: halving elements is no use there. */
+#define RESOLVED 1.5
 
 /* Blocks of shaded pairs take about as long at any low order, and links become fewer. */
 enum { SHARED_ORDER = 5 };
 
 static int by_shares(const hr2d_scene *scene, const hr2d_target *target, double aim) {
-  return is_crowded(scene, is_hidden(scene)) && target->norm == HR2D_NORM_AVERAGE &&
-         !target->no_error && aim >= SHARED_AIM;
+  const int hidden = is_hidden(scene);
+  return hidden && target->norm == HR2D_NORM_AVERAGE && !target->no_error &&
+         aim >= (is_crowded(scene, hidden) ? SHARED_AIM : FEW_SHARED_AIM);
 }
 
 /* A kink of radiosity inside an element changes values at points more than averages. */
@@ -159,7 +166,8 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
                                       double aim, const hr2d_target *target,
                                       const hr2di_lights *lights) {
   const hr2d_norm norm = target->norm;
-  const int shared = by_shares(scene, target, aim);
+  const int shared = by_shares(scene, target, aim) &&
+                     (is_crowded(scene, is_hidden(scene)) || survey->ellipse >= RESOLVED);
   if (shared) lights = NULL;
   const double many = is_crowded(scene, is_hidden(scene)) && lights ? MANY_PARTS : 1;
   const double error = aim * fmax(survey->exponent * survey->exponent, 1e-3);
@@ -187,7 +195,7 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
   f.crowded = is_crowded(scene, hidden);
   if (!f.crowded && f.generations == 0) f.generations = generations_of_sky(scene);
   if (f.crowded && lights && scene->patches > CROWD_LIT) spare_elements(&f, aim);
-  f.shares = f.crowded && norm == HR2D_NORM_AVERAGE;
+  f.shares = shared || (f.crowded && norm == HR2D_NORM_AVERAGE);
   if (shared) leave_to_shares(&f);
   if (f.crowded && aim >= CROWDED_AIM && (lights || !f.shares)) f.halvings = aim < THREE;
   return f;
