@@ -29,6 +29,9 @@
 
 enum { DEEPEST = 40 };
 
+/* From this order on rows of blocks of elements that end at a touch may exceed 1. */
+enum { HIGH = 6 };
+
 static int by_x(const void *a, const void *b) {
   const hr2di_grading_vertex *p = a, *q = b;
   if (p->at.x != q->at.x) return p->at.x < q->at.x ? -1 : 1;
@@ -174,23 +177,17 @@ static hr2d_status add_under(hr2di_grader *g, uint32_t end, uint32_t patch) {
   return HR2D_OK;
 }
 
-/* The end of a patch stands between the ends of this patch. */
-static hr2d_status add_standing(hr2di_grader *g, uint32_t patch, const hr2di_grading_vertex *v,
-                                double at, hr2d_point point) {
-  const hr2d_status status = rises(g->h->scene, patch, v)
-                                 ? add_under(g, 2 * v->patch + (uint32_t)v->last, patch)
-                                 : HR2D_OK;
-  return status ? status : add_mark(g, at, point, grade_at(g, patch, v, at));
-}
-
 /* A wall may end before a patch or behind it by what commit takes for a touch.  Where the patch
-   sees no gap there is none, and B jumps. */
+   sees no gap there is none, and B jumps.  Elements end there where they are few, which the
+   jump would cross.  They do not shrink towards it: the corner is known to that touch alone,
+   and short ones of the wall are behind the patch.  Blocks of a high order do not bear the
+   touch. */
 static hr2d_status place_touching(hr2di_grader *g, uint32_t patch,
                                   const hr2di_grading_vertex *v, double above, double at) {
   const hr2di_patch *p = &g->h->scene->patch[patch];
   if (fabs(above) > HR2DI_TOUCH / p->length || at < ON_LINE || at > 1 - ON_LINE) return HR2D_OK;
-  if (!rises(g->h->scene, patch, v)) return HR2D_OK;
-  return add_standing(g, patch, v, at, hr2di_point_at(p->scaled, at));
+  if (g->grading->order >= HIGH || !rises(g->h->scene, patch, v)) return HR2D_OK;
+  return add_mark(g, at, hr2di_point_at(p->scaled, at), (hr2di_grading_mark){.depth = 0});
 }
 
 /* Sorts a vertex into the marks if it is on the patch, into the near ones if it is in front, or
@@ -216,7 +213,10 @@ static hr2d_status place(hr2di_grader *g, uint32_t patch, uint32_t number) {
   const hr2di_grading_mark mark = grade_at(g, patch, v, at);
   if (at < ON_LINE) return add_mark(g, 0, s.a, mark);
   if (at > 1 - ON_LINE) return add_mark(g, 1, s.b, mark);
-  return add_standing(g, patch, v, at, v->at);
+  const hr2d_status status = rises(g->h->scene, patch, v)
+                                 ? add_under(g, 2 * v->patch + (uint32_t)v->last, patch)
+                                 : HR2D_OK;
+  return status ? status : add_mark(g, at, v->at, mark);
 }
 
 /* Places the vertices that may be near a patch: those in a window of x, and of y. */

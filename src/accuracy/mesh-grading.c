@@ -116,13 +116,19 @@ static void divide_at(hr2di_grader *g, uint32_t element, double cut) {
     hr2di_element_divide(g->h, element, cut, at);
 }
 
+/* Elements that are as short as elements may be make nothing of averages, however near an end
+   is. */
+static int matters(const hr2di_grader *g, const part *e) {
+  return g->grading->norm == HR2D_NORM_SUP || e->to - e->from >= g->shortest;
+}
+
 static hr2d_status divide(hr2di_grader *g, part *e, int *divided) {
   hr2d_hierarchy *h = g->h;
   const hr2di_grading_mark *inside = mark_inside(g, e);
   const double least = sort_near(g, e);
   const double cut = inside ? 0 : cut_of(g, e, least);
   *divided = h->element[e->element].child || inside || cut > 0;
-  if (!*divided) g->survey.ellipse = fmin(g->survey.ellipse, least);
+  if (!*divided && matters(g, e)) g->survey.ellipse = fmin(g->survey.ellipse, least);
   if (!*divided || h->element[e->element].child) return HR2D_OK;
   if (g->grading->max_elements && h->elements + 2 > g->grading->max_elements)
     return HR2D_EMAX_ELEMENTS;

@@ -59,7 +59,7 @@ static int is_crowded(const hr2d_scene *scene, int hidden) {
 
 /* Down to SHARED_AIM shares of a known error find the elements that matter sooner than lights
    and events do, and from fewer elements on.  Few patches have few events: below FEW_SHARED_AIM
-   these are cheaper. */
+   these are cheaper, and a budget of seconds goes on to such targets. */
 #define SHARED_AIM     1e-4
 #define FEW_SHARED_AIM 1e-3
 
@@ -72,8 +72,9 @@ enum { SHARED_ORDER = 5 };
 
 static int by_shares(const hr2d_scene *scene, const hr2d_target *target, double aim) {
   const int hidden = is_hidden(scene);
-  return hidden && target->norm == HR2D_NORM_AVERAGE && !target->no_error &&
-         aim >= (is_crowded(scene, hidden) ? SHARED_AIM : FEW_SHARED_AIM);
+  if (!hidden || target->norm != HR2D_NORM_AVERAGE || target->no_error) return 0;
+  if (is_crowded(scene, hidden)) return aim >= SHARED_AIM;
+  return aim >= FEW_SHARED_AIM && !(target->seconds > 0);
 }
 
 /* A kink of radiosity inside an element changes values at points more than averages. */
