@@ -178,10 +178,8 @@ static hr2d_status add_under(hr2di_grader *g, uint32_t end, uint32_t patch) {
 }
 
 /* A wall may end before a patch or behind it by what commit takes for a touch.  Where the patch
-   sees no gap there is none, and B jumps.  Elements end there where they are few, which the
-   jump would cross.  They do not shrink towards it: the corner is known to that touch alone,
-   and short ones of the wall are behind the patch.  Blocks of a high order do not bear the
-   touch. */
+   sees no gap there is none, and B jumps.  Elements end there and do not shrink towards it: the
+   corner is known to that touch alone, and short ones of the wall are behind the patch. */
 static hr2d_status place_touching(hr2di_grader *g, uint32_t patch,
                                   const hr2di_grading_vertex *v, double above, double at) {
   const hr2di_patch *p = &g->h->scene->patch[patch];

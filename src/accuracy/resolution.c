@@ -63,10 +63,6 @@ static int is_crowded(const hr2d_scene *scene, int hidden) {
 #define SHARED_AIM     1e-4
 #define FEW_SHARED_AIM 1e-3
 
-/* Among few patches, where grading leaves an end nearer to an element than that, the gap is of
-   the size of roundings: halving elements is no use there. */
-#define RESOLVED 1.5
-
 /* Blocks of shaded pairs take about as long at any low order, and links become fewer. */
 enum { SHARED_ORDER = 5 };
 
@@ -167,8 +163,7 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
                                       double aim, const hr2d_target *target,
                                       const hr2di_lights *lights) {
   const hr2d_norm norm = target->norm;
-  const int shared = by_shares(scene, target, aim) &&
-                     (is_crowded(scene, is_hidden(scene)) || survey->ellipse >= RESOLVED);
+  const int shared = by_shares(scene, target, aim);
   if (shared) lights = NULL;
   const double many = is_crowded(scene, is_hidden(scene)) && lights ? MANY_PARTS : 1;
   const double error = aim * fmax(survey->exponent * survey->exponent, 1e-3);

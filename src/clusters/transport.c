@@ -328,6 +328,8 @@ static hr2d_status enlarge(hr2di_cluster_room *room, const hr2d_allocator *alloc
 static hr2d_status reserve(gather *g, hr2di_cluster_room *room, unsigned threads) {
   g->slices = count_slices(g);
   hr2di_basis_init(&g->basis, g->order);
+  if (g->c->points > SIZE_MAX / sizeof *g->sent / g->planes) return HR2D_ENOMEM;
+  g->field = g->c->points * g->planes;
   if (enlarge(room, &g->c->alloc, 1 + g->slices, g->field)) return HR2D_ENOMEM;
   g->sent = room->value;
   g->received = g->sent + g->field;
@@ -349,7 +351,6 @@ hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, const hr2di_cluster_
               .order = how->order,
               .bands = how->bands,
               .planes = 2 * how->bands,
-              .field = clusters->points * 2 * how->bands,
               .share = how->share,
               .radiosity = radiosity,
               .power = power,

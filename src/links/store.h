@@ -3,8 +3,9 @@
 
    Links are kept in chunks of four blocks.  Neighbours in the store share their elements, so
    that a block has few: a packed one lists them once, and a link has two places in this list, a
-   byte each, beside its exchange area.  It saves a third of the memory, and takes more time.  A
-   chunk of a block with more than 256 elements, or that is not full, keeps links as they are.
+   byte each, beside its exchange area.  It saves a third of the memory, and takes more time to
+   store.  A chunk of a block with more than 256 elements, or that is not full, keeps links as
+   they are.
 
    Nearly all links are four in a square: they join two elements, which are neighbours, with two
    others.  Squares are mostly four in a large one, which joins two such couples with two
