@@ -79,9 +79,9 @@ static void nothing_is_negative(const adv_answer *a, adv_outcome *outcome) {
 /* With the true B and H, emitted + received − absorbed − escaped is 0.  Averages that are off
    by their stated errors add ∫(1−ρ)|δH| and at most ∫|δB|.  Row sums, from which what escapes
    and what comes in are computed, are within 1e-13 of the length and 64 units in the last place
-   of the largest coordinate (visibility.h).  Pieces of the sky are integrated with the error
-   of H.  Where images of a period are cut off, what they make of received and escaped power is
-   told. */
+   of the largest coordinate, or 2^-28 of it where ends pass through patches (visibility.h).
+   Pieces of the sky are integrated with the error of H.  Where images of a period are cut off,
+   what they make of received and escaped power is told. */
 static void power_is_balanced(const adv_answer *a, adv_outcome *outcome, size_t band) {
   const adv_scene *s = a->scene;
   double coordinate = ldexp(1, adv_bits(s) + s->exponent);
@@ -93,7 +93,7 @@ static void power_is_balanced(const adv_answer *a, adv_outcome *outcome, size_t 
     errors += length * ((1 - rho) * adv_average_error(a, ADV_H, k, band) +
                         (s->closed ? 0 : adv_average_error(a, ADV_B, k, band)));
     if (s->pieces) gained += length * adv_average_error(a, ADV_H, k, band);
-    rows += level * (1e-13 * length + 128 * ROUNDING * coordinate);
+    rows += level * (1e-13 * length + (s->pierced ? 0x1p-28 : 128 * ROUNDING) * coordinate);
   }
   const double off = a->power_cut_off[band];
   hr2d_power p = a->power[band];

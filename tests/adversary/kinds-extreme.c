@@ -171,6 +171,40 @@ static void doors(adv_scene *scene, adv_random *r) {
   adv_paint(scene, r, 0.8);
 }
 
+/* A wall in pieces, from one corner to the next. */
+static void wall_in_pieces(adv_scene *scene, const double *a, const double *b, int pieces) {
+  for (int k = 0; k < pieces; k++) {
+    const double t = (double)k / pieces, u = (double)(k + 1) / pieces;
+    adv_wall(scene, a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]),
+             a[0] + u * (b[0] - a[0]), a[1] + u * (b[1] - a[1]));
+  }
+}
+
+/* A partition whose ends are on oblique walls but for the rounding of their coordinates: each
+   one is before its wall, on it or past it.  The room is dark behind it, or both sides are lit.
+ */
+static void pierced(adv_scene *scene, adv_random *r) {
+  scene->exponent = -adv_int(r, 36, 46);
+  const double corner[5][2] = {
+      {0, 0}, {4, adv_real(r, -0.5, 0.5)}, {4, 3 + adv_real(r, -0.5, 0.5)}, {0, 3}, {0, 0}};
+  const int pieces = adv_chance(r, 0.4) ? adv_int(r, 16, 24) : adv_int(r, 1, 4);
+  for (int side = 0; side < 4; side++)
+    wall_in_pieces(scene, corner[side], corner[side + 1], pieces);
+  double end[2][2];
+  for (int k = 0; k < 2; k++) {
+    const adv_patch *wall = &scene->patch[2 * k * pieces + adv_int(r, 0, pieces - 1)];
+    const double t = adv_real(r, 0.1, 0.9);
+    end[k][0] = ldexp((1 - t) * (double)wall->x[0] + t * (double)wall->x[1], scene->exponent);
+    end[k][1] = ldexp((1 - t) * (double)wall->y[0] + t * (double)wall->y[1], scene->exponent);
+  }
+  adv_screen(scene, end[0][0], end[0][1], end[1][0], end[1][1]);
+  scene->closed = scene->pierced = 1;
+  adv_paint(scene, r, 0.8);
+  if (adv_chance(r, 0.5)) return;
+  for (size_t k = 0; k < scene->count; k++)
+    scene->patch[k].emission[0] = k / (size_t)pieces == 3;
+}
+
 /* A small room inside of the wall of a large one: lengths of 2^-10 beside 4. */
 static void niche(adv_scene *scene, adv_random *r) {
   scene->exponent = -24;
@@ -198,4 +232,5 @@ const adv_kind adv_extreme[] = {
     {"crack", crack, "plates down to 2^-44 of each other"},
     {"miss", miss, "a wall that misses a floor by down to 2^-44"},
     {"doors", doors, "walls with doors, nearly in one line"},
+    {"pierced", pierced, "a partition that ends on oblique walls, but for a rounding"},
     {NULL, NULL, NULL}};

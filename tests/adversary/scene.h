@@ -49,6 +49,7 @@ typedef struct adv_scene {
   int64_t period[2]; /* 0, 0: none */
   int unfolded;      /* some patches are images of others */
   int closed; /* nothing leaves it and nothing comes in: what is outside of its box is hidden */
+  int pierced; /* ends pass through other patches by a rounding */
   double background[ADV_BANDS];
   adv_sun sun[ADV_BANDS];
   adv_piece piece[ADV_PIECES];
