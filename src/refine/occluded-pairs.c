@@ -45,10 +45,11 @@ static hr2di_facing facing_of(const hr2di_patch_pair *parts) {
   return hr2di_facing_of(&parts->part[swap], &parts->part[!swap]);
 }
 
-static hr2di_visibility_class classify(const hr2di_sight_list *list,
+/* By the sights from number `from` on. */
+static hr2di_visibility_class classify(const hr2di_sight_list *list, size_t from,
                                        const hr2di_patch_pair *parts) {
   const int swap = swapped(parts);
-  return hr2di_sights_classify(list, 0, parts->part[swap], parts->part[!swap]);
+  return hr2di_sights_classify(list, from, parts->part[swap], parts->part[!swap]);
 }
 
 hr2d_status hr2di_occluded_look(hr2di_projector *p, uint32_t from, uint32_t to) {
@@ -68,7 +69,7 @@ hr2d_status hr2di_occluded_collect(hr2di_projector *p, hr2d_pair pair,
       hr2di_patch_sights_between(p->sights, &parts, &p->parts, &p->found);
   hr2di_projector_in_row(p, parts.patch[0], parts.patch[1], 0,
                          hr2di_patch_sights_tests(p->sights) - before);
-  if (!status) *view = classify(&p->parts, &parts);
+  if (!status) *view = classify(&p->parts, 0, &parts);
   return fail(p, status);
 }
 
@@ -89,19 +90,11 @@ static hr2d_status push(hr2di_projector *p, hr2d_pair pair, const hr2di_sight_li
   return fail(p, hr2di_sight_list_copy(&s->list, list, first, last));
 }
 
-/* Links an accepted pair. */
-static hr2d_status link_pair(hr2di_projector *p, hr2d_pair pair, const hr2di_sight_list *list,
-                             size_t first, size_t last) {
-  const hr2di_patch_pair parts = parts_of(p->hierarchy, pair);
-  const int swap = swapped(&parts);
-  hr2d_status status = hr2di_projector_work(p, 1 + (last - first));
-  hr2di_sight_list_cut(&p->parts, 0);
-  set_limits(p);
-  if (!status && p->sink)
-    status = hr2di_sight_list_restrict(&p->parts, list, first, last, parts.part[swap],
-                                       parts.part[!swap], NULL);
+/* Links an accepted pair, which sees parts [first, last) of p->parts. */
+static hr2d_status link_pair(hr2di_projector *p, hr2d_pair pair, size_t first, size_t last) {
+  const hr2d_status status = hr2di_projector_work(p, 1 + (last - first));
   if (status) return fail(p, status);
-  double area = hr2di_sight_list_area(&p->parts, 0, p->parts.count);
+  double area = p->sink ? hr2di_sight_list_area(&p->parts, first, last) : 0;
   hr2di_projector_weigh(p, &pair, 1, &area);
   p->counts.partial_links++;
   p->counts.exchange_areas += p->sink != NULL;
@@ -109,10 +102,10 @@ static hr2d_status link_pair(hr2di_projector *p, hr2d_pair pair, const hr2di_sig
   return hr2di_projector_accept(p, &area, 1);
 }
 
-/* A pair to be proposed, with its sights in p->found. */
+/* A pair to be proposed, with its sights in p->found, and what it sees of them in p->parts. */
 typedef struct candidate {
   hr2d_pair pair;
-  size_t first, count;
+  size_t first, last, first_part, last_part;
 } candidate;
 
 enum { MOST = 4 };
@@ -128,21 +121,21 @@ static hr2d_status propose(hr2di_projector *p, const candidate *c, size_t count)
   p->partial = NULL;
   for (size_t k = 0; k < count && !status; k++) accepted[k] = p->flag[k];
   for (size_t k = 0; k < count && !status; k++)
-    status = accepted[k]
-                 ? link_pair(p, c[k].pair, &p->found, c[k].first, c[k].first + c[k].count)
-                 : push(p, c[k].pair, &p->found, c[k].first, c[k].first + c[k].count);
+    status = accepted[k] ? link_pair(p, c[k].pair, c[k].first_part, c[k].last_part)
+                         : push(p, c[k].pair, &p->found, c[k].first, c[k].last);
   return status;
 }
 
 /* Puts a clear pair on a stack of unoccluded pairs, drops a blocked pair, and adds a partly
    visible one to the candidates. */
-static hr2d_status sort_out(hr2di_projector *p, hr2d_pair pair, hr2di_visibility_class view,
-                            hr2di_facing facing, size_t first, candidate *c, size_t *count) {
+static hr2d_status sort_out(hr2di_projector *p, const candidate *seen,
+                            hr2di_visibility_class view, hr2di_facing facing, candidate *c,
+                            size_t *count) {
   p->counts.blocked_pairs += view == HR2DI_BLOCKED;
   if (view == HR2DI_CLEAR)
     return hr2di_projector_push(p, &p->unoccluded[facing == HR2DI_FACING_PART || p->test_all],
-                                pair);
-  if (view == HR2DI_PARTIAL) c[(*count)++] = (candidate){pair, first, p->found.count - first};
+                                seen->pair);
+  if (view == HR2DI_PARTIAL) c[(*count)++] = *seen;
   return HR2D_OK;
 }
 
@@ -161,10 +154,9 @@ hr2d_status hr2di_occluded_propose_roots(hr2di_projector *p, const hr2d_pair *pa
     status = fail(p, hr2di_projector_work(p, 1));
     if (status) break;
     hr2di_visibility_class view;
-    candidate c = {pairs[k], 0, 0};
     hr2di_sight_list_cut(&p->found, 0);
     status = hr2di_occluded_collect(p, pairs[k], &view);
-    c.count = p->found.count;
+    const candidate c = {pairs[k], 0, p->found.count, 0, p->parts.count};
     p->counts.blocked_pairs += view == HR2DI_BLOCKED;
     if (view == HR2DI_CLEAR) clear[kept++] = pairs[k];
     if (view == HR2DI_PARTIAL && !status) status = propose(p, &c, 1);
@@ -185,7 +177,8 @@ hr2d_status hr2di_occluded_share(hr2di_projector *p, const hr2di_occluded_pairs 
   return push(p, from->stack.pair[k], &from->list, from->first[k], last);
 }
 
-/* Leaves to a child pair what it sees of its parent's sights, from number `from` on. */
+/* Leaves to a child pair what it sees of its parent's sights, from number `from` on, behind
+   what p->found and p->parts have. */
 static hr2d_status restrict_to(hr2di_projector *p, hr2d_pair child, size_t from,
                                hr2di_facing *facing, hr2di_visibility_class *view) {
   const hr2di_patch_pair parts = parts_of(p->hierarchy, child);
@@ -194,15 +187,30 @@ static hr2d_status restrict_to(hr2di_projector *p, hr2d_pair child, size_t from,
   *view = HR2DI_BLOCKED;
   *facing = facing_of(&parts);
   if (*facing == HR2DI_FACING_NONE) return HR2D_OK;
-  hr2di_sight_list_cut(&p->parts, 0);
+  const size_t first = p->parts.count;
   set_limits(p);
   hr2d_status status = hr2di_sight_list_restrict(
       &p->parts, list, from, list->count, parts.part[swap], parts.part[!swap], &p->found);
   p->sights->restricted += list->count - from;
   hr2di_projector_in_row(p, parts.patch[0], parts.patch[1], 0, list->count - from);
   if (!status) status = hr2di_projector_work(p, 1 + (list->count - from) / 2);
-  if (!status) *view = classify(&p->parts, &parts);
+  if (!status) *view = classify(&p->parts, first, &parts);
   return fail(p, status);
+}
+
+/* Links a pair that no limit lets be divided, with its sights from number `from` on. */
+static hr2d_status link_limited(hr2di_projector *p, hr2d_pair pair, size_t from) {
+  const hr2di_patch_pair parts = parts_of(p->hierarchy, pair);
+  const hr2di_sight_list *list = &p->occluded.list;
+  const int swap = swapped(&parts);
+  hr2d_status status = HR2D_OK;
+  set_limits(p);
+  if (p->sink)
+    status = hr2di_sight_list_restrict(&p->parts, list, from, list->count, parts.part[swap],
+                                       parts.part[!swap], NULL);
+  if (status) return fail(p, status);
+  p->counts.limited_links++;
+  return link_pair(p, pair, 0, p->parts.count);
 }
 
 hr2d_status hr2di_occluded_round(hr2di_projector *p) {
@@ -213,17 +221,19 @@ hr2d_status hr2di_occluded_round(hr2di_projector *p) {
   size_t candidates, count = 0;
   int limited;
   hr2d_status status = hr2di_projector_subdivide(p, pair, &candidates, &limited);
-  const uint64_t links = p->counts.partial_links;
-  if (!status && limited) status = link_pair(p, pair, &s->list, from, s->list.count);
-  p->counts.limited_links += p->counts.partial_links - links;
+  hr2di_sight_list_cut(&p->parts, 0);
   hr2di_sight_list_cut(&p->found, 0);
+  if (!status && limited) status = link_limited(p, pair, from);
   for (size_t k = 0; k < candidates && !status; k++) {
     hr2di_facing facing;
     hr2di_visibility_class view;
-    const size_t first = p->found.count;
-    status = restrict_to(p, p->candidate[k], from, &facing, &view);
+    candidate seen = {
+        .pair = p->candidate[k], .first = p->found.count, .first_part = p->parts.count};
+    status = restrict_to(p, seen.pair, from, &facing, &view);
+    seen.last = p->found.count;
+    seen.last_part = p->parts.count;
     if (!status && facing != HR2DI_FACING_NONE)
-      status = sort_out(p, p->candidate[k], view, facing, first, c, &count);
+      status = sort_out(p, &seen, view, facing, c, &count);
   }
   hr2di_sight_list_cut(&s->list, from);
   return status ? status : propose(p, c, count);
@@ -237,7 +247,7 @@ hr2d_status hr2di_occluded_area(hr2di_patch_sights *sights, const hr2d_hierarchy
   *view = HR2DI_CLEAR;
   if (facing_of(&parts) == HR2DI_FACING_NONE) return HR2D_OK;
   const hr2d_status status = hr2di_patch_sights_between(sights, &parts, &found, NULL);
-  if (!status) *view = classify(&found, &parts);
+  if (!status) *view = classify(&found, 0, &parts);
   if (!status && *view == HR2DI_CLEAR) hr2di_exchange_areas(hierarchy->element, &pair, 1, area);
   if (!status && *view == HR2DI_PARTIAL) *area = hr2di_sight_list_area(&found, 0, found.count);
   hr2di_sight_list_clear(&found);
