@@ -2,58 +2,62 @@
 /* The sums of moments.c over batches of directions, in vectors of HR2DI_WIDTH doubles, which is
    2 or 4.  moments.c includes this once for each width: compilers make poor code of vectors
    that are wider than those of the processor.  Each sum has four partial sums, so that no bit
-   depends on the width. */
+   depends on the width, nor on what fills the last batch.  `wide` is the number of vectors in a
+   batch, a constant to the compiler. */
 #define PASTE_NAMES(name, width) name##_##width
 #define WITH_WIDTH(name, width)  PASTE_NAMES(name, width)
 #define NAME(name)               WITH_WIDTH(name, HR2DI_WIDTH)
 #define VECTOR                   NAME(vector)
-#define VECTORS                  (LANES / HR2DI_WIDTH)
 #define PARTS                    (4 / HR2DI_WIDTH)
+#define MOST                     (LANES / HR2DI_WIDTH)
 
 typedef double VECTOR __attribute__((vector_size(8 * HR2DI_WIDTH), aligned(8), may_alias));
 
-/* The rows r_lk of one element for all k ≤ l < order, a vector of lanes after the other. */
+/* The rows r_lk of one element for all k ≤ l < order, a vector of lanes after the other; 0
+   behind an even row, as rows are multiplied in twos. */
 HR2DI_PART void NAME(expand)(const hr2di_moments *w, size_t p, const hr2di_directions *d,
-                             size_t from, size_t side) {
+                             size_t from, size_t wide, size_t side) {
   const VECTOR *centre = (const VECTOR *)(d->centre[side] + from);
   const VECTOR *half = (const VECTOR *)(d->half[side] + from);
   VECTOR *row = (VECTOR *)w->row[side];
-  const size_t stride = even(p) * VECTORS;
-  for (size_t x = 0; x < VECTORS; x++, row++) {
+  const size_t stride = even(p) * wide;
+  for (size_t x = 0; x < wide; x++, row++) {
     const VECTOR c = centre[x], square = half[x] * half[x];
     row[0] = c * 0 + 1;
+    row[wide] = c * 0;
     for (size_t l = 1; l < p; l++) {
       const VECTOR *last = row + (l - 1) * stride, *before = l > 1 ? last - stride : last;
       VECTOR *next = row + l * stride;
       const double down = w->square[l - 1];
       VECTOR left = c * 0, here = last[0];
       for (size_t k = 0; k + 1 < l; k++) {
-        const VECTOR right = last[(k + 1) * VECTORS];
-        next[k * VECTORS] = (c * here - down * before[k * VECTORS]) +
-                            (left + w->square[k + 1] * square * right);
+        const VECTOR right = last[(k + 1) * wide];
+        next[k * wide] =
+            (c * here - down * before[k * wide]) + (left + w->square[k + 1] * square * right);
         left = here;
         here = right;
       }
-      next[(l - 1) * VECTORS] = c * here + left;
-      next[l * VECTORS] = row[0];
+      next[(l - 1) * wide] = c * here + left;
+      next[l * wide] = row[0];
+      if (l % 2 == 0) next[(l + 1) * wide] = c * 0;
     }
   }
 }
 
 /* r_lk of i *= weight ν_k (−hh')^k */
 HR2DI_PART void NAME(weigh)(const hr2di_moments *w, size_t p, const hr2di_directions *d,
-                            size_t from) {
+                            size_t from, size_t wide) {
   const VECTOR *weight = (const VECTOR *)(d->weight + from);
   const VECTOR *half = (const VECTOR *)(d->half[0] + from);
   const VECTOR *other = (const VECTOR *)(d->half[1] + from);
   VECTOR *row = (VECTOR *)w->row[0];
-  const size_t stride = even(p) * VECTORS;
-  for (size_t x = 0; x < VECTORS; x++, row++) {
+  const size_t stride = even(p) * wide;
+  for (size_t x = 0; x < wide; x++, row++) {
     const VECTOR product = -(half[x] * other[x]);
     VECTOR power = weight[x];
     for (size_t k = 0; k < p; k++) {
       const VECTOR factor = w->norm[k] * power;
-      for (size_t l = k; l < p; l++) row[l * stride + k * VECTORS] *= factor;
+      for (size_t l = k; l < p; l++) row[l * stride + k * wide] *= factor;
       power *= product;
     }
   }
@@ -78,15 +82,16 @@ HR2DI_PART void NAME(multiply)(const VECTOR *a, const VECTOR *b, size_t stride, 
     for (size_t c = 0; c < 2; c++) sum[r][c] = NAME(total)(s[r][c]);
 }
 
-/* Entries beyond the order, which is rounded up to even, are 0 times something finite. */
-HR2DI_PART void NAME(add_product)(const hr2di_moments *w, size_t p, double *block) {
-  const size_t stride = even(p) * VECTORS;
+/* Sums of rows beyond the order, which is rounded up to even, are left alone. */
+HR2DI_PART void NAME(add_product)(const hr2di_moments *w, size_t p, size_t wide,
+                                  double *block) {
+  const size_t stride = even(p) * wide;
   const VECTOR *row_i = (const VECTOR *)w->row[0], *row_j = (const VECTOR *)w->row[1];
   for (size_t l = 0; l < p; l += 2)
     for (size_t m = 0; m < p; m += 2) {
       double sum[2][2];
       const size_t terms = l < m ? l + 2 : m + 2;
-      NAME(multiply)(row_i + l * stride, row_j + m * stride, stride, terms * VECTORS, sum);
+      NAME(multiply)(row_i + l * stride, row_j + m * stride, stride, terms * wide, sum);
       for (size_t r = l; r < p && r < l + 2; r++)
         for (size_t c = m; c < p && c < m + 2; c++)
           block[r * p + c] += w->scale[r] * w->scale[c] * sum[r - l][c - m];
@@ -94,49 +99,55 @@ HR2DI_PART void NAME(add_product)(const hr2di_moments *w, size_t p, double *bloc
 }
 
 HR2DI_PART void NAME(add_batch)(const hr2di_moments *w, size_t p, const hr2di_directions *d,
-                                size_t from, double *block) {
-  NAME(expand)(w, p, d, from, 0);
-  NAME(expand)(w, p, d, from, 1);
-  NAME(weigh)(w, p, d, from);
-  NAME(add_product)(w, p, block);
+                                size_t from, size_t wide, double *block) {
+  NAME(expand)(w, p, d, from, wide, 0);
+  NAME(expand)(w, p, d, from, wide, 1);
+  NAME(weigh)(w, p, d, from, wide);
+  NAME(add_product)(w, p, wide, block);
 }
 
 /* The same for lines that cover the other element than `side`. */
 HR2DI_PART void NAME(add_covering)(const hr2di_moments *w, size_t p, const hr2di_directions *d,
-                                   size_t from, size_t side, double *block) {
-  const size_t stride = even(p) * VECTORS;
+                                   size_t from, size_t wide, size_t side, double *block) {
+  const size_t stride = even(p) * wide;
   const VECTOR *weight = (const VECTOR *)(d->weight + from);
   const VECTOR *half = (const VECTOR *)(d->half[side] + from);
   const VECTOR *row = (const VECTOR *)w->row[side];
-  VECTOR factor[VECTORS], sum[PARTS];
-  NAME(expand)(w, p, d, from, side);
-  for (size_t x = 0; x < VECTORS; x++) factor[x] = weight[x];
+  VECTOR factor[MOST], sum[PARTS];
+  NAME(expand)(w, p, d, from, wide, side);
+  for (size_t x = 0; x < wide; x++) factor[x] = weight[x];
   for (size_t k = 0; k < p; k++) {
     for (size_t m = k; m < p; m++) {
-      const VECTOR *at = row + m * stride + k * VECTORS;
+      const VECTOR *at = row + m * stride + k * wide;
       for (size_t part = 0; part < PARTS; part++) {
         sum[part] = factor[part] * at[part];
-        for (size_t x = part + PARTS; x < VECTORS; x += PARTS) sum[part] += factor[x] * at[x];
+        for (size_t x = part + PARTS; x < wide; x += PARTS) sum[part] += factor[x] * at[x];
       }
       block[side ? k * p + m : m * p + k] +=
           w->norm[k] * w->scale[k] * w->scale[m] * NAME(total)(sum);
     }
-    for (size_t x = 0; x < VECTORS; x++) factor[x] *= -half[x];
+    for (size_t x = 0; x < wide; x++) factor[x] *= -half[x];
   }
+}
+
+HR2DI_PART void NAME(add_some)(const hr2di_moments *w, size_t p, hr2di_cover cover, size_t from,
+                               size_t wide, double *block) {
+  const hr2di_directions *d = &w->waiting[cover];
+  if (cover == HR2DI_COVERS_NEITHER)
+    NAME(add_batch)(w, p, d, from, wide, block);
+  else
+    NAME(add_covering)(w, p, d, from, wide, cover, block);
 }
 
 HR2DI_PART void NAME(add_all)(const hr2di_moments *w, size_t p, hr2di_cover cover, size_t count,
                               double *block) {
-  const hr2di_directions *d = &w->waiting[cover];
-  for (size_t from = 0; from < count; from += LANES)
-    if (cover == HR2DI_COVERS_NEITHER)
-      NAME(add_batch)(w, p, d, from, block);
-    else
-      NAME(add_covering)(w, p, d, from, cover, block);
+  size_t from = 0;
+  for (; from + LANES <= count; from += LANES) NAME(add_some)(w, p, cover, from, MOST, block);
+  if (from < count) NAME(add_some)(w, p, cover, from, PARTS, block);
 }
 
-/* Adds the first `count` directions that wait, full batches.  Orders that are common are
-   constants to the compiler, in wide vectors. */
+/* Adds the first `count` directions that wait: full batches, and half of one at the end. Orders
+   that are common are constants to the compiler, in wide vectors. */
 #if HR2DI_WIDTH == 4
 HR2DI_AVX2
 #endif
@@ -167,6 +178,6 @@ static void NAME(add_batches)(const hr2di_moments *w, hr2di_cover cover, size_t 
 #undef WITH_WIDTH
 #undef NAME
 #undef VECTOR
-#undef VECTORS
+#undef MOST
 #undef PARTS
 #undef HR2DI_WIDTH

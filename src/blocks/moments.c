@@ -10,7 +10,8 @@
    of bounded polynomials in another basis.  Lines that cover i, c = 0 and h = 1, have r_lk = 1
    for k = l alone, and only the rows of j are needed.
 
-   LANES directions lie side by side, in vectors of two or of four (see moment-batches.h). */
+   LANES directions lie side by side, in vectors of two or of four (see moment-batches.h); of
+   the last ones HALF, if that is enough. */
 #include "blocks/moments.h"
 
 #include <math.h>
@@ -20,7 +21,7 @@
 #include "base/ordered-dot.h"
 #include "base/wide.h"
 
-enum { LANES = HR2DI_MOMENT_LANES };
+enum { LANES = HR2DI_MOMENT_LANES, HALF = LANES / 2 };
 
 static size_t even(size_t order) {
   return order + (order & 1);
@@ -58,24 +59,24 @@ void hr2di_moments_begin(hr2di_moments *w) {
 #include "blocks/moment-batches.h"
 #endif
 
-/* Adds the full batches of the directions that wait. */
-static void add_waiting(hr2di_moments *w, hr2di_cover cover, double *block) {
+/* Adds the first `count` directions that wait, a multiple of HALF. */
+static void add_waiting(hr2di_moments *w, hr2di_cover cover, size_t count, double *block) {
   hr2di_directions *d = &w->waiting[cover];
-  const size_t full = d->count - d->count % LANES;
 #ifdef HR2D_AVX2
   if (hr2di_wide())
-    add_batches_4(w, cover, full, block);
+    add_batches_4(w, cover, count, block);
   else
 #endif
-    add_batches_2(w, cover, full, block);
+    add_batches_2(w, cover, count, block);
   double *const list[] = {d->weight, d->centre[0], d->half[0], d->centre[1], d->half[1]};
-  d->count -= full;
-  for (size_t k = 0; k < 5; k++) memmove(list[k], list[k] + full, d->count * sizeof *list[k]);
+  d->count -= count;
+  for (size_t k = 0; k < 5; k++) memmove(list[k], list[k] + count, d->count * sizeof *list[k]);
 }
 
 hr2di_directions *hr2di_moments_room(hr2di_moments *w, hr2di_cover cover, double *block) {
   hr2di_directions *d = &w->waiting[cover];
-  if (d->count + HR2DI_RULE_POINTS > HR2DI_MOMENT_ROOM) add_waiting(w, cover, block);
+  if (d->count + HR2DI_RULE_POINTS > HR2DI_MOMENT_ROOM)
+    add_waiting(w, cover, d->count - d->count % LANES, block);
   return d;
 }
 
@@ -83,11 +84,11 @@ void hr2di_moments_end(hr2di_moments *w, double *block) {
   for (int cover = 0; cover < 3; cover++) {
     hr2di_directions *d = &w->waiting[cover];
     if (d->count == 0) continue;
-    for (; d->count % LANES > 0; d->count++) {
+    for (; d->count % HALF > 0; d->count++) {
       d->weight[d->count] = 0;
       d->centre[0][d->count] = d->centre[1][d->count] = 0;
       d->half[0][d->count] = d->half[1][d->count] = 0;
     }
-    add_waiting(w, (hr2di_cover)cover, block);
+    add_waiting(w, (hr2di_cover)cover, d->count, block);
   }
 }
