@@ -79,11 +79,7 @@ static hr2d_status count(division *d, const hr2d_link *link) {
 /* Moves the blocks of links [from, from + count) behind those that are kept so far. */
 static void move_blocks(division *d, uint64_t from, size_t count) {
   hr2di_link_blocks *b = &d->coarse->blocks;
-  const size_t stride = hr2di_link_blocks_stride(b);
-  const uint64_t to = d->kept.count;
-  if (b->links == 0 || from == to) return;
-  memmove(hr2di_link_blocks_at(b, to), hr2di_link_blocks_at(b, from), count * stride);
-  memmove(b->distant + to, b->distant + from, count);
+  if (b->links > 0) hr2di_link_blocks_move(b, d->kept.count, from, count);
 }
 
 /* Keeps some links, one behind the other, from number `first` on. */

@@ -225,8 +225,7 @@ hr2d_status hr2di_error_estimate(hr2di_graded *answer, const hr2di_resolution *f
   if (links->roots.clusters != roots.clusters) hr2di_clusters_destroy(links->roots.clusters);
   links->roots = roots;
   links->block_order = 0;
-  if (!status && !answer->depth)
-    status = hr2di_link_blocks_trim(&links->blocks, order, &links->alloc);
+  if (!status && !answer->depth) hr2di_link_blocks_trim(&links->blocks, &links->alloc);
   if (!status) return status;
   const char *own = hr2d_linkset_message(links);
   return hr2di_message_fail(message, status, "%s", own[0] ? own : hr2d_strerror(status));

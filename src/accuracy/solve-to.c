@@ -160,9 +160,7 @@ static void hand_over(hr2di_search *s, hr2d_solution **solution) {
   if (!*solution) return;
   hr2d_linkset *links = s->best.links;
   s->best.hierarchy->looks = NULL;
-  if (s->best.depth &&
-      hr2di_link_blocks_trim(&links->blocks, s->best.hierarchy->order, &links->alloc))
-    hr2di_link_blocks_clear(&links->blocks, &links->alloc); /* a solve makes them again */
+  if (s->best.depth) hr2di_link_blocks_trim(&links->blocks, &links->alloc);
   (*solution)->own_hierarchy = s->best.hierarchy;
   (*solution)->own_links = s->best.links;
   hr2di_alloc_free(&s->scene->alloc, s->best.bent);

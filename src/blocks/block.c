@@ -18,6 +18,7 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
   *w = (hr2di_integrator){.hierarchy = hierarchy,
                           .alloc = *alloc,
                           .order = order,
+                          .digits = HR2DI_DOUBLE_DIGITS,
                           .watch = watch,
                           .seen.alloc = *alloc};
   hr2di_basis_init(&w->basis, order);

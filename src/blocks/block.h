@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blocks: C_lm = ∫∫ G V φ_l(x) φ_m(y) dy dx over a pair of elements, a length; C_00 is their
    exchange area.  Blocks of distant pairs are as accurate as the order needs, but for C_00; all
-   others are exact to rounding. */
+   others are exact to rounding, of doubles or of floats. */
 #ifndef HR2D_SRC_BLOCKS_BLOCK_H
 #define HR2D_SRC_BLOCKS_BLOCK_H
 
@@ -23,12 +23,18 @@ typedef struct hr2di_pair_frame {
   double area;       /* exchange area */
 } hr2di_pair_frame;
 
+/* −ln of the error as a part of C_00, for doubles and for floats, of which it is 1/200 of a
+   rounding. */
+#define HR2DI_DOUBLE_DIGITS 34
+#define HR2DI_SINGLE_DIGITS 22
+
 /* Work space of one thread. */
 typedef struct hr2di_integrator {
   const hr2d_hierarchy *hierarchy;
   hr2d_allocator alloc;
   hr2di_watch *watch;
   size_t order;
+  double digits; /* as above: of what is not distant */
   hr2di_basis basis;
   size_t points; /* of a rule for distant pairs, for each element, at most */
   double *phi;   /* φ_0 … at the points of rules of up to so many, one behind the other */

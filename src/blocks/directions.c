@@ -12,9 +12,6 @@
 
 #include "blocks/block.h"
 
-/* ln of the error of a trapezoid as a part of the exchange area. */
-#define DIGITS 34
-
 /* For the constant that the bound leaves out, which few points have no room for. */
 #define MARGIN 0.3
 
@@ -266,7 +263,7 @@ static int divide(const hr2di_trapezoid *t, const outline *o, size_t order, doub
   return points > 0;
 }
 
-/* Adds a trapezoid to within e^−DIGITS of `area`. */
+/* Adds a trapezoid to within e^−w->digits of `area`. */
 static hr2d_status add_trapezoid(hr2di_integrator *w, const hr2di_trapezoid *whole, double area,
                                  double *block) {
   const size_t p = w->order;
@@ -284,7 +281,7 @@ static hr2d_status add_trapezoid(hr2di_integrator *w, const hr2di_trapezoid *who
     }
     const double part = bound_area(&t, &o) / area;
     if (!(part > NEGLIGIBLE)) continue;
-    const double digits = DIGITS - (part < 1 ? logarithm(1 / part) : 0);
+    const double digits = w->digits - (part < 1 ? logarithm(1 / part) : 0);
     choice chosen = choose(&t, &o, p, digits);
     if (room && divide(&t, &o, p, digits, chosen.points, &stack[count])) {
       count += 2;

@@ -26,4 +26,24 @@ HR2DI_PART double hr2di_number_at(const void *block, size_t k, int single, doubl
   return single ? area * (double)((const float *)block)[k] : ((const double *)block)[k];
 }
 
+/* A block in two parts: its first `lead` rows and columns, and row by row the rest. */
+typedef struct hr2di_stored_block {
+  const void *value, *rest; /* `rest` is NULL if lead is order */
+  size_t order, lead;
+  int single;
+} hr2di_stored_block;
+
+/* Both parts as doubles, row by row. */
+HR2DI_PART void hr2di_join_block(const hr2di_stored_block *b, double area, double *to) {
+  const size_t order = b->order, lead = b->lead, width = order - lead;
+  for (size_t l = 0; l < lead; l++, to += order) {
+    for (size_t m = 0; m < lead; m++)
+      to[m] = hr2di_number_at(b->value, l * lead + m, b->single, area);
+    for (size_t m = 0; m < width; m++)
+      to[lead + m] = hr2di_number_at(b->rest, l * width + m, b->single, area);
+  }
+  for (size_t k = 0; k < width * order; k++)
+    to[k] = hr2di_number_at(b->rest, lead * width + k, b->single, area);
+}
+
 #endif

@@ -60,29 +60,60 @@ static void check_bound(double area, double *block, size_t order) {
   for (size_t k = 1; k < order * order; k++) block[k] = 0;
 }
 
-/* The weight of a pair is a factor of its exchange area. */
-static void round_block(const double *block, size_t square, float *to) {
-  to[0] = 1;
-  for (size_t n = 1; n < square; n++) to[n] = block[0] > 0 ? (float)(block[n] / block[0]) : 0;
+/* Floats are parts of C_00; the weight of a pair is a factor of its exchange area. */
+static void put_floats(float *to, const double *from, size_t count, double area) {
+  for (size_t k = 0; k < count; k++) to[k] = area > 0 ? (float)(from[k] / area) : 0;
+}
+
+static void put_doubles(double *to, const double *from, size_t count, double weight) {
+  for (size_t k = 0; k < count; k++) to[k] = from[k] * weight;
+}
+
+/* Puts some numbers to place `at`, and returns the place behind them. */
+static size_t put(void *to, size_t at, const double *from, size_t count, double unit,
+                  int single) {
+  if (single)
+    put_floats((float *)to + at, from, count, unit);
+  else
+    put_doubles((double *)to + at, from, count, unit);
+  return at + count;
+}
+
+/* The bytes of both parts of a block. */
+static size_t leading_bytes(const hr2di_link_blocks *b) {
+  return b->lead * b->lead * hr2di_number_size(b->single);
+}
+static size_t rest_bytes(const hr2di_link_blocks *b) {
+  return b->order * b->order * hr2di_number_size(b->single) - leading_bytes(b);
+}
+
+/* Writes block k to its two parts. */
+static void part_block(const double *block, double weight, hr2di_link_blocks *b, uint64_t k) {
+  void *value = (char *)b->value + k * leading_bytes(b);
+  void *rest = b->rest ? (char *)b->rest + k * rest_bytes(b) : NULL;
+  const double unit = b->single ? block[0] : weight;
+  size_t leading = 0, others = 0;
+  for (size_t l = 0; l < b->order; l++) {
+    const double *row = block + l * b->order;
+    const size_t head = l < b->lead ? b->lead : 0;
+    leading = put(value, leading, row, head, unit, b->single);
+    if (head < b->order)
+      others = put(rest, others, row + head, b->order - head, unit, b->single);
+  }
+  if (b->single) *(float *)value = 1;
 }
 
 static hr2d_status make_one(const maker *m, hr2di_integrator *work, uint64_t k) {
   const hr2d_link *link = hr2di_store_at(&m->links->store, k);
-  const size_t order = m->blocks->order, square = order * order;
-  const int single = m->blocks->single;
-  double room[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
-  double *block = single ? room : hr2di_link_blocks_at(m->blocks, k);
+  double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
   int distant;
   const double weight = hr2di_linkset_weight(m->links, link->pair);
   const double area = link->exchange_area / weight;
   const hr2d_status status = hr2di_block(work, link->pair, area, block, &distant);
   if (status) return status;
   if (is_tiny(m->links->hierarchy, link->pair)) block[0] = area;
-  check_bound(area, block, order);
-  if (single)
-    round_block(block, square, hr2di_link_blocks_at(m->blocks, k));
-  else
-    for (size_t n = 0; n < square && weight != 1; n++) block[n] *= weight;
+  check_bound(area, block, m->blocks->order);
+  part_block(block, weight, m->blocks, k);
   m->blocks->distant[k] = (unsigned char)distant;
   return HR2D_OK;
 }
@@ -148,6 +179,7 @@ static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made, uint64_t kn
     hr2di_watch_follow(&w->own, watch);
     status = hr2di_integrator_init(&w->work, links->hierarchy, alloc, made->order,
                                    started == 0 ? watch : &w->own);
+    if (made->single) w->work.digits = HR2DI_SINGLE_DIGITS;
     if (!status && made->order == links->block_order)
       status = hr2di_integrator_points(&w->work, made->order + MORE, 1);
     started++;
@@ -161,21 +193,43 @@ static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made, uint64_t kn
   return status;
 }
 
-/* Gives the arrays room for so many links. */
-static hr2d_status resize(hr2di_link_blocks *b, uint64_t links, const hr2d_allocator *alloc) {
-  const size_t size = hr2di_link_blocks_stride(b);
-  if (links > SIZE_MAX / size) return HR2D_ENOMEM;
-  void *value = hr2di_alloc_resize(alloc, b->value, (size_t)links, size);
-  if (value) b->value = value;
-  unsigned char *distant = hr2di_alloc_resize(alloc, b->distant, (size_t)links, 1);
-  if (distant) b->distant = distant;
-  b->links = links;
-  return value && distant ? HR2D_OK : HR2D_ENOMEM;
+uint64_t hr2di_link_blocks_bytes(const hr2di_link_blocks *b) {
+  return b->links * (leading_bytes(b) + rest_bytes(b) + sizeof *b->distant);
 }
 
-/* Whether what there is of blocks can be gone on with. */
+/* Gives an array room for so many links; on failure it stays as it is. */
+static int resize_one(void **array, uint64_t links, size_t size, const hr2d_allocator *alloc) {
+  void *resized = NULL;
+  if (links <= SIZE_MAX / size)
+    resized = hr2di_alloc_resize(alloc, *array, (size_t)links, size);
+  if (resized) *array = resized;
+  return resized != NULL;
+}
+
+static hr2d_status resize(hr2di_link_blocks *b, uint64_t links, const hr2d_allocator *alloc) {
+  const size_t rest = rest_bytes(b);
+  void *distant = b->distant;
+  b->links = links;
+  int has_room = resize_one(&b->value, links, leading_bytes(b), alloc);
+  if (has_room && rest > 0) has_room = resize_one(&b->rest, links, rest, alloc);
+  if (has_room) has_room = resize_one(&distant, links, sizeof *b->distant, alloc);
+  b->distant = distant;
+  return has_room ? HR2D_OK : HR2D_ENOMEM;
+}
+
+/* Blocks of a set have the order of its hierarchy as their leading part.  At order 1 exchange
+   areas are enough. */
+static size_t lead_of(const hr2d_linkset *links, size_t order) {
+  const size_t own = links->hierarchy->order;
+  return own > 1 && own < order ? own : order;
+}
+
+/* Whether what there is of blocks can be gone on with.  All of a block serves with any leading
+   part. */
 static int are_alike(const hr2d_linkset *links, size_t order) {
-  return links->blocks.order == order && links->blocks.single == links->single;
+  const hr2di_link_blocks *b = &links->blocks;
+  const size_t lead = lead_of(links, order);
+  return b->order == order && b->single == links->single && (b->lead == lead || lead == order);
 }
 
 int hr2di_link_blocks_made(const hr2d_linkset *links, size_t order) {
@@ -189,6 +243,7 @@ hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order, unsigned t
   if (!are_alike(links, order) || known->links >= count)
     hr2di_link_blocks_clear(known, &links->alloc);
   hr2di_link_blocks made = *known;
+  if (made.links == 0) made.lead = lead_of(links, order);
   made.order = order;
   made.single = links->single;
   made.kernels = 0;
@@ -204,26 +259,26 @@ hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order, unsigned t
   return status;
 }
 
-hr2d_status hr2di_link_blocks_trim(hr2di_link_blocks *b, size_t order,
-                                   const hr2d_allocator *alloc) {
-  if (order >= b->order || b->links == 0) return HR2D_OK;
-  const size_t number = hr2di_number_size(b->single), row = order * number;
-  char *to = b->value;
-  for (uint64_t k = 0; k < b->links; k++) {
-    const char *from = hr2di_link_blocks_at(b, k);
-    for (size_t l = 0; l < order; l++, to += row, from += b->order * number)
-      memmove(to, from, row);
-  }
-  b->order = order;
-  void *value =
-      hr2di_alloc_resize(alloc, b->value, (size_t)b->links, hr2di_link_blocks_stride(b));
-  if (!value) return HR2D_ENOMEM;
-  b->value = value;
-  return HR2D_OK;
+static void move(void *array, size_t size, uint64_t to, uint64_t from, size_t count) {
+  memmove((char *)array + to * size, (char *)array + from * size, count * size);
+}
+
+void hr2di_link_blocks_move(hr2di_link_blocks *b, uint64_t to, uint64_t from, size_t count) {
+  if (from == to) return;
+  move(b->value, leading_bytes(b), to, from, count);
+  if (b->rest) move(b->rest, rest_bytes(b), to, from, count);
+  move(b->distant, sizeof *b->distant, to, from, count);
+}
+
+void hr2di_link_blocks_trim(hr2di_link_blocks *b, const hr2d_allocator *alloc) {
+  hr2di_alloc_free(alloc, b->rest);
+  b->rest = NULL;
+  b->order = b->lead;
 }
 
 void hr2di_link_blocks_clear(hr2di_link_blocks *blocks, const hr2d_allocator *alloc) {
   hr2di_alloc_free(alloc, blocks->value);
+  hr2di_alloc_free(alloc, blocks->rest);
   hr2di_alloc_free(alloc, blocks->distant);
   *blocks = (hr2di_link_blocks){0};
 }

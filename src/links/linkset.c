@@ -107,9 +107,8 @@ uint64_t hr2d_linkset_own_tests(const hr2d_linkset *links) {
 }
 
 uint64_t hr2d_linkset_bytes(const hr2d_linkset *links) {
-  const hr2di_link_blocks *b = &links->blocks;
   const hr2di_roots *r = &links->roots;
   return hr2di_store_bytes(&links->store) +
          (r->clusters ? hr2di_clusters_bytes(r->clusters) : 0) + r->capacity * sizeof *r->pair +
-         b->links * (hr2di_link_blocks_stride(b) + sizeof *b->distant);
+         hr2di_link_blocks_bytes(&links->blocks);
 }

@@ -14,11 +14,11 @@ double hr2di_link_part(const hr2di_transport *t, hr2d_pair pair) {
 const double *hr2di_block_part(const hr2di_transport *t, const hr2d_link *link, uint64_t k,
                                double *room) {
   const size_t square = t->blocks.order * t->blocks.order;
-  const void *block = hr2di_link_blocks_at(&t->blocks, k);
-  const int single = t->blocks.single;
-  if (!t->check && !single) return block;
+  const hr2di_stored_block block = hr2di_link_blocks_at(&t->blocks, k);
+  if (!t->check && !block.single && !block.rest) return block.value;
   const double part = hr2di_link_part(t, link->pair);
-  for (size_t n = 0; n < square; n++)
-    room[n] = part * hr2di_number_at(block, n, single, link->exchange_area);
-  return part == 0 ? NULL : room;
+  if (part == 0) return NULL;
+  hr2di_join_block(&block, link->exchange_area, room);
+  for (size_t n = 0; n < square; n++) room[n] *= part;
+  return room;
 }

@@ -7,66 +7,113 @@
 
 #include "base/ordered-dot.h"
 #include "base/wide.h"
-#include "links/block-numbers.h"
 #include "solve/gather-blocks.h"
 
-enum { LOW = 8, FOURS = LOW / 4 };
+/* Blocks in two parts mostly have MORE coefficients than their leading part, which is a
+   constant then, too. */
+enum { LOW = 8, FOURS = LOW / 4, MORE = 2 };
 
 /* Four numbers side by side, at any address. */
 typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
 
-/* A block as it is stored, see block-numbers.h. */
-typedef struct stored {
-  const void *number;
-  size_t stride;
+/* A row of a block, see block-numbers.h: `split` numbers at `head`, and the others at `tail`.
+ */
+typedef struct row {
+  const void *head, *tail;
+  size_t split;
   double area;
   int single;
-} stored;
+} row;
 
-HR2DI_PART void load_four(const stored *c, size_t k, four *to) {
-  if (c->single) {
-    const float *from = (const float *)c->number + k;
-    *to = (four){(double)from[0], (double)from[1], (double)from[2], (double)from[3]} * c->area;
-  } else {
-    *to = *(const four *)((const double *)c->number + k);
+HR2DI_PART double number_of(const row *r, size_t m) {
+  return m < r->split ? hr2di_number_at(r->head, m, r->single, r->area)
+                      : hr2di_number_at(r->tail, m - r->split, r->single, r->area);
+}
+
+HR2DI_PART void load_four(const row *r, size_t m, four *to) {
+  const void *from = m < r->split ? r->head : r->tail;
+  const size_t at = m < r->split ? m : m - r->split;
+  if (r->single || (m < r->split && m + 4 > r->split))
+    *to =
+        (four){number_of(r, m), number_of(r, m + 1), number_of(r, m + 2), number_of(r, m + 3)};
+  else
+    *to = *(const four *)((const double *)from + at);
+}
+
+/* Coefficients of an element, or sums for them. */
+typedef struct coefficients {
+  four at[FOURS];
+  double rest[3];
+} coefficients;
+
+HR2DI_PART void load_field(const double *from, size_t order, coefficients *to) {
+  const size_t fours = order / 4, rest = order % 4;
+  for (size_t q = 0; q < fours; q++) to->at[q] = *(const four *)(from + 4 * q);
+  for (size_t m = 0; m < rest; m++) to->rest[m] = from[4 * fours + m];
+}
+
+HR2DI_PART void store_field(const coefficients *from, size_t order, double *to) {
+  const size_t fours = order / 4, rest = order % 4;
+  for (size_t q = 0; q < fours; q++) *(four *)(to + 4 * q) = from->at[q];
+  for (size_t m = 0; m < rest; m++) to[4 * fours + m] = from->rest[m];
+}
+
+/* The product of a row with `from`; adds the row times `up` to `sum` if that is asked for. */
+HR2DI_PART double add_row(const row *r, size_t order, const coefficients *from, double up,
+                          coefficients *sum, int both) {
+  const size_t fours = order / 4, rest = order % 4;
+  four s = {0};
+  double t = 0;
+  for (size_t q = 0; q < fours; q++) {
+    four entry;
+    load_four(r, 4 * q, &entry);
+    s += entry * from->at[q];
+    if (both) sum->at[q] += entry * up;
   }
+  for (size_t m = 0; m < rest; m++) {
+    const double entry = number_of(r, 4 * fours + m);
+    t += entry * from->rest[m];
+    if (both) sum->rest[m] += entry * up;
+  }
+  return hr2di_dot_four(s[0], s[1], s[2], s[3]) + t;
 }
 
 /* One link: `to_i` receives from up_j, and `to_j` from `up_i` unless that is not asked for. */
-HR2DI_PART void add_link(const stored *c, size_t order, const double *up_i, const double *up_j,
-                         double *to_i, double *to_j, int both) {
-  const size_t fours = order / 4, rest = order % 4;
-  four from[FOURS], sum[FOURS];
-  double from_rest[3], sum_rest[3];
-  for (size_t q = 0; q < fours; q++) from[q] = *(const four *)(up_j + 4 * q);
-  for (size_t m = 0; m < rest; m++) from_rest[m] = up_j[4 * fours + m];
-  for (size_t q = 0; q < fours && both; q++) sum[q] = *(const four *)(to_j + 4 * q);
-  for (size_t m = 0; m < rest && both; m++) sum_rest[m] = to_j[4 * fours + m];
-  for (size_t l = 0; l < order; l++) {
-    const size_t row = l * c->stride;
-    four s = {0};
-    double t = 0;
-    for (size_t q = 0; q < fours; q++) {
-      four entry;
-      load_four(c, row + 4 * q, &entry);
-      s += entry * from[q];
-      if (both) sum[q] += entry * up_i[l];
-    }
-    for (size_t m = 0; m < rest; m++) {
-      const double entry = hr2di_number_at(c->number, row + 4 * fours + m, c->single, c->area);
-      t += entry * from_rest[m];
-      if (both) sum_rest[m] += entry * up_i[l];
-    }
-    to_i[l] += hr2di_dot_four(s[0], s[1], s[2], s[3]) + t;
+HR2DI_PART void add_link(const hr2di_stored_block *c, double area, const double *up_i,
+                         const double *up_j, double *to_i, double *to_j, int both) {
+  const size_t order = c->order, lead = c->lead, others = order - lead;
+  const size_t number = hr2di_number_size(c->single);
+  const char *value = c->value, *rest = others > 0 ? c->rest : value;
+  const char *below = rest + lead * others * number;
+  coefficients from, sum;
+  load_field(up_j, order, &from);
+  if (both) load_field(to_j, order, &sum);
+  for (size_t l = 0; l < lead; l++) {
+    const row r = {value + l * lead * number, rest + l * others * number, lead, area,
+                   c->single};
+    to_i[l] += add_row(&r, order, &from, up_i[l], &sum, both);
   }
-  for (size_t q = 0; q < fours && both; q++) *(four *)(to_j + 4 * q) = sum[q];
-  for (size_t m = 0; m < rest && both; m++) to_j[4 * fours + m] = sum_rest[m];
+  for (size_t l = lead; l < order; l++) {
+    const row r = {below + (l - lead) * order * number, NULL, order, area, c->single};
+    to_i[l] += add_row(&r, order, &from, up_i[l], &sum, both);
+  }
+  if (both) store_field(&sum, order, to_j);
+}
+
+/* Block k of a run. */
+HR2DI_PART hr2di_stored_block block_of(const hr2di_link_run *run, size_t k, int single,
+                                       size_t order, size_t lead) {
+  const size_t number = hr2di_number_size(single), leading = lead * lead;
+  const char *value = run->block.value, *rest = run->block.rest;
+  return (hr2di_stored_block){value + k * leading * number,
+                              lead == order ? NULL
+                                            : rest + k * (order * order - leading) * number,
+                              order, lead, single};
 }
 
 /* Runs of links with the same first element. */
-HR2DI_PART void add_run(const hr2di_link_run *run, int single, size_t order,
+HR2DI_PART void add_run(const hr2di_link_run *run, int single, size_t order, size_t lead,
                         const double *restrict up, double *restrict down, int both) {
-  const size_t bytes = run->stride * run->stride * hr2di_number_size(single);
   for (size_t k = 0; k < run->count;) {
     const uint32_t first = run->link[k].pair.first;
     double up_i[LOW], to_i[LOW];
@@ -74,43 +121,51 @@ HR2DI_PART void add_run(const hr2di_link_run *run, int single, size_t order,
     for (size_t l = 0; l < order; l++) to_i[l] = down[first * order + l];
     for (; k < run->count && run->link[k].pair.first == first; k++) {
       const size_t second = run->link[k].pair.second;
-      const stored c = {(const char *)run->block + k * bytes, run->stride,
-                        run->link[k].exchange_area, single};
-      add_link(&c, order, up_i, up + second * order, to_i, down + second * order, both);
+      const hr2di_stored_block c = block_of(run, k, single, order, lead);
+      add_link(&c, run->link[k].exchange_area, up_i, up + second * order, to_i,
+               down + second * order, both);
     }
     for (size_t l = 0; l < order; l++) down[first * order + l] = to_i[l];
   }
+}
+
+HR2DI_PART void add_parts(const hr2di_link_run *run, int single, size_t order, const double *up,
+                          double *down, int both) {
+  if (run->block.lead == order)
+    add_run(run, single, order, order, up, down, both);
+  else
+    add_run(run, single, order, order - MORE, up, down, both);
 }
 
 HR2DI_PART void add_order(const hr2di_link_run *run, int single, size_t order, const double *up,
                           double *down, int both) {
   switch (order) {
   case 2:
-    add_run(run, single, 2, up, down, both);
+    add_parts(run, single, 2, up, down, both);
     return;
   case 3:
-    add_run(run, single, 3, up, down, both);
+    add_parts(run, single, 3, up, down, both);
     return;
   case 4:
-    add_run(run, single, 4, up, down, both);
+    add_parts(run, single, 4, up, down, both);
     return;
   case 5:
-    add_run(run, single, 5, up, down, both);
+    add_parts(run, single, 5, up, down, both);
     return;
   case 6:
-    add_run(run, single, 6, up, down, both);
+    add_parts(run, single, 6, up, down, both);
     return;
   case 7:
-    add_run(run, single, 7, up, down, both);
+    add_parts(run, single, 7, up, down, both);
     return;
   default:
-    add_run(run, single, LOW, up, down, both);
+    add_parts(run, single, LOW, up, down, both);
   }
 }
 
 HR2DI_PART void low_loop(const hr2di_link_run *run, size_t order, const double *up,
                          double *down, int both) {
-  if (run->single)
+  if (run->block.single)
     add_order(run, 1, order, up, down, both);
   else
     add_order(run, 0, order, up, down, both);
@@ -130,34 +185,37 @@ HR2DI_PART void one_way_loop(const hr2di_link_run *run, size_t order, const doub
 HR2DI_WIDE(one_way, (const hr2di_link_run *run, size_t order, const double *up, double *down),
            (run, order, up, down))
 
-HR2DI_PART void widen_loop(const void *block, size_t square, double area, double *to) {
-  for (size_t k = 0; k < square; k++) to[k] = hr2di_number_at(block, k, 1, area);
+HR2DI_PART void join_loop(const hr2di_stored_block *block, double area, double *to) {
+  hr2di_join_block(block, area, to);
 }
-HR2DI_WIDE(widen, (const void *block, size_t square, double area, double *to),
-           (block, square, area, to))
+HR2DI_WIDE(join, (const hr2di_stored_block *block, double area, double *to), (block, area, to))
 
 /* Any order and number of bands. */
 static void add_each(const hr2di_link_run *run, size_t order, size_t bands, const double *up,
                      double *down) {
-  const size_t width = order * bands, stride = run->stride, square = stride * stride;
-  const size_t bytes = square * hr2di_number_size(run->single);
+  const size_t width = order * bands, number = hr2di_number_size(run->block.single);
+  const size_t lead = run->block.lead * run->block.lead, rest = order * order - lead;
+  const int whole = !run->block.single && !run->block.rest;
   double room[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
+  hr2di_stored_block block = run->block;
   for (size_t k = 0; k < run->count; k++) {
     const hr2d_pair pair = run->link[k].pair;
-    const void *block = (const char *)run->block + k * bytes;
-    const double *c = run->single ? room : block;
     const size_t i = pair.first * width, j = pair.second * width;
-    if (run->single) widen(block, square, run->link[k].exchange_area, room);
+    const double *c = whole ? block.value : room;
+    if (!whole) join(&block, run->link[k].exchange_area, room);
     if (run->directed)
-      hr2di_gather_block(c, stride, order, bands, up + j, down + i);
+      hr2di_gather_block(c, order, bands, up + j, down + i);
     else
-      hr2di_gather_both(c, stride, order, bands, up + i, up + j, down + i, down + j);
+      hr2di_gather_both(c, order, bands, up + i, up + j, down + i, down + j);
+    block.value = (const char *)block.value + lead * number;
+    if (block.rest) block.rest = (const char *)block.rest + rest * number;
   }
 }
 
 void hr2di_gather_links(const hr2di_link_run *run, size_t order, size_t bands, const double *up,
                         double *down) {
-  if (bands > 1 || order > LOW)
+  const size_t lead = run->block.lead;
+  if (bands > 1 || order > LOW || (lead != order && lead + MORE != order))
     add_each(run, order, bands, up, down);
   else if (run->directed)
     one_way(run, order, up, down);

@@ -6,17 +6,17 @@
 #include <hr2d/linkset.h>
 #include <stddef.h>
 
+#include "links/block-numbers.h"
+
 typedef struct hr2di_link_run {
   const hr2d_link *link;
-  const void *block; /* of the first link; that of the next is stride² numbers behind it */
-  int single;        /* which are floats, see block-numbers.h */
-  size_t stride;
+  hr2di_stored_block block; /* of the first link; those of the others are behind it */
   size_t count;
   int directed; /* the second element of a link does not receive */
 } hr2di_link_run;
 
-/* down_i += C up_j and down_j += Cᵀ up_i over the links of a run, with the first coefficients
-   of their blocks. */
+/* down_i += C up_j and down_j += Cᵀ up_i over the links of a run, whose blocks are of this
+   order. */
 void hr2di_gather_links(const hr2di_link_run *run, size_t order, size_t bands, const double *up,
                         double *down);
 

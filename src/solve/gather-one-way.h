@@ -6,12 +6,10 @@
 
 #include <stddef.h>
 
-/* to_l += Σ_m C_lm from_m, where rows of C begin `stride` apart. */
-void hr2di_gather_rows(const double *c, size_t stride, size_t order, const double *from,
-                       double *to);
+/* to_l += Σ_m C_lm from_m, where rows of C are side by side. */
+void hr2di_gather_rows(const double *c, size_t order, const double *from, double *to);
 
 /* to_m += Σ_l C_lm from_l */
-void hr2di_gather_columns(const double *c, size_t stride, size_t order, const double *from,
-                          double *to);
+void hr2di_gather_columns(const double *c, size_t order, const double *from, double *to);
 
 #endif

@@ -159,7 +159,7 @@ static void send_area(const hr2di_transport *t, double area, uint32_t to, uint32
 static void send_block(const hr2di_transport *t, uint64_t k, const hr2d_link *link, int first,
                        int second, double *term) {
   const hr2d_pair pair = link->pair;
-  const size_t stride = t->blocks.order, width = t->width;
+  const size_t width = t->width;
   double room[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
   if (!first && !second) return;
   const double *c = hr2di_block_part(t, link, k, room);
@@ -167,11 +167,11 @@ static void send_block(const hr2di_transport *t, uint64_t k, const hr2d_link *li
   if (!c) return;
   memset(term, 0, 2 * width * sizeof *term);
   if (first && second)
-    hr2di_gather_both(c, stride, t->order, t->bands, up_i, up_j, term, term + width);
+    hr2di_gather_both(c, t->order, t->bands, up_i, up_j, term, term + width);
   else if (first)
-    hr2di_gather_block(c, stride, t->order, t->bands, up_j, term);
+    hr2di_gather_block(c, t->order, t->bands, up_j, term);
   else if (second)
-    hr2di_gather_transposed(c, stride, t->order, t->bands, up_i, term + width);
+    hr2di_gather_transposed(c, t->order, t->bands, up_i, term + width);
   if (first) add(t, pair.first, term);
   if (second) add(t, pair.second, term + width);
 }

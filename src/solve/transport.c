@@ -71,13 +71,15 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
 
 hr2d_status hr2di_transport_lead(hr2di_transport *t, const hr2di_link_blocks *blocks) {
   t->blocks = *blocks;
-  if (!blocks->value || t->order == 1 || blocks->order == t->order)
+  if (!blocks->value || t->order == 1 || t->order == blocks->order)
     return hr2di_watch_work(t->watch, t->elements / 16);
+  t->blocks.rest = NULL;
+  t->blocks.order = t->blocks.lead = t->order;
+  if (t->order == blocks->lead) return hr2di_watch_work(t->watch, t->elements / 16);
   const hr2d_status status = hr2di_leading_blocks(
       &t->leading, blocks->value, hr2di_number_size(blocks->single), blocks->links,
-      blocks->order, t->order, &t->alloc, t->threads, t->watch);
+      blocks->lead, t->order, &t->alloc, t->threads, t->watch);
   t->blocks.value = t->leading;
-  t->blocks.order = t->order;
   return status;
 }
 
@@ -133,11 +135,11 @@ static void gather_each(const hr2di_transport *t, hr2di_transport_part part, hr2
   const size_t count = run.count;
   double room[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
   run.count = 1;
-  run.single = 0;
+  run.block = (hr2di_stored_block){.order = t->order, .lead = t->order};
   for (size_t k = 0; k < count; k++, run.link++) {
     if (part == HR2DI_DISTANT_LINKS && !distant[k]) continue;
-    run.block = hr2di_block_part(t, run.link, first + k, room);
-    if (run.block) hr2di_gather_links(&run, t->order, t->bands, t->up, down);
+    run.block.value = hr2di_block_part(t, run.link, first + k, room);
+    if (run.block.value) hr2di_gather_links(&run, t->order, t->bands, t->up, down);
   }
 }
 
@@ -151,8 +153,6 @@ static void gather_orders(const hr2di_transport *t, hr2di_transport_part part, u
     const hr2d_link *link = hr2di_store_read(&t->links->store, at, &some, room);
     const hr2di_link_run run = {.link = link,
                                 .block = hr2di_link_blocks_at(&t->blocks, at),
-                                .single = t->blocks.single,
-                                .stride = t->blocks.order,
                                 .count = some,
                                 .directed = t->links->directed};
     if (part == HR2DI_DISTANT_LINKS || t->check)
@@ -334,8 +334,8 @@ void hr2di_transport_close(const hr2di_transport *t, const double *radiosity,
                            double *irradiance) {
   const size_t square = t->order * t->order;
   for (size_t k = 0; k < t->leaves && t->closure && !t->failed; k++)
-    hr2di_gather_block(t->closure + k * square, t->order, t->order, t->bands,
-                       radiosity + k * t->width, irradiance + k * t->width);
+    hr2di_gather_block(t->closure + k * square, t->order, t->bands, radiosity + k * t->width,
+                       irradiance + k * t->width);
 }
 
 void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *irradiance) {

@@ -13,7 +13,7 @@
 typedef struct hr2di_transport {
   const hr2d_linkset *links;
   hr2di_link_blocks blocks; /* of the links, above order 1; */
-  void *leading;            /* their values, unless those of the links are of that order */
+  void *leading; /* their values, where the operator has fewer than their leading part */
   const hr2d_hierarchy *hierarchy;
   const hr2d_scene *scene; /* whose E and ρ count: that of the hierarchy, or a settled one */
   hr2d_allocator alloc;
@@ -52,8 +52,9 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
 
 void hr2di_transport_clear(hr2di_transport *t);
 
-/* Sets the blocks to the first coefficients of `blocks`, as many as the operator has: in memory
-   of its own where there are more.  HR2D_OK, HR2D_ENOMEM or the status of the watch. */
+/* Sets the blocks to the first coefficients of `blocks`, as many as the operator has: all,
+   those of their leading part, or fewer, which are copied to memory of its own.  HR2D_OK,
+   HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_transport_lead(hr2di_transport *t, const hr2di_link_blocks *blocks);
 
 /* Why its results must not be used, or HR2D_OK. */

@@ -102,8 +102,8 @@ static whole_link *sorted_links(const hr2d_linkset *links) {
   ck_assert_uint_eq(links->blocks.links, count);
   for (size_t k = 0; k < count; k++) {
     all[k].link = hr2di_store_link(&links->store, k);
-    memcpy(all[k].block, hr2di_link_blocks_at(&links->blocks, k),
-           hr2di_link_blocks_stride(&links->blocks));
+    const hr2di_stored_block block = hr2di_link_blocks_at(&links->blocks, k);
+    hr2di_join_block(&block, 1, all[k].block);
     all[k].distant = links->blocks.distant[k];
   }
   qsort(all, count, sizeof *all, by_pair);
@@ -129,18 +129,27 @@ static void check_counts(const hr2d_linkset *fresh, const hr2d_linkset *taken) {
   ck_assert_uint_gt(t.links, t.limited_links);
 }
 
-/* Links and blocks that are taken over are those that would be made, bit for bit. */
+/* Turns a bit of block 5: of its leading part, or of the rest where there is one. */
+static void spoil(hr2di_link_blocks *b) {
+  const hr2di_stored_block block = hr2di_link_blocks_at(b, 5);
+  const char *from = b->rest ? b->rest : b->value, *at = b->rest ? block.rest : block.value;
+  ((unsigned char *)(b->rest ? b->rest : b->value))[at - from] ^= 1;
+}
+
+/* Links and blocks that are taken over are those that would be made, bit for bit: in one part,
+   and in two. */
 START_TEST(links_are_taken_over) {
   const unsigned threads = _i % 2 == 0 ? 1 : 3;
-  const int single = _i / 2;
+  const int single = _i / 2 % 2;
   hr2d_scene *scene = squares(120);
-  hr2d_hierarchy *h = trees(scene, 4), *divided = NULL;
+  hr2d_hierarchy *h = trees(scene, _i / 4 == 0 ? 4 : 3), *divided = NULL;
   unsigned char *depth = calloc(hr2d_scene_patches(scene), 1);
   depth[1] = depth[9] = depth[50] = 1;
   hr2d_linkset *coarse = linked_with(h, NULL, threads, single);
   hr2d_linkset *wrong = linked_with(h, NULL, 1, single);
   ck_assert_int_eq(hr2di_halved_leaves(h, depth, 0, NULL, &divided), HR2D_OK);
-  *(unsigned char *)hr2di_link_blocks_at(&wrong->blocks, 5) ^= 1;
+  ck_assert_uint_eq(wrong->blocks.lead, h->order);
+  spoil(&wrong->blocks);
   hr2d_linkset *fresh = linked_with(divided, NULL, 1, single);
   hr2d_linkset *taken = linked_with(divided, coarse, threads, single);
   hr2d_linkset *off = linked_with(divided, wrong, 1, single);
@@ -428,7 +437,7 @@ END_TEST
 
 TEST_SUITE("error shares") {
   ADD_TESTS("division", leaves_are_halved_so_often, few_elements_suffice);
-  REPEAT_TESTS(4, "links", links_are_taken_over);
+  REPEAT_TESTS(8, "links", links_are_taken_over);
   ADD_TESTS("deep", leaves_of_deep_trees_are_divided);
   REPEAT_TESTS(2, "links", budgets_count_links_taken_over);
   ADD_TESTS("bounds", bounds_may_come_later, order_rises_on_divided_elements,
