@@ -33,17 +33,24 @@ typedef struct hr2di_stored_block {
   int single;
 } hr2di_stored_block;
 
+/* Numbers [from, from + count) of a part as doubles. */
+HR2DI_PART void hr2di_read_numbers(const void *part, size_t from, size_t count, int single,
+                                   double area, double *to) {
+  for (size_t k = 0; k < count; k++) to[k] = hr2di_number_at(part, from + k, single, area);
+}
+
 /* Both parts as doubles, row by row. */
 HR2DI_PART void hr2di_join_block(const hr2di_stored_block *b, double area, double *to) {
   const size_t order = b->order, lead = b->lead, width = order - lead;
-  for (size_t l = 0; l < lead; l++, to += order) {
-    for (size_t m = 0; m < lead; m++)
-      to[m] = hr2di_number_at(b->value, l * lead + m, b->single, area);
-    for (size_t m = 0; m < width; m++)
-      to[lead + m] = hr2di_number_at(b->rest, l * width + m, b->single, area);
+  if (width == 0) {
+    hr2di_read_numbers(b->value, 0, order * order, b->single, area, to);
+    return;
   }
-  for (size_t k = 0; k < width * order; k++)
-    to[k] = hr2di_number_at(b->rest, lead * width + k, b->single, area);
+  for (size_t l = 0; l < lead; l++, to += order) {
+    hr2di_read_numbers(b->value, l * lead, lead, b->single, area, to);
+    hr2di_read_numbers(b->rest, l * width, width, b->single, area, to + lead);
+  }
+  hr2di_read_numbers(b->rest, lead * width, width * order, b->single, area, to);
 }
 
 #endif

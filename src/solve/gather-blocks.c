@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The number of bands is a constant to the compiler where it is small, so that a row of the
-   block is read once for all of them.  Sums are added in the order of hr2di_dot_strided(). */
+/* A row of the block is read once for up to four bands, which lie side by side in vectors; of
+   one band four coefficients do.  Sums are added in the order of hr2di_dot_strided(). */
 #include "solve/gather-blocks.h"
+
+#include <hr2d/hierarchy.h>
 
 #include "base/ordered-dot.h"
 #include "base/wide.h"
@@ -32,47 +34,88 @@ void hr2di_gather_transposed(const double *c, size_t order, size_t bands, const 
         to[m * bands + b] += c[l * order + m] * from[l * bands + b];
 }
 
-/* Four coefficients with `bands` values each are one array, which fills wide vectors. */
-HR2DI_PART void add_both(const double *restrict c, size_t order, size_t bands,
-                         const double *restrict up_i, const double *restrict up_j,
-                         double *restrict down_i, double *restrict down_j) {
-  for (size_t l = 0; l < order; l++) {
-    const double *row = c + l * order;
-    double s[4 * FEW] = {0}, rest[FEW] = {0}, here[4 * FEW], entry[4 * FEW];
-    for (size_t q = 0; q < 4 * bands; q++) here[q] = up_i[l * bands + q % bands];
+/* Four numbers side by side, at any address. */
+typedef double four __attribute__((vector_size(8 * FEW), aligned(8), may_alias));
+
+/* One band. */
+HR2DI_PART void add_band(const double *restrict c, size_t order, const double *restrict up_i,
+                         const double *restrict up_j, double *restrict down_i,
+                         double *restrict down_j) {
+  for (size_t l = 0; l < order; l++, c += order) {
+    four s = {0};
+    double rest = 0;
     size_t m = 0;
     for (; m + 4 <= order; m += 4) {
-      const double *from = up_j + m * bands;
-      double *to = down_j + m * bands;
-      for (size_t q = 0; q < 4 * bands; q++) entry[q] = row[m + q / bands];
-      for (size_t q = 0; q < 4 * bands; q++) s[q] += entry[q] * from[q];
-      for (size_t q = 0; q < 4 * bands; q++) to[q] += entry[q] * here[q];
+      const four entry = *(const four *)(c + m);
+      s += entry * *(const four *)(up_j + m);
+      *(four *)(down_j + m) += entry * up_i[l];
     }
-    for (; m < order; m++)
-      for (size_t b = 0; b < bands; b++) {
-        rest[b] += row[m] * up_j[m * bands + b];
-        down_j[m * bands + b] += row[m] * here[b];
-      }
-    for (size_t b = 0; b < bands; b++)
-      down_i[l * bands + b] +=
-          hr2di_dot_four(s[b], s[bands + b], s[2 * bands + b], s[3 * bands + b]) + rest[b];
+    for (; m < order; m++) {
+      rest += c[m] * up_j[m];
+      down_j[m] += c[m] * up_i[l];
+    }
+    down_i[l] += hr2di_dot_four(s[0], s[1], s[2], s[3]) + rest;
   }
+}
+
+HR2DI_PART void store(const four *from, size_t bands, double *to) {
+  for (size_t b = 0; b < bands; b++) to[b] = (*from)[b];
+}
+
+/* Two rows or one of a block of 2 to 4 bands, with the sums of hr2di_dot_four() for each.  What
+   is read behind the values of a coefficient is left alone. */
+HR2DI_PART void add_rows(const double *restrict c, size_t order, size_t bands, size_t rows,
+                         const double *restrict up_i, const double *restrict up_j,
+                         double *restrict down_i, four *restrict sum) {
+  four here[2], s[2][4] = {{{0}}}, rest[2] = {{0}};
+  const double *from = up_j;
+  size_t m = 0;
+  for (size_t r = 0; r < rows; r++) here[r] = *(const four *)(up_i + r * bands);
+  for (; m + 4 <= order; m += 4)
+    for (size_t q = 0; q < 4; q++, from += bands)
+      for (size_t r = 0; r < rows; r++) {
+        s[r][q] += c[r * order + m + q] * *(const four *)from;
+        sum[m + q] += c[r * order + m + q] * here[r];
+      }
+  for (; m < order; m++, from += bands)
+    for (size_t r = 0; r < rows; r++) {
+      rest[r] += c[r * order + m] * *(const four *)from;
+      sum[m] += c[r * order + m] * here[r];
+    }
+  for (size_t r = 0; r < rows; r++) {
+    four to = *(const four *)(down_i + r * bands);
+    to += ((s[r][0] + s[r][2]) + (s[r][1] + s[r][3])) + rest[r];
+    store(&to, bands, down_i + r * bands);
+  }
+}
+
+HR2DI_PART void add_bands(const double *restrict c, size_t order, size_t bands,
+                          const double *restrict up_i, const double *restrict up_j,
+                          double *restrict down_i, double *restrict down_j) {
+  four sum[HR2D_MAX_ORDER];
+  size_t l = 0;
+  for (size_t m = 0; m < order; m++) sum[m] = *(const four *)(down_j + m * bands);
+  for (; l + 2 <= order; l += 2)
+    add_rows(c + l * order, order, bands, 2, up_i + l * bands, up_j, down_i + l * bands, sum);
+  if (l < order)
+    add_rows(c + l * order, order, bands, 1, up_i + l * bands, up_j, down_i + l * bands, sum);
+  for (size_t m = 0; m < order; m++) store(&sum[m], bands, down_j + m * bands);
 }
 
 HR2DI_PART void few_loop(const double *c, size_t order, size_t bands, const double *up_i,
                          const double *up_j, double *down_i, double *down_j) {
   switch (bands) {
   case 1:
-    add_both(c, order, 1, up_i, up_j, down_i, down_j);
+    add_band(c, order, up_i, up_j, down_i, down_j);
     return;
   case 2:
-    add_both(c, order, 2, up_i, up_j, down_i, down_j);
+    add_bands(c, order, 2, up_i, up_j, down_i, down_j);
     return;
   case 3:
-    add_both(c, order, 3, up_i, up_j, down_i, down_j);
+    add_bands(c, order, 3, up_i, up_j, down_i, down_j);
     return;
   default:
-    add_both(c, order, FEW, up_i, up_j, down_i, down_j);
+    add_bands(c, order, FEW, up_i, up_j, down_i, down_j);
   }
 }
 HR2DI_WIDE(few,

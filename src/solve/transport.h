@@ -21,10 +21,11 @@ typedef struct hr2di_transport {
   hr2di_ties ties;
   size_t order, bands, width; /* width is order × bands */
   size_t elements, leaves;
-  uint32_t *leaf;              /* the element of each leaf */
-  double *up;                  /* elements × width: radiosity */
+  uint32_t *leaf; /* the element of each leaf */
+  double *up;     /* (elements + 1) × width: radiosity; gathers read what is behind
+                     the last element, and leave it alone */
   struct hr2di_shared *shared; /* sums over shares; NULL: there is but one */
-  double *down;     /* slices × elements × width: power received, then irradiance */
+  double *down;     /* slices × (elements + 1) × width: power received, then irradiance */
   double *receive;  /* order 1: factors per element for the push; NULL: light spreads evenly */
   double *send;     /* the same for the pull; equal to `receive` unless links are directed */
   double *closure;  /* leaves × order × order, added to the diagonal; NULL for none */

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gathers over links, with blocks of doubles and of floats, in one part and in two: against
-   sums in long double, the same bits wherever runs end, and the same for vectors of two and of
-   four.  The file is part of this program, for what it picks by the processor. */
+   sums in long double, the same bits wherever runs end, for each band alone, and for vectors of
+   two and of four.  The file is part of this program, for what it picks by the processor. */
 #include <math.h>
 #include <string.h>
 
 #include "solve/gather-links.c"
 #include "support/support.h"
 
-enum { ELEMENTS = 23, LINKS = 200, MOST = 9, BANDS = 3, PARTS = 3 };
+enum { ELEMENTS = 23, LINKS = 200, MOST = 9, BANDS = 5, PARTS = 3 };
 
-enum { FIELD = ELEMENTS * MOST * BANDS, NUMBERS = LINKS * MOST * MOST };
+enum { FIELD = ELEMENTS * MOST * BANDS + HR2DI_BEHIND, NUMBERS = LINKS * MOST * MOST };
 
 typedef struct stage {
   hr2d_link link[LINKS];
@@ -94,6 +94,21 @@ static void check_widths(const stage *s, const hr2di_link_run *run, size_t order
   ck_assert_int_eq(memcmp(narrow, wide, sizeof wide), 0);
 }
 
+/* Each band has the bits of `all` when it is alone. */
+static void check_bands(const stage *s, const hr2di_link_run *run, size_t order, size_t bands,
+                        const double *all) {
+  const size_t field = ELEMENTS * order;
+  for (size_t b = 0; b < bands; b++) {
+    double up[FIELD], down[FIELD];
+    for (size_t k = 0; k < field; k++) {
+      up[k] = s->up[k * bands + b];
+      down[k] = s->down[k * bands + b];
+    }
+    hr2di_gather_links(run, order, 1, up, down);
+    for (size_t k = 0; k < field; k++) ck_assert(down[k] == all[k * bands + b]);
+  }
+}
+
 static void check(const stage *s, size_t order, size_t lead, size_t bands, int single,
                   int directed) {
   const hr2di_link_run run = run_of(s, order, lead, single, directed, 0);
@@ -113,6 +128,7 @@ static void check(const stage *s, size_t order, size_t lead, size_t bands, int s
   for (size_t k = 0; k < field; k++)
     ck_assert_double_eq_tol(at_once[k], (double)plain[k], 1e-12);
   for (size_t k = field; k < FIELD; k++) ck_assert(at_once[k] == s->down[k]);
+  check_bands(s, &run, order, bands, at_once);
   if (bands == 1 && order <= LOW && (lead == order || lead + MORE == order))
     check_widths(s, &run, order);
 }
@@ -122,7 +138,7 @@ START_TEST(sums_are_those_of_plain_loops) {
   randoms r = {test_seed()};
   for (size_t order = 2; order <= MOST; order++)
     for (size_t lead = 1; lead <= order; lead++)
-      for (size_t bands = 1; bands <= BANDS; bands += 2)
+      for (size_t bands = 1; bands <= BANDS; bands++)
         for (int kind = 0; kind < 4; kind++) {
           draw(&s, &r);
           check(&s, order, lead, bands, kind / 2, kind % 2);
