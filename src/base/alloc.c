@@ -45,9 +45,8 @@ void *hr2di_alloc_zero(const hr2d_allocator *alloc, size_t count, size_t size) {
   return block;
 }
 
-int hr2di_alloc_reserve(const hr2d_allocator *alloc, void *array, size_t *capacity,
-                        size_t needed, size_t size) {
-  if (needed <= *capacity) return 0;
+int hr2di_alloc_grow(const hr2d_allocator *alloc, void *array, size_t *capacity, size_t needed,
+                     size_t size) {
   if (!fits(needed, size)) return -1;
   size_t grown = *capacity < 8 ? 8 : *capacity;
   while (grown < needed && fits(grown, 2 * size)) grown *= 2;

@@ -16,10 +16,16 @@ void *hr2di_alloc(const hr2d_allocator *alloc, size_t count, size_t size);
 /* As hr2di_alloc(), filled with zero bytes. */
 void *hr2di_alloc_zero(const hr2d_allocator *alloc, size_t count, size_t size);
 
+/* The rest of hr2di_alloc_reserve(). */
+int hr2di_alloc_grow(const hr2d_allocator *alloc, void *array, size_t *capacity, size_t needed,
+                     size_t size);
+
 /* Makes room for `needed` items of `size` bytes in *array.  *capacity is its capacity in items,
    which grows by doubling.  Returns 0, or -1 with *array and *capacity unchanged. */
-int hr2di_alloc_reserve(const hr2d_allocator *alloc, void *array, size_t *capacity,
-                        size_t needed, size_t size);
+static inline int hr2di_alloc_reserve(const hr2d_allocator *alloc, void *array,
+                                      size_t *capacity, size_t needed, size_t size) {
+  return needed <= *capacity ? 0 : hr2di_alloc_grow(alloc, array, capacity, needed, size);
+}
 
 /* Gives an array another number of items.  Returns the array, or NULL: then it is what it was.
  */

@@ -45,16 +45,17 @@ static int is_tiny(const hr2d_hierarchy *h, hr2d_pair pair) {
   return h->element[pair.first].length < TINY || h->element[pair.second].length < TINY;
 }
 
-/* G V is not negative, so that |C_lm| ≤ √((2l+1)(2m+1)) C_00.  A block beyond that comes from
+/* G V is not negative, so that |C_lm| ≤ φ_l(1) φ_m(1) C_00.  A block beyond that comes from
    elements that the rules cannot tell apart in doubles, as a distance of 1e-17 of a length: it
    keeps the exchange area of the link alone. */
-static void check_bound(double area, double *block, size_t order) {
+static void check_bound(const hr2di_basis *basis, double area, double *block) {
+  const size_t order = basis->order;
+  double end[HR2D_MAX_ORDER];
   int holds = isfinite(block[0]);
+  hr2di_basis_at(basis, 1, end);
   for (size_t l = 0; l < order; l++)
-    for (size_t m = 0; m < order; m++) {
-      const double most = 1.5 * block[0] * sqrt((double)((2 * l + 1) * (2 * m + 1)));
-      holds &= fabs(block[l * order + m]) <= most;
-    }
+    for (size_t m = 0; m < order; m++)
+      holds &= fabs(block[l * order + m]) <= 1.5 * block[0] * end[l] * end[m];
   if (holds) return;
   block[0] = area;
   for (size_t k = 1; k < order * order; k++) block[k] = 0;
@@ -112,7 +113,7 @@ static hr2d_status make_one(const maker *m, hr2di_integrator *work, uint64_t k) 
   const hr2d_status status = hr2di_block(work, link->pair, area, block, &distant);
   if (status) return status;
   if (is_tiny(m->links->hierarchy, link->pair)) block[0] = area;
-  check_bound(area, block, m->blocks->order);
+  check_bound(&work->basis, area, block);
   part_block(block, weight, m->blocks, k);
   m->blocks->distant[k] = (unsigned char)distant;
   return HR2D_OK;
