@@ -7,6 +7,7 @@
 
 #include <float.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/wide.h"
 
@@ -32,6 +33,16 @@ typedef struct hr2di_stored_block {
   size_t order, lead;
   int single;
 } hr2di_stored_block;
+
+/* The k-th block behind one, in arrays of blocks like it. */
+HR2DI_PART hr2di_stored_block hr2di_block_behind(const hr2di_stored_block *b, uint64_t k) {
+  const size_t number = hr2di_number_size(b->single), leading = b->lead * b->lead;
+  const size_t others = b->order * b->order - leading;
+  const char *value = b->value, *rest = b->rest;
+  return (hr2di_stored_block){value + k * leading * number,
+                              others > 0 ? rest + k * others * number : NULL, b->order, b->lead,
+                              b->single};
+}
 
 /* Numbers [from, from + count) of a part as doubles. */
 HR2DI_PART void hr2di_read_numbers(const void *part, size_t from, size_t count, int single,

@@ -29,12 +29,8 @@ uint64_t hr2di_link_blocks_bytes(const hr2di_link_blocks *b);
 
 /* The two parts of block k. */
 static inline hr2di_stored_block hr2di_link_blocks_at(const hr2di_link_blocks *b, uint64_t k) {
-  const size_t number = hr2di_number_size(b->single);
-  const size_t leading = b->lead * b->lead, others = b->order * b->order - leading;
-  const char *value = b->value, *rest = b->rest;
-  return (hr2di_stored_block){value + k * leading * number,
-                              rest ? rest + k * others * number : NULL, b->order, b->lead,
-                              b->single};
+  const hr2di_stored_block first = {b->value, b->rest, b->order, b->lead, b->single};
+  return hr2di_block_behind(&first, k);
 }
 
 /* Moves the blocks of links [from, from + count) to those from `to` on. */

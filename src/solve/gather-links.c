@@ -100,20 +100,10 @@ HR2DI_PART void add_link(const hr2di_stored_block *c, double area, const double 
   if (both) store_field(&sum, order, to_j);
 }
 
-/* Block k of a run. */
-HR2DI_PART hr2di_stored_block block_of(const hr2di_link_run *run, size_t k, int single,
-                                       size_t order, size_t lead) {
-  const size_t number = hr2di_number_size(single), leading = lead * lead;
-  const char *value = run->block.value, *rest = run->block.rest;
-  return (hr2di_stored_block){value + k * leading * number,
-                              lead == order ? NULL
-                                            : rest + k * (order * order - leading) * number,
-                              order, lead, single};
-}
-
 /* Runs of links with the same first element. */
 HR2DI_PART void add_run(const hr2di_link_run *run, int single, size_t order, size_t lead,
                         const double *restrict up, double *restrict down, int both) {
+  const hr2di_stored_block all = {run->block.value, run->block.rest, order, lead, single};
   for (size_t k = 0; k < run->count;) {
     const uint32_t first = run->link[k].pair.first;
     double up_i[LOW], to_i[LOW];
@@ -121,7 +111,7 @@ HR2DI_PART void add_run(const hr2di_link_run *run, int single, size_t order, siz
     for (size_t l = 0; l < order; l++) to_i[l] = down[first * order + l];
     for (; k < run->count && run->link[k].pair.first == first; k++) {
       const size_t second = run->link[k].pair.second;
-      const hr2di_stored_block c = block_of(run, k, single, order, lead);
+      const hr2di_stored_block c = hr2di_block_behind(&all, k);
       add_link(&c, run->link[k].exchange_area, up_i, up + second * order, to_i,
                down + second * order, both);
     }
@@ -193,22 +183,19 @@ HR2DI_WIDE(join, (const hr2di_stored_block *block, double area, double *to), (bl
 /* Any order and number of bands. */
 static void add_each(const hr2di_link_run *run, size_t order, size_t bands, const double *up,
                      double *down) {
-  const size_t width = order * bands, number = hr2di_number_size(run->block.single);
-  const size_t lead = run->block.lead * run->block.lead, rest = order * order - lead;
+  const size_t width = order * bands;
   const int whole = !run->block.single && !run->block.rest;
   double room[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
-  hr2di_stored_block block = run->block;
   for (size_t k = 0; k < run->count; k++) {
     const hr2d_pair pair = run->link[k].pair;
     const size_t i = pair.first * width, j = pair.second * width;
+    const hr2di_stored_block block = hr2di_block_behind(&run->block, k);
     const double *c = whole ? block.value : room;
     if (!whole) join(&block, run->link[k].exchange_area, room);
     if (run->directed)
       hr2di_gather_block(c, order, bands, up + j, down + i);
     else
       hr2di_gather_both(c, order, bands, up + i, up + j, down + i, down + j);
-    block.value = (const char *)block.value + lead * number;
-    if (block.rest) block.rest = (const char *)block.rest + rest * number;
   }
 }
 
