@@ -209,8 +209,9 @@ typedef struct hr2d_prediction {
  * Predicts the cost of hr2d_solve_to(): makes the elements and links, and integrates a few of
  * the blocks.
  *
- * On a machine at rest `seconds` is right within a factor of 2 if the first solve reaches the
- * target, which is so in nine of ten cases. The range covers further solves, too.
+ * On a machine at rest `seconds` is mostly right within a factor of 2, and within 3 but under
+ * mirrors and periods, if the first solve reaches the target, which is so in nine of ten cases.
+ * The range covers further solves, too.
  * bench/bench-prediction.c measures both on all kinds of scenes of the adversary.
  *
  * @param scene       committed
