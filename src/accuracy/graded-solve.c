@@ -135,16 +135,17 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
   return status;
 }
 
-/* Blocks are those of the finer operator, if the error is to be measured; the account has a
-   copy of what the part of the equation needs of them. */
+uint64_t hr2di_graded_block_bytes(const hr2di_resolution *fineness, int no_error) {
+  const uint64_t order = fineness->order, finer = hr2di_resolution_finer(fineness).order;
+  const uint64_t part = hr2di_estimator_part_order(finer);
+  const uint64_t account = finer * finer + (part < order ? part * part : 0);
+  return (no_error ? order * order : account) * hr2di_number_size(fineness->single) + 1;
+}
+
 static hr2d_status check_blocks(const hr2di_graded *a, const hr2di_resolution *fineness,
                                 const hr2d_target *target) {
-  const uint64_t finer = hr2di_resolution_finer(fineness).order;
-  const uint64_t part = hr2di_estimator_part_order(finer), order = fineness->order;
   const uint64_t links = hr2d_linkset_size(a->links);
-  const uint64_t numbers =
-      target->no_error ? order * order : finer * finer + (part < order ? part * part : 0);
-  const uint64_t block = numbers * hr2di_number_size(fineness->single) + 1;
+  const uint64_t block = hr2di_graded_block_bytes(fineness, target->no_error);
   const uint64_t used = hr2di_graded_bytes(a), most = target->max_bytes;
   if (!most || (used <= most && links <= (most - used) / block)) return HR2D_OK;
   return hr2di_message_fail(&a->links->message, HR2D_EMAX_BYTES,

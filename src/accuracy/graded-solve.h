@@ -78,6 +78,10 @@ hr2d_status hr2di_graded_solve(hr2di_graded *answer, const hr2di_resolution *fin
 
 void hr2di_graded_clear(hr2di_graded *answer);
 
+/* Bytes that the block of a link takes at most: that of the finer operator, if the error is to
+   be measured, and what the account copies of it for the part of its equation. */
+uint64_t hr2di_graded_block_bytes(const hr2di_resolution *fineness, int no_error);
+
 /* Bytes of the elements, links and blocks. */
 uint64_t hr2di_graded_bytes(const hr2di_graded *answer);
 

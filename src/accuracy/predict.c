@@ -114,14 +114,13 @@ static hr2d_status measure(const hr2di_resolution *fineness, const hr2d_target *
   const hr2d_scene *scene = a->hierarchy->scene;
   const unsigned finer = hr2di_resolution_finer(fineness).order;
   const unsigned made = target->no_error ? fineness->order : finer;
-  const size_t part = target->no_error ? 0 : hr2di_estimator_part_order(finer);
   const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(a->hierarchy);
   p->order = fineness->order;
   p->elements = counts.elements;
   p->leaves = counts.leaves;
   p->links = hr2d_linkset_size(a->links);
-  p->bytes = hr2di_graded_bytes(a) +
-             p->links * (hr2di_number_size(fineness->single) * (made * made + part * part) + 1);
+  p->bytes =
+      hr2di_graded_bytes(a) + p->links * hr2di_graded_block_bytes(fineness, target->no_error);
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "coefficients");
   const hr2d_status status = time_blocks(a, made, &watch, &c->make);
@@ -129,7 +128,7 @@ static hr2d_status measure(const hr2di_resolution *fineness, const hr2d_target *
   c->gather = time_gather(a, fineness->order);
   if (target->no_error) return status;
   c->finer = time_gather(a, finer);
-  c->part = time_gather(a, part);
+  c->part = time_gather(a, hr2di_estimator_part_order(finer));
   return status;
 }
 

@@ -7,6 +7,9 @@
 #ifndef HR2D_SRC_BASE_WIDE_H
 #define HR2D_SRC_BASE_WIDE_H
 
+/* Four numbers side by side, at any address. */
+typedef double hr2di_four __attribute__((vector_size(32), aligned(8), may_alias));
+
 /* For the parts of such a loop: a call would not be compiled for wide vectors. */
 #ifdef __GNUC__
 #define HR2DI_PART static inline __attribute__((always_inline))

@@ -34,21 +34,18 @@ void hr2di_gather_transposed(const double *c, size_t order, size_t bands, const 
         to[m * bands + b] += c[l * order + m] * from[l * bands + b];
 }
 
-/* Four numbers side by side, at any address. */
-typedef double four __attribute__((vector_size(8 * FEW), aligned(8), may_alias));
-
 /* One band. */
 HR2DI_PART void add_band(const double *restrict c, size_t order, const double *restrict up_i,
                          const double *restrict up_j, double *restrict down_i,
                          double *restrict down_j) {
   for (size_t l = 0; l < order; l++, c += order) {
-    four s = {0};
+    hr2di_four s = {0};
     double rest = 0;
     size_t m = 0;
     for (; m + 4 <= order; m += 4) {
-      const four entry = *(const four *)(c + m);
-      s += entry * *(const four *)(up_j + m);
-      *(four *)(down_j + m) += entry * up_i[l];
+      const hr2di_four entry = *(const hr2di_four *)(c + m);
+      s += entry * *(const hr2di_four *)(up_j + m);
+      *(hr2di_four *)(down_j + m) += entry * up_i[l];
     }
     for (; m < order; m++) {
       rest += c[m] * up_j[m];
@@ -58,32 +55,32 @@ HR2DI_PART void add_band(const double *restrict c, size_t order, const double *r
   }
 }
 
-HR2DI_PART void store(const four *from, size_t bands, double *to) {
+HR2DI_PART void store(const hr2di_four *from, size_t bands, double *to) {
   for (size_t b = 0; b < bands; b++) to[b] = (*from)[b];
 }
 
 /* Two rows or one of a block of 2 to 4 bands, with the sums of hr2di_dot_four() for each.  What
-   is read behind the values of a coefficient is left alone. */
+   is read behind the values of a coefficient, perhaps of the other element, is left alone. */
 HR2DI_PART void add_rows(const double *restrict c, size_t order, size_t bands, size_t rows,
                          const double *restrict up_i, const double *restrict up_j,
-                         double *restrict down_i, four *restrict sum) {
-  four here[2], s[2][4] = {{{0}}}, rest[2] = {{0}};
+                         double *down_i, hr2di_four *restrict sum) {
+  hr2di_four here[2], s[2][4] = {{{0}}}, rest[2] = {{0}};
   const double *from = up_j;
   size_t m = 0;
-  for (size_t r = 0; r < rows; r++) here[r] = *(const four *)(up_i + r * bands);
+  for (size_t r = 0; r < rows; r++) here[r] = *(const hr2di_four *)(up_i + r * bands);
   for (; m + 4 <= order; m += 4)
     for (size_t q = 0; q < 4; q++, from += bands)
       for (size_t r = 0; r < rows; r++) {
-        s[r][q] += c[r * order + m + q] * *(const four *)from;
+        s[r][q] += c[r * order + m + q] * *(const hr2di_four *)from;
         sum[m + q] += c[r * order + m + q] * here[r];
       }
   for (; m < order; m++, from += bands)
     for (size_t r = 0; r < rows; r++) {
-      rest[r] += c[r * order + m] * *(const four *)from;
+      rest[r] += c[r * order + m] * *(const hr2di_four *)from;
       sum[m] += c[r * order + m] * here[r];
     }
   for (size_t r = 0; r < rows; r++) {
-    four to = *(const four *)(down_i + r * bands);
+    hr2di_four to = *(const hr2di_four *)(down_i + r * bands);
     to += ((s[r][0] + s[r][2]) + (s[r][1] + s[r][3])) + rest[r];
     store(&to, bands, down_i + r * bands);
   }
@@ -91,10 +88,10 @@ HR2DI_PART void add_rows(const double *restrict c, size_t order, size_t bands, s
 
 HR2DI_PART void add_bands(const double *restrict c, size_t order, size_t bands,
                           const double *restrict up_i, const double *restrict up_j,
-                          double *restrict down_i, double *restrict down_j) {
-  four sum[HR2D_MAX_ORDER];
+                          double *down_i, double *down_j) {
+  hr2di_four sum[HR2D_MAX_ORDER];
   size_t l = 0;
-  for (size_t m = 0; m < order; m++) sum[m] = *(const four *)(down_j + m * bands);
+  for (size_t m = 0; m < order; m++) sum[m] = *(const hr2di_four *)(down_j + m * bands);
   for (; l + 2 <= order; l += 2)
     add_rows(c + l * order, order, bands, 2, up_i + l * bands, up_j, down_i + l * bands, sum);
   if (l < order)

@@ -13,9 +13,6 @@
    constant then, too. */
 enum { LOW = 8, FOURS = LOW / 4, MORE = 2 };
 
-/* Four numbers side by side, at any address. */
-typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
-
 /* A row of a block, see block-numbers.h: `split` numbers at `head`, and the others at `tail`.
  */
 typedef struct row {
@@ -30,31 +27,31 @@ HR2DI_PART double number_of(const row *r, size_t m) {
                       : hr2di_number_at(r->tail, m - r->split, r->single, r->area);
 }
 
-HR2DI_PART void load_four(const row *r, size_t m, four *to) {
+HR2DI_PART void load_four(const row *r, size_t m, hr2di_four *to) {
   const void *from = m < r->split ? r->head : r->tail;
   const size_t at = m < r->split ? m : m - r->split;
   if (r->single || (m < r->split && m + 4 > r->split))
-    *to =
-        (four){number_of(r, m), number_of(r, m + 1), number_of(r, m + 2), number_of(r, m + 3)};
+    *to = (hr2di_four){number_of(r, m), number_of(r, m + 1), number_of(r, m + 2),
+                       number_of(r, m + 3)};
   else
-    *to = *(const four *)((const double *)from + at);
+    *to = *(const hr2di_four *)((const double *)from + at);
 }
 
 /* Coefficients of an element, or sums for them. */
 typedef struct coefficients {
-  four at[FOURS];
+  hr2di_four at[FOURS];
   double rest[3];
 } coefficients;
 
 HR2DI_PART void load_field(const double *from, size_t order, coefficients *to) {
   const size_t fours = order / 4, rest = order % 4;
-  for (size_t q = 0; q < fours; q++) to->at[q] = *(const four *)(from + 4 * q);
+  for (size_t q = 0; q < fours; q++) to->at[q] = *(const hr2di_four *)(from + 4 * q);
   for (size_t m = 0; m < rest; m++) to->rest[m] = from[4 * fours + m];
 }
 
 HR2DI_PART void store_field(const coefficients *from, size_t order, double *to) {
   const size_t fours = order / 4, rest = order % 4;
-  for (size_t q = 0; q < fours; q++) *(four *)(to + 4 * q) = from->at[q];
+  for (size_t q = 0; q < fours; q++) *(hr2di_four *)(to + 4 * q) = from->at[q];
   for (size_t m = 0; m < rest; m++) to[4 * fours + m] = from->rest[m];
 }
 
@@ -62,10 +59,10 @@ HR2DI_PART void store_field(const coefficients *from, size_t order, double *to) 
 HR2DI_PART double add_row(const row *r, size_t order, const coefficients *from, double up,
                           coefficients *sum, int both) {
   const size_t fours = order / 4, rest = order % 4;
-  four s = {0};
+  hr2di_four s = {0};
   double t = 0;
   for (size_t q = 0; q < fours; q++) {
-    four entry;
+    hr2di_four entry;
     load_four(r, 4 * q, &entry);
     s += entry * from->at[q];
     if (both) sum->at[q] += entry * up;

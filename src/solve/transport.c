@@ -206,7 +206,7 @@ static void gather_blocks(const hr2di_transport *t, hr2di_transport_part part, s
 static void gather_slice(const hr2di_transport *t, hr2di_transport_part part, size_t slice,
                          hr2di_watch *watch) {
   const size_t field = t->elements * t->width;
-  double *down = t->down + slice * (field + t->width);
+  double *down = t->down + slice * hr2di_transport_room(t);
   if (hr2di_watch_work(watch, field / 128)) return;
   memset(down, 0, field * sizeof *down);
   if (t->order > 1)
@@ -261,13 +261,14 @@ enum { TASK = 8192 };
 static void sum_some(void *ctx, size_t worker, size_t task) {
   const slices *s = ctx;
   const hr2di_transport *t = s->t;
-  const size_t field = t->elements * t->width, first = task * TASK;
+  const size_t field = t->elements * t->width, room = hr2di_transport_room(t);
+  const size_t first = task * TASK;
   const size_t last = field - first > TASK ? first + TASK : field;
   for (size_t from = first, to; from < last; from = to) {
     to = last - from > SOME ? from + SOME : last;
     if (worker == 0 && hr2di_watch_work(t->watch, t->slices * SOME / 64)) return;
     for (size_t k = 1; k < t->slices; k++)
-      for (size_t m = from; m < to; m++) t->down[m] += t->down[k * (field + t->width) + m];
+      for (size_t m = from; m < to; m++) t->down[m] += t->down[k * room + m];
   }
 }
 

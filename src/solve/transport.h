@@ -22,10 +22,9 @@ typedef struct hr2di_transport {
   size_t order, bands, width; /* width is order × bands */
   size_t elements, leaves;
   uint32_t *leaf; /* the element of each leaf */
-  double *up;     /* (elements + 1) × width: radiosity; gathers read what is behind
-                     the last element, and leave it alone */
+  double *up;     /* elements × width, with room for one element behind: radiosity */
   struct hr2di_shared *shared; /* sums over shares; NULL: there is but one */
-  double *down;     /* slices × (elements + 1) × width: power received, then irradiance */
+  double *down;     /* per slice the same: power received; then in the first one irradiance */
   double *receive;  /* order 1: factors per element for the push; NULL: light spreads evenly */
   double *send;     /* the same for the pull; equal to `receive` unless links are directed */
   double *closure;  /* leaves × order × order, added to the diagonal; NULL for none */
@@ -44,6 +43,12 @@ typedef struct hr2di_transport {
   int check; /* links count with what this check of the extrapolation leaves, less 1; 0: as they
                 are */
 } hr2di_transport;
+
+/* Numbers of a field of elements with one element more behind them, which gathers read and
+   leave alone. */
+static inline size_t hr2di_transport_room(const hr2di_transport *t) {
+  return (t->elements + 1) * t->width;
+}
 
 /* Sets up the operator at the order of the hierarchy; above 1 the links must have blocks.
    Returns HR2D_OK, HR2D_ENOMEM or the status of the watch.  Call hr2di_transport_clear() in any
