@@ -2,8 +2,6 @@
 /* Links as large as the kernel is smooth, on elements as large as radiosity is smooth. */
 #include "accuracy/admissibility.h"
 
-#include <math.h>
-
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
 #include "oracle/built-in.h"
@@ -13,38 +11,25 @@
    links' part of the error is below that of the elements, for some percent more of them. */
 #define ROUGH 6.0
 
-/* The relative error that a link may have; 0 without weights.  The light between two patches
-   weighs no more than all the light that either of them sends. */
-static double error_for(const hr2di_admissibility *s, const hr2d_element *i,
-                        const hr2d_element *j) {
-  if (!s || !s->weight) return 0;
-  return s->target / fmin(s->weight[i->patch], s->weight[j->patch]);
+/* The ellipse that an element needs. */
+static double distance_for(const hr2d_element *e) {
+  return e->child ? ROUGH : HR2DI_ELLIPSE_DISTANT;
 }
 
-/* The ellipse that an element needs.  A link drops ρ^−2p where radiosity is smooth, ρ^−p where
-   it is rough. */
-static double distance_for(const hr2di_admissibility *s, const hr2d_element *e, double error) {
-  const double max = e->child ? ROUGH : HR2DI_ELLIPSE_DISTANT;
-  if (!(error > 0)) return max;
-  return fmin(hr2di_ellipse_for(e->child ? error * error : error, s->order), max);
-}
-
-static int is_separate(const hr2di_admissibility *ctx, const hr2d_element *i,
-                       const hr2d_element *j, int partial) {
+static int is_separate(const hr2d_element *i, const hr2d_element *j, int partial) {
   const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
-  const double error = error_for(ctx, i, j);
-  if (error >= 1) return 1;
-  return !partial && hr2di_ellipse_least(s, t) >= distance_for(ctx, i, error) &&
-         hr2di_ellipse_least(t, s) >= distance_for(ctx, j, error) &&
+  return !partial && hr2di_ellipse_least(s, t) >= distance_for(i) &&
+         hr2di_ellipse_least(t, s) >= distance_for(j) &&
          hr2di_facing_of(&s, &t) == HR2DI_FACING_FULL;
 }
 
 static hr2d_status estimate(void *ctx, const hr2d_batch *batch, double *error) {
+  (void)ctx;
   for (size_t k = 0; k < batch->count; k++) {
     const hr2d_pair pair = batch->pairs[k];
     const int partial = batch->partial && batch->partial[k];
     error[k] =
-        !is_separate(ctx, &batch->elements[pair.first], &batch->elements[pair.second], partial);
+        !is_separate(&batch->elements[pair.first], &batch->elements[pair.second], partial);
   }
   return HR2D_OK;
 }

@@ -7,15 +7,8 @@
 #include <hr2d/oracle.h>
 #include <hr2d/policy.h>
 
-/* Context of the oracle; without one every patch has weight 1. */
-typedef struct hr2di_admissibility {
-  unsigned order;
-  double target;
-  const double *weight; /* per patch, see hr2di_resolution; NULL: 1 */
-} hr2di_admissibility;
-
 /* Its estimate is 0 for pairs that are distant both ways, face each other fully and have no
-   walls in the way; 0 also for pairs of too little weight to need that; else 1. */
+   walls in the way; else 1.  It has no context. */
 const hr2d_oracle *hr2di_admissibility_oracle(void);
 
 /* Never divides a leaf: pairs of leaves are linked. */

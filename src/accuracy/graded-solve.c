@@ -72,7 +72,6 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
                                  .corner_levels = fineness->corner_levels,
                                  .flat = fineness->flat,
                                  .distance = fineness->distance,
-                                 .weight = fineness->weight,
                                  .events = chosen ? NULL : &events,
                                  .max_elements = target->max_elements,
                                  .watch = &watch,
@@ -108,7 +107,6 @@ static hr2d_status find_roots(hr2d_linkset *links, const hr2di_graded *coarse,
 static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
                                  const hr2di_resolution *fineness, const hr2d_target *target) {
   hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
-  hr2di_admissibility separation = {fineness->order, fineness->target, fineness->weight};
   options.epsilon = 0.5; /* the oracle says 0 or 1 */
   options.max_level = UINT32_MAX;
   options.threads = target->threads;
@@ -117,9 +115,8 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;
   options.share = target->share;
-  hr2d_status status =
-      hr2d_linkset_create(a->hierarchy, hr2di_admissibility_oracle(), &separation,
-                          hr2di_admissibility_fixed_leaves(), NULL, &a->links);
+  hr2d_status status = hr2d_linkset_create(a->hierarchy, hr2di_admissibility_oracle(), NULL,
+                                           hr2di_admissibility_fixed_leaves(), NULL, &a->links);
   if (status) return status;
   a->links->single = fineness->single;
   status = find_roots(a->links, coarse, fineness, target);
@@ -130,7 +127,6 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
   if (!status)
     status = coarse ? hr2di_divided_links(a->links, coarse->links, &options)
                     : hr2d_refine(a->links, &options);
-  a->links->oracle_ctx = NULL; /* the oracle is not asked again */
   a->links->pieces = NULL;
   return status;
 }

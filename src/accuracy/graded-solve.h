@@ -39,8 +39,6 @@ typedef struct hr2di_resolution {
   unsigned raises;      /* how often it was made finer */
   const hr2di_lights *lights; /* of patches, to tell which events matter */
   hr2di_looks *looks;         /* what patches see, for all attempts; NULL: nothing is kept */
-  const double *weight;       /* per patch: the factor from a relative error of its radiosity to
-                                 one of the value asked for; NULL: 1 */
 } hr2di_resolution;
 
 typedef struct hr2di_graded {

@@ -266,9 +266,6 @@ static hr2d_status add_events(hr2di_grader *g, uint32_t patch) {
   hr2d_status status = HR2D_OK;
   for (; events && low < events->count && events->event[low].patch == patch && !status; low++) {
     const double at = events->event[low].at;
-    if (g->grading->weight &&
-        events->event[low].generation > hr2di_grading_generations(g->target))
-      continue;
     status = add_mark(g, at, hr2di_point_at(s, at), (hr2di_grading_mark){.depth = 0});
   }
   return status;

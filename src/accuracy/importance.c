@@ -15,11 +15,8 @@
 #include "solution/solution-impl.h"
 #include "solve/equation.h"
 
-/* Of a solve for lights alone: even those of dark patches have some digits. */
+/* Of the solve: even lights of dark patches have some digits. */
 #define LIGHTS 1e-9
-
-/* The least weight, so that no patch is entirely unimportant. */
-#define LEAST 1e-12
 
 static int by_index(const void *a, const void *b) {
   const size_t i = *(const size_t *)a, j = *(const size_t *)b;
@@ -84,33 +81,6 @@ static hr2d_status solve_adjoint(hr2di_equation *eq, const wanted *w) {
   return hr2di_equation_solve(eq);
 }
 
-/* ∫ ψ B over each patch, per band, into `product`. */
-static void multiply(hr2di_equation *eq, const hr2d_solution *solution, const wanted *w,
-                     double *product) {
-  const hr2di_transport *t = &eq->transport;
-  double *radiosity = eq->work;
-  hr2di_solution_restrict(solution, t->hierarchy, t->leaf, t->leaves, t->order, radiosity,
-                          t->watch);
-  for (size_t k = 0; k < eq->field && !hr2di_watch_work(t->watch, 1); k++) {
-    const size_t item = k / t->bands, band = k % t->bands;
-    const hr2d_element *e = &t->hierarchy->element[t->leaf[item / t->order]];
-    const size_t at = e->patch * t->bands + band;
-    const double psi = eq->irradiance[k] + (item % t->order == 0 ? w->of_b[at] : 0);
-    if (w->most[band] > 0) product[at] += e->length * psi * (radiosity[k] / w->most[band]);
-  }
-}
-
-static void set_weights(const hr2d_scene *scene, const double *product, double *weight) {
-  for (size_t k = 0; k < scene->patches; k++) {
-    weight[k] = LEAST;
-    for (size_t b = 0; b < scene->bands; b++)
-      weight[k] = fmax(weight[k], product[k * scene->bands + b]);
-    weight[k] = fmin(weight[k], 1);
-  }
-  for (size_t k = hr2di_scene_cell(scene); k < scene->patches; k++)
-    weight[k] = weight[hr2di_scene_original(scene, k)];
-}
-
 /* The least average that is larger than 0, relative to the largest, over all bands; no less
    than the floor. */
 static double contrast_of(const hr2d_solution *solution, average_of *average,
@@ -152,8 +122,8 @@ void hr2di_lights_clear(hr2di_lights *lights, const hr2d_scene *scene) {
   *lights = (hr2di_lights){0};
 }
 
-static hr2d_status weigh(const hr2di_graded *coarse, const hr2d_target *target, double *weight,
-                         hr2di_lights *lights) {
+static hr2d_status find_lights(const hr2di_graded *coarse, const hr2d_target *target,
+                               hr2di_lights *lights) {
   const hr2d_scene *scene = coarse->hierarchy->scene;
   const hr2d_allocator *alloc = &coarse->links->alloc;
   const size_t values = scene->patches * scene->bands;
@@ -164,23 +134,19 @@ static hr2d_status weigh(const hr2di_graded *coarse, const hr2d_target *target, 
   hr2di_equation eq;
   hr2d_status status =
       hr2di_equation_init(&eq, coarse->links, coarse->links->hierarchy->scene, &options);
-  double *space = hr2di_alloc_zero(alloc, 3 * values + scene->bands, sizeof *space);
-  double *product = space;
+  double *space = hr2di_alloc_zero(alloc, 2 * values + scene->bands, sizeof *space);
   if (!status && !space) status = HR2D_ENOMEM;
   if (!status) {
-    const wanted w = {product + values, product + values + scene->bands,
-                      product + 2 * values + scene->bands};
+    const wanted w = {space, space + scene->bands, space + scene->bands + values};
     for (size_t b = 0; b < scene->bands; b++)
       w.most[b] = largest(coarse->solution, hr2d_solution_average, b);
     want(coarse->solution, hr2d_solution_average, target, w.most, w.of_b, &eq.watch);
     want(coarse->solution, hr2d_solution_irradiance, target, w.most, w.of_h, &eq.watch);
     status = hr2di_watch_status(&eq.watch);
     if (!status) status = solve_adjoint(&eq, &w);
-    if (!status && lights) status = set_lights(&eq, coarse->solution, target, &w, lights);
-    if (!status && weight) multiply(&eq, coarse->solution, &w, product);
+    if (!status) status = set_lights(&eq, coarse->solution, target, &w, lights);
     if (!status) status = hr2di_watch_status(&eq.watch);
   }
-  if (!status && weight) set_weights(scene, product, weight);
   hr2di_alloc_free(alloc, space);
   hr2di_equation_clear(&eq);
   return status;
@@ -205,13 +171,10 @@ static int is_spared(hr2d_status status) {
 }
 
 hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *given,
-                             hr2di_looks *looks, double *weight, hr2di_lights *lights,
-                             hr2di_survey *survey, hr2di_message *message) {
-  const hr2di_resolution fineness = {.order = weight ? 2 : 1,
-                                     .target = 0.1,
-                                     .tolerance = weight ? 0 : LIGHTS,
-                                     .norm = given->norm,
-                                     .looks = looks};
+                             hr2di_looks *looks, hr2di_lights *lights, hr2di_survey *survey,
+                             hr2di_message *message) {
+  const hr2di_resolution fineness = {
+      .order = 1, .target = 0.1, .tolerance = LIGHTS, .norm = given->norm, .looks = looks};
   listener l = {.target = given};
   hr2d_target heard = *given, *target = &heard;
   if (given->progress) {
@@ -220,17 +183,17 @@ hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *given,
   }
   hr2di_graded coarse;
   hr2d_status status = hr2di_graded_refine(&coarse, scene, &fineness, target, message);
-  if (!status && survey) *survey = coarse.survey;
+  if (!status) *survey = coarse.survey;
   if (!status) status = hr2di_graded_solve(&coarse, &fineness, target, message);
   if (!status) {
-    status = weigh(&coarse, target, weight, lights);
+    status = find_lights(&coarse, target, lights);
     if (status) hr2di_message_fail(message, status, "importance: %s", hr2d_strerror(status));
   }
   hr2di_graded_clear(&coarse);
   status = hr2di_share_agree(given->share, status);
-  if (status && lights) hr2di_lights_clear(lights, scene);
+  if (status) hr2di_lights_clear(lights, scene);
   double said = l.said != HR2D_OK;
   hr2di_share_begin(given->share);
   if (hr2di_share_combine(given->share, HR2D_OK, HR2D_COMBINE_MOST, &said, 1)) return status;
-  return !weight && !(said > 0) && is_spared(status) ? HR2D_OK : status;
+  return !(said > 0) && is_spared(status) ? HR2D_OK : status;
 }

@@ -8,18 +8,15 @@
 /* Whether the averages of a patch count for a target of hr2di_target_init(); O(log n). */
 int hr2di_is_important(const hr2d_target *target, size_t patch);
 
-/* weight_k = ∫_k ψ B, the largest over the bands, with ψ = Σ ψ_i/a_i over the important
-   averages a_i of B and of H.  No ψ_i is negative: a relative error ε of B on patch k that is
-   not compensated elsewhere changes each of these averages by at most ε·weight_k of it.
-   Averages count as no less than the floor of the target.  The weights are from a coarse solve,
-   and so are `lights`, B of patches and the radiosity ρψ; NULL for either that is not wanted.
-   `survey` receives what the elements of that solve say of the scene, unless it is NULL; it is
-   unchanged where they cannot be made.  Keeps what patches see in `looks`, unless that is NULL.
-   Returns HR2D_OK, or a status with a reason in `message`.  Lights alone may be missing with
-   HR2D_OK, if a budget does not suffice for them; they are to be cleared in any case. */
+/* Sets `lights` from a coarse solve: B of patches and ρψ, with ψ = Σ ψ_i/a_i over the important
+   averages a_i of B and of H, which count as no less than the floor of the target.  `survey`
+   receives what the elements of that solve say of the scene; it is unchanged where they cannot
+   be made.  Keeps what patches see in `looks`, unless that is NULL.  Returns HR2D_OK, or a
+   status with a reason in `message`.  Lights may be missing with HR2D_OK, if a budget does not
+   suffice for them; they are to be cleared in any case. */
 hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *target,
-                             hr2di_looks *looks, double *weight, hr2di_lights *lights,
-                             hr2di_survey *survey, hr2di_message *message);
+                             hr2di_looks *looks, hr2di_lights *lights, hr2di_survey *survey,
+                             hr2di_message *message);
 void hr2di_lights_clear(hr2di_lights *lights, const hr2d_scene *scene);
 
 #endif

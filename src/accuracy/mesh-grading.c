@@ -150,11 +150,8 @@ double hr2di_grading_shortest(const hr2di_patch *p) {
 
 /* The target of a patch, and what depends on it. */
 static void aim(hr2di_grader *g, uint32_t patch) {
-  const double weight = g->grading->weight ? g->grading->weight[patch] : 1;
-  g->target = fmin(g->grading->target / weight, 0.5);
+  g->target = fmin(g->grading->target, 0.5);
   g->distance = g->grading->distance > 0 ? g->grading->distance : HR2DI_ELLIPSE_DISTANT;
-  if (weight < 1)
-    g->distance = fmin(g->distance, hr2di_ellipse_for(g->target, g->grading->order));
   g->shortest = hr2di_grading_shortest(&g->h->scene->patch[patch]);
 }
 

@@ -16,7 +16,6 @@ typedef struct hr2di_grading {
   unsigned corner_levels;     /* levels at corners beyond what the target asks for */
   int flat;                   /* at corners there are these levels alone */
   double distance;            /* the ellipse at which ends may be; 0: HR2DI_ELLIPSE_DISTANT */
-  const double *weight;       /* per patch, see hr2di_resolution; NULL: 1 */
   const hr2di_events *events; /* where elements end; NULL for none */
   uint64_t max_elements;      /* 0 for no limit */
   hr2di_watch *watch;         /* NULL: nobody watches */

@@ -191,7 +191,7 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
   hr2di_message message;
   hr2di_lights lights = {0};
   if (hr2di_resolution_wants_lights(scene, target))
-    status = hr2di_importance(scene, target, NULL, NULL, &lights, &survey, &message);
+    status = hr2di_importance(scene, target, NULL, &lights, &survey, &message);
   if (!status && !(survey.ellipse > 0))
     status = hr2di_resolution_survey(scene, NULL, target->threads, &watch, &survey);
   const hr2di_resolution fineness =

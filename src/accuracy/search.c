@@ -61,7 +61,6 @@ void hr2di_search_clear(hr2di_search *s) {
   hr2di_graded_clear(&s->best);
   hr2di_looks_clear(&s->looks);
   hr2di_lights_clear(&s->lights, s->scene);
-  hr2di_alloc_free(&s->scene->alloc, s->weight);
   hr2di_target_clear(&s->given, s->scene);
 }
 

@@ -18,7 +18,6 @@ typedef struct hr2di_search {
   hr2di_survey survey;
   hr2di_graded best;
   hr2di_resolution fineness; /* of the best */
-  double *weight;            /* per patch, where importance is asked for */
   hr2di_lights lights;       /* of patches, where there are events */
   hr2di_looks looks;         /* of patches, if they are kept */
   hr2d_account account;      /* of the best, with all times */

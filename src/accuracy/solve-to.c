@@ -28,7 +28,6 @@ static hr2di_resolution first_resolution(hr2di_search *s, double error) {
   hr2di_resolution guess = hr2di_resolution_for(s->scene, &s->survey, error, &s->given,
                                                 s->lights.radiosity ? &s->lights : NULL);
   hr2di_resolution finer = s->fineness;
-  guess.weight = s->weight;
   guess.looks = hr2di_search_looks(s);
   guess.hasty = !(s->given.seconds > 0); /* there is time for a bound at the end */
   /* Under a background of their own temperature scenes are isothermal to all digits. */
@@ -131,23 +130,14 @@ static hr2d_status settle(hr2di_search *s, hr2d_status status) {
   return status == HR2D_EACCURACY && all_there_is ? HR2D_OK : status;
 }
 
-/* Without lights of patches elements end at all events.  The elements for weights are also a
-   survey, but of averages only. */
-static hr2d_status weigh_patches(hr2di_search *s) {
-  hr2di_lights *lights = hr2di_resolution_wants_lights(s->scene, &s->given) ? &s->lights : NULL;
-  if (!s->given.important && !lights) return HR2D_OK;
-  if (s->given.important) {
-    s->weight = hr2di_alloc(&s->scene->alloc, s->scene->patches, sizeof *s->weight);
-    if (!s->weight) return HR2D_ENOMEM;
-  }
-  return hr2di_importance(s->scene, &s->target, hr2di_search_looks(s), s->weight, lights,
-                          s->target.norm == HR2D_NORM_AVERAGE ? &s->survey : NULL, &s->message);
-}
-
-/* What is known of the scene before the first attempt. */
+/* What is known of the scene before the first attempt.  The elements for the lights of patches
+   are a survey, too; without these lights elements end at all events. */
 static hr2d_status survey(hr2di_search *s) {
   hr2di_watch watch;
-  const hr2d_status status = weigh_patches(s);
+  hr2d_status status = HR2D_OK;
+  if (hr2di_resolution_wants_lights(s->scene, &s->given))
+    status = hr2di_importance(s->scene, &s->target, hr2di_search_looks(s), &s->lights,
+                              &s->survey, &s->message);
   if (status || s->survey.ellipse > 0) return status;
   hr2di_scene_watch(s->scene, &watch, s->target.progress, s->target.progress_ctx, "refine");
   return hr2di_resolution_survey(s->scene, hr2di_search_looks(s), s->given.threads, &watch,

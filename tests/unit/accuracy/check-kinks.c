@@ -78,10 +78,10 @@ static size_t leaves_for(const hr2d_scene *scene, double allowed) {
   hr2di_lights lights = {0};
   hr2d_target target = HR2D_TARGET_INIT;
   hr2di_message message;
+  hr2di_survey survey;
   double *bent;
   target.floor = HR2D_FLOOR;
-  ck_assert_int_eq(hr2di_importance(scene, &target, NULL, NULL, &lights, NULL, &message),
-                   HR2D_OK);
+  ck_assert_int_eq(hr2di_importance(scene, &target, NULL, &lights, &survey, &message), HR2D_OK);
   ck_assert_int_eq(hr2d_hierarchy_create(scene, &h), HR2D_OK);
   h->order = 4;
   ck_assert_int_eq(hr2di_kinks_cut(h, &events, &lights, allowed, 0, 1, NULL, &bent), HR2D_OK);
@@ -161,9 +161,9 @@ START_TEST(threads_change_no_bit) {
   hr2di_lights lights = {0};
   hr2d_target target = HR2D_TARGET_INIT;
   hr2di_message message;
+  hr2di_survey survey;
   target.floor = HR2D_FLOOR;
-  ck_assert_int_eq(hr2di_importance(scene, &target, NULL, NULL, &lights, NULL, &message),
-                   HR2D_OK);
+  ck_assert_int_eq(hr2di_importance(scene, &target, NULL, &lights, &survey, &message), HR2D_OK);
   double *bent, *bent_alone;
   hr2d_hierarchy *alone = cut_by(scene, &events, &lights, 1, &bent_alone);
   ck_assert_uint_gt(alone->elements, 2 * hr2d_scene_patches(scene));

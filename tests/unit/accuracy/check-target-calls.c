@@ -226,7 +226,7 @@ START_TEST(importance_spares_links) {
     const double error = fabs(hr2d_solution_average(solution, p, 0) / right - 1);
     ck_assert_double_le(error, 1e-8);
     ck_assert_double_le(error, one.average.bound + 1e-11);
-    ck_assert_uint_lt(one.links, all.links / 2);
+    ck_assert_uint_lt(4 * one.links, 3 * all.links);
     hr2d_solution_destroy(solution);
   }
   hr2d_solution_destroy(every);
@@ -288,7 +288,8 @@ static hr2d_status do_all(const hr2d_scene *scene) {
   return status;
 }
 
-/* The scene itself is made while there is memory. */
+/* The scene itself is made while there is memory.  What a patch sees is kept where there is
+   memory for it; without it the call goes on. */
 START_TEST(memory_may_run_out) {
   const radiosity_scene s = {.patches = 4,
                              .patch = {{0, 0, 1, 0, 1, .5},
@@ -302,16 +303,20 @@ START_TEST(memory_may_run_out) {
     hr2d_scene *scene = radiosity_scene_make(&s, &hooks);
     const long before = memory.live;
     const long step = test_multiplier() < 1 ? 7 : 1;
-    hr2d_status status = HR2D_ENOMEM;
-    for (long k = 0; status; k += step) {
+    long failed = 0, spared = 0;
+    memory.failures = 1;
+    for (long k = 0; memory.failures > 0; k += step) {
       memory.until_failure = k;
       memory.failures = 0;
-      status = do_all(scene);
-      ck_assert_msg(status == HR2D_ENOMEM || (!status && !memory.failures),
-                    "allocation %ld: %s, %ld failed", k, hr2d_strerror(status),
-                    memory.failures);
+      const hr2d_status status = do_all(scene);
+      ck_assert_msg(status == HR2D_ENOMEM || !status, "allocation %ld: %s", k,
+                    hr2d_strerror(status));
+      ck_assert(!status || memory.failures > 0);
+      failed += status == HR2D_ENOMEM;
+      spared += !status && memory.failures > 0;
       ck_assert_int_eq(memory.live, before);
     }
+    ck_assert_int_gt(failed, 20 * spared);
     memory.until_failure = -1;
     hr2d_scene_destroy(scene);
     ck_assert_int_eq(memory.live, 0);
