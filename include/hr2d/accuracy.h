@@ -26,16 +26,21 @@
  *     B − B_h = (I − ρK⁺)⁻¹ r,     H − H_h = K⁺B_h − H_h + K⁺(B − B_h).
  *
  * The *estimate* solves this equation. Beside corners, where K⁺ shows a known part of the
- * error, r is divided by that part. The *bound* has three parts:
- * - a multiple of the estimate: 2.5 times, from 6 to 28 times where views change, 3 times at
- *   points at least;
- * - a tenth of the mean over patches of the same errors without signs: errors with signs may
- *   cancel by chance;
+ * error, r is divided by that part. Errors of averages are sums with signs, which may cancel by
+ * chance: a tenth of the size that they have with random signs is added, in squares. The
+ * *bound* has four parts:
+ * - a multiple of that size and of the error with its signs: 2.5 times, from 6 to 28 times where
+ *   views change, 3 times at points at least;
+ * - a tenth or more of the largest error of an average without signs;
+ * - where views change, for averages, a quarter of the target: elements are made for a target,
+ *   and what kinks inside them make beyond K⁺ is assumed to be below that. Likewise the
+ *   estimate is a fiftieth of the target at least;
  * - a bound of the roundings of B, of H and of coordinates. (I − ρK)⁻¹ = Σ(ρK)^k maps nothing
  *   positive to anything negative, so it carries a bound on as it carries light.
  *
  * The multiples are from measurements; the bound is not proved. doc/adversary.md says how it
- * was attacked, and with which result.
+ * was attacked, and with which result. hr2d_solution_error() measures against another solution,
+ * and does not need the assumption.
  * @{
  */
 #ifndef HR2D_ACCURACY_H

@@ -182,7 +182,7 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
   e->space =
       hr2di_alloc_zero(alloc,
                        4 * field + 4 * e->values + 2 * t->elements * t->bands + 3 * rows +
-                           12 * t->bands + (cuts ? field + 4 * e->values + 4 * t->bands : 0),
+                           14 * t->bands + (cuts ? field + 4 * e->values + 4 * t->bands : 0),
                        sizeof *e->space);
   e->exponent_of = hr2di_alloc(alloc, t->bands, sizeof *e->exponent_of);
   if (!e->space || !e->exponent_of) return HR2D_ENOMEM;
@@ -206,7 +206,8 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
   }
   e->floor = next;
   e->safe = next + 2 * t->bands;
-  e->weight = next + 4 * t->bands;
+  e->scatter = next + 4 * t->bands;
+  e->weight = next + 6 * t->bands;
   if (!cuts) return HR2D_OK;
   e->tail = e->weight + rows;
   next = e->tail + field;

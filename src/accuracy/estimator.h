@@ -21,6 +21,7 @@ typedef struct hr2di_estimator {
   const double *bent; /* see hr2di_graded */
   double exponent;    /* γ, the least of the corners */
   double margin;      /* of bounds over estimates */
+  double blind;       /* the aim, where events inside elements may hide errors; else 0 */
   hr2di_contacts contacts;
   hr2di_basis basis;
   hr2di_rule rule;
@@ -44,7 +45,8 @@ typedef struct hr2di_estimator {
   double *own;          /* likewise: what of |B| roundings of H on the element itself are of */
   double *off[2];     /* leaves × bands: what roundings may do to H, as B has it and as told */
   double *floor;      /* 2 × bands, of B and of H: no average counts as less */
-  double *safe;       /* likewise: the worst error of an average without signs */
+  double *safe;       /* likewise: the worst error of an average without signs, */
+  double *scatter;    /* and the size that it has with random ones */
   double *weight;     /* leaves × bands: from B − B_h on a leaf to its relative error */
   double *largest[2]; /* per band: B and H at a point */
   double *point[2];   /* per band: errors at points, of B and of H */

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Averages sum up what residuals do everywhere, with signs, and may be small by chance.  With
    the importance Z of one average, Z = s + KρZ, the sum Σ A |⟨r,Z⟩| over leaves has no signs.
+   Of |⟨r,Z⟩| the coefficients from p on count with the product of their norms, as those of a
+   kink at a bad place cancel, too.  The root of the sum of the squares of these products is the
+   size of the error with random signs.
+
    For an average of B, s is 1/(A B̄) on the patch; Y = ρZ is the radiosity of a source ρs.  For
    one of H, s is K of 1/(A H̄); Y = 1/(A H̄) + ρZ is the radiosity of a source 1/(A H̄), and Z is
    KY.
@@ -85,23 +89,47 @@ static void set_source(hr2di_estimator *e, int choice) {
   }
 }
 
-/* The sums over the row of the last solve in one band, for the average of H and for that of B.
-   The Y of both differ by a factor on one patch: `unit` is ρH̄/B̄ there. */
-static void sum_row(hr2di_estimator *e, size_t b, double unit, double sum[2]) {
+/* A |⟨r,Z⟩| on a leaf for the averages of B and of H: what the solve has left, and at most that
+   of the coefficients from p on. */
+static void term_of(const hr2di_estimator *e, size_t leaf, size_t b, double unit,
+                    double left[2], double high[2]) {
   const hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
-  sum[0] = sum[1] = 0;
-  for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
-    const double rho = hr2di_estimator_rho(e, leaf, b);
-    const double area = eq->weight[leaf * t->order];
-    double part[2] = {0, 0};
-    for (size_t l = 0; l < t->order; l++) {
-      const size_t k = leaf * t->width + l * t->bands + b;
-      const double s = rho > 0 ? eq->source[k] / rho : 0;
-      part[0] += unit * (eq->irradiance[k] + s) * e->residual[k];
-      part[1] += eq->irradiance[k] * e->residual[k];
+  const double rho = hr2di_estimator_rho(e, leaf, b), area = eq->weight[leaf * t->order];
+  double rest = 0;
+  for (int h = 0; h < 2; h++) left[h] = high[h] = 0;
+  for (size_t l = 0; l < t->order; l++) {
+    const size_t k = leaf * t->width + l * t->bands + b;
+    const double s = rho > 0 ? eq->source[k] / rho : 0;
+    const double z[2] = {unit * (eq->irradiance[k] + s), eq->irradiance[k]};
+    for (int h = 0; h < 2; h++) {
+      if (l < e->coarse->order)
+        left[h] += z[h] * e->residual[k];
+      else
+        high[h] = hypot(high[h], z[h]);
     }
-    for (int h = 0; h < 2; h++) sum[h] += area * fabs(part[h]);
+    if (l >= e->coarse->order) rest = hypot(rest, e->residual[k]);
+  }
+  for (int h = 0; h < 2; h++) {
+    left[h] = area * fabs(left[h]);
+    high[h] *= area * rest;
+  }
+}
+
+/* The sums over the row of the last solve in one band, for the averages of B and of H, and the
+   roots of the squares.  The Y of both differ by a factor on one patch: `unit` is ρH̄/B̄ there.
+ */
+static void sum_row(hr2di_estimator *e, size_t b, double unit, double sum[2],
+                    double scatter[2]) {
+  const hr2di_transport *t = &e->eq.transport;
+  for (int h = 0; h < 2; h++) sum[h] = scatter[h] = 0;
+  for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
+    double left[2], high[2];
+    term_of(e, leaf, b, unit, left, high);
+    for (int h = 0; h < 2; h++) {
+      sum[h] += left[h] + high[h];
+      scatter[h] = hypot(scatter[h], high[h]);
+    }
   }
 }
 
@@ -136,10 +164,14 @@ static hr2d_status sum_rows(hr2di_estimator *e, int choice) {
     const size_t patch = worst_patch(e, choice, b);
     const double least = hr2di_estimator_least(e, 0, patch, b);
     const double ratio = hr2di_estimator_least(e, 1, patch, b) / least;
-    double sum[2];
-    sum_row(e, b, least > 0 ? hr2d_scene_reflectance(scene, patch, b) * ratio : 0, sum);
-    for (int h = 0; h < 2; h++)
-      e->safe[(size_t)h * bands + b] = fmax(e->safe[(size_t)h * bands + b], sum[h]);
+    double sum[2], scatter[2];
+    sum_row(e, b, least > 0 ? hr2d_scene_reflectance(scene, patch, b) * ratio : 0, sum,
+            scatter);
+    for (int h = 0; h < 2; h++) {
+      const size_t at = (size_t)h * bands + b;
+      e->safe[at] = fmax(e->safe[at], sum[h]);
+      e->scatter[at] = fmax(e->scatter[at], scatter[h]);
+    }
   }
   return status;
 }

@@ -6,7 +6,8 @@
 #include "accuracy/estimator.h"
 
 /* Sets e->safe, per band: Σ A |⟨r, Z⟩| over leaves for the worst of the important averages of
-   B, and of those of H, with its importance Z.  Changes e->error, e->most and
+   B, and of those of H, with its importance Z; and e->scatter, the root of the sum of the
+   squares of these terms.  Changes e->error, e->most and
    e->rounding.  Returns HR2D_OK or the status of a solve. */
 hr2d_status hr2di_safe_sum(hr2di_estimator *e);
 
