@@ -9,6 +9,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "adversary/climb.h"
+#include "adversary/families.h"
 #include "adversary/kinds.h"
 #include "adversary/law.h"
 #include "adversary/report.h"
@@ -22,8 +24,8 @@ typedef struct settings {
   double seconds, limit; /* of all runs, of one solve */
   double error;          /* 0: drawn */
   int norm;              /* −1: drawn */
-  const char *kinds, *law, *transforms, *corruption, *folder;
-  int one, shrink, list;
+  const char *kinds, *law, *transforms, *corruption, *folder, *family;
+  int one, shrink, list, climb;
 } settings;
 
 static const char usage[] =
@@ -43,7 +45,9 @@ static const char usage[] =
     "  --folder FOLDER   where scenes are written (.); violated ones only with this option\n"
     "  --corrupt NAME    falsifies answers, a negative control\n"
     "  --lines N         violations to be described (40)\n"
-    "  --list            kinds, laws, transformations, corruptions\n"
+    "  --climb N         climbs on error/bound instead: N evaluations of each family\n"
+    "  --family NAME     of this family of scenes\n"
+    "  --list            families, kinds, laws, transformations, corruptions\n"
     "Exit status: 0 without a violation, 1 with one, 2 for a wrong option.\n";
 
 static int listed(const char *list, const char *name) {
@@ -56,6 +60,8 @@ static int listed(const char *list, const char *name) {
 }
 
 static void print_lists(void) {
+  for (const adv_family *f = adv_families; f->name; f++)
+    printf("family %-14s %s\n", f->name, f->what);
   for (size_t k = 0; k < adv_kinds(); k++)
     printf("kind %-16s %s\n", adv_kind_at(k)->name, adv_kind_at(k)->what);
   for (const adv_law *law = adv_laws; law->name; law++) printf("law %s\n", law->name);
@@ -78,11 +84,13 @@ static int parse(int argc, char **argv, settings *s) {
       {"law", 1, 0, 'w'},     {"transform", 1, 0, 't'}, {"error", 1, 0, 'e'},
       {"norm", 1, 0, 'n'},    {"limit", 1, 0, 'l'},     {"folder", 1, 0, 'd'},
       {"corrupt", 1, 0, 'x'}, {"lines", 1, 0, 'i'},     {"list", 0, 0, 'h'},
-      {NULL, 0, 0, 0}};
+      {"climb", 1, 0, 'b'},   {"family", 1, 0, 'y'},    {NULL, 0, 0, 0}};
   for (int id; (id = getopt_long(argc, argv, "", names, NULL)) != -1;) {
     double value = 0;
-    if (strchr("rfsclei", id) && !number(optarg, 0, &value)) return 0;
+    if (strchr("rfscleib", id) && !number(optarg, 0, &value)) return 0;
     switch (id) {
+    case 'b':
+      s->climb = 1; /* fall through */
     case 'r':
       s->runs = (unsigned long)value;
       break;
@@ -125,6 +133,9 @@ static int parse(int argc, char **argv, settings *s) {
     case 'x':
       s->corruption = optarg;
       break;
+    case 'y':
+      s->family = optarg;
+      break;
     case 'h':
       s->list = 1;
       break;
@@ -145,7 +156,7 @@ static uint64_t mix(unsigned long seed, const char *name) {
 /* What a user may ask: averages three times out of four. */
 static adv_question draw_question(const settings *s, adv_random *r, unsigned long seed) {
   static const double floors[] = {1e-6, 1e-3, 1e-6, 1e-9};
-  adv_question q = {pow(10, -adv_int(r, 2, 12)), s->limit, HR2D_NORM_AVERAGE, 1e-6};
+  adv_question q = {.error = pow(10, -adv_int(r, 2, 12)), .seconds = s->limit, .floor = 1e-6};
   if (ADV_ACCOUNT_OF_H) q.floor = floors[seed % 4];
   if (adv_chance(r, 0.25)) q.norm = HR2D_NORM_SUP;
   if (s->error > 0) q.error = s->error;
@@ -288,7 +299,8 @@ static int all_known(const char *list) {
 
 int main(int argc, char **argv) {
   settings s = {.seed = 1, .runs = 200, .lines = 40, .limit = 2, .norm = -1};
-  if (!parse(argc, argv, &s) || !all_known(s.kinds) || (s.one && !s.kinds)) {
+  if (!parse(argc, argv, &s) || !all_known(s.kinds) || (s.one && !s.kinds) ||
+      (s.family && !adv_family_of(s.family))) {
     fputs(usage, stderr);
     return 2;
   }
@@ -296,5 +308,8 @@ int main(int argc, char **argv) {
     print_lists();
     return 0;
   }
+  if (s.climb)
+    return adv_climb(
+        &(adv_climbing){s.seed, s.runs, s.seconds, s.limit, s.family, s.corruption, s.folder});
   return run_all(&s);
 }

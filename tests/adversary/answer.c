@@ -19,6 +19,12 @@ adv_points adv_choose_points(adv_random *r, int bits) {
   return points;
 }
 
+int adv_is_asked(const adv_question *question, size_t patch) {
+  for (size_t k = 0; k < question->important_count; k++)
+    if (question->important[k] == patch) return 1;
+  return !question->important_count;
+}
+
 static double now(void) {
   struct timespec t;
   timespec_get(&t, TIME_UTC);
@@ -100,7 +106,12 @@ void adv_ask(const adv_scene *scene, adv_question question, const adv_points *po
 #if ADV_ACCOUNT_OF_H
   target.floor = question.floor;
 #endif
-  double start = now(), deadline = start + 4 * question.seconds;
+  if (question.important_count) {
+    target.important = answer->question.important;
+    target.important_count = question.important_count;
+  }
+  double start = now(),
+         deadline = start + (question.stop > 0 ? question.stop : 4 * question.seconds);
   target.progress = enough;
   target.progress_ctx = &deadline;
   answer->status = adv_build(scene, &answer->built);
