@@ -41,7 +41,7 @@ static const char usage[] =
     "  --transform LIST  of copies\n"
     "  --error E         the target of all solves but finer; otherwise 1e-2 to 1e-12\n"
     "  --norm average|sup\n"
-    "  --limit SECONDS   the budget of each solve (2)\n"
+    "  --limit SECONDS   the budget of each solve (2), or when one ends (0.05)\n"
     "  --folder FOLDER   where scenes are written (.); violated ones only with this option\n"
     "  --corrupt NAME    falsifies answers, a negative control\n"
     "  --lines N         violations to be described (40)\n"
@@ -298,7 +298,7 @@ static int all_known(const char *list) {
 }
 
 int main(int argc, char **argv) {
-  settings s = {.seed = 1, .runs = 200, .lines = 40, .limit = 2, .norm = -1};
+  settings s = {.seed = 1, .runs = 200, .lines = 40, .limit = 0, .norm = -1};
   if (!parse(argc, argv, &s) || !all_known(s.kinds) || (s.one && !s.kinds) ||
       (s.family && !adv_family_of(s.family))) {
     fputs(usage, stderr);
@@ -308,6 +308,7 @@ int main(int argc, char **argv) {
     print_lists();
     return 0;
   }
+  if (!(s.limit > 0)) s.limit = s.climb ? 0.05 : 2;
   if (s.climb)
     return adv_climb(
         &(adv_climbing){s.seed, s.runs, s.seconds, s.limit, s.family, s.corruption, s.folder});

@@ -31,9 +31,19 @@ static double now(void) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static hr2d_status enough(void *deadline, const hr2d_progress *progress) {
+/* When a solve is stopped: by the clock, and by the processor's time. */
+typedef struct stop {
+  double time, work;
+} stop;
+
+static double work(void) {
+  return (double)clock() / CLOCKS_PER_SEC;
+}
+
+static hr2d_status enough(void *ctx, const hr2d_progress *progress) {
   (void)progress;
-  return now() > *(double *)deadline ? HR2D_STOPPED : HR2D_OK;
+  const stop *s = ctx;
+  return now() > s->time || work() > s->work ? HR2D_STOPPED : HR2D_OK;
 }
 
 static void brighter(double *most, double value) {
@@ -110,8 +120,9 @@ void adv_ask(const adv_scene *scene, adv_question question, const adv_points *po
     target.important = answer->question.important;
     target.important_count = question.important_count;
   }
-  double start = now(),
-         deadline = start + (question.stop > 0 ? question.stop : 4 * question.seconds);
+  const double start = now();
+  stop deadline = {start + 4 * question.seconds, INFINITY};
+  if (question.stop > 0) deadline = (stop){INFINITY, work() + question.stop};
   target.progress = enough;
   target.progress_ctx = &deadline;
   answer->status = adv_build(scene, &answer->built);

@@ -35,7 +35,8 @@ typedef struct adv_question {
   hr2d_norm norm;
   double floor; /* averages below this part of the brightest count as equally dark */
   size_t important[ADV_IMPORTANT], important_count; /* patches that are told; none: all count */
-  double stop; /* a solve is stopped after these seconds; 0: after four budgets */
+  double stop; /* seconds of the processor's time after which a solve is stopped; 0: there is
+                  a budget, and it is stopped after four times that */
 } adv_question;
 
 /* Whether the target, and the stated errors of averages, hold for a patch. */

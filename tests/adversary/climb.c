@@ -28,8 +28,9 @@ typedef struct record {
 } record;
 
 /* Evaluations without progress until another climb begins, and scenes that are drawn for its
-   start. */
-enum { PATIENCE = 120, DRAWS = 8 };
+   start.  A percent is progress. */
+enum { PATIENCE = 60, DRAWS = 8 };
+#define PROGRESS 1.01
 
 static const double coarsest = -1, finest = -9; /* decimal logarithms of targets */
 
@@ -166,7 +167,7 @@ static void climb(const adv_climbing *s, const adv_family *family, unsigned long
   adv_random r = {seed};
   for (const char *c = family->name; *c; c++) r.state = adv_next(&r) ^ (unsigned char)*c;
   genome best = {.objective = 0};
-  double fitness = -1, most = 1;
+  double fitness = 0, most = 1;
   int draws = 0;
   for (int idle = 0; idle < PATIENCE && !is_over(s, sum, end); idle++) {
     genome g = draws < DRAWS ? drawn(family->genes, seed, &r) : child(&best, family->genes, &r);
@@ -179,7 +180,7 @@ static void climb(const adv_climbing *s, const adv_family *family, unsigned long
     }
     count(sum, &m);
     draws++;
-    if (m.ratio[g.objective] > fitness) idle = 0;
+    if (m.ratio[g.objective] > PROGRESS * fitness) idle = 0;
     if (m.ratio[g.objective] >= fitness) best = g, fitness = m.ratio[g.objective];
     if (severity(&m) > most) {
       most = severity(&m);

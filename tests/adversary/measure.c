@@ -7,15 +7,31 @@
 
 #include "adversary/law.h"
 
-/* The truth is a solve with all patches, for a target a thousand times smaller, and so small
-   that what remains is a tenth of the estimates of averages.  Nothing smaller than 1e-12 is
-   asked for: there roundings are what remains. */
-static adv_question finer(const adv_answer *a) {
+/* The truth is a solve with all patches, for a target a thousand times smaller, or for a tenth
+   of the estimates of averages.  Nothing smaller than 1e-12 is asked for: there roundings are
+   what remains. */
+static adv_question finer(const adv_answer *a, int sharp) {
   adv_question q = a->question;
   const double estimate = fmin(a->account.average.estimate, a->account.irradiance.estimate);
-  q.error = fmax(1e-12, fmin(1e-3 * q.error, 0.1 * estimate));
+  q.error = fmax(1e-12, fmin(1e-3 * q.error, sharp ? 0.1 * estimate : INFINITY));
   q.important_count = 0;
+  q.stop *= 4;
   return q;
+}
+
+/* Errors of averages that are larger than they should be, and of which the truth may be the
+   reason. */
+static int is_blurred(const adv_measure *m) {
+  const adv_answer *a = &m->asked;
+  for (size_t k = 0; k < a->scene->count; k++)
+    for (int q = 0; q < ADV_QUANTITIES; q++) {
+      const adv_claim *one = &m->claimed.average[q][k][0], *two = &m->right.average[q][k][0];
+      const double apart = fabs(one->value - two->value);
+      const hr2d_error *e = q ? &a->account.irradiance : &a->account.average;
+      const double likely = one->error * (e->bound > 0 ? e->estimate / e->bound : 1);
+      if (apart > fmin(3 * likely, one->error / 2) && two->error > apart / 10) return 1;
+    }
+  return 0;
 }
 
 /* |error| / estimate of averages of B, with what the truth may be off taken from the error.  An
@@ -56,7 +72,7 @@ static void compare(adv_measure *m) {
 
 /* The largest values at points may be elsewhere, and the truth may be the one that is off. */
 static void doubt(adv_measure *m, const adv_points *points) {
-  adv_question q = finer(&m->truth);
+  adv_question q = finer(&m->truth, 0);
   q.error = fmax(1e-13, fmin(q.error, 1e-9));
   adv_forget(&m->truth);
   adv_ask(m->asked.scene, q, points, &m->truth);
@@ -74,12 +90,15 @@ void adv_take_measure(const adv_scene *scene, const adv_question *question,
   memset(&m->truth, 0, sizeof m->truth);
   adv_ask(scene, *question, &points, &m->asked);
   if (corruption) adv_corrupt(corruption, &m->asked, 1);
-  if (m->asked.solution) adv_ask(scene, finer(&m->asked), &points, &m->truth);
-  if (m->truth.solution) {
-    m->exists = 1;
+  for (int sharp = 0; sharp < 2 && m->asked.solution; sharp++) {
+    adv_forget(&m->truth);
+    adv_ask(scene, finer(&m->asked, sharp), &points, &m->truth);
+    m->exists = m->truth.solution != NULL;
+    if (!m->exists) break;
     compare(m);
-    if (adv_violations(&m->outcome)) doubt(m, &points);
+    if (!is_blurred(m)) break;
   }
+  if (m->exists && adv_violations(&m->outcome)) doubt(m, &points);
   adv_forget(&m->asked);
   adv_forget(&m->truth);
 }
