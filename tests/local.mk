@@ -243,6 +243,7 @@ tests_adversary_adversary_SOURCES = \
 	tests/adversary/climb.c tests/adversary/climb.h \
 	tests/adversary/corrupt.c \
 	tests/adversary/families.c tests/adversary/families.h \
+	tests/adversary/genome.c tests/adversary/genome.h \
 	tests/adversary/judge.c tests/adversary/judge.h \
 	tests/adversary/kinds.c tests/adversary/kinds.h \
 	tests/adversary/kinds-day.c \
@@ -251,6 +252,7 @@ tests_adversary_adversary_SOURCES = \
 	tests/adversary/kinds-rooms.c \
 	tests/adversary/kinds-symmetry.c \
 	tests/adversary/law.c tests/adversary/law.h \
+	tests/adversary/listed.h \
 	tests/adversary/measure.c tests/adversary/measure.h \
 	tests/adversary/random.h \
 	tests/adversary/report.c tests/adversary/report.h \

@@ -13,6 +13,7 @@
 #include "adversary/families.h"
 #include "adversary/kinds.h"
 #include "adversary/law.h"
+#include "adversary/listed.h"
 #include "adversary/report.h"
 #include "adversary/shrink.h"
 #include "adversary/transform.h"
@@ -24,7 +25,7 @@ typedef struct settings {
   double seconds, limit; /* of all runs, of one solve */
   double error;          /* 0: drawn */
   int norm;              /* −1: drawn */
-  const char *kinds, *law, *transforms, *corruption, *folder, *family;
+  const char *kinds, *law, *transforms, *corruption, *folder, *families;
   int one, shrink, list, climb;
 } settings;
 
@@ -46,18 +47,9 @@ static const char usage[] =
     "  --corrupt NAME    falsifies answers, a negative control\n"
     "  --lines N         violations to be described (40)\n"
     "  --climb N         climbs on error/bound instead: N evaluations of each family\n"
-    "  --family NAME     of this family of scenes\n"
+    "  --family NAME,... of these families of scenes\n"
     "  --list            families, kinds, laws, transformations, corruptions\n"
     "Exit status: 0 without a violation, 1 with one, 2 for a wrong option.\n";
-
-static int listed(const char *list, const char *name) {
-  size_t length = strlen(name);
-  for (const char *at = list; at; at = strchr(at, ',')) {
-    at += *at == ',';
-    if (!strncmp(at, name, length) && (!at[length] || at[length] == ',')) return 1;
-  }
-  return !list;
-}
 
 static void print_lists(void) {
   for (const adv_family *f = adv_families; f->name; f++)
@@ -134,7 +126,7 @@ static int parse(int argc, char **argv, settings *s) {
       s->corruption = optarg;
       break;
     case 'y':
-      s->family = optarg;
+      s->families = optarg;
       break;
     case 'h':
       s->list = 1;
@@ -144,13 +136,6 @@ static int parse(int argc, char **argv, settings *s) {
     }
   }
   return optind == argc;
-}
-
-/* The state of a trial's random numbers: of its seed and of the name of its kind. */
-static uint64_t mix(unsigned long seed, const char *name) {
-  adv_random r = {seed};
-  for (; *name; name++) r.state = adv_next(&r) ^ (unsigned char)*name;
-  return r.state;
 }
 
 /* What a user may ask: averages three times out of four. */
@@ -229,7 +214,7 @@ static int run(const settings *s, size_t k, unsigned long seed, adv_trial *trial
                unsigned long *lines) {
   static adv_scene scene;
   const adv_kind *kind = adv_kind_at(k);
-  adv_random r = {mix(seed, kind->name)};
+  adv_random r = adv_seed(seed, kind->name);
   t->kind[k].refused += (unsigned)adv_draw(kind, &r, &scene);
   trial->scene = &scene;
   trial->question = draw_question(s, &r, seed);
@@ -262,7 +247,7 @@ static int run_all(const settings *s) {
   for (; adv_laws[laws].name; laws++) t.law[laws].name = adv_laws[laws].name;
   for (unsigned long seed = s->seed; done < s->runs; seed++)
     for (size_t k = 0; k < kinds && done < s->runs; k++) {
-      if (!listed(s->kinds, t.kind[k].name)) continue;
+      if (!adv_listed(s->kinds, t.kind[k].name)) continue;
       if (s->seconds > 0 && now() - start > s->seconds) goto out;
       violated += (unsigned long)run(s, k, seed, &trial, &t, &lines);
       done++;
@@ -284,23 +269,42 @@ out:
   return violated > 0;
 }
 
-static int all_known(const char *list) {
+static const char *kind_name(size_t k) {
+  return k < adv_kinds() ? adv_kind_at(k)->name : NULL;
+}
+
+static const char *family_name(size_t k) {
+  return adv_families[k].name;
+}
+
+/* Whether all names of a list are names of something. */
+static int all_known(const char *list, const char *(*name_at)(size_t)) {
   for (const char *at = list; at; at = strchr(at, ',')) {
     at += *at == ',';
     size_t k = 0, length = strcspn(at, ",");
-    for (; k < adv_kinds(); k++) {
-      const char *name = adv_kind_at(k)->name;
+    for (const char *name; (name = name_at(k)); k++)
       if (strlen(name) == length && !strncmp(at, name, length)) break;
-    }
-    if (k == adv_kinds()) return 0;
+    if (!name_at(k)) return 0;
   }
   return 1;
 }
 
+static int climb(const settings *s) {
+  return adv_climb(&(adv_climbing){.seed = s->seed,
+                                   .evaluations = s->runs,
+                                   .seconds = s->seconds,
+                                   .stop = s->limit,
+                                   .error = s->error,
+                                   .norm = s->norm,
+                                   .families = s->families,
+                                   .corruption = s->corruption,
+                                   .folder = s->folder});
+}
+
 int main(int argc, char **argv) {
   settings s = {.seed = 1, .runs = 200, .lines = 40, .limit = 0, .norm = -1};
-  if (!parse(argc, argv, &s) || !all_known(s.kinds) || (s.one && !s.kinds) ||
-      (s.family && !adv_family_of(s.family))) {
+  if (!parse(argc, argv, &s) || !all_known(s.kinds, kind_name) ||
+      !all_known(s.families, family_name) || (s.one && !s.kinds)) {
     fputs(usage, stderr);
     return 2;
   }
@@ -309,8 +313,5 @@ int main(int argc, char **argv) {
     return 0;
   }
   if (!(s.limit > 0)) s.limit = s.climb ? 0.05 : 2;
-  if (s.climb)
-    return adv_climb(
-        &(adv_climbing){s.seed, s.runs, s.seconds, s.limit, s.family, s.corruption, s.folder});
-  return run_all(&s);
+  return s.climb ? climb(&s) : run_all(&s);
 }

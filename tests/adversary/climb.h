@@ -8,8 +8,10 @@ typedef struct adv_climbing {
   unsigned long seed;        /* of the first climb of each family; each next has the next */
   unsigned long evaluations; /* of each family */
   double seconds;            /* for all families; 0: no limit */
-  double stop;               /* a solve that takes longer is none */
-  const char *family;        /* NULL: all */
+  double stop;               /* seconds of the processor's time that a solve may take */
+  double error;              /* the target; 0: it is drawn and evolves */
+  int norm;                  /* −1: drawn */
+  const char *families;      /* separated by commas; NULL: all */
   const char *corruption;    /* see adv_corrupt() */
   const char *folder;        /* where scenes with violations are written; NULL: nowhere */
 } adv_climbing;

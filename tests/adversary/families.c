@@ -3,9 +3,11 @@
 #include "adversary/families.h"
 
 #include <math.h>
-#include <string.h>
 
 #define PI 3.14159265358979323846
+
+/* Directions of suns are integers of this size: steps of about a second of arc. */
+#define SUN 1e5
 
 /* Reads one gene after the other. */
 typedef const double *genes;
@@ -66,7 +68,20 @@ static void lamp(adv_scene *s, genes *g, double ax, double ay, double bx, double
   wall(s, g, ax, ay, bx, by, emitted);
 }
 
-/* A simple quadrangle, convex or not, in which one wall at least is a lamp, with a screen. */
+/* A free box, turned to the axes. */
+static void furniture(adv_scene *s, genes *g, double x1, double y1) {
+  const size_t first = s->count;
+  const double x = real(g, 0, x1), y = real(g, 0, y1);
+  const double w = logarithmic(g, 0.01, 1), h = logarithmic(g, 0.01, 1);
+  const double rho = reflectance(g);
+  if (adv_free(s, x, y, x + w, y) && adv_free(s, x + w, y, x + w, y + h) &&
+      adv_free(s, x + w, y + h, x, y + h) && adv_free(s, x, y + h, x, y))
+    adv_box(s, x + w, y, x, y + h);
+  paint(s, first, 0, rho);
+}
+
+/* A simple quadrangle, convex or not, in which one wall at least is a lamp, with a screen or a
+   piece of furniture. */
 static void room(adv_scene *s, genes g) {
   static const double at[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   double corner[4][2];
@@ -82,7 +97,10 @@ static void room(adv_scene *s, genes g) {
     else
       wall(s, &g, a[0], a[1], b[0], b[1], 1);
   }
-  screen(s, &g, (const double[4]){0, 0, width, 1}, 1e-3, 1);
+  if (chance(&g, 0.5))
+    screen(s, &g, (const double[4]){0, 0, width, 1}, 1e-3, 1);
+  else
+    furniture(s, &g, width, 1);
 }
 
 /* Plates over a ground, under an even sky. */
@@ -122,11 +140,14 @@ static void slits(adv_scene *s, genes g) {
 /* A short lamp, and screens about it, perhaps over a floor and in daylight. */
 static void screens(adv_scene *s, genes g) {
   const double half = real(&g, 0.3, 3);
-  if (chance(&g, 0.7)) wall(s, &g, -half, 0, half, 0, 0);
+  wall(s, &g, -half, 0, half, 0, 0);
+  if (!chance(&g, 0.7)) s->count = 0;
   const double x = real(&g, -half, half), y = logarithmic(&g, 0.003, 1);
   const double angle = real(&g, 0, 2 * PI), length = logarithmic(&g, 0.01, 1);
   const double bx = x + length * cos(angle), by = y + length * sin(angle);
-  if (adv_free(s, x, y, bx, by)) wall(s, &g, x, y, bx, by, 1);
+  const size_t first = s->count;
+  if (adv_free(s, x, y, bx, by)) adv_wall(s, x, y, bx, by);
+  paint(s, first, 1, reflectance(&g));
   if (chance(&g, 0.4)) s->background[0] = 1;
   for (int k = 0; k < 3; k++) screen(s, &g, (const double[4]){-half, 0.01, half, 2}, 0.03, 2);
 }
@@ -176,22 +197,36 @@ static void periods(adv_scene *s, genes g) {
   stay_within(s, indoors ? 3 : 2, (const double[4]){-1, 0, 2, indoors ? height : 100});
 }
 
-/* A sun, or pieces of the sky, over a ground and plates. */
+/* A roof with a slit, low or high above the ground. */
+static void roof(adv_scene *s, genes *g) {
+  const double x = real(g, -1, 1), y = logarithmic(g, 0.1, 20);
+  const double width = logarithmic(g, 1e-3, 1), reach = logarithmic(g, 1, 30);
+  const double rho = reflectance(g);
+  const size_t first = s->count;
+  adv_screen(s, x - reach, y, x, y);
+  adv_screen(s, x + width, y, x + width + reach, y);
+  paint(s, first, 0, rho);
+}
+
+/* A sun, or a piece of the sky, over a ground and plates. */
 static void day(adv_scene *s, genes g) {
   const int sun = chance(&g, 0.5);
-  const double angle = real(&g, 2, 178), half = real(&g, 1, 6);
-  if (sun) {
-    s->sun[0] = (adv_sun){llround(-1e6 * cos(angle * PI / 180)),
-                          llround(-1e6 * sin(angle * PI / 180)), 1};
-  } else {
-    const double width = logarithmic(&g, 0.1, 120);
+  const double angle = real(&g, 2, 178), width = logarithmic(&g, 0.1, 120);
+  const double half = real(&g, 1, 6);
+  if (sun)
+    s->sun[0] = (adv_sun){llround(-SUN * cos(angle * PI / 180)),
+                          llround(-SUN * sin(angle * PI / 180)), 1};
+  else
     s->piece[s->pieces++] = (adv_piece){angle - 90 - width / 2, angle - 90 + width / 2, {1}};
-  }
   wall(s, &g, -half, 0, half, 0, 0);
+  s->background[0] = fmax(0, real(&g, -0.5, 0.5));
+  if (chance(&g, 0.3)) {
+    roof(s, &g);
+    return;
+  }
   const int count = 1 + chance(&g, 0.6);
   for (int k = 0; k < count; k++)
     screen(s, &g, (const double[4]){-half, 0.02, half, 2.5}, 0.03, 2);
-  s->background[0] = fmax(0, real(&g, -0.5, 0.5));
 }
 
 /* Two rooms, a partition with a door between them, and a screen or a table. */
@@ -212,21 +247,15 @@ static void doors(adv_scene *s, genes g) {
 }
 
 const adv_family adv_families[] = {
-    {"rooms", "a quadrangle with a screen in it", 24, room},
+    {"rooms", "a quadrangle with a screen in it", 22, room},
     {"panels", "one to three plates over a ground, under an even sky", 18, panels},
-    {"slits", "a room with one or two screens across it, and a slit in each", 20, slits},
-    {"screens", "a lamp and screens, perhaps over a floor", 24, screens},
+    {"slits", "a room with one or two screens across it, and a slit in each", 17, slits},
+    {"screens", "a lamp and screens, perhaps over a floor", 29, screens},
     {"mirrors", "plates over a ground beside a mirror, or between two", 14, mirrors},
-    {"periods", "endless rows of panels, or endless plates", 12, periods},
+    {"periods", "endless rows of panels, or endless plates", 11, periods},
     {"day", "plates under a sun, or under a piece of the sky", 18, day},
-    {"doors", "two rooms, a door, and a screen", 24, doors},
+    {"doors", "two rooms, a door, and a screen", 18, doors},
     {NULL, NULL, 0, NULL}};
-
-const adv_family *adv_family_of(const char *name) {
-  for (const adv_family *f = adv_families; f->name; f++)
-    if (!strcmp(f->name, name)) return f;
-  return NULL;
-}
 
 /* Scenes are some units wide, and their coordinates have as many bits as points on their
    patches leave. */

@@ -17,9 +17,6 @@ typedef struct adv_family {
 /* Ends with a name of NULL. */
 extern const adv_family adv_families[];
 
-/* The family of this name, NULL if there is none. */
-const adv_family *adv_family_of(const char *name);
-
 /* A scene of a family; there may be none, if patches would be shorter than the grid. */
 void adv_express(const adv_family *family, const double *gene, adv_scene *scene);
 

@@ -34,8 +34,11 @@ static int is_blurred(const adv_measure *m) {
   return 0;
 }
 
-/* |error| / estimate of averages of B, with what the truth may be off taken from the error.  An
-   estimate of 0 is right if the error is none. */
+/* Bounds below this are bounds of roundings, of which estimates know nothing. */
+#define ROUNDINGS 1e-11
+
+/* |error| / estimate of averages of B, with what the truth may be off taken from the error, and
+   what roundings may be.  An estimate of 0 is right if nothing remains. */
 static double over_estimate(const adv_measure *m) {
   const adv_answer *a = &m->asked;
   double most = 0;
@@ -45,7 +48,8 @@ static double over_estimate(const adv_measure *m) {
     const adv_claim *two = &m->right.average[ADV_B][k][0];
     const double scale =
         fmax(fabs(two->value), a->question.floor * m->truth.brightest[ADV_B][0]);
-    const double off = fabs(one->value - two->value) - two->error - 0x1p-53 * one->value;
+    const double off = fabs(one->value - two->value) - two->error -
+                       fmin(one->error, ROUNDINGS * scale) - 0x1p-53 * one->value;
     if (off > 0) most = fmax(most, off / scale / a->account.average.estimate);
   }
   return most;
@@ -70,15 +74,28 @@ static void compare(adv_measure *m) {
   m->ratio[ADV_CLIMB_ESTIMATE] = over_estimate(m);
 }
 
-/* The largest values at points may be elsewhere, and the truth may be the one that is off. */
+/* A truth for a larger target than this may be the one that is off. */
+#define SURE 1e-8
+
+/* Whether errors at points may come from a largest value that was not read. */
+static int points_are_doubtful(const adv_measure *m) {
+  return m->ratio[ADV_CLIMB_POINT] > 1 && m->ratio[ADV_CLIMB_POINT] < 4;
+}
+
 static void doubt(adv_measure *m, const adv_points *points) {
-  adv_question q = finer(&m->truth, 0);
-  q.error = fmax(1e-13, fmin(q.error, 1e-9));
-  adv_forget(&m->truth);
-  adv_ask(m->asked.scene, q, points, &m->truth);
+  if (m->truth.question.error > SURE) {
+    adv_question q = m->truth.question;
+    q.error = fmin(SURE, 1e-3 * q.error);
+    adv_forget(&m->truth);
+    adv_ask(m->asked.scene, q, points, &m->truth);
+    m->exists = m->truth.solution != NULL;
+    if (!m->exists) return;
+    compare(m);
+  }
+  if (!points_are_doubtful(m)) return;
   adv_look_closely(&m->asked);
   adv_look_closely(&m->truth);
-  if (m->truth.solution) compare(m);
+  compare(m);
 }
 
 void adv_take_measure(const adv_scene *scene, const adv_question *question,
