@@ -212,7 +212,7 @@ static void roof(adv_scene *s, genes *g) {
 static void day(adv_scene *s, genes g) {
   const int sun = chance(&g, 0.5);
   const double angle = real(&g, 2, 178), width = logarithmic(&g, 0.1, 120);
-  const double half = real(&g, 1, 6);
+  const double half = real(&g, 0.5, 6);
   if (sun)
     s->sun[0] = (adv_sun){llround(-SUN * cos(angle * PI / 180)),
                           llround(-SUN * sin(angle * PI / 180)), 1};
@@ -247,13 +247,13 @@ static void doors(adv_scene *s, genes g) {
 }
 
 const adv_family adv_families[] = {
-    {"rooms", "a quadrangle with a screen in it", 22, room},
+    {"rooms", "a quadrangle with a screen or a piece of furniture", 22, room},
     {"panels", "one to three plates over a ground, under an even sky", 18, panels},
     {"slits", "a room with one or two screens across it, and a slit in each", 17, slits},
-    {"screens", "a lamp and screens, perhaps over a floor", 29, screens},
+    {"screens", "a lamp and screens, perhaps over a floor and in daylight", 29, screens},
     {"mirrors", "plates over a ground beside a mirror, or between two", 14, mirrors},
     {"periods", "endless rows of panels, or endless plates", 11, periods},
-    {"day", "plates under a sun, or under a piece of the sky", 18, day},
+    {"day", "plates, or a roof with a slit, under a sun or a piece of the sky", 18, day},
     {"doors", "two rooms, a door, and a screen", 18, doors},
     {NULL, NULL, 0, NULL}};
 
