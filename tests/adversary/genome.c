@@ -40,7 +40,7 @@ adv_genome adv_draw_genome(int genes, unsigned long seed, adv_random *r) {
   for (int k = 0; k < genes; k++) g.gene[k] = adv_real(r, 0, 1);
   for (int k = 0; k < ADV_IMPORTANT; k++) g.important[k] = adv_real(r, 0, 1);
   if (seed / 4 % 2) g.important_count = adv_chance(r, 0.7) ? 1 : ADV_IMPORTANT;
-  if (seed / 8 % 3 == 0) g.norm = HR2D_NORM_SUP;
+  if (!g.important_count && seed / 8 % 3 == 0) g.norm = HR2D_NORM_SUP;
   return g;
 }
 

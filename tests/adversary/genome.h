@@ -14,8 +14,8 @@ typedef struct adv_genome {
   hr2d_norm norm;                  /* does not evolve */
 } adv_genome;
 
-/* Any genome with this many genes.  Half of all seeds tell which patches count; a third are in
-   the sup norm. */
+/* Any genome with this many genes.  Half of all seeds tell which patches count, which is for
+   averages; a third of the others are in the sup norm. */
 adv_genome adv_draw_genome(int genes, unsigned long seed, adv_random *r);
 
 /* A parent with changes. */
