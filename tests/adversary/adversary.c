@@ -42,7 +42,7 @@ static const char usage[] =
     "  --transform LIST  of copies\n"
     "  --error E         the target of all solves but finer; otherwise 1e-2 to 1e-12\n"
     "  --norm average|sup\n"
-    "  --limit SECONDS   the budget of each solve (2), or when one ends (0.05)\n"
+    "  --limit SECONDS   the budget of each solve (2), or when one ends (0.1)\n"
     "  --folder FOLDER   where scenes are written (.); violated ones only with this option\n"
     "  --corrupt NAME    falsifies answers, a negative control\n"
     "  --lines N         violations to be described (40)\n"
@@ -312,6 +312,6 @@ int main(int argc, char **argv) {
     print_lists();
     return 0;
   }
-  if (!(s.limit > 0)) s.limit = s.climb ? 0.05 : 2;
+  if (!(s.limit > 0)) s.limit = s.climb ? 0.1 : 2;
   return s.climb ? climb(&s) : run_all(&s);
 }

@@ -180,10 +180,11 @@ static void mirrors(adv_scene *s, genes g) {
   s->background[0] = 1;
 }
 
-/* Rows of panels over an endless ground, or plates of which one has a lamp. */
+/* Rows of panels over an endless ground, or plates of which one has a lamp.  All is within a
+   period of the ground: the farther images are, the more of them a solve takes. */
 static void periods(adv_scene *s, genes g) {
   const int indoors = chance(&g, 0.4);
-  const double part = real(&g, 0.05, 0.95), height = logarithmic(&g, 0.1, 3);
+  const double part = real(&g, 0.05, 0.95), height = logarithmic(&g, 0.1, 1);
   s->period[0] = (int64_t)ldexp(1, -s->exponent);
   wall(s, &g, 0, 0, part, 0, indoors);
   wall(s, &g, part, 0, 1, 0, 0);
@@ -191,7 +192,7 @@ static void periods(adv_scene *s, genes g) {
     wall(s, &g, 1, height, 0, height, 0);
     screen(s, &g, (const double[4]){0.1, 0.05 * height, 0.9, 0.95 * height}, 0.02, 0.6);
   } else {
-    screen(s, &g, (const double[4]){0.1, 0.05, 0.9, 1.5}, 0.03, 0.9);
+    screen(s, &g, (const double[4]){0.1, 0.05, 0.9, 0.8}, 0.03, 0.9);
     s->background[0] = 1;
   }
   stay_within(s, indoors ? 3 : 2, (const double[4]){-1, 0, 2, indoors ? height : 100});
