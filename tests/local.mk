@@ -231,7 +231,8 @@ tests_program_pixels_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(CAIRO_CFLAGS)
 tests_program_pixels_LDADD = $(CAIRO_LIBS)
 
 # The adversary knows of the library what a user knows: public headers, exported symbols.  `make
-# adversary RUNS=20000` prints the tables of many runs.
+# adversary RUNS=20000` prints the tables of many runs, and `make adversary CLIMB=100000` that of as
+# many evaluations of each family, with other seeds each day.
 check_PROGRAMS += tests/adversary/adversary
 tests_adversary_adversary_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(PUBLIC_CPPFLAGS) \
 	-I$(srcdir)/tests
@@ -240,7 +241,10 @@ tests_adversary_adversary_SOURCES = \
 	tests/adversary/adversary.c \
 	tests/adversary/answer.c tests/adversary/answer.h \
 	tests/adversary/claim.c tests/adversary/claim.h \
+	tests/adversary/climb.c tests/adversary/climb.h \
 	tests/adversary/corrupt.c \
+	tests/adversary/families.c tests/adversary/families.h \
+	tests/adversary/genome.c tests/adversary/genome.h \
 	tests/adversary/judge.c tests/adversary/judge.h \
 	tests/adversary/kinds.c tests/adversary/kinds.h \
 	tests/adversary/kinds-day.c \
@@ -249,6 +253,8 @@ tests_adversary_adversary_SOURCES = \
 	tests/adversary/kinds-rooms.c \
 	tests/adversary/kinds-symmetry.c \
 	tests/adversary/law.c tests/adversary/law.h \
+	tests/adversary/listed.h \
+	tests/adversary/measure.c tests/adversary/measure.h \
 	tests/adversary/random.h \
 	tests/adversary/report.c tests/adversary/report.h \
 	tests/adversary/scene.c tests/adversary/scene.h \
@@ -257,8 +263,12 @@ tests_adversary_adversary_SOURCES = \
 	tests/adversary/transform.c tests/adversary/transform.h \
 	tests/adversary/transform-symmetry.c
 RUNS = 2000
+CLIMB =
+DAY = `date +%Y%m%d000`
 adversary: tests/adversary/adversary$(EXEEXT)
-	@tests/adversary/adversary$(EXEEXT) --runs $(RUNS) >adversary.md; status=$$?; \
+	@if test -n "$(CLIMB)"; then set -- --climb $(CLIMB) --seed $(DAY); \
+	else set -- --runs $(RUNS); fi; \
+	tests/adversary/adversary$(EXEEXT) "$$@" >adversary.md; status=$$?; \
 	cat adversary.md; exit $$status
 .PHONY: adversary
 CLEANFILES += adversary.md

@@ -9,8 +9,11 @@
 #include <string.h>
 #include <time.h>
 
+#include "adversary/climb.h"
+#include "adversary/families.h"
 #include "adversary/kinds.h"
 #include "adversary/law.h"
+#include "adversary/listed.h"
 #include "adversary/report.h"
 #include "adversary/shrink.h"
 #include "adversary/transform.h"
@@ -22,8 +25,8 @@ typedef struct settings {
   double seconds, limit; /* of all runs, of one solve */
   double error;          /* 0: drawn */
   int norm;              /* −1: drawn */
-  const char *kinds, *law, *transforms, *corruption, *folder;
-  int one, shrink, list;
+  const char *kinds, *law, *transforms, *corruption, *folder, *families;
+  int one, shrink, list, climb;
 } settings;
 
 static const char usage[] =
@@ -39,23 +42,18 @@ static const char usage[] =
     "  --transform LIST  of copies\n"
     "  --error E         the target of all solves but finer; otherwise 1e-2 to 1e-12\n"
     "  --norm average|sup\n"
-    "  --limit SECONDS   the budget of each solve (2)\n"
+    "  --limit SECONDS   the budget of each solve (2), or when one ends (0.1)\n"
     "  --folder FOLDER   where scenes are written (.); violated ones only with this option\n"
     "  --corrupt NAME    falsifies answers, a negative control\n"
     "  --lines N         violations to be described (40)\n"
-    "  --list            kinds, laws, transformations, corruptions\n"
+    "  --climb N         climbs on error/bound instead: N evaluations of each family\n"
+    "  --family NAME,... of these families of scenes\n"
+    "  --list            families, kinds, laws, transformations, corruptions\n"
     "Exit status: 0 without a violation, 1 with one, 2 for a wrong option.\n";
 
-static int listed(const char *list, const char *name) {
-  size_t length = strlen(name);
-  for (const char *at = list; at; at = strchr(at, ',')) {
-    at += *at == ',';
-    if (!strncmp(at, name, length) && (!at[length] || at[length] == ',')) return 1;
-  }
-  return !list;
-}
-
 static void print_lists(void) {
+  for (const adv_family *f = adv_families; f->name; f++)
+    printf("family %-14s %s\n", f->name, f->what);
   for (size_t k = 0; k < adv_kinds(); k++)
     printf("kind %-16s %s\n", adv_kind_at(k)->name, adv_kind_at(k)->what);
   for (const adv_law *law = adv_laws; law->name; law++) printf("law %s\n", law->name);
@@ -78,11 +76,13 @@ static int parse(int argc, char **argv, settings *s) {
       {"law", 1, 0, 'w'},     {"transform", 1, 0, 't'}, {"error", 1, 0, 'e'},
       {"norm", 1, 0, 'n'},    {"limit", 1, 0, 'l'},     {"folder", 1, 0, 'd'},
       {"corrupt", 1, 0, 'x'}, {"lines", 1, 0, 'i'},     {"list", 0, 0, 'h'},
-      {NULL, 0, 0, 0}};
+      {"climb", 1, 0, 'b'},   {"family", 1, 0, 'y'},    {NULL, 0, 0, 0}};
   for (int id; (id = getopt_long(argc, argv, "", names, NULL)) != -1;) {
     double value = 0;
-    if (strchr("rfsclei", id) && !number(optarg, 0, &value)) return 0;
+    if (strchr("rfscleib", id) && !number(optarg, 0, &value)) return 0;
     switch (id) {
+    case 'b':
+      s->climb = 1; /* fall through */
     case 'r':
       s->runs = (unsigned long)value;
       break;
@@ -125,6 +125,9 @@ static int parse(int argc, char **argv, settings *s) {
     case 'x':
       s->corruption = optarg;
       break;
+    case 'y':
+      s->families = optarg;
+      break;
     case 'h':
       s->list = 1;
       break;
@@ -135,17 +138,10 @@ static int parse(int argc, char **argv, settings *s) {
   return optind == argc;
 }
 
-/* The state of a trial's random numbers: of its seed and of the name of its kind. */
-static uint64_t mix(unsigned long seed, const char *name) {
-  adv_random r = {seed};
-  for (; *name; name++) r.state = adv_next(&r) ^ (unsigned char)*name;
-  return r.state;
-}
-
 /* What a user may ask: averages three times out of four. */
 static adv_question draw_question(const settings *s, adv_random *r, unsigned long seed) {
   static const double floors[] = {1e-6, 1e-3, 1e-6, 1e-9};
-  adv_question q = {pow(10, -adv_int(r, 2, 12)), s->limit, HR2D_NORM_AVERAGE, 1e-6};
+  adv_question q = {.error = pow(10, -adv_int(r, 2, 12)), .seconds = s->limit, .floor = 1e-6};
   if (ADV_ACCOUNT_OF_H) q.floor = floors[seed % 4];
   if (adv_chance(r, 0.25)) q.norm = HR2D_NORM_SUP;
   if (s->error > 0) q.error = s->error;
@@ -218,7 +214,7 @@ static int run(const settings *s, size_t k, unsigned long seed, adv_trial *trial
                unsigned long *lines) {
   static adv_scene scene;
   const adv_kind *kind = adv_kind_at(k);
-  adv_random r = {mix(seed, kind->name)};
+  adv_random r = adv_seed(seed, kind->name);
   t->kind[k].refused += (unsigned)adv_draw(kind, &r, &scene);
   trial->scene = &scene;
   trial->question = draw_question(s, &r, seed);
@@ -251,7 +247,7 @@ static int run_all(const settings *s) {
   for (; adv_laws[laws].name; laws++) t.law[laws].name = adv_laws[laws].name;
   for (unsigned long seed = s->seed; done < s->runs; seed++)
     for (size_t k = 0; k < kinds && done < s->runs; k++) {
-      if (!listed(s->kinds, t.kind[k].name)) continue;
+      if (!adv_listed(s->kinds, t.kind[k].name)) continue;
       if (s->seconds > 0 && now() - start > s->seconds) goto out;
       violated += (unsigned long)run(s, k, seed, &trial, &t, &lines);
       done++;
@@ -273,22 +269,42 @@ out:
   return violated > 0;
 }
 
-static int all_known(const char *list) {
+static const char *kind_name(size_t k) {
+  return k < adv_kinds() ? adv_kind_at(k)->name : NULL;
+}
+
+static const char *family_name(size_t k) {
+  return adv_families[k].name;
+}
+
+/* Whether all names of a list are names of something. */
+static int all_known(const char *list, const char *(*name_at)(size_t)) {
   for (const char *at = list; at; at = strchr(at, ',')) {
     at += *at == ',';
     size_t k = 0, length = strcspn(at, ",");
-    for (; k < adv_kinds(); k++) {
-      const char *name = adv_kind_at(k)->name;
+    for (const char *name; (name = name_at(k)); k++)
       if (strlen(name) == length && !strncmp(at, name, length)) break;
-    }
-    if (k == adv_kinds()) return 0;
+    if (!name_at(k)) return 0;
   }
   return 1;
 }
 
+static int climb(const settings *s) {
+  return adv_climb(&(adv_climbing){.seed = s->seed,
+                                   .evaluations = s->runs,
+                                   .seconds = s->seconds,
+                                   .stop = s->limit,
+                                   .error = s->error,
+                                   .norm = s->norm,
+                                   .families = s->families,
+                                   .corruption = s->corruption,
+                                   .folder = s->folder});
+}
+
 int main(int argc, char **argv) {
-  settings s = {.seed = 1, .runs = 200, .lines = 40, .limit = 2, .norm = -1};
-  if (!parse(argc, argv, &s) || !all_known(s.kinds) || (s.one && !s.kinds)) {
+  settings s = {.seed = 1, .runs = 200, .lines = 40, .limit = 0, .norm = -1};
+  if (!parse(argc, argv, &s) || !all_known(s.kinds, kind_name) ||
+      !all_known(s.families, family_name) || (s.one && !s.kinds)) {
     fputs(usage, stderr);
     return 2;
   }
@@ -296,5 +312,6 @@ int main(int argc, char **argv) {
     print_lists();
     return 0;
   }
-  return run_all(&s);
+  if (!(s.limit > 0)) s.limit = s.climb ? 0.1 : 2;
+  return s.climb ? climb(&s) : run_all(&s);
 }

@@ -19,15 +19,31 @@ adv_points adv_choose_points(adv_random *r, int bits) {
   return points;
 }
 
+int adv_is_asked(const adv_question *question, size_t patch) {
+  for (size_t k = 0; k < question->important_count; k++)
+    if (question->important[k] == patch) return 1;
+  return !question->important_count;
+}
+
 static double now(void) {
   struct timespec t;
   timespec_get(&t, TIME_UTC);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static hr2d_status enough(void *deadline, const hr2d_progress *progress) {
+/* When a solve is stopped: by the clock, and by the processor's time. */
+typedef struct stop {
+  double time, work;
+} stop;
+
+static double work(void) {
+  return (double)clock() / CLOCKS_PER_SEC;
+}
+
+static hr2d_status enough(void *ctx, const hr2d_progress *progress) {
   (void)progress;
-  return now() > *(double *)deadline ? HR2D_STOPPED : HR2D_OK;
+  const stop *s = ctx;
+  return now() > s->time || work() > s->work ? HR2D_STOPPED : HR2D_OK;
 }
 
 static void brighter(double *most, double value) {
@@ -100,7 +116,13 @@ void adv_ask(const adv_scene *scene, adv_question question, const adv_points *po
 #if ADV_ACCOUNT_OF_H
   target.floor = question.floor;
 #endif
-  double start = now(), deadline = start + 4 * question.seconds;
+  if (question.important_count) {
+    target.important = answer->question.important;
+    target.important_count = question.important_count;
+  }
+  const double start = now();
+  stop deadline = {start + 4 * question.seconds, INFINITY};
+  if (question.stop > 0) deadline = (stop){INFINITY, work() + question.stop};
   target.progress = enough;
   target.progress_ctx = &deadline;
   answer->status = adv_build(scene, &answer->built);

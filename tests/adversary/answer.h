@@ -28,11 +28,19 @@ adv_points adv_choose_points(adv_random *r, int bits);
 #define ADV_ACCOUNT_OF_H 0
 #endif
 
+enum { ADV_IMPORTANT = 2 };
+
 typedef struct adv_question {
   double error, seconds; /* of hr2d_target */
   hr2d_norm norm;
   double floor; /* averages below this part of the brightest count as equally dark */
+  size_t important[ADV_IMPORTANT], important_count; /* patches that are told; none: all count */
+  double stop; /* seconds of the processor's time after which a solve is stopped; 0: there is
+                  a budget, and it is stopped after four times that */
 } adv_question;
+
+/* Whether the target, and the stated errors of averages, hold for a patch. */
+int adv_is_asked(const adv_question *question, size_t patch);
 
 typedef struct adv_answer {
   const adv_scene *scene;

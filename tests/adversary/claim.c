@@ -20,6 +20,7 @@ static double times(double relative_error, double scale) {
 
 static double of_average(const adv_answer *a, hr2d_error error, int q, size_t patch,
                          size_t band) {
+  if (!adv_is_asked(&a->question, patch)) return INFINITY;
   return times(relative(error), fmax(fabs(a->average[q][patch][band]),
                                      a->question.floor * a->brightest[q][band]));
 }

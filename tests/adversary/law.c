@@ -6,16 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "adversary/listed.h"
 #include "adversary/transform.h"
-
-static int chosen(const char *list, const char *name) {
-  size_t length = strlen(name);
-  for (const char *at = list; at; at = strchr(at, ',')) {
-    at += *at == ',';
-    if (!strncmp(at, name, length) && (!at[length] || at[length] == ',')) return 1;
-  }
-  return !list;
-}
 
 enum { MOST_TRANSFORMS = 32 };
 
@@ -36,7 +28,7 @@ static void transform(adv_trial *trial, adv_scene *copy) {
          wanted = (size_t)adv_int(&trial->random, 1, 3);
   for (int tries = 0; wanted > 0 && tries < 60; tries++) {
     const adv_transform *t = known[adv_int(&trial->random, 0, (int)count - 1)];
-    if (!chosen(trial->transforms, t->name) || !t->apply(copy, &trial->random)) continue;
+    if (!adv_listed(trial->transforms, t->name) || !t->apply(copy, &trial->random)) continue;
     size_t used = strlen(trial->applied);
     snprintf(trial->applied + used, sizeof trial->applied - used, "%s%s", used ? "+" : "",
              t->name);

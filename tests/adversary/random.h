@@ -16,6 +16,13 @@ static inline uint64_t adv_next(adv_random *r) {
   return z ^ (z >> 31);
 }
 
+/* The numbers of a seed and a name. */
+static inline adv_random adv_seed(uint64_t seed, const char *name) {
+  adv_random r = {seed};
+  for (; *name; name++) r.state = adv_next(&r) ^ (unsigned char)*name;
+  return r;
+}
+
 /* A number in [low, high). */
 static inline double adv_real(adv_random *r, double low, double high) {
   return low + (high - low) * ((double)(adv_next(r) >> 11) * 0x1p-53);
