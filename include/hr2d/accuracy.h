@@ -32,7 +32,7 @@
  * - a multiple of that size and of the error with its signs: 2.5 times, from 6 to 28 times where
  *   views change, 3 times at points at least;
  * - a tenth or more of the largest error of an average without signs;
- * - where views change, for averages, a quarter of the target: elements are made for a target,
+ * - where views change a quarter of the target: elements are made for a target,
  *   and what kinks inside them make beyond K⁺ is assumed to be below that. Likewise the
  *   estimate is a fiftieth of the target at least;
  * - a bound of the roundings of B, of H and of coordinates. (I − ρK)⁻¹ = Σ(ρK)^k maps nothing
@@ -138,7 +138,8 @@ HR2D_API void hr2d_target_init(hr2d_target *target, size_t size);
 typedef struct hr2d_account {
   hr2d_error average;    /**< error of the solution in #HR2D_NORM_AVERAGE; with `important`, of
                               these patches */
-  hr2d_error sup;        /**< error in #HR2D_NORM_SUP of hr2d_solution_gather() */
+  hr2d_error sup;        /**< error in #HR2D_NORM_SUP of hr2d_solution_gather(); with
+                              `important`, at points of these patches */
   hr2d_error irradiance; /**< error of hr2d_solution_irradiance(), in the norm of `average` with
                               H in the place of B */
   hr2d_error irradiance_sup;   /**< error of hr2d_solution_gather_irradiance(), in the norm of

@@ -176,7 +176,8 @@ static hr2d_status measure_rest(hr2di_estimator *e, hr2di_error_pair *errors) {
         bounded(hypot(likely, BLIND_LIKELY * blind),
                 worst_average(e, h, average_most) + e->margin * by_chance(e, seen, 1, h) +
                     signless(e, h) + level + BLIND * blind);
-    *sup[h] = bounded(fmax(worst_point(e, h, all), doubt), worst_point(e, h, most) + level);
+    *sup[h] = bounded(hypot(fmax(worst_point(e, h, all), doubt), BLIND_LIKELY * blind),
+                      worst_point(e, h, most) + level + BLIND * blind);
   }
   return hr2di_transport_status(&eq->transport);
 }

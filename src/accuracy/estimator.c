@@ -34,6 +34,14 @@ double hr2di_estimator_rho(const hr2di_estimator *e, size_t leaf, size_t band) {
                                 band);
 }
 
+void hr2di_estimator_off(hr2di_estimator *e, double *const point[2], size_t patch, size_t band,
+                         double error) {
+  const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
+  if (!hr2di_is_important(e->target, hr2di_scene_original(scene, patch))) return;
+  point[1][band] = fmax(point[1][band], error);
+  point[0][band] = fmax(point[0][band], hr2d_scene_reflectance(scene, patch, band) * error);
+}
+
 double hr2di_estimator_sky(const hr2di_estimator *e, size_t m) {
   const hr2di_transport *t = &e->eq.transport;
   return m < t->bands ? ldexp(hr2di_sky_most(t->hierarchy->scene, m), -e->eq.exponent[m]) : 0;

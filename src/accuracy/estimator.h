@@ -49,7 +49,7 @@ typedef struct hr2di_estimator {
   double *scatter;    /* and the size that it has with random ones */
   double *weight;     /* leaves × bands: from B − B_h on a leaf to its relative error */
   double *largest[2]; /* per band: B and H at a point */
-  double *point[2];   /* per band: errors at points, of B and of H */
+  double *point[2];   /* per band: errors at points of important patches, of B and of H */
   double *narrow[2];  /* per band: errors at points beside gaps that nothing resolves */
   double *stray[2];   /* per band: what roundings may be at points */
   int *exponent_of;   /* per band: what a solve is scaled by */
@@ -88,6 +88,11 @@ void hr2di_estimator_lift(const hr2di_estimator *e, double *most);
 
 /* ρ of the patch of a leaf. */
 double hr2di_estimator_rho(const hr2di_estimator *e, size_t leaf, size_t band);
+
+/* H at a point of a patch is off by `error`, and B by ρ times that; of no importance where the
+   patch is not. */
+void hr2di_estimator_off(hr2di_estimator *e, double *const point[2], size_t patch, size_t band,
+                         double error);
 
 /* The brightest sky in coefficient m of a field; only the first of each band is not 0. */
 double hr2di_estimator_sky(const hr2di_estimator *e, size_t m);

@@ -266,8 +266,7 @@ static double worst_of(const hr2di_estimator *e, const hr2di_place *at, size_t c
 /* H at a point of a patch is off by `error`, and by `rounding`. */
 static void add(hr2di_estimator *e, size_t patch, size_t band, double error, double rounding) {
   const double rho = hr2d_scene_reflectance(e->eq.transport.hierarchy->scene, patch, band);
-  e->narrow[1][band] = fmax(e->narrow[1][band], error);
-  e->narrow[0][band] = fmax(e->narrow[0][band], rho * error);
+  hr2di_estimator_off(e, e->narrow, patch, band, error);
   /* Elements cannot be shorter because of roundings. */
   e->stray[1][band] = fmax(e->stray[1][band], error + rounding);
   e->stray[0][band] = fmax(e->stray[0][band], rho * (error + rounding));

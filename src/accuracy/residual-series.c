@@ -178,15 +178,15 @@ hr2d_status hr2di_residual_solve(hr2di_estimator *e) {
 /* At a vertex half of all directions or so are those of the other patch: H beside it is off by
    vb, with v = ½(1 + cos α) and b = B − B_h of that patch at the vertex. */
 static void add_contacts(hr2di_estimator *e) {
-  const size_t bands = e->eq.transport.bands;
+  const hr2di_transport *t = &e->eq.transport;
+  const size_t bands = t->bands;
   for (size_t k = 0; k < e->contacts.gathered; k++)
     for (size_t side = 0; side < 2; side++)
       for (size_t b = 0; b < bands; b++) {
         const hr2di_contact *c = &e->contacts.contact[k];
         const double other = e->contacts.residual[(2 * k + 1 - side) * bands + b];
-        const double h = c->view * fabs(other);
-        e->point[1][b] = fmax(e->point[1][b], h);
-        e->point[0][b] = fmax(e->point[0][b], hr2di_estimator_rho(e, c->leaf[side], b) * h);
+        const size_t patch = t->hierarchy->element[t->leaf[c->leaf[side]]].patch;
+        hr2di_estimator_off(e, e->point, patch, b, c->view * fabs(other));
       }
 }
 
@@ -201,7 +201,7 @@ static void add_nearby(hr2di_estimator *e, uint32_t receiver, uint32_t source) {
   for (size_t b = 0; b < t->bands; b++)
     rho = fmax(rho, hr2d_scene_reflectance(t->hierarchy->scene, patch, b));
   for (size_t b = 0; b < t->bands && !(rho > 0); b++)
-    e->point[1][b] = fmax(e->point[1][b], NEARBY * e->most[source * t->bands + b]);
+    hr2di_estimator_off(e, e->point, patch, b, NEARBY * e->most[source * t->bands + b]);
 }
 
 static void add_all_nearby(hr2di_estimator *e) {
@@ -228,11 +228,9 @@ hr2d_status hr2di_residual_measure(hr2di_estimator *e) {
     e->stray[0][b] = e->stray[1][b] = 0;
   }
   for (size_t k = 0; k < t->leaves && !hr2di_estimator_stopped(e); k++)
-    for (size_t b = 0; b < t->bands; b++) {
-      const double h = hr2di_estimator_most(e, eq->irradiance, k, b);
-      e->point[1][b] = fmax(e->point[1][b], h);
-      e->point[0][b] = fmax(e->point[0][b], hr2di_estimator_rho(e, k, b) * h);
-    }
+    for (size_t b = 0; b < t->bands; b++)
+      hr2di_estimator_off(e, e->point, t->hierarchy->element[t->leaf[k]].patch, b,
+                          hr2di_estimator_most(e, eq->irradiance, k, b));
   add_contacts(e);
   add_all_nearby(e);
   if (!t->links->share) return HR2D_OK;

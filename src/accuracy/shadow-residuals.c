@@ -174,12 +174,8 @@ hr2d_status hr2di_shadow_residuals(hr2di_estimator *e) {
   else
     status = add_links(e, beta, &s);
   for (size_t k = 0; k < count && !status; k++) {
-    const size_t b = k % t->bands;
-    const double h = sqrt(square[k]);
-    const double rho =
-        hr2d_scene_reflectance(scene, t->hierarchy->element[k / t->bands].patch, b);
-    e->point[1][b] = fmax(e->point[1][b], h);
-    e->point[0][b] = fmax(e->point[0][b], rho * h);
+    const uint32_t patch = t->hierarchy->element[k / t->bands].patch;
+    hr2di_estimator_off(e, e->point, patch, k % t->bands, sqrt(square[k]));
   }
   hr2di_alloc_free(&t->alloc, beta);
   return status ? status : hr2di_watch_status(t->watch);

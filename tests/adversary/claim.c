@@ -49,9 +49,9 @@ double adv_average_error(const adv_answer *a, int quantity, size_t patch, size_t
 }
 
 double adv_point_error(const adv_answer *a, int quantity, size_t patch, size_t band) {
+  if (!adv_is_asked(&a->question, patch)) return INFINITY;
   if (quantity == ADV_B) return times(relative(a->account.sup), a->sup[ADV_B][band]);
 #if ADV_ACCOUNT_OF_H
-  (void)patch;
   return times(relative(a->account.irradiance_sup), a->sup[ADV_H][band]);
 #else
   double rho = a->scene->patch[patch].reflectance[band];
