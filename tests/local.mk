@@ -15,6 +15,7 @@ SUITES = \
 	tests/unit/field/check-field-grid \
 	tests/faults/check-polls \
 	tests/faults/check-faults-accuracy \
+	tests/faults/check-scene-progress \
 	tests/unit/base/check-black-body \
 	tests/unit/base/check-options \
 	tests/unit/base/check-status \
@@ -288,6 +289,7 @@ check-long:
 TOO_LONG = tests/bounds/check-bounds-geometry tests/bounds/check-bounds-l1 \
 	tests/faults/check-faults tests/faults/check-faults-accuracy \
 	tests/faults/check-faults-callbacks tests/faults/check-polls tests/faults/check-share-faults \
+	tests/faults/check-scene-progress \
 	tests/hard/check-hard-oracles tests/hard/check-hard-refine tests/hard/check-hard-scenes \
 	tests/hard/check-hard-solve tests/paper/check-theorem tests/unit/accuracy/check-budgets \
 	tests/unit/accuracy/check-cluster-residuals tests/unit/accuracy/check-cracks \
