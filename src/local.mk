@@ -31,6 +31,7 @@ libhr2d_core_la_SOURCES = \
 	src/base/watch.c src/base/watch.h src/base/wide.h \
 	src/geometry/apart.h src/geometry/bernstein-ellipse.c src/geometry/bernstein-ellipse.h \
 	src/geometry/crossings.c src/geometry/crossings.h \
+	src/geometry/stars.c src/geometry/stars.h \
 	src/geometry/cut-points.c src/geometry/cut-points.h \
 	src/geometry/determinant.c src/geometry/determinant.h \
 	src/geometry/exchange-area.c src/geometry/exchange-area.h \

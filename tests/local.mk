@@ -22,6 +22,7 @@ SUITES = \
 	tests/unit/geometry/check-geometry \
 	tests/unit/geometry/check-exchange-area \
 	tests/unit/geometry/check-hull \
+	tests/unit/geometry/check-stars \
 	tests/unit/triangulation/check-triangulation \
 	tests/unit/sight/check-sight \
 	tests/unit/sight/check-walk \

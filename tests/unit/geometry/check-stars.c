@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Stars spare pairs, and no pair that meets: pairs are compared with all pairs of the sweep. */
+#include <check.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/alloc.h"
+#include "geometry/crossings.h"
+#include "geometry/stars.h"
+#include "scene/scene-impl.h"
+#include "support/random.h"
+#include "support/settings.h"
+#include "support/suite.h"
+
+enum { MOST = 400, PAIRS = MOST * MOST };
+
+typedef struct pairs {
+  const hr2d_segment *segment;
+  size_t at[PAIRS][2], count;
+} pairs;
+
+static hr2d_status keep(void *ctx, size_t i, size_t j) {
+  pairs *p = ctx;
+  ck_assert_uint_lt(i, j);
+  ck_assert_uint_lt(p->count, PAIRS);
+  p->at[p->count][0] = i;
+  p->at[p->count++][1] = j;
+  return HR2D_OK;
+}
+
+static int meets(const pairs *p, size_t k) {
+  const hr2di_meeting m =
+      hr2di_crossings_meet(&p->segment[p->at[k][0]], &p->segment[p->at[k][1]]);
+  return m.kind != HR2DI_MEET_FREE || m.together;
+}
+
+/* Spokes of lengths 2^-30 to 1 from a few centres, of which many differ by some roundings only
+   in direction or are copies, among others that cross them. */
+static size_t draw_spokes(randoms *r, hr2d_segment *s) {
+  const size_t count = 60 + (size_t)(random_unit(r) * (MOST - 60));
+  hr2d_point centre[3];
+  for (int c = 0; c < 3; c++)
+    centre[c] = (hr2d_point){random_unit(r) - .5, random_unit(r) - .5};
+  for (size_t k = 0; k < count; k++) {
+    const hr2d_point p = centre[(size_t)(random_unit(r) * 3)];
+    const double length = random_unit(r) < .5 ? random_unit(r) : exp2(-30 * random_unit(r));
+    double angle = 6.28 * random_unit(r);
+    if (random_unit(r) < .4) angle = floor(angle) + exp2(-30 - 24 * random_unit(r));
+    hr2d_point q = {p.x + length * cos(angle), p.y + length * sin(angle)};
+    if (random_unit(r) < .1) q = (hr2d_point){random_unit(r), random_unit(r)};
+    s[k] = random_unit(r) < .5 ? (hr2d_segment){p, q} : (hr2d_segment){q, p};
+    if (k > 0 && random_unit(r) < .05) s[k] = s[k - 1];
+    if (random_unit(r) < .1) s[k].a = (hr2d_point){random_unit(r), random_unit(r)};
+  }
+  return count;
+}
+
+START_TEST(no_pair_that_meets_is_spared) {
+  static hr2d_segment s[MOST];
+  static pairs all, found;
+  const hr2d_allocator alloc = hr2di_alloc_default();
+  randoms r = randoms_stream(test_seed(), _i);
+  const size_t count = draw_spokes(&r, s);
+  all = (pairs){.segment = s};
+  found = (pairs){.segment = s};
+  ck_assert_int_eq(hr2di_crossings_sweep(&alloc, s, count, sizeof *s, keep, &all, NULL), 0);
+  ck_assert_int_eq(hr2di_crossings_find(&alloc, s, count, sizeof *s, NULL, keep, &found, NULL),
+                   0);
+  ck_assert_uint_lt(found.count, all.count);
+  size_t next = 0, met = 0;
+  for (size_t k = 0; k < all.count; k++) {
+    const int is_next = next < found.count && found.at[next][0] == all.at[k][0] &&
+                        found.at[next][1] == all.at[k][1];
+    next += (size_t)is_next;
+    met += (size_t)meets(&all, k);
+    ck_assert_msg(is_next || !meets(&all, k), "%zu and %zu meet", all.at[k][0], all.at[k][1]);
+  }
+  ck_assert_uint_eq(next, found.count); /* in the same order */
+  ck_assert_uint_gt(met, 0);
+}
+END_TEST
+
+static hr2d_status note_work(void *ctx, const hr2d_progress *progress) {
+  *(uint64_t *)ctx = hr2di_watch_of(progress)->total;
+  return HR2D_OK;
+}
+
+/* Two-sided segments from one point to a circle. */
+static uint64_t work_of_commit(size_t count) {
+  hr2d_scene *scene;
+  uint64_t work = 0;
+  const double half = .5, one = 1;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  for (size_t k = 0; k < count; k++) {
+    const double angle = 6.28318530717958647692 * (double)k / (double)count;
+    hr2d_patch p = HR2D_PATCH_INIT;
+    p.b = (hr2d_point){cos(angle), sin(angle)};
+    p.reflectance = &half;
+    p.reflectance_bands = 1;
+    p.sides = HR2D_SIDES_BOTH;
+    ck_assert_int_eq(hr2d_scene_add(scene, &p, NULL), HR2D_OK);
+  }
+  ck_assert_int_eq(hr2d_scene_set_background(scene, &one, 1), HR2D_OK);
+  hr2d_scene_set_progress(scene, note_work, &work);
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  hr2d_scene_destroy(scene);
+  return work;
+}
+
+/* 8 times the segments are 8 to 12 times the work, where all pairs are 64 times. */
+START_TEST(work_for_a_star_is_not_quadratic) {
+  const uint64_t few = work_of_commit(1000), many = work_of_commit(8000);
+  ck_assert_uint_gt(few, 10000);
+  ck_assert_msg(many < 14 * few, "%llu and %llu units of work", (unsigned long long)few,
+                (unsigned long long)many);
+}
+END_TEST
+
+TEST_SUITE("check-stars") {
+  REPEAT_TESTS(test_count(400), "pairs", no_pair_that_meets_is_spared);
+  ADD_TESTS("work", work_for_a_star_is_not_quadratic);
+}
