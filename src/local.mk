@@ -120,12 +120,13 @@ libhr2d_core_la_SOURCES = \
 	src/formats/vs2.c \
 	src/formats/vs2-impl.h \
 	src/formats/vs2-words.c \
+	src/visibility/entry-table.c src/visibility/entry-table.h \
 	src/visibility/event-list.c src/visibility/event-list.h \
 	src/visibility/events.c src/visibility/events.h \
 	src/visibility/events-impl.h \
 	src/visibility/events-beams.c \
 	src/visibility/exchange-matrix.c \
-	src/visibility/image-matrix.c src/visibility/image-matrix.h \
+	src/visibility/image-rows.c src/visibility/image-rows.h \
 	src/visibility/exchange-rows.c \
 	src/visibility/exchange-visit.c \
 	src/visibility/point-beams.c \

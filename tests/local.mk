@@ -96,6 +96,7 @@ SUITES = \
 	tests/unit/visibility/check-exchange-matrix \
 	tests/unit/visibility/check-exchange-rows \
 	tests/unit/visibility/check-period-rows \
+	tests/unit/visibility/check-image-memory \
 	tests/unit/visibility/check-patch-sights \
 	tests/unit/visibility/check-seen-backs \
 	tests/unit/visibility/check-looks \

@@ -374,7 +374,7 @@ END_TEST
    status return a number that is known, or free memory. */
 static const char *const short_calls[] = {
     /* on a pair or on segments, without a scene */
-    "hr2d_blocks", "hr2d_exchange_area", "hr2d_exchange_area_occluded",
+    "hr2d_constant", "hr2d_blocks", "hr2d_exchange_area", "hr2d_exchange_area_occluded",
     "hr2d_exchange_area_past", "hr2d_study_fit_rows",
     /* one patch or value, or memory alone */
     "hr2d_scene_create", "hr2d_scene_add", "hr2d_scene_add_thermal", "hr2d_scene_add_mirror",
@@ -422,7 +422,8 @@ START_TEST(every_call_of_the_headers_is_listed) {
   FILE *all = fopen(test_source_path("include/hr2d/hr2d.h"), "r");
   ck_assert_ptr_nonnull(all);
   while (fgets(line, sizeof line, all))
-    if (sscanf(line, "#include <hr2d/%63[^>]>", file) == 1) calls += look_up_calls(file);
+    if (sscanf(line, "#include <hr2d/%63[^>]>", file) == 1 && strcmp(file, "version.h") != 0)
+      calls += look_up_calls(file);
   fclose(all);
   ck_assert_uint_ge(calls, CALLS);
 }
