@@ -179,7 +179,8 @@ void hr2di_stars_neighbours(const hr2di_stars *stars, uint32_t segment,
       const int wraps = step > 0 ? k + 1 == star->last : k == star->first;
       k = wraps ? (step > 0 ? star->first : star->last - 1) : (uint32_t)((int64_t)k + step);
       const double apart = fabs(stars->ray[k].angle - own);
-      if (k == place || fmin(apart, TURN - apart) > star->near) break;
+      if (k == place) break;
       take(ctx, stars->ray[k].segment);
+      if (fmin(apart, TURN - apart) > star->near) break;
     }
 }

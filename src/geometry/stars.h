@@ -50,7 +50,8 @@ hr2d_status hr2di_stars_init(hr2di_stars *stars, const hr2d_allocator *alloc,
                              hr2di_watch *watch);
 void hr2di_stars_clear(hr2di_stars *stars);
 
-/* Calls `take` with the segments of its star whose direction is near to that of a segment. */
+/* Calls `take` with the segments of its star whose direction is near to that of a segment, and
+   with the next one on each side in any case; with some of them twice. */
 void hr2di_stars_neighbours(const hr2di_stars *stars, uint32_t segment,
                             void (*take)(void *ctx, uint32_t other), void *ctx);
 
