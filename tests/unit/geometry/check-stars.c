@@ -8,6 +8,7 @@
 #include "geometry/crossings.h"
 #include "geometry/stars.h"
 #include "scene/scene-impl.h"
+#include "support/memory.h"
 #include "support/random.h"
 #include "support/settings.h"
 #include "support/suite.h"
@@ -77,6 +78,24 @@ START_TEST(no_pair_that_meets_is_spared) {
   }
   ck_assert_uint_eq(next, found.count); /* in the same order */
   ck_assert_uint_gt(met, 0);
+}
+END_TEST
+
+START_TEST(memory_that_runs_out_is_told_and_released) {
+  static hr2d_segment s[MOST];
+  static pairs found;
+  randoms r = randoms_stream(test_seed(), 0);
+  const size_t count = draw_spokes(&r, s);
+  long failures = 0;
+  for (int status = HR2D_ENOMEM; status != HR2D_OK; failures++) {
+    test_memory memory = {.until_failure = failures};
+    const hr2d_allocator alloc = test_hooks(&memory);
+    found = (pairs){.segment = s};
+    status = (int)hr2di_crossings_find(&alloc, s, count, sizeof *s, NULL, keep, &found, NULL);
+    ck_assert(status == HR2D_OK || status == HR2D_ENOMEM);
+    ck_assert_int_eq(memory.live, 0);
+  }
+  ck_assert_int_gt(failures, 10);
 }
 END_TEST
 
@@ -161,6 +180,7 @@ END_TEST
 
 TEST_SUITE("check-stars") {
   REPEAT_TESTS(test_count(400), "pairs", no_pair_that_meets_is_spared);
+  ADD_TESTS("memory", memory_that_runs_out_is_told_and_released);
   REPEAT_TESTS(2, "work", work_for_a_star_is_not_quadratic);
   ADD_TESTS("lint", the_point_of_a_star_is_no_loose_end);
 }
