@@ -31,6 +31,7 @@ libhr2d_core_la_SOURCES = \
 	src/base/watch.c src/base/watch.h src/base/wide.h \
 	src/geometry/apart.h src/geometry/bernstein-ellipse.c src/geometry/bernstein-ellipse.h \
 	src/geometry/crossings.c src/geometry/crossings.h \
+	src/geometry/stars.c src/geometry/stars.h \
 	src/geometry/cut-points.c src/geometry/cut-points.h \
 	src/geometry/determinant.c src/geometry/determinant.h \
 	src/geometry/exchange-area.c src/geometry/exchange-area.h \
@@ -119,12 +120,13 @@ libhr2d_core_la_SOURCES = \
 	src/formats/vs2.c \
 	src/formats/vs2-impl.h \
 	src/formats/vs2-words.c \
+	src/visibility/entry-table.c src/visibility/entry-table.h \
 	src/visibility/event-list.c src/visibility/event-list.h \
 	src/visibility/events.c src/visibility/events.h \
 	src/visibility/events-impl.h \
 	src/visibility/events-beams.c \
 	src/visibility/exchange-matrix.c \
-	src/visibility/image-matrix.c src/visibility/image-matrix.h \
+	src/visibility/image-rows.c src/visibility/image-rows.h \
 	src/visibility/exchange-rows.c \
 	src/visibility/exchange-visit.c \
 	src/visibility/point-beams.c \

@@ -15,12 +15,14 @@ SUITES = \
 	tests/unit/field/check-field-grid \
 	tests/faults/check-polls \
 	tests/faults/check-faults-accuracy \
+	tests/faults/check-scene-progress \
 	tests/unit/base/check-black-body \
 	tests/unit/base/check-options \
 	tests/unit/base/check-status \
 	tests/unit/geometry/check-geometry \
 	tests/unit/geometry/check-exchange-area \
 	tests/unit/geometry/check-hull \
+	tests/unit/geometry/check-stars \
 	tests/unit/triangulation/check-triangulation \
 	tests/unit/sight/check-sight \
 	tests/unit/sight/check-walk \
@@ -94,6 +96,7 @@ SUITES = \
 	tests/unit/visibility/check-exchange-matrix \
 	tests/unit/visibility/check-exchange-rows \
 	tests/unit/visibility/check-period-rows \
+	tests/unit/visibility/check-image-memory \
 	tests/unit/visibility/check-patch-sights \
 	tests/unit/visibility/check-seen-backs \
 	tests/unit/visibility/check-looks \
@@ -298,6 +301,7 @@ check-long:
 TOO_LONG = tests/bounds/check-bounds-geometry tests/bounds/check-bounds-l1 \
 	tests/faults/check-faults tests/faults/check-faults-accuracy \
 	tests/faults/check-faults-callbacks tests/faults/check-polls tests/faults/check-share-faults \
+	tests/faults/check-scene-progress \
 	tests/hard/check-hard-oracles tests/hard/check-hard-refine tests/hard/check-hard-scenes \
 	tests/hard/check-hard-solve tests/paper/check-theorem tests/unit/accuracy/check-budgets \
 	tests/unit/accuracy/check-cluster-residuals tests/unit/accuracy/check-cracks \

@@ -54,13 +54,13 @@
  * as short as d, or as near to its image, may be off by that part of d besides.
  *
  * Exchange areas of patches (visibility.h) are sums over all images: a patch may see images of
- * its own. They are made by one thread, in a matrix of all patches of the cell. What images add
- * that are cut off is extrapolated, but never below 0; hr2d_matrix_options::cut_off_estimate
- * and hr2d_matrix_options::cut_off_bound have what that may be off, likewise derived, and no
- * more than what is extrapolated and what is seen past the images, which is exact. With
- * thousands of patches in a cell there are few images, and some percent of a row may be cut
- * off. Powers have hr2d_solution_power_cut_off(). hr2d_leaf_sums() has the rows of the patches
- * of the cell.
+ * its own. They are made by one thread, in memory that grows with the pairs that see each
+ * other, which hr2d_exchange_rows_visit() keeps until its end as well. What images add that are
+ * cut off is extrapolated, but never below 0; hr2d_matrix_options::cut_off_estimate and
+ * hr2d_matrix_options::cut_off_bound have what that may be off, likewise derived, and no more
+ * than what is extrapolated and what is seen past the images, which is exact. With thousands of
+ * patches in a cell there are few images, and some percent of a row may be cut off. Powers have
+ * hr2d_solution_power_cut_off(). hr2d_leaf_sums() has the rows of the patches of the cell.
  *
  * Not supported, and refused with HR2D_EUNSUPPORTED: over a period in which patches see for
  * ever, a sky with a piece that ends between the horizon and the last images.

@@ -115,6 +115,42 @@ def test_progress_is_shown_and_stops(room):
     assert len(seen) == 3 and seen[-1][0] == "refine" and seen[-1][1] > seen[0][1]
 
 
+# Many digits of a scene with many patches take minutes.
+TARGETS = [{"error": 1e-12}, {"seconds": 600}, {"error": 1e-12, "seconds": 600}]
+
+
+@pytest.fixture
+def street():
+    scene = hr2d.Scene()
+    for x in range(2000):
+        scene.add([(x, 0), (x + .3, 1 + x % 3)], emission=1, reflectance=.5, sides="both")
+    return scene
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_a_solve_to_a_target_asks_and_stops(street, target):
+    phases = []
+
+    def progress(now):
+        phases.append(now.phase)
+        return len(phases) < 3
+
+    with pytest.raises(hr2d.Stopped):
+        street.solve(**target, progress=progress)
+    assert len(phases) == 3
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_ctrl_c_ends_a_solve_to_a_target(street, target):
+    old = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        threading.Timer(.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+        with pytest.raises(KeyboardInterrupt):
+            street.solve(**target)
+    finally:
+        signal.signal(signal.SIGINT, old)
+
+
 def test_ctrl_c_ends_a_call(room, monkeypatch):
     old = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:

@@ -53,6 +53,7 @@ hr2d_status hr2di_target_init(hr2d_target *used, const hr2d_scene *scene,
   }
   if (!(used->error > 0)) used->error = used->error < 0 ? 0 : default_error;
   if (!(used->floor > 0)) used->floor = HR2D_FLOOR;
+  hr2di_scene_choose_progress(scene, &used->progress, &used->progress_ctx);
   return sort_patches(used, scene);
 }
 

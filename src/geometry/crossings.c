@@ -8,6 +8,7 @@
 #include "base/sort.h"
 #include "geometry/determinant.h"
 #include "geometry/predicates.h"
+#include "geometry/stars.h"
 
 /* Above every rounding.  Times |u| it is also above the error of a plain determinant of
    coordinates below 2, which is 2^-50·|u||w| with |w| below 4. */
@@ -196,8 +197,17 @@ typedef struct sweep {
   size_t *next;  /* the first item in each row that the sweep has not reached */
   uint32_t *item;
   uint32_t *found; /* what meets one span */
+  size_t finds;
+  uint32_t here;            /* the span that is looked at */
+  const hr2di_stars *stars; /* NULL: all pairs are visited */
+  uint32_t *rank;           /* per segment: its span; with stars */
+  uint32_t *past;           /* per item: the next one that is of another star; with stars */
   hr2di_watch *watch;
 } sweep;
+
+static uint32_t star_of(const sweep *s, uint32_t k) {
+  return s->stars->of[s->spans[k].segment];
+}
 
 static int by_start(const void *left, const void *right) {
   const span *l = left, *r = right;
@@ -268,48 +278,125 @@ static hr2d_status make_rows(sweep *s) {
   return status;
 }
 
+/* Prepares to pass over pairs of one star. */
+static hr2d_status look_for_stars(sweep *s) {
+  if (!s->stars || !s->stars->of) {
+    s->stars = NULL;
+    return HR2D_OK;
+  }
+  const size_t items = s->start[s->rows];
+  s->rank = hr2di_alloc(s->alloc, s->count, sizeof *s->rank);
+  s->past = hr2di_alloc(s->alloc, items, sizeof *s->past);
+  if (!s->rank || !s->past) return HR2D_ENOMEM;
+  for (size_t k = 0; k < s->count; k++) s->rank[s->spans[k].segment] = (uint32_t)k;
+  for (size_t r = 0; r < s->rows; r++)
+    for (size_t m = s->start[r + 1]; m-- > s->start[r];) {
+      const uint32_t star = star_of(s, s->item[m]);
+      const int goes_on = star != HR2DI_NO_STAR && m + 1 < s->start[r + 1] &&
+                          star_of(s, s->item[m + 1]) == star;
+      s->past[m] = goes_on ? s->past[m + 1] : (uint32_t)m + 1;
+    }
+  return hr2di_watch_work(s->watch, items / 4);
+}
+
+/* The item behind m that is looked at: m, or the next of another star than that of p. */
+static size_t pass_star(const sweep *s, const span *p, size_t m) {
+  if (!s->stars) return m;
+  const uint32_t star = s->stars->of[p->segment];
+  return star != HR2DI_NO_STAR && star_of(s, s->item[m]) == star ? s->past[m] : m;
+}
+
+static void take_neighbour(void *ctx, uint32_t segment) {
+  sweep *s = ctx;
+  if (s->rank[segment] > s->here) s->found[s->finds++] = s->rank[segment];
+}
+
+static hr2d_status sort_found(sweep *s) {
+  const hr2d_status status =
+      hr2di_sort(s->found, s->finds, sizeof *s->found, by_number, s->watch);
+  size_t kept = 0;
+  for (size_t m = 0; m < s->finds; m++)
+    if (m == 0 || s->found[m] != s->found[m - 1]) s->found[kept++] = s->found[m];
+  s->finds = kept;
+  return status;
+}
+
 /* Finds the spans behind k that meet it, in their order.  Two that meet in more than one row
    are found in the first of them. */
-static hr2d_status find_behind(sweep *s, size_t k, size_t *found) {
+static hr2d_status find_behind(sweep *s, uint32_t k) {
   const span *p = &s->spans[k];
   hr2d_status status = HR2D_OK;
-  *found = 0;
+  s->finds = 0;
+  s->here = k;
   for (uint32_t r = p->first_row; r <= p->last_row && !status; r++) {
     const size_t after = ++s->next[r], last = s->start[r + 1];
-    for (size_t m = after; m < last && s->spans[s->item[m]].from <= p->to && !status; m++) {
+    for (size_t m = after; m < last && !status; m++) {
+      m = pass_star(s, p, m);
+      if (m == last || s->spans[s->item[m]].from > p->to) break;
       const span *q = &s->spans[s->item[m]];
       if (m % 16 == 0) status = hr2di_watch_work(s->watch, 1);
       if (r != (p->first_row > q->first_row ? p->first_row : q->first_row)) continue;
-      if (p->low <= q->high && q->low <= p->high) s->found[(*found)++] = s->item[m];
+      if (p->low <= q->high && q->low <= p->high) s->found[s->finds++] = s->item[m];
     }
   }
-  if (status || p->first_row == p->last_row) return status;
-  return hr2di_sort(s->found, *found, sizeof *s->found, by_number, s->watch);
+  const int in_star = s->stars && s->stars->of[p->segment] != HR2DI_NO_STAR;
+  if (in_star) hr2di_stars_neighbours(s->stars, (uint32_t)p->segment, take_neighbour, s);
+  if (status || (p->first_row == p->last_row && !in_star)) return status;
+  return sort_found(s);
+}
+
+static hr2d_status visit_found(const sweep *s,
+                               hr2d_status (*visit)(void *ctx, size_t i, size_t j), void *ctx) {
+  hr2d_status status = HR2D_OK;
+  for (size_t m = 0; m < s->finds && !status; m++) {
+    const size_t i = s->spans[s->here].segment, j = s->spans[s->found[m]].segment;
+    status = hr2di_watch_work(s->watch, 2);
+    if (!status) status = i < j ? visit(ctx, i, j) : visit(ctx, j, i);
+  }
+  return status;
+}
+
+static hr2d_status sweep_over(sweep *s, const hr2d_segment *first, size_t stride,
+                              hr2d_status (*visit)(void *ctx, size_t i, size_t j), void *ctx) {
+  if (s->count > UINT32_MAX / 8) return HR2D_ENOMEM;
+  s->spans = hr2di_alloc(s->alloc, s->count, sizeof *s->spans);
+  /* Neighbours in a star may be found twice. */
+  s->found = hr2di_alloc(s->alloc, s->count, (s->stars ? 3 : 1) * sizeof *s->found);
+  hr2d_status status = s->spans && s->found ? HR2D_OK : HR2D_ENOMEM;
+  if (!status) status = make_spans(s, first, stride);
+  if (!status) status = make_rows(s);
+  if (!status) status = look_for_stars(s);
+  for (size_t k = 0; k < s->count && !status; k++) {
+    status = find_behind(s, (uint32_t)k);
+    if (!status) status = visit_found(s, visit, ctx);
+  }
+  hr2di_alloc_free(s->alloc, s->spans);
+  hr2di_alloc_free(s->alloc, s->found);
+  hr2di_alloc_free(s->alloc, s->start);
+  hr2di_alloc_free(s->alloc, s->next);
+  hr2di_alloc_free(s->alloc, s->item);
+  hr2di_alloc_free(s->alloc, s->rank);
+  hr2di_alloc_free(s->alloc, s->past);
+  return status;
 }
 
 hr2d_status hr2di_crossings_sweep(const hr2d_allocator *alloc, const hr2d_segment *first,
                                   size_t count, size_t stride,
                                   hr2d_status (*visit)(void *ctx, size_t i, size_t j),
                                   void *ctx, hr2di_watch *watch) {
-  if (count > UINT32_MAX) return HR2D_ENOMEM;
   sweep s = {.alloc = alloc, .count = count, .watch = watch};
-  s.spans = hr2di_alloc(alloc, count, sizeof *s.spans);
-  s.found = hr2di_alloc(alloc, count, sizeof *s.found);
-  hr2d_status status = s.spans && s.found ? HR2D_OK : HR2D_ENOMEM;
-  if (!status) status = make_spans(&s, first, stride);
-  if (!status) status = make_rows(&s);
-  for (size_t k = 0, found; k < count && !status; k++) {
-    status = find_behind(&s, k, &found);
-    for (size_t m = 0; m < found && !status; m++) {
-      const size_t i = s.spans[k].segment, j = s.spans[s.found[m]].segment;
-      status = hr2di_watch_work(watch, 2);
-      if (!status) status = i < j ? visit(ctx, i, j) : visit(ctx, j, i);
-    }
-  }
-  hr2di_alloc_free(alloc, s.spans);
-  hr2di_alloc_free(alloc, s.found);
-  hr2di_alloc_free(alloc, s.start);
-  hr2di_alloc_free(alloc, s.next);
-  hr2di_alloc_free(alloc, s.item);
+  return sweep_over(&s, first, stride, visit, ctx);
+}
+
+hr2d_status hr2di_crossings_find(const hr2d_allocator *alloc, const hr2d_segment *first,
+                                 size_t count, size_t stride, const hr2di_stars *stars,
+                                 hr2d_status (*visit)(void *ctx, size_t i, size_t j), void *ctx,
+                                 hr2di_watch *watch) {
+  hr2di_stars own = {0};
+  sweep s = {.alloc = alloc, .count = count, .stars = stars ? stars : &own, .watch = watch};
+  hr2d_status status =
+      stars ? HR2D_OK : hr2di_stars_init(&own, alloc, first, count, stride, watch);
+  if (!status) status = sweep_over(&s, first, stride, visit, ctx);
+  if (!stars) hr2di_stars_clear(&own);
   return status;
 }

@@ -16,6 +16,7 @@
 #include <stddef.h>
 
 #include "base/watch.h"
+#include "geometry/stars.h"
 
 typedef enum hr2di_meeting_kind {
   HR2DI_MEET_FREE,  /* apart, touching, or back to back: nothing is wrong */
@@ -49,5 +50,15 @@ hr2d_status hr2di_crossings_sweep(const hr2d_allocator *alloc, const hr2d_segmen
                                   size_t count, size_t stride,
                                   hr2d_status (*visit)(void *ctx, size_t i, size_t j),
                                   void *ctx, hr2di_watch *watch);
+
+/* The same in the same order, but for pairs of one star that are apart: hr2di_crossings_meet()
+   says nothing of them.  Of those some are visited that are neighbours by direction, at least
+   one of each segment.  So the cost stays O(n log n) where many segments share an end.  `stars`
+   are those of the segments, or of others in boxes that these span; NULL: they are found here.
+ */
+hr2d_status hr2di_crossings_find(const hr2d_allocator *alloc, const hr2d_segment *first,
+                                 size_t count, size_t stride, const hr2di_stars *stars,
+                                 hr2d_status (*visit)(void *ctx, size_t i, size_t j), void *ctx,
+                                 hr2di_watch *watch);
 
 #endif

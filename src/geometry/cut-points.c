@@ -301,8 +301,8 @@ static hr2d_status sort_cuts(finder *f) {
 
 static hr2d_status find(finder *f) {
   hr2di_cuts *cuts = f->cuts;
-  hr2d_status status = hr2di_crossings_sweep(f->alloc, &f->wall[0].s, f->walls, sizeof *f->wall,
-                                             note_meeting, f, cuts->watch);
+  hr2d_status status = hr2di_crossings_find(f->alloc, &f->wall[0].s, f->walls, sizeof *f->wall,
+                                            NULL, note_meeting, f, cuts->watch);
   if (status || (f->crossings == 0 && !f->parted)) return status;
   status =
       hr2di_sort(f->crossing, f->crossings, sizeof *f->crossing, steepest_first, cuts->watch);

@@ -151,6 +151,18 @@ static double extent(const gaps *g) {
   return fmax(high.x - low.x, high.y - low.y);
 }
 
+/* Two patches of a star make a wedge, and touch at its point as their neighbours do. */
+static hr2d_status sweep(gaps *g) {
+  hr2di_stars stars;
+  hr2d_status status =
+      hr2di_stars_init(&stars, g->alloc, g->s, g->count, sizeof *g->s, g->lint->watch);
+  if (!status)
+    status = hr2di_crossings_find(g->alloc, g->box, g->count, sizeof *g->box, &stars,
+                                  look_at_pair, g, g->lint->watch);
+  hr2di_stars_clear(&stars);
+  return status;
+}
+
 static hr2d_status prepare(gaps *g) {
   if (g->count >= UINT32_MAX / 2) return HR2D_ENOMEM;
   hr2d_status status = reserve(g);
@@ -168,8 +180,7 @@ static hr2d_status prepare(gaps *g) {
   }
   status = hr2di_sort(g->sorted, 2 * g->count, sizeof *g->sorted, by_place, g->lint->watch);
   if (status) return status;
-  return hr2di_crossings_sweep(g->alloc, g->box, g->count, sizeof *g->box, look_at_pair, g,
-                               g->lint->watch);
+  return sweep(g);
 }
 
 /* The first end in the order of places that is at p. */

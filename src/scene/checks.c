@@ -266,8 +266,8 @@ hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene, hr2di_watch *watch) {
   checker c = {.scene = scene, .rounds = scene->symmetry.motion ? ROUNDS : 0};
   hr2d_status status;
   do {
-    status = hr2di_crossings_sweep(&scene->alloc, &scene->patch[0].scaled, scene->patches,
-                                   sizeof *scene->patch, check_pair, &c, watch);
+    status = hr2di_crossings_find(&scene->alloc, &scene->patch[0].scaled, scene->patches,
+                                  sizeof *scene->patch, NULL, check_pair, &c, watch);
     if (status || c.steps.count == 0) break;
     status = hr2di_steps_take(&c.steps, scene, watch);
     c.rounds--;

@@ -99,7 +99,7 @@ typedef struct touching {
   hr2di_first_pair back, corner;
 } touching;
 
-/* Patches that touch have boxes that meet. */
+/* Patches that touch have boxes that meet, or are of one star. */
 static hr2d_status look_at_touching(void *ctx, size_t i, size_t j) {
   touching *t = ctx;
   const hr2d_segment *p = &t->scene->patch[i].scaled, *q = &t->scene->patch[j].scaled;
@@ -109,6 +109,37 @@ static hr2d_status look_at_touching(void *ctx, size_t i, size_t j) {
   if (is_earlier(&t->corner, i, j) && touch(p, q) && hr2di_facing_of(p, q) != HR2DI_FACING_NONE)
     t->corner = (hr2di_first_pair){1, i, j};
   return HR2D_OK;
+}
+
+/* Those of a star touch, and the first that see each other are found soon, if any do. */
+static hr2d_status look_at_star(touching *t, const uint32_t *member, size_t count,
+                                hr2di_watch *watch) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < count && !status; k++) {
+    if (t->corner.exists && member[k] > t->corner.i) break;
+    for (size_t m = k + 1; m < count && !status; m++) {
+      if (!is_earlier(&t->corner, member[k], member[m])) break;
+      if (m % 8 == 0) status = hr2di_watch_work(watch, 1);
+      if (!status) status = look_at_touching(t, member[k], member[m]);
+    }
+  }
+  return status;
+}
+
+static hr2d_status find_touching(touching *t, hr2di_watch *watch) {
+  const hr2d_scene *scene = t->scene;
+  const hr2d_segment *first = &scene->patch[0].scaled;
+  hr2di_stars stars;
+  hr2d_status status = hr2di_stars_init(&stars, &scene->alloc, first, scene->patches,
+                                        sizeof *scene->patch, watch);
+  for (uint32_t k = 0; k < stars.count && !status; k++)
+    status = look_at_star(t, &stars.member[stars.star[k].first],
+                          stars.star[k].last - stars.star[k].first, watch);
+  if (!status)
+    status = hr2di_crossings_find(&scene->alloc, first, scene->patches, sizeof *scene->patch,
+                                  &stars, look_at_touching, t, watch);
+  hr2di_stars_clear(&stars);
+  return status;
 }
 
 static void set_pair(hr2d_scene *scene, hr2d_effect effect, const hr2di_first_pair *pair,
@@ -126,9 +157,7 @@ static hr2d_status analyse_pairs(hr2d_scene *scene, const hr2di_hull *hull,
                                  hr2di_watch *watch) {
   touching t = {.scene = scene};
   hr2di_first_pair part = {0};
-  hr2d_status status =
-      hr2di_crossings_sweep(&scene->alloc, &scene->patch[0].scaled, scene->patches,
-                            sizeof *scene->patch, look_at_touching, &t, watch);
+  hr2d_status status = find_touching(&t, watch);
   if (!status) status = hr2di_facing_in_part_find(scene, hull, &part, watch);
   set_pair(scene, HR2D_EFFECT_TWO_SIDED, &t.back, "stand back to back",
            "no two patches stand back to back, end to end");

@@ -8,14 +8,23 @@
    an end in front of this patch are its first ones or its last ones.  So two binary searches
    settle a line and a wall.
 
-   The least number in all pairs is found first, and boxes without a lesser one are skipped. */
+   The least number in all pairs is found first, and boxes without a lesser one are skipped.  So
+   are boxes whose walls all end at one point of the line, as those of a star do: it crosses
+   none of them. */
 #include "scene/facing-in-part.h"
 
 #include "base/alloc.h"
 #include "geometry/orient-sign.h"
 #include "geometry/predicates.h"
+#include "geometry/vector.h"
 #include "occlusion/wall-tree.h"
 #include "scene/scene-impl.h"
+
+/* Where all walls in a box end. */
+typedef struct common_ends {
+  hr2d_point at[2];
+  int count;
+} common_ends;
 
 typedef struct finder {
   const hr2d_scene *scene;
@@ -23,6 +32,7 @@ typedef struct finder {
   uint32_t *up, *down; /* per place in hr2di_runs::patch: the least patch of its run up to
                           there, and from there on */
   uint32_t *below;     /* per box: the least patch in it */
+  common_ends *common; /* per box */
   uint32_t least;      /* of all pairs so far */
   hr2di_watch *watch;
 } finder;
@@ -51,6 +61,34 @@ static uint32_t least_of_run(const finder *f, uint32_t run) {
   return f->down[f->scene->runs.run[run].first];
 }
 
+static common_ends ends_of_both(const common_ends *p, const common_ends *q) {
+  common_ends both = {.count = 0};
+  for (int k = 0; k < p->count; k++)
+    for (int m = 0; m < q->count; m++)
+      if (hr2di_point_same(p->at[k], q->at[m])) both.at[both.count++] = p->at[k];
+  return both;
+}
+
+static void find_common_ends(finder *f) {
+  const hr2di_walls *walls = &f->scene->walls;
+  for (size_t k = 2 * walls->walls - 1; k-- > 0;) {
+    const hr2di_box *box = &walls->box[k];
+    if (box->wall == HR2DI_NO_WALL) {
+      f->common[k] = ends_of_both(&f->common[box->below], &f->common[box->below + 1]);
+    } else {
+      const hr2d_segment at = walls->wall[box->wall].at;
+      f->common[k] = (common_ends){{at.a, at.b}, 2};
+    }
+  }
+}
+
+static int passes_common_end(hr2d_segment line, const common_ends *common) {
+  int passes = 0;
+  for (int k = 0; k < common->count; k++)
+    passes |= hr2di_orient_sign(line.a, line.b, common->at[k]) == 0;
+  return passes;
+}
+
 /* Boxes have higher numbers than those that they are in. */
 static void index_boxes(finder *f) {
   const hr2di_walls *walls = &f->scene->walls;
@@ -72,9 +110,11 @@ static hr2d_status begin(finder *f) {
   f->up = hr2di_alloc(alloc, n, sizeof *f->up);
   f->down = hr2di_alloc(alloc, n, sizeof *f->down);
   f->below = hr2di_alloc(alloc, walls, 2 * sizeof *f->below);
-  if (!f->runs_of || !f->up || !f->down || !f->below) return HR2D_ENOMEM;
+  f->common = hr2di_alloc(alloc, walls, 2 * sizeof *f->common);
+  if (!f->runs_of || !f->up || !f->down || !f->below || !f->common) return HR2D_ENOMEM;
   index_runs(f);
   index_boxes(f);
+  find_common_ends(f);
   return hr2di_watch_work(f->watch, n / 4);
 }
 
@@ -151,7 +191,9 @@ static hr2d_status look_along(finder *f, uint32_t run) {
     const uint32_t k = stack[--count];
     const hr2di_box *box = &walls->box[k];
     status = hr2di_watch_work(f->watch, 1);
-    if ((own >= f->least && f->below[k] >= f->least) || !crosses_box(line, box)) continue;
+    if ((own >= f->least && f->below[k] >= f->least) || !crosses_box(line, box) ||
+        passes_common_end(line, &f->common[k]))
+      continue;
     if (box->wall != HR2DI_NO_WALL) {
       look_at_wall(f, r, line, box->wall);
     } else {
@@ -188,5 +230,6 @@ hr2d_status hr2di_facing_in_part_find(const hr2d_scene *scene, const hr2di_hull 
   hr2di_alloc_free(&scene->alloc, f.up);
   hr2di_alloc_free(&scene->alloc, f.down);
   hr2di_alloc_free(&scene->alloc, f.below);
+  hr2di_alloc_free(&scene->alloc, f.common);
   return status;
 }

@@ -131,6 +131,10 @@ void hr2di_scene_clear_plane(hr2d_scene *scene);
 /* Removes the results of commit. */
 void hr2di_scene_clear_commit(hr2d_scene *scene);
 
+/* Replaces a callback that is NULL by that of the scene, which may be NULL too. */
+void hr2di_scene_choose_progress(const hr2d_scene *scene, hr2d_progress_fn *progress,
+                                 void **ctx);
+
 /* Sets up a watch that asks `progress`, or the callback of the scene if that is NULL. */
 void hr2di_scene_watch(const hr2d_scene *scene, hr2di_watch *watch, hr2d_progress_fn progress,
                        void *ctx, const char *phase);

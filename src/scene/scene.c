@@ -307,13 +307,18 @@ void hr2d_scene_set_progress(hr2d_scene *scene, hr2d_progress_fn progress, void 
   scene->progress_ctx = ctx;
 }
 
+void hr2di_scene_choose_progress(const hr2d_scene *scene, hr2d_progress_fn *progress,
+                                 void **ctx) {
+  const hr2d_scene *own = scene->origin ? scene->origin : scene;
+  if (*progress) return;
+  *progress = own->progress;
+  *ctx = own->progress_ctx;
+}
+
 void hr2di_scene_watch(const hr2d_scene *scene, hr2di_watch *watch, hr2d_progress_fn progress,
                        void *ctx, const char *phase) {
-  const hr2d_scene *own = scene->origin ? scene->origin : scene;
-  if (progress)
-    hr2di_watch_init(watch, progress, ctx, phase);
-  else
-    hr2di_watch_init(watch, own->progress, own->progress_ctx, phase);
+  hr2di_scene_choose_progress(scene, &progress, &ctx);
+  hr2di_watch_init(watch, progress, ctx, phase);
 }
 
 hr2d_status hr2di_scene_fail(hr2d_scene *scene, hr2d_status status, const hr2di_watch *watch,

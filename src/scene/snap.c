@@ -242,17 +242,29 @@ static hr2d_status reserve(hr2di_snapper *s) {
 /* Pieces that bend may come near to other vertices, a few times at most. */
 enum { MOST_CUTS = 16 };
 
+static hr2d_status join(hr2di_snapper *s) {
+  hr2d_status status = reserve(s);
+  if (!status) status = join_ends(s);
+  for (size_t k = 0; k < 2 * s->scene->patches && !status; k++) move_end(s, k);
+  return status;
+}
+
+/* Joins ends, and drops copies at once: all pairs of them would be looked at. */
+static hr2d_status join_and_drop(hr2di_snapper *s) {
+  const size_t before = s->scene->patches;
+  hr2d_status status = join(s);
+  if (!status) status = drop_what_is_too_much(s);
+  return status || s->scene->patches == before ? status : join(s);
+}
+
 /* Joins ends, and cuts walls where they share a stretch with others, until none is left. */
 static hr2d_status join_and_cut(hr2di_snapper *s) {
   hr2d_status status = HR2D_OK;
   for (int round = 0; round < MOST_CUTS && !status; round++) {
-    status = reserve(s);
-    if (!status) status = join_ends(s);
-    for (size_t k = 0; k < 2 * s->scene->patches && !status; k++) move_end(s, k);
+    status = join_and_drop(s);
     if (!status) status = sweep(s, hr2di_snap_look_at_stretches);
     if (status || !s->bends) return status;
     status = hr2di_snap_cut(s);
-    if (!status) status = drop_what_is_too_much(s);
   }
   return status
              ? status

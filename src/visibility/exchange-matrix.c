@@ -7,7 +7,7 @@
 
 #include "base/sized-struct.h"
 #include "scene/scene-impl.h"
-#include "visibility/image-matrix.h"
+#include "visibility/image-rows.h"
 #include "visibility/row-maker.h"
 
 enum { TILE = 8 };
@@ -52,6 +52,23 @@ static hr2d_status mirror(const matrix *m, hr2di_watch *watch, hr2d_matrix_count
   return status;
 }
 
+/* Rows have n zeros first, and then their entries. */
+static hr2d_status put_images(const matrix *m, const hr2d_scene *scene,
+                              const hr2d_matrix_options *how, hr2di_watch *watch,
+                              hr2d_matrix_counts *counts) {
+  const size_t n = hr2di_scene_cell(scene);
+  hr2di_image_rows rows;
+  hr2d_status status = hr2di_image_rows_init(&rows, scene, how, watch, counts);
+  for (size_t i = 0; i < n && !status; i++) {
+    memset(m->area + i * n, 0, n * sizeof *m->area);
+    for (uint64_t k = rows.start[i]; k < rows.start[i + 1]; k++)
+      m->area[i * n + rows.column[k]] = rows.area[k];
+    status = hr2di_watch_work(watch, 1 + n / 32);
+  }
+  hr2di_image_rows_clear(&rows, &scene->alloc);
+  return status;
+}
+
 static void describe(void *of, hr2d_progress *told) {
   told->fraction = hr2di_row_maker_fraction(of);
 }
@@ -66,9 +83,9 @@ hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_opti
   hr2d_matrix_counts sum = {0};
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, o.progress, o.progress_ctx, "factors");
-  hr2di_image_matrix_complete(&o, hr2di_scene_cell(scene));
+  hr2di_image_rows_complete(&o, hr2di_scene_cell(scene));
   if (scene->symmetry.motion) {
-    status = hr2di_image_matrix(scene, &o, &watch, area, counts);
+    status = put_images(&m, scene, &o, &watch, counts);
     return status ? status : hr2di_watch_ask(&watch);
   }
   status = hr2di_row_maker_init(&m.maker, scene, o.threads, 0, &watch);

@@ -10,7 +10,7 @@
 #include "base/alloc.h"
 #include "base/sized-struct.h"
 #include "scene/scene-impl.h"
-#include "visibility/image-matrix.h"
+#include "visibility/image-rows.h"
 #include "visibility/row-maker.h"
 
 /* Entries of the first chunk of a thread, and of the largest; each is twice the one before. */
@@ -228,38 +228,19 @@ static hr2d_status build(builder *b, const hr2d_scene *scene, unsigned threads) 
   return status;
 }
 
-/* The rows of a full matrix without their zeros. */
-static hr2d_status compress(builder *b, const double *area) {
-  const size_t n = b->rows->patches;
-  uint64_t *start = b->rows->start, entries = 0;
-  for (size_t i = 0; i < n; i++) {
-    for (size_t k = 0; k < n; k++) entries += area[i * n + k] != 0;
-    start[i + 1] = entries;
-  }
-  hr2d_status status = reserve_entries(b);
-  for (size_t i = 0, at = 0; i < n && !status; i++) {
-    status = hr2di_watch_work(b->watch, 1 + n / 16);
-    for (size_t k = 0; k < n; k++) {
-      if (area[i * n + k] == 0) continue;
-      b->rows->column[at] = (uint32_t)k;
-      b->rows->area[at++] = area[i * n + k];
-    }
-  }
-  return status ? status : hr2di_watch_ask(b->watch);
-}
-
 static hr2d_status build_of_images(builder *b, const hr2d_scene *scene,
                                    const hr2d_matrix_options *how) {
-  const size_t n = b->rows->patches;
-  double *area = hr2di_alloc(b->alloc, n, n * sizeof *area);
-  hr2d_status status = reserve_rows(b);
-  if (!area) status = HR2D_ENOMEM;
-  if (!status) status = hr2di_image_matrix(scene, how, b->watch, area, &b->counts);
-  if (!status) status = compress(b, area);
-  hr2di_alloc_free(b->alloc, area);
-  hr2di_alloc_free(b->alloc, b->half);
-  hr2di_alloc_free(b->alloc, b->fill);
-  return status;
+  hr2di_image_rows made;
+  hr2d_status status = hr2di_image_rows_init(&made, scene, how, b->watch, &b->counts);
+  if (!status) status = hr2di_watch_ask(b->watch);
+  if (status) {
+    hr2di_image_rows_clear(&made, b->alloc);
+    return status;
+  }
+  b->rows->start = made.start;
+  b->rows->column = made.column;
+  b->rows->area = made.area;
+  return HR2D_OK;
 }
 
 hr2d_status hr2d_exchange_rows_create(const hr2d_scene *scene,
@@ -277,7 +258,7 @@ hr2d_status hr2d_exchange_rows_create(const hr2d_scene *scene,
   made->patches = hr2di_scene_cell(scene);
   builder b = {
       .watch = &watch, .alloc = &made->alloc, .rows = made, .unit = hr2d_scene_unit(scene)};
-  hr2di_image_matrix_complete(&o, made->patches);
+  hr2di_image_rows_complete(&o, made->patches);
   status =
       scene->symmetry.motion ? build_of_images(&b, scene, &o) : build(&b, scene, o.threads);
   if (status) {

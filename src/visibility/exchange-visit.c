@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "base/sized-struct.h"
 #include "scene/scene-impl.h"
-#include "visibility/image-matrix.h"
+#include "visibility/image-rows.h"
 #include "visibility/row-maker.h"
 
 /* Rows that a thread makes before they are shown have some 3 MB: more than threads take to
@@ -124,39 +124,23 @@ static hr2d_status run(visit *v, size_t patches) {
   return status ? status : hr2di_watch_ask(v->watch);
 }
 
-/* Shows the rows of a full matrix without their zeros. */
-static hr2d_status show_full(const hr2d_scene *scene, double *area, uint32_t *column,
-                             hr2d_exchange_row_fn show, void *ctx, hr2di_watch *watch) {
-  const size_t n = hr2di_scene_cell(scene);
-  hr2d_status status = HR2D_OK;
-  for (size_t i = 0; i < n && !status; i++) {
-    double *row = area + i * n;
-    size_t count = 0;
-    for (size_t k = 0; k < n; k++) {
-      if (row[k] == 0) continue;
-      column[count] = (uint32_t)k;
-      row[count++] = row[k];
-    }
-    const hr2d_exchange_row shown = {sizeof shown, i, count, column, row};
-    status = show(ctx, &shown);
-    if (!status) status = hr2di_watch_work(watch, 1 + n / 32);
-  }
-  return status;
-}
-
 static hr2d_status visit_images(const hr2d_scene *scene, const hr2d_matrix_options *how,
                                 hr2di_watch *watch, hr2d_exchange_row_fn show, void *ctx,
                                 hr2d_matrix_counts *counts) {
   const size_t n = hr2di_scene_cell(scene);
-  double *area = hr2di_alloc(&scene->alloc, n, n * sizeof *area);
-  uint32_t *column = hr2di_alloc(&scene->alloc, n, sizeof *column);
+  hr2di_image_rows rows;
   hr2d_matrix_counts made;
-  hr2d_status status = area && column ? HR2D_OK : HR2D_ENOMEM;
-  if (!status) status = hr2di_image_matrix(scene, how, watch, area, &made);
-  if (!status) status = show_full(scene, area, column, show, ctx, watch);
+  hr2d_status status = hr2di_image_rows_init(&rows, scene, how, watch, &made);
+  for (size_t i = 0; i < n && !status; i++) {
+    const uint64_t first = rows.start[i];
+    const size_t count = (size_t)(rows.start[i + 1] - first);
+    const hr2d_exchange_row shown = {sizeof shown, i, count, rows.column + first,
+                                     rows.area + first};
+    status = show(ctx, &shown);
+    if (!status) status = hr2di_watch_work(watch, 1 + count / 32);
+  }
   if (!status && counts) *counts = made;
-  hr2di_alloc_free(&scene->alloc, area);
-  hr2di_alloc_free(&scene->alloc, column);
+  hr2di_image_rows_clear(&rows, &scene->alloc);
   return status ? status : hr2di_watch_ask(watch);
 }
 
@@ -175,7 +159,7 @@ hr2d_status hr2d_exchange_rows_visit(const hr2d_scene *scene,
              .unit = hr2d_scene_unit(scene),
              .show = show,
              .ctx = ctx};
-  hr2di_image_matrix_complete(&o, hr2di_scene_cell(scene));
+  hr2di_image_rows_complete(&o, hr2di_scene_cell(scene));
   if (scene->symmetry.motion) return visit_images(scene, &o, &watch, show, ctx, counts);
   status = hr2di_row_maker_init(&v.maker, scene, o.threads, 1, &watch);
   if (!status) status = run(&v, scene->patches);

@@ -216,6 +216,15 @@ succeeds solve "$scenes/square-room.geojson" --time-budget 2 --json "$work/t.jso
 check "a budget is worth digits" small "$(true_error square_rho0.9 "$work/t.json")" 1e-9
 check "the budget is told" grep -q '^target    best within 2 seconds$' "$work/out"
 check "the budget is kept: $(value total "$work/t.json")" small "$(value total "$work/t.json")" 4
+awk 'BEGIN {
+  print "{\"type\": \"GeometryCollection\", \"geometries\": ["
+  for (k = 0; k < 5000; k++)
+    printf "%s{\"type\": \"LineString\", \"coordinates\": [[%d, 0], [%d, 1]]}\n", k ? "," : "", k, k
+  print "]}"
+}' >"$work/many.geojson"
+run solve "$work/many.geojson" --time-budget 1e-6
+check "a budget of time includes the reading of the scene" \
+  matches 1 'the time does not suffice to read the scene$'
 run solve "$scenes/partition.geojson" --target-error 1e-14 --time-budget 0.5 --json "$work/t.json" --quiet
 check "a budget of half a second: $(value total "$work/t.json")" \
   small "$(value total "$work/t.json")" 2

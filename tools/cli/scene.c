@@ -9,6 +9,7 @@
 
 #include "cli/numbers.h"
 #include "cli/warnings.h"
+#include "output/clock.h"
 #include "output/complain.h"
 #include "output/progress.h"
 
@@ -31,14 +32,18 @@ static void tell_snapped(const options *o, const hr2d_snap_report *r) {
 }
 
 int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cuts) {
-  progress p;
+  const double deadline = o->time_budget > 0 ? clock_seconds() + o->time_budget : 0;
+  progress p = {.deadline = deadline};
   *scene = NULL;
   *cuts = 0;
   hr2d_status status = hr2d_scene_create(NULL, scene);
+  if (!status) hr2d_scene_set_progress(*scene, progress_show, &p);
   if (!status) status = hr2d_scene_read(*scene, o->scene);
   /* Not before: a signal that only sets a flag would not end a read that waits for a pipe. */
-  progress_start(&p, o->quiet);
-  if (!status) hr2d_scene_set_progress(*scene, progress_show, &p);
+  if (!status) {
+    progress_start(&p, o->quiet);
+    p.deadline = deadline;
+  }
   hr2d_snap_report snapped = {0};
   if (!status && o->snap > 0) status = hr2d_scene_snap(*scene, o->snap, &snapped);
   if (!status && o->split_crossings) status = hr2d_scene_split_crossings(*scene, cuts);
@@ -52,7 +57,10 @@ int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cut
   if (!status) return 0;
   if (status != HR2D_STOPPED && status != HR2D_ENOMEM && *scene && hr2d_scene_patches(*scene))
     warn_of_refused(o, *scene);
-  const int code = complain_call(o->scene, *scene ? hr2d_scene_message(*scene) : "", status);
+  const int code =
+      p.late ? complain(o->scene, "the time does not suffice to %s the scene",
+                        hr2d_scene_patches(*scene) ? "check" : "read")
+             : complain_call(o->scene, *scene ? hr2d_scene_message(*scene) : "", status);
   hr2d_scene_destroy(*scene);
   *scene = NULL;
   return code;

@@ -59,8 +59,7 @@ static int measure(cost *c) {
   if (status) return status;
   if (!c->quiet) cost_print_head(c);
   if (!c->options->predict) status = run_methods(c);
-  const int reporting = report(c);
-  return status ? status : reporting;
+  return complain_join(status, report(c));
 }
 
 int cost_command(const options *o) {

@@ -58,3 +58,7 @@ int complain_call(const char *path, const char *message, hr2d_status status) {
   }
   return complain(path, "%s", *message ? message : hr2d_strerror(status));
 }
+
+int complain_join(int first, int second) {
+  return !first || second == EXIT_INTERRUPTED ? second : first;
+}

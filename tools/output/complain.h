@@ -29,4 +29,7 @@ int complain_memory(void);
    HR2D_STOPPED, else EXIT_FAILED. */
 int complain_call(const char *path, const char *message, hr2d_status status);
 
+/* The exit code of two steps: that of the first that failed, but an interrupt stays one. */
+int complain_join(int first, int second);
+
 #endif

@@ -72,7 +72,7 @@ static int run_and_report(run *r) {
   if (!status || r->inaccurate) {
     int reporting = run_compare_shares(r);
     if (!reporting) reporting = report(r);
-    if (!status) status = reporting;
+    status = complain_join(status, reporting);
   }
   run_release(r);
   return status;

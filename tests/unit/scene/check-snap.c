@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/watch.h"
 #include "support/random.h"
 #include "support/support.h"
 
@@ -279,8 +280,34 @@ START_TEST(wrong_calls_change_nothing) {
 }
 END_TEST
 
+static hr2d_status note_work(void *ctx, const hr2d_progress *progress) {
+  *(uint64_t *)ctx += hr2di_watch_of(progress)->work + HR2DI_WATCH_SPAN;
+  return HR2D_OK;
+}
+
+/* Copies are dropped before pairs are looked at, of which there are 10^8. */
+START_TEST(copies_are_dropped_at_once) {
+  enum { COPIES = 20000 };
+  hr2d_scene *scene = NULL;
+  hr2d_snap_report report;
+  uint64_t work = 0;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  for (int k = 0; k < COPIES; k++) {
+    const hr2d_patch p = {.a = {1e-12 * (k % 7), 0}, .b = {1, .3}};
+    ck_assert_int_eq(hr2d_scene_add(scene, &p, NULL), HR2D_OK);
+  }
+  hr2d_scene_set_progress(scene, note_work, &work);
+  ck_assert_int_eq(hr2d_scene_snap(scene, 1e-9, &report), HR2D_OK);
+  ck_assert_uint_eq(hr2d_scene_patches(scene), 1);
+  ck_assert_uint_eq(report.copies, COPIES - 1);
+  ck_assert_msg(work < 200 * COPIES, "%llu units of work", (unsigned long long)work);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 TEST_SUITE("snap") {
   REPEAT_TESTS(2, "plans", damaged_plans_exchange_light_as_clean_ones);
   ADD_TESTS("snap", each_repair_is_told, what_is_exact_does_not_move,
             wrong_calls_change_nothing);
+  ADD_TESTS("copies", copies_are_dropped_at_once);
 }
