@@ -281,6 +281,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/point-grid.c src/accuracy/point-grid.h \
 	src/accuracy/predict.c \
 	src/accuracy/resolution.c src/accuracy/resolution.h \
+	src/accuracy/solution-distance.c src/accuracy/solution-distance.h \
 	src/accuracy/solution-error.c \
 	src/accuracy/search.c src/accuracy/search.h \
 	src/accuracy/solve-to.c src/accuracy/solve-to.h \

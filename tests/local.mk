@@ -60,6 +60,7 @@ SUITES = \
 	tests/unit/refine/check-validate-ulps \
 	tests/paper/check-theorem \
 	tests/unit/oracle/check-squares \
+	tests/unit/solution/check-period-points \
 	tests/unit/solution/check-points \
 	tests/unit/solution/check-emissivity \
 	tests/unit/solution/check-heat-bands \
@@ -113,6 +114,7 @@ SUITES = \
 	tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-kinks \
 	tests/unit/accuracy/check-long-leaves \
+	tests/unit/accuracy/check-measured-errors \
 	tests/unit/accuracy/check-budgets \
 	tests/unit/accuracy/check-cracks \
 	tests/unit/accuracy/check-dark \
