@@ -206,6 +206,7 @@ libhr2d_core_la_SOURCES = \
 	src/field/field-rows.c \
 	src/field/field-team.c \
 	src/field/leaves.c src/field/leaves.h \
+	src/field/leaf-errors.c src/field/leaf-errors.h \
 	src/field/light.c src/field/light.h \
 	src/field/locate.c src/field/locate.h \
 	src/field/past-ends.c src/field/past-ends.h \

@@ -70,6 +70,7 @@ SUITES = \
 	tests/unit/solution/check-thermal-calls \
 	tests/unit/field/check-field \
 	tests/unit/field/check-field-rows \
+	tests/unit/field/check-field-errors \
 	tests/unit/field/check-past-ends \
 	tests/unit/solve/check-solve \
 	tests/unit/solve/check-background \
@@ -151,6 +152,7 @@ OUTSIDE = \
 	tests/program/check-field.sh \
 	tests/program/check-vti.sh \
 	tests/program/check-pictures.sh \
+	tests/program/check-one-value.sh \
 	tests/program/check-resume.sh \
 	tests/program/check-temperatures.sh \
 	tests/package/check-constants.sh \
