@@ -36,8 +36,8 @@
  * one e for all patches this is at most e times the part of all directions in which fronts are.
  * With hr2d_field_options::account the e are found for each leaf instead: the difference of B_h
  * from what some points of the leaf gather (hr2d_solution_gather()), twice, and the bound of
- * the account of what is gathered. That B' is no farther from B_h elsewhere is from
- * measurements.
+ * the account of what is gathered. That B' is no farther from B_h between them is
+ * tested, not proved.
  *
  * In a scene that repeats for ever what is past its images is extrapolated: see symmetry.h.
  *

@@ -11,9 +11,9 @@
 #include "base/pi.h"
 #include "scene/scene-impl.h"
 
-/* Points of a leaf besides its coefficients; how far inside of it the first of them is, as a
-   part of it; and what they may miss: in 400 leaves of random scenes the largest difference at
-   200 points was 1.5 times that at these. */
+/* Points of a leaf besides its coefficients, so that there is one between the zeros of the next
+   polynomial; how far inside of the leaf the first of them is, as a part of it; and a factor
+   for what lies between them, which tests/unit/field/check-field-errors.c holds. */
 enum { MORE = 3 };
 #define INSET  1e-9
 #define MISSED 2
