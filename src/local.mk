@@ -208,6 +208,7 @@ libhr2d_core_la_SOURCES = \
 	src/field/field-rows.c \
 	src/field/field-team.c \
 	src/field/leaves.c src/field/leaves.h \
+	src/field/leaf-errors.c src/field/leaf-errors.h \
 	src/field/light.c src/field/light.h \
 	src/field/locate.c src/field/locate.h \
 	src/field/past-ends.c src/field/past-ends.h \
@@ -283,6 +284,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/point-grid.c src/accuracy/point-grid.h \
 	src/accuracy/predict.c \
 	src/accuracy/resolution.c src/accuracy/resolution.h \
+	src/accuracy/solution-distance.c src/accuracy/solution-distance.h \
 	src/accuracy/solution-error.c \
 	src/accuracy/search.c src/accuracy/search.h \
 	src/accuracy/solve-to.c src/accuracy/solve-to.h \

@@ -62,6 +62,7 @@ SUITES = \
 	tests/unit/refine/check-validate-ulps \
 	tests/paper/check-theorem \
 	tests/unit/oracle/check-squares \
+	tests/unit/solution/check-period-points \
 	tests/unit/solution/check-points \
 	tests/unit/solution/check-emissivity \
 	tests/unit/solution/check-heat-bands \
@@ -71,6 +72,7 @@ SUITES = \
 	tests/unit/solution/check-thermal-calls \
 	tests/unit/field/check-field \
 	tests/unit/field/check-field-rows \
+	tests/unit/field/check-field-errors \
 	tests/unit/field/check-past-ends \
 	tests/unit/solve/check-solve \
 	tests/unit/solve/check-background \
@@ -116,6 +118,7 @@ SUITES = \
 	tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-kinks \
 	tests/unit/accuracy/check-long-leaves \
+	tests/unit/accuracy/check-measured-errors \
 	tests/unit/accuracy/check-budgets \
 	tests/unit/accuracy/check-cracks \
 	tests/unit/accuracy/check-dark \
@@ -152,6 +155,7 @@ OUTSIDE = \
 	tests/program/check-field.sh \
 	tests/program/check-vti.sh \
 	tests/program/check-pictures.sh \
+	tests/program/check-one-value.sh \
 	tests/program/check-resume.sh \
 	tests/program/check-temperatures.sh \
 	tests/package/check-constants.sh \

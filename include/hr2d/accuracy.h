@@ -248,6 +248,23 @@ HR2D_API hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *ta
 HR2D_API hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target *how,
                                          hr2d_error *average, hr2d_error *sup);
 
+/**
+ * Measures all errors of a solution of any oracle, policy and order, as hr2d_solution_error()
+ * does, those of H as well.
+ *
+ * Errors at points are looked for between the ends of the leaves of the solution and of the
+ * reference, which end where radiosity jumps or bends, and at the borders of sunlight.
+ * @param solution  its scene must still exist
+ * @param how       as for hr2d_solution_error()
+ * @param account   receives the errors, at points those of hr2d_solution_at() and
+ *                  hr2d_solution_irradiance_at(); `order`, `elements`, `leaves` and `links` of
+ *                  the solution; and the time that this took. The rest is 0, but for `solves`,
+ *                  which is 1. Unchanged on failure
+ * @return as hr2d_solution_error()
+ */
+HR2D_API hr2d_status hr2d_solution_account(const hr2d_solution *solution,
+                                           const hr2d_target *how, hr2d_account *account);
+
 #ifdef __cplusplus
 }
 #endif

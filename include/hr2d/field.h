@@ -34,6 +34,10 @@
  *
  * which hr2d_field_values::error receives if hr2d_field_options::patch_error has the e_j. With
  * one e for all patches this is at most e times the part of all directions in which fronts are.
+ * With hr2d_field_options::account the e are found for each leaf instead: the difference of B_h
+ * from what some points of the leaf gather (hr2d_solution_gather()), twice, and the bound of
+ * the account of what is gathered. That B' is no farther from B_h between them is
+ * tested, not proved.
  *
  * In a scene that repeats for ever what is past its images is extrapolated: see symmetry.h.
  *
@@ -54,6 +58,7 @@
 #ifndef HR2D_FIELD_H
 #define HR2D_FIELD_H
 
+#include <hr2d/accuracy.h>
 #include <hr2d/geometry.h>
 #include <hr2d/options.h>
 #include <hr2d/progress.h>
@@ -82,11 +87,15 @@ typedef struct hr2d_field_options {
   void *progress_ctx;        /**< given to `progress` */
   const double *patch_error; /**< bounds of |B_h − B|, patches × bands, patch by patch, in the
                                   unit of E; only read; NULL: none are known */
+  const hr2d_account *account; /**< that of hr2d_solve_to() or hr2d_solution_account() of the
+                                    solution: hr2d_field_values::error, if it is wanted and
+                                    without `patch_error`, is then measured, in the time of
+                                    p + 3 gathers for each leaf. Only read; NULL: none */
 } hr2d_field_options;
 
 /** The defaults: one thread, no callback, no errors. */
 #define HR2D_FIELD_OPTIONS_INIT                                                                \
-  { sizeof(hr2d_field_options), 0, NULL, NULL, NULL }
+  { sizeof(hr2d_field_options), 0, NULL, NULL, NULL, NULL }
 
 /**
  * Does what #HR2D_FIELD_OPTIONS_INIT does, for languages without macros: sets all bytes to 0,
@@ -98,13 +107,15 @@ HR2D_API void hr2d_field_options_init(hr2d_field_options *options, size_t size);
 
 /** What is received for each point, point by point. Start from #HR2D_FIELD_VALUES_INIT. */
 typedef struct hr2d_field_values {
-  size_t struct_size;   /**< so that the struct can grow */
-  double *mean;         /**< receives M, points × bands; NULL: not wanted, as all below */
-  double *flux;         /**< receives Φ, points × bands × 2, x before y */
-  double *error;        /**< receives the bound of |δM|, points × bands; NaN without
-                             hr2d_field_options::patch_error */
-  double *sky;          /**< receives the part of all directions with nothing, points */
-  double *back;         /**< receives the part of all directions with backs, points */
+  size_t struct_size; /**< so that the struct can grow */
+  double *mean;       /**< receives M, points × bands; NULL: not wanted, as all below */
+  double *flux;       /**< receives Φ, points × bands × 2, x before y */
+  double *error; /**< receives the bound of |δM|, points × bands; |δΦ| is at most π times
+                      that. NaN without hr2d_field_options::patch_error or an account
+                      with a finite bound at points. What a grid's tolerance allows comes
+                      on top */
+  double *sky;   /**< receives the part of all directions with nothing, points */
+  double *back;  /**< receives the part of all directions with backs, points */
   unsigned char *place; /**< receives an #hr2d_place each, points */
   double *cut_off;      /**< receives the part of all directions past the ends of a period,
                              points; 0 without one. symmetry.h says what is known of it */

@@ -103,7 +103,9 @@ typedef struct hr2d_solve_options {
                                 it, bit for bit */
   hr2d_closure closure;    /**< on by default */
   const hr2d_solution *start; /**< warm start: a solution on the same hierarchy, perhaps older
-                                   than its last refinement; NULL: none */
+                                   than its last refinement; NULL: none. If it solves the
+                                   equation already, to 1e-11 of the largest B and H on the
+                                   same elements, the new solution has its bits */
   hr2d_progress_fn progress;  /**< optional */
   void *progress_ctx;         /**< given to `progress` */
 } hr2d_solve_options;
@@ -290,6 +292,20 @@ HR2D_API const double *hr2d_solution_field(const hr2d_solution *solution);
  */
 HR2D_API double hr2d_solution_element(const hr2d_solution *solution, uint32_t element,
                                       size_t band);
+
+/**
+ * The average of H over an element: of the solution's H itself, which
+ * hr2d_solution_irradiance() averages over a patch. An average of
+ * hr2d_solution_irradiance_at(), which is nowhere below 0, may be larger.
+ * @param solution  a solution
+ * @param element   number of an element that existed at the solve
+ * @param band      the band
+ * @return the average, in the unit of E. Where images of a period are cut off (symmetry.h)
+ *         averages over patches are far better than those over their elements: there
+ *         hr2d_solution_gather_irradiance() has the better values
+ */
+HR2D_API double hr2d_solution_element_irradiance(const hr2d_solution *solution,
+                                                 uint32_t element, size_t band);
 
 /**
  * The average over a patch of the irradiance H, which arrives from other patches, from the

@@ -2,6 +2,7 @@
 """Solutions: radiosity, irradiance and their errors."""
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple, Optional, Tuple, Union
@@ -85,20 +86,23 @@ class Field(NamedTuple):
     """0 between the patches, 1 on a patch, 2 where no light can be."""
     cut_off: np.ndarray
     """The part of all directions past the images of a period, which is extrapolated."""
+    error: np.ndarray
+    """A bound of the error of `mean`, (…, bands), that of `flux` is π times as large; NaN unless
+    it was asked for."""
 
 
 @dataclass(frozen=True)
 class Account:
     """The errors of a solution, and what it took.
 
-    Errors of B and H are relative: of averages over patches, and with `sup` at points.  A
-    solution by links has no errors of H, and its `sup` is of values without a gather.
+    Errors of B and H are relative: of averages over patches, and with `sup` at points.  Of a
+    solution by links `sup` is of values without a gather.
     """
 
     average: Bounded
     sup: Bounded
-    irradiance: Optional[Bounded]
-    irradiance_sup: Optional[Bounded]
+    irradiance: Bounded
+    irradiance_sup: Bounded
     order: int
     elements: int
     leaves: int
@@ -185,14 +189,12 @@ class Solution:
         return self._account or self._measured()
 
     def _measured(self) -> Account:
-        average, sup = ffi.new("hr2d_error *"), ffi.new("hr2d_error *")
+        raw = ffi.new("hr2d_account *")
         with Call() as call:
-            call.check(lib.hr2d_solution_error(self._raw, ffi.NULL, average, sup))
-        links = lib.hr2d_solution_links(self._raw)
-        counts = lib.hr2d_linkset_counts(links)
-        order = lib.hr2d_hierarchy_order(lib.hr2d_linkset_hierarchy(links))
-        return Account(Bounded._of(average), Bounded._of(sup), None, None, order,
-                       counts.elements, counts.leaves, counts.links, None, True, "")
+            call.check(lib.hr2d_solution_account(self._raw, ffi.NULL, raw))
+        self._account = dataclasses.replace(Account._of(raw, True), seconds=None)
+        self._told = (ffi.NULL, raw)
+        return self._account
 
     def at(self, patch: Union[int, str], t: Any, *, gather: bool = True) -> Points:
         """B and H at points of a patch.
@@ -221,28 +223,38 @@ class Solution:
         # B' = E + ρ H' is what hr2d_solution_gather() would gather again.
         return Points(self.scene.emission[index] + self.scene.reflectance[index] * H, H)
 
-    def field(self, points: Any, *, threads: Any = 1,
+    def field(self, points: Any, *, errors: bool = False, threads: Any = 1,
               progress: Optional[ProgressFunction] = None) -> Field:
         """The light at points of the plane, with exact visibility.
 
         `points` are x and y, in any shape: `np.mgrid[0:5:200j, 0:3:100j]`, or two arrays.
+        With `errors` those of the values are measured, in the time of some gathers for each
+        leaf element.
         """
         x, y = np.broadcast_arrays(*np.asarray(points, dtype=np.float64))
         at = np.stack([x.ravel(), y.ravel()], axis=1)
         bands = self.scene.bands
         f = Field(np.empty((*x.shape, bands)), np.empty((*x.shape, bands, 2)),
-                  np.empty(x.shape), np.empty(x.shape, np.uint8), np.empty(x.shape))
+                  np.empty(x.shape), np.empty(x.shape, np.uint8), np.empty(x.shape),
+                  np.full((*x.shape, bands), np.nan))
         values = ffi.new("hr2d_field_values *", {
             "struct_size": ffi.sizeof("hr2d_field_values"), "mean": writable(f.mean),
             "flux": writable(f.flux), "sky": writable(f.sky),
             "cut_off": writable(f.cut_off),
+            "error": writable(f.error) if errors else ffi.NULL,
             "place": ffi.cast("unsigned char *", ffi.from_buffer(f.place))})
         options = ffi.new("hr2d_field_options *", {
-            "struct_size": ffi.sizeof("hr2d_field_options"), "threads": thread_count(threads)})
+            "struct_size": ffi.sizeof("hr2d_field_options"), "threads": thread_count(threads),
+            "account": self._error_account() if errors else ffi.NULL})
         with Call(progress) as call:
             call.check(lib.hr2d_field_at(self._raw, ffi.cast("hr2d_point *", doubles(at)),
                                          len(at), options, values))
         return f
+
+    def _error_account(self) -> Any:
+        """The account in C; that of a solution by links is measured first."""
+        self.account
+        return self._told[1]
 
     def _point_values(self, getter: str, patch: int, t: np.ndarray, shape: Any) -> np.ndarray:
         values = np.empty(shape)

@@ -74,11 +74,15 @@ static hr2d_status reach(hr2di_search *s, double error) {
     raised = raise_clusters(s, &fineness, error) || (dividing && !stuck) ||
              !hr2di_resolution_raise(&fineness, &s->best.survey, before / (0.5 * error));
   }
-  if (hr2di_search_error(s) <= error) return HR2D_OK;
+  const hr2d_status bounded = hr2di_search_bound(s);
+  if (bounded || hr2di_search_reached(s, error)) return bounded;
   give_reason(s, hr2di_search_is_cut_off(s, error)
                      ? "images of the period that are cut off may make that much"
                  : stuck > 0 && hr2di_search_is_rounding(s)
                      ? "finer elements bring the error down no further"
+                 : hr2di_search_error(s) <= error
+                     ? "the error is estimated below the target, but not below half of it, and "
+                       "comes down too slowly"
                      : "the error comes down too slowly: the finest elements that are tried do "
                        "not suffice");
   return HR2D_EACCURACY;
@@ -95,7 +99,7 @@ static hr2d_status reach_step_by_step(hr2di_search *s) {
   for (double error = 1e-1; !status; error *= 1e-2) {
     const double aim = fmax(error, s->given.error), start = hr2di_clock_now();
     status = reach(s, aim);
-    if (status || hr2di_search_error(s) <= s->given.error || aim <= s->given.error) break;
+    if (status || hr2di_search_reached(s, s->given.error) || aim <= s->given.error) break;
     s->late = 1.2 * (hr2di_clock_now() - start) >
               hr2di_search_left(s); /* a finer one takes longer still */
     status = hr2di_search_agree(s, HR2D_OK);

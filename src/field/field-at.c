@@ -7,6 +7,7 @@
 
 #include "base/pi.h"
 #include "base/sized-struct.h"
+#include "field/leaf-errors.h"
 #include "field/past-ends.h"
 
 /* Points of a task. */
@@ -195,6 +196,7 @@ hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of
   join(&l);
   seen->place = hr2di_field_place(of->scene, sum->front, sum->sky, touches);
   const int dark = seen->place == HR2D_PLACE_OUTSIDE;
+  const int knows = of->patch_error || of->element_error;
   seen->clearance = sqrt(sum->clearance);
   seen->mean = sum->mean;
   seen->flux = flux;
@@ -206,7 +208,7 @@ hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of
     sum->mean[b] = dark ? NAN : sum->mean[b] / (2 * HR2DI_PI);
     flux[2 * b] = dark ? NAN : flux[2 * b] / 2;
     flux[2 * b + 1] = dark ? NAN : flux[2 * b + 1] / 2;
-    sum->error[b] = dark || !of->patch_error ? NAN : sum->error[b] / (2 * HR2DI_PI);
+    sum->error[b] = dark || !knows ? NAN : sum->error[b] / (2 * HR2DI_PI);
   }
   return status;
 }
@@ -243,6 +245,15 @@ static hr2d_status do_group(void *ctx, hr2di_field_worker *w, size_t task) {
   return status;
 }
 
+/* Errors of leaves are measured if they are wanted and nobody gives any. */
+static hr2d_status find_errors(hr2di_field_call *f, const hr2d_solution *solution) {
+  const hr2d_account *account = f->options.account;
+  if (!f->values.error || f->options.patch_error || !account || !isfinite(account->sup.bound))
+    return HR2D_OK;
+  return hr2di_leaf_errors(&f->source.leaves, solution, account->sup.bound, &f->watch,
+                           &f->source.element_error);
+}
+
 hr2d_status hr2di_field_open(hr2di_field_call *f, const hr2d_solution *solution,
                              const hr2d_field_options *options,
                              const hr2d_field_values *values) {
@@ -255,6 +266,7 @@ hr2d_status hr2di_field_open(hr2di_field_call *f, const hr2d_solution *solution,
   status = hr2di_field_scene_init(&f->scene, scene, &f->watch);
   f->opened = 1;
   if (!status) status = hr2di_light_source_init(&f->source, solution, &f->watch);
+  if (!status) status = find_errors(f, solution);
   f->source.scene = &f->scene.scene;
   f->source.wants_flux = f->values.flux != NULL;
   f->source.lit_sky = hr2di_field_lit_sky(scene);

@@ -48,6 +48,7 @@ hr2d_status hr2di_light_source_init(hr2di_light_source *of, const hr2d_solution 
 
 void hr2di_light_source_clear(hr2di_light_source *of) {
   hr2di_alloc_free(&of->leaves.alloc, of->far);
+  hr2di_alloc_free(&of->leaves.alloc, of->element_error);
   hr2di_leaves_clear(&of->leaves);
 }
 
@@ -235,6 +236,17 @@ static void see_end(hr2di_light_sum *sum, hr2d_point at) {
   sum->clearance = fmin(sum->clearance, hr2di_point_dot(at, at));
 }
 
+/* Images have the largest error of their patch. */
+static void add_error(hr2di_light_sum *sum, uint32_t patch, uint32_t element, hr2d_point right,
+                      hr2d_point left) {
+  const hr2di_light_source *of = sum->of;
+  const size_t bands = of->solution->bands, cell = hr2di_scene_cell(of->scene);
+  if (!of->element_error) return;
+  const double angle = angle_between(right, left);
+  const double *error = of->element_error + (patch < cell ? element : patch % cell) * bands;
+  for (size_t b = 0; b < bands; b++) sum->error[b] += angle * error[b];
+}
+
 /* The leaves of a stretch, from its right to its left.  Where two of them meet is rounded; they
    share the direction, so that all of the angle is divided among them. */
 static void add_front(hr2di_light_sum *sum, const hr2di_round_stretch *seen) {
@@ -263,6 +275,7 @@ static void add_front(hr2di_light_sum *sum, const hr2di_round_stretch *seen) {
     else
       add_near(sum, &s, part, right, left,
                last && hr2di_point_same(right, seen->right) ? seen->angle : -1);
+    add_error(sum, patch, of->leaves.leaf[k].element, right, left);
     if (hr2di_watch_work(sum->watch, 1)) return;
     if (!last && of->leaves.group && of->leaves.group[k] != of->leaves.group[k + 1])
       see_end(sum, left);

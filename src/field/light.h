@@ -31,6 +31,7 @@ typedef struct hr2di_light_source {
   int wants_flux;
   int lit_sky;               /* whether there is light where nothing stands */
   const double *patch_error; /* patches × bands, or NULL */
+  double *element_error;     /* elements × bands, see leaf-errors.h; or NULL */
 } hr2di_light_source;
 
 /* HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended by hr2di_light_source_clear() in
@@ -61,7 +62,7 @@ typedef struct hr2di_light_sum {
   hr2di_watch *watch;
   double *mean;            /* per band: ∫ B dω */
   double *flux;            /* per band, x and y: ∫ B ω dω; NULL: not wanted */
-  double *error;           /* per band: ∫ of the error of the patch; NULL without errors */
+  double *error;           /* per band: ∫ of the error of the patch or the leaf */
   double front, back, sky; /* angles */
   double clearance;        /* the square of how near an end of a stretch or a jump of B is */
 } hr2di_light_sum;

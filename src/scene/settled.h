@@ -14,7 +14,7 @@
 /* What is known of the temperature of a patch of given flux. */
 typedef struct hr2di_found {
   double radiance;        /* σT⁴; below 0 where the patch cannot lose so much */
-  double estimate, bound; /* the errors of it */
+  double estimate, bound; /* the errors of it; NaN: not known */
 } hr2di_found;
 
 /* Whether the flux of a patch is given. */

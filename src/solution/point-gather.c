@@ -14,9 +14,9 @@ static hr2d_status gather_at(hr2di_gatherer *g, size_t patch, double t, double *
                           : hr2di_gatherer_look(g, patch, t, NULL, irradiance, &wedge, &others);
 }
 
-static hr2d_status gather_irradiance(const hr2d_solution *solution, size_t patch,
-                                     const double *t, size_t count, double *value,
-                                     hr2di_watch *watch) {
+hr2d_status hr2di_solution_gather_irradiance(const hr2d_solution *solution, size_t patch,
+                                             const double *t, size_t count, double *value,
+                                             hr2di_watch *watch) {
   hr2di_gatherer g;
   hr2d_status status = hr2di_gatherer_init(&g, solution, watch);
   for (size_t k = 0; k < count && !status; k++) {
@@ -42,7 +42,8 @@ hr2d_status hr2di_solution_gather_past(const hr2d_solution *solution, size_t pat
 hr2d_status hr2di_solution_gather(const hr2d_solution *solution, size_t patch, const double *t,
                                   size_t count, double *value, hr2di_watch *watch) {
   const hr2d_scene *scene = hr2di_solution_scene(solution);
-  const hr2d_status status = gather_irradiance(solution, patch, t, count, value, watch);
+  const hr2d_status status =
+      hr2di_solution_gather_irradiance(solution, patch, t, count, value, watch);
   for (size_t k = 0; k < count * solution->bands && !status; k++) {
     const size_t band = k % solution->bands;
     value[k] = hr2d_scene_emission(scene, patch, band) +
@@ -67,7 +68,7 @@ hr2d_status hr2d_solution_gather_irradiance(const hr2d_solution *solution, size_
                                             const double *t, size_t count, double *value) {
   hr2di_watch watch;
   watch_gather(solution, &watch);
-  return gather_irradiance(solution, patch, t, count, value, &watch);
+  return hr2di_solution_gather_irradiance(solution, patch, t, count, value, &watch);
 }
 
 hr2d_status hr2d_solution_gather_net_flux(const hr2d_solution *solution, size_t patch,

@@ -47,8 +47,11 @@ hr2d_status hr2di_solution_gather_past(const hr2d_solution *solution, size_t pat
                                        const double *t, size_t count, double *past,
                                        double *ends, hr2di_watch *watch);
 
-/* hr2d_solution_gather() with a watch. */
+/* hr2d_solution_gather() and hr2d_solution_gather_irradiance() with a watch. */
 hr2d_status hr2di_solution_gather(const hr2d_solution *solution, size_t patch, const double *t,
                                   size_t count, double *value, hr2di_watch *watch);
+hr2d_status hr2di_solution_gather_irradiance(const hr2d_solution *solution, size_t patch,
+                                             const double *t, size_t count, double *value,
+                                             hr2di_watch *watch);
 
 #endif

@@ -40,6 +40,11 @@ double hr2d_solution_element(const hr2d_solution *solution, uint32_t element, si
   return light(average(solution, solution->value, element, band));
 }
 
+double hr2d_solution_element_irradiance(const hr2d_solution *solution, uint32_t element,
+                                        size_t band) {
+  return light(average(solution, solution->irradiance, element, band));
+}
+
 double hr2d_solution_average(const hr2d_solution *solution, size_t patch, size_t band) {
   return light(average(solution, solution->value, patch, band));
 }

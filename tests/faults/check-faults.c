@@ -299,10 +299,11 @@ static hr2d_status gather(fault_stage *s, uint64_t *sum) {
 
 static hr2d_status field(fault_stage *s, uint64_t *sum) {
   static const hr2d_point at[] = {{.5, .5}, {0, 0}, {.1, .7}, {-30, 2}};
-  double mean[8] = {0}, flux[16] = {0}, sky[4];
-  const hr2d_field_options how = {.struct_size = sizeof how, .threads = 2};
+  double mean[8] = {0}, flux[16] = {0}, error[8], sky[4];
+  const hr2d_account account = {.sup = {1e-3, 1e-2}};
+  const hr2d_field_options how = {.struct_size = sizeof how, .threads = 2, .account = &account};
   const hr2d_field_values values = {
-      .struct_size = sizeof values, .mean = mean, .flux = flux, .sky = sky};
+      .struct_size = sizeof values, .mean = mean, .flux = flux, .error = error, .sky = sky};
   const hr2d_status status = hr2d_field_at(s->solution, at, 4, &how, &values);
   if (!status) *sum = fault_mix(*sum, mean, sizeof mean);
   if (!status) *sum = fault_mix(*sum, flux, sizeof flux);

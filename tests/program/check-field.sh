@@ -24,7 +24,7 @@ side() {
 printf '# places\n0.5 0.5\n\n  0.25\t0.75\n-3 0.5\n' >"$work/points"
 succeeds field "$furnace" --points "$work/points" --csv -
 check "a row for each point, and a header" [ "$(wc -l <"$work/out")" -eq 4 ]
-check "the header" grep -qx 'x,y,band,mean,flux_x,flux_y,sky' "$work/out"
+check "the header" grep -qx 'x,y,band,mean,flux_x,flux_y,sky,error' "$work/out"
 check "M is 1 in the order of the points" awk -F, '
   NR == 2 { ok = $1 == 0.5 && ($4 - 1)^2 < 1e-26 && $5^2 + $6^2 < 1e-26 && $7 == 0 }
   NR == 3 { ok = ok && $1 == 0.25 && $2 == 0.75 && ($4 - 1)^2 < 1e-26 }
@@ -65,11 +65,11 @@ succeeds field "$room" --target-error 1e-6 --grid 120x80 --csv "$work/exact.csv"
 check "without one none is" lacks '^grid' "$work/out"
 succeeds field "$room" --target-error 1e-6 --grid 120x80 --csv "$work/some.csv" --tolerance 0.01
 check "many are" awk '/^grid/ { n = $2 } END { exit !(n > 1000) }' "$work/out"
-# M is between 0 and 0.6: column 4 of one file and column 11 of the other.
+# M is between 0 and 0.6: column 4 of one file and column 12 of the other.
 paste -d, "$work/exact.csv" "$work/some.csv" >"$work/both.csv"
-check "within it" awk -F, 'NR > 1 && ($4 - $11)^2 > 0.006^2 { bad = 1 }
-  NR > 1 && ($4 == "") != ($11 == "") { bad = 1 } END { exit bad }' "$work/both.csv"
-check "but not exact" awk -F, 'NR > 1 && ($4 - $11)^2 > 1e-10 { some = 1 } END { exit !some }' \
+check "within it" awk -F, 'NR > 1 && ($4 - $12)^2 > 0.006^2 { bad = 1 }
+  NR > 1 && ($4 == "") != ($12 == "") { bad = 1 } END { exit bad }' "$work/both.csv"
+check "but not exact" awk -F, 'NR > 1 && ($4 - $12)^2 > 1e-10 { some = 1 } END { exit !some }' \
   "$work/both.csv"
 usage "--tolerance: '2' is not a number" field "$furnace" --tolerance 2
 usage "--points excludes" field "$furnace" --points "$work/one" --tolerance 0.1

@@ -35,7 +35,7 @@ static const option_entry table[] = {
             {STUDY, "one row per epsilon, kept up to date during the sweep"},
             {COST, "one row per method and parameter"},
             {FACTORS, "a line of patch names, then a row of F_ij for each i"},
-            {FIELD, "x,y,band,mean,flux_x,flux_y,sky for each point and band"}},
+            {FIELD, "x,y,band,mean,flux_x,flux_y,sky,error for each point and band"}},
    .rules = IS_OUTPUT | NOT_WITH_PREDICT},
   {"mtx", "FILE|-", GROUP_OUTPUT, VALUE(path, mtx),
    .help = {{FACTORS, "the F_ij that are not 0, as Matrix Market coordinates"}},

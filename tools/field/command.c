@@ -12,6 +12,8 @@
 #include "output/complain.h"
 #include "output/progress.h"
 
+#define PI 3.14159265358979323846
+
 /* Nodes along the longer side of the box if --grid is not given. */
 enum { NODES = 64 };
 
@@ -58,27 +60,30 @@ static int set_grid(field *f) {
 }
 
 /* Every point is exact, those of a grid as well if it has no tolerance. */
-static int look(field *f, const hr2d_solution *solution) {
+static int look(field *f, const run *r) {
   progress p;
   progress_start(&p, f->options->quiet);
   const hr2d_field_options how = {.struct_size = sizeof how,
                                   .threads = options_threads(f->options),
                                   .progress = progress_show,
-                                  .progress_ctx = &p};
+                                  .progress_ctx = &p,
+                                  .account = &r->account};
   const size_t values = f->count * f->bands;
   f->mean = malloc((values + 1) * sizeof *f->mean);
   f->flux = malloc((2 * values + 1) * sizeof *f->flux);
+  f->error = malloc((values + 1) * sizeof *f->error);
   f->sky = malloc((f->count + 1) * sizeof *f->sky);
   f->place = malloc(f->count + 1);
-  if (!f->mean || !f->flux || !f->sky || !f->place) return complain_memory();
+  if (!f->mean || !f->flux || !f->error || !f->sky || !f->place) return complain_memory();
   const hr2d_field_values to = {.struct_size = sizeof to,
                                 .mean = f->mean,
                                 .flux = f->flux,
+                                .error = f->error,
                                 .sky = f->sky,
                                 .place = f->place};
-  const hr2d_status status = f->grid.tolerance > 0
-                                 ? hr2d_field_on_grid(solution, &f->grid, &how, &to, &f->counts)
-                                 : hr2d_field_at(solution, f->at, f->count, &how, &to);
+  const hr2d_status status =
+      f->grid.tolerance > 0 ? hr2d_field_on_grid(r->solution, &f->grid, &how, &to, &f->counts)
+                            : hr2d_field_at(r->solution, f->at, f->count, &how, &to);
   progress_clear(&p);
   progress_end();
   return status ? complain_call(f->options->scene, "", status) : 0;
@@ -93,6 +98,13 @@ static void print_temperatures(const field *f) {
   if (high >= low) printf("mean radiant temperature %.9g to %.9g K\n", low, high);
 }
 
+static void print_error(double error) {
+  if (isnan(error))
+    puts("          errors not measured");
+  else
+    printf("          error of the mean at most %.1e, of the flux %.1e\n", error, PI * error);
+}
+
 static void print_field(const field *f, double seconds) {
   size_t of_place[3] = {0};
   for (size_t k = 0; k < f->count; k++) of_place[f->place[k]]++;
@@ -104,14 +116,16 @@ static void print_field(const field *f, double seconds) {
     printf("grid      %llu of %zu nodes interpolated\n",
            (unsigned long long)f->counts.interpolated, f->count);
   for (size_t b = 0; b < f->bands; b++) {
-    double low = HUGE_VAL, high = -HUGE_VAL, flux = 0;
+    double low = HUGE_VAL, high = -HUGE_VAL, flux = 0, error = NAN;
     for (size_t k = b; k < f->count * f->bands; k += f->bands) {
+      error = fmax(error, f->error[k]);
       low = fmin(low, f->mean[k]); /* which pass over NaN */
       high = fmax(high, f->mean[k]);
       flux = fmax(flux, hypot(f->flux[2 * k], f->flux[2 * k + 1]));
     }
     if (high >= low)
       printf("band %-4zu mean %.9g to %.9g, |flux| to %.9g\n", b, low, high, flux);
+    if (high >= low) print_error(error);
   }
   if (f->heat) print_temperatures(f);
   printf("seconds   total %.3f\n", seconds);
@@ -134,7 +148,7 @@ static int solve_and_look(field *f, double start) {
   run r = {.options = &how, .scene = f->scene, .cuts = f->cuts, .start = start};
   int status = run_solve(&r);
   if (!status || r.inaccurate) {
-    int looking = look(f, r.solution);
+    int looking = look(f, &r);
     if (!looking) looking = report(f, &r, start);
     if (!status) status = looking;
   }
@@ -159,6 +173,7 @@ int field_command(const options *o) {
   free(f.at);
   free(f.mean);
   free(f.flux);
+  free(f.error);
   free(f.sky);
   free(f.place);
   hr2d_scene_destroy(scene);

@@ -2,6 +2,7 @@
 /* The field as CSV (RFC 4180). */
 #include "output/csv.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "field/field.h"
@@ -11,8 +12,8 @@ int field_write_csv(const field *f, const char *path) {
   output out;
   const int status = output_open(&out, path);
   if (status) return status;
-  fputs("x,y,band,mean,flux_x,flux_y,sky", out.stream);
-  fputs(f->heat ? ",temperature\n" : "\n", out.stream);
+  fprintf(out.stream, "x,y,band,mean,flux_x,flux_y,sky%s,error\n",
+          f->heat ? ",temperature" : "");
   for (size_t k = 0; k < f->count * f->bands && !ferror(out.stream); k++) {
     const size_t point = k / f->bands;
     fprintf(out.stream, "%.17g,%.17g,%zu,", f->at[point].x, f->at[point].y, k % f->bands);
@@ -20,10 +21,11 @@ int field_write_csv(const field *f, const char *path) {
       fputs(",,,", out.stream);
     else
       fprintf(out.stream, "%.17g,%.17g,%.17g,", f->mean[k], f->flux[2 * k], f->flux[2 * k + 1]);
-    fprintf(out.stream, "%.17g", f->sky[point]);
-    if (f->heat) fputc(',', out.stream);
+    fprintf(out.stream, "%.17g,", f->sky[point]);
     if (f->heat && f->place[point] != HR2D_PLACE_OUTSIDE)
       fprintf(out.stream, "%.17g", field_temperature(f, point));
+    if (f->heat) fputc(',', out.stream);
+    if (!isnan(f->error[k])) fprintf(out.stream, "%.17g", f->error[k]);
     fputc('\n', out.stream);
   }
   return output_close(&out, 0);

@@ -12,6 +12,7 @@ typedef struct field {
   hr2d_field_grid grid; /* 0 columns: points of a file */
   hr2d_point *at;
   double *mean, *flux, *sky;
+  double *error; /* bounds of those of `mean`; NaN: not measured; of the flux π times that */
   unsigned char *place;
   int heat;                 /* some patch has a temperature or a flux: T is written, too */
   hr2d_field_counts counts; /* of a grid with a tolerance */
@@ -24,8 +25,8 @@ double field_temperature(const field *f, size_t point);
    skipped. Returns 0 or the exit status, as the others do. */
 int field_read_points(field *f, const char *path);
 
-/* csv.c: a row for each point and band: x,y,band,mean,flux_x,flux_y,sky, and with heat
-   temperature; no numbers outside. */
+/* csv.c: a row for each point and band: x,y,band,mean,flux_x,flux_y,sky, with heat
+   temperature, and error; no numbers outside, and no error that is not measured. */
 int field_write_csv(const field *f, const char *path);
 
 /* json.c */

@@ -18,6 +18,7 @@ static json_t *point(const field *f, size_t k) {
   json_put(&object, "place", json_text(places[f->place[k]]));
   json_put(&object, "mean", json_numbers(f->mean + k * f->bands, f->bands));
   json_put(&object, "flux", json_numbers(f->flux + 2 * k * f->bands, 2 * f->bands));
+  json_put(&object, "error", json_numbers(f->error + k * f->bands, f->bands));
   json_put(&object, "sky", json_number(f->sky[k]));
   if (f->heat) json_put(&object, "temperature", json_number(field_temperature(f, k)));
   return object;

@@ -97,7 +97,14 @@ const size_t *run_important(const run *r);
 /* Those of --beams-of. */
 const size_t *run_beamed(const run *r);
 
-/* B and H at the point of --at number k, in all bands.  Returns 0 or the exit status. */
+/* Whether values at points are gathered once more; constants of elements at order 1 stay what
+   they are. */
+int run_gathers(const run *r);
+
+/* B and H at a fraction of a patch, in all bands.  Returns 0 or the exit status. */
+int run_point(const run *r, size_t patch, double t, double *radiosity, double *irradiance);
+
+/* The same at the point of --at number k. */
 int run_place(const run *r, size_t k, double *radiosity, double *irradiance);
 
 /* Temperatures and heat of all patches, for scenes in which some patch has a temperature or a

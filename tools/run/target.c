@@ -51,7 +51,7 @@ static int complain_of_error(const run *r) {
                   fmax(b->estimate, h->estimate), fmax(b->bound, h->bound));
 }
 
-/* Errors that nobody asked for are not printed. */
+/* Errors that nobody asked for are not known. */
 static void forget_errors(hr2d_account *a) {
   a->average = a->sup = a->irradiance = a->irradiance_sup = (hr2d_error){NAN, NAN};
 }
@@ -77,21 +77,22 @@ int run_target(run *r, progress *p) {
 static hr2d_status compare(run *r, progress *p) {
   hr2d_target how = HR2D_TARGET_INIT;
   hr2d_account *a = &r->account;
-  hr2d_status status = HR2D_OK;
   how.floor = r->options->floor;
   how.threads = options_threads(r->options);
   how.progress = progress_show;
   how.progress_ctx = p;
   how.share = r->share;
-  for (how.error = 1e-6; !status && how.error > 0.5e-12; how.error *= 1e-3) {
-    hr2d_error average, sup;
-    status = hr2d_solution_error(r->solution, &how, &average, &sup);
-    if (status) break;
-    a->average = average;
-    a->sup = sup;
-    if (average.estimate > 0.5 * average.bound) break;
+  for (how.error = 1e-6; how.error > 0.5e-12; how.error *= 1e-3) {
+    hr2d_account found;
+    const hr2d_status status = hr2d_solution_account(r->solution, &how, &found);
+    if (status) return status;
+    a->average = found.average;
+    a->sup = found.sup;
+    a->irradiance = found.irradiance;
+    a->irradiance_sup = found.irradiance_sup;
+    if (a->average.estimate > 0.5 * a->average.bound) break;
   }
-  return status;
+  return HR2D_OK;
 }
 
 int run_error(run *r, progress *p) {
@@ -108,11 +109,13 @@ int run_error(run *r, progress *p) {
   return complain(o->scene, "the error is not known: %s", hr2d_strerror(status));
 }
 
-int run_place(const run *r, size_t k, double *b, double *h) {
-  const double t = r->options->at.items[k].t;
-  const size_t patch = r->places[k], bands = hr2d_scene_bands(r->scene);
-  const int whole = hr2d_scene_cut_off(r->scene) == 0;
-  const int gather = whole && (r->account.order > 1 || options_targeted(r->options));
+int run_gathers(const run *r) {
+  return r->account.order > 1 || options_targeted(r->options);
+}
+
+int run_point(const run *r, size_t patch, double t, double *b, double *h) {
+  const size_t bands = hr2d_scene_bands(r->scene);
+  const int gather = run_gathers(r);
   if (gather && (hr2d_solution_gather(r->solution, patch, &t, 1, b) ||
                  hr2d_solution_gather_irradiance(r->solution, patch, &t, 1, h)))
     return complain_memory();
@@ -121,4 +124,8 @@ int run_place(const run *r, size_t k, double *b, double *h) {
     h[band] = hr2d_solution_irradiance_at(r->solution, patch, t, band);
   }
   return EXIT_DONE;
+}
+
+int run_place(const run *r, size_t k, double *b, double *h) {
+  return run_point(r, r->places[k], r->options->at.items[k].t, b, h);
 }

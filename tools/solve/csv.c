@@ -6,6 +6,7 @@
 #include <gsl/gsl_sf_legendre.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "output/complain.h"
 #include "output/output.h"
@@ -18,33 +19,48 @@ typedef struct writer {
   size_t patch, order, bands;
   int heat;                            /* the last column is T */
   int sun;                             /* there are columns for what comes straight from it */
-  gsl_integration_glfixed_table *rule; /* with a point for each coefficient of a leaf */
+  int gathers;                         /* leaves are gathered */
+  gsl_integration_glfixed_table *rule; /* for leaves that are gathered */
+  double *b, *h; /* of a leaf: bands × order coefficients in Legendre's P_l, and means */
+  double *at[2]; /* per band: B and H at a point of it */
 } writer;
 
-typedef double (*field_fn)(const hr2d_solution *, size_t, double, size_t);
+/* A rule of n points is exact up to degree 2n − 1.  What is gathered on a leaf is as smooth as
+   a polynomial of its order, but not one: some points more than coefficients. */
+enum { MORE_POINTS = 6 };
 
-/* The first `count` coefficients of a field, a polynomial on the leaf, in Legendre's P_l.  A
-   rule of `order` points is exact up to degree 2·order − 1, which its product with P_l has at
-   most. */
-static void expand(const writer *w, const piece *p, field_fn field, size_t band, size_t count,
-                   double *c) {
-  for (size_t l = 0; l < count; l++) c[l] = 0;
-  for (size_t q = 0; q < w->order; q++) {
-    double x = 0, weight = 0, legendre[HR2D_MAX_ORDER];
-    gsl_integration_glfixed_point(-1, 1, q, &x, &weight, w->rule);
-    gsl_sf_legendre_Pl_array((int)count - 1, x, legendre);
-    const double t = p->t0 + (0.5 + 0.5 * x) * (p->t1 - p->t0);
-    const double value = 0.5 * weight * field(w->run->solution, w->patch, t, band);
-    for (size_t l = 0; l < count; l++) c[l] += (double)(2 * l + 1) * value * legendre[l];
+/* The solution's own: coefficients of √(2l+1) P_l. */
+static void take_own(const writer *w, const piece *p) {
+  const double *c = hr2d_solution_field(w->run->solution) + p->element * w->order * w->bands;
+  for (size_t b = 0; b < w->bands; b++) {
+    w->b[b * w->order] = hr2d_solution_element(w->run->solution, p->element, b);
+    w->h[b] = hr2d_solution_element_irradiance(w->run->solution, p->element, b);
+    for (size_t l = 1; l < w->order; l++)
+      w->b[b * w->order + l] = sqrt(2 * (double)l + 1) * c[l * w->bands + b];
   }
 }
 
-static void write_coefficients(const writer *w, const piece *p) {
-  double c[HR2D_MAX_ORDER];
-  for (size_t b = 0; b < w->bands; b++) {
-    expand(w, p, hr2d_solution_at, b, w->order, c);
-    for (size_t l = 1; l < w->order; l++) fprintf(w->stream, ",%.17g", c[l]);
+/* Where images of a period are cut off, averages of patches are extrapolated well, and leaves
+   are not: they see images here and there only.  From points all of the images are seen. */
+static int gather(const writer *w, const piece *p) {
+  const size_t points = w->order + MORE_POINTS;
+  for (size_t k = 0; k < w->order * w->bands; k++) w->b[k] = 0;
+  for (size_t b = 0; b < w->bands; b++) w->h[b] = 0;
+  for (size_t q = 0; q < points; q++) {
+    double x = 0, weight = 0, legendre[HR2D_MAX_ORDER];
+    gsl_integration_glfixed_point(-1, 1, q, &x, &weight, w->rule);
+    gsl_sf_legendre_Pl_array((int)w->order - 1, x, legendre);
+    const double t = p->t0 + (0.5 + 0.5 * x) * (p->t1 - p->t0);
+    const int status = run_point(w->run, w->patch, t, w->at[0], w->at[1]);
+    if (status) return status;
+    for (size_t b = 0; b < w->bands; b++) {
+      w->h[b] += 0.5 * weight * w->at[1][b];
+      for (size_t l = 0; l < w->order; l++)
+        w->b[b * w->order + l] +=
+            0.5 * weight * (double)(2 * l + 1) * w->at[0][b] * legendre[l];
+    }
   }
+  return 0;
 }
 
 static void write_temperature(const writer *w, double irradiance) {
@@ -57,24 +73,21 @@ static int write_leaf(void *ctx, const piece *p) {
   const writer *w = ctx;
   const hr2d_element *e = &hr2d_hierarchy_elements(w->run->hierarchy)[p->element];
   const double unit = hr2d_scene_unit(w->run->scene);
+  const int status = w->gathers ? gather(w, p) : 0;
+  if (status) return status;
+  if (!w->gathers) take_own(w, p);
   fprintf(w->stream, "%zu,", w->patch);
   csv_text(w->stream, hr2d_scene_name(w->run->scene, w->patch));
   fprintf(w->stream, ",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", p->t0, p->t1, e->a.x * unit,
           e->a.y * unit, e->b.x * unit, e->b.y * unit);
-  for (size_t b = 0; b < w->bands; b++)
-    fprintf(w->stream, ",%.17g", hr2d_solution_element(w->run->solution, p->element, b));
-  double first = 0; /* H of the first band */
-  for (size_t b = 0; b < w->bands; b++) {
-    double mean = 0;
-    expand(w, p, hr2d_solution_irradiance_at, b, 1, &mean);
-    fprintf(w->stream, ",%.17g", mean);
-    if (b == 0) first = mean;
-  }
+  for (size_t b = 0; b < w->bands; b++) fprintf(w->stream, ",%.17g", w->b[b * w->order]);
+  for (size_t b = 0; b < w->bands; b++) fprintf(w->stream, ",%.17g", w->h[b]);
   for (size_t b = 0; b < w->bands && w->sun; b++)
     fprintf(w->stream, ",%.17g",
             hr2d_scene_sunlight_over(w->run->scene, w->patch, p->t0, p->t1, b));
-  write_coefficients(w, p);
-  if (w->heat) write_temperature(w, first);
+  for (size_t b = 0; b < w->bands; b++)
+    for (size_t l = 1; l < w->order; l++) fprintf(w->stream, ",%.17g", w->b[b * w->order + l]);
+  if (w->heat) write_temperature(w, w->h[0]);
   return fputc('\n', w->stream) == EOF;
 }
 
@@ -89,6 +102,17 @@ static void write_header(const writer *w) {
   fputc('\n', w->stream);
 }
 
+/* The room of a writer, in one block. */
+static int reserve(writer *w) {
+  w->rule = gsl_integration_glfixed_table_alloc(w->order + MORE_POINTS);
+  w->b = malloc((w->order + 3) * w->bands * sizeof *w->b);
+  if (!w->rule || !w->b) return complain_memory();
+  w->h = w->b + w->order * w->bands;
+  w->at[0] = w->h + w->bands;
+  w->at[1] = w->at[0] + w->bands;
+  return 0;
+}
+
 int solve_write_csv(const run *r, const char *path) {
   output out;
   int status = output_open(&out, path);
@@ -98,12 +122,13 @@ int solve_write_csv(const run *r, const char *path) {
               .order = r->account.order,
               .bands = hr2d_scene_bands(r->scene),
               .heat = run_heat_exists(r->scene),
-              .sun = run_sun_exists(r->scene)};
-  w.rule = gsl_integration_glfixed_table_alloc(w.order);
-  if (!w.rule) return output_close(&out, complain_memory());
-  write_header(&w);
+              .sun = run_sun_exists(r->scene),
+              .gathers = run_gathers(r) && hr2d_scene_cut_off(r->scene) > 0};
+  status = reserve(&w);
+  if (!status) write_header(&w);
   for (; !status && w.patch < hr2d_scene_patches(r->scene); w.patch++)
     status = leaves_walk(r->hierarchy, w.patch, 0, write_leaf, &w);
-  gsl_integration_glfixed_table_free(w.rule);
+  free(w.b);
+  if (w.rule) gsl_integration_glfixed_table_free(w.rule);
   return output_close(&out, ferror(out.stream) ? 0 : status);
 }

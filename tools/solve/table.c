@@ -116,13 +116,17 @@ static void print_method(const run *r) {
 static void print_error_of(const char *title, const char *what, const hr2d_error *e) {
   if (isinf(e->estimate))
     printf("%-9s %s unknown\n", title, what);
-  else if (!isnan(e->estimate))
+  else
     printf("%-9s %s about %.1e, at most %.1e\n", title, what, e->estimate, e->bound);
 }
 
-/* Relative errors of B and, with a target, of H. */
+/* Relative errors of B and H. */
 static void print_error(const run *r) {
   const hr2d_account *a = &r->account;
+  if (isnan(a->average.estimate)) {
+    puts("error     not measured");
+    return;
+  }
   print_error_of("error", "of averages", &a->average);
   print_error_of("", "at points", &a->sup);
   print_error_of("", "of averages of H", &a->irradiance);

@@ -57,8 +57,13 @@ START_TEST(what_is_important_is_right) {
       target.error = error;
       target.important = patch;
       target.important_count = asked[k].count;
-      ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &some), HR2D_OK);
+      const hr2d_status status = hr2d_solve_to(scene, &target, &solution, &some);
       ck_assert_mem_eq(patch, asked[k].patch, sizeof patch);
+      /* What reaches a target, says accuracy.h.  Of the last patch .68 of 1e-7 is left. */
+      const double estimate = fmax(some.average.estimate, some.irradiance.estimate),
+                   bound = fmax(some.average.bound, some.irradiance.bound);
+      ck_assert_int_eq(status,
+                       estimate <= 0.5 * error || bound <= error ? HR2D_OK : HR2D_EACCURACY);
       const double b =
           worst(scene, solution, truth, hr2d_solution_average, patch, asked[k].count);
       const double h =

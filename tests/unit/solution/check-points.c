@@ -136,6 +136,37 @@ START_TEST(points_beside_an_edge) {
 }
 END_TEST
 
+/* A partition hangs from a ceiling, which is bright on one side of it and dark on the other:
+   points of the partition beside its foot do not see the other side.  B has no jump there, and
+   changes as x^γ with γ above ½. */
+START_TEST(points_beside_a_foot) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  const double room[][6] = {{0, 0, 1.25, 0, 0, .5},
+                            {1.25, 0, 1.25, 1, 0, .5},
+                            {1.25, 1, 0, 1, 0, .5},
+                            {0, 1, 0, 0, 1, .9}};
+  for (int k = 0; k < 4; k++)
+    test_add_patch(scene, (hr2d_segment){{room[k][0], room[k][1]}, {room[k][2], room[k][3]}},
+                   room[k][4], room[k][5], HR2D_SIDES_FRONT);
+  test_add_patch(scene, (hr2d_segment){{.25, .5}, {.25, 1}}, 0, .5, HR2D_SIDES_BOTH);
+  test_commit(scene);
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_solution *solution;
+  target.error = 1e-6;
+  target.norm = HR2D_NORM_SUP;
+  ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, NULL), HR2D_OK);
+  for (size_t side = 4; side < 6; side++) { /* the foot ends the front, and begins the back */
+    const double limit = radiosity_at(solution, side, side == 4 ? 1 : 0);
+    for (int k = 1; k < 400; k += k < 40 ? 1 : 20) {
+      const double x = k * 0x1p-53, t = side == 4 ? 1 - x : x;
+      ck_assert_double_eq_tol(radiosity_at(solution, side, t), limit, 2e-7);
+    }
+  }
+  hr2d_solution_destroy(solution);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 /* A room of E = 0.2 and ρ = 0.8 with a wall that stands on its slanted floor and one that
    stands in the air: B = H = 1 at every point of each patch. */
 static hr2d_scene *make_furnace(double turn, double x, double y) {
@@ -244,7 +275,7 @@ START_TEST(net_flux_at_points) {
 END_TEST
 
 TEST_SUITE("points") {
-  ADD_TESTS("ends", edges_of_wedges, points_beside_an_edge);
+  ADD_TESTS("ends", edges_of_wedges, points_beside_an_edge, points_beside_a_foot);
   REPEAT_TESTS(5, "ends", feet_of_walls);
   REPEAT_TESTS(3, "ends", ends_and_feet_in_furnaces);
   ADD_TESTS("irradiance", irradiance_on_black_walls, averages_of_irradiance,
