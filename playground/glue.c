@@ -77,11 +77,30 @@ static hr2d_status read_scene(play *p, const char *text, size_t size, int cut, s
   return status ? status : hr2d_scene_commit(p->scene);
 }
 
+/* What the page neither computes nor saves, and a scene has: NULL if there is none.  Dropped,
+   it would change the answer. */
+static const char *find_missing(const hr2d_scene *scene) {
+  const hr2d_point period = hr2d_scene_period(scene);
+  for (size_t band = 0; band < hr2d_scene_bands(scene); band++)
+    if (hr2d_scene_sun(scene, band).irradiance > 0)
+      return "the scene has a sun, which this page does not compute: the program hr2d does";
+  if (hr2d_scene_sky_pieces(scene) > 0)
+    return "the scene has a sky in pieces, which this page does not compute: the program hr2d "
+           "does";
+  if (period.x != 0 || period.y != 0)
+    return "the scene has a period, which this page does not compute: the program hr2d does";
+  if (hr2d_scene_mirrors(scene) > 0)
+    return "the scene has mirrors, which this page does not compute: the program hr2d does";
+  return NULL;
+}
+
 /* Takes the text of a scene file.  With `cut`, patches that cross are cut; *cuts receives at
    how many places. */
 hr2d_status PAGE(play_open)(play *p, const char *text, size_t size, int cut, size_t *cuts) {
   *cuts = 0;
   const hr2d_status status = read_scene(p, text, size, cut, cuts);
+  const char *missing = status ? NULL : find_missing(p->scene);
+  if (missing) return fail(p, HR2D_EUNSUPPORTED, missing);
   return fail(p, status, p->scene ? hr2d_scene_message(p->scene) : NULL);
 }
 

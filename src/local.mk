@@ -150,6 +150,7 @@ libhr2d_core_la_SOURCES = \
 	src/lint/light.c \
 	src/lint/lint.c \
 	src/lint/lint-impl.h \
+	src/lint/views.c \
 	src/lint/warn.c \
 	src/hierarchy/fields.c \
 	src/hierarchy/hierarchy.c \

@@ -49,6 +49,7 @@ SUITES = \
 	tests/unit/formats/check-memory \
 	tests/unit/formats/check-vs2 \
 	tests/unit/lint/check-mistakes \
+	tests/unit/lint/check-drawings \
 	tests/unit/hierarchy/check-hierarchy \
 	tests/unit/hierarchy/check-fields \
 	tests/unit/refine/check-refine \

@@ -42,6 +42,12 @@ typedef enum hr2d_warning_code {
   HR2D_WARNING_SEES_NOTHING, /**< the front of a patch sees no other front */
   HR2D_WARNING_NO_ABSORBER,  /**< no patch absorbs light in some band */
   HR2D_WARNING_NO_SUNLIGHT,  /**< no sun lights the front of any patch */
+  HR2D_WARNING_SEES_BACK,    /**< fronts see the back of a patch, which is black */
+  HR2D_WARNING_NO_SKY,       /**< the surroundings send light, and no front sees them */
+  HR2D_WARNING_SHIELD,       /**< both sides of a patch have a given flux */
+  HR2D_WARNING_LOW_SUN,      /**< images of a period that are cut off may stand in the light of
+                                  a sun */
+  HR2D_WARNING_SKIPPED,      /**< a file has geometries or positions that make no patch */
   HR2D_WARNING_COUNT         /**< the number of codes */
 } hr2d_warning_code;
 
@@ -90,15 +96,22 @@ HR2D_API void hr2d_lint_options_init(hr2d_lint_options *options, size_t size);
  *
  * A gap is the distance from an end of a patch to another patch, if no patches close it there.
  * It is narrow below options.gap of the extent of the scene, unless it is wider than a
- * twentieth of the shorter patch. An end is loose if no other patch touches it.
+ * twentieth of the shorter patch. An end is loose if no other patch touches it. Two loose ends
+ * of patches at an angle make a corner that is missed, up to five times as wide a gap, and a
+ * hundredth of the shorter patch. Two patches along each other whose fronts look apart, as the
+ * two sides of a thin plate, are no gap.
  *
  * A front "sees nothing" if no ray from nine of its points meets a front, or the sky of a scene
  * with a background. Only patches that emit are asked without a background: of the others those
- * are shown that no light reaches.
+ * are shown that no light reaches. In a scene without light those are shown whose back is seen.
+ *
+ * A back is seen if it makes a hundredth or more of what the middle of a front sees; it is
+ * shown once, with the first front that sees it.
  *
  * @param scene    committed or not; without a commit warnings about light and views are
  * missing, so that the call tells more about a scene that hr2d_scene_commit() refuses
- * @param warn     called for each warning, by code, then by patch; the same for the same scene
+ * @param warn     called for each warning; those of one code come by patch, and all in the same
+ * order for the same scene
  * @param ctx      given to `warn`
  * @param options  NULL for the defaults
  * @retval HR2D_OK      success, with or without warnings

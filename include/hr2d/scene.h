@@ -234,7 +234,7 @@ typedef struct hr2d_snap_report {
   size_t feet;     /**< points that were moved to stand on a patch, or after it */
   size_t slivers;  /**< patches that have lost their length, and were dropped */
   size_t copies;   /**< patches that have become copies of others, and were dropped */
-  size_t cuts;     /**< places where patches crossed still, and were cut */
+  size_t cuts;     /**< cuts of patches: at ends of others along them, and where they crossed */
   double farthest; /**< the farthest that an end was moved, in scene lengths */
   hr2d_point from; /**< where that end was */
   hr2d_point to;   /**< where it is now */

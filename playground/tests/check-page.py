@@ -442,6 +442,44 @@ def a_file_that_is_no_scene_is_refused_with_its_reason(page):
 
 
 @test
+def what_the_page_does_not_compute_is_refused(page):
+    floor = (
+        '{"type":"Feature","properties":{"name":"floor","emission":1},"geometry":'
+        '{"type":"LineString","coordinates":[[0,0],[2,0]]}}'
+    )
+    mirror = (
+        '{"type":"Feature","properties":{"sides":"mirror"},"geometry":'
+        '{"type":"LineString","coordinates":[[0,0],[0,3]]}}'
+    )
+    scenes = {
+        "sun": ('{"sun":{"bearing":-40,"irradiance":800}}', floor),
+        "sky": ('{"sky":[[-90,0,1]]}', floor),
+        "period": ('{"period":[5,0]}', floor),
+        "mirror": ("{}", floor + "," + mirror),
+    }
+    page.example("corner.geojson")
+    before = page.values()
+    for word, (members, features) in scenes.items():
+        path = os.path.join(page.browser.folder, word + ".geojson")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(
+                '{"type":"FeatureCollection","hr2d":'
+                + members
+                + ',"features":['
+                + features
+                + "]}"
+            )
+        page.browser.type("#file", path)
+        page.browser.wait(
+            "return document.getElementById('message').textContent"
+            f".startsWith('{word}.geojson: ')"
+        )
+        assert word in page.message().split(": ", 1)[1], page.message()
+        assert "does not compute" in page.message(), page.message()
+        assert page.values() == before
+
+
+@test
 def the_page_never_hangs_and_a_solve_can_be_stopped(page):
     page.open()
     page.browser.run(

@@ -50,6 +50,18 @@ static int raise_clusters(const hr2di_search *s, hr2di_resolution *fineness, dou
          !hr2di_resolution_raise_clusters(fineness, s->best.clustered, error);
 }
 
+/* More cells are what helps: so the images reach as many times as far. */
+static void give_cut_off(hr2di_search *s) {
+  const hr2di_symmetry *by = &s->scene->symmetry;
+  char text[sizeof s->account.reason];
+  snprintf(
+      text, sizeof text,
+      "light from beyond %u images of the period, up to %.1e of a view, may make that much: "
+      "draw 4 or more cells as one period",
+      by->copies, by->rest);
+  give_reason(s, text);
+}
+
 /* Goes finer until the error is below `error`; HR2D_EACCURACY if it does not come down. */
 static hr2d_status reach(hr2di_search *s, double error) {
   if (s->best.solution && hr2di_search_reached(s, error)) return HR2D_OK;
@@ -76,15 +88,17 @@ static hr2d_status reach(hr2di_search *s, double error) {
   }
   const hr2d_status bounded = hr2di_search_bound(s);
   if (bounded || hr2di_search_reached(s, error)) return bounded;
-  give_reason(s, hr2di_search_is_cut_off(s, error)
-                     ? "images of the period that are cut off may make that much"
-                 : stuck > 0 && hr2di_search_is_rounding(s)
-                     ? "finer elements bring the error down no further"
-                 : hr2di_search_error(s) <= error
-                     ? "the error is estimated below the target, but not below half of it, and "
-                       "comes down too slowly"
-                     : "the error comes down too slowly: the finest elements that are tried do "
-                       "not suffice");
+  if (hr2di_search_is_cut_off(s, error))
+    give_cut_off(s);
+  else
+    give_reason(s,
+                stuck > 0 && hr2di_search_is_rounding(s)
+                    ? "finer elements bring the error down no further"
+                : hr2di_search_error(s) <= error
+                    ? "the error is estimated below the target, but not below half of it, and "
+                      "comes down too slowly"
+                    : "the error comes down too slowly: the finest elements that are tried do "
+                      "not suffice");
   return HR2D_EACCURACY;
 }
 

@@ -27,13 +27,23 @@ static hr2d_status read_choice(hr2di_geojson *reader, const json_t *properties, 
                             reader->label, key, first, second);
 }
 
-static hr2d_status read_name(hr2di_geojson *reader, const json_t *name) {
-  if (name && !json_is_string(name))
-    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
-                              "%s: name: must be a string, not %s", reader->label,
-                              hr2di_geojson_kind(name));
-  if (json_string_length(name) > 0) reader->patch.name = json_string_value(name);
-  return HR2D_OK;
+/* The text of a name: a number in digits, as of a room; of an object the first text, as IMDF
+   has names in several languages.  NULL if there is none. */
+static const char *text_of_name(hr2di_geojson *reader, const json_t *name) {
+  if (json_is_object(name)) {
+    json_t *names = (json_t *)(uintptr_t)name; /* iterators change nothing */
+    void *at = json_object_iter(names);
+    while (at && !json_is_string(json_object_iter_value(at)))
+      at = json_object_iter_next(names, at);
+    name = at ? json_object_iter_value(at) : NULL;
+  }
+  if (!json_is_number(name)) return json_string_value(name);
+  /* As many digits as any decimal number keeps in a double; jansson asks no locale. */
+  size_t length = json_dumpb(name, reader->numeral, sizeof reader->numeral - 1,
+                             JSON_ENCODE_ANY | JSON_REAL_PRECISION(DBL_DIG));
+  if (length > 2 && !memcmp(reader->numeral + length - 2, ".0", 2)) length -= 2;
+  reader->numeral[length] = '\0';
+  return reader->numeral;
 }
 
 static hr2d_status read_light(hr2di_geojson *reader, const json_t *properties) {
@@ -56,27 +66,40 @@ static hr2d_status read_light(hr2di_geojson *reader, const json_t *properties) {
   return HR2D_OK;
 }
 
-hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, size_t number) {
-  const json_t *properties = hr2di_geojson_member(feature, "properties");
-  const json_t *name = hr2di_geojson_member(properties, "name");
+static hr2d_status check_type(hr2di_geojson *reader, const json_t *feature,
+                              const json_t *properties) {
   const char *type = json_string_value(json_object_get(feature, "type"));
-
-  reader->patch = (hr2d_patch)HR2D_PATCH_INIT;
-  set_label(reader, number, json_string_value(name));
   if (!type || strcmp(type, "Feature") != 0)
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
-                              "%s: must be an object of \"type\" \"Feature\"", reader->label);
+                              "%s: must be an object of \"type\" \"Feature\", or a geometry",
+                              reader->label);
   if (properties && !json_is_object(properties))
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "%s: properties: must be an object, not %s", reader->label,
                               hr2di_geojson_kind(properties));
-  hr2d_status status = hr2di_geojson_note_feature(reader, feature);
-  if (!status) status = read_name(reader, name);
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, size_t number) {
+  const int bare = hr2di_geojson_is_geometry(feature);
+  const json_t *properties = bare ? NULL : hr2di_geojson_member(feature, "properties");
+  const json_t *named = hr2di_geojson_member(properties, "name");
+  const char *name = text_of_name(reader, named);
+
+  reader->patch = (hr2d_patch)HR2D_PATCH_INIT;
+  if (name && *name) reader->patch.name = name;
+  set_label(reader, number, name);
+  hr2d_status status = bare ? HR2D_OK : check_type(reader, feature, properties);
+  if (!status && !bare) status = hr2di_geojson_note_feature(reader, feature);
+  if (named && !name)
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, "name", reader->label,
+                    "a name is a text or a number");
   if (!status) status = hr2di_geojson_thermal(reader, properties);
   if (!status && !reader->thermal.given) status = read_light(reader, properties);
   if (!status) status = hr2di_geojson_sides(reader, properties);
   if (!status)
     status = read_choice(reader, properties, "faces", "in", "out", &reader->faces_out);
   if (status) return status;
-  return hr2di_geojson_geometry(reader, hr2di_geojson_member(feature, "geometry"));
+  return hr2di_geojson_geometry(reader,
+                                bare ? feature : hr2di_geojson_member(feature, "geometry"));
 }

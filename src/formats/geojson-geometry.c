@@ -27,72 +27,119 @@ typedef struct path {
   char place[HR2DI_PLACE_SIZE];
 } path;
 
-static hr2d_status read_position(hr2di_geojson *reader, const path *p, size_t k) {
+static const json_t *number_at(const json_t *position, size_t k) {
+  return json_array_get(position, k);
+}
+
+/* What tools write where they have no position: null, or null for x or y. */
+static int is_missing(const json_t *position) {
+  return json_is_null(position) ||
+         (json_array_size(position) >= 2 &&
+          (json_is_null(number_at(position, 0)) || json_is_null(number_at(position, 1))));
+}
+
+static hr2d_status read_position(hr2di_geojson *reader, const path *p, size_t k,
+                                 hr2d_point *point) {
   const json_t *position = json_array_get(p->positions, k);
   const size_t size = json_array_size(position);
   int numbers = size >= 2;
-  for (size_t m = 0; m < size; m++) numbers &= json_is_number(json_array_get(position, m));
+  for (size_t m = 0; m < size; m++)
+    numbers &= json_is_number(number_at(position, m)) ||
+               (m > 1 && json_is_null(number_at(position, m)));
   if (!numbers)
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "%s: position %zu: must be an array of two or more numbers",
                               p->place, k + 1);
-  if (size > 2 && json_number_value(json_array_get(position, 2)) != 0)
+  if (size > 2 && json_number_value(number_at(position, 2)) != 0)
     hr2di_notes_add(&reader->notes, HR2D_WARNING_ALTITUDE, "", p->place,
                     "a scene is a section of the plane: x and y are its coordinates");
-  reader->point[k] = (hr2d_point){json_number_value(json_array_get(position, 0)),
-                                  json_number_value(json_array_get(position, 1))};
+  *point = (hr2d_point){json_number_value(number_at(position, 0)),
+                        json_number_value(number_at(position, 1))};
   return HR2D_OK;
 }
 
-static int has_altitude(const path *p, size_t k) {
-  const json_t *z = json_array_get(json_array_get(p->positions, k), 2);
-  return json_number_value(z) != 0;
+static double altitude(const path *p, size_t k) {
+  return json_number_value(number_at(json_array_get(p->positions, k), 2));
 }
 
-/* Positions of two numbers, and of more. */
-static void note_mixed(hr2di_geojson *reader, const path *p) {
-  const size_t n = json_array_size(p->positions);
-  size_t k = 1;
-  while (k < n && (json_array_size(json_array_get(p->positions, k)) > 2) ==
-                      (json_array_size(json_array_get(p->positions, 0)) > 2))
-    k++;
-  if (k < n)
+/* The positions of a path that were read: the number of the last one, and whether some have two
+   numbers and some have more. */
+typedef struct progress {
+  size_t kept, last;
+  int flat, deep;
+} progress;
+
+static size_t least_positions(const path *p) {
+  return p->role == LINE ? 2 : 4;
+}
+
+/* Keeps a position unless it repeats the last one. */
+static hr2d_status keep_position(hr2di_geojson *reader, const path *p, size_t k, progress *at) {
+  hr2d_point point;
+  const hr2d_status status = read_position(reader, p, k, &point);
+  if (status) return status;
+  const int same = at->kept && hr2di_point_same(reader->point[at->kept - 1], point);
+  if (same && altitude(p, at->last) != altitude(p, k))
+    return hr2di_message_fail(
+        reader->message, HR2D_ESCENE,
+        "%s: segment %zu has no length: positions %zu and %zu are the same in x and y; third "
+        "numbers are not used",
+        p->place, at->kept, at->last + 1, k + 1);
+  const int deep = json_array_size(json_array_get(p->positions, k)) > 2;
+  at->flat |= !deep;
+  at->deep |= deep;
+  at->last = k;
+  if (same)
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_SKIPPED, "position", p->place,
+                    "a position repeats the one before it, and is left out");
+  else
+    reader->point[at->kept++] = point;
+  return HR2D_OK;
+}
+
+static hr2d_status fail_count(hr2di_geojson *reader, const path *p, size_t count) {
+  return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                            "%s: needs %zu positions or more, has %zu", p->place,
+                            least_positions(p), count);
+}
+
+/* A line all of whose positions are one place is no more than a repeated position. */
+static hr2d_status check_kept(hr2di_geojson *reader, const path *p, const progress *at) {
+  if (p->role != LINE && at->kept < least_positions(p)) return fail_count(reader, p, at->kept);
+  if (at->flat && at->deep)
     hr2di_notes_add(&reader->notes, HR2D_WARNING_ALTITUDE, "mixed", p->place,
                     "decimals have a point, not a comma");
+  if (p->role != LINE && !hr2di_point_same(reader->point[0], reader->point[at->kept - 1]))
+    return hr2di_message_fail(
+        reader->message, HR2D_ESYNTAX,
+        "%s: a ring must be closed: its last position must repeat the first", p->place);
+  return HR2D_OK;
 }
 
+/* Reads the positions that differ from the one before them. */
 static hr2d_status read_points(hr2di_geojson *reader, const path *p, size_t *count) {
-  const size_t min = p->role == LINE ? 2 : 4;
-  const size_t n = *count = json_array_size(p->positions);
+  const size_t n = json_array_size(p->positions);
+  progress at = {0, 0, 0, 0};
   if (!json_is_array(p->positions))
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "%s: coordinates: must be an array of positions, not %s",
                               p->place, hr2di_geojson_kind(p->positions));
-  if (n < min)
-    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
-                              "%s: needs %zu positions or more, has %zu", p->place, min, n);
+  if (n < least_positions(p)) return fail_count(reader, p, n);
   if (hr2di_alloc_reserve(reader->alloc, &reader->point, &reader->point_capacity, n,
                           sizeof *reader->point))
     return hr2di_message_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", p->place);
   for (size_t k = 0; k < n; k++) {
     hr2d_status status = hr2di_watch_work(reader->watch, 2);
-    if (!status) status = read_position(reader, p, k);
     if (status) return status;
-    if (k && hr2di_point_same(reader->point[k - 1], reader->point[k]))
-      return hr2di_message_fail(
-          reader->message, HR2D_ESCENE,
-          "%s: segment %zu has no length: positions %zu and %zu are the same%s", p->place, k, k,
-          k + 1,
-          has_altitude(p, k - 1) || has_altitude(p, k)
-              ? " in x and y; third numbers are not used"
-              : "");
+    if (is_missing(json_array_get(p->positions, k)))
+      hr2di_notes_add(&reader->notes, HR2D_WARNING_SKIPPED, "null", p->place,
+                      "a position is null, and is left out: its neighbours are joined");
+    else
+      status = keep_position(reader, p, k, &at);
+    if (status) return status;
   }
-  note_mixed(reader, p);
-  if (p->role != LINE && !hr2di_point_same(reader->point[0], reader->point[n - 1]))
-    return hr2di_message_fail(
-        reader->message, HR2D_ESYNTAX,
-        "%s: a ring must be closed: its last position must repeat the first", p->place);
-  return HR2D_OK;
+  *count = at.kept;
+  return check_kept(reader, p, &at);
 }
 
 /* Twice the signed area of a ring, as a fan of triangles around its first point; 0 if rounding
@@ -151,10 +198,10 @@ static hr2d_status add_segment(hr2di_geojson *reader, hr2d_point a, hr2d_point b
 }
 
 static hr2d_status add_path(hr2di_geojson *reader, const path *p) {
-  size_t n;
+  size_t n = 0;
   int reverse = 0;
   hr2d_status status = read_points(reader, p, &n);
-  if (status) return status;
+  if (status || n < 2) return status;
   if (p->role != LINE) {
     const double area = ring_area(reader->point, n);
     if (area == 0)
@@ -200,11 +247,23 @@ static hr2d_status add_line(hr2di_geojson *reader, const json_t *positions,
 
 typedef struct shape {
   const char *type;
-  int multi, polygon;
+  int multi, polygon, point;
 } shape;
 
-static const shape shapes[] = {
-    {"LineString", 0, 0}, {"MultiLineString", 1, 0}, {"Polygon", 0, 1}, {"MultiPolygon", 1, 1}};
+static const shape shapes[] = {{"LineString", 0, 0, 0}, {"MultiLineString", 1, 0, 0},
+                               {"Polygon", 0, 1, 0},    {"MultiPolygon", 1, 1, 0},
+                               {"Point", 0, 0, 1},      {"MultiPoint", 1, 0, 1}};
+
+static const shape *find_shape(const char *type) {
+  for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
+    if (!strcmp(type, shapes[k].type)) return &shapes[k];
+  return NULL;
+}
+
+int hr2di_geojson_is_geometry(const json_t *json) {
+  const char *type = json_string_value(json_object_get(json, "type"));
+  return type && find_shape(type);
+}
 
 /* 1 for a single segment; for more than one any number above 1, as only this matters. */
 static size_t count_segments(const json_t *coordinates, const shape *s) {
@@ -228,22 +287,16 @@ static hr2d_status add_parts(hr2di_geojson *reader, const json_t *parts, const s
   return status;
 }
 
-hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry) {
-  if (!geometry) return HR2D_OK;
-  const char *type = json_string_value(json_object_get(geometry, "type"));
-  if (!type)
-    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
-                              "%s: geometry: must be an object with a \"type\"", reader->label);
-  const size_t count = sizeof shapes / sizeof *shapes;
-  size_t k = 0;
-  while (k < count && strcmp(type, shapes[k].type) != 0) k++;
-  if (k == count)
-    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
-                              "%s: geometry: %s has no patches; use LineString, Polygon, "
-                              "MultiLineString or MultiPolygon",
-                              reader->label, hr2di_message_quote(type).text);
-  const json_t *coordinates = json_object_get(geometry, "coordinates");
-  reader->segments = count_segments(coordinates, &shapes[k]);
+static hr2d_status add_shape(hr2di_geojson *reader, const json_t *coordinates, const shape *s) {
+  if (s->point || json_is_null(coordinates) ||
+      (json_is_array(coordinates) && json_array_size(coordinates) == 0)) {
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_SKIPPED, s->point ? "point" : "empty",
+                    reader->label,
+                    s->point ? "a point is no wall, and is left out"
+                             : "a geometry has no positions, and adds no patch");
+    return HR2D_OK;
+  }
+  reader->segments = count_segments(coordinates, s);
   reader->added = 0;
   if (reader->segments > 1 && reader->patch.name && strlen(reader->patch.name) > MOST_NAME)
     return hr2di_message_fail(
@@ -251,6 +304,25 @@ hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry
         "%s: name: must not have more than %d bytes where it is for several "
         "segments",
         reader->label, MOST_NAME);
-  if (shapes[k].multi) return add_parts(reader, coordinates, &shapes[k]);
-  return (shapes[k].polygon ? add_polygon : add_line)(reader, coordinates, "");
+  if (s->multi) return add_parts(reader, coordinates, s);
+  return (s->polygon ? add_polygon : add_line)(reader, coordinates, "");
+}
+
+hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry) {
+  if (!geometry) {
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_SKIPPED, "empty", reader->label,
+                    "a geometry has no positions, and adds no patch");
+    return HR2D_OK;
+  }
+  const char *type = json_string_value(json_object_get(geometry, "type"));
+  if (!type)
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: geometry: must be an object with a \"type\"", reader->label);
+  const shape *s = find_shape(type);
+  if (!s)
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: geometry: %s has no patches; use LineString, Polygon, "
+                              "MultiLineString or MultiPolygon",
+                              reader->label, hr2di_message_quote(type).text);
+  return add_shape(reader, json_object_get(geometry, "coordinates"), s);
 }

@@ -33,6 +33,7 @@ typedef struct hr2di_geojson {
 
   /* The current feature. */
   char label[HR2DI_LABEL_SIZE]; /* feature 3 ("north wall") */
+  char numeral[32];             /* its name, if that is a number */
   hr2d_patch patch;             /* the members that its segments have in common */
   hr2d_thermal thermal;         /* theirs, too, unless none is given */
   int is_mirror;                /* it is no patch */
@@ -61,11 +62,15 @@ typedef struct hr2di_geojson {
   size_t name_capacity;
 } hr2di_geojson;
 
-/* Adds the patches of one member of "features"; `number` counts from 1. */
+/* Adds the patches of one member of "features", or of a feature or geometry that is a file of
+   its own; `number` counts from 1. */
 hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, size_t number);
 
-/* Adds the patches of the current feature. */
+/* Adds the patches of the current feature, whose geometry may be NULL. */
 hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry);
+
+/* Whether this is an object of the type of a geometry. */
+int hr2di_geojson_is_geometry(const json_t *json);
 
 /* Reads the thermal properties of the current feature. */
 hr2d_status hr2di_geojson_thermal(hr2di_geojson *reader, const json_t *properties);

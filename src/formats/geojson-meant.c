@@ -14,39 +14,73 @@
 #define FACES    "write \"faces\": \"in\" or \"out\""
 #define GREY     "the property is called \"reflectance\""
 #define KELVIN   "write \"temperature\" in kelvin, degrees Celsius + 273.15"
+#define OPAQUE   "walls are opaque: what passes through them is no part of this model"
+#define DIFFUSE  "walls reflect and emit diffusely: gloss is no part of this model"
+#define MIRROR   "write \"sides\": \"mirror\" for a line of symmetry; walls reflect diffusely"
+#define SUN      "light from a direction is a \"sun\" in the member \"hr2d\""
 #define HEAT     "write \"flux\", the net heat flux that leaves, or \"emission\""
 
-/* A name in small letters, the property that replaces it, and what to do. */
+/* A name in small letters, the property that replaces it, or "" if there is none, and what to
+   do. */
 typedef struct meant {
   const char *name, *instead, *advice;
 } meant;
 
 static const meant properties_meant[] = {
+    {"absorbance", "reflectance", "write \"reflectance\": 1 - absorptance"},
     {"absorptance", "reflectance", "write \"reflectance\": 1 - absorptance"},
+    {"absorption", "reflectance", "write \"reflectance\": 1 - absorptance"},
     {"absorptivity", "reflectance", "write \"reflectance\": 1 - absorptivity"},
     {"albedo", "reflectance", GREY},
+    {"brightness", "emission", EMISSION},
     {"celsius", "temperature", KELVIN},
     {"color", "reflectance", BANDS},
     {"colour", "reflectance", BANDS},
     {"double_sided", "sides", BOTH},
     {"doublesided", "sides", BOTH},
+    {"emissive", "emission", EMISSION},
     {"emit", "emission", EMISSION},
     {"emittance", "emission", EMISSION},
     {"epsilon", "reflectance", REFLECTANCE},
     {"exitance", "emission", EMISSION},
     {"facing", "faces", FACES},
+    {"glossiness", "", DIFFUSE},
+    {"glossy", "", DIFFUSE},
     {"heat", "flux", HEAT},
     {"heat_flux", "flux", HEAT},
     {"heatflux", "flux", HEAT},
+    {"illuminance", "emission", EMISSION},
+    {"index_of_refraction", "", OPAQUE},
+    {"ior", "", OPAQUE},
+    {"irradiance", "emission", SUN},
     {"kelvin", "temperature", "the property is called \"temperature\""},
+    {"luminance", "emission", EMISSION},
+    {"luminosity", "emission", EMISSION},
+    {"mirror", "sides", MIRROR},
+    {"opacity", "", OPAQUE},
     {"power", "emission", EMISSION},
     {"radiance", "emission", EMISSION},
     {"radiosity", "emission", EMISSION},
     {"reflection", "reflectance", GREY},
+    {"reflective", "reflectance", GREY},
     {"reflectivity", "reflectance", GREY},
+    {"refraction", "", OPAQUE},
+    {"refractive_index", "", OPAQUE},
     {"rho", "reflectance", GREY},
+    {"roughness", "", DIFFUSE},
+    {"shininess", "", DIFFUSE},
     {"side", "sides", BOTH},
+    {"specular", "", DIFFUSE},
+    {"specularity", "", DIFFUSE},
+    {"tau", "", OPAQUE},
     {"temp", "temperature", KELVIN},
+    {"translucency", "", OPAQUE},
+    {"translucent", "", OPAQUE},
+    {"transmission", "", OPAQUE},
+    {"transmissivity", "", OPAQUE},
+    {"transmittance", "", OPAQUE},
+    {"transparency", "", OPAQUE},
+    {"transparent", "", OPAQUE},
     {"two_sided", "sides", BOTH},
     {"twosided", "sides", BOTH}};
 
@@ -94,6 +128,66 @@ static int is_lonely(const json_t *properties, const char *key) {
          !hr2di_geojson_member(properties, "reflectance");
 }
 
+/* Letters to change, add, leave out, or swap with the next one, between two names: at most
+   `most`, or most + 1. */
+static unsigned distance(const char *left, const char *right, unsigned most) {
+  if (!*left || !*right) {
+    const size_t rest = strlen(left) + strlen(right);
+    return rest > most ? most + 1 : (unsigned)rest;
+  }
+  if (*left == *right) return distance(left + 1, right + 1, most);
+  if (most == 0) return 1;
+  unsigned least = distance(left + 1, right + 1, most - 1);
+  const unsigned without = distance(left + 1, right, most - 1),
+                 with = distance(left, right + 1, most - 1);
+  if (without < least) least = without;
+  if (with < least) least = with;
+  if (left[0] == right[1] && left[1] == right[0]) {
+    const unsigned swapped = distance(left + 2, right + 2, most - 1);
+    if (swapped < least) least = swapped;
+  }
+  return least + 1;
+}
+
+/* Short words are near to too many others: "site" to "side", "tower" to "power".  Who mistypes
+   a word has its first letter right. */
+static int is_mistyped(const char *key, const char *name) {
+  const size_t length = strlen(name);
+  const unsigned most = length < 6 ? 0 : length < 8 ? 1 : 2;
+  return most && key[0] == name[0] && distance(key, name, most) <= most;
+}
+
+/* Whether the feature has the property that a key was meant for. */
+static int has(const json_t *properties, const char *name) {
+  return *name && hr2di_geojson_member(properties, name);
+}
+
+static const meant *find_meant(const char *key) {
+  for (size_t k = 0; k < COUNT(properties_meant); k++)
+    if (!strcmp(properties_meant[k].name, key)) return &properties_meant[k];
+  return NULL;
+}
+
+/* Of the words of the format those that are long enough to be told when they are mistyped. */
+static const meant properties_typed[] = {
+    {"emission", "emission", "the property is called \"emission\""},
+    {"emissivity", "emissivity", "the property is called \"emissivity\""},
+    {"reflectance", "reflectance", "the property is called \"reflectance\""},
+    {"temperature", "temperature", "the property is called \"temperature\""}};
+
+static const meant *find_mistyped(const meant *table, size_t count, const char *key) {
+  for (size_t k = 0; k < count; k++)
+    if (is_mistyped(key, table[k].name)) return &table[k];
+  return NULL;
+}
+
+/* What a key was meant for, if that is not a word of the format. */
+static const meant *find_near(const char *key) {
+  const meant *m = find_meant(key);
+  if (!m) m = find_mistyped(properties_typed, COUNT(properties_typed), key);
+  return m ? m : find_mistyped(properties_meant, COUNT(properties_meant), key);
+}
+
 static void note_property(hr2di_geojson *reader, const json_t *properties, const char *key) {
   const small s = in_small_letters(key);
   if (is_lonely(properties, key))
@@ -101,14 +195,14 @@ static void note_property(hr2di_geojson *reader, const json_t *properties, const
   if (note_spelling(reader, properties, reader->label, key,
                     find(of_properties, COUNT(of_properties), s.text)))
     return;
-  if (find(of_scene, COUNT(of_scene), s.text))
+  if (find(of_scene, COUNT(of_scene), s.text)) {
     hr2di_notes_add(&reader->notes, HR2D_WARNING_MISPLACED, key, reader->label,
                     "it belongs into the member \"hr2d\" beside \"features\"");
-  for (size_t k = 0; k < COUNT(properties_meant); k++)
-    if (!strcmp(properties_meant[k].name, s.text) &&
-        !hr2di_geojson_member(properties, properties_meant[k].instead))
-      hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, reader->label,
-                      properties_meant[k].advice);
+    return;
+  }
+  const meant *m = find_near(s.text);
+  if (m && !has(properties, m->instead))
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, reader->label, m->advice);
 }
 
 /* Calls `note` for each member that is not null. */
@@ -128,8 +222,7 @@ static void note_feature_member(hr2di_geojson *reader, const json_t *feature, co
   const small s = in_small_letters(key);
   const char *name = find(of_properties, COUNT(of_properties), s.text);
   int wanted = name && strcmp(name, "name") != 0;
-  for (size_t k = 0; k < COUNT(properties_meant); k++)
-    wanted |= !strcmp(properties_meant[k].name, s.text);
+  wanted |= find_meant(s.text) != NULL;
   (void)feature;
   if (wanted)
     hr2di_notes_add(&reader->notes, HR2D_WARNING_MISPLACED, key, reader->label,

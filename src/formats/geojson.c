@@ -47,6 +47,11 @@ static hr2d_status read_scene_effects(hr2di_geojson *reader, const json_t *root,
   return status ? status : read_medium(reader, members);
 }
 
+static int is_feature(const json_t *root) {
+  const char *type = json_string_value(json_object_get(root, "type"));
+  return (type && strcmp(type, "Feature") == 0) || hr2di_geojson_is_geometry(root);
+}
+
 /* Sets `features` to those of a collection. */
 static hr2d_status find_features(hr2di_geojson *reader, const json_t *root, json_t **features) {
   const char *type = json_string_value(json_object_get(root, "type"));
@@ -55,11 +60,9 @@ static hr2d_status find_features(hr2di_geojson *reader, const json_t *root, json
         reader->message, HR2D_ESYNTAX, "not a GeoJSON FeatureCollection: %s",
         json_is_object(root) ? "\"type\" must be a string" : "the outermost value is an array");
   if (strcmp(type, "FeatureCollection") != 0)
-    return hr2di_message_fail(
-        reader->message, HR2D_ESYNTAX, "not a GeoJSON FeatureCollection: \"type\" is %s%s",
-        hr2di_message_quote(type).text,
-        strcmp(type, "Feature") == 0 ? "; put the feature into \"features\" of a collection"
-                                     : "");
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "not a GeoJSON FeatureCollection: \"type\" is %s",
+                              hr2di_message_quote(type).text);
   *features = json_object_get(root, "features");
   if (json_is_array(*features)) return HR2D_OK;
   return hr2di_message_fail(reader->message, HR2D_ESYNTAX, "features: must be an array, not %s",
@@ -103,10 +106,12 @@ static hr2d_status give_scene_effects(hr2di_geojson *reader, size_t background_b
 static hr2d_status read_collection(hr2di_geojson *reader, const json_t *root) {
   json_t *features = NULL;
   size_t background_bands;
-  hr2d_status status = find_features(reader, root, &features);
+  const int alone = is_feature(root); /* a feature or a geometry in the place of a collection */
+  hr2d_status status = alone ? HR2D_OK : find_features(reader, root, &features);
   if (!status) status = hr2di_geojson_note_root(reader, root);
   if (!status) status = read_scene_effects(reader, root, &background_bands);
-  if (!status) status = read_features(reader, features);
+  if (!status)
+    status = alone ? hr2di_geojson_feature(reader, root, 1) : read_features(reader, features);
   return status ? status : give_scene_effects(reader, background_bands);
 }
 

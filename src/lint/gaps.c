@@ -12,6 +12,7 @@
 #include "base/sort.h"
 #include "geometry/apart.h"
 #include "geometry/crossings.h"
+#include "geometry/predicates.h"
 #include "geometry/vector.h"
 #include "lint/lint-impl.h"
 
@@ -21,12 +22,21 @@ enum { LONGEST_LINK = 4, MOST_LINKS = 16 };
 /* A gap is at most this part of the shorter one of its patches. */
 #define PART_OF_PATCH .05
 
+/* Ends of two patches at an angle that nothing touches are a corner that was missed up to a gap
+   so many times as wide: 2 cm in a room of 4 m.  Below this sine of the angle they may be
+   panels or slats in a row, and above this part of the shorter one they may be meant. */
+#define CORNER          5
+#define CORNER_SINE     .5
+#define CORNER_OF_PATCH .01
+
 /* End 2·patch + e of a patch, near to another patch. */
 typedef struct approach {
   hr2d_point at;
   double distance;
   uint32_t end, to;
   int along; /* the other end of the patch is near, too */
+  int wide;  /* it is a gap only if it is a corner */
+  int apart; /* nobody is to be told, nor of others at this end */
 } approach;
 
 typedef struct place {
@@ -39,6 +49,7 @@ typedef struct gaps {
   const hr2d_allocator *alloc;
   hr2d_segment *s, *box; /* scaled so that the largest coordinate is below 2 */
   double *reach;
+  double narrow;
   int exponent;
   size_t count;
   place *sorted;          /* the ends by their places */
@@ -88,6 +99,21 @@ static int same_wall(hr2d_segment s, hr2d_segment t) {
          (hr2di_point_same(s.a, t.b) && hr2di_point_same(s.b, t.a));
 }
 
+/* Up to which distance ends of two patches may be a missed corner. */
+static double corner_reach(const gaps *g, hr2d_segment s, hr2d_segment t) {
+  const double sine = (s.b.x - s.a.x) * (t.b.y - t.a.y) - (s.b.y - s.a.y) * (t.b.x - t.a.x);
+  const double l = length(s), m = length(t);
+  if (fabs(sine) < CORNER_SINE * l * m) return 0;
+  return fmin(CORNER * g->narrow, CORNER_OF_PATCH * fmin(l, m));
+}
+
+/* Whether each of two patches is behind the other, as the sides of a thin plate are, or the
+   walls of two rooms: what is between them has no light. */
+static int look_apart(hr2d_segment s, hr2d_segment t) {
+  return hr2di_orient(s.a, s.b, t.a) <= 0 && hr2di_orient(s.a, s.b, t.b) <= 0 &&
+         hr2di_orient(t.a, t.b, s.a) <= 0 && hr2di_orient(t.a, t.b, s.b) <= 0;
+}
+
 /* The end of a patch, beside another patch. */
 static hr2d_status look_at_end(gaps *g, uint32_t end, size_t j) {
   const size_t i = end / 2;
@@ -97,13 +123,15 @@ static hr2d_status look_at_end(gaps *g, uint32_t end, size_t j) {
     g->touched[end] = 1;
     return HR2D_OK;
   }
-  if (d > most) return HR2D_OK;
+  if (d > fmax(most, corner_reach(g, g->s[i], g->s[j]))) return HR2D_OK;
   const double other = hr2di_apart_from_point(g->s[j], q);
   if (is_touch(g, i, j, other)) return HR2D_OK; /* a wedge: they meet there */
+  const int along = other <= most;
   if (hr2di_alloc_reserve(g->alloc, &g->approach, &g->capacity, g->approaches + 1,
                           sizeof *g->approach))
     return HR2D_ENOMEM;
-  g->approach[g->approaches++] = (approach){p, d, end, (uint32_t)j, other <= most};
+  g->approach[g->approaches++] = (approach){
+      p, d, end, (uint32_t)j, along, d > most, along && look_apart(g->s[i], g->s[j])};
   return HR2D_OK;
 }
 
@@ -169,10 +197,11 @@ static hr2d_status prepare(gaps *g) {
   if (!status) status = hr2di_watch_work(g->lint->watch, g->count);
   if (status) return status;
   scale(g);
-  const double narrow = g->lint->gap * extent(g);
+  g->narrow = g->lint->gap * extent(g);
   for (size_t k = 0; k < g->count; k++) {
     const hr2d_segment s = g->s[k];
-    const double r = g->reach[k] = fmin(narrow, PART_OF_PATCH * length(s));
+    g->reach[k] = fmin(g->narrow, PART_OF_PATCH * length(s));
+    const double r = fmax(g->reach[k], fmin(CORNER * g->narrow, CORNER_OF_PATCH * length(s)));
     g->box[k] = (hr2d_segment){{fmin(s.a.x, s.b.x) - r, fmin(s.a.y, s.b.y) - r},
                                {fmax(s.a.x, s.b.x) + r, fmax(s.a.y, s.b.y) + r}};
     for (uint32_t e = 0; e < 2; e++)
@@ -218,6 +247,21 @@ static int is_end_of(hr2d_segment s, hr2d_point p) {
   return hr2di_point_same(s.a, p) || hr2di_point_same(s.b, p);
 }
 
+/* Widths of one gap, but for roundings of coordinates that are far larger. */
+static int is_same(double d, double e) {
+  return fabs(d - e) <= 1e-6 * e;
+}
+
+/* Whether no patch touches this end and the one that it is near to, which is as near as any
+   point of its patch. */
+static int is_corner(const gaps *g, const approach *a) {
+  const hr2d_segment t = g->s[a->to];
+  const double to_a = hypot(t.a.x - a->at.x, t.a.y - a->at.y),
+               to_b = hypot(t.b.x - a->at.x, t.b.y - a->at.y);
+  const uint32_t near = 2 * a->to + (to_b < to_a);
+  return !g->touched[a->end] && !g->touched[near] && is_same(fmin(to_a, to_b), a->distance);
+}
+
 /* Keeps of each place its nearest approach, and of two ends that are near each other the first;
    of two patches along each other the first. */
 static hr2d_status choose(gaps *g) {
@@ -228,7 +272,7 @@ static hr2d_status choose(gaps *g) {
     const approach a = g->approach[k];
     status = hr2di_watch_work(g->lint->watch, 8);
     if (kept && hr2di_point_same(g->approach[kept - 1].at, a.at)) continue;
-    if (!is_closed(g, &a)) g->approach[kept++] = a;
+    if (!is_closed(g, &a) && (!a.wide || is_corner(g, &a))) g->approach[kept++] = a;
   }
   g->approaches = kept;
   return status ? status
@@ -251,7 +295,7 @@ static int is_shown(const gaps *g, size_t k) {
   }
   for (; low < k && g->approach[low].end / 2 == a->to; low++)
     if (g->approach[low].to == a->end / 2 &&
-        (a->along || (g->approach[low].distance == a->distance &&
+        (a->along || (is_same(g->approach[low].distance, a->distance) &&
                       is_end_of(g->s[a->to], g->approach[low].at))))
       return 1;
   return 0;
@@ -266,6 +310,14 @@ static hr2d_warning_code code_of(const gaps *g, const approach *a) {
 static int is_told(const hr2d_scene *scene, const approach *a) {
   const hr2di_symmetry *s = &scene->symmetry;
   return a->end / 2 < hr2di_scene_cell(scene) && (!s->motion || a->to < s->motions * s->cell);
+}
+
+/* Whether the patch goes past an end of the other one, rather than ending short of it: a wall
+   that is sunk below the floor. */
+static int is_past(const gaps *g, const approach *a) {
+  const size_t i = a->end / 2, j = a->to;
+  return is_touch(g, i, j, hr2di_apart_from_point(g->s[i], g->s[j].a)) ||
+         is_touch(g, i, j, hr2di_apart_from_point(g->s[i], g->s[j].b));
 }
 
 static hr2d_status show(const gaps *g, const approach *a) {
@@ -286,6 +338,13 @@ static hr2d_status show(const gaps *g, const approach *a) {
                            "%s lies along %s, only %.3g beside it at (%.9g, %.9g): if they are "
                            "one wall, give them the same ends, or remove one",
                            first.text, second.text, width, at.x, at.y);
+  if (w.code == HR2D_WARNING_LOOSE_END && is_past(g, a))
+    return hr2di_lint_warn(
+        g->lint, w,
+        "%s goes past an end of %s and ends at (%.9g, %.9g), %.3g behind it: "
+        "if it should end there, move the end, or use hr2d_scene_snap() or "
+        "--snap %.2g",
+        first.text, second.text, at.x, at.y, width, enough);
   if (w.code == HR2D_WARNING_LOOSE_END)
     return hr2di_lint_warn(
         g->lint, w,
@@ -307,7 +366,7 @@ hr2d_status hr2di_lint_gaps(const hr2di_lint *lint) {
   if (!status) status = choose(&g);
   for (size_t c = 0; c < 3 && !status; c++)
     for (size_t k = 0; k < g.approaches && !status; k++)
-      if (code_of(&g, &g.approach[k]) == order[c] && !is_shown(&g, k) &&
+      if (code_of(&g, &g.approach[k]) == order[c] && !is_shown(&g, k) && !g.approach[k].apart &&
           is_told(lint->scene, &g.approach[k]))
         status = show(&g, &g.approach[k]);
   hr2di_alloc_free(g.alloc, g.s);

@@ -3,7 +3,9 @@
    nothing. */
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 
+#include "geometry/vector.h"
 #include "lint/lint-impl.h"
 
 /* Engineers have few scenes that are colder than LOW kelvin throughout, and weather has none
@@ -55,15 +57,64 @@ static hr2d_status warn_of_wavelengths(const hr2di_lint *lint, range kelvin) {
       first, last, metres ? "metres" : "nanometres", metres ? "below" : "above");
 }
 
+static int has_flux(const hr2d_scene *scene, size_t patch) {
+  double value;
+  return hr2d_scene_heat(scene, patch, &value) == HR2D_HEAT_FLUX;
+}
+
+/* A patch and its own back, which follows it. */
+static int is_two_sided(const hr2d_scene *scene, size_t patch) {
+  const hr2d_segment s = scene->patch[patch].given, t = scene->patch[patch + 1].given;
+  return hr2di_point_same(s.a, t.b) && hr2di_point_same(s.b, t.a);
+}
+
+static hr2d_status warn_of_shields(const hr2di_lint *lint) {
+  const hr2d_scene *scene = lint->scene;
+  size_t shields = 0, first = 0;
+  char more[40] = "";
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k + 1 < hr2di_scene_cell(scene) && !status; k++) {
+    status = hr2di_watch_work(lint->watch, 1);
+    if (!has_flux(scene, k) || !has_flux(scene, k + 1) || !is_two_sided(scene, k)) continue;
+    if (!shields++) first = k;
+    k++;
+  }
+  if (status || !shields) return status;
+  if (shields > 1) snprintf(more, sizeof more, " and %zu more", shields - 1);
+  return hr2di_lint_warn(
+      lint, (hr2d_warning){.code = HR2D_WARNING_SHIELD, .patches = 1, .patch = {first}},
+      "%s%s: each side has the flux that is given, so that no heat goes through, and the sides "
+      "have two temperatures: a thin sheet, such as a radiation shield, has one; give it as "
+      "\"temperature\", and change that until the fluxes of both sides add up to 0",
+      hr2di_patch_label(scene, first).text, more);
+}
+
 hr2d_status hr2di_lint_heat(const hr2di_lint *lint) {
   range kelvin;
   hr2d_status status = find_range(lint, &kelvin);
   if (!status) status = warn_of_celsius(lint, kelvin);
-  return status ? status : warn_of_wavelengths(lint, kelvin);
+  if (!status) status = warn_of_wavelengths(lint, kelvin);
+  return status ? status : warn_of_shields(lint);
 }
 
-/* Of many suns some are below the horizon. */
-hr2d_status hr2di_lint_suns(const hr2di_lint *lint) {
+/* Suns of a period whose light meets images that are cut off before it meets nothing more. */
+static hr2d_status warn_of_low_suns(const hr2di_lint *lint) {
+  const hr2d_scene *scene = lint->scene;
+  const hr2di_symmetry *s = &scene->symmetry;
+  char more[40] = "";
+  if (!s->low_suns) return HR2D_OK;
+  if (s->low_suns > 1) snprintf(more, sizeof more, " and %zu more", s->low_suns - 1);
+  return hr2di_lint_warn(
+      lint, (hr2d_warning){.code = HR2D_WARNING_LOW_SUN},
+      "sun %zu%s is so low that it shines past more than %u images of the period: what is in "
+      "its light beyond them is not known, and counts as shadow. Fronts may lack up to %.3g of "
+      "it, and errors do not contain that; give this sun no irradiance, or a bearing farther "
+      "from the period",
+      s->low_sun, more, s->copies, scene->sun[s->low_sun].irradiance);
+}
+
+static hr2d_status warn_of_wrong_sun(const hr2di_lint *lint) {
+  /* Of many suns some are below the horizon. */
   const hr2d_scene *scene = lint->scene;
   size_t band = 0;
   while (band < scene->sun_bands && !(scene->sun[band].irradiance > 0)) band++;
@@ -74,4 +125,9 @@ hr2d_status hr2di_lint_suns(const hr2di_lint *lint) {
                          "(%.9g, %.9g), \"direction\"; a \"bearing\" is where it stands, "
                          "clockwise from +y",
                          d.x, d.y);
+}
+
+hr2d_status hr2di_lint_suns(const hr2di_lint *lint) {
+  const hr2d_status status = warn_of_wrong_sun(lint);
+  return status ? status : warn_of_low_suns(lint);
 }

@@ -23,11 +23,17 @@ hr2di_lint_warn(const hr2di_lint *lint, hr2d_warning warning, const char *format
 /* Ends of patches and narrow openings. */
 hr2d_status hr2di_lint_gaps(const hr2di_lint *lint);
 
-/* Temperatures and wavelengths that look like those of other units. */
+/* Temperatures and wavelengths that look like those of other units, and two-sided patches of
+   given flux. */
 hr2d_status hr2di_lint_heat(const hr2di_lint *lint);
+
+/* What to do about a front that looks to the wrong side. */
+#define HR2DI_LINT_TURN                                                                        \
+  "the front is on the left from a to b: swap the ends, or for a polygon \"faces\""
 
 /* Of a committed scene: light, and what fronts see; and suns. */
 hr2d_status hr2di_lint_light(const hr2di_lint *lint);
+hr2d_status hr2di_lint_views(const hr2di_lint *lint);
 hr2d_status hr2di_lint_suns(const hr2di_lint *lint);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Warnings about scenes: what was read, the coordinates, gaps and light. */
 #include <math.h>
+#include <stdio.h>
 
 #include "base/sized-struct.h"
 #include "lint/lint-impl.h"
@@ -19,31 +20,54 @@ static const char *const names[HR2D_WARNING_COUNT] = {
     [HR2D_WARNING_SEES_NOTHING] = "sees-nothing",
     [HR2D_WARNING_NO_ABSORBER] = "no-absorber",
     [HR2D_WARNING_NO_SUNLIGHT] = "no-sunlight",
+    [HR2D_WARNING_SEES_BACK] = "sees-back",
+    [HR2D_WARNING_NO_SKY] = "no-sky",
+    [HR2D_WARNING_SHIELD] = "shield",
+    [HR2D_WARNING_LOW_SUN] = "low-sun",
+    [HR2D_WARNING_SKIPPED] = "skipped",
 };
 
 const char *hr2d_warning_name(hr2d_warning_code code) {
   return (unsigned)code < HR2D_WARNING_COUNT ? names[code] : NULL;
 }
 
+/* feature 2 ("hall"), feature 5 and 12 more */
+typedef struct places {
+  char text[HR2DI_NOTE_PLACES * sizeof((hr2di_note){0}.place[0]) + 40];
+} places;
+
+static places places_of(const hr2di_note *n) {
+  places p = {{0}};
+  size_t length = 0;
+  const size_t rest = n->count - n->places;
+  for (size_t k = 0; k < n->places; k++)
+    length +=
+        (size_t)snprintf(p.text + length, sizeof p.text - length, "%s%s",
+                         !k ? "" : (k + 1 < n->places || rest ? ", " : " and "), n->place[k]);
+  if (rest) snprintf(p.text + length, sizeof p.text - length, " and %zu more", rest);
+  return p;
+}
+
 static hr2d_status warn_of_note(const hr2di_lint *lint, const hr2di_note *n) {
   const hr2d_warning warning = {.code = n->code};
-  const char *more = n->count > 1 ? ", and later" : "";
+  const places at = places_of(n);
   const hr2di_message_quoted key = hr2di_message_quote(n->key);
   switch (n->code) {
   case HR2D_WARNING_ALTITUDE:
     if (*n->key)
-      return hr2di_lint_warn(
-          lint, warning,
-          "%s%s: some positions have two numbers, and others more, which are "
-          "not used: %s",
-          n->first, more, n->advice);
-    return hr2di_lint_warn(lint, warning, "%s%s: third numbers of positions are not used: %s",
-                           n->first, more, n->advice);
+      return hr2di_lint_warn(lint, warning,
+                             "%s: some positions have two numbers, and others more, which are "
+                             "not used: %s",
+                             at.text, n->advice);
+    return hr2di_lint_warn(lint, warning, "%s: third numbers of positions are not used: %s",
+                           at.text, n->advice);
   case HR2D_WARNING_DEGREES:
     return hr2di_lint_warn(lint, warning, "the coordinates are in degrees, as \"crs\" says: %s",
                            n->advice);
+  case HR2D_WARNING_SKIPPED:
+    return hr2di_lint_warn(lint, warning, "%s: %s", at.text, n->advice);
   default:
-    return hr2di_lint_warn(lint, warning, "%s%s: %s is not used: %s", n->first, more, key.text,
+    return hr2di_lint_warn(lint, warning, "%s: %s is not used: %s", at.text, key.text,
                            n->advice);
   }
 }
@@ -55,6 +79,11 @@ static hr2d_status warn_of_notes(const hr2di_lint *lint) {
     for (size_t k = 0; k < notes->count && !status; k++)
       if (notes->note[k].code == (hr2d_warning_code)code)
         status = warn_of_note(lint, &notes->note[k]);
+  if (!status && notes->dropped)
+    status = hr2di_lint_warn(lint, (hr2d_warning){.code = HR2D_WARNING_IGNORED},
+                             "%zu more members of the file are not used, under other names "
+                             "than those above",
+                             notes->dropped);
   return status;
 }
 

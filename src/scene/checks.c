@@ -143,15 +143,17 @@ static hr2d_status fail_crossed_image(hr2d_scene *scene, size_t i, size_t j, hr2
 
 static hr2d_status fail_crossing(hr2d_scene *scene, size_t i, size_t j, hr2d_point x) {
   const hr2d_point at = in_scene_lengths(scene, x);
-  const double through =
-      fmin(overshoot(&scene->patch[i].scaled, x), overshoot(&scene->patch[j].scaled, x));
+  const double of_i = overshoot(&scene->patch[i].scaled, x),
+               of_j = overshoot(&scene->patch[j].scaled, x), through = fmin(of_i, of_j);
   if (through < HUGE_VAL)
     return hr2di_message_fail(
         &scene->message, HR2D_ESCENE,
-        "%s and %s cross at (%.9g, %.9g), %.3g from an end: hr2d_scene_snap() or --snap %.2g "
-        "lets it end there, hr2d_scene_split_crossings() or --split-crossings cuts them",
+        "%s and %s cross at (%.9g, %.9g), and %s ends %.3g behind it: hr2d_scene_snap() or "
+        "--snap %.2g lets it end there, hr2d_scene_split_crossings() or --split-crossings cuts "
+        "them",
         hr2di_patch_label(scene, i).text, hr2di_patch_label(scene, j).text, at.x, at.y,
-        ldexp(through, scene->exponent), ldexp(1.5 * through, scene->exponent));
+        hr2di_patch_label(scene, of_i <= of_j ? i : j).text, ldexp(through, scene->exponent),
+        ldexp(1.5 * through, scene->exponent));
   return hr2di_message_fail(&scene->message, HR2D_ESCENE,
                             "%s and %s cross at (%.9g, %.9g): hr2d_scene_split_crossings() or "
                             "--split-crossings cuts them there",
@@ -168,12 +170,19 @@ static hr2di_label describe_stretch(const hr2d_scene *scene, const hr2di_meeting
   return label;
 }
 
-#define SNAP "hr2d_scene_snap() or --snap drops it"
+/* What is the same but for roundings becomes one within this part of the shorter patch, and
+   nothing else does. */
+#define SNAP_PART 1e-6
+
+#define SNAP "hr2d_scene_snap() or --snap %.2g drops it"
 
 static hr2d_status fail_overlap(hr2d_scene *scene, size_t i, size_t j, const hr2di_meeting *m) {
   const hr2d_segment *s = &scene->patch[i].scaled, *t = &scene->patch[j].scaled;
   const hr2di_label first = hr2di_patch_label(scene, i), second = hr2di_patch_label(scene, j);
   const hr2di_label where = describe_stretch(scene, m);
+  const double tolerance = ldexp(SNAP_PART * fmin(hypot(s->b.x - s->a.x, s->b.y - s->a.y),
+                                                  hypot(t->b.x - t->a.x, t->b.y - t->a.y)),
+                                 scene->exponent);
   const char *within = m->collinear ? "" : " within rounding";
   if (m->kind == HR2DI_MEET_FACE)
     return hr2di_message_fail(
@@ -184,17 +193,18 @@ static hr2d_status fail_overlap(hr2d_scene *scene, size_t i, size_t j, const hr2
         first.text, second.text, where.text);
   if (hr2di_point_same(s->a, t->a) && hr2di_point_same(s->b, t->b))
     return hr2di_message_fail(&scene->message, HR2D_ESCENE, "%s is a copy of %s, %s: " SNAP,
-                              second.text, first.text, where.text);
+                              second.text, first.text, where.text, tolerance);
   const int first_inside = is_between(s, m->from, m->to);
   if (first_inside || is_between(t, m->from, m->to))
     return hr2di_message_fail(&scene->message, HR2D_ESCENE,
                               "%s lies on %s%s with its front on the same side, %s: " SNAP,
                               first_inside ? first.text : second.text,
-                              first_inside ? second.text : first.text, within, where.text);
+                              first_inside ? second.text : first.text, within, where.text,
+                              tolerance);
   return hr2di_message_fail(
       &scene->message, HR2D_ESCENE,
       "%s and %s lie on one another%s with their fronts on the same side, %s: " SNAP,
-      first.text, second.text, within, where.text);
+      first.text, second.text, within, where.text, tolerance);
 }
 
 /* Two images by one motion meet as their patches do, which were looked at, up to the roundings

@@ -107,9 +107,9 @@ static hr2d_status commit(hr2d_scene *scene, unsigned copies, hr2di_watch *watch
 
 /* Takes more images of a period until the patches see none that are cut off. */
 static hr2d_status commit_images(hr2d_scene *scene, hr2di_watch *watch) {
-  unsigned copies, most;
+  unsigned copies = 0, most = 0;
   hr2d_status status = hr2di_symmetry_find(scene, watch);
-  if (!status) status = hr2di_symmetry_copies(scene, &copies, &most);
+  if (!status) hr2di_symmetry_copies(scene, &copies, &most);
   if (status) return status;
   for (;; copies *= 2) {
     status = commit(scene, copies, watch);

@@ -184,31 +184,72 @@ static double across(const hr2d_scene *scene, hr2d_point period) {
   return high - low;
 }
 
-/* Light of direction s comes down through `height` while it runs height·|s·d|/|s×d| along d. */
-static double run_of(const hr2d_scene *scene, size_t sun, double height) {
-  const hr2d_point s = scene->sun[sun].direction, d = scene->symmetry.by.period;
-  if (!(scene->sun[sun].irradiance > 0)) return 0;
+/* How far light runs along d, in periods, while it comes down through `height`:
+   height·|s·d|/|s×d|. */
+static double run_of(hr2d_point s, hr2d_point d, double height) {
+  const double size = hypot(d.x, d.y);
   const double along = fabs(s.x * d.x + s.y * d.y), up = fabs(s.x * d.y - s.y * d.x);
-  return height * along / up;
+  return height == 0 ? 0 : height * along / up / size;
 }
 
-hr2d_status hr2di_symmetry_copies(hr2d_scene *scene, unsigned *least, unsigned *most) {
+/* Whether a mirror along the period adds images above or below. */
+static int is_mirrored(const hr2di_generators *by) {
+  for (size_t m = 0; m < by->mirrors; m++)
+    if (fabs(by->period.x * by->along[m].x + by->period.y * by->along[m].y) >
+        fabs(by->period.x * by->along[m].y - by->period.y * by->along[m].x))
+      return 1;
+  return 0;
+}
+
+/* How much of the extent across the period is above all that a patch and its images close to
+   light of direction s.  If the patch is as wide across the light as its next image is apart,
+   they leave nothing open: what comes from above them does not pass, and what starts so far
+   below the highest point that the next image is in its way meets that one. */
+static double open_height(const hr2d_scene *scene, hr2d_point s, double height) {
   const hr2d_point d = scene->symmetry.by.period;
-  *least = *most = scene->symmetry.by.periodic;
-  if (!*least) return HR2D_OK;
+  const double across = s.x * d.y - s.y * d.x, apart = fabs(across);
+  const double size = copysign(hypot(d.x, d.y), across); /* light comes from where v is high */
+  double top = -HUGE_VAL, closed = -HUGE_VAL;
+  if (!(apart > 0) || is_mirrored(&scene->symmetry.by)) return height;
+  for (size_t k = 0; k < scene->patches; k++) {
+    const hr2d_point a = scene->patch[k].given.a, b = scene->patch[k].given.b;
+    const double v = (d.x * a.y - d.y * a.x) / size, w = (d.x * b.y - d.y * b.x) / size;
+    const double wide = fabs(s.x * (b.y - a.y) - s.y * (b.x - a.x));
+    top = fmax(top, fmax(v, w));
+    if (wide >= apart) closed = fmax(closed, fmax(v, w) - fabs(v - w) * apart / wide);
+  }
+  return fmin(height, top - closed);
+}
+
+/* Copies beyond which no patch is in the light of a sun that could meet another one; more than
+   MOST_COPIES if there are too many of them. */
+static double copies_for(const hr2d_scene *scene, size_t sun, double height) {
+  const hr2d_point s = scene->sun[sun].direction, d = scene->symmetry.by.period;
+  if (!(scene->sun[sun].irradiance > 0)) return 1;
+  const double run = run_of(s, d, height);
+  if (run < MOST_COPIES - 1) return run + 1;
+  /* The image that is in the way may be the second one, where a patch is as long as a period.
+   */
+  return run_of(s, d, open_height(scene, s, height)) + 3;
+}
+
+void hr2di_symmetry_copies(hr2d_scene *scene, unsigned *least, unsigned *most) {
+  hr2di_symmetry *symmetry = &scene->symmetry;
+  const hr2d_point d = symmetry->by.period;
+  *least = *most = symmetry->by.periodic;
+  symmetry->low_suns = symmetry->low_sun = 0;
+  if (!*least) return;
   const double period = hypot(d.x, d.y), height = across(scene, d);
-  const double patches = ldexp((double)scene->patches, (int)scene->symmetry.by.mirrors);
+  const double patches = ldexp((double)scene->patches, (int)symmetry->by.mirrors);
   while (*most < ENOUGH * fmax(height / period, 1) && *most < MOST_COPIES &&
          (4 * *most + 1) * patches <= MANY_PATCHES)
     *most *= 2;
   for (size_t k = 0; k < scene->sun_bands; k++) {
-    const double run = run_of(scene, k, height) / period;
-    if (!(run < MOST_COPIES - 1))
-      return hr2di_message_fail(&scene->message, HR2D_ESCENE,
-                                "sun %zu stands so low that it shines past more than %d images",
-                                k, MOST_COPIES - 2);
-    while (*least < run + 1) *least *= 2;
+    const double copies = copies_for(scene, k, height);
+    if (copies <= MOST_COPIES)
+      while (*least < copies) *least *= 2;
+    else if (!symmetry->low_suns++)
+      symmetry->low_sun = k;
   }
   if (*most < *least) *most = *least;
-  return HR2D_OK;
 }

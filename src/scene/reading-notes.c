@@ -9,11 +9,16 @@ void hr2di_notes_add(hr2di_notes *notes, hr2d_warning_code code, const char *key
   hr2di_note *note = notes->note, *const end = note + notes->count;
   while (note < end && (note->code != code || strcmp(note->key, key) != 0)) note++;
   if (note == end) {
-    if (notes->count == HR2DI_MOST_NOTES) return;
+    if (notes->count == HR2DI_MOST_NOTES) {
+      notes->dropped++;
+      return;
+    }
     notes->count++;
     *note = (hr2di_note){.code = code, .advice = advice};
     snprintf(note->key, sizeof note->key, "%s", key);
-    snprintf(note->first, sizeof note->first, "%s", place);
   }
   note->count++;
+  if (note->places < HR2DI_NOTE_PLACES &&
+      (note->places == 0 || strcmp(note->place[note->places - 1], place) != 0))
+    snprintf(note->place[note->places++], sizeof *note->place, "%s", place);
 }

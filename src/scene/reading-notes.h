@@ -7,22 +7,22 @@
 #include <hr2d/lint.h>
 #include <stddef.h>
 
-enum { HR2DI_MOST_NOTES = 16 };
+enum { HR2DI_MOST_NOTES = 16, HR2DI_NOTE_PLACES = 3 };
 
 typedef struct hr2di_note {
   hr2d_warning_code code;
-  char key[32];       /* as the file spells it */
-  char first[112];    /* the place of the first one */
-  const char *advice; /* a static string */
-  size_t count;
+  char key[32];                       /* as the file spells it */
+  char place[HR2DI_NOTE_PLACES][112]; /* of the first ones */
+  const char *advice;                 /* a static string */
+  size_t count, places; /* a place counts once, however often a note is made there */
 } hr2di_note;
 
 typedef struct hr2di_notes {
   hr2di_note note[HR2DI_MOST_NOTES];
-  size_t count;
+  size_t count, dropped; /* notes that there was no room for */
 } hr2di_notes;
 
-/* Notes that are more than there is room for are dropped. */
+/* Notes that are more than there is room for are counted only. */
 void hr2di_notes_add(hr2di_notes *notes, hr2d_warning_code code, const char *key,
                      const char *place, const char *advice);
 

@@ -64,6 +64,7 @@ static hr2d_status make_pieces(hr2di_snapper *s, size_t patch, size_t from, size
     pieces->patches++;
     a = b;
   }
+  if (number > 1) s->report.cuts += number - 1;
   return HR2D_OK;
 }
 

@@ -276,6 +276,7 @@ static hr2d_status join_and_cut(hr2di_snapper *s) {
 
 static hr2d_status snap(hr2di_snapper *s, double tolerance) {
   hr2d_scene *scene = s->scene;
+  size_t crossings = 0;
   hr2d_status status = hr2di_scene_scale(scene, s->watch);
   if (status) return status;
   s->tolerance = fmax(ldexp(tolerance, -scene->exponent), 0x1p-50);
@@ -286,7 +287,8 @@ static hr2d_status snap(hr2di_snapper *s, double tolerance) {
   if (!status && !scene->patches)
     return hr2di_message_fail(&scene->message, HR2D_ESCENE,
                               "no patch is longer than the tolerance of %g", tolerance);
-  if (!status) status = hr2d_scene_split_crossings(scene, &s->report.cuts);
+  if (!status) status = hr2d_scene_split_crossings(scene, &crossings);
+  s->report.cuts += crossings;
   return status ? status : drop_what_is_too_much(s);
 }
 

@@ -90,9 +90,10 @@ typedef struct hr2di_symmetry {
   double low, high;    /* the extent of the patches across the period, see below */
   double line[2]; /* how far the ends are from the origin, against the period and along it, in
                      scene lengths */
-  hr2di_tail points;  /* of what a point sees past the ends, if there is a period, */
-  hr2di_tail patches; /* and of its integral along a patch */
-  double rest;        /* the largest part of the directions of a patch that the ends take */
+  hr2di_tail points;        /* of what a point sees past the ends, if there is a period, */
+  hr2di_tail patches;       /* and of its integral along a patch */
+  size_t low_suns, low_sun; /* suns that shine past the ends, and the first of them */
+  double rest; /* the largest part of the directions of a patch that the ends take */
 } hr2di_symmetry;
 
 static inline int hr2di_symmetry_wanted(const hr2di_symmetry *s) {
@@ -206,8 +207,8 @@ hr2d_status hr2di_scene_unfold(struct hr2d_scene *scene, unsigned copies, hr2di_
 hr2d_status hr2di_scene_add_ends(struct hr2d_scene *scene, hr2di_watch *watch);
 
 /* The least K with which sunlight on the patches comes past none of the ends, and the most that
-   are tried; 0 without a period.  HR2D_OK, or HR2D_ESCENE with a message. */
-hr2d_status hr2di_symmetry_copies(struct hr2d_scene *scene, unsigned *least, unsigned *most);
+   are tried; 0 without a period.  Suns for which no K is enough are counted in `low_suns`. */
+void hr2di_symmetry_copies(struct hr2d_scene *scene, unsigned *least, unsigned *most);
 
 /* Measures what the ends take, in a scene with a plane if there can be one. */
 hr2d_status hr2di_scene_measure_ends(struct hr2d_scene *scene, hr2di_watch *watch);

@@ -1,22 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "visibility/sees-anything.h"
 
+#include "scene/scene-impl.h"
 #include "visibility/point-view-impl.h"
 
 typedef struct look {
-  int sky, sees;
+  unsigned what;
+  int sees;
 } look;
 
 static hr2d_status notice(void *ctx, const hr2di_stretch *s, const hr2di_glimpse *g) {
   look *l = ctx;
   (void)g;
-  l->sees = s->patch == HR2DI_SEEN_SKY ? l->sky : s->patch != HR2DI_SEEN_NOBODY;
+  if (s->patch == HR2DI_SEEN_SKY)
+    l->sees = (l->what & HR2DI_LOOK_SKY) != 0;
+  else if (s->patch != HR2DI_SEEN_NOBODY)
+    l->sees = (l->what & HR2DI_LOOK_FRONTS) != 0;
   return l->sees ? HR2D_STOPPED : HR2D_OK;
 }
 
-hr2d_status hr2di_sees_anything(hr2di_viewer *viewer, size_t patch, int sky, int *sees) {
+hr2d_status hr2di_sees_anything(hr2di_viewer *viewer, size_t patch, unsigned what, int *sees) {
   static const double at[] = {.5, .25, .75, 0x1p-10, 1 - 0x1p-10, .125, .375, .625, .875};
-  look l = {.sky = sky};
+  look l = {.what = what};
   hr2di_view_from seen;
   hr2d_status status = HR2D_OK;
   viewer->show = notice;
@@ -28,4 +33,46 @@ hr2d_status hr2di_sees_anything(hr2di_viewer *viewer, size_t patch, int sky, int
   viewer->ctx = NULL;
   *sees = l.sees;
   return l.sees ? HR2D_OK : status;
+}
+
+/* Stretches of one back come one after the other, and are as many as its wall has edges: the
+   longest is as good as their sum, to name it. */
+typedef struct backs {
+  const hr2d_scene *scene;
+  double all, most;
+  uint32_t patch;
+} backs;
+
+/* The patch on the other side of a side of a wall. */
+static uint32_t behind(const hr2d_scene *scene, hr2di_wall_side side) {
+  const hr2di_parts parts = scene->parts.of_side[side ^ 1].parts;
+  uint32_t k = parts.first;
+  while (k < parts.last && scene->parts.part[k].patch == HR2DI_NOBODY) k++;
+  return k < parts.last ? scene->parts.part[k].patch : HR2DI_NOBODY;
+}
+
+static hr2d_status notice_back(void *ctx, const hr2di_stretch *s, const hr2di_glimpse *g) {
+  backs *b = ctx;
+  if (s->patch != HR2DI_SEEN_NOBODY || s->side == HR2DI_HIDDEN) return HR2D_OK;
+  const uint32_t patch = behind(b->scene, s->side);
+  if (patch == HR2DI_NOBODY) return HR2D_OK;
+  b->all += g->sine;
+  if (g->sine > b->most) {
+    b->most = g->sine;
+    b->patch = patch;
+  }
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_sees_back(hr2di_viewer *viewer, size_t patch, double least, uint32_t *back) {
+  backs b = {.scene = viewer->scene, .patch = HR2DI_NOBODY};
+  hr2di_view_from seen;
+  viewer->show = notice_back;
+  /* cppcheck-suppress autoVariables ; until the end of this function */
+  viewer->ctx = &b;
+  const hr2d_status status = hr2di_view_at(viewer, patch, .5, &seen);
+  viewer->show = NULL;
+  viewer->ctx = NULL;
+  *back = b.all >= least ? b.patch : HR2DI_NOBODY;
+  return status;
 }

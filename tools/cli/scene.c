@@ -24,7 +24,7 @@ static void warn_of_refused(const options *o, const hr2d_scene *scene) {
 static void tell_snapped(const options *o, const hr2d_snap_report *r) {
   complain(o->scene,
            "snapped: %zu ends joined, %zu feet moved, %zu slivers and %zu copies dropped, %zu "
-           "crossings cut",
+           "cuts made",
            r->ends, r->feet, r->slivers, r->copies, r->cuts);
   if (r->farthest > 0)
     complain(o->scene, "snapped: farthest by %.3g, from (%.9g, %.9g) to (%.9g, %.9g)",

@@ -190,6 +190,99 @@ START_TEST(what_says_nothing_adds_nothing) {
 }
 END_TEST
 
+/* What files of other programs have, and no reader should stop at: each with the patches that
+   it makes, the name of the last one, and what is told. */
+
+typedef struct told {
+  size_t skipped, others;
+  char text[512];
+} told;
+
+static hr2d_status take_skipped(void *ctx, const hr2d_warning *w) {
+  told *t = ctx;
+  if (w->code == HR2D_WARNING_SKIPPED && !t->skipped++)
+    snprintf(t->text, sizeof t->text, "%s", w->text);
+  t->others += w->code == HR2D_WARNING_IGNORED;
+  return HR2D_OK;
+}
+
+#define LINE_OF(positions) FEATURE("\"name\":\"w\"", "LineString", positions)
+
+START_TEST(what_other_programs_write_is_read) {
+  static const struct {
+    const char *text, *name, *says;
+    size_t patches, warnings;
+  } cases[] = {
+      /* 0: rooms have numbers, and names in several languages */
+      {COLLECTION(FEATURE("\"name\":101", "LineString", "[[0,0],[1,0]]")), "101", "", 1, 0},
+      {COLLECTION(FEATURE("\"name\":-0.125", "LineString", "[[0,0],[1,0]]")), "-0.125", "", 1,
+       0},
+      {COLLECTION(FEATURE("\"name\":{\"x\":1,\"en\":\"Hall\"}", "LineString", "[[0,0],[1,0]]")),
+       "Hall", "", 1, 0},
+      {COLLECTION(FEATURE("\"name\":{}", "LineString", "[[0,0],[1,0]]")), "patch 0", "", 1, 0},
+      {COLLECTION(FEATURE("\"name\":[\"a\"]", "LineString", "[[0,0],[1,0]]")), "patch 0", "", 1,
+       0},
+      /* 5: no collection */
+      {FEATURE("\"name\":\"w\"", "LineString", "[[0,0],[1,0]]"), "w", "", 1, 0},
+      {"{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[4,0],[4,3],[0,0]]]}", "patch 2", "", 3,
+       0},
+      {COLLECTION("{\"type\":\"LineString\",\"coordinates\":[[0,0],[1,0]]}"), "patch 0", "", 1,
+       0},
+      /* 8: geometries without patches */
+      {COLLECTION(FEATURE("", "Point", "[1,2]") "," FEATURE(
+           "", "MultiPoint", "[[1,2]]") "," LINE_OF("[[0,0],[1,0]]")),
+       "w", "feature 1 and feature 2: a point is no wall", 1, 1},
+      {COLLECTION(FEATURE("", "Point", "[1,2]") "," FEATURE("", "Point", "[1,2]") "," FEATURE(
+           "", "Point", "[1,2]") "," FEATURE("", "Point",
+                                             "[1,2]") "," LINE_OF("[[0,0],[1,0]]")),
+       "w", "feature 1, feature 2, feature 3 and 1 more: a point is no wall", 1, 1},
+      {COLLECTION(FEATURE("", "Polygon", "[]") "," FEATURE(
+           "", "MultiLineString", "null") "," LINE_OF("[[0,0],[1,0]]")),
+       "w", "feature 1 and feature 2: a geometry has no positions", 1, 1},
+      {COLLECTION("{\"type\":\"Feature\",\"geometry\":null}," LINE_OF("[[0,0],[1,0]]")), "w",
+       "feature 1: a geometry has no positions", 1, 1},
+      /* 12: positions that repeat the last one, and that are null */
+      {COLLECTION(LINE_OF("[[0,0],[0,0],[1,0],[1,0],[1,0],[1,1]]")), "w/2",
+       "feature 1 (\"w\") and 2 more: a position repeats", 2, 1},
+      {COLLECTION(LINE_OF("[[0,1],[-0.0,1]]") "," LINE_OF("[[0,0],[1,0]]")), "w",
+       "a position repeats", 1, 1},
+      {COLLECTION(
+           FEATURE("\"name\":\"w\"", "Polygon", "[[[0,0],[9,0],[9,0],[9,9],[0,0],[0,0]]]")),
+       "w/3", "a position repeats", 3, 1},
+      {COLLECTION(LINE_OF("[null,[0,0],[null,null],[1,0],[1,null]]")), "w/1",
+       "neighbours are joined", 1, 1},
+      {COLLECTION(LINE_OF("[[0,0,null],[1,0,0]]")), "w", "", 1, 0},
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    told t = {0};
+    hr2d_scene *scene = test_new_scene(NULL);
+    const hr2d_status status = file_parse(scene, cases[k].text);
+    ck_assert_msg(!status, "%zu: %s", k, hr2d_scene_message(scene));
+    ck_assert_msg(hr2d_scene_patches(scene) == cases[k].patches, "%zu: %zu patches", k,
+                  hr2d_scene_patches(scene));
+    file_expect_name(scene, cases[k].patches - 1, cases[k].name);
+    ck_assert_int_eq(hr2d_scene_lint(scene, take_skipped, &t, NULL), HR2D_OK);
+    ck_assert_msg(t.skipped == cases[k].warnings && strstr(t.text, cases[k].says),
+                  "%zu: %zu times \"%s\"", k, t.skipped, t.text);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
+/* The bare feature has what the file says of the whole scene. */
+START_TEST(a_bare_feature_is_a_whole_scene) {
+  hr2d_scene *scene = file_parsed(
+      "{\"type\":\"Feature\",\"hr2d\":{\"background\":3},\"properties\":{\"faces\":\"out\","
+      "\"reflectance\":0.25},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[1,0],["
+      "0,1],"
+      "[0,0]]]}}");
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  ck_assert_double_eq(hr2d_scene_background(scene, 0), 3);
+  ck_assert_double_eq(hr2d_scene_reflectance(scene, 2, 0), .25);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 #define WITH_BACKGROUND(value, features)                                                       \
   "{\"type\":\"FeatureCollection\",\"hr2d\":{\"background\":" value                            \
   "},\"features\":[" features "]}"
@@ -703,7 +796,8 @@ TEST_SUITE("geojson") {
             shipped_rooms_are_closed_and_face_inwards, the_scenes_of_the_paper_are_as_drawn,
             the_furnace_emits_as_its_temperatures_say);
   ADD_TESTS("content", properties_reach_every_patch_of_a_feature, both_sides_are_two_patches,
-            what_says_nothing_adds_nothing, skies_are_pieces, suns_have_directions_or_bearings,
+            what_says_nothing_adds_nothing, what_other_programs_write_is_read,
+            a_bare_feature_is_a_whole_scene, skies_are_pieces, suns_have_directions_or_bearings,
             what_is_no_sun_is_refused, the_background_is_that_of_the_last_file_that_has_one,
             coordinates_keep_every_bit);
   ADD_TESTS("rings", ring_order_does_not_matter, extreme_rings_have_an_inside,

@@ -305,9 +305,29 @@ START_TEST(copies_are_dropped_at_once) {
 }
 END_TEST
 
+/* What the message says is typed: one patch on the middle of another, which is cut twice. */
+START_TEST(messages_name_a_tolerance_that_helps) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  hr2d_snap_report r;
+  test_add_patch(scene, (hr2d_segment){{0, 0}, {4, 0}}, 1, .5, HR2D_SIDES_FRONT);
+  test_add_patch(scene, (hr2d_segment){{1, 0}, {3, 0}}, 1, .5, HR2D_SIDES_FRONT);
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_ESCENE);
+  const char *number = strstr(hr2d_scene_message(scene), "--snap ");
+  ck_assert_ptr_nonnull(number);
+  const double tolerance = strtod(number + strlen("--snap "), NULL);
+  ck_assert(tolerance > 0 && tolerance < 1e-3);
+  ck_assert_int_eq(hr2d_scene_snap(scene, tolerance, &r), HR2D_OK);
+  ck_assert_uint_eq(r.cuts, 2);
+  ck_assert_uint_eq(r.copies, 1);
+  ck_assert_uint_eq(hr2d_scene_patches(scene), 3);
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 TEST_SUITE("snap") {
   REPEAT_TESTS(2, "plans", damaged_plans_exchange_light_as_clean_ones);
-  ADD_TESTS("snap", each_repair_is_told, what_is_exact_does_not_move,
-            wrong_calls_change_nothing);
+  ADD_TESTS("snap", messages_name_a_tolerance_that_helps, each_repair_is_told,
+            what_is_exact_does_not_move, wrong_calls_change_nothing);
   ADD_TESTS("copies", copies_are_dropped_at_once);
 }

@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What fronts see: nothing, no sky although there is one, or the black back of a patch. */
+#include <stdio.h>
+
+#include "base/alloc.h"
+#include "lint/lint-impl.h"
+#include "scene/with-plane.h"
+#include "visibility/seen-backs.h"
+#include "visibility/sees-anything.h"
+
+/* The part of what the middle of a front sees from which on a back is told.  Through a gap that
+   another warning tells, less is seen. */
+#define LEAST_BACK .01
+
+/* The patch whose back is seen, per patch of the cell. */
+typedef struct backs {
+  uint32_t *viewer; /* the first patch that sees it, or HR2DI_NOBODY */
+  uint32_t *viewers;
+} backs;
+
+typedef struct views {
+  const hr2di_lint *lint;
+  const hr2d_scene *in; /* with a plane */
+  hr2di_viewer *viewer;
+  int sky, lit;
+  backs back;
+} views;
+
+static int emits(const hr2d_scene *scene, size_t patch) {
+  for (size_t band = 0; band < scene->bands; band++)
+    if (hr2d_scene_emission(scene, patch, band) != 0) return 1;
+  return 0;
+}
+
+/* Another patch has the other side of its wall, as where two houses that are seen from outside
+   have a wall in common: its front is inside of the other house, and nothing is wrong. */
+static int has_other_side(const views *v, size_t patch) {
+  const hr2di_side_parts *p = &v->in->parts;
+  const hr2di_parts of = p->of_patch[patch];
+  for (uint32_t k = of.first; k < of.last; k++) {
+    const hr2di_wall_side side = p->part[k].side;
+    if (p->part[k].patch != patch || side == HR2DI_HIDDEN) continue;
+    const hr2di_parts other = p->of_side[side ^ 1].parts;
+    for (uint32_t m = other.first; m < other.last; m++)
+      if (p->part[m].patch != HR2DI_NOBODY) return 1;
+  }
+  return 0;
+}
+
+/* Whether a patch has light that a back may take: inside of solid things there is none. Without
+   any, backs are asked for all. */
+static hr2d_status find_light(const views *v, size_t patch, int *has) {
+  *has = !v->lit || emits(v->in, patch) || (!v->sky && hr2di_scene_lit(v->lint->scene, patch));
+  return *has || !v->sky ? HR2D_OK : hr2di_sees_anything(v->viewer, patch, HR2DI_LOOK_SKY, has);
+}
+
+static hr2d_status find_backs(views *v) {
+  const hr2d_scene *scene = v->lint->scene;
+  const size_t cell = hr2di_scene_cell(scene);
+  unsigned char *sees = NULL;
+  hr2d_status status = hr2di_seen_backs(v->in, &scene->alloc, 1, &sees, v->lint->watch);
+  if (status || !sees) return status;
+  v->back.viewer = hr2di_alloc(&scene->alloc, cell, sizeof *v->back.viewer);
+  v->back.viewers = hr2di_alloc_zero(&scene->alloc, cell, sizeof *v->back.viewers);
+  if (!v->back.viewer || !v->back.viewers) status = HR2D_ENOMEM;
+  for (size_t k = 0; k < cell && !status; k++) {
+    uint32_t back = HR2DI_NOBODY;
+    int has = 0;
+    status = hr2di_watch_work(v->lint->watch, 1);
+    if (!status && sees[k]) status = find_light(v, k, &has);
+    if (!status && has) status = hr2di_sees_back(v->viewer, k, LEAST_BACK, &back);
+    if (status || back == HR2DI_NOBODY || hr2di_symmetry_is_end(&scene->symmetry, back))
+      continue;
+    const size_t of = hr2di_scene_original(scene, back);
+    if (!v->back.viewers[of]++) v->back.viewer[of] = (uint32_t)k;
+  }
+  hr2di_alloc_free(&scene->alloc, sees);
+  return status;
+}
+
+static int is_back_seen(const views *v, size_t patch) {
+  return v->back.viewers && v->back.viewers[patch];
+}
+
+/* A patch whose front sees nothing is told once, not for its back, too. */
+static hr2d_status warn_of_back(const views *v, size_t patch) {
+  const hr2d_scene *scene = v->lint->scene;
+  char more[40] = "";
+  const size_t viewers = v->back.viewers[patch], first = v->back.viewer[patch];
+  if (viewers > 1) snprintf(more, sizeof more, " and of %zu more", viewers - 1);
+  return hr2di_lint_warn(
+      v->lint,
+      (hr2d_warning){.code = HR2D_WARNING_SEES_BACK, .patches = 2, .patch = {patch, first}},
+      "the back of %s stands in front of %s%s: backs are black and take all light, which is "
+      "lost; write \"sides\": \"both\", or draw a patch of its own on that side",
+      hr2di_patch_label(scene, patch).text, hr2di_patch_label(scene, first).text, more);
+}
+
+static hr2d_status warn_of_nothing(const views *v, size_t patch) {
+  const hr2d_scene *scene = v->lint->scene;
+  return hr2di_lint_warn(
+      v->lint,
+      (hr2d_warning){.code = HR2D_WARNING_SEES_NOTHING, .patches = 1, .patch = {patch}},
+      "the front of %s sees no patch%s: if it should, " HR2DI_LINT_TURN,
+      hr2di_patch_label(scene, patch).text, v->sky ? " and no sky" : "");
+}
+
+/* Of patches without light the other warnings tell, unless nothing has light. */
+static hr2d_status look_from(const views *v, size_t patch) {
+  const hr2d_scene *scene = v->lint->scene;
+  int sees = 1;
+  hr2d_status status = hr2di_watch_work(v->lint->watch, 1);
+  const int asked = v->sky || emits(scene, patch) || (!v->lit && is_back_seen(v, patch));
+  if (!status && asked && !(v->sky && has_other_side(v, patch)))
+    status = hr2di_sees_anything(v->viewer, patch,
+                                 HR2DI_LOOK_FRONTS | (v->sky ? HR2DI_LOOK_SKY : 0), &sees);
+  if (!status && !sees) return warn_of_nothing(v, patch);
+  const int dark = v->lit && scene->dark && scene->dark[patch];
+  if (!status && v->lit && is_back_seen(v, patch) && !dark) return warn_of_back(v, patch);
+  return status;
+}
+
+static hr2d_status warn_of_no_sky(const views *v) {
+  const size_t cell = hr2di_scene_cell(v->lint->scene);
+  hr2d_status status = HR2D_OK;
+  int sees = !v->sky;
+  for (size_t k = 0; k < cell && !sees && !status; k++) {
+    status = hr2di_watch_work(v->lint->watch, 1);
+    if (!status) status = hr2di_sees_anything(v->viewer, k, HR2DI_LOOK_SKY, &sees);
+  }
+  if (status || sees) return status;
+  return hr2di_lint_warn(
+      v->lint, (hr2d_warning){.code = HR2D_WARNING_NO_SKY},
+      "no front sees the surroundings, so that their light, the "
+      "\"background\" or \"sky\", changes nothing: polygons have their fronts "
+      "inside; write \"faces\": \"out\" for what is seen from outside");
+}
+
+static hr2d_status look(views *v) {
+  hr2d_status status = find_backs(v);
+  for (size_t k = 0; k < hr2di_scene_cell(v->lint->scene) && !status; k++)
+    status = look_from(v, k);
+  return status ? status : warn_of_no_sky(v);
+}
+
+/* Where it is unclear how patches cross, there is no plane to look through, and no warning. */
+hr2d_status hr2di_lint_views(const hr2di_lint *lint) {
+  const hr2d_scene *scene = lint->scene;
+  views v = {.lint = lint,
+             .sky = scene->effect[HR2D_EFFECT_BACKGROUND].called_for,
+             .lit = scene->effect[HR2D_EFFECT_EMISSION].called_for};
+  hr2di_with_plane w;
+  hr2d_status status = hr2di_with_plane_init(&w, scene, &scene->alloc, lint->watch);
+  w.scene.effect[HR2D_EFFECT_OCCLUSION].on = 1;
+  v.in = &w.scene;
+  if (!status && w.scene.parts.wanted) {
+    status = hr2di_viewer_create(&w.scene, &scene->alloc, lint->watch, &v.viewer);
+    if (!status) status = look(&v);
+  }
+  hr2di_viewer_destroy(v.viewer);
+  hr2di_alloc_free(&scene->alloc, v.back.viewer);
+  hr2di_alloc_free(&scene->alloc, v.back.viewers);
+  hr2di_with_plane_clear(&w);
+  return status;
+}
