@@ -154,6 +154,7 @@ static hr2d_status listen(void *ctx, const hr2d_progress *progress) {
 /* If the budgets do not suffice for a better comparison, the last one stands. */
 hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target *how,
                                 hr2d_error *average, hr2d_error *sup) {
+  if (!solution) return HR2D_EINVAL;
   const hr2d_scene *scene = solution->hierarchy->scene;
   hr2d_target target;
   hr2d_status status = hr2di_target_init(&target, scene, how, FINEST);
