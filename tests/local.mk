@@ -152,6 +152,7 @@ OUTSIDE = \
 	tests/program/check-pictures.sh \
 	tests/program/check-resume.sh \
 	tests/program/check-temperatures.sh \
+	tests/program/check-texts.sh \
 	tests/package/check-constants.sh \
 	tests/package/check-exports.sh \
 	tests/package/check-headers.sh \
@@ -230,7 +231,7 @@ endif
 tests_arguments_check_arguments_SOURCES = tests/arguments/check-arguments.c \
 	tests/arguments/stage.c tests/arguments/stage.h
 tests_arguments_check_arguments_CPPFLAGS = $(AM_CPPFLAGS) -I$(builddir)
-tests/arguments/tests_arguments_check_arguments-check-arguments.$(OBJEXT): \
+tests/arguments/check_arguments-check-arguments.$(OBJEXT): \
 	tests/arguments/calls.inc
 tests/arguments/calls.inc: $(srcdir)/tests/arguments/calls.awk $(hr2dinclude_HEADERS)
 	@$(MKDIR_P) tests/arguments
