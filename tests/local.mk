@@ -138,6 +138,7 @@ SUITES = \
 	tests/unit/refine/check-study \
 	tests/hard/check-hard-refine \
 	tests/hard/check-hard-solve \
+	tests/arguments/check-arguments \
 	tests/threads/check-threads \
 	tests/threads/check-team \
 	tests/faults/check-faults \
@@ -159,6 +160,7 @@ OUTSIDE = \
 	tests/program/check-one-value.sh \
 	tests/program/check-resume.sh \
 	tests/program/check-temperatures.sh \
+	tests/program/check-texts.sh \
 	tests/package/check-constants.sh \
 	tests/package/check-exports.sh \
 	tests/package/check-headers.sh \
@@ -232,6 +234,19 @@ else
 check-local:
 	@echo "make check needs Check and MPFR; configure did not find them" >&2; exit 1
 endif
+
+# Calls of all public functions, made of their prototypes.
+tests_arguments_check_arguments_SOURCES = tests/arguments/check-arguments.c \
+	tests/arguments/stage.c tests/arguments/stage.h
+tests_arguments_check_arguments_CPPFLAGS = $(AM_CPPFLAGS) -I$(builddir)
+tests/arguments/check_arguments-check-arguments.$(OBJEXT): \
+	tests/arguments/calls.inc
+tests/arguments/calls.inc: $(srcdir)/tests/arguments/calls.awk $(hr2dinclude_HEADERS)
+	@$(MKDIR_P) tests/arguments
+	@echo '#include <hr2d/hr2d.h>' | $(CC) -E -P $(PUBLIC_CPPFLAGS) -x c - | \
+	  $(AWK) -f $(srcdir)/tests/arguments/calls.awk >$@-new && mv $@-new $@
+CLEANFILES += tests/arguments/calls.inc
+EXTRA_DIST += tests/arguments/calls.awk
 
 # What check-pictures.sh looks at pictures with.
 check_PROGRAMS += tests/program/pixels

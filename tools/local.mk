@@ -15,6 +15,7 @@ SOLVE_SOURCES = \
 	tools/output/palette.c tools/output/palette.h \
 	tools/output/progress.c tools/output/progress.h \
 	tools/output/suffix.c tools/output/suffix.h \
+	tools/output/printable.c tools/output/printable.h \
 	tools/output/table.c tools/output/table.h \
 	tools/output/ticks.c tools/output/ticks.h \
 	tools/cli/commands.c tools/cli/commands.h \

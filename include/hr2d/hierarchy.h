@@ -23,6 +23,9 @@
 extern "C" {
 #endif
 
+/** What calls return in the place of an element, or of its level, if there is none. */
+#define HR2D_NO_ELEMENT ((uint32_t)-1)
+
 /** One binary tree per patch; opaque. */
 typedef struct hr2d_hierarchy hr2d_hierarchy;
 

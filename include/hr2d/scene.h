@@ -108,8 +108,8 @@ HR2D_API void hr2d_scene_destroy(hr2d_scene *scene);
  * @retval HR2D_ENOMEM  an allocation failed
  * @retval HR2D_EINVAL  a number of bands without values, or `sides` outside of its enumeration
  * @retval HR2D_ESTATE  the scene is committed
- * @retval HR2D_ESCENE  the length is 0, a coordinate, E or ρ is not finite, E < 0, or ρ is
- *                      outside of [0,1]; the message names the patch
+ * @retval HR2D_ESCENE  the length is 0, a coordinate, E or ρ is not finite, E < 0, ρ is outside
+ *                      of [0,1], or the name is not UTF-8; the message names the patch
  *
  * Amortised constant cost.
  */

@@ -89,9 +89,9 @@ typedef hr2d_status (*hr2d_combine_fn)(void *ctx, hr2d_status status, hr2d_combi
  */
 typedef struct hr2d_share {
   size_t struct_size;      /**< so that the struct can grow */
-  unsigned number;         /**< from 0 */
+  unsigned number;         /**< from 0, below `count`; else calls return HR2D_EINVAL */
   unsigned count;          /**< of all shares */
-  hr2d_combine_fn combine; /**< called with this struct's `ctx` */
+  hr2d_combine_fn combine; /**< required; called with this struct's `ctx` */
   void *ctx;               /**< given to `combine` */
   hr2d_status failed;      /**< for the library alone; HR2D_OK at the start */
 } hr2d_share;

@@ -261,7 +261,8 @@ class Scene:
     # Reading
 
     def __len__(self) -> int:
-        return lib.hr2d_scene_patches(self._raw)
+        with self._lock:
+            return lib.hr2d_scene_patches(self._raw)
 
     def __repr__(self) -> str:
         return f"<hr2d.Scene of {len(self)} patches>"
@@ -270,7 +271,9 @@ class Scene:
         """The index of a patch that is given by its name or its index."""
         if isinstance(patch, str):
             found = ffi.new("size_t *")
-            if lib.hr2d_scene_find(self._raw, patch.encode(), found):
+            with self._lock:
+                missing = lib.hr2d_scene_find(self._raw, patch.encode(), found)
+            if missing:
                 raise KeyError(f"no patch is called {patch!r}")
             return found[0]
         index = int(patch)
@@ -281,13 +284,15 @@ class Scene:
     @property
     def names(self) -> List[str]:
         """The names of the patches."""
-        return [ffi.string(lib.hr2d_scene_name(self._raw, k)).decode()
-                for k in range(len(self))]
+        with self._lock:
+            return [ffi.string(lib.hr2d_scene_name(self._raw, k)).decode()
+                    for k in range(len(self))]
 
     def _geometry(self) -> Any:
-        ends, lengths = np.empty((len(self), 2, 2)), np.empty(len(self))
-        if len(self):
-            lib.hr2dpy_segments(self._raw, writable(ends), writable(lengths))
+        with self._lock:  # the number of patches is asked for twice
+            ends, lengths = np.empty((len(self), 2, 2)), np.empty(len(self))
+            if len(self):
+                lib.hr2dpy_segments(self._raw, writable(ends), writable(lengths))
         return ends, lengths
 
     @property

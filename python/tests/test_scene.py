@@ -150,3 +150,28 @@ def test_indices_and_names_are_checked(room):
         s.at(0, 1.5)
     with pytest.raises(ValueError):
         s.at(0, np.nan)
+
+
+def test_readers_wait_for_a_change_in_another_thread():
+    import sys
+    import threading
+    scene, interval = hr2d.Scene(), sys.getswitchinterval()
+    line = np.array([[i, i * i % 7 + .5 * i] for i in range(3000)], dtype=float)
+    scene.add(line)
+
+    def change():
+        for k in range(40):
+            scene.add(line + [0, 10 * k + 5.])
+
+    sys.setswitchinterval(1e-6)
+    try:
+        changer = threading.Thread(target=change)
+        changer.start()
+        while changer.is_alive():
+            segments, lengths, names = scene.segments, scene.lengths, scene.names
+            assert np.isfinite(segments).all() and (lengths > 0).all()
+            assert len(segments) % 2999 == 0 and None not in names
+        changer.join()
+    finally:
+        sys.setswitchinterval(interval)
+    assert len(scene) == 41 * 2999

@@ -76,8 +76,8 @@ static hr2d_status set_important(heat_search *s) {
 }
 
 static hr2d_status fail(heat_search *s, hr2d_status status, const char *why) {
-  snprintf(s->account.reason, sizeof s->account.reason, "%.150s",
-           why && *why ? why : hr2d_strerror(status));
+  hr2di_message_copy(s->account.reason, sizeof s->account.reason,
+                     why && *why ? why : hr2d_strerror(status));
   return status;
 }
 

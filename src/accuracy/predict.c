@@ -241,6 +241,7 @@ static hr2d_status predict_heat(const hr2d_scene *scene, const hr2d_target *targ
 
 hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *target,
                          hr2d_prediction *prediction) {
+  if (!scene || !prediction) return HR2D_EINVAL;
   hr2d_target used;
   *prediction = (hr2d_prediction){0};
   if (!scene->committed) return HR2D_ESTATE;

@@ -110,11 +110,13 @@ static hr2d_status measure(const hr2d_solution *solution, const hr2d_target *how
 
 hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target *how,
                                 hr2d_error *average, hr2d_error *sup) {
+  if (!solution) return HR2D_EINVAL;
   return measure(solution, how, (wanted){average, sup}, (wanted){NULL, NULL});
 }
 
 hr2d_status hr2d_solution_account(const hr2d_solution *solution, const hr2d_target *how,
                                   hr2d_account *account) {
+  if (!solution || !account) return HR2D_EINVAL;
   const double start = hr2di_clock_now();
   const hr2d_refine_counts counts = hr2d_linkset_counts(solution->links);
   hr2d_account a = {.order = (unsigned)solution->order,

@@ -6,6 +6,8 @@
 
 hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
                           hr2d_solution **solution, hr2d_account *account) {
+  if (solution) *solution = NULL;
+  if (!scene || !solution) return HR2D_EINVAL;
   *solution = NULL;
   if (account) *account = (hr2d_account){0};
   if (!scene->committed) return HR2D_ESTATE;

@@ -20,7 +20,7 @@
 enum { ATTEMPTS = 8, LEAST_SAFE = 6 };
 
 static void give_reason(hr2di_search *s, const char *reason) {
-  snprintf(s->account.reason, sizeof s->account.reason, "%.150s", reason);
+  hr2di_message_copy(s->account.reason, sizeof s->account.reason, reason);
 }
 
 /* The resolution to begin with: no coarser than the best one so far, which was not enough. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/share.h"
 #include "base/sized-struct.h"
 #include "base/sort.h"
 #include "scene/scene-impl.h"
@@ -14,6 +15,7 @@ static hr2d_status check(const hr2d_scene *scene, const hr2d_target *t) {
   if (!(t->error >= 0) && t->error != HR2D_SMALLEST_ERROR) return HR2D_EINVAL;
   if (!(t->seconds >= 0)) return HR2D_EINVAL;
   if (!(t->floor >= 0 && t->floor <= 1)) return HR2D_EINVAL;
+  if (hr2di_share_check(t->share)) return HR2D_EINVAL;
   if (!t->important && t->important_count > 0) return HR2D_EINVAL;
   for (size_t k = 0; k < t->important_count; k++)
     if (t->important[k] >= hr2di_scene_cell(scene)) return HR2D_EINVAL;
@@ -48,7 +50,8 @@ hr2d_status hr2di_target_init(hr2d_target *used, const hr2d_scene *scene,
   hr2d_status status = hr2di_sized_copy(used, sizeof *used, given);
   if (!status) status = check(scene, used);
   if (status) {
-    used->important = NULL; /* the caller's */
+    used->important = NULL;                                 /* the caller's */
+    if (hr2di_share_check(used->share)) used->share = NULL; /* nobody to agree with */
     return status;
   }
   if (!(used->error > 0)) used->error = used->error < 0 ? 0 : default_error;

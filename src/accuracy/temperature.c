@@ -147,6 +147,7 @@ static void forget(const hr2d_scene *scene, const hr2d_target *target,
 hr2d_status hr2d_solution_temperatures(const hr2d_solution *solution, const hr2d_target *given,
                                        const hr2d_account *account,
                                        const hr2d_temperatures *temperatures) {
+  if (!solution) return HR2D_EINVAL;
   const hr2d_scene *scene = hr2di_solution_scene(solution);
   hr2d_target target;
   hr2d_temperatures to = HR2D_TEMPERATURES_INIT;
@@ -185,6 +186,7 @@ static double kelvin_of_patch(const hr2d_scene *scene, size_t patch) {
 
 hr2d_status hr2d_solution_gather_temperature(const hr2d_solution *solution, size_t patch,
                                              const double *t, size_t count, double *kelvin) {
+  if (!hr2di_solution_has(solution, patch, 0) || (count && (!t || !kelvin))) return HR2D_EINVAL;
   const hr2d_scene *scene = hr2di_solution_scene(solution);
   if (hr2d_scene_heat(scene, patch, NULL) != HR2D_HEAT_FLUX || scene->found ||
       !hr2di_scene_lit(scene, patch)) {

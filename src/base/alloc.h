@@ -9,6 +9,10 @@
 /* Hooks that call malloc(), realloc() and free(); large blocks may have large pages. */
 hr2d_allocator hr2di_alloc_default(void);
 
+static inline int hr2di_alloc_has_hooks(const hr2d_allocator *alloc) {
+  return alloc->allocate && alloc->reallocate && alloc->release;
+}
+
 /* Returns an array of `count` items of `size` bytes, or NULL if there is no memory or the size
    overflows.  `count` may be 0. */
 void *hr2di_alloc(const hr2d_allocator *alloc, size_t count, size_t size);

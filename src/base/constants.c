@@ -57,6 +57,7 @@ static const constant table[] = {
   CONSTANT(HR2D_MAX_WAVELENGTHS),
   CONSTANT(HR2D_NORM_AVERAGE),
   CONSTANT(HR2D_NORM_SUP),
+  CONSTANT(HR2D_NO_ELEMENT),
   CONSTANT(HR2D_NO_SUBDIVISION),
   CONSTANT(HR2D_OK),
   CONSTANT(HR2D_ORACLE_NEEDS_BRIGHTNESS),
@@ -110,6 +111,7 @@ static const constant table[] = {
 /* clang-format on */
 
 hr2d_status hr2d_constant(const char *name, double *value) {
+  if (!name || !value) return HR2D_EINVAL;
   for (size_t k = 0; k < sizeof table / sizeof *table; k++)
     if (!strcmp(table[k].name, name)) {
       *value = table[k].value;

@@ -2,7 +2,6 @@
 /* The sentence an object keeps about its last failure. */
 #include "base/message.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -42,9 +41,20 @@ size_t hr2di_message_utf8(const unsigned char *s) {
   return within(s[3], 0x80, 0xBF) ? 4 : 0;
 }
 
-/* C0 and C1, the control characters of ASCII and of Latin-1. */
+int hr2di_message_is_utf8(const char *text) {
+  const unsigned char *s = (const unsigned char *)text;
+  size_t length = 1;
+  for (; *s && length; s += length) length = hr2di_message_utf8(s);
+  return length != 0;
+}
+
+/* C0 and C1, the control characters of ASCII and of Latin-1, and those that turn the direction
+   of a text, U+202A to U+202E and U+2066 to U+2069. */
 static int is_control(const unsigned char *c) {
-  return *c < 0x20 || *c == 0x7F || (c[0] == 0xC2 && c[1] < 0xA0);
+  if (*c < 0x20 || *c == 0x7F || (c[0] == 0xC2 && c[1] < 0xA0)) return 1;
+  if (c[0] != 0xE2) return 0;
+  return (c[1] == 0x80 && within(c[2], 0xAA, 0xAE)) ||
+         (c[1] == 0x81 && within(c[2], 0xA6, 0xA9));
 }
 
 /* Replaces broken UTF-8 and control characters by '?': texts quoted from files may be cut
@@ -59,32 +69,41 @@ static void make_readable(char *text) {
   }
 }
 
-hr2d_status hr2di_message_fail(hr2di_message *message, hr2d_status status, const char *format,
-                               ...) {
+void hr2di_message_copy(char *to, size_t room, const char *text) {
+  const size_t length = strlen(text), cut = length < room ? length : room - 1;
+  memcpy(to, text, cut);
+  to[cut] = '\0';
+  if (cut < length) trim_partial(to, cut);
+}
+
+void hr2di_message_write(hr2di_message *message, const char *format, va_list arguments) {
   /* Written aside first: an argument may be the old message itself. */
   char text[sizeof message->text];
-  va_list arguments;
-  va_start(arguments, format);
   const int length = vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
   if (length < 0)
     text[0] = '\0';
   else if ((size_t)length >= sizeof text)
     trim_partial(text, sizeof text - 1);
   make_readable(text);
   memcpy(message->text, text, sizeof text);
+}
+
+hr2d_status hr2di_message_fail(hr2di_message *message, hr2d_status status, const char *format,
+                               ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  hr2di_message_write(message, format, arguments);
+  va_end(arguments);
   return status;
 }
 
 hr2di_message_quoted hr2di_message_quote(const char *name) {
   hr2di_message_quoted quote;
-  const size_t max = 60, length = strlen(name);
-  size_t cut = length < max ? length : max;
-  while (cut < length && ((unsigned char)name[cut] & 0xC0) == 0x80) cut--;
-  char *at = quote.text;
-  *at++ = '"';
-  memcpy(at, name, cut);
-  strcpy(at + cut, cut < length ? "...\"" : "\"");
+  /* A name of up to 60 bytes is quoted whole. */
+  char cut[61];
+  hr2di_message_copy(cut, sizeof cut, name);
+  snprintf(quote.text, sizeof quote.text, "\"%s%s\"", cut,
+           strlen(name) < sizeof cut ? "" : "...");
   make_readable(quote.text);
   return quote;
 }

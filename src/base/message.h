@@ -4,6 +4,7 @@
 #define HR2D_SRC_BASE_MESSAGE_H
 
 #include <hr2d/status.h>
+#include <stdarg.h>
 #include <stddef.h>
 
 typedef struct hr2di_message {
@@ -15,9 +16,18 @@ typedef struct hr2di_message {
 __attribute__((format(printf, 3, 4))) hr2d_status
 hr2di_message_fail(hr2di_message *message, hr2d_status status, const char *format, ...);
 
+__attribute__((format(printf, 2, 0))) void
+hr2di_message_write(hr2di_message *message, const char *format, va_list arguments);
+
 /* The length of the UTF-8 character at `s`, in a terminated string; 0 if there is no valid
    character. */
 size_t hr2di_message_utf8(const unsigned char *s);
+
+/* Whether a whole text is UTF-8. */
+int hr2di_message_is_utf8(const char *text);
+
+/* Copies a text into `room` bytes, cut to fit on a whole UTF-8 character. */
+void hr2di_message_copy(char *to, size_t room, const char *text);
 
 /* A name as messages quote it: in quotation marks, cut so that the rest of the message has
    room, and without control characters, which a terminal would obey. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 static void set_defaults(void *options, size_t size) {
+  if (!options) return;
   memset(options, 0, size);
   if (size >= sizeof size) memcpy(options, &size, sizeof size);
 }
@@ -42,5 +43,6 @@ void hr2d_thermal_init(hr2d_thermal *thermal, size_t size) {
 }
 
 void hr2d_patch_init(hr2d_patch *patch) {
+  if (!patch) return;
   *patch = (hr2d_patch)HR2D_PATCH_INIT;
 }

@@ -8,6 +8,13 @@
 /* Early rows have more pairs than late ones: runs are dealt out to and fro. */
 enum { RUNS_PER_SHARE = 64 };
 
+hr2d_status hr2di_share_check(const hr2d_share *share) {
+  if (!share) return HR2D_OK;
+  const size_t known = offsetof(hr2d_share, failed) + sizeof share->failed;
+  if (share->struct_size < known || !share->combine) return HR2D_EINVAL;
+  return share->number < share->count ? HR2D_OK : HR2D_EINVAL;
+}
+
 int hr2di_share_has_row(const hr2d_share *share, size_t row, size_t rows) {
   if (!share) return 1;
   const size_t most = (size_t)RUNS_PER_SHARE * share->count, runs = rows < most ? rows : most;
@@ -36,6 +43,14 @@ static double *place(const hr2d_allocator *alloc, const double *own, size_t coun
   return record;
 }
 
+/* What the callback gave: numbers of records, of which this share knows its own. */
+static int are_counts(const double *counts, const hr2d_share *share, size_t own) {
+  const double most = 9007199254740992; /* 2⁵³: a double holds every integer below it */
+  for (unsigned k = 0; k < share->count; k++)
+    if (!(counts[k] >= 0 && counts[k] < most)) return 0;
+  return counts[share->number] == (double)own;
+}
+
 hr2d_status hr2di_share_collect(hr2d_share *share, hr2d_status status,
                                 const hr2d_allocator *alloc, double **record, size_t *count,
                                 size_t width) {
@@ -45,6 +60,7 @@ hr2d_status hr2di_share_collect(hr2d_share *share, hr2d_status status,
   if (!status && !counts) status = HR2D_ENOMEM;
   if (counts) counts[share->number] = (double)*count;
   status = hr2di_share_combine(share, status, HR2D_COMBINE_SUM, counts, share->count);
+  if (!status && !are_counts(counts, share, *count)) status = share->failed = HR2D_ECALLBACK;
   for (unsigned k = 0; k < share->count && !status; k++) {
     if (k < share->number) before += (size_t)counts[k];
     sum += (size_t)counts[k];

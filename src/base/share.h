@@ -10,6 +10,10 @@
 #include <hr2d/memory.h>
 #include <hr2d/share.h>
 
+/* HR2D_EINVAL if a share that a caller gives is none: its size, number or count is wrong, or
+   `combine` is missing. */
+hr2d_status hr2di_share_check(const hr2d_share *share);
+
 /* Whether a row of pairs, of so many, is of this share.  Rows are dealt out in runs. */
 int hr2di_share_has_row(const hr2d_share *share, size_t row, size_t rows);
 

@@ -15,6 +15,7 @@ static inline hr2d_status hr2di_sized_copy(void *to, size_t known, const void *f
   if (!from) return HR2D_OK;
   memcpy(&given, from, sizeof given);
   if (given < sizeof given) return HR2D_EINVAL;
+  given -= given % sizeof given; /* no compiler ends a struct within a member */
   memcpy(to, from, given < known ? given : known);
   memcpy(to, &known, sizeof known);
   return HR2D_OK;

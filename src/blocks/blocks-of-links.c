@@ -15,6 +15,7 @@ static double weight_of(const hr2d_hierarchy *h, hr2d_pair pair) {
 
 hr2d_status hr2d_blocks(const hr2d_hierarchy *hierarchy, const hr2d_link *link, size_t count,
                         double *block) {
+  if (!hierarchy || (count && (!link || !block))) return HR2D_EINVAL;
   const double unit = hr2d_scene_unit(hierarchy->scene);
   const size_t order = hierarchy->order, square = order * order;
   for (size_t k = 0; k < count; k++)

@@ -24,6 +24,8 @@ static hr2d_status take_options(hr2d_clusters_options *o, const hr2d_clusters_op
 
 hr2d_status hr2d_clusters_create(const hr2d_scene *scene, const hr2d_clusters_options *options,
                                  hr2d_near_pairs_fn near, void *ctx, hr2d_clusters **clusters) {
+  if (clusters) *clusters = NULL;
+  if (!scene || !near || !clusters) return HR2D_EINVAL;
   hr2d_clusters_options o;
   hr2di_watch watch;
   *clusters = NULL;
@@ -51,10 +53,12 @@ void hr2d_clusters_destroy(hr2d_clusters *clusters) {
 }
 
 uint64_t hr2d_clusters_links(const hr2d_clusters *clusters) {
+  if (!clusters) return 0;
   return hr2di_clusters_links(clusters->made);
 }
 
 uint64_t hr2d_clusters_bytes(const hr2d_clusters *clusters) {
+  if (!clusters) return 0;
   return sizeof *clusters + hr2di_clusters_bytes(clusters->made);
 }
 
@@ -72,11 +76,13 @@ static void scale(double *power, size_t count, double factor, hr2di_watch *watch
 hr2d_status hr2d_clusters_gather(hr2d_clusters *clusters, const hr2d_clusters_options *options,
                                  size_t order, size_t bands, const double *radiosity,
                                  double *power) {
+  if (!clusters || !radiosity || !power) return HR2D_EINVAL;
   const hr2d_scene *scene = clusters->scene;
   hr2d_clusters_options o;
   hr2di_watch watch;
   hr2d_status status = take_options(&o, options);
   if (status) return status;
+  if (hr2di_share_check(o.share)) return HR2D_EINVAL;
   if (order < 1 || order > HR2D_MAX_ORDER || bands < 1) return HR2D_EINVAL;
   if (bands > PTRDIFF_MAX / sizeof *power / order / (scene->patches + 1)) return HR2D_EINVAL;
   const size_t count = scene->patches * order * bands;

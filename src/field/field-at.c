@@ -286,6 +286,7 @@ void hr2di_field_close(hr2di_field_call *f) {
 
 hr2d_status hr2d_field_at(const hr2d_solution *solution, const hr2d_point *at, size_t count,
                           const hr2d_field_options *options, const hr2d_field_values *values) {
+  if (!solution || (count && !at)) return HR2D_EINVAL;
   if (!hr2di_field_finite(at, count)) return HR2D_EINVAL;
   hr2di_field_call f;
   uint64_t steps = 0;

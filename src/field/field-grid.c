@@ -152,6 +152,7 @@ static int is_valid(const hr2d_field_grid *g) {
 hr2d_status hr2d_field_on_grid(const hr2d_solution *solution, const hr2d_field_grid *grid,
                                const hr2d_field_options *options,
                                const hr2d_field_values *values, hr2d_field_counts *counts) {
+  if (!solution) return HR2D_EINVAL;
   hr2di_grid_call c = {.grid = HR2D_FIELD_GRID_INIT, .bands = solution->bands};
   uint64_t steps = 0;
   hr2d_status status = hr2di_sized_copy(&c.grid, sizeof c.grid, grid);

@@ -291,6 +291,7 @@ hr2d_status hr2d_field_rows_visit(const hr2d_scene *scene, const hr2d_point *at,
                                   const hr2d_point *normal, size_t count,
                                   const hr2d_field_options *options, hr2d_field_row_fn show,
                                   void *ctx) {
+  if (!scene || !show || (count && !at)) return HR2D_EINVAL;
   if (!scene->committed) return HR2D_ESTATE;
   hr2d_field_options o = HR2D_FIELD_OPTIONS_INIT;
   hr2d_status status = hr2di_sized_copy(&o, sizeof o, options);

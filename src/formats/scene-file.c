@@ -42,6 +42,7 @@ static hr2d_status check_call(hr2d_scene *scene, int source_given) {
 }
 
 hr2d_status hr2d_scene_parse(hr2d_scene *scene, const char *text, size_t size) {
+  if (!scene || (size && !text)) return HR2D_EINVAL;
   hr2d_status status = check_call(scene, text || !size);
   if (status) return status;
   hr2di_watch watch;

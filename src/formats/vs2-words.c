@@ -86,16 +86,9 @@ hr2d_status hr2di_vs2_integer(hr2di_vs2 *reader, hr2di_vs2_span *line, const cha
   return HR2D_OK;
 }
 
-static int is_utf8(const char *text) {
-  const unsigned char *s = (const unsigned char *)text;
-  size_t length = 1;
-  for (; *s && length; s += length) length = hr2di_message_utf8(s);
-  return length != 0;
-}
-
 hr2d_status hr2di_vs2_name(hr2di_vs2 *reader, hr2di_vs2_span *line) {
   hr2d_status status = hr2di_vs2_field(reader, line, "name");
-  if (status || is_utf8(reader->word)) return status;
+  if (status || hr2di_message_is_utf8(reader->word)) return status;
   return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                             "line %zu: name must be UTF-8, not %s", reader->line,
                             hr2di_vs2_quote(reader).text);
@@ -103,7 +96,7 @@ hr2d_status hr2di_vs2_name(hr2di_vs2 *reader, hr2di_vs2_span *line) {
 
 /* Messages are UTF-8, even if the file is not. */
 hr2di_message_quoted hr2di_vs2_quote(hr2di_vs2 *reader) {
-  if (!is_utf8(reader->word))
+  if (!hr2di_message_is_utf8(reader->word))
     for (char *c = reader->word; *c; c++)
       if ((unsigned char)*c >= 0x80) *c = '?';
   return hr2di_message_quote(reader->word);

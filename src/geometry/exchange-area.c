@@ -200,6 +200,7 @@ double hr2di_exchange_area_of_vectors(const hr2di_between *v) {
 }
 
 double hr2d_exchange_area(const hr2d_segment *i, const hr2d_segment *j) {
+  if (!i || !j) return NAN;
   const double area = plain_area(i->a, i->b, j->a, j->b);
   if (area >= 0) return area;
   if (!is_plain(i, j)) return hr2di_exchange_area_scaled(i, j);

@@ -23,6 +23,7 @@ static hr2di_scaled cosine(const hr2d_segment *s, hr2d_point p, hr2di_scaled r) 
 }
 
 double hr2d_kernel(const hr2d_segment *i, hr2d_point x, const hr2d_segment *j, hr2d_point y) {
+  if (!i || !j) return NAN;
   if (!hr2di_point_finite(i->a) || !hr2di_point_finite(i->b) || !hr2di_point_finite(j->a) ||
       !hr2di_point_finite(j->b) || !hr2di_point_finite(x) || !hr2di_point_finite(y))
     return NAN;

@@ -8,6 +8,7 @@
 
 hr2d_status hr2d_hierarchy_divide(hr2d_hierarchy *hierarchy, uint32_t element, double t,
                                   uint32_t *child) {
+  if (!hierarchy) return HR2D_EINVAL;
   if (hr2di_hierarchy_busy(hierarchy)) return HR2D_ESTATE;
   if (element >= hierarchy->elements || hierarchy->element[element].child ||
       !(t > 0 && t < 1) || hierarchy->level[element] == UINT16_MAX)
@@ -38,9 +39,11 @@ static hr2d_status carry(const hr2d_hierarchy *hierarchy, size_t bands, double *
 }
 
 hr2d_status hr2d_hierarchy_pull(const hr2d_hierarchy *hierarchy, size_t bands, double *field) {
+  if (!hierarchy || !field) return HR2D_EINVAL;
   return carry(hierarchy, bands, field, hr2di_push_pull_up);
 }
 
 hr2d_status hr2d_hierarchy_push(const hr2d_hierarchy *hierarchy, size_t bands, double *field) {
+  if (!hierarchy || !field) return HR2D_EINVAL;
   return carry(hierarchy, bands, field, hr2di_push_pull_down);
 }

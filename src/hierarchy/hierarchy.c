@@ -39,6 +39,7 @@ static hr2d_status set_capacity(hr2d_hierarchy *h, size_t capacity) {
 }
 
 hr2d_status hr2d_hierarchy_create(const hr2d_scene *scene, hr2d_hierarchy **hierarchy) {
+  if (!scene || !hierarchy) return HR2D_EINVAL;
   if (!scene->committed) return HR2D_ESTATE;
   hr2d_hierarchy *made = hr2di_alloc_zero(&scene->alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
@@ -126,28 +127,34 @@ void hr2di_hierarchy_truncate(hr2d_hierarchy *h, size_t elements) {
 }
 
 const hr2d_scene *hr2d_hierarchy_scene(const hr2d_hierarchy *hierarchy) {
+  if (!hierarchy) return NULL;
   return hierarchy->scene;
 }
 
 hr2d_hierarchy_counts hr2d_hierarchy_count(const hr2d_hierarchy *hierarchy) {
+  if (!hierarchy) return (hr2d_hierarchy_counts){0};
   /* Halving replaces one leaf by two. */
   const uint64_t n = hierarchy->elements, roots = hierarchy->scene->patches;
   return (hr2d_hierarchy_counts){n, (n + roots) / 2, hierarchy->levels};
 }
 
 const hr2d_element *hr2d_hierarchy_elements(const hr2d_hierarchy *hierarchy) {
+  if (!hierarchy) return NULL;
   return hierarchy->element;
 }
 
 unsigned hr2d_element_level(const hr2d_hierarchy *hierarchy, uint32_t element) {
+  if (!hierarchy || element >= hierarchy->elements) return HR2D_NO_ELEMENT;
   return hierarchy->level[element];
 }
 
 uint32_t hr2d_element_parent(const hr2d_hierarchy *hierarchy, uint32_t element) {
+  if (!hierarchy || element >= hierarchy->elements) return HR2D_NO_ELEMENT;
   return hierarchy->parent[element];
 }
 
 uint32_t hr2d_hierarchy_leaf(const hr2d_hierarchy *hierarchy, size_t patch, double t) {
+  if (!hierarchy || patch >= hierarchy->scene->patches) return HR2D_NO_ELEMENT;
   uint32_t element = (uint32_t)patch;
   while (hierarchy->element[element].child)
     element = hr2di_element_child_at(hierarchy->element, element, &t, 0);
@@ -175,6 +182,7 @@ uint32_t hr2di_hierarchy_next_leaf(const hr2d_hierarchy *h, uint32_t leaf, uint3
 }
 
 hr2d_status hr2d_hierarchy_set_order(hr2d_hierarchy *hierarchy, unsigned order) {
+  if (!hierarchy) return HR2D_EINVAL;
   if (hr2di_hierarchy_busy(hierarchy)) return HR2D_ESTATE;
   if (order < 1 || order > HR2D_MAX_ORDER) return HR2D_EINVAL;
   hierarchy->order = order;
@@ -182,5 +190,6 @@ hr2d_status hr2d_hierarchy_set_order(hr2d_hierarchy *hierarchy, unsigned order) 
 }
 
 unsigned hr2d_hierarchy_order(const hr2d_hierarchy *hierarchy) {
+  if (!hierarchy) return 0;
   return hierarchy->order;
 }

@@ -126,6 +126,7 @@ hr2d_status hr2di_image_trees_map(const hr2d_hierarchy *h, uint32_t *of, hr2di_w
 }
 
 hr2d_status hr2d_hierarchy_originals(const hr2d_hierarchy *hierarchy, uint32_t *original) {
+  if (!hierarchy || !original) return HR2D_EINVAL;
   hr2di_watch watch;
   hr2di_scene_watch(hierarchy->scene, &watch, NULL, NULL, "images");
   const hr2d_status status = hr2di_image_trees_map(hierarchy, original, &watch);

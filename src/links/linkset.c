@@ -16,6 +16,7 @@
 hr2d_status hr2d_linkset_create(hr2d_hierarchy *hierarchy, const hr2d_oracle *oracle,
                                 void *oracle_ctx, const hr2d_policy *policy, void *policy_ctx,
                                 hr2d_linkset **links) {
+  if (!hierarchy || !links) return HR2D_EINVAL;
   if (!oracle) oracle = hr2d_oracle_size();
   if (!policy) policy = hr2d_policy_original();
   if (!HAS(oracle, hr2d_oracle, estimate) || !oracle->name || !oracle->estimate)
@@ -49,26 +50,33 @@ void hr2d_linkset_destroy(hr2d_linkset *links) {
 }
 
 const hr2d_hierarchy *hr2d_linkset_hierarchy(const hr2d_linkset *links) {
+  if (!links) return NULL;
   return links->hierarchy;
 }
 
 const hr2d_oracle *hr2d_linkset_oracle(const hr2d_linkset *links) {
+  if (!links) return NULL;
   return &links->oracle;
 }
 
 const hr2d_policy *hr2d_linkset_policy(const hr2d_linkset *links) {
+  if (!links) return NULL;
   return &links->policy;
 }
 
 const char *hr2d_linkset_message(const hr2d_linkset *links) {
+  if (!links) return "";
   return links->message.text;
 }
 
 uint64_t hr2d_linkset_size(const hr2d_linkset *links) {
+  if (!links) return 0;
   return links->store.count;
 }
 
 hr2d_link hr2d_linkset_get(const hr2d_linkset *links, uint64_t index) {
+  if (!links || index >= links->store.count)
+    return (hr2d_link){{HR2D_NO_ELEMENT, HR2D_NO_ELEMENT}, NAN};
   hr2d_link link = hr2di_store_link(&links->store, index);
   link.exchange_area *= hr2d_scene_unit(links->hierarchy->scene);
   return link;
@@ -76,6 +84,7 @@ hr2d_link hr2d_linkset_get(const hr2d_linkset *links, uint64_t index) {
 
 size_t hr2d_linkset_read(const hr2d_linkset *links, uint64_t first, size_t count,
                          hr2d_link *link) {
+  if (!links || !link) return 0;
   const double unit = hr2d_scene_unit(links->hierarchy->scene);
   const hr2di_store *store = &links->store;
   hr2d_link room[HR2DI_READ_LINKS];
@@ -91,22 +100,27 @@ size_t hr2d_linkset_read(const hr2d_linkset *links, uint64_t first, size_t count
 }
 
 int hr2d_linkset_directed(const hr2d_linkset *links) {
+  if (!links) return 0;
   return links->directed;
 }
 
 double hr2d_linkset_epsilon(const hr2d_linkset *links) {
+  if (!links) return NAN;
   return links->epsilon;
 }
 
 hr2d_refine_counts hr2d_linkset_counts(const hr2d_linkset *links) {
+  if (!links) return (hr2d_refine_counts){0};
   return links->counts;
 }
 
 uint64_t hr2d_linkset_own_tests(const hr2d_linkset *links) {
+  if (!links) return 0;
   return links->own_tests;
 }
 
 uint64_t hr2d_linkset_bytes(const hr2d_linkset *links) {
+  if (!links) return 0;
   const hr2di_roots *r = &links->roots;
   return hr2di_store_bytes(&links->store) +
          (r->clusters ? hr2di_clusters_bytes(r->clusters) : 0) + r->capacity * sizeof *r->pair +

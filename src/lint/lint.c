@@ -148,6 +148,7 @@ static hr2d_status check_options(hr2d_lint_options *o, const hr2d_lint_options *
 
 hr2d_status hr2d_scene_lint(const hr2d_scene *scene, hr2d_warning_fn warn, void *ctx,
                             const hr2d_lint_options *options) {
+  if (!scene || !warn) return HR2D_EINVAL;
   hr2d_lint_options o = HR2D_LINT_OPTIONS_INIT;
   hr2di_watch watch;
   if (check_options(&o, options)) return HR2D_EINVAL;

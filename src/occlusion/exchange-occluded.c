@@ -117,8 +117,10 @@ static hr2d_status integrate_scaled(hr2d_segment *segment, size_t count,
 hr2d_status hr2d_exchange_area_past(const hr2d_segment *i, const hr2d_segment *j,
                                     const hr2d_segment *occluder, size_t count,
                                     const hr2d_past_options *given, double *area) {
+  if (!i || !j || (count && !occluder) || !area) return HR2D_EINVAL;
   hr2d_past_options options = {.struct_size = sizeof options};
-  if (given) hr2di_sized_copy(&options, sizeof options, given);
+  if (hr2di_sized_copy(&options, sizeof options, given)) return HR2D_EINVAL;
+  if (options.alloc && !hr2di_alloc_has_hooks(options.alloc)) return HR2D_EINVAL;
   const hr2d_allocator used = options.alloc ? *options.alloc : hr2di_alloc_default();
   if (count == 0) {
     if (!is_finite(*i) || !is_finite(*j)) return HR2D_EINVAL;

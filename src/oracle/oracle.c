@@ -183,6 +183,7 @@ const hr2d_oracle *hr2d_oracle_bf(void) {
 }
 
 const hr2d_oracle *hr2d_oracle_find(const char *name) {
+  if (!name) return NULL;
   const hr2d_oracle *const known[] = {&oracle_size, &oracle_size2, &oracle_bf, hr2d_oracle_l1(),
                                       hr2d_oracle_l1_grid()};
   for (size_t k = 0; k < sizeof known / sizeof *known; k++)

@@ -43,6 +43,7 @@ const hr2d_policy *hr2d_policy_modified(void) {
 }
 
 const hr2d_policy *hr2d_policy_find(const char *name) {
+  if (!name) return NULL;
   const hr2d_policy *const known[] = {&policy_original, &policy_modified};
   for (size_t k = 0; k < sizeof known / sizeof *known; k++)
     if (strcmp(known[k]->name, name) == 0) return known[k];

@@ -310,6 +310,7 @@ static hr2d_status count_as_team(team *t, hr2d_refine_counts *counts) {
 
 hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *options,
                               hr2d_refine_counts *counts) {
+  if (!links || !counts) return HR2D_EINVAL;
   hr2di_watch watch;
   team t = {.links = links, .watch = &watch};
   if (links->store.count > 0)

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/share.h"
 #include "base/sized-struct.h"
 #include "refine/occluded-pairs.h"
 #include "refine/part-rows.h"
@@ -51,6 +52,10 @@ hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine
   if (options->row_from > options->row_to || options->row_to > patches)
     return hr2di_message_fail(message, HR2D_EINVAL, "rows %zu to %zu of %zu patches",
                               options->row_from, options->row_to, patches);
+  if (hr2di_share_check(options->share))
+    return hr2di_message_fail(message, HR2D_EINVAL,
+                              "the share is not valid: its number is not below its count, or "
+                              "its struct_size or combine is not set");
   if (links->share && links->share != options->share)
     return hr2di_message_fail(message, HR2D_EINVAL,
                               "the links are those of a share, and are refined further by it");

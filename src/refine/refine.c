@@ -255,6 +255,7 @@ static hr2d_status refine(hr2d_linkset *links, const hr2d_refine_options *option
 }
 
 hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *given) {
+  if (!links) return HR2D_EINVAL;
   hr2d_refine_options options;
   const hr2d_status status = hr2di_projector_check_options(links, given, &options);
   if (status) return status;
@@ -293,6 +294,7 @@ static hr2d_status visit_links(void *ctx, const hr2d_pair *pairs, const double *
 
 hr2d_status hr2d_refine_visit(hr2d_linkset *links, const hr2d_refine_options *options,
                               hr2d_visitor visit, void *visit_ctx, hr2d_refine_counts *counts) {
+  if (!links || !visit || !counts) return HR2D_EINVAL;
   hr2d_refine_options used;
   hr2di_projector *p = NULL;
   if (links->store.count > 0)

@@ -46,6 +46,7 @@ static hr2d_status count_once(hr2d_linkset *links, const hr2d_refine_options *op
 hr2d_status hr2d_study_run(hr2d_linkset *links, const hr2d_refine_options *options,
                            const double *epsilon, size_t count, hr2d_study_row *rows,
                            size_t *done) {
+  if (!links || (count && (!epsilon || !rows))) return HR2D_EINVAL;
   hr2d_refine_options used = HR2D_REFINE_OPTIONS_INIT;
   hr2d_status status = HR2D_OK;
   size_t k = 0;
@@ -157,6 +158,7 @@ static double slope_of_logs(const hr2d_study_row *rows, size_t count, double *x,
 /* GSL's routines work on views of our memory here: if GSL allocated and failed, it would call
    its error handler, which aborts. */
 hr2d_status hr2d_study_fit_rows(const hr2d_study_row *rows, size_t count, hr2d_study_fit *fit) {
+  if (!rows || !fit) return HR2D_EINVAL;
   if (distinct_sizes(rows, count) < 3) return HR2D_EINVAL;
   for (size_t k = 0; k < count; k++)
     if (rows[k].counts.links == 0 || rows[k].counts.elements == 0) return HR2D_EINVAL;

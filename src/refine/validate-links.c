@@ -408,6 +408,7 @@ static hr2d_status check_all(validator *v) {
 }
 
 hr2d_status hr2d_linkset_validate(hr2d_linkset *links) {
+  if (!links) return HR2D_EINVAL;
   const hr2d_hierarchy *h = links->hierarchy;
   const hr2d_allocator *alloc = &links->alloc;
   const size_t count = (size_t)links->store.count;

@@ -122,6 +122,7 @@ static hr2d_status commit_images(hr2d_scene *scene, hr2di_watch *watch) {
 }
 
 hr2d_status hr2d_scene_commit(hr2d_scene *scene) {
+  if (!scene) return HR2D_EINVAL;
   if (scene->committed)
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is committed already");
   if (scene->patches == 0)

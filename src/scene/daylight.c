@@ -7,6 +7,7 @@
 
 double hr2d_scene_sunlight_over(const hr2d_scene *scene, size_t patch, double from, double to,
                                 size_t band) {
+  if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
   size_t count;
   const hr2di_lit_part *part = hr2di_sunlight_of(scene, patch, band, &count);
   double lit = 0;
@@ -20,11 +21,13 @@ double hr2d_scene_sunlight(const hr2d_scene *scene, size_t patch, size_t band) {
 }
 
 double hr2d_scene_sunlight_at(const hr2d_scene *scene, size_t patch, double t, size_t band) {
+  if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
   return hr2di_sunlight_at(scene, patch, band, t) ? hr2di_sunlight_full(scene, patch, band) : 0;
 }
 
 size_t hr2d_scene_sunlit_parts(const hr2d_scene *scene, size_t patch, size_t band,
                                double (*part)[2], size_t room) {
+  if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return 0;
   size_t count;
   const hr2di_lit_part *lit = hr2di_sunlight_of(scene, patch, band, &count);
   for (size_t k = 0; k < count && k < room; k++) {

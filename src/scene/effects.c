@@ -23,7 +23,7 @@ const char *hr2d_effect_name(hr2d_effect effect) {
 
 int hr2d_scene_effect(const hr2d_scene *scene, hr2d_effect effect, const char **reason) {
   if (reason) *reason = "";
-  if ((unsigned)effect >= HR2D_EFFECT_COUNT) return 0;
+  if (!scene || (unsigned)effect >= HR2D_EFFECT_COUNT) return 0;
   if (reason) *reason = scene->effect[effect].reason;
   return scene->effect[effect].on;
 }
@@ -32,9 +32,11 @@ __attribute__((format(printf, 4, 5))) static void set(hr2d_scene *scene, hr2d_ef
                                                       int on, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(scene->effect[effect].reason, sizeof scene->effect[effect].reason, format,
-            arguments);
+  hr2di_message whole;
+  hr2di_message_write(&whole, format, arguments);
   va_end(arguments);
+  hr2di_message_copy(scene->effect[effect].reason, sizeof scene->effect[effect].reason,
+                     whole.text);
   scene->effect[effect].on = on;
 }
 

@@ -49,12 +49,14 @@ int hr2di_emissivity_depends(const hr2d_scene *scene, size_t patch) {
 
 double hr2d_scene_emissivity_at(const hr2d_scene *scene, size_t patch, size_t band,
                                 double kelvin) {
+  if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
   if (scene->patch[patch].light->heat == HR2D_HEAT_NONE) return NAN;
   const hr2d_thermal t = thermal_of(scene, patch);
   return hr2di_emissivity_of(&t, band, kelvin);
 }
 
 double hr2d_scene_emissivity(const hr2d_scene *scene, size_t patch, size_t band) {
+  if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
   return hr2di_emissivity_depends(scene, patch)
              ? NAN
              : hr2d_scene_emissivity_at(scene, patch, band, 0);
@@ -97,6 +99,7 @@ double hr2di_emissivity_radiance(const hr2d_scene *scene, size_t patch, double i
 }
 
 double hr2d_scene_temperature(const hr2d_scene *scene, size_t patch, double irradiance) {
+  if (!hr2di_scene_has(scene, patch)) return NAN;
   const hr2di_light *light = scene->patch[patch].light;
   if (light->heat != HR2D_HEAT_FLUX || scene->bands > 1)
     return light->heat == HR2D_HEAT_TEMPERATURE ? light->given : NAN;

@@ -114,7 +114,7 @@ hr2d_status hr2di_patch_copy(const hr2d_allocator *alloc, const hr2di_patch *pat
 
 /* A patch as messages name it: patch 3 ("wall"). */
 typedef struct hr2di_label {
-  char text[112];
+  char text[128];
 } hr2di_label;
 
 hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch);
@@ -172,6 +172,16 @@ static inline int hr2di_scene_has_sky(const hr2d_scene *scene) {
 /* The patches that were given; those behind them are images, and the ends of a period. */
 static inline size_t hr2di_scene_cell(const hr2d_scene *scene) {
   return hr2di_symmetry_cell(&scene->symmetry, scene->patches);
+}
+
+/* Whether a caller's index is that of a patch, or of an image. */
+static inline int hr2di_scene_has(const hr2d_scene *scene, size_t patch) {
+  return scene && patch < scene->patches;
+}
+
+/* The number of bands is not known before commit. */
+static inline int hr2di_scene_has_band(const hr2d_scene *scene, size_t band) {
+  return scene && (band < scene->bands || !scene->committed);
 }
 
 /* The patch of which another one is an image; itself, if it is none. */

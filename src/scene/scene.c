@@ -9,8 +9,9 @@
 #include "scene/scene-impl.h"
 
 hr2d_status hr2d_scene_create(const hr2d_allocator *allocator, hr2d_scene **scene) {
+  if (!scene) return HR2D_EINVAL;
   hr2d_allocator alloc = allocator ? *allocator : hr2di_alloc_default();
-  if (!alloc.allocate || !alloc.reallocate || !alloc.release) return HR2D_EINVAL;
+  if (!hr2di_alloc_has_hooks(&alloc)) return HR2D_EINVAL;
   hr2d_scene *made = hr2di_alloc_zero(&alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
   made->alloc = alloc;
@@ -189,11 +190,14 @@ hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch) {
   const char *name = scene->patch[patch].name;
   hr2di_label label;
   if (patch < hr2di_scene_cell(scene)) return make_label(patch, name);
-  if (patch >= s->motions * s->cell)
-    snprintf(label.text, sizeof label.text, "%s", name);
-  else
-    snprintf(label.text, sizeof label.text, "an image of %.90s",
-             make_label(patch % s->cell, name).text);
+  if (patch >= s->motions * s->cell) {
+    hr2di_message_copy(label.text, sizeof label.text, name);
+    return label;
+  }
+  static const char of[] = "an image of ";
+  memcpy(label.text, of, sizeof of);
+  hr2di_message_copy(label.text + sizeof of - 1, sizeof label.text - sizeof of + 1,
+                     make_label(patch % s->cell, name).text);
   return label;
 }
 
@@ -222,6 +226,10 @@ static hr2d_status check_values(hr2d_scene *scene, const char *label, const char
 
 static hr2d_status check_segment(hr2d_scene *scene, const hr2d_patch *patch,
                                  const char *label) {
+  if (patch->name && !hr2di_message_is_utf8(patch->name))
+    return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                              "%s: its name is not UTF-8; convert it, for instance by iconv",
+                              label);
   const double coordinate[] = {patch->a.x, patch->a.y, patch->b.x, patch->b.y};
   for (int k = 0; k < 4; k++)
     if (!isfinite(coordinate[k]))
@@ -262,6 +270,7 @@ hr2d_status hr2di_scene_add(hr2d_scene *scene, const hr2d_patch *patch,
 }
 
 hr2d_status hr2d_scene_add(hr2d_scene *scene, const hr2d_patch *patch, size_t *index) {
+  if (!scene || !patch) return HR2D_EINVAL;
   return hr2di_scene_add(scene, patch, NULL, index);
 }
 
@@ -276,6 +285,7 @@ hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch) {
 
 hr2d_status hr2d_scene_set_background(hr2d_scene *scene, const double *background,
                                       size_t bands) {
+  if (!scene) return HR2D_EINVAL;
   if (scene->committed)
     return hr2di_message_fail(&scene->message, HR2D_ESTATE,
                               "a committed scene takes no background");
@@ -293,6 +303,7 @@ hr2d_status hr2d_scene_set_background(hr2d_scene *scene, const double *backgroun
 }
 
 hr2d_status hr2d_scene_force(hr2d_scene *scene, hr2d_effect effect) {
+  if (!scene) return HR2D_EINVAL;
   if ((unsigned)effect >= HR2D_EFFECT_COUNT)
     return hr2di_message_fail(&scene->message, HR2D_EINVAL, "there is no effect %d",
                               (int)effect);
@@ -303,6 +314,7 @@ hr2d_status hr2d_scene_force(hr2d_scene *scene, hr2d_effect effect) {
 }
 
 void hr2d_scene_set_progress(hr2d_scene *scene, hr2d_progress_fn progress, void *ctx) {
+  if (!scene) return;
   scene->progress = progress;
   scene->progress_ctx = ctx;
 }
@@ -330,33 +342,40 @@ hr2d_status hr2di_scene_fail(hr2d_scene *scene, hr2d_status status, const hr2di_
 }
 
 const char *hr2d_scene_message(const hr2d_scene *scene) {
+  if (!scene) return "";
   return scene->message.text;
 }
 
 size_t hr2d_scene_patches(const hr2d_scene *scene) {
+  if (!scene) return 0;
   return hr2di_scene_cell(scene);
 }
 
 size_t hr2d_scene_bands(const hr2d_scene *scene) {
+  if (!scene) return 0;
   return scene->bands;
 }
 
 hr2d_segment hr2d_scene_segment(const hr2d_scene *scene, size_t patch) {
+  if (!hr2di_scene_has(scene, patch)) return (hr2d_segment){{NAN, NAN}, {NAN, NAN}};
   const hr2d_segment *added = scene->symmetry.added;
   return added && patch < scene->symmetry.cell ? added[patch] : scene->patch[patch].given;
 }
 
 double hr2d_scene_length(const hr2d_scene *scene, size_t patch) {
+  if (!hr2di_scene_has(scene, patch)) return NAN;
   if (scene->committed) return ldexp(scene->patch[patch].length, scene->exponent);
   const hr2d_segment s = scene->patch[patch].given;
   return hypot(s.b.x - s.a.x, s.b.y - s.a.y);
 }
 
 const char *hr2d_scene_name(const hr2d_scene *scene, size_t patch) {
+  if (!hr2di_scene_has(scene, patch)) return NULL;
   return scene->patch[patch].name;
 }
 
 hr2d_status hr2d_scene_find(const hr2d_scene *scene, const char *name, size_t *patch) {
+  if (!scene || !name || !patch) return HR2D_EINVAL;
   for (size_t k = 0; k < hr2di_scene_cell(scene); k++)
     if (strcmp(scene->patch[k].name, name) == 0) {
       *patch = k;
@@ -367,23 +386,28 @@ hr2d_status hr2d_scene_find(const hr2d_scene *scene, const char *name, size_t *p
 
 /* The value of a band: a single value holds for every band, no value means 0. */
 static double band_value(const double *value, size_t bands, size_t band) {
-  return bands == 0 ? 0 : value[bands == 1 ? 0 : band];
+  if (bands < 2) return bands ? *value : 0;
+  return band < bands ? value[band] : NAN;
 }
 
 double hr2d_scene_emission(const hr2d_scene *scene, size_t patch, size_t band) {
+  if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
   const hr2di_light *light = scene->patch[patch].light;
   return band_value(light->value, light->emission_bands, band);
 }
 
 double hr2d_scene_reflectance(const hr2d_scene *scene, size_t patch, size_t band) {
+  if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
   const hr2di_light *light = scene->patch[patch].light;
   return band_value(light->value + light->emission_bands, light->reflectance_bands, band);
 }
 
 double hr2d_scene_background(const hr2d_scene *scene, size_t band) {
+  if (!hr2di_scene_has_band(scene, band)) return NAN;
   return band_value(scene->background, scene->background_bands, band);
 }
 
 double hr2d_scene_unit(const hr2d_scene *scene) {
+  if (!scene) return NAN;
   return ldexp(1, scene->exponent);
 }

@@ -84,6 +84,7 @@ void hr2di_scene_take_sky(hr2d_scene *scene, const hr2di_sky *sky) {
 
 hr2d_status hr2d_scene_set_sky(hr2d_scene *scene, const hr2d_sky_piece *piece, size_t pieces,
                                const double *value, size_t bands) {
+  if (!scene) return HR2D_EINVAL;
   const hr2d_status status = hr2di_scene_check_sky(scene, piece, pieces, value, bands);
   if (status) return status;
   hr2di_sky sky = {.pieces = pieces, .bands = bands};
@@ -118,10 +119,12 @@ static double seen_at(const hr2d_scene *scene, size_t piece, size_t band) {
 }
 
 double hr2d_scene_sky(const hr2d_scene *scene, double bearing, size_t band) {
+  if (!hr2di_scene_has_band(scene, band)) return NAN;
   return seen_at(scene, piece_at(&scene->sky, bearing), band);
 }
 
 size_t hr2d_scene_sky_pieces(const hr2d_scene *scene) {
+  if (!scene) return 0;
   return scene->sky.pieces;
 }
 

@@ -305,6 +305,7 @@ static hr2d_status copy_patches(hr2d_scene *copy, const hr2d_scene *scene) {
 }
 
 hr2d_status hr2d_scene_snap(hr2d_scene *scene, double tolerance, hr2d_snap_report *report) {
+  if (!scene) return HR2D_EINVAL;
   if (scene->committed)
     return hr2di_message_fail(&scene->message, HR2D_ESTATE,
                               "a committed scene cannot be snapped");

@@ -341,6 +341,7 @@ static hr2d_status split(splitter *p, size_t *count) {
 }
 
 hr2d_status hr2d_scene_split_crossings(hr2d_scene *scene, size_t *cuts) {
+  if (!scene) return HR2D_EINVAL;
   if (scene->committed)
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "a committed scene cannot be cut");
   hr2di_watch watch;

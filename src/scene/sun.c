@@ -26,6 +26,7 @@ void hr2di_scene_take_sun(hr2d_scene *scene, hr2d_sun *sun, size_t bands) {
 }
 
 hr2d_status hr2d_scene_set_sun(hr2d_scene *scene, const hr2d_sun *sun, size_t bands) {
+  if (!scene) return HR2D_EINVAL;
   hr2d_status status = HR2D_OK;
   if (scene->committed)
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "a committed scene takes no sun");
@@ -44,6 +45,7 @@ hr2d_status hr2d_scene_set_sun(hr2d_scene *scene, const hr2d_sun *sun, size_t ba
 }
 
 hr2d_sun hr2d_scene_sun(const hr2d_scene *scene, size_t band) {
+  if (!hr2di_scene_has_band(scene, band)) return (hr2d_sun){{NAN, NAN}, NAN};
   if (scene->sun_bands == 0) return (hr2d_sun){{0, 0}, 0};
   return scene->sun[scene->sun_bands == 1 ? 0 : band];
 }

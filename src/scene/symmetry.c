@@ -14,6 +14,7 @@ static int is_finite(hr2d_point p) {
 }
 
 hr2d_status hr2d_scene_add_mirror(hr2d_scene *scene, hr2d_segment line) {
+  if (!scene) return HR2D_EINVAL;
   hr2di_symmetry *s = &scene->symmetry;
   if (scene->committed)
     return hr2di_message_fail(&scene->message, HR2D_ESTATE,
@@ -31,6 +32,7 @@ hr2d_status hr2d_scene_add_mirror(hr2d_scene *scene, hr2d_segment line) {
 }
 
 hr2d_status hr2d_scene_set_period(hr2d_scene *scene, hr2d_point period) {
+  if (!scene) return HR2D_EINVAL;
   if (scene->committed)
     return hr2di_message_fail(&scene->message, HR2D_ESTATE,
                               "a committed scene takes no period");
@@ -41,26 +43,34 @@ hr2d_status hr2d_scene_set_period(hr2d_scene *scene, hr2d_point period) {
 }
 
 size_t hr2d_scene_mirrors(const hr2d_scene *scene) {
+  if (!scene) return 0;
   return scene->symmetry.mirrors;
 }
 
 hr2d_segment hr2d_scene_mirror(const hr2d_scene *scene, size_t mirror) {
+  if (!scene || mirror >= scene->symmetry.mirrors)
+    return (hr2d_segment){{NAN, NAN}, {NAN, NAN}};
   return scene->symmetry.mirror[mirror];
 }
 
 hr2d_point hr2d_scene_period(const hr2d_scene *scene) {
+  if (!scene) return (hr2d_point){NAN, NAN};
   return scene->symmetry.period;
 }
 
 size_t hr2d_scene_images(const hr2d_scene *scene) {
+  if (!scene) return 0;
   return scene->symmetry.motion ? scene->symmetry.motions : 1;
 }
 
 hr2d_segment hr2d_scene_image(const hr2d_scene *scene, size_t patch, size_t image) {
+  if (!scene || patch >= hr2di_scene_cell(scene) || image >= hr2d_scene_images(scene))
+    return (hr2d_segment){{NAN, NAN}, {NAN, NAN}};
   return hr2d_scene_segment(scene, image * scene->symmetry.cell + patch);
 }
 
 double hr2d_scene_cut_off(const hr2d_scene *scene) {
+  if (!scene) return NAN;
   return scene->symmetry.motion ? scene->symmetry.rest : 0;
 }
 

@@ -131,6 +131,7 @@ static void set_light(const hr2d_scene *scene, const hr2d_thermal *t, double *va
 
 hr2d_status hr2d_scene_add_thermal(hr2d_scene *scene, const hr2d_patch *given,
                                    const hr2d_thermal *thermal, size_t *index) {
+  if (!scene || !given) return HR2D_EINVAL;
   hr2d_thermal t = HR2D_THERMAL_INIT;
   hr2d_patch patch = *given;
   if (scene->committed)
@@ -154,6 +155,8 @@ hr2d_status hr2d_scene_add_thermal(hr2d_scene *scene, const hr2d_patch *given,
 }
 
 hr2d_heat hr2d_scene_heat(const hr2d_scene *scene, size_t patch, double *value) {
+  if (value) *value = NAN;
+  if (!hr2di_scene_has(scene, patch)) return HR2D_HEAT_NONE;
   const hr2di_light *light = scene->patch[patch].light;
   if (value) *value = light->heat == HR2D_HEAT_NONE ? NAN : light->given;
   return light->heat;
@@ -167,6 +170,7 @@ static int has_heat(const hr2d_scene *scene) {
 
 hr2d_status hr2d_scene_set_wavelengths(hr2d_scene *scene, const double *wavelength,
                                        size_t count) {
+  if (!scene) return HR2D_EINVAL;
   if (scene->committed || has_heat(scene))
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "wavelengths: the scene %s already",
                               scene->committed ? "is committed" : "has temperatures or fluxes");

@@ -59,6 +59,7 @@ static void watch_gather(const hr2d_solution *solution, hr2di_watch *watch) {
 
 hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t patch, const double *t,
                                  size_t count, double *value) {
+  if (!hr2di_solution_has(solution, patch, 0) || (count && (!t || !value))) return HR2D_EINVAL;
   hr2di_watch watch;
   watch_gather(solution, &watch);
   return hr2di_solution_gather(solution, patch, t, count, value, &watch);
@@ -66,6 +67,7 @@ hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t patch, co
 
 hr2d_status hr2d_solution_gather_irradiance(const hr2d_solution *solution, size_t patch,
                                             const double *t, size_t count, double *value) {
+  if (!hr2di_solution_has(solution, patch, 0) || (count && (!t || !value))) return HR2D_EINVAL;
   hr2di_watch watch;
   watch_gather(solution, &watch);
   return hr2di_solution_gather_irradiance(solution, patch, t, count, value, &watch);
@@ -73,6 +75,7 @@ hr2d_status hr2d_solution_gather_irradiance(const hr2d_solution *solution, size_
 
 hr2d_status hr2d_solution_gather_net_flux(const hr2d_solution *solution, size_t patch,
                                           const double *t, size_t count, double *value) {
+  if (!hr2di_solution_has(solution, patch, 0) || (count && (!t || !value))) return HR2D_EINVAL;
   const hr2d_scene *scene = hr2di_solution_scene(solution);
   const hr2d_status status = hr2d_solution_gather_irradiance(solution, patch, t, count, value);
   for (size_t k = 0; k < count * solution->bands && !status; k++) {

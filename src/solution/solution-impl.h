@@ -31,6 +31,11 @@ static inline const hr2d_scene *hr2di_solution_scene(const hr2d_solution *soluti
   return solution->own_scene ? solution->own_scene : solution->hierarchy->scene;
 }
 
+/* Whether a caller's indices are those of a patch and of a band. */
+static inline int hr2di_solution_has(const hr2d_solution *solution, size_t patch, size_t band) {
+  return solution && patch < solution->hierarchy->scene->patches && band < solution->bands;
+}
+
 /* Writes B of a solution to `field`: count × order × bands coefficients, on leaves of a
    hierarchy that has grown from its own, and at another order perhaps.  Returns HR2D_OK or the
    status of the watch. */

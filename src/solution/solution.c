@@ -33,19 +33,23 @@ static double light(double value) {
 }
 
 const double *hr2d_solution_field(const hr2d_solution *solution) {
+  if (!solution) return NULL;
   return solution->value;
 }
 
 double hr2d_solution_element(const hr2d_solution *solution, uint32_t element, size_t band) {
+  if (!solution || element >= solution->elements || band >= solution->bands) return NAN;
   return light(average(solution, solution->value, element, band));
 }
 
 double hr2d_solution_element_irradiance(const hr2d_solution *solution, uint32_t element,
                                         size_t band) {
+  if (!solution || element >= solution->elements || band >= solution->bands) return NAN;
   return light(average(solution, solution->irradiance, element, band));
 }
 
 double hr2d_solution_average(const hr2d_solution *solution, size_t patch, size_t band) {
+  if (!hr2di_solution_has(solution, patch, band)) return NAN;
   return light(average(solution, solution->value, patch, band));
 }
 
@@ -132,19 +136,23 @@ hr2d_status hr2di_solution_restrict(const hr2d_solution *from, const hr2d_hierar
 }
 
 double hr2d_solution_at(const hr2d_solution *solution, size_t patch, double t, size_t band) {
+  if (!hr2di_solution_has(solution, patch, band)) return NAN;
   return light(value_at(solution, solution->value, patch, t, band));
 }
 
 double hr2d_solution_irradiance(const hr2d_solution *solution, size_t patch, size_t band) {
+  if (!hr2di_solution_has(solution, patch, band)) return NAN;
   return light(average(solution, solution->irradiance, patch, band));
 }
 
 double hr2d_solution_irradiance_at(const hr2d_solution *solution, size_t patch, double t,
                                    size_t band) {
+  if (!hr2di_solution_has(solution, patch, band)) return NAN;
   return light(value_at(solution, solution->irradiance, patch, t, band));
 }
 
 double hr2d_solution_net_flux(const hr2d_solution *solution, size_t patch, size_t band) {
+  if (!hr2di_solution_has(solution, patch, band)) return NAN;
   /* B − H = E − (1−ρ)H, without the loss of the digits that B and H have in common. */
   const hr2d_scene *scene = hr2di_solution_scene(solution);
   return hr2d_scene_emission(scene, patch, band) -
@@ -153,22 +161,27 @@ double hr2d_solution_net_flux(const hr2d_solution *solution, size_t patch, size_
 }
 
 double hr2d_solution_power_cut_off(const hr2d_solution *solution, size_t band) {
+  if (!solution || band >= solution->bands) return NAN;
   if (solution->power_cut_off) return solution->power_cut_off[band];
   return hr2di_symmetry_cuts(&solution->hierarchy->scene->symmetry) ? HUGE_VAL : 0;
 }
 
 hr2d_power hr2d_solution_power(const hr2d_solution *solution, size_t band) {
+  if (!solution || band >= solution->bands) return (hr2d_power){NAN, NAN, NAN, NAN};
   return solution->power[band];
 }
 
 hr2d_solve_work hr2d_solution_work(const hr2d_solution *solution) {
+  if (!solution) return (hr2d_solve_work){0};
   return solution->work;
 }
 
 const hr2d_linkset *hr2d_solution_links(const hr2d_solution *solution) {
+  if (!solution) return NULL;
   return solution->links;
 }
 
 double hr2d_solution_residual(const hr2d_solution *solution) {
+  if (!solution) return NAN;
   return solution->residual;
 }

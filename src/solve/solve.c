@@ -321,10 +321,12 @@ static hr2d_status run(hr2d_linkset *links, const hr2d_solve_options *given,
 
 hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *given,
                        hr2d_solution **solution) {
+  if (!links || !solution) return HR2D_EINVAL;
   return run(links, given, NULL, solution);
 }
 
 hr2d_status hr2d_solution_adopt(hr2d_linkset *links, const hr2d_solve_options *given,
                                 const double *field, hr2d_solution **solution) {
+  if (!links || !field || !solution) return HR2D_EINVAL;
   return run(links, given, field, solution);
 }

@@ -125,6 +125,7 @@ static void put_lights(hr2di_writer *w, const hr2d_scene *scene) {
 }
 
 hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_fn write, void *ctx) {
+  if (!scene || !write) return HR2D_EINVAL;
   if (!scene->committed) return HR2D_ESTATE;
   const size_t patches = hr2di_scene_cell(scene);
   for (size_t k = 0; k < patches; k++)

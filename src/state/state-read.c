@@ -259,6 +259,7 @@ static void take(loading *l) {
 
 hr2d_status hr2d_state_read(hr2d_linkset *links, hr2d_read_fn read, void *ctx,
                             hr2d_solution **solution) {
+  if (!links || !read || !solution) return HR2D_EINVAL;
   hr2d_hierarchy *h = links->hierarchy;
   const size_t roots = h->scene->patches;
   if (links->store.count > 0 || h->elements > roots || hr2di_hierarchy_busy(h))

@@ -161,6 +161,7 @@ static int has_state(const hr2d_solution *s) {
 }
 
 hr2d_status hr2d_state_write(const hr2d_solution *solution, hr2d_write_fn write, void *ctx) {
+  if (!solution || !write) return HR2D_EINVAL;
   const hr2d_hierarchy *h = solution->hierarchy;
   hr2di_writer w;
   if (!has_state(solution)) return HR2D_EUNSUPPORTED;

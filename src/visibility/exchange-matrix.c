@@ -75,6 +75,7 @@ static void describe(void *of, hr2d_progress *told) {
 
 hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_options *options,
                                  double *area, hr2d_matrix_counts *counts) {
+  if (!scene || !area) return HR2D_EINVAL;
   if (!scene->committed) return HR2D_ESTATE;
   matrix m = {.n = scene->patches, .area = area, .unit = hr2d_scene_unit(scene)};
   hr2d_matrix_options o = HR2D_MATRIX_OPTIONS_INIT;

@@ -246,6 +246,7 @@ static hr2d_status build_of_images(builder *b, const hr2d_scene *scene,
 hr2d_status hr2d_exchange_rows_create(const hr2d_scene *scene,
                                       const hr2d_matrix_options *options,
                                       hr2d_exchange_rows **rows, hr2d_matrix_counts *counts) {
+  if (!scene || !rows) return HR2D_EINVAL;
   if (!scene->committed) return HR2D_ESTATE;
   hr2d_matrix_options o = HR2D_MATRIX_OPTIONS_INIT;
   hr2d_status status = hr2di_sized_copy(&o, sizeof o, options);
@@ -280,17 +281,21 @@ void hr2d_exchange_rows_destroy(hr2d_exchange_rows *rows) {
 }
 
 uint64_t hr2d_exchange_rows_entries(const hr2d_exchange_rows *rows) {
+  if (!rows) return 0;
   return rows->start[rows->patches];
 }
 
 const uint64_t *hr2d_exchange_rows_start(const hr2d_exchange_rows *rows) {
+  if (!rows) return NULL;
   return rows->start;
 }
 
 const uint32_t *hr2d_exchange_rows_column(const hr2d_exchange_rows *rows) {
+  if (!rows) return NULL;
   return rows->column;
 }
 
 const double *hr2d_exchange_rows_area(const hr2d_exchange_rows *rows) {
+  if (!rows) return NULL;
   return rows->area;
 }

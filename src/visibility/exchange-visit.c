@@ -148,6 +148,7 @@ hr2d_status hr2d_exchange_rows_visit(const hr2d_scene *scene,
                                      const hr2d_matrix_options *options,
                                      hr2d_exchange_row_fn show, void *ctx,
                                      hr2d_matrix_counts *counts) {
+  if (!scene || !show) return HR2D_EINVAL;
   if (!scene->committed) return HR2D_ESTATE;
   hr2d_matrix_options o = HR2D_MATRIX_OPTIONS_INIT;
   hr2d_status status = hr2di_sized_copy(&o, sizeof o, options);

@@ -96,6 +96,7 @@ static hr2d_status look_past_nothing(const hr2d_scene *scene, size_t patch, doub
 
 hr2d_status hr2d_beams_visit(const hr2d_scene *scene, size_t patch, double t, hr2d_beam_fn show,
                              void *ctx) {
+  if (!scene || !show) return HR2D_EINVAL;
   if (!scene->committed) return HR2D_ESTATE;
   if (patch >= hr2di_scene_cell(scene) || !(t >= 0 && t <= 1)) return HR2D_EINVAL;
   hr2di_watch watch;

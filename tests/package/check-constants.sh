@@ -10,7 +10,7 @@ headers="$HR2D_SRCDIR/include/hr2d/*.h $HR2D_BUILDDIR/include/hr2d/version.h"
 # names FILES: macros whose text is a number or a cast of one; members of enumerations, which are
 # the names that begin a line or follow a brace or a comma.
 names() {
-  sed -n 's/^#define \(HR2D_[A-Z0-9_]*\) (\{0,1\}\((unsigned)\)\{0,1\}-\{0,1\}[0-9].*/\1/p' "$@"
+  sed -n 's/^#define \(HR2D_[A-Z0-9_]*\) (\{0,1\}\(([a-z0-9_]*)\)\{0,1\}-\{0,1\}[0-9].*/\1/p' "$@"
   sed -n '/^\(typedef \)\{0,1\}enum/,/^}/p' "$@" | grep -o '^ *HR2D_[A-Z0-9_]*' | tr -d ' '
 }
 # shellcheck disable=SC2086 # the names of headers have no blanks

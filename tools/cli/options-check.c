@@ -27,16 +27,29 @@ static const char *output_of(const options *o, const option_entry *x) {
   return x->rules & IS_OUTPUT ? *(const char *const *)member : NULL;
 }
 
+/* An output that replaces an input would be found out when it is too late. */
+static int check_inputs(const options *o, const char *file, const char *name) {
+  const char *const input[] = {o->scene, o->points};
+  for (size_t k = 0; k < sizeof input / sizeof *input; k++)
+    if (input[k] && !output_is_stdout(file) && output_is_same(file, input[k]))
+      return complain_usage("--%s %s would replace the input '%s'", name, file, input[k]);
+  return 0;
+}
+
 static int check_outputs(const options *o) {
   const option_entry *x, *y;
-  for (size_t i = 0; (x = option_at(i)); i++)
-    for (size_t j = 0; j < i; j++) {
+  int status = 0;
+  for (size_t i = 0; (x = option_at(i)) && !status; i++) {
+    const char *file = output_of(o, x);
+    if (file) status = check_inputs(o, file, x->name);
+    for (size_t j = 0; j < i && file && !status; j++) {
       y = option_at(j);
-      const char *file = output_of(o, x), *other = output_of(o, y);
-      if (file && other && !strcmp(file, other))
-        return complain_usage("two outputs go to '%s'", file);
+      const char *other = output_of(o, y);
+      if (other && output_is_same(file, other))
+        status = complain_usage("two outputs go to '%s'", file);
     }
-  return 0;
+  }
+  return status;
 }
 
 /* A target or a budget leaves no choice of the method. */

@@ -11,6 +11,7 @@
 #include "cli/warnings.h"
 #include "output/clock.h"
 #include "output/complain.h"
+#include "output/printable.h"
 #include "output/progress.h"
 
 /* What may be the reason why a scene is refused. */
@@ -67,7 +68,9 @@ int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cut
 }
 
 void scene_print(const options *o, int width, size_t cuts) {
-  printf("%-*s%s\n", width, "scene", o->scene);
+  printf("%-*s", width, "scene");
+  printable_put(o->scene, stdout);
+  puts("");
   if (o->split_crossings) printf("%-*s%zu cut\n", width, "crossings", cuts);
 }
 

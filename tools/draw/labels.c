@@ -135,8 +135,7 @@ static void write_name(const picture *p, const char *name, const box *b) {
     pen_write(p->cr, b->x0, b->y1 - 2.5, name);
     return;
   }
-  cairo_move_to(p->cr, b->x0, b->y1 - 2.5);
-  cairo_text_path(p->cr, name);
+  pen_text_path(p->cr, b->x0, b->y1 - 2.5, name);
   pen_grey(p->cr, 1);
   cairo_set_line_width(p->cr, 2.5);
   cairo_set_line_join(p->cr, CAIRO_LINE_JOIN_ROUND);
@@ -148,10 +147,13 @@ static void write_name(const picture *p, const char *name, const box *b) {
 /* A name, cut with an ellipsis if it is too wide; the caller frees it. */
 static char *shorten(cairo_t *cr, const char *name, double most) {
   static const char ellipsis[] = "…";
-  const size_t size = strlen(name);
+  /* So many bytes are wider than any label: 60 characters at least. */
+  enum { WIDE = 240 };
+  const size_t size = strnlen(name, WIDE);
   char *text = malloc(size + sizeof ellipsis);
   if (!text) return NULL;
-  memcpy(text, name, size + 1);
+  memcpy(text, name, size);
+  text[size] = '\0';
   for (size_t n = size; n && pen_text_width(cr, text) > most;) {
     do n--;
     while (n && ((unsigned char)name[n] & 0xC0) == 0x80);

@@ -259,5 +259,8 @@ void pen_font(cairo_t *cr, double size, int bold);
 double pen_text_width(cairo_t *cr, const char *text);
 void pen_write(cairo_t *cr, double x, double y, const char *text);
 
+/* The outlines of a text become the path. */
+void pen_text_path(cairo_t *cr, double x, double y, const char *text);
+
 #endif
 #endif

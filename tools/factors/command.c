@@ -10,6 +10,7 @@
 #include "factors/factors.h"
 #include "output/clock.h"
 #include "output/complain.h"
+#include "output/printable.h"
 #include "output/progress.h"
 #include "output/table.h"
 
@@ -102,8 +103,10 @@ static void print_factors(const factors *f, double total_seconds) {
          (unsigned long long)(n->exchange_areas - n->partial_pairs),
          (unsigned long long)n->partial_pairs, (unsigned long long)factors_unseen(f));
   print_patches(f);
+  char name[64]; /* the table above has it whole */
+  printable_copy(name, sizeof name, hr2d_scene_name(f->scene, worst));
   printf("worst     |1 - row sum| = %.3e, of patch %zu (%s)\n", fabs(f->missing[worst]), worst,
-         hr2d_scene_name(f->scene, worst));
+         name);
   if (hr2d_scene_cut_off(f->scene) > 0) print_cut_off(f);
   table_print_work(list, sizeof list / sizeof *list);
   printf("seconds   factors %.3f, total %.3f\n", f->seconds, total_seconds);

@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Each message is one line: control characters in file names become question marks. */
+/* Each message is one line: what a terminal would obey in texts from outside becomes question
+ * marks. */
 #include "output/complain.h"
 
 #include <stdarg.h>
 #include <stdio.h>
+
+#include "output/printable.h"
 
 /* Another program may use these files. */
 #ifndef PROGRAM_NAME
@@ -13,8 +16,10 @@
 enum { LINE = 2048 };
 
 static void one_line(char *text) {
-  for (; *text; text++)
-    if ((unsigned char)*text < ' ' || *text == 127) *text = '?';
+  for (size_t length; *text; text += length ? length : 1) {
+    length = printable_length(text);
+    if (!length) *text = '?';
+  }
 }
 
 static int silent;

@@ -113,6 +113,32 @@ int output_is_stdout(const char *path) {
   return path && !strcmp(path, "-");
 }
 
+static int is_same_directory(const char *path, const char *other) {
+  char *first = directory_of(path), *second = directory_of(other);
+  struct stat a, b;
+  const int same = first && second && !stat(first, &a) && !stat(second, &b) &&
+                   a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+  free(first);
+  free(second);
+  return same;
+}
+
+static const char *last_part(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+int output_is_same(const char *path, const char *other) {
+  struct stat a, b;
+  if (!strcmp(path, other)) return 1;
+  if (output_is_stdout(path) || output_is_stdout(other)) return 0;
+  const int missing = stat(path, &a) != 0, other_missing = stat(other, &b) != 0;
+  if (missing && other_missing)
+    return !strcmp(last_part(path), last_part(other)) && is_same_directory(path, other);
+  return !missing && !other_missing && S_ISREG(a.st_mode) && a.st_dev == b.st_dev &&
+         a.st_ino == b.st_ino;
+}
+
 int output_check(const char *path) {
   if (!path || output_is_stdout(path)) return 0;
   char *target = target_of(path);

@@ -15,6 +15,10 @@ typedef struct output {
 /* Whether a path, which may be NULL, is "-" for standard output. */
 int output_is_stdout(const char *path);
 
+/* Whether two paths, of which neither is NULL, lead to one regular file, or to one place where
+   no file is yet. */
+int output_is_same(const char *path, const char *other);
+
 /* Opens an output.  Devices and pipes are written in place, files under a temporary name in the
    same directory.  Returns 0, or EXIT_FAILED after an error message. */
 int output_open(output *out, const char *path);

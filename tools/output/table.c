@@ -4,6 +4,8 @@
 
 #include <stdio.h>
 
+#include "output/printable.h"
+
 enum { MOST_ROWS = 60, END_ROWS = 20 };
 
 void table_print_work(const effort *list, size_t count) {
@@ -24,13 +26,14 @@ void table_print_work(const effort *list, size_t count) {
 
 static int count_columns(const char *text) {
   int n = 0;
-  for (; *text; text++) n += ((unsigned char)*text & 0xC0) != 0x80;
+  for (size_t length; *text; text += length ? length : 1, n++) length = printable_length(text);
   return n;
 }
 
 static void print_padded(const char *text, int width) {
   const int n = count_columns(text);
-  printf("%s%*s", text, width > n ? width - n : 0, "");
+  printable_put(text, stdout);
+  printf("%*s", width > n ? width - n : 0, "");
 }
 
 int table_name_width(const hr2d_scene *scene) {

@@ -8,6 +8,7 @@
 
 #include "cli/scene.h"
 #include "output/complain.h"
+#include "output/printable.h"
 #include "solve/solve.h"
 
 /* A line for each band; lines after the first are indented. */
@@ -106,8 +107,10 @@ static void print_method(const run *r) {
   if (o->target_error > 0)
     printf(" error %g %s", o->target_error,
            o->norm == HR2D_NORM_SUP ? "at all points" : "in averages");
-  for (size_t k = 0; k < o->importance.count; k++)
-    printf("%s %s", k ? "," : " of", o->importance.items[k].patch);
+  for (size_t k = 0; k < o->importance.count; k++) {
+    fputs(k ? ", " : " of ", stdout);
+    printable_put(o->importance.items[k].patch, stdout);
+  }
   if (o->time_budget > 0)
     printf("%s %g seconds", o->target_error > 0 ? " within" : " best within", o->time_budget);
   puts("");
