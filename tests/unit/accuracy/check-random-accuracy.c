@@ -130,7 +130,9 @@ START_TEST(averages_of_random_scenes) {
     if ((!a.reason[0] && error > target[k % 5] + known + rounding) ||
         !accuracy_is_bounded(a.average, error, known, rounding))
       fail_trial(&t, seed, k, target[k % 5], error, a.average);
-    accuracy_compare(&all, a.average, error, known, rounding);
+    /* Where kinks may hide in elements, estimates are no less than a part of the target. */
+    if (a.average.bound < 0.25 * target[k % 5] || error > 0.01 * target[k % 5])
+      accuracy_compare(&all, a.average, error, known, rounding);
     accuracy_check_account(&a, solution);
     hr2d_solution_destroy(truth);
     hr2d_solution_destroy(solution);
