@@ -28,7 +28,7 @@ GSL = blas/blas cblas/dasum cblas/daxpy cblas/dcopy cblas/ddot cblas/dgemm cblas
 	cblas/xerbla err/error err/stream fit/linear integration/qk integration/qk15 \
 	linalg/householder linalg/qr matrix/matrix matrix/rowcol matrix/submatrix matrix/view \
 	specfunc/debye specfunc/psi vector/copy vector/init vector/subvector vector/vector vector/view
-JANSSON = error hashtable hashtable_seed load memory strbuffer strconv utf value
+JANSSON = dump error hashtable hashtable_seed load memory strbuffer strconv utf value
 
 OBJECTS = $(patsubst %.c,playground/wasm/object/%.o,$(filter %.c,$(CORE))) \
 	$(GSL:%=playground/wasm/object/gsl/%.o) $(JANSSON:%=playground/wasm/object/jansson/%.o) \

@@ -21,6 +21,6 @@ EXTRA_DIST += \
 	python/tests/test_symmetry.py \
 	python/tests/test_draw.py \
 	python/tests/test_drawings.py \
-	python/tests/test_scene.py \
+	python/tests/test_one_value.py python/tests/test_scene.py \
 	python/tests/test_solve.py \
 	python/tests/test_thermal.py

@@ -188,6 +188,12 @@ static const meant *find_near(const char *key) {
   return m ? m : find_mistyped(properties_meant, COUNT(properties_meant), key);
 }
 
+/* Maps and drawings have "color": "#ff0000", which is of the picture, not of light. */
+static int is_paint(const json_t *properties, const char *key) {
+  const char *text = json_string_value(json_object_get(properties, key));
+  return text && *text == '#';
+}
+
 static void note_property(hr2di_geojson *reader, const json_t *properties, const char *key) {
   const small s = in_small_letters(key);
   if (is_lonely(properties, key))
@@ -201,7 +207,7 @@ static void note_property(hr2di_geojson *reader, const json_t *properties, const
     return;
   }
   const meant *m = find_near(s.text);
-  if (m && !has(properties, m->instead))
+  if (m && !has(properties, m->instead) && !is_paint(properties, key))
     hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, reader->label, m->advice);
 }
 
@@ -249,6 +255,14 @@ static void note_scene_member(hr2di_geojson *reader, const json_t *members, cons
                     "\"medium\", \"period\", \"sky\", \"sun\" and \"wavelengths\"");
 }
 
+static void note_sun_member(hr2di_geojson *reader, const json_t *sun, const char *key) {
+  static const char *const of_sun[] = {"bearing", "direction", "irradiance"};
+  (void)sun;
+  if (!find(of_sun, COUNT(of_sun), key))
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, "hr2d: sun",
+                    "members of \"sun\" are \"bearing\" or \"direction\", and \"irradiance\"");
+}
+
 /* RFC 7946 knows no "crs"; GeoJSON of 2008 does, and some tools write it. */
 static void note_crs(hr2di_geojson *reader, const json_t *root) {
   const json_t *crs = json_object_get(root, "crs");
@@ -263,8 +277,9 @@ static void note_crs(hr2di_geojson *reader, const json_t *root) {
 hr2d_status hr2di_geojson_note_root(hr2di_geojson *reader, const json_t *root) {
   note_crs(reader, root);
   hr2d_status status = each(reader, root, note_root_member);
-  if (status) return status;
-  return each(reader, hr2di_geojson_member(root, "hr2d"), note_scene_member);
+  const json_t *scene = hr2di_geojson_member(root, "hr2d");
+  if (!status) status = each(reader, scene, note_scene_member);
+  return status ? status : each(reader, hr2di_geojson_member(scene, "sun"), note_sun_member);
 }
 
 hr2d_status hr2di_geojson_note_feature(hr2di_geojson *reader, const json_t *feature) {

@@ -1,24 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fronts that no light reaches, and scenes in which light is not absorbed. */
+/* Scenes without light, and those in which light is not absorbed. */
 #include "lint/lint-impl.h"
-
-static hr2d_warning about(hr2d_warning_code code, size_t patch) {
-  return (hr2d_warning){.code = code, .patches = 1, .patch = {patch}};
-}
-
-static hr2d_status warn_of_dark(const hr2di_lint *lint) {
-  const hr2d_scene *scene = lint->scene;
-  hr2d_status status = HR2D_OK;
-  for (size_t k = 0; k < hr2di_scene_cell(scene) && scene->dark && !status; k++) {
-    status = hr2di_watch_work(lint->watch, 1);
-    if (!status && scene->dark[k])
-      status = hr2di_lint_warn(
-          lint, about(HR2D_WARNING_UNLIT, k),
-          "no light reaches the front of %s: if it should see the light, " HR2DI_LINT_TURN,
-          hr2di_patch_label(scene, k).text);
-  }
-  return status;
-}
 
 static int absorbs(const hr2d_scene *scene, size_t band) {
   size_t k = 0;
@@ -47,7 +29,6 @@ hr2d_status hr2di_lint_light(const hr2di_lint *lint) {
         "no patch emits, and there is neither a background nor a sun, so that B is 0 "
         "everywhere: write \"emission\" or \"temperature\", or a \"background\" or a \"sun\" "
         "in \"hr2d\"");
-  if (!status && lit) status = warn_of_dark(lint);
   if (!status) status = hr2di_lint_views(lint);
   return status ? status : warn_of_no_absorber(lint);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What fronts see: nothing, no sky although there is one, or the black back of a patch. */
+/* What fronts see: no light, nothing, no sky although there is one, or the black back of a
+   patch. */
 #include <stdio.h>
 
 #include "base/alloc.h"
@@ -32,17 +33,27 @@ static int emits(const hr2d_scene *scene, size_t patch) {
   return 0;
 }
 
+static int is_reversed(const hr2d_scene *scene, size_t patch, size_t other) {
+  const hr2d_segment s = hr2d_scene_segment(scene, patch), o = hr2d_scene_segment(scene, other);
+  return s.a.x == o.b.x && s.a.y == o.b.y && s.b.x == o.a.x && s.b.y == o.a.y;
+}
+
 /* Another patch has the other side of its wall, as where two houses that are seen from outside
-   have a wall in common: its front is inside of the other house, and nothing is wrong. */
-static int has_other_side(const views *v, size_t patch) {
+   have a wall in common, or a cupboard stands at a wall: its front is inside of the other house
+   or of the wall, and nothing is wrong.  With `longer` a patch between the same ends does not
+   count: it may be the same wall, drawn twice. */
+static int has_other_side(const views *v, size_t patch, int longer) {
   const hr2di_side_parts *p = &v->in->parts;
+  if (!p->wanted) return 0;
   const hr2di_parts of = p->of_patch[patch];
   for (uint32_t k = of.first; k < of.last; k++) {
     const hr2di_wall_side side = p->part[k].side;
     if (p->part[k].patch != patch || side == HR2DI_HIDDEN) continue;
     const hr2di_parts other = p->of_side[side ^ 1].parts;
     for (uint32_t m = other.first; m < other.last; m++)
-      if (p->part[m].patch != HR2DI_NOBODY) return 1;
+      if (p->part[m].patch != HR2DI_NOBODY &&
+          !(longer && is_reversed(v->in, patch, p->part[m].patch)))
+        return 1;
   }
   return 0;
 }
@@ -82,6 +93,20 @@ static int is_back_seen(const views *v, size_t patch) {
   return v->back.viewers && v->back.viewers[patch];
 }
 
+static hr2d_status warn_of_dark(const views *v) {
+  const hr2d_scene *scene = v->lint->scene;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < hr2di_scene_cell(scene) && scene->dark && v->lit && !status; k++) {
+    status = hr2di_watch_work(v->lint->watch, 1);
+    if (status || !scene->dark[k] || has_other_side(v, k, 1)) continue;
+    status = hr2di_lint_warn(
+        v->lint, (hr2d_warning){.code = HR2D_WARNING_UNLIT, .patches = 1, .patch = {k}},
+        "no light reaches the front of %s: if it should see the light, " HR2DI_LINT_TURN,
+        hr2di_patch_label(scene, k).text);
+  }
+  return status;
+}
+
 /* A patch whose front sees nothing is told once, not for its back, too. */
 static hr2d_status warn_of_back(const views *v, size_t patch) {
   const hr2d_scene *scene = v->lint->scene;
@@ -111,7 +136,7 @@ static hr2d_status look_from(const views *v, size_t patch) {
   int sees = 1;
   hr2d_status status = hr2di_watch_work(v->lint->watch, 1);
   const int asked = v->sky || emits(scene, patch) || (!v->lit && is_back_seen(v, patch));
-  if (!status && asked && !(v->sky && has_other_side(v, patch)))
+  if (!status && asked && !(v->sky && has_other_side(v, patch, 0)))
     status = hr2di_sees_anything(v->viewer, patch,
                                  HR2DI_LOOK_FRONTS | (v->sky ? HR2DI_LOOK_SKY : 0), &sees);
   if (!status && !sees) return warn_of_nothing(v, patch);
@@ -143,7 +168,8 @@ static hr2d_status look(views *v) {
   return status ? status : warn_of_no_sky(v);
 }
 
-/* Where it is unclear how patches cross, there is no plane to look through, and no warning. */
+/* Where it is unclear how patches cross, there is no plane to look through, and no warning but
+   of patches without light. */
 hr2d_status hr2di_lint_views(const hr2di_lint *lint) {
   const hr2d_scene *scene = lint->scene;
   views v = {.lint = lint,
@@ -153,6 +179,7 @@ hr2d_status hr2di_lint_views(const hr2di_lint *lint) {
   hr2d_status status = hr2di_with_plane_init(&w, scene, &scene->alloc, lint->watch);
   w.scene.effect[HR2D_EFFECT_OCCLUSION].on = 1;
   v.in = &w.scene;
+  if (!status) status = warn_of_dark(&v);
   if (!status && w.scene.parts.wanted) {
     status = hr2di_viewer_create(&w.scene, &scene->alloc, lint->watch, &v.viewer);
     if (!status) status = look(&v);

@@ -116,6 +116,15 @@ static void draw_plate(drawing *d) {
          at[k + 1][1]);
 }
 
+/* A room with a cupboard at a wall and an inner wall on the floor, which have no light behind.
+ */
+static void draw_furniture(drawing *d) {
+  begin(d, "");
+  box(d, "\"emission\":0.1,\"reflectance\":0.5,\"color\":\"#ff0000\"", 0, 0, 5, 4);
+  box(d, OUT, 0, 3, .6, 1);
+  box(d, OUT, 2, 0, .1, 3);
+}
+
 /* A section of a street: ground, fronts of houses, roofs, balconies of both sides. */
 static void draw_street(drawing *d) {
   begin(d, "\"background\":100");
@@ -169,6 +178,9 @@ START_TEST(real_drawings_have_no_warning) {
   case 8:
     draw_panels(d, 0);
     break;
+  case 9:
+    draw_furniture(d);
+    break;
   default:
     draw_panels(d, 1);
   }
@@ -190,6 +202,6 @@ START_TEST(all_houses_that_look_in_are_one_warning) {
 END_TEST
 
 TEST_SUITE("drawings") {
-  REPEAT_TESTS(10, "controls", real_drawings_have_no_warning);
+  REPEAT_TESTS(11, "controls", real_drawings_have_no_warning);
   ADD_TESTS("mistakes", all_houses_that_look_in_are_one_warning);
 }

@@ -240,6 +240,10 @@ static const mistake mistakes[] = {
      WITH("\"hr2d\":{\"period\":[5,0],\"sun\":{\"bearing\":[-40,-89.99],\"irradiance\":5}}",
           LINE("", "[[0,0],[5,0]]") "," LINE("\"sides\":\"both\"", "[[1,1],[2,1]]")),
      HR2D_WARNING_LOW_SUN, "sun 1 is so low that it shines past more than"},
+    {"a member of the sun",
+     WITH("\"hr2d\":{\"sun\":{\"bearing\":20,\"elevation\":30,\"irradiance\":800}}",
+          LINE("", "[[0,0],[5,0]]")),
+     HR2D_WARNING_IGNORED, "hr2d: sun: \"elevation\" is not used: members of \"sun\""},
 };
 
 typedef struct hits {
