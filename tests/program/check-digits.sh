@@ -225,6 +225,24 @@ awk 'BEGIN {
 run solve "$work/many.geojson" --time-budget 1e-6
 check "a budget of time includes the reading of the scene" \
   matches 1 'the time does not suffice to read the scene$'
+# To look for warnings takes several times as long as to check a fan of walls, so that one of the
+# doubled budgets ends in between.
+awk 'BEGIN {
+  print "{\"type\": \"FeatureCollection\", \"hr2d\": {\"background\": 1}, \"features\": ["
+  for (k = 0; k < 2000; k++) {
+    c = cos(0.00314 * (k + 0.3)); s = sin(0.00314 * (k + 0.3))
+    printf "%s{\"type\": \"Feature\", \"properties\": {\"sides\": \"both\"}, \"geometry\":", k ? "," : ""
+    printf "{\"type\": \"LineString\", \"coordinates\": [[%.9f, %.9f], [%.9f, %.9f]]}}\n", c, s, 8 * c, 8 * s
+  }
+  print "]}"
+}' >"$work/fan.geojson"
+late='the time does not suffice to look for all warnings'
+for budget in 0.1 0.2 0.4 0.8 1.6 3.2 6.4 12.8; do
+  run solve "$work/fan.geojson" --time-budget $budget --json "$work/t.json"
+  grep -q "$late" "$work/err" && break
+done
+check "warnings that were not looked for are told" grep -q "^hr2d: .*: $late" "$work/err"
+check "also in JSON" grep -q '"code": "unfinished"' "$work/t.json"
 run solve "$scenes/partition.geojson" --target-error 1e-14 --time-budget 0.5 --json "$work/t.json" --quiet
 check "a budget of half a second: $(value total "$work/t.json")" \
   small "$(value total "$work/t.json")" 2
