@@ -225,19 +225,37 @@ awk 'BEGIN {
 run solve "$work/many.geojson" --time-budget 1e-6
 check "a budget of time includes the reading of the scene" \
   matches 1 'the time does not suffice to read the scene$'
+# To look for warnings takes several times as long as to check a fan of walls, so that one of the
+# doubled budgets ends in between.
+awk 'BEGIN {
+  print "{\"type\": \"FeatureCollection\", \"hr2d\": {\"background\": 1}, \"features\": ["
+  for (k = 0; k < 2000; k++) {
+    c = cos(0.00314 * (k + 0.3)); s = sin(0.00314 * (k + 0.3))
+    printf "%s{\"type\": \"Feature\", \"properties\": {\"sides\": \"both\"}, \"geometry\":", k ? "," : ""
+    printf "{\"type\": \"LineString\", \"coordinates\": [[%.9f, %.9f], [%.9f, %.9f]]}}\n", c, s, 8 * c, 8 * s
+  }
+  print "]}"
+}' >"$work/fan.geojson"
+late='the time does not suffice to look for all warnings'
+for budget in 0.1 0.2 0.4 0.8 1.6 3.2 6.4 12.8; do
+  run solve "$work/fan.geojson" --time-budget $budget --json "$work/t.json"
+  grep -q "$late" "$work/err" && break
+done
+check "warnings that were not looked for are told" grep -q "^hr2d: .*: $late" "$work/err"
+check "also in JSON" grep -q '"code": "unfinished"' "$work/t.json"
 run solve "$scenes/partition.geojson" --target-error 1e-14 --time-budget 0.5 --json "$work/t.json" --quiet
 check "a budget of half a second: $(value total "$work/t.json")" \
   small "$(value total "$work/t.json")" 2
 
 # ---- errors that are not measured
 succeeds solve "$narrow" --no-error --json "$work/t.json"
-check "no error, no line" lacks '^error' "$work/out"
+check "no error is told" grep -q '^error     not measured$' "$work/out"
 for key in estimate bound sup_estimate sup_bound; do
   check "no error: $key" grep -q "^    \"$key\": null" "$work/t.json"
   check "nor of H: $key" grep -q "^      \"$key\": null" "$work/t.json"
 done
 succeeds solve "$scenes/square-room.geojson" --target-error 1e-8 --no-error --json "$work/t.json"
-check "no error of a target, no line" lacks '^error' "$work/out"
+check "no error of a target is told" grep -q '^error     not measured$' "$work/out"
 check "and none in the file" grep -q '^    "bound": null' "$work/t.json"
 check "but digits" small "$(true_error square_rho0.9 "$work/t.json")" 1e-8
 unmeasured=$(value kernels "$work/t.json")
@@ -378,6 +396,11 @@ sed 's/{"background": 2}/{"background": 2, "sun": {"bearing": 30, "irradiance": 
 expect 1 "^hr2d: .*: factors: equal pieces do not know sun and sky\$" \
   cost "$work/sun.geojson" --methods factors,size --max-seconds 1
 check "the other method has its rows" grep -q '^size ' "$work/out"
+# Of the two methods one is ready after hundredths of a second, the other after many seconds.
+succeeds cost "$scenes/occluders-200.geojson" --methods size,l1-grid --max-seconds 1
+check "the method in time has rows" grep -q '^size  *16 ' "$work/out"
+check "the method without a row is told" grep -q \
+  '^hr2d: .*: l1-grid has no row: its share of the time, 0.5 s, .*--max-seconds$' "$work/err"
 if command -v gnuplot >/dev/null 2>&1; then
   for against in seconds links,seconds,bytes; do
     succeeds cost "$far" --methods size,auto,factors --max-seconds 1 --quiet --against $against \

@@ -15,10 +15,10 @@
 #include "output/progress.h"
 
 /* What may be the reason why a scene is refused. */
-static void warn_of_refused(const options *o, const hr2d_scene *scene) {
+static void warn_of_refused(const options *o, const hr2d_scene *scene, double deadline) {
   warnings w;
   if (!(o->command & (INFO | SOLVE))) return;
-  warnings_find(o, scene, &w);
+  warnings_find(o, scene, deadline, &w);
   warnings_release(&w);
 }
 
@@ -57,7 +57,7 @@ int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cut
   if (o->snap > 0 && !status && !o->quiet) tell_snapped(o, &snapped);
   if (!status) return 0;
   if (status != HR2D_STOPPED && status != HR2D_ENOMEM && *scene && hr2d_scene_patches(*scene))
-    warn_of_refused(o, *scene);
+    warn_of_refused(o, *scene, deadline);
   const int code =
       p.late ? complain(o->scene, "the time does not suffice to %s the scene",
                         hr2d_scene_patches(*scene) ? "check" : "read")

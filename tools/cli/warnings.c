@@ -46,20 +46,37 @@ static size_t count_rest(const finder *f) {
   return count;
 }
 
-int warnings_find(const options *o, const hr2d_scene *scene, warnings *w) {
+/* JSON has it in the place of the warnings that are missing. */
+static int tell_late(const finder *f) {
+  static const char text[] = "the time does not suffice to look for all warnings";
+  json_t *object = json_object();
+  json_put(&object, "code", json_text("unfinished"));
+  json_put(&object, "patches", json_array());
+  json_put(&object, "at", json_null());
+  json_put(&object, "gap", json_null());
+  json_put(&object, "text", json_text(text));
+  json_push(&f->w->list, object);
+  if (f->loud) complain(f->o->scene, "%s: hr2d info shows them", text);
+  return f->o->strict ? EXIT_FAILED : EXIT_DONE;
+}
+
+int warnings_find(const options *o, const hr2d_scene *scene, double deadline, warnings *w) {
   progress p;
   *w = (warnings){.list = json_array()};
   finder f = {.o = o, .scene = scene, .w = w, .loud = !o->quiet || o->strict};
   hr2d_lint_options lint = HR2D_LINT_OPTIONS_INIT;
   progress_start(&p, 1);
+  p.deadline = deadline;
   lint.progress = progress_show;
   lint.progress_ctx = &p;
   const hr2d_status status = hr2d_scene_lint(scene, take, &f, &lint);
   progress_clear(&p);
   progress_end();
-  if (status) return complain_call(o->scene, "", status);
+  const int is_late = status == HR2D_STOPPED && p.late;
+  if (status && !is_late) return complain_call(o->scene, "", status);
   const size_t count = count_rest(&f);
-  if (!count || !o->strict) return 0;
+  const int late = is_late ? tell_late(&f) : EXIT_DONE;
+  if (!count || !o->strict) return late;
   return complain(o->scene, "%zu warning%s with --strict", count, count == 1 ? "" : "s");
 }
 

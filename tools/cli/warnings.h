@@ -14,9 +14,11 @@ typedef struct warnings {
 } warnings;
 
 /* Finds and prints the warnings about a scene, committed or not: some of each code, unless
-   --quiet is given without --strict.  Returns 0, or EXIT_FAILED after a message, also for any
-   warning with --strict; the list has to be released or put into a document in any case. */
-int warnings_find(const options *o, const hr2d_scene *scene, warnings *w);
+   --quiet is given without --strict.  At `deadline`, a clock_seconds() or 0 for never, the
+   search ends, and that is told.  Returns 0, or EXIT_FAILED after a message, also with --strict
+   for any warning or a search that has ended early; the list has to be released or put into a
+   document in any case. */
+int warnings_find(const options *o, const hr2d_scene *scene, double deadline, warnings *w);
 
 void warnings_release(warnings *w);
 

@@ -39,6 +39,7 @@ static hr2d_status time_row(cost *c, const cost_method *m, double target, cost_r
   for (int run = 0, runs = 1; run < runs; run++) {
     const double start = clock_seconds();
     const hr2d_status status = solve_to(c, m, target, row);
+    if (cost_keeps(c, status, run)) break;
     if (status) return status;
     if (!run) runs = pace_repeats(clock_seconds() - start);
     best = fmin(best, row->seconds);

@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/scene.h"
 #include "cost/cost.h"
+#include "output/clock.h"
 #include "output/complain.h"
 
 /* Whether --methods has a method. */
@@ -12,12 +13,26 @@ static int is_wanted(const cost *c, const cost_method *m) {
   return c->options->methods >> m->id & 1;
 }
 
+/* A row that is cut off is not missed, unless it is the first one. */
+static int tell_late(const cost *c, const cost_method *m, size_t first) {
+  if (c->count == first)
+    complain(
+        c->options->scene,
+        "%s has no row: its share of the time, %.3g s, does not suffice for one; give more "
+        "by --max-seconds",
+        cost_method_name(m), c->share);
+  return EXIT_DONE;
+}
+
 static int run_method(cost *c, const cost_method *m) {
   const size_t first = c->count;
   *c->message = '\0';
+  c->line.late = 0;
+  c->line.deadline = clock_seconds() + c->share;
   const hr2d_status status = m->run(c, m);
   progress_clear(&c->line);
   if (!c->quiet) cost_print_rows(c, first);
+  if (status == HR2D_STOPPED && c->line.late) return tell_late(c, m, first);
   if (status == HR2D_STOPPED) return complain_call(c->options->scene, "", status);
   return status ? complain(c->options->scene, "%s: %s", cost_method_name(m),
                            *c->message ? c->message : hr2d_strerror(status))

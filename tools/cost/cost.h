@@ -49,9 +49,14 @@ typedef struct cost {
   size_t count, capacity;
   double share;      /* seconds that each method may take */
   char message[256]; /* why the last method ended early; "" if it did not */
-  progress line;
+  progress line;     /* its deadline ends a method */
   int incomplete;
 } cost;
+
+/* Whether a row that has been timed is kept although a repeat of it was cut off. */
+static inline int cost_keeps(const cost *c, hr2d_status status, int repeat) {
+  return status == HR2D_STOPPED && c->line.late && repeat > 0;
+}
 
 /* reference.c: the solution that all methods are compared with, and predictions of what it
    takes to reach a target error.  Each returns 0 or the exit status. */

@@ -180,10 +180,11 @@ static hr2d_status time_row(cost *c, const cost_method *m, double length, cost_r
     const hr2d_status status = run(&f);
     const double time = clock_seconds() - start;
     if (!k) runs = pace_repeats(time);
-    best = fmin(best, time);
+    if (!status) best = fmin(best, time);
     if (!status) note(&f, m, best, row);
     if (!status) *images = hr2d_scene_images(f.pieces.scene);
     clear(&f);
+    if (cost_keeps(c, status, k)) break;
     if (status) return status;
   }
   return HR2D_OK;

@@ -91,9 +91,10 @@ static hr2d_status time_single(cost *c, const cost_method *m, double epsilon, co
     if (!status) status = solve(c, &t, epsilon);
     const double time = clock_seconds() - start;
     if (!run) runs = pace_repeats(time);
-    best = fmin(best, time);
-    if (!status && run + 1 == runs) *row = make_row(c, m, &t, epsilon, best);
+    if (!status) best = fmin(best, time);
+    if (!status) *row = make_row(c, m, &t, epsilon, best);
     end(&t);
+    if (cost_keeps(c, status, run)) break;
     if (status) return status;
   }
   return HR2D_OK;

@@ -150,7 +150,7 @@ static int solve_and_look(field *f, double start) {
   if (!status || r.inaccurate) {
     int looking = look(f, &r);
     if (!looking) looking = report(f, &r, start);
-    if (!status) status = looking;
+    status = complain_join(status, looking);
   }
   run_release(&r);
   return status;

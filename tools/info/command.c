@@ -169,7 +169,7 @@ int info_command(const options *o) {
   if (status) return status;
   const summary s = summarise(scene);
   warnings w;
-  status = warnings_find(o, scene, &w);
+  status = warnings_find(o, scene, 0, &w);
   if (options_want_table(o)) {
     scene_print(o, 14, cuts);
     print_summary(scene, &s);

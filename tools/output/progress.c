@@ -89,7 +89,7 @@ static void show(progress *p, const hr2d_progress *now) {
 hr2d_status progress_show(void *ctx, const hr2d_progress *now) {
   progress *p = ctx;
   if (!strcmp(now->phase, "coefficients")) p->coefficients = clock_seconds();
-  p->late = p->deadline > 0 && clock_seconds() > p->deadline;
+  p->late = !stopped && p->deadline > 0 && clock_seconds() > p->deadline;
   if (stopped || p->late) return HR2D_STOPPED;
   if (p->wanted && progress_due(p)) show(p, now);
   return HR2D_OK;

@@ -13,7 +13,7 @@ typedef struct progress {
   unsigned step, steps; /* of a sequence; steps ≤ 1 is not shown */
   double coefficients;  /* clock_seconds() when the library last reported this phase */
   double deadline;      /* clock_seconds() when progress_show() ends the call; 0: never */
-  int late;             /* it did */
+  int late;             /* it did, and no interrupt */
 } progress;
 
 /* From now on the first interrupt makes progress_show() return HR2D_STOPPED.  A second one ends

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* `hr2d solve`: the outputs are checked before the work starts. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "cli/commands.h"
@@ -78,6 +79,12 @@ static int run_and_report(run *r) {
   return status;
 }
 
+/* Half of the time that is left: the solution is what was asked for. */
+static double warnings_deadline(const options *o, double start) {
+  const double now = clock_seconds(), left = start + o->time_budget - now;
+  return o->time_budget > 0 ? now + fmax(left, 0) / 2 : 0;
+}
+
 static int solve_places(const options *o, const hr2d_scene *scene, size_t cuts, double start,
                         const run_shares *shares, size_t *patches) {
   warnings w;
@@ -85,7 +92,7 @@ static int solve_places(const options *o, const hr2d_scene *scene, size_t cuts, 
   if (status) return status;
   status = draw_check_scene(o, scene);
   if (status) return status;
-  status = warnings_find(o, scene, &w);
+  status = warnings_find(o, scene, warnings_deadline(o, start), &w);
   run r = {.options = o,
            .scene = scene,
            .cuts = cuts,

@@ -81,6 +81,20 @@ if [ -n "$plot" ]; then
   PATH=$work/bin:$PATH
   ends_soon TERM --foreground study "$scene" --steps 2 --quiet --plot "$new/x.svg"
 fi
+# A target that is missed is told before the field is looked at, 16 million views.
+make_old
+"$HR2D_PROGRAM" field "$scenes/screened-room.geojson" --target-error 1e-18 --grid 4000x4000 \
+  --csv "$new/x.csv" >"$work/out" 2>"$work/err" </dev/null &
+child=$!
+for _ in $(seq 600); do
+  [ ! -s "$work/err" ] || break
+  sleep 0.1
+done
+kill -TERM "$child"
+wait "$child"
+status=$?
+check "a target is missed; $(said)" grep -q '; the error is about ' "$work/err"
+check "an interrupt after that ends with 130; $(said)" [ "$status" -eq 130 ]
 make_old
 trap '' HUP
 "$HR2D_PROGRAM" solve "$scene" --eps 0.005 --no-error --json "$new/x.json" \
