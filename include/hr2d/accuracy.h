@@ -102,10 +102,11 @@ typedef struct hr2d_target {
                                 through `seconds` */
   uint64_t max_elements;   /**< budget for N; 0 for none */
   uint64_t max_links;      /**< budget for L; 0 for none */
-  uint64_t max_bytes;      /**< budget for elements, links and their blocks, also of the best
-                                solve so far while the next one is made, and for the work
-                                space of a refinement; 0 for none. The fields of a solve, some
-                                hundred bytes a coefficient, come on top. Without a budget
+  uint64_t max_bytes;      /**< budget for elements, links and their blocks, for the fields of
+                                a solve and its account, some hundred bytes for each band of a
+                                coefficient, for the best solve so far while the next one is
+                                made, and for the work space of a refinement; 0 for none. The
+                                scene and its events come on top. Without a budget
                                 what patches see of each other is kept during the call, in up
                                 to 1 GiB, which saves some percent of the time */
   hr2d_progress_fn progress; /**< optional */

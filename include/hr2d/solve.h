@@ -284,6 +284,13 @@ HR2D_API const hr2d_linkset *hr2d_solution_links(const hr2d_solution *solution);
 HR2D_API const double *hr2d_solution_field(const hr2d_solution *solution);
 
 /**
+ * The size of hr2d_solution_field().
+ * @param solution  a solution
+ * @return how many numbers it has: elements at the solve × order × bands; 0 for NULL
+ */
+HR2D_API size_t hr2d_solution_field_size(const hr2d_solution *solution);
+
+/**
  * The average of B over an element.
  * @param solution  a solution
  * @param element   number of an element that existed at the solve

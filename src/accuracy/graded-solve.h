@@ -83,4 +83,7 @@ uint64_t hr2di_graded_block_bytes(const hr2di_resolution *fineness, int no_error
 /* Bytes of the elements, links and blocks. */
 uint64_t hr2di_graded_bytes(const hr2di_graded *answer);
 
+/* Bytes of B and H of its solution. */
+uint64_t hr2di_graded_solution_bytes(const hr2di_graded *answer);
+
 #endif

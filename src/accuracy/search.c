@@ -144,7 +144,10 @@ hr2d_status hr2di_search_sketch(hr2di_search *s) {
   const double all = s->deadline > 0 ? s->given.seconds : HUGE_VAL;
   const size_t patches = s->scene->patches;
   if (s->given.max_elements && s->given.max_elements < patches) return HR2D_OK;
-  if (s->given.max_bytes && s->given.max_bytes / HR2DI_ELEMENT_BYTES < patches) return HR2D_OK;
+  /* An element has B, H, the light from outside and that of a sweep. */
+  const double least =
+      (double)patches * (HR2DI_ELEMENT_BYTES + 4.0 * (double)s->scene->bands * sizeof(double));
+  if (s->given.max_bytes && (double)s->given.max_bytes < least) return HR2D_OK;
   hr2d_status status = hr2di_sketch(
       &answer, s->scene, &s->given,
       (hr2di_sketch_times){s->start + FACTORS * all, s->start + SKETCH * all}, &late);
@@ -159,7 +162,10 @@ hr2d_status hr2di_search_sketch(hr2di_search *s) {
 /* What the best solve so far holds is not there for another. */
 static hr2d_target rest_of_budget(const hr2di_search *s) {
   hr2d_target target = s->target;
-  const uint64_t held = s->best.hierarchy && s->best.links ? hr2di_graded_bytes(&s->best) : 0;
+  const hr2di_graded *best = &s->best;
+  const uint64_t held = best->hierarchy && best->links
+                            ? hr2di_graded_bytes(best) + hr2di_graded_solution_bytes(best)
+                            : 0;
   if (target.max_bytes)
     target.max_bytes = held < target.max_bytes ? target.max_bytes - held : 1;
   return target;

@@ -37,6 +37,11 @@ const double *hr2d_solution_field(const hr2d_solution *solution) {
   return solution->value;
 }
 
+size_t hr2d_solution_field_size(const hr2d_solution *solution) {
+  if (!solution) return 0;
+  return solution->elements * solution->order * solution->bands;
+}
+
 double hr2d_solution_element(const hr2d_solution *solution, uint32_t element, size_t band) {
   if (!solution || element >= solution->elements || band >= solution->bands) return NAN;
   return light(average(solution, solution->value, element, band));

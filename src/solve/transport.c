@@ -24,8 +24,8 @@ enum { MOST_SLICES = 16, SLICE_BLOCKS = 64, MOST_BLOCK_SLICES = 8 };
 enum { SLICE_PRODUCTS = 8, SLICE_WORTH = 100000 };
 
 /* Depends on the links alone, as the order of sums does. */
-static size_t count_slices(const hr2d_linkset *links) {
-  const size_t order = links->hierarchy->order, elements = links->hierarchy->elements;
+size_t hr2di_transport_slices(const hr2d_linkset *links, size_t order) {
+  const size_t elements = links->hierarchy->elements;
   const uint64_t products = 2 * links->store.count * order; /* per coefficient and band */
   if (links->share) return 1;
   uint64_t slices = 1 + hr2di_store_chunks(&links->store) / SLICE_BLOCKS, most = MOST_SLICES;
@@ -48,7 +48,7 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
                          .bands = h->scene->bands,
                          .width = h->order * h->scene->bands,
                          .elements = h->elements,
-                         .slices = count_slices(links),
+                         .slices = hr2di_transport_slices(links, h->order),
                          .threads = threads,
                          .watch = watch};
   /* The width of a field may overflow a size_t of 32 bits.  No field is larger than those

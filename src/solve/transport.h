@@ -50,6 +50,9 @@ static inline size_t hr2di_transport_room(const hr2di_transport *t) {
   return (t->elements + 1) * t->width;
 }
 
+/* The copies of `down` that the operator of an order has. */
+size_t hr2di_transport_slices(const hr2d_linkset *links, size_t order);
+
 /* Sets up the operator at the order of the hierarchy; above 1 the links must have blocks.
    Returns HR2D_OK, HR2D_ENOMEM or the status of the watch.  Call hr2di_transport_clear() in any
    case. */

@@ -90,8 +90,9 @@ END {
     if (c == "}") depth--
     if (c == ";" && depth == 0) { statement(trim(one)); one = "" } else one = one c
   }
-  print "static const struct call {\n  const char *name;\n  int (*make)(stage *s, int *k);\n} calls[] = {"
-  for (k = 1; k <= functions; k++) printf "  {\"%s\", call_%s},\n", name_of[k], name_of[k]
+  print "static const struct call {\n  const char *name;\n  int (*make)(stage *s, int *k);\n  int changes; /* an object of the stage */\n} calls[] = {"
+  for (k = 1; k <= functions; k++)
+    printf "  {\"%s\", call_%s, %d},\n", name_of[k], name_of[k], changes[name_of[k]]
   print "};"
 }
 
@@ -168,6 +169,7 @@ function member(name, type, n) {
 }
 
 function parameter(f, type, n,    bare, value) {
+  if (type ~ /^hr2d_(scene|hierarchy|linkset|solution|clusters|exchange_rows) \*$/) changes[f] = 1
   bare = type; sub(/^const /, "", bare); sub(/ \*$/, "", bare)
   if ((f "." n) in good) value = good[f "." n]
   else if (type in good) value = good[type]

@@ -193,28 +193,48 @@ stage *stage_make(void) {
   return s;
 }
 
-void stage_end(stage *s) {
+static void destroy_made(stage *s) {
   hr2d_clusters_destroy(s->made_clusters);
-  hr2d_clusters_destroy(s->clusters);
   hr2d_exchange_rows_destroy(s->made_rows);
-  hr2d_exchange_rows_destroy(s->rows);
   hr2d_solution_destroy(s->made_solution);
+  hr2d_linkset_destroy(s->made_links);
+  hr2d_hierarchy_destroy(s->made_hierarchy);
+  hr2d_scene_destroy(s->made_scene);
+  s->made_clusters = NULL;
+  s->made_rows = NULL;
+  s->made_solution = NULL;
+  s->made_links = NULL;
+  s->made_hierarchy = NULL;
+  s->made_scene = NULL;
+  while (s->cuts) free(s->cut[--s->cuts]);
+}
+
+void stage_renew(stage *s) {
+  destroy_made(s);
+  memset(s->number, 0, sizeof s->number);
+  memset(s->field, 0, sizeof s->field);
+  memset(s->index, 0, sizeof s->index);
+  s->size = 0;
+  make_arrays(s);
+  make_structs(s);
+}
+
+void stage_end(stage *s) {
+  destroy_made(s);
+  hr2d_clusters_destroy(s->clusters);
+  hr2d_exchange_rows_destroy(s->rows);
   hr2d_solution_destroy(s->solution);
   hr2d_solution_destroy(s->other);
-  hr2d_linkset_destroy(s->made_links);
   hr2d_linkset_destroy(s->free_links);
   hr2d_linkset_destroy(s->links);
   hr2d_linkset_destroy(s->other_links);
-  hr2d_hierarchy_destroy(s->made_hierarchy);
   hr2d_hierarchy_destroy(s->free_hierarchy);
   hr2d_hierarchy_destroy(s->hierarchy);
   hr2d_hierarchy_destroy(s->other_hierarchy);
-  hr2d_scene_destroy(s->made_scene);
   hr2d_scene_destroy(s->mirrored);
   hr2d_scene_destroy(s->empty);
   hr2d_scene_destroy(s->drawn);
   hr2d_scene_destroy(s->scene);
-  while (s->cuts) free(s->cut[--s->cuts]);
   free(s->state.byte);
   free(s->scene_state.byte);
   free(s);

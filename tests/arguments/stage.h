@@ -76,6 +76,10 @@ typedef struct stage {
 stage *stage_make(void);
 void stage_end(stage *s);
 
+/* After a call that changed no object of the stage: what it made is gone, and all arguments are
+   good again.  Objects take much longer to make than most calls. */
+void stage_renew(stage *s);
+
 /* The first bytes of a struct with `struct_size`, which says so, in a block of so many bytes,
    and no less than that member has. */
 void *cut(stage *s, const void *whole, size_t size);

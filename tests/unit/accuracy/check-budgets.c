@@ -2,7 +2,10 @@
 /* A budget always returns an answer: down to one constant per patch over the factors that were
    ready, whose error is unknown. */
 #include <math.h>
+#include <stdatomic.h>
+#include <string.h>
 
+#include "support/memory.h"
 #include "support/support.h"
 
 /* A room with three boxes. */
@@ -148,7 +151,68 @@ START_TEST(bytes_are_for_blocks) {
 }
 END_TEST
 
+static hr2d_scene *room_of_bands(size_t bands, const hr2d_allocator *alloc) {
+  enum { PER_WALL = 8, MOST_BANDS = 256 };
+  static const double x[] = {0, 1, 1, 0, 0}, y[] = {0, 0, 1, 1, 0};
+  double emission[MOST_BANDS], reflectance[MOST_BANDS];
+  hr2d_scene *scene;
+  ck_assert_uint_le(bands, MOST_BANDS);
+  for (size_t b = 0; b < bands; b++) {
+    emission[b] = (double)(1 + b % 7);
+    reflectance[b] = 0.5 + 0.4 * (double)(b % 5) / 5;
+  }
+  ck_assert_int_eq(hr2d_scene_create(alloc, &scene), HR2D_OK);
+  for (int k = 0; k < 4 * PER_WALL; k++) {
+    const int w = k / PER_WALL;
+    const double from = (double)(k % PER_WALL) / PER_WALL, to = from + 1.0 / PER_WALL;
+    const double dx = x[w + 1] - x[w], dy = y[w + 1] - y[w];
+    hr2d_patch patch = HR2D_PATCH_INIT;
+    patch.a = (hr2d_point){x[w] + from * dx, y[w] + from * dy};
+    patch.b = (hr2d_point){x[w] + to * dx, y[w] + to * dy};
+    patch.reflectance = reflectance;
+    patch.reflectance_bands = bands;
+    if (k == 0) patch.emission = emission;
+    if (k == 0) patch.emission_bands = bands;
+    ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
+  }
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  return scene;
+}
+
+/* Fields of many bands are in the budget, and the reason names them; with a budget of four
+   times what is refused there is an answer of the target. */
+START_TEST(bytes_are_for_fields) {
+  enum { SLACK = 300000 }; /* for what is not counted: the survey and lists of a refinement */
+  const size_t bands = 256;
+  test_meter meter = {0};
+  const hr2d_allocator hooks = test_metered(&meter);
+  hr2d_scene *scene = room_of_bands(bands, &hooks);
+  const long long before = atomic_load(&meter.held);
+  int refused = 0, reached = 0;
+  for (uint64_t most = 1000000; most < 100000000; most *= 2) {
+    hr2d_target target = HR2D_TARGET_INIT;
+    hr2d_solution *solution;
+    hr2d_account a;
+    target.error = 1e-4;
+    target.max_bytes = most;
+    target.no_error = _i;
+    atomic_store(&meter.peak, before);
+    const hr2d_status status = hr2d_solve_to(scene, &target, &solution, &a);
+    ck_assert(status == HR2D_OK || status == HR2D_EACCURACY);
+    ck_assert_int_le(atomic_load(&meter.peak) - before, (long long)most + SLACK);
+    if (status) ck_assert_msg(strstr(a.reason, "for fields of 256 bands"), "%s", a.reason);
+    refused += status == HR2D_EACCURACY;
+    reached += status == HR2D_OK;
+    hr2d_solution_destroy(solution);
+  }
+  ck_assert_int_gt(refused, 0);
+  ck_assert_int_gt(reached, 0);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 TEST_SUITE("budgets") {
   ADD_TESTS("answers", some_factors, no_time, all_factors, too_small_for_patches,
             bytes_are_for_blocks);
+  REPEAT_TESTS(2, "fields", bytes_are_for_fields);
 }

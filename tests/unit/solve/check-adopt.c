@@ -35,6 +35,7 @@ START_TEST(a_solution_is_found_again) {
   hr2d_solution *one = NULL, *other = NULL;
   ck_assert_int_eq(hr2d_solve(t.links, NULL, &one), HR2D_OK);
   const size_t count = fields_of(&t);
+  ck_assert_uint_eq(hr2d_solution_field_size(one), count);
   double *field = malloc(count * sizeof *field);
   const size_t width = count / (size_t)hr2d_hierarchy_count(t.hierarchy).elements;
   for (size_t k = 0; k < count; k++) /* what inner elements have is not read */
