@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Averages sum up what residuals do everywhere, with signs, and may be small by chance.  With
    the importance Z of one average, Z = s + KρZ, the sum Σ A |⟨r,Z⟩| over leaves has no signs.
-   Of |⟨r,Z⟩| the coefficients from p on count with the product of their norms, as those of a
-   kink at a bad place cancel, too.  The root of the sum of the squares of these products is the
-   size of the error with random signs.
+   Where views change the coefficients from p on count with the product of their norms, as those
+   of a kink at a bad place cancel, too.  The root of the sum of the squares of these products
+   is the size of the error with random signs.
 
    For an average of B, s is 1/(A B̄) on the patch; Y = ρZ is the radiosity of a source ρs.  For
    one of H, s is K of 1/(A H̄); Y = 1/(A H̄) + ρZ is the radiosity of a source 1/(A H̄), and Z is
@@ -89,30 +89,29 @@ static void set_source(hr2di_estimator *e, int choice) {
   }
 }
 
-/* A |⟨r,Z⟩| on a leaf for the averages of B and of H: what the solve has left, and at most that
-   of the coefficients from p on. */
+/* A |⟨r,Z⟩| on a leaf for the averages of B and of H: what the solve has left, and that of the
+   coefficients from p on, where there may be kinks at most that. */
 static void term_of(const hr2di_estimator *e, size_t leaf, size_t b, double unit,
                     double left[2], double high[2]) {
   const hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
   const double rho = hr2di_estimator_rho(e, leaf, b), area = eq->weight[leaf * t->order];
-  double rest = 0;
+  double rest = 0, inner[2] = {0, 0};
   for (int h = 0; h < 2; h++) left[h] = high[h] = 0;
   for (size_t l = 0; l < t->order; l++) {
     const size_t k = leaf * t->width + l * t->bands + b;
     const double s = rho > 0 ? eq->source[k] / rho : 0;
     const double z[2] = {unit * (eq->irradiance[k] + s), eq->irradiance[k]};
     for (int h = 0; h < 2; h++) {
-      if (l < e->coarse->order)
-        left[h] += z[h] * e->residual[k];
-      else
-        high[h] = hypot(high[h], z[h]);
+      double *const sum = l < e->coarse->order ? left : inner;
+      sum[h] += z[h] * e->residual[k];
+      if (l >= e->coarse->order) high[h] = hypot(high[h], z[h]);
     }
     if (l >= e->coarse->order) rest = hypot(rest, e->residual[k]);
   }
   for (int h = 0; h < 2; h++) {
     left[h] = area * fabs(left[h]);
-    high[h] *= area * rest;
+    high[h] = area * (e->blind > 0 ? high[h] * rest : fabs(inner[h]));
   }
 }
 
