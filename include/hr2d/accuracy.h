@@ -30,7 +30,7 @@
  * chance: a tenth of the size that they have with random signs is added, in squares. The
  * *bound* has four parts:
  * - a multiple of that size and of the error with its signs: 2.5 times, from 6 to 28 times
- * where views change, 3 times at points at least;
+ *   where views change, 3 times at points at least;
  * - a tenth or more of the largest error of an average without signs;
  * - where views change a quarter of the target: elements are made for a target,
  *   and what kinks inside them make beyond K⁺ is assumed to be below that. Likewise the
