@@ -28,6 +28,9 @@ def _geometry(shape: Any) -> Any:
         if points.ndim != 2 or points.shape[0] < 2 or points.shape[1] < 2:
             raise ValueError("coordinates are two points or more, (x, y) each, not an array of "
                              f"shape {points.shape}")
+        if np.any(np.all(points[1:, :2] == points[:-1, :2], axis=1)):
+            raise SceneError("two points that follow each other are the same: a patch has no "
+                             "length")
         shape = {"type": "LineString", "coordinates": points[:, :2]}
     if shape.get("type") == "LinearRing":
         shape = {**shape, "type": "LineString"}

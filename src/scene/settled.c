@@ -42,10 +42,9 @@ hr2d_status hr2di_settled_create(const hr2d_scene *scene, hr2d_scene **settled) 
   made->patch = hr2di_alloc(&scene->alloc, scene->patches, sizeof *made->patch);
   made->found = hr2di_alloc_zero(&scene->alloc, scene->patches, sizeof *made->found);
   hr2d_status status = made->patch && made->found ? HR2D_OK : HR2D_ENOMEM;
-  for (size_t k = 0; k < scene->patches && !status; k++) {
-    made->patch[k] = scene->patch[k];
+  for (size_t k = 0; k < scene->patches && made->patch; k++) made->patch[k] = scene->patch[k];
+  for (size_t k = 0; k < scene->patches && made->found; k++)
     made->found[k] = (hr2di_found){.estimate = NAN, .bound = NAN};
-  }
   for (size_t k = 0; k < cell && !status; k++) {
     if (!hr2di_scene_has_flux(scene, k)) continue;
     hr2di_light *light = own_light(scene, k);

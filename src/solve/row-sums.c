@@ -332,7 +332,7 @@ void hr2di_row_sums_clear(hr2di_row_sums *rows) {
 
 hr2d_status hr2d_leaf_sums(const hr2d_hierarchy *hierarchy, size_t row_from, size_t row_to,
                            double *front, double *back) {
-  if (!hierarchy || !front) return HR2D_EINVAL;
+  if (!hierarchy) return HR2D_EINVAL;
   const hr2d_allocator *alloc = &hierarchy->alloc;
   const size_t patches = hr2di_scene_cell(hierarchy->scene);
   hr2di_watch watch;

@@ -64,7 +64,8 @@ BEGIN {
     "const hr2d_solve_options *|const hr2d_matrix_options *|const hr2d_clusters_options *|" \
     "const hr2d_field_options *|const hr2d_lint_options *|const hr2d_past_options *|" \
     "scene_add.index|scene_add_thermal.index|scene_split_crossings.cuts|study_run.done|" \
-    "scene_heat.value|hierarchy_divide.child|leaf_sums.back|field_rows_visit.normal", list, "|")
+    "scene_heat.value|hierarchy_divide.child|leaf_sums.front|leaf_sums.back|" \
+    "field_rows_visit.normal", list, "|")
   for (k = 1; k <= n; k++) optional[list[k]] = 1
   required["refine_count.counts"] = required["refine_visit.counts"] = 1
 

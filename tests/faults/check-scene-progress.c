@@ -148,7 +148,8 @@ static hr2d_status count(stage *t) {
 
 static hr2d_status visit(stage *t) {
   const hr2d_refine_options o = coarse();
-  return hr2d_refine_visit(t->new_links, &o, no_links, NULL, NULL);
+  hr2d_refine_counts counts;
+  return hr2d_refine_visit(t->new_links, &o, no_links, NULL, &counts);
 }
 
 static hr2d_status study(stage *t) {
@@ -193,6 +194,11 @@ static hr2d_status predict(stage *t) {
 static hr2d_status find_error(stage *t) {
   hr2d_error error;
   return hr2d_solution_error(t->s.solution, NULL, &error, NULL);
+}
+
+static hr2d_status account(stage *t) {
+  hr2d_account account;
+  return hr2d_solution_account(t->s.solution, NULL, &account);
 }
 
 typedef hr2d_status gather_fn(const hr2d_solution *s, size_t patch, const double *t,
@@ -299,6 +305,7 @@ static const struct {
                   {"hr2d_solve_to, in a time", solve_in_time},
                   {"hr2d_predict", predict},
                   {"hr2d_solution_error", find_error},
+                  {"hr2d_solution_account", account},
                   {"hr2d_solution_gather", gather},
                   {"hr2d_solution_gather_irradiance", gather_irradiance},
                   {"hr2d_solution_gather_net_flux", gather_net_flux},
