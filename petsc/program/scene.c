@@ -40,7 +40,7 @@ static int read_scene(job *j, text *t) {
   warnings w = {0};
   int status = scene_load(j->options, j->options->force, &j->scene, &j->cuts);
   if (status) return status;
-  status = warnings_find(j->options, j->scene, &w);
+  status = warnings_find(j->options, j->scene, 0, &w);
   warnings_release(&w);
   if (!status && hr2d_state_write_scene(j->scene, append, t)) status = complain_memory();
   return status;
