@@ -7,7 +7,7 @@ libhr2d_petsc_la_CPPFLAGS = -DHR2DP_BUILDING -D_POSIX_C_SOURCE=200809L $(PUBLIC_
 	-I$(srcdir)/petsc/include $(PETSC_CFLAGS)
 libhr2d_petsc_la_CFLAGS = $(HR2D_CFLAGS)
 libhr2d_petsc_la_LIBADD = libhr2d.la $(PETSC_LIBS) $(MPI_LIBS) -lm
-libhr2d_petsc_la_LDFLAGS = -version-info 0:0:0 -no-undefined
+libhr2d_petsc_la_LDFLAGS = $(AM_LDFLAGS) -version-info 0:0:0 -no-undefined
 if HAVE_VERSION_SCRIPT
 libhr2d_petsc_la_LDFLAGS += -Wl,--version-script=$(srcdir)/petsc/libhr2d-petsc.map
 libhr2d_petsc_la_DEPENDENCIES = libhr2d.la petsc/libhr2d-petsc.map

@@ -302,7 +302,7 @@ libhr2d_core_la_SOURCES = \
 lib_LTLIBRARIES += libhr2d.la
 libhr2d_la_SOURCES =
 libhr2d_la_LIBADD = libhr2d-core.la
-libhr2d_la_LDFLAGS = -no-undefined -version-info $(HR2D_VERSION_INFO) $(THREADS_LIBS)
+libhr2d_la_LDFLAGS = $(AM_LDFLAGS) -no-undefined -version-info $(HR2D_VERSION_INFO) $(THREADS_LIBS)
 if HAVE_VERSION_SCRIPT
 libhr2d_la_LDFLAGS += -Wl,--version-script=$(srcdir)/src/libhr2d.map
 EXTRA_libhr2d_la_DEPENDENCIES = src/libhr2d.map

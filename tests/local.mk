@@ -164,6 +164,7 @@ OUTSIDE = \
 	tests/program/check-texts.sh \
 	tests/package/check-constants.sh \
 	tests/package/check-exports.sh \
+	tests/package/check-hardening.sh \
 	tests/package/check-headers.sh \
 	tests/package/check-layers.sh \
 	tests/package/check-examples.sh \
@@ -311,6 +312,7 @@ AM_TESTS_ENVIRONMENT = \
 	HR2D_PROGRAM='$(abs_top_builddir)/tools/hr2d$(EXEEXT)'; export HR2D_PROGRAM; \
 	HR2D_EXAMPLES='$(EXAMPLES)'; export HR2D_EXAMPLES; \
 	HR2D_CFLAGS='$(CFLAGS) $(HR2D_CFLAGS) $(LDFLAGS)'; export HR2D_CFLAGS; \
+	HR2D_HARDENING='$(HR2D_HARDENING)'; export HR2D_HARDENING; \
 	CC='$(CC)'; export CC; CXX='$(CXX)'; export CXX; NM='$(NM)'; export NM;
 
 check-long:
