@@ -260,16 +260,27 @@ static const shape *find_shape(const char *type) {
   return NULL;
 }
 
+static int is_collection(const char *type) {
+  return !strcmp(type, "GeometryCollection");
+}
+
 int hr2di_geojson_is_geometry(const json_t *json) {
   const char *type = json_string_value(json_object_get(json, "type"));
-  return type && find_shape(type);
+  return type && (find_shape(type) || is_collection(type));
 }
 
 /* 1 for a single segment; for more than one any number above 1, as only this matters. */
-static size_t count_segments(const json_t *coordinates, const shape *s) {
-  if (s->polygon) return 3;
-  const json_t *line = s->multi ? json_array_get(coordinates, 0) : coordinates;
-  return json_array_size(line) == 2 && (!s->multi || json_array_size(coordinates) == 1) ? 1 : 2;
+static size_t count_segments(const json_t *geometry) {
+  const json_t *members = json_object_get(geometry, "geometries");
+  while (json_array_size(members) == 1) {
+    geometry = json_array_get(members, 0);
+    members = json_object_get(geometry, "geometries");
+  }
+  const char *type = json_string_value(json_object_get(geometry, "type"));
+  const json_t *coordinates = json_object_get(geometry, "coordinates");
+  const shape *s = type ? find_shape(type) : NULL;
+  if (!s || s->polygon || (s->multi && json_array_size(coordinates) != 1)) return 2;
+  return json_array_size(s->multi ? json_array_get(coordinates, 0) : coordinates) == 2 ? 1 : 2;
 }
 
 static hr2d_status add_parts(hr2di_geojson *reader, const json_t *parts, const shape *s) {
@@ -296,8 +307,6 @@ static hr2d_status add_shape(hr2di_geojson *reader, const json_t *coordinates, c
                              : "a geometry has no positions, and adds no patch");
     return HR2D_OK;
   }
-  reader->segments = count_segments(coordinates, s);
-  reader->added = 0;
   if (reader->segments > 1 && reader->patch.name && strlen(reader->patch.name) > MOST_NAME)
     return hr2di_message_fail(
         reader->message, HR2D_ESYNTAX,
@@ -308,7 +317,30 @@ static hr2d_status add_shape(hr2di_geojson *reader, const json_t *coordinates, c
   return (s->polygon ? add_polygon : add_line)(reader, coordinates, "");
 }
 
-hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry) {
+static hr2d_status add_geometry(hr2di_geojson *reader, const json_t *geometry);
+
+/* What a part of the feature is made of has the properties of the feature, and names that go on
+   where those of the part before end.  Messages say which part they mean.  A collection in a
+   collection is no deeper than jansson reads. */
+static hr2d_status add_collection(hr2di_geojson *reader, const json_t *geometries) {
+  const size_t label = strlen(reader->label);
+  if (!json_is_array(geometries))
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: geometries: must be an array of geometries, not %s",
+                              reader->label, hr2di_geojson_kind(geometries));
+  if (json_array_size(geometries) == 0) return add_geometry(reader, NULL);
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; !status && k < json_array_size(geometries); k++) {
+    snprintf(reader->label + label, sizeof reader->label - label, ": geometry %zu", k + 1);
+    const json_t *geometry = json_array_get(geometries, k);
+    status = hr2di_watch_work(reader->watch, 4);
+    if (!status) status = add_geometry(reader, json_is_null(geometry) ? NULL : geometry);
+  }
+  reader->label[label] = '\0';
+  return status;
+}
+
+static hr2d_status add_geometry(hr2di_geojson *reader, const json_t *geometry) {
   if (!geometry) {
     hr2di_notes_add(&reader->notes, HR2D_WARNING_SKIPPED, "empty", reader->label,
                     "a geometry has no positions, and adds no patch");
@@ -318,11 +350,19 @@ hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry
   if (!type)
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "%s: geometry: must be an object with a \"type\"", reader->label);
+  if (is_collection(type))
+    return add_collection(reader, json_object_get(geometry, "geometries"));
   const shape *s = find_shape(type);
   if (!s)
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "%s: geometry: %s has no patches; use LineString, Polygon, "
-                              "MultiLineString or MultiPolygon",
+                              "MultiLineString, MultiPolygon or a GeometryCollection of them",
                               reader->label, hr2di_message_quote(type).text);
   return add_shape(reader, json_object_get(geometry, "coordinates"), s);
+}
+
+hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry) {
+  reader->segments = count_segments(geometry);
+  reader->added = 0;
+  return add_geometry(reader, geometry);
 }

@@ -196,11 +196,13 @@ static hr2d_status fail_overlap(hr2d_scene *scene, size_t i, size_t j, const hr2
                               second.text, first.text, where.text, tolerance);
   const int first_inside = is_between(s, m->from, m->to);
   if (first_inside || is_between(t, m->from, m->to))
-    return hr2di_message_fail(&scene->message, HR2D_ESCENE,
-                              "%s lies on %s%s with its front on the same side, %s: " SNAP,
-                              first_inside ? first.text : second.text,
-                              first_inside ? second.text : first.text, within, where.text,
-                              tolerance);
+    return hr2di_message_fail(
+        &scene->message, HR2D_ESCENE,
+        "%s lies on %s%s with its front on the same side, %s: hr2d_scene_snap() or --snap %.2g "
+        "keeps %s there, which comes first; a door or window that is to be seen comes before "
+        "its wall, and at a hole the wall ends",
+        first_inside ? first.text : second.text, first_inside ? second.text : first.text,
+        within, where.text, tolerance, i < j ? first.text : second.text);
   return hr2di_message_fail(
       &scene->message, HR2D_ESCENE,
       "%s and %s lie on one another%s with their fronts on the same side, %s: " SNAP,

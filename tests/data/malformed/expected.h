@@ -55,7 +55,7 @@ static const struct malformed {
     {"features-object.geojson", HR2D_ESYNTAX, "features: must be an array, not an object"},
     {"garbage-after.geojson", HR2D_ESYNTAX, "line 8, column "},
     {"geometry-collection.geojson", HR2D_ESYNTAX,
-     "feature 2 (\"wall\"): geometry: \"GeometryCollection\" has no patches"},
+     "feature 2 (\"wall\"): geometries: must be an array of geometries, not an object"},
     {"geometry-no-type.geojson", HR2D_ESYNTAX,
      "feature 2 (\"wall\"): geometry: must be an object with a \"type\""},
     {"geometry-string.geojson", HR2D_ESYNTAX,

@@ -206,6 +206,11 @@ static hr2d_status take_skipped(void *ctx, const hr2d_warning *w) {
   return HR2D_OK;
 }
 
+#define GEOMETRY(type, coordinates) "{\"type\":\"" type "\",\"coordinates\":" coordinates "}"
+#define GEOMETRIES(members)         "{\"type\":\"GeometryCollection\",\"geometries\":[" members "]}"
+#define GATHERED(properties, members)                                                          \
+  COLLECTION("{\"type\":\"Feature\",\"properties\":{" properties                               \
+             "},\"geometry\":" GEOMETRIES(members) "}")
 #define LINE_OF(positions) FEATURE("\"name\":\"w\"", "LineString", positions)
 
 START_TEST(what_other_programs_write_is_read) {
@@ -252,6 +257,13 @@ START_TEST(what_other_programs_write_is_read) {
       {COLLECTION(LINE_OF("[null,[0,0],[null,null],[1,0],[1,null]]")), "w/1",
        "neighbours are joined", 1, 1},
       {COLLECTION(LINE_OF("[[0,0,null],[1,0,0]]")), "w", "", 1, 0},
+      /* 17: collections: one wall has no number; nothing, and nothing but points */
+      {GATHERED("\"name\":\"w\"", GEOMETRIES(GEOMETRY("LineString", "[[0,0],[1,0]]"))), "w", "",
+       1, 0},
+      {COLLECTION(GEOMETRIES("") "," LINE_OF("[[0,0],[1,0]]")), "w",
+       "feature 1: a geometry has no positions", 1, 1},
+      {COLLECTION(GEOMETRIES(GEOMETRY("Point", "[1,2]")) "," LINE_OF("[[0,0],[1,0]]")), "w",
+       "feature 1: geometry 1: a point is no wall", 1, 1},
   };
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     told t = {0};
@@ -264,6 +276,58 @@ START_TEST(what_other_programs_write_is_read) {
     ck_assert_int_eq(hr2d_scene_lint(scene, take_skipped, &t, NULL), HR2D_OK);
     ck_assert_msg(t.skipped == cases[k].warnings && strstr(t.text, cases[k].says),
                   "%zu: %zu times \"%s\"", k, t.skipped, t.text);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
+/* The parts of a collection have the patches that features of these geometries and of the same
+   properties have, and names that go on. */
+START_TEST(a_geometry_collection_is_its_parts) {
+#define LIGHT "\"name\":\"w\",\"faces\":\"out\",\"emission\":[1,2]"
+#define RING  "[[[0,0],[4,0],[4,3],[0,0]]]"
+#define ROWS  "[[[5,5],[6,5]],[[7,5],[8,5],[9,5]]]"
+  hr2d_scene *one = file_parsed(
+      GATHERED(LIGHT, GEOMETRY("Polygon", RING) "," GEOMETRIES(GEOMETRY(
+                          "MultiLineString", ROWS) ",null") "," GEOMETRY("Point", "[9,9]")));
+  hr2d_scene *all = file_parsed(
+      COLLECTION(FEATURE(LIGHT, "Polygon", RING) "," FEATURE(LIGHT, "MultiLineString", ROWS)));
+  ck_assert_uint_eq(hr2d_scene_patches(one), 6);
+  ck_assert_uint_eq(hr2d_scene_patches(all), 6);
+  for (size_t k = 0; k < 6; k++) {
+    const hr2d_segment s = hr2d_scene_segment(all, k);
+    char name[8];
+    snprintf(name, sizeof name, "w/%zu", k + 1);
+    file_expect_segment(one, k, s.a.x, s.a.y, s.b.x, s.b.y);
+    file_expect_name(one, k, name);
+    ck_assert_double_eq(hr2d_scene_emission(one, k, 1), 2);
+  }
+  hr2d_scene_destroy(all);
+  hr2d_scene_destroy(one);
+}
+END_TEST
+
+START_TEST(messages_say_which_part_of_a_collection) {
+  static const struct {
+    const char *text, *says;
+  } cases[] = {
+      {GATHERED("\"name\":\"w\"",
+                GEOMETRY("Point", "[9,9]") "," GEOMETRY("LineString", "[[0,0]]")),
+       "feature 1 (\"w\"): geometry 2: needs 2 positions or more, has 1"},
+      {GATHERED("", GEOMETRIES(GEOMETRY("Circle", "[9,9]"))),
+       "feature 1: geometry 1: geometry 1: geometry: \"Circle\" has no patches"},
+      {GATHERED("", "7"), "feature 1: geometry 1: geometry: must be an object"},
+      {GATHERED("\"sides\":\"mirror\"", GEOMETRY("LineString", "[[0,0],[1,0]]") "," GEOMETRY(
+                                            "LineString", "[[0,0],[1,0]]")),
+       "feature 1: geometry 1: a mirror is a LineString of two positions"},
+      {COLLECTION("{\"type\":\"GeometryCollection\"}"), "feature 1: geometries: must be"},
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    hr2d_scene *scene = test_new_scene(NULL);
+    ck_assert_int_ne(file_parse(scene, cases[k].text), HR2D_OK);
+    ck_assert_msg(strstr(hr2d_scene_message(scene), cases[k].says), "%zu: %s", k,
+                  hr2d_scene_message(scene));
+    ck_assert_uint_eq(hr2d_scene_patches(scene), 0);
     hr2d_scene_destroy(scene);
   }
 }
@@ -797,6 +861,7 @@ TEST_SUITE("geojson") {
             the_furnace_emits_as_its_temperatures_say);
   ADD_TESTS("content", properties_reach_every_patch_of_a_feature, both_sides_are_two_patches,
             what_says_nothing_adds_nothing, what_other_programs_write_is_read,
+            a_geometry_collection_is_its_parts, messages_say_which_part_of_a_collection,
             a_bare_feature_is_a_whole_scene, skies_are_pieces, suns_have_directions_or_bearings,
             what_is_no_sun_is_refused, the_background_is_that_of_the_last_file_that_has_one,
             coordinates_keep_every_bit);

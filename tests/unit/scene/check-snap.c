@@ -305,23 +305,31 @@ START_TEST(copies_are_dropped_at_once) {
 }
 END_TEST
 
-/* What the message says is typed: one patch on the middle of another, which is cut twice. */
+/* What the message says is typed: a window on the middle of a wall, which is cut twice.  The
+   one that the message names, which comes first, gives its light to the stretch of both. */
 START_TEST(messages_name_a_tolerance_that_helps) {
-  hr2d_scene *scene = test_new_scene(NULL);
-  hr2d_snap_report r;
-  test_add_patch(scene, (hr2d_segment){{0, 0}, {4, 0}}, 1, .5, HR2D_SIDES_FRONT);
-  test_add_patch(scene, (hr2d_segment){{1, 0}, {3, 0}}, 1, .5, HR2D_SIDES_FRONT);
-  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_ESCENE);
-  const char *number = strstr(hr2d_scene_message(scene), "--snap ");
-  ck_assert_ptr_nonnull(number);
-  const double tolerance = strtod(number + strlen("--snap "), NULL);
-  ck_assert(tolerance > 0 && tolerance < 1e-3);
-  ck_assert_int_eq(hr2d_scene_snap(scene, tolerance, &r), HR2D_OK);
-  ck_assert_uint_eq(r.cuts, 2);
-  ck_assert_uint_eq(r.copies, 1);
-  ck_assert_uint_eq(hr2d_scene_patches(scene), 3);
-  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
-  hr2d_scene_destroy(scene);
+  const hr2d_segment wall = {{0, 0}, {4, 0}}, window = {{1, 0}, {3, 0}};
+  for (int first = 0; first < 2; first++) {
+    hr2d_scene *scene = test_new_scene(NULL);
+    hr2d_snap_report r;
+    test_add_patch(scene, first ? window : wall, 1, .5, HR2D_SIDES_FRONT);
+    test_add_patch(scene, first ? wall : window, 2, .5, HR2D_SIDES_FRONT);
+    ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_ESCENE);
+    const char *number = strstr(hr2d_scene_message(scene), "--snap ");
+    ck_assert_ptr_nonnull(number);
+    ck_assert_ptr_nonnull(strstr(number, "keeps patch 0 there"));
+    const double tolerance = strtod(number + strlen("--snap "), NULL);
+    ck_assert(tolerance > 0 && tolerance < 1e-3);
+    ck_assert_int_eq(hr2d_scene_snap(scene, tolerance, &r), HR2D_OK);
+    ck_assert_uint_eq(r.cuts, 2);
+    ck_assert_uint_eq(r.copies, 1);
+    ck_assert_uint_eq(hr2d_scene_patches(scene), 3);
+    for (size_t k = 0; k < 3; k++)
+      ck_assert_double_eq(hr2d_scene_emission(scene, k, 0),
+                          !first || hr2d_scene_segment(scene, k).a.x == 1 ? 1 : 2);
+    ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+    hr2d_scene_destroy(scene);
+  }
 }
 END_TEST
 
