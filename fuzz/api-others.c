@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Calls of the API fuzzer: exchange areas of a scene and around occluders, studies, and
-   calls with invalid arguments. */
+/* Calls of the API fuzzer: exchange areas of a scene and around occluders, and studies. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -64,34 +63,6 @@ void api_study(api_run *r, api_slot *s) {
   const hr2d_status fitted = hr2d_study_fit_rows(rows, 3, &fit);
   REQUIRE(fitted == HR2D_OK || fitted == HR2D_EINVAL);
   if (!fitted) REQUIRE(isfinite(fit.a) && isfinite(fit.b) && isfinite(fit.c));
-}
-
-static hr2d_status never(void *ctx, const hr2d_link *links, size_t count) {
-  (void)ctx, (void)links, (void)count;
-  return HR2D_OK;
-}
-
-void api_misuse(api_run *r, api_slot *s) {
-  hr2d_refine_options options = HR2D_REFINE_OPTIONS_INIT;
-  hr2d_refine_counts counts;
-  hr2d_solve_options how = HR2D_SOLVE_OPTIONS_INIT;
-  hr2d_solution *solution = NULL;
-  const uint64_t links = hr2d_linkset_size(s->links);
-  options.epsilon = fuzz_below(r->in, 2) ? NAN : -1;
-  REQUIRE(hr2d_refine(s->links, &options) == HR2D_EINVAL);
-  REQUIRE(hr2d_refine_count(s->links, &options, &counts) != HR2D_OK);
-  options.epsilon = 1;
-  if (links > 0) {
-    REQUIRE(hr2d_refine_count(s->links, &options, &counts) == HR2D_ESTATE);
-    REQUIRE(hr2d_refine_visit(s->links, &options, never, NULL, &counts) == HR2D_ESTATE);
-    fuzz_check_message(hr2d_linkset_message(s->links));
-  }
-  REQUIRE(hr2d_hierarchy_set_order(api_hierarchy(r, s), 0) == HR2D_EINVAL);
-  REQUIRE(hr2d_hierarchy_set_order(api_hierarchy(r, s), HR2D_MAX_ORDER + 1) == HR2D_EINVAL);
-  how.tolerance = fuzz_below(r->in, 2) ? NAN : -1;
-  const hr2d_status status = hr2d_solve(s->links, &how, &solution);
-  REQUIRE((status == HR2D_EINVAL || status == HR2D_ESTATE) && !solution);
-  REQUIRE(hr2d_linkset_size(s->links) == links);
 }
 
 const api_call api_calls[] = {api_refine,  api_solve,  api_refine,   api_solve, api_read,

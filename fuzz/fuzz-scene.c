@@ -7,7 +7,7 @@
 
 #include "fuzz.h"
 
-enum { MOST_COMMITTED = 1000, MOST_REFINED = 64, MOST_SOLVED = 32 };
+enum { MOST_COMMITTED = 1000, MOST_REFINED = 64, MOST_SOLVED = 32, MOST_BANDS = 8 };
 
 /* Bytes of memory per byte of file, and those that do not depend on it: see
    doc/fuzzing.md. */
@@ -89,6 +89,27 @@ static void parse_without_memory(const uint8_t *data, size_t size) {
   REQUIRE(memory.live == 0 && jansson->live == 0);
 }
 
+/* A temperature is none, or a number; so is light at points, and what the sky gives. */
+static void look(const hr2d_solution *solution) {
+  const hr2d_scene *scene =
+      hr2d_hierarchy_scene(hr2d_linkset_hierarchy(hr2d_solution_links(solution)));
+  const size_t n = hr2d_scene_patches(scene), bands = hr2d_scene_bands(scene);
+  const hr2d_segment first = hr2d_scene_segment(scene, 0);
+  const hr2d_point at[] = {first.a, {first.a.x / 2 + first.b.x / 2, first.a.y}};
+  double kelvin[MOST_SOLVED], mean[2 * MOST_BANDS];
+  unsigned char place[2];
+  hr2d_temperatures t = {.struct_size = sizeof t, .kelvin = kelvin};
+  hr2d_field_values values = {.struct_size = sizeof values, .mean = mean, .place = place};
+  const hr2d_status status = hr2d_solution_temperatures(solution, NULL, NULL, &t);
+  for (size_t k = 0; !status && k < n; k++) REQUIRE(isnan(kelvin[k]) || kelvin[k] >= 0);
+  for (size_t k = 0; k < n; k++)
+    for (size_t b = 0; b < bands; b++) REQUIRE(hr2d_scene_sunlight(scene, k, b) >= 0);
+  if (bands > MOST_BANDS) return;
+  REQUIRE(hr2d_field_at(solution, at, 2, NULL, &values) == HR2D_OK);
+  for (size_t k = 0; k < 2 * bands; k++)
+    REQUIRE((place[k / bands] == HR2D_PLACE_OUTSIDE) == (isnan(mean[k]) != 0));
+}
+
 static void solve(hr2d_linkset *links) {
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   hr2d_solution *solution = NULL;
@@ -96,6 +117,7 @@ static void solve(hr2d_linkset *links) {
   const hr2d_status status = hr2d_solve(links, &options, &solution);
   if (!status) {
     fuzz_check_solution(solution, 1, 1);
+    look(solution);
   } else {
     REQUIRE(!solution);
     REQUIRE(status == HR2D_ENO_SOLUTION || status == HR2D_ENOT_CONVERGED ||
@@ -128,6 +150,13 @@ static void refine(const hr2d_scene *scene) {
   hr2d_hierarchy_destroy(hierarchy);
 }
 
+static hr2d_status check_warning(void *ctx, const hr2d_warning *warning) {
+  (void)ctx;
+  fuzz_check_message(warning->text);
+  REQUIRE(hr2d_warning_name(warning->code));
+  return HR2D_OK;
+}
+
 static void check_info(const hr2d_scene *scene) {
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
     const char *reason = NULL;
@@ -141,20 +170,36 @@ static void check_info(const hr2d_scene *scene) {
     const double length = hr2d_scene_length(scene, k);
     size_t found;
     REQUIRE(isfinite(length) && length > 0);
+    REQUIRE(fuzz_is_utf8(hr2d_scene_name(scene, k)));
     REQUIRE(hr2d_scene_find(scene, hr2d_scene_name(scene, k), &found) == HR2D_OK);
     REQUIRE(found <= k);
   }
+  REQUIRE(hr2d_scene_lint(scene, check_warning, NULL, NULL) == HR2D_OK);
+}
+
+static hr2d_status nothing(hr2d_scene *scene) {
+  (void)scene;
+  return HR2D_OK;
+}
+
+static hr2d_status split(hr2d_scene *scene) {
+  return hr2d_scene_split_crossings(scene, NULL);
+}
+
+/* Coordinates of most files are between 0 and 10. */
+static hr2d_status snap(hr2d_scene *scene) {
+  return hr2d_scene_snap(scene, 0.01, NULL);
 }
 
 /* Without the patch of check_unchanged(), which might be in the way. */
-static void use(const uint8_t *data, size_t size, int split) {
+static void use(const uint8_t *data, size_t size, hr2d_status (*repair)(hr2d_scene *)) {
   fuzz_memory memory = FUZZ_MEMORY_INIT;
   const hr2d_allocator hooks = fuzz_hooks(&memory);
   hr2d_scene *scene = NULL;
   hr2d_status status = hr2d_scene_create(&hooks, &scene);
   if (!status) status = hr2d_scene_parse(scene, (const char *)data, size);
   REQUIRE(status == HR2D_OK);
-  if (split) status = hr2d_scene_split_crossings(scene, NULL);
+  status = repair(scene);
   if (!status && hr2d_scene_patches(scene) <= MOST_COMMITTED) {
     status = hr2d_scene_commit(scene);
     if (!status) check_info(scene);
@@ -173,8 +218,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   const hr2d_status status = parse(data, size);
   parse_without_memory(data, size);
   if (!status) {
-    use(data, size, 0);
-    use(data, size, 1);
+    use(data, size, nothing);
+    use(data, size, split);
+    use(data, size, snap);
   }
   return 0;
 }

@@ -96,6 +96,9 @@ void fuzz_check_solution(const hr2d_solution *solution, unsigned order, int clos
 /* Whether patches have lengths within 1e4 of each other. */
 int fuzz_is_even(const hr2d_scene *scene);
 
+/* Whether a text is UTF-8, whatever characters it has. */
+int fuzz_is_utf8(const char *text);
+
 /* A message that was left by a failure: there is one, and it is UTF-8. */
 void fuzz_check_message(const char *message);
 

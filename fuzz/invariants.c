@@ -20,14 +20,30 @@ static int is_continuation(unsigned char byte) {
   return (byte & 0xC0) == 0x80;
 }
 
+/* Table 3-7 of Unicode: no longer forms than needed, no surrogates, nothing above U+10FFFF. */
+int fuzz_is_utf8(const char *text) {
+  for (const unsigned char *s = (const unsigned char *)text; *s;) {
+    const unsigned first = *s++;
+    const int more = first < 0x80    ? 0
+                     : first > 0xF4  ? -1
+                     : first >= 0xF0 ? 3
+                     : first >= 0xE0 ? 2
+                     : first >= 0xC2 ? 1
+                                     : -1;
+    if (more < 0 || (first == 0xE0 && *s < 0xA0) || (first == 0xED && *s > 0x9F) ||
+        (first == 0xF0 && *s < 0x90) || (first == 0xF4 && *s > 0x8F))
+      return 0;
+    for (int k = 0; k < more; k++)
+      if (!is_continuation(*s++)) return 0;
+  }
+  return 1;
+}
+
 void fuzz_check_message(const char *message) {
   REQUIRE(message && *message);
-  for (const unsigned char *s = (const unsigned char *)message; *s;) {
-    const int more = *s < 0x80 ? 0 : *s >= 0xF0 ? 3 : *s >= 0xE0 ? 2 : *s >= 0xC2 ? 1 : -1;
-    REQUIRE_SAYING(more >= 0 && *s <= 0xF4 && (*s >= 0x20 || *s == '\t'), message);
-    s++;
-    for (int k = 0; k < more; k++) REQUIRE_SAYING(is_continuation(*s++), message);
-  }
+  REQUIRE_SAYING(fuzz_is_utf8(message), message);
+  for (const unsigned char *s = (const unsigned char *)message; *s; s++)
+    REQUIRE_SAYING(*s >= 0x20 || *s == '\t', message);
 }
 
 /* Patches, then their images. */
@@ -184,7 +200,8 @@ void fuzz_check_links(hr2d_linkset *links) {
 /* Where no wall is brighter than a furnace's, which is 1 everywhere, none gets brighter:
    E ≤ 1 − ρ, and light of at most 1 from outside. */
 static int is_furnace(const hr2d_scene *scene, size_t band) {
-  int furnace = hr2d_scene_background(scene, band) <= 1;
+  int furnace = hr2d_scene_background(scene, band) <= 1 && hr2d_scene_sky_pieces(scene) == 0 &&
+                !(hr2d_scene_sun(scene, band).irradiance > 0);
   for (size_t k = 0; k < hr2d_scene_patches(scene); k++)
     furnace &=
         hr2d_scene_emission(scene, k, band) <= 1 - hr2d_scene_reflectance(scene, k, band);

@@ -6,6 +6,7 @@ fuzz_libfuzz_la_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(fuzz_pair_cppflags)
 fuzz_libfuzz_la_SOURCES = \
 	fuzz/api.h \
 	fuzz/api-bytes.c \
+	fuzz/api-misuse.c \
 	fuzz/api-others.c \
 	fuzz/api-refine.c \
 	fuzz/api-solve.c \
@@ -19,23 +20,28 @@ fuzz_libfuzz_la_SOURCES = \
 	tools/pair/line.c tools/pair/line.h
 fuzz_libs = fuzz/libfuzz.la libhr2d-core.la $(JANSSON_LIBS) $(THREADS_LIBS)
 
-REPLAYS = fuzz/replay-scene fuzz/replay-api fuzz/replay-pair
+REPLAYS = fuzz/replay-scene fuzz/replay-state fuzz/replay-api fuzz/replay-pair
 check_PROGRAMS += $(REPLAYS)
 TESTS += $(REPLAYS)
 fuzz_replay_scene_SOURCES = fuzz/fuzz-scene.c fuzz/replay.c
 fuzz_replay_scene_LDADD = $(fuzz_libs)
+fuzz_replay_state_SOURCES = fuzz/fuzz-state.c fuzz/replay.c
+fuzz_replay_state_LDADD = $(fuzz_libs)
 fuzz_replay_api_SOURCES = fuzz/fuzz-api.c fuzz/replay.c
 fuzz_replay_api_LDADD = $(fuzz_libs)
 fuzz_replay_pair_SOURCES = fuzz/fuzz-pair.c fuzz/replay.c
 fuzz_replay_pair_CPPFLAGS = $(fuzz_pair_cppflags)
 fuzz_replay_pair_LDADD = $(fuzz_libs)
 
-FUZZERS = fuzz/fuzz-scene fuzz/fuzz-api fuzz/fuzz-pair
+FUZZERS = fuzz/fuzz-scene fuzz/fuzz-state fuzz/fuzz-api fuzz/fuzz-pair
 EXTRA_PROGRAMS += $(FUZZERS)
 CLEANFILES += $(FUZZERS)
 fuzz_fuzz_scene_SOURCES = fuzz/fuzz-scene.c
 fuzz_fuzz_scene_LDADD = $(fuzz_libs)
 fuzz_fuzz_scene_LDFLAGS = -fsanitize=fuzzer
+fuzz_fuzz_state_SOURCES = fuzz/fuzz-state.c
+fuzz_fuzz_state_LDADD = $(fuzz_libs)
+fuzz_fuzz_state_LDFLAGS = -fsanitize=fuzzer
 fuzz_fuzz_api_SOURCES = fuzz/fuzz-api.c
 fuzz_fuzz_api_LDADD = $(fuzz_libs)
 fuzz_fuzz_api_LDFLAGS = -fsanitize=fuzzer

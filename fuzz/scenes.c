@@ -78,6 +78,26 @@ static double emission(maker *m, double reflectance) {
   return b & 1 ? most : b & 2 ? 0 : most * fuzz_unit(m->in);
 }
 
+/* Names as programs may give them: cut characters, Latin-1, surrogates, what a terminal obeys,
+   and one that is far longer than a message. */
+static const char *some_name(unsigned choice) {
+  static const char *const odd[] = {"wall",         "\xC3",          "W\xE4nde \xA0\xA0\xA0",
+                                    "\xED\xA0\x80", "\033[2J\r\n\t", "\xF0\x9F\x8F\xA0"};
+  static char tall[4000];
+  const size_t kinds = sizeof odd / sizeof *odd;
+  if (choice % (kinds + 1) < kinds) return odd[choice % (kinds + 1)];
+  for (size_t k = 0; k + 3 < sizeof tall; k += 3) memcpy(tall + k, "\xE2\x82\xAC", 3);
+  return tall;
+}
+
+/* A name that is not UTF-8 is refused, and said so in UTF-8; the patch gets none then. */
+static void check_name(hr2d_scene *scene, hr2d_patch *patch) {
+  if (!patch->name || fuzz_is_utf8(patch->name)) return;
+  REQUIRE(hr2d_scene_add(scene, patch, NULL) == HR2D_ESCENE);
+  fuzz_check_message(hr2d_scene_message(scene));
+  patch->name = NULL;
+}
+
 /* Ignores refusals: the scene goes on with the patches that the library accepts. */
 static void add(maker *m, hr2d_scene *scene, hr2d_point a, hr2d_point b) {
   double rho[BANDS], e[BANDS];
@@ -86,15 +106,16 @@ static void add(maker *m, hr2d_scene *scene, hr2d_point a, hr2d_point b) {
     rho[k] = fuzz_unit(m->in);
     e[k] = emission(m, rho[k]);
   }
-  const hr2d_patch patch = {.a = a,
-                            .b = b,
-                            .name = how & 64 ? "wall" : NULL,
-                            .emission = e,
-                            .emission_bands = how & 8 && !m->furnace ? 1 : m->bands,
-                            .reflectance = rho,
-                            .reflectance_bands = m->bands,
-                            .sides = how & 1 ? HR2D_SIDES_BOTH : HR2D_SIDES_FRONT};
+  hr2d_patch patch = {.a = a,
+                      .b = b,
+                      .name = how & 64 ? some_name(how >> 1 & 7) : NULL,
+                      .emission = e,
+                      .emission_bands = how & 8 && !m->furnace ? 1 : m->bands,
+                      .reflectance = rho,
+                      .reflectance_bands = m->bands,
+                      .sides = how & 1 ? HR2D_SIDES_BOTH : HR2D_SIDES_FRONT};
   const size_t before = hr2d_scene_patches(scene);
+  check_name(scene, &patch);
   if (getenv("FUZZ_VERBOSE"))
     fprintf(stderr, "%zu: %a %a %a %a sides %d rho %.17g E %.17g\n", before, a.x, a.y, b.x, b.y,
             patch.sides, rho[0], e[0]);
