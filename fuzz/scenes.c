@@ -217,6 +217,22 @@ static void add_symmetry(maker *m, hr2d_scene *scene) {
   if (how & 16) set_period(m, scene, how & 32 ? across : along);
 }
 
+/* Suns that shine along lines of two points, and a sky of two pieces.  They follow from the
+   bytes to come, and take none of them. */
+static void add_daylight(const maker *m, hr2d_scene *scene) {
+  static const double irradiance[] = {1, 0, 0x1p-1000, 0x1p300};
+  const uint64_t hash = fuzz_hash_bytes(m->in->at, (size_t)(m->in->end - m->in->at));
+  const hr2d_point p = m->point[(hash >> 8) % m->points],
+                   q = m->point[(hash >> 16) % m->points];
+  const hr2d_sun sun = {{q.x - p.x, q.y - p.y}, irradiance[hash >> 24 & 3]};
+  const double from = (double)(hash >> 32 & 255) - 128, value[] = {1, 0.5};
+  const hr2d_sky_piece sky[] = {{from, from + 90}, {from + 90, from + 91}};
+  if (hash & 1 && hr2d_scene_set_sun(scene, &sun, 1))
+    fuzz_check_message(hr2d_scene_message(scene));
+  if (hash & 2 && hr2d_scene_set_sky(scene, sky, 2, value, 1))
+    fuzz_check_message(hr2d_scene_message(scene));
+}
+
 void fuzz_fill_scene(fuzz_input *in, hr2d_scene *scene, size_t most) {
   static const int exponents[] = {0, 0, 0, 0, 20, -20, 100, -100, 340, -340, 500, -500};
   static const double offsets[] = {0, 0, 0, 0, 0, 1, 1e8, 1e15};
@@ -230,5 +246,8 @@ void fuzz_fill_scene(fuzz_input *in, hr2d_scene *scene, size_t most) {
   if (how & 4) add_room(&m, scene);
   for (unsigned k = fuzz_below(in, 12); k > 0 && hr2d_scene_patches(scene) + 8 < most; k--)
     add_chain(&m, scene);
-  if (how & 32) add_symmetry(&m, scene);
+  if (how & 32)
+    add_symmetry(&m, scene);
+  else if (how & 64 && m.points)
+    add_daylight(&m, scene);
 }
