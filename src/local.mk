@@ -270,6 +270,13 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/shared-sums.c src/accuracy/shared-sums.h \
 	src/accuracy/sketch.c src/accuracy/sketch.h \
 	src/accuracy/divided-links.c src/accuracy/divided-links.h \
+	src/accuracy/enclosure.c src/accuracy/enclosure-impl.h \
+	src/accuracy/enclosure-factors.c src/accuracy/enclosure-factors.h \
+	src/accuracy/enclosure-links.c src/accuracy/enclosure-links.h \
+	src/accuracy/enclosure-marks.c src/accuracy/enclosure-marks.h \
+	src/accuracy/enclosure-read.c \
+	src/accuracy/enclosure-refused.c src/accuracy/enclosure-refused.h \
+	src/accuracy/enclosure-sweep.c src/accuracy/enclosure-sweep.h \
 	src/accuracy/error-estimate.c src/accuracy/error-estimate.h \
 	src/accuracy/error-shares.c src/accuracy/error-shares.h \
 	src/accuracy/graded-solve.c src/accuracy/graded-solve.h \

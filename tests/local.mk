@@ -118,6 +118,8 @@ SUITES = \
 	tests/unit/accuracy/check-single-blocks \
 	tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-found-errors \
+	tests/unit/accuracy/check-enclosure \
+	tests/unit/accuracy/check-enclosure-factors \
 	tests/unit/accuracy/check-kinks \
 	tests/unit/accuracy/check-long-leaves \
 	tests/unit/accuracy/check-measured-errors \

@@ -82,6 +82,7 @@
 #include <hr2d/accuracy.h>
 #include <hr2d/clusters.h>
 #include <hr2d/daylight.h>
+#include <hr2d/enclosure.h>
 #include <hr2d/field.h>
 #include <hr2d/geometry.h>
 #include <hr2d/hierarchy.h>

@@ -34,6 +34,10 @@ void hr2d_field_options_init(hr2d_field_options *options, size_t size) {
   set_defaults(options, size);
 }
 
+void hr2d_enclose_options_init(hr2d_enclose_options *options, size_t size) {
+  set_defaults(options, size);
+}
+
 void hr2d_target_init(hr2d_target *target, size_t size) {
   set_defaults(target, size);
 }
