@@ -98,6 +98,7 @@ typedef struct options {
   hr2d_norm norm;
   place_list importance; /* without t */
   double floor;          /* 0: not given */
+  double enclose;        /* a gap; 0: not given */
   int error, no_error;   /* measure the error of any scene, of none */
   double max_seconds;    /* of `cost` */
   unsigned methods;      /* of `cost`, bit 1 << m for each method m */

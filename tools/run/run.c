@@ -122,6 +122,7 @@ int run_solve(run *r) {
 
 void run_release(run *r) {
   free(r->point_links.items);
+  hr2d_enclosure_destroy(r->enclosure);
   hr2d_solution_destroy(r->solution);
   hr2d_linkset_destroy(r->own_links);
   hr2d_hierarchy_destroy(r->own_hierarchy);

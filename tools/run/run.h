@@ -51,6 +51,8 @@ typedef struct run {
   double resumed;        /* ε of the state that the run started from; 0: none */
   double kept;           /* ε of the state in the file of --state; 0: none */
   run_links point_links; /* of --links-of: `near` holds the point */
+  hr2d_enclosure *enclosure;       /* of --enclose; NULL: none */
+  hr2d_enclosure_account enclosed; /* how far it came */
   int inaccurate;        /* there is a solution, but its error is too large or unknown */
 } run;
 
@@ -87,6 +89,12 @@ int run_target(run *r, progress *p);
 
 /* The error of a solution that had no target, unless the options say not to measure it. */
 int run_error(run *r, progress *p);
+
+/* Encloses the averages, if the options say so; in the first share alone. */
+int run_enclose(run *r);
+
+/* The errors of the averages of B and of H, for certain; infinite where nothing is known. */
+void run_enclosed_errors(const run *r, double *average, double *irradiance);
 
 /* The limits of refinement in the options. */
 hr2d_refine_options run_refine_options(const options *o);

@@ -109,6 +109,29 @@ int run_error(run *r, progress *p) {
   return complain(o->scene, "the error is not known: %s", hr2d_strerror(status));
 }
 
+int run_enclose(run *r) {
+  const options *o = r->options;
+  progress p;
+  hr2d_enclose_options how = HR2D_ENCLOSE_OPTIONS_INIT;
+  if (!(o->enclose > 0) || !run_is_first(r)) return EXIT_DONE;
+  how.gap = o->enclose;
+  how.max_links = o->max_links;
+  how.progress = progress_show;
+  how.progress_ctx = &p;
+  progress_start(&p, o->quiet);
+  const hr2d_status status = hr2d_enclose(r->scene, &how, &r->enclosure, &r->enclosed);
+  progress_clear(&p);
+  if (!status) return EXIT_DONE;
+  if (!*r->enclosed.reason) return complain_call(o->scene, "", status);
+  return complain(o->scene, "--enclose: %s", r->enclosed.reason);
+}
+
+void run_enclosed_errors(const run *r, double *average, double *irradiance) {
+  *average = *irradiance = INFINITY;
+  if (r->enclosure)
+    hr2d_enclosure_error(r->enclosure, r->solution, r->options->floor, average, irradiance);
+}
+
 int run_gathers(const run *r) {
   return r->account.order > 1 || options_targeted(r->options);
 }

@@ -71,8 +71,10 @@ static int report(run *r) {
 static int run_and_report(run *r) {
   int status = run_solve(r);
   if (!status || r->inaccurate) {
+    const int enclosing = run_enclose(r);
     int reporting = run_compare_shares(r);
     if (!reporting) reporting = report(r);
+    status = complain_join(status, enclosing);
     status = complain_join(status, reporting);
   }
   run_release(r);

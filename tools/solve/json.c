@@ -197,6 +197,46 @@ static json_t *ranks(const run *r) {
   return object;
 }
 
+static double *ends_of(const run *r, double read(const hr2d_enclosure *, size_t, size_t),
+                       size_t patch) {
+  const size_t bands = hr2d_scene_bands(r->scene);
+  double *end = malloc(bands * sizeof *end);
+  for (size_t b = 0; end && b < bands; b++) end[b] = read(r->enclosure, patch, b);
+  return end;
+}
+
+/* One end of the averages of all patches and bands. */
+static json_t *ends(const run *r, double read(const hr2d_enclosure *, size_t, size_t)) {
+  json_t *list = json_array();
+  for (size_t k = 0; k < hr2d_scene_patches(r->scene); k++) {
+    double *end = ends_of(r, read, k);
+    json_push(&list, end ? json_numbers(end, hr2d_scene_bands(r->scene)) : NULL);
+    free(end);
+  }
+  return list;
+}
+
+/* Of --enclose; null without it. */
+static json_t *enclosed(const run *r) {
+  const hr2d_enclosure_account *a = &r->enclosed;
+  double average, irradiance;
+  if (!r->enclosure) return json_null();
+  run_enclosed_errors(r, &average, &irradiance);
+  json_t *object = json_object(), *h = json_object();
+  json_put(&object, "error", json_number(average));
+  json_put(&object, "lower", ends(r, hr2d_enclosure_lower));
+  json_put(&object, "upper", ends(r, hr2d_enclosure_upper));
+  json_put(&h, "error", json_number(irradiance));
+  json_put(&h, "lower", ends(r, hr2d_enclosure_lower_irradiance));
+  json_put(&h, "upper", ends(r, hr2d_enclosure_upper_irradiance));
+  json_put(&object, "irradiance", h);
+  json_put(&object, "gap", json_number(a->gap));
+  json_put(&object, "links", json_count(a->links));
+  json_put(&object, "seconds", json_number(a->seconds));
+  json_put(&object, "reason", json_text(a->reason));
+  return object;
+}
+
 int solve_write_json(const run *r, double total_seconds, const char *path) {
   const options *o = r->options;
   const hr2d_refine_counts counts = hr2d_linkset_counts(r->links);
@@ -215,6 +255,7 @@ int solve_write_json(const run *r, double total_seconds, const char *path) {
   json_put(&root, "power", power(r));
   json_put(&root, "residual", json_number(hr2d_solution_residual(r->solution)));
   json_put(&root, "error", errors(&r->account));
+  if (r->options->enclose > 0) json_put(&root, "enclosed", enclosed(r));
   json_put(&root, "warnings", json_incref(r->warnings->list));
   json_put(&root, "status", json_text(r->inaccurate ? "inaccurate" : "ok"));
   return json_write(root, path);

@@ -123,6 +123,17 @@ static void print_error_of(const char *title, const char *what, const hr2d_error
     printf("%-9s %s about %.1e, at most %.1e\n", title, what, e->estimate, e->bound);
 }
 
+/* What an enclosure says about the averages. */
+static void print_enclosed(const run *r) {
+  double average, irradiance;
+  if (!r->enclosure) return;
+  run_enclosed_errors(r, &average, &irradiance);
+  printf("enclosed  error of averages at most %.1e, of H %.1e, for certain\n", average,
+         irradiance);
+  printf("          ends are %.1e apart, by %llu links in %.3f s\n", r->enclosed.gap,
+         (unsigned long long)r->enclosed.links, r->enclosed.seconds);
+}
+
 /* Relative errors of B and H. */
 static void print_error(const run *r) {
   const hr2d_account *a = &r->account;
@@ -212,6 +223,7 @@ int solve_print(const run *r, double total_seconds) {
   printf("order     p = %u\n", r->account.order);
   print_power(r);
   print_error(r);
+  print_enclosed(r);
   print_effort(r, &counts);
   printf("solve     %llu gathers, %llu iterations, relative residual %.1e\n",
          (unsigned long long)r->work.gathers, (unsigned long long)r->work.iterations,
