@@ -40,7 +40,7 @@
  *
  * The multiples are from measurements; the bound is not proved. doc/adversary.md says how it
  * was attacked, and with which result. hr2d_solution_error() measures against another solution,
- * and does not need the assumption.
+ * and does not need the assumption; hr2d_enclose() (enclosure.h) has a bound without any.
  * @{
  */
 #ifndef HR2D_ACCURACY_H

@@ -8,7 +8,7 @@
  *
  * The estimate and the bound of hr2d_solve_to() come from more coefficients on the same
  * elements; what these do not show is assumed to be small. An enclosure assumes nothing about
- * B. It costs far more for a given number of digits: its gap falls like 1/L.
+ * B. It costs far more for a given number of digits: its gap falls like 1/L, or like L^−1.5.
  *
  *     hr2d_enclosure *enclosure;
  *     hr2d_status status = hr2d_enclose(scene, NULL, &enclosure, NULL);
@@ -18,28 +18,28 @@
  *     hr2d_enclosure_destroy(enclosure);
  *
  * **Method.** It goes back to Lischinski, Smits and Greenberg, "Bounds and Error Estimates for
- * Radiosity" (SIGGRAPH 1994). The kernel G V is never negative. Suppose that on each element j
- * B(y) is in [b⁻, b⁺] and that its mean is in [β⁻, β⁺]. Then the light from j that falls on a
- * point x of an element i is
+ * Radiosity" (SIGGRAPH 1994). The kernel G V is never negative. On each element j B(y) is in a
+ * strip between two straight lines, and its mean in a range. With F(x,j) = ∫j G V dy the light
+ * from j that falls on a point x of an element i is
  *
- *     h(x) = ∫j G V B dy = F(x,j) mean(B) + A_j cov(G V, B),   F(x,j) = ∫j G V dy,
+ *     h(x) = ∫j G V B dy = F(x,j) mean(B) + A_j cov(G V, B),
  *
- * and its mean over i, with F_ij = AF/A_i, the exact exchange area of the pair, and F(y,i) the
- * part of the light from y that falls on i,
+ * and its mean over i, with F_ij = AF/A_i, the exact exchange area of the pair, is
  *
  *     mean h = F_ij mean(B) + (A_j/A_i) cov(F(·,i), B).
  *
- * By Grüss' inequality |cov(f, g)| ≤ (max f − min f)(max g − min g)/4. The smallest and the
- * largest F(x,j) on an element are known in closed form: F is half the difference of the sines
- * under which the ends of j appear, and its derivative vanishes at the roots of a quadratic.
- * Pairs that see each other in part have F(x,j) from 0 to that of a free view. So one sweep
- * over all pairs makes new ranges of B = E + ρH from valid ones, and the true B stays inside.
- * It begins with 0 ≤ B ≤ max(max E/(1 − max ρ), max E + max ρ · background). Where a range of F
- * and a range of B multiply, both shrink with the elements, so the gap between lower and upper
- * means falls like the square of their length.
+ * Where F(·,i) and B are between straight lines, their covariance is the product of the rises
+ * of the middle lines by 12, and a rest that is at most a product of standard deviations. The
+ * extremes of F along an element are known in closed form: F is half the difference of the
+ * sines under which the ends of j appear, and its derivative vanishes at the roots of a
+ * quadratic; a bound of its second derivative gives the strip. Pairs that see each other in
+ * part have F(x,j) from 0 to that of a free view. So one sweep over all pairs makes new strips
+ * of B = E + ρH from true ones, and the true B stays inside. It begins with 0 ≤ B ≤ max(max
+ * E/(1 − max ρ), max E + max ρ · background).
  *
- * **Refinement.** All links join leaves. Leaves are halved that make most of the gap, by the
- * range of B on them times those of their factors, until the gap is small enough.
+ * **Refinement.** All links join leaves. Leaves are halved that make most of the gap, until it
+ * is small enough: it falls like h³ on elements of length h with a free view, like h² past
+ * edges of occluders, and L grows like h⁻².
  *
  * **Roundings** are in the ends: of factors, of sums, and of coordinates of elements, which are
  * off by a rounding for each level. So is what commit takes for touching (scene.h). The sum of

@@ -19,6 +19,7 @@
  *
  * More calls:
  * - hr2d_solve_to() makes hierarchy, links and solution for a target error (accuracy.h).
+ * - hr2d_enclose() gives lower and upper ends of averages that hold for certain (enclosure.h).
  * - hr2d_state_write() saves a stage of a long solve (state.h).
  * - hr2d_field_at() computes the light at points between the patches (field.h).
  * - hr2d_scene_add_thermal() adds patches of given temperature or heat flux (thermal.h).

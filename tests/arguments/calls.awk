@@ -18,6 +18,8 @@ BEGIN {
   good["hr2d_linkset **"] = "&s->made_links"; good["hr2d_solution **"] = "&s->made_solution"
   good["hr2d_clusters **"] = "&s->made_clusters"
   good["hr2d_exchange_rows **"] = "&s->made_rows"
+  good["const hr2d_enclosure *"] = "s->enclosure"; good["hr2d_enclosure **"] = "&s->made_enclosure"
+  good["hr2d_enclosure *"] = "s->enclosure"
   good["double *"] = "s->number"; good["const double *"] = "s->half"; good["double"] = "0.5"
   good["double (*)[2]"] = "s->part"; good["uint32_t *"] = "s->index"; good["size_t *"] = "&s->size"
   good["size_t"] = "1"; good["uint64_t"] = "0"; good["uint32_t"] = "0"; good["unsigned"] = "1"
@@ -65,7 +67,8 @@ BEGIN {
     "const hr2d_field_options *|const hr2d_lint_options *|const hr2d_past_options *|" \
     "scene_add.index|scene_add_thermal.index|scene_split_crossings.cuts|study_run.done|" \
     "scene_heat.value|hierarchy_divide.child|leaf_sums.front|leaf_sums.back|" \
-    "field_rows_visit.normal", list, "|")
+    "field_rows_visit.normal|const hr2d_enclose_options *|hr2d_enclosure_account *|" \
+    "enclosure_error.average|enclosure_error.irradiance", list, "|")
   for (k = 1; k <= n; k++) optional[list[k]] = 1
   required["refine_count.counts"] = required["refine_visit.counts"] = 1
 

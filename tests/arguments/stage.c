@@ -138,6 +138,9 @@ static void make_objects(stage *s) {
   ck_assert_int_eq(hr2d_clusters_create(s->scene, NULL, on_near_pairs_fn, NULL, &s->clusters),
                    HR2D_OK);
   ck_assert_int_eq(hr2d_exchange_rows_create(s->scene, NULL, &s->rows, NULL), HR2D_OK);
+  const hr2d_enclose_options how = {.struct_size = sizeof how, .gap = 1};
+  const hr2d_status status = hr2d_enclose(s->scene, &how, &s->enclosure, NULL);
+  ck_assert(status == HR2D_OK || status == HR2D_EACCURACY);
   s->state.until_failure = s->scene_state.until_failure = -1;
   ck_assert_int_eq(hr2d_state_write(s->solution, tape_record, &s->state), HR2D_OK);
   ck_assert_int_eq(hr2d_state_write_scene(s->scene, tape_record, &s->scene_state), HR2D_OK);
@@ -177,6 +180,8 @@ static void make_structs(stage *s) {
   s->good_target.error = 0.1;
   s->good_target.important = &s->size;
   s->good_target.important_count = 1;
+  s->good_enclose_options = (hr2d_enclose_options)HR2D_ENCLOSE_OPTIONS_INIT;
+  s->good_enclose_options.gap = 1;
   s->good_refine_options = (hr2d_refine_options)HR2D_REFINE_OPTIONS_INIT;
   s->good_refine_options.epsilon = COARSE;
   s->good_refine_options.row_counts = s->row_counts;
@@ -205,12 +210,14 @@ stage *stage_make(void) {
 static void destroy_made(stage *s) {
   hr2d_clusters_destroy(s->made_clusters);
   hr2d_exchange_rows_destroy(s->made_rows);
+  hr2d_enclosure_destroy(s->made_enclosure);
   hr2d_solution_destroy(s->made_solution);
   hr2d_linkset_destroy(s->made_links);
   hr2d_hierarchy_destroy(s->made_hierarchy);
   hr2d_scene_destroy(s->made_scene);
   s->made_clusters = NULL;
   s->made_rows = NULL;
+  s->made_enclosure = NULL;
   s->made_solution = NULL;
   s->made_links = NULL;
   s->made_hierarchy = NULL;
@@ -232,6 +239,7 @@ void stage_end(stage *s) {
   destroy_made(s);
   hr2d_clusters_destroy(s->clusters);
   hr2d_exchange_rows_destroy(s->rows);
+  hr2d_enclosure_destroy(s->enclosure);
   hr2d_solution_destroy(s->solution);
   hr2d_solution_destroy(s->other);
   hr2d_linkset_destroy(s->free_links);

@@ -22,12 +22,14 @@ typedef struct stage {
   hr2d_linkset *other_links;
   hr2d_clusters *clusters;
   hr2d_exchange_rows *rows;
+  hr2d_enclosure *enclosure;
   hr2d_scene *made_scene; /* what calls make */
   hr2d_hierarchy *made_hierarchy;
   hr2d_linkset *made_links;
   hr2d_solution *made_solution;
   hr2d_clusters *made_clusters;
   hr2d_exchange_rows *made_rows;
+  hr2d_enclosure *made_enclosure;
   double number[STAGE_NUMBERS], half[STAGE_NUMBERS], field[STAGE_NUMBERS], part[4][2];
   uint32_t index[STAGE_NUMBERS];
   unsigned char byte[STAGE_NUMBERS];
@@ -55,6 +57,8 @@ typedef struct stage {
   hr2d_target good_target;
   hr2d_account good_account;
   hr2d_prediction good_prediction;
+  hr2d_enclose_options good_enclose_options;
+  hr2d_enclosure_account good_enclosure_account;
   hr2d_error good_error;
   hr2d_refine_options good_refine_options;
   hr2d_solve_options good_solve_options;

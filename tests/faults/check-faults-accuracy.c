@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Allocation k fails in hr2d_solve_to(), hr2d_predict() and hr2d_solution_error(), which
-   choose elements and links themselves. */
+/* Allocation k fails in hr2d_solve_to(), hr2d_predict(), hr2d_solution_error() and
+   hr2d_enclose(), which choose elements and links themselves. */
 #include <string.h>
 
 #include "clusters/clusters.h"
@@ -76,6 +76,24 @@ static hr2d_status predict(fault_stage *s, uint64_t *sum) {
   return status;
 }
 
+static hr2d_status enclose(fault_stage *s, uint64_t *sum) {
+  hr2d_enclose_options options = HR2D_ENCLOSE_OPTIONS_INIT;
+  hr2d_enclosure *made = (hr2d_enclosure *)s;
+  options.gap = 0.2;
+  options.max_links = 1000;
+  hr2d_enclosure_account a;
+  const hr2d_status status = hr2d_enclose(s->scene, &options, &made, &a);
+  if (status && status != HR2D_EACCURACY) {
+    ck_assert_ptr_null(made);
+    return status;
+  }
+  const uint64_t counts[] = {a.elements, a.leaves, a.links, a.rounds, a.sweeps};
+  *sum = fault_mix(*sum, counts, sizeof counts);
+  *sum = fault_mix(*sum, &a.gap, sizeof a.gap);
+  hr2d_enclosure_destroy(made);
+  return HR2D_OK;
+}
+
 static hr2d_status measure(fault_stage *s, uint64_t *sum) {
   hr2d_target how = HR2D_TARGET_INIT;
   hr2d_error average, sup;
@@ -145,6 +163,13 @@ START_TEST(predictions) {
 }
 END_TEST
 
+START_TEST(enclosures) {
+  play("enclose", DEPTH_COMMITTED, PLAN_PAIR, enclose, 40);
+  play("enclose, occluded", DEPTH_COMMITTED, PLAN_ROOM, enclose, 40);
+  play("enclose, open", DEPTH_COMMITTED, PLAN_OPEN, enclose, 40);
+}
+END_TEST
+
 TEST_SUITE("faults of targets") {
-  ADD_TESTS("memory", targets, clusters, beams, predictions);
+  ADD_TESTS("memory", targets, clusters, beams, predictions, enclosures);
 }

@@ -191,6 +191,13 @@ static hr2d_status predict(stage *t) {
   return hr2d_predict(t->s.scene, NULL, &prediction);
 }
 
+static hr2d_status enclose(stage *t) {
+  hr2d_enclosure *made = NULL;
+  const hr2d_status status = hr2d_enclose(t->s.scene, NULL, &made, NULL);
+  hr2d_enclosure_destroy(made);
+  return status;
+}
+
 static hr2d_status find_error(stage *t) {
   hr2d_error error;
   return hr2d_solution_error(t->s.solution, NULL, &error, NULL);
@@ -304,6 +311,7 @@ static const struct {
                   {"hr2d_solve_to", solve_to},
                   {"hr2d_solve_to, in a time", solve_in_time},
                   {"hr2d_predict", predict},
+                  {"hr2d_enclose", enclose},
                   {"hr2d_solution_error", find_error},
                   {"hr2d_solution_account", account},
                   {"hr2d_solution_gather", gather},
@@ -389,6 +397,8 @@ static const char *const short_calls[] = {
     "hr2d_scene_set_sun", "hr2d_scene_set_wavelengths", "hr2d_scene_force", "hr2d_scene_find",
     "hr2d_hierarchy_create", "hr2d_hierarchy_divide", "hr2d_linkset_create",
     "hr2d_linkset_read", "hr2d_solution_adopt", "hr2d_solution_temperatures",
+    /* steps over patches */
+    "hr2d_enclosure_error",
     /* steps over elements, which ask when these are many more */
     "hr2d_hierarchy_originals", "hr2d_hierarchy_set_order", "hr2d_hierarchy_pull",
     "hr2d_hierarchy_push",

@@ -247,6 +247,18 @@ run solve "$scenes/partition.geojson" --target-error 1e-14 --time-budget 0.5 --j
 check "a budget of half a second: $(value total "$work/t.json")" \
   small "$(value total "$work/t.json")" 2
 
+# ---- lower and upper ends
+succeeds solve "$scenes/partition.geojson" --target-error 1e-3 --enclose 0.1 --json "$work/t.json"
+check "the error for certain" grep -q \
+  '^enclosed  error of averages at most [0-9.e-]*, of H [0-9.e-]*, for certain$' "$work/out"
+check "the gap" awk -v gap="$(value gap "$work/t.json")" 'BEGIN { exit !(gap > 0 && gap <= 0.1) }'
+hr2d solve "$scenes/partition.geojson" --target-error 1e-3 --enclose 1e-9 --max-links 3000 \
+  >"$work/out" 2>"$work/err" && status=0 || status=$?
+check "a gap that is not reached" [ "$status" -eq 1 ]
+check "it is told" grep -q 'enclose: [0-9]* links leave a gap of' "$work/err"
+check "what was reached is told" grep -q '^enclosed  error of averages' "$work/out"
+usage "--enclose: '0' is not a number greater than 0" solve "$narrow" --enclose 0
+
 # ---- errors that are not measured
 succeeds solve "$narrow" --no-error --json "$work/t.json"
 check "no error is told" grep -q '^error     not measured$' "$work/out"

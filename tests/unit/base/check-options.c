@@ -106,6 +106,26 @@ START_TEST(solves_are_the_same) {
 }
 END_TEST
 
+START_TEST(enclosures_are_the_same) {
+  const hr2d_enclose_options macro = HR2D_ENCLOSE_OPTIONS_INIT;
+  hr2d_enclose_options options;
+  hr2d_enclosure *e;
+  hr2d_enclosure_account none, a;
+  hr2d_scene *scene = room();
+  hr2d_enclose(scene, NULL, &e, &none);
+  hr2d_enclosure_destroy(e);
+  for (int way = ZEROS; way < WAYS; way++) {
+    hr2d_enclose(scene,
+                 ASK(way, hr2d_enclose_options, hr2d_enclose_options_init, macro, options), &e,
+                 &a);
+    ck_assert_double_eq(a.gap, none.gap);
+    ck_assert_uint_eq(a.links, none.links);
+    hr2d_enclosure_destroy(e);
+  }
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 START_TEST(matrices_are_the_same) {
   const hr2d_matrix_options macro = HR2D_MATRIX_OPTIONS_INIT;
   hr2d_matrix_options options;
@@ -305,8 +325,8 @@ START_TEST(constants_have_their_values) {
 END_TEST
 
 TEST_SUITE("options") {
-  ADD_TESTS("defaults", refinements_are_the_same, solves_are_the_same, matrices_are_the_same,
-            targets_are_the_same, patches_are_the_same);
+  ADD_TESTS("defaults", refinements_are_the_same, solves_are_the_same, enclosures_are_the_same,
+            matrices_are_the_same, targets_are_the_same, patches_are_the_same);
   ADD_TESTS("bindings", functions_touch_what_is_there, a_size_that_is_not_set_is_refused,
             constants_have_their_values);
   ADD_TESTS("names", zeros_have_names, all_threads_change_no_bit);
