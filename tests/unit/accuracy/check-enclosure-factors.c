@@ -55,14 +55,16 @@ static real angle_of(hr2d_segment i, real x, real y, hr2d_point v) {
   return atan2l(t, h);
 }
 
-/* What x sees of j between its horizons, by the angles of both ends: j is less than half a turn
-   wide, and one of its ends is in front. */
-static real factor_at(hr2d_segment i, double t, hr2d_segment j) {
+/* What a point of a part sees of j between the horizons of the patch, whose line the part has
+   but for roundings, by the angles of both ends: j is less than half a turn wide, and one of
+   its ends is in front. */
+static real factor_at(const hr2di_enclosed *from, double t, hr2d_segment j) {
+  const hr2d_segment i = from->part;
   const real x = i.a.x + t * ((real)i.b.x - i.a.x), y = i.a.y + t * ((real)i.b.y - i.a.y);
   const real side = ((real)j.b.x - j.a.x) * (y - j.a.y) - ((real)j.b.y - j.a.y) * (x - j.a.x);
   if (side <= 0) return 0;
   const real quarter = acosl(0);
-  real a = angle_of(i, x, y, j.a), b = angle_of(i, x, y, j.b);
+  real a = angle_of(from->patch, x, y, j.a), b = angle_of(from->patch, x, y, j.b);
   if (fabsl(a) >= quarter && fabsl(b) >= quarter) return 0;
   const real width = fmodl(a - b + 8 * quarter, 4 * quarter);
   if (fabsl(b) < quarter)
@@ -91,7 +93,7 @@ START_TEST(factors_are_inside) {
     const hr2di_strip s = hr2di_factor_strip(&i, &j);
     for (int k = 0; k <= 8; k++) {
       const double u = k < 2 ? 1e-9 + k * (1 - 2e-9) : random_unit(&r);
-      const real f = factor_at(i.part, u, j.part);
+      const real f = factor_at(&i, u, j.part);
       ck_assert_msg(outside(&s, u, f) <= 0,
                     "turn %d: F = %.17Lg at %g is outside of %.17g..%.17g, %.17g..%.17g", turn,
                     f, u, s.at[0].least, s.at[0].most, s.at[1].least, s.at[1].most);
@@ -111,7 +113,7 @@ START_TEST(lower_factors_are_noticed) {
     hr2di_strip s = hr2di_factor_strip(&i, &j);
     for (int k = 0; k < 2; k++) s.at[k].most *= 0.999;
     for (int k = 0; k <= 8; k++)
-      noticed += outside(&s, 0.125 * k, factor_at(i.part, 0.125 * k, j.part)) > 0;
+      noticed += outside(&s, 0.125 * k, factor_at(&i, 0.125 * k, j.part)) > 0;
   }
   ck_assert_int_gt(noticed, 100);
 }
