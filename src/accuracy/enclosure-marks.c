@@ -45,7 +45,7 @@ static hr2d_status add_parts(const hr2di_enclosing *e, const double *scale, doub
   for (size_t k = 0; k < e->count && !status; k++) {
     for (int from = 0; from < 2; from++)
       sum[e->link[k].of[from]] += part_of(e, &e->link[k], from, scale);
-    status = hr2di_watch_work(e->watch, e->bands / 4 + 1);
+    status = hr2di_watch_work(e->watch, e->bands);
   }
   return status;
 }

@@ -176,13 +176,13 @@ static hr2d_status sweep(hr2di_enclosing *e, double *width) {
   for (size_t k = 0; k < values; k++) e->h[k] = none;
   for (size_t k = 0; k < e->count && !status; k++) {
     gather_link(e, &e->link[k]);
-    if (k % 16 == 0) status = hr2di_watch_work(e->watch, 4 * e->bands);
+    if (k % 16 == 0) status = hr2di_watch_work(e->watch, 10 * e->bands);
   }
   *width = 0;
   for (uint32_t k = 0; k < e->elements && !status; k++) {
     if (!hr2di_enclosing_has(e, k)) continue;
     for (size_t b = 0; b < e->bands; b++) *width += take(e, k, b);
-    status = hr2di_watch_work(e->watch, e->bands / 2);
+    status = hr2di_watch_work(e->watch, e->bands);
   }
   e->sweeps++;
   return status;
@@ -230,10 +230,11 @@ static hr2di_lit_range half(const hr2di_strip *s, int right) {
    and no image, behind the last images of a period, is black. */
 static void inherit(const hr2di_enclosing *e, hr2di_lit_range *now) {
   const hr2d_hierarchy *h = e->hierarchy;
-  for (size_t b = 0; b < e->bands && !e->elements; b++)
+  for (size_t b = 0; b < e->bands && !e->elements; b++) {
+    const hr2di_lit_range all = even(hr2di_enclosing_most(e->scene, b));
     for (size_t k = 0; k < e->scene->patches; k++)
-      now[k * e->bands + b] =
-          even(k < hr2di_scene_cell(e->scene) ? hr2di_enclosing_most(e->scene, b) : 0);
+      now[k * e->bands + b] = k < hr2di_scene_cell(e->scene) ? all : even(0);
+  }
   const size_t known = e->elements ? e->elements : e->scene->patches;
   for (size_t k = 0; k < e->elements * e->bands; k++) now[k] = e->b[k];
   for (size_t k = known; k < h->elements; k++)

@@ -17,7 +17,7 @@
 #include "scene/scene-impl.h"
 #include "visibility/seen-backs.h"
 
-/* Links that are made between two questions of the watch: some 0.3 µs each. */
+/* Links that are made between two questions of the watch: some 1 µs each. */
 enum { SOME_LINKS = 256 };
 
 typedef struct encloser {
@@ -77,7 +77,7 @@ static hr2d_status make_links(hr2di_enclosing *e) {
     e->count += some;
     e->watch->told.links = e->count;
     e->watch->told.fraction = (double)e->count / (double)count;
-    status = hr2di_watch_work(e->watch, 4 * some);
+    status = hr2di_watch_work(e->watch, 10 * some);
   }
   return status;
 }
