@@ -53,15 +53,19 @@ hr2d_status hr2di_grading_list_vertices(hr2di_grader *g) {
   g->vertex = hr2di_alloc(&g->h->alloc, 2 * scene->patches + sun->borders, sizeof *g->vertex);
   g->under = hr2di_alloc_zero(&g->h->alloc, 2 * scene->patches, sizeof *g->under);
   if (!g->vertex || !g->under) return HR2D_ENOMEM;
-  for (uint32_t k = 0; k < scene->patches; k++) {
+  hr2d_status status = HR2D_OK;
+  for (uint32_t k = 0; k < scene->patches && !status; k++) {
     const hr2d_segment s = scene->patch[k].scaled;
+    if (k % 16 == 0) status = hr2di_watch_work(g->grading->watch, 16);
     g->vertex[g->vertices++] = (hr2di_grading_vertex){s.a, k, 0, 0};
     g->vertex[g->vertices++] = (hr2di_grading_vertex){s.b, k, 1, 0};
   }
   for (size_t k = 0; k < sun->borders; k++)
     g->vertex[g->vertices++] =
         (hr2di_grading_vertex){sun->border[k].point, sun->border[k].patch, 0, 1};
-  return hr2di_sort(g->vertex, g->vertices, sizeof *g->vertex, by_x, g->grading->watch);
+  return status
+             ? status
+             : hr2di_sort(g->vertex, g->vertices, sizeof *g->vertex, by_x, g->grading->watch);
 }
 
 double hr2di_grading_reflectance(const hr2d_scene *scene, uint32_t patch) {

@@ -221,7 +221,9 @@ static int by_number(const void *left, const void *right) {
 }
 
 static hr2d_status make_spans(sweep *s, const hr2d_segment *first, size_t stride) {
-  for (size_t k = 0; k < s->count; k++) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < s->count && !status; k++) {
+    if (k % 16 == 0) status = hr2di_watch_work(s->watch, 16);
     const hr2d_segment *at = (const void *)((const char *)first + k * stride);
     s->spans[k] = (span){.from = fmin(at->a.x, at->b.x),
                          .to = fmax(at->a.x, at->b.x) + MARGIN,
@@ -229,7 +231,6 @@ static hr2d_status make_spans(sweep *s, const hr2d_segment *first, size_t stride
                          .high = fmax(at->a.y, at->b.y) + MARGIN,
                          .segment = k};
   }
-  const hr2d_status status = hr2di_watch_work(s->watch, s->count / 4);
   return status ? status : hr2di_sort(s->spans, s->count, sizeof *s->spans, by_start, s->watch);
 }
 
@@ -325,7 +326,7 @@ static hr2d_status sort_found(sweep *s) {
    are found in the first of them. */
 static hr2d_status find_behind(sweep *s, uint32_t k) {
   const span *p = &s->spans[k];
-  hr2d_status status = HR2D_OK;
+  hr2d_status status = hr2di_watch_work(s->watch, 1);
   s->finds = 0;
   s->here = k;
   for (uint32_t r = p->first_row; r <= p->last_row && !status; r++) {

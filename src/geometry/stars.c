@@ -44,27 +44,30 @@ static int by_angle(const void *left, const void *right) {
 }
 
 static hr2d_status sort_ends(finder *f) {
-  for (size_t k = 0; k < f->count; k++) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < f->count && !status; k++) {
     const hr2d_segment *s = segment_at(f, k);
+    if (k % 16 == 0) status = hr2di_watch_work(f->watch, 16);
     f->spoke[2 * k] = (spoke){s->a, (uint32_t)k, 1};
     f->spoke[2 * k + 1] = (spoke){s->b, (uint32_t)k, 1};
   }
-  hr2d_status status = hr2di_watch_work(f->watch, f->count / 8);
   if (!status)
     status = hr2di_sort(f->spoke, 2 * f->count, sizeof *f->spoke, by_place, f->watch);
   return status;
 }
 
-/* Returns the size of the largest group. */
-static uint32_t count_groups(finder *f) {
-  uint32_t most = 0;
-  for (size_t k = 0, end; k < 2 * f->count; k = end) {
+/* *most becomes the size of the largest group. */
+static hr2d_status count_groups(finder *f, uint32_t *most) {
+  hr2d_status status = HR2D_OK;
+  *most = 0;
+  for (size_t k = 0, end; k < 2 * f->count && !status; k = end) {
     for (end = k; end < 2 * f->count && hr2di_point_same(f->spoke[end].at, f->spoke[k].at);)
       end++;
     for (size_t m = k; m < end; m++) f->spoke[m].group = (uint32_t)(end - k);
-    if (end - k > most) most = (uint32_t)(end - k);
+    if (end - k > *most) *most = (uint32_t)(end - k);
+    status = hr2di_watch_work(f->watch, 1 + (end - k) / 8);
   }
-  return most;
+  return status;
 }
 
 static hr2d_status reserve(finder *f) {
@@ -78,12 +81,15 @@ static hr2d_status reserve(finder *f) {
 }
 
 /* `of` has the size of the larger group of each segment, then its star. */
-static void choose_groups(finder *f) {
+static hr2d_status choose_groups(finder *f) {
   uint32_t *of = f->stars->of;
-  for (size_t k = 0; k < 2 * f->count; k++) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < 2 * f->count && !status; k++) {
     const spoke *s = &f->spoke[k];
+    if (k % 16 == 0) status = hr2di_watch_work(f->watch, 4);
     if (s->group > of[s->segment]) of[s->segment] = s->group;
   }
+  return status;
 }
 
 static void add_ray(finder *f, hr2di_star *star, const spoke *at) {
@@ -98,17 +104,20 @@ static void add_ray(finder *f, hr2di_star *star, const spoke *at) {
 
 /* The spokes [k, end) share a point.  Those become its star that chose this group, and not one
    before: their mark is above all sizes of groups then. */
-static void add_star(finder *f, unsigned char *taken, size_t k, size_t end) {
+static hr2d_status add_star(finder *f, unsigned char *taken, size_t k, size_t end) {
   hr2di_stars *s = f->stars;
+  hr2d_status status = HR2D_OK;
   const uint32_t first = s->count ? s->star[s->count - 1].last : 0;
   hr2di_star star = {first, first, 0};
-  for (size_t m = k; m < end; m++) {
+  for (size_t m = k; m < end && !status; m++) {
     const uint32_t segment = f->spoke[m].segment;
+    status = hr2di_watch_work(f->watch, 2);
     if (taken[segment] || s->of[segment] != f->spoke[m].group) continue;
     taken[segment] = 1;
     add_ray(f, &star, &f->spoke[m]);
   }
   if (star.last > star.first) s->star[s->count++] = star;
+  return status;
 }
 
 static hr2d_status add_stars(finder *f) {
@@ -116,8 +125,9 @@ static hr2d_status add_stars(finder *f) {
   if (!taken) return HR2D_ENOMEM;
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < 2 * f->count && !status; k += f->spoke[k].group) {
-    status = hr2di_watch_work(f->watch, 1 + f->spoke[k].group / 2);
-    if (f->spoke[k].group >= HR2DI_STAR_LEAST) add_star(f, taken, k, k + f->spoke[k].group);
+    status = hr2di_watch_work(f->watch, 1);
+    if (!status && f->spoke[k].group >= HR2DI_STAR_LEAST)
+      status = add_star(f, taken, k, k + f->spoke[k].group);
   }
   hr2di_alloc_free(f->stars->alloc, taken);
   return status;
@@ -132,7 +142,8 @@ static hr2d_status sort_rays(finder *f) {
     const hr2di_star *star = &s->star[n];
     status = hr2di_sort(&s->ray[star->first], star->last - star->first, sizeof *s->ray,
                         by_angle, f->watch);
-    for (uint32_t m = star->first; m < star->last; m++) {
+    for (uint32_t m = star->first; m < star->last && !status; m++) {
+      if (m % 16 == 0) status = hr2di_watch_work(f->watch, 4);
       s->of[s->ray[m].segment] = n;
       s->place[s->ray[m].segment] = m;
     }
@@ -148,10 +159,12 @@ hr2d_status hr2di_stars_init(hr2di_stars *stars, const hr2d_allocator *alloc,
   if (count < HR2DI_STAR_LEAST) return HR2D_OK;
   if (count > UINT32_MAX / 4) return HR2D_ENOMEM;
   f.spoke = hr2di_alloc(alloc, count, 2 * sizeof *f.spoke);
+  uint32_t most = 0;
   hr2d_status status = f.spoke ? sort_ends(&f) : HR2D_ENOMEM;
-  if (!status && count_groups(&f) >= HR2DI_STAR_LEAST) {
+  if (!status) status = count_groups(&f, &most);
+  if (!status && most >= HR2DI_STAR_LEAST) {
     status = reserve(&f);
-    if (!status) choose_groups(&f);
+    if (!status) status = choose_groups(&f);
     if (!status) status = add_stars(&f);
     if (!status) status = sort_rays(&f);
   }

@@ -154,19 +154,23 @@ static hr2d_status reserve(gaps *g) {
   return g->s && g->box && g->reach && g->sorted && g->touched ? HR2D_OK : HR2D_ENOMEM;
 }
 
-static void scale(gaps *g) {
+static hr2d_status scale(gaps *g) {
   const hr2di_patch *patch = g->lint->scene->patch;
+  hr2d_status status = HR2D_OK;
   double most = 0;
-  for (size_t k = 0; k < g->count; k++) {
+  for (size_t k = 0; k < g->count && !status; k++) {
     const hr2d_segment s = patch[k].given;
+    status = hr2di_watch_work(g->lint->watch, 1);
     most = fmax(most, fmax(fmax(fabs(s.a.x), fabs(s.a.y)), fmax(fabs(s.b.x), fabs(s.b.y))));
   }
   g->exponent = ilogb(most);
-  for (size_t k = 0; k < g->count; k++) {
+  for (size_t k = 0; k < g->count && !status; k++) {
     const hr2d_segment s = patch[k].given;
+    status = hr2di_watch_work(g->lint->watch, 1);
     g->s[k] = (hr2d_segment){{ldexp(s.a.x, -g->exponent), ldexp(s.a.y, -g->exponent)},
                              {ldexp(s.b.x, -g->exponent), ldexp(s.b.y, -g->exponent)}};
   }
+  return status;
 }
 
 static double extent(const gaps *g) {
@@ -194,12 +198,13 @@ static hr2d_status sweep(gaps *g) {
 static hr2d_status prepare(gaps *g) {
   if (g->count >= UINT32_MAX / 2) return HR2D_ENOMEM;
   hr2d_status status = reserve(g);
-  if (!status) status = hr2di_watch_work(g->lint->watch, g->count);
+  if (!status) status = scale(g);
+  if (!status) status = hr2di_watch_work(g->lint->watch, g->count / 4);
   if (status) return status;
-  scale(g);
   g->narrow = g->lint->gap * extent(g);
-  for (size_t k = 0; k < g->count; k++) {
+  for (size_t k = 0; k < g->count && !status; k++) {
     const hr2d_segment s = g->s[k];
+    status = hr2di_watch_work(g->lint->watch, 4);
     g->reach[k] = fmin(g->narrow, PART_OF_PATCH * length(s));
     const double r = fmax(g->reach[k], fmin(CORNER * g->narrow, CORNER_OF_PATCH * length(s)));
     g->box[k] = (hr2d_segment){{fmin(s.a.x, s.b.x) - r, fmin(s.a.y, s.b.y) - r},
@@ -207,9 +212,9 @@ static hr2d_status prepare(gaps *g) {
     for (uint32_t e = 0; e < 2; e++)
       g->sorted[2 * k + e] = (place){e ? s.b : s.a, (uint32_t)(2 * k) + e};
   }
-  status = hr2di_sort(g->sorted, 2 * g->count, sizeof *g->sorted, by_place, g->lint->watch);
-  if (status) return status;
-  return sweep(g);
+  if (!status)
+    status = hr2di_sort(g->sorted, 2 * g->count, sizeof *g->sorted, by_place, g->lint->watch);
+  return status ? status : sweep(g);
 }
 
 /* The first end in the order of places that is at p. */
@@ -234,6 +239,7 @@ static int is_closed(const gaps *g, const approach *a) {
          m < 2 * g->count && !hr2di_point_order(g->sorted[m].at, reached[k]); m++) {
       const uint32_t end = g->sorted[m].end;
       const hr2d_point far = end_at(g, end ^ 1);
+      if (hr2di_watch_work(g->lint->watch, 1)) return 0;
       if (end / 2 == a->to || length(g->s[end / 2]) > LONGEST_LINK * a->distance) continue;
       if (is_touch(g, end / 2, a->to, hr2di_apart_from_point(g->s[a->to], far))) return 1;
       size_t known = 0;
@@ -358,17 +364,30 @@ static hr2d_status show(const gaps *g, const approach *a) {
       first.text, second.text, width, at.x, at.y, enough);
 }
 
+/* A text takes some microseconds. */
+enum { TEXT = 50 };
+
+static hr2d_status show_all(const gaps *g, hr2d_warning_code code) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < g->approaches && !status; k++) {
+    const approach *a = &g->approach[k];
+    status = hr2di_watch_work(g->lint->watch, 1);
+    if (status || code_of(g, a) != code || a->apart || is_shown(g, k) ||
+        !is_told(g->lint->scene, a))
+      continue;
+    status = hr2di_watch_work(g->lint->watch, TEXT);
+    if (!status) status = show(g, a);
+  }
+  return status;
+}
+
 hr2d_status hr2di_lint_gaps(const hr2di_lint *lint) {
   static const hr2d_warning_code order[] = {HR2D_WARNING_LOOSE_END, HR2D_WARNING_NARROW_GAP,
                                             HR2D_WARNING_NEAR_COPY};
   gaps g = {.lint = lint, .alloc = &lint->scene->alloc, .count = lint->scene->patches};
   hr2d_status status = prepare(&g);
   if (!status) status = choose(&g);
-  for (size_t c = 0; c < 3 && !status; c++)
-    for (size_t k = 0; k < g.approaches && !status; k++)
-      if (code_of(&g, &g.approach[k]) == order[c] && !is_shown(&g, k) && !g.approach[k].apart &&
-          is_told(lint->scene, &g.approach[k]))
-        status = show(&g, &g.approach[k]);
+  for (size_t c = 0; c < 3 && !status; c++) status = show_all(&g, order[c]);
   hr2di_alloc_free(g.alloc, g.s);
   hr2di_alloc_free(g.alloc, g.box);
   hr2di_alloc_free(g.alloc, g.reach);

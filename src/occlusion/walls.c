@@ -69,9 +69,10 @@ static void unite_at(runs *r, const tip *first, size_t count) {
 
 /* Numbers the vertices; *count is their number. */
 static hr2d_status find_runs(runs *r, size_t *count, hr2di_watch *watch) {
-  hr2d_status status = hr2di_watch_work(watch, r->count / 4);
-  for (size_t k = 0; k < r->count; k++) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < r->count && !status; k++) {
     const hr2d_segment s = r->segment[k];
+    status = hr2di_watch_work(watch, 1);
     r->parent[k] = (uint32_t)k;
     r->span[k] = less(s.a, s.b) ? s : (hr2d_segment){s.b, s.a};
     r->tip[2 * k] = (tip){s.a, (uint32_t)k, 0};
@@ -94,13 +95,16 @@ static hr2d_status find_runs(runs *r, size_t *count, hr2di_watch *watch) {
 }
 
 /* One wall per run. */
-static void make_walls(hr2di_walls *w, runs *r) {
-  for (uint32_t k = 0; k < r->count; k++)
-    if (hr2di_union_find(r->parent, k) == k) {
-      w->of_segment[k] = (uint32_t)w->walls;
-      w->wall[w->walls++].at = r->span[k];
-    }
-  for (uint32_t k = 0; k < r->count; k++) {
+static hr2d_status make_walls(hr2di_walls *w, runs *r, hr2di_watch *watch) {
+  hr2d_status status = HR2D_OK;
+  for (uint32_t k = 0; k < r->count && !status; k++) {
+    status = hr2di_watch_work(watch, 1);
+    if (hr2di_union_find(r->parent, k) != k) continue;
+    w->of_segment[k] = (uint32_t)w->walls;
+    w->wall[w->walls++].at = r->span[k];
+  }
+  for (uint32_t k = 0; k < r->count && !status; k++) {
+    status = hr2di_watch_work(watch, 1);
     const uint32_t wall = w->of_segment[hr2di_union_find(r->parent, k)];
     const hr2d_point end[] = {r->segment[k].a, r->segment[k].b};
     w->of_segment[k] = wall;
@@ -111,6 +115,7 @@ static void make_walls(hr2di_walls *w, runs *r) {
       if (hr2di_point_same(end[e], w->wall[wall].at.b)) w->wall[wall].vertex[1] = vertex;
     }
   }
+  return status;
 }
 
 /* p lies on the inside of a wall, but for rounding. */
@@ -162,8 +167,7 @@ hr2d_status hr2di_walls_init(hr2di_walls *walls, const hr2d_allocator *alloc,
   runs r = {.segment = segment, .count = count};
   hr2d_status status = reserve(walls, &r, count);
   if (!status) status = find_runs(&r, &walls->vertices, watch);
-  if (!status) status = hr2di_watch_work(watch, count / 2);
-  if (!status) make_walls(walls, &r);
+  if (!status) status = make_walls(walls, &r, watch);
   if (!status) status = hr2di_wall_bodies_init(walls, watch);
   if (!status) status = hr2di_wall_tree_init(walls, watch);
   hr2di_alloc_free(alloc, r.parent);

@@ -114,10 +114,7 @@ static hr2d_status add_image(hr2d_scene *scene, const hr2di_motion *g, size_t pa
                              const ends_of_cell *ends) {
   const hr2di_generators *by = &scene->symmetry.by;
   hr2di_patch image;
-  if (hr2di_alloc_reserve(&scene->alloc, &scene->patch, &scene->capacity, scene->patches + 1,
-                          sizeof *scene->patch) ||
-      hr2di_patch_copy(&scene->alloc, &scene->patch[patch], 0, &image))
-    return HR2D_ENOMEM;
+  if (hr2di_patch_copy(&scene->alloc, &scene->patch[patch], 0, &image)) return HR2D_ENOMEM;
   const hr2d_point a = settle(ends, hr2di_symmetry_move(by, g, image.given.a, ends->touch)),
                    b = settle(ends, hr2di_symmetry_move(by, g, image.given.b, ends->touch));
   image.given = g->turned ? (hr2d_segment){b, a} : (hr2d_segment){a, b};
@@ -140,6 +137,9 @@ hr2d_status hr2di_scene_unfold(hr2d_scene *scene, unsigned copies, hr2di_watch *
     return hr2di_message_fail(&scene->message, HR2D_ERANGE,
                               "%zu images of %zu patches are too many", s->motions, cell);
   if (!status) status = list_ends(scene, &ends, watch);
+  if (!status && hr2di_alloc_reserve(&scene->alloc, &scene->patch, &scene->capacity,
+                                     s->motions * cell, sizeof *scene->patch))
+    status = HR2D_ENOMEM;
   for (size_t g = 1; g < s->motions && !status; g++)
     for (size_t k = 0; k < cell && !status; k++) {
       status = add_image(scene, &s->motion[g], k, &ends);

@@ -49,17 +49,21 @@ typedef struct tally {
 } tally;
 
 /* Numbers the balanced components; clears m on leaves of closed components and of others. */
-static void number(hr2di_balance *b, const hr2di_transport *t, hr2di_components *c, tally *of) {
-  for (size_t k = 0; k < t->leaves; k++) {
+static hr2d_status number(hr2di_balance *b, const hr2di_transport *t, hr2di_components *c,
+                          tally *of) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < t->leaves && !status; k++) {
     tally *mine = &of[hr2di_component(c, leaf_of(t, k)->patch)];
     const double length = hr2di_sum_total(&mine->length),
                  missing = hr2di_sum_total(&mine->missing);
+    status = hr2di_watch_work(t->watch, 1);
     if (mine->number == 0)
       mine->number = missing <= LITTLE * length ? (uint32_t)++b->count : HR2DI_OPEN;
     b->component[k] = mine->number == HR2DI_OPEN ? HR2DI_OPEN : mine->number - 1;
     if (hr2di_balance_holds(b, k) && missing > HR2DI_DEFECT_CLOSED * length) continue;
     for (size_t l = 0; l < t->order; l++) b->missing[k * t->order + l] = 0;
   }
+  return status;
 }
 
 static hr2d_status find_components(hr2di_balance *b, hr2di_transport *t) {
@@ -70,14 +74,14 @@ static hr2d_status find_components(hr2di_balance *b, hr2di_transport *t) {
   b->missing = hr2di_alloc(&t->alloc, t->leaves * t->order, sizeof *b->missing);
   if (!of || !b->component || !b->missing) status = HR2D_ENOMEM;
   if (!status) status = set_missing(b, t);
-  if (!status) status = hr2di_watch_work(t->watch, t->leaves);
   for (size_t k = 0; k < t->leaves && !status; k++) {
     tally *mine = &of[hr2di_component(&c, leaf_of(t, k)->patch)];
     const double area = leaf_of(t, k)->length;
+    status = hr2di_watch_work(t->watch, 1);
     hr2di_sum_add(&mine->length, area);
     hr2di_sum_add(&mine->missing, area * b->missing[k * t->order]);
   }
-  if (!status) number(b, t, &c, of);
+  if (!status) status = number(b, t, &c, of);
   hr2di_alloc_free(&t->alloc, of);
   hr2di_components_clear(&c);
   return status;

@@ -33,12 +33,13 @@ void slow_clear(slow_stage *s) {
 static hr2d_status by_scene(slow_stage *s, hr2d_status (*call)(slow_stage *s)) {
   hr2d_scene_set_progress(s->scene, s->ask, s->ctx);
   const hr2d_status status = call(s);
-  hr2d_scene_set_progress(s->scene, NULL, NULL);
+  hr2d_scene_set_progress(s->scene, s->hurry, s->ctx);
   return status;
 }
 
 static hr2d_status make_open(slow_stage *s) {
   const hr2d_status status = hr2d_scene_create(s->hooks, &s->scene);
+  if (!status) hr2d_scene_set_progress(s->scene, s->hurry, s->ctx);
   return status ? status : slow_add(s->scene, s->kind, s->count);
 }
 
@@ -90,7 +91,23 @@ static hr2d_status make_links(slow_stage *s) {
   return status ? status : hr2d_refine(s->links, &o);
 }
 
+static hr2d_target target_of(const slow_stage *s) {
+  hr2d_target target = HR2D_TARGET_INIT;
+  target.error = s->target > 0 ? s->target : .1;
+  target.threads = s->threads;
+  return target;
+}
+
+/* Refinement of so many patches that clusters are needed is a solve to a target. */
+static hr2d_status make_solution_to(slow_stage *s) {
+  hr2d_target target = target_of(s);
+  target.no_error = 1;
+  const hr2d_status status = make_scene(s);
+  return status ? status : hr2d_solve_to(s->scene, &target, &s->solution, NULL);
+}
+
 static hr2d_status make_solution(slow_stage *s) {
+  if (s->target > 0) return make_solution_to(s);
   const hr2d_status status = make_links(s);
   hr2d_solve_options o = HR2D_SOLVE_OPTIONS_INIT;
   o.threads = s->threads;
@@ -225,7 +242,7 @@ static hr2d_status sum_clusters(slow_stage *s) {
   if (!status) status = hr2d_clusters_gather(clusters, &o, 1, 1, value, value + n);
   hr2d_clusters_destroy(clusters);
   free(value);
-  return status;
+  return status == HR2D_EUNSUPPORTED ? HR2D_OK : status; /* images */
 }
 
 static hr2d_status find_factors(slow_stage *s) {
@@ -300,6 +317,22 @@ static hr2d_status solve(slow_stage *s) {
   o.progress = s->ask;
   o.progress_ctx = s->ctx;
   return hr2d_solve(s->links, &o, &s->solution);
+}
+
+static hr2d_status solve_to(slow_stage *s) {
+  hr2d_target target = target_of(s);
+  target.progress = s->ask;
+  target.progress_ctx = s->ctx;
+  const hr2d_status status = hr2d_solve_to(s->scene, &target, &s->solution, NULL);
+  return status == HR2D_EACCURACY ? HR2D_OK : status;
+}
+
+static hr2d_status predict(slow_stage *s) {
+  hr2d_target target = target_of(s);
+  hr2d_prediction prediction;
+  target.progress = s->ask;
+  target.progress_ctx = s->ctx;
+  return hr2d_predict(s->scene, &target, &prediction);
 }
 
 static hr2d_status gather_some(slow_stage *s) {
@@ -411,4 +444,6 @@ const slow_phase slow_phases[SLOW_PHASES] = {
     {"snap", make_crossing, snap},
     {"field", make_solution, look_round},
     {"grid", make_solution, draw_light},
+    {"predict", make_scene, predict},
+    {"to", make_scene, solve_to},
 };

@@ -11,8 +11,10 @@ typedef struct slow_stage {
   size_t count;   /* patches, about */
   double epsilon; /* of refinements */
   unsigned order; /* of elements */
+  double target;  /* of solves to a target; 0: .1, and solutions are made by refinement */
   unsigned threads;
-  hr2d_progress_fn ask; /* of the call itself, not of what is made for it */
+  hr2d_progress_fn ask;   /* of the call itself, not of what is made for it */
+  hr2d_progress_fn hurry; /* of what is made for it; NULL: nobody is asked */
   void *ctx;
 
   hr2d_scene *scene;
@@ -30,7 +32,7 @@ typedef struct slow_phase {
   hr2d_status (*run)(slow_stage *s);     /* may be called again after it was stopped */
 } slow_phase;
 
-enum { SLOW_PHASES = 22 };
+enum { SLOW_PHASES = 24 };
 extern const slow_phase slow_phases[SLOW_PHASES];
 
 void slow_clear(slow_stage *s);

@@ -6,8 +6,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const char *const names[SLOW_KINDS] = {"squares", "spokes", "comb",
-                                              "city",    "round",  "soup"};
+static const char *const names[SLOW_KINDS] = {"squares", "spokes", "comb",    "city",
+                                              "round",   "soup",   "mirrors", "periods",
+                                              "slivers", "star",   "fans"};
 
 const char *slow_name(slow_kind kind) {
   return names[kind];
@@ -81,8 +82,12 @@ static void put_comb(adder *a, size_t count) {
   put(a, 0.7, 0.5, 0.3, 0.5, 1, HR2D_SIDES_FRONT);
 }
 
-static void put_city(adder *a, size_t count) {
+static void put_sky(adder *a) {
   const double sky = 1;
+  if (!a->status) a->status = hr2d_scene_set_background(a->scene, &sky, 1);
+}
+
+static void put_city(adder *a, size_t count) {
   const size_t houses = count / 4 + 1;
   for (size_t k = 0; k < houses; k++) {
     const double x = 20 * (double)k, y = 5 + 40 * draw(a);
@@ -91,7 +96,7 @@ static void put_city(adder *a, size_t count) {
     put(a, x + 8, y, x + 20, y, 0, HR2D_SIDES_FRONT);
     put(a, x + 20, y, x + 20, 0, 0, HR2D_SIDES_FRONT);
   }
-  if (!a->status) a->status = hr2d_scene_set_background(a->scene, &sky, 1);
+  put_sky(a);
 }
 
 static void put_round(adder *a, size_t count) {
@@ -103,9 +108,13 @@ static void put_round(adder *a, size_t count) {
   }
 }
 
-static void put_soup(adder *a, size_t count) {
-  const size_t across = (size_t)ceil(sqrt((double)count / 2));
-  put_room(a, (double)across);
+/* Two-sided walls have a cell each, so many in a row. */
+static size_t cells_across(size_t count) {
+  return (size_t)ceil(sqrt((double)count / 2));
+}
+
+static void put_walls(adder *a, size_t count) {
+  const size_t across = cells_across(count);
   for (size_t k = 0; 2 * k < count; k++) {
     const double x = (double)(k % across) + 0.5, y = (double)(k / across) + 0.5;
     const double angle = 6.28 * draw(a), half = 0.1 + 0.35 * draw(a);
@@ -114,9 +123,61 @@ static void put_soup(adder *a, size_t count) {
   }
 }
 
+static void put_soup(adder *a, size_t count) {
+  put_room(a, (double)cells_across(count));
+  put_walls(a, count);
+}
+
+static void put_mirrors(adder *a, size_t count) {
+  const hr2d_segment line[2] = {{{0, 0}, {0, 1}}, {{0, 0}, {1, 0}}};
+  put_walls(a, count);
+  put_sky(a);
+  for (size_t k = 0; k < 2 && !a->status; k++)
+    a->status = hr2d_scene_add_mirror(a->scene, line[k]);
+}
+
+static void put_periods(adder *a, size_t count) {
+  const double across = (double)cells_across(count);
+  put_walls(a, count);
+  put(a, 0, 0, across, 0, 0, HR2D_SIDES_FRONT);
+  put_sky(a);
+  if (!a->status) a->status = hr2d_scene_set_period(a->scene, (hr2d_point){across, 0});
+}
+
+/* Each is near to some others on each side, and those warnings are as many as can be. */
+static void put_slivers(adder *a, size_t count) {
+  for (size_t k = 0; 2 * k < count; k++) {
+    const double y = 0.02 * (double)k, shift = 0.1 * draw(a);
+    put(a, shift, y, 1 + shift, y + 0.01 * draw(a), 0, HR2D_SIDES_BOTH);
+  }
+  put_sky(a);
+}
+
+/* Walls of length 1 from a point, between two angles. */
+static void put_fan(adder *a, hr2d_point p, size_t walls, double from, double to) {
+  for (size_t k = 0; k < walls; k++) {
+    const double angle = from + (to - from) * (double)k / (double)walls;
+    put(a, p.x, p.y, p.x + cos(angle), p.y + sin(angle), 0, HR2D_SIDES_BOTH);
+  }
+}
+
+static void put_star(adder *a, size_t count) {
+  put_fan(a, (hr2d_point){0, 0}, count / 2, 0, 2 * 3.14159265358979323846);
+  put_sky(a);
+}
+
+static void put_fans(adder *a, size_t count) {
+  enum { FANS = 10 };
+  put(a, 0, 0, 2 * FANS, 0, 0, HR2D_SIDES_FRONT);
+  for (size_t k = 0; k < FANS; k++)
+    put_fan(a, (hr2d_point){.5 + 2 * (double)k, 0}, count / (2 * FANS), .5, 1.5);
+  put_sky(a);
+}
+
 hr2d_status slow_add(hr2d_scene *scene, slow_kind kind, size_t count) {
   static void (*const put_kind[SLOW_KINDS])(adder *, size_t) = {
-      put_squares, put_spokes, put_comb, put_city, put_round, put_soup};
+      put_squares, put_spokes,  put_comb,    put_city, put_round, put_soup,
+      put_mirrors, put_periods, put_slivers, put_star, put_fans};
   adder a = {scene, HR2D_OK, 1};
   put_kind[kind](&a, count);
   return a.status;

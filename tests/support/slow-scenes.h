@@ -13,6 +13,11 @@ typedef enum slow_kind {
   SLOW_CITY,    /* a section of houses under the sky */
   SLOW_ROUND,   /* a round room */
   SLOW_SOUP,    /* short two-sided walls anywhere in a room */
+  SLOW_MIRRORS, /* short walls between two perpendicular mirrors, under the sky */
+  SLOW_PERIODS, /* short walls over a ground, in a period, under the sky */
+  SLOW_SLIVERS, /* long plates so near each other that each is a narrow gap, under the sky */
+  SLOW_STAR,    /* two-sided walls from one point to a circle, under the sky */
+  SLOW_FANS,    /* walls from some points of a floor, in small angles, under the sky */
   SLOW_KINDS
 } slow_kind;
 
