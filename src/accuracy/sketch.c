@@ -2,6 +2,7 @@
 #include "accuracy/sketch.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/clock.h"
@@ -22,7 +23,9 @@ typedef struct sketcher {
   hr2d_status progress_status; /* of the caller's callback */
   hr2d_linkset *links;
   size_t bands;
-  double *row; /* patches: ΣF */
+  double *row;        /* patches: ΣF */
+  double *outside;    /* patches × bands: irradiance from outside */
+  hr2di_watch polled; /* with `limit` */
 } sketcher;
 
 /* Ends what is done now when its time is up. */
@@ -74,46 +77,67 @@ static hr2d_status make_links(sketcher *s) {
   return s->progress_status ? s->progress_status : status;
 }
 
-static void sum_rows(sketcher *s) {
+/* What an answer cannot do without: only the caller's callback ends it. */
+static hr2d_status must(sketcher *s, uint64_t units) {
+  s->limit = HUGE_VAL;
+  return hr2di_watch_work(&s->polled, units);
+}
+
+static hr2d_status sum_rows(sketcher *s) {
   const hr2di_store *store = &s->links->store;
   const hr2d_element *patch = s->links->hierarchy->element;
-  for (uint64_t k = 0; k < store->count; k++) {
+  hr2d_status status = HR2D_OK;
+  for (uint64_t k = 0; k < store->count && !status; k++) {
     const hr2d_link *link = hr2di_store_at(store, k);
     const size_t i = hr2di_scene_original(s->scene, link->pair.first),
                  j = hr2di_scene_original(s->scene, link->pair.second);
+    if (k % 64 == 0) status = must(s, 8);
     s->row[i] += link->exchange_area / patch[i].length;
     s->row[j] += link->exchange_area / patch[j].length;
   }
   for (size_t k = hr2di_scene_cell(s->scene); k < s->scene->patches; k++)
     s->row[k] = s->row[hr2di_scene_original(s->scene, k)];
+  return status;
 }
 
 /* The irradiance of a patch from the background, the sun, and the sky as if it saw the same
    part of each piece. */
-static double from_outside(const sketcher *s, size_t patch, size_t band) {
-  if (!s->scene->effect[HR2D_EFFECT_BACKGROUND].on) return 0;
-  double light = hr2d_scene_background(s->scene, band);
-  for (size_t k = 0; k < s->scene->sky.pieces; k++) {
+static void find_outside_of(const sketcher *s, size_t patch, double *light) {
+  const hr2d_scene *scene = s->scene;
+  const double seen = fmax(1 - s->row[patch], 0);
+  for (size_t m = 0; m < s->bands; m++) light[m] = hr2d_scene_background(scene, m);
+  for (size_t k = 0; k < scene->sky.pieces; k++) {
     hr2di_sines part[2];
-    const int parts = hr2di_sky_front(s->scene, patch, k, part);
-    light += hr2di_sky_factor(part, parts, -1, 1) * hr2di_sky_beyond(s->scene, k, band);
+    const int parts = hr2di_sky_front(scene, patch, k, part);
+    const double factor = hr2di_sky_factor(part, parts, -1, 1);
+    for (size_t m = 0; m < s->bands; m++) light[m] += factor * hr2di_sky_beyond(scene, k, m);
   }
-  return fmax(1 - s->row[patch], 0) * light + hr2d_scene_sunlight(s->scene, patch, band);
+  for (size_t m = 0; m < s->bands; m++)
+    light[m] = seen * light[m] + hr2d_scene_sunlight(scene, patch, m);
+}
+
+static hr2d_status find_outside(sketcher *s) {
+  hr2d_status status = HR2D_OK;
+  if (!s->scene->effect[HR2D_EFFECT_BACKGROUND].on) return HR2D_OK;
+  for (size_t k = 0; k < s->scene->patches && !status; k++) {
+    status = must(s, 1 + s->scene->sky.pieces + s->bands * (2 + s->scene->sky.pieces / 16));
+    if (!status) find_outside_of(s, k, s->outside + k * s->bands);
+  }
+  return status;
 }
 
 /* H = ΣFB + sL.  Returns HR2D_OK or the status of the watch. */
-static hr2d_status gather(const sketcher *s, const double *b, double *h, hr2di_watch *watched) {
+static hr2d_status gather(sketcher *s, const double *b, double *h) {
   const hr2di_store *store = &s->links->store;
   const hr2d_element *patch = s->links->hierarchy->element;
   const size_t bands = s->bands;
   hr2d_status status = HR2D_OK;
-  for (size_t k = 0; k < s->scene->patches * bands; k++)
-    h[k] = from_outside(s, k / bands, k % bands);
+  memcpy(h, s->outside, s->scene->patches * bands * sizeof *h);
   for (uint64_t k = 0; k < store->count && !status; k++) {
     const hr2d_link *link = hr2di_store_at(store, k);
     const size_t i = hr2di_scene_original(s->scene, link->pair.first),
                  j = hr2di_scene_original(s->scene, link->pair.second);
-    if (k % 64 == 0) status = hr2di_watch_work(watched, 8 + 4 * bands);
+    if (k % 64 == 0) status = hr2di_watch_work(&s->polled, 8 + 4 * bands);
     for (size_t m = 0; m < bands; m++) {
       h[i * bands + m] += link->exchange_area / patch[i].length * b[j * bands + m];
       h[j * bands + m] += link->exchange_area / patch[j].length * b[i * bands + m];
@@ -125,38 +149,39 @@ static hr2d_status gather(const sketcher *s, const double *b, double *h, hr2di_w
   return status;
 }
 
-/* B = E + ρH.  Returns the largest change, relative to the largest B of the band. */
-static double reflect(const sketcher *s, const double *h, double *b) {
-  double worst = 0;
-  for (size_t m = 0; m < s->bands; m++) {
+/* B = E + ρH.  *worst is the largest change, relative to the largest B of the band. */
+static hr2d_status reflect(sketcher *s, const double *h, double *b, double *worst) {
+  hr2d_status status = HR2D_OK;
+  *worst = 0;
+  for (size_t m = 0; m < s->bands && !status; m++) {
     double change = 0, most = 0;
-    for (size_t k = 0; k < s->scene->patches; k++) {
+    for (size_t k = 0; k < s->scene->patches && !status; k++) {
       const size_t at = k * s->bands + m;
       const double next =
           hr2d_scene_emission(s->scene, k, m) + hr2d_scene_reflectance(s->scene, k, m) * h[at];
+      if (k % 64 == 0) status = must(s, 16);
       change = fmax(change, fabs(next - b[at]));
       most = fmax(most, fabs(next));
       b[at] = next;
     }
-    if (change > 0) worst = fmax(worst, change / most);
+    if (change > 0) *worst = fmax(*worst, change / most);
   }
-  return worst;
+  return status;
 }
 
 /* Sweeps until B stands or the time is up.  A sweep that is not ended is not used. */
 static hr2d_status sweep(sketcher *s, hr2d_solution *made, double *next) {
-  hr2di_watch watched;
-  hr2di_scene_watch(s->scene, &watched, watch, s, "solve");
-  s->limit = s->until.all;
-  made->residual = HUGE_VAL;
+  const size_t values = s->scene->patches * s->bands;
   hr2d_status status = HR2D_OK;
+  made->residual = HUGE_VAL;
   for (int k = 0; k < MOST && !status && made->residual > CHANGE; k++) {
-    status = gather(s, made->value, next, &watched);
+    s->limit = s->until.all;
+    status = hr2di_watch_work(&s->polled, values / 32);
+    if (!status) status = gather(s, made->value, next);
     if (status) break;
-    for (size_t m = 0; m < s->scene->patches * s->bands; m++) made->irradiance[m] = next[m];
-    made->residual = reflect(s, made->irradiance, made->value);
+    memcpy(made->irradiance, next, values * sizeof *next);
+    status = reflect(s, made->irradiance, made->value, &made->residual);
     made->work.gathers++;
-    status = hr2di_watch_work(&watched, s->scene->patches * s->bands / 8);
   }
   return s->progress_status;
 }
@@ -172,7 +197,7 @@ static void sum_power(const sketcher *s, hr2d_solution *made) {
       const size_t at = k * s->bands + m;
       const double length = unit * patch[k].length;
       p->emitted += length * hr2d_scene_emission(s->scene, k, m);
-      p->received += length * from_outside(s, k, m);
+      p->received += length * s->outside[at];
       p->absorbed +=
           length * (1 - hr2d_scene_reflectance(s->scene, k, m)) * made->irradiance[at];
       p->escaped += length * fmax(1 - s->row[k], 0) * made->value[at];
@@ -201,14 +226,19 @@ static hr2d_status solve(sketcher *s, hr2di_graded *a) {
   const hr2d_allocator *alloc = &a->links->alloc;
   const size_t patches = s->scene->patches, values = patches * s->bands;
   hr2d_solution *made = a->solution;
-  double *space = hr2di_alloc_zero(alloc, values + patches, sizeof *space);
+  double *space = hr2di_alloc_zero(alloc, 2 * values + patches, sizeof *space);
+  double change;
   if (!space) return HR2D_ENOMEM;
-  s->row = space + values;
-  sum_rows(s);
-  for (size_t k = 0; k < values; k++)
-    made->irradiance[k] = from_outside(s, k / s->bands, k % s->bands);
-  reflect(s, made->irradiance, made->value);
-  const hr2d_status status = sweep(s, made, space);
+  s->outside = space + values;
+  s->row = s->outside + values;
+  hr2di_scene_watch(s->scene, &s->polled, watch, s, "solve");
+  hr2d_status status = sum_rows(s);
+  if (!status) status = find_outside(s);
+  if (!status) {
+    memcpy(made->irradiance, s->outside, values * sizeof *made->irradiance);
+    status = reflect(s, made->irradiance, made->value, &change);
+  }
+  if (!status) status = sweep(s, made, space);
   if (!status) sum_power(s, made);
   hr2di_alloc_free(alloc, space);
   return status;
