@@ -57,7 +57,7 @@ typedef struct hr2d_warning {
   hr2d_warning_code code; /**< what it is about */
   const char *text;       /**< a sentence with the place, and what to do */
   size_t patches;         /**< how many members of `patch` are set: 0, 1 or 2 */
-  size_t patch[2];        /**< the patches it names */
+  size_t patch[2];        /**< the patches it names; where it tells many, the first two */
   hr2d_point at;          /**< of a gap: the end of `patch[0]` beside it; else (0, 0) */
   double gap;             /**< of a gap: its width in scene lengths; else 0 */
 } hr2d_warning;
@@ -107,6 +107,9 @@ HR2D_API void hr2d_lint_options_init(hr2d_lint_options *options, size_t size);
  *
  * A back is seen if it makes a hundredth or more of what the middle of a front sees; it is
  * shown once, with the first front that sees it.
+ *
+ * Fronts that see nothing make one warning, and those that no light reaches another: its text
+ * names the first three and counts the rest.
  *
  * @param scene    committed or not; without a commit warnings about light and views are
  * missing, so that the call tells more about a scene that hr2d_scene_commit() refuses

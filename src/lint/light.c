@@ -19,7 +19,7 @@ static hr2d_status warn_of_no_absorber(const hr2di_lint *lint) {
                          band);
 }
 
-hr2d_status hr2di_lint_light(const hr2di_lint *lint) {
+hr2d_status hr2di_lint_light(const hr2di_lint *lint, int *blind) {
   const hr2d_scene *scene = lint->scene;
   const int lit = scene->effect[HR2D_EFFECT_EMISSION].called_for;
   hr2d_status status = HR2D_OK;
@@ -29,6 +29,6 @@ hr2d_status hr2di_lint_light(const hr2di_lint *lint) {
         "no patch emits, and there is neither a background nor a sun, so that B is 0 "
         "everywhere: write \"emission\" or \"temperature\", or a \"background\" or a \"sun\" "
         "in \"hr2d\"");
-  if (!status) status = hr2di_lint_views(lint);
+  if (!status) status = hr2di_lint_views(lint, blind);
   return status ? status : warn_of_no_absorber(lint);
 }

@@ -15,6 +15,22 @@ typedef struct hr2di_lint {
   hr2di_watch *watch;
 } hr2di_lint;
 
+/* The names of the first of some places, and how many more there are. */
+enum { HR2DI_LINT_PLACES = 3 };
+typedef struct hr2di_lint_places {
+  char text[HR2DI_LINT_PLACES * sizeof(hr2di_label) + 40];
+} hr2di_lint_places;
+
+hr2di_lint_places hr2di_lint_places_of(const char *const *name, size_t names, size_t count);
+
+/* Patches that one warning tells. */
+typedef struct hr2di_lint_patches {
+  size_t count, patch[HR2DI_LINT_PLACES]; /* the first of them */
+} hr2di_lint_patches;
+
+void hr2di_lint_add(hr2di_lint_patches *told, size_t patch);
+hr2di_lint_places hr2di_lint_labels(const hr2d_scene *scene, const hr2di_lint_patches *told);
+
 /* Gives a warning its text, as printf would, and shows it.  Returns the status of the visitor.
  */
 __attribute__((format(printf, 3, 4))) hr2d_status
@@ -31,9 +47,10 @@ hr2d_status hr2di_lint_heat(const hr2di_lint *lint);
 #define HR2DI_LINT_TURN                                                                        \
   "the front is on the left from a to b: swap the ends, or for a polygon \"faces\""
 
-/* Of a committed scene: light, and what fronts see; and suns. */
-hr2d_status hr2di_lint_light(const hr2di_lint *lint);
-hr2d_status hr2di_lint_views(const hr2di_lint *lint);
-hr2d_status hr2di_lint_suns(const hr2di_lint *lint);
+/* Of a committed scene: light, and what fronts see; and suns.  *blind receives whether it was
+   told that no front sees the surroundings, where the suns are. */
+hr2d_status hr2di_lint_light(const hr2di_lint *lint, int *blind);
+hr2d_status hr2di_lint_views(const hr2di_lint *lint, int *blind);
+hr2d_status hr2di_lint_suns(const hr2di_lint *lint, int blind);
 
 #endif

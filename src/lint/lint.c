@@ -31,26 +31,15 @@ const char *hr2d_warning_name(hr2d_warning_code code) {
   return (unsigned)code < HR2D_WARNING_COUNT ? names[code] : NULL;
 }
 
-/* feature 2 ("hall"), feature 5 and 12 more */
-typedef struct places {
-  char text[HR2DI_NOTE_PLACES * sizeof((hr2di_note){0}.place[0]) + 40];
-} places;
-
-static places places_of(const hr2di_note *n) {
-  places p = {{0}};
-  size_t length = 0;
-  const size_t rest = n->count - n->places;
-  for (size_t k = 0; k < n->places; k++)
-    length +=
-        (size_t)snprintf(p.text + length, sizeof p.text - length, "%s%s",
-                         !k ? "" : (k + 1 < n->places || rest ? ", " : " and "), n->place[k]);
-  if (rest) snprintf(p.text + length, sizeof p.text - length, " and %zu more", rest);
-  return p;
+static hr2di_lint_places places_of(const hr2di_note *n) {
+  const char *name[HR2DI_NOTE_PLACES];
+  for (size_t k = 0; k < n->places; k++) name[k] = n->place[k];
+  return hr2di_lint_places_of(name, n->places, n->count);
 }
 
 static hr2d_status warn_of_note(const hr2di_lint *lint, const hr2di_note *n) {
   const hr2d_warning warning = {.code = n->code};
-  const places at = places_of(n);
+  const hr2di_lint_places at = places_of(n);
   const hr2di_message_quoted key = hr2di_message_quote(n->key);
   switch (n->code) {
   case HR2D_WARNING_ALTITUDE:
@@ -155,12 +144,13 @@ hr2d_status hr2d_scene_lint(const hr2d_scene *scene, hr2d_warning_fn warn, void 
   hr2di_scene_watch(scene, &watch, o.progress, o.progress_ctx, "lint");
   const hr2di_lint lint = {
       .scene = scene, .warn = warn, .ctx = ctx, .gap = o.gap, .watch = &watch};
+  int blind = 0;
   hr2d_status status = warn_of_notes(&lint);
   if (scene->patches == 0) return status;
   if (!status) status = warn_of_coordinates(&lint);
   if (!status) status = hr2di_lint_heat(&lint);
   if (!status) status = hr2di_lint_gaps(&lint);
-  if (!status && scene->committed) status = hr2di_lint_light(&lint);
-  if (!status && scene->committed) status = hr2di_lint_suns(&lint);
+  if (!status && scene->committed) status = hr2di_lint_light(&lint, &blind);
+  if (!status && scene->committed) status = hr2di_lint_suns(&lint, blind);
   return status;
 }

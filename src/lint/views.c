@@ -25,6 +25,8 @@ typedef struct views {
   hr2di_viewer *viewer;
   int sky, lit;
   backs back;
+  hr2di_lint_patches nothing; /* they see nothing */
+  int blind;                  /* no front sees the sky, although there is one */
 } views;
 
 static int emits(const hr2d_scene *scene, size_t patch) {
@@ -93,18 +95,25 @@ static int is_back_seen(const views *v, size_t patch) {
   return v->back.viewers && v->back.viewers[patch];
 }
 
+static hr2d_warning warning_of(hr2d_warning_code code, const hr2di_lint_patches *told) {
+  return (hr2d_warning){.code = code,
+                        .patches = told->count < 2 ? told->count : 2,
+                        .patch = {told->patch[0], told->patch[1]}};
+}
+
 static hr2d_status warn_of_dark(const views *v) {
   const hr2d_scene *scene = v->lint->scene;
+  hr2di_lint_patches dark = {0};
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < hr2di_scene_cell(scene) && scene->dark && v->lit && !status; k++) {
     status = hr2di_watch_work(v->lint->watch, 1);
-    if (status || !scene->dark[k] || has_other_side(v, k, 1)) continue;
-    status = hr2di_lint_warn(
-        v->lint, (hr2d_warning){.code = HR2D_WARNING_UNLIT, .patches = 1, .patch = {k}},
-        "no light reaches the front of %s: if it should see the light, " HR2DI_LINT_TURN,
-        hr2di_patch_label(scene, k).text);
+    if (scene->dark[k] && !has_other_side(v, k, 1)) hr2di_lint_add(&dark, k);
   }
-  return status;
+  if (status || !dark.count) return status;
+  return hr2di_lint_warn(
+      v->lint, warning_of(HR2D_WARNING_UNLIT, &dark),
+      "no light reaches the front of %s: if it should see the light, " HR2DI_LINT_TURN,
+      hr2di_lint_labels(scene, &dark).text);
 }
 
 /* A patch whose front sees nothing is told once, not for its back, too. */
@@ -121,17 +130,16 @@ static hr2d_status warn_of_back(const views *v, size_t patch) {
       hr2di_patch_label(scene, patch).text, hr2di_patch_label(scene, first).text, more);
 }
 
-static hr2d_status warn_of_nothing(const views *v, size_t patch) {
-  const hr2d_scene *scene = v->lint->scene;
+static hr2d_status warn_of_nothing(const views *v) {
+  if (!v->nothing.count) return HR2D_OK;
   return hr2di_lint_warn(
-      v->lint,
-      (hr2d_warning){.code = HR2D_WARNING_SEES_NOTHING, .patches = 1, .patch = {patch}},
-      "the front of %s sees no patch%s: if it should, " HR2DI_LINT_TURN,
-      hr2di_patch_label(scene, patch).text, v->sky ? " and no sky" : "");
+      v->lint, warning_of(HR2D_WARNING_SEES_NOTHING, &v->nothing),
+      "no patch%s is seen from the front of %s: if one should be, " HR2DI_LINT_TURN,
+      v->sky ? " and no sky" : "", hr2di_lint_labels(v->lint->scene, &v->nothing).text);
 }
 
 /* Of patches without light the other warnings tell, unless nothing has light. */
-static hr2d_status look_from(const views *v, size_t patch) {
+static hr2d_status look_from(views *v, size_t patch) {
   const hr2d_scene *scene = v->lint->scene;
   int sees = 1;
   hr2d_status status = hr2di_watch_work(v->lint->watch, 1);
@@ -139,13 +147,16 @@ static hr2d_status look_from(const views *v, size_t patch) {
   if (!status && asked && !(v->sky && has_other_side(v, patch, 0)))
     status = hr2di_sees_anything(v->viewer, patch,
                                  HR2DI_LOOK_FRONTS | (v->sky ? HR2DI_LOOK_SKY : 0), &sees);
-  if (!status && !sees) return warn_of_nothing(v, patch);
+  if (!status && !sees) {
+    hr2di_lint_add(&v->nothing, patch);
+    return HR2D_OK;
+  }
   const int dark = v->lit && scene->dark && scene->dark[patch];
   if (!status && v->lit && is_back_seen(v, patch) && !dark) return warn_of_back(v, patch);
   return status;
 }
 
-static hr2d_status warn_of_no_sky(const views *v) {
+static hr2d_status warn_of_no_sky(views *v) {
   const size_t cell = hr2di_scene_cell(v->lint->scene);
   hr2d_status status = HR2D_OK;
   int sees = !v->sky;
@@ -154,10 +165,11 @@ static hr2d_status warn_of_no_sky(const views *v) {
     if (!status) status = hr2di_sees_anything(v->viewer, k, HR2DI_LOOK_SKY, &sees);
   }
   if (status || sees) return status;
+  v->blind = 1;
   return hr2di_lint_warn(
       v->lint, (hr2d_warning){.code = HR2D_WARNING_NO_SKY},
       "no front sees the surroundings, so that their light, the "
-      "\"background\" or \"sky\", changes nothing: polygons have their fronts "
+      "\"background\", \"sky\" or \"sun\", changes nothing: polygons have their fronts "
       "inside; write \"faces\": \"out\" for what is seen from outside");
 }
 
@@ -165,12 +177,13 @@ static hr2d_status look(views *v) {
   hr2d_status status = find_backs(v);
   for (size_t k = 0; k < hr2di_scene_cell(v->lint->scene) && !status; k++)
     status = look_from(v, k);
+  if (!status) status = warn_of_nothing(v);
   return status ? status : warn_of_no_sky(v);
 }
 
 /* Where it is unclear how patches cross, there is no plane to look through, and no warning but
    of patches without light. */
-hr2d_status hr2di_lint_views(const hr2di_lint *lint) {
+hr2d_status hr2di_lint_views(const hr2di_lint *lint, int *blind) {
   const hr2d_scene *scene = lint->scene;
   views v = {.lint = lint,
              .sky = scene->effect[HR2D_EFFECT_BACKGROUND].called_for,
@@ -183,6 +196,7 @@ hr2d_status hr2di_lint_views(const hr2di_lint *lint) {
   if (!status && w.scene.parts.wanted) {
     status = hr2di_viewer_create(&w.scene, &scene->alloc, lint->watch, &v.viewer);
     if (!status) status = look(&v);
+    *blind = v.blind;
   }
   hr2di_viewer_destroy(v.viewer);
   hr2di_alloc_free(&scene->alloc, v.back.viewer);

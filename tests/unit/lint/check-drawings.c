@@ -201,7 +201,48 @@ START_TEST(all_houses_that_look_in_are_one_warning) {
 }
 END_TEST
 
+/* Their outer fronts see nothing: three on each side. */
+START_TEST(bodies_in_the_open_are_one_warning) {
+  static char said[ROOM];
+  drawing *d = malloc(sizeof *d);
+  ck_assert_ptr_nonnull(d);
+  begin(d, "");
+  for (int k = 0; k < 9; k++)
+    box(d, "\"faces\":\"out\",\"emission\":1", 2. * (k % 3), 2. * (k / 3), 1, 1);
+  ck_assert_msg(count_warnings(d, said) == 1 && !strncmp(said, "sees-nothing: ", 14), "%s",
+                said);
+  ck_assert_msg(strstr(said, " and 9 more:") != NULL, "%s", said);
+  free(d);
+}
+END_TEST
+
+START_TEST(rooms_without_light_are_one_warning) {
+  static char said[ROOM];
+  drawing *d = malloc(sizeof *d);
+  ck_assert_ptr_nonnull(d);
+  begin(d, "");
+  for (int k = 0; k < 9; k++)
+    box(d, k ? "\"reflectance\":0.3" : "\"emission\":1", 8. * k, 0, 6, 9);
+  ck_assert_msg(count_warnings(d, said) == 1 && !strncmp(said, "unlit: ", 7), "%s", said);
+  ck_assert_msg(strstr(said, " and 29 more:") != NULL, "%s", said);
+  free(d);
+}
+END_TEST
+
+START_TEST(houses_that_look_in_under_a_sun_are_one_warning) {
+  static char said[ROOM];
+  drawing *d = malloc(sizeof *d);
+  ck_assert_ptr_nonnull(d);
+  begin(d, "\"sun\":{\"bearing\":-40,\"irradiance\":800}");
+  box(d, "\"reflectance\":0.3", 0, 0, 6, 9);
+  ck_assert_msg(count_warnings(d, said) == 1 && !strncmp(said, "no-sky: ", 8), "%s", said);
+  free(d);
+}
+END_TEST
+
 TEST_SUITE("drawings") {
   REPEAT_TESTS(11, "controls", real_drawings_have_no_warning);
-  ADD_TESTS("mistakes", all_houses_that_look_in_are_one_warning);
+  ADD_TESTS("mistakes", all_houses_that_look_in_are_one_warning,
+            bodies_in_the_open_are_one_warning, rooms_without_light_are_one_warning,
+            houses_that_look_in_under_a_sun_are_one_warning);
 }

@@ -29,7 +29,8 @@ typedef struct mistake {
 static const mistake mistakes[] = {
     /* 0 */
     {"fronts of a room look out", COLLECTION(LAMP "," ROOM("\"faces\":\"out\"", SQUARE)),
-     HR2D_WARNING_SEES_NOTHING, "the front of patch 0 (\"lamp\") sees no patch"},
+     HR2D_WARNING_SEES_NOTHING,
+     "no patch is seen from the front of patch 0 (\"lamp\") and patch 1"},
     {"one wall runs the wrong way",
      COLLECTION(LAMP "," LINE("", "[[0,0],[4,0],[4,3]]") "," LINE("\"name\":\"wall\"",
                                                                   "[[0,3],[4,3]]")),
@@ -136,7 +137,8 @@ static const mistake mistakes[] = {
     {"a front inside of a wall, under a sky",
      WITH("\"hr2d\":{\"background\":1}",
           ROOM("\"faces\":\"out\"", SQUARE) "," LINE("\"name\":\"lamp\"", "[[1,1],[2,1]]")),
-     HR2D_WARNING_SEES_NOTHING, "(\"lamp\") sees no patch and no sky"},
+     HR2D_WARNING_SEES_NOTHING,
+     "no patch and no sky is seen from the front of patch 4 (\"lamp\")"},
     {"a wall is drawn twice, the second time backwards",
      COLLECTION(LAMP "," WALLS "," LINE("\"name\":\"again\"", "[[4,0],[0,0]]")),
      HR2D_WARNING_UNLIT, "no light reaches the front of patch 6 (\"again\")"},
@@ -203,7 +205,7 @@ static const mistake mistakes[] = {
      COLLECTION(LINE("\"name\":\"floor\"", "[[6,0],[0,0]]") "," LINE("",
                                                                      "[[6,0],[6,2.5],[0,2.5],"
                                                                      "[0,0]]")),
-     HR2D_WARNING_SEES_NOTHING, "the front of patch 0 (\"floor\") sees no patch"},
+     HR2D_WARNING_SEES_NOTHING, "no patch is seen from the front of patch 0 (\"floor\")"},
     {"a corner that is missed by 1 cm",
      COLLECTION(LINE("\"name\":\"floor\",\"emission\":1", "[[0,0],[4,0],[4,3],[0,3]]") "," LINE(
          "\"name\":\"w\"", "[[0,3],[0,0.01]]")),
