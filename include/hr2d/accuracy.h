@@ -38,6 +38,9 @@
  * - a bound of the roundings of B, of H and of coordinates. (I − ρK)⁻¹ = Σ(ρK)^k maps nothing
  *   positive to anything negative, so it carries a bound on as it carries light.
  *
+ * Sunlight that may be missing because a sun shines past more images of a period than there are
+ * is no part of any error: hr2d_scene_sunlight_cut_off() has it.
+ *
  * The multiples are from measurements; the bound is not proved. doc/adversary.md says how it
  * was attacked, and with which result. hr2d_solution_error() measures against another solution,
  * and does not need the assumption; hr2d_enclose() (enclosure.h) has a bound without any.

@@ -126,6 +126,19 @@ HR2D_API size_t hr2d_scene_sky_pieces(const hr2d_scene *scene);
 HR2D_API double hr2d_scene_sunlight(const hr2d_scene *scene, size_t patch, size_t band);
 
 /**
+ * What is not known of the sun of a band, in a period. Where it shines past more images than
+ * there are (symmetry.h), what may stand in its light beyond them counts as shadow: fronts have
+ * H_sun or more, up to this times the cosine of the angle of incidence, and B and H of the band
+ * what is reflected of that, too. No error of an account contains it; other bands lack nothing.
+ * @param scene  committed
+ * @param band   below hr2d_scene_bands()
+ * @return the irradiance of the sun if there are too few images for it; else 0
+ *
+ * Cost: a look at each patch of the cell, if there is such a sun.
+ */
+HR2D_API double hr2d_scene_sunlight_cut_off(const hr2d_scene *scene, size_t band);
+
+/**
  * The average of H_sun over a part of a patch.
  * @param scene,patch  a committed scene and the index of a patch
  * @param from,to      the part, fractions of the patch in [0,1], from < to

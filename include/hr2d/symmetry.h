@@ -102,7 +102,8 @@ HR2D_API hr2d_status hr2d_scene_add_mirror(hr2d_scene *scene, hr2d_segment line)
  *
  * hr2d_scene_commit() fails with HR2D_ESCENE if an image crosses a patch. Patches may reach
  * over several periods, and stand any number of periods apart. A sun shines in past at most 256
- * images.
+ * images: what is beyond them counts as shadow, and no error contains that
+ * (hr2d_scene_sunlight_cut_off()).
  */
 HR2D_API hr2d_status hr2d_scene_set_period(hr2d_scene *scene, hr2d_point period);
 

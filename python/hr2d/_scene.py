@@ -352,6 +352,11 @@ class Scene:
         """The largest part of the directions from a patch in which images are extrapolated."""
         return lib.hr2d_scene_cut_off(self.commit()._raw)
 
+    def sunlight_cut_off(self, band: int = 0) -> float:
+        """The irradiance of a sun that shines past more images of a period than there are; 0 of
+        others. Fronts may have that much more of it, times a cosine, which no error contains."""
+        return lib.hr2d_scene_sunlight_cut_off(self.commit()._raw, band)
+
     @property
     def sun(self) -> Sun:
         """The suns, as they were given; zeros without one."""

@@ -20,6 +20,13 @@ double hr2d_scene_sunlight(const hr2d_scene *scene, size_t patch, size_t band) {
   return hr2d_scene_sunlight_over(scene, patch, 0, 1, band);
 }
 
+double hr2d_scene_sunlight_cut_off(const hr2d_scene *scene, size_t band) {
+  if (!scene || !hr2di_scene_has_band(scene, band)) return NAN;
+  if (!scene->symmetry.low_suns) return 0;
+  const size_t sun = scene->sun_bands == 1 ? 0 : band;
+  return hr2di_symmetry_is_low(scene, sun) ? scene->sun[sun].irradiance : 0;
+}
+
 double hr2d_scene_sunlight_at(const hr2d_scene *scene, size_t patch, double t, size_t band) {
   if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
   return hr2di_sunlight_at(scene, patch, band, t) ? hr2di_sunlight_full(scene, patch, band) : 0;

@@ -167,7 +167,7 @@ static double across(const hr2d_scene *scene, hr2d_point period) {
   const double size = hypot(period.x, period.y);
   const hr2d_point d = {period.x / size, period.y / size};
   double low = HUGE_VAL, high = -HUGE_VAL;
-  for (size_t k = 0; k < scene->patches; k++) {
+  for (size_t k = 0; k < hr2di_scene_cell(scene); k++) {
     const hr2d_segment s = scene->patch[k].given;
     const double a = d.x * s.a.y - d.y * s.a.x, b = d.x * s.b.y - d.y * s.b.x;
     low = fmin(low, fmin(a, b));
@@ -211,7 +211,7 @@ static double open_height(const hr2d_scene *scene, hr2d_point s, double height) 
   const double size = copysign(hypot(d.x, d.y), across); /* light comes from where v is high */
   double top = -HUGE_VAL, closed = -HUGE_VAL;
   if (!(apart > 0) || is_mirrored(&scene->symmetry.by)) return height;
-  for (size_t k = 0; k < scene->patches; k++) {
+  for (size_t k = 0; k < hr2di_scene_cell(scene); k++) {
     const hr2d_point a = scene->patch[k].given.a, b = scene->patch[k].given.b;
     const double v = (d.x * a.y - d.y * a.x) / size, w = (d.x * b.y - d.y * b.x) / size;
     const double wide = fabs(s.x * (b.y - a.y) - s.y * (b.x - a.x));
@@ -252,4 +252,9 @@ void hr2di_symmetry_copies(hr2d_scene *scene, unsigned *least, unsigned *most) {
       symmetry->low_sun = k;
   }
   if (*most < *least) *most = *least;
+}
+
+int hr2di_symmetry_is_low(const hr2d_scene *scene, size_t sun) {
+  const hr2di_symmetry *s = &scene->symmetry;
+  return s->low_suns > 0 && copies_for(scene, sun, across(scene, s->by.period)) > MOST_COPIES;
 }

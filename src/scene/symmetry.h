@@ -210,6 +210,9 @@ hr2d_status hr2di_scene_add_ends(struct hr2d_scene *scene, hr2di_watch *watch);
    are tried; 0 without a period.  Suns for which no K is enough are counted in `low_suns`. */
 void hr2di_symmetry_copies(struct hr2d_scene *scene, unsigned *least, unsigned *most);
 
+/* Whether no K is enough for a sun; also when images are made. */
+int hr2di_symmetry_is_low(const struct hr2d_scene *scene, size_t sun);
+
 /* Measures what the ends take, in a scene with a plane if there can be one. */
 hr2d_status hr2di_scene_measure_ends(struct hr2d_scene *scene, hr2di_watch *watch);
 

@@ -120,6 +120,8 @@ static json_t *power(const run *r) {
     json_put(&band, "relative_error", json_number(run_power_error(&p)));
     if (hr2d_scene_cut_off(r->scene) > 0)
       json_put(&band, "cut_off", json_number(hr2d_solution_power_cut_off(r->solution, b)));
+    const double unknown = hr2d_scene_sunlight_cut_off(r->scene, b);
+    if (unknown > 0) json_put(&band, "sunlight_cut_off", json_number(unknown));
     json_push(&list, band);
   }
   return list;

@@ -214,9 +214,29 @@ START_TEST(low_suns_refuse_nothing) {
   hr2d_scene_set_period(scene, (hr2d_point){4, 0});
   hr2d_scene_set_sun(scene, low, 2);
   test_commit(scene);
+  ck_assert_double_eq(hr2d_scene_sunlight_cut_off(scene, 1), 0);
   ck_assert_uint_eq(hr2d_scene_sunlit_parts(scene, 0, 1, lit, 4), 1);
   ck_assert_double_eq_tol(lit[0][0], 1 - part, 1e-12);
   ck_assert_double_eq(lit[0][1], 1);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+/* Light at 0.01° comes down by 1 in 1146 periods of 5, past two plates that close no way. */
+START_TEST(low_suns_are_told_band_by_band) {
+  const double pi = 3.14159265358979323846, low = .01 * pi / 180;
+  const hr2d_sun sun[3] = {
+      {{1, -1}, 800}, {{cos(low), -sin(low)}, 5}, {{-cos(low), -sin(low)}, 0}};
+  hr2d_scene *scene = test_new_scene(NULL);
+  test_add_patch(scene, (hr2d_segment){{0, 0}, {5, 0}}, 0, .5, HR2D_SIDES_FRONT);
+  test_add_patch(scene, (hr2d_segment){{1, 1}, {2, 1}}, 0, .5, HR2D_SIDES_BOTH);
+  hr2d_scene_set_period(scene, (hr2d_point){5, 0});
+  hr2d_scene_set_sun(scene, sun, 3);
+  test_commit(scene);
+  ck_assert_double_eq(hr2d_scene_sunlight_cut_off(scene, 0), 0);
+  ck_assert_double_eq(hr2d_scene_sunlight_cut_off(scene, 1), 5);
+  ck_assert_double_eq(hr2d_scene_sunlight_cut_off(scene, 2), 0);
+  ck_assert(isnan(hr2d_scene_sunlight_cut_off(scene, 3)));
   hr2d_scene_destroy(scene);
 }
 END_TEST
@@ -319,7 +339,8 @@ TEST_SUITE("images") {
   ADD_TESTS("refusals", patches_on_both_sides_are_refused,
             a_patch_on_a_mirror_looks_at_the_scene, other_symmetries_are_refused,
             images_that_cross_are_refused, light_from_outside_is_symmetric,
-            low_suns_refuse_nothing, setters_check_what_they_get);
+            low_suns_refuse_nothing, low_suns_are_told_band_by_band,
+            setters_check_what_they_get);
   ADD_TESTS("warnings", ends_short_of_a_mirror_are_warned_of);
   ADD_TESTS("files", files_have_mirrors_and_a_period, files_with_other_mirrors_are_refused);
 }
