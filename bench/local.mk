@@ -1,7 +1,7 @@
 # Measurements, built and run by `make bench` alone.
 BENCHES = bench/bench-exchange-area bench/bench-refine bench/bench-l1 bench/bench-visibility \
 	bench/bench-growth bench/bench-shaded-links bench/bench-blocks \
-	bench/bench-accuracy bench/bench-polls bench/bench-prediction \
+	bench/bench-accuracy bench/bench-budgets bench/bench-polls bench/bench-prediction \
 	bench/bench-fibres bench/bench-solves bench/bench-threads bench/bench-triangulation bench/bench-field
 EXTRA_PROGRAMS += $(BENCHES)
 CLEANFILES += $(BENCHES)
@@ -54,6 +54,12 @@ bench_bench_prediction_SOURCES = bench/bench-prediction.c \
 	tests/adversary/kinds-rooms.c tests/adversary/kinds-symmetry.c \
 	tests/adversary/random.h tests/adversary/scene.c tests/adversary/scene.h
 bench_bench_prediction_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
+bench_bench_budgets_SOURCES = bench/bench-budgets.c bench/budget-scenes.c \
+	bench/budget-scenes.h bench/many.c bench/many.h bench/timing.h \
+	tests/support/random.c tests/support/random.h \
+	tests/support/slow-scenes.c tests/support/slow-scenes.h
+bench_bench_budgets_CPPFLAGS = $(AM_CPPFLAGS)
+bench_bench_budgets_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_polls_SOURCES = bench/bench-polls.c tests/support/slow-phases.c \
 	tests/support/slow-phases.h tests/support/slow-scenes.c tests/support/slow-scenes.h
 bench_bench_polls_CPPFLAGS = $(AM_CPPFLAGS)
