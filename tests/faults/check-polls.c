@@ -322,6 +322,75 @@ START_TEST(stopped_commits_say_so) {
 }
 END_TEST
 
+/* What a visitor got since the last question. */
+typedef struct listener {
+  unsigned long heard, most, all;
+} listener;
+
+static hr2d_status ask_listener(void *ctx, const hr2d_progress *progress) {
+  listener *l = ctx;
+  hr2di_watch_of(progress)->span = 300;
+  l->heard = 0;
+  return HR2D_OK;
+}
+
+static hr2d_status listen(void *ctx, const hr2d_warning *warning) {
+  listener *l = ctx;
+  (void)warning;
+  l->all++;
+  if (++l->heard > l->most) l->most = l->heard;
+  return HR2D_OK;
+}
+
+/* A text takes microseconds, and there may be one for each end. */
+START_TEST(warnings_come_with_questions_between) {
+  listener l = {0};
+  slow_stage s = stage(SLOW_SLIVERS, 400, NULL);
+  ck_assert_int_eq(phase_called("lint")->prepare(&s), HR2D_OK);
+  hr2d_lint_options o = HR2D_LINT_OPTIONS_INIT;
+  o.progress = ask_listener;
+  o.progress_ctx = &l;
+  ck_assert_int_eq(hr2d_scene_lint(s.scene, listen, &l, &o), HR2D_OK);
+  ck_assert_uint_gt(l.all, 100);
+  ck_assert_uint_le(l.most, 10);
+  slow_clear(&s);
+}
+END_TEST
+
+static hr2d_status count_solve(void *ctx, const hr2d_progress *progress) {
+  uint64_t *declared = ctx;
+  if (!strcmp(progress->phase, "solve")) *declared = hr2di_watch_of(progress)->total;
+  return HR2D_OK;
+}
+
+/* With one link at most the answer is a sketch, whose work is the light from outside: each
+   patch looks at each piece of the sky, in .1 µs or more. */
+START_TEST(sketches_declare_the_light_from_outside) {
+  enum { PATCHES = 2000, PIECES = 24 };
+  hr2d_sky_piece piece[PIECES];
+  double value[PIECES];
+  uint64_t declared = 0;
+  hr2d_solution *solution = NULL;
+  slow_stage s = stage(SLOW_CITY, PATCHES, NULL);
+  for (size_t k = 0; k < PIECES; k++) {
+    piece[k] = (hr2d_sky_piece){270 + 7.5 * (double)k, 277.5 + 7.5 * (double)k};
+    value[k] = (double)k;
+  }
+  ck_assert_int_eq(phase_called("commit")->prepare(&s), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_set_sky(s.scene, piece, PIECES, value, 1), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_commit(s.scene), HR2D_OK);
+  hr2d_target target = HR2D_TARGET_INIT;
+  target.max_links = 1;
+  target.progress = count_solve;
+  target.progress_ctx = &declared;
+  ck_assert_int_eq(hr2d_solve_to(s.scene, &target, &solution, NULL), HR2D_EACCURACY);
+  ck_assert_ptr_nonnull(solution);
+  ck_assert_uint_ge(declared + HR2DI_WATCH_SPAN, PATCHES * PIECES);
+  hr2d_solution_destroy(solution);
+  slow_clear(&s);
+}
+END_TEST
+
 static int by_value(const void *left, const void *right) {
   const uint64_t l = *(const uint64_t *)left, r = *(const uint64_t *)right;
   return (l > r) - (l < r);
@@ -389,6 +458,7 @@ TEST_SUITE("check-polls") {
             a_loop_that_declares_nothing_is_noticed);
   REPEAT_TESTS(SLOW_PHASES, "stops", every_phase_stops_at_any_question);
   ADD_TESTS("callbacks", teams_stop, callbacks_of_calls_come_before_that_of_the_scene,
-            stopped_commits_say_so);
+            stopped_commits_say_so, warnings_come_with_questions_between,
+            sketches_declare_the_light_from_outside);
   ADD_TESTS("base", sorts_are_sorted, teams_share_tasks_and_stop_together);
 }

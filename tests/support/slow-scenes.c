@@ -144,12 +144,14 @@ static void put_periods(adder *a, size_t count) {
   if (!a->status) a->status = hr2d_scene_set_period(a->scene, (hr2d_point){across, 0});
 }
 
-/* Each is near to some others on each side, and those warnings are as many as can be. */
+/* Each is near to two others on each side: nearer than a twentieth of the plates, and than a
+   thousandth of the scene, for which there is a ground. */
 static void put_slivers(adder *a, size_t count) {
   for (size_t k = 0; 2 * k < count; k++) {
-    const double y = 0.02 * (double)k, shift = 0.1 * draw(a);
+    const double y = 0.02 * (double)k, shift = 0.01 * draw(a);
     put(a, shift, y, 1 + shift, y + 0.01 * draw(a), 0, HR2D_SIDES_BOTH);
   }
+  put(a, -50, -1, 50, -1, 0, HR2D_SIDES_FRONT);
   put_sky(a);
 }
 

@@ -56,6 +56,32 @@ static size_t draw_spokes(randoms *r, hr2d_segment *s) {
   return count;
 }
 
+static hr2d_status go_on(void *ctx, const hr2d_progress *progress) {
+  (void)ctx;
+  (void)progress;
+  return HR2D_OK;
+}
+
+/* 5 ms of work lie between two questions, as in check-polls, at most. */
+START_TEST(large_stars_poll) {
+  enum { COUNT = 200000 };
+  const hr2d_allocator alloc = hr2di_alloc_default();
+  hr2d_segment *s = malloc(COUNT * sizeof *s);
+  hr2di_stars stars;
+  hr2di_watch watch;
+  ck_assert_ptr_nonnull(s);
+  for (size_t k = 0; k < COUNT; k++)
+    s[k] = (hr2d_segment){{0, 0}, {cos((double)k), sin((double)k)}};
+  hr2di_watch_init(&watch, go_on, NULL, "stars");
+  ck_assert_int_eq(hr2di_stars_init(&stars, &alloc, s, COUNT, sizeof *s, &watch), HR2D_OK);
+  ck_assert_uint_eq(stars.count, 1);
+  ck_assert_uint_gt(watch.total, COUNT);
+  ck_assert_uint_le(watch.most, 5 * HR2DI_WATCH_SPAN);
+  hr2di_stars_clear(&stars);
+  free(s);
+}
+END_TEST
+
 START_TEST(no_pair_that_meets_is_spared) {
   static hr2d_segment s[MOST];
   static pairs all, found;
@@ -182,5 +208,6 @@ TEST_SUITE("check-stars") {
   REPEAT_TESTS(test_count(400), "pairs", no_pair_that_meets_is_spared);
   ADD_TESTS("memory", memory_that_runs_out_is_told_and_released);
   REPEAT_TESTS(2, "work", work_for_a_star_is_not_quadratic);
+  ADD_TESTS("polls", large_stars_poll);
   ADD_TESTS("lint", the_point_of_a_star_is_no_loose_end);
 }
