@@ -32,9 +32,9 @@
  * - a multiple of that size and of the error with its signs: 2.5 times, from 6 to 28 times
  *   where views change, 3 times at points at least;
  * - a tenth or more of the largest error of an average without signs;
- * - where views change a quarter of the target: elements are made for a target,
- *   and what kinks inside them make beyond K⁺ is assumed to be below that. Likewise the
- *   estimate is a fiftieth of the target at least;
+ * - where views change, the target: elements are made for it, and what kinks inside them
+ *   make beyond K⁺ is assumed to be below that. Likewise the estimate is a tenth of the
+ *   target at least;
  * - a bound of the roundings of B, of H and of coordinates. (I − ρK)⁻¹ = Σ(ρK)^k maps nothing
  *   positive to anything negative, so it carries a bound on as it carries light.
  *
@@ -167,8 +167,8 @@ typedef struct hr2d_account {
 /**
  * Solves to a target error, or as well as a budget allows.
  *
- * The estimate of averages is mostly within a factor of 2 of the error; in scenes with very
- * many visibility events it was up to 6 times too low. The target is reached when the bound is
+ * The estimate of averages is mostly within a factor of 2 of the error. Where views change,
+ * it is a tenth of the target at least. The target is reached when the bound is
  * below it, or when the estimate is below half of it; the bound may then be above it.
  *
  * @param scene     committed; must outlive the solution

@@ -98,12 +98,11 @@ static double by_chance(const hr2di_estimator *e, double seen, double part, int 
 /* The part of the scatter that an estimate has at least. */
 #define SCATTER 0.1
 
-/* Elements are made for an aim: events that are left inside them may make this part of it, with
-   coefficients of p and p + 1 that are 0 by chance.  Hill climbing over few patches reached
-   0.17, and 0.06 where it was no more than a tenth. */
-#define BLIND        0.25
-#define BLIND_LIKELY 0.02
-#define BLIND_TIMES  1e6 /* the errors without signs: climbs found 2e4 times as much */
+/* Elements are made for an aim.  What events that are left inside them make of it, coefficients
+   of p and p + 1 may not show, by chance: hill climbing over panels and slits reached 0.9 of
+   the aim.  An estimate may be ten times too low. */
+#define BLIND        1.
+#define BLIND_LIKELY 0.1
 
 static hr2d_error bounded(double estimate, double bound) {
   return (hr2d_error){estimate, fmax(estimate, bound)};
@@ -136,12 +135,6 @@ static hr2d_status measure_averages(hr2di_estimator *e, hr2di_error_pair *errors
   return status;
 }
 
-/* The aim; or as much as residuals can hide that are so small. */
-static double blind_of(const hr2di_estimator *e) {
-  const double rest = fmax(largest_of(e, e->safe, 0), largest_of(e, e->safe, 1));
-  return fmin(e->blind, BLIND_TIMES * rest);
-}
-
 /* Errors at points, and bounds. */
 static hr2d_status measure_rest(hr2di_estimator *e, hr2di_error_pair *errors) {
   hr2di_equation *eq = &e->eq;
@@ -160,10 +153,10 @@ static hr2d_status measure_rest(hr2di_estimator *e, hr2di_error_pair *errors) {
     errors->rounding[1] =
         fmax(errors->rounding[1], fmax(worst_point(e, h, off) + level, e->doubt));
   }
-  const double blind = blind_of(e);
   hr2d_error *const average[] = {&errors->average, &errors->irradiance};
   hr2d_error *const sup[] = {&errors->sup, &errors->irradiance_sup};
   for (int h = 0; h < 2; h++) {
+    const double blind = h == 1 || reflects ? e->blind : 0; /* without light B is E */
     const double doubt = h == 0 || reflects ? e->doubt : 0;
     const factors all = {.error = 1, .past = 1, .narrow = 1},
                   average_most = {.error = e->margin, .past_most = 1, .rounding = 1},

@@ -41,7 +41,10 @@ static hr2di_resolution first_resolution(hr2di_search *s, double error) {
       known &&
       !hr2di_resolution_raise(&finer, &s->best.survey, hr2di_search_error(s) / (0.5 * error)) &&
       finer.order > guess.order;
-  return is_finer ? finer : guess;
+  if (!is_finer) return guess;
+  finer.aim = error;
+  if (finer.generations < guess.generations) finer.generations = guess.generations;
+  return finer;
 }
 
 /* Finer elements do not help where the error is what links of clusters lack. */

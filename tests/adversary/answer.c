@@ -139,6 +139,19 @@ void adv_ask(const adv_scene *scene, adv_question question, const adv_points *po
 /* Beside the ends of a patch a lit gap may be as narrow as that. */
 enum { HALVINGS = 44 };
 
+/* Elements end where what lights them begins and are short beside it. */
+static void read_leaves(adv_answer *a) {
+  const hr2d_hierarchy *h = hr2d_linkset_hierarchy(hr2d_solution_links(a->solution));
+  const hr2d_element *element = hr2d_hierarchy_elements(h);
+  const uint64_t count = hr2d_hierarchy_count(h).elements;
+  double b[ADV_BANDS], irradiance[ADV_BANDS];
+  for (uint64_t k = 0; k < count; k++) {
+    const hr2d_element *one = &element[k], *root = &element[one->patch];
+    const double x = one->centre.x - root->a.x, y = one->centre.y - root->a.y;
+    if (!one->child) read_point(a, one->patch, hypot(x, y) / root->length, b, irradiance);
+  }
+}
+
 void adv_look_closely(adv_answer *answer) {
   double b[ADV_BANDS], h[ADV_BANDS];
   for (size_t k = 0; answer->solution && k < answer->scene->count; k++) {
@@ -149,6 +162,7 @@ void adv_look_closely(adv_answer *answer) {
       read_point(answer, k, 1 - ldexp(1, -j), b, h);
     }
   }
+  if (answer->solution) read_leaves(answer);
 }
 
 void adv_forget(adv_answer *answer) {

@@ -38,15 +38,15 @@ static void raise_hill(adv_answer *a) {
 }
 
 static void divide_bounds(adv_answer *a) {
-  a->account.average.bound *= 1e-6;
-  a->account.average.estimate *= 1e-6;
-  a->account.sup.bound *= 1e-6;
-  a->account.sup.estimate *= 1e-6;
+  a->account.average.bound *= 1e-9;
+  a->account.average.estimate *= 1e-9;
+  a->account.sup.bound *= 1e-9;
+  a->account.sup.estimate *= 1e-9;
 #if ADV_ACCOUNT_OF_H
-  a->account.irradiance.bound *= 1e-6;
-  a->account.irradiance.estimate *= 1e-6;
-  a->account.irradiance_sup.bound *= 1e-6;
-  a->account.irradiance_sup.estimate *= 1e-6;
+  a->account.irradiance.bound *= 1e-9;
+  a->account.irradiance.estimate *= 1e-9;
+  a->account.irradiance_sup.bound *= 1e-9;
+  a->account.irradiance_sup.estimate *= 1e-9;
 #endif
 }
 

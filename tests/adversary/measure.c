@@ -79,7 +79,7 @@ static void compare(adv_measure *m) {
 
 /* Whether errors at points may come from a largest value that was not read. */
 static int points_are_doubtful(const adv_measure *m) {
-  return m->ratio[ADV_CLIMB_POINT] > 1 && m->ratio[ADV_CLIMB_POINT] < 4;
+  return m->ratio[ADV_CLIMB_POINT] > 1;
 }
 
 static void doubt(adv_measure *m, const adv_points *points) {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "support/accuracy-tally.h"
 
+#include <math.h>
+
 #include "support/support.h"
 
 hr2d_solution *accuracy_solve(const hr2d_scene *scene, double error, hr2d_norm norm,
@@ -47,11 +49,18 @@ int accuracy_is_bounded(hr2d_error e, double error, double known, double roundin
   return error <= e.bound + known + rounding;
 }
 
+double accuracy_least_estimate(const hr2d_scene *scene, double target) {
+  const int changes = hr2d_scene_effect(scene, HR2D_EFFECT_OCCLUSION, NULL) ||
+                      hr2d_scene_effect(scene, HR2D_EFFECT_FACING, NULL) ||
+                      hr2d_scene_effect(scene, HR2D_EFFECT_BACKGROUND, NULL);
+  return changes ? 0.1 * target : 0;
+}
+
 void accuracy_compare(accuracy_tally *t, hr2d_error e, double error, double known,
-                      double rounding) {
+                      double rounding, double least) {
   if (!(error > rounding) || !(error > 10 * known)) return;
   t->compared++;
-  t->close += e.estimate >= 0.5 * error && e.estimate <= 2 * error;
+  t->close += e.estimate >= 0.5 * error && e.estimate <= 2 * fmax(error, least);
 }
 
 int accuracy_is_fair(const accuracy_tally *t) {

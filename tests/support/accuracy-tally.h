@@ -21,14 +21,18 @@ void accuracy_check_account(const hr2d_account *a, const hr2d_solution *solution
 /* Whether an error is within its bound.  `known` is how well the truth is known. */
 int accuracy_is_bounded(hr2d_error e, double error, double known, double rounding);
 
-/* How many errors are above rounding, and for how many of them the estimate is within a factor
-   of 2 of the error. */
+/* What an estimate has at least: that part of the target where views change, or 0; it is less
+   where residuals are that small. */
+double accuracy_least_estimate(const hr2d_scene *scene, double target);
+
+/* How many errors are above rounding, and for how many of them the estimate is at least half of
+   the error, and at most twice that or twice `least`. */
 typedef struct accuracy_tally {
   int compared, close;
 } accuracy_tally;
 
 void accuracy_compare(accuracy_tally *t, hr2d_error e, double error, double known,
-                      double rounding);
+                      double rounding, double least);
 
 /* Whether 95 % of the estimates are close. */
 int accuracy_is_fair(const accuracy_tally *t);

@@ -109,7 +109,7 @@ static const option_entry table[] = {
   {"floor", "X", GROUP_QUESTION, VALUE(part, floor),
    .help = {{SOLVE, "averages below X of the largest count as X of it (1e-6)"}}},
   {"enclose", "GAP", GROUP_QUESTION, VALUE(positive, enclose),
-   .help = {{SOLVE, "lower and upper averages without an assumption, GAP apart"}}},
+   .help = {{SOLVE, "averages from below and above, GAP apart at most"}}},
   {"from", "E", GROUP_QUESTION, VALUE(positive, from),
    .help = {{STUDY, "first epsilon (1; bf: 0.25; l1: longest patch/64)"}}},
   {"to", "E", GROUP_QUESTION, VALUE(positive, to),

@@ -46,14 +46,14 @@ typedef struct run {
   hr2d_solution *solution;
   hr2d_hierarchy *own_hierarchy; /* NULL if the solution owns its hierarchy and links */
   hr2d_linkset *own_links;
-  hr2d_solve_work work;  /* over all stages of multigridding */
-  hr2d_account account;  /* order, L, seconds, and errors, NaN if unknown */
-  double resumed;        /* ε of the state that the run started from; 0: none */
-  double kept;           /* ε of the state in the file of --state; 0: none */
-  run_links point_links; /* of --links-of: `near` holds the point */
+  hr2d_solve_work work;            /* over all stages of multigridding */
+  hr2d_account account;            /* order, L, seconds, and errors, NaN if unknown */
+  double resumed;                  /* ε of the state that the run started from; 0: none */
+  double kept;                     /* ε of the state in the file of --state; 0: none */
+  run_links point_links;           /* of --links-of: `near` holds the point */
   hr2d_enclosure *enclosure;       /* of --enclose; NULL: none */
   hr2d_enclosure_account enclosed; /* how far it came */
-  int inaccurate;        /* there is a solution, but its error is too large or unknown */
+  int inaccurate; /* there is a solution, but its error is too large or unknown */
 } run;
 
 /* Refines and solves a run that has its options, scene, places and start.  Returns 0, or the
@@ -86,6 +86,9 @@ int run_point_links(run *r);
 /* target.c: solves to the target error, or as well as the budget allows; otherwise like
    run_solve(). */
 int run_target(run *r, progress *p);
+
+/* Whether bounds rest on an assumption on kinks inside elements, see accuracy.h. */
+int run_assumes_kinks(const run *r);
 
 /* The error of a solution that had no target, unless the options say not to measure it. */
 int run_error(run *r, progress *p);

@@ -51,6 +51,13 @@ static int complain_of_error(const run *r) {
                   fmax(b->estimate, h->estimate), fmax(b->bound, h->bound));
 }
 
+int run_assumes_kinks(const run *r) {
+  return options_targeted(r->options) && isfinite(r->account.average.bound) &&
+         (hr2d_scene_effect(r->scene, HR2D_EFFECT_OCCLUSION, NULL) ||
+          hr2d_scene_effect(r->scene, HR2D_EFFECT_FACING, NULL) ||
+          hr2d_scene_effect(r->scene, HR2D_EFFECT_BACKGROUND, NULL));
+}
+
 /* Errors that nobody asked for are not known. */
 static void forget_errors(hr2d_account *a) {
   a->average = a->sup = a->irradiance = a->irradiance_sup = (hr2d_error){NAN, NAN};

@@ -137,9 +137,11 @@ static json_t *error_pair(const hr2d_error *average, const hr2d_error *sup) {
 }
 
 /* Of B, and as a member those of H. */
-static json_t *errors(const hr2d_account *a) {
+static json_t *errors(const run *r) {
+  const hr2d_account *a = &r->account;
   json_t *object = error_pair(&a->average, &a->sup);
   json_put(&object, "irradiance", error_pair(&a->irradiance, &a->irradiance_sup));
+  if (run_assumes_kinks(r)) json_put(&object, "assumes", json_string("kinks within target"));
   return object;
 }
 
@@ -256,7 +258,7 @@ int solve_write_json(const run *r, double total_seconds, const char *path) {
   if (r->share) json_put(&root, "ranks", ranks(r));
   json_put(&root, "power", power(r));
   json_put(&root, "residual", json_number(hr2d_solution_residual(r->solution)));
-  json_put(&root, "error", errors(&r->account));
+  json_put(&root, "error", errors(r));
   if (r->options->enclose > 0) json_put(&root, "enclosed", enclosed(r));
   json_put(&root, "warnings", json_incref(r->warnings->list));
   json_put(&root, "status", json_text(r->inaccurate ? "inaccurate" : "ok"));

@@ -145,6 +145,7 @@ static void print_error(const run *r) {
   print_error_of("", "at points", &a->sup);
   print_error_of("", "of averages of H", &a->irradiance);
   print_error_of("", "of H at points", &a->irradiance_sup);
+  if (run_assumes_kinks(r)) puts("          if kinks make no more than the target");
 }
 
 static void print_seconds(const run *r, double total_seconds) {

@@ -189,7 +189,7 @@ START_TEST(a_black_room_has_irradiance) {
   hr2d_solution *solution = solve(scene, 1e-9, &a);
   ck_assert_double_le(a.average.bound, 1e-14);
   ck_assert_double_gt(a.irradiance.bound, 0);
-  ck_assert_double_le(a.irradiance.bound, 1e-12);
+  ck_assert_double_le(a.irradiance.bound, 1e-9 + 1e-12); /* what kinks may hide, and more */
   check_signs(scene, solution);
   /* Of the floor at x the lamp has ½(sin θ_b − sin θ_a), what the table leaves of it. */
   for (int k = 0; k <= 40; k++) {

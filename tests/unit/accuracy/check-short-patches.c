@@ -199,7 +199,7 @@ START_TEST(short_lamps_keep_digits_of_h) {
     ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &a), HR2D_OK);
     const found f = find(&r, for_lamps, solution);
     check_error("H", number[k], target.error, a.irradiance, f.average[1]);
-    ck_assert_double_lt(a.irradiance.bound, 1e-9);
+    ck_assert_double_lt(a.irradiance.bound, 1.5e-9); /* with what kinks may hide: the target */
     ck_assert_double_le(f.average[1], 2 * a.irradiance.estimate + 1e-13);
     hr2d_solution_destroy(solution);
     hr2d_scene_destroy(scene);
