@@ -286,7 +286,6 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/grader.h src/accuracy/grader-team.c \
 	src/accuracy/grading-marks.c \
 	src/accuracy/kink-jumps.c src/accuracy/kink-jumps.h src/accuracy/kinks.c src/accuracy/kinks.h \
-	src/accuracy/long-leaves.c src/accuracy/long-leaves.h \
 	src/accuracy/mesh-grading.c src/accuracy/mesh-grading.h \
 	src/accuracy/mirror-images.c src/accuracy/mirror-images.h \
 	src/accuracy/point-grid.c src/accuracy/point-grid.h \

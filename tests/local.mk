@@ -121,7 +121,6 @@ SUITES = \
 	tests/unit/accuracy/check-enclosure \
 	tests/unit/accuracy/check-enclosure-factors \
 	tests/unit/accuracy/check-kinks \
-	tests/unit/accuracy/check-long-leaves \
 	tests/unit/accuracy/check-measured-errors \
 	tests/unit/accuracy/check-budgets \
 	tests/unit/accuracy/check-cracks \

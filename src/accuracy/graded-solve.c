@@ -6,7 +6,6 @@
 #include "accuracy/divided-links.h"
 #include "accuracy/estimator.h"
 #include "accuracy/halved-leaves.h"
-#include "accuracy/long-leaves.h"
 #include "accuracy/resolution.h"
 #include "accuracy/row-deal.h"
 #include "base/alloc.h"
@@ -58,7 +57,7 @@ static hr2d_status divide_images(hr2di_graded *a, hr2di_watch *watch) {
   return status ? status : carry_kinks(a, elements, watch);
 }
 
-/* Divides the elements.  Without events all are halved, if fineness->halvings says so. */
+/* Divides the elements. */
 static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
                          const hr2d_target *target) {
   hr2d_hierarchy *h = a->hierarchy;
@@ -81,8 +80,6 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
   if (!status && chosen)
     status = hr2di_kinks_cut(h, &events, fineness->lights, fineness->kinks,
                              target->max_elements, target->threads, &watch, &a->bent);
-  if (!status && !chosen && fineness->halvings > 0)
-    status = hr2di_long_leaves_halve(h, fineness->halvings, target->max_elements, &watch);
   if (!status) status = divide_images(a, &watch);
   a->events = events.count;
   hr2di_events_clear(&events);

@@ -28,8 +28,6 @@ typedef struct hr2di_resolution {
   int hidden;           /* the scene has visibility events */
   int crowded;          /* it has very many */
   unsigned generations; /* elements end at events of so many generations */
-  unsigned halvings;    /* how often the longest elements are halved where there are too many
-                           events, see long-leaves.h */
   int shares;           /* errors that are too large name the elements that make them, where
                            no events have been chosen */
   int hasty;            /* errors that do so need no bound, and none at points */

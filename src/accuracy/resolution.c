@@ -41,10 +41,9 @@ hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, hr2di_looks *looks,
   return status;
 }
 
-/* More than CROWD patches have so many events that halving all elements is cheaper, if the
-   target is no smaller than CROWDED_AIM: the error from a kink inside an element falls like the
-   square of the element's length. */
-enum { CROWD = 64, MOST_HALVINGS = 3 };
+/* More than CROWD patches have so many events that elements do not end at them at first, if
+   the target is no smaller than CROWDED_AIM. */
+enum { CROWD = 64 };
 #define CROWDED_AIM 1e-3
 
 static int is_hidden(const hr2d_scene *scene) {
@@ -86,18 +85,15 @@ int hr2di_resolution_wants_lights(const hr2d_scene *scene, const hr2d_target *ta
          !by_shares(scene, target, target->error);
 }
 
-/* From CROWD_LIT patches on there are so many links that fewer of a higher order take less
-   time, and the ends in front of an element are among many others.  For few digits the shares
-   that are left may be larger, as elements are as much too fine. */
-enum { CROWD_LIT = 128, CROWD_ORDER = 5, FEW_DIGITS = 3 };
-
 /* What shares of leaves may add up to.  They are without signs and of all n patches together.
    Of the error of one patch they are a part of about 1/n where light goes everywhere, and signs
    of as many leaves at least take about √n of that.  Few patches may be rooms in a row, where
    the light of the last comes by one door after the other. */
+enum { ROOMS = 128 };
+
 static double shares_for(const hr2d_scene *scene, double aim) {
   const double n = (double)scene->patches;
-  return aim * (n > CROWD_LIT ? 0.03 * n * sqrt(n) : 2);
+  return aim * (n > ROOMS ? 0.03 * n * sqrt(n) : 2);
 }
 
 /* The least 1 − ρ. */
@@ -136,12 +132,6 @@ static int is_single(const hr2d_scene *scene, double target) {
 
 /* Errors of many corners and elements add up. */
 #define MANY_PARTS 0.25
-
-static void spare_elements(hr2di_resolution *f, double aim) {
-  f->order = f->order > CROWD_ORDER ? f->order : CROWD_ORDER;
-  f->distance = hr2di_ellipse_for(aim, f->order);
-  if (aim >= CROWDED_AIM) f->kinks *= FEW_DIGITS;
-}
 
 /* A piece of the sky may show in a gap between two vertices, from a stretch of a patch that
    points of a rule miss: elements end where the gap opens, at any target. */
@@ -190,10 +180,8 @@ hr2di_resolution hr2di_resolution_for(const hr2d_scene *scene, const hr2di_surve
   if (lights && aim <= THREE && f.generations == 0) f.generations = 1;
   f.crowded = is_crowded(scene, hidden);
   if (!f.crowded && f.generations == 0) f.generations = generations_of_sky(scene);
-  if (f.crowded && lights && scene->patches > CROWD_LIT) spare_elements(&f, aim);
   f.shares = shared || (f.crowded && norm == HR2D_NORM_AVERAGE);
   if (shared) leave_to_shares(&f);
-  if (f.crowded && aim >= CROWDED_AIM && (lights || !f.shares)) f.halvings = aim < THREE;
   return f;
 }
 
@@ -206,9 +194,7 @@ static int raise_kinks(hr2di_resolution *f, double factor) {
   if (!(f->kinks > 0)) return 0;
   const unsigned most = f->crowded ? 2 : 1;
   f->kinks = f->raises > most ? 0 : f->kinks / (ldexp(2, (int)f->raises) * factor);
-  if (f->kinks > 0) return 1;
-  if (f->crowded && f->halvings > 0) f->generations = 0; /* elements are halved instead */
-  return 0;
+  return f->kinks > 0;
 }
 
 int hr2di_resolution_raise(hr2di_resolution *f, const hr2di_survey *survey, double factor) {
@@ -229,10 +215,7 @@ int hr2di_resolution_raise(hr2di_resolution *f, const hr2di_survey *survey, doub
     return 0;
   }
   f->corner_levels += (unsigned)fmax(ceil(log2(factor) / slope), 1);
-  if (f->crowded && f->generations == 0 && f->halvings < MOST_HALVINGS)
-    f->halvings++;
-  else if (f->hidden && f->generations < (f->norm == HR2D_NORM_SUP ? 4U : 2U))
-    f->generations++;
+  if (f->hidden && f->generations < (f->norm == HR2D_NORM_SUP ? 4U : 2U)) f->generations++;
   return 0;
 }
 
