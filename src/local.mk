@@ -228,6 +228,7 @@ libhr2d_core_la_SOURCES = \
 	src/refine/unite-shares.c src/refine/unite-shares.h \
 	src/refine/study.c \
 	src/refine/validate-links.c \
+	src/refine/worker.c src/refine/worker.h \
 	src/solve/image-ties.c src/solve/image-ties.h \
 	src/solve/outside.c src/solve/outside.h \
 	src/solve/power-cut-off.c src/solve/power-cut-off.h \

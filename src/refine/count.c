@@ -15,27 +15,20 @@
 #include "refine/occluded-pairs.h"
 #include "refine/projector.h"
 #include "refine/rounds.h"
+#include "refine/worker.h"
 #include "scene/scene-impl.h"
 
 enum {
   ENOUGH = 2048, /* refused pairs to share out */
   SHARE = 8,     /* pairs to a task */
-  MOST_WORKERS = 256,
   STACKS = 4
 };
-
-typedef struct worker {
-  hr2d_linkset links; /* a copy with a hierarchy and a message of its own, without links */
-  hr2di_projector *projector;
-  hr2di_watch own; /* but the calling thread has that of the team */
-  hr2d_status status;
-} worker;
 
 typedef struct team {
   hr2d_linkset *links;
   hr2d_refine_options options;
   size_t count;
-  worker *worker;
+  hr2di_worker *worker;
   hr2d_hierarchy **clone; /* of each worker */
 
   hr2di_stack stack[STACKS]; /* the pairs to share out */
@@ -74,14 +67,6 @@ static void describe(void *of, hr2d_progress *told) {
   told->fraction = tasks && done < tasks ? (double)done / (double)tasks : tasks > 0;
 }
 
-static size_t wanted_workers(const hr2d_linkset *links, const hr2d_refine_options *options) {
-  size_t wanted = hr2di_team_threads(options->threads);
-  if (!(links->oracle.flags & HR2D_ORACLE_THREAD_SAFE) ||
-      !(links->policy.flags & HR2D_POLICY_THREAD_SAFE))
-    wanted = 1;
-  return wanted < MOST_WORKERS ? wanted : MOST_WORKERS;
-}
-
 /* The budget of bytes has an equal part for each worker and one for the union of their trees;
    0 if there is no budget. */
 static uint64_t part_of_budget(const team *t) {
@@ -91,22 +76,12 @@ static uint64_t part_of_budget(const team *t) {
 
 /* Worker k begins with a copy of `from` as it is now. */
 static hr2d_status hire(team *t, size_t k, const hr2d_hierarchy *from) {
-  worker *w = &t->worker[k];
-  w->links = *t->links;
-  w->links.store = (hr2di_store){0};
-  w->links.message.text[0] = '\0';
+  hr2di_worker *w = &t->worker[k];
   hr2d_refine_options options = t->options;
   options.max_bytes = part_of_budget(t);
-  if (options.max_bytes && hr2di_hierarchy_clone_bytes(from) > options.max_bytes)
-    return hr2di_projector_fail_budget(&w->links, t->options.max_bytes, 0);
-  hr2d_status status = hr2di_hierarchy_clone(from, &t->clone[k]);
-  if (status)
-    return hr2di_message_fail(&w->links.message, status, "out of memory for the count");
-  w->links.hierarchy = t->clone[k];
-  t->clone[k]->refining = 1;
-  hr2di_watch_follow(&w->own, t->watch);
-  status =
-      hr2di_projector_create(&w->links, &options, k == 0 ? t->watch : &w->own, &w->projector);
+  const hr2d_status status =
+      hr2di_worker_hire(w, k, t->links, from, &options, t->watch, "count");
+  t->clone[k] = w->clone;
   if (status == HR2D_EMAX_BYTES)
     return hr2di_projector_fail_budget(&w->links, t->options.max_bytes, 0);
   if (status) return status;
@@ -163,7 +138,7 @@ static hr2d_status take(team *t, hr2di_projector *p, size_t task) {
 
 static void do_task(void *ctx, size_t number, size_t task) {
   team *t = ctx;
-  worker *w = &t->worker[number];
+  hr2di_worker *w = &t->worker[number];
   hr2di_projector *p = w->projector;
   const uint64_t before = p->counts.links;
   if (w->status) return;
@@ -177,7 +152,7 @@ static void do_task(void *ctx, size_t number, size_t task) {
 
 /* The calling thread asks before, because it may get no task. */
 static void work(team *t) {
-  worker *first = &t->worker[0];
+  hr2di_worker *first = &t->worker[0];
   first->status = hr2di_projector_fail(first->projector, hr2di_watch_ask(t->watch), "");
   if (first->status) return;
   hr2di_team_run(t->count, (size_t)task_count(t), do_task, t, t->watch);
@@ -202,24 +177,8 @@ static void share_out(team *t) {
   p->occluded = (hr2di_occluded_pairs){.list.alloc = t->occluded.list.alloc};
   p->bytes += shared_bytes(t);
   hr2d_status status = HR2D_OK;
-  for (size_t k = 1; k < t->count && !status; k++) {
-    status = hire(t, k, t->clone[0]);
-    t->worker[k].status = status;
-  }
+  for (size_t k = 1; k < t->count && !status; k++) status = hire(t, k, t->clone[0]);
   if (!status) work(t);
-}
-
-/* The reason is that of the first worker with a message.  A worker that stopped because
-   another one failed has none. */
-static hr2d_status gather_status(team *t) {
-  const worker *reason = NULL;
-  for (size_t k = 0; k < t->count; k++) {
-    const worker *w = &t->worker[k];
-    if (w->status && (!reason || (!reason->links.message.text[0]))) reason = w;
-  }
-  if (!reason) return HR2D_OK;
-  return hr2di_message_fail(&t->links->message, reason->status, "%s",
-                            reason->links.message.text);
 }
 
 /* The number of elements that the budget leaves for the union of the trees. */
@@ -250,20 +209,14 @@ static hr2d_status unite(team *t, size_t hired, uint64_t links) {
                             (unsigned long long)most, (unsigned long long)links);
 }
 
+/* A worker is not hired if the first one finished before. */
 static hr2d_refine_counts sum_counts(const team *t) {
   hr2d_refine_counts sum = {0};
   for (size_t k = 0; k < t->count; k++) {
-    if (!t->clone[k]) continue; /* not hired: the first worker finished before */
-    const hr2d_refine_counts *part = &t->worker[k].projector->counts;
-    sum.links += part->links;
-    sum.limited_links += part->limited_links;
-    sum.oracle_calls += part->oracle_calls;
-    sum.facing_tests += part->facing_tests;
-    const hr2di_patch_sights *sights = t->worker[k].projector->sights;
-    sum.visibility_tests += sights ? hr2di_patch_sights_tests(sights) : 0;
-    sum.blocked_pairs += part->blocked_pairs;
-    sum.partial_links += part->partial_links;
-    sum.dark_pairs += part->dark_pairs;
+    const hr2di_worker *w = &t->worker[k];
+    if (!w->projector) continue;
+    hr2di_worker_add_counts(w, &sum);
+    sum.links += w->projector->counts.links;
   }
   return sum;
 }
@@ -293,9 +246,9 @@ static int finished(const team *t) {
 }
 
 static hr2d_status count_as_team(team *t, hr2d_refine_counts *counts) {
-  worker *first = &t->worker[0];
+  hr2di_worker *first = &t->worker[0];
   t->links->hierarchy->refining = 1;
-  first->status = hire(t, 0, t->links->hierarchy);
+  hire(t, 0, t->links->hierarchy);
   if (!first->status) first->status = begin(t);
   if (!first->status && t->count > 1 && !finished(t)) share_out(t);
   if (!first->status) hr2di_rounds_measure(first->projector);
@@ -304,7 +257,7 @@ static hr2d_status count_as_team(team *t, hr2d_refine_counts *counts) {
   if (!first->status)
     first->status = hr2di_projector_fail(first->projector, hr2di_watch_ask(t->watch), "");
   t->links->hierarchy->refining = 0;
-  const hr2d_status status = gather_status(t);
+  const hr2d_status status = hr2di_worker_status(t->worker, t->count, t->links);
   return status ? status : sum_up(t, counts);
 }
 
@@ -319,7 +272,7 @@ hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *op
   if (status) return status;
   hr2di_scene_watch(links->hierarchy->scene, &watch, t.options.progress, t.options.progress_ctx,
                     "refine");
-  t.count = wanted_workers(links, &t.options);
+  t.count = hr2di_worker_count(links, t.options.threads);
   if (t.options.max_bytes &&
       t.count * (sizeof *t.worker + sizeof *t.clone) > t.options.max_bytes)
     return hr2di_projector_fail_budget(links, t.options.max_bytes, 0);
@@ -329,15 +282,11 @@ hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *op
     status = count_as_team(&t, counts);
   else
     status = hr2di_message_fail(&links->message, HR2D_ENOMEM, "out of memory for the count");
-  for (size_t k = 0; k < t.count && t.worker && t.clone; k++) {
-    if (t.worker[k].projector) hr2di_projector_destroy(t.worker[k].projector);
-    hr2d_hierarchy_destroy(t.clone[k]);
-  }
   for (int k = 0; k < STACKS; k++) hr2di_alloc_free(&links->alloc, t.stack[k].pair);
   hr2di_alloc_free(&links->alloc, t.occluded.stack.pair);
   hr2di_alloc_free(&links->alloc, t.occluded.first);
   hr2di_sight_list_clear(&t.occluded.list);
-  hr2di_alloc_free(&links->alloc, t.worker);
+  hr2di_worker_destroy(t.worker, t.count, &links->alloc);
   hr2di_alloc_free(&links->alloc, t.clone);
   return status;
 }

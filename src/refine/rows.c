@@ -16,11 +16,11 @@
 #include "base/alloc.h"
 #include "base/team.h"
 #include "geometry/exchange-area.h"
-#include "refine/part-rows.h"
 #include "refine/rounds.h"
+#include "refine/worker.h"
 #include "scene/scene-impl.h"
 
-enum { BAND = 128, FEW_PATCHES = 8, MOST_WORKERS = 256 };
+enum { BAND = 128, FEW_PATCHES = 8 };
 
 /* What a row led to, in the numbers of the worker's copy. */
 typedef struct row {
@@ -31,18 +31,9 @@ typedef struct row {
   size_t halvings, parent_capacity;
 } row;
 
-typedef struct worker {
-  hr2d_linkset links; /* a copy with a hierarchy and a message of its own, without links */
-  hr2d_hierarchy *clone;
-  hr2di_projector *projector;
-  hr2di_watch own; /* but the calling thread has that of the team */
-  row *row;        /* under way */
-  hr2d_status status;
-} worker;
-
 typedef struct rows {
   hr2di_projector *p;
-  worker *worker;
+  hr2di_worker *worker;
   size_t workers;
   row row[BAND];
   size_t first;    /* the patch of row[0] */
@@ -52,20 +43,15 @@ typedef struct rows {
 } rows;
 
 size_t hr2di_rows_threads(const hr2di_projector *p) {
-  const hr2d_linkset *links = p->links;
-  const size_t threads = hr2di_team_threads(p->options.threads);
-  if (!(links->oracle.flags & HR2D_ORACLE_THREAD_SAFE) ||
-      !(links->policy.flags & HR2D_POLICY_THREAD_SAFE) || p->options.max_bytes ||
-      p->hierarchy->scene->patches < FEW_PATCHES)
-    return 1;
-  return threads < MOST_WORKERS ? threads : MOST_WORKERS;
+  if (p->options.max_bytes || p->hierarchy->scene->patches < FEW_PATCHES) return 1;
+  return hr2di_worker_count(p->links, p->options.threads);
 }
 
 /* Keeps links in the row under way. */
 static hr2d_status keep(void *ctx, const hr2d_pair *pairs, const double *area, size_t count) {
-  worker *w = ctx;
+  hr2di_worker *w = ctx;
   hr2di_projector *p = w->projector;
-  row *r = w->row;
+  row *r = w->task;
   const size_t needed = r->links + count;
   hr2d_status status = hr2di_projector_work(p, area ? 1 : count);
   if (!status && (hr2di_alloc_reserve(&p->links->alloc, &r->pair, &r->pair_capacity, needed,
@@ -86,9 +72,9 @@ static hr2d_status keep(void *ctx, const hr2d_pair *pairs, const double *area, s
 }
 
 /* Keeps which elements the row has halved, and removes them from the copy. */
-static hr2d_status keep_halvings(const rows *all, worker *w) {
+static hr2d_status keep_halvings(const rows *all, hr2di_worker *w) {
   hr2d_hierarchy *h = w->clone;
-  row *r = w->row;
+  row *r = w->task;
   r->halvings = (h->elements - all->elements) / 2;
   if (hr2di_alloc_reserve(&h->alloc, &r->parent, &r->parent_capacity, r->halvings,
                           sizeof *r->parent))
@@ -100,16 +86,17 @@ static hr2d_status keep_halvings(const rows *all, worker *w) {
 
 static void do_row(void *ctx, size_t number, size_t task) {
   rows *all = ctx;
-  worker *w = &all->worker[number];
+  hr2di_worker *w = &all->worker[number];
   hr2di_projector *p = w->projector;
+  row *r = &all->row[task];
   if (w->status) return;
-  w->row = &all->row[task];
-  w->row->links = w->row->halvings = 0;
+  w->task = r;
+  r->links = r->halvings = 0;
   w->status = hr2di_projector_fail(p, hr2di_watch_status(p->watch), "");
   if (!w->status) w->status = hr2di_projector_row(p, all->first + task);
   if (!w->status) w->status = hr2di_rounds_run(p, SIZE_MAX);
   if (!w->status) w->status = keep_halvings(all, w);
-  atomic_fetch_add(&all->links_found, w->row->links);
+  atomic_fetch_add(&all->links_found, r->links);
   atomic_fetch_add(&all->rows_done, 1);
   if (w->status) hr2di_watch_stop(all->p->watch, HR2D_STOPPED);
 }
@@ -159,23 +146,10 @@ static hr2d_status take_links(rows *all, row *r) {
   return status;
 }
 
-/* The reason is that of the first worker with a message.  A worker that stopped because
-   another one failed has none. */
-static hr2d_status gather_status(const rows *all) {
-  const worker *reason = NULL;
-  for (size_t k = 0; k < all->workers; k++) {
-    const worker *w = &all->worker[k];
-    if (w->status && (!reason || !reason->links.message.text[0])) reason = w;
-  }
-  if (!reason) return HR2D_OK;
-  return hr2di_message_fail(&all->p->links->message, reason->status, "%s",
-                            reason->links.message.text);
-}
-
 static hr2d_status do_band(rows *all, size_t count) {
   hr2di_projector *p = all->p;
   hr2di_team_run(all->workers, count, do_row, all, p->watch);
-  hr2d_status status = gather_status(all);
+  hr2d_status status = hr2di_worker_status(all->worker, all->workers, p->links);
   for (size_t k = 0; k < count && !status; k++) {
     status = take_halvings(all, &all->row[k]);
     if (!status) status = take_links(all, &all->row[k]);
@@ -183,67 +157,39 @@ static hr2d_status do_band(rows *all, size_t count) {
   return status;
 }
 
-/* Worker k gets a copy of the hierarchy, and a projector on it. */
 static hr2d_status hire(rows *all, size_t k) {
-  worker *w = &all->worker[k];
-  hr2di_projector *p = all->p;
-  w->links = *p->links;
-  w->links.store = (hr2di_store){0};
-  w->links.message.text[0] = '\0';
-  if (hr2di_hierarchy_clone(p->hierarchy, &w->clone)) {
-    w->status =
-        hr2di_message_fail(&w->links.message, HR2D_ENOMEM, "out of memory for the refinement");
+  hr2di_worker *w = &all->worker[k];
+  const hr2di_projector *p = all->p;
+  if (hr2di_worker_hire(w, k, p->links, p->hierarchy, &p->options, p->watch, "refinement"))
     return w->status;
-  }
-  w->links.hierarchy = w->clone;
-  hr2di_watch_follow(&w->own, p->watch);
-  w->status = hr2di_projector_create(&w->links, &p->options, k == 0 ? p->watch : &w->own,
-                                     &w->projector);
-  if (w->status) return w->status;
   w->projector->sink = keep;
   w->projector->sink_ctx = w;
   return HR2D_OK;
 }
 
-static void sum_up(hr2di_projector *all, const hr2di_projector *p) {
-  hr2d_refine_counts *sum = &all->counts;
-  sum->limited_links += p->counts.limited_links;
-  sum->oracle_calls += p->counts.oracle_calls;
-  sum->facing_tests += p->counts.facing_tests;
-  sum->exchange_areas += p->counts.exchange_areas;
-  sum->partial_links += p->counts.partial_links;
-  sum->blocked_pairs += p->counts.blocked_pairs;
-  sum->dark_pairs += p->counts.dark_pairs;
-  sum->visibility_tests += hr2di_part_rows_tests(p);
-  all->other_tests += p->part.others;
-}
-
 static void clear(rows *all) {
   const hr2d_allocator *alloc = &all->p->links->alloc;
-  for (size_t k = 0; k < all->workers; k++) {
-    worker *w = &all->worker[k];
-    if (w->projector) hr2di_projector_destroy(w->projector);
-    hr2d_hierarchy_destroy(w->clone);
-  }
   for (size_t k = 0; k < BAND; k++) {
     hr2di_alloc_free(alloc, all->row[k].pair);
     hr2di_alloc_free(alloc, all->row[k].area);
     hr2di_alloc_free(alloc, all->row[k].parent);
   }
-  hr2di_alloc_free(alloc, all->worker);
+  hr2di_worker_destroy(all->worker, all->workers, alloc);
   hr2di_alloc_free(alloc, all);
 }
 
 static hr2d_status project(rows *all) {
   const size_t last = all->p->options.row_to;
   for (size_t k = 0; k < all->workers; k++)
-    if (hire(all, k)) return gather_status(all);
+    if (hire(all, k)) return hr2di_worker_status(all->worker, all->workers, all->p->links);
   hr2d_status status = HR2D_OK;
   for (; all->first < last && !status; all->first += BAND)
     status = do_band(all, last - all->first < BAND ? last - all->first : BAND);
   for (size_t k = 0; k < all->workers; k++) {
-    sum_up(all->p, all->worker[k].projector);
-    hr2di_projector_add_rows(all->worker[k].projector, all->p->rows);
+    const hr2di_worker *w = &all->worker[k];
+    hr2di_worker_add_counts(w, &all->p->counts);
+    all->p->other_tests += w->projector->part.others;
+    hr2di_projector_add_rows(w->projector, all->p->rows);
   }
   all->p->roots_done = all->p->roots; /* to be told at the end */
   return status;
@@ -253,7 +199,7 @@ hr2d_status hr2di_rows_project(hr2di_projector *p) {
   const hr2d_allocator *alloc = &p->links->alloc;
   const size_t workers = hr2di_rows_threads(p);
   rows *all = hr2di_alloc_zero(alloc, 1, sizeof *all);
-  worker *w = hr2di_alloc_zero(alloc, workers, sizeof *w);
+  hr2di_worker *w = hr2di_alloc_zero(alloc, workers, sizeof *w);
   if (!all || !w) {
     hr2di_alloc_free(alloc, all);
     hr2di_alloc_free(alloc, w);
