@@ -55,7 +55,7 @@ static hr2d_status hire(team *t) {
 
 static void dismiss(team *t, uint64_t *steps) {
   for (size_t k = 0; k < t->workers; k++) {
-    *steps += t->worker[k].view.steps;
+    *steps += t->worker[k].view.between.steps;
     hr2di_round_view_clear(&t->worker[k].view);
     hr2di_alloc_free(&t->is->scene->alloc, t->worker[k].room);
   }

@@ -1,29 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A walk through the triangles of the plane, out of the one at the point through its three
-   sides.
-
-   An angle enters a triangle between two vertices, of which it has one at each of its ends or
-   beyond.  The third vertex is in the angle, which splits there; or all of the angle passes it
-   on one side.  It ends at a side of a wall, or at the border of the box: there is the sky. The
-   point and the vertices are doubles, so that all signs are exact. */
+/* An expansion through the triangles of the plane, out of the one at the point through its
+   three sides.  Its borders are rays to vertices.  The point and the vertices are doubles, so
+   that all signs are exact. */
 #include "field/round-view.h"
 
 #include <math.h>
 
-#include "base/alloc.h"
 #include "field/locate.h"
 #include "geometry/orient-sign.h"
 #include "geometry/vector.h"
 
 /* Farther away than this the scene is a point. */
 #define FAR 0x1p+60
-
-/* The vertex at which an angle ends on the left, and what is on its left: a half-edge to go on
-   from, or a side of a wall. */
-struct hr2di_round_frame {
-  uint32_t left;
-  int32_t beyond;
-};
 
 /* Whether q is on the left of the ray from the point to p: 1; on its right: −1. */
 static int turn(const hr2di_round_view *v, hr2d_point p, hr2d_point q) {
@@ -69,18 +57,15 @@ static hr2d_status show_part(hr2di_round_view *v, hr2di_wall_side side, uint32_t
   return show(v, &s);
 }
 
-/* The first part along a side whose end is on the left of a ray. */
-static uint32_t first_part(const hr2di_round_view *v, hr2di_parts among, hr2d_point right) {
-  const hr2di_side_part *part = v->scene->parts.part;
-  uint32_t low = among.first, high = among.last - 1;
-  while (low < high) {
-    const uint32_t middle = low + (high - low) / 2;
-    if (turn(v, right, part[middle].at.b) > 0)
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  return low;
+/* A ray from a point to another one. */
+typedef struct ray {
+  const hr2di_round_view *v;
+  hr2d_point to;
+} ray;
+
+static int is_on_left(const void *of, hr2d_point end) {
+  const ray *r = of;
+  return turn(r->v, r->to, end) > 0;
 }
 
 /* Shows the parts along a side between two vertices.  The side starts on the right. */
@@ -95,7 +80,10 @@ static hr2d_status show_parts(hr2di_round_view *v, hr2di_wall_side side, uint32_
   const hr2d_point last = in->at[left];
   hr2d_point since = in->at[right];
   hr2d_status status = HR2D_OK;
-  uint32_t m = right == start ? among.first : first_part(v, among, since);
+  const ray first = {v, since};
+  uint32_t m = right == start
+                   ? among.first
+                   : hr2di_side_parts_find(&v->scene->parts, among, is_on_left, &first);
   int starts = right == start;
   for (; m < among.last && !status; m++) {
     const hr2di_side_part *p = &part[m];
@@ -115,7 +103,9 @@ static hr2d_status show_parts(hr2di_round_view *v, hr2di_wall_side side, uint32_
 }
 
 /* The angle between two vertices ends at something. */
-static hr2d_status end_at(hr2di_round_view *v, int32_t what, uint32_t right, uint32_t left) {
+static hr2d_status end_at(void *ctx, int32_t what, const void *on_right, void *on_left) {
+  hr2di_round_view *v = ctx;
+  const uint32_t right = *(const uint32_t *)on_right, left = *(const uint32_t *)on_left;
   const hr2d_point *at = v->scene->plane.triangulation.at;
   hr2di_round_stretch s = {.patch = HR2DI_ROUND_BACK,
                            .what = what,
@@ -127,68 +117,25 @@ static hr2d_status end_at(hr2di_round_view *v, int32_t what, uint32_t right, uin
   return show(v, &s);
 }
 
-/* An angle that is walked: the vertex on its right, and what is behind the triangle that it
-   enters, on the right of its third vertex and on the left. */
-typedef struct walk {
-  uint32_t right;
-  int32_t beyond[2];
-} walk;
-
-/* Follows an angle from half-edge h to where it splits, at *apex, or ends; returns what it ends
-   at.  A straight line enters each triangle once at most. */
-static int32_t follow(hr2di_round_view *v, walk *k, uint32_t left, int32_t h, uint32_t *apex,
-                      int *splits) {
-  const hr2di_triangulation *in = &v->scene->plane.triangulation;
-  const hr2d_point x = v->x, right = in->at[k->right], end = in->at[left];
-  for (size_t steps = 1; steps <= in->triangles; steps++) {
-    v->steps++;
-    if (steps % 32 == 0 && hr2di_watch_work(v->watch, 16)) break;
-    const hr2di_triangle *t = &in->triangle[h >> 2];
-    const int to_right = hr2di_corner_after(h & 3), to_left = hr2di_corner_before(h & 3);
-    *apex = t->corner[to_left];
-    const hr2d_point at = in->at[*apex];
-    const int on_left = hr2di_orient_sign(x, right, at) > 0,
-              on_right = hr2di_orient_sign(x, end, at) < 0;
-    *splits = on_left && on_right;
-    k->beyond[0] = t->across[to_right];
-    k->beyond[1] = t->across[to_left];
-    if (*splits) return 0;
-    h = k->beyond[on_left ? 0 : 1];
-    if (h < 0) return h;
-  }
-  *splits = 0;
-  return HR2DI_SKY;
-}
-
-static hr2d_status push(hr2di_round_view *v, uint32_t left, int32_t beyond) {
-  if (hr2di_alloc_reserve(&v->alloc, &v->frame, &v->room, v->frames + 1, sizeof *v->frame))
-    return HR2D_ENOMEM;
-  v->frame[v->frames++] = (hr2di_round_frame){left, beyond};
-  return HR2D_OK;
+static int side_of(void *ctx, void *right, void *left, uint32_t vertex, void *split) {
+  const hr2di_round_view *v = ctx;
+  const hr2d_point *at = v->scene->plane.triangulation.at;
+  *(uint32_t *)split = vertex;
+  if (turn(v, at[*(const uint32_t *)right], at[vertex]) <= 0) return -1;
+  return turn(v, at[*(const uint32_t *)left], at[vertex]) < 0 ? 0 : 1;
 }
 
 /* Walks the angle between two vertices, from half-edge h or at what it ends. */
 static hr2d_status walk_from(hr2di_round_view *v, int32_t h, uint32_t right, uint32_t left) {
-  walk k = {.right = right};
-  v->frames = 0;
-  hr2d_status status = push(v, left, 0);
-  while (!status) {
-    while (h < 0) {
-      const hr2di_round_frame f = v->frame[--v->frames];
-      status = end_at(v, h, k.right, f.left);
-      if (v->frames == 0 || status) return status;
-      k.right = f.left;
-      h = f.beyond;
-    }
-    int splits;
-    uint32_t apex;
-    h = follow(v, &k, v->frame[v->frames - 1].left, h, &apex, &splits);
-    status = hr2di_watch_work(v->watch, 1);
-    if (!splits) continue;
-    if (!status) status = push(v, apex, k.beyond[1]);
-    h = k.beyond[0];
-  }
-  return status;
+  hr2di_expansion *x = &v->between;
+  x->in = &v->scene->plane.triangulation;
+  x->watch = v->watch;
+  x->alloc = v->alloc;
+  x->border = sizeof(uint32_t);
+  x->side = side_of;
+  x->end = end_at;
+  x->ctx = v;
+  return hr2di_expansion_walk(x, h, &right, &left);
 }
 
 /* In triangle `at`. */
@@ -328,5 +275,5 @@ hr2d_status hr2di_look_round(hr2di_round_view *v, hr2d_point x, int *touches) {
 }
 
 void hr2di_round_view_clear(hr2di_round_view *v) {
-  hr2di_alloc_free(&v->alloc, v->frame);
+  hr2di_expansion_clear(&v->between);
 }

@@ -5,6 +5,7 @@
 #define HR2D_SRC_FIELD_ROUND_VIEW_H
 
 #include "scene/scene-impl.h"
+#include "sight/expansion.h"
 
 /* What is seen, if it is not a patch's front. */
 #define HR2DI_ROUND_BACK HR2DI_NOBODY
@@ -22,8 +23,6 @@ typedef struct hr2di_round_stretch {
 /* HR2D_OK, or a status that ends the view. */
 typedef hr2d_status (*hr2di_round_fn)(void *ctx, const hr2di_round_stretch *s);
 
-typedef struct hr2di_round_frame hr2di_round_frame;
-
 /* Work space of one thread; what is not set is 0.  To be ended by hr2di_round_view_clear(). */
 typedef struct hr2di_round_view {
   const hr2d_scene *scene; /* with a plane */
@@ -31,12 +30,10 @@ typedef struct hr2di_round_view {
   hr2di_watch *watch;
   hr2di_round_fn take;
   void *ctx;
-  uint64_t steps; /* triangles that were looked through so far */
+  hr2di_expansion between; /* two rays to vertices; its steps are those so far */
   /* Inside of the view only. */
   int32_t near;
   hr2d_point x;
-  hr2di_round_frame *frame;
-  size_t frames, room;
 } hr2di_round_view;
 
 /* Forgets where the last point was: what follows does not depend on it. */

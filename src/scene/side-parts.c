@@ -127,6 +127,19 @@ void hr2di_side_parts_clear(hr2di_side_parts *parts) {
   hr2di_alloc_free(&parts->alloc, parts->contact);
 }
 
+uint32_t hr2di_side_parts_find(const hr2di_side_parts *parts, hr2di_parts among,
+                               hr2di_side_parts_left_fn is_on_left, const void *border) {
+  uint32_t low = among.first, high = among.last - 1;
+  while (low < high) {
+    const uint32_t middle = low + (high - low) / 2;
+    if (is_on_left(border, parts->part[middle].at.b))
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  return low;
+}
+
 unsigned hr2di_side_kind(const hr2di_side_parts *p, hr2di_wall_side side) {
   const hr2di_parts parts = p->of_side[side].parts;
   if (!p->wanted[side]) return HR2DI_HAS_BACK;

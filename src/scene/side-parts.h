@@ -60,6 +60,14 @@ hr2d_status hr2di_side_parts_init(hr2di_side_parts *parts, const hr2d_scene *sce
                                   hr2di_watch *watch);
 void hr2di_side_parts_clear(hr2di_side_parts *parts);
 
+/* Whether an end of a part is on the left of a border. */
+typedef int (*hr2di_side_parts_left_fn)(const void *border, hr2d_point end);
+
+/* The first of parts along a side whose end is on the left of a border; the last one if there
+   is none.  The side starts on the right. */
+uint32_t hr2di_side_parts_find(const hr2di_side_parts *parts, hr2di_parts among,
+                               hr2di_side_parts_left_fn is_on_left, const void *border);
+
 /* What lies along a side. */
 enum {
   HR2DI_HAS_FRONT = 1, /* patches */

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A beam is what comes in between two parallel lines through vertices.  It is walked through
-   the triangles as the angle of a point view is: it splits at a vertex strictly inside, and
-   ends at a side of a wall.  Light comes in through all edges of the box around the plane that
-   it leads inwards.
+/* A beam is what comes in between two parallel lines through vertices, which are its borders.
+   Light comes in through all edges of the box around the plane that it leads inwards.
 
    A point p is on the left of the line through q if way × (p − q) > 0.  These signs are exact,
    so that beams have the borders that the walls of the plane cast, and no light passes between
@@ -11,17 +9,9 @@
 
 #include <math.h>
 
-#include "base/alloc.h"
 #include "geometry/determinant.h"
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
-
-/* The vertex on the left border of a beam, and what is on the left of that: a half-edge to go
-   on from, or ~side. */
-struct hr2di_sun_frame {
-  uint32_t left;
-  int32_t beyond;
-};
 
 /* The larger component comes into [1,2): exactly, if the other is not smaller by 2^1000. */
 static hr2d_point scaled(hr2d_point way) {
@@ -72,40 +62,23 @@ static int side_of(const hr2di_sun_beams *b, uint32_t vertex, uint32_t border) {
   return sign_across(b->way, at(b, vertex), at(b, border));
 }
 
-/* Follows the beam between two vertices from half-edge h to where it splits, at *split, and
-   returns what is on the right of that; or to where it ends, at the result, with *splits 0. */
-static int32_t follow(hr2di_sun_beams *b, uint32_t right, uint32_t left, int32_t h,
-                      hr2di_sun_frame *split, int *splits) {
-  const hr2di_triangulation *in = &b->scene->plane.triangulation;
-  for (size_t steps = 1; steps <= in->triangles; steps++) {
-    if (steps % 32 == 0 && hr2di_watch_work(b->watch, 8)) break;
-    const hr2di_triangle *t = &in->triangle[h >> 2];
-    const int to_right = hr2di_corner_after(h & 3), to_left = hr2di_corner_before(h & 3);
-    *split = (hr2di_sun_frame){t->corner[to_left], t->across[to_left]};
-    const int from_right = side_of(b, split->left, right);
-    *splits = from_right > 0 && side_of(b, split->left, left) < 0;
-    if (*splits) return t->across[to_right];
-    h = from_right > 0 ? t->across[to_right] : split->beyond;
-    if (h < 0) return h;
-  }
-  *splits = 0;
-  return HR2DI_SKY;
+static int side_of_beam(void *ctx, void *right, void *left, uint32_t vertex, void *split) {
+  const hr2di_sun_beams *b = ctx;
+  const uint32_t *r = right, *l = left;
+  *(uint32_t *)split = vertex;
+  if (side_of(b, vertex, *r) <= 0) return -1;
+  return side_of(b, vertex, *l) < 0 ? 0 : 1;
 }
 
-/* The first part along a side whose end is on the left of a line.  The side starts on the
- * right.
- */
-static uint32_t first_part(const hr2di_sun_beams *b, hr2di_parts among, uint32_t right) {
-  const hr2di_side_part *part = b->scene->parts.part;
-  uint32_t low = among.first, high = among.last - 1;
-  while (low < high) {
-    const uint32_t middle = low + (high - low) / 2;
-    if (sign_across(b->way, part[middle].at.b, at(b, right)) > 0)
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  return low;
+/* A border of a beam. */
+typedef struct line {
+  const hr2di_sun_beams *b;
+  uint32_t vertex;
+} line;
+
+static int is_on_left(const void *of, hr2d_point end) {
+  const line *l = of;
+  return sign_across(l->b->way, end, at(l->b, l->vertex)) > 0;
 }
 
 /* Lights what a beam meets of a part, a patch's. */
@@ -121,54 +94,42 @@ static hr2d_status light(hr2di_sun_beams *b, const hr2di_side_part *part, uint32
   return b->take(b->ctx, part->patch, fmax(from, 0), fmin(to, 1));
 }
 
-/* The beam between two vertices ends at something. */
-static hr2d_status end_at(hr2di_sun_beams *b, int32_t what, uint32_t right, uint32_t left) {
+/* A beam ends at something. */
+static hr2d_status end_at(void *ctx, int32_t what, const void *right, void *left) {
+  hr2di_sun_beams *b = ctx;
+  const uint32_t *r = right, *l = left;
   if (what == HR2DI_SKY || !b->scene->parts.wanted[(hr2di_wall_side)~what]) return HR2D_OK;
+  const line first = {b, *r};
   const hr2di_side_part *part = b->scene->parts.part;
   const hr2di_parts among = b->scene->parts.of_side[(hr2di_wall_side)~what].parts;
   hr2d_status status = HR2D_OK;
-  for (uint32_t m = first_part(b, among, right); m < among.last && !status; m++) {
-    if (part[m].patch != HR2DI_NOBODY) status = light(b, &part[m], right, left);
+  uint32_t m = hr2di_side_parts_find(&b->scene->parts, among, is_on_left, &first);
+  for (; m < among.last && !status; m++) {
+    if (part[m].patch != HR2DI_NOBODY) status = light(b, &part[m], *r, *l);
     if (!status) status = hr2di_watch_work(b->watch, 4);
-    if (sign_across(b->way, part[m].at.b, at(b, left)) >= 0) break;
+    if (sign_across(b->way, part[m].at.b, at(b, *l)) >= 0) break;
   }
   return status;
-}
-
-static hr2d_status push(hr2di_sun_beams *b, hr2di_sun_frame frame) {
-  if (hr2di_alloc_reserve(&b->alloc, &b->frame, &b->room, b->frames + 1, sizeof *b->frame))
-    return HR2D_ENOMEM;
-  b->frame[b->frames++] = frame;
-  return HR2D_OK;
 }
 
 /* Walks the beam that enters by half-edge h. */
 static hr2d_status walk_from(hr2di_sun_beams *b, int32_t h) {
   const hr2di_triangle *t = &b->scene->plane.triangulation.triangle[h >> 2];
-  uint32_t right = t->corner[hr2di_corner_after(h & 3)];
-  b->frames = 0;
-  hr2d_status status = push(b, (hr2di_sun_frame){t->corner[h & 3], HR2DI_SKY});
-  while (!status) {
-    hr2di_sun_frame split = {0, 0};
-    int splits;
-    h = follow(b, right, b->frame[b->frames - 1].left, h, &split, &splits);
-    status = hr2di_watch_work(b->watch, 1);
-    if (splits && !status) status = push(b, split);
-    while (h < 0 && !status) {
-      const hr2di_sun_frame f = b->frame[--b->frames];
-      status = end_at(b, h, right, f.left);
-      if (b->frames == 0) return status;
-      right = f.left;
-      h = f.beyond;
-    }
-  }
-  return status;
+  return hr2di_expansion_walk(&b->between, h, &t->corner[hr2di_corner_after(h & 3)],
+                              &t->corner[h & 3]);
 }
 
 hr2d_status hr2di_sun_beams_walk(hr2di_sun_beams *b, hr2d_point way) {
   const hr2di_triangulation *in = &b->scene->plane.triangulation;
   hr2d_status status = HR2D_OK;
   b->way = scaled(way);
+  b->between.in = in;
+  b->between.watch = b->watch;
+  b->between.alloc = b->alloc;
+  b->between.border = sizeof(uint32_t);
+  b->between.side = side_of_beam;
+  b->between.end = end_at;
+  b->between.ctx = b;
   for (size_t k = 0; k < in->triangles && !status; k++) {
     const hr2di_triangle *t = &in->triangle[k];
     for (int e = 0; e < 3 && !status; e++)
@@ -182,5 +143,5 @@ hr2d_status hr2di_sun_beams_walk(hr2di_sun_beams *b, hr2d_point way) {
 }
 
 void hr2di_sun_beams_clear(hr2di_sun_beams *b) {
-  hr2di_alloc_free(&b->alloc, b->frame);
+  hr2di_expansion_clear(&b->between);
 }

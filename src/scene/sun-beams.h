@@ -5,13 +5,11 @@
 
 #include <hr2d/scene.h>
 
-#include "base/watch.h"
+#include "sight/expansion.h"
 
 /* Takes a part of a patch's front that is lit, fractions of the patch, from < to.  HR2D_OK, or
    a status that ends the walk. */
 typedef hr2d_status (*hr2di_lit_fn)(void *ctx, uint32_t patch, double from, double to);
-
-typedef struct hr2di_sun_frame hr2di_sun_frame;
 
 /* Work space, kept from walk to walk; what is not set is 0. */
 typedef struct hr2di_sun_beams {
@@ -20,9 +18,8 @@ typedef struct hr2di_sun_beams {
   hr2di_watch *watch;
   hr2di_lit_fn take;
   void *ctx;
-  hr2d_point way; /* of the light, its larger component in [1,2) */
-  hr2di_sun_frame *frame;
-  size_t frames, room;
+  hr2d_point way;          /* of the light, its larger component in [1,2) */
+  hr2di_expansion between; /* two lines through vertices */
 } hr2di_sun_beams;
 
 /* Walks all light of direction `way`, which is finite and not 0, into the scene.  Parts come in

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* An angle is walked through the triangles as in point-view-walk.c: it splits at a vertex that
-   is strictly inside it, and ends at a side of a wall.  Signs are exact, so an origin that is a
-   vertex sees what is there and nothing else.  Others are roundings away from their wall: the
-   first triangle is the one in front of it, and the line of the wall is their horizon.
+/* Expansions of angles.  Signs are exact, so an origin that is a vertex sees what is there and
+   nothing else.  Others are roundings away from their wall: the first triangle is the one in
+   front of it, and the line of the wall is their horizon.
 
    A border that meets a vertex exactly passes it, and is then the line of that vertex, too. The
    triangulation bends walls at feet by roundings, so the line of a wall itself is not found by
@@ -12,13 +11,6 @@
 #include "geometry/predicates.h"
 #include "geometry/vector.h"
 #include "visibility/events-impl.h"
-
-/* The left border of an angle, and what is on the left of that: a half-edge to go on from, or
-   ~side. */
-struct hr2di_border_frame {
-  hr2di_border left;
-  int32_t beyond;
-};
 
 static int32_t next(int32_t h) {
   return (h & 3) == 2 ? h - 2 : h + 1;
@@ -45,25 +37,30 @@ static int is_end_of(const hr2di_event_beams *b, hr2di_wall_side side, uint32_t 
   return e->from == vertex || e->to == vertex;
 }
 
+/* The line from a point through another one. */
+typedef struct ray {
+  hr2d_point from, to;
+} ray;
+
+static int is_on_left(const void *of, hr2d_point end) {
+  const ray *r = of;
+  return hr2di_orient_sign(r->from, r->to, end) > 0;
+}
+
 /* The patch along a side that a ray meets strictly inside, or HR2DI_NOBODY.  The side starts on
    the right. */
 static uint32_t patch_at(const hr2di_event_beams *b, hr2di_wall_side side, hr2d_point from,
                          hr2d_point to) {
-  const hr2di_side_part *part = b->scene->parts.part;
-  const hr2di_parts among = b->scene->parts.of_side[side].parts;
-  uint32_t low = among.first, high = among.last - 1;
-  while (low < high) {
-    const uint32_t middle = low + (high - low) / 2;
-    if (hr2di_orient_sign(from, to, part[middle].at.b) > 0)
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  if (part[low].patch == HR2DI_NOBODY) return HR2DI_NOBODY;
-  const hr2d_segment s = b->scene->patch[part[low].patch].scaled;
+  const hr2di_side_parts *parts = &b->scene->parts;
+  const ray r = {from, to};
+  const uint32_t found =
+      hr2di_side_parts_find(parts, parts->of_side[side].parts, is_on_left, &r);
+  const uint32_t patch = parts->part[found].patch;
+  if (patch == HR2DI_NOBODY) return HR2DI_NOBODY;
+  const hr2d_segment s = b->scene->patch[patch].scaled;
   const int inside =
       hr2di_orient_sign(from, to, s.a) < 0 && hr2di_orient_sign(from, to, s.b) > 0;
-  return inside ? part[low].patch : HR2DI_NOBODY;
+  return inside ? patch : HR2DI_NOBODY;
 }
 
 /* An angle ends at a side: if one of its borders passes the end of a wall on the way there, the
@@ -82,83 +79,45 @@ static hr2d_status see(hr2di_event_beams *b, const hr2di_border *border, hr2di_w
   return b->take(b->ctx, patch, hr2di_line_crossing(b->at, to, s.a, s.b), u);
 }
 
-/* The angle from b->right to `left` ends at something. */
-static hr2d_status end_at(hr2di_event_beams *b, int32_t what, const hr2di_border *left) {
-  if (what == HR2DI_SKY) return HR2D_OK;
+/* What is behind the left border is behind it for what is on its right alone. */
+static hr2d_status end_at(void *ctx, int32_t what, const void *right, void *on_left) {
+  hr2di_event_beams *b = ctx;
+  hr2di_border *left = on_left;
   const hr2di_wall_side side = (hr2di_wall_side)~what;
-  if (!b->scene->parts.wanted[side] || b->own_wall[b->wall_of[side >> 1]] == b->number)
-    return HR2D_OK;
-  const hr2d_status status = see(b, &b->right, side);
-  return status ? status : see(b, left, side);
-}
-
-static hr2d_status push(hr2di_event_beams *b, const hr2di_border *left, int32_t beyond) {
-  if (hr2di_alloc_reserve(&b->alloc, &b->frame, &b->room, b->frames + 1, sizeof *b->frame))
-    return HR2D_ENOMEM;
-  b->frame[b->frames++] = (hr2di_border_frame){*left, beyond};
-  return HR2D_OK;
+  hr2d_status status = HR2D_OK;
+  if (what != HR2DI_SKY && b->scene->parts.wanted[side] &&
+      b->own_wall[b->wall_of[side >> 1]] != b->number) {
+    status = see(b, right, side);
+    if (!status) status = see(b, left, side);
+  }
+  left->behind = HR2DI_NO_VERTEX;
+  return status;
 }
 
 static hr2di_border through(const hr2di_event_beams *b, uint32_t vertex) {
   return (hr2di_border){b->at, b->in->at[vertex], vertex, HR2DI_NO_VERTEX};
 }
 
-/* Follows an angle from half-edge h on.  Returns the half-edge across which its right part goes
-   on where it splits, with the vertex in *v and what is beyond that in *beyond; else *v is
-   HR2DI_NO_VERTEX, and it returns what the angle ends at.  A straight line enters each triangle
-   once at most, which ends it also where the origin is off its wall by roundings. */
-static int32_t follow(hr2di_event_beams *b, hr2di_border *left, int32_t h, uint32_t *v,
-                      int32_t *beyond) {
-  for (size_t steps = 1; steps <= b->in->triangles; steps++) {
-    if (steps % 32 == 0 && hr2di_watch_work(b->watch, 8)) break;
-    const hr2di_triangle *t = &b->in->triangle[h >> 2];
-    const int k = h & 3, to_right = hr2di_corner_after(k), to_left = hr2di_corner_before(k);
-    const hr2d_point at = b->in->at[t->corner[to_left]];
-    const int from_right = hr2di_orient_sign(b->right.from, b->right.to, at);
-    const int from_left = hr2di_orient_sign(left->from, left->to, at);
-    *v = t->corner[to_left];
-    *beyond = t->across[to_left];
-    b->steps++;
-    if (from_right > 0 && from_left < 0) return t->across[to_right];
-    if (from_right == 0 && b->free[*v]) b->right.behind = *v;
-    if (from_left == 0 && b->free[*v]) left->behind = *v;
-    h = from_right > 0 ? t->across[to_right] : *beyond;
-    if (h >= 0) continue;
-    *v = HR2DI_NO_VERTEX;
-    return h;
+static int side_of(void *ctx, void *on_right, void *on_left, uint32_t vertex, void *split) {
+  const hr2di_event_beams *b = ctx;
+  hr2di_border *right = on_right, *left = on_left;
+  const hr2d_point at = b->in->at[vertex];
+  const int from_right = hr2di_orient_sign(right->from, right->to, at);
+  const int from_left = hr2di_orient_sign(left->from, left->to, at);
+  if (from_right > 0 && from_left < 0) {
+    *(hr2di_border *)split = through(b, vertex);
+    return 0;
   }
-  *v = HR2DI_NO_VERTEX;
-  return HR2DI_SKY;
+  if (from_right == 0 && b->free[vertex]) right->behind = vertex;
+  if (from_left == 0 && b->free[vertex]) left->behind = vertex;
+  return from_right > 0 ? 1 : -1;
 }
 
-/* Walks the angle between b->right and `left`; h is what is behind the edge that both cross. */
-static hr2d_status walk(hr2di_event_beams *b, const hr2di_border *left, int32_t h) {
-  b->frames = 0;
-  hr2d_status status = push(b, left, HR2DI_SKY);
-  while (!status) {
-    while (h < 0) {
-      const hr2di_border_frame f = b->frame[--b->frames];
-      status = end_at(b, h, &f.left);
-      if (status || b->frames == 0) return status;
-      b->right = f.left;
-      b->right.behind = HR2DI_NO_VERTEX;
-      h = f.beyond;
-    }
-    uint32_t v;
-    int32_t beyond;
-    status = hr2di_watch_work(b->watch, 1);
-    h = follow(b, &b->frame[b->frames - 1].left, h, &v, &beyond);
-    if (v == HR2DI_NO_VERTEX || status) continue;
-    const hr2di_border split = through(b, v);
-    if (h >= 0) {
-      status = push(b, &split, beyond);
-    } else {
-      status = end_at(b, h, &split);
-      b->right = split;
-      h = beyond;
-    }
-  }
-  return status;
+/* Walks the angle between two borders; h is what is behind the edge that both cross. */
+static hr2d_status walk(hr2di_event_beams *b, const hr2di_border *right,
+                        const hr2di_border *left, int32_t h) {
+  b->between.ctx = b;
+  return hr2di_expansion_walk(&b->between, h, right, left);
 }
 
 /* Begins with the next origin. */
@@ -207,12 +166,12 @@ hr2d_status hr2di_event_beams_from_vertex(hr2di_event_beams *b, hr2di_wall_side 
   own(b, last >> 1);
   for (h = first; h >= 0 && !status; h = across(b, before(h))) {
     const int32_t opposite = across(b, next(h));
-    b->steps++;
+    b->turns++;
     status = hr2di_watch_work(b->watch, 1);
     if (status || opposite < 0) continue;
-    const hr2di_border left = through(b, start_of(b, before(h)));
-    b->right = through(b, start_of(b, next(h)));
-    status = walk(b, &left, opposite);
+    const hr2di_border right = through(b, start_of(b, next(h))),
+                       left = through(b, start_of(b, before(h)));
+    status = walk(b, &right, &left, opposite);
   }
   return status;
 }
@@ -227,8 +186,8 @@ hr2d_status hr2di_event_beams_from_part(hr2di_event_beams *b, hr2d_point at,
   if (!b->lit[h >> 2]) return HR2D_OK;
   start(b, at, via);
   own(b, part->side >> 1);
-  b->right = (hr2di_border){left.to, left.from, HR2DI_NO_VERTEX, HR2DI_NO_VERTEX};
-  return walk(b, &left, h);
+  const hr2di_border right = {left.to, left.from, HR2DI_NO_VERTEX, HR2DI_NO_VERTEX};
+  return walk(b, &right, &left, h);
 }
 
 /* The half-edge that leaves the end of a wall with the triangle on its left which the ray from
@@ -262,10 +221,10 @@ hr2d_status hr2di_event_beams_along_wall(hr2di_event_beams *b, uint32_t wall, in
   int32_t h = find_ahead(b, b->at, arriving, 0);
   if (h < 0) h = find_ahead(b, b->at, arriving, 1);
   if (h < 0 || !b->lit[h >> 2]) return hr2di_watch_status(b->watch);
-  b->right = through(b, tip);
-  hr2di_border left = b->right;
+  const hr2di_border right = through(b, tip);
+  hr2di_border left = right;
   left.tip = HR2DI_NO_VERTEX;
-  return walk(b, &left, across(b, next(h)));
+  return walk(b, &right, &left, across(b, next(h)));
 }
 
 int32_t hr2di_event_beams_turn(const hr2di_event_beams *b, hr2di_wall_side side) {
@@ -330,6 +289,12 @@ hr2d_status hr2di_event_beams_init(hr2di_event_beams *b, const hr2d_scene *scene
                                    const hr2d_allocator *alloc, hr2di_watch *watch) {
   const hr2di_triangulation *in = &scene->plane.triangulation;
   *b = (hr2di_event_beams){.alloc = *alloc, .scene = scene, .in = in, .watch = watch};
+  b->between = (hr2di_expansion){.in = in,
+                                 .watch = watch,
+                                 .alloc = *alloc,
+                                 .border = sizeof(hr2di_border),
+                                 .side = side_of,
+                                 .end = end_at};
   b->wall_of = hr2di_alloc(alloc, in->edges, sizeof *b->wall_of);
   b->free = hr2di_alloc_zero(alloc, in->vertices, sizeof *b->free);
   b->lit = hr2di_alloc_zero(alloc, in->triangles, sizeof *b->lit);
@@ -346,5 +311,5 @@ void hr2di_event_beams_clear(hr2di_event_beams *b) {
   hr2di_alloc_free(&b->alloc, b->lit);
   hr2di_alloc_free(&b->alloc, b->own_wall);
   hr2di_alloc_free(&b->alloc, b->own_end);
-  hr2di_alloc_free(&b->alloc, b->frame);
+  hr2di_expansion_clear(&b->between);
 }

@@ -9,6 +9,7 @@
 #define HR2D_SRC_VISIBILITY_EVENTS_IMPL_H
 
 #include "scene/scene-impl.h"
+#include "sight/expansion.h"
 
 #define HR2DI_NO_VERTEX UINT32_MAX
 
@@ -24,8 +25,6 @@ typedef struct hr2di_border {
   uint32_t behind; /* the last end of a wall exactly on the ray behind the tip */
 } hr2di_border;
 
-typedef struct hr2di_border_frame hr2di_border_frame;
-
 typedef struct hr2di_event_beams {
   hr2d_allocator alloc;
   const hr2d_scene *scene; /* with a plane */
@@ -33,20 +32,18 @@ typedef struct hr2di_event_beams {
   hr2di_watch *watch;
   hr2di_event_fn take;
   void *ctx;
-  uint64_t steps; /* triangles that were entered */
+  uint64_t turns; /* triangles that were turned past at vertices */
   /* Found once. */
   uint32_t *wall_of;   /* per edge */
   unsigned char *free; /* per vertex: a wall ends there, and none goes on */
   unsigned char *lit;  /* per triangle: it is in a part of the plane with a patch in light */
   /* The last origin and its number. */
   hr2d_point at;
-  uint32_t via;       /* the vertex that is not looked past */
-  uint32_t number;    /* counts origins */
-  uint32_t *own_wall; /* per wall: the number of the last origin that lies on it */
-  uint32_t *own_end;  /* the same per vertex: of whose walls it is an end */
-  hr2di_border right; /* of the angle that is walked */
-  hr2di_border_frame *frame;
-  size_t frames, room;
+  uint32_t via;            /* the vertex that is not looked past */
+  uint32_t number;         /* counts origins */
+  uint32_t *own_wall;      /* per wall: the number of the last origin that lies on it */
+  uint32_t *own_end;       /* the same per vertex: of whose walls it is an end */
+  hr2di_expansion between; /* two borders */
 } hr2di_event_beams;
 
 /* For a scene with a plane.  HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended by

@@ -290,7 +290,7 @@ hr2d_status hr2di_events_init(hr2di_events *events, const hr2d_scene *scene,
               .list = {.alloc = *alloc, .watch = watch, .max = max}};
   hr2d_status status = hr2di_with_plane_init(&w, scene, alloc, watch);
   if (!status && w.scene.parts.wanted) status = find(&f, generations);
-  events->steps = f.beams.steps;
+  events->steps = f.beams.between.steps + f.beams.turns;
   if (!status && hr2di_alloc_reserve(alloc, &events->event, &events->capacity, f.list.count,
                                      sizeof *events->event))
     status = HR2D_ENOMEM;

@@ -1,75 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The view where something can be in the way: the angle in front of the patch, walked through
-   the triangles of the plane.
+/* The view where something can be in the way: the expansion of the angle in front of the patch.
 
-   A triangle is entered by an edge, with a ray past its right end and one past its left end.
-   Its third vertex is on the left of the right ray and on the right of the left one, and then
-   the point sees it and the angle splits there; or all of the angle passes it on one side.  The
-   angle ends at sides of walls.  The right part of a split is walked first, so that stretches
-   follow each other from the right horizon to the left one, each from the last one's left ray:
-   their sum is 1, whatever was rounded.
+   Stretches follow each other from the right horizon to the left one, each from the last one's
+   left ray: their sum is 1, whatever was rounded.
 
    The point is a rounding away from its own wall, and the walls themselves may have been moved
    by some.  So the first triangle is the one in front of the wall's side, and the ends of that
    edge are at the horizons, whatever side of the patch's line they are on.  Edges of the same
    wall, which roundings bend by less than their size, are not seen: what is beside them goes on
    to the horizon. */
-#include "base/alloc.h"
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
 #include "visibility/point-view-impl.h"
 
-/* The ray at which an angle ends on the left, and what is on its left: a half-edge to go on
-   from, or a side of a wall. */
-struct hr2di_view_frame {
-  hr2di_ray left;
-  int32_t beyond;
-};
-
-/* Fixed during a walk. */
-typedef struct walk {
-  hr2di_viewer *w;
-  const hr2di_triangulation *in;
-  uint32_t own[2];   /* the edges of the point's wall are [own[0], own[1]) */
-  hr2di_ray right;   /* where the angle begins that is walked */
-  int32_t beyond[2]; /* a split: what is on the right of the vertex, and on its left */
-} walk;
-
-/* On which side of an angle a vertex is, −1 on the right and 1 on the left, or 0 inside; then
- *v is the ray to it.  Most vertices are far beside the angle, and the first ray says so. */
-static int side_of(const walk *k, const hr2di_ray *left, uint32_t vertex, hr2di_ray *v) {
-  const hr2di_eye *e = &k->w->eye;
-  const hr2d_point place = k->in->at[vertex];
+/* Most vertices are far beside the angle, and the first glance says so. */
+static int side_of(void *ctx, void *right, void *left, uint32_t vertex, void *split) {
+  const hr2di_viewer *w = ctx;
+  const hr2di_eye *e = &w->eye;
+  const hr2d_point place = w->scene->plane.triangulation.at[vertex];
   const hr2di_glance glance = hr2di_glance_at(e, place);
-  int of_right = hr2di_glance_turn(e, &k->right, &glance), of_left = 0;
+  int of_right = hr2di_glance_turn(e, right, &glance), of_left = 0;
   if (of_right < 0) return -1;
   if (of_right > 0) of_left = hr2di_glance_turn(e, left, &glance);
   if (of_left > 0) return 1;
-  hr2di_ray_aim(e, place, vertex, v);
-  if (of_right == 0) of_right = hr2di_ray_turn(e, &k->right, v);
+  hr2di_ray_aim(e, place, vertex, split);
+  if (of_right == 0) of_right = hr2di_ray_turn(e, right, split);
   if (of_right <= 0) return -1;
-  if (of_left == 0) of_left = hr2di_ray_turn(e, left, v);
-  return of_left < 0 ? 0 : 1;
-}
-
-/* Follows an angle from half-edge h to where it splits, at *v, or ends; returns what it ends
-   at.  A straight line enters each triangle once at most, which ends it also where roundings of
-   rays would lead it in a circle. */
-static int32_t follow(walk *k, const hr2di_ray *left, int32_t h, hr2di_ray *v, int *splits) {
-  for (size_t steps = 1; steps <= k->in->triangles; steps++) {
-    if (steps % 32 == 0 && hr2di_watch_work(k->w->watch, 16)) break;
-    const hr2di_triangle *t = &k->in->triangle[h >> 2];
-    const int to_right = hr2di_corner_after(h & 3), to_left = hr2di_corner_before(h & 3);
-    const int side = side_of(k, left, t->corner[to_left], v);
-    *splits = side == 0;
-    k->beyond[0] = t->across[to_right];
-    k->beyond[1] = t->across[to_left];
-    if (*splits) return 0;
-    h = k->beyond[side > 0 ? 0 : 1];
-    if (h < 0) return h;
-  }
-  *splits = 0;
-  return HR2DI_SKY;
+  if (of_left == 0) of_left = hr2di_ray_turn(e, left, split);
+  if (of_left >= 0) return 1;
+  hr2di_ray_measure(e, split);
+  return 0;
 }
 
 /* Goes on to see something from where it saw something else last.  Backs are told apart only
@@ -97,33 +57,32 @@ static int is_between(const hr2di_eye *e, const hr2di_ray *right, const hr2di_ra
   return hr2di_ray_turn(e, right, v) > 0 && hr2di_ray_turn(e, left, v) < 0;
 }
 
-/* The first part along a side whose end is on the left of a ray. */
-static uint32_t first_part(const hr2di_eye *e, const hr2di_side_part *part, hr2di_parts among,
-                           const hr2di_ray *right) {
-  uint32_t low = among.first, high = among.last - 1;
-  while (low < high) {
-    const uint32_t middle = low + (high - low) / 2;
-    const hr2di_ray end = hr2di_ray_to(e, part[middle].at.b);
-    if (hr2di_ray_turn(e, right, &end) > 0)
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  return low;
+/* A ray from an eye. */
+typedef struct sighted {
+  const hr2di_eye *eye;
+  const hr2di_ray *ray;
+} sighted;
+
+static int is_on_left(const void *of, hr2d_point place) {
+  const sighted *b = of;
+  const hr2di_ray end = hr2di_ray_to(b->eye, place);
+  return hr2di_ray_turn(b->eye, b->ray, &end) > 0;
 }
 
 /* Sees the parts along a side from `right` to `left`.  The side starts on the right. */
-static hr2d_status see_parts(walk *k, hr2di_wall_side side, const hr2di_ray *left) {
-  hr2di_viewer *w = k->w;
-  const hr2di_wall_edge *edge = &k->in->edge[side >> 1];
+static hr2d_status see_parts(hr2di_viewer *w, hr2di_wall_side side, const hr2di_ray *right,
+                             const hr2di_ray *left) {
+  const hr2di_wall_edge *edge = &w->scene->plane.triangulation.edge[side >> 1];
   const hr2di_side_part *part = w->scene->parts.part;
   const hr2di_parts among = w->scene->parts.of_side[side].parts;
   const uint32_t start = side & 1 ? edge->to : edge->from,
                  end = side & 1 ? edge->from : edge->to;
-  const int from_start = k->right.vertex == start;
-  hr2di_ray since = k->right;
+  const int from_start = right->vertex == start;
+  const sighted first = {&w->eye, right};
+  hr2di_ray since = *right;
   hr2d_status status = HR2D_OK;
-  uint32_t m = from_start ? among.first : first_part(&w->eye, part, among, &since);
+  uint32_t m = from_start ? among.first
+                          : hr2di_side_parts_find(&w->scene->parts, among, is_on_left, &first);
   int starts = from_start;
   for (; m < among.last && !status; m++) {
     const uint32_t patch = part[m].patch;
@@ -145,49 +104,17 @@ static hr2d_status see_parts(walk *k, hr2di_wall_side side, const hr2di_ray *lef
   return status;
 }
 
-/* The angle up to `left` ends at something. */
-static hr2d_status end_at(walk *k, int32_t what, const hr2di_ray *left) {
-  hr2di_viewer *w = k->w;
+static hr2d_status end_at(void *ctx, int32_t what, const void *right, void *on_left) {
+  hr2di_viewer *w = ctx;
+  const hr2di_ray *left = on_left;
   if (what == HR2DI_SKY) return see(w, HR2DI_SEEN_SKY, 0, left, 0, 0);
   const hr2di_wall_side side = (hr2di_wall_side)~what;
-  if (side >> 1 >= k->own[0] && side >> 1 < k->own[1]) {
+  if (side >> 1 >= w->own[0] && side >> 1 < w->own[1]) {
     if (w->seeing.patch != HR2DI_SEEN_NOTHING) w->seeing.left = *left;
     return HR2D_OK;
   }
-  return w->scene->parts.wanted[side] ? see_parts(k, side, left)
+  return w->scene->parts.wanted[side] ? see_parts(w, side, right, left)
                                       : see(w, HR2DI_SEEN_NOBODY, side, left, 0, 0);
-}
-
-static hr2d_status push(hr2di_viewer *w, const hr2di_ray *left, int32_t beyond) {
-  if (hr2di_alloc_reserve(&w->alloc, &w->frame, &w->frame_room, w->frames + 1,
-                          sizeof *w->frame))
-    return HR2D_ENOMEM;
-  w->frame[w->frames++] = (hr2di_view_frame){*left, beyond};
-  return HR2D_OK;
-}
-
-static hr2d_status walk_from(walk *k, int32_t h) {
-  hr2di_viewer *w = k->w;
-  hr2d_status status = HR2D_OK;
-  while (!status) {
-    int splits;
-    hr2di_ray v;
-    h = follow(k, &w->frame[w->frames - 1].left, h, &v, &splits);
-    status = hr2di_watch_work(w->watch, 1);
-    if (splits) {
-      hr2di_ray_measure(&w->eye, &v);
-      if (!status) status = push(w, &v, k->beyond[1]);
-      h = k->beyond[0];
-    }
-    while (h < 0 && !status) {
-      const hr2di_view_frame f = w->frame[--w->frames];
-      status = end_at(k, h, &f.left);
-      if (w->frames == 0) return status;
-      k->right = f.left;
-      h = f.beyond;
-    }
-  }
-  return status;
 }
 
 /* The part of the patch at the point; NULL if it has none.  A point where two parts meet is
@@ -218,18 +145,22 @@ hr2d_status hr2di_view_walk(hr2di_viewer *w, const hr2di_ray border[2]) {
   const hr2di_wall_edge *edge = &in->edge[side >> 1];
   const uint32_t *of_wall = scene->plane.pieces.of_wall;
   const uint32_t wall = scene->walls.of_segment[w->eye.patch];
-  walk k = {.w = w,
-            .in = in,
-            .own = {in->edge_of[of_wall[wall]], in->edge_of[of_wall[wall + 1]]},
-            .right =
-                border ? border[0] : hr2di_ray_horizon(1, side & 1 ? edge->from : edge->to)};
+  const hr2di_ray right =
+      border ? border[0] : hr2di_ray_horizon(1, side & 1 ? edge->from : edge->to);
   const hr2di_ray left =
       border ? border[1] : hr2di_ray_horizon(-1, side & 1 ? edge->to : edge->from);
-  w->seeing = (hr2di_stretch){.patch = HR2DI_SEEN_NOTHING, .right = k.right, .left = k.right};
-  w->frames = 0;
-  hr2d_status status = push(w, &left, 0);
-  if (!status)
-    status = hidden ? see(w, HR2DI_SEEN_NOBODY, HR2DI_HIDDEN, &left, 0, 0)
-                    : walk_from(&k, edge->half_edge[side & 1]);
+  w->own[0] = in->edge_of[of_wall[wall]];
+  w->own[1] = in->edge_of[of_wall[wall + 1]];
+  w->seeing = (hr2di_stretch){.patch = HR2DI_SEEN_NOTHING, .right = right, .left = right};
+  w->between.in = in;
+  w->between.watch = w->watch;
+  w->between.alloc = w->alloc;
+  w->between.border = sizeof(hr2di_ray);
+  w->between.side = side_of;
+  w->between.end = end_at;
+  w->between.ctx = w;
+  const hr2d_status status =
+      hidden ? see(w, HR2DI_SEEN_NOBODY, HR2DI_HIDDEN, &left, 0, 0)
+             : hr2di_expansion_walk(&w->between, edge->half_edge[side & 1], &right, &left);
   return status ? status : hr2di_view_add(w, &w->seeing);
 }
