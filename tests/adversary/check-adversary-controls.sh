@@ -101,6 +101,18 @@ expect_climb 30 bound 8 1
 expect_climb 30 average-b 7 1
 expect_climb 30 average-h 8 1
 expect_climb 30 point-h 9 1
+# What is allowed leaves the exit status 0, and no more.
+for allow in 1e9 100; do
+  climb 250 --corrupt hill --allow "$allow" && status=0 || status=$?
+  case "$allow $status" in
+  "1e9 0" | "100 1") ;;
+  *)
+    echo "climbing, up to $allow times allowed: exit status $status"
+    failures=$((failures + 1))
+    ;;
+  esac
+done
+
 # As many scenes by chance come as near to the top in one of ten cases.
 expect_climb 250 hill 7 200
 

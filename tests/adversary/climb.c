@@ -25,6 +25,7 @@ enum { FIRST = -10, PARTS = 10, BINS = 20 * PARTS };
 typedef struct record {
   unsigned long climbs, evaluations, refused, violations, low;
   double worst[ADV_OBJECTIVES];
+  double severity; /* of the worst violation */
   unsigned long bin[BINS];
 } record;
 
@@ -145,6 +146,7 @@ static void climb(const adv_climbing *s, const adv_family *family, unsigned long
     drawn++;
   }
   sum->climbs++;
+  sum->severity = fmax(sum->severity, worst.severity);
   if (worst.severity > 1) describe(s, family->name, seed, &worst);
 }
 
@@ -174,6 +176,7 @@ static void print_record(const char *name, const record *sum) {
 
 int adv_climb(const adv_climbing *s) {
   unsigned long evaluations = 0, violations = 0;
+  double severity = 0;
   int families = 0, done = 0;
   const double start = now();
   for (const adv_family *f = adv_families; f->name; f++)
@@ -188,8 +191,9 @@ int adv_climb(const adv_climbing *s) {
     print_record(f->name, &sum);
     evaluations += sum.evaluations;
     violations += sum.violations;
+    severity = fmax(severity, sum.severity);
   }
   printf("\n%lu evaluations, %lu of them with violations; %.0f s\n", evaluations, violations,
          now() - start);
-  return violations > 0;
+  return severity > s->allow;
 }

@@ -10,13 +10,14 @@ typedef struct adv_climbing {
   double seconds;            /* for all families; 0: no limit */
   double stop;               /* seconds of the processor's time that a solve may take */
   double error;              /* the target; 0: it is drawn and evolves */
+  double allow;              /* errors may be so many times what is stated */
   int norm;                  /* −1: drawn */
   const char *families;      /* separated by commas; NULL: all */
   const char *corruption;    /* see adv_corrupt() */
   const char *folder;        /* where scenes with violations are written; NULL: nowhere */
 } adv_climbing;
 
-/* Climbs and prints a table; returns whether there was a violation. */
+/* Climbs and prints a table; returns whether an error was above what is allowed. */
 int adv_climb(const adv_climbing *settings);
 
 #endif
