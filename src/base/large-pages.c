@@ -27,17 +27,9 @@ void *hr2di_large_pages_malloc(size_t bytes) {
   return block;
 }
 
-/* malloc() maps blocks above 32 MiB one by one, and realloc() grows these without a copy.  Up
-   to there it copies, which takes .1 s where memory is slow, and large pages of such blocks are
-   split as they move, in 3 ms per MiB.  So from 8 MiB on a block that grows is mapped at once,
-   in small pages, which are there only once they are written. */
-#define MOST_COPIED  ((size_t)8 << 20)
-#define LEAST_MAPPED ((size_t)33 << 20)
-
 void *hr2di_large_pages_realloc(void *block, size_t bytes) {
-  const int leaps = bytes > MOST_COPIED && bytes < LEAST_MAPPED;
-  void *moved = realloc(block, leaps ? LEAST_MAPPED : bytes);
-  if (bytes <= MOST_COPIED) advise(moved, bytes);
+  void *moved = realloc(block, bytes);
+  advise(moved, bytes);
   return moved;
 }
 #else

@@ -9,7 +9,7 @@
 enum { HR2DI_LARGE_PAGE = 1 << 21 };
 
 /* As malloc() and realloc(), for free().  From HR2DI_LARGE_PAGE on, large pages are asked for;
-   the system may have none.  A block that grows has them only while it is small. */
+   the system may have none. */
 void *hr2di_large_pages_malloc(size_t bytes);
 void *hr2di_large_pages_realloc(void *block, size_t bytes);
 
