@@ -19,6 +19,7 @@ static const char help[] =
     "Method:\n"
     "  --target-error E, --time-budget S, --norm NAME, --importance PATCH, --floor F\n"
     "                    the best elements for an error, with its account\n"
+    "  --enclose GAP     averages from below and above, GAP apart at most, by rank 0 alone\n"
     "  --order P         coefficients of each element (1), with --eps\n"
     "  --oracle NAME     size (default), size2, bf, l1 or l1-grid\n"
     "  --eps E           accept links whose estimated error is <= E (0.1)\n"

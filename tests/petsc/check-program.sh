@@ -136,6 +136,12 @@ else
   check "built without cairo: $(cat "$work/errors")" [ -z "${HR2D_NEED_PETSC-}" ]
 fi
 
+# ---- an enclosure is that of one process
+$HR2D_PROGRAM solve "$room" --eps 0.2 --enclose 0.1 2>/dev/null | grep '^enclosed' >"$work/wanted" || true
+ranks 2 "$program" solve "$room" --eps 0.2 --enclose 0.1 2>/dev/null | grep '^enclosed' >"$work/named" || true
+check "enclosures do not depend on ranks: $(cat "$work/named")" eval \
+  '[ -s "$work/wanted" ] && cmp -s "$work/wanted" "$work/named"'
+
 # ---- no option of hr2d solve is missing
 options_of() { # options_of PROGRAM: the names in its help
   "$1" solve --help | grep -oE -e '--[a-z][a-z-]*' | sort -u
