@@ -38,32 +38,9 @@ static const char *const stages[] = {
 };
 enum { STAGES = sizeof stages / sizeof *stages, SCENE_HASHES_AT = HR2DI_STATE_TITLE_BYTES };
 
-typedef struct bytes {
-  uint8_t *byte;
-  size_t size, at;
-} bytes;
-
-static hr2d_status play(void *ctx, void *data, size_t size) {
-  bytes *b = ctx;
-  if (size > b->size - b->at) return HR2D_ESYNTAX;
-  memcpy(data, b->byte + b->at, size);
-  b->at += size;
-  return HR2D_OK;
-}
-
-static hr2d_status record(void *ctx, const void *data, size_t size) {
-  bytes *b = ctx;
-  uint8_t *grown = realloc(b->byte, b->size + size);
-  REQUIRE(grown);
-  memcpy(grown + b->size, data, size);
-  b->byte = grown;
-  b->size += size;
-  return HR2D_OK;
-}
-
 /* What is written has to be what was read. */
 static hr2d_status compare(void *ctx, const void *data, size_t size) {
-  bytes *b = ctx;
+  fuzz_stream *b = ctx;
   REQUIRE(size <= b->size - b->at && memcmp(b->byte + b->at, data, size) == 0);
   b->at += size;
   return HR2D_OK;
@@ -74,20 +51,20 @@ static void put_word(uint8_t *byte, uint64_t word) {
 }
 
 /* A copy of the input with its hash. */
-static bytes forge(const uint8_t *data, size_t size) {
-  bytes b = {.byte = malloc(size + 8), .size = size + 8};
+static fuzz_stream forge(const uint8_t *data, size_t size) {
+  fuzz_stream b = {.byte = malloc(size + 8), .size = size + 8};
   REQUIRE(b.byte);
   if (size) memcpy(b.byte, data, size);
   return b;
 }
 
-static void sign(bytes *b, uint64_t wrong) {
+static void sign(fuzz_stream *b, uint64_t wrong) {
   const size_t size = b->size - 8;
   put_word(b->byte + size, hr2di_hash_bytes(HR2DI_HASH_INIT, b->byte, size) ^ wrong);
 }
 
 /* Memory fails for some inputs. */
-static void choose_failure(fuzz_memory *memory, const bytes *b) {
+static void choose_failure(fuzz_memory *memory, const fuzz_stream *b) {
   const uint64_t hash = fuzz_hash_bytes(b->byte, b->size);
   memory->peak = memory->bytes;
   if (hash % 4 == 0) memory->until_failure = (long)(hash >> 8 & 63);
@@ -139,7 +116,7 @@ static void resume(hr2d_linkset *links, const hr2d_solution *start) {
 }
 
 /* On failure the set and its hierarchy are empty; an accepted one is written as it was read. */
-static hr2d_status read_state(hr2d_linkset *links, const hr2d_hierarchy *h, bytes *b,
+static hr2d_status read_state(hr2d_linkset *links, const hr2d_hierarchy *h, fuzz_stream *b,
                               fuzz_memory *memory) {
   const hr2d_scene *scene = hr2d_hierarchy_scene(h);
   const uint64_t roots = hr2d_hierarchy_count(h).elements;
@@ -147,7 +124,7 @@ static hr2d_status read_state(hr2d_linkset *links, const hr2d_hierarchy *h, byte
   b->at = 0;
   choose_failure(memory, b);
   const size_t before = memory->bytes;
-  const hr2d_status status = hr2d_state_read(links, play, b, &solution);
+  const hr2d_status status = hr2d_state_read(links, fuzz_play, b, &solution);
   memory->until_failure = -1;
   REQUIRE(memory->peak - before <= CONSTANT + PER_BYTE * b->size);
   check_status(memory, status, hr2d_linkset_message(links));
@@ -166,7 +143,8 @@ static hr2d_status read_state(hr2d_linkset *links, const hr2d_hierarchy *h, byte
 }
 
 /* With the hash wrong by a bit it is refused as well. */
-static void state(const hr2d_scene *scene, bytes *b, fuzz_memory *memory, uint64_t wrong) {
+static void state(const hr2d_scene *scene, fuzz_stream *b, fuzz_memory *memory,
+                  uint64_t wrong) {
   hr2d_hierarchy *hierarchy = NULL;
   hr2d_linkset *links = NULL;
   hr2di_watch watch;
@@ -184,10 +162,10 @@ static void state(const hr2d_scene *scene, bytes *b, fuzz_memory *memory, uint64
   hr2d_hierarchy_destroy(hierarchy);
 }
 
-static hr2d_status read_scene(hr2d_scene *scene, bytes *b, fuzz_memory *memory) {
+static hr2d_status read_scene(hr2d_scene *scene, fuzz_stream *b, fuzz_memory *memory) {
   b->at = 0;
   choose_failure(memory, b);
-  const hr2d_status status = hr2d_state_read_scene(scene, play, b);
+  const hr2d_status status = hr2d_state_read_scene(scene, fuzz_play, b);
   memory->until_failure = -1;
   if (!status) return status;
   check_status(memory, status, hr2d_scene_message(scene));
@@ -198,16 +176,16 @@ static hr2d_status read_scene(hr2d_scene *scene, bytes *b, fuzz_memory *memory) 
 /* The hash of the scene in memory is among the bytes, and mostly wrong; all else is done before
    it is looked at.  What is accepted may say things that need not be said; what is written of
    it is read again, and written with the same bytes. */
-static void scene_bytes(bytes *b, fuzz_memory *memory) {
+static void scene_bytes(fuzz_stream *b, fuzz_memory *memory) {
   const hr2d_allocator hooks = fuzz_hooks(memory);
   hr2d_scene *scene = NULL, *again = NULL;
-  bytes written = {0};
+  fuzz_stream written = {0};
   REQUIRE(hr2d_scene_create(&hooks, &scene) == HR2D_OK);
   REQUIRE(hr2d_scene_create(&hooks, &again) == HR2D_OK);
   sign(b, 0);
   if (!read_scene(scene, b, memory)) {
-    REQUIRE(hr2d_state_write_scene(scene, record, &written) == HR2D_OK);
-    REQUIRE(hr2d_state_read_scene(again, play, &written) == HR2D_OK);
+    REQUIRE(hr2d_state_write_scene(scene, fuzz_record, &written) == HR2D_OK);
+    REQUIRE(hr2d_state_read_scene(again, fuzz_play, &written) == HR2D_OK);
     REQUIRE(written.at == written.size);
     written.at = 0;
     REQUIRE(hr2d_state_write_scene(again, compare, &written) == HR2D_OK);
@@ -231,7 +209,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   const unsigned kind = data[0] % (STAGES + 1);
   fuzz_memory memory = FUZZ_MEMORY_INIT;
   const hr2d_allocator hooks = fuzz_hooks(&memory);
-  bytes b = forge(data + 1, size - 1);
+  fuzz_stream b = forge(data + 1, size - 1);
   if (kind == STAGES) {
     scene_bytes(&b, &memory);
   } else {

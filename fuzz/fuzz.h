@@ -26,6 +26,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 _Noreturn void fuzz_fail(const char *file, int line, const char *condition, const char *text);
 
+/* Bytes that are written, from malloc(), and read from `at` on, as callbacks of state.h. */
+typedef struct fuzz_stream {
+  uint8_t *byte;
+  size_t size, room, at;
+} fuzz_stream;
+
+hr2d_status fuzz_record(void *stream, const void *data, size_t size);
+hr2d_status fuzz_play(void *stream, void *data, size_t size);
+
 /* Bytes that are still to be read; behind their end there are zeros for ever. */
 typedef struct fuzz_input {
   const uint8_t *at, *end;

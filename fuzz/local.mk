@@ -16,6 +16,7 @@ fuzz_libfuzz_la_SOURCES = \
 	fuzz/invariants.c \
 	fuzz/memory.c \
 	fuzz/scenes.c \
+	fuzz/stream.c \
 	tools/cli/numbers.c tools/cli/numbers.h \
 	tools/pair/line.c tools/pair/line.h
 fuzz_libs = fuzz/libfuzz.la libhr2d-core.la $(JANSSON_LIBS) $(THREADS_LIBS)
