@@ -188,14 +188,22 @@ int main(int argc, char **argv) {
   const char *only = argc > 3 ? argv[3] : NULL, *of = argc > 4 ? argv[4] : NULL;
   const double bar = .1 * s.seconds > SLACK ? .1 * s.seconds : SLACK;
   double worst = 0;
-  int missed = 0;
-  signal(SIGALRM, note);
+  int missed = 0, measured = 0, known = 0;
+  sigaction(SIGALRM, &(struct sigaction){.sa_handler = note}, NULL); /* signal() lasts once */
+  for (size_t call = 0; call < CALLS; call++) known |= is_wanted(only, calls[call].name);
+  if (!known) {
+    fprintf(stderr, "no call is called %s\n", only);
+    return EXIT_FAILURE;
+  }
   for (size_t k = 0; k < BUDGET_KINDS; k++) {
     if (!is_wanted(of, budget_kinds[k].name)) continue;
     const double over = measure_kind(&s, &budget_kinds[k], patches, only);
+    measured++;
     missed += over > bar;
     worst = over > worst ? over : worst;
   }
-  printf("%d of the kinds are more than %g s over; the worst is %.3f s\n", missed, bar, worst);
-  return missed ? EXIT_FAILURE : EXIT_SUCCESS;
+  if (!measured) fprintf(stderr, "no kind of scene is called %s\n", of);
+  printf("%d of %d kinds are more than %g s over; the worst is %.3f s\n", missed, measured, bar,
+         worst);
+  return missed || !measured ? EXIT_FAILURE : EXIT_SUCCESS;
 }
