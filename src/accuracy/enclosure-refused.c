@@ -19,9 +19,8 @@ static const char *scene_reason(const hr2d_scene *scene) {
   if (scene->sky.pieces > 0)
     return "a sky in pieces is not enclosed: use an even background, or rely on the estimate";
   if (hr2di_symmetry_cuts(&scene->symmetry))
-    return "a period in which patches see for ever is not enclosed: give a number of copies, "
-           "or "
-           "rely on the estimate";
+    return "a period in which patches see for ever is not enclosed: draw some cells without a "
+           "period, or rely on the estimate";
   return NULL;
 }
 

@@ -257,6 +257,12 @@ hr2d solve "$scenes/partition.geojson" --target-error 1e-3 --enclose 1e-9 --max-
 check "a gap that is not reached" [ "$status" -eq 1 ]
 check "it is told" grep -q 'enclose: [0-9]* links leave a gap of' "$work/err"
 check "what was reached is told" grep -q '^enclosed  error of averages' "$work/out"
+echo '{"type": "FeatureCollection", "hr2d": {"background": 1}, "features": [{"type": "Feature",
+  "properties": {"reflectance": 0.5}, "geometry": {"type": "LineString",
+  "coordinates": [[0, 0], [2, 0], [1, 1], [0, 0]]}}]}' >"$work/shut.geojson"
+hr2d solve "$work/shut.geojson" --target-error 1e-2 --enclose 1e-2 --max-links 500 \
+  >"$work/out" 2>"$work/err" || true
+check "what is not known is no number" grep -q '^enclosed  error of averages unknown' "$work/out"
 usage "--enclose: '0' is not a number greater than 0" solve "$narrow" --enclose 0
 
 # ---- errors that are not measured

@@ -128,10 +128,15 @@ static void print_enclosed(const run *r) {
   double average, irradiance;
   if (!r->enclosure) return;
   run_enclosed_errors(r, &average, &irradiance);
-  printf("enclosed  error of averages at most %.1e, of H %.1e, for certain\n", average,
-         irradiance);
-  printf("          ends are %.1e apart, by %llu links in %.3f s\n", r->enclosed.gap,
-         (unsigned long long)r->enclosed.links, r->enclosed.seconds);
+  if (isinf(average) && isinf(irradiance))
+    printf("enclosed  error of averages unknown");
+  else
+    printf(
+        "enclosed  error of averages at most %.1e, of H %.1e, for certain\n          ends are "
+        "%.1e apart",
+        average, irradiance, r->enclosed.gap);
+  printf(", by %llu links in %.3f s\n", (unsigned long long)r->enclosed.links,
+         r->enclosed.seconds);
 }
 
 /* Relative errors of B and H. */
