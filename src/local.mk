@@ -58,7 +58,7 @@ libhr2d_core_la_SOURCES = \
 	src/triangulation/points.c src/triangulation/points.h \
 	src/triangulation/triangulation.c src/triangulation/triangulation.h \
 	src/sight/area.c \
-	src/sight/expansion.c src/sight/expansion.h \
+	src/sight/triangular-expansion.c src/sight/triangular-expansion.h \
 	src/sight/restrict.c \
 	src/sight/sight.h \
 	src/sight/sight-list.c src/sight/sight-list.h \

@@ -127,7 +127,7 @@ static int side_of(void *ctx, void *right, void *left, uint32_t vertex, void *sp
 
 /* Walks the angle between two vertices, from half-edge h or at what it ends. */
 static hr2d_status walk_from(hr2di_round_view *v, int32_t h, uint32_t right, uint32_t left) {
-  hr2di_expansion *x = &v->between;
+  hr2di_triangular_expansion *x = &v->between;
   x->in = &v->scene->plane.triangulation;
   x->watch = v->watch;
   x->alloc = v->alloc;
@@ -135,7 +135,7 @@ static hr2d_status walk_from(hr2di_round_view *v, int32_t h, uint32_t right, uin
   x->side = side_of;
   x->end = end_at;
   x->ctx = v;
-  return hr2di_expansion_walk(x, h, &right, &left);
+  return hr2di_triangular_expansion_walk(x, h, &right, &left);
 }
 
 /* In triangle `at`. */
@@ -275,5 +275,5 @@ hr2d_status hr2di_look_round(hr2di_round_view *v, hr2d_point x, int *touches) {
 }
 
 void hr2di_round_view_clear(hr2di_round_view *v) {
-  hr2di_expansion_clear(&v->between);
+  hr2di_triangular_expansion_clear(&v->between);
 }

@@ -5,7 +5,7 @@
 #define HR2D_SRC_FIELD_ROUND_VIEW_H
 
 #include "scene/scene-impl.h"
-#include "sight/expansion.h"
+#include "sight/triangular-expansion.h"
 
 /* What is seen, if it is not a patch's front. */
 #define HR2DI_ROUND_BACK HR2DI_NOBODY
@@ -30,7 +30,7 @@ typedef struct hr2di_round_view {
   hr2di_watch *watch;
   hr2di_round_fn take;
   void *ctx;
-  hr2di_expansion between; /* two rays to vertices; its steps are those so far */
+  hr2di_triangular_expansion between; /* two rays to vertices; its steps are those so far */
   /* Inside of the view only. */
   int32_t near;
   hr2d_point x;

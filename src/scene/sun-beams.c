@@ -115,8 +115,8 @@ static hr2d_status end_at(void *ctx, int32_t what, const void *right, void *left
 /* Walks the beam that enters by half-edge h. */
 static hr2d_status walk_from(hr2di_sun_beams *b, int32_t h) {
   const hr2di_triangle *t = &b->scene->plane.triangulation.triangle[h >> 2];
-  return hr2di_expansion_walk(&b->between, h, &t->corner[hr2di_corner_after(h & 3)],
-                              &t->corner[h & 3]);
+  return hr2di_triangular_expansion_walk(&b->between, h, &t->corner[hr2di_corner_after(h & 3)],
+                                         &t->corner[h & 3]);
 }
 
 hr2d_status hr2di_sun_beams_walk(hr2di_sun_beams *b, hr2d_point way) {
@@ -143,5 +143,5 @@ hr2d_status hr2di_sun_beams_walk(hr2di_sun_beams *b, hr2d_point way) {
 }
 
 void hr2di_sun_beams_clear(hr2di_sun_beams *b) {
-  hr2di_expansion_clear(&b->between);
+  hr2di_triangular_expansion_clear(&b->between);
 }

@@ -5,7 +5,7 @@
 
 #include <hr2d/scene.h>
 
-#include "sight/expansion.h"
+#include "sight/triangular-expansion.h"
 
 /* Takes a part of a patch's front that is lit, fractions of the patch, from < to.  HR2D_OK, or
    a status that ends the walk. */
@@ -18,8 +18,8 @@ typedef struct hr2di_sun_beams {
   hr2di_watch *watch;
   hr2di_lit_fn take;
   void *ctx;
-  hr2d_point way;          /* of the light, its larger component in [1,2) */
-  hr2di_expansion between; /* two lines through vertices */
+  hr2d_point way;                     /* of the light, its larger component in [1,2) */
+  hr2di_triangular_expansion between; /* two lines through vertices */
 } hr2di_sun_beams;
 
 /* Walks all light of direction `way`, which is finite and not 0, into the scene.  Parts come in

@@ -113,13 +113,6 @@ static int side_of(void *ctx, void *on_right, void *on_left, uint32_t vertex, vo
   return from_right > 0 ? 1 : -1;
 }
 
-/* Walks the angle between two borders; h is what is behind the edge that both cross. */
-static hr2d_status walk(hr2di_event_beams *b, const hr2di_border *right,
-                        const hr2di_border *left, int32_t h) {
-  b->between.ctx = b;
-  return hr2di_expansion_walk(&b->between, h, right, left);
-}
-
 /* Begins with the next origin. */
 static void start(hr2di_event_beams *b, hr2d_point at, uint32_t via) {
   b->at = at;
@@ -171,7 +164,7 @@ hr2d_status hr2di_event_beams_from_vertex(hr2di_event_beams *b, hr2di_wall_side 
     if (status || opposite < 0) continue;
     const hr2di_border right = through(b, start_of(b, next(h))),
                        left = through(b, start_of(b, before(h)));
-    status = walk(b, &right, &left, opposite);
+    status = hr2di_triangular_expansion_walk(&b->between, opposite, &right, &left);
   }
   return status;
 }
@@ -187,7 +180,7 @@ hr2d_status hr2di_event_beams_from_part(hr2di_event_beams *b, hr2d_point at,
   start(b, at, via);
   own(b, part->side >> 1);
   const hr2di_border right = {left.to, left.from, HR2DI_NO_VERTEX, HR2DI_NO_VERTEX};
-  return walk(b, &right, &left, h);
+  return hr2di_triangular_expansion_walk(&b->between, h, &right, &left);
 }
 
 /* The half-edge that leaves the end of a wall with the triangle on its left which the ray from
@@ -224,7 +217,7 @@ hr2d_status hr2di_event_beams_along_wall(hr2di_event_beams *b, uint32_t wall, in
   const hr2di_border right = through(b, tip);
   hr2di_border left = right;
   left.tip = HR2DI_NO_VERTEX;
-  return walk(b, &right, &left, across(b, next(h)));
+  return hr2di_triangular_expansion_walk(&b->between, across(b, next(h)), &right, &left);
 }
 
 int32_t hr2di_event_beams_turn(const hr2di_event_beams *b, hr2di_wall_side side) {
@@ -289,12 +282,13 @@ hr2d_status hr2di_event_beams_init(hr2di_event_beams *b, const hr2d_scene *scene
                                    const hr2d_allocator *alloc, hr2di_watch *watch) {
   const hr2di_triangulation *in = &scene->plane.triangulation;
   *b = (hr2di_event_beams){.alloc = *alloc, .scene = scene, .in = in, .watch = watch};
-  b->between = (hr2di_expansion){.in = in,
-                                 .watch = watch,
-                                 .alloc = *alloc,
-                                 .border = sizeof(hr2di_border),
-                                 .side = side_of,
-                                 .end = end_at};
+  b->between = (hr2di_triangular_expansion){.in = in,
+                                            .watch = watch,
+                                            .alloc = *alloc,
+                                            .border = sizeof(hr2di_border),
+                                            .side = side_of,
+                                            .end = end_at,
+                                            .ctx = b};
   b->wall_of = hr2di_alloc(alloc, in->edges, sizeof *b->wall_of);
   b->free = hr2di_alloc_zero(alloc, in->vertices, sizeof *b->free);
   b->lit = hr2di_alloc_zero(alloc, in->triangles, sizeof *b->lit);
@@ -311,5 +305,5 @@ void hr2di_event_beams_clear(hr2di_event_beams *b) {
   hr2di_alloc_free(&b->alloc, b->lit);
   hr2di_alloc_free(&b->alloc, b->own_wall);
   hr2di_alloc_free(&b->alloc, b->own_end);
-  hr2di_expansion_clear(&b->between);
+  hr2di_triangular_expansion_clear(&b->between);
 }

@@ -9,7 +9,7 @@
 #define HR2D_SRC_VISIBILITY_EVENTS_IMPL_H
 
 #include "scene/scene-impl.h"
-#include "sight/expansion.h"
+#include "sight/triangular-expansion.h"
 
 #define HR2DI_NO_VERTEX UINT32_MAX
 
@@ -39,11 +39,11 @@ typedef struct hr2di_event_beams {
   unsigned char *lit;  /* per triangle: it is in a part of the plane with a patch in light */
   /* The last origin and its number. */
   hr2d_point at;
-  uint32_t via;            /* the vertex that is not looked past */
-  uint32_t number;         /* counts origins */
-  uint32_t *own_wall;      /* per wall: the number of the last origin that lies on it */
-  uint32_t *own_end;       /* the same per vertex: of whose walls it is an end */
-  hr2di_expansion between; /* two borders */
+  uint32_t via;       /* the vertex that is not looked past */
+  uint32_t number;    /* counts origins */
+  uint32_t *own_wall; /* per wall: the number of the last origin that lies on it */
+  uint32_t *own_end;  /* the same per vertex: of whose walls it is an end */
+  hr2di_triangular_expansion between; /* two borders */
 } hr2di_event_beams;
 
 /* For a scene with a plane.  HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended by

@@ -6,7 +6,7 @@
 #include "base/neumaier-sum.h"
 #include "geometry/determinant.h"
 #include "scene/side-parts.h"
-#include "sight/expansion.h"
+#include "sight/triangular-expansion.h"
 #include "visibility/point-view.h"
 
 /* Coordinates are at most 2; times this, they neither overflow nor underflow. */
@@ -110,10 +110,10 @@ struct hr2di_viewer {
   hr2di_watch *watch;
   const hr2d_scene *scene;
   hr2di_eye eye;
-  hr2di_stretch seeing;    /* what may go on to the left */
-  hr2di_expansion between; /* two rays */
-  uint32_t own[2];         /* the edges of the wall of the eye are [own[0], own[1]) */
-  double (*span)[2];       /* sines that something covers */
+  hr2di_stretch seeing;               /* what may go on to the left */
+  hr2di_triangular_expansion between; /* two rays */
+  uint32_t own[2];   /* the edges of the wall of the eye are [own[0], own[1]) */
+  double (*span)[2]; /* sines that something covers */
   size_t spans, span_room;
   hr2di_glimpse *glimpse, *sorted;
   size_t glimpses, glimpse_room, sorted_room;

@@ -161,6 +161,7 @@ hr2d_status hr2di_view_walk(hr2di_viewer *w, const hr2di_ray border[2]) {
   w->between.ctx = w;
   const hr2d_status status =
       hidden ? see(w, HR2DI_SEEN_NOBODY, HR2DI_HIDDEN, &left, 0, 0)
-             : hr2di_expansion_walk(&w->between, edge->half_edge[side & 1], &right, &left);
+             : hr2di_triangular_expansion_walk(&w->between, edge->half_edge[side & 1], &right,
+                                               &left);
   return status ? status : hr2di_view_add(w, &w->seeing);
 }

@@ -22,7 +22,7 @@ hr2d_status hr2di_viewer_create(const hr2d_scene *scene, const hr2d_allocator *a
 void hr2di_viewer_destroy(hr2di_viewer *viewer) {
   if (!viewer) return;
   const hr2d_allocator alloc = viewer->alloc;
-  hr2di_expansion_clear(&viewer->between);
+  hr2di_triangular_expansion_clear(&viewer->between);
   hr2di_alloc_free(&alloc, viewer->span);
   hr2di_alloc_free(&alloc, viewer->glimpse);
   hr2di_alloc_free(&alloc, viewer->sorted);

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "sight/expansion.h"
+#include "sight/triangular-expansion.h"
 
 #include <string.h>
 
 #include "base/alloc.h"
 
 /* A border, and what is on its left: a half-edge to go on from, or what is there. */
-typedef struct hr2di_expansion_frame {
+typedef struct hr2di_triangular_expansion_frame {
   union {
-    unsigned char border[HR2DI_EXPANSION_BORDER];
+    unsigned char border[HR2DI_TRIANGULAR_BORDER];
     double aligned;
   };
   int32_t beyond;
 } frame;
 
-static void copy(const hr2di_expansion *x, size_t to, const void *border) {
+static void copy(const hr2di_triangular_expansion *x, size_t to, const void *border) {
   memcpy(x->frame[to].border, border, x->border);
 }
 
@@ -22,7 +22,7 @@ static void copy(const hr2di_expansion *x, size_t to, const void *border) {
    it ends, at *h, or splits.  Returns whether it splits: then the border is in the frame after
    `top`, and *h is on its right.  A straight line enters each triangle once at most, which ends
    it also where roundings of borders would lead it in a circle. */
-static int follow(hr2di_expansion *x, size_t top, int32_t *h) {
+static int follow(hr2di_triangular_expansion *x, size_t top, int32_t *h) {
   frame *const right = x->frame, *const left = right + top, *const split = left + 1;
   for (size_t steps = 1; steps <= x->in->triangles; steps++) {
     x->steps++;
@@ -39,8 +39,8 @@ static int follow(hr2di_expansion *x, size_t top, int32_t *h) {
   return 0;
 }
 
-hr2d_status hr2di_expansion_walk(hr2di_expansion *x, int32_t h, const void *right,
-                                 const void *left) {
+hr2d_status hr2di_triangular_expansion_walk(hr2di_triangular_expansion *x, int32_t h,
+                                            const void *right, const void *left) {
   size_t top = 0;
   for (int begins = 1;; begins = 0) {
     if (hr2di_alloc_reserve(&x->alloc, &x->frame, &x->room, top + 3, sizeof(frame)))
@@ -60,6 +60,6 @@ hr2d_status hr2di_expansion_walk(hr2di_expansion *x, int32_t h, const void *righ
   }
 }
 
-void hr2di_expansion_clear(hr2di_expansion *x) {
+void hr2di_triangular_expansion_clear(hr2di_triangular_expansion *x) {
   hr2di_alloc_free(&x->alloc, x->frame);
 }
