@@ -317,4 +317,4 @@ EXTRA_libhr2d_la_DEPENDENCIES = src/libhr2d.map
 else
 libhr2d_la_LDFLAGS += -export-symbols-regex '^hr2d_'
 endif
-EXTRA_DIST += src/LAYERS src/libhr2d.map
+EXTRA_DIST += src/LAYERS src/libhr2d.abi src/libhr2d.map
