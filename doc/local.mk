@@ -12,6 +12,7 @@ EXTRA_DIST += \
 	doc/mirrors-and-periods.md \
 	doc/field.md \
 	doc/occlusion.md \
+	doc/releasing.md \
 	doc/scene-files.md \
 	doc/speed.md \
 	doc/sun-and-sky.md \

@@ -170,6 +170,7 @@ OUTSIDE = \
 	tests/package/check-layers.sh \
 	tests/package/check-examples.sh \
 	tests/package/check-python.sh \
+	tests/package/check-release.sh \
 	tests/adversary/check-adversary-controls.sh
 
 TEST_EXTENSIONS = .sh

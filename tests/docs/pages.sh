@@ -7,7 +7,7 @@
 
 # all_pages: README.md, the pages of doc/ and the ones below it, from the top.
 all_pages() {
-  (cd "$HR2D_SRCDIR" && find README.md CONTRIBUTING.md SECURITY.md doc examples -name '*.md' |
+  (cd "$HR2D_SRCDIR" && find README.md CODE_OF_CONDUCT.md CONTRIBUTING.md SECURITY.md doc examples -name '*.md' |
     LC_ALL=C sort)
 }
 

@@ -3,8 +3,8 @@
 # The prototypes of the public headers are the symbols of the shared library, one
 # for one, and the library needs no other libraries than it should.
 set -eu
-library=$(find "$HR2D_BUILDDIR/.libs" -name 'libhr2d.so.*.*.*' | head -n 1)
-if [ -z "$library" ]; then
+library=$HR2D_BUILDDIR/.libs/libhr2d.so
+if [ ! -e "$library" ]; then
   echo "no shared library was built"
   exit 77
 fi
@@ -45,12 +45,12 @@ if readelf -d "$library" >"$work/dynamic" 2>/dev/null; then
   fi
 fi
 # A tarball has no debian/.
-symbols=$HR2D_SRCDIR/debian/libhr2d0.symbols
+symbols=$(find "$HR2D_SRCDIR/debian" -name 'libhr2d[0-9]*.symbols' 2>/dev/null)
 if [ -f "$symbols" ]; then
-  sed -n 's/^ \(hr2d_[a-z0-9_]*\)@HR2D_0 .*/\1/p' "$symbols" | sort -u >"$work/packaged"
+  sed -n 's/^ \(hr2d_[a-z0-9_]*\)@HR2D_[0-9]* .*/\1/p' "$symbols" | sort -u >"$work/packaged"
   if ! diff "$work/declared" "$work/packaged" >"$work/differences"; then
-    sed -n 's/^< /a header has, debian\/libhr2d0.symbols lacks: /p
-      s/^> /debian\/libhr2d0.symbols has, no header: /p' "$work/differences" >&2
+    sed -n 's/^< /a header has, the symbols file of debian\/ lacks: /p
+      s/^> /the symbols file of debian\/ has, no header: /p' "$work/differences" >&2
     status=1
   fi
 fi
