@@ -45,13 +45,13 @@ refused() {
   grep -q "$why" "$work/out" || fail "no word of '$why' in:"
 }
 
-# would CHANGE LINE...: the dry run after CHANGE has these lines, and leaves all as it was.
+# would CHANGE LINE...: files would have these lines after CHANGE, and nothing has changed yet.
 would() {
   change=$1
   shift
   prepare 9.8.7 --interface "$change" --dry-run || fail "the dry run of a change '$change' fails"
   for line; do
-    grep -qFx -e "$line" "$work/out" || fail "not in the dry run of a change '$change': $line"
+    sed -n 's/^[+ ]//p' "$work/out" | grep -Fx -e "$line" >/dev/null || fail "not in the dry run of a change '$change': $line"
   done
   [ -z "$(git status --porcelain)" ] || fail "the dry run has changed files"
 }
@@ -70,16 +70,16 @@ refused "in no commit" 9.8.7 --interface added
 git checkout -q README.md
 
 today=$(date -u +%F)
-would none "+AC_SUBST([HR2D_VERSION_INFO], [$current:$((revision + 1)):$age])"
-would added "+AC_SUBST([HR2D_VERSION_INFO], [$next:0:$((age + 1))])" \
-  "+| 9.8.7 | $next:0:$((age + 1)) | \`libhr2d.so.$number\` |"
-would incompatible "+AC_SUBST([HR2D_VERSION_INFO], [$next:0:0])" \
-  "+| 9.8.7 | $next:0:0 | \`libhr2d.so.$next\` |" \
-  "+m4_define([hr2d_major], [9])" "+m4_define([hr2d_minor], [8])" "+m4_define([hr2d_patch], [7])" \
-  "+9.8.7 ($today)" "+version: 9.8.7" "+date-released: $today" \
-  "+libhr2d (9.8.7-0upstream1) unstable; urgency=medium" "+Package: libhr2d$next" \
-  "+HR2D_$next {" "+ hr2d_version@HR2D_$next 9.8.7" \
-  "+libhr2d.so.$next libhr2d$next #MINVER#"
+would none "AC_SUBST([HR2D_VERSION_INFO], [$current:$((revision + 1)):$age])"
+would added "AC_SUBST([HR2D_VERSION_INFO], [$next:0:$((age + 1))])" \
+  "| 9.8.7 | $next:0:$((age + 1)) | \`libhr2d.so.$number\` |"
+would incompatible "AC_SUBST([HR2D_VERSION_INFO], [$next:0:0])" \
+  "| 9.8.7 | $next:0:0 | \`libhr2d.so.$next\` |" \
+  "m4_define([hr2d_major], [9])" "m4_define([hr2d_minor], [8])" "m4_define([hr2d_patch], [7])" \
+  "9.8.7 ($today)" "version: 9.8.7" "date-released: $today" \
+  "libhr2d (9.8.7-0upstream1) unstable; urgency=medium" "Package: libhr2d$next" \
+  "HR2D_$next {" " hr2d_version@HR2D_$next 9.8.7" \
+  "libhr2d.so.$next libhr2d$next #MINVER#"
 
 # After these changes nothing is left to do, and the tag may be set, once.
 sed -n '/^diff /,/^would build/p' "$work/out" | sed '$d' >"$work/changes"
