@@ -62,7 +62,9 @@ news "9.8.7 (not released)" "" "Added" "* No highlight."
 refused "has 0 highlights" 9.8.7 --interface added
 news "9.8.7 (not released)" "" "Highlights" "* One." "" "Truth" "* All of it."
 refused "other heads.*Truth" 9.8.7 --interface added
-news "9.8.7 (not released)" "" "Highlights" "* One." "" "Fixed" "* Two."
+news "9.8.7 (not released)" "" "Highlights" "* hr2d_kernels() and hr2d_kernel()."
+refused "no header has: hr2d_kernels()$" 9.8.7 --interface added
+news "9.8.7 (not released)" "" "Highlights" "* hr2d_kernel()." "" "Removed" "* hr2d_kernels()."
 refused "a version is as 1.2.3" 9.8 --interface added
 refused "CHANGE is" 9.8.7 --interface much --dry-run
 echo >>README.md
@@ -91,4 +93,4 @@ grep -q "prepared already" "$work/out" || fail "a second run does something"
 grep -q "set v9.8.7" "$work/out" || fail "finish would set no tag"
 git tag -a -m "Elsewhere" v9.8.7 HEAD~1
 if .ci/release finish --dry-run >"$work/out" 2>&1; then fail "a tag would be moved"; fi
-echo "a release is prepared in three ways, and refused in seven"
+echo "a release is prepared in three ways, and refused in eight"
