@@ -45,7 +45,7 @@ if readelf -d "$library" >"$work/dynamic" 2>/dev/null; then
   fi
 fi
 # A tarball has no debian/.
-symbols=$(find "$HR2D_SRCDIR/debian" -name 'libhr2d[0-9]*.symbols' 2>/dev/null)
+symbols=$(find "$HR2D_SRCDIR/debian" -name 'libhr2d[0-9]*.symbols' 2>/dev/null || true)
 if [ -f "$symbols" ]; then
   sed -n 's/^ \(hr2d_[a-z0-9_]*\)@HR2D_[0-9]* .*/\1/p' "$symbols" | sort -u >"$work/packaged"
   if ! diff "$work/declared" "$work/packaged" >"$work/differences"; then
