@@ -122,8 +122,8 @@ typedef struct hr2d_target {
                                   all errors of the account are infinite. Saves the time for
                                   the account: for interactive work, and for series of scenes
                                   that are alike */
-  hr2d_share *share;         /**< NULL, or one of several shares that solve together, see
-                                  share.h */
+  hr2d_share *share;         /**< NULL, or one of several shares that solve together:
+                                  unstable interface, see share.h */
 } hr2d_target;
 
 /** The defaults: 1e-6 in averages, no budget, all patches, one thread, no callback. */

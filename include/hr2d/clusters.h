@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file clusters.h
- * @brief What clusters of many patches exchange, for solvers of one's own.
+ * @brief Far-field exchange between clusters of patches, for user-written solvers.
  *
  * @defgroup clusters Clusters
- * What clusters of many patches exchange, for solvers of one's own.
+ * Far-field exchange between clusters of patches, for user-written solvers.
+ *
+ * @warning Unstable interface: for solvers and distributions of one's own. It may change in any
+ * release, see doc/compatibility.md.
  *
  * Where n patches see n others, as in a round room, there are n² exchange areas. Far patches
  * have nearly the same ones: what a cluster of patches sends to another one, far from it,

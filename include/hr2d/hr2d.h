@@ -17,19 +17,36 @@
  * decide which pairs are linked. Each object must outlive the objects that are made from it:
  * destroy them in the opposite order.
  *
- * More calls:
- * - hr2d_solve_to() makes hierarchy, links and solution for a target error (accuracy.h).
- * - hr2d_enclose() gives lower and upper ends of averages that hold for certain (enclosure.h).
- * - hr2d_state_write() saves a stage of a long solve (state.h).
- * - hr2d_field_at() computes the light at points between the patches (field.h).
- * - hr2d_scene_add_thermal() adds patches of given temperature or heat flux (thermal.h).
- * - hr2d_scene_set_sun() lights the scene by a sun (daylight.h).
- * - hr2d_scene_add_mirror() and hr2d_scene_set_period() repeat the scene (symmetry.h).
- * - hr2d_exchange_area() computes the exchange of two segments (geometry.h).
- * - hr2d_exchange_rows_create() does it for all patches, with occluders (visibility.h).
- * - hr2d_clusters_gather() sums what many far patches exchange (clusters.h).
- * - hr2d_study_run() measures L against N (study.h).
- * - hr2d_target::share shares out a solve among processes (share.h).
+ * Most programs need the calls of these headers only:
+ * - scene.h: patches, from a file or one by one; an even background.
+ * - accuracy.h: hr2d_solve_to() makes hierarchy, links and solution for a target error.
+ * - solve.h: hr2d_solution_average() and the other results.
+ * - field.h: hr2d_field_at() computes the light at points between the patches.
+ *
+ * The algorithm of the paper, step by step:
+ * - hierarchy.h, oracle.h, policy.h, linkset.h, refine.h: ProjectKernel.
+ * - study.h: hr2d_study_run() measures L against N.
+ *
+ * More kinds of scenes:
+ * - thermal.h: hr2d_scene_add_thermal() adds patches of given temperature or heat flux.
+ * - daylight.h: hr2d_scene_set_sun() lights the scene by a sun.
+ * - symmetry.h: hr2d_scene_add_mirror() and hr2d_scene_set_period() repeat the scene.
+ *
+ * More questions:
+ * - enclosure.h: hr2d_enclose() gives lower and upper ends of averages that hold for certain.
+ * - visibility.h: exchange areas with occluders, of two segments and of all patches, and the
+ *   view from a point.
+ * - geometry.h: hr2d_exchange_area() computes the exchange of two segments in free view.
+ * - lint.h: hr2d_scene_lint() warns about what is valid in a scene, but maybe not meant.
+ * - state.h: hr2d_state_write() saves a stage of a long solve.
+ *
+ * Of use with all of them: status.h, options.h, memory.h, progress.h, version.h.
+ *
+ * Unstable interface, for solvers and distributions of one's own; it may change in any release
+ * (doc/compatibility.md):
+ * - operator.h: rows, blocks and row sums of the transport operator.
+ * - clusters.h: far-field exchange between clusters of patches.
+ * - share.h: several processes that share a solve; claims on pairs.
  *
  * A whole program:
  *
@@ -81,7 +98,6 @@
 #define HR2D_H
 
 #include <hr2d/accuracy.h>
-#include <hr2d/clusters.h>
 #include <hr2d/daylight.h>
 #include <hr2d/enclosure.h>
 #include <hr2d/field.h>
@@ -96,7 +112,6 @@
 #include <hr2d/progress.h>
 #include <hr2d/refine.h>
 #include <hr2d/scene.h>
-#include <hr2d/share.h>
 #include <hr2d/solve.h>
 #include <hr2d/state.h>
 #include <hr2d/status.h>
@@ -105,5 +120,10 @@
 #include <hr2d/thermal.h>
 #include <hr2d/version.h>
 #include <hr2d/visibility.h>
+
+/* Unstable interface. */
+#include <hr2d/clusters.h>
+#include <hr2d/operator.h>
+#include <hr2d/share.h>
 
 #endif

@@ -98,15 +98,6 @@ HR2D_API const char *hr2d_linkset_message(const hr2d_linkset *links);
 HR2D_API uint64_t hr2d_linkset_size(const hr2d_linkset *links);
 
 /**
- * The tests of visibility that this process has made for the links of a set. With several
- * shares (share.h) hr2d_linkset_counts() tells those of one process; where shares refine the
- * same rows, together they make more.
- * @param links  a link set
- * @return as hr2d_refine_counts::visibility_tests, of this share alone; constant cost
- */
-HR2D_API uint64_t hr2d_linkset_own_tests(const hr2d_linkset *links);
-
-/**
  * One link.
  * @param links  a link set
  * @param index  below hr2d_linkset_size()
@@ -195,28 +186,6 @@ HR2D_API uint64_t hr2d_linkset_bytes(const hr2d_linkset *links);
  * Exact: nothing is sampled. Cost O(n² + L·levels²), memory O(N + L).
  */
 HR2D_API hr2d_status hr2d_linkset_validate(hr2d_linkset *links);
-
-/**
- * The blocks of links: C_lm = ∫∫ G V φ_l(x) φ_m(y) dy dx, a length, with the φ of
- * hr2d_hierarchy_pull(). One link then gives H_l of its first element C_lm B_m / A for each m,
- * and H_m of its second one C_lm B_l / A', if it carries both directions.
- * @param hierarchy  of the links; its order p is that of the blocks
- * @param link       `count` links, as from hr2d_linkset_get() or hr2d_refine_visit(), of
- * elements of different patches
- * @param count      the number of links
- * @param block      receives p × p numbers per link, row l for the first element
- * @retval HR2D_OK      success
- * @retval HR2D_ENOMEM  an allocation failed
- * @retval HR2D_EINVAL  there is no such element
- * @retval other        the status of hr2d_scene_set_progress()
- *
- * Exact but for roundings, also past occluders; where elements are far from each other, as
- * exact as the order needs. C_00 of such a pair may differ from the exchange area in its last
- * digits. Thread-safe as long as nothing changes the hierarchy. Cost: O(p²) and more per link,
- * some 0.1 µs to 10 µs, so that one call takes many links.
- */
-HR2D_API hr2d_status hr2d_blocks(const hr2d_hierarchy *hierarchy, const hr2d_link *link,
-                                 size_t count, double *block);
 
 #ifdef __cplusplus
 }

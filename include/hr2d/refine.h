@@ -49,24 +49,9 @@ struct hr2d_solution;
 #define HR2D_NO_SUBDIVISION ((unsigned)-2)
 
 /**
- * Chooses among pairs before anything is asked about them: whether they face or see each other,
- * or what the oracle says. So a part of a refinement costs that part of its time, as where
- * processes share one, or where only some exchanges are of interest.
- * @param ctx      hr2d_refine_options::claim_ctx
- * @param batch    pairs of patches, or pairs that come from a subdivision
- * @param claimed  one per pair, all 1: set to 0, the pair is dropped, with all pairs below it
- * @return HR2D_OK to continue; any other value ends the refinement with this status
+ * Options of a refinement. Start from #HR2D_REFINE_OPTIONS_INIT. The members from `row_from` on
+ * are unstable interface, for distributions of one's own: see share.h.
  */
-typedef hr2d_status (*hr2d_claim_fn)(void *ctx, const hr2d_batch *batch,
-                                     unsigned char *claimed);
-
-/** What the pairs of one row take: those whose first element is of one patch. */
-typedef struct hr2d_row_counts {
-  uint64_t links;            /**< as hr2d_refine_counts::links */
-  uint64_t visibility_tests; /**< as hr2d_refine_counts::visibility_tests */
-} hr2d_row_counts;
-
-/** Options of a refinement. Start from #HR2D_REFINE_OPTIONS_INIT. */
 typedef struct hr2d_refine_options {
   size_t struct_size; /**< so that the options can grow */
   double epsilon;     /**< ε > 0, in the unit of the oracle, or #HR2D_EPSILON_ZERO; 0 stands

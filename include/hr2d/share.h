@@ -6,6 +6,9 @@
  * @defgroup share Shares of a solve
  * Several processes, or threads, that solve one scene together.
  *
+ * @warning Unstable interface: for solvers and distributions of one's own. It may change in any
+ * release, see doc/compatibility.md.
+ *
  * Each has a share of the pairs of patches: it makes their links, and the p × p blocks of
  * these, and gathers over them. Elements and fields on them are on all shares. Where a number
  * needs all links, the library calls back: hr2d_share::combine adds up over shares. So memory
@@ -52,8 +55,11 @@
 #ifndef HR2D_SHARE_H
 #define HR2D_SHARE_H
 
+#include <hr2d/linkset.h>
+#include <hr2d/oracle.h>
 #include <hr2d/status.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -95,6 +101,33 @@ typedef struct hr2d_share {
   void *ctx;               /**< given to `combine` */
   hr2d_status failed;      /**< for the library alone; HR2D_OK at the start */
 } hr2d_share;
+
+/**
+ * Chooses among pairs before anything is asked about them: whether they face or see each other,
+ * or what the oracle says. So a part of a refinement costs that part of its time, as where
+ * processes share one, or where only some exchanges are of interest.
+ * @param ctx      hr2d_refine_options::claim_ctx
+ * @param batch    pairs of patches, or pairs that come from a subdivision
+ * @param claimed  one per pair, all 1: set to 0, the pair is dropped, with all pairs below it
+ * @return HR2D_OK to continue; any other value ends the refinement with this status
+ */
+typedef hr2d_status (*hr2d_claim_fn)(void *ctx, const hr2d_batch *batch,
+                                     unsigned char *claimed);
+
+/** What the pairs of one row take: those whose first element is of one patch. */
+typedef struct hr2d_row_counts {
+  uint64_t links;            /**< as hr2d_refine_counts::links */
+  uint64_t visibility_tests; /**< as hr2d_refine_counts::visibility_tests */
+} hr2d_row_counts;
+
+/**
+ * The tests of visibility that this process has made for the links of a set. With several
+ * shares (share.h) hr2d_linkset_counts() tells those of one process; where shares refine the
+ * same rows, together they make more.
+ * @param links  a link set
+ * @return as hr2d_refine_counts::visibility_tests, of this share alone; constant cost
+ */
+HR2D_API uint64_t hr2d_linkset_own_tests(const hr2d_linkset *links);
 
 #ifdef __cplusplus
 }

@@ -174,26 +174,6 @@ HR2D_API hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *o
                                 hr2d_solution **solution);
 
 /**
- * Makes a solution of values from outside: those of a solver of one's own, of another process,
- * or of a moment of a process that changes with time. Averages, points, powers, fields and
- * pictures then work on them.
- * @param links     filled by hr2d_refine(); must outlive the solution
- * @param options   NULL for the defaults; `tolerance`, `max_iterations` and `start` do not
- * matter
- * @param field     B as for hr2d_hierarchy_pull(): the values of leaves are read, at the order
- * of the hierarchy and for all bands of the scene; they need not solve the equation
- * @param solution  receives the solution, with the irradiance of B; the caller destroys it
- * @retval HR2D_EINVAL  as hr2d_solve(), or a value is not finite
- * @retval HR2D_EUNSUPPORTED  the scene has several bands and patches of given flux (thermal.h):
- *                      `field` does not have their temperatures
- * @retval other        as hr2d_solve(), but for HR2D_ENO_SOLUTION and HR2D_ENOT_CONVERGED
- *
- * hr2d_solution_residual() tells how far B is from solving the equation. Cost: one gather.
- */
-HR2D_API hr2d_status hr2d_solution_adopt(hr2d_linkset *links, const hr2d_solve_options *options,
-                                         const double *field, hr2d_solution **solution);
-
-/**
  * Destroys a solution.
  * @param solution  may be NULL
  */

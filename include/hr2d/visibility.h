@@ -146,88 +146,6 @@ HR2D_API hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene,
                                           const hr2d_matrix_options *options, double *area,
                                           hr2d_matrix_counts *counts);
 
-/** The exchange areas that are not 0, as compressed rows; opaque. */
-typedef struct hr2d_exchange_rows hr2d_exchange_rows;
-
-/**
- * The exchange areas of all pairs of patches that see each other.
- * @param scene    committed; need not outlive the rows
- * @param options  NULL for the defaults
- * @param rows     receives the rows; the caller destroys them with
- *                 hr2d_exchange_rows_destroy(); unchanged on failure
- * @param counts   receives the work; may be NULL
- * @return as hr2d_exchange_matrix()
- *
- * The entries are those of hr2d_exchange_matrix(), bit for bit, without zeros. They take 12
- * bytes each, and 18 while the call runs. Cost as there, but without the matrix: it grows with
- * the pairs that see each other. The hooks of the scene provide the memory.
- */
-HR2D_API hr2d_status hr2d_exchange_rows_create(const hr2d_scene *scene,
-                                               const hr2d_matrix_options *options,
-                                               hr2d_exchange_rows **rows,
-                                               hr2d_matrix_counts *counts);
-
-/** Frees the rows, and what the functions below returned; NULL is allowed. */
-HR2D_API void hr2d_exchange_rows_destroy(hr2d_exchange_rows *rows);
-
-/** The number of entries: twice the number of pairs that see each other. */
-HR2D_API uint64_t hr2d_exchange_rows_entries(const hr2d_exchange_rows *rows);
-
-/**
- * Where the rows start: the entries of row i are [start[i], start[i + 1]).
- * @return n + 1 items, which belong to the rows
- */
-HR2D_API const uint64_t *hr2d_exchange_rows_start(const hr2d_exchange_rows *rows);
-
-/**
- * The columns of the entries: the patches that patch i sees, in ascending order.
- * @return an item per entry; belongs to the rows
- */
-HR2D_API const uint32_t *hr2d_exchange_rows_column(const hr2d_exchange_rows *rows);
-
-/**
- * The exchange areas of the entries in scene lengths, all above 0.
- * @return an item per entry; belongs to the rows
- */
-HR2D_API const double *hr2d_exchange_rows_area(const hr2d_exchange_rows *rows);
-
-/** A row, for hr2d_exchange_rows_visit(). */
-typedef struct hr2d_exchange_row {
-  size_t struct_size;     /**< its size as the library knows it */
-  size_t patch;           /**< i */
-  size_t count;           /**< how many patches it sees */
-  const uint32_t *column; /**< these patches, in ascending order */
-  const double *area;     /**< their exchange areas with i in scene lengths, all above 0 */
-} hr2d_exchange_row;
-
-/**
- * Takes a row. What it points to is valid until the function returns.
- * @param ctx  as given to hr2d_exchange_rows_visit()
- * @param row  the row
- * @return HR2D_OK, or a status that ends the call
- */
-typedef hr2d_status (*hr2d_exchange_row_fn)(void *ctx, const hr2d_exchange_row *row);
-
-/**
- * Shows all rows to a visitor, one after the other, and keeps none.
- * @param scene    committed
- * @param options  NULL for the defaults
- * @param visit    called once for each patch, in the calling thread. The order is that of walls
- *                 in the plane, and the same for each number of threads
- * @param ctx      given to `visit`
- * @param counts   receives the work; may be NULL
- * @retval other   the status of the visitor; otherwise as hr2d_exchange_matrix()
- *
- * The rows have the entries of hr2d_exchange_rows_create(), which may differ by roundings where
- * ends of patches are rounded points of a wall. At most some 1100 rows per thread are in memory
- * at once. Each pair is found from both of its ends, so that the call takes up to twice the
- * time of hr2d_exchange_rows_create().
- */
-HR2D_API hr2d_status hr2d_exchange_rows_visit(const hr2d_scene *scene,
-                                              const hr2d_matrix_options *options,
-                                              hr2d_exchange_row_fn visit, void *ctx,
-                                              hr2d_matrix_counts *counts);
-
 /** What a beam from a point ends at. */
 typedef enum hr2d_seen {
   HR2D_SEEN_FRONT, /**< the front of a patch */
@@ -288,28 +206,6 @@ typedef hr2d_status (*hr2d_beam_fn)(void *ctx, const hr2d_beam *beam);
  */
 HR2D_API hr2d_status hr2d_beams_visit(const hr2d_scene *scene, size_t patch, double t,
                                       hr2d_beam_fn visit, void *ctx);
-
-/**
- * What the leaves of a hierarchy see: the parts of all directions, with the weight of Lambert's
- * cosine, in which a leaf sees patches, and in which it sees backs of patches. The rest up to 1
- * is the background: the sky view factor of the leaf.
- * @param hierarchy  a hierarchy
- * @param row_from   the first patch whose leaves are asked about
- * @param row_to     the one after the last; 0: all patches from `row_from` on
- * @param front      one per element, or NULL: receives Σ A_ij F_ij / A_i over patches, set for
- *                   leaves of these patches
- * @param back       the same over backs, or NULL, which is cheaper
- * @retval HR2D_OK      success
- * @retval HR2D_ENOMEM  an allocation failed
- * @retval HR2D_EINVAL  there are no such rows
- * @retval other        the status of hr2d_scene_set_progress()
- *
- * Exact up to roundings, whatever stands in the way, and with no links. Patches that no light
- * reaches count as any. Thread-safe as long as nothing changes the hierarchy. Cost: the beams
- * of these patches, and what leaves have of them. Memory: 16 bytes per element and sum.
- */
-HR2D_API hr2d_status hr2d_leaf_sums(const hr2d_hierarchy *hierarchy, size_t row_from,
-                                    size_t row_to, double *front, double *back);
 
 #ifdef __cplusplus
 }

@@ -10,7 +10,7 @@
    does, the lines from a leaf are all lines to the segment where the sight ends. */
 #include "solve/row-sums.h"
 
-#include <hr2d/visibility.h>
+#include <hr2d/operator.h>
 
 #include "base/alloc.h"
 #include "geometry/exchange-area.h"

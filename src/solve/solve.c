@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* hr2d_solve(): from links, and perhaps a former solution, to a solution and its powers. */
+#include <hr2d/operator.h>
 #include <hr2d/solve.h>
 #include <math.h>
 #include <string.h>

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Each public header compiles alone, as C11 and as C++11, is reached through hr2d.h,
 # and shows nothing of GSL, of jansson or of config.h.  The programs in hr2d.h and README.md
-# compile, too.
+# compile, too.  Headers of unstable interface say so, and are those of doc/compatibility.md.
 set -eu
 status=0
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
 flags="-I$HR2D_BUILDDIR/include -I$HR2D_SRCDIR/include -Wall -Wextra -Wpedantic -Werror"
 
 # compile LANGUAGE HEADER COMPILER...: the header alone, and twice.
@@ -49,4 +51,48 @@ program() {
 }
 program hr2d.h '@code' '@endcode' "$HR2D_SRCDIR/include/hr2d/hr2d.h"
 program README.md '^```c$' '^```$' "$HR2D_SRCDIR/README.md"
+
+# ---- unstable interface
+# unstable FOLDER PAGE: the headers that say so and those of the table of the page, where these
+# differ; and the ones that hr2d.h does not list, or does not include, behind all others.
+# shellcheck disable=SC2016
+unstable() {
+  (cd "$1" && grep -l '^ \* @warning Unstable interface' ./*.h | sed 's|.*/||' | sort) >"$work/said"
+  awk '/^\| unstable header/ { on = 1; next } !/^\|/ { on = 0 } on' "$2" |
+    sed -n 's/^| `\([a-z]*\.h\)`.*/\1/p' | sort >"$work/listed"
+  diff "$work/said" "$work/listed" | sed -n 's/^[<>]/one of header and page alone:/p'
+  sed '1,/^ \* Unstable interface/d; /^ \*$/,$d' "$1/hr2d.h" |
+    sed -n 's/^ \* - \([a-z]*\.h\):.*/\1/p' | sort >"$work/listed"
+  diff "$work/said" "$work/listed" | sed -n 's/^[<>]/not in the list of hr2d.h:/p'
+  sed '1,/^\/\* Unstable interface/d' "$1/hr2d.h" |
+    sed -n 's/^#include <hr2d\/\(.*\)>/\1/p' | sort >"$work/listed"
+  diff "$work/said" "$work/listed" | sed -n 's/^[<>]/not in the includes of hr2d.h:/p'
+}
+page=$HR2D_SRCDIR/doc/compatibility.md
+unstable "$HR2D_SRCDIR/include/hr2d" "$page" >"$work/found"
+[ ! -s "$work/found" ] || { cat "$work/found" >&2; status=1; }
+[ -s "$work/said" ] || { echo "no header says that it is unstable" >&2; status=1; }
+
+# finds WHAT TEXT PAGE: a fault in the copies of the headers is found.
+finds() {
+  unstable "$work/headers" "$3" >"$work/found"
+  grep -q "$2" "$work/found" || { echo "not found: $1" >&2; status=1; }
+}
+fresh() {
+  rm -rf "$work/headers"
+  cp -R "$HR2D_SRCDIR/include/hr2d" "$work/headers"
+  chmod -R u+w "$work/headers"
+}
+fresh
+# shellcheck disable=SC2016
+sed '/^| `share\.h`/d' "$page" >"$work/page.md"
+finds "a header that the page lacks" 'page alone: share\.h' "$work/page.md"
+sed -i 's/@warning Unstable interface/@warning/' "$work/headers/clusters.h"
+finds "a header that does not say so" 'page alone: clusters\.h' "$page"
+fresh
+sed -i '/^ \* - operator\.h:/d' "$work/headers/hr2d.h"
+finds "one that hr2d.h does not list" 'list of hr2d\.h: operator\.h' "$page"
+fresh
+sed -i '/^\/\* Unstable interface/,$s/share\.h/scene.h/' "$work/headers/hr2d.h"
+finds "a stable one among the includes" 'includes of hr2d\.h: scene\.h' "$page"
 exit $status
