@@ -3,6 +3,8 @@ EXTRA_DIST += \
 	doc/README.md \
 	doc/adversary.md \
 	doc/accuracy.md \
+	doc/measurements.md \
+	doc/method.md \
 	doc/architecture.md \
 	doc/compatibility.md \
 	doc/cost.md \

@@ -91,6 +91,49 @@ printf '[a](page.md) and [b](none.md#x), [c](https://d.e)\n' >"$work/page.md"
 check "one that does not would be found" \
   [ "$(astray "$work/page.md")" = "$work/page.md: none.md" ]
 
+# nowhere PAGE...: paths of this tree in code that lead to no file, and to no program made of one
+nowhere() {
+  for page; do
+    grep -o '`\(src\|include\|tools\|tests\|bench\|petsc\|python\)/[A-Za-z0-9_./-]*`' "$page" |
+      tr -d '`' | while read -r path; do
+      [ -e "$path" ] || [ -e "$path.c" ] || echo "$page: $path"
+    done
+  done
+}
+# shellcheck disable=SC2046
+check "paths in pages lead to files; not: $(nowhere $(cat "$work/pages"))" \
+  [ -z "$(nowhere $(cat "$work/pages"))" ]
+# shellcheck disable=SC2016
+printf '`src/LAYERS`, `bench/rows` and `src/none.c`\n' >"$work/page.md"
+check "one that does not would be found" \
+  [ "$(nowhere "$work/page.md")" = "$work/page.md: src/none.c" ]
+
+# misnumbered PAGE: equations whose numbers do not count from 1 on, and numbers of no equation
+misnumbered() {
+  awk '
+    /^    .* \([0-9]+\)$/ {
+      number = $NF
+      if (number != "(" ++n ")") print number " is equation " n
+      next
+    }
+    { text = text " " $0 }
+    END {
+      if (n == 0) print "no equations"
+      while (match(text, /[^a-z0-9_^]\([0-9][0-9]?\)/)) {
+        number = substr(text, RSTART + 2, RLENGTH - 3)
+        if (number + 0 > n || number + 0 == 0) print "there is no (" number ")"
+        text = substr(text, RSTART + RLENGTH)
+      }
+    }' "$1" | sed -n '1p'
+}
+check "equations of doc/method.md have their numbers; not: $(misnumbered doc/method.md)" \
+  [ -z "$(misnumbered doc/method.md)" ]
+printf '    a = b   (1)\n    c = d   (3)\n' >"$work/page.md"
+check "a wrong number would be found" [ "$(misnumbered "$work/page.md")" = "(3) is equation 2" ]
+printf '    a = b   (1)\nBy (2)\n' >"$work/page.md"
+check "the number of no equation would be found" \
+  [ "$(misnumbered "$work/page.md")" = "there is no (2)" ]
+
 # unlisted LIST: pages that doc/README.md, the menu of the site, does not have
 unlisted() {
   grep -v -e '^doc/README.md' -e '^doc/figures/' "$work/pages" | while read -r page; do

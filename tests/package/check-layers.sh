@@ -6,6 +6,7 @@
 # - Its object calls no function of a later folder.
 # - No two files call each other in a circle.
 # - No two headers of src/ declare a function of the same name.
+# - doc/architecture.md has the number of storeys of src/, and each of them in a table, in order.
 #
 # Each rule has a negative control: a planted fault has to be found.
 set -eu
@@ -81,6 +82,15 @@ homonyms() {
   done | sort | uniq -d
 }
 
+# differs LAYERS PAGE: where the page, its number and its table, differs from LAYERS.
+differs() {
+  grep '^[^#]' "$1" >"$work/storeys"
+  grep -q "^| .src/. .* $(wc -l <"$work/storeys") storeys" "$2" ||
+    echo "LAYERS has $(wc -l <"$work/storeys") storeys"
+  awk '/^\| storey/ { on = 1; next } !/^\|/ { on = 0 } on' "$2" |
+    sed -n 's/^| .\([a-z]*\). |.*/\1/p' | diff "$work/storeys" - || true
+}
+
 status=0
 # none WHAT FILE: the file is empty.
 none() {
@@ -105,6 +115,15 @@ for tree in src tools; do
 done
 homonyms "$HR2D_SRCDIR/src" >"$work/found"
 none "function of two headers" "$work/found"
+
+page=$HR2D_SRCDIR/doc/architecture.md
+differs "$HR2D_SRCDIR/src/LAYERS" "$page" >"$work/found"
+none "$page" "$work/found"
+differs "$HR2D_SRCDIR/tools/LAYERS" "$page" >"$work/found"
+some "another number of storeys" "LAYERS has" "$work/found"
+sed '/^| .occlusion. |/d' "$page" >"$work/page"
+differs "$HR2D_SRCDIR/src/LAYERS" "$work/page" >"$work/found"
+some "a table without a storey" "< occlusion" "$work/found"
 
 # plant FILE TEXT: one file with one include in a tree of its own.
 plant() {
