@@ -134,6 +134,18 @@ printf '    a = b   (1)\nBy (2)\n' >"$work/page.md"
 check "the number of no equation would be found" \
   [ "$(misnumbered "$work/page.md")" = "there is no (2)" ]
 
+# nameless PAGE: words of the glossary without a name in the literature, a meaning or a place
+nameless() {
+  awk -F ' *[|] *' '
+    /^## / { on = /Glossary/ }
+    on && /^[|]/ && (NF < 6 || !$3 || !$4 || !$5) { print $2 }' "$1"
+}
+architecture=doc/architecture.md
+check "the glossary has all names; not of: $(nameless $architecture)" \
+  [ -z "$(nameless $architecture)" ]
+sed 's/^| patch | [^|]* |/| patch | |/' $architecture >"$work/page.md"
+check "a word without one would be found" [ "$(nameless "$work/page.md")" = patch ]
+
 # unlisted LIST: pages that doc/README.md, the menu of the site, does not have
 unlisted() {
   grep -v -e '^doc/README.md' -e '^doc/figures/' "$work/pages" | while read -r page; do
