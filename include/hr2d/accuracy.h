@@ -29,7 +29,7 @@
  * error, r is divided by that part. Errors of averages are sums with signs, which may cancel by
  * chance: a tenth of the size that they have with random signs is added, in squares. The
  * *bound* has four parts:
- * - a multiple of that size and of the error with its signs: 2.5 times, from 6 to 28 times
+ * - a multiple of that size and of the error with its signs: 2.5 times, from 7 to 28 times
  *   where views change, 3 times at points at least;
  * - a tenth or more of the largest error of an average without signs;
  * - where views change, the target: elements are made for it, and what kinks inside them
