@@ -146,6 +146,20 @@ check "the glossary has all names; not of: $(nameless $architecture)" \
 sed 's/^| patch | [^|]* |/| patch | |/' $architecture >"$work/page.md"
 check "a word without one would be found" [ "$(nameless "$work/page.md")" = patch ]
 
+# outgrown PAGE: the lines of src/ that the page names, if they are not within a tenth of today's
+outgrown() {
+  today=$(cat src/*/*.[ch] | wc -l)
+  page_lines=$(sed -n 's/.*`src\/` had \([0-9,]*\) lines.*/\1/p' "$1" | tr -d ,)
+  if [ "$((${page_lines:-0} * 10))" -lt "$((today * 9))" ] ||
+    [ "$((${page_lines:-0} * 10))" -gt "$((today * 11))" ]; then
+    echo "${page_lines:-none} for $today"
+  fi
+}
+check "the coverage of doc/testing.md is of today's src/; not $(outgrown doc/testing.md)" \
+  [ -z "$(outgrown doc/testing.md)" ]
+sed 's/`src\/` had [0-9,]* lines/`src\/` had 10,169 lines/' doc/testing.md >"$work/page.md"
+check "a table of less code would be found" [ -n "$(outgrown "$work/page.md")" ]
+
 # unlisted LIST: pages that doc/README.md, the menu of the site, does not have
 unlisted() {
   grep -v -e '^doc/README.md' -e '^doc/figures/' "$work/pages" | while read -r page; do
