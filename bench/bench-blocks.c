@@ -45,7 +45,7 @@ static cost measure(const hr2d_hierarchy *h, size_t order, double area) {
   hr2di_integrator work;
   double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER], time[ROUNDS];
   int distant;
-  if (hr2di_integrator_init(&work, h, &h->alloc, order, NULL)) bars_fail("no memory");
+  if (hr2di_integrator_init(&work, h, &h->alloc, order, NULL, NULL)) bars_fail("no memory");
   for (int round = 0; round < ROUNDS; round++) {
     const double start = cpu_seconds();
     work.kernels = 0;

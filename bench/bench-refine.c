@@ -65,7 +65,7 @@ static void run_sweeps(hr2d_scene *scene, double epsilon, int packed, uint64_t *
   options.epsilon = epsilon;
   options.packed = packed;
   hr2di_transport t;
-  if (hr2d_refine(s.links, &options) || hr2di_transport_init(&t, s.links, 1, NULL))
+  if (hr2d_refine(s.links, &options) || hr2di_transport_init(&t, s.links, 0, 1, NULL))
     exit(EXIT_FAILURE);
   *links = hr2d_linkset_size(s.links);
   hr2d_link *copy = malloc((size_t)*links * sizeof *copy);

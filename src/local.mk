@@ -229,7 +229,7 @@ libhr2d_core_la_SOURCES = \
 	src/refine/unite-shares.c src/refine/unite-shares.h \
 	src/refine/study.c \
 	src/refine/validate-links.c \
-	src/refine/worker.c src/refine/worker.h \
+	src/refine/refine-how.h src/refine/worker.c src/refine/worker.h \
 	src/solve/image-ties.c src/solve/image-ties.h \
 	src/solve/outside.c src/solve/outside.h \
 	src/solve/power-cut-off.c src/solve/power-cut-off.h \
@@ -253,7 +253,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/row-tails.c src/solve/row-tails.h \
 	src/solve/row-sums.c src/solve/row-sums.h \
 	src/solve/shared-gather.c src/solve/shared-gather.h \
-	src/solve/solve.c \
+	src/solve/solve.c src/solve/solve-how.h \
 	src/solve/transport.c src/solve/transport.h \
 	src/accuracy/admissibility.c src/accuracy/admissibility.h \
 	src/accuracy/cluster-residuals.c src/accuracy/cluster-residuals.h \

@@ -54,7 +54,7 @@ hr2d_status hr2di_cluster_residuals(hr2di_estimator *e, hr2di_clusters *coarser,
     status = hr2di_clusters_gather(coarser, &how, field, field + size);
   }
   if (!status)
-    status = hr2di_clusters_gather(t->links->roots.clusters, &how, field, field + 2 * size);
+    status = hr2di_clusters_gather(t->roots->clusters, &how, field, field + 2 * size);
   if (!status) *part = worst(e, field + size, field + 2 * size);
   hr2di_alloc_free(&t->alloc, field);
   return status;

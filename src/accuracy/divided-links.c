@@ -187,14 +187,15 @@ static uint64_t count_others(const division *d) {
   return others;
 }
 
-static hr2d_status refine_divided(division *d, const hr2d_refine_options *given) {
+static hr2d_status refine_divided(division *d, const hr2di_refine_how *how,
+                                  const hr2d_refine_options *given) {
   const uint64_t others = count_others(d);
   hr2d_refine_options options = *given;
   options.claim = claim;
   options.claim_ctx = d;
   options.max_links = left(given->max_links, others);
   options.max_bytes = left(given->max_bytes, others * sizeof(hr2d_link));
-  return hr2d_refine(d->links, &options);
+  return hr2di_refine(d->links, how, &options);
 }
 
 /* Puts the links that are new behind those that stay. */
@@ -230,9 +231,10 @@ static hr2d_status add_counts(const division *d, hr2d_share *share) {
   return HR2D_OK;
 }
 
-static hr2d_status run(division *d, const hr2d_refine_options *options) {
+static hr2d_status run(division *d, const hr2di_refine_how *how,
+                       const hr2d_refine_options *options) {
   hr2d_status status = find_divided(d);
-  if (!status) status = refine_divided(d, options);
+  if (!status) status = refine_divided(d, how, options);
   if (!status) status = make_table(d);
   if (status) return status;
   status = sort_links(d);
@@ -241,13 +243,14 @@ static hr2d_status run(division *d, const hr2d_refine_options *options) {
 }
 
 hr2d_status hr2di_divided_links(hr2d_linkset *links, hr2d_linkset *coarse,
+                                const hr2di_refine_how *how,
                                 const hr2d_refine_options *options) {
   const hr2d_scene *scene = coarse->hierarchy->scene;
   division d = {.links = links, .coarse = coarse};
   hr2di_scene_watch(scene, &d.watch, options->progress, options->progress_ctx, "refine");
   d.divided = hr2di_alloc_zero(&links->alloc, links->hierarchy->elements, 1);
   hr2d_status status = hr2di_share_agree(options->share, d.divided ? HR2D_OK : HR2D_ENOMEM);
-  if (!status) status = run(&d, options);
+  if (!status) status = run(&d, how, options);
   if (!status) status = add_counts(&d, options->share);
   hr2di_alloc_free(&links->alloc, d.divided);
   hr2di_alloc_free(&links->alloc, d.place);

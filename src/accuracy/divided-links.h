@@ -6,6 +6,7 @@
 #include <hr2d/refine.h>
 
 #include "links/linkset-impl.h"
+#include "refine/refine-how.h"
 
 /* Fills an empty set, on a copy of the elements of `coarse` with some leaves divided, images as
    their patches; the oracle and the policy are those of
@@ -14,6 +15,7 @@
    HR2D_OK or a status, with a message in `links`; on failure `coarse` may have lost its blocks.
  */
 hr2d_status hr2di_divided_links(hr2d_linkset *links, hr2d_linkset *coarse,
+                                const hr2di_refine_how *how,
                                 const hr2d_refine_options *options);
 
 #endif

@@ -208,11 +208,13 @@ static hr2d_status find_shares(hr2di_estimator *e, hr2di_graded *answer,
   return status == HR2D_ENOMEM ? status : HR2D_OK; /* the errors are known */
 }
 
+/* `finer` is K⁺. */
 static hr2d_status run(hr2di_graded *answer, const hr2di_resolution *fineness,
-                       const hr2d_target *target, hr2di_clusters *coarser,
+                       const hr2di_equation_how *finer, const hr2d_target *target,
                        hr2di_error_pair *errors) {
   hr2di_estimator e;
-  hr2d_status status = hr2di_estimator_init(&e, answer, target);
+  hr2di_clusters *coarser = answer->links->roots.clusters;
+  hr2d_status status = hr2di_estimator_init(&e, answer, finer, target);
   e.margin = margin_of(fineness);
   e.blind = fineness->hidden ? fineness->aim : 0;
   if (!status) status = measure_averages(&e, errors);
@@ -228,32 +230,23 @@ static hr2d_status run(hr2di_graded *answer, const hr2di_resolution *fineness,
   return status;
 }
 
-void hr2di_error_prepare(hr2di_graded *answer, const hr2di_resolution *fineness) {
-  answer->links->block_order = hr2di_resolution_finer(fineness).order;
-}
-
-/* The trees and links of the answer are those of K⁺ while its order is, and its clusters are as
-   accurate. */
 hr2d_status hr2di_error_estimate(hr2di_graded *answer, const hr2di_resolution *fineness,
                                  const hr2d_target *target, hr2di_error_pair *errors,
                                  hr2di_message *message) {
   const hr2di_resolution finer = hr2di_resolution_finer(fineness);
   hr2d_linkset *links = answer->links;
-  const hr2di_roots roots = links->roots;
-  const unsigned order = answer->hierarchy->order;
+  hr2di_roots roots = links->roots;
+  const hr2di_equation_how how = {
+      .order = finer.order, .single = finer.single, .roots = &roots, .looks = answer->looks};
   *errors = (hr2di_error_pair){0};
   hr2d_status status = HR2D_OK;
   if (roots.clusters) {
-    links->roots.accuracy = finer.cluster_accuracy;
-    status =
-        hr2di_clusters_finer(roots.clusters, finer.cluster_accuracy, &links->roots.clusters);
+    roots.accuracy = finer.cluster_accuracy;
+    roots.clusters = NULL;
+    status = hr2di_clusters_finer(links->roots.clusters, roots.accuracy, &roots.clusters);
   }
-  answer->hierarchy->order = finer.order;
-  if (!status) status = run(answer, fineness, target, roots.clusters, errors);
-  answer->hierarchy->order = order;
-  if (links->roots.clusters != roots.clusters) hr2di_clusters_destroy(links->roots.clusters);
-  links->roots = roots;
-  links->block_order = 0;
+  if (!status) status = run(answer, fineness, &how, target, errors);
+  hr2di_clusters_destroy(roots.clusters);
   if (!status && !answer->depth) hr2di_link_blocks_trim(&links->blocks, &links->alloc);
   if (!status) return status;
   const char *own = hr2d_linkset_message(links);

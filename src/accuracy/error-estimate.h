@@ -17,10 +17,6 @@ typedef struct hr2di_error_pair {
   double rounding[2]; /* what of the bounds of averages and at points is rounding */
 } hr2di_error_pair;
 
-/* Prepares the links of an answer that is to be solved, so that its error can be estimated
-   then: blocks are made for the finer operator, and the solve takes a part of each. */
-void hr2di_error_prepare(hr2di_graded *answer, const hr2di_resolution *fineness);
-
 /* Estimates the error of a graded solve of this resolution.  Leaves blocks of its own order
    alone. Returns HR2D_OK, or a status with a reason in `message`. */
 hr2d_status hr2di_error_estimate(hr2di_graded *answer, const hr2di_resolution *fineness,

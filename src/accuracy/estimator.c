@@ -229,7 +229,7 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
 }
 
 hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
-                                 const hr2d_target *target) {
+                                 const hr2di_equation_how *how, const hr2d_target *target) {
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   options.threads = target->threads;
   options.progress = target->progress;
@@ -239,8 +239,8 @@ hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
                          .bent = answer->bent,
                          .exponent = answer->survey.exponent,
                          .contacts.alloc = answer->links->alloc};
-  hr2d_status status =
-      hr2di_equation_init(&e->eq, answer->links, answer->links->hierarchy->scene, &options);
+  hr2d_status status = hr2di_equation_init(&e->eq, answer->links,
+                                           answer->links->hierarchy->scene, how, &options);
   if (!status) status = reserve(e, &answer->links->alloc);
   if (!status)
     status = hr2di_equation_part(&e->part, &e->eq,

@@ -12,9 +12,10 @@
 #include "base/clock.h"
 #include "hierarchy/image-trees.h"
 #include "links/linkset-impl.h"
+#include "refine/refine-how.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
-#include "solve/transport.h"
+#include "solve/solve-how.h"
 
 /* More than MOST_EVENTS events cost more than they gain; from MANY patches on clusters save
    more than they cost. */
@@ -67,6 +68,7 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
   hr2d_status status = find_events(&events, h, fineness->generations, target->share, &watch);
   const int chosen = fineness->kinks > 0 && fineness->lights && events.count > 0;
   const hr2di_grading grading = {.target = fineness->target,
+                                 .looks = a->looks,
                                  .norm = fineness->norm,
                                  .order = fineness->order,
                                  .corner_levels = fineness->corner_levels,
@@ -116,16 +118,14 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
   hr2d_status status = hr2d_linkset_create(a->hierarchy, hr2di_admissibility_oracle(), NULL,
                                            hr2di_admissibility_fixed_leaves(), NULL, &a->links);
   if (status) return status;
-  a->links->single = fineness->single;
   status = find_roots(a->links, coarse, fineness, target);
   if (!status && options.share && !a->pieces.rows)
-    status = hr2di_row_deal(&a->pieces, a->links, &options);
+    status = hr2di_row_deal(&a->pieces, a->links, a->looks, &options);
   options.rows = a->pieces.rows;
-  a->links->pieces = options.share ? &a->pieces : NULL;
+  const hr2di_refine_how how = {.pieces = options.share ? &a->pieces : NULL, .looks = a->looks};
   if (!status)
-    status = coarse ? hr2di_divided_links(a->links, coarse->links, &options)
-                    : hr2d_refine(a->links, &options);
-  a->links->pieces = NULL;
+    status = coarse ? hr2di_divided_links(a->links, coarse->links, &how, &options)
+                    : hr2di_refine(a->links, &how, &options);
   return status;
 }
 
@@ -185,10 +185,9 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
                                 const hr2di_resolution *fineness, const hr2d_target *target,
                                 hr2di_message *message) {
   const double start = hr2di_clock_now();
-  *a = (hr2di_graded){0};
+  *a = (hr2di_graded){.looks = fineness->looks};
   hr2d_status status = hr2d_hierarchy_create(scene, &a->hierarchy);
   if (!status) a->hierarchy->order = fineness->order;
-  if (!status) a->hierarchy->looks = fineness->looks;
   if (!status) status = grade(a, fineness, target);
   if (!status) status = check_elements(a, target);
   if (!status) status = link_elements(a, NULL, fineness, target);
@@ -238,7 +237,8 @@ hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
                                 hr2di_message *message) {
   const double start = hr2di_clock_now();
   hr2di_watch watch;
-  *a = (hr2di_graded){.survey = coarse->survey, .events = coarse->events};
+  *a = (hr2di_graded){
+      .looks = coarse->looks, .survey = coarse->survey, .events = coarse->events};
   hr2di_scene_watch(coarse->hierarchy->scene, &watch, target->progress, target->progress_ctx,
                     "refine");
   hr2d_status status = hr2di_halved_leaves(coarse->hierarchy, coarse->depth,
@@ -247,8 +247,7 @@ hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
   if (!status) status = divide_images(a, &watch);
   if (!status) status = link_divided(a, coarse, fineness, target);
   if (!status) status = check_bytes(a, fineness, target);
-  if (!status && fineness->order == coarse->hierarchy->order)
-    a->links->start = coarse->solution;
+  if (!status && fineness->order == coarse->hierarchy->order) a->start = coarse->solution;
   a->refine_seconds = hr2di_clock_now() - start;
   return explain(a, hr2di_share_agree(target->share, status), message);
 }
@@ -261,11 +260,14 @@ hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2di_resolution *fineness
   options.threads = target->threads;
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;
-  a->links->relative = fineness->relative;
-  a->links->floor = fineness->floor;
-  const hr2d_status status = hr2d_solve(a->links, &options, &a->solution);
-  a->links->relative = 0;
-  a->links->start = NULL;
+  const hr2di_equation_how how = {
+      .block_order = target->no_error ? 0 : hr2di_resolution_finer(fineness).order,
+      .single = fineness->single,
+      .looks = a->looks,
+      .enough = {.part = fineness->relative, .floor = fineness->floor},
+      .start = a->start};
+  const hr2d_status status = hr2di_solve(a->links, &how, &options, &a->solution);
+  a->start = NULL;
   if (status) return explain(a, status, message);
   const hr2d_solve_work work = hr2d_solution_work(a->solution);
   a->kernels = work.kernels;

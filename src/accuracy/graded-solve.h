@@ -42,7 +42,9 @@ typedef struct hr2di_resolution {
 typedef struct hr2di_graded {
   hr2d_hierarchy *hierarchy;
   hr2d_linkset *links;
-  hr2d_solution *solution; /* NULL until solved */
+  const hr2d_solution *start; /* of the elements that were divided; NULL: none */
+  hr2d_solution *solution;    /* NULL until solved */
+  hr2di_looks *looks;         /* keeps what patches see; NULL: nothing is kept */
   hr2di_survey survey;
   double *bent;         /* see hr2di_kinks_cut(); NULL: no event is left inside an element */
   unsigned char *depth; /* per element: how often a leaf is to be halved so that the aim is
@@ -68,7 +70,8 @@ hr2d_status hr2di_graded_divide(hr2di_graded *answer, const hr2di_graded *coarse
                                 const hr2di_resolution *fineness, const hr2d_target *target,
                                 hr2di_message *message);
 
-/* Solves on them; returns likewise. */
+/* Solves on them, with blocks for an account of the error unless the target wants none; returns
+   likewise. */
 hr2d_status hr2di_graded_solve(hr2di_graded *answer, const hr2di_resolution *fineness,
                                const hr2d_target *target, hr2di_message *message);
 

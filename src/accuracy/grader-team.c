@@ -88,7 +88,7 @@ static hr2d_status hire(team *t, size_t k) {
   w->g.marks = w->g.mark_capacity = 0;
   w->g.waits = 1;
   w->g.seen = g->seen ? &w->seen : NULL;
-  return g->seen ? hr2di_seen_ends_init(&w->seen, g->h->scene, g->h->looks, &g->h->alloc,
+  return g->seen ? hr2di_seen_ends_init(&w->seen, g->h->scene, g->grading->looks, &g->h->alloc,
                                         w->grading.watch)
                  : HR2D_OK;
 }

@@ -132,8 +132,9 @@ static hr2d_status find_lights(const hr2di_graded *coarse, const hr2d_target *ta
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;
   hr2di_equation eq;
+  const hr2di_equation_how how = hr2di_equation_how_of(coarse->links);
   hr2d_status status =
-      hr2di_equation_init(&eq, coarse->links, coarse->links->hierarchy->scene, &options);
+      hr2di_equation_init(&eq, coarse->links, coarse->links->hierarchy->scene, &how, &options);
   double *space = hr2di_alloc_zero(alloc, 2 * values + scene->bands, sizeof *space);
   if (!status && !space) status = HR2D_ENOMEM;
   if (!status) {

@@ -256,7 +256,7 @@ hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *
   if (!status && scene->effect[HR2D_EFFECT_OCCLUSION].on) {
     g.seen = &seen;
     status =
-        hr2di_seen_ends_init(&seen, scene, hierarchy->looks, &hierarchy->alloc, grading->watch);
+        hr2di_seen_ends_init(&seen, scene, grading->looks, &hierarchy->alloc, grading->watch);
   }
   const size_t threads = hr2di_team_threads(grading->threads);
   if (!status && threads > 1 && scene->patches >= MANY) {

@@ -8,6 +8,7 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 #include "visibility/events.h"
+#include "visibility/looks.h"
 
 typedef struct hr2di_grading {
   double target;              /* the relative error that corners are graded for */
@@ -18,6 +19,7 @@ typedef struct hr2di_grading {
   double distance;            /* the ellipse at which ends may be; 0: HR2DI_ELLIPSE_DISTANT */
   const hr2di_events *events; /* where elements end; NULL for none */
   uint64_t max_elements;      /* 0 for no limit */
+  hr2di_looks *looks;         /* keeps what patches see; NULL: nothing is kept */
   hr2di_watch *watch;         /* NULL: nobody watches */
   unsigned threads;           /* as in options */
 } hr2di_grading;

@@ -30,12 +30,12 @@ enum { LIT = 512, MANY_LIT = 1000 };
 hr2d_status hr2di_resolution_survey(const hr2d_scene *scene, hr2di_looks *looks,
                                     unsigned threads, hr2di_watch *watch,
                                     hr2di_survey *survey) {
-  const hr2di_grading grading = {.target = 0.1, .order = 2, .watch = watch, .threads = threads};
+  const hr2di_grading grading = {
+      .target = 0.1, .order = 2, .looks = looks, .watch = watch, .threads = threads};
   hr2d_hierarchy *h = NULL;
   if (scene->patches > LIT && scene->effect[HR2D_EFFECT_OCCLUSION].on)
     return hr2di_grading_survey(scene, &grading, survey);
   hr2d_status status = hr2d_hierarchy_create(scene, &h);
-  if (!status) h->looks = looks;
   if (!status) status = hr2di_grading_apply(h, &grading, survey);
   hr2d_hierarchy_destroy(h);
   return status;

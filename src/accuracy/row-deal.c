@@ -12,6 +12,7 @@
 #include "base/alloc.h"
 #include "base/share.h"
 #include "base/sort.h"
+#include "refine/refine-how.h"
 
 /* Slots and pieces are no larger than this part of what a share should have. */
 #define PART (1. / 16)
@@ -43,6 +44,7 @@ typedef struct dealer {
   const hr2d_linkset *links;
   const hr2d_allocator *alloc;
   hr2di_row_pieces *pieces;
+  hr2di_looks *looks;
   size_t rows, slots;
   work *work; /* per slot */
   work all;
@@ -102,9 +104,8 @@ static hr2d_status count_own(dealer *d, hr2d_linkset *links,
   if (!slot) return HR2D_ENOMEM;
   counting.row_counts = slot;
   counting.rows = d->pieces->rows;
-  links->pieces = d->pieces;
-  const hr2d_status status = hr2d_refine_count(links, &counting, &counts);
-  links->pieces = NULL;
+  const hr2di_refine_how how = {.pieces = d->pieces, .looks = d->looks};
+  const hr2d_status status = hr2di_refine_count(links, &how, &counting, &counts);
   for (size_t k = 0; k < d->slots && !status; k++)
     d->work[k] = (work){(double)slot[k].links, (double)slot[k].visibility_tests};
   hr2di_alloc_free(d->alloc, slot);
@@ -237,13 +238,14 @@ static hr2d_status deal(dealer *d) {
   return status;
 }
 
-hr2d_status hr2di_row_deal(hr2di_row_pieces *pieces, hr2d_linkset *links,
+hr2d_status hr2di_row_deal(hr2di_row_pieces *pieces, hr2d_linkset *links, hr2di_looks *looks,
                            const hr2d_refine_options *options) {
   hr2di_watch watch;
   dealer d = {.share = options->share,
               .links = links,
               .alloc = &links->alloc,
               .pieces = pieces,
+              .looks = looks,
               .rows = hr2di_scene_cell(links->hierarchy->scene),
               .watch = &watch};
   hr2di_scene_watch(links->hierarchy->scene, &watch, options->progress, options->progress_ctx,

@@ -177,7 +177,6 @@ hr2d_status hr2di_search_bound(hr2di_search *s) {
   if (!s->best.unbounded) return HR2D_OK;
   const double start = hr2di_clock_now();
   fineness.hasty = fineness.shares = 0;
-  hr2di_error_prepare(&s->best, &fineness);
   const hr2d_status status = hr2di_search_agree(
       s, hr2di_error_estimate(&s->best, &fineness, &s->target, &errors, &s->message));
   s->account.error_seconds += hr2di_clock_now() - start;
@@ -205,7 +204,6 @@ hr2d_status hr2di_search_attempt(hr2di_search *s, const hr2di_resolution *finene
   hr2d_status status =
       dividing ? hr2di_graded_divide(&answer, &s->best, fineness, &target, &s->message)
                : hr2di_graded_refine(&answer, s->scene, fineness, &target, &s->message);
-  if (!status && !s->given.no_error) hr2di_error_prepare(&answer, fineness);
   if (!status) status = hr2di_graded_solve(&answer, fineness, &s->target, &s->message);
   add_times(&s->account, &answer);
   const double start = hr2di_clock_now();

@@ -170,7 +170,6 @@ static void hand_over(hr2di_search *s, hr2d_solution **solution) {
   *solution = s->best.solution;
   if (!*solution) return;
   hr2d_linkset *links = s->best.links;
-  s->best.hierarchy->looks = NULL;
   if (s->best.depth) hr2di_link_blocks_trim(&links->blocks, &links->alloc);
   (*solution)->own_hierarchy = s->best.hierarchy;
   (*solution)->own_links = s->best.links;

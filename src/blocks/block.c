@@ -12,7 +12,7 @@
 #include "scene/scene-impl.h"
 
 hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hierarchy,
-                                  const hr2d_allocator *alloc, size_t order,
+                                  const hr2d_allocator *alloc, size_t order, hr2di_looks *looks,
                                   hr2di_watch *watch) {
   const hr2d_scene *scene = hierarchy->scene;
   *w = (hr2di_integrator){.hierarchy = hierarchy,
@@ -28,8 +28,7 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
   int room = w->rule && !status;
   if (room && scene->effect[HR2D_EFFECT_OCCLUSION].on) {
     w->sights = hr2di_alloc_zero(alloc, 1, sizeof *w->sights);
-    room =
-        w->sights && !hr2di_patch_sights_init(w->sights, scene, hierarchy->looks, alloc, watch);
+    room = w->sights && !hr2di_patch_sights_init(w->sights, scene, looks, alloc, watch);
   }
   return room ? HR2D_OK : HR2D_ENOMEM;
 }

@@ -25,7 +25,7 @@ hr2d_status hr2d_blocks(const hr2d_hierarchy *hierarchy, const hr2d_link *link, 
   hr2di_integrator work;
   hr2di_scene_watch(hierarchy->scene, &watch, NULL, NULL, "blocks");
   hr2d_status status =
-      hr2di_integrator_init(&work, hierarchy, &hierarchy->alloc, order, &watch);
+      hr2di_integrator_init(&work, hierarchy, &hierarchy->alloc, order, NULL, &watch);
   for (size_t k = 0; k < count && !status; k++) {
     int distant;
     const double weight = weight_of(hierarchy, link[k].pair);

@@ -7,7 +7,7 @@
 #include <stdatomic.h>
 
 #include "base/watch.h"
-#include "visibility/looks.h"
+#include "scene/scene-impl.h"
 
 struct hr2d_hierarchy {
   hr2d_allocator alloc;
@@ -16,7 +16,6 @@ struct hr2d_hierarchy {
   uint32_t *parent;
   uint16_t *level;
   size_t elements, capacity;
-  hr2di_looks *looks; /* keeps what patches see; NULL: each that looks walks beams */
   unsigned levels;    /* the deepest level */
   unsigned order;     /* coefficients per element */
   int refining;       /* a refinement is under way: callbacks may only read */

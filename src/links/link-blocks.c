@@ -164,12 +164,12 @@ static size_t count_threads(unsigned asked, uint64_t links) {
 
 /* Makes the blocks behind the `known` ones. */
 static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made, uint64_t known,
-                       unsigned threads, hr2di_watch *watch) {
+                       const hr2di_blocks_wanted *wanted, hr2di_watch *watch) {
   const hr2d_allocator *alloc = &links->alloc;
   maker m = {.links = links,
              .blocks = made,
              .known = known,
-             .threads = count_threads(threads, links->store.count - known),
+             .threads = count_threads(wanted->threads, links->store.count - known),
              .watch = watch};
   m.worker = hr2di_alloc_zero(alloc, m.threads, sizeof *m.worker);
   if (!m.worker) return HR2D_ENOMEM;
@@ -179,9 +179,9 @@ static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made, uint64_t kn
     worker *w = &m.worker[started];
     hr2di_watch_follow(&w->own, watch);
     status = hr2di_integrator_init(&w->work, links->hierarchy, alloc, made->order,
-                                   started == 0 ? watch : &w->own);
+                                   wanted->looks, started == 0 ? watch : &w->own);
     if (made->single) w->work.digits = HR2DI_SINGLE_DIGITS;
-    if (!status && made->order == links->block_order)
+    if (!status && made->order > links->hierarchy->order)
       status = hr2di_integrator_points(&w->work, made->order + MORE, 1);
     started++;
   }
@@ -227,32 +227,32 @@ static size_t lead_of(const hr2d_linkset *links, size_t order) {
 
 /* Whether what there is of blocks can be gone on with.  All of a block serves with any leading
    part. */
-static int are_alike(const hr2d_linkset *links, size_t order) {
+static int are_alike(const hr2d_linkset *links, const hr2di_blocks_wanted *wanted) {
   const hr2di_link_blocks *b = &links->blocks;
-  const size_t lead = lead_of(links, order);
-  return b->order == order && b->single == links->single && (b->lead == lead || lead == order);
+  const size_t order = wanted->order, lead = lead_of(links, order);
+  return b->order == order && b->single == wanted->single && (b->lead == lead || lead == order);
 }
 
-int hr2di_link_blocks_made(const hr2d_linkset *links, size_t order) {
-  return are_alike(links, order) && links->blocks.links == links->store.count;
+int hr2di_link_blocks_made(const hr2d_linkset *links, const hr2di_blocks_wanted *wanted) {
+  return are_alike(links, wanted) && links->blocks.links == links->store.count;
 }
 
-hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order, unsigned threads,
+hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, const hr2di_blocks_wanted *wanted,
                                    hr2di_watch *watch) {
   const uint64_t count = links->store.count;
   hr2di_link_blocks *known = &links->blocks;
-  if (!are_alike(links, order) || known->links >= count)
+  if (!are_alike(links, wanted) || known->links >= count)
     hr2di_link_blocks_clear(known, &links->alloc);
   hr2di_link_blocks made = *known;
-  if (made.links == 0) made.lead = lead_of(links, order);
-  made.order = order;
-  made.single = links->single;
+  if (made.links == 0) made.lead = lead_of(links, wanted->order);
+  made.order = wanted->order;
+  made.single = wanted->single;
   made.kernels = 0;
   *known = (hr2di_link_blocks){0};
   if (count == 0) return HR2D_OK;
   const uint64_t first = made.links;
   hr2d_status status = resize(&made, count, &links->alloc);
-  if (!status) status = run(links, &made, first, threads, watch);
+  if (!status) status = run(links, &made, first, wanted, watch);
   if (status)
     hr2di_link_blocks_clear(&made, &links->alloc);
   else

@@ -12,6 +12,7 @@
 
 #include "base/watch.h"
 #include "links/block-numbers.h"
+#include "visibility/looks.h"
 
 typedef struct hr2di_link_blocks {
   size_t order;
@@ -36,15 +37,21 @@ static inline hr2di_stored_block hr2di_link_blocks_at(const hr2di_link_blocks *b
 /* Moves the blocks of links [from, from + count) to those from `to` on. */
 void hr2di_link_blocks_move(hr2di_link_blocks *b, uint64_t to, uint64_t from, size_t count);
 
-/* Whether all links of a set have blocks of this order, of floats or doubles as links->single
-   says. */
-int hr2di_link_blocks_made(const hr2d_linkset *links, size_t order);
+/* The blocks that are wanted. */
+typedef struct hr2di_blocks_wanted {
+  size_t order;       /* above that of the hierarchy: for an account of errors, too */
+  int single;         /* numbers are floats */
+  hr2di_looks *looks; /* keeps what patches see; NULL: nothing is kept */
+  unsigned threads;   /* as in options; no bit depends on their number */
+} hr2di_blocks_wanted;
 
-/* Makes such blocks for all links of a set that have none, on as many threads as options ask
-   for; no bit depends on their number.  The order of the hierarchy is their leading part.
-   Returns HR2D_OK, HR2D_ENOMEM, or the status of the watch.  On failure the set has no blocks.
- */
-hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, size_t order, unsigned threads,
+/* Whether all links of a set have such blocks. */
+int hr2di_link_blocks_made(const hr2d_linkset *links, const hr2di_blocks_wanted *wanted);
+
+/* Makes such blocks for all links of a set that have none.  The order of the hierarchy is their
+   leading part.  Returns HR2D_OK, HR2D_ENOMEM, or the status of the watch.  On failure the set
+   has no blocks. */
+hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, const hr2di_blocks_wanted *wanted,
                                    hr2di_watch *watch);
 
 /* Keeps the leading part of all blocks alone. */

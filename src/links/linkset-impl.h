@@ -10,7 +10,6 @@
 #include "clusters/root-pairs.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/link-blocks.h"
-#include "links/row-pieces.h"
 #include "links/store.h"
 #include "scene/scene-impl.h"
 
@@ -23,16 +22,8 @@ struct hr2d_linkset {
   void *policy_ctx;
   hr2di_message message;
   hr2di_store store;
-  hr2di_link_blocks blocks; /* of links that were solved at an order above 1 */
-  int single;               /* blocks are made of floats */
-  size_t block_order;     /* blocks are made for this order, if that is above the hierarchy's */
-  double relative, floor; /* a solve may leave residuals of this part of the light that a leaf
-                             reflects, which counts as at least `floor` of the largest; 0: its
-                             tolerance alone counts */
-  const struct hr2d_solution *start; /* a solve begins with it if it is given no other start: of
-                                 elements of which these are a copy, some divided; NULL: none */
-  hr2d_share *share;              /* of a solve that these are the links of; NULL: all of it */
-  const hr2di_row_pieces *pieces; /* which links a refinement keeps; NULL: all of its rows */
+  hr2di_link_blocks blocks;  /* of links that were solved at an order above 1 */
+  hr2d_share *share;         /* of a solve that these are the links of; NULL: all of it */
   hr2di_roots roots;         /* where a refinement begins; empty: at all pairs of patches */
   unsigned char *sees_backs; /* per patch, see hr2di_seen_backs(); NULL: nobody has looked, or
                                 there are no backs to see */

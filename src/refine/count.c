@@ -26,6 +26,7 @@ enum {
 
 typedef struct team {
   hr2d_linkset *links;
+  hr2di_refine_how how;
   hr2d_refine_options options;
   size_t count;
   hr2di_worker *worker;
@@ -80,7 +81,7 @@ static hr2d_status hire(team *t, size_t k, const hr2d_hierarchy *from) {
   hr2d_refine_options options = t->options;
   options.max_bytes = part_of_budget(t);
   const hr2d_status status =
-      hr2di_worker_hire(w, k, t->links, from, &options, t->watch, "count");
+      hr2di_worker_hire(w, k, t->links, from, &t->how, &options, t->watch, "count");
   t->clone[k] = w->clone;
   if (status == HR2D_EMAX_BYTES)
     return hr2di_projector_fail_budget(&w->links, t->options.max_bytes, 0);
@@ -233,7 +234,8 @@ static hr2d_status sum_up(team *t, hr2d_refine_counts *counts) {
   if (status) return status;
   *counts = sum;
   if (t->options.row_counts)
-    memset(t->options.row_counts, 0, hr2di_projector_rows(links) * sizeof(hr2d_row_counts));
+    memset(t->options.row_counts, 0,
+           hr2di_projector_rows(t->worker[0].projector) * sizeof(hr2d_row_counts));
   for (size_t k = 0; k < hired; k++)
     hr2di_projector_add_rows(t->worker[k].projector, t->options.row_counts);
   hr2di_projector_count_elements(links->hierarchy, counts);
@@ -261,11 +263,10 @@ static hr2d_status count_as_team(team *t, hr2d_refine_counts *counts) {
   return status ? status : sum_up(t, counts);
 }
 
-hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *options,
-                              hr2d_refine_counts *counts) {
-  if (!links || !counts) return HR2D_EINVAL;
+hr2d_status hr2di_refine_count(hr2d_linkset *links, const hr2di_refine_how *how,
+                               const hr2d_refine_options *options, hr2d_refine_counts *counts) {
   hr2di_watch watch;
-  team t = {.links = links, .watch = &watch};
+  team t = {.links = links, .how = *how, .watch = &watch};
   if (links->store.count > 0)
     return hr2di_message_fail(&links->message, HR2D_ESTATE, "the set has links already");
   hr2d_status status = hr2di_projector_check_options(links, options, &t.options);
@@ -289,4 +290,10 @@ hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *op
   hr2di_worker_destroy(t.worker, t.count, &links->alloc);
   hr2di_alloc_free(&links->alloc, t.clone);
   return status;
+}
+
+hr2d_status hr2d_refine_count(hr2d_linkset *links, const hr2d_refine_options *options,
+                              hr2d_refine_counts *counts) {
+  if (!links || !counts) return HR2D_EINVAL;
+  return hr2di_refine_count(links, &(hr2di_refine_how){0}, options, counts);
 }

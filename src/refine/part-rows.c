@@ -12,7 +12,7 @@ uint64_t hr2di_part_rows_tests(const hr2di_projector *p) {
 }
 
 void hr2di_part_rows_begin(hr2di_projector *p, uint32_t slot) {
-  const hr2di_row_pieces *pieces = p->links->pieces;
+  const hr2di_row_pieces *pieces = p->how.pieces;
   p->part.count = hr2di_slot_pieces(pieces, slot);
   p->part.mine = pieces->mine + pieces->first[slot];
   p->part.next = 0;

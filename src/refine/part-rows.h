@@ -12,7 +12,7 @@
 /* Whether a pair of patches is to be proposed with a slot, or with all whole ones. */
 static inline int hr2di_part_rows_want(const hr2di_projector *p, size_t row, size_t other,
                                        uint32_t slot) {
-  const hr2di_row_pieces *pieces = p->links->pieces;
+  const hr2di_row_pieces *pieces = p->how.pieces;
   if (!pieces) return 1;
   const uint32_t of = hr2di_row_slot(pieces, row, other);
   if (slot != HR2DI_WHOLE_SLOTS) return of == slot;

@@ -93,7 +93,7 @@ static hr2d_status set_brightness(hr2di_projector *p) {
 }
 
 static hr2d_status set_rows(hr2di_projector *p) {
-  const size_t rows = hr2di_projector_rows(p->links);
+  const size_t rows = hr2di_projector_rows(p);
   if (!p->options.row_counts) return HR2D_OK;
   p->bytes += rows * sizeof *p->rows;
   const hr2d_status status = hr2di_projector_check_budget(p, 0);
@@ -105,7 +105,7 @@ static hr2d_status set_rows(hr2di_projector *p) {
 }
 
 void hr2di_projector_add_rows(const hr2di_projector *p, hr2d_row_counts *sum) {
-  for (size_t k = 0; p->rows && k < hr2di_projector_rows(p->links); k++) {
+  for (size_t k = 0; p->rows && k < hr2di_projector_rows(p); k++) {
     sum[k].links += p->rows[k].links;
     sum[k].visibility_tests += p->rows[k].visibility_tests;
   }
@@ -145,15 +145,16 @@ static hr2d_status set_sights(hr2di_projector *p) {
   const hr2d_status status = hr2di_projector_check_budget(p, 0);
   if (status) return status;
   p->sights = hr2di_alloc_zero(&p->links->alloc, 1, sizeof *p->sights);
-  if (!p->sights || hr2di_patch_sights_init(p->sights, scene, p->hierarchy->looks,
-                                            &p->links->alloc, p->watch))
+  if (!p->sights ||
+      hr2di_patch_sights_init(p->sights, scene, p->how.looks, &p->links->alloc, p->watch))
     return hr2di_message_fail(&p->links->message, HR2D_ENOMEM,
                               "out of memory for the refinement");
   return HR2D_OK;
 }
 
-hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_options *options,
-                                   hr2di_watch *watch, hr2di_projector **made) {
+hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2di_refine_how *how,
+                                   const hr2d_refine_options *options, hr2di_watch *watch,
+                                   hr2di_projector **made) {
   const uint64_t held = sizeof(hr2di_projector) + hr2di_store_bytes(&links->store) +
                         (uint64_t)links->hierarchy->capacity * HR2DI_ELEMENT_BYTES;
   if (options->max_bytes && held > options->max_bytes)
@@ -164,6 +165,7 @@ hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_option
   p->links = links;
   p->hierarchy = links->hierarchy;
   p->options = *options;
+  p->how = *how;
   p->watch = watch;
   p->budget = options->max_bytes;
   p->occluded.list.alloc = p->found.alloc = p->parts.alloc = links->alloc;
@@ -244,7 +246,7 @@ static hr2d_status propose_slot(hr2di_projector *p, size_t patch, uint32_t slot)
 /* Slots with several pieces are refined one after the other: the order of their links does not
    depend on other slots. */
 static hr2d_status project_pieces(hr2di_projector *p, size_t patch) {
-  const hr2di_row_pieces *pieces = p->links->pieces;
+  const hr2di_row_pieces *pieces = p->how.pieces;
   hr2d_status status = hr2di_row_look_round(p, patch);
   for (uint32_t k = 0; k < hr2di_row_slots(pieces, patch) && !status; k++) {
     const uint32_t slot = pieces->slot[patch] + k;
@@ -259,7 +261,7 @@ static hr2d_status project_pieces(hr2di_projector *p, size_t patch) {
 
 hr2d_status hr2di_projector_row(hr2di_projector *p, size_t patch) {
   if (!has_row(p, patch)) return hr2di_projector_fail(p, hr2di_projector_work(p, 1), "");
-  const hr2d_status status = p->links->pieces ? project_pieces(p, patch) : HR2D_OK;
+  const hr2d_status status = p->how.pieces ? project_pieces(p, patch) : HR2D_OK;
   return status ? status : propose_slot(p, patch, HR2DI_WHOLE_SLOTS);
 }
 

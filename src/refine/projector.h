@@ -8,6 +8,7 @@
 #include "base/watch.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/linkset-impl.h"
+#include "refine/refine-how.h"
 #include "visibility/patch-sights.h"
 
 enum {
@@ -50,6 +51,7 @@ typedef struct hr2di_projector hr2di_projector;
 struct hr2di_projector {
   hr2d_linkset *links;
   hr2d_hierarchy *hierarchy;
+  hr2di_refine_how how;
   hr2d_refine_options options;
   hr2di_sink sink; /* NULL: links are only counted */
   void *sink_ctx;
@@ -65,7 +67,7 @@ struct hr2di_projector {
   double roots, roots_done; /* root pairs, all and done so far, for progress */
   double fraction;          /* of them, when it was measured last; see rounds.h */
   unsigned ticks;           /* rounds since then */
-  hr2d_row_counts *rows;    /* per patch, or per slot of links->pieces; NULL: nobody asks */
+  hr2d_row_counts *rows;    /* per patch, or per slot of how.pieces; NULL: nobody asks */
   hr2di_part_row part;
   uint64_t other_tests; /* of visibility, that another share counts, by all workers */
   hr2di_watch *watch;   /* of the thread that uses this */
@@ -99,8 +101,9 @@ hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine
 
 /* Creates a projector for checked options; the caller destroys it.  Returns HR2D_OK,
    HR2D_ENOMEM, HR2D_EMAX_BYTES or the status of the watch, and leaves a message on failure. */
-hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2d_refine_options *options,
-                                   hr2di_watch *watch, hr2di_projector **made);
+hr2d_status hr2di_projector_create(hr2d_linkset *links, const hr2di_refine_how *how,
+                                   const hr2d_refine_options *options, hr2di_watch *watch,
+                                   hr2di_projector **made);
 void hr2di_projector_destroy(hr2di_projector *p);
 
 /* Proposes a patch with all later patches, or with all others if links are directed.  Refused
@@ -119,16 +122,16 @@ hr2d_status hr2di_projector_propose_clipped(hr2di_projector *p, const hr2d_pair 
 hr2d_status hr2di_projector_claim(hr2di_projector *p, hr2d_pair *pairs, size_t *count);
 
 /* How many rows, or slots of rows, have counts of their own. */
-static inline size_t hr2di_projector_rows(const hr2d_linkset *links) {
-  const size_t rows = hr2di_scene_cell(links->hierarchy->scene);
-  return links->pieces ? links->pieces->slot[rows] : rows;
+static inline size_t hr2di_projector_rows(const hr2di_projector *p) {
+  const size_t rows = hr2di_scene_cell(p->hierarchy->scene);
+  return p->how.pieces ? p->how.pieces->slot[rows] : rows;
 }
 
 /* Counts links, or tests of visibility, of a pair of patches, if anybody asks. */
 static inline void hr2di_projector_in_row(hr2di_projector *p, size_t patch, size_t other,
                                           uint64_t links, uint64_t tests) {
   if (!p->rows) return;
-  const hr2di_row_pieces *pieces = p->links->pieces;
+  const hr2di_row_pieces *pieces = p->how.pieces;
   hr2d_row_counts *row = &p->rows[pieces ? hr2di_row_slot(pieces, patch, other) : patch];
   row->links += links;
   row->visibility_tests += tests;

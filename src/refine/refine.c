@@ -51,7 +51,7 @@ static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
   p->other_tests += p->part.others;
   if (status) hr2di_hierarchy_truncate(h, elements);
   if (!status && p->rows) {
-    memset(p->options.row_counts, 0, hr2di_projector_rows(p->links) * sizeof *p->rows);
+    memset(p->options.row_counts, 0, hr2di_projector_rows(p) * sizeof *p->rows);
     hr2di_projector_add_rows(p, p->options.row_counts);
   }
   return status;
@@ -211,7 +211,8 @@ static hr2d_status unite(hr2di_projector *p, size_t elements, hr2di_store *made,
   return status;
 }
 
-static hr2d_status refine(hr2d_linkset *links, const hr2d_refine_options *options) {
+static hr2d_status refine(hr2d_linkset *links, const hr2di_refine_how *how,
+                          const hr2d_refine_options *options) {
   const hr2d_refine_options used = *options;
   const size_t elements = links->hierarchy->elements;
   hr2di_projector *p = NULL;
@@ -219,7 +220,7 @@ static hr2d_status refine(hr2d_linkset *links, const hr2d_refine_options *option
   hr2di_store made = {.packs = used.packed != 0};
   hr2di_scene_watch(links->hierarchy->scene, &watch, used.progress, used.progress_ctx,
                     "refine");
-  hr2d_status status = hr2di_projector_create(links, &used, &watch, &p);
+  hr2d_status status = hr2di_projector_create(links, how, &used, &watch, &p);
   if (status) return status;
   p->bytes += sizeof(storing);
   status = hr2di_projector_check_budget(p, 0);
@@ -254,14 +255,18 @@ static hr2d_status refine(hr2d_linkset *links, const hr2d_refine_options *option
   return status;
 }
 
-hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *given) {
-  if (!links) return HR2D_EINVAL;
+hr2d_status hr2di_refine(hr2d_linkset *links, const hr2di_refine_how *how,
+                         const hr2d_refine_options *given) {
   hr2d_refine_options options;
   const hr2d_status status = hr2di_projector_check_options(links, given, &options);
   if (status) return status;
   hr2di_share_begin(options.share);
   if (options.share) links->message.text[0] = 0;
-  return hr2di_share_agree(options.share, refine(links, &options));
+  return hr2di_share_agree(options.share, refine(links, how, &options));
+}
+
+hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options) {
+  return links ? hr2di_refine(links, &(hr2di_refine_how){0}, options) : HR2D_EINVAL;
 }
 
 typedef struct visiting {
@@ -303,7 +308,8 @@ hr2d_status hr2d_refine_visit(hr2d_linkset *links, const hr2d_refine_options *op
   hr2d_status status = hr2di_projector_check_options(links, options, &used);
   hr2di_scene_watch(links->hierarchy->scene, &watch, used.progress, used.progress_ctx,
                     "refine");
-  if (!status) status = hr2di_projector_create(links, &used, &watch, &p);
+  if (!status)
+    status = hr2di_projector_create(links, &(hr2di_refine_how){0}, &used, &watch, &p);
   if (status) return status;
   p->bytes += sizeof(visiting);
   status = hr2di_projector_check_budget(p, 0);

@@ -25,7 +25,7 @@ static hr2d_status look_for(hr2di_projector *p, size_t row, size_t other) {
 }
 
 hr2d_status hr2di_row_look_round(hr2di_projector *p, size_t row) {
-  const hr2di_row_pieces *pieces = p->links->pieces;
+  const hr2di_row_pieces *pieces = p->how.pieces;
   const hr2di_roots *known = &p->links->roots;
   if (!p->sights || hr2di_row_slots(pieces, row) == 1) return HR2D_OK;
   const int counts = hr2di_slot_counts(pieces, pieces->slot[row]);

@@ -160,7 +160,8 @@ static hr2d_status do_band(rows *all, size_t count) {
 static hr2d_status hire(rows *all, size_t k) {
   hr2di_worker *w = &all->worker[k];
   const hr2di_projector *p = all->p;
-  if (hr2di_worker_hire(w, k, p->links, p->hierarchy, &p->options, p->watch, "refinement"))
+  if (hr2di_worker_hire(w, k, p->links, p->hierarchy, &p->how, &p->options, p->watch,
+                        "refinement"))
     return w->status;
   w->projector->sink = keep;
   w->projector->sink_ctx = w;

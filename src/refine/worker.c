@@ -16,8 +16,9 @@ size_t hr2di_worker_count(const hr2d_linkset *links, unsigned threads) {
 }
 
 hr2d_status hr2di_worker_hire(hr2di_worker *w, size_t k, const hr2d_linkset *links,
-                              const hr2d_hierarchy *from, const hr2d_refine_options *options,
-                              hr2di_watch *watch, const char *what) {
+                              const hr2d_hierarchy *from, const hr2di_refine_how *how,
+                              const hr2d_refine_options *options, hr2di_watch *watch,
+                              const char *what) {
   w->links = *links;
   w->links.store = (hr2di_store){0};
   w->links.message.text[0] = '\0';
@@ -30,7 +31,7 @@ hr2d_status hr2di_worker_hire(hr2di_worker *w, size_t k, const hr2d_linkset *lin
   w->clone->refining = 1;
   hr2di_watch_follow(&w->own, watch);
   w->status =
-      hr2di_projector_create(&w->links, options, k == 0 ? watch : &w->own, &w->projector);
+      hr2di_projector_create(&w->links, how, options, k == 0 ? watch : &w->own, &w->projector);
   return w->status;
 }
 

@@ -22,8 +22,9 @@ size_t hr2di_worker_count(const hr2d_linkset *links, unsigned threads);
    calling thread.  `what` is to be made, for a message.  Returns the status, which the worker
    has, too. */
 hr2d_status hr2di_worker_hire(hr2di_worker *worker, size_t k, const hr2d_linkset *links,
-                              const hr2d_hierarchy *from, const hr2d_refine_options *options,
-                              hr2di_watch *watch, const char *what);
+                              const hr2d_hierarchy *from, const hr2di_refine_how *how,
+                              const hr2d_refine_options *options, hr2di_watch *watch,
+                              const char *what);
 
 /* HR2D_OK if no worker has failed.  Otherwise the status of the first one with a message, which
    becomes that of the links: one that stopped because another one failed has none. */

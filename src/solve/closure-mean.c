@@ -44,7 +44,7 @@ hr2d_status hr2di_closure_set_mean(hr2di_transport *t) {
 }
 
 static int lacks_clusters(const hr2di_transport *t, size_t patch) {
-  const hr2di_clusters *clusters = t->links->roots.clusters;
+  const hr2di_clusters *clusters = t->roots->clusters;
   return clusters && hr2di_clusters_links(clusters) > 0 && t->closed && t->closed[patch];
 }
 
@@ -85,5 +85,5 @@ void hr2di_closure_move_mean(const hr2di_transport *t, const double *radiosity,
     if (hr2di_closure_is_error(t, patch))
       irradiance[k] -= t->mean[patch] * (radiosity[k] - irradiance[k]);
   }
-  if (t->mean && t->links->roots.clusters) balance(t, radiosity, irradiance);
+  if (t->mean && t->roots->clusters) balance(t, radiosity, irradiance);
 }

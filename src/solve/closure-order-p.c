@@ -148,7 +148,7 @@ static hr2d_status find_closed(rows *r) {
 /* The same if links of clusters carry a part of the rows.  Their accuracy is known; openings up
    to ten times that count as none. */
 static void find_closed_by_rows(rows *r, hr2di_transport *t) {
-  const double none = 10 * t->links->roots.accuracy;
+  const double none = 10 * t->roots->accuracy;
   hr2di_transport_pull(t, r->all);
   for (size_t k = 0; k < t->hierarchy->scene->patches; k++)
     r->closed[k] = fabs(1 - t->up[k * t->width]) <= none;
@@ -190,7 +190,7 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
   }
   hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, r->one, r->all);
   if (t->failed) return;
-  const hr2di_clusters *clusters = t->links->roots.clusters;
+  const hr2di_clusters *clusters = t->roots->clusters;
   if (clusters && hr2di_clusters_links(clusters) > 0)
     find_closed_by_rows(r, t);
   else

@@ -59,14 +59,17 @@ static hr2d_status integrate_rows(hr2di_equation *s) {
 }
 
 /* Makes the blocks that an order above 1 needs, unless a former solve has made them. */
-static hr2d_status integrate_blocks(hr2di_equation *s) {
+static hr2d_status integrate_blocks(hr2di_equation *s, const hr2di_equation_how *how) {
   hr2d_linkset *links = s->links;
-  const size_t own = links->hierarchy->order;
-  const size_t order = own > 1 && links->block_order > own ? links->block_order : own;
-  if (order == 1 || hr2di_link_blocks_made(links, order)) return HR2D_OK;
+  const size_t own = how->order ? how->order : links->hierarchy->order;
+  const hr2di_blocks_wanted wanted = {
+      .order = own > 1 && how->block_order > own ? how->block_order : own,
+      .single = how->single,
+      .looks = how->looks,
+      .threads = s->options.threads};
+  if (wanted.order == 1 || hr2di_link_blocks_made(links, &wanted)) return HR2D_OK;
   const double start = hr2di_clock_now();
-  const hr2d_status status =
-      hr2di_link_blocks_init(links, order, s->options.threads, &s->watch);
+  const hr2d_status status = hr2di_link_blocks_init(links, &wanted, &s->watch);
   s->kernels = links->blocks.kernels;
   s->coefficients_seconds = hr2di_clock_now() - start;
   return status;
@@ -141,10 +144,15 @@ static hr2d_status set_outside(hr2di_equation *s) {
   return s->outside ? hr2di_outside_set(t, s->light, s->exponent, s->outside) : HR2D_ENOMEM;
 }
 
+hr2di_equation_how hr2di_equation_how_of(const hr2d_linkset *links) {
+  return (hr2di_equation_how){.single = links->blocks.single};
+}
+
 hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links, const hr2d_scene *scene,
+                                const hr2di_equation_how *how,
                                 const hr2d_solve_options *options) {
-  *s = (hr2di_equation){.links = links, .options = *options, .background = 1};
-  s->enough = (hr2di_enough){.part = links->relative, .floor = links->floor};
+  *s = (hr2di_equation){
+      .links = links, .options = *options, .background = 1, .enough = how->enough};
   if (!(s->options.tolerance > 0)) s->options.tolerance = HR2D_DEFAULT_TOLERANCE;
   if (!s->options.max_iterations) s->options.max_iterations = HR2D_DEFAULT_MAX_ITERATIONS;
   s->transport.alloc = links->alloc;
@@ -153,11 +161,12 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links, const hr
                     options->progress_ctx, "rows");
   s->watch.told.elements = links->hierarchy->elements;
   s->watch.told.links = links->store.count;
-  hr2d_status status = integrate_blocks(s);
+  hr2d_status status = integrate_blocks(s, how);
   if (status) return status;
   hr2di_watch_phase(&s->watch, "rows");
-  status = hr2di_transport_init(t, s->links, s->options.threads, &s->watch);
+  status = hr2di_transport_init(t, s->links, how->order, s->options.threads, &s->watch);
   t->scene = scene;
+  if (how->roots) t->roots = how->roots;
   if (!status) status = integrate_rows(s);
   if (!status && t->closure) status = hr2di_closure_set_mean(t);
   if (!status && t->closure && !links->directed) status = hr2di_balance_init(&s->balance, t);

@@ -9,6 +9,7 @@
 #include "base/krylov.h"
 #include "solve/energy-balance.h"
 #include "solve/transport.h"
+#include "visibility/looks.h"
 
 /* When a solve may end before its residual has the tolerance: see equation-enough.c. */
 typedef struct hr2di_enough {
@@ -47,12 +48,28 @@ typedef struct hr2di_equation {
   uint64_t looks; /* residuals seen: one before the first iteration, one after each */
 } hr2di_equation;
 
+/* What no public option says of an equation.  It must outlive the equation. */
+typedef struct hr2di_equation_how {
+  size_t order;             /* coefficients on each leaf; 0: those of the hierarchy */
+  size_t block_order;       /* links get blocks for so many, if these are more */
+  int single;               /* blocks that are made are of floats */
+  const hr2di_roots *roots; /* whose clusters exchange light; NULL: those of the links */
+  hr2di_looks *looks;       /* keeps what patches see; NULL: nothing is kept */
+  hr2di_enough enough;
+  const hr2d_solution *start; /* a solve begins with it if it is given no other start: of
+                                 elements of which these are a copy, some divided; NULL: none */
+} hr2di_equation_how;
+
+/* As hr2d_solve() has it: blocks stay of floats if they are. */
+hr2di_equation_how hr2di_equation_how_of(const hr2d_linkset *links);
+
 /* For E and ρ of a scene: that of the links, or a settled one of it, see settled.h.  Integrates
    blocks if the links have none, and row sums if they are called for.  Returns
    HR2D_OK, HR2D_ENOMEM, or the status of the progress callback.  Call hr2di_equation_clear() in
    any case.  The struct must not be moved. */
 hr2d_status hr2di_equation_init(hr2di_equation *eq, hr2d_linkset *links,
-                                const hr2d_scene *scene, const hr2d_solve_options *options);
+                                const hr2d_scene *scene, const hr2di_equation_how *how,
+                                const hr2d_solve_options *options);
 void hr2di_equation_clear(hr2di_equation *eq);
 
 /* Takes √ρ of the scene where it has changed.  Returns HR2D_OK or the status of the watch. */

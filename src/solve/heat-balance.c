@@ -59,7 +59,8 @@ static hr2d_status reserve(hr2di_heat_balance *h) {
 hr2d_status hr2di_heat_balance_init(hr2di_heat_balance *h, hr2d_scene *settled,
                                     hr2d_linkset *links, const hr2d_solve_options *options) {
   *h = (hr2di_heat_balance){.scene = settled};
-  hr2d_status status = hr2di_equation_init(&h->eq, links, settled, options);
+  const hr2di_equation_how how = hr2di_equation_how_of(links);
+  hr2d_status status = hr2di_equation_init(&h->eq, links, settled, &how, options);
   if (!status) status = reserve(h);
   if (status) hr2di_message_fail(&links->message, status, "%s", hr2d_strerror(status));
   return status;

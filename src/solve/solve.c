@@ -16,6 +16,7 @@
 #include "solve/existence.h"
 #include "solve/heat-scene.h"
 #include "solve/power-cut-off.h"
+#include "solve/solve-how.h"
 
 static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *o, int adopts) {
   hr2di_message *message = &links->message;
@@ -239,11 +240,12 @@ static void tell_refusal(const hr2di_equation *eq, hr2d_status status) {
 }
 
 /* With a `field` it is adopted. */
-static hr2d_status solve(hr2d_linkset *links, const hr2d_solve_options *options,
-                         const double *field, hr2d_solution **solution) {
+static hr2d_status solve(hr2d_linkset *links, const hr2di_equation_how *how,
+                         const hr2d_solve_options *options, const double *field,
+                         hr2d_solution **solution) {
   hr2di_equation eq;
-  hr2d_status status = hr2di_equation_init(&eq, links, links->hierarchy->scene, options);
-  if (!eq.options.start) eq.options.start = links->start;
+  hr2d_status status = hr2di_equation_init(&eq, links, links->hierarchy->scene, how, options);
+  if (!eq.options.start) eq.options.start = how->start;
   if (!status) status = field ? adopt(&eq, field) : find(&eq);
   if (!status) status = make_solution(&eq, solution);
   tell_refusal(&eq, status);
@@ -289,8 +291,9 @@ static hr2d_status agree(hr2d_linkset *links, hr2d_status own, hr2d_solution **s
 }
 
 /* During the solve callbacks may change neither the links nor the hierarchy. */
-static hr2d_status run(hr2d_linkset *links, const hr2d_solve_options *given,
-                       const double *field, hr2d_solution **solution) {
+static hr2d_status run(hr2d_linkset *links, const hr2di_equation_how *how,
+                       const hr2d_solve_options *given, const double *field,
+                       hr2d_solution **solution) {
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   if (hr2di_sized_copy(&options, sizeof options, given))
     return hr2di_message_fail(&links->message, HR2D_EINVAL, "struct_size is not set");
@@ -309,7 +312,7 @@ static hr2d_status run(hr2d_linkset *links, const hr2d_solve_options *given,
   hr2d_solution *made = NULL;
   if (!status)
     status = settled ? solve_heat(links, &options, settled, &made)
-                     : solve(links, &options, field, &made);
+                     : solve(links, how, &options, field, &made);
   atomic_fetch_sub(&links->hierarchy->readers, 1);
   links->solving = 0;
   if (status) hr2di_settled_destroy(settled);
@@ -320,14 +323,21 @@ static hr2d_status run(hr2d_linkset *links, const hr2d_solve_options *given,
   return status;
 }
 
-hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *given,
+hr2d_status hr2di_solve(hr2d_linkset *links, const hr2di_equation_how *how,
+                        const hr2d_solve_options *options, hr2d_solution **solution) {
+  return run(links, how, options, NULL, solution);
+}
+
+hr2d_status hr2d_solve(hr2d_linkset *links, const hr2d_solve_options *options,
                        hr2d_solution **solution) {
   if (!links || !solution) return HR2D_EINVAL;
-  return run(links, given, NULL, solution);
+  const hr2di_equation_how how = hr2di_equation_how_of(links);
+  return run(links, &how, options, NULL, solution);
 }
 
 hr2d_status hr2d_solution_adopt(hr2d_linkset *links, const hr2d_solve_options *given,
                                 const double *field, hr2d_solution **solution) {
   if (!links || !field || !solution) return HR2D_EINVAL;
-  return run(links, given, field, solution);
+  const hr2di_equation_how how = hr2di_equation_how_of(links);
+  return run(links, &how, given, field, solution);
 }

@@ -37,18 +37,20 @@ size_t hr2di_transport_slices(const hr2d_linkset *links, size_t order) {
   return slices < 1 ? 1 : (size_t)(slices < most ? slices : most);
 }
 
-hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
+hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links, size_t order,
                                  unsigned threads, hr2di_watch *watch) {
   const hr2d_hierarchy *h = links->hierarchy;
+  if (order == 0) order = h->order;
   *t = (hr2di_transport){.links = links,
+                         .roots = &links->roots,
                          .hierarchy = h,
                          .scene = h->scene,
                          .alloc = links->alloc,
-                         .order = h->order,
+                         .order = order,
                          .bands = h->scene->bands,
-                         .width = h->order * h->scene->bands,
+                         .width = order * h->scene->bands,
                          .elements = h->elements,
-                         .slices = hr2di_transport_slices(links, h->order),
+                         .slices = hr2di_transport_slices(links, order),
                          .threads = threads,
                          .watch = watch};
   /* The width of a field may overflow a size_t of 32 bits.  No field is larger than those
@@ -223,7 +225,7 @@ static void gather_clusters(hr2di_transport *t) {
                                     .threads = t->threads,
                                     .room = &t->room,
                                     .watch = t->watch};
-  t->failed = hr2di_clusters_gather(t->links->roots.clusters, &how, t->up, t->down);
+  t->failed = hr2di_clusters_gather(t->roots->clusters, &how, t->up, t->down);
 }
 
 /* Divides power by length to get irradiance. */
@@ -289,7 +291,7 @@ static void gather(hr2di_transport *t, hr2di_transport_part part) {
   else
     gather_slices(t, part);
   if (has_failed(t)) return;
-  if (t->links->roots.clusters && part == HR2DI_ALL_LINKS) gather_clusters(t);
+  if (t->roots->clusters && part == HR2DI_ALL_LINKS) gather_clusters(t);
   hr2di_ties_fold(&t->ties, t->order, t->bands, t->down);
   if (!has_failed(t)) divide(t);
 }

@@ -12,6 +12,7 @@
 
 typedef struct hr2di_transport {
   const hr2d_linkset *links;
+  const hr2di_roots *roots; /* with the clusters that exchange light: of the links, or finer */
   hr2di_link_blocks blocks; /* of the links, above order 1; */
   void *leading; /* their values, where the operator has fewer than their leading part */
   const hr2d_hierarchy *hierarchy;
@@ -53,10 +54,11 @@ static inline size_t hr2di_transport_room(const hr2di_transport *t) {
 /* The copies of `down` that the operator of an order has. */
 size_t hr2di_transport_slices(const hr2d_linkset *links, size_t order);
 
-/* Sets up the operator at the order of the hierarchy; above 1 the links must have blocks.
+/* Sets up the operator at an order, with 0 at that of the hierarchy; above 1 the links must
+   have blocks.
    Returns HR2D_OK, HR2D_ENOMEM or the status of the watch.  Call hr2di_transport_clear() in any
    case. */
-hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links,
+hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links, size_t order,
                                  unsigned threads, hr2di_watch *watch);
 
 void hr2di_transport_clear(hr2di_transport *t);

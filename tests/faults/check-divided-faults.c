@@ -7,6 +7,7 @@
 #include "accuracy/divided-links.h"
 #include "base/share.h"
 #include "hierarchy/hierarchy-impl.h"
+#include "solve/solve-how.h"
 #include "support/shares.h"
 #include "support/slow-scenes.h"
 #include "support/support.h"
@@ -39,6 +40,11 @@ static void clear(trees *t) {
   hr2d_hierarchy_destroy(t->hierarchy);
 }
 
+static hr2d_status solve_with(trees *t, int single) {
+  const hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+  return hr2di_solve(t->links, &(hr2di_equation_how){.single = single}, &options, &t->solution);
+}
+
 /* Links with blocks, as a solve leaves them. */
 static hr2d_status solve(trees *t, const hr2d_scene *scene, const hr2d_refine_options *options,
                          int single) {
@@ -46,8 +52,7 @@ static hr2d_status solve(trees *t, const hr2d_scene *scene, const hr2d_refine_op
   if (!status) status = hr2d_linkset_create(t->hierarchy, NULL, NULL, NULL, NULL, &t->links);
   if (!status) status = hr2d_refine(t->links, options);
   if (!status) status = hr2d_hierarchy_set_order(t->hierarchy, ORDER);
-  if (!status) t->links->single = single;
-  return status ? status : hr2d_solve(t->links, NULL, &t->solution);
+  return status ? status : solve_with(t, single);
 }
 
 /* A leaf of some patches is halved. */
@@ -73,14 +78,14 @@ static void try(plan *p, hr2d_share *share, const hr2d_refine_options *given, tr
   hr2di_share_begin(share);
   if (p->fails_at >= 0 && share->number == p->victim)
     atomic_store(&o->memory.until_failure, p->fails_at);
-  const hr2d_status status = hr2di_divided_links(fine->links, coarse->links, &options);
+  const hr2d_status status =
+      hr2di_divided_links(fine->links, coarse->links, &(hr2di_refine_how){0}, &options);
   atomic_store(&o->memory.until_failure, -1);
   o->status = hr2di_share_agree(share, status);
   if (o->status) return;
-  fine->links->single = p->single;
   o->links = hr2d_linkset_size(fine->links);
   o->stay = fine->links->blocks.links;
-  o->other = hr2d_solve(fine->links, NULL, &fine->solution);
+  o->other = solve_with(fine, p->single);
   if (!o->other) o->average = hr2d_solution_average(fine->solution, 1, 0);
 }
 

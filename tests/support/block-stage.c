@@ -51,7 +51,8 @@ static int make(const block_stage *s, size_t order, int swapped, int fewer, doub
   int distant;
   const hr2d_allocator *alloc = &s->hierarchy->alloc;
   const hr2d_pair swap = {s->pair.second, s->pair.first};
-  ck_assert_int_eq(hr2di_integrator_init(&work, s->hierarchy, alloc, order, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2di_integrator_init(&work, s->hierarchy, alloc, order, NULL, NULL),
+                   HR2D_OK);
   if (fewer) ck_assert_int_eq(hr2di_integrator_points(&work, order + 2, 1), HR2D_OK);
   ck_assert_int_eq(hr2di_block(&work, swapped ? swap : s->pair, 0, block, &distant), HR2D_OK);
   for (size_t k = 0; k < order * order; k++) block[k] *= hr2d_scene_unit(s->scene);
@@ -65,7 +66,8 @@ void block_stage_lines(const block_stage *s, size_t order, double *block) {
   hr2di_vertex end[4];
   for (size_t k = 0; k < order * order; k++) block[k] = 0;
   ck_assert_int_eq(
-      hr2di_integrator_init(&work, s->hierarchy, &s->hierarchy->alloc, order, NULL), HR2D_OK);
+      hr2di_integrator_init(&work, s->hierarchy, &s->hierarchy->alloc, order, NULL, NULL),
+      HR2D_OK);
   hr2di_line_frame_init(&frame, s->hierarchy, s->pair);
   if (hr2di_line_ends(&frame, end, end + 2))
     ck_assert_int_eq(hr2di_block_of_vertices(&work, &frame, end, 2, 2, block), HR2D_OK);

@@ -3,6 +3,7 @@
    the lamp: against exchange areas of all pairs of pieces, by crossed strings. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "accuracy/error-estimate.h"
 #include "accuracy/resolution.h"
@@ -122,7 +123,6 @@ static void try_accuracy(const hr2d_scene *scene, double target, double accuracy
                    HR2D_OK);
   ck_assert_ptr_nonnull(t->answer.links->roots.clusters);
   ck_assert_uint_gt(hr2di_clusters_links(t->answer.links->roots.clusters), 0);
-  hr2di_error_prepare(&t->answer, &t->fineness);
   ck_assert_int_eq(hr2di_graded_solve(&t->answer, &t->fineness, &t->target, &message), HR2D_OK);
   ck_assert_int_eq(
       hr2di_error_estimate(&t->answer, &t->fineness, &t->target, &t->errors, &message),
@@ -203,7 +203,56 @@ START_TEST(a_round_room_is_solved_at_once) {
 }
 END_TEST
 
+/* What a callback reads of an answer that is judged. */
+typedef struct reading {
+  const hr2di_graded *answer;
+  unsigned order;
+  hr2di_roots roots;
+  uint64_t links;
+  hr2d_refine_counts counts;
+  int calls;
+} reading;
+
+static reading read_answer(const hr2di_graded *answer) {
+  return (reading){.answer = answer,
+                   .order = hr2d_hierarchy_order(answer->hierarchy),
+                   .roots = answer->links->roots,
+                   .links = hr2d_linkset_size(answer->links),
+                   .counts = hr2d_linkset_counts(answer->links)};
+}
+
+static hr2d_status read_again(void *ctx, const hr2d_progress *progress) {
+  (void)progress;
+  reading *before = ctx;
+  const reading now = read_answer(before->answer);
+  ck_assert_uint_eq(now.order, before->order);
+  ck_assert_uint_eq(now.links, before->links);
+  ck_assert(now.roots.clusters == before->roots.clusters);
+  ck_assert(now.roots.accuracy == before->roots.accuracy);
+  ck_assert_int_eq(memcmp(&now.counts, &before->counts, sizeof now.counts), 0);
+  before->calls++;
+  return HR2D_OK;
+}
+
+/* The finer operator is another one: the answer is as it was made all the while. */
+START_TEST(an_answer_is_judged_as_it_is) {
+  hr2d_scene *scene = room(corner);
+  hr2di_message message = {.text = ""};
+  trial t;
+  try_accuracy(scene, 1e-1, 1e-2, 1e-1, &t);
+  reading before = read_answer(&t.answer);
+  t.target.progress = read_again;
+  t.target.progress_ctx = &before;
+  ck_assert_int_eq(hr2di_error_estimate(&t.answer, &t.fineness, &t.target, &t.errors, &message),
+                   HR2D_OK);
+  ck_assert_int_gt(before.calls, 0);
+  clear(&t, scene);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 TEST_SUITE("cluster residuals") {
   ADD_TESTS("cluster residuals", inaccurate_clusters_are_no_light,
-            clusters_are_blamed_for_their_part, a_round_room_is_solved_at_once);
+            clusters_are_blamed_for_their_part, an_answer_is_judged_as_it_is,
+            a_round_room_is_solved_at_once);
 }

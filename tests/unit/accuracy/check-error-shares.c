@@ -66,11 +66,11 @@ static hr2d_linkset *linked_with(hr2d_hierarchy *h, hr2d_linkset *coarse, unsign
   ck_assert_int_eq(hr2d_linkset_create(h, hr2di_admissibility_oracle(), NULL,
                                        hr2di_admissibility_fixed_leaves(), NULL, &links),
                    HR2D_OK);
-  ck_assert_int_eq(coarse ? hr2di_divided_links(links, coarse, &options)
+  ck_assert_int_eq(coarse ? hr2di_divided_links(links, coarse, &(hr2di_refine_how){0}, &options)
                           : hr2d_refine(links, &options),
                    HR2D_OK);
-  links->single = single;
-  ck_assert_int_eq(hr2di_link_blocks_init(links, 4, threads, NULL), HR2D_OK);
+  const hr2di_blocks_wanted wanted = {4, single, .threads = threads};
+  ck_assert_int_eq(hr2di_link_blocks_init(links, &wanted, NULL), HR2D_OK);
   links->oracle_ctx = NULL;
   return links;
 }
@@ -223,7 +223,7 @@ START_TEST(budgets_count_links_taken_over) {
   ck_assert_int_eq(hr2d_linkset_create(divided, hr2di_admissibility_oracle(), NULL,
                                        hr2di_admissibility_fixed_leaves(), NULL, &links),
                    HR2D_OK);
-  ck_assert_int_eq(hr2di_divided_links(links, coarse, &options),
+  ck_assert_int_eq(hr2di_divided_links(links, coarse, &(hr2di_refine_how){0}, &options),
                    _i == 0 ? HR2D_EMAX_LINKS : HR2D_OK);
   hr2d_linkset_destroy(links);
   hr2d_linkset_destroy(fresh);
@@ -283,7 +283,6 @@ static void estimate(const hr2d_scene *scene, hr2di_resolution *f, hr2di_graded 
   *f = hr2di_resolution_for(scene, &survey, 1e-4, &target, NULL);
   f->hasty = hasty;
   ck_assert_int_eq(hr2di_graded_refine(answer, scene, f, &target, &message), HR2D_OK);
-  hr2di_error_prepare(answer, f);
   ck_assert_int_eq(hr2di_graded_solve(answer, f, &target, &message), HR2D_OK);
   ck_assert_int_eq(hr2di_error_estimate(answer, f, &target, errors, &message), HR2D_OK);
   ck_assert(answer->unbounded == hasty);
@@ -305,7 +304,6 @@ START_TEST(bounds_may_come_later) {
   ck_assert(some.irradiance.estimate <= all.irradiance.estimate);
   ck_assert_int_eq(memcmp(whole.depth, part.depth, whole.hierarchy->elements), 0);
   hasty.hasty = hasty.shares = 0;
-  hr2di_error_prepare(&part, &hasty);
   ck_assert_int_eq(hr2di_error_estimate(&part, &hasty, &target, &some, &message), HR2D_OK);
   ck_assert_int_eq(memcmp(&some, &all, sizeof all), 0);
   hr2di_graded_clear(&part);
@@ -325,7 +323,6 @@ START_TEST(order_rises_on_divided_elements) {
   estimate(scene, &f, &answer, &before);
   f.order += 2;
   ck_assert_int_eq(hr2di_graded_divide(&finer, &answer, &f, &target, &message), HR2D_OK);
-  hr2di_error_prepare(&finer, &f);
   ck_assert_int_eq(hr2di_graded_solve(&finer, &f, &target, &message), HR2D_OK);
   ck_assert_int_eq(hr2di_error_estimate(&finer, &f, &target, &after, &message), HR2D_OK);
   printf("order %u, %zu elements: %.1e; order %u, %zu elements: %.1e\n",

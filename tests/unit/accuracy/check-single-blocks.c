@@ -12,6 +12,7 @@
 #include "links/linkset-impl.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
+#include "solve/solve-how.h"
 #include "support/accuracy-scenes.h"
 #include "support/slow-scenes.h"
 #include "support/support.h"
@@ -46,7 +47,6 @@ static void solve(const hr2d_scene *scene, int single, unsigned threads, answer 
   f.shares = 0;
   f.single = single;
   ck_assert_int_eq(hr2di_graded_refine(&a->graded, scene, &f, &target, &message), HR2D_OK);
-  hr2di_error_prepare(&a->graded, &f);
   ck_assert_int_eq(hr2di_graded_solve(&a->graded, &f, &target, &message), HR2D_OK);
   if (hr2d_linkset_size(a->graded.links) > 0)
     ck_assert_int_eq(a->graded.links->blocks.single, single);
@@ -178,11 +178,14 @@ static test_links make_links(void) {
 START_TEST(numbers_are_rounded_once) {
   test_links t = make_links();
   double worst = 0;
-  ck_assert_int_eq(hr2di_link_blocks_init(t.links, ORDER, 1, NULL), HR2D_OK);
+  ck_assert_int_eq(
+      hr2di_link_blocks_init(t.links, &(hr2di_blocks_wanted){ORDER, .threads = 1}, NULL),
+      HR2D_OK);
   hr2di_link_blocks doubles = t.links->blocks;
   t.links->blocks = (hr2di_link_blocks){0};
-  t.links->single = 1;
-  ck_assert_int_eq(hr2di_link_blocks_init(t.links, ORDER, 2, NULL), HR2D_OK);
+  ck_assert_int_eq(
+      hr2di_link_blocks_init(t.links, &(hr2di_blocks_wanted){ORDER, 1, .threads = 2}, NULL),
+      HR2D_OK);
   const hr2di_link_blocks *floats = &t.links->blocks;
   for (uint64_t k = 0; k < t.links->store.count; k++) {
     const double area = hr2di_store_link(&t.links->store, k).exchange_area;
@@ -206,15 +209,21 @@ START_TEST(numbers_are_rounded_once) {
 }
 END_TEST
 
+static hr2d_solution *solve_with(const test_links *t, int single) {
+  const hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+  const hr2di_equation_how how = {.single = single};
+  hr2d_solution *solution = NULL;
+  ck_assert_int_eq(hr2di_solve(t->links, &how, &options, &solution), HR2D_OK);
+  return solution;
+}
+
 /* A solve that asks for other numbers makes all blocks anew. */
 START_TEST(numbers_are_those_asked_for) {
   test_links t = make_links();
-  hr2d_solution *before = test_solve(&t, HR2D_CLOSURE_DEFAULT);
-  t.links->single = 1;
-  hr2d_solution *rounded = test_solve(&t, HR2D_CLOSURE_DEFAULT);
+  hr2d_solution *before = solve_with(&t, 0);
+  hr2d_solution *rounded = solve_with(&t, 1);
   ck_assert(t.links->blocks.single);
-  t.links->single = 0;
-  hr2d_solution *after = test_solve(&t, HR2D_CLOSURE_DEFAULT);
+  hr2d_solution *after = solve_with(&t, 0);
   ck_assert(!t.links->blocks.single);
   ck_assert(hr2d_solution_average(before, 3, 0) == hr2d_solution_average(after, 3, 0));
   ck_assert(hr2d_solution_average(before, 3, 0) != hr2d_solution_average(rounded, 3, 0));

@@ -160,7 +160,7 @@ START_TEST(rows_of_closed_rooms_are_full) {
   double worst = 0;
   ck_assert_int_eq(hr2d_hierarchy_create(scene, &h), HR2D_OK);
   divide_walls(h, &r);
-  ck_assert_int_eq(hr2di_integrator_init(&w, h, &h->alloc, order, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2di_integrator_init(&w, h, &h->alloc, order, NULL, NULL), HR2D_OK);
   for (uint32_t e = (uint32_t)(_i % 3); e < h->elements; e += 3) {
     double row[MOST_ORDER] = {0};
     if (h->element[e].child) continue;
@@ -215,7 +215,7 @@ START_TEST(rows_of_small_elements_are_full) {
     for (size_t p = 0; p < SHORT_WALLS; p++)
       for (double t = 0; t <= 1; t++)
         for (int level = 0; level < levels[k]; level++) halve(h, hr2d_hierarchy_leaf(h, p, t));
-    ck_assert_int_eq(hr2di_integrator_init(&w, h, &h->alloc, 2, NULL), HR2D_OK);
+    ck_assert_int_eq(hr2di_integrator_init(&w, h, &h->alloc, 2, NULL, NULL), HR2D_OK);
     for (uint32_t e = 0; e < h->elements; e++)
       if (!h->element[e].child) worst = fmax(worst, row_lacks(&w, e));
     printf("  %d levels: rows of %zu elements off by at most %.1e\n", levels[k], h->elements,

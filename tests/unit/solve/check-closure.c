@@ -174,7 +174,9 @@ END_TEST
 /* B on leaves with exact rows as d·B on the diagonal makes them. */
 static void solve_diagonally(hr2di_equation *eq, hr2d_linkset *links) {
   const hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
-  ck_assert_int_eq(hr2di_equation_init(eq, links, links->hierarchy->scene, &options), HR2D_OK);
+  ck_assert_int_eq(hr2di_equation_init(eq, links, links->hierarchy->scene,
+                                       &(hr2di_equation_how){0}, &options),
+                   HR2D_OK);
   hr2di_transport *t = &eq->transport;
   for (size_t k = 0; k < eq->field; k++) eq->work[k] = 1;
   hr2di_transport_apply(t, eq->work, eq->b);

@@ -5,6 +5,7 @@
 
 #include "accuracy/graded-solve.h"
 #include "solve/equation.h"
+#include "solve/solve-how.h"
 #include "support/slow-scenes.h"
 #include "support/support.h"
 
@@ -29,10 +30,9 @@ static hr2d_solution *solve(hr2d_linkset *links, double tolerance, double relati
   hr2d_solution *solution = NULL;
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   options.tolerance = tolerance;
-  links->relative = relative;
-  links->floor = FLOOR;
-  ck_assert_int_eq(hr2d_solve(links, &options, &solution), HR2D_OK);
-  links->relative = 0;
+  hr2di_equation_how how = hr2di_equation_how_of(links);
+  how.enough = (hr2di_enough){.part = relative, .floor = FLOOR};
+  ck_assert_int_eq(hr2di_solve(links, &how, &options, &solution), HR2D_OK);
   return solution;
 }
 

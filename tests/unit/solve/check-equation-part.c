@@ -18,9 +18,9 @@ static void begin(const char *name, hr2d_scene **scene, hr2di_graded *graded,
   hr2di_message message;
   *scene = test_named_scene(name);
   ck_assert_int_eq(hr2di_graded_refine(graded, *scene, &fineness, &target, &message), HR2D_OK);
-  ck_assert_int_eq(
-      hr2di_equation_init(eq, graded->links, graded->links->hierarchy->scene, &options),
-      HR2D_OK);
+  ck_assert_int_eq(hr2di_equation_init(eq, graded->links, graded->links->hierarchy->scene,
+                                       &(hr2di_equation_how){0}, &options),
+                   HR2D_OK);
   eq->background = 0;
 }
 

@@ -95,7 +95,8 @@ START_TEST(power_is_lost_without_its_norm) {
   test_refine(&t, 0.5, HR2D_DEFAULT_MAX_LEVEL);
   const hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   hr2di_equation eq;
-  ck_assert_int_eq(hr2di_equation_init(&eq, t.links, t.scene, &options), HR2D_OK);
+  ck_assert_int_eq(
+      hr2di_equation_init(&eq, t.links, t.scene, &(hr2di_equation_how){0}, &options), HR2D_OK);
   ck_assert_int_eq(hr2di_equation_solve(&eq), HR2D_OK);
   hr2di_transport_pull(&eq.transport, eq.radiosity);
   ck_assert_double_eq(eq.transport.up[1], 0);

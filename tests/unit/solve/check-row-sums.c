@@ -29,7 +29,8 @@ static void sum_up(summed *s, hr2d_scene *scene, double epsilon) {
   s->links = test_make_links(scene, hr2d_oracle_find("size"), NULL, NULL, NULL);
   test_refine(&s->links, epsilon, 6);
   hr2di_watch_init(&s->watch, NULL, NULL, "rows");
-  ck_assert_int_eq(hr2di_transport_init(&s->transport, s->links.links, 1, &s->watch), HR2D_OK);
+  ck_assert_int_eq(hr2di_transport_init(&s->transport, s->links.links, 0, 1, &s->watch),
+                   HR2D_OK);
   const uint64_t before = s->watch.total + s->watch.work;
   ck_assert_int_eq(
       hr2di_row_sums_init(&s->rows, &s->transport, scene->effect[HR2D_EFFECT_BACKGROUND].on),

@@ -44,8 +44,8 @@ static test_links make(size_t bands, int directed) {
 /* How many slices there are depends on the links alone, and there is more than one. */
 static void check_slices(const test_links *t, unsigned threads) {
   hr2di_transport transport, alone;
-  ck_assert_int_eq(hr2di_transport_init(&transport, t->links, threads, NULL), HR2D_OK);
-  ck_assert_int_eq(hr2di_transport_init(&alone, t->links, 1, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2di_transport_init(&transport, t->links, 0, threads, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2di_transport_init(&alone, t->links, 0, 1, NULL), HR2D_OK);
   ck_assert_uint_ge(transport.slices, 2);
   ck_assert_uint_eq(transport.slices, alone.slices);
   hr2di_transport_clear(&transport);
