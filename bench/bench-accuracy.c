@@ -12,9 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accuracy/graded-solve.h"
 #include "base/clock.h"
 #include "dense.h"
+#include "estimate/graded-solve.h"
 #include "many.h"
 #include "plain.h"
 #include "support/radiosity-scenes.h"

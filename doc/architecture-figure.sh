@@ -38,24 +38,30 @@ uses() {
     what["sight"] = "beams, and the classes they end in"
     what["occlusion"] = "a pair of segments and the walls between"
     what["scene"] = "patches, and what commit finds out"
+    what["repair"] = "drawings that are slightly off"
     what["formats"] = "GeoJSON and .vs2"
     what["visibility"] = "what a point, a patch, all patches see"
+    what["lint"] = "valid, but maybe not meant"
     what["hierarchy"] = "trees of elements"
     what["oracle"] = "error estimates, ways to subdivide"
     what["blocks"] = "p × p coefficients of a pair"
     what["clusters"] = "many patches with many"
     what["links"] = "the link set"
     what["solution"] = "radiosity on the elements"
+    what["field"] = "light between the patches"
     what["refine"] = "ProjectKernel: pairs become links"
     what["solve"] = "transport, closure, the linear system"
-    what["accuracy"] = "to a target error, with an account"
+    what["mesh"] = "the elements that a target needs"
+    what["estimate"] = "the error of a solve, a posteriori"
+    what["enclosure"] = "answers between two strips"
+    what["accuracy"] = "solving to a target error"
     what["state"] = "a stage of a solve on disk"
     # A hue for each group of storeys: ground, scene, objects, calls.
     split("base geometry triangulation sight occlusion", name); for (k in name) hue[name[k]] = "#5b6b7a"
-    split("scene formats visibility", name2); for (k in name2) hue[name2[k]] = "#2f7d6d"
+    split("scene repair formats visibility lint", name2); for (k in name2) hue[name2[k]] = "#2f7d6d"
     split("hierarchy oracle blocks clusters links solution", name3)
     for (k in name3) hue[name3[k]] = "#2d6aa0"
-    split("refine solve accuracy state", name4); for (k in name4) hue[name4[k]] = "#a05a2c"
+    split("field refine solve mesh estimate enclosure accuracy state", name4); for (k in name4) hue[name4[k]] = "#a05a2c"
   }
   $1 == "layer" { layer[++layers] = $2; at[$2] = layers }
   $1 == "use" && $2 != $3 { used[$2, $3] = 1 }

@@ -10,9 +10,9 @@ libhr2d_core_la_SOURCES = \
 	src/base/bin.h \
 	src/base/black-body.c src/base/black-body.h \
 	src/base/clock.h \
-	src/base/large-pages.c src/base/large-pages.h \
 	src/base/constants.c \
 	src/base/krylov.c src/base/krylov.h \
+	src/base/large-pages.c src/base/large-pages.h \
 	src/base/legendre.c src/base/legendre.h \
 	src/base/message.c src/base/message.h \
 	src/base/neumaier-sum.h \
@@ -28,10 +28,11 @@ libhr2d_core_la_SOURCES = \
 	src/base/team.c src/base/team.h \
 	src/base/union-find.h \
 	src/base/version.c \
-	src/base/watch.c src/base/watch.h src/base/wide.h \
-	src/geometry/apart.h src/geometry/bernstein-ellipse.c src/geometry/bernstein-ellipse.h \
+	src/base/watch.c src/base/watch.h \
+	src/base/wide.h \
+	src/geometry/apart.h \
+	src/geometry/bernstein-ellipse.c src/geometry/bernstein-ellipse.h \
 	src/geometry/crossings.c src/geometry/crossings.h \
-	src/geometry/stars.c src/geometry/stars.h \
 	src/geometry/cut-points.c src/geometry/cut-points.h \
 	src/geometry/determinant.c src/geometry/determinant.h \
 	src/geometry/exchange-area.c src/geometry/exchange-area.h \
@@ -43,6 +44,7 @@ libhr2d_core_la_SOURCES = \
 	src/geometry/orient-sign.h \
 	src/geometry/point-view-factor.h \
 	src/geometry/predicates.c src/geometry/predicates.h \
+	src/geometry/stars.c src/geometry/stars.h \
 	src/geometry/vector.h \
 	src/triangulation/alike.c src/triangulation/alike.h \
 	src/triangulation/cavity.c src/triangulation/cavity.h \
@@ -58,16 +60,15 @@ libhr2d_core_la_SOURCES = \
 	src/triangulation/points.c src/triangulation/points.h \
 	src/triangulation/triangulation.c src/triangulation/triangulation.h \
 	src/sight/area.c \
-	src/sight/triangular-expansion.c src/sight/triangular-expansion.h \
 	src/sight/restrict.c \
 	src/sight/sight.h \
 	src/sight/sight-list.c src/sight/sight-list.h \
+	src/sight/triangular-expansion.c src/sight/triangular-expansion.h \
 	src/sight/walk.c src/sight/walk.h \
 	src/occlusion/clumps.c src/occlusion/clumps.h \
 	src/occlusion/exchange-occluded.c \
 	src/occlusion/past-clumps.c src/occlusion/past-clumps.h \
 	src/occlusion/screens.c src/occlusion/screens.h \
-	src/occlusion/shaft.c src/occlusion/shaft.h \
 	src/occlusion/wall-bodies.c src/occlusion/wall-bodies.h \
 	src/occlusion/wall-tree.c src/occlusion/wall-tree.h \
 	src/occlusion/walls.c src/occlusion/walls.h \
@@ -75,31 +76,30 @@ libhr2d_core_la_SOURCES = \
 	src/scene/checks.c \
 	src/scene/commit.c \
 	src/scene/daylight.c \
-	src/scene/period-ends.c src/scene/period-weights.c \
 	src/scene/effects.c \
 	src/scene/emissivity.c src/scene/emissivity.h \
-	src/scene/find-occluder.c src/scene/find-occluder.h \
 	src/scene/facing-in-part.c src/scene/facing-in-part.h \
+	src/scene/find-occluder.c src/scene/find-occluder.h \
 	src/scene/in-between.c src/scene/in-between.h \
+	src/scene/lit-parts.c \
 	src/scene/need-plane.c \
 	src/scene/one-cell.c \
 	src/scene/patch-runs.c src/scene/patch-runs.h \
+	src/scene/period-ends.c \
+	src/scene/period-weights.c \
+	src/scene/plane.c src/scene/plane.h \
 	src/scene/quadrants.c \
 	src/scene/reachability.c \
 	src/scene/reading-notes.c src/scene/reading-notes.h \
 	src/scene/scene.c \
 	src/scene/scene-impl.h \
-	src/scene/snap.c src/scene/snap-impl.h \
-	src/scene/snap-stretches.c \
+	src/scene/settled.c src/scene/settled.h \
 	src/scene/side-layers.c src/scene/side-layers.h \
 	src/scene/side-parts.c src/scene/side-parts.h \
-	src/scene/split-crossings.c \
-	src/scene/plane.c src/scene/plane.h \
-	src/scene/settled.c src/scene/settled.h \
-	src/scene/sky.c src/scene/sky.h src/scene/sky-arcs.c \
+	src/scene/sky.c src/scene/sky.h \
+	src/scene/sky-arcs.c \
 	src/scene/sun.c \
 	src/scene/sun-beams.c src/scene/sun-beams.h \
-	src/scene/lit-parts.c \
 	src/scene/sunlight.c src/scene/sunlight.h \
 	src/scene/symmetry.c src/scene/symmetry.h \
 	src/scene/thermal.c \
@@ -107,6 +107,10 @@ libhr2d_core_la_SOURCES = \
 	src/scene/wall-pieces.c src/scene/wall-pieces.h \
 	src/scene/with-images.c \
 	src/scene/with-plane.c src/scene/with-plane.h \
+	src/repair/snap.c \
+	src/repair/snap-impl.h \
+	src/repair/snap-stretches.c \
+	src/repair/split-crossings.c \
 	src/formats/geojson.c \
 	src/formats/geojson-feature.c \
 	src/formats/geojson-geometry.c \
@@ -122,14 +126,12 @@ libhr2d_core_la_SOURCES = \
 	src/formats/vs2-impl.h \
 	src/formats/vs2-words.c \
 	src/visibility/entry-table.c src/visibility/entry-table.h \
-	src/visibility/event-list.c src/visibility/event-list.h \
-	src/visibility/events.c src/visibility/events.h \
-	src/visibility/events-impl.h \
-	src/visibility/events-beams.c \
 	src/visibility/exchange-matrix.c \
-	src/visibility/image-rows.c src/visibility/image-rows.h \
 	src/visibility/exchange-rows.c \
 	src/visibility/exchange-visit.c \
+	src/visibility/image-rows.c src/visibility/image-rows.h \
+	src/visibility/looks.c src/visibility/looks.h \
+	src/visibility/patch-sights.c src/visibility/patch-sights.h \
 	src/visibility/point-beams.c \
 	src/visibility/point-view.c src/visibility/point-view.h \
 	src/visibility/point-view-all.c \
@@ -137,15 +139,12 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/point-view-impl.h \
 	src/visibility/point-view-ray.c \
 	src/visibility/point-view-walk.c \
-	src/visibility/looks.c src/visibility/looks.h \
-	src/visibility/patch-sights.c src/visibility/patch-sights.h \
 	src/visibility/row-maker.c src/visibility/row-maker.h \
 	src/visibility/row-sum.c src/visibility/row-sum.h \
-	src/visibility/view-tail.c src/visibility/view-tail.h \
-	src/visibility/sees-anything.c src/visibility/sees-anything.h \
 	src/visibility/seen-backs.c src/visibility/seen-backs.h \
-	src/visibility/seen-ends.c src/visibility/seen-ends.h \
+	src/visibility/sees-anything.c src/visibility/sees-anything.h \
 	src/visibility/sharing.c src/visibility/sharing.h \
+	src/visibility/view-tail.c src/visibility/view-tail.h \
 	src/lint/gaps.c \
 	src/lint/heat.c \
 	src/lint/light.c \
@@ -176,7 +175,8 @@ libhr2d_core_la_SOURCES = \
 	src/blocks/line-frame.c \
 	src/blocks/line-vector.h \
 	src/blocks/lines.c src/blocks/lines.h \
-	src/blocks/moment-batches.h src/blocks/moments.c src/blocks/moments.h \
+	src/blocks/moment-batches.h \
+	src/blocks/moments.c src/blocks/moments.h \
 	src/blocks/rules.c \
 	src/clusters/clusters.c src/clusters/clusters.h \
 	src/clusters/clusters-impl.h \
@@ -188,14 +188,17 @@ libhr2d_core_la_SOURCES = \
 	src/clusters/occlusion.c src/clusters/occlusion.h \
 	src/clusters/point-exchange.c src/clusters/point-exchange.h \
 	src/clusters/root-pairs.c src/clusters/root-pairs.h \
+	src/clusters/shaft.c src/clusters/shaft.h \
 	src/clusters/transport.c \
 	src/clusters/tree.c src/clusters/tree.h \
+	src/links/block-numbers.h \
 	src/links/components.c src/links/components.h \
-	src/links/block-numbers.h src/links/link-blocks.c src/links/link-blocks.h \
+	src/links/link-blocks.c src/links/link-blocks.h \
 	src/links/linkset.c \
 	src/links/linkset-impl.h \
 	src/links/patch-defect.c src/links/patch-defect.h \
-	src/links/row-pieces.h src/links/store.c src/links/store.h \
+	src/links/row-pieces.h \
+	src/links/store.c src/links/store.h \
 	src/solution/gatherer.c src/solution/gatherer.h \
 	src/solution/panels.h \
 	src/solution/point-gather.c \
@@ -205,12 +208,13 @@ libhr2d_core_la_SOURCES = \
 	src/field/border-map.c src/field/border-map.h \
 	src/field/borders.c src/field/borders.h \
 	src/field/field-at.c src/field/field-at.h \
+	src/field/field-grid.c \
 	src/field/field-impl.h \
-	src/field/field-grid.c src/field/field-tile.c src/field/field-tile.h \
 	src/field/field-rows.c \
 	src/field/field-team.c \
-	src/field/leaves.c src/field/leaves.h \
+	src/field/field-tile.c src/field/field-tile.h \
 	src/field/leaf-errors.c src/field/leaf-errors.h \
+	src/field/leaves.c src/field/leaves.h \
 	src/field/light.c src/field/light.h \
 	src/field/locate.c src/field/locate.h \
 	src/field/past-ends.c src/field/past-ends.h \
@@ -223,24 +227,24 @@ libhr2d_core_la_SOURCES = \
 	src/refine/projector.c src/refine/projector.h \
 	src/refine/projector-start.c \
 	src/refine/refine.c \
+	src/refine/refine-how.h \
 	src/refine/rounds.c src/refine/rounds.h \
 	src/refine/row-look.c src/refine/row-look.h \
 	src/refine/rows.c src/refine/rows.h \
-	src/refine/unite-shares.c src/refine/unite-shares.h \
 	src/refine/study.c \
+	src/refine/unite-shares.c src/refine/unite-shares.h \
 	src/refine/validate-links.c \
-	src/refine/refine-how.h src/refine/worker.c src/refine/worker.h \
-	src/solve/image-ties.c src/solve/image-ties.h \
-	src/solve/outside.c src/solve/outside.h \
-	src/solve/power-cut-off.c src/solve/power-cut-off.h \
+	src/refine/worker.c src/refine/worker.h \
 	src/solve/background.c src/solve/background.h \
 	src/solve/block-part.c src/solve/block-part.h \
 	src/solve/closure.c src/solve/closure.h \
-	src/solve/closure-mean.c src/solve/closure-order-p.c \
+	src/solve/closure-mean.c \
+	src/solve/closure-order-p.c \
 	src/solve/energy-balance.c src/solve/energy-balance.h \
 	src/solve/equation.c src/solve/equation.h \
 	src/solve/equation-enough.c \
-	src/solve/equation-part.c src/solve/equation-part.h src/solve/equation-power.c \
+	src/solve/equation-part.c src/solve/equation-part.h \
+	src/solve/equation-power.c \
 	src/solve/equation-sign.c \
 	src/solve/existence.c src/solve/existence.h \
 	src/solve/gather-areas.c src/solve/gather-areas.h \
@@ -249,60 +253,74 @@ libhr2d_core_la_SOURCES = \
 	src/solve/gather-one-way.c src/solve/gather-one-way.h \
 	src/solve/heat-balance.c src/solve/heat-balance.h \
 	src/solve/heat-scene.c src/solve/heat-scene.h \
+	src/solve/image-ties.c src/solve/image-ties.h \
 	src/solve/leading-blocks.c src/solve/leading-blocks.h \
-	src/solve/row-tails.c src/solve/row-tails.h \
+	src/solve/outside.c src/solve/outside.h \
+	src/solve/power-cut-off.c src/solve/power-cut-off.h \
 	src/solve/row-sums.c src/solve/row-sums.h \
+	src/solve/row-tails.c src/solve/row-tails.h \
 	src/solve/shared-gather.c src/solve/shared-gather.h \
-	src/solve/solve.c src/solve/solve-how.h \
+	src/solve/solve.c \
+	src/solve/solve-how.h \
 	src/solve/transport.c src/solve/transport.h \
-	src/accuracy/admissibility.c src/accuracy/admissibility.h \
-	src/accuracy/cluster-residuals.c src/accuracy/cluster-residuals.h \
-	src/accuracy/corner-exponent.c src/accuracy/corner-exponent.h \
-	src/accuracy/coordinate-rounding.c src/accuracy/coordinate-rounding.h \
-	src/accuracy/corner-residuals.c src/accuracy/corner-residuals.h \
-	src/accuracy/estimator.c src/accuracy/estimator.h \
-	src/accuracy/residual-series.c src/accuracy/residual-series.h \
-	src/accuracy/gap-residuals.c src/accuracy/gap-residuals.h \
-	src/accuracy/points-gather.c src/accuracy/points-gather.h \
-	src/accuracy/period-residuals.c src/accuracy/period-residuals.h \
-	src/accuracy/shadow-residuals.c src/accuracy/shadow-residuals.h \
-	src/accuracy/safe-sum.c src/accuracy/safe-sum.h \
-	src/accuracy/rounding-bound.c src/accuracy/rounding-bound.h \
-	src/accuracy/row-deal.c src/accuracy/row-deal.h \
-	src/accuracy/shared-sums.c src/accuracy/shared-sums.h \
-	src/accuracy/sketch.c src/accuracy/sketch.h \
-	src/accuracy/divided-links.c src/accuracy/divided-links.h \
-	src/accuracy/enclosure.c src/accuracy/enclosure-impl.h \
-	src/accuracy/enclosure-factors.c src/accuracy/enclosure-factors.h \
-	src/accuracy/enclosure-links.c src/accuracy/enclosure-links.h \
-	src/accuracy/enclosure-marks.c src/accuracy/enclosure-marks.h \
-	src/accuracy/enclosure-read.c \
-	src/accuracy/enclosure-refused.c src/accuracy/enclosure-refused.h \
-	src/accuracy/enclosure-sweep.c src/accuracy/enclosure-sweep.h \
-	src/accuracy/error-estimate.c src/accuracy/error-estimate.h \
-	src/accuracy/error-shares.c src/accuracy/error-shares.h \
-	src/accuracy/graded-solve.c src/accuracy/graded-solve.h \
+	src/mesh/admissibility.c src/mesh/admissibility.h \
+	src/mesh/corner-exponent.c src/mesh/corner-exponent.h \
+	src/mesh/divided-links.c src/mesh/divided-links.h \
+	src/mesh/event-list.c src/mesh/event-list.h \
+	src/mesh/events.c src/mesh/events.h \
+	src/mesh/events-beams.c \
+	src/mesh/events-impl.h \
+	src/mesh/grader.h \
+	src/mesh/grader-team.c \
+	src/mesh/grading-marks.c \
+	src/mesh/halved-leaves.c src/mesh/halved-leaves.h \
+	src/mesh/kink-jumps.c src/mesh/kink-jumps.h \
+	src/mesh/kinks.c src/mesh/kinks.h \
+	src/mesh/mesh-grading.c src/mesh/mesh-grading.h \
+	src/mesh/mirror-images.c src/mesh/mirror-images.h \
+	src/mesh/point-grid.c src/mesh/point-grid.h \
+	src/mesh/row-deal.c src/mesh/row-deal.h \
+	src/mesh/seen-ends.c src/mesh/seen-ends.h \
+	src/estimate/cluster-residuals.c src/estimate/cluster-residuals.h \
+	src/estimate/coordinate-rounding.c src/estimate/coordinate-rounding.h \
+	src/estimate/corner-residuals.c src/estimate/corner-residuals.h \
+	src/estimate/error-estimate.c src/estimate/error-estimate.h \
+	src/estimate/error-shares.c src/estimate/error-shares.h \
+	src/estimate/estimator.c src/estimate/estimator.h \
+	src/estimate/gap-residuals.c src/estimate/gap-residuals.h \
+	src/estimate/graded-solve.c src/estimate/graded-solve.h \
+	src/estimate/importance.c src/estimate/importance.h \
+	src/estimate/period-residuals.c src/estimate/period-residuals.h \
+	src/estimate/points-gather.c src/estimate/points-gather.h \
+	src/estimate/residual-series.c src/estimate/residual-series.h \
+	src/estimate/resolution.c src/estimate/resolution.h \
+	src/estimate/rounding-bound.c src/estimate/rounding-bound.h \
+	src/estimate/safe-sum.c src/estimate/safe-sum.h \
+	src/estimate/shadow-residuals.c src/estimate/shadow-residuals.h \
+	src/estimate/shared-sums.c src/estimate/shared-sums.h \
+	src/enclosure/enclosure.c \
+	src/enclosure/enclosure-factors.c src/enclosure/enclosure-factors.h \
+	src/enclosure/enclosure-impl.h \
+	src/enclosure/enclosure-links.c src/enclosure/enclosure-links.h \
+	src/enclosure/enclosure-marks.c src/enclosure/enclosure-marks.h \
+	src/enclosure/enclosure-read.c \
+	src/enclosure/enclosure-refused.c src/enclosure/enclosure-refused.h \
+	src/enclosure/enclosure-sweep.c src/enclosure/enclosure-sweep.h \
 	src/accuracy/heat-solve.c src/accuracy/heat-solve.h \
-	src/accuracy/halved-leaves.c src/accuracy/halved-leaves.h \
-	src/accuracy/importance.c src/accuracy/importance.h \
-	src/accuracy/grader.h src/accuracy/grader-team.c \
-	src/accuracy/grading-marks.c \
-	src/accuracy/kink-jumps.c src/accuracy/kink-jumps.h src/accuracy/kinks.c src/accuracy/kinks.h \
-	src/accuracy/mesh-grading.c src/accuracy/mesh-grading.h \
-	src/accuracy/mirror-images.c src/accuracy/mirror-images.h \
-	src/accuracy/point-grid.c src/accuracy/point-grid.h \
 	src/accuracy/predict.c \
-	src/accuracy/resolution.c src/accuracy/resolution.h \
+	src/accuracy/search.c src/accuracy/search.h \
+	src/accuracy/sketch.c src/accuracy/sketch.h \
 	src/accuracy/solution-distance.c src/accuracy/solution-distance.h \
 	src/accuracy/solution-error.c \
-	src/accuracy/search.c src/accuracy/search.h \
 	src/accuracy/solve-to.c src/accuracy/solve-to.h \
 	src/accuracy/solve-to-call.c \
+	src/accuracy/strategy.c src/accuracy/strategy.h \
 	src/accuracy/target.c src/accuracy/target.h \
 	src/accuracy/temperature.c \
 	src/state/byte-stream.c src/state/byte-stream.h \
 	src/state/scene-format.h \
-	src/state/scene-read.c src/state/scene-write.c \
+	src/state/scene-read.c \
+	src/state/scene-write.c \
 	src/state/state-impl.h \
 	src/state/state-read.c \
 	src/state/state-write.c

@@ -39,9 +39,9 @@ SUITES = \
 	tests/unit/scene/check-redrawn \
 	tests/unit/scene/check-commit-searches \
 	tests/unit/scene/check-effect-reasons \
-	tests/unit/scene/check-crossings \
+	tests/unit/repair/check-crossings \
 	tests/unit/scene/check-bent-walls \
-	tests/unit/scene/check-snap \
+	tests/unit/repair/check-snap \
 	tests/unit/scene/check-sunlight \
 	tests/unit/scene/check-images \
 	tests/unit/scene/check-period-weights \
@@ -103,7 +103,7 @@ SUITES = \
 	tests/unit/visibility/check-patch-sights \
 	tests/unit/visibility/check-seen-backs \
 	tests/unit/visibility/check-looks \
-	tests/unit/visibility/check-seen-ends \
+	tests/unit/mesh/check-seen-ends \
 	tests/unit/blocks/check-blocks \
 	tests/unit/blocks/check-directions \
 	tests/unit/blocks/check-moments \
@@ -113,25 +113,25 @@ SUITES = \
 	tests/unit/accuracy/check-random-accuracy \
 	tests/unit/accuracy/check-random-periods \
 	tests/unit/accuracy/check-target-calls \
-	tests/unit/accuracy/check-cluster-residuals \
-	tests/unit/accuracy/check-error-shares \
-	tests/unit/accuracy/check-single-blocks \
+	tests/unit/estimate/check-cluster-residuals \
+	tests/unit/estimate/check-error-shares \
+	tests/unit/estimate/check-single-blocks \
 	tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-found-errors \
-	tests/unit/accuracy/check-enclosure \
-	tests/unit/accuracy/check-enclosure-factors \
-	tests/unit/accuracy/check-kinks \
+	tests/unit/enclosure/check-enclosure \
+	tests/unit/enclosure/check-enclosure-factors \
+	tests/unit/mesh/check-kinks \
 	tests/unit/accuracy/check-measured-errors \
 	tests/unit/accuracy/check-budgets \
 	tests/unit/accuracy/check-cracks \
 	tests/unit/accuracy/check-dark \
-	tests/unit/accuracy/check-roundings \
+	tests/unit/estimate/check-roundings \
 	tests/unit/accuracy/check-shadow-edges \
 	tests/unit/clusters/check-far-exchange \
 	tests/unit/clusters/check-root-pairs \
-	tests/unit/accuracy/check-corner \
-	tests/unit/visibility/check-events \
-	tests/unit/visibility/check-shared-events \
+	tests/unit/mesh/check-corner \
+	tests/unit/mesh/check-events \
+	tests/unit/mesh/check-shared-events \
 	tests/unit/visibility/check-point-beams \
 	tests/unit/visibility/check-point-view \
 	tests/unit/visibility/check-point-view-walls \
@@ -329,26 +329,26 @@ TOO_LONG = tests/bounds/check-bounds-geometry tests/bounds/check-bounds-l1 \
 	tests/faults/check-scene-progress \
 	tests/hard/check-hard-oracles tests/hard/check-hard-refine tests/hard/check-hard-scenes \
 	tests/hard/check-hard-solve tests/paper/check-theorem tests/unit/accuracy/check-budgets \
-	tests/unit/accuracy/check-cluster-residuals tests/unit/accuracy/check-cracks \
-	tests/unit/accuracy/check-dark tests/unit/accuracy/check-error-shares \
+	tests/unit/estimate/check-cluster-residuals tests/unit/accuracy/check-cracks \
+	tests/unit/accuracy/check-dark tests/unit/estimate/check-error-shares \
 	tests/unit/accuracy/check-importance tests/unit/accuracy/check-known-radiosities \
 	tests/unit/accuracy/check-random-accuracy tests/unit/accuracy/check-random-periods \
-	tests/unit/accuracy/check-roundings tests/unit/accuracy/check-shadow-edges \
+	tests/unit/estimate/check-roundings tests/unit/accuracy/check-shadow-edges \
 	tests/unit/accuracy/check-shares tests/unit/accuracy/check-short-patches \
-	tests/unit/accuracy/check-single-blocks tests/unit/accuracy/check-target-calls tests/unit/blocks/check-blocks \
+	tests/unit/estimate/check-single-blocks tests/unit/accuracy/check-target-calls tests/unit/blocks/check-blocks \
 	tests/unit/blocks/check-directions tests/unit/clusters/check-clusters \
 	tests/unit/clusters/check-far-exchange tests/unit/field/check-field \
 	tests/unit/field/check-field-grid tests/unit/field/check-past-ends tests/unit/formats/check-vs2 \
 	tests/unit/geometry/check-exchange-area tests/unit/links/check-store tests/unit/oracle/check-l1 \
 	tests/unit/refine/check-image-elements tests/unit/refine/check-occlusion \
-	tests/unit/refine/check-rows tests/unit/refine/check-validate tests/unit/scene/check-crossings \
+	tests/unit/refine/check-rows tests/unit/refine/check-validate tests/unit/repair/check-crossings \
 	tests/unit/scene/check-effects tests/unit/solution/check-emissivity \
 	tests/unit/solution/check-heat-bands tests/unit/solution/check-heat-images \
 	tests/unit/solution/check-heat-links tests/unit/solution/check-irradiance-points \
 	tests/unit/solution/check-points tests/unit/solve/check-closure tests/unit/solve/check-mirrors \
 	tests/unit/solve/check-order tests/unit/solve/check-periods tests/unit/solve/check-row-sums \
 	tests/unit/solve/check-sky tests/unit/solve/check-slices tests/unit/solve/check-solve \
-	tests/unit/solve/check-sun tests/unit/visibility/check-events \
+	tests/unit/solve/check-sun tests/unit/mesh/check-events \
 	tests/unit/visibility/check-exchange-rows tests/unit/visibility/check-period-rows
 # Begins first, for a suite that begins last runs alone.
 TAKES_LONGEST = tests/threads/check-team

@@ -17,13 +17,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "accuracy/importance.h"
 #include "accuracy/solve-to.h"
 #include "accuracy/target.h"
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/share.h"
 #include "base/sized-struct.h"
+#include "estimate/importance.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/linkset-impl.h"
 #include "solution/solution-impl.h"

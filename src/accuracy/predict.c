@@ -5,16 +5,16 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "accuracy/corner-residuals.h"
-#include "accuracy/error-estimate.h"
-#include "accuracy/estimator.h"
-#include "accuracy/importance.h"
-#include "accuracy/resolution.h"
+#include "accuracy/strategy.h"
 #include "accuracy/target.h"
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/team.h"
 #include "blocks/block.h"
+#include "estimate/corner-residuals.h"
+#include "estimate/error-estimate.h"
+#include "estimate/estimator.h"
+#include "estimate/importance.h"
 #include "scene/settled.h"
 #include "solution/solution-impl.h"
 #include "solve/gather-blocks.h"
@@ -156,7 +156,7 @@ static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target
       .norm = target->norm,
       .flat = fineness->flat,
       .distance = fineness->flat ? fineness->distance : 0,
-      .tolerance = hr2di_resolution_tolerance(scene, target->floor, target->error)};
+      .tolerance = hr2di_strategy_tolerance(scene, target->floor, target->error)};
   hr2d_status status = hr2di_graded_refine(&a, scene, &coarse, target, &message);
   if (!status) status = hr2di_graded_solve(&a, &coarse, target, &message);
   t->seconds = hr2di_clock_now() - start;
@@ -191,12 +191,12 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
   hr2d_status status = HR2D_OK;
   hr2di_message message;
   hr2di_lights lights = {0};
-  if (hr2di_resolution_wants_lights(scene, target))
+  if (hr2di_strategy_wants_lights(scene, target))
     status = hr2di_importance(scene, target, NULL, &lights, &survey, &message);
   if (!status && !(survey.ellipse > 0))
-    status = hr2di_resolution_survey(scene, NULL, target->threads, &watch, &survey);
+    status = hr2di_strategy_survey(scene, NULL, target->threads, &watch, &survey);
   const hr2di_resolution fineness =
-      hr2di_resolution_for(scene, &survey, aim, target, lights.radiosity ? &lights : NULL);
+      hr2di_strategy_for(scene, &survey, aim, target, lights.radiosity ? &lights : NULL);
   hr2di_graded a = {0};
   cost c = {0};
   trial coarse = {0};

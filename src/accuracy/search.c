@@ -3,11 +3,11 @@
 
 #include <math.h>
 
-#include "accuracy/importance.h"
 #include "accuracy/sketch.h"
 #include "accuracy/target.h"
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "estimate/importance.h"
 #include "links/linkset-impl.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"

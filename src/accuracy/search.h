@@ -4,8 +4,8 @@
 #ifndef HR2D_SRC_ACCURACY_SEARCH_H
 #define HR2D_SRC_ACCURACY_SEARCH_H
 
-#include "accuracy/error-estimate.h"
-#include "accuracy/resolution.h"
+#include "accuracy/strategy.h"
+#include "estimate/error-estimate.h"
 
 /* The best graded solve so far, and the time and work of all. */
 typedef struct hr2di_search {

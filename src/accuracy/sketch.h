@@ -4,7 +4,7 @@
 #ifndef HR2D_SRC_ACCURACY_SKETCH_H
 #define HR2D_SRC_ACCURACY_SKETCH_H
 
-#include "accuracy/graded-solve.h"
+#include "estimate/graded-solve.h"
 
 /* How long a sketch may take: its factors until one time of the clock, all until another.
    Infinite: no limit. */

@@ -13,10 +13,10 @@
 
 #include <math.h>
 
-#include "accuracy/importance.h"
 #include "base/alloc.h"
 #include "base/pi.h"
 #include "base/sort.h"
+#include "estimate/importance.h"
 #include "field/leaves.h"
 #include "scene/scene-impl.h"
 #include "scene/sunlight.h"

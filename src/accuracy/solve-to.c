@@ -7,13 +7,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "accuracy/importance.h"
-#include "accuracy/row-deal.h"
 #include "accuracy/search.h"
 #include "accuracy/target.h"
 #include "base/alloc.h"
 #include "base/clock.h"
+#include "estimate/importance.h"
 #include "links/linkset-impl.h"
+#include "mesh/row-deal.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 
@@ -25,21 +25,21 @@ static void give_reason(hr2di_search *s, const char *reason) {
 
 /* The resolution to begin with: no coarser than the best one so far, which was not enough. */
 static hr2di_resolution first_resolution(hr2di_search *s, double error) {
-  hr2di_resolution guess = hr2di_resolution_for(s->scene, &s->survey, error, &s->given,
-                                                s->lights.radiosity ? &s->lights : NULL);
+  hr2di_resolution guess = hr2di_strategy_for(s->scene, &s->survey, error, &s->given,
+                                              s->lights.radiosity ? &s->lights : NULL);
   hr2di_resolution finer = s->fineness;
   guess.looks = hr2di_search_looks(s);
   guess.hasty = !(s->given.seconds > 0); /* there is time for a bound at the end */
   /* Under a background of their own temperature scenes are isothermal to all digits. */
   if (!guess.lights && !s->given.no_error && !s->scene->effect[HR2D_EFFECT_BACKGROUND].on) {
-    guess.tolerance = hr2di_resolution_tolerance(s->scene, s->given.floor, error);
-    guess.relative = hr2di_resolution_tolerance(s->scene, 1, error);
+    guess.tolerance = hr2di_strategy_tolerance(s->scene, s->given.floor, error);
+    guess.relative = hr2di_strategy_tolerance(s->scene, 1, error);
     guess.floor = s->given.floor;
   }
   const int known = s->best.solution && isfinite(hr2di_search_error(s));
   const int is_finer =
       known &&
-      !hr2di_resolution_raise(&finer, &s->best.survey, hr2di_search_error(s) / (0.5 * error)) &&
+      !hr2di_strategy_raise(&finer, &s->best.survey, hr2di_search_error(s) / (0.5 * error)) &&
       finer.order > guess.order;
   if (!is_finer) return guess;
   finer.aim = error;
@@ -50,7 +50,7 @@ static hr2di_resolution first_resolution(hr2di_search *s, double error) {
 /* Finer elements do not help where the error is what links of clusters lack. */
 static int raise_clusters(const hr2di_search *s, hr2di_resolution *fineness, double error) {
   return s->best.clustered > 0.5 * hr2di_search_error(s) &&
-         !hr2di_resolution_raise_clusters(fineness, s->best.clustered, error);
+         !hr2di_strategy_raise_clusters(fineness, s->best.clustered, error);
 }
 
 /* More cells are what helps: so the images reach as many times as far. */
@@ -87,7 +87,7 @@ static hr2d_status reach(hr2di_search *s, double error) {
     if (bounded) return bounded;
     dividing = s->best.depth != NULL; /* at a higher order, if that was no use before */
     raised = raise_clusters(s, &fineness, error) || (dividing && !stuck) ||
-             !hr2di_resolution_raise(&fineness, &s->best.survey, before / (0.5 * error));
+             !hr2di_strategy_raise(&fineness, &s->best.survey, before / (0.5 * error));
   }
   const hr2d_status bounded = hr2di_search_bound(s);
   if (bounded || hr2di_search_reached(s, error)) return bounded;
@@ -156,13 +156,13 @@ static hr2d_status settle(hr2di_search *s, hr2d_status status) {
 static hr2d_status survey(hr2di_search *s) {
   hr2di_watch watch;
   hr2d_status status = HR2D_OK;
-  if (hr2di_resolution_wants_lights(s->scene, &s->given))
+  if (hr2di_strategy_wants_lights(s->scene, &s->given))
     status = hr2di_importance(s->scene, &s->target, hr2di_search_looks(s), &s->lights,
                               &s->survey, &s->message);
   if (status || s->survey.ellipse > 0) return status;
   hr2di_scene_watch(s->scene, &watch, s->target.progress, s->target.progress_ctx, "refine");
-  return hr2di_resolution_survey(s->scene, hr2di_search_looks(s), s->given.threads, &watch,
-                                 &s->survey);
+  return hr2di_strategy_survey(s->scene, hr2di_search_looks(s), s->given.threads, &watch,
+                               &s->survey);
 }
 
 /* Hands the best solution over; it owns its hierarchy and its links from then on. */

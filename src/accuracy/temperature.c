@@ -9,10 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "accuracy/importance.h"
 #include "accuracy/target.h"
 #include "base/black-body.h"
 #include "base/sized-struct.h"
+#include "estimate/importance.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/emissivity.h"
 #include "scene/settled.h"

@@ -3,8 +3,8 @@
 #ifndef HR2D_SRC_CLUSTERS_OCCLUSION_H
 #define HR2D_SRC_CLUSTERS_OCCLUSION_H
 
+#include "clusters/shaft.h"
 #include "clusters/tree.h"
-#include "occlusion/shaft.h"
 #include "occlusion/walls.h"
 
 /* Whether no patch is in the way of any line from a patch of i to one of j; never 1 if one

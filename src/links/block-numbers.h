@@ -13,7 +13,7 @@
 
 /* What roundings of floats do to irradiance, relative to that from the largest radiosity: each
    is FLT_EPSILON/2 of its C_lm at most, Σ_lm √(2l+1) |C_lm| is a few C_00, and signs are
-   random. Averages were a tenth of that apart (tests/unit/accuracy/check-single-blocks.c). */
+   random. Averages were a tenth of that apart (tests/unit/estimate/check-single-blocks.c). */
 #define HR2DI_SINGLE_ROUNDING (4 * FLT_EPSILON)
 
 /* The bytes of a number. */

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accuracy/divided-links.h"
 #include "base/share.h"
 #include "hierarchy/hierarchy-impl.h"
+#include "mesh/divided-links.h"
 #include "solve/solve-how.h"
 #include "support/shares.h"
 #include "support/slow-scenes.h"

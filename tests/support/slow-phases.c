@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "clusters/root-pairs.h"
-#include "visibility/events.h"
+#include "mesh/events.h"
 
 static void forget_solution(slow_stage *s) {
   hr2d_solution_destroy(s->solution);

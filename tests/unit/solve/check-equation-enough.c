@@ -3,7 +3,7 @@
    than the norm asks for. */
 #include <math.h>
 
-#include "accuracy/graded-solve.h"
+#include "estimate/graded-solve.h"
 #include "solve/equation.h"
 #include "solve/solve-how.h"
 #include "support/slow-scenes.h"

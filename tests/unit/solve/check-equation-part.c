@@ -3,7 +3,7 @@
    and of what it makes. */
 #include <math.h>
 
-#include "accuracy/graded-solve.h"
+#include "estimate/graded-solve.h"
 #include "solve/equation-part.h"
 #include "support/support.h"
 

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accuracy/admissibility.h"
-#include "accuracy/mesh-grading.h"
+#include "mesh/admissibility.h"
+#include "mesh/mesh-grading.h"
 #include "support/radiosity-scenes.h"
 #include "support/support.h"
 

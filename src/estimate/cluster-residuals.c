@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* With C and C⁺ over the links of clusters and averages B̄ of patches, the residual that is
+   theirs is ρ((C⁺ − C)B̄ − d B̄), where closure makes d = (C⁺ − C)1 of patches that see patches
+   in every direction.  Elements hardly matter to it, as clusters are far away from them. */
+#include "estimate/cluster-residuals.h"
+
+#include <math.h>
+
+#include "base/alloc.h"
+#include "base/share.h"
+#include "estimate/importance.h"
+#include "scene/scene-impl.h"
+
+/* Averages of B, and 1 as a band behind them. */
+static void set_fields(const hr2di_estimator *e, double *field) {
+  const size_t bands = e->eq.transport.bands, patches = e->values / bands;
+  for (size_t k = 0; k < patches; k++) {
+    for (size_t b = 0; b < bands; b++)
+      field[k * (bands + 1) + b] = hr2di_estimator_value(e, 0, k, b);
+    field[k * (bands + 1) + bands] = 1;
+  }
+}
+
+static double worst(const hr2di_estimator *e, const double *coarse, const double *fine) {
+  const hr2di_transport *t = &e->eq.transport;
+  const size_t bands = t->bands;
+  double most = 0;
+  for (size_t k = 0; k < e->values; k++) {
+    const size_t patch = k / bands, b = k % bands, at = patch * (bands + 1);
+    if (!hr2di_is_important(e->target, patch)) continue;
+    const int closed = t->closed && t->closed[patch];
+    const double one = closed ? fine[at + bands] - coarse[at + bands] : 0;
+    const double power =
+        fine[at + b] - coarse[at + b] - one * hr2di_estimator_value(e, 0, patch, b);
+    const double h = fabs(power) / t->hierarchy->scene->patch[patch].length;
+    const double least = hr2di_estimator_least(e, 0, patch, b);
+    if (h > 0)
+      most = fmax(most, hr2d_scene_reflectance(t->hierarchy->scene, patch, b) * h / least);
+  }
+  return most;
+}
+
+/* All shares call it, and get the same part. */
+hr2d_status hr2di_cluster_residuals(hr2di_estimator *e, hr2di_clusters *coarser, double *part) {
+  const hr2di_transport *t = &e->eq.transport;
+  hr2d_share *share = t->links->share;
+  const size_t planes = t->bands + 1, size = e->values / t->bands * planes;
+  const hr2di_cluster_gather how = {
+      .order = 1, .bands = planes, .share = share, .threads = t->threads, .watch = t->watch};
+  double *field = hr2di_alloc_zero(&t->alloc, size, 3 * sizeof *field);
+  hr2d_status status = hr2di_share_agree(share, field ? HR2D_OK : HR2D_ENOMEM);
+  if (!status) {
+    set_fields(e, field);
+    status = hr2di_clusters_gather(coarser, &how, field, field + size);
+  }
+  if (!status)
+    status = hr2di_clusters_gather(t->roots->clusters, &how, field, field + 2 * size);
+  if (!status) *part = worst(e, field + size, field + 2 * size);
+  hr2di_alloc_free(&t->alloc, field);
+  return status;
+}

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The resolution of a graded solve. */
+#ifndef HR2D_SRC_ESTIMATE_RESOLUTION_H
+#define HR2D_SRC_ESTIMATE_RESOLUTION_H
+
+#include <hr2d/accuracy.h>
+
+#include "mesh/kinks.h"
+#include "visibility/looks.h"
+
+/* How fine a graded solve is. */
+typedef struct hr2di_resolution {
+  double aim; /* the error */
+  unsigned order;
+  double target;           /* relative error that corners are graded for */
+  double cluster_accuracy; /* relative accuracy of links between clusters of patches */
+  double tolerance;        /* of the solve; 0: the least */
+  double relative;         /* what the solve may leave everywhere, as a part of the light there;
+                              0: the tolerance alone counts */
+  double floor;            /* no light counts as less, relative to the brightest */
+  hr2d_norm norm;
+  unsigned corner_levels; /* levels at corners beyond what the target asks for */
+  int flat;             /* elements are not graded for the target, but for these levels alone */
+  double distance;      /* the ellipse at which ends in front of elements may be */
+  int hidden;           /* the scene has visibility events */
+  int crowded;          /* it has very many */
+  unsigned generations; /* elements end at events of so many generations */
+  int shares;           /* errors that are too large name the elements that make them, where
+                           no events have been chosen */
+  int hasty;            /* errors that do so need no bound, and none at points */
+  double kinks;         /* the shares of error that events inside elements may make; 0:
+                           elements end at all events */
+  int single;           /* floats suffice for blocks */
+  unsigned raises;      /* how often it was made finer */
+  const hr2di_lights *lights; /* of patches, to tell which events matter */
+  hr2di_looks *looks;         /* what patches see, for all attempts; NULL: nothing is kept */
+} hr2di_resolution;
+
+/* The resolution of the finer operator with which a graded solve is compared: it has so many
+   coefficients more. */
+enum { HR2DI_FINER_ORDERS = 2 };
+hr2di_resolution hr2di_resolution_finer(const hr2di_resolution *fineness);
+
+/* No relative accuracy of links of clusters is better. */
+#define HR2DI_FINEST_CLUSTERS 1e-14
+
+#endif
