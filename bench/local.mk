@@ -43,7 +43,7 @@ bench_bench_solves_SOURCES = bench/bench-solves.c bench/plain.c bench/plain.h be
 	$(SOLVE_TASKS)
 bench_bench_solves_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SOURCE='"$(abs_top_srcdir)"'
 bench_bench_solves_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
-EXTRA_DIST += bench/scenes
+EXTRA_DIST += bench/choices.sh bench/scenes
 bench_bench_fibres_SOURCES = bench/bench-fibres.c bench/alone.c bench/alone.h bench/many.c \
 	bench/many.h bench/timing.h tests/support/random.c tests/support/random.h
 bench_bench_fibres_CPPFLAGS = $(AM_CPPFLAGS)

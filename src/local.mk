@@ -9,6 +9,7 @@ libhr2d_core_la_SOURCES = \
 	src/base/alloc.c src/base/alloc.h \
 	src/base/bin.h \
 	src/base/black-body.c src/base/black-body.h \
+	src/base/choices.h \
 	src/base/clock.h \
 	src/base/constants.c \
 	src/base/krylov.c src/base/krylov.h \

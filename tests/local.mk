@@ -163,7 +163,7 @@ OUTSIDE = \
 	tests/program/check-resume.sh \
 	tests/program/check-temperatures.sh \
 	tests/program/check-texts.sh \
-	tests/package/check-constants.sh \
+	tests/package/check-choices.sh tests/package/check-constants.sh \
 	tests/package/check-exports.sh \
 	tests/package/check-hardening.sh \
 	tests/package/check-headers.sh \

@@ -8,6 +8,7 @@
 #include "accuracy/strategy.h"
 #include "accuracy/target.h"
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "base/clock.h"
 #include "base/team.h"
 #include "blocks/block.h"
@@ -22,29 +23,9 @@
 
 enum { SAMPLES = 8, RUN = 64, PRODUCTS = 64, RUNS = 5, POINTS = 4 };
 
-/* The time of one solve is within this factor of what is predicted; see set_range(). */
-#define SURE 3.0
-enum { ATTEMPTS = 8, MORE = 2, MOST_BANDS = 4 };
+enum { MORE = 2, MOST_BANDS = 4 };
 
 #define SHORT 0.02
-
-/* Times the solve: with temperatures to be found. */
-#define HEAT 2.5
-
-/* Gathers of an account of the error, with the finer operator (see error-estimate.c); and
-   iterations, in terms of those of the solve, with a part of it (see estimator.h). */
-#define ERROR_GATHERS    20
-#define ERROR_ITERATIONS 2.5
-
-/* Times the coarse solve: work that does not depend on the order.  It is more with lights of
-   patches, less where elements are flat in both, and where nothing is reflected there are
-   hardly any gathers. */
-#define CALLS      2.6
-#define CALLS_LIT  3.2
-#define CALLS_DARK 2.5
-#define CALLS_FLAT 1.2
-
-#define REST 1.75 /* of gathers, for work that is not counted: fields set up and copied */
 
 /* Seconds to make links and blocks, and of one gather: of the solve, of the finer operator, and
    of its part. */
@@ -171,15 +152,15 @@ static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target
   return status;
 }
 
-/* The first solve reaches the target in nine of ten cases.  Otherwise up to ATTEMPTS solves
-   follow, each of MORE coefficients more.  From one to the next measured times grow less
-   than p. */
+/* The first solve reaches the target in nine of ten cases.  Otherwise up to
+   HR2DI_CHOICE_ATTEMPTS solves follow, each of MORE coefficients more.  From one to the next
+   measured times grow less than p. */
 static void set_range(hr2d_prediction *p) {
   double solves = 0;
-  for (unsigned k = 0; k < ATTEMPTS; k++)
+  for (unsigned k = 0; k < HR2DI_CHOICE_ATTEMPTS; k++)
     solves += fmin(p->order + MORE * k, HR2D_MAX_ORDER) / p->order;
-  p->least_seconds = p->seconds / SURE;
-  p->most_seconds = p->seconds * SURE * solves;
+  p->least_seconds = p->seconds / HR2DI_CHOICE_PREDICT_SURE;
+  p->most_seconds = p->seconds * HR2DI_CHOICE_PREDICT_SURE * solves;
 }
 
 static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
@@ -207,13 +188,15 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
     const int reflects = scene->effect[HR2D_EFFECT_INTERREFLECTION].on;
     const double points = (double)hr2di_contacts_points(a.links) * coarse.point *
                           sqrt((double)p->leaves / (double)coarse.leaves);
-    const double gathers = coarse.iterations * c.gather + ERROR_GATHERS * c.finer +
-                           ERROR_ITERATIONS * coarse.iterations * c.part;
-    const double calls = !reflects          ? CALLS_DARK
-                         : fineness.flat    ? CALLS_FLAT
-                         : lights.radiosity ? CALLS_LIT
-                                            : CALLS;
-    p->seconds = calls * coarse.seconds + c.make + (reflects ? REST * gathers : 0) +
+    const double gathers = coarse.iterations * c.gather +
+                           HR2DI_CHOICE_PREDICT_GATHERS * c.finer +
+                           HR2DI_CHOICE_PREDICT_ITERATIONS * coarse.iterations * c.part;
+    const double calls = !reflects          ? HR2DI_CHOICE_PREDICT_DARK
+                         : fineness.flat    ? HR2DI_CHOICE_PREDICT_FLAT
+                         : lights.radiosity ? HR2DI_CHOICE_PREDICT_LIT
+                                            : HR2DI_CHOICE_PREDICT_CALLS;
+    p->seconds = calls * coarse.seconds + c.make +
+                 (reflects ? HR2DI_CHOICE_PREDICT_REST * gathers : 0) +
                  (reflects && !target->no_error ? points : 0);
     set_range(p);
   }
@@ -234,9 +217,9 @@ static hr2d_status predict_heat(const hr2d_scene *scene, const hr2d_target *targ
   if (status) return status;
   status = hr2d_predict(settled, target, prediction);
   hr2di_settled_destroy(settled);
-  prediction->seconds *= HEAT;
-  prediction->least_seconds *= HEAT;
-  prediction->most_seconds *= HEAT;
+  prediction->seconds *= HR2DI_CHOICE_PREDICT_HEAT;
+  prediction->least_seconds *= HR2DI_CHOICE_PREDICT_HEAT;
+  prediction->most_seconds *= HR2DI_CHOICE_PREDICT_HEAT;
   return status;
 }
 

@@ -6,6 +6,7 @@
 #include "accuracy/sketch.h"
 #include "accuracy/target.h"
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "base/clock.h"
 #include "estimate/importance.h"
 #include "links/linkset-impl.h"
@@ -29,14 +30,11 @@ static hr2d_status watch(void *ctx, const hr2d_progress *progress) {
   return s->progress_status;
 }
 
-/* Bytes for what patches see, where the caller counts none. */
-#define LOOKS 0x40000000
-
 /* Shares have memory for their own rows alone. */
 static hr2d_status make_looks(hr2di_search *s) {
   if (!s->scene->effect[HR2D_EFFECT_OCCLUSION].on || s->given.max_bytes || s->given.share)
     return HR2D_OK;
-  return hr2di_looks_init(&s->looks, s->scene, LOOKS);
+  return hr2di_looks_init(&s->looks, s->scene, HR2DI_CHOICE_SEEN_BYTES);
 }
 
 hr2di_looks *hr2di_search_looks(hr2di_search *s) {
@@ -134,10 +132,6 @@ static const hr2di_error_pair unknown = {.average = {HUGE_VAL, HUGE_VAL},
                                          .irradiance = {HUGE_VAL, HUGE_VAL},
                                          .irradiance_sup = {HUGE_VAL, HUGE_VAL}};
 
-/* Parts of the time for the factors of a sketch, and for the whole sketch. */
-#define FACTORS 0.8
-#define SKETCH  0.95
-
 hr2d_status hr2di_search_sketch(hr2di_search *s) {
   hr2di_graded answer;
   int late;
@@ -148,9 +142,11 @@ hr2d_status hr2di_search_sketch(hr2di_search *s) {
   const double least =
       (double)patches * (HR2DI_ELEMENT_BYTES + 4.0 * (double)s->scene->bands * sizeof(double));
   if (s->given.max_bytes && (double)s->given.max_bytes < least) return HR2D_OK;
-  hr2d_status status = hr2di_sketch(
-      &answer, s->scene, &s->given,
-      (hr2di_sketch_times){s->start + FACTORS * all, s->start + SKETCH * all}, &late);
+  hr2d_status status =
+      hr2di_sketch(&answer, s->scene, &s->given,
+                   (hr2di_sketch_times){s->start + HR2DI_CHOICE_SKETCH_FACTORS * all,
+                                        s->start + HR2DI_CHOICE_SKETCH * all},
+                   &late);
   add_times(&s->account, &answer);
   if (!status) keep(s, &answer, &unknown);
   if (status && status != HR2D_ENOMEM) s->progress_status = status;
@@ -184,15 +180,11 @@ hr2d_status hr2di_search_bound(hr2di_search *s) {
   return status;
 }
 
-/* Divided elements are gone on with although their error seems so many times as large: what is
-   left is that of links of too low an order, and varies. */
-#define VARIES 2
-
 /* Whether an attempt of some error takes the place of the best one.  With a deadline there may
    be no time for another. */
 static int is_better(const hr2di_search *s, double error, int divided) {
   const double before = hr2di_search_error(s);
-  const double most = divided && !(s->deadline > 0) ? VARIES * before : before;
+  const double most = divided && !(s->deadline > 0) ? HR2DI_CHOICE_VARIES * before : before;
   return !s->best.solution || !isfinite(before) || error < most;
 }
 

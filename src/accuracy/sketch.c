@@ -10,9 +10,9 @@
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 
-/* Sweeps end when B changes by less than this part of the largest, or after MOST. */
+/* Sweeps end when B changes by less than this part of the largest, or after MOST_SWEEPS. */
 #define CHANGE 1e-6
-enum { MOST = 1000 };
+enum { MOST_SWEEPS = 1000 };
 
 typedef struct sketcher {
   const hr2d_scene *scene;
@@ -174,7 +174,7 @@ static hr2d_status sweep(sketcher *s, hr2d_solution *made, double *next) {
   const size_t values = s->scene->patches * s->bands;
   hr2d_status status = HR2D_OK;
   made->residual = HUGE_VAL;
-  for (int k = 0; k < MOST && !status && made->residual > CHANGE; k++) {
+  for (int k = 0; k < MOST_SWEEPS && !status && made->residual > CHANGE; k++) {
     s->limit = s->until.all;
     status = hr2di_watch_work(&s->polled, values / 32);
     if (!status) status = gather(s, made->value, next);

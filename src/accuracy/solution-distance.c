@@ -51,7 +51,7 @@ double hr2di_distance_of_averages(const hr2di_reading *reading, const hr2d_solut
 #define INSET 1e-9
 
 /* The points where two solutions differ most, the worst one first. */
-enum { MOST = 64 };
+enum { WORST_POINTS = 64 };
 typedef struct far_apart {
   size_t patch;
   double at, distance, right;
@@ -64,15 +64,15 @@ typedef struct search {
   hr2di_leaves leaves[2];
   double *border; /* of a patch, sorted */
   size_t borders, room;
-  far_apart worst[MOST];
+  far_apart worst[WORST_POINTS];
   size_t count;
   double largest;
 } search;
 
 static void insert(search *s, far_apart point) {
   far_apart *worst = s->worst;
-  size_t k = s->count < MOST ? s->count++ : MOST;
-  if (k == MOST && worst[--k].distance >= point.distance) return;
+  size_t k = s->count < WORST_POINTS ? s->count++ : WORST_POINTS;
+  if (k == WORST_POINTS && worst[--k].distance >= point.distance) return;
   for (; k > 0 && worst[k - 1].distance < point.distance; k--) worst[k] = worst[k - 1];
   worst[k] = point;
 }

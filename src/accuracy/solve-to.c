@@ -10,14 +10,13 @@
 #include "accuracy/search.h"
 #include "accuracy/target.h"
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "base/clock.h"
 #include "estimate/importance.h"
 #include "links/linkset-impl.h"
 #include "mesh/row-deal.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
-
-enum { ATTEMPTS = 8, LEAST_SAFE = 6 };
 
 static void give_reason(hr2di_search *s, const char *reason) {
   hr2di_message_copy(s->account.reason, sizeof s->account.reason, reason);
@@ -71,11 +70,13 @@ static hr2d_status reach(hr2di_search *s, double error) {
   hr2di_resolution fineness = first_resolution(s, error);
   double before = HUGE_VAL;
   int stuck = 0, raised = 1, dividing = 0;
-  for (int k = 0; k < ATTEMPTS && (stuck < 2 || !hr2di_search_is_rounding(s)) && raised; k++) {
+  for (int k = 0;
+       k < HR2DI_CHOICE_ATTEMPTS && (stuck < 2 || !hr2di_search_is_rounding(s)) && raised;
+       k++) {
     const hr2d_status status = hr2di_search_attempt(s, &fineness, dividing);
     /* At a low order rows of K may exceed 1 in narrow corners, even with closure. */
-    if (status == HR2D_ENOT_CONVERGED && !s->progress_status && k + 1 < ATTEMPTS &&
-        fineness.order < LEAST_SAFE) {
+    if (status == HR2D_ENOT_CONVERGED && !s->progress_status && k + 1 < HR2DI_CHOICE_ATTEMPTS &&
+        fineness.order < HR2DI_CHOICE_SAFE_ORDER) {
       fineness.order++;
       continue;
     }

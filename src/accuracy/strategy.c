@@ -7,15 +7,12 @@
 
 #include <math.h>
 
+#include "base/choices.h"
 #include "geometry/bernstein-ellipse.h"
 #include "scene/scene-impl.h"
 #include "solve/outside.h"
 
 #define EASY 0.06
-
-/* Two coefficients, or none of the events, reach an error below this so seldom that to try
-   takes longer; with events to be chosen from also somewhat larger ones. */
-#define THREE 3e-3
 
 static double digits_per_order(const hr2di_survey *survey, hr2d_norm norm) {
   const double m = survey->ellipse, rate = log(m + sqrt(m * m - 1));
@@ -23,27 +20,19 @@ static double digits_per_order(const hr2di_survey *survey, hr2d_norm norm) {
 }
 
 /* What backs hide of a background is seen at points of rules, which kinks inside elements
-   disturb: elements end at all events there.  More than LIT patches have too many events to
-   look at one by one for a few digits, and more than MANY_LIT for any. */
-enum { LIT = 512, MANY_LIT = 1000 };
-
+   disturb: elements end at all events there. */
 hr2d_status hr2di_strategy_survey(const hr2d_scene *scene, hr2di_looks *looks, unsigned threads,
                                   hr2di_watch *watch, hr2di_survey *survey) {
   const hr2di_grading grading = {
       .target = 0.1, .order = 2, .looks = looks, .watch = watch, .threads = threads};
   hr2d_hierarchy *h = NULL;
-  if (scene->patches > LIT && scene->effect[HR2D_EFFECT_OCCLUSION].on)
+  if (scene->patches > HR2DI_CHOICE_WEIGHED_EVENTS && scene->effect[HR2D_EFFECT_OCCLUSION].on)
     return hr2di_grading_survey(scene, &grading, survey);
   hr2d_status status = hr2d_hierarchy_create(scene, &h);
   if (!status) status = hr2di_grading_apply(h, &grading, survey);
   hr2d_hierarchy_destroy(h);
   return status;
 }
-
-/* More than CROWD patches have so many events that elements do not end at them at first, if
-   the target is no smaller than CROWDED_AIM. */
-enum { CROWD = 64 };
-#define CROWDED_AIM 1e-3
 
 static int is_hidden(const hr2d_scene *scene) {
   return scene->effect[HR2D_EFFECT_OCCLUSION].called_for ||
@@ -52,23 +41,17 @@ static int is_hidden(const hr2d_scene *scene) {
 }
 
 static int is_crowded(const hr2d_scene *scene, int hidden) {
-  return hidden && scene->patches > CROWD;
+  return hidden && scene->patches > HR2DI_CHOICE_MANY_EVENTS;
 }
 
-/* Down to SHARED_AIM shares of a known error find the elements that matter sooner than lights
-   and events do, and from fewer elements on.  Few patches have few events: below FEW_SHARED_AIM
-   these are cheaper, and a budget of seconds goes on to such targets. */
-#define SHARED_AIM     1e-4
-#define FEW_SHARED_AIM 1e-3
-
-/* Blocks of shaded pairs take about as long at any low order, and links become fewer. */
-enum { SHARED_ORDER = 5 };
-
+/* Indicators of a known error find the elements that matter sooner than lights and events do,
+   and from fewer elements on, down to some target.  Few patches have few events, and a budget
+   of seconds goes on to smaller targets. */
 static int by_shares(const hr2d_scene *scene, const hr2d_target *target, double aim) {
   const int hidden = is_hidden(scene);
   if (!hidden || target->norm != HR2D_NORM_AVERAGE || target->no_error) return 0;
-  if (is_crowded(scene, hidden)) return aim >= SHARED_AIM;
-  return aim >= FEW_SHARED_AIM && !(target->seconds > 0);
+  if (is_crowded(scene, hidden)) return aim >= HR2DI_CHOICE_INDICATORS_ERROR;
+  return aim >= HR2DI_CHOICE_INDICATORS_ERROR_SMALL && !(target->seconds > 0);
 }
 
 /* A kink of radiosity inside an element changes values at points more than averages. */
@@ -78,7 +61,9 @@ static unsigned generations_for(double aim, hr2d_norm norm) {
 }
 
 int hr2di_strategy_wants_lights(const hr2d_scene *scene, const hr2d_target *target) {
-  const size_t most = target->error < CROWDED_AIM ? MANY_LIT : LIT;
+  const size_t most = target->error < HR2DI_CHOICE_MANY_EVENTS_ERROR
+                          ? HR2DI_CHOICE_WEIGHED_EVENTS_FINE
+                          : HR2DI_CHOICE_WEIGHED_EVENTS;
   return target->norm == HR2D_NORM_AVERAGE && is_hidden(scene) && scene->patches <= most &&
          !scene->effect[HR2D_EFFECT_BACKGROUND].on && !(target->seconds > 0) &&
          !by_shares(scene, target, target->error);
@@ -88,11 +73,9 @@ int hr2di_strategy_wants_lights(const hr2d_scene *scene, const hr2d_target *targ
    Of the error of one patch they are a part of about 1/n where light goes everywhere, and signs
    of as many leaves at least take about √n of that.  Few patches may be rooms in a row, where
    the light of the last comes by one door after the other. */
-enum { ROOMS = 128 };
-
 static double shares_for(const hr2d_scene *scene, double aim) {
   const double n = (double)scene->patches;
-  return aim * (n > ROOMS ? 0.03 * n * sqrt(n) : 2);
+  return aim * (n > HR2DI_CHOICE_ROOMS ? 0.03 * n * sqrt(n) : 2);
 }
 
 /* The least 1 − ρ. */
@@ -106,30 +89,17 @@ static double least_lost(const hr2d_scene *scene) {
 
 /* What is left of the residual is off by so much of the target at most, as 1/(1 − ρ) of it is
    left of B, and B of the darkest patch counts as much as that of the brightest. */
-#define UNSOLVED 0.01
-
 double hr2di_strategy_tolerance(const hr2d_scene *scene, double contrast, double aim) {
-  const double left = UNSOLVED * aim * contrast * least_lost(scene);
-  return fmin(fmax(left, HR2D_DEFAULT_TOLERANCE), UNSOLVED);
+  const double left = HR2DI_CHOICE_UNSOLVED * aim * contrast * least_lost(scene);
+  return fmin(fmax(left, HR2D_DEFAULT_TOLERANCE), HR2DI_CHOICE_UNSOLVED);
 }
-
-/* Roundings of blocks, over all reflections, may be this part of the target. */
-#define ROUNDED (1. / 32)
 
 /* What the background sends is a difference of row sums from 1: where little of it shows, that
    is all rounding. */
 static int is_single(const hr2d_scene *scene, double target) {
   return !hr2di_outside_wants_sky(scene) &&
-         HR2DI_SINGLE_ROUNDING <= ROUNDED * target * least_lost(scene);
+         HR2DI_SINGLE_ROUNDING <= HR2DI_CHOICE_SINGLE * target * least_lost(scene);
 }
-
-/* The accuracy of links of clusters is that of the largest kernel between them.  Near a short
-   lamp patches see it at grazing angles, and have little light: the error of their B was up to
-   500 times that, in a round room of 100,000 patches. */
-#define CLUSTERS 1e-3
-
-/* Errors of many corners and elements add up. */
-#define MANY_PARTS 0.25
 
 /* A piece of the sky may show in a gap between two vertices, from a stretch of a patch that
    points of a rule miss: elements end where the gap opens, at any target. */
@@ -153,29 +123,32 @@ hr2di_resolution hr2di_strategy_for(const hr2d_scene *scene, const hr2di_survey 
   const hr2d_norm norm = target->norm;
   const int shared = by_shares(scene, target, aim);
   if (shared) lights = NULL;
-  const double many = is_crowded(scene, is_hidden(scene)) && lights ? MANY_PARTS : 1;
+  const double many =
+      is_crowded(scene, is_hidden(scene)) && lights ? HR2DI_CHOICE_MANY_PARTS : 1;
   const double error = aim * fmax(survey->exponent * survey->exponent, 1e-3);
   const double order = ceil(log(EASY / (many * error)) / digits_per_order(survey, norm));
   const int hidden = is_hidden(scene);
-  const double least = aim < THREE || lights ? 3 : 2;
-  hr2di_resolution f = {.aim = aim,
-                        .order = (unsigned)fmin(fmax(order, least), HR2D_MAX_ORDER - 2),
-                        .target = fmin(0.25 * error, 1),
-                        .cluster_accuracy = fmax(CLUSTERS * error, HR2DI_FINEST_CLUSTERS),
-                        .tolerance =
-                            lights ? hr2di_strategy_tolerance(scene, lights->contrast, aim) : 0,
-                        .norm = norm,
-                        .single = is_single(scene, target->error),
-                        .hidden = hidden,
-                        .distance = HR2DI_ELLIPSE_DISTANT,
-                        .kinks = lights ? shares_for(scene, aim) : 0,
-                        .lights = lights,
-                        .generations = hidden ? generations_for(aim, norm) : 0};
-  if (shared || (is_crowded(scene, hidden) && aim >= CROWDED_AIM)) {
-    f.order = (unsigned)fmax(f.order, aim >= THREE ? 3 : shared ? SHARED_ORDER : 4);
+  const double least = aim < HR2DI_CHOICE_ORDER_3_ERROR || lights ? 3 : 2;
+  hr2di_resolution f = {
+      .aim = aim,
+      .order = (unsigned)fmin(fmax(order, least), HR2D_MAX_ORDER - 2),
+      .target = fmin(0.25 * error, 1),
+      .cluster_accuracy = fmax(HR2DI_CHOICE_CLUSTERS * error, HR2DI_FINEST_CLUSTERS),
+      .tolerance = lights ? hr2di_strategy_tolerance(scene, lights->contrast, aim) : 0,
+      .norm = norm,
+      .single = is_single(scene, target->error),
+      .hidden = hidden,
+      .distance = HR2DI_ELLIPSE_DISTANT,
+      .kinks = lights ? shares_for(scene, aim) : 0,
+      .lights = lights,
+      .generations = hidden ? generations_for(aim, norm) : 0};
+  if (shared || (is_crowded(scene, hidden) && aim >= HR2DI_CHOICE_MANY_EVENTS_ERROR)) {
+    f.order = (unsigned)fmax(f.order, aim >= HR2DI_CHOICE_ORDER_3_ERROR ? 3
+                                      : shared ? HR2DI_CHOICE_INDICATORS_ORDER
+                                               : 4);
     f.generations = f.kinks > 0;
   }
-  if (lights && aim <= THREE && f.generations == 0) f.generations = 1;
+  if (lights && aim <= HR2DI_CHOICE_ORDER_3_ERROR && f.generations == 0) f.generations = 1;
   f.crowded = is_crowded(scene, hidden);
   if (!f.crowded && f.generations == 0) f.generations = generations_of_sky(scene);
   f.shares = shared || (f.crowded && norm == HR2D_NORM_AVERAGE);
@@ -217,12 +190,9 @@ int hr2di_strategy_raise(hr2di_resolution *f, const hr2di_survey *survey, double
   return 0;
 }
 
-/* What they are to leave of the error. */
-#define CLUSTERS_LEAVE 0.1
-
 int hr2di_strategy_raise_clusters(hr2di_resolution *f, double part, double aim) {
   if (!(f->cluster_accuracy > HR2DI_FINEST_CLUSTERS)) return -1;
-  const double factor = fmin(CLUSTERS_LEAVE * aim / part, 1);
+  const double factor = fmin(HR2DI_CHOICE_CLUSTERS_LEAVE * aim / part, 1);
   f->cluster_accuracy = fmax(f->cluster_accuracy * factor, HR2DI_FINEST_CLUSTERS);
   return 0;
 }

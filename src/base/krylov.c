@@ -13,11 +13,11 @@
 
 /* Items between two declarations of work.  Once the watch has stopped, numbers have no
    meaning. */
-enum { SOME = 4096 };
+enum { BATCH = 4096 };
 
 static inline hr2d_status declare(const hr2di_krylov_system *system, size_t item) {
-  return item % SOME == 0 ? hr2di_watch_work(system->watch, SOME / 64 * system->bands)
-                          : HR2D_OK;
+  return item % BATCH == 0 ? hr2di_watch_work(system->watch, BATCH / 64 * system->bands)
+                           : HR2D_OK;
 }
 
 /* Of one band, in four partial sums: each addition waits for the one before. */

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Parts of so FEW items are sorted at once; the longer of two parts waits, so that each that
-   waits is less than half of the one before. */
-enum { FEW = 1024, WAITING = 64 };
+/* Parts of so SMALL_RANGE items are sorted at once; the longer of two parts waits, so that each
+   that waits is less than half of the one before. */
+enum { SMALL_RANGE = 1024, WAITING = 64 };
 
 typedef struct sorter {
   size_t size;
@@ -48,7 +48,7 @@ static hr2d_status part(sorter *s, char *items, size_t count, size_t *low, size_
   size_t less = 0, k = 0, greater = count;
   memcpy(pivot, median(s, items, count), s->size);
   for (size_t turn = 0; k < greater && !status; turn++) {
-    if (turn % FEW == 0) status = hr2di_watch_work(s->watch, FEW / 4);
+    if (turn % SMALL_RANGE == 0) status = hr2di_watch_work(s->watch, SMALL_RANGE / 4);
     const int order = s->compare(items + k * s->size, pivot);
     if (order < 0)
       swap(s, items + less++ * s->size, items + k++ * s->size);
@@ -77,7 +77,7 @@ hr2d_status hr2di_sort(void *items, size_t count, size_t size,
   while (ranges > 0 && !status) {
     const range r = waiting[--ranges];
     char *const first = (char *)items + r.first * size;
-    if (r.count <= FEW) {
+    if (r.count <= SMALL_RANGE) {
       status = hr2di_watch_work(watch, r.count);
       if (!status && r.count > 1) qsort(first, r.count, size, compare);
       continue;

@@ -16,7 +16,7 @@
 
 /* A thread that waits gives way so many times, some 10 µs, before it sleeps between two
    looks. */
-enum { PATIENCE = 50, NAP = 100000 /* ns */, MOST = 256 };
+enum { PATIENCE = 50, NAP = 100000 /* ns */, MOST_THREADS = 256 };
 
 typedef struct team {
   size_t tasks;
@@ -31,7 +31,7 @@ size_t hr2di_team_threads(unsigned asked) {
 #ifdef HR2D_THREADS
   const long all = asked == HR2D_ALL_THREADS ? sysconf(_SC_NPROCESSORS_ONLN) : 0;
   const size_t count = asked == HR2D_ALL_THREADS ? (all > 0 ? (size_t)all : 1) : asked;
-  return count < 1 ? 1 : count < MOST ? count : MOST;
+  return count < 1 ? 1 : count < MOST_THREADS ? count : MOST_THREADS;
 #else
   (void)asked;
   return 1;
@@ -70,9 +70,9 @@ static void *join_in(void *arg) {
 
 /* Threads are made for each call, some 20 µs each, for tasks of milliseconds. */
 static void run_together(team *t, size_t threads) {
-  member m[MOST];
+  member m[MOST_THREADS];
   size_t count = 1;
-  for (; count < threads && count < t->tasks && count < MOST; count++) {
+  for (; count < threads && count < t->tasks && count < MOST_THREADS; count++) {
     m[count] = (member){.team = t, .number = count};
     atomic_fetch_add(&t->busy, 1);
     if (pthread_create(&m[count].thread, NULL, join_in, &m[count])) {

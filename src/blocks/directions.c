@@ -22,7 +22,7 @@
    ellipses are narrow whatever κ is. */
 #define WIDE -0.3
 
-enum { STACK = 128, MOST = HR2DI_RULE_POINTS };
+enum { STACK = 128, MOST_POINTS = HR2DI_RULE_POINTS };
 
 /* fmin() and fmax() would be calls. */
 static inline double lesser(double x, double y) {
@@ -213,7 +213,7 @@ static void add_directions(hr2di_integrator *w, const hr2di_trapezoid *t, choice
   const hr2di_cover cover = covers(&t->on[0])   ? HR2DI_COVERS_I
                             : covers(&t->on[1]) ? HR2DI_COVERS_J
                                                 : HR2DI_COVERS_NEITHER;
-  double f[MOST], g[MOST];
+  double f[MOST_POINTS], g[MOST_POINTS];
   hr2di_directions *d = hr2di_moments_room(&w->moments, cover, block);
   double *restrict weight = d->weight + d->count;
   for (size_t q = 0; q < n; q++) {
@@ -255,7 +255,7 @@ static int divide(const hr2di_trapezoid *t, const outline *o, size_t order, doub
   if (points <= 14 + (double)order) return 0;
   choose_middle(o, m);
   hr2di_trapezoid_divide(t, m, part);
-  if (points > MOST) return 1;
+  if (points > MOST_POINTS) return 1;
   for (size_t k = 0; k < 2; k++) {
     const outline half = outline_of(&part[k]);
     points -= choose(&part[k], &half, order, digits).points;
@@ -287,7 +287,7 @@ static hr2d_status add_trapezoid(hr2di_integrator *w, const hr2di_trapezoid *who
       count += 2;
       continue;
     }
-    chosen.points = lesser(chosen.points, MOST);
+    chosen.points = lesser(chosen.points, MOST_POINTS);
     const uint64_t work = 2 + (uint64_t)chosen.points * (16 + 2 * p * p) / 160;
     const hr2d_status status = hr2di_watch_work(w->watch, work);
     if (status) return status;

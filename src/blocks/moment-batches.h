@@ -9,7 +9,7 @@
 #define NAME(name)               WITH_WIDTH(name, HR2DI_WIDTH)
 #define VECTOR                   NAME(vector)
 #define PARTS                    (4 / HR2DI_WIDTH)
-#define MOST                     (LANES / HR2DI_WIDTH)
+#define VECTORS                  (LANES / HR2DI_WIDTH)
 
 typedef double VECTOR __attribute__((vector_size(8 * HR2DI_WIDTH), aligned(8), may_alias));
 
@@ -113,7 +113,7 @@ HR2DI_PART void NAME(add_covering)(const hr2di_moments *w, size_t p, const hr2di
   const VECTOR *weight = (const VECTOR *)(d->weight + from);
   const VECTOR *half = (const VECTOR *)(d->half[side] + from);
   const VECTOR *row = (const VECTOR *)w->row[side];
-  VECTOR factor[MOST], sum[PARTS];
+  VECTOR factor[VECTORS], sum[PARTS];
   NAME(expand)(w, p, d, from, wide, side);
   for (size_t x = 0; x < wide; x++) factor[x] = weight[x];
   for (size_t k = 0; k < p; k++) {
@@ -142,7 +142,8 @@ HR2DI_PART void NAME(add_some)(const hr2di_moments *w, size_t p, hr2di_cover cov
 HR2DI_PART void NAME(add_all)(const hr2di_moments *w, size_t p, hr2di_cover cover, size_t count,
                               double *block) {
   size_t from = 0;
-  for (; from + LANES <= count; from += LANES) NAME(add_some)(w, p, cover, from, MOST, block);
+  for (; from + LANES <= count; from += LANES)
+    NAME(add_some)(w, p, cover, from, VECTORS, block);
   if (from < count) NAME(add_some)(w, p, cover, from, PARTS, block);
 }
 
@@ -178,6 +179,6 @@ static void NAME(add_batches)(const hr2di_moments *w, hr2di_cover cover, size_t 
 #undef WITH_WIDTH
 #undef NAME
 #undef VECTOR
-#undef MOST
+#undef VECTORS
 #undef PARTS
 #undef HR2DI_WIDTH

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "base/sort.h"
 #include "clusters/clusters-impl.h"
 #include "clusters/facing.h"
@@ -13,14 +14,11 @@
 #include "visibility/row-maker.h"
 
 /* NEAR pairs are handed over at a time.  A link costs as much as its points times those of
-   the other, a pair of patches as much as WORTH of these.  Where so FEW pairs of patches are
-   left, and walls may be in the way, they are put off until rows tell which see each other.
+   the other.  Where few pairs of patches are left, and walls may be in the way, they are put
+   off until rows tell which see each other.
    Sines below a part in SLACK of the digits do not matter, nor to links that are ten times as
    accurate. */
-enum { NEAR = 256, WORTH = 8, FEW = 256, SLACK = 640 };
-
-/* What looking into two clusters may cost, as work. */
-enum { LOOKS = 100 };
+enum { NEAR = 256, SLACK = 640 };
 
 /* A pair of clusters; what is known of it holds for its parts. */
 typedef struct two {
@@ -103,7 +101,7 @@ static double pairs_of(const walk *w, const two *at) {
 static int link_pays(const walk *w, const two *at) {
   return w->far && (double)hr2di_expansion_points(&w->far[at->i]) *
                            (double)hr2di_expansion_points(&w->far[at->j]) <=
-                       WORTH * pairs_of(w, at);
+                       HR2DI_CHOICE_CLUSTERS_PAIR * pairs_of(w, at);
 }
 
 static int may_link(const walk *w, const two *at) {
@@ -114,7 +112,7 @@ static int may_link(const walk *w, const two *at) {
 
 /* Completes what is known of a pair that may be linked, until it is known not to be. */
 static int is_clear(walk *w, two *at) {
-  if (hr2di_watch_work(w->watch, LOOKS)) return 0;
+  if (hr2di_watch_work(w->watch, HR2DI_CHOICE_CLUSTERS_LOOK)) return 0;
   if (!at->facing)
     at->facing = hr2di_cluster_on(&w->tree, at->i, at->j, HR2DI_SIDE_FRONT) &&
                  hr2di_cluster_on(&w->tree, at->j, at->i, HR2DI_SIDE_FRONT);
@@ -147,9 +145,10 @@ static hr2d_status settle(walk *w, two at) {
   }
   if (may_link(w, &at) && is_clear(w, &at)) return link(w, &at);
   if (!at.clear) {
-    const int few = pairs_of(w, &at) <= FEW && !link_pays(w, &at);
+    const int few = pairs_of(w, &at) <= HR2DI_CHOICE_CLUSTERS_PUT_OFF && !link_pays(w, &at);
     if (few && !is_clear(w, &at)) return put_off(w, at);
-    if (hr2di_watch_work(w->watch, LOOKS)) return hr2di_watch_status(w->watch);
+    if (hr2di_watch_work(w->watch, HR2DI_CHOICE_CLUSTERS_LOOK))
+      return hr2di_watch_status(w->watch);
     if (!few && hr2di_clusters_blocked(w->walls, i, j)) return HR2D_OK;
   }
   if (i->child || j->child) return part(w, at);

@@ -63,12 +63,12 @@ uint64_t hr2d_clusters_bytes(const hr2d_clusters *clusters) {
 }
 
 /* Numbers between two declarations of work. */
-enum { SOME = 4096 };
+enum { BATCH = 4096 };
 
 /* power *= factor, which is 0 at the beginning. */
 static void scale(double *power, size_t count, double factor, hr2di_watch *watch) {
   for (size_t k = 0; k < count; k++) {
-    if (k % SOME == 0 && hr2di_watch_work(watch, SOME / 64)) return;
+    if (k % BATCH == 0 && hr2di_watch_work(watch, BATCH / 64)) return;
     power[k] = factor == 0 ? 0 : factor * power[k];
   }
 }

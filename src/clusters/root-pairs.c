@@ -7,12 +7,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "scene/scene-impl.h"
 #include "visibility/row-maker.h"
-
-/* Where patches see no more others than that in the mean, clusters find nothing to link that
-   would be worth their search. */
-enum { FEW_SEEN = 100 };
 
 /* What beams of one thread find. */
 typedef struct found {
@@ -57,16 +54,17 @@ static int found_too_many(const collector *c) {
 }
 
 /* Pairs between two declarations of work. */
-enum { SOME = 1024 };
+enum { BATCH = 1024 };
 
 /* Their order does not matter, as they will be sorted: equal pairs are equal in every bit. */
 static hr2d_status unite(collector *c, size_t threads, hr2d_status status, hr2di_watch *watch) {
   for (size_t k = 0; k < threads; k++) {
     const found *of = &c->found[k];
-    for (size_t from = 0; from < of->count && !status; from += SOME) {
-      status = hr2di_watch_work(watch, SOME / 64);
+    for (size_t from = 0; from < of->count && !status; from += BATCH) {
+      status = hr2di_watch_work(watch, BATCH / 64);
       if (!status)
-        status = collect(c, of->pair + from, of->count - from < SOME ? of->count - from : SOME);
+        status =
+            collect(c, of->pair + from, of->count - from < BATCH ? of->count - from : BATCH);
     }
     hr2di_alloc_free(c->alloc, of->pair);
   }
@@ -79,7 +77,7 @@ static hr2d_status find_by_beams(collector *c, const hr2d_scene *scene, unsigned
                                  hr2di_watch *watch) {
   hr2di_row_maker maker;
   hr2d_status status = hr2di_row_maker_init(&maker, scene, threads, 0, watch);
-  c->most = FEW_SEEN * scene->patches;
+  c->most = HR2DI_CHOICE_CLUSTERS_SEEN * scene->patches;
   c->found = hr2di_alloc_zero(c->alloc, maker.workers, sizeof *c->found);
   if (!status && !c->found) status = HR2D_ENOMEM;
   if (!status) status = hr2di_row_maker_run(&maker, 0, maker.tasks, collect_row, c);
@@ -99,12 +97,12 @@ static hr2d_status sort_by(const hr2d_pair *from, hr2d_pair *to, size_t count, s
   hr2d_status status = hr2di_watch_work(watch, keys / 64);
   memset(start, 0, (keys + 1) * sizeof *start);
   for (size_t k = 0; k < count && !status; k++) {
-    if (k % SOME == 0) status = hr2di_watch_work(watch, SOME / 32);
+    if (k % BATCH == 0) status = hr2di_watch_work(watch, BATCH / 32);
     start[key(&from[k], by_first) + 1]++;
   }
   for (size_t k = 0; k < keys; k++) start[k + 1] += start[k];
   for (size_t k = 0; k < count && !status; k++) {
-    if (k % SOME == 0) status = hr2di_watch_work(watch, SOME / 16);
+    if (k % BATCH == 0) status = hr2di_watch_work(watch, BATCH / 16);
     to[start[key(&from[k], by_first)]++] = from[k];
   }
   for (size_t k = keys; k > 0; k--) start[k] = start[k - 1];

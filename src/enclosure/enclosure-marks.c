@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The covariance of B on an element j and of the factors F(·,i), which is known to within
    `off`, makes the gap of the mean over the patch of i wider by A_j off/A_i.  The sum over all
-   i is the share of j.  The leaves with the largest shares that make MOST of all of them
-   together are halved (Dörfler's marking): then shares become even. */
+   i is the share of j.  The leaves with the largest shares that make
+   HR2DI_CHOICE_ENCLOSURE_MARKED of all of them together are halved (Dörfler's marking): then
+   shares become even. */
 #include "enclosure/enclosure-marks.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "base/sort.h"
 #include "scene/scene-impl.h"
-
-#define MOST 0.8
 
 typedef struct share {
   double of_gap;
@@ -78,19 +78,17 @@ static size_t count_largest(const share *list, size_t count) {
   double all = 0, sum = 0;
   size_t most = 0;
   for (size_t k = 0; k < count; k++) all += list[k].of_gap;
-  while (most < count && sum < MOST * all) sum += list[most++].of_gap;
+  while (most < count && sum < HR2DI_CHOICE_ENCLOSURE_MARKED * all) sum += list[most++].of_gap;
   return most;
 }
 
-/* Of those that are too many, half as many, until they are not; less than FEWEST of them are
-   not worth a round. */
-#define FEWEST 0.1
-
+/* Of those that are too many, half as many, until they are not; less than
+   HR2DI_CHOICE_ENCLOSURE_LEAST of them are not worth a round. */
 static hr2d_status choose(hr2di_enclosing *e, const share *list, size_t count,
                           uint64_t max_links, unsigned char *mark, size_t *marked) {
   hr2d_status status = HR2D_OK;
   const size_t wanted = count_largest(list, count);
-  const double fewest = FEWEST * (double)wanted;
+  const double fewest = HR2DI_CHOICE_ENCLOSURE_LEAST * (double)wanted;
   for (*marked = wanted; *marked > 0 && (double)*marked > fewest && !status; *marked /= 2) {
     uint64_t links;
     memset(mark, 0, e->elements);

@@ -112,7 +112,7 @@ static void add_pair(const hr2di_transport *t, double off, const gather *g, uint
 
 /* The exchange area of a pair that is hidden or clipped in part is known to this part of the
    shorter length (tests/unit/occlusion/check-visibility.c). */
-#define HIDDEN 1e-14
+#define AREA_ROUNDING 1e-14
 
 static int touch(const hr2d_element *i, const hr2d_element *j) {
   return hr2di_point_same(i->b, j->a) || hr2di_point_same(i->a, j->b);
@@ -129,7 +129,7 @@ static double link_off(const hr2di_transport *t, uint64_t link, const offsets *p
   double off = 0;
   if (t->order == 1 || !have_corner(scene, i->patch, j->patch))
     off = exchange_off(pair, e, places, t->order == 1 || (!distant && (hides || touch(i, j))));
-  return hides && !distant ? off + HIDDEN * fmin(i->length, j->length) : off;
+  return hides && !distant ? off + AREA_ROUNDING * fmin(i->length, j->length) : off;
 }
 
 static void add_links(const hr2di_transport *t, const offsets *places, const gather *g) {

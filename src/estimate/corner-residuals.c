@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "base/legendre.h"
 #include "base/sort.h"
 #include "estimate/points-gather.h"
@@ -12,9 +13,6 @@
 #include "geometry/vector.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
-
-/* Contacts that are gathered at: a gather takes as long as there are patches. */
-enum { MOST = 64, FEW = 8, MANY = 1000 };
 
 /* How far beside a foot, in terms of the leaf: residuals change like x^γ there.  But what is
    no farther than a few roundings of coordinates may be seen from the other side of the foot.
@@ -43,7 +41,8 @@ static hr2d_status add(hr2di_contacts *c, const hr2di_transport *t, const uint32
 }
 
 static size_t most_for(const hr2d_scene *scene) {
-  return scene->patches > MANY ? FEW : MOST;
+  return scene->patches > HR2DI_CHOICE_CONTACTS_PATCHES ? HR2DI_CHOICE_CONTACTS_LARGE
+                                                        : HR2DI_CHOICE_CONTACTS;
 }
 
 uint64_t hr2di_contacts_points(const hr2d_linkset *links) {
@@ -211,7 +210,7 @@ hr2d_status hr2di_contacts_gather(hr2di_contacts *c, const hr2di_equation *eq,
                                   const hr2d_solution *solution, const double *residual,
                                   const double *field) {
   const hr2di_transport *t = &eq->transport;
-  hr2di_place place[2 * MOST];
+  hr2di_place place[2 * HR2DI_CHOICE_CONTACTS];
   choose(c, t, residual);
   const size_t count = 2 * c->gathered;
   c->residual = hr2di_alloc(&c->alloc, count, t->bands * sizeof *c->residual);

@@ -26,7 +26,7 @@
 /* Where views change, coefficients p and p + 1 of a kink inside an element show 1 − (p/(p+2))³
    of its effect, and visibility events leave kinks of later generations: in one of 7,000 random
    runs, 6.1 times as much was hidden. */
-#define HIDDEN 7
+#define MARGIN_OF_VIEWS 7
 /* Points are sampled, and coefficients show less of B than of averages. */
 #define POINTS 3
 /* The part of the errors without signs that may be left where signs cancel: what K⁺ does not
@@ -178,7 +178,7 @@ static hr2d_status measure_rest(hr2di_estimator *e, hr2di_error_pair *errors) {
 static double margin_of(const hr2di_resolution *f) {
   const double ratio = (double)f->order / (f->order + HR2DI_FINER_ORDERS);
   if (!f->hidden) return MARGIN;
-  return HIDDEN / (1 - ratio * ratio * ratio);
+  return MARGIN_OF_VIEWS / (1 - ratio * ratio * ratio);
 }
 
 static double worst_of(const hr2di_error_pair *errors) {

@@ -6,25 +6,19 @@
      share = A Σ_l |r_l Z_l|, p ≤ l < p + 2.
 
    Where views change there are kinks in r and in Z, and a half of a leaf has 1/2³ of its share
-   on either side or on both; a smooth share falls faster.  So a halving leaves a LEFT part. */
+   on either side or on both; a smooth share falls faster.  So a halving leaves a HALVED_SHARE
+   part. */
 #include "estimate/error-shares.h"
 
 #include <math.h>
 
+#include "base/choices.h"
 #include "estimate/importance.h"
 #include "estimate/safe-sum.h"
 #include "scene/scene-impl.h"
 
 /* The part of a share that two halves have together. */
-#define LEFT 0.2
-
-/* Of the target: averages that are so far off are made better, and what they are aimed at. */
-#define OFF 0.35
-#define AIM 0.35
-
-/* Shares are tried in steps of this, and a leaf is halved so often at most. */
-#define STEP 0.8
-enum { DEEPEST = 3 };
+#define HALVED_SHARE 0.2
 
 /* Sets the source to the sum of 1/(A H̄) of the averages that are too far off. */
 static void set_source(hr2di_estimator *e, double off) {
@@ -58,14 +52,15 @@ static void measure(const hr2di_estimator *e, double *share) {
 /* How often a leaf is halved so that no part has more than `most`. */
 static unsigned char depth_for(double share, double most) {
   unsigned char depth = 0;
-  for (; share > most && depth < DEEPEST; depth++) share *= LEFT / 2;
+  for (; share > most && depth < HR2DI_CHOICE_INDICATORS_DEEP; depth++)
+    share *= HALVED_SHARE / 2;
   return depth;
 }
 
 static double sum_left(const double *share, size_t leaves, double most) {
   double sum = 0;
   for (size_t k = 0; k < leaves; k++)
-    sum += share[k] * pow(LEFT, share[k] > most ? depth_for(share[k], most) : 0);
+    sum += share[k] * pow(HALVED_SHARE, share[k] > most ? depth_for(share[k], most) : 0);
   return sum;
 }
 
@@ -74,10 +69,11 @@ static double sum_left(const double *share, size_t leaves, double most) {
 static double find_most(const double *share, size_t leaves, double part, hr2di_watch *watch) {
   double most = 0;
   for (size_t k = 0; k < leaves; k++) most = fmax(most, share[k]);
-  const double least = most * pow(LEFT / 2, DEEPEST), all = sum_left(share, leaves, most);
+  const double least = most * pow(HALVED_SHARE / 2, HR2DI_CHOICE_INDICATORS_DEEP),
+               all = sum_left(share, leaves, most);
   while (most > least && sum_left(share, leaves, most) > part * all &&
          !hr2di_watch_work(watch, leaves / 16))
-    most *= STEP;
+    most *= HR2DI_CHOICE_INDICATORS_STEP;
   return most;
 }
 
@@ -86,11 +82,12 @@ hr2d_status hr2di_error_shares(hr2di_estimator *e, double target, double worst,
   hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
   double *share = e->rest; /* no longer needed */
-  set_source(e, OFF * target);
+  set_source(e, HR2DI_CHOICE_INDICATORS_OFF * target);
   const hr2d_status status = hr2di_safe_row(e);
   if (status) return status;
   measure(e, share);
-  const double most = find_most(share, t->leaves, fmin(AIM * target / worst, 1), t->watch);
+  const double most = find_most(
+      share, t->leaves, fmin(HR2DI_CHOICE_INDICATORS_AIM * target / worst, 1), t->watch);
   for (size_t k = 0; k < t->leaves; k++) depth[t->leaf[k]] = depth_for(share[k], most);
   return hr2di_estimator_stopped(e) ? hr2di_watch_status(t->watch) : HR2D_OK;
 }

@@ -24,6 +24,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "base/sort.h"
 #include "estimate/points-gather.h"
 #include "geometry/apart.h"
@@ -31,9 +32,6 @@
 #include "geometry/predicates.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
-
-/* Gaps that are gathered at, of the largest radiosities: there may be many. */
-enum { MOST = 16, FEW = 4, MANY = 1000 };
 
 /* Of points in the middle of two layers of 8h. */
 #define REACH 0.97
@@ -274,8 +272,8 @@ static void add(hr2di_estimator *e, size_t patch, size_t band, double error, dou
 
 /* The places of the brightest gaps. */
 typedef struct places {
-  hr2di_place at[2 * MOST * PLACES];
-  size_t count[2 * MOST]; /* per side of a gap */
+  hr2di_place at[2 * HR2DI_CHOICE_GAPS * PLACES];
+  size_t count[2 * HR2DI_CHOICE_GAPS]; /* per side of a gap */
   size_t all;
 } places;
 
@@ -323,7 +321,9 @@ static void add_unknown(hr2di_estimator *e, const gap *g) {
 
 hr2d_status hr2di_gap_residuals(hr2di_estimator *e) {
   const hr2di_transport *t = &e->eq.transport;
-  const size_t most = t->hierarchy->scene->patches > MANY ? FEW : MOST;
+  const size_t most = t->hierarchy->scene->patches > HR2DI_CHOICE_CONTACTS_PATCHES
+                          ? HR2DI_CHOICE_GAPS_LARGE
+                          : HR2DI_CHOICE_GAPS;
   gaps all = {0};
   hr2d_status status = find_all(e, &all);
   if (!status && all.count > 0)

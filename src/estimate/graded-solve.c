@@ -3,6 +3,7 @@
 #include "estimate/graded-solve.h"
 
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "base/clock.h"
 #include "estimate/estimator.h"
 #include "estimate/resolution.h"
@@ -17,16 +18,13 @@
 #include "solution/solution-impl.h"
 #include "solve/solve-how.h"
 
-/* More than MOST_EVENTS events cost more than they gain; from MANY patches on clusters save
-   more than they cost. */
-enum { MOST_EVENTS = 30000, MANY = 256 };
-
-/* Finds the events of `generations` generations, or of as many as MOST_EVENTS has room for. */
+/* Finds the events of `generations` generations, or of as many as HR2DI_CHOICE_EVENTS has room
+ * for. */
 static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
                                unsigned generations, hr2d_share *share, hr2di_watch *watch) {
   for (;; generations--) {
-    const hr2d_status status =
-        hr2di_events_init(events, h->scene, &h->alloc, generations, MOST_EVENTS, share, watch);
+    const hr2d_status status = hr2di_events_init(events, h->scene, &h->alloc, generations,
+                                                 HR2DI_CHOICE_EVENTS, share, watch);
     if (status != HR2D_EMAX_ELEMENTS) return status;
     hr2di_events_clear(events);
     *events = (hr2di_events){0};
@@ -93,7 +91,7 @@ static hr2d_status find_roots(hr2d_linkset *links, const hr2di_graded *coarse,
                               const hr2di_resolution *fineness, const hr2d_target *target) {
   const hr2d_scene *scene = links->hierarchy->scene;
   hr2di_watch watch;
-  if (scene->patches < MANY) return HR2D_OK;
+  if (scene->patches < HR2DI_CHOICE_CLUSTERS_PATCHES) return HR2D_OK;
   hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "refine");
   return coarse && !coarse->links->roots.clusters
              ? hr2di_roots_copy(&links->roots, &coarse->links->roots, scene->patches,
@@ -196,15 +194,12 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
   return explain(a, hr2di_share_agree(target->share, status), message);
 }
 
-/* A share with more than so many times the mean of the links is too many. */
-#define UNEVEN 1.12
-
 static hr2d_status find_uneven(const hr2di_graded *a, hr2d_share *share, int *uneven) {
   const double own = (double)a->links->store.count;
   double most = own, all = own;
   hr2d_status status = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_MOST, &most, 1);
   if (!status) status = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_SUM, &all, 1);
-  *uneven = share && most * share->count > UNEVEN * all;
+  *uneven = share && most * share->count > HR2DI_CHOICE_UNEVEN * all;
   return status;
 }
 

@@ -40,7 +40,7 @@ static const char *skip_word(const char *at, const char *end) {
 }
 
 /* Tokens between two declarations of work. */
-enum { SOME = 64 };
+enum { BATCH = 64 };
 
 /* Behind an error, where jansson stops, this may see more tokens, but never shorter ones. */
 static outline survey(const char *text, size_t size, hr2di_watch *watch) {
@@ -51,7 +51,7 @@ static outline survey(const char *text, size_t size, hr2di_watch *watch) {
   size_t tokens = 0;
   for (const char *at = o.start; at < last && !o.end;) {
     const char *const token = at;
-    if (tokens++ % SOME == 0 && hr2di_watch_work(watch, SOME / 4)) return o;
+    if (tokens++ % BATCH == 0 && hr2di_watch_work(watch, BATCH / 4)) return o;
     if (*at == '"')
       at = skip_string(at, last);
     else if (*at && strchr("{[", *at))

@@ -57,13 +57,13 @@ const double *hr2di_push_pull_relation(const hr2di_push_pull *p, uint32_t elemen
   return p->relation + 2 * pair * p->order * p->order;
 }
 
-enum { SOME = 16 };
+enum { BATCH = 16 };
 
-/* Declares the work of the next elements, before every one whose number is a multiple of SOME.
+/* Declares the work of the next elements, before every one whose number is a multiple of BATCH.
  */
 static inline hr2d_status declare(const hr2di_push_pull *p, uint32_t element) {
-  if (element % SOME != 0) return HR2D_OK;
-  return hr2di_watch_work(p->watch, SOME / 4 + SOME * p->order * p->order * p->bands / 64);
+  if (element % BATCH != 0) return HR2D_OK;
+  return hr2di_watch_work(p->watch, BATCH / 4 + BATCH * p->order * p->order * p->bands / 64);
 }
 
 /* parent_l += part Σ_k relation_lk child_k.  A constant stride lets the compiler vectorise. */

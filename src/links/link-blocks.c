@@ -6,13 +6,13 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "base/team.h"
 #include "blocks/block.h"
 #include "links/linkset-impl.h"
 #include "scene/scene-impl.h"
 
-/* The links of a task; and those that are worth another thread. */
-enum { CHUNK = 16, WORTH = 256 };
+enum { CHUNK = 16 /* the links of a task */ };
 
 /* The work space of a thread. */
 typedef struct worker {
@@ -158,7 +158,8 @@ static hr2d_status make_all(maker *m) {
 
 /* Few links get few threads: their blocks are made before another thread wakes up. */
 static size_t count_threads(unsigned asked, uint64_t links) {
-  const size_t threads = hr2di_team_threads(asked), max = (size_t)(1 + links / WORTH);
+  const size_t threads = hr2di_team_threads(asked),
+               max = (size_t)(1 + links / HR2DI_CHOICE_TEAM_LINKS);
   return threads < max ? threads : max;
 }
 

@@ -14,7 +14,7 @@
 #include "scene/scene-impl.h"
 
 /* Links between two declarations of work. */
-enum { SOME = HR2DI_READ_LINKS };
+enum { BATCH = HR2DI_READ_LINKS };
 
 typedef struct division {
   hr2d_linkset *links, *coarse;
@@ -44,7 +44,7 @@ static hr2d_status claim(void *ctx, const hr2d_batch *batch, unsigned char *clai
 static hr2d_status find_divided(division *d) {
   const hr2d_hierarchy *before = d->coarse->hierarchy, *h = d->links->hierarchy;
   for (size_t k = h->elements; k-- > 0;) {
-    if (k % SOME == 0 && hr2di_watch_work(&d->watch, SOME / 32)) break;
+    if (k % BATCH == 0 && hr2di_watch_work(&d->watch, BATCH / 32)) break;
     d->divided[k] |=
         k >= before->elements || (!before->element[k].child && h->element[k].child);
     if (d->divided[k]) d->divided[h->parent[k]] = 1;
@@ -84,8 +84,8 @@ static void move_blocks(division *d, uint64_t from, size_t count) {
 
 /* Keeps some links, one behind the other, from number `first` on. */
 static hr2d_status keep(division *d, const hr2d_link *link, uint64_t first, size_t count) {
-  hr2d_pair pair[SOME];
-  double area[SOME];
+  hr2d_pair pair[BATCH];
+  double area[BATCH];
   for (size_t k = 0; k < count; k++) {
     pair[k] = link[k].pair;
     area[k] = link[k].exchange_area;
@@ -114,7 +114,7 @@ static hr2d_status make_table(division *d) {
   d->again = hr2di_alloc_zero(&links->alloc, (size_t)all, 1);
   hr2d_status status = d->place && d->again ? HR2D_OK : HR2D_ENOMEM;
   for (uint64_t k = 0; k < count && !status; k++) {
-    if (k % SOME == 0) status = hr2di_watch_work(&d->watch, SOME / 4);
+    if (k % BATCH == 0) status = hr2di_watch_work(&d->watch, BATCH / 4);
     uint64_t slot = hash_of(hr2di_store_link(&links->store, k).pair) & d->mask;
     while (d->place[slot]) slot = (slot + 1) & d->mask;
     d->place[slot] = (uint32_t)k + 1;
@@ -136,8 +136,8 @@ static int is_again(division *d, hr2d_pair pair) {
 
 static hr2d_status sort_some(division *d, const hr2d_link *link, uint64_t first,
                              size_t number) {
-  hr2d_status status = hr2di_watch_work(&d->watch, SOME);
-  unsigned char stays[SOME];
+  hr2d_status status = hr2di_watch_work(&d->watch, BATCH);
+  unsigned char stays[BATCH];
   for (size_t k = 0; k < number && !status; k++) {
     const int changed = changes(d, link[k].pair);
     if (changed) status = count(d, &link[k]);
@@ -155,7 +155,7 @@ static hr2d_status sort_links(division *d) {
   hr2d_link room[HR2DI_READ_LINKS];
   hr2d_status status = HR2D_OK;
   for (uint64_t first = 0; first < from->count && !status;) {
-    size_t count = SOME;
+    size_t count = BATCH;
     const hr2d_link *link = hr2di_store_read(from, first, &count, room);
     status = sort_some(d, link, first, count);
     first += count;
@@ -203,7 +203,7 @@ static hr2d_status add_new(division *d) {
   const hr2d_linkset *links = d->links;
   hr2d_status status = HR2D_OK;
   for (uint64_t k = 0; k < links->store.count && !status; k++) {
-    if (k % SOME == 0) status = hr2di_watch_work(&d->watch, SOME / 16);
+    if (k % BATCH == 0) status = hr2di_watch_work(&d->watch, BATCH / 16);
     const hr2d_link link = hr2di_store_link(&links->store, k);
     if (!d->again[k] && !status)
       status = hr2di_store_add(&d->kept, &links->alloc, &link.pair, &link.exchange_area, 1);

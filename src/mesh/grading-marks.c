@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "base/sort.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
@@ -22,10 +23,6 @@
 #define ON_LINE 1e-13
 /* Measured at 1° to 170° with ρ up to 0.999, where this leaves a factor of 10. */
 #define SMALL 32
-
-/* What elements beside a corner make of averages falls with their length like h^(1+2γ), so that
-   short ones need not converge as fast: below 2^−LONG of that they shrink to quarters. */
-#define LONG 5
 
 enum { DEEPEST = 40 };
 
@@ -96,7 +93,8 @@ static hr2di_grading_mark grade_corner(hr2di_grader *g, double cosine, double si
   const double slope = sup ? fmax(gamma, 0.05) : 1 + 2 * gamma;
   const double digits = log2(strength / (sup ? 1 : SMALL) / g->target) / slope;
   hr2di_grading_mark m = {.depth = g->grading->corner_levels,
-                          .halves = sup ? 2 * DEEPEST : (unsigned)ceil(LONG / slope)};
+                          .halves = sup ? 2 * DEEPEST
+                                        : (unsigned)ceil(HR2DI_CHOICE_QUARTERS / slope)};
   if (!(strength > g->target)) return m;
   g->survey.exponent = fmin(g->survey.exponent, gamma);
   if (g->grading->flat) return m;

@@ -24,6 +24,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "base/sort.h"
 #include "geometry/vector.h"
 #include "mesh/kink-jumps.h"
@@ -153,12 +154,9 @@ static hr2d_status push_all(cutter *c) {
   return status;
 }
 
-/* Of events with bounds that are so much of the largest one all are looked at together: each
-   time all those in the leaf are weighed again. */
-#define TOGETHER 0.25
-
 static int matters(const cutter *c, const leaf *l, size_t k) {
-  return !c->jumps.known[k] && c->square[k][0] >= TOGETHER * c->square[l->best][0];
+  return !c->jumps.known[k] &&
+         c->square[k][0] >= HR2DI_CHOICE_EVENTS_TOGETHER * c->square[l->best][0];
 }
 
 /* Finds out about the best event of a leaf, and about those that seem to matter about as much.
@@ -226,13 +224,10 @@ static hr2d_status cut(cutter *c) {
   return status ? status : push(c, (leaf){child + 1, e->at, l.to, l.best + 1, l.last, 0, 0});
 }
 
-/* Looks that are worth a team. */
-enum { MANY_LOOKS = 256 };
-
 static hr2d_status run(cutter *c, double allowed, uint64_t max_elements) {
   hr2d_status status = push_all(c);
   size_t looks = c->events->count;
-  while (c->total > allowed && looks >= MANY_LOOKS && !status)
+  while (c->total > allowed && looks >= HR2DI_CHOICE_TEAM_EVENTS && !status)
     status = look_ahead(c, allowed, &looks);
   while (c->count > 0 && c->total > allowed && !status) {
     if (max_elements && c->h->elements + 2 > max_elements) return HR2D_EMAX_ELEMENTS;

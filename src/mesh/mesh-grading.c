@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "base/team.h"
 #include "geometry/bernstein-ellipse.h"
 #include "mesh/grader.h"
@@ -23,7 +24,7 @@
 #define QUARTER 0.25
 #define BEHIND  1.66
 
-enum { STACK = 256, MANY = 64 /* patches that are worth other threads */ };
+enum { STACK = 256 };
 
 /* An element still to be divided, as a part of its patch. */
 typedef struct part {
@@ -259,7 +260,7 @@ hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *
         hr2di_seen_ends_init(&seen, scene, grading->looks, &hierarchy->alloc, grading->watch);
   }
   const size_t threads = hr2di_team_threads(grading->threads);
-  if (!status && threads > 1 && scene->patches >= MANY) {
+  if (!status && threads > 1 && scene->patches >= HR2DI_CHOICE_TEAM_PATCHES) {
     status = hr2di_grader_team(&g, threads);
   } else {
     for (uint32_t k = 0; k < hr2di_scene_cell(scene) && !status; k++) {

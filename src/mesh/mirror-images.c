@@ -14,7 +14,7 @@
 #include "scene/scene-impl.h"
 
 /* So many points are worth a grid. */
-enum { MANY = 64 };
+enum { GRID_POINTS = 64 };
 
 typedef struct mirror {
   const hr2d_scene *scene;
@@ -140,7 +140,7 @@ hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max
               .watch = watch};
   hr2d_status status = HR2D_OK;
   m.border = hr2di_sunlight_borders(scene, patch, &m.borders);
-  if (m.count >= MANY)
+  if (m.count >= GRID_POINTS)
     status = hr2di_point_grid_init(&m.grid, points->point, m.count, &scene->alloc, watch);
   if (!status) status = look_at_walls(&m, patch, seen);
   hr2di_point_grid_clear(&m.grid, &scene->alloc);

@@ -194,13 +194,13 @@ static void deal_row(dealer *d, size_t row) {
 }
 
 /* Rows between two declarations of work. */
-enum { SOME = 64 };
+enum { BATCH = 64 };
 
 static hr2d_status deal_rows(dealer *d, const weighed *order) {
-  const uint64_t units = SOME * (1 + d->share->count / 8);
+  const uint64_t units = BATCH * (1 + d->share->count / 8);
   take_back(d);
   for (size_t k = 0; k < d->rows; k++) {
-    if (k % SOME == 0 && hr2di_watch_work(d->watch, units)) break;
+    if (k % BATCH == 0 && hr2di_watch_work(d->watch, units)) break;
     deal_row(d, order[k].row);
   }
   return hr2di_watch_status(d->watch);

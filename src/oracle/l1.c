@@ -36,7 +36,7 @@ enum {
   PIECES = 80,
   GRADING = 5, /* growth of pieces away from a pole; a 15-point rule is then good to 1e-11 */
   DEPTH = 60,  /* of bisection */
-  MOST = 2000  /* intervals of one piece, where noise keeps the error estimates high */
+  MOST_INTERVALS = 2000 /* intervals of one piece, where noise keeps the error estimates high */
 };
 
 #define TOLERANCE 1e-12  /* of one interval, relative to the whole */
@@ -103,7 +103,7 @@ static double refine(gsl_function function, interval whole, double tolerance) {
   while (count > 0) {
     const interval s = stack[--count];
     const double middle = 0.5 * (s.low + s.high);
-    if (!(s.error > tolerance) || count == DEPTH - 1 || measured >= MOST) {
+    if (!(s.error > tolerance) || count == DEPTH - 1 || measured >= MOST_INTERVALS) {
       sum += s.value;
       continue;
     }

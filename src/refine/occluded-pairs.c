@@ -108,12 +108,12 @@ typedef struct candidate {
   size_t first, last, first_part, last_part;
 } candidate;
 
-enum { MOST = 4 };
+enum { CHILD_PAIRS = 4 };
 
 static hr2d_status propose(hr2di_projector *p, const candidate *c, size_t count) {
-  static const unsigned char partial[MOST] = {1, 1, 1, 1};
-  hr2d_pair pairs[MOST] = {{0}};
-  unsigned char accepted[MOST] = {0};
+  static const unsigned char partial[CHILD_PAIRS] = {1, 1, 1, 1};
+  hr2d_pair pairs[CHILD_PAIRS] = {{0}};
+  unsigned char accepted[CHILD_PAIRS] = {0};
   if (count == 0) return HR2D_OK;
   for (size_t k = 0; k < count; k++) pairs[k] = c[k].pair;
   p->partial = partial;
@@ -217,7 +217,7 @@ hr2d_status hr2di_occluded_round(hr2di_projector *p) {
   hr2di_occluded_pairs *s = &p->occluded;
   const hr2d_pair pair = s->stack.pair[--s->stack.count];
   const size_t from = s->first[s->stack.count];
-  candidate c[MOST];
+  candidate c[CHILD_PAIRS];
   size_t candidates, count = 0;
   int limited;
   hr2d_status status = hr2di_projector_subdivide(p, pair, &candidates, &limited);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "base/legendre.h"
 #include "base/team.h"
 #include "hierarchy/hierarchy-impl.h"
@@ -27,8 +28,7 @@ hr2d_status hr2di_background_set(hr2di_transport *t, const hr2di_row_sums *rows)
   return HR2D_OK;
 }
 
-/* The leaves of a task, and those that are worth another thread. */
-enum { SOME = 16, WORTH = 64 };
+enum { BATCH = 16 /* the leaves of a task */ };
 
 /* The work space of a thread. */
 typedef struct looker {
@@ -75,7 +75,7 @@ static void take_some_backs(void *ctx, size_t worker, size_t task) {
   looker *l = &all->looker[worker];
   const hr2di_transport *t = all->t;
   const hr2d_hierarchy *h = t->hierarchy;
-  for (size_t k = task * SOME; k < t->leaves && k < (task + 1) * SOME; k++) {
+  for (size_t k = task * BATCH; k < t->leaves && k < (task + 1) * BATCH; k++) {
     const hr2d_element *e = &h->element[t->leaf[k]];
     if (l->status || atomic_load(&all->failed)) return;
     if (e->patch < hr2di_scene_cell(h->scene) && all->sees[e->patch] &&
@@ -88,7 +88,8 @@ static void take_some_backs(void *ctx, size_t worker, size_t task) {
 }
 
 static hr2d_status take_all_backs(hr2di_transport *t, const unsigned char *sees) {
-  const size_t most = 1 + t->leaves / WORTH, threads = hr2di_team_threads(t->threads);
+  const size_t most = 1 + t->leaves / HR2DI_CHOICE_TEAM_LEAVES,
+               threads = hr2di_team_threads(t->threads);
   lookers all = {.t = t, .sees = sees, .threads = threads < most ? threads : most};
   hr2di_basis_init(&all.basis, t->order);
   hr2di_rule_init(&all.rule, t->order + 6);
@@ -102,7 +103,8 @@ static hr2d_status take_all_backs(hr2di_transport *t, const unsigned char *sees)
                                  &l->viewer);
   }
   if (!status)
-    hr2di_team_run(all.threads, (t->leaves + SOME - 1) / SOME, take_some_backs, &all, t->watch);
+    hr2di_team_run(all.threads, (t->leaves + BATCH - 1) / BATCH, take_some_backs, &all,
+                   t->watch);
   for (size_t k = 0; k < all.threads; k++) {
     if (!status) status = all.looker[k].status;
     hr2di_viewer_destroy(all.looker[k].viewer);

@@ -9,7 +9,7 @@
 #include "base/wide.h"
 #include "solve/gather-one-way.h"
 
-enum { FEW = 4 };
+enum { UNROLLED_BANDS = 4 };
 
 void hr2di_gather_block(const double *c, size_t order, size_t bands, const double *from,
                         double *to) {
@@ -112,7 +112,7 @@ HR2DI_PART void few_loop(const double *c, size_t order, size_t bands, const doub
     add_bands(c, order, 3, up_i, up_j, down_i, down_j);
     return;
   default:
-    add_bands(c, order, FEW, up_i, up_j, down_i, down_j);
+    add_bands(c, order, UNROLLED_BANDS, up_i, up_j, down_i, down_j);
   }
 }
 HR2DI_WIDE(few,
@@ -122,7 +122,7 @@ HR2DI_WIDE(few,
 
 void hr2di_gather_both(const double *c, size_t order, size_t bands, const double *up_i,
                        const double *up_j, double *down_i, double *down_j) {
-  if (bands <= FEW) {
+  if (bands <= UNROLLED_BANDS) {
     few(c, order, bands, up_i, up_j, down_i, down_j);
     return;
   }

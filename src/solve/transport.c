@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "base/team.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
@@ -21,7 +22,7 @@ enum { MOST_SLICES = 16, SLICE_BLOCKS = 64, MOST_BLOCK_SLICES = 8 };
 
 /* Products of a slice with blocks for each number of its copy, which is cleared and added, and
    all of them at least: less is not worth a thread. */
-enum { SLICE_PRODUCTS = 8, SLICE_WORTH = 100000 };
+enum { SLICE_PRODUCTS = 8 };
 
 /* Depends on the links alone, as the order of sums does. */
 size_t hr2di_transport_slices(const hr2d_linkset *links, size_t order) {
@@ -31,7 +32,7 @@ size_t hr2di_transport_slices(const hr2d_linkset *links, size_t order) {
   uint64_t slices = 1 + hr2di_store_chunks(&links->store) / SLICE_BLOCKS, most = MOST_SLICES;
   if (order > 1) {
     slices = products / (SLICE_PRODUCTS * (uint64_t)elements);
-    most = 1 + products * order / SLICE_WORTH;
+    most = 1 + products * order / HR2DI_CHOICE_TEAM_PRODUCTS;
     if (most > MOST_BLOCK_SLICES) most = MOST_BLOCK_SLICES;
   }
   return slices < 1 ? 1 : (size_t)(slices < most ? slices : most);
@@ -112,10 +113,10 @@ static int has_failed(hr2di_transport *t) {
 }
 
 /* Leaves or elements between two declarations of work. */
-enum { SOME = 1024 };
+enum { BATCH = 1024 };
 
 static inline int declare(hr2di_transport *t, size_t number) {
-  return number % SOME == 0 && hr2di_watch_work(t->watch, SOME / 32 + SOME * t->width / 64);
+  return number % BATCH == 0 && hr2di_watch_work(t->watch, BATCH / 32 + BATCH * t->width / 64);
 }
 
 static void pull(hr2di_transport *t, const double *spread, const double *leaf_field) {
@@ -267,8 +268,8 @@ static void sum_some(void *ctx, size_t worker, size_t task) {
   const size_t first = task * TASK;
   const size_t last = field - first > TASK ? first + TASK : field;
   for (size_t from = first, to; from < last; from = to) {
-    to = last - from > SOME ? from + SOME : last;
-    if (worker == 0 && hr2di_watch_work(t->watch, t->slices * SOME / 64)) return;
+    to = last - from > BATCH ? from + BATCH : last;
+    if (worker == 0 && hr2di_watch_work(t->watch, t->slices * BATCH / 64)) return;
     for (size_t k = 1; k < t->slices; k++)
       for (size_t m = from; m < to; m++) t->down[m] += t->down[k * room + m];
   }

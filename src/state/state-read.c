@@ -100,11 +100,11 @@ static hr2d_status read_head(loading *l, hr2d_solve_work *work) {
 }
 
 /* Items between two declarations of work. */
-enum { SOME = 256 };
+enum { BATCH = 256 };
 
 /* Asks the watch before some items of `bytes` each. */
 static hr2d_status declare(loading *l, uint64_t item, size_t bytes) {
-  return item % SOME == 0 ? hr2di_watch_work(&l->watch, SOME * bytes / 64) : HR2D_OK;
+  return item % BATCH == 0 ? hr2di_watch_work(&l->watch, BATCH * bytes / 64) : HR2D_OK;
 }
 
 static hr2d_status read_elements(loading *l) {

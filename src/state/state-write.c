@@ -111,11 +111,11 @@ static void put_head(hr2di_writer *w, const hr2d_solution *s, hr2di_watch *watch
 }
 
 /* Items between two declarations of work. */
-enum { SOME = 256 };
+enum { BATCH = 256 };
 
 /* Asks the watch before some items of `bytes` each; its status becomes that of the writer. */
 static void declare(hr2di_writer *w, hr2di_watch *watch, uint64_t item, size_t bytes) {
-  if (item % SOME == 0 && !w->status) w->status = hr2di_watch_work(watch, SOME * bytes / 64);
+  if (item % BATCH == 0 && !w->status) w->status = hr2di_watch_work(watch, BATCH * bytes / 64);
 }
 
 static void put_links(hr2di_writer *w, const hr2di_store *store, hr2di_watch *watch) {

@@ -19,7 +19,7 @@ struct hr2di_look {
 };
 
 /* Sights between two declarations of work. */
-enum { SOME = 512 };
+enum { BATCH = 512 };
 
 static void find_highest(hr2di_looks *looks, const hr2di_side_parts *p) {
   for (size_t k = 0; k < p->parts; k++) {
@@ -157,7 +157,7 @@ static hr2d_status replay(hr2di_looker *l, const hr2di_look *look) {
     const size_t points = (size_t)kept->lefts + kept->rights;
     const hr2di_sight s = {point, point + kept->lefts, kept->lefts, kept->rights, kept->ends};
     point += points;
-    if (k % SOME == 0) status = hr2di_watch_work(l->walk.watch, SOME / 4);
+    if (k % BATCH == 0) status = hr2di_watch_work(l->walk.watch, BATCH / 4);
     if (!status) status = l->take(l->ctx, points > 0 ? &s : NULL, kept->from, kept->to);
   }
   return status;

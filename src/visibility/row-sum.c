@@ -6,7 +6,7 @@
 #include "base/alloc.h"
 #include "base/sort.h"
 
-enum { WORD = 64, FEW = 2, MANY = 3, PARTIAL = 4 };
+enum { WORD = 64, TWO_SHARES = 2, SHARE_COUNT = 3, PARTIAL = 4 };
 
 hr2d_status hr2di_row_sum_init(hr2di_row_sum *s, size_t n, const hr2d_allocator *alloc,
                                hr2di_watch *watch) {
@@ -115,16 +115,16 @@ hr2d_status hr2di_row_sum_make(hr2di_row_sum *s, hr2di_share *share, size_t coun
   for (size_t k = 0; k < count; k++) {
     const size_t column = share[k].patch;
     unsigned char *state = &s->state[column];
-    const int shares = *state & MANY;
+    const int shares = *state & SHARE_COUNT;
     if (shares == 0) {
       mark(s, column);
       s->sum[column] = share[k].area;
     } else {
       s->sum[column] += share[k].area;
-      many |= shares >= FEW;
+      many |= shares >= TWO_SHARES;
     }
     *state = (unsigned char)((*state & PARTIAL) | (share[k].partial ? PARTIAL : 0) |
-                             (shares < MANY ? shares + 1 : MANY));
+                             (shares < SHARE_COUNT ? shares + 1 : SHARE_COUNT));
   }
   if (many) status = sum_sorted(s, share, count);
   take_all(s);
