@@ -6,10 +6,11 @@
  * @defgroup accuracy Accuracy: solve to a target
  * Solve to a target error or within a time budget, with an account of the error.
  *
- * hr2d_solve_to() does not refine until a constant kernel is good enough. Its elements are as
- * large as B is smooth, its links as large as the kernel is smooth, and both carry p Legendre
- * coefficients. The error then falls exponentially with p, and the number of links grows like
- * the number of elements, not like its square.
+ * hr2d_solve_to() does not refine until a constant kernel is good enough. It is an hp-Galerkin
+ * method with discontinuity meshing: its elements are as large as B is smooth, its links as
+ * large as the kernel is smooth, and both carry p Legendre coefficients. The error then falls
+ * exponentially with p, and the number of links grows like the number of elements, not like
+ * its square.
  *
  *     hr2d_target target = HR2D_TARGET_INIT;
  *     target.error = 1e-9;
@@ -25,15 +26,15 @@
  *
  *     B − B_h = (I − ρK⁺)⁻¹ r,     H − H_h = K⁺B_h − H_h + K⁺(B − B_h).
  *
- * The *estimate* solves this equation. Beside corners, where K⁺ shows a known part of the
- * error, r is divided by that part. Errors of averages are sums with signs, which may cancel by
- * chance: a tenth of the size that they have with random signs is added, in squares. The
- * *bound* has four parts:
+ * The *estimate* is an a posteriori error estimate: it solves this equation. Beside corners,
+ * where K⁺ shows a known part of the error, r is divided by that part. Errors of averages are
+ * sums with signs, which may cancel by chance: a tenth of the size that they have with random
+ * signs is added, in squares. The *bound* has four parts:
  * - a multiple of that size and of the error with its signs: 2.5 times, from 7 to 28 times
  *   where views change, 3 times at points at least;
  * - a tenth or more of the largest error of an average without signs;
- * - where views change, the target: elements are made for it, and what kinks inside them
- *   make beyond K⁺ is assumed to be below that. Likewise the estimate is a tenth of the
+ * - where views change, the target: elements are made for it, and the error that kinks inside
+ *   them cause beyond K⁺ is assumed to be below that. Likewise the estimate is a tenth of the
  *   target at least;
  * - a bound of the roundings of B, of H and of coordinates. (I − ρK)⁻¹ = Σ(ρK)^k maps nothing
  *   positive to anything negative, so it carries a bound on as it carries light.
@@ -109,9 +110,9 @@ typedef struct hr2d_target {
                                 a solve and its account, some hundred bytes for each band of a
                                 coefficient, for the best solve so far while the next one is
                                 made, and for the work space of a refinement; 0 for none. The
-                                scene and its events come on top. Without a budget
-                                what patches see of each other is kept during the call, in up
-                                to 1 GiB, which saves some percent of the time */
+                                scene and its events come on top. Without a budget the line
+                                classes between patches are kept during the call, in up to 1
+                                GiB, which saves some percent of the time */
   hr2d_progress_fn progress; /**< optional */
   void *progress_ctx;        /**< given to `progress` */
   double floor;              /**< an average counts as no less than this part of the largest
@@ -256,7 +257,7 @@ HR2D_API hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr
  * Measures all errors of a solution of any oracle, policy and order, as hr2d_solution_error()
  * does, those of H as well.
  *
- * Errors at points are looked for between the ends of the leaves of the solution and of the
+ * Errors at points are sampled between the ends of the leaves of the solution and of the
  * reference, which end where radiosity jumps or bends, and at the borders of sunlight.
  * @param solution  its scene must still exist
  * @param how       as for hr2d_solution_error()

@@ -6,19 +6,19 @@
  * @defgroup clusters Clusters
  * Far-field exchange between clusters of patches, for user-written solvers.
  *
- * @warning Unstable interface: for solvers and distributions of one's own. It may change in any
- * release, see doc/compatibility.md.
+ * @warning Unstable interface: for user-written solvers and distributions. It may change in
+ * any release, see doc/compatibility.md.
  *
- * Where n patches see n others, as in a round room, there are n² exchange areas. Far patches
- * have nearly the same ones: what a cluster of patches sends to another one, far from it,
- * goes over few points of either. hr2d_clusters_create() sorts the pairs of patches into
+ * Where n patches see n others, as in a round room, there are n² exchange areas. Far from each
+ * other, patches of one cluster have nearly the same ones, so that two clusters exchange their
+ * light over a few points of each. hr2d_clusters_create() sorts the pairs of patches into
  * - pairs that surely do not see each other;
- * - pairs whose clusters are linked: hr2d_clusters_gather() sums what they exchange;
+ * - pairs whose clusters are linked: hr2d_clusters_gather() sums their exchange;
  * - near pairs, which it hands over one by one.
  *
- * With near pairs as hr2d_refine_options::claim a refinement has the links of these alone. Then
- * power = hr2d_clusters_gather() + Σ AF_ij B_j over the links. hr2d_solve_to() does so by
- * itself from 256 patches on; these functions are for solvers and distributions of one's own.
+ * If hr2d_refine_options::claim keeps near pairs alone, a refinement has the links of these.
+ * Then power = hr2d_clusters_gather() + Σ AF_ij B_j over the links. hr2d_solve_to() does so by
+ * itself from 256 patches on; these functions are for user-written solvers and distributions.
  * @{
  */
 #ifndef HR2D_CLUSTERS_H
@@ -43,9 +43,9 @@ typedef struct hr2d_clusters hr2d_clusters;
 /** Options of the calls below; members that are 0 have their defaults. */
 typedef struct hr2d_clusters_options {
   size_t struct_size;        /**< so that the options can grow */
-  double accuracy;           /**< of links, when clusters are created: the irradiance that comes
-                                  over all links of a patch is off by about this where B ≤ 1; 0
-                                  for #HR2D_DEFAULT_CLUSTER_ACCURACY */
+  double accuracy;           /**< of links, when clusters are created: the error of the
+                                  irradiance over all links of a patch is about this where B ≤
+                                  1; 0 for #HR2D_DEFAULT_CLUSTER_ACCURACY */
   unsigned threads;          /**< of a gather: 0 for one, or #HR2D_ALL_THREADS; no bit depends
                                   on it */
   hr2d_share *share;         /**< of a gather: NULL, or each share does a part, and all get the
@@ -93,8 +93,9 @@ typedef hr2d_status (*hr2d_near_pairs_fn)(void *ctx, const hr2d_pair *pairs, siz
  * @retval HR2D_EUNSUPPORTED the scene has mirrors or a period
  * @retval other             the status of `near` or of the progress callback
  *
- * All of a pair of patches that a link covers is seen, but for roundings; patches with walls
- * between them are near, or are known not to see each other. A near pair may still not do so.
+ * Two patches that a link covers see all of each other, but for roundings. Patches with walls
+ * between them are near, or are known not to see each other. A near pair may still not see
+ * each other.
  *
  * Several calls may run on one scene at once. Cost about O(n) in a round room: 0.8 s for
  * 100,000 patches and the default accuracy, 7.6 s for a million.
@@ -122,7 +123,7 @@ HR2D_API uint64_t hr2d_clusters_links(const hr2d_clusters *clusters);
 HR2D_API uint64_t hr2d_clusters_bytes(const hr2d_clusters *clusters);
 
 /**
- * What patches receive over the links of clusters.
+ * Gathers over the links between clusters: the light that each patch receives from them.
  * @param clusters   from hr2d_clusters_create()
  * @param options    NULL for the defaults
  * @param order      1 to #HR2D_MAX_ORDER
@@ -130,9 +131,9 @@ HR2D_API uint64_t hr2d_clusters_bytes(const hr2d_clusters *clusters);
  * @param radiosity  n × order × bands values: coefficient l of patch i in band b, (1/A)∫ B φ_l
  * dx with φ_l(ξ) = √(2l+1) P_l(ξ), ξ from −1 at its start to 1 at its end; at order 1 averages
  * of B
- * @param power      receives as many: ∫ H φ_l dx of what comes over the links, in the unit of E
+ * @param power      receives as many: ∫ H φ_l dx of the light over the links, in the unit of E
  *                   times scene lengths; divided by hr2d_scene_length() they are coefficients
- * of H. Undefined on failure
+ *                   of H. Undefined on failure
  * @retval HR2D_OK      success
  * @retval HR2D_ENOMEM  an allocation failed
  * @retval HR2D_EINVAL  `struct_size` is too small, or order or bands are out of range

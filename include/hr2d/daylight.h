@@ -15,13 +15,13 @@
  *
  * on a patch with normal n, the left of its direction, wherever nothing stands between the
  * patch and the sun; elsewhere 0. The borders of the light are those of the patches that cast
- * them, found by exact signs. In B = E + ρH the irradiance H contains H_sun, and what the patch
- * reflects of it goes on as all other light. Backs of patches that have only a front are black
- * and opaque.
+ * them, found by exact signs. In B = E + ρH the irradiance H contains H_sun, and the light
+ * that the patch reflects goes on as all other light. Backs of patches that have only a front
+ * are black and opaque.
  *
  * hr2d_solve_to() ends elements at the borders of the light, so that its error bounds hold
  * as without a sun. Suns of many bands may have more than 16 lit parts for each patch; then
- * elements do not end there, and the estimate sees what the order leaves out
+ * elements do not end there, and the estimate contains the error that this leaves
  * (doc/sun-and-sky.md). hr2d_solve() takes elements as they are: H_sun is right in the average
  * over each, and its polynomials follow it only where elements end at its borders.
  * @{
@@ -55,8 +55,8 @@ typedef struct hr2d_sun {
  * @retval HR2D_ESCENE  an irradiance is negative or not finite; or the direction of a sun with
  *                      light is 0 or not finite
  *
- * hr2d_scene_commit() finds what each sun lights, at a cost of about 0.1 µs for each triangle
- * of the plane between the walls: 2 to 6 for each patch.
+ * hr2d_scene_commit() finds the parts that each sun lights, at a cost of about 0.1 µs for each
+ * triangle of the plane between the walls: 2 to 6 for each patch.
  */
 HR2D_API hr2d_status hr2d_scene_set_sun(hr2d_scene *scene, const hr2d_sun *sun, size_t bands);
 
@@ -76,9 +76,9 @@ typedef struct hr2d_sky_piece {
 } hr2d_sky_piece;
 
 /**
- * Sets the sky: a radiosity for each of some pieces, in all directions of which a point that
- * looks between the patches to infinity sees it. Other directions have the background. A piece
- * of 360 degrees is like a background.
+ * Sets the sky: a radiosity for each of some pieces. A point that looks between the patches to
+ * infinity sees this radiosity in all directions of the piece. Other directions have the
+ * background. A piece of 360 degrees is like a background.
  * @param scene   not yet committed
  * @param piece   `pieces` arcs, no two of which overlap; copied
  * @param pieces  number of pieces, at most 720; 0 for none, as before the first call
@@ -100,7 +100,8 @@ HR2D_API hr2d_status hr2d_scene_set_sky(hr2d_scene *scene, const hr2d_sky_piece 
 /**
  * The radiosity of the sky in a direction.
  * @param scene    a scene
- * @param bearing  degrees, clockwise from +y; where pieces meet, that clockwise from there
+ * @param bearing  degrees, clockwise from +y; where two pieces meet, the one that lies
+ *                 clockwise counts
  * @param band     below hr2d_scene_bands()
  * @return that of the piece, or of the background
  */
@@ -126,15 +127,16 @@ HR2D_API size_t hr2d_scene_sky_pieces(const hr2d_scene *scene);
 HR2D_API double hr2d_scene_sunlight(const hr2d_scene *scene, size_t patch, size_t band);
 
 /**
- * What is not known of the sun of a band, in a period. Where it shines past more images than
- * there are (symmetry.h), what may stand in its light beyond them counts as shadow: fronts have
- * H_sun or more, up to this times the cosine of the angle of incidence, and B and H of the band
- * what is reflected of that, too. No error of an account contains it; other bands lack nothing.
+ * The sunlight that a band may lack in a period. If a sun shines past more images than there
+ * are (symmetry.h), its light from beyond them counts as shadow. The true irradiance of a
+ * front is H_sun or more, by up to this value times the cosine of the angle of incidence; B
+ * and H of the band may also lack its reflections. No error of an account contains this. Other
+ * bands lack nothing.
  * @param scene  committed
  * @param band   below hr2d_scene_bands()
  * @return the irradiance of the sun if there are too few images for it; else 0
  *
- * Cost: a look at each patch of the cell, if there is such a sun.
+ * Cost: O(patches of the cell), if there is such a sun.
  */
 HR2D_API double hr2d_scene_sunlight_cut_off(const hr2d_scene *scene, size_t band);
 

@@ -7,8 +7,9 @@
  * Lower and upper ends of the mean radiosities of patches, without an assumption.
  *
  * The estimate and the bound of hr2d_solve_to() come from more coefficients on the same
- * elements; what these do not show is assumed to be small. An enclosure assumes nothing about
- * B. It costs far more for a given number of digits: its gap falls like 1/L, or like L^−1.5.
+ * elements; errors that these do not show are assumed to be small. An enclosure assumes
+ * nothing about B. It costs far more for a given number of digits: its gap falls like 1/L, or
+ * like L^−1.5.
  *
  *     hr2d_enclosure *enclosure;
  *     hr2d_status status = hr2d_enclose(scene, NULL, &enclosure, NULL);
@@ -37,19 +38,19 @@
  * of B = E + ρH from true ones, and the true B stays inside. It begins with 0 ≤ B ≤ max(max
  * E/(1 − max ρ), max E + max ρ · background).
  *
- * **Refinement.** All links join leaves. Leaves are halved that make most of the gap, until it
- * is small enough: it falls like h³ on elements of length h with a free view, like h² past
- * edges of occluders, and L grows like h⁻².
+ * **Refinement.** All links join leaves. The leaves that contribute most to the gap are halved
+ * until it is small enough: it falls like h³ on elements of length h with a free view, like h²
+ * past edges of occluders, and L grows like h⁻².
  *
  * **Roundings** are in the ends: of factors, of sums, and of coordinates of elements, which are
- * off by a rounding for each level. So is what commit takes for touching (scene.h). The sum of
- * all is mostly below 1e-8.
+ * off by a rounding for each level. So are the gaps that commit takes for touching (scene.h).
+ * The sum of all is mostly below 1e-8.
  *
- * **What is refused** with HR2D_EUNSUPPORTED, because it is not enclosed: suns, and skies in
- * pieces; periods in which patches see for ever; patches of given heat flux, and negative E; a
- * reflectance of 1. Mirrors, other periods, several bands, given temperatures and an even
- * background are enclosed. A background behind which black backs are seen, too, is enclosed
- * from 0 to all that is not covered by fronts: such a gap does not become small.
+ * **Limits.** HR2D_EUNSUPPORTED refuses suns, and skies in pieces; periods in which patches
+ * see for ever; patches of given heat flux, and negative E; a reflectance of 1. Mirrors, other
+ * periods, several bands, given temperatures and an even background are enclosed. If black
+ * backs are seen before a background, its light is enclosed between 0 and that of all
+ * directions without fronts: such a gap does not become small.
  * @{
  */
 #ifndef HR2D_ENCLOSURE_H
@@ -127,8 +128,8 @@ typedef struct hr2d_enclosure_account {
  * @retval HR2D_ENOMEM        an allocation failed
  * @retval HR2D_EINVAL        an option is not valid
  * @retval HR2D_ESTATE        the scene is not committed
- * @retval HR2D_EUNSUPPORTED  something in the scene is not enclosed, see above; `reason` says
- *                            what, and what to do
+ * @retval HR2D_EUNSUPPORTED  something in the scene is not enclosed, see above; `reason` names
+ *                            it, and a remedy
  * @retval other              the status of the progress callback
  *
  * Scenes, and one scene, may be enclosed from different threads. The same bits on every run.
@@ -187,7 +188,7 @@ HR2D_API double hr2d_enclosure_upper_irradiance(const hr2d_enclosure *enclosure,
  * @retval HR2D_OK      success
  * @retval HR2D_EINVAL  the solution is of another scene, or `floor` is not from 0 to 1
  *
- * An error that is much below the gap is not told from the gap.
+ * An error that is much below the gap cannot be distinguished from it.
  */
 HR2D_API hr2d_status hr2d_enclosure_error(const hr2d_enclosure *enclosure,
                                           const hr2d_solution *solution, double floor,

@@ -27,31 +27,31 @@
  * **Exactness.** Visibility is exact, and so are the integrals over the B_h of a solution, as
  * hr2d_solution_at() has it: M has an error of some 1e-15 of the largest B, and at distance d
  * from an end of a leaf, in units of hr2d_scene_unit(), of 1e-16/d of the jump of B_h there. Φ
- * has π times as much. What is left is the error of B_h. If |B_h − B| ≤ e_j on patch j, and x
+ * has π times as much. The error of B_h comes on top. If |B_h − B| ≤ e_j on patch j, and x
  * sees j in the part s_j of all directions, then
  *
  *     |δM| ≤ Σ s_j e_j   and   |δΦ| ≤ π Σ s_j e_j,
  *
  * which hr2d_field_values::error receives if hr2d_field_options::patch_error has the e_j. With
  * one e for all patches this is at most e times the part of all directions in which fronts are.
- * With hr2d_field_options::account the e are found for each leaf instead: the difference of B_h
- * from what some points of the leaf gather (hr2d_solution_gather()), twice, and the bound of
- * the account of what is gathered. That B' is no farther from B_h between them is
- * tested, not proved.
+ * With hr2d_field_options::account the e are found for each leaf instead: twice the difference
+ * of B_h from B' at some points of the leaf (hr2d_solution_gather()), plus the account's bound
+ * of the error of B'. That B' is no farther from B_h between these points is tested, not
+ * proved.
  *
- * In a scene that repeats for ever what is past its images is extrapolated: see symmetry.h.
+ * In a scene with a period, light from beyond the images is extrapolated: see symmetry.h.
  *
  * **Places.** Every point is in one of three kinds of places, #hr2d_place.
  * - A point on a patch, or nearer to one than 2^-48 of hr2d_scene_unit(), has the limit from
  *   its front: half of its directions see the patch itself. The back of a patch with two sides
- *   is a front as well; of the two the one counts that has the lower number. Where patches
- *   meet, they divide the directions into sectors. The limit is then that along the line that
- *   halves a sector: one between two fronts if there is one, of these the widest, of equal ones
- *   that beside the patch of the lowest number. On the inside of a wall the limit is taken at
+ *   is a front as well; of the two sides the one with the lower index counts. Where patches
+ *   meet, they divide the directions into sectors. The limit is then along the line that
+ *   halves one of these sectors: the widest between two fronts if there is any, of equal ones
+ *   that beside the patch with the lowest index. On the inside of a wall the limit is taken at
  *   2^-44 of the unit.
  * - A point that sees no front, and no background with light or sun, is outside: within an
- * obstacle, or behind the walls of a closed room. It has no number: all values are NaN, but
- * `sky` and `back`.
+ *   obstacle, or behind the walls of a closed room. All its values but `sky` and `back` are
+ *   NaN.
  * - All other points are between the patches.
  * @{
  */
@@ -105,20 +105,19 @@ typedef struct hr2d_field_options {
  */
 HR2D_API void hr2d_field_options_init(hr2d_field_options *options, size_t size);
 
-/** What is received for each point, point by point. Start from #HR2D_FIELD_VALUES_INIT. */
+/** The values of a field, point by point. Start from #HR2D_FIELD_VALUES_INIT. */
 typedef struct hr2d_field_values {
   size_t struct_size; /**< so that the struct can grow */
   double *mean;       /**< receives M, points × bands; NULL: not wanted, as all below */
   double *flux;       /**< receives Φ, points × bands × 2, x before y */
   double *error; /**< receives the bound of |δM|, points × bands; |δΦ| is at most π times
                       that. NaN without hr2d_field_options::patch_error or an account
-                      with a finite bound at points. What a grid's tolerance allows comes
-                      on top */
+                      with a finite bound at points. A grid's tolerance comes on top */
   double *sky;   /**< receives the part of all directions with nothing, points */
   double *back;  /**< receives the part of all directions with backs, points */
   unsigned char *place; /**< receives an #hr2d_place each, points */
   double *cut_off;      /**< receives the part of all directions past the ends of a period,
-                             points; 0 without one. symmetry.h says what is known of it */
+                             points; 0 without one. symmetry.h has its accuracy */
 } hr2d_field_values;
 
 /** Nothing is wanted. */
@@ -189,22 +188,22 @@ typedef struct hr2d_field_counts {
  *   no more, and M is a mean of B.
  * - Blocks of up to 16 × 16 nodes are interpolated linearly between 3 × 3 views. First all
  *   borders of light are found, the lines across which the slope of M jumps, each with a bound
- *   of its jump. What those in a block cost is bounded by the tolerance, so that none is missed
- *   between views. Between borders M is smooth, and the views themselves, with two more between
- *   them, show how much it bends. Other blocks are divided.
+ *   of its jump. The tolerance bounds the error that the borders in a block cause, so that
+ *   none is missed between views. Between borders M is smooth, and the views themselves, with
+ *   two more between them, show how much it bends. Other blocks are divided.
  *
  * Tests find the tolerance kept at all nodes of random scenes
  * (tests/unit/field/check-field-grid.c). Flux is held to π times the tolerance, shares to the
  * tolerance itself, both if they are wanted. Places are exact.
  *
- * Without a tolerance nodes have the values of hr2d_field_at(), and so have all nodes if the
- * scene has more ends of patches than a quarter of the nodes, but for the views' eighth. Cost:
- * a view of each end of a patch, and then of some nodes; of a room with 30 patches on 1000 ×
- * 700 nodes within 1e-3 about every 7th. Memory beside the values: 2.9 KB times (6 + 4·bands)
- * for each thread, 8 bytes times bands for 256 nodes, 56 bytes for each border, of which each
- * end begins as many as it sees ends, but at most 65,536 or 64 for each tile of 16 × 16 nodes,
- * and 4 bytes for each of up to 256 borders that cross a tile. Where there are more, all nodes
- * have views.
+ * Without a tolerance every node equals hr2d_field_at(). If the scene has more ends of patches
+ * than a quarter of the nodes, nothing is interpolated: every node equals hr2d_field_at() up
+ * to the eighth of the tolerance that views may be off. Cost: a view from each end of a patch,
+ * and then from some nodes: in a room with 30 patches, on 1000 × 700 nodes within 1e-3, from
+ * about every 7th. Memory beside the values: 2.9 KB times (6 + 4·bands) for each thread, 8
+ * bytes times bands for 256 nodes, 56 bytes for each border (each end begins one for every end
+ * that it sees), but at most 65,536 or 64 for each tile of 16 × 16 nodes, and 4 bytes for each
+ * of up to 256 borders that cross a tile. Where there are more, all nodes have views.
  */
 HR2D_API hr2d_status hr2d_field_on_grid(const hr2d_solution *solution,
                                         const hr2d_field_grid *grid,
@@ -212,7 +211,7 @@ HR2D_API hr2d_status hr2d_field_on_grid(const hr2d_solution *solution,
                                         const hr2d_field_values *values,
                                         hr2d_field_counts *counts);
 
-/** What a point sees of each patch, for hr2d_field_rows_visit(). */
+/** The view factors from a point to each patch, for hr2d_field_rows_visit(). */
 typedef struct hr2d_field_row {
   size_t struct_size;    /**< its size as the library knows it */
   size_t point;          /**< which of the points it is */
@@ -230,7 +229,7 @@ typedef struct hr2d_field_row {
 } hr2d_field_row;
 
 /**
- * Takes a row. What it points to is valid until the function returns.
+ * Takes a row. Its arrays are valid until the function returns.
  * @param ctx  as given to hr2d_field_rows_visit()
  * @param row  the row
  * @return HR2D_OK, or a status that ends the call

@@ -23,7 +23,7 @@
 extern "C" {
 #endif
 
-/** What calls return in the place of an element, or of its level, if there is none. */
+/** The value that calls return in place of an element, or of its level, if there is none. */
 #define HR2D_NO_ELEMENT ((uint32_t)-1)
 
 /** One binary tree per patch; opaque. */
@@ -128,10 +128,10 @@ HR2D_API hr2d_hierarchy_counts hr2d_hierarchy_count(const hr2d_hierarchy *hierar
 HR2D_API const hr2d_element *hr2d_hierarchy_elements(const hr2d_hierarchy *hierarchy);
 
 /**
- * The elements of which others are images, in a scene with mirrors or a period (symmetry.h).
- * After a refinement patches and images are divided alike. A program that divides elements
- * itself may divide patches further than their images, but not the other way round. Cost:
- * O(elements).
+ * For each element, the element of which it is an image, in a scene with mirrors or a period
+ * (symmetry.h). After a refinement patches and images are divided alike. A program that
+ * divides elements itself may divide patches further than their images, but not the other way
+ * round. Cost: O(elements).
  * @param hierarchy  a hierarchy
  * @param original   receives for each element the number of the element of a patch that it is
  *                   the image of; its own number, if it is none
@@ -164,8 +164,8 @@ HR2D_API uint32_t hr2d_element_parent(const hr2d_hierarchy *hierarchy, uint32_t 
 HR2D_API uint32_t hr2d_hierarchy_leaf(const hr2d_hierarchy *hierarchy, size_t patch, double t);
 
 /**
- * Divides a leaf, for trees that are not grown by a refinement: those of another program, or of
- * another process that shares the work.
+ * Divides a leaf, for trees that do not come from a refinement: those of another program, or
+ * of another process that shares the work.
  * @param hierarchy  a hierarchy
  * @param element    a leaf
  * @param t          where, as a fraction of the element from its start, in (0, 1)
@@ -185,7 +185,7 @@ HR2D_API hr2d_status hr2d_hierarchy_divide(hr2d_hierarchy *hierarchy, uint32_t e
 
 /**
  * Pull (paper, section 2): gives each element with children the values that follow from its
- * children, by the two-scale relation. For solvers of one's own on the links of a set.
+ * children, by the two-scale relation. For user-written solvers on the links of a set.
  *
  * A field has `order` × `bands` values per element: value l of band b of element k is at
  * field[(k·order + l)·bands + b], and is the coefficient of φ_l = √(2l+1) P_l(2t−1), with t
@@ -206,8 +206,8 @@ HR2D_API hr2d_status hr2d_hierarchy_pull(const hr2d_hierarchy *hierarchy, size_t
                                          double *field);
 
 /**
- * Push (paper, section 2): adds to each element what its ancestors have, in terms of its own
- * φ_l. It is the transpose of the pull in the scalar product Σ A x y over elements.
+ * Push (paper, section 2): adds to each element the field of its ancestors, in terms of its
+ * own φ_l. It is the transpose of the pull in the scalar product Σ A x y over elements.
  * @param hierarchy,bands,field  as for hr2d_hierarchy_pull(); all values are read, and those of
  *                               elements that are not roots are changed
  * @return as hr2d_hierarchy_pull()

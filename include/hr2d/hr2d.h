@@ -37,12 +37,12 @@
  * - visibility.h: exchange areas with occluders, of two segments and of all patches, and the
  *   view from a point.
  * - geometry.h: hr2d_exchange_area() computes the exchange of two segments in free view.
- * - lint.h: hr2d_scene_lint() warns about what is valid in a scene, but maybe not meant.
+ * - lint.h: hr2d_scene_lint() warns about valid properties of a scene that may not be meant.
  * - state.h: hr2d_state_write() saves a stage of a long solve.
  *
  * Of use with all of them: status.h, options.h, memory.h, progress.h, version.h.
  *
- * Unstable interface, for solvers and distributions of one's own; it may change in any release
+ * Unstable interface, for user-written solvers and distributions; it may change in any release
  * (doc/compatibility.md):
  * - operator.h: rows, blocks and row sums of the transport operator.
  * - clusters.h: far-field exchange between clusters of patches.

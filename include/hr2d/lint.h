@@ -25,7 +25,7 @@
 extern "C" {
 #endif
 
-/** What a warning is about. New values are only added before HR2D_WARNING_COUNT. */
+/** The subject of a warning. New values are only added before HR2D_WARNING_COUNT. */
 typedef enum hr2d_warning_code {
   HR2D_WARNING_IGNORED = 0,  /**< a file has a property that is not read, but looks meant */
   HR2D_WARNING_MISPLACED,    /**< a property stands where it is not read */
@@ -54,10 +54,10 @@ typedef enum hr2d_warning_code {
 /** A warning. */
 typedef struct hr2d_warning {
   size_t struct_size;     /**< its size as the library knows it */
-  hr2d_warning_code code; /**< what it is about */
+  hr2d_warning_code code; /**< its subject */
   const char *text;       /**< a sentence with the place, and what to do */
   size_t patches;         /**< how many members of `patch` are set: 0, 1 or 2 */
-  size_t patch[2];        /**< the patches it names; where it tells many, the first two */
+  size_t patch[2];        /**< the patches it names; of many, the first two */
   hr2d_point at;          /**< of a gap: the end of `patch[0]` beside it; else (0, 0) */
   double gap;             /**< of a gap: its width in scene lengths; else 0 */
 } hr2d_warning;
@@ -92,7 +92,8 @@ typedef struct hr2d_lint_options {
 HR2D_API void hr2d_lint_options_init(hr2d_lint_options *options, size_t size);
 
 /**
- * Shows what may not be meant in a scene, warning by warning.
+ * Finds valid properties of a scene that its author may not have meant, and shows each as a
+ * warning.
  *
  * A gap is the distance from an end of a patch to another patch, if no patches close it there.
  * It is narrow below options.gap of the extent of the scene, unless it is wider than a
@@ -102,17 +103,18 @@ HR2D_API void hr2d_lint_options_init(hr2d_lint_options *options, size_t size);
  * two sides of a thin plate, are no gap.
  *
  * A front "sees nothing" if no ray from nine of its points meets a front, or the sky of a scene
- * with a background. Only patches that emit are asked without a background: of the others those
- * are shown that no light reaches. In a scene without light those are shown whose back is seen.
+ * with a background. Without a background only patches that emit are tested; of the others,
+ * those that no light reaches are shown. In a scene without light, patches whose back is seen
+ * are shown.
  *
- * A back is seen if it makes a hundredth or more of what the middle of a front sees; it is
+ * A back is seen if it fills a hundredth or more of the view from the middle of a front; it is
  * shown once, with the first front that sees it.
  *
  * Fronts that see nothing make one warning, and those that no light reaches another: its text
  * names the first three and counts the rest.
  *
  * @param scene    committed or not; without a commit warnings about light and views are
- * missing, so that the call tells more about a scene that hr2d_scene_commit() refuses
+ *                 missing. This helps with a scene that hr2d_scene_commit() refuses
  * @param warn     called for each warning; those of one code come by patch, and all in the same
  * order for the same scene
  * @param ctx      given to `warn`
@@ -123,8 +125,8 @@ HR2D_API void hr2d_lint_options_init(hr2d_lint_options *options, size_t size);
  * @retval other        the status of `warn`, or of the progress callback
  *
  * Several calls may run on one committed scene at once. Cost O(n log n + k), with k the pairs
- * of patches that are nearer than the narrow gap, and a short look from each patch that is
- * asked.
+ * of patches that are nearer than the narrow gap, and a few rays from each patch that is
+ * tested.
  */
 HR2D_API hr2d_status hr2d_scene_lint(const hr2d_scene *scene, hr2d_warning_fn warn, void *ctx,
                                      const hr2d_lint_options *options);

@@ -6,8 +6,8 @@
  * @defgroup operator Operator
  * Entries, blocks and row sums of the transport operator, for user-written solvers.
  *
- * @warning Unstable interface: for solvers and distributions of one's own. It may change in any
- * release, see doc/compatibility.md.
+ * @warning Unstable interface: for user-written solvers and distributions. It may change in
+ * any release, see doc/compatibility.md.
  *
  * The operator K of B = E + ρKB comes in three forms: as the exchange areas of patches
  * (hr2d_exchange_rows_create()), as links, whose blocks hr2d_blocks() gives at an order above
@@ -52,7 +52,7 @@ HR2D_API hr2d_status hr2d_exchange_rows_create(const hr2d_scene *scene,
                                                hr2d_exchange_rows **rows,
                                                hr2d_matrix_counts *counts);
 
-/** Frees the rows, and what the functions below returned; NULL is allowed. */
+/** Frees the rows, and the arrays that the functions below returned; NULL is allowed. */
 HR2D_API void hr2d_exchange_rows_destroy(hr2d_exchange_rows *rows);
 
 /** The number of entries: twice the number of pairs that see each other. */
@@ -86,7 +86,7 @@ typedef struct hr2d_exchange_row {
 } hr2d_exchange_row;
 
 /**
- * Takes a row. What it points to is valid until the function returns.
+ * Takes a row. Its arrays are valid until the function returns.
  * @param ctx  as given to hr2d_exchange_rows_visit()
  * @param row  the row
  * @return HR2D_OK, or a status that ends the call
@@ -114,9 +114,9 @@ HR2D_API hr2d_status hr2d_exchange_rows_visit(const hr2d_scene *scene,
                                               hr2d_matrix_counts *counts);
 
 /**
- * What the leaves of a hierarchy see: the parts of all directions, with the weight of Lambert's
- * cosine, in which a leaf sees patches, and in which it sees backs of patches. The rest up to 1
- * is the background: the sky view factor of the leaf.
+ * The row sums of the leaves of a hierarchy: the sum of the view factors from each leaf to all
+ * patches, and the sum of those to all backs of patches. The rest up to 1 is the background:
+ * the sky view factor of the leaf.
  * @param hierarchy  a hierarchy
  * @param row_from   the first patch whose leaves are asked about
  * @param row_to     the one after the last; 0: all patches from `row_from` on
@@ -128,17 +128,18 @@ HR2D_API hr2d_status hr2d_exchange_rows_visit(const hr2d_scene *scene,
  * @retval HR2D_EINVAL  there are no such rows
  * @retval other        the status of hr2d_scene_set_progress()
  *
- * Exact up to roundings, whatever stands in the way, and with no links. Patches that no light
- * reaches count as any. Thread-safe as long as nothing changes the hierarchy. Cost: the beams
- * of these patches, and what leaves have of them. Memory: 16 bytes per element and sum.
+ * Exact up to roundings, with any occluders, and without links. Patches that no light reaches
+ * count like all others. Thread-safe as long as nothing changes the hierarchy. Cost: the beams
+ * of these patches, and the parts of them that leaves have. Memory: 16 bytes per element and
+ * sum.
  */
 HR2D_API hr2d_status hr2d_leaf_sums(const hr2d_hierarchy *hierarchy, size_t row_from,
                                     size_t row_to, double *front, double *back);
 
 /**
- * The blocks of links: C_lm = ∫∫ G V φ_l(x) φ_m(y) dy dx, a length, with the φ of
- * hr2d_hierarchy_pull(). One link then gives H_l of its first element C_lm B_m / A for each m,
- * and H_m of its second one C_lm B_l / A', if it carries both directions.
+ * The Galerkin blocks of links: C_lm = ∫∫ G V φ_l(x) φ_m(y) dy dx, a length, with the φ of
+ * hr2d_hierarchy_pull(). A link adds Σ_m C_lm B_m / A to H_l of its first element, and Σ_l
+ * C_lm B_l / A' to H_m of its second one if it carries both directions.
  * @param hierarchy  of the links; its order p is that of the blocks
  * @param link       `count` links, as from hr2d_linkset_get() or hr2d_refine_visit(), of
  * elements of different patches
@@ -152,15 +153,14 @@ HR2D_API hr2d_status hr2d_leaf_sums(const hr2d_hierarchy *hierarchy, size_t row_
  * Exact but for roundings, also past occluders; where elements are far from each other, as
  * exact as the order needs. C_00 of such a pair may differ from the exchange area in its last
  * digits. Thread-safe as long as nothing changes the hierarchy. Cost: O(p²) and more per link,
- * some 0.1 µs to 10 µs, so that one call takes many links.
+ * some 0.1 µs to 10 µs; pass many links in one call.
  */
 HR2D_API hr2d_status hr2d_blocks(const hr2d_hierarchy *hierarchy, const hr2d_link *link,
                                  size_t count, double *block);
 
 /**
- * Makes a solution of values from outside: those of a solver of one's own, of another process,
- * or of a moment of a process that changes with time. Averages, points, powers, fields and
- * pictures then work on them.
+ * Makes a solution of given values: those of a user-written solver, of another process, or of
+ * one moment of a transient. Averages, points, powers, fields and pictures then work on them.
  * @param links     filled by hr2d_refine(); must outlive the solution
  * @param options   NULL for the defaults; `tolerance`, `max_iterations` and `start` do not
  * matter
@@ -172,7 +172,7 @@ HR2D_API hr2d_status hr2d_blocks(const hr2d_hierarchy *hierarchy, const hr2d_lin
  *                      `field` does not have their temperatures
  * @retval other        as hr2d_solve(), but for HR2D_ENO_SOLUTION and HR2D_ENOT_CONVERGED
  *
- * hr2d_solution_residual() tells how far B is from solving the equation. Cost: one gather.
+ * hr2d_solution_residual() gives the residual of this B in the equation. Cost: one gather.
  */
 HR2D_API hr2d_status hr2d_solution_adopt(hr2d_linkset *links, const hr2d_solve_options *options,
                                          const double *field, hr2d_solution **solution);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file options.h
- * @brief What all structs of options have in common, and the constants of the headers by name.
+ * @brief The common rules of all structs of options, and the constants of the headers by name.
  *
  * @defgroup options Options
- * What all structs of options have in common, and the constants of the headers by name.
+ * The common rules of all structs of options, and the constants of the headers by name.
  *
  * A struct of options begins with `struct_size`. In every other member 0 or NULL means the
  * default: a struct of zeros with its size asks for the same as no struct at all. Where a user

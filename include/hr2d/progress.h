@@ -11,7 +11,7 @@
  * `progress`. All other calls, and calls whose `progress` is NULL, ask the callback of their
  * scene: hr2d_scene_set_progress().
  *
- * A call tells its phase, and the part of it that is done:
+ * A call passes its phase, and the part of the phase that is done:
  * - "read": a scene file is read; part of its bytes
  * - "split": crossings are cut; 0
  * - "commit": patches are checked, walls and effects found; part of the steps

@@ -50,7 +50,7 @@ struct hr2d_solution;
 
 /**
  * Options of a refinement. Start from #HR2D_REFINE_OPTIONS_INIT. The members from `row_from` on
- * are unstable interface, for distributions of one's own: see share.h.
+ * are unstable interface, for user-written distributions: see share.h.
  */
 typedef struct hr2d_refine_options {
   size_t struct_size; /**< so that the options can grow */
@@ -152,11 +152,11 @@ HR2D_API void hr2d_refine_options_init(hr2d_refine_options *options, size_t size
  * @retval other               the status of a callback
  *
  * Only one thread at a time may refine a hierarchy. Cost O(n² + L). If the scene calls for
- * occlusion, each patch sends beams, which cost what it sees, and each pair whose view
- * something bounds costs a cut of its classes of lines, some 0.5 µs. Memory: 70 bytes per
- * element and 16 per link, or 11 (hr2d_refine_options::packed); while a set with links is
- * refined further, old and new links are held. Each of several threads has a copy of the
- * elements, and the links of up to 128 patches are held twice.
+ * occlusion, the beams of each patch cost time in proportion to the patches it sees, and each
+ * pair whose view something bounds costs a cut of its line classes, some 0.5 µs. Memory: 70
+ * bytes per element and 16 per link, or 11 (hr2d_refine_options::packed); while a set with
+ * links is refined further, old and new links are held. Each of several threads has a copy of
+ * the elements, and the links of up to 128 patches are held twice.
  */
 HR2D_API hr2d_status hr2d_refine(hr2d_linkset *links, const hr2d_refine_options *options);
 

@@ -228,7 +228,7 @@ HR2D_API void hr2d_scene_set_progress(hr2d_scene *scene, hr2d_progress_fn progre
  */
 HR2D_API hr2d_status hr2d_scene_split_crossings(hr2d_scene *scene, size_t *cuts);
 
-/** What hr2d_scene_snap() did. */
+/** The repairs that hr2d_scene_snap() made. */
 typedef struct hr2d_snap_report {
   size_t ends;     /**< ends of patches that were joined to another end */
   size_t feet;     /**< points that were moved to stand on a patch, or after it */
@@ -244,21 +244,22 @@ typedef struct hr2d_snap_report {
  * Repairs a drawing whose patches nearly meet.
  *
  * - Ends within the tolerance of each other become one point, that of the first patch.
- * - Ends within the tolerance of another patch stand on it, whether they were short of it or
- *   beyond. Where patches share a stretch within the tolerance, they are cut at each other's
- * ends instead, and share these: the names of pieces are those of hr2d_scene_split_crossings().
+ * - Ends within the tolerance of another patch are moved onto it, whether they were short of
+ *   it or beyond. Where patches share a stretch within the tolerance, they are cut at each
+ *   other's ends instead, and share these: the names of pieces are those of
+ *   hr2d_scene_split_crossings().
  * - Patches that have lost their length are dropped, and so is the later of two patches that
  * have come to lie on one another with their fronts on the same side.
  * - Patches that cross still are cut there, as by hr2d_scene_split_crossings().
  *
  * An end is joined by at most the tolerance, and moved by at most the tolerance to stand on a
  * patch; where that patch is moved, too, it follows. Choose a tolerance above the errors of the
- * drawing, and far below the smallest thing in it: what is smaller is lost.
+ * drawing, and far below its smallest detail: smaller details are lost.
  *
  * @param scene      not yet committed; unchanged on failure. Indices of patches change where
  *                   some are dropped or cut
  * @param tolerance  in scene lengths; less than a rounding counts as a rounding
- * @param report     receives what was done; may be NULL
+ * @param report     receives the repairs; may be NULL
  * @retval HR2D_OK      success
  * @retval HR2D_ENOMEM  an allocation failed
  * @retval HR2D_EINVAL  the tolerance is not greater than 0, or not finite
@@ -298,11 +299,11 @@ HR2D_API hr2d_status hr2d_scene_snap(hr2d_scene *scene, double tolerance,
  *                      digits; the scene is too far from the origin; or doubles cannot
  *                      represent a length
  *
- * The message names the patches. Cost O(n log n) in most scenes. Where nothing is in the way of
- * any pair, though patches have others on both sides, that is known by beams from the backs of
- * walls, or, if these are many, by O(n²) tests of pairs. In a scene with dark patches, the
- * search for patches that light can reach follows beams from patches that are lit, in parts of
- * the plane where dark patches are.
+ * The message names the patches. Cost O(n log n) in most scenes. If patches have others on
+ * both sides and yet nothing occludes any pair, beams from the backs of walls show this, or,
+ * if these are many, O(n²) tests of pairs. In a scene with dark patches, the search for
+ * patches that light can reach traces beams from lit patches, in the parts of the plane where
+ * dark patches are.
  */
 HR2D_API hr2d_status hr2d_scene_commit(hr2d_scene *scene);
 

@@ -6,13 +6,14 @@
  * @defgroup share Shares of a solve
  * Several processes, or threads, that solve one scene together.
  *
- * @warning Unstable interface: for solvers and distributions of one's own. It may change in any
- * release, see doc/compatibility.md.
+ * @warning Unstable interface: for user-written solvers and distributions. It may change in
+ * any release, see doc/compatibility.md.
  *
- * Each has a share of the pairs of patches: it makes their links, and the p × p blocks of
- * these, and gathers over them. Elements and fields on them are on all shares. Where a number
- * needs all links, the library calls back: hr2d_share::combine adds up over shares. So memory
- * for links and blocks, and the time for them, is divided by the number of shares:
+ * Each has a share of the pairs of patches: it makes their links and the p × p blocks of
+ * these, and gathers over them. Every share has all elements and the fields on them. Where a
+ * number needs all links, the library calls hr2d_share::combine, which combines the values of
+ * all shares. So the memory and the time for links and blocks are divided by the number of
+ * shares:
  *
  *     hr2d_share share = {.struct_size = sizeof share, .number = me, .count = all,
  *                         .combine = combine, .ctx = …};
@@ -25,26 +26,26 @@
  * the links of this share, hr2d_linkset_counts() those of all. Solutions are whole on every
  * share: averages, points and pictures need no other process.
  *
- * **Same bits.** What is added up over shares is rounded so that its sum does not depend on the
- * order of its terms. No digit of a solution depends on the number of shares. Without shares
- * sums are plain, and solutions differ from that by roundings. Elements, links and oracle calls
- * are those of one process, exactly.
+ * **Same bits.** Sums over shares round each term so that the sum does not depend on their
+ * order. No digit of a solution depends on the number of shares. Without shares sums are
+ * plain, and a solution differs by roundings. Elements, links and oracle calls are those of
+ * one process, exactly.
  *
  * **Failures.** If a call fails on one share, it fails on all of them with the same status;
  * none waits for ever. Budgets of bytes, links and elements are those of each share. A budget
  * of time is that of the clock of share 0.
  *
- * Each share looks for its part of the visibility events, and gets those of all.
+ * Each share searches its part of the visibility events, and receives those of all shares.
  *
  * Each pair of patches belongs to the row of its earlier patch. With
- * hr2d_refine_options::share whole rows are dealt out, in runs. With a target rows are counted
- * first, and long ones are cut by the other patches of their pairs; each share with a part of
- * such a row looks round from its patch. Where few patches have many links, all shares with a
- * part of them refine the same pairs, and each keeps its part of the links. So shares have the
- * same number of links, but for some, and hr2d_linkset_own_tests() tells how many tests of
- * visibility. Links between clusters of patches (clusters.h) are on every share, and so is what
- * is known of the scene. A further refinement of a set may make other visibility tests than one
- * process. States hold the links of one share only: hr2dp_save_solution() of libhr2d-petsc
+ * hr2d_refine_options::share each share gets runs of whole rows. With a target rows are
+ * counted first, and long ones are cut by the other patches of their pairs; each share with a
+ * part of such a row traces the beams of its patch. Where few patches have many links, all
+ * shares with a part of them refine the same pairs, and each keeps its part of the links. All
+ * shares get nearly the same number of links. hr2d_linkset_own_tests() returns the visibility
+ * tests of this one. Every share has the links between clusters of patches (clusters.h), and
+ * all data of the scene. A further refinement of a set may make other visibility tests than
+ * one process. States hold the links of one share only: hr2dp_save_solution() of libhr2d-petsc
  * keeps B alone, and makes the links again.
  *
  * libhr2d-petsc has a `combine` for MPI. This one is for processes of one machine:
@@ -65,7 +66,7 @@
 extern "C" {
 #endif
 
-/** What becomes of the values of all shares. */
+/** How the values of all shares are combined. */
 typedef enum hr2d_combine {
   HR2D_COMBINE_SUM = 0, /**< their sum; it is exact, in any order of adding */
   HR2D_COMBINE_MOST     /**< the largest */
@@ -83,8 +84,8 @@ typedef enum hr2d_combine {
  * @param status  of this share: HR2D_OK, or why it has failed
  * @param how     what to do with the values
  * @param value   `count` values of this share; receives those of all
- * @param count   may be 0: then nothing but the status matters
- * @return HR2D_OK if all shares gave that; else the status of one that did not, the same on all
+ * @param count   may be 0: then only the status matters
+ * @return HR2D_OK if all shares gave it; else the status of one that did not, the same on all
  */
 typedef hr2d_status (*hr2d_combine_fn)(void *ctx, hr2d_status status, hr2d_combine how,
                                        double *value, size_t count);
@@ -103,9 +104,9 @@ typedef struct hr2d_share {
 } hr2d_share;
 
 /**
- * Chooses among pairs before anything is asked about them: whether they face or see each other,
- * or what the oracle says. So a part of a refinement costs that part of its time, as where
- * processes share one, or where only some exchanges are of interest.
+ * Chooses among pairs before any test of facing or visibility, and before the oracle. So a
+ * part of a refinement costs that part of its time: where processes share one, or where only
+ * some exchanges are of interest.
  * @param ctx      hr2d_refine_options::claim_ctx
  * @param batch    pairs of patches, or pairs that come from a subdivision
  * @param claimed  one per pair, all 1: set to 0, the pair is dropped, with all pairs below it
@@ -114,7 +115,7 @@ typedef struct hr2d_share {
 typedef hr2d_status (*hr2d_claim_fn)(void *ctx, const hr2d_batch *batch,
                                      unsigned char *claimed);
 
-/** What the pairs of one row take: those whose first element is of one patch. */
+/** The work of one row: of the pairs whose first element is of one patch. */
 typedef struct hr2d_row_counts {
   uint64_t links;            /**< as hr2d_refine_counts::links */
   uint64_t visibility_tests; /**< as hr2d_refine_counts::visibility_tests */
@@ -122,7 +123,7 @@ typedef struct hr2d_row_counts {
 
 /**
  * The tests of visibility that this process has made for the links of a set. With several
- * shares (share.h) hr2d_linkset_counts() tells those of one process; where shares refine the
+ * shares (share.h) hr2d_linkset_counts() has the tests of one process; where shares refine the
  * same rows, together they make more.
  * @param links  a link set
  * @return as hr2d_refine_counts::visibility_tests, of this share alone; constant cost

@@ -25,10 +25,10 @@
  * - no light is lost or created;
  * - at order 1 the discrete equation has one solution if ρ < 1.
  *
- * When to switch it off: to measure the paper's algorithm as it is; and at an order above 1
- * where all light that is reflected comes from patches of constant B, as a sky or black lamps.
- * There averages are exact without closure, and d·B adds an error like that of elements, 1e-4
- * to 1e-7. At order 1 such averages are exact with closure, too
+ * Switch closure off to measure the paper's algorithm as it is; and at an order above 1 if all
+ * light that is reflected comes from patches of constant B, as a sky or black lamps. There
+ * averages are exact without closure, and d·B adds an error like that of elements, 1e-4 to
+ * 1e-7. At order 1 such averages are exact with closure, too
  * (tests/unit/solve/check-closure.c). Elsewhere at order 1 the errors of elements differ: over
  * random scenes those of averages are half as large with closure on the mean and those of
  * leaves a tenth, but in one of seven scenes an average is better without.
@@ -225,7 +225,7 @@ HR2D_API hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t 
                                           const double *t, size_t count, double *value);
 
 /**
- * The irradiance H at points of a patch after one more gather: H' = ∫ G V B_h and what arrives
+ * The irradiance H at points of a patch after one more gather: H' = ∫ G V B_h plus the light
  * from the background and the sun, with G and V exact. Patches that reflect nothing have it,
  * too.
  * @param solution,patch,t,count  as for hr2d_solution_gather()
@@ -255,7 +255,7 @@ HR2D_API hr2d_status hr2d_solution_gather_net_flux(const hr2d_solution *solution
 HR2D_API const hr2d_linkset *hr2d_solution_links(const hr2d_solution *solution);
 
 /**
- * B as it was solved for, for a solver or a file of one's own.
+ * The coefficients of B, for a user-written solver or file.
  * @param solution  a solution
  * @return the coefficients of all elements that existed at the solve, in the form of
  *         hr2d_hierarchy_pull() and hr2d_solution_adopt(); owned by the solution. Unlike
@@ -329,12 +329,13 @@ HR2D_API double hr2d_solution_net_flux(const hr2d_solution *solution, size_t pat
 HR2D_API hr2d_power hr2d_solution_power(const hr2d_solution *solution, size_t band);
 
 /**
- * What images of a period that are cut off may make of that balance (symmetry.h).
+ * The uncertainty of that balance because images of a period are cut off (symmetry.h).
  * @param solution,band  a solution and a band
- * @return what `received` and `escaped` may be off by that, each; `absorbed` is off by what
- *         averages of H are. 0 where all that is seen is there; infinite if nobody knows, as
- * after hr2d_solve_to() in a time that does not suffice. Averages may be known much better: in
- * an isothermal scene light that patches seem to lack comes from the background
+ * @return the error that `received` and `escaped` may each have from this; that of `absorbed`
+ *         follows from the averages of H. 0 if no visible image is cut off; infinite if it is
+ *         unknown, as after hr2d_solve_to() in a time that does not suffice. Averages may be
+ *         known much better: in an isothermal scene light that patches seem to lack comes from
+ *         the background
  */
 HR2D_API double hr2d_solution_power_cut_off(const hr2d_solution *solution, size_t band);
 

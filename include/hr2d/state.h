@@ -91,10 +91,9 @@ HR2D_API hr2d_status hr2d_state_read(hr2d_linkset *links, hr2d_read_fn read, voi
                                      hr2d_solution **solution);
 
 /**
- * Writes a committed scene, as for other processes that share its work, or to have it later
- * without the file that it came from: patches with their names, the background, the suns,
- * mirrors and the period, and the effects that are forced. Patches are written as they were
- * given (hr2d_scene_segment()).
+ * Writes a committed scene, for other processes that share its work, or for later use without
+ * its file: patches with their names, the background, the suns, mirrors and the period, and
+ * the effects that are forced. Patches are written as they were given (hr2d_scene_segment()).
  * @param scene  a committed scene; unchanged
  * @param write  receives up to 4096 bytes at a time
  * @param ctx    given to `write`
@@ -110,8 +109,8 @@ HR2D_API hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_
                                             void *ctx);
 
 /**
- * Reads a scene of hr2d_state_write_scene(), and commits it: all that is made of it has the
- * bits of the scene that was written.
+ * Reads a scene of hr2d_state_write_scene(), and commits it. Every result on it has the bits
+ * of the scene that was written.
  * @param scene  an empty scene; on failure it is empty again
  * @param read   asked for up to 4096 bytes at a time, and for no byte after the scene
  * @param ctx    given to `read`

@@ -4,13 +4,14 @@
  * @brief Mirrors, and a period that repeats the scene for ever.
  *
  * @defgroup symmetry Symmetry: mirrors and periods
- * A scene that is symmetric, or that repeats itself, is given by one of its parts, the cell.
+ * A scene that is symmetric or periodic is given by one of its parts: the cell (fundamental
+ * domain).
  *
  * A *mirror* is a line at which the scene is reflected: everything behind it is the image of
- * what is in front. It is endless, however long the segment is that gives it. It neither emits
- * nor absorbs. Two mirrors may be perpendicular, so that there are four images; or parallel,
- * with the scene between them, so that images go on for ever; or three may be, of which two are
- * parallel.
+ * the scene in front. It is an endless line; the length of its segment does not matter. It
+ * neither emits nor absorbs. Two mirrors may be perpendicular, so that there are four images;
+ * or parallel, with the scene between them, so that images go on for ever. Of three mirrors
+ * two are parallel.
  *
  * A *period* (dx, dy) repeats the scene for ever, at each multiple of the vector: rows of
  * panels, streets, blinds, the unit cell of a bed. A mirror beside a period is parallel to it
@@ -27,40 +28,42 @@
  * In a period K images on each side are taken; commit doubles K until the patches see nothing
  * beyond. Where they can see for ever, as between two plates, the last images stand for those
  * that are cut off: exchange areas with image k are series in 1/k that begin with 1/k³, and
- * their sums are extrapolated. Estimates and bounds of hr2d_solve_to() have what that may be
- * off, of averages and at points: what the last term of the series adds, or what four other
- * images say. For one vertex that hides images, of any number, the bound is derived; many that
- * hide images to and fro are taken to be no worse.
+ * their sums are extrapolated. Estimates and bounds of hr2d_solve_to() contain the error of
+ * this extrapolation, of averages and at points: the size of the last term of the series, or
+ * the difference from an extrapolation by four other images. The bound is derived for the case
+ * in which a single vertex hides images, however many. For several vertices it is assumed.
  *
- * One more gather at a point (solve.h) extrapolates its own view, if it sees what is cut off.
- * Past the tip of a patch that is oblique to the period that may be some percent of all it
- * sees. The sky that shows there is extrapolated, too, and has the light of the horizon; backs
- * are what is left.
+ * One more gather at a point (solve.h) extrapolates its own view, if images that are cut off
+ * are in it. Past the tip of a patch that is oblique to the period these may fill some percent
+ * of the view. The sky that shows there is extrapolated, too, and has the light of the
+ * horizon; the remaining directions see backs.
  *
- * Points between the patches (field.h) have as many images as patches that see for ever,
- * because from above a street all roofs are seen. Angles under which image k is seen are series
- * that begin with 1/k². hr2d_field_values::cut_off receives the part of all directions that is
- * past the images, which is exact; so the light from there adds at most this part of the
- * largest radiosity to M. hr2d_field_values::error has a bound of what extrapolation is off,
- * derived as that of hr2d_solve_to(), and no more than that part allows. Where there is no
- * series, as where the ground shows here and there through gaps of a row of panels, or far
- * above the scene, the light past the images is taken as that of the last ones, and the error
- * is all that may be there; so it is where a piece of the sky ends past the images. Suns shine
- * past any number of images, exactly. Rows of points (hr2d_field_rows_visit()) are the same;
- * their sums may differ from 1 by what extrapolation is off.
+ * Points between the patches (field.h) see for ever, too: from above a street all roofs are in
+ * view. They use as many images as patches that see for ever. The angle that image k fills is
+ * a series in 1/k that begins with 1/k². hr2d_field_values::cut_off receives the part of all
+ * directions that is past the images, which is exact; so the light from there adds at most
+ * this part of the largest radiosity to M. hr2d_field_values::error contains a bound of the
+ * error of the extrapolation, derived as that of hr2d_solve_to(), and at most as large as that
+ * part allows. There may be no such series: for instance if the ground shows here and there
+ * through gaps of a row of panels, or far above the scene. Then the light past the images is
+ * taken as that of the last ones, and the error is the largest that the part allows; likewise
+ * if a piece of the sky ends past the images. Suns shine past any number of images, exactly.
+ * Rows of points (hr2d_field_rows_visit()) are extrapolated in the same way; their sums may
+ * differ from 1 by its error.
  *
  * Images in a mirror that is not parallel to an axis are rounded: their ends are off by some
  * 2⁻⁵⁰ of the largest coordinate. Errors of the account are those of the rounded scene; a patch
- * as short as d, or as near to its image, may be off by that part of d besides.
+ * as short as d, or as near to its image, may be off by that part of d as well.
  *
  * Exchange areas of patches (visibility.h) are sums over all images: a patch may see images of
  * its own. They are made by one thread, in memory that grows with the pairs that see each
- * other, which hr2d_exchange_rows_visit() keeps until its end as well. What images add that are
- * cut off is extrapolated, but never below 0; hr2d_matrix_options::cut_off_estimate and
- * hr2d_matrix_options::cut_off_bound have what that may be off, likewise derived, and no more
- * than what is extrapolated and what is seen past the images, which is exact. With thousands of
- * patches in a cell there are few images, and some percent of a row may be cut off. Powers have
- * hr2d_solution_power_cut_off(). hr2d_leaf_sums() has the rows of the patches of the cell.
+ * other, which hr2d_exchange_rows_visit() keeps until its end as well. The contribution of
+ * images that are cut off is extrapolated, but never below 0.
+ * hr2d_matrix_options::cut_off_estimate and hr2d_matrix_options::cut_off_bound receive its
+ * error, derived in the same way, and at most the sum of the extrapolated contribution and of
+ * the view past the images, which is exact. With thousands of patches in a cell there are few
+ * images, and some percent of a row may be cut off. Powers have hr2d_solution_power_cut_off().
+ * hr2d_leaf_sums() has the rows of the patches of the cell.
  *
  * Not supported, and refused with HR2D_EUNSUPPORTED: over a period in which patches see for
  * ever, a sky with a piece that ends between the horizon and the last images.
@@ -101,8 +104,8 @@ HR2D_API hr2d_status hr2d_scene_add_mirror(hr2d_scene *scene, hr2d_segment line)
  * @retval HR2D_ESCENE  a component is not finite
  *
  * hr2d_scene_commit() fails with HR2D_ESCENE if an image crosses a patch. Patches may reach
- * over several periods, and stand any number of periods apart. A sun shines in past at most 256
- * images: what is beyond them counts as shadow, and no error contains that
+ * over several periods, and stand any number of periods apart. A sun shines in past at most
+ * 256 images: sunlight from beyond them counts as shadow, and no error contains that
  * (hr2d_scene_sunlight_cut_off()).
  */
 HR2D_API hr2d_status hr2d_scene_set_period(hr2d_scene *scene, hr2d_point period);
@@ -145,10 +148,10 @@ HR2D_API size_t hr2d_scene_images(const hr2d_scene *scene);
 HR2D_API hr2d_segment hr2d_scene_image(const hr2d_scene *scene, size_t patch, size_t image);
 
 /**
- * What is cut off of a period.
+ * The largest view of images that a period cuts off.
  * @param scene  committed
- * @return the largest part of the directions from a patch, a form factor, in which images are
- *         seen that are extrapolated; 0 if all that is seen is there
+ * @return the largest form factor from a patch to images that are extrapolated; 0 if no
+ *         visible image is cut off
  */
 HR2D_API double hr2d_scene_cut_off(const hr2d_scene *scene);
 

@@ -24,30 +24,29 @@
  * hr2d_solution_gather_temperature(). The two sides of a patch do not exchange heat: each has
  * the q that is given.
  *
- * **Which scenes have a solution.** Patches of given q that exchange heat only with each other,
- * in a closed part of the scene, have none, or have one at every temperature: hr2d_solve() and
+ * **Existence.** Patches of given q that exchange heat only with each other, in a closed part
+ * of the scene, have no solution, or one at every temperature: hr2d_solve() and
  * hr2d_solve_to() return HR2D_ENO_SOLUTION. They do so, too, if a patch loses so much that B
  * would be negative. If B is positive and H + q/ε is not, the patch is marked:
  * HR2D_TEMPERATURE_IMPOSSIBLE. It cannot lose so much heat, even at 0 K.
  *
  * **Bands.** With hr2d_scene_set_wavelengths() bands are parts of the spectrum, and ε has a
  * value for each. A patch of given T emits in each band its part f_b of the black body,
- * hr2d_black_body_part(). So does a patch of given q, whose T divides what it emits among the
+ * hr2d_black_body_part(). So does a patch of given q, whose T divides its emission among the
  * bands: B_b = ε_b f_b(T)σT⁴ + (1 − ε_b)H_b. In several bands such a patch has one T, and q is
- * the mean over its length: Σ_b ε_b (f_b(T)σT⁴ − H̄_b) = q with the averages H̄_b. (In one band
- * every point of it has this q, and a T of its own. Short pieces of a wall bring both
- * together.) These T are unique. hr2d_solve() finds those of its links, by Newton's method over
- * linear solves, 10 to 50 times the cost of one. So does hr2d_solve_to(), and its account has
- * their part of the error. hr2d_target::seconds is a budget of the solves; the temperatures
- * take some iterations more. Where T would be below 0 K, HR2D_ENO_SOLUTION is returned. E and ρ
- * of the scene are then those of the sum over the bands, q and 1.
+ * the mean over its length: Σ_b ε_b (f_b(T)σT⁴ − H̄_b) = q with the averages H̄_b. (In one
+ * band every point of it has this q, and a T of its own. Short pieces of a wall bring both
+ * together.) These T are unique. hr2d_solve() finds those of its links, by Newton's method
+ * over linear solves, 10 to 50 times the cost of one. So does hr2d_solve_to(), and its account
+ * has their part of the error. hr2d_target::seconds is a budget of the solves; the
+ * temperatures take some iterations more. Where T would be below 0 K, HR2D_ENO_SOLUTION is
+ * returned. E and ρ of the scene are then those of the sum over the bands, q and 1.
  *
  * **Emissivity that depends on temperature** is a table or a function. On a patch of given T it
  * is a number. On one of given q it is a part of the equation for T: in one band of
  * ε(T)(σT⁴ − H) = q alone, from point to point; in several bands of the heat balance, where 1 −
- * ε reflects. If the left-hand side rises with T there is one T; with an ε that falls faster
- * than that there may be several, and one is found, or in several bands HR2D_ENOT_CONVERGED is
- * returned.
+ * ε reflects. If the left-hand side rises with T there is one T. If ε falls too fast for this,
+ * there may be several: one is found, or in several bands HR2D_ENOT_CONVERGED is returned.
  *
  * examples/adiabatic-walls.c computes a furnace, examples/paint-oven.c a published one.
  * @{
@@ -74,7 +73,7 @@ extern "C" {
 /** The most wavelengths of a scene: each patch of given T has an E for each of their bands. */
 #define HR2D_MAX_WAVELENGTHS 511
 
-/** What is given of a patch. */
+/** The quantities that are given of a patch. */
 typedef enum hr2d_heat {
   HR2D_HEAT_NONE = 0,    /**< E and ρ */
   HR2D_HEAT_TEMPERATURE, /**< T and ε */
@@ -109,7 +108,7 @@ typedef struct hr2d_thermal {
   void *emissivity_ctx;             /**< given to `emissivity_of` */
 } hr2d_thermal;
 
-/** A black patch of which nothing is given yet. */
+/** A black patch, without a temperature or a flux yet. */
 #define HR2D_THERMAL_INIT                                                                      \
   { sizeof(hr2d_thermal), HR2D_HEAT_NONE, 0, NULL, 0, NULL, 0, NULL, NULL }
 
@@ -130,8 +129,8 @@ HR2D_API void hr2d_thermal_init(hr2d_thermal *thermal, size_t size);
  * @retval HR2D_OK      success
  * @retval HR2D_ENOMEM  an allocation failed
  * @retval HR2D_EINVAL  as hr2d_scene_add(); `patch` has emission or reflectance; `given` is
- *                      none of both; there are both values and a function for ε, or a table
- *                      without values; or `struct_size` is not set
+ *                      neither; there are both values and a function for ε, or a table without
+ *                      values; or `struct_size` is not set
  * @retval HR2D_ECALLBACK  `emissivity_of` gives no emissivity for a given T
  * @retval HR2D_ESTATE  the scene is committed
  * @retval HR2D_ESCENE  as hr2d_scene_add(); T is negative, so large that E is beyond a double,
@@ -168,7 +167,7 @@ HR2D_API hr2d_status hr2d_scene_set_wavelengths(hr2d_scene *scene, const double 
                                                 size_t count);
 
 /**
- * What is given of a patch.
+ * The temperature or heat flux that is given of a patch.
  * @param scene,patch  a scene and the index of a patch
  * @param value        receives T or q; NaN if neither is given; may be NULL
  * @return which of them it is
@@ -205,7 +204,7 @@ HR2D_API double hr2d_scene_temperature(const hr2d_scene *scene, size_t patch,
                                        double irradiance);
 
 /**
- * σT⁴, what a black body emits over all wavelengths.
+ * σT⁴, the emission of a black body over all wavelengths.
  * @param kelvin  T
  * @return W/m²; the relative error is at most 2·2^-52
  */
@@ -232,7 +231,7 @@ typedef enum hr2d_temperature_state {
                                     in a closed room any temperature */
 } hr2d_temperature_state;
 
-/** What is received for each patch. Start from #HR2D_TEMPERATURES_INIT. */
+/** The results for each patch. Start from #HR2D_TEMPERATURES_INIT. */
 typedef struct hr2d_temperatures {
   size_t struct_size;    /**< so that the struct can grow */
   double *kelvin;        /**< receives T; NaN unless it is given or found; NULL: not wanted, as
@@ -255,9 +254,9 @@ typedef struct hr2d_temperatures {
  *
  * Errors follow from those of H. With the relative error e of hr2d_account::irradiance and the
  * floor of the target, |δH| ≤ e·max(H, floor·max H), and |δ(σT⁴)| ≤ |δH| for a patch of given
- * q. In several bands errors of H change all unknown T together: what is told for them is what
- * errors of this size do to each T at worst, and it needs the `target` of the solve. A patch of
- * given T has no error of T, one of given q none of its heat.
+ * q. In several bands errors of H change all unknown T together: the reported error is the
+ * largest change of T that errors of this size can cause, and it needs the `target` of the
+ * solve. A patch of given T has no error of T, one of given q none of its heat.
  *
  * @param solution      a solution
  * @param target        that of hr2d_solve_to(), for its floor and its important patches; NULL

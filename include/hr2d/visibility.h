@@ -7,10 +7,11 @@
  * Exchange areas with occluders, and of all patches of a scene.
  *
  * In the plane, the lines from a segment i to a segment j that miss every occluder fall into
- * finitely many classes. The lines of one class have the same occluders on their right and the
- * same on their left. They are the lines that separate two convex chains, and their measure is
- * a sum of unoccluded exchange areas, none negative. The sum over the classes is exact: nothing
- * is sampled, and there is no tolerance to choose.
+ * finitely many line classes (homotopy classes). The lines of one class have the same
+ * occluders on their right and the same on their left. They are the lines that separate two
+ * convex chains, as in an hourglass of Guibas and Hershberger, and their measure is a sum of
+ * unoccluded exchange areas, none negative. The sum over the classes is exact: nothing is
+ * sampled, and there is no tolerance to choose.
  * @{
  */
 #ifndef HR2D_VISIBILITY_H
@@ -57,9 +58,9 @@ extern "C" {
  * An end that counts as lying on i or j, but does not, costs that distance, divided by the sine
  * of the angle at which its occluder stands there.
  *
- * Thread-safe. What is not between i and j costs O(count), the rest O(count log count) and the
- * classes of lines that are not blocked: of random occluders in a room about 1 µs for each that
- * is outside, and 10 µs for each that is inside and leaves gaps.
+ * Thread-safe. Occluders that are not between i and j cost O(count), the others O(count log
+ * count) and the line classes that are not blocked: of random occluders in a room about 1 µs
+ * for each that is outside, and 10 µs for each that is inside and leaves gaps.
  */
 HR2D_API hr2d_status hr2d_exchange_area_occluded(const hr2d_segment *i, const hr2d_segment *j,
                                                  const hr2d_segment *occluder, size_t count,
@@ -90,11 +91,11 @@ typedef struct hr2d_matrix_options {
   unsigned threads;          /**< 0 for one, or #HR2D_ALL_THREADS; no bit depends on it */
   hr2d_progress_fn progress; /**< optional; with the phase "factors", from the calling thread */
   void *progress_ctx;        /**< given to `progress` */
-  double *cut_off_estimate;  /**< NULL, or receives for each patch what images of a period that
-                                  are cut off may make of its row: Σ_j |error of AF_ij|, in scene
-                                  lengths; 0 where all that is seen is there. symmetry.h says
-                                  what is extrapolated */
-  double *cut_off_bound;     /**< likewise what they make at most */
+  double *cut_off_estimate;  /**< NULL, or receives for each patch the estimated error of its
+                                  row because images of a period are cut off: Σ_j |error of
+                                  AF_ij|, in scene lengths; 0 if no visible image is cut off.
+                                  symmetry.h has the extrapolation */
+  double *cut_off_bound;     /**< likewise the bound of this error */
 } hr2d_matrix_options;
 
 /** The defaults: one thread, no callback. */
@@ -113,7 +114,7 @@ HR2D_API void hr2d_matrix_options_init(hr2d_matrix_options *options, size_t size
 typedef struct hr2d_matrix_counts {
   uint64_t exchange_areas;   /**< pairs of patches that see each other */
   uint64_t partial_pairs;    /**< of these, pairs that occluders hide from each other in part */
-  uint64_t visibility_tests; /**< triangles between the patches that were looked through */
+  uint64_t visibility_tests; /**< triangles between the patches that beams passed */
 } hr2d_matrix_counts;
 
 /**
@@ -135,8 +136,8 @@ typedef struct hr2d_matrix_counts {
  * coordinate. If ends pass through other patches by a rounding, the sum is within 2⁻²⁸ of that
  * coordinate; hr2d_scene_commit() refuses scenes that would lose more.
  *
- * Nothing is looked at that is not seen: beams start at each wall and end at what they meet,
- * and patches on one line are one wall. Several calls may run on one scene at once. With
+ * Beams start at each wall and end at the first wall that they meet, so that hidden pairs cost
+ * nothing; patches on one line are one wall. Several calls may run on one scene at once. With
  * several threads the hooks of the scene are called from all of them. Cost O(n²) for the
  * matrix, O(n log n) to triangulate the plane between the walls, some 50 ns for each pair that
  * sees each other and 15 ns for each triangle that beams pass, mostly four for each pair of
@@ -146,26 +147,27 @@ HR2D_API hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene,
                                           const hr2d_matrix_options *options, double *area,
                                           hr2d_matrix_counts *counts);
 
-/** What a beam from a point ends at. */
+/** The end of a beam from a point. */
 typedef enum hr2d_seen {
   HR2D_SEEN_FRONT, /**< the front of a patch */
   HR2D_SEEN_BACK,  /**< the back of a patch that has only a front: opaque and black */
   HR2D_SEEN_SKY,   /**< nothing: the background */
-  HR2D_SEEN_PAST   /**< what is past the images of a period that are taken, see symmetry.h */
+  HR2D_SEEN_PAST   /**< the view past the images of a period that are taken, see symmetry.h */
 } hr2d_seen;
 
 /** The directions in which a point sees a part of one patch or of one wall, or the sky. */
 typedef struct hr2d_beam {
   size_t struct_size; /**< its size as the library knows it */
-  hr2d_seen seen;     /**< what the beam ends at */
+  hr2d_seen seen;     /**< the end of the beam */
   size_t patch;       /**< the patch whose front is seen: gn + k for image g of patch k, of n
                            patches that were given; 0 if none is */
   double from;        /**< where its part begins, a fraction of its length; else 0 */
   double to;          /**< where the part ends, above `from`; else 0 */
-  double factor;      /**< the form factor from the point to what is seen, greater than 0 */
+  double factor;      /**< the form factor from the point to its end, greater than 0 */
   hr2d_point right;   /**< the direction of the right border, a unit vector */
   hr2d_point left;    /**< of the left border; looking ahead, with the patch's b on the right */
-  hr2d_segment end;   /**< what is seen, from right to left, in scene coordinates; zeros: sky */
+  hr2d_segment end;   /**< the part that is seen, from right to left, in scene coordinates;
+                           zeros: sky */
 } hr2d_beam;
 
 /**
@@ -177,7 +179,8 @@ typedef struct hr2d_beam {
 typedef hr2d_status (*hr2d_beam_fn)(void *ctx, const hr2d_beam *beam);
 
 /**
- * Shows what a point of a patch sees, as beams from the direction of its b to that of its a.
+ * Shows the view from a point of a patch as beams, in order from the direction of its b to
+ * that of its a. They come from a triangular expansion.
  * @param scene  committed
  * @param patch  index of a patch
  * @param t      fraction of the patch in [0,1], counted from its start. Where another patch
@@ -193,12 +196,12 @@ typedef hr2d_status (*hr2d_beam_fn)(void *ctx, const hr2d_beam *beam);
  * @retval HR2D_ESTATE  the scene is not committed
  * @retval other        the status of the visitor, or of the progress callback of the scene
  *
- * Patches that were drawn some periods apart are where they were brought together, see
- * symmetry.h.
+ * Patches that were given some periods apart appear where commit has brought them together,
+ * see symmetry.h.
  *
  * Each beam begins in the direction in which the last one ended, so that the factors sum to 1
- * within roundings. Parts of a patch that touches the point may be a point. A patch that lies
- * within roundings behind another one sees one back at the point itself.
+ * within roundings. The part of a patch that touches the point may be a single point. A patch
+ * that lies within roundings behind another one sees a single back, at the point itself.
  *
  * Several calls may run on one scene at once. Cost: 0.1 µs for each triangle of the plane that
  * the view passes; if the scene does not call for occlusion, O(n log n) for that plane at each

@@ -42,7 +42,7 @@
  * **Errors.** Each function returns a PetscErrorCode, which is 0 for success. All ranks return
  * the same code: a failure on one rank is agreed upon before any rank waits for it. A failure
  * of libhr2d or of an allocation raises PETSC_ERR_LIB with the message of hr2dp_message();
- * hr2dp_status() has its kind. The handler of PETSc decides what is printed; see
+ * hr2dp_status() has its kind. The handler of PETSc decides about printing; see
  * PetscPushErrorHandler().
  *
  * **Calls.** All functions are collective unless they say otherwise: all ranks call them, in
@@ -86,7 +86,7 @@ typedef struct hr2dp_options {
 #define HR2DP_OPTIONS_INIT                                                                     \
   { sizeof(hr2dp_options), NULL, NULL, NULL, NULL, 0, NULL }
 
-/** What a refinement made. All ranks get the same numbers but those called `own`. */
+/** The result of a refinement. All ranks get the same numbers but those called `own`. */
 typedef struct hr2dp_counts {
   size_t struct_size;       /**< so that the counts can grow */
   hr2d_refine_counts whole; /**< as hr2d_refine() counts on one process, exactly */
@@ -105,7 +105,7 @@ typedef struct hr2dp_counts {
   uint64_t own_bytes;        /**< of this rank's links, elements and fields */
 } hr2dp_counts;
 
-/** What a solve did. Start from #HR2DP_REPORT_INIT; all ranks get the same. */
+/** The work of a solve. Start from #HR2DP_REPORT_INIT; all ranks get the same. */
 typedef struct hr2dp_report {
   size_t struct_size;  /**< so that the report can grow */
   uint64_t sweeps;     /**< gathers over all links */
@@ -129,7 +129,7 @@ typedef struct hr2dp_report {
  * @return PETSC_ERR_ARG_WRONGSTATE: the scene is not committed, or not the same on all ranks;
  *         PETSC_ERR_SUP: the order is not supported; PETSC_ERR_MEM: out of memory;
  *         PETSC_ERR_LIB: the scene has patches of given flux in several bands, a sun, or a sky
- *         in pieces, all of which hr2dp_share_create() is for
+ *         in pieces, which hr2dp_share_create() supports
  *
  * Cost and memory O(n) on every rank.
  */
@@ -160,9 +160,9 @@ HR2DP_API const char *hr2dp_message(const hr2dp *p);
 /**
  * Refines: makes the links of all ranks, or refines them further (multigridding).
  *
- * Before the first refinement, ranks count what rows take at four times the ε, and share out
- * the rows so that links and tests of visibility are even. Rows are of patches; where patches
- * are few and nothing stands in the way, they are of parts of patches.
+ * Before the first refinement, ranks count the links and tests of rows at four times the ε,
+ * and share out the rows so that links and tests of visibility are even. Rows are of patches;
+ * where patches are few and nothing stands in the way, they are of parts of patches.
  *
  * @param p        an object
  * @param options  as of hr2d_refine(), or NULL. `progress` asks on rank 0 alone. Of each rank
@@ -176,7 +176,7 @@ HR2DP_API const char *hr2dp_message(const hr2dp *p);
 HR2DP_API PetscErrorCode hr2dp_refine(hr2dp *p, const hr2d_refine_options *options);
 
 /**
- * What the refinements made. Not collective.
+ * The result of the refinements. Not collective.
  * @param p       an object
  * @param counts  with `struct_size` set; receives the counts, 0 before the first refinement
  * @return PETSC_ERR_ARG_SIZ: `struct_size` is too small
@@ -196,8 +196,8 @@ HR2DP_API PetscErrorCode hr2dp_get_counts(const hr2dp *p, hr2dp_counts *counts);
 HR2DP_API PetscErrorCode hr2dp_vector(hr2dp *p, Vec *v);
 
 /**
- * The transport operator H = K B on leaves as a MATSHELL, for Krylov methods of one's own. K is
- * self-adjoint in Σ A x y over leaves if links serve both directions.
+ * The transport operator H = K B on leaves as a MATSHELL, for user-written Krylov methods. K
+ * is self-adjoint in Σ A x y over leaves if links serve both directions.
  * @param p        refined; must outlive the operator, and not be refined as long as that is
  * used
  * @param options  `closure` matters, `threads` and the others do not; NULL for the defaults
@@ -244,7 +244,7 @@ HR2DP_API PetscErrorCode hr2dp_averages(hr2dp *p, Vec v, double *average);
 HR2DP_API PetscErrorCode hr2dp_save(hr2dp *p, Vec b, PetscViewer viewer);
 
 /**
- * Loads what hr2dp_save() has saved: refines to the ε of the state, and gives its B.
+ * Loads a state of hr2dp_save(): refines to the ε of the state, and gives its B.
  * @param p        without links; of the scene, the oracle and the policy of the state
  * @param options  as for the refinements that led to the state, or NULL; `epsilon` does not
  *                 matter
@@ -262,8 +262,8 @@ HR2DP_API PetscErrorCode hr2dp_load(hr2dp *p, const hr2d_refine_options *options
 
 /**
  * Saves B of a solution that was solved with shares, as hr2dp_save() does: without links, and
- * with the same bytes on any number of ranks. At order 1 each of the two loads what the other
- * has saved.
+ * with the same bytes on any number of ranks. At order 1 hr2dp_load() and
+ * hr2dp_load_solution() each load the states of both.
  * @param solution  of hr2d_solve() or hr2d_solution_adopt(), the same on all ranks; its
  *                  hierarchy was not refined since
  * @param viewer    PETSCVIEWERBINARY or PETSCVIEWERHDF5, open for writing, on the communicator
@@ -276,7 +276,7 @@ HR2DP_API PetscErrorCode hr2dp_load(hr2dp *p, const hr2d_refine_options *options
 HR2DP_API PetscErrorCode hr2dp_save_solution(const hr2d_solution *solution, PetscViewer viewer);
 
 /**
- * Loads what hr2dp_save_solution() has saved: refines to the ε of the state, and adopts its B.
+ * Loads a state of hr2dp_save_solution(): refines to the ε of the state, and adopts its B.
  * @param links       of the scene, the oracle, the policy and the order of the state. Where the
  *                    oracle needs the brightness of former stages, they are loaded in their
  *                    order into the same set
