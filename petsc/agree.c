@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What all ranks have to know before they go on together. */
+/* Agreement of all ranks on status and numbers before they go on together. */
 #include <stdarg.h>
 #include <stdio.h>
 

@@ -121,7 +121,7 @@ static PetscErrorCode find_rows(hr2dpi_transport *t, double *row) {
   PetscFunctionReturn(0);
 }
 
-/* What roundings leave of σ − K1 is added on the diagonal; `front` becomes its mean. */
+/* Adds the rounding rest of σ − K1 on the diagonal; `front` becomes its mean. */
 static PetscErrorCode set_rest(hr2dpi_transport *t, double *front) {
   PetscFunctionBegin;
   hr2dp *p = t->p;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What one constant per element, shared out with its field, does not have. */
+/* Effects that one constant per element, shared out with its field, does not support. */
 #ifndef HR2D_PETSC_CONSTANTS_H
 #define HR2D_PETSC_CONSTANTS_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the links of all ranks say of patches: how much they lack of a whole row, and which
-   exchange light with each other.  All ranks have the same. */
+/* Patches by the links of all ranks: how much each lacks of a whole row, and which exchange
+   light with each other.  All ranks have the same. */
 #ifndef HR2D_PETSC_EXCHANGE_H
 #define HR2D_PETSC_EXCHANGE_H
 

@@ -51,8 +51,8 @@ hr2d_status hr2dpi_share_init(hr2dp *p) {
   return status;
 }
 
-/* What units and rows take is counted at COARSER·ε; if these are no more than FEW links for
-   each rank, at ε, as they tell little of what there will be. */
+/* The work of units and rows is counted at COARSER·ε, and with at most FEW links for each rank
+   at ε, as so few predict the work badly. */
 enum { COARSER = 4, FEW = 4096 };
 
 typedef struct weigher {
@@ -246,7 +246,7 @@ static void read_counts(const uint64_t *list, hr2d_refine_counts *c) {
   c->dark_pairs = list[8];
 }
 
-/* What several ranks have done alike: what this rank has of it, and what one process has. */
+/* The work that several ranks have done alike: that of this rank, and that of one process. */
 static void list_repeated(const hr2dp *p, uint64_t list[2 * SUMS]) {
   for (int k = 0; k < 2; k++) {
     hr2d_refine_counts of = p->long_rows[k];

@@ -7,7 +7,7 @@
 
 enum { VERSION = 1 };
 
-/* What the head holds, two doubles each but for the first two. */
+/* The contents of the head, two doubles each but for the first two. */
 enum {
   FORM,
   EPSILON,
