@@ -42,7 +42,7 @@ typedef struct hr2d_refine_counts {
   uint64_t limited_links;    /**< links that only a recursion limit accepted */
   uint64_t oracle_calls;     /**< pairs that the oracle was asked about */
   uint64_t facing_tests;     /**< pairs below the roots, tested for facing each other */
-  uint64_t visibility_tests; /**< triangles that beams passed, and sights cut to elements */
+  uint64_t visibility_tests; /**< triangles passed by beams, and line classes cut to elements */
   uint64_t exchange_areas;   /**< exchange areas that were computed */
   uint64_t partial_links;    /**< links whose exchange area was integrated around occluders */
   uint64_t blocked_pairs;    /**< pairs dropped because occluders hide them from each other */
@@ -174,7 +174,7 @@ HR2D_API uint64_t hr2d_linkset_bytes(const hr2d_linkset *links);
  *
  * - Each pair of leaves that see each other lies below exactly one link, per direction if the
  *   set is directed.
- * - No link joins elements that cannot see each other, but for roundings of midpoints.
+ * - No link joins elements that cannot see each other, up to roundings of midpoints.
  * - Every exchange area is the exchange area of its elements; in scenes with walls in the way,
  * to 4e-15 of the largest coordinate, as midpoints are rounded.
  *

@@ -6,7 +6,7 @@
  * @defgroup lint Warnings
  * Warnings about scenes that are valid, but maybe not meant.
  *
- * A scene may be valid and still not be what its author has in mind: a wall ends a millimetre
+ * A valid scene may still not be the one that its author has in mind: a wall ends a millimetre
  * short of the next one, a front looks out of the room, a property has another name.
  * hr2d_scene_lint() says so. Nothing that it finds changes a solution.
  * @{
@@ -55,7 +55,7 @@ typedef enum hr2d_warning_code {
 typedef struct hr2d_warning {
   size_t struct_size;     /**< its size as the library knows it */
   hr2d_warning_code code; /**< its subject */
-  const char *text;       /**< a sentence with the place, and what to do */
+  const char *text;       /**< a sentence with the place and a remedy */
   size_t patches;         /**< how many members of `patch` are set: 0, 1 or 2 */
   size_t patch[2];        /**< the patches it names; of many, the first two */
   hr2d_point at;          /**< of a gap: the end of `patch[0]` beside it; else (0, 0) */

@@ -70,8 +70,8 @@ typedef struct hr2d_refine_options {
                          `max_bytes`: 0 for one, or #HR2D_ALL_THREADS; no link, element or
                          count depends on it. hr2d_refine() shares out patches. An oracle or a
                          policy that is not flagged thread-safe is called from one thread only;
-                         one that is decides by `a`, `b`, `centre` and `length` of elements, or
-                         divides none */
+                         a thread-safe one must decide by `a`, `b`, `centre` and `length` of
+                         elements alone, or divide none */
   const struct hr2d_solution *brightness; /**< for an oracle that needs brightness: a solution
                                                on the same hierarchy, whose B is the weight;
                                                NULL: emission alone */
@@ -79,23 +79,23 @@ typedef struct hr2d_refine_options {
   void *progress_ctx;                     /**< given to `progress` */
   int packed; /**< 1: hr2d_refine() keeps links in about 11 bytes each in the place of 16, where
                    neighbours share elements, as they do if N is far below L. No digit changes.
-                   Links are made more slowly. At order 1, in one band and both ways, solves use
-                   them faster; otherwise more slowly */
+                   Links are made more slowly. Solves use them faster at order 1, in one band
+                   and with links for both directions; otherwise more slowly */
   size_t row_from; /**< a row has the pairs of a patch with all later ones, or with all others
                         if links are directed. An empty set is filled with rows
                         [`row_from`, `row_to`) alone, and its links carry their part of the
                         light. Parts of all rows add up to the whole: links, and all counts
                         but those of elements */
   size_t row_to;   /**< 0: the number of patches */
-  hr2d_claim_fn claim; /**< chooses pairs, NULL for all. With `threads` it is called from
-                            several at once, and decides by `a`, `b`, `centre`, `length` and
-                            `patch` of elements */
+  hr2d_claim_fn claim; /**< chooses pairs, NULL for all. With `threads` several call it at
+                            once, and it must decide by `a`, `b`, `centre`, `length` and
+                            `patch` of elements alone */
   void *claim_ctx;     /**< given to `claim` */
-  hr2d_row_counts *row_counts; /**< receives one per patch, or NULL: which rows take the time,
-                                    so that they can be shared out evenly */
+  hr2d_row_counts *row_counts; /**< receives one per patch, or NULL: the work of each row, so
+                                    that rows can be shared out evenly */
   const unsigned char *rows;   /**< one per patch: 0 leaves out its row; NULL: all rows of
-                                    [`row_from`, `row_to`). So shares of a refinement may have
-                                    rows that do not stand side by side */
+                                    [`row_from`, `row_to`). So the rows of a share need not
+                                    follow each other */
   hr2d_share *share; /**< NULL, or one of several shares, see share.h: hr2d_refine() makes the
                           links of its rows, and divides elements as all shares together do. The
                           set keeps it, for its solves. With `rows` these are the rows of the

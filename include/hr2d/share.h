@@ -82,7 +82,7 @@ typedef enum hr2d_combine {
  * each.
  * @param ctx     hr2d_share::ctx
  * @param status  of this share: HR2D_OK, or why it has failed
- * @param how     what to do with the values
+ * @param how     the way to combine the values
  * @param value   `count` values of this share; receives those of all
  * @param count   may be 0: then only the status matters
  * @return HR2D_OK if all shares gave it; else the status of one that did not, the same on all

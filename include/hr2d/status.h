@@ -15,8 +15,8 @@
  * **Wrong arguments.** Where an object, an array or a function that a call needs is NULL, an
  * index is of nothing, or a `struct_size` is too small, the call returns HR2D_EINVAL. A call
  * without a status returns NaN for a number, NULL for a pointer, 0 for a count or a flag, and
- * #HR2D_NO_ELEMENT for an element. Pointers that are not NULL must point to what they say: that
- * and the lengths of arrays are not checked.
+ * #HR2D_NO_ELEMENT for an element. Pointers that are not NULL must point to objects of their
+ * type: this and the lengths of arrays are not checked.
  *
  * **Texts** are UTF-8 without a zero byte. hr2d_scene_add() and the readers of files and states
  * refuse a name that is not. Names may hold control characters; in messages these, and those

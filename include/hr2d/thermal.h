@@ -95,7 +95,7 @@ typedef double (*hr2d_emissivity_fn)(void *ctx, double kelvin, size_t band);
 /** The thermal properties of a patch. Start from #HR2D_THERMAL_INIT. */
 typedef struct hr2d_thermal {
   size_t struct_size;       /**< so that the struct can grow */
-  hr2d_heat given;          /**< what `value` is: a temperature or a flux */
+  hr2d_heat given;          /**< the meaning of `value`: a temperature or a flux */
   double value;             /**< T ≥ 0 in kelvin, or q in W/m² */
   const double *emissivity; /**< ε in (0,1] with a flux, in [0,1] with a temperature; copied */
   size_t emissivity_bands;  /**< number of values in `emissivity`: one per band, or one for all;
