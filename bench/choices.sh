@@ -23,7 +23,7 @@ program() {
   mkdir "$work/$1"
   sed "s|^#define $name  *.*|#define $name $2|" "$work/tree/$table" >"$work/table"
   cat "$work/table" >"$work/tree/$table"
-  (cd "$work/$1" && ../tree/configure --quiet --disable-shared && make -s -j"$(nproc)" tools/hr2d) \
+  (cd "$work/$1" && ../tree/configure --quiet --disable-shared && make -s -j"$(nproc)") \
     >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
 }
 
@@ -34,7 +34,9 @@ seconds() {
     times ) | sed -n 2p | awk '{ gsub(/[ms]/, " "); print $1 * 60 + $2 + $3 * 60 + $4 }'
 }
 
-(cd "$source" && git ls-files -z | xargs -0 tar cf - configure) | (mkdir "$work/tree" && cd "$work/tree" && tar xf - && ./bootstrap >/dev/null 2>&1)
+mkdir "$work/tree"
+(cd "$source" && git ls-files -z | xargs -0 tar cf -) | tar xf - -C "$work/tree"
+(cd "$work/tree" && autoreconf -fi) >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
 program 0 "$old"
 count=0
 for value; do
