@@ -6,7 +6,7 @@
 # with the median of ROUNDS, 5 unless set.  SCENES are files of examples/scenes; ERRORS targets.
 # Below 15 % is noise on a busy machine.
 set -eu
-[ $# -ge 2 ] || { sed -n 's/^# \{0,1\}//p' "$0" | sed 1d >&2; exit 2; }
+[ $# -ge 2 ] || { sed -n '3,7s/^# //p' "$0" >&2; exit 2; }
 source=$(cd "$(dirname "$0")/.." && pwd)
 name=HR2DI_CHOICE_$1
 shift

@@ -51,8 +51,7 @@ static hr2d_status time_blocks(const hr2di_graded *a, size_t order, hr2di_watch 
   double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
   hr2di_integrator work;
   int distant;
-  hr2d_status status =
-      hr2di_integrator_init(&work, a->hierarchy, alloc, order, a->looks, watch);
+  hr2d_status status = hr2di_integrator_init(&work, a->hierarchy, alloc, order, NULL, watch);
   const double start = hr2di_clock_now();
   for (uint64_t k = 0; k < runs * length && !status; k++) {
     const uint64_t first = (links - length) * (2 * (k / length) + 1) / (2 * runs);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The choices between ways: no result is wrong for another value, and bounds hold; time, memory
-   and the number of elements change.  Each row says what it decides and what is known of its
-   value.  `bench/choices.sh NAME VALUE...` builds the library with other values and prints the
-   time of targets in terms of that with the value here; where a row has ratios, they are from
-   it, or from the ablations of six scenes at seven targets that "ablation" stands for.  "Not
-   moved" means that nobody has tried another value yet.
+/* The choices between ways, and how much is spent.  Another value changes time, memory and the
+   number of elements; an account sees what it sees on these, and fewer contacts and gaps show
+   it less of errors at points.  Each row says what it decides and what is known of its value.
+   `bench/choices.sh NAME VALUE...` builds the library with other values and prints the time of
+   targets in terms of that with the value here; where a row has ratios, they are from it, or
+   from the ablations of six scenes at seven targets that "ablation" stands for.  "Not moved"
+   means that nobody has tried another value yet.
 
    Bounds of errors are not choices: they stand with their derivation.  Nor are sizes of batches
    and arrays that bound nothing but memory. */
@@ -29,12 +30,12 @@
 #define HR2DI_CHOICE_INDICATORS_ORDER 5
 
 /* Scenes of more patches have so many visibility events that elements do not end at all of them
-   at first, at targets that are no smaller than the error. */
+   at first, at targets that are no smaller than the error.  Not moved. */
 #define HR2DI_CHOICE_MANY_EVENTS       64
 #define HR2DI_CHOICE_MANY_EVENTS_ERROR 1e-3
 
-/* Scenes of more patches have too many events to weigh one by one: at targets of few digits,
-   below HR2DI_CHOICE_MANY_EVENTS_ERROR.  Not moved. */
+/* Scenes of more patches have too many events to weigh one by one: at targets that are no
+   smaller than HR2DI_CHOICE_MANY_EVENTS_ERROR, and at smaller ones.  Not moved. */
 #define HR2DI_CHOICE_WEIGHED_EVENTS      512
 #define HR2DI_CHOICE_WEIGHED_EVENTS_FINE 1000
 
@@ -78,7 +79,7 @@
 /* Clusters: from so many patches on they save more than they cost, but where patches see no
    more than so many others in the mean they find nothing that is worth their search.  A pair of
    patches costs as much as so many products of points of a link; pairs of patches are put off
-   where so few are left; and looking into two clusters costs so many products. */
+   where so few are left; and looking into two clusters costs so many products.  Not moved. */
 #define HR2DI_CHOICE_CLUSTERS_PATCHES 256
 #define HR2DI_CHOICE_CLUSTERS_SEEN    100
 #define HR2DI_CHOICE_CLUSTERS_PAIR    8
@@ -88,10 +89,10 @@
 /* How a search goes on.
 
    So many attempts; after a solve that does not converge the next one has at least the safe
-   order; a divided mesh is kept although its
-   estimate is so many times the best one, as what is left comes of links of low order, and
-   varies; a mesh is divided for the part OFF of the target, the shares of which fall by STEP
-   until they are small enough; a leaf is halved so often at once.  Not moved. */
+   order.  A divided mesh is kept although its estimate is so many times the best one, as what
+   is left comes of links of low order, and varies.  Averages that are off by more than the part
+   OFF of the target are made better, for the part AIM of it; bounds of the indicators of leaves
+   are tried that fall by STEP each; a leaf is halved so often at once.  Not moved. */
 #define HR2DI_CHOICE_ATTEMPTS        8
 #define HR2DI_CHOICE_SAFE_ORDER      6
 #define HR2DI_CHOICE_VARIES          2
@@ -105,7 +106,7 @@
 #define HR2DI_CHOICE_SKETCH_FACTORS 0.8
 #define HR2DI_CHOICE_SKETCH         0.95
 
-/* Bytes for what patches see, where the caller counts none. */
+/* Bytes for what patches see, where the caller counts none.  Not moved. */
 #define HR2DI_CHOICE_SEEN_BYTES 0x40000000
 
 /* Contacts and gaps where an account gathers H, in scenes of up to CONTACTS_PATCHES patches,
@@ -123,8 +124,8 @@
 
 /* Prediction: times of a whole call in terms of the coarse solve that is timed, with lights of
    patches, without reflection, and with equal elements; with temperatures; gathers and
-   iterations of an account; work that is not counted.  tests/unit/accuracy and `bench-predict`
-   compare them with what calls take: within PREDICT_SURE. */
+   iterations of an account; work that is not counted.  `bench-prediction` compares predictions
+   with the time that calls take: one solve is within the factor PREDICT_SURE. */
 #define HR2DI_CHOICE_PREDICT_CALLS      2.6
 #define HR2DI_CHOICE_PREDICT_LIT        3.2
 #define HR2DI_CHOICE_PREDICT_DARK       2.5

@@ -237,7 +237,7 @@ hr2d_status hr2di_error_estimate(hr2di_graded *answer, const hr2di_resolution *f
   hr2d_linkset *links = answer->links;
   hr2di_roots roots = links->roots;
   const hr2di_equation_how how = {
-      .order = finer.order, .single = finer.single, .roots = &roots, .looks = answer->looks};
+      .order = finer.order, .single = finer.single, .roots = &roots, .looks = finer.looks};
   *errors = (hr2di_error_pair){0};
   hr2d_status status = HR2D_OK;
   if (roots.clusters) {

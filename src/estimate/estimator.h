@@ -63,9 +63,9 @@ static inline size_t hr2di_estimator_part_order(size_t order) {
   return order / 3 > least ? order / 3 : least;
 }
 
-/* Makes an estimator of a solved answer, with the finer operator on its trees and links.  `how`
-   must outlive it.  Returns HR2D_OK, or a status with a message in the links.  The estimator
-   must not be moved; call hr2di_estimator_clear() in any case. */
+/* Makes an estimator of a solved answer, with the finer operator on its trees and links.  The
+   roots of `how` must outlive it.  Returns HR2D_OK, or a status with a message in the links.
+   The estimator must not be moved; call hr2di_estimator_clear() in any case. */
 hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
                                  const hr2di_equation_how *how, const hr2d_target *target);
 void hr2di_estimator_clear(hr2di_estimator *e);

@@ -66,7 +66,7 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
   hr2d_status status = find_events(&events, h, fineness->generations, target->share, &watch);
   const int chosen = fineness->kinks > 0 && fineness->lights && events.count > 0;
   const hr2di_grading grading = {.target = fineness->target,
-                                 .looks = a->looks,
+                                 .looks = fineness->looks,
                                  .norm = fineness->norm,
                                  .order = fineness->order,
                                  .corner_levels = fineness->corner_levels,
@@ -118,9 +118,10 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
   if (status) return status;
   status = find_roots(a->links, coarse, fineness, target);
   if (!status && options.share && !a->pieces.rows)
-    status = hr2di_row_deal(&a->pieces, a->links, a->looks, &options);
+    status = hr2di_row_deal(&a->pieces, a->links, fineness->looks, &options);
   options.rows = a->pieces.rows;
-  const hr2di_refine_how how = {.pieces = options.share ? &a->pieces : NULL, .looks = a->looks};
+  const hr2di_refine_how how = {.pieces = options.share ? &a->pieces : NULL,
+                                .looks = fineness->looks};
   if (!status)
     status = coarse ? hr2di_divided_links(a->links, coarse->links, &how, &options)
                     : hr2di_refine(a->links, &how, &options);
@@ -183,7 +184,7 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
                                 const hr2di_resolution *fineness, const hr2d_target *target,
                                 hr2di_message *message) {
   const double start = hr2di_clock_now();
-  *a = (hr2di_graded){.looks = fineness->looks};
+  *a = (hr2di_graded){0};
   hr2d_status status = hr2d_hierarchy_create(scene, &a->hierarchy);
   if (!status) a->hierarchy->order = fineness->order;
   if (!status) status = grade(a, fineness, target);
@@ -232,8 +233,7 @@ hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
                                 hr2di_message *message) {
   const double start = hr2di_clock_now();
   hr2di_watch watch;
-  *a = (hr2di_graded){
-      .looks = coarse->looks, .survey = coarse->survey, .events = coarse->events};
+  *a = (hr2di_graded){.survey = coarse->survey, .events = coarse->events};
   hr2di_scene_watch(coarse->hierarchy->scene, &watch, target->progress, target->progress_ctx,
                     "refine");
   hr2d_status status = hr2di_halved_leaves(coarse->hierarchy, coarse->depth,
@@ -258,7 +258,7 @@ hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2di_resolution *fineness
   const hr2di_equation_how how = {
       .block_order = target->no_error ? 0 : hr2di_resolution_finer(fineness).order,
       .single = fineness->single,
-      .looks = a->looks,
+      .looks = fineness->looks,
       .enough = {.part = fineness->relative, .floor = fineness->floor},
       .start = a->start};
   const hr2d_status status = hr2di_solve(a->links, &how, &options, &a->solution);

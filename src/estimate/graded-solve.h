@@ -17,7 +17,6 @@ typedef struct hr2di_graded {
   hr2d_linkset *links;
   const hr2d_solution *start; /* of the elements that were divided; NULL: none */
   hr2d_solution *solution;    /* NULL until solved */
-  hr2di_looks *looks;         /* keeps what patches see; NULL: nothing is kept */
   hr2di_survey survey;
   double *bent;         /* see hr2di_kinks_cut(); NULL: no event is left inside an element */
   unsigned char *depth; /* per element: how often a leaf is to be halved so that the aim is

@@ -48,12 +48,13 @@ typedef struct hr2di_equation {
   uint64_t looks; /* residuals seen: one before the first iteration, one after each */
 } hr2di_equation;
 
-/* What no public option says of an equation.  It must outlive the equation. */
+/* What no public option says of an equation. */
 typedef struct hr2di_equation_how {
   size_t order;             /* coefficients on each leaf; 0: those of the hierarchy */
   size_t block_order;       /* links get blocks for so many, if these are more */
   int single;               /* blocks that are made are of floats */
-  const hr2di_roots *roots; /* whose clusters exchange light; NULL: those of the links */
+  const hr2di_roots *roots; /* whose clusters exchange light, as long as the equation lives;
+                               NULL: those of the links */
   hr2di_looks *looks;       /* keeps what patches see; NULL: nothing is kept */
   hr2di_enough enough;
   const hr2d_solution *start; /* a solve begins with it if it is given no other start: of

@@ -25,7 +25,8 @@ if grep -rn --include='*.[ch]' --exclude=choices.h '#define HR2DI_CHOICE_' src; 
   echo "choices are defined in $table alone" >&2
   status=1
 fi
-found=$(find src -name '*.[ch]' -exec cat {} + | vague -)
+# shellcheck disable=SC2046 # the names of sources have no blanks
+found=$(vague $(find src -name '*.[ch]'))
 [ -z "$found" ] || { echo "constants that do not say of what: $found" >&2; status=1; }
 
 # Negative controls.
