@@ -17,7 +17,8 @@
 /* Rounded points bend the pieces, so that a piece may go through others by a rounding more than
    before.  The next round cuts them there, at points that exist already.  Two or three rounds
    are enough, up to ten for bundles of patches a few roundings apart.  It is not proved that
-   this always ends. */
+   this always ends.  A patch has each wall once (see drop_loops()), so that pieces are no more
+   than patches × walls in any round. */
 #define MOST_ROUNDS 32
 
 typedef struct piece {
@@ -41,6 +42,10 @@ typedef struct splitter {
 
 static hr2d_segment undirected(hr2d_segment s) {
   return hr2di_point_order(s.a, s.b) <= 0 ? s : (hr2d_segment){s.b, s.a};
+}
+
+static int is_same(hr2d_segment s, hr2d_segment t) {
+  return hr2di_point_order(s.a, t.a) == 0 && hr2di_point_order(s.b, t.b) == 0;
 }
 
 static int side_of(const hr2d_segment *s) {
@@ -67,26 +72,47 @@ static hr2d_status make_walls(splitter *p) {
   p->wall = hr2di_alloc(p->alloc, p->pieces, sizeof *p->wall);
   p->wall_of = hr2di_alloc(p->alloc, p->pieces, sizeof *p->wall_of);
   p->walls = 0;
-  const int made = sorted && p->wall && p->wall_of;
-  if (made) {
-    for (size_t k = 0; k < p->pieces; k++) sorted[k] = (place){undirected(p->piece[k].s), k};
-    const hr2d_status status =
-        hr2di_sort(sorted, p->pieces, sizeof *sorted, by_segment, p->cuts.watch);
-    if (status) {
-      hr2di_alloc_free(p->alloc, sorted);
-      return status;
-    }
-    for (size_t k = 0; k < p->pieces; k++) {
-      const hr2d_segment s = sorted[k].s;
-      if (k == 0 || hr2di_point_order(s.a, sorted[k - 1].s.a) ||
-          hr2di_point_order(s.b, sorted[k - 1].s.b))
-        p->wall[p->walls++] = (hr2di_cut_wall){s, 0};
-      p->wall[p->walls - 1].sides |= side_of(&p->piece[sorted[k].piece].s);
-      p->wall_of[sorted[k].piece] = p->walls - 1;
-    }
+  hr2d_status status = sorted && p->wall && p->wall_of ? HR2D_OK : HR2D_ENOMEM;
+  for (size_t k = 0; k < p->pieces && !status; k++)
+    sorted[k] = (place){undirected(p->piece[k].s), k};
+  if (!status)
+    status = hr2di_sort(sorted, p->pieces, sizeof *sorted, by_segment, p->cuts.watch);
+  for (size_t k = 0; k < p->pieces && !status; k++) {
+    const hr2d_segment s = sorted[k].s;
+    if (k == 0 || !is_same(s, sorted[k - 1].s)) p->wall[p->walls++] = (hr2di_cut_wall){s, 0};
+    p->wall[p->walls - 1].sides |= side_of(&p->piece[sorted[k].piece].s);
+    p->wall_of[sorted[k].piece] = p->walls - 1;
   }
   hr2di_alloc_free(p->alloc, sorted);
-  return made ? HR2D_OK : HR2D_ENOMEM;
+  return status;
+}
+
+/* Cuts a rounding beside a wall bend the pieces of a patch to and fro.  Where they come back to
+   a wall that the patch has already, the loop is left out: all from the first piece there to
+   the last, which is kept if both run the same way.  Without this, pieces can double in each
+   round, between the same few points (fuzz/corpus/api/loops). */
+static hr2d_status drop_loops(splitter *p, int *dropped) {
+  size_t *latest = hr2di_alloc_zero(p->alloc, p->walls, sizeof *latest), kept = 0;
+  size_t *next = hr2di_alloc(p->alloc, p->pieces, sizeof *next);
+  *dropped = 0;
+  hr2d_status status = latest && next ? HR2D_OK : HR2D_ENOMEM;
+  for (size_t k = p->pieces; k-- > 0 && !status;) {
+    const size_t wall = p->wall_of[k], last = latest[wall]; /* 1 + the last piece there; 0 */
+    const int again = last > 0 && p->piece[last - 1].patch == p->piece[k].patch;
+    if (!again) latest[wall] = k + 1;
+    next[k] = !again ? k : is_same(p->piece[k].s, p->piece[last - 1].s) ? last - 1 : last;
+  }
+  for (size_t k = 0; k < p->pieces && !status;)
+    if (next[k] != k) {
+      k = next[k];
+      *dropped = 1;
+    } else {
+      p->piece[kept++] = p->piece[k++];
+    }
+  if (!status) p->pieces = kept;
+  hr2di_alloc_free(p->alloc, latest);
+  hr2di_alloc_free(p->alloc, next);
+  return status;
 }
 
 static hr2d_status push(splitter *p, hr2d_point a, hr2d_point b, size_t patch) {
@@ -206,7 +232,10 @@ static hr2d_status cut_at_ends(splitter *p, int *bent) {
 static hr2d_status cut_until_free(splitter *p) {
   hr2d_scene *scene = p->scene;
   for (int round = 0;; round++) {
+    int looped = 0;
     hr2d_status status = make_walls(p);
+    if (!status && round > 0) status = drop_loops(p, &looped);
+    if (!status && looped) status = make_walls(p);
     if (!status) status = hr2di_cuts_init(&p->cuts, p->wall, p->walls);
     int bent = 0;
     if (!status && p->cuts.count == 0 && p->pieces > scene->patches && round < MOST_ROUNDS)

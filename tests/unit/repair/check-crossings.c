@@ -684,6 +684,39 @@ START_TEST(copies_far_off_are_refused) {
 END_TEST
 
 /* Triangles as thin as 1e-14, and patches far shorter than others. */
+/* A fan of needles between points of a lattice of a few roundings, and a patch 2^461 times as
+   long: cuts bend pieces to and fro between the same points.  Pieces doubled every other round,
+   to 2^30 of them, when a patch could go along a wall more than once. */
+START_TEST(needles_do_not_multiply) {
+#define U(k) (0x1.c6bf52634p-461 + (k)*0x1p-513)
+  static const double at[][4] = {
+      {U(-8), U(-8), U(8), U(-8)},
+      {U(8), U(-8), U(8), U(4)},
+      {U(8), U(4), U(8), U(-8)},
+      {U(8), U(4), U(-8), U(-8)},
+      {U(8), U(-8), U(8), 0x3p-1062},
+      {U(8), 0x3p-1062, U(8), U(-8)},
+      {U(8), 0x3p-1062, U(-8), U(0)},
+      {U(-8), U(0), U(2), 0},
+      {U(2), 0, U(-8), U(0)},
+      {U(2), 0, U(-7), U(-7)},
+      {U(-7), U(-7), U(2), 0},
+      {U(-7), U(-7), -0x1.7ffffffffffffp+0, U(-8)},
+      {-0x1.7ffffffffffffp+0, U(-8), U(-8), 0x1p-1050},
+      {U(-8), 0x1p-1050, U(-8), U(-8)},
+  };
+#undef U
+  enum { COUNT = sizeof at / sizeof *at };
+  drawing d = {.count = 0};
+  for (int k = 0; k < COUNT; k++) draw(&d, at[k][0], at[k][1], at[k][2], at[k][3]);
+  hr2d_scene *scene = scene_of(&d, NULL);
+  const hr2d_status status = hr2d_scene_split_crossings(scene, NULL);
+  ck_assert(status == HR2D_OK || status == HR2D_ESCENE);
+  ck_assert_uint_le(hr2d_scene_patches(scene), COUNT * COUNT);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 START_TEST(slivers_are_legal) {
   unsigned long state = test_seed();
   for (size_t round = 0; round < test_rounds(2000, 100); round++) {
@@ -776,7 +809,7 @@ END_TEST
 TEST_SUITE("crossings") {
   ADD_TESTS("refused", rounded_junctions_are_allowed, patches_on_one_another_are_refused,
             slanted_walls_back_to_back_are_never_wrong, flat_crossings_are_refused,
-            copies_far_off_are_refused, slivers_are_legal);
+            copies_far_off_are_refused, slivers_are_legal, needles_do_not_multiply);
   ADD_TESTS("cuts", random_segments_are_cut, lattices_are_cut_where_they_cross,
             lines_through_lattice_points_are_cut, stars_are_cut_in_one_point,
             blurred_stars_are_cut, scales_and_offsets_change_little, two_sided_crosses_are_cut,
